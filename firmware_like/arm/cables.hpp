@@ -1,0 +1,39 @@
+// Cable map: joint angles to cable path lengths and back (mission figure A3).
+//
+// Cable c of segment m is anchored at the last disc of segment m and passes every disc of segments 1..m. Odd (Rz Ry) and even (Ry Rz)
+// joints give the same hole-to-hole distance d, so the path is sum over segments j <= m of modules_j d_j(c) plus the straight parts:
+//   d^2 = 2 (g^2 + r^2) - 2 [-g^2 ca cb + g y sa (1 + cb) - g z sb (1 + ca) + y^2 ca + y z sa sb + z^2 cb],  y = r cos phase, z = r sin
+//   phase.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/arm/robot_table.hpp"
+
+namespace liana {
+
+// Geometry of all cables at one pose. Row c is a cable, [m] a segment it passes; entries beyond its own segment are zero.
+struct CableGeometry {
+  CableVector length_m{};                                                  // path from the first disc to the anchor
+  std::array<std::array<double, kMaxSegments>, kMaxCables> part_m{};       // path within one segment
+  std::array<std::array<double, kMaxTheta>, kMaxCables> jacobian_m_rad{};  // d length / d theta
+  std::array<double, kMaxSegments> wrap_rad{};                             // bend of a cable along one whole segment
+};
+
+// Unit hole positions and straight parts, computed once from the table.
+struct CableLayout {
+  std::array<std::int32_t, kMaxCables> segment{};  // 0-based segment a cable is anchored in
+  CableVector hole_y_m{}, hole_z_m{};
+  std::array<std::array<double, kMaxSegments>, kMaxCables> straight_m{};  // parts of the path inside links
+  CableVector zero_length_m{};                                            // path at the zero pose
+};
+
+// Layout of a table; phases may be anything.
+CableLayout cable_layout(const RobotTable& table) noexcept;
+
+// Lengths, parts, Jacobian and wrap angles at one pose.
+CableGeometry cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig) noexcept;
+
+}  // namespace liana

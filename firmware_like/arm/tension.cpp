@@ -1,0 +1,110 @@
+#include "firmware_like/arm/tension.hpp"
+
+#include <cmath>
+
+namespace liana {
+namespace {
+
+using Index = std::size_t;
+using SegmentVector = std::array<double, kMaxSegmentCables>;
+
+// Smooth maximum of two numbers: exact far apart, rounded over `width` [N] near equality.
+double smooth_maximum(double a, double b, double width) noexcept {
+  const double d = a - b;
+  return 0.5 * (a + b + std::sqrt(d * d + width * width));
+}
+
+// x = projection of v on the null space of the 2 x n matrix with rows p, q, plus the least-norm solution of [p; q] x = rhs.
+// Returns false when the rows are dependent.
+bool project(const SegmentVector& p, const SegmentVector& q, Index n, double rhs_p, double rhs_q, const SegmentVector& v,
+             SegmentVector& x) noexcept {
+  double pp = 0.0, pq = 0.0, qq = 0.0, pv = 0.0, qv = 0.0;
+  for (Index i = 0; i < n; ++i) {
+    pp += p[i] * p[i];
+    pq += p[i] * q[i];
+    qq += q[i] * q[i];
+    pv += p[i] * v[i];
+    qv += q[i] * v[i];
+  }
+  const double det = pp * qq - pq * pq;
+  if (!(det > 1e-12 * pp * qq)) return false;
+  const double u = ((rhs_p - pv) * qq - (rhs_q - qv) * pq) / det;
+  const double w = ((rhs_q - qv) * pp - (rhs_p - pv) * pq) / det;
+  for (Index i = 0; i < n; ++i) x[i] = v[i] + p[i] * u + q[i] * w;
+  return true;
+}
+
+// Largest s (smooth) such that t + s n keeps every cable under `ceiling_N`.
+double ceiling_shift(const SegmentVector& t, const SegmentVector& n, Index count, double ceiling_N) noexcept {
+  constexpr double kWidth_N = 2.0;
+  double shift = 1e3;
+  for (Index i = 0; i < count; ++i) {
+    if (n[i] > 0.05) shift = -smooth_maximum(-shift, -(ceiling_N - t[i]) / n[i], kWidth_N);
+  }
+  return shift;
+}
+
+// Least s >= 0 (smooth) such that t + s n keeps every cable over its floor.
+double floor_shift(const SegmentVector& t, const SegmentVector& n, Index count, double floor_N) noexcept {
+  constexpr double kWidth_N = 2.0;
+  double shift = 0.0;
+  for (Index i = 0; i < count; ++i) {
+    if (n[i] > 0.05) shift = smooth_maximum(shift, (floor_N + kWidth_N - t[i]) / n[i], kWidth_N);
+  }
+  return shift;
+}
+
+}  // namespace
+
+TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio, double level_N) noexcept {
+  TensionPlan plan;
+  const Index cables = static_cast<Index>(table.cable_count());
+  Index first = cables;
+  const double margin_N = table.friction_mu > kMarginFriction ? kFloorMargin_N * kMarginFriction / table.friction_mu : kFloorMargin_N;
+  for (std::int32_t m = table.segment_count - 1; m >= 0; --m) {
+    const Index j = static_cast<Index>(m);
+    const Index n = static_cast<Index>(table.segment[j].cables);
+    first -= n;
+    double rhs_pitch = 0.0, rhs_yaw = 0.0;  // torque of the cables that go on to later segments
+    for (Index c = first + n; c < cables; ++c) {
+      const double t = ratio[c][j] * plan.motor_N[c];
+      rhs_pitch -= geometry.jacobian_m_rad[c][2 * j] * t;
+      rhs_yaw -= geometry.jacobian_m_rad[c][2 * j + 1] * t;
+    }
+    SegmentVector pitch{}, yaw{}, level{}, ones{}, t{}, null{};
+    for (Index i = 0; i < n; ++i) {
+      pitch[i] = geometry.jacobian_m_rad[first + i][2 * j] * ratio[first + i][j];
+      yaw[i] = geometry.jacobian_m_rad[first + i][2 * j + 1] * ratio[first + i][j];
+      level[i] = level_N;
+      ones[i] = 1.0;
+    }
+    if (!project(pitch, yaw, n, rhs_pitch, rhs_yaw, level, t) || !project(pitch, yaw, n, 0.0, 0.0, ones, null)) {
+      plan.balanced = false;
+      t = level;
+    }
+    // The margin over the floor gives way to the ceiling, the floor itself does not.
+    const double wanted = floor_shift(t, null, n, table.tension.floor_motor_N + margin_N);
+    const double least = floor_shift(t, null, n, table.tension.floor_motor_N);
+    const double most = ceiling_shift(t, null, n, kCeilingShare * table.tension.ceiling_free_N);
+    const double shift = smooth_maximum(least, -smooth_maximum(-wanted, -most, 2.0), 2.0);
+    for (Index i = 0; i < n; ++i) {
+      plan.motor_N[first + i] = t[i] + shift * null[i];
+      plan.ceiling_exceeded = plan.ceiling_exceeded || plan.motor_N[first + i] > table.tension.ceiling_free_N;
+    }
+    plan.floor_acted = plan.floor_acted || least > 2.0;  // the floor itself, not the margin over it
+  }
+  return plan;
+}
+
+CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableGeometry& geometry, const TensionRatio& ratio,
+                       const CableVector& motor_N) noexcept {
+  CableVector payout{};
+  for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
+    const double strain = motor_N[c] / table.cable_EA_N;
+    payout[c] = table.lead_m / (1.0 + strain);
+    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) payout[c] += geometry.part_m[c][j] / (1.0 + strain * ratio[c][j]);
+  }
+  return payout;
+}
+
+}  // namespace liana

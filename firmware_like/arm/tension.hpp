@@ -1,0 +1,35 @@
+// Tension plan and elongation: what the motors must pull so that the arm stands where the kinematics says.
+//
+// Balance B^T t = 0 with B = dL/dtheta weighted by friction (physics study, section 2). Segments are swept from the tip to the root: the
+// cables of a segment are the only ones left that turn its two angles, so each sweep solves two equations for its cables and has freedom
+// left to bring them near the planned tension and above the floor. All formulas are smooth, so that tensions never jump.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware_like/arm/cables.hpp"
+#include "firmware_like/arm/friction.hpp"
+
+namespace liana {
+
+// Planned tension stays this far above the floor: motion and unknown friction take up to 20 N off a cable (measured over whole missions).
+constexpr double kFloorMargin_N = 22.0;
+constexpr double kMarginFriction =
+    0.08;  // above this mu the margin shrinks with 1 / mu: friction spreads tensions, and less fits under the ceiling
+constexpr double kCeilingShare = 0.7;  // of the ceiling, up to which that margin may raise tensions
+
+struct TensionPlan {
+  CableVector motor_N{};
+  bool floor_acted = false;       // tension was raised to keep the floor
+  bool ceiling_exceeded = false;  // a planned tension is over the ceiling of free motion
+  bool balanced = true;           // false: a segment's cables cannot turn both angles (degenerate table)
+};
+
+// Plan at one pose around `level_N` at the motor. Residual torque is below 1e-9 N m when balanced.
+TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio, double level_N) noexcept;
+
+// Unstretched length from drum to anchor when the cables are pulled with motor_N: the elastic part is taken off piece by piece.
+CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableGeometry& geometry, const TensionRatio& ratio,
+                       const CableVector& motor_N) noexcept;
+
+}  // namespace liana

@@ -1,0 +1,226 @@
+#include "firmware_like/controller.hpp"
+
+#include <cmath>
+
+#include "firmware_like/drive/cia402.hpp"
+#include "firmware_like/math/convert.hpp"
+#include "firmware_like/math/scalar.hpp"
+
+namespace liana {
+namespace {
+
+using Index = std::size_t;
+
+// A setpoint the core can use: finite, poses valid, angles inside the limits (the release step has checked the same; this is the second
+// lock).
+bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept {
+  if (setpoint.kind != CommandKind::kTip && setpoint.kind != CommandKind::kJoint) return true;
+  for (std::int32_t i = 0; i < table.theta_count(); ++i) {
+    const double limit = table.segment[as_index(i / 2)].theta_limit_rad;
+    if (!(std::fabs(setpoint.joint_rad[as_index(i)]) <= limit) || !(std::fabs(setpoint.held_rad[as_index(i)]) <= limit)) return false;
+  }
+  if (setpoint.kind == CommandKind::kJoint) return true;
+  for (const NodeTarget& target : setpoint.node) {
+    if (target.node < 0 || target.node > table.segment_count) return false;
+    if (!is_finite(dot(target.position_m, target.position_m)) || !(target.weight >= 0.0) || !is_finite(target.weight)) return false;
+    if (!(target.threshold_m >= 0.0)) return false;
+  }
+  return is_valid(setpoint.tip_in_base) && setpoint.tip_speed_m_s > 0.0;
+}
+
+double smooth_step(double x) noexcept { return x * x * (3.0 - 2.0 * x); }
+
+}  // namespace
+
+Controller::Controller(const RobotTable& table) noexcept : table_(table), layout_(cable_layout(table)) {
+  for (Index c = 0; c < as_index(table.cable_count()); ++c) zero_payout_m_[c] = layout_.zero_length_m[c] + table.lead_m;
+  gate_limits_ = make_gate_limits(table, zero_payout_m_);
+  watchdog_limits_ = make_watchdog_limits(table);
+  reset_motion(table_, ThetaVector{}, motion_);
+  geometry_ = cable_geometry(table_, layout_, arm_trig(table_, motion_.limiter.theta_rad));
+}
+
+Outputs Controller::tick(const Inputs& inputs) noexcept {
+  limits_ = 0;
+  read_drives(inputs);  // lengths, tensions, measured angles
+  const std::int32_t wrong = watch(watchdog_limits_, watch_scope(supervisor_), inputs, sent_, tension_measured_N_, watchdogs_, faults_);
+  const bool stop = active_.setpoint().kind == CommandKind::kStop;
+  const MotionStatus status{stop, homed(), at_rest(table_, motion_), ramp_ >= 1.0 && cables_taut()};
+  const Orders orders = supervise(watchdog_limits_, inputs, status, wrong, supervisor_, faults_);
+  take_telecommand(inputs);        // what is in force now
+  move(inputs, orders);            // filter, IK, limiter: commanded angles
+  plan_payouts(orders);            // damping, tension plan, cable map: commanded lengths
+  command_drives(inputs, orders);  // the gate, then CiA 402
+  return report(inputs, orders);
+}
+
+void Controller::read_drives(const Inputs& inputs) noexcept {
+  bool all_heard = true, all_fresh = true;
+  for (Index c = 0; c < as_index(table_.cable_count()); ++c) {
+    const DriveFeedback& drive = inputs.drive[c];
+    all_heard = all_heard && drive.feedback_age_ticks != 0xFFFF;
+    all_fresh = all_fresh && drive.feedback_age_ticks <= kFeedbackAgeTicks;
+    payout_measured_m_[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], drive.position_counts);
+    tension_measured_N_[c] = table_.drive[c].newtons_per_permille * drive.torque_permille;
+  }
+  if (!all_heard) return;
+  estimate(table_, layout_, slip_, payout_measured_m_, tension_measured_N_, estimator_);
+  double residual_m = 0.0;
+  for (Index c = 0; c < as_index(table_.cable_count()); ++c) residual_m = larger(residual_m, std::fabs(estimator_.residual_m[c]));
+  const bool plausible = all_fresh && estimator_.largest_step_rad < kHomingStep_rad && residual_m < kHomingResidual_m;
+  // Once homed, a moving arm may well step further; only before that does the estimate have to settle.
+  if (plausible && homing_ticks_ < kHomingTicks) ++homing_ticks_;
+  if (!plausible && !homed()) homing_ticks_ = 0;
+  if (!all_fresh || residual_m > 4.0 * kHomingResidual_m) homing_ticks_ = 0;
+}
+
+bool Controller::cables_taut() const noexcept {
+  for (Index c = 0; c < as_index(table_.cable_count()); ++c) {
+    if (!(estimator_.tension_N[c] >= kSlackCheckShare * table_.tension.floor_motor_N)) return false;
+  }
+  return true;
+}
+
+void Controller::reject_telecommand(const Inputs& inputs) noexcept {
+  Fault fault;
+  fault.number = FaultNumber::kCommandInvalid;
+  fault.detail = narrow<std::uint16_t>(inputs.telecommand.sequence() & 0xFFFFu);
+  fault.tick = inputs.tick;
+  latch(faults_, fault);
+}
+
+void Controller::take_telecommand(const Inputs& inputs) noexcept {
+  const Telecommand& offered = inputs.telecommand;
+  if (offered.setpoint().kind != CommandKind::kNone && offered.sequence() > last_sequence_) {
+    last_sequence_ = offered.sequence();
+    if (is_usable(table_, offered.setpoint())) {
+      pending_ = offered;
+    } else {
+      reject_telecommand(inputs);
+    }
+  }
+  const bool due = pending_.setpoint().kind != CommandKind::kNone && pending_.first_tick() <= inputs.tick;
+  if (due) {
+    active_ = pending_;
+    pending_ = Telecommand{};
+    const CommandKind kind = active_.setpoint().kind;
+    if (kind == CommandKind::kTip || kind == CommandKind::kJoint) accept_setpoint(table_, active_.setpoint(), motion_);
+    if (kind == CommandKind::kHold || kind == CommandKind::kStop) motion_.braking = true;
+  }
+  if (active_.sequence() != 0 && active_.expiry_tick() <= inputs.tick) {
+    if (!motion_.braking) limits_ |= kLimitExpired;
+    motion_.braking = true;
+  }
+}
+
+void Controller::move(const Inputs&, const Orders& orders) noexcept {
+  if (!orders.live_targets) {  // the arm stands where its brakes hold it: start from there
+    reset_motion(table_, estimator_.theta_rad, motion_);
+    active_ = Telecommand{};
+  } else {
+    if (!orders.motion_allowed) motion_.braking = true;
+    advance_motion(table_, geometry_, orders.motion_allowed, motion_);
+    limits_ |= motion_.limits;
+  }
+}
+
+void Controller::limit_payout_speed(CableVector& wanted_m) noexcept {
+  const double step_m = table_.limits.cable_speed_m_s * table_.tick_s;
+  for (Index c = 0; c < as_index(table_.cable_count()); ++c) {
+    const double change = wanted_m[c] - payout_command_m_[c];
+    if (std::fabs(change) <= step_m) continue;
+    wanted_m[c] = payout_command_m_[c] + (change > 0.0 ? step_m : -step_m);
+    limits_ |= kLimitCableSpeed;
+  }
+}
+
+void Controller::plan_payouts(const Orders& orders) noexcept {
+  const CableGeometry before = geometry_;
+  geometry_ = cable_geometry(table_, layout_, arm_trig(table_, motion_.limiter.theta_rad));
+  if (!orders.live_targets) {
+    live_ = false;
+    ramp_ = 0.0;
+    slip_ = SlipState{};
+    damping_ = DampingState{};
+    payout_command_m_ = payout_measured_m_;
+    return;
+  }
+  if (!live_) {
+    for (Index c = 0; c < as_index(table_.cable_count()); ++c) {
+      ramp_start_m_[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], sent_[c].target_counts);
+    }
+    payout_command_m_ = ramp_start_m_;
+    live_ = true;
+  } else {
+    advance_slip(table_, layout_, before, geometry_, slip_);
+  }
+  if (orders.ramp_active) ramp_ = smaller(1.0, ramp_ + table_.tick_s / kPretensionRamp_s);
+
+  TensionRatio ratio = tension_ratio(table_, layout_, geometry_, slip_);
+  tension_ = plan_tension(table_, geometry_, ratio, table_.tension.plan_N);
+  if (tension_.floor_acted) limits_ |= kLimitTensionFloor;
+  if (tension_.ceiling_exceeded) limits_ |= kLimitTensionCeiling;
+
+  CableVector wanted_m{};
+  if (ramp_ < 1.0) {
+    wanted_m = payout_for(table_, layout_, geometry_, ratio, tension_.motor_N);
+    const double share = smooth_step(ramp_);
+    for (Index c = 0; c < as_index(table_.cable_count()); ++c) wanted_m[c] = ramp_start_m_[c] + share * (wanted_m[c] - ramp_start_m_[c]);
+  } else {
+    if (faults_.count == 0) damp(table_, layout_, geometry_, ratio, tension_.motor_N, estimator_.tension_N, damping_);
+    ThetaVector at_motors = motion_.limiter.theta_rad;
+    for (Index k = 0; k < as_index(table_.theta_count()); ++k) at_motors[k] += damping_.output_rad[k];
+    const CableGeometry shifted = cable_geometry(table_, layout_, arm_trig(table_, at_motors));
+    wanted_m = payout_for(table_, layout_, shifted, ratio, tension_.motor_N);
+  }
+  limit_payout_speed(wanted_m);
+  payout_command_m_ = wanted_m;
+}
+
+void Controller::command_drives(const Inputs& inputs, const Orders& orders) noexcept {
+  const GateProposal proposal{orders.goal, orders.live_targets, payout_command_m_, tension_.motor_N};
+  const GateResult result = gate(table_, gate_limits_, proposal, sent_, inputs.drive);
+  if (result.check != GateCheck::kPassed) {
+    limits_ |= kLimitGate;
+    latch(faults_, gate_fault(result, inputs.tick));
+  }
+  sent_ = result.command;
+}
+
+Outputs Controller::report(const Inputs& inputs, const Orders& orders) const noexcept {
+  Outputs out;
+  out.tick = inputs.tick;
+  out.state = orders.state;
+  out.stop_category = orders.stop_category;
+  out.limits = limits_;
+  out.held_mask = motion_.held_mask;
+  out.held_at_target = motion_.held_at_target ? 1 : 0;
+  out.at_rest = at_rest(table_, motion_) ? 1 : 0;
+  out.homed = homed() ? 1 : 0;
+  out.active_sequence = motion_.braking ? 0 : active_.sequence();
+  out.faults = faults_;
+  out.drive = sent_;
+  out.theta_command_rad = motion_.limiter.theta_rad;
+  out.theta_rate_rad_s = motion_.limiter.rate_rad_s;
+  out.theta_measured_rad = estimator_.theta_rad;
+  out.tip_goal = motion_.filter.pose;
+  const ArmKinematics command = forward_kinematics(table_, motion_.limiter.theta_rad);
+  out.tip_command = command.tip_in_base;
+  out.tip_measured = forward_kinematics(table_, estimator_.theta_rad).tip_in_base;
+  Vec3 velocity{}, turning{};
+  for (Index k = 0; k < as_index(table_.theta_count()); ++k) {
+    velocity = add(velocity, scale(command.tip_jacobian.linear[k], motion_.limiter.rate_rad_s[k]));
+    turning = add(turning, scale(command.tip_jacobian.angular[k], motion_.limiter.rate_rad_s[k]));
+  }
+  out.tip_speed_m_s = norm(velocity);
+  out.tip_rate_rad_s = norm(turning);
+  for (Index m = 0; m < as_index(table_.segment_count); ++m) out.node_command_m[m] = command.node_in_base[m + 1].position_m;
+  out.tension_plan_N = tension_.motor_N;
+  out.tension_measured_N = tension_measured_N_;
+  out.payout_command_m = payout_command_m_;
+  out.ik_position_error_m = motion_.ik.position_error_m;
+  out.ik_attitude_error_rad = motion_.ik.attitude_error_rad;
+  return out;
+}
+
+}  // namespace liana

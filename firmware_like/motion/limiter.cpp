@@ -1,0 +1,80 @@
+#include "firmware_like/motion/limiter.hpp"
+
+#include <cmath>
+
+#include "firmware_like/controller_io.hpp"
+#include "firmware_like/math/scalar.hpp"
+
+namespace liana {
+namespace {
+
+using Index = std::size_t;
+
+// Largest speed from which steps of one tick can still brake within `distance`: v^2 + a h v = 2 a d.
+double braking_speed(double distance, double accel, double tick_s) noexcept {
+  const double step = 0.5 * accel * tick_s;
+  return std::sqrt(step * step + 2.0 * accel * distance) - step;
+}
+
+// Rate that closes the gap to the reference on top of the reference's own rate.
+double wanted_rate(double gap_rad, double reference_rate, double accel, double tick_s) noexcept {
+  const double distance = std::fabs(gap_rad);
+  double close = braking_speed(distance, accel, tick_s);
+  if (close > distance / tick_s) close = distance / tick_s;
+  return reference_rate + (gap_rad < 0.0 ? -close : close);
+}
+
+// Factor <= 1 that brings the fastest cable under the cable speed limit.
+double cable_factor(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& rate) noexcept {
+  const Index n = static_cast<Index>(table.theta_count());
+  double fastest = 0.0;
+  for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
+    double speed = 0.0;
+    for (Index k = 0; k < n; ++k) speed += geometry.jacobian_m_rad[c][k] * rate[k];
+    fastest = larger(fastest, std::fabs(speed));
+  }
+  constexpr double kShare = 0.8;  // the rest is for tension changes and damping
+  return fastest > kShare * table.limits.cable_speed_m_s ? kShare * table.limits.cable_speed_m_s / fastest : 1.0;
+}
+
+}  // namespace
+
+void reset_limiter(const ThetaVector& theta_rad, LimiterState& state) noexcept {
+  state = LimiterState{};
+  state.theta_rad = theta_rad;
+  state.reference_rad = theta_rad;
+}
+
+void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad, LimiterState& state) noexcept {
+  const Index n = static_cast<Index>(table.theta_count());
+  const double h = table.tick_s;
+  const double accel = table.limits.theta_accel_rad_s2;
+  ThetaVector wanted{};
+  for (Index k = 0; k < n; ++k) {
+    wanted[k] = wanted_rate(state.reference_rad[k] - state.theta_rad[k], (reference_rad[k] - state.reference_rad[k]) / h, accel, h);
+  }
+  const double factor = cable_factor(table, geometry, wanted);
+  state.limits = factor < 1.0 ? kLimitCableSpeed : 0u;
+  for (Index k = 0; k < n; ++k) {
+    const double rate = clamp(wanted[k] * factor, -table.limits.theta_rate_rad_s, table.limits.theta_rate_rad_s);
+    if (rate != wanted[k] * factor) state.limits |= kLimitThetaRate;
+    const double bounded = clamp(rate, state.rate_rad_s[k] - accel * h, state.rate_rad_s[k] + accel * h);
+    if (bounded != rate) state.limits |= kLimitThetaAccel;
+    if (bounded == wanted[k] && state.reference_rad[k] == state.theta_rad[k]) {
+      state.theta_rad[k] = reference_rad[k];  // exactly, so that held variables stand still to the last bit
+    } else {
+      state.theta_rad[k] += bounded * h;
+      if (std::fabs(reference_rad[k] - state.theta_rad[k]) < 1e-12) state.theta_rad[k] = reference_rad[k];
+    }
+    state.rate_rad_s[k] = bounded;
+    state.reference_rad[k] = reference_rad[k];
+  }
+}
+
+double largest_rate(const RobotTable& table, const LimiterState& state) noexcept {
+  double largest = 0.0;
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) largest = larger(largest, std::fabs(state.rate_rad_s[k]));
+  return largest;
+}
+
+}  // namespace liana

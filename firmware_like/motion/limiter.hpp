@@ -1,0 +1,29 @@
+// Rate and acceleration limiter: the commanded angles follow the IK's within the robot's limits, exactly when they can.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware_like/arm/cables.hpp"
+#include "firmware_like/arm/robot_table.hpp"
+
+namespace liana {
+
+struct LimiterState {
+  ThetaVector theta_rad{};      // commanded
+  ThetaVector rate_rad_s{};     // of the command
+  ThetaVector reference_rad{};  // what was asked in the last tick
+  std::uint32_t limits = 0;     // LimitBit: rate, acceleration, cable speed
+};
+
+// Starts at rest at theta.
+void reset_limiter(const ThetaVector& theta_rad, LimiterState& state) noexcept;
+
+// One tick towards `reference` (which may move). Follows exactly while its rate and acceleration are inside the limits; otherwise it lags
+// and comes back along a braking parabola, past a standing reference by accel tick^2 / 8 at most (8e-6 deg). `geometry` is the cable
+// Jacobian for the cable speed limit.
+void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad, LimiterState& state) noexcept;
+
+// Largest |rate| of the command [rad/s].
+double largest_rate(const RobotTable& table, const LimiterState& state) noexcept;
+
+}  // namespace liana

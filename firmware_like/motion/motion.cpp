@@ -1,0 +1,159 @@
+#include "firmware_like/motion/motion.hpp"
+
+#include <cmath>
+
+#include "firmware_like/controller_io.hpp"
+#include "firmware_like/motion/shape.hpp"
+
+namespace liana {
+namespace {
+
+using Index = std::size_t;
+
+constexpr double kHeldShare = 0.4;  // of the theta limits that held variables use on their way
+
+bool is_tip(const Setpoint& setpoint) noexcept { return setpoint.kind == CommandKind::kTip; }
+
+FilterBounds held_bounds(const RobotTable& table) noexcept {
+  const double rate = kHeldShare * table.limits.theta_rate_rad_s;
+  const double accel = 0.25 * table.limits.theta_accel_rad_s2;
+  return {rate, accel, 5.0 * accel};
+}
+
+// Brings held thetas to their targets and keeps them there to the last bit.
+void advance_held(const RobotTable& table, MotionState& state) noexcept {
+  const FilterBounds bounds = held_bounds(table);
+  state.held_at_target = true;
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    if (((state.held_mask >> k) & 1u) == 0) continue;
+    HeldProfile& held = state.held[k];
+    const double error = state.to.held_rad[k] - held.value_rad;
+    if (std::fabs(error) < 2e-6 && std::fabs(held.channel.velocity[0]) < 2e-5) {
+      held.value_rad = state.to.held_rad[k];
+      held.channel = ChannelState{};
+    } else {
+      follow_channel(bounds, table.tick_s, {error, 0.0, 0.0}, held.channel);
+      held.value_rad += held.channel.velocity[0] * table.tick_s;
+      state.held_at_target = false;
+    }
+    state.ik_rad[k] = held.value_rad;
+  }
+}
+
+Pose interpolated_target(const RobotTable& table, const MotionState& state) noexcept {
+  const double share = state.interval_tick >= table.interval_ticks ? 1.0 : static_cast<double>(state.interval_tick) / table.interval_ticks;
+  const Pose& a = state.from.tip_in_base;
+  const Pose& b = state.to.tip_in_base;
+  const Vec3 turn = rotation_vector(multiply(b.quaternion, conjugate(a.quaternion)));
+  return {add(a.position_m, scale(subtract(b.position_m, a.position_m), share)),
+          normalize(multiply(quaternion_of(scale(turn, share)), a.quaternion))};
+}
+
+void follow_tip(const RobotTable& table, bool braking, MotionState& state) noexcept {
+  const TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s);
+  if (braking) {
+    brake_tip(config, state.filter);
+  } else {
+    filter_tip(config, interpolated_target(table, state), state.filter);
+    advance_held(table, state);
+  }
+  if (state.filter.speed_limited) state.limits |= kLimitTipSpeed;
+  if (state.filter.accel_limited) state.limits |= kLimitTipAccel;
+
+  const ThetaVector move = shape_move(table, state.to.node, state.held_mask, braking, state.ik_rad, state.shape_rate_rad_s);
+  for (Index k = 0; k < kMaxTheta; ++k) state.ik_rad[k] += move[k];
+  const IkGoal goal{state.filter.pose, state.held_mask};
+  for (std::int32_t i = 0; i < kServoIterations; ++i) {
+    const double error2 = state.ik.position_error_m * state.ik.position_error_m + state.ik.attitude_error_rad * state.ik.attitude_error_rad;
+    state.ik = ik_step(table, goal, kDamping + error2, state.ik_rad);
+  }
+  if (state.ik.at_limit) state.limits |= kLimitTheta;
+  if (state.ik.singular) state.limits |= kLimitSingular;
+}
+
+// Joint reference: linear over the command interval; the limiter does the rest.
+void follow_joints(const RobotTable& table, bool braking, MotionState& state) noexcept {
+  if (braking) return;
+  const double share = state.interval_tick >= table.interval_ticks ? 1.0 : static_cast<double>(state.interval_tick) / table.interval_ticks;
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    const double limit = table.segment[k / 2].theta_limit_rad;
+    const double wanted = state.from.joint_rad[k] + share * (state.to.joint_rad[k] - state.from.joint_rad[k]);
+    const double bounded = wanted > limit ? limit : (wanted < -limit ? -limit : wanted);
+    if (bounded != wanted) state.limits |= kLimitTheta;
+    state.ik_rad[k] = bounded;
+  }
+}
+
+// Braking of joint motion: the reference moves on by the least distance in which the limiter can stop.
+void brake_joints(const RobotTable& table, MotionState& state) noexcept {
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    const double rate = state.limiter.rate_rad_s[k];
+    const double change = table.limits.theta_accel_rad_s2 * table.tick_s;
+    const double slower = rate > change ? rate - change : (rate < -change ? rate + change : 0.0);
+    state.ik_rad[k] = state.limiter.theta_rad[k] + slower * table.tick_s;
+    state.limiter.reference_rad[k] = state.limiter.theta_rad[k];
+  }
+}
+
+}  // namespace
+
+void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionState& state) noexcept {
+  state = MotionState{};
+  state.ik_rad = theta_rad;
+  state.filter.pose = forward_kinematics(table, theta_rad).tip_in_base;
+  reset_limiter(theta_rad, state.limiter);
+}
+
+void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionState& state) noexcept {
+  state.from = state.to;
+  if (is_tip(setpoint) && (!is_tip(state.to) || state.braking)) {
+    if (!is_tip(state.to)) {  // from joint motion: take over pose and rates
+      state.ik_rad = state.limiter.theta_rad;
+      state.shape_rate_rad_s = ThetaVector{};
+      const ArmKinematics arm = forward_kinematics(table, state.ik_rad);
+      state.filter = TipFilterState{};
+      state.filter.pose = arm.tip_in_base;
+      for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+        state.filter.linear.velocity = add(state.filter.linear.velocity, scale(arm.tip_jacobian.linear[k], state.limiter.rate_rad_s[k]));
+        state.filter.angular.velocity = add(state.filter.angular.velocity, scale(arm.tip_jacobian.angular[k], state.limiter.rate_rad_s[k]));
+      }
+    }
+    state.from = setpoint;
+    state.from.tip_in_base = state.filter.pose;
+  }
+  if (setpoint.kind == CommandKind::kJoint && (state.to.kind != CommandKind::kJoint || state.braking)) {
+    state.from = setpoint;
+    state.from.joint_rad = state.limiter.theta_rad;
+  }
+  const std::uint32_t held_mask = is_tip(setpoint) ? setpoint.held_mask : 0u;
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    const bool newly_held = ((held_mask >> k) & 1u) != 0 && ((state.held_mask >> k) & 1u) == 0;
+    if (newly_held) state.held[k] = HeldProfile{state.ik_rad[k], {{state.limiter.rate_rad_s[k], 0.0, 0.0}, {}}};
+  }
+  state.held_mask = held_mask;
+  state.to = setpoint;
+  state.interval_tick = 0;
+  state.braking = false;
+}
+
+void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool allowed, MotionState& state) noexcept {
+  state.limits = 0;
+  const bool braking = state.braking || !allowed;
+  if (state.interval_tick < table.interval_ticks) ++state.interval_tick;
+  if (is_tip(state.to)) {
+    follow_tip(table, braking, state);
+  } else if (braking) {
+    brake_joints(table, state);
+  } else {
+    follow_joints(table, braking, state);
+  }
+  limit_motion(table, geometry, state.ik_rad, state.limiter);
+  state.limits |= state.limiter.limits;
+}
+
+bool at_rest(const RobotTable& table, const MotionState& state) noexcept {
+  const bool filter_rests = !is_tip(state.to) || at_rest(state.filter);
+  return filter_rests && largest_rate(table, state.limiter) < 1e-6;
+}
+
+}  // namespace liana

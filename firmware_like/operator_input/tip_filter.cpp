@@ -1,0 +1,87 @@
+#include "firmware_like/operator_input/tip_filter.hpp"
+
+#include "firmware_like/math/scalar.hpp"
+
+namespace liana {
+namespace {
+
+struct Saturated {
+  Vec3 value;
+  bool acted;
+};
+
+Saturated saturate(const Vec3& v, double limit) noexcept {
+  const double length = norm(v);
+  if (length <= limit) return {v, false};
+  return {scale(v, limit / length), true};
+}
+
+// Velocity towards the wanted velocity within acceleration and jerk.
+bool follow_velocity(const FilterBounds& bounds, double tick_s, const Vec3& wanted, ChannelState& state) noexcept {
+  const double before = norm(state.velocity);
+  const double k2 = bounds.jerk / bounds.accel;
+  const double k3 = 4.0 * k2;
+  const Saturated a = saturate(scale(subtract(wanted, state.velocity), k2), bounds.accel);
+  const double gain = k3 * tick_s < 1.0 ? k3 : 1.0 / tick_s;
+  const Saturated jerk = saturate(scale(subtract(a.value, state.acceleration), gain), bounds.jerk);
+  state.acceleration = add(state.acceleration, scale(jerk.value, tick_s));
+  state.velocity = add(state.velocity, scale(state.acceleration, tick_s));
+  // Coming from a higher speed limit, the filter brakes down to the new one instead of jumping.
+  const double allowed = larger(bounds.speed, before - bounds.accel * tick_s);
+  const Saturated v = saturate(state.velocity, allowed);  // the discrete steps may overshoot by a rounding
+  state.velocity = v.value;
+  return a.acted;
+}
+
+// Integrates both channels into the pose.
+void move_pose(double tick_s, TipFilterState& state) noexcept {
+  state.pose.position_m = add(state.pose.position_m, scale(state.linear.velocity, tick_s));
+  state.pose.quaternion = normalize(multiply(quaternion_of(scale(state.angular.velocity, tick_s)), state.pose.quaternion));
+}
+
+}  // namespace
+
+ChannelLimits follow_channel(const FilterBounds& bounds, double tick_s, const Vec3& error, ChannelState& state) noexcept {
+  const Saturated wanted = saturate(scale(error, bounds.accel / bounds.speed), bounds.speed);
+  return {wanted.acted, follow_velocity(bounds, tick_s, wanted.value, state)};
+}
+
+TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s) noexcept {
+  const MotionLimits& limits = table.limits;
+  const bool lowered = tip_speed_m_s > 0.0 && tip_speed_m_s < limits.tip_speed_m_s;
+  return {{lowered ? tip_speed_m_s : limits.tip_speed_m_s, limits.tip_accel_m_s2, limits.tip_jerk_m_s3},
+          {limits.tip_rate_rad_s, limits.tip_angular_accel_rad_s2, limits.tip_angular_jerk_rad_s3},
+          table.tick_s};
+}
+
+double lag_s(const FilterBounds& bounds) noexcept { return bounds.speed / bounds.accel; }
+
+void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterState& state) noexcept {
+  if (!is_valid(target)) {
+    brake_tip(config, state);
+    return;
+  }
+  const Vec3 position_error = subtract(target.position_m, state.pose.position_m);
+  const Vec3 attitude_error = rotation_vector(multiply(target.quaternion, conjugate(state.pose.quaternion)));
+  const ChannelLimits linear = follow_channel(config.linear, config.tick_s, position_error, state.linear);
+  const ChannelLimits angular = follow_channel(config.angular, config.tick_s, attitude_error, state.angular);
+  state.speed_limited = linear.speed || angular.speed;
+  state.accel_limited = linear.accel || angular.accel;
+  move_pose(config.tick_s, state);
+}
+
+void brake_tip(const TipFilterConfig& config, TipFilterState& state) noexcept {
+  state.speed_limited = false;
+  const bool linear = follow_velocity(config.linear, config.tick_s, {}, state.linear);
+  const bool angular = follow_velocity(config.angular, config.tick_s, {}, state.angular);
+  // The last of an exponential tail is cut, so that braking ends after a bounded number of ticks.
+  constexpr double kStill = 3e-4;  // of the speed limit
+  if (norm(state.linear.velocity) < kStill * config.linear.speed) state.linear = ChannelState{};
+  if (norm(state.angular.velocity) < kStill * config.angular.speed) state.angular = ChannelState{};
+  state.accel_limited = linear || angular;
+  move_pose(config.tick_s, state);
+}
+
+bool at_rest(const TipFilterState& state) noexcept { return norm(state.linear.velocity) < 1e-6 && norm(state.angular.velocity) < 1e-6; }
+
+}  // namespace liana

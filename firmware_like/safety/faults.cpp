@@ -1,0 +1,131 @@
+#include "firmware_like/safety/faults.hpp"
+
+#include <limits>
+
+#include "firmware_like/math/convert.hpp"
+
+namespace liana {
+namespace {
+
+using enum FaultNumber;
+
+// Row of a fault in kFaultTable. No default: a new number without a row does not compile.
+constexpr std::int32_t row_of(FaultNumber number) noexcept {
+  switch (number) {
+    case kNone:
+      return 0;
+    case kCommandInvalid:
+      return 1;
+    case kTicksLost:
+      return 2;
+    case kDriveMissing:
+      return 3;
+    case kDriveSilent:
+      return 4;
+    case kDriveFault:
+      return 5;
+    case kDriveLeftOperation:
+      return 6;
+    case kDriveEnableTimeout:
+      return 7;
+    case kFollowingError:
+      return 8;
+    case kDriveNotOperational:
+      return 9;
+    case kDriveStopTimeout:
+      return 10;
+    case kBusLost:
+      return 11;
+    case kCableSlack:
+      return 12;
+    case kCableOverload:
+      return 13;
+    case kTensionAlarm:
+      return 14;
+    case kHomingImplausible:
+      return 15;
+    case kGateRefused:
+      return 16;
+  }
+  return 0;
+}
+
+constexpr StopCategory kHold = StopCategory::kHold;
+constexpr StopCategory kStop = StopCategory::kStop;
+
+constexpr std::array<FaultInfo, 17> kFaultTable{{
+    {kNone, "none", StopCategory::kNone, false, "No fault.", "Nothing to do."},
+    {kCommandInvalid, "command_invalid", kHold, false, "A released command held a value that is not finite or out of range.",
+     "Look at the verdict log for the command's sequence number; correct the client that sent it, then clear."},
+    {kTicksLost, "ticks_lost", kStop, true, "More control deadlines in a row were lost than the drives tolerate.",
+     "Run liana doctor, free the computer's cores from other work, then clear and enable again."},
+    {kDriveMissing, "drive_missing", kStop, true, "A drive sent no heartbeat within the allowed time.",
+     "Check the drive's supply and its bus connector; let it boot again, then clear."},
+    {kDriveSilent, "drive_silent", kStop, true, "A drive sent no feedback for more than two ticks.",
+     "Check the bus for errors and load, and the drive's supply, then clear."},
+    {kDriveFault, "drive_fault", kStop, true, "A drive reports a fault; the detail is its emergency code.",
+     "Look the emergency code up in the drive's manual and remove the cause; clear resets the drive."},
+    {kDriveLeftOperation, "drive_left_operation", kStop, true, "A drive left Operation enabled by itself; the detail is its statusword.",
+     "Check STO line, supply and the drive's log, then clear and enable again."},
+    {kDriveEnableTimeout, "drive_enable_timeout", kStop, true, "A drive or the pretension ramp did not finish the enable sequence in time.",
+     "Look at the drive's state (detail is its statusword), supply and STO line, then clear and enable again."},
+    {kFollowingError, "following_error", kStop, true, "A motor does not follow its target within the allowed lag.",
+     "Check brake, drum and cable for blockage; compare the servo time constant with the robot table, then clear."},
+    {kDriveNotOperational, "drive_not_operational", kStop, true, "A drive left the NMT state operational.",
+     "The drive restarted or was stopped by another master; let it boot again, then clear."},
+    {kDriveStopTimeout, "drive_stop_timeout", kStop, true, "A drive did not confirm that it is without power.",
+     "Use the STO switch; do not approach the arm before the drive shows Switch on disabled, then clear."},
+    {kBusLost, "bus_lost", kStop, true, "A drive bus is down.", "Check connector, termination and interface state of the bus, then clear."},
+    {kCableSlack, "cable_slack", kHold, false, "A cable's tension stayed under the floor.",
+     "Check the cable on its drum; move back along the path or disable and enable again to pretension, then clear."},
+    {kCableOverload, "cable_overload", StopCategory::kOff, true, "A cable's tension went over the hard limit.",
+     "Free the arm by hand with the brakes' release procedure, inspect the cable, then clear."},
+    {kTensionAlarm, "tension_alarm", kHold, false, "A cable's tension stayed over the alarm limit.",
+     "Look for contact; move back along the path, then clear."},
+    {kHomingImplausible, "homing_implausible", kHold, false, "The lengths of one segment's cables contradict each other.",
+     "Compare the stored zeros of the segment's drives with the robot table; home again, then clear."},
+    {kGateRefused, "gate_refused", kStop, true, "The gate saw a command that must not reach a drive; the detail names the check.",
+     "This is a defect: keep the recording and report it; the arm stands at its last good target, then clear."},
+}};
+
+constexpr bool is_complete() noexcept {
+  for (std::int32_t row = 0; row < static_cast<std::int32_t>(kFaultTable.size()); ++row) {
+    const FaultInfo& info = kFaultTable[as_index(row)];
+    if (row_of(info.number) != row || info.name[0] == '\0' || info.text[0] == '\0' || info.remedy[0] == '\0') return false;
+    if (row > 0 && (info.number <= kFaultTable[as_index(row - 1)].number || info.category == StopCategory::kNone)) return false;
+    if (info.immediate && info.category < kStop) return false;  // a hold keeps the drives on the path
+  }
+  return true;
+}
+static_assert(is_complete(), "fault table: every number once, ascending, with name, category, text and remedy");
+
+void raise(FaultList& list, const FaultInfo& info) noexcept {
+  if (info.category > list.category) list.category = info.category;
+  if (info.immediate) list.immediate = 1;
+}
+
+}  // namespace
+
+std::span<const FaultInfo> all_faults() noexcept { return kFaultTable; }
+
+const FaultInfo& fault_info(FaultNumber number) noexcept { return kFaultTable[as_index(row_of(number))]; }
+
+bool latch(FaultList& list, const Fault& fault) noexcept {
+  if (fault.number == kNone) return false;
+  for (std::int32_t i = 0; i < list.count; ++i) {
+    Fault& known = list.fault[as_index(i)];
+    if (known.number != fault.number || known.index != fault.index) continue;
+    if (known.detail == 0) known.detail = fault.detail;
+    return false;
+  }
+  raise(list, fault_info(fault.number));
+  if (list.count == FaultList::kCapacity) {
+    if (list.dropped < std::numeric_limits<std::uint32_t>::max()) ++list.dropped;
+    return false;
+  }
+  list.fault[as_index(list.count)] = fault;
+  ++list.count;
+  return true;
+}
+
+}  // namespace liana

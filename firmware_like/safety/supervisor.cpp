@@ -1,0 +1,198 @@
+#include "firmware_like/safety/supervisor.hpp"
+
+#include <array>
+#include <limits>
+
+#include "firmware_like/math/convert.hpp"
+
+namespace liana {
+namespace {
+
+constexpr std::uint32_t kForever = std::numeric_limits<std::uint32_t>::max();
+
+// What a phase means outside, what it tells the drives, and how long it lasts.
+struct PhaseTraits {
+  OperatingState state;
+  DriveGoal goal;
+  StopCategory stop;
+  bool live_targets;
+  std::uint32_t least_ticks;
+  std::uint32_t budget_ticks;
+};
+
+constexpr std::array<PhaseTraits, kPhaseCount> kPhaseTable{{
+    {OperatingState::kDisabled, DriveGoal::kDisabled, StopCategory::kNone, false, 0, kForever},
+    {OperatingState::kEnabling, DriveGoal::kSwitchedOn, StopCategory::kNone, false, 0, kPoweringBudgetTicks},
+    {OperatingState::kEnabling, DriveGoal::kOperationEnabled, StopCategory::kNone, false, 0, kPoweringBudgetTicks},
+    {OperatingState::kEnabling, DriveGoal::kOperationEnabled, StopCategory::kNone, true, 0, kTensioningBudgetTicks},
+    {OperatingState::kEnabled, DriveGoal::kOperationEnabled, StopCategory::kNone, true, 0, kForever},
+    {OperatingState::kStopping, DriveGoal::kOperationEnabled, StopCategory::kStop, true, 0, kPathStopBudgetTicks},
+    {OperatingState::kStopping, DriveGoal::kSwitchedOn, StopCategory::kStop, false, kBrakingTicks, kBrakingTicks},
+    {OperatingState::kStopping, DriveGoal::kQuickStop, StopCategory::kStop, false, 0, kQuickStopBudgetTicks},
+    {OperatingState::kStopping, DriveGoal::kDisabled, StopCategory::kOff, false, kOffTicks, kOffBudgetTicks},
+    {OperatingState::kFault, DriveGoal::kDisabled, StopCategory::kNone, false, 0, kForever},
+    {OperatingState::kFault, DriveGoal::kFaultReset, StopCategory::kNone, false, kResetTicks, kResetBudgetTicks},
+}};
+
+struct Transition {
+  Phase from;
+  std::uint32_t all_of;
+  std::uint32_t none_of;
+  Phase to;
+};
+
+// First row that fits wins; none: the phase stays. Rows that stop stand before rows that go on.
+constexpr std::array kTransitions{
+    Transition{Phase::kDisabled, kFaultHold, 0, Phase::kFault},
+    Transition{Phase::kDisabled, kAskEnable | kReady, kAskStop, Phase::kSwitchingOn},
+
+    Transition{Phase::kSwitchingOn, kFaultHold, 0, Phase::kPowerDown},
+    Transition{Phase::kSwitchingOn, kAskStop, 0, Phase::kPowerDown},
+    Transition{Phase::kSwitchingOn, kAllSwitchedOn, 0, Phase::kPowering},
+
+    Transition{Phase::kPowering, kFaultHold, 0, Phase::kPowerDown},
+    Transition{Phase::kPowering, kAskStop, 0, Phase::kPowerDown},
+    Transition{Phase::kPowering, kAllEnabled, 0, Phase::kTensioning},
+
+    Transition{Phase::kTensioning, kFaultOff, 0, Phase::kPowerDown},
+    Transition{Phase::kTensioning, kFaultImmediate, 0, Phase::kQuickStop},
+    Transition{Phase::kTensioning, kFaultHold, 0, Phase::kBraking},  // no motion yet: nothing to decelerate but the ramp
+    Transition{Phase::kTensioning, kAskStop, 0, Phase::kBraking},
+    Transition{Phase::kTensioning, kTensioned, 0, Phase::kEnabled},
+
+    Transition{Phase::kEnabled, kFaultOff, 0, Phase::kPowerDown},
+    Transition{Phase::kEnabled, kFaultImmediate, 0, Phase::kQuickStop},
+    Transition{Phase::kEnabled, kFaultStop, 0, Phase::kPathStop},
+    Transition{Phase::kEnabled, kFaultPersists, 0, Phase::kPathStop},
+    Transition{Phase::kEnabled, kAskStop, 0, Phase::kPathStop},
+
+    Transition{Phase::kPathStop, kFaultOff, 0, Phase::kPowerDown},
+    Transition{Phase::kPathStop, kFaultImmediate, 0, Phase::kQuickStop},
+    Transition{Phase::kPathStop, kAtRest, 0, Phase::kBraking},
+    Transition{Phase::kPathStop, kBudgetSpent, 0, Phase::kQuickStop},
+
+    Transition{Phase::kBraking, kFaultOff, 0, Phase::kPowerDown},
+    Transition{Phase::kBraking, kCounted, 0, Phase::kPowerDown},
+
+    Transition{Phase::kQuickStop, kFaultOff, 0, Phase::kPowerDown},
+    Transition{Phase::kQuickStop, kAllOff, 0, Phase::kPowerDown},
+    Transition{Phase::kQuickStop, kBudgetSpent, 0, Phase::kPowerDown},
+
+    Transition{Phase::kPowerDown, kAllOff | kCounted | kFaultHold, 0, Phase::kFault},
+    Transition{Phase::kPowerDown, kAllOff | kCounted, 0, Phase::kDisabled},
+    Transition{Phase::kPowerDown, kBudgetSpent, 0, Phase::kFault},
+
+    Transition{Phase::kFault, kAskClear, 0, Phase::kResetting},
+
+    Transition{Phase::kResetting, kCounted | kNoDriveInFault | kFaultHold, 0, Phase::kFault},
+    Transition{Phase::kResetting, kCounted | kNoDriveInFault, 0, Phase::kDisabled},
+    Transition{Phase::kResetting, kBudgetSpent, 0, Phase::kFault},
+};
+
+const PhaseTraits& traits_of(Phase phase) noexcept { return kPhaseTable[static_cast<std::size_t>(phase)]; }
+
+std::uint32_t request_conditions(Request request, bool stop_commanded) noexcept {
+  if (request == Request::kStop || request == Request::kDisable || stop_commanded) return kAskStop;
+  if (request == Request::kEnable) return kAskEnable;
+  return request == Request::kClear ? static_cast<std::uint32_t>(kAskClear) : 0;
+}
+
+std::uint32_t conditions_now(const WatchdogLimits& limits, const Inputs& inputs, const MotionStatus& motion, std::int32_t active_faults,
+                             const SupervisorState& state) noexcept {
+  const PhaseTraits& traits = traits_of(state.phase);
+  std::uint32_t set = drive_conditions(limits, inputs) | request_conditions(inputs.request, motion.stop_commanded);
+  if (motion.homed) set |= kHomed;
+  if (motion.pretension_done) set |= kTensioned;
+  if (state.rest_ticks >= kRestTicks || !traits.live_targets) set |= kAtRest;  // without live targets nothing commands motion
+  if (active_faults == 0) set |= kCausesGone;
+  if (state.wrong_ticks >= kPersistTicks) set |= kFaultPersists;
+  if (state.phase_ticks >= traits.least_ticks) set |= kCounted;
+  if (state.phase_ticks >= traits.budget_ticks) set |= kBudgetSpent;
+  return set;
+}
+
+// Latches a timeout for every drive that is not where the phase wants it.
+void name_late_drives(const WatchdogLimits& limits, const Inputs& inputs, FaultNumber number, std::uint32_t wanted,
+                      FaultList& faults) noexcept {
+  for (std::int32_t i = 0; i < limits.drive_count; ++i) {
+    const DriveFeedback& drive = inputs.drive[as_index(i)];
+    if ((drive_conditions_of(limits, drive) & wanted) == wanted) continue;
+    latch(faults, {number, narrow<std::int16_t>(i), drive.statusword, inputs.tick});
+  }
+}
+
+void latch_timeouts(const WatchdogLimits& limits, const Inputs& inputs, Phase phase, std::uint32_t now, FaultList& faults) noexcept {
+  if ((now & kBudgetSpent) == 0) return;
+  if (phase == Phase::kSwitchingOn) name_late_drives(limits, inputs, FaultNumber::kDriveEnableTimeout, kAllSwitchedOn, faults);
+  if (phase == Phase::kPowering) name_late_drives(limits, inputs, FaultNumber::kDriveEnableTimeout, kAllEnabled, faults);
+  if (phase == Phase::kPowerDown) name_late_drives(limits, inputs, FaultNumber::kDriveStopTimeout, kAllOff, faults);
+  if (phase == Phase::kTensioning && (now & kTensioned) == 0) {
+    latch(faults, {FaultNumber::kDriveEnableTimeout, -1, 0, inputs.tick});
+  }
+}
+
+// A clear is judged at once while enabled (only holds are latched there), and in Fault after the drives had their reset.
+bool is_clear_due(Phase phase, std::uint32_t now) noexcept {
+  if (phase == Phase::kEnabled) return (now & kAskClear) != 0;
+  return phase == Phase::kResetting && (((now & kCounted) != 0 && (now & kNoDriveInFault) != 0) || (now & kBudgetSpent) != 0);
+}
+
+void judge_clear(std::uint64_t tick, std::uint32_t now, SupervisorState& state, FaultList& faults) noexcept {
+  state.clear = {tick, kClearable, kClearable & ~now};
+  if (state.clear.missing == 0) faults = FaultList{};
+}
+
+// Counts ticks in a row in which something holds, up to `most`.
+void count(bool holds, std::uint32_t most, std::uint32_t& ticks) noexcept {
+  if (!holds) ticks = 0;
+  if (holds && ticks < most) ++ticks;
+}
+
+Phase next_phase(Phase phase, std::uint32_t now) noexcept {
+  for (const Transition& row : kTransitions) {
+    if (row.from == phase && (now & row.all_of) == row.all_of && (now & row.none_of) == 0) return row.to;
+  }
+  return phase;
+}
+
+void enter(Phase next, SupervisorState& state) noexcept {
+  if (next != state.phase) {
+    state.phase = next;
+    state.phase_ticks = 0;
+  }
+  if (state.phase_ticks < kForever) ++state.phase_ticks;
+}
+
+Orders orders_of(Phase phase, std::uint32_t now, const FaultList& faults) noexcept {
+  const PhaseTraits& traits = traits_of(phase);
+  Orders orders{};
+  orders.state = traits.state;
+  orders.goal = traits.goal;
+  orders.stop_category = traits.stop > faults.category ? traits.stop : faults.category;
+  orders.live_targets = traits.live_targets;
+  orders.motion_allowed = phase == Phase::kEnabled && faults.category == StopCategory::kNone;
+  orders.ramp_active = phase == Phase::kTensioning;
+  orders.enable_missing = kReady & ~now;
+  return orders;
+}
+
+}  // namespace
+
+WatchScope watch_scope(const SupervisorState& state) noexcept {
+  const bool powered = traits_of(state.phase).live_targets;
+  return {powered, powered && state.phase != Phase::kTensioning};
+}
+
+Orders supervise(const WatchdogLimits& limits, const Inputs& inputs, const MotionStatus& motion, std::int32_t active_faults,
+                 SupervisorState& state, FaultList& faults) noexcept {
+  count(motion.at_rest, kRestTicks, state.rest_ticks);
+  count(active_faults != 0, kPersistTicks, state.wrong_ticks);
+  std::uint32_t now = conditions_now(limits, inputs, motion, active_faults, state);
+  latch_timeouts(limits, inputs, state.phase, now, faults);
+  if (is_clear_due(state.phase, now)) judge_clear(inputs.tick, now, state, faults);
+  now |= fault_conditions(faults);
+  enter(next_phase(state.phase, now), state);
+  return orders_of(state.phase, now, faults);
+}
+
+}  // namespace liana

@@ -1,0 +1,80 @@
+// The arm: ten reduced angles moved by fifteen cables and by contact, no gravity, semi-implicit steps.
+#pragma once
+
+#include <vector>
+
+#include "hil/arm/cable_geometry.hpp"
+#include "hil/arm/cable_line.hpp"
+#include "hil/arm/chain.hpp"
+#include "hil/arm/clearance.hpp"
+#include "hil/arm/contact_forces.hpp"
+#include "hil/arm/true_parameters.hpp"
+
+namespace liana::bench {
+
+// Extremes since the last reset.
+struct LoadRecord {
+  double contact_N = 0.0;
+  double rod_N = 0.0;
+  double least_tension_N = 1e9;
+  double least_motor_tension_N = 1e9;
+  double most_motor_tension_N = 0.0;
+};
+
+class ArmPhysics {
+ public:
+  // Arm at rest at `start_rad`, tensions balanced around 30 N with none below 15 N, nothing held by friction. Throws std::runtime_error.
+  ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const TrueParameters& truth, const Theta& start_rad);
+
+  // Unstretched cable between drum and anchor, as the drums now hold it [m].
+  CableValues payouts_m() const;
+  // One step of `step_s` (1 ms; stable up to 4 ms without contact) with the drums at `payout_m`.
+  void step(double step_s, const CableValues& payout_m);
+  // Call before a run of steps that together last `duration_s`: decides whether anything can touch in them.
+  void begin_slot(double duration_s);
+
+  const Theta& theta_rad() const { return theta_; }
+  const Theta& rate_rad_s() const { return rate_; }
+  double motor_tension_N(std::size_t cable) const { return lines_[cable].motor_tension_N(); }
+  double least_tension_N(std::size_t cable) const { return lines_[cable].least_tension_N(); }
+  Pose tip() const { return chain_.tip(); }
+  Clearance clearance() const { return clearance_of(chain_, scene_, robot_.module_radius_m); }
+  // Extremes since the last take_record().
+  LoadRecord take_record();
+  // Kinetic plus elastic energy [J]; for checks.
+  double energy_J();
+
+  // For checks: the mechanical state set from outside, joint damping switched off.
+  void set_state(const Theta& theta_rad, const Theta& rate_rad_s);
+  void set_joint_damping(double viscous_Nms_per_rad) { viscous_ = viscous_Nms_per_rad; }
+
+  Chain& chain() { return chain_; }
+  const CablePaths& paths() const { return paths_; }
+  std::uint64_t mujoco_warnings() const { return chain_.warnings(); }
+  // Slots in which collision detection ran.
+  std::uint64_t contact_slots() const { return contact_slots_; }
+  int most_sweeps() const { return most_sweeps_; }
+
+ private:
+  void settle_cables(const CableValues& payout_m);
+  void pull(Theta& force) const;
+  void stop_at_limits(Theta& force, ThetaMatrix& damping, double step_s) const;
+  void touch(double step_s, ContactLoad& load);
+  double fastest_joint_m_s() const;
+
+  RobotConfig robot_;
+  SceneConfig scene_;
+  std::size_t thetas_;
+  double viscous_;
+  Chain chain_;
+  CablePaths paths_;
+  std::vector<CableLine> lines_;
+  Theta theta_{};
+  Theta rate_{};
+  LoadRecord record_;
+  bool near_contact_ = true;
+  std::uint64_t contact_slots_ = 0;
+  int most_sweeps_ = 0;
+};
+
+}  // namespace liana::bench

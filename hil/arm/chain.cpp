@@ -1,0 +1,151 @@
+#include "hil/arm/chain.hpp"
+
+#include <mujoco/mujoco.h>
+
+#include <cstring>
+#include <stdexcept>
+
+#include "hil/arm/mjcf.hpp"
+
+namespace liana::bench {
+
+struct Chain::Engine {
+  mjModel* model = nullptr;
+  mjData* data = nullptr;
+  int rod_geom = -1;
+
+  explicit Engine(const std::string& xml) {
+    const auto vfs = std::make_unique<mjVFS>();
+    mj_defaultVFS(vfs.get());
+    mj_makeEmptyFileVFS(vfs.get(), "arm.xml", static_cast<int>(xml.size()));
+    std::memcpy(vfs->filedata[0], xml.data(), xml.size());
+    char error[500] = "";
+    model = mj_loadXML("arm.xml", vfs.get(), error, sizeof error);
+    mj_deleteVFS(vfs.get());
+    if (model == nullptr) throw std::runtime_error(std::string("physics: MuJoCo refuses the model of robot and scene: ") + error);
+    data = mj_makeData(model);
+    rod_geom = mj_name2id(model, mjOBJ_GEOM, "rod");
+  }
+  ~Engine() {
+    mj_deleteData(data);
+    mj_deleteModel(model);
+  }
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+};
+
+namespace {
+
+Vec3 at(const mjtNum* values, std::size_t i) { return {values[3 * i], values[3 * i + 1], values[3 * i + 2]}; }
+
+}  // namespace
+
+Chain::Chain(const RobotConfig& robot, const SceneConfig& scene, bool with_tendons)
+    : engine_(std::make_unique<Engine>(make_mjcf(robot, scene, with_tendons))), thetas_(robot.theta_count()) {
+  for (std::size_t s = 0; s < robot.segments.size(); ++s) {
+    for (int i = 0; i < robot.segments[s].modules; ++i, ++links_) {
+      const std::size_t first = i % 2 == 0 ? 0 : 1;
+      theta_of_hinge_.push_back(2 * s + first);
+      theta_of_hinge_.push_back(2 * s + 1 - first);
+    }
+  }
+  tip_offset_m_ = robot.segments.back().module_length_m;
+  place(Theta{});
+}
+
+Chain::~Chain() = default;
+
+void Chain::place(const Theta& theta_rad) {
+  for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i) engine_->data->qpos[i] = theta_rad[theta_of_hinge_[i]];
+  mj_kinematics(engine_->model, engine_->data);
+  mj_comPos(engine_->model, engine_->data);
+}
+
+void Chain::inertia(ThetaMatrix& mass) {
+  mj_crb(engine_->model, engine_->data);
+  mass = {};
+  // Row i of the sparse matrix holds (i,i), (i,parent of i), ... down to the base: for a chain i, i-1, ... 0.
+  for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i) {
+    const mjtNum* row = engine_->data->qM + engine_->model->dof_Madr[i];
+    Theta& to = mass[theta_of_hinge_[i]];
+    for (std::size_t k = 0; k <= i; ++k) to[theta_of_hinge_[i - k]] += row[k];
+    to[theta_of_hinge_[i]] -= 0.5 * row[0];  // the diagonal must count once when the transpose is added
+  }
+  for (std::size_t a = 0; a < thetas_; ++a) {
+    for (std::size_t b = 0; b <= a; ++b) {
+      const double sum = mass[a][b] + mass[b][a];
+      mass[a][b] = sum;
+      mass[b][a] = sum;
+    }
+  }
+}
+
+void Chain::bias(const Theta& rate_rad_s, Theta& force) {
+  mjData* data = engine_->data;
+  for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i) data->qvel[i] = rate_rad_s[theta_of_hinge_[i]];
+  mj_comVel(engine_->model, data);
+  mj_rne(engine_->model, data, 0, data->qfrc_bias);
+  force = {};
+  for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i) force[theta_of_hinge_[i]] += data->qfrc_bias[i];
+}
+
+const std::vector<Contact>& Chain::contacts() {
+  const mjModel* model = engine_->model;
+  mj_collision(model, engine_->data);
+  contacts_.clear();
+  for (int i = 0; i < engine_->data->ncon; ++i) {
+    const mjContact& found = engine_->data->contact[i];
+    if (found.dist >= 0.0) continue;
+    const int body1 = model->geom_bodyid[found.geom1];
+    const int body2 = model->geom_bodyid[found.geom2];
+    // MuJoCo's normal points from geom 1 to geom 2; the world is body 0.
+    const double sign = body1 == 0 ? 1.0 : -1.0;
+    Contact contact;
+    contact.link = static_cast<std::size_t>(body1 == 0 ? body2 : body1) - 1;
+    contact.point_m = at(found.pos, 0);
+    contact.normal = sign * at(found.frame, 0);
+    contact.depth_m = -found.dist;
+    contact.rod = found.geom1 == engine_->rod_geom || found.geom2 == engine_->rod_geom;
+    contacts_.push_back(contact);
+  }
+  return contacts_;
+}
+
+Vec3 Chain::joint_center_m(std::size_t link) const { return link < links_ ? at(engine_->data->xpos, link + 1) : tip().position_m; }
+
+Pose Chain::tip() const {
+  const mjtNum* q = engine_->data->xquat + 4 * links_;
+  const Quat attitude{q[0], q[1], q[2], q[3]};
+  return {at(engine_->data->xpos, links_) + rotate(attitude, {tip_offset_m_, 0.0, 0.0}), attitude};
+}
+
+void Chain::point_jacobian(std::size_t link, const Vec3& point_m, PointJacobian& jacobian) const {
+  jacobian = {};
+  for (std::size_t i = 0; i < 2 * (link + 1); ++i) {
+    const Vec3 column = cross(at(engine_->data->xaxis, i), point_m - at(engine_->data->xanchor, i));
+    const std::size_t t = theta_of_hinge_[i];
+    jacobian[0][t] += column.x;
+    jacobian[1][t] += column.y;
+    jacobian[2][t] += column.z;
+  }
+}
+
+std::uint64_t Chain::warnings() const {
+  std::uint64_t count = 0;
+  for (const auto& warning : engine_->data->warning) count += static_cast<std::uint64_t>(warning.number);
+  return count;
+}
+
+std::vector<double> Chain::tendon_lengths_m() {
+  mj_tendon(engine_->model, engine_->data);
+  return {engine_->data->ten_length, engine_->data->ten_length + engine_->model->ntendon};
+}
+
+std::vector<double> Chain::full_inertia() {
+  mj_crb(engine_->model, engine_->data);
+  std::vector<double> full(static_cast<std::size_t>(engine_->model->nv * engine_->model->nv));
+  mj_fullM(engine_->model, full.data(), engine_->data->qM);
+  return full;
+}
+
+}  // namespace liana::bench

@@ -1,0 +1,70 @@
+// The arm as 80 hinges in MuJoCo, seen through the ten reduced angles: positions, inertia, bias forces, contacts.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hil/config/robot_config.hpp"
+#include "hil/config/scene_config.hpp"
+#include "hil/math/reduced.hpp"
+#include "hil/math/vec3.hpp"
+
+namespace liana::bench {
+
+// A link overlapping a shape of the scene.
+struct Contact {
+  std::size_t link = 0;
+  Vec3 point_m;
+  Vec3 normal;           // unit, from the shape towards the link
+  double depth_m = 0.0;  // > 0
+  bool rod = false;      // the shape is the rod
+};
+
+// 3 x n: velocity of a point of a link per reduced rate, one row per base axis.
+using PointJacobian = std::array<Theta, 3>;
+
+class Chain {
+ public:
+  // Throws std::runtime_error when MuJoCo refuses the model.
+  Chain(const RobotConfig& robot, const SceneConfig& scene, bool with_tendons = false);
+  ~Chain();
+  Chain(const Chain&) = delete;
+  Chain& operator=(const Chain&) = delete;
+
+  // Places all hinges; everything below refers to these angles.
+  void place(const Theta& theta_rad);
+  // Reduced mass matrix S^T M S [kg.m^2]; upper-left n x n block.
+  void inertia(ThetaMatrix& mass);
+  // Reduced Coriolis and centrifugal forces [N.m].
+  void bias(const Theta& rate_rad_s, Theta& force);
+  // Overlaps of links with the scene.
+  const std::vector<Contact>& contacts();
+
+  std::size_t link_count() const { return links_; }
+  // Start of a link's axis; `link` == link_count() is the tip. Base frame, metres.
+  Vec3 joint_center_m(std::size_t link) const;
+  Pose tip() const;
+  void point_jacobian(std::size_t link, const Vec3& point_m, PointJacobian& jacobian) const;
+
+  // MuJoCo's warnings so far (full contact buffer, bad numbers, ...), all kinds together.
+  std::uint64_t warnings() const;
+  // Lengths of the spatial tendons; only with `with_tendons`.
+  std::vector<double> tendon_lengths_m();
+  // The unreduced mass matrix, row by row; for checks.
+  std::vector<double> full_inertia();
+  // Reduced index of a hinge: the constant selection S.
+  std::size_t theta_of_hinge(std::size_t hinge) const { return theta_of_hinge_[hinge]; }
+
+ private:
+  struct Engine;
+  std::unique_ptr<Engine> engine_;
+  std::size_t links_ = 0;
+  std::size_t thetas_ = 0;
+  double tip_offset_m_ = 0.0;
+  std::vector<std::size_t> theta_of_hinge_;
+  std::vector<Contact> contacts_;
+};
+
+}  // namespace liana::bench

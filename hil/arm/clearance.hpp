@@ -1,0 +1,24 @@
+// Exact distances of the arm's capsules to the scene.
+#pragma once
+
+#include "hil/arm/chain.hpp"
+#include "hil/config/scene_config.hpp"
+
+namespace liana::bench {
+
+// Smallest distance between the segment from `a` to `b` and a solid box; 0 when they meet. Exact, closed form.
+double segment_box_distance_m(const Vec3& a, const Vec3& b, const BoxConfig& box);
+// Smallest distance between the segment from `a` to `b` and a point.
+double segment_point_distance_m(const Vec3& a, const Vec3& b, const Vec3& point);
+
+// Surface to surface; negative means overlap (to boxes down to minus the capsule radius).
+struct Clearance {
+  double slit_m = 0.0;    // any link to any box
+  double sphere_m = 0.0;  // any link to any sphere
+  double rod_m = 0.0;     // any link but the last to the rod
+};
+
+// Over all links; a kind with no shapes gives 1000 m.
+Clearance clearance_of(const Chain& chain, const SceneConfig& scene, double link_radius_m);
+
+}  // namespace liana::bench

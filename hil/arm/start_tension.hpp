@@ -1,0 +1,12 @@
+// Tensions that hold the arm still: J^T t = 0.
+#pragma once
+
+#include "hil/arm/cable_geometry.hpp"
+
+namespace liana::bench {
+
+// Nearest balanced tensions to `wanted_N` everywhere with none below `floor_N` (alternating projections on the null space of the
+// transposed cable Jacobian and the floor). Throws std::runtime_error when there are none.
+CableValues balanced_tensions(const CablePaths& paths, std::size_t theta_count, double wanted_N, double floor_N);
+
+}  // namespace liana::bench

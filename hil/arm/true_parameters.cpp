@@ -1,0 +1,59 @@
+#include "hil/arm/true_parameters.hpp"
+
+#include <stdexcept>
+
+#include "hil/math/random.hpp"
+
+namespace liana::bench {
+
+namespace {
+
+template <class Map>
+std::string names_of(const Map& map) {
+  std::string names;
+  for (const auto& [name, value] : map) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+}  // namespace
+
+TrueParameters table_parameters(const RobotConfig& robot, const std::string& physics) {
+  const auto mu = robot.friction_mu.find(physics);
+  if (mu == robot.friction_mu.end())
+    throw std::runtime_error("--physics: \"" + physics + "\" is not in the robot's friction_mu; allowed are " +
+                             names_of(robot.friction_mu));
+  TrueParameters parameters;
+  parameters.EA_N = robot.cable_EA_N;
+  parameters.mu = mu->second;
+  parameters.hole_radius_m = robot.hole_radius_m;
+  parameters.torque_gain.fill(1.0);
+  return parameters;
+}
+
+TrueParameters spread_parameters(const RobotConfig& robot, const std::string& physics, std::uint64_t seed) {
+  TrueParameters parameters = table_parameters(robot, physics);
+  Random arm(seed, "arm parameters");
+  parameters.EA_N *= arm.uniform(0.95, 1.05);
+  parameters.mu *= arm.uniform(0.8, 1.2);
+  parameters.hole_radius_m += arm.uniform(-0.02e-3, 0.02e-3);
+  Random zeros(seed, "cable zeros");
+  Random gains(seed, "torque gains");
+  for (std::size_t c = 0; c < robot.cable_count(); ++c) {
+    parameters.zero_offset_m[c] = zeros.uniform(-0.05e-3, 0.05e-3);
+    parameters.torque_gain[c] = gains.uniform(0.99, 1.01);
+  }
+  return parameters;
+}
+
+Theta start_pose(const RobotConfig& robot, const std::string& name, double spread_rad, std::uint64_t seed) {
+  const auto pose = robot.named_poses_rad.find(name);
+  if (pose == robot.named_poses_rad.end())
+    throw std::runtime_error("--start-pose: \"" + name + "\" is not in the robot's named_poses_deg; allowed are " +
+                             names_of(robot.named_poses_rad));
+  Random offsets(seed, "start pose");
+  Theta theta{};
+  for (std::size_t i = 0; i < robot.theta_count(); ++i) theta[i] = pose->second[i] + offsets.uniform(-spread_rad, spread_rad);
+  return theta;
+}
+
+}  // namespace liana::bench

@@ -1,0 +1,27 @@
+// What the arm really is, as opposed to what the table says: drawn from the seed (mission A9).
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "hil/config/robot_config.hpp"
+#include "hil/math/reduced.hpp"
+
+namespace liana::bench {
+
+struct TrueParameters {
+  double EA_N = 0.0;
+  double mu = 0.0;
+  double hole_radius_m = 0.0;
+  CableValues zero_offset_m{};  // payout beyond what counts and table say
+  CableValues torque_gain{};    // measured / true drive torque
+};
+
+// The table's own values; `physics` names one of its friction_mu; throws std::runtime_error for an unknown name.
+TrueParameters table_parameters(const RobotConfig& robot, const std::string& physics);
+// EA +-5 %, mu +-20 %, hole radius +-0.02 mm (one draw each), cable zero +-0.05 mm and torque gain +-1 % per cable.
+TrueParameters spread_parameters(const RobotConfig& robot, const std::string& physics, std::uint64_t seed);
+// Named pose plus uniform +-`spread_rad` per angle; throws std::runtime_error for an unknown name.
+Theta start_pose(const RobotConfig& robot, const std::string& name, double spread_rad, std::uint64_t seed);
+
+}  // namespace liana::bench

@@ -1,0 +1,67 @@
+// The bench: drives and arm on one end of the bus, camera and truth on the other.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hil/arm/arm_physics.hpp"
+#include "hil/arm/tip_camera.hpp"
+#include "hil/bench/drive_bank.hpp"
+#include "hil/bench/truth_log.hpp"
+#include "hil/bus/bus.hpp"
+#include "hil/bus/camera_link.hpp"
+
+namespace liana::bench {
+
+// Everything that is chosen on the command line.
+struct BenchOptions {
+  RobotConfig robot;
+  SceneConfig scene;
+  BusesConfig buses;
+  std::vector<FaultConfig> faults;
+  std::string physics = "nominal";
+  std::uint64_t seed = 1;
+  bool spread = true;  // parameters, start pose and noise by seed; false: the table exactly, noise only from the camera
+  std::string start_pose = "prepare";
+  std::string api_socket;
+  std::string truth_path;
+  std::string summary_path;
+  double run_on_s = 0.0;  // how long drives and arm go on by themselves after the bus has ended
+};
+
+class Bench {
+ public:
+  // Throws std::runtime_error for anything that cannot work.
+  explicit Bench(const BenchOptions& options);
+
+  // Runs until the bus ends and run_on_s longer, then writes the summary.
+  void run(Bus& bus);
+
+ private:
+  void begin_slot(std::uint32_t slot, double now_s);
+  void integrate_slot(double period_s);
+  void record(std::uint32_t slot);
+  void inject_faults(std::uint32_t slot);
+  std::uint32_t count_syncs(const FrameList& frames);
+  void catch_up(std::uint32_t slots, double period_s);
+  void run_on(std::uint64_t now_us, std::uint32_t period_us);
+  CableValues motor_tensions_N() const;
+  void write_summary(const Bus& bus) const;
+
+  BenchOptions options_;
+  TrueParameters truth_;
+  ArmPhysics arm_;
+  DriveBank drives_;
+  TipCamera camera_;
+  CameraLink link_;
+  TruthLog log_;
+  std::vector<std::uint32_t> syncs_;  // per bus, real time
+  std::vector<std::uint64_t> received_;
+  std::vector<std::uint64_t> sent_;
+  std::uint32_t begun_ = 0;       // slots begun: truth written, camera looked
+  std::uint32_t integrated_ = 0;  // slots whose physics is done
+  std::uint64_t physics_us_ = 0;
+};
+
+}  // namespace liana::bench

@@ -1,0 +1,97 @@
+#include "hil/bench/drive_bank.hpp"
+
+#include <cmath>
+
+namespace liana::bench {
+
+namespace {
+
+constexpr double kTorqueNoise = 0.003;            // of the reading
+constexpr double kSlack_m = 0.02;                 // a clamp slipped: no tension left at any pose of the mission's
+constexpr std::uint16_t kInjectedFault = 0x2310;  // continuous over-current
+
+DriveSettings settings_of(const RobotConfig& robot, const BusesConfig& buses, std::size_t i) {
+  DriveSettings settings;
+  settings.node = static_cast<int>(i) + 1;
+  settings.bus = static_cast<std::uint8_t>(buses.bus_of(settings.node));
+  settings.vendor = robot.vendor;
+  settings.product = robot.product;
+  settings.revision = robot.revision;
+  settings.counts_per_turn = robot.counts_per_turn;
+  settings.rated_torque_mNm = static_cast<std::uint32_t>(std::lround(1000.0 * robot.rated_torque_Nm));
+  settings.servo_time_constant_s = robot.servo_time_constant_s;
+  settings.pull_direction = -robot.drives[i].direction;
+  return settings;
+}
+
+}  // namespace
+
+DriveBank::DriveBank(const RobotConfig& robot, const BusesConfig& buses, const TrueParameters& truth, const CableValues& payout_m,
+                     bool noisy, std::uint64_t seed)
+    : robot_(robot), truth_(truth), noisy_(noisy), torque_noise_(seed, "torque noise") {
+  for (std::size_t m = 0; m < robot.segments.size(); ++m)
+    for (std::size_t c = 0; c < robot.segments[m].cable_phase_rad.size(); ++c) path_at_zero_m_.push_back(robot.path_at_zero_m(m));
+  for (std::size_t i = 0; i < robot.cable_count(); ++i) {
+    const double paid_out = payout_m[i] - path_at_zero_m_[i] - robot.lead_m - truth.zero_offset_m[i];
+    const double counts = robot.drives[i].zero_counts + robot.drives[i].direction * paid_out / robot.metres_per_count();
+    drives_.push_back(std::make_unique<Drive>(settings_of(robot, buses, i), counts));
+  }
+}
+
+CableValues DriveBank::payouts_m() const {
+  CableValues payout{};
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const double counts = drives_[i]->motor().position_counts() - robot_.drives[i].zero_counts;
+    payout[i] = path_at_zero_m_[i] + robot_.lead_m + truth_.zero_offset_m[i] + slack_m_[i] +
+                robot_.drives[i].direction * counts * robot_.metres_per_count();
+  }
+  return payout;
+}
+
+double DriveBank::permille(double tension_N) const {
+  return 1000.0 * tension_N * robot_.drum_radius_m / (robot_.gear * robot_.rated_torque_Nm);
+}
+
+void DriveBank::exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) {
+  for (const CanFrame& frame : frames)
+    for (auto& drive : drives_)
+      if (drive->bus() == frame.bus) drive->receive(frame, out);
+  for (auto& drive : drives_) drive->tick(now_us, out);
+}
+
+void DriveBank::move(double step_s, const CableValues& tension_N) {
+  for (std::size_t i = 0; i < drives_.size(); ++i) drives_[i]->move(step_s, permille(tension_N[i]));
+}
+
+void DriveBank::measure(const CableValues& tension_N) {
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const double noise = noisy_ ? 1.0 + torque_noise_.gaussian(kTorqueNoise) : 1.0;
+    drives_[i]->set_measured_torque(permille(tension_N[i]) * truth_.torque_gain[i] * noise);
+  }
+}
+
+std::size_t DriveBank::enabled() const {
+  std::size_t count = 0;
+  for (const auto& drive : drives_) count += drive->power_state() == PowerState::kOperationEnabled ? 1 : 0;
+  return count;
+}
+
+void DriveBank::inject(const FaultConfig& fault) {
+  Drive& drive = *drives_[fault.drive];
+  switch (fault.kind) {
+    case FaultKind::kMissing:
+      return drive.power_off();
+    case FaultKind::kWrongIdentity:
+      return drive.set_identity(robot_.product + 1);
+    case FaultKind::kSilent:
+      return drive.set_silent();
+    case FaultKind::kFault:
+      return drive.raise_fault(kInjectedFault);
+    case FaultKind::kSto:
+      return drive.set_safe_torque_off();
+    case FaultKind::kSlack:
+      slack_m_[fault.drive] = kSlack_m;
+  }
+}
+
+}  // namespace liana::bench

@@ -1,0 +1,49 @@
+// The fifteen drives and what joins them to the arm: counts to cable, tension to torque reading.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "hil/arm/true_parameters.hpp"
+#include "hil/config/scene_config.hpp"
+#include "hil/drive/drive.hpp"
+#include "hil/math/random.hpp"
+
+namespace liana::bench {
+
+class DriveBank {
+ public:
+  // Drums hold `payout_m`; brakes on.
+  DriveBank(const RobotConfig& robot, const BusesConfig& buses, const TrueParameters& truth, const CableValues& payout_m, bool noisy,
+            std::uint64_t seed);
+
+  // Gives the frames to the drives on their buses, then runs all timers.
+  void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out);
+  // Moves all motors by one physics step under the given motor-side tensions.
+  void move(double step_s, const CableValues& tension_N);
+  // Reads all torque sensors (once per slot).
+  void measure(const CableValues& tension_N);
+  // Unstretched cable the drums have paid out now [m].
+  CableValues payouts_m() const;
+
+  void inject(const FaultConfig& fault);
+
+  std::size_t size() const { return drives_.size(); }
+  const Drive& drive(std::size_t i) const { return *drives_[i]; }
+  // Drives in operation enabled.
+  std::size_t enabled() const;
+
+ private:
+  double permille(double tension_N) const;
+
+  RobotConfig robot_;
+  TrueParameters truth_;
+  std::vector<std::unique_ptr<Drive>> drives_;
+  std::vector<double> path_at_zero_m_;
+  CableValues slack_m_{};  // cable that came loose (fault)
+  bool noisy_;
+  Random torque_noise_;
+};
+
+}  // namespace liana::bench

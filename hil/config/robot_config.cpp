@@ -1,0 +1,85 @@
+#include "hil/config/robot_config.hpp"
+
+#include "hil/config/json_file.hpp"
+#include "hil/math/reduced.hpp"
+
+namespace liana::bench {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRadPerDeg = kPi / 180.0;
+
+std::string at(const std::string& list, std::size_t i) { return list + "/" + std::to_string(i); }
+
+void read_segments(const JsonFile& file, RobotConfig& robot) {
+  const std::size_t count = file.size("/segments");
+  if (count < 1 || count > kMaxSegments) file.fail("/segments", "has " + std::to_string(count) + " entries, allowed is 1 to 8");
+  for (std::size_t m = 0; m < count; ++m) {
+    SegmentConfig segment;
+    segment.modules = file.integer(at("/segments", m) + "/modules", 1, 16);
+    segment.module_length_m = file.number(at("/segments", m) + "/module_length_m", 0.01, 1.0);
+    segment.theta_limit_rad = kRadPerDeg * file.number(at("/segments", m) + "/theta_limit_deg", 0.1, 45.0);
+    const std::string phases = at("/cables/phase_deg", m);
+    const std::size_t cables = file.size(phases);
+    if (cables < 3 || cables > 4) file.fail(phases, "has " + std::to_string(cables) + " cables, allowed is 3 to 4");
+    for (const double phase : file.numbers(phases, cables, -360.0, 360.0)) segment.cable_phase_rad.push_back(kRadPerDeg * phase);
+    robot.segments.push_back(segment);
+  }
+}
+
+void read_mechanics(const JsonFile& file, RobotConfig& robot) {
+  robot.module_mass_kg = file.number("/module/mass_kg", 0.001, 100.0);
+  robot.module_radius_m = file.number("/module/radius_m", 0.001, 0.5);
+  robot.viscous_Nms_per_rad = file.number("/joint/viscous_Nms_per_rad", 0.0, 100.0);
+  robot.hole_radius_m = file.number("/cables/hole_radius_m", 0.001, 0.5);
+  robot.face_offset_m = file.number("/cables/face_offset_m", 0.0, 0.5);
+  robot.cable_EA_N = file.number("/cables/EA_N", 1e3, 1e8);
+  robot.lead_m = file.number("/cables/lead_m", 0.01, 10.0);
+  for (const auto& name : file.keys("/cables/friction_mu")) robot.friction_mu[name] = file.number("/cables/friction_mu/" + name, 0.0, 0.5);
+}
+
+void read_drives(const JsonFile& file, RobotConfig& robot) {
+  robot.drum_radius_m = file.number("/drives/drum_radius_m", 0.001, 0.5);
+  robot.counts_per_turn = static_cast<std::uint32_t>(file.integer("/drives/counts_per_turn", 256, 1 << 24));
+  robot.gear = file.number("/drives/gear", 0.01, 1000.0);
+  robot.servo_time_constant_s = file.number("/drives/servo_time_constant_s", 0.001, 1.0);
+  robot.rated_torque_Nm = file.number("/drives/rated_torque_Nm", 0.01, 1000.0);
+  robot.vendor = static_cast<std::uint32_t>(file.number("/drives/identity/vendor", 0.0, 4294967295.0));
+  robot.product = static_cast<std::uint32_t>(file.number("/drives/identity/product", 0.0, 4294967295.0));
+  robot.revision = static_cast<std::uint32_t>(file.number("/drives/identity/revision", 0.0, 4294967295.0));
+  std::size_t cables = 0;
+  for (const auto& segment : robot.segments) cables += segment.cable_phase_rad.size();
+  const auto direction = file.numbers("/drives/direction", cables, -1.0, 1.0);
+  const auto zero = file.numbers("/drives/zero_counts", cables, -1e9, 1e9);
+  for (std::size_t i = 0; i < cables; ++i) {
+    if (direction[i] == 0.0) file.fail(at("/drives/direction", i), "is 0; allowed is -1 or 1");
+    robot.drives.push_back({direction[i] > 0.0 ? 1 : -1, zero[i]});
+  }
+}
+
+}  // namespace
+
+double RobotConfig::metres_per_count() const { return 2.0 * kPi * drum_radius_m / (counts_per_turn * gear); }
+
+double RobotConfig::path_at_zero_m(std::size_t segment) const {
+  double path = 0.0;
+  for (std::size_t j = 0; j <= segment; ++j) path += segments[j].modules * segments[j].module_length_m;
+  return path - (segments[segment].module_length_m - 2.0 * face_offset_m);
+}
+
+RobotConfig load_robot(const std::string& path) {
+  const JsonFile file(path, "robot");
+  RobotConfig robot;
+  read_segments(file, robot);
+  read_mechanics(file, robot);
+  read_drives(file, robot);
+  for (const auto& name : file.keys("/named_poses_deg")) {
+    auto pose = file.numbers("/named_poses_deg/" + name, robot.theta_count(), -90.0, 90.0);
+    for (auto& angle : pose) angle *= kRadPerDeg;
+    robot.named_poses_rad[name] = pose;
+  }
+  return robot;
+}
+
+}  // namespace liana::bench

@@ -1,0 +1,57 @@
+// The robot table as the bench reads it from JSON (docs/formats.md). SI units, radians.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace liana::bench {
+
+// One segment: `modules` universal joints bent by the same two angles; odd modules turn pitch first.
+struct SegmentConfig {
+  int modules = 0;
+  double module_length_m = 0.0;
+  double theta_limit_rad = 0.0;
+  std::vector<double> cable_phase_rad;
+};
+
+// What a drive is told about itself; one per cable.
+struct DriveConfig {
+  int direction = 1;         // +1: counts grow while cable is paid out
+  double zero_counts = 0.0;  // counts at payout = path at the zero pose + lead
+};
+
+struct RobotConfig {
+  std::vector<SegmentConfig> segments;
+  double module_mass_kg = 0.0;
+  double module_radius_m = 0.0;
+  double viscous_Nms_per_rad = 0.0;  // per theta
+  double hole_radius_m = 0.0;
+  double face_offset_m = 0.0;
+  double cable_EA_N = 0.0;
+  double lead_m = 0.0;
+  std::map<std::string, double> friction_mu;  // by physics name
+  double drum_radius_m = 0.0;
+  std::uint32_t counts_per_turn = 0;
+  double gear = 1.0;
+  double servo_time_constant_s = 0.0;
+  double rated_torque_Nm = 0.0;
+  std::uint32_t vendor = 0;
+  std::uint32_t product = 0;
+  std::uint32_t revision = 0;
+  std::vector<DriveConfig> drives;
+  std::map<std::string, std::vector<double>> named_poses_rad;
+
+  std::size_t theta_count() const { return 2 * segments.size(); }
+  std::size_t cable_count() const { return drives.size(); }
+  // Cable paid out per encoder count [m].
+  double metres_per_count() const;
+  // The table's path of a cable that ends in `segment`, arm straight [m].
+  double path_at_zero_m(std::size_t segment) const;
+};
+
+// Reads and checks a robot; throws std::runtime_error naming file, field, value and allowed range.
+RobotConfig load_robot(const std::string& path);
+
+}  // namespace liana::bench

@@ -1,0 +1,97 @@
+#include "hil/config/scene_config.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "hil/config/json_file.hpp"
+
+namespace liana::bench {
+
+namespace {
+
+constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
+
+std::string at(const std::string& list, std::size_t i) { return list + "/" + std::to_string(i); }
+
+BoxConfig read_box(const JsonFile& file, const std::string& field) {
+  BoxConfig box;
+  box.name = file.text(field + "/name");
+  box.center_m = file.vector(field + "/center_m");
+  const auto half = file.numbers(field + "/half_extent_m", 3, 1e-4, 100.0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.half_extent_m[k] = half[k];
+    box.axis[k] = file.vector(at(field + "/rotation", k));
+    if (std::fabs(norm(box.axis[k]) - 1.0) > 1e-6) file.fail(at(field + "/rotation", k), "must be a unit vector to 1e-6");
+  }
+  if (norm(cross(box.axis[0], box.axis[1]) - box.axis[2]) > 1e-6) file.fail(field + "/rotation", "must be right-handed and orthogonal");
+  return box;
+}
+
+CameraConfig read_camera(const JsonFile& file) {
+  return {file.number("/camera/rate_hz", 0.1, 1000.0), file.number("/camera/latency_s", 0.0, 10.0),
+          file.number("/camera/noise_m", 0.0, 1.0), kRadPerDeg * file.number("/camera/noise_deg", 0.0, 45.0),
+          file.number("/camera/range_m", 0.0, 1000.0)};
+}
+
+FaultKind read_kind(const JsonFile& file, const std::string& field) {
+  const std::string kind = file.text(field);
+  const std::pair<const char*, FaultKind> names[] = {{"missing", FaultKind::kMissing}, {"wrong_identity", FaultKind::kWrongIdentity},
+                                                     {"silent", FaultKind::kSilent},   {"fault", FaultKind::kFault},
+                                                     {"sto", FaultKind::kSto},         {"slack", FaultKind::kSlack}};
+  for (const auto& [name, value] : names)
+    if (kind == name) return value;
+  file.fail(field, "is \"" + kind + "\"; allowed are missing, wrong_identity, silent, fault, sto, slack");
+}
+
+}  // namespace
+
+SceneConfig load_scene(const std::string& path) {
+  const JsonFile file(path, "scene");
+  SceneConfig scene;
+  for (std::size_t i = 0; i < file.size("/boxes"); ++i) scene.boxes.push_back(read_box(file, at("/boxes", i)));
+  for (std::size_t i = 0; i < file.size("/spheres"); ++i) {
+    const std::string field = at("/spheres", i);
+    scene.spheres.push_back({file.text(field + "/name"), file.vector(field + "/center_m"), file.number(field + "/radius_m", 1e-4, 100.0)});
+  }
+  scene.slit_frame = file.pose("/slit/frame");
+  scene.rod = {file.pose("/rod"), file.number("/rod/radius_m", 1e-4, 1.0), file.number("/rod/stiffness_N_per_m", 0.0, 1e5)};
+  scene.camera = read_camera(file);
+  scene.contact = {file.number("/contact/stiffness_N_per_m", 1.0, 1e5), file.number("/contact/damping_Ns_per_m", 0.0, 1e4),
+                   file.number("/contact/friction", 0.0, 2.0)};
+  return scene;
+}
+
+BusesConfig load_buses(const std::string& path) {
+  const JsonFile file(path, "buses");
+  BusesConfig buses;
+  buses.period_us = static_cast<std::uint32_t>(std::lround(1e6 / file.number("/rate_hz", 10.0, 1000.0)));
+  const std::size_t count = file.size("/buses");
+  if (count < 1 || count > 8) file.fail("/buses", "has " + std::to_string(count) + " entries, allowed is 1 to 8");
+  for (std::size_t b = 0; b < count; ++b) {
+    buses.names.push_back(file.text(at("/buses", b) + "/name"));
+    buses.nodes.emplace_back();
+    const std::string nodes = at("/buses", b) + "/nodes";
+    for (std::size_t i = 0; i < file.size(nodes); ++i) buses.nodes.back().push_back(file.integer(at(nodes, i), 1, 126));
+  }
+  return buses;
+}
+
+std::size_t BusesConfig::bus_of(int node) const {
+  for (std::size_t b = 0; b < nodes.size(); ++b)
+    for (const int candidate : nodes[b])
+      if (candidate == node) return b;
+  throw std::runtime_error("bus table: node " + std::to_string(node) + " is on no bus; add it to one bus's \"nodes\"");
+}
+
+std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count) {
+  const JsonFile file(path, "");
+  std::vector<FaultConfig> faults;
+  for (std::size_t i = 0; i < file.size(""); ++i) {
+    const std::string field = at("", i);
+    faults.push_back({static_cast<std::size_t>(file.integer(field + "/drive", 0, static_cast<int>(drive_count) - 1)),
+                      read_kind(file, field + "/kind"), static_cast<std::uint32_t>(file.integer(field + "/at_slot", 0, 2000000000))});
+  }
+  return faults;
+}
+
+}  // namespace liana::bench

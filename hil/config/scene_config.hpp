@@ -1,0 +1,78 @@
+// Scene, bus table and fault list as the bench reads them (docs/formats.md).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hil/math/vec3.hpp"
+
+namespace liana::bench {
+
+// A box; `axis` are its three unit axes in base coordinates.
+struct BoxConfig {
+  std::string name;
+  Vec3 center_m;
+  std::array<double, 3> half_extent_m{};
+  std::array<Vec3, 3> axis{};
+};
+
+struct SphereConfig {
+  std::string name;
+  Vec3 center_m;
+  double radius_m = 0.0;
+};
+
+struct RodConfig {
+  Pose pose;  // base frame; the rod is pressed along its x axis
+  double radius_m = 0.0;
+  double stiffness_N_per_m = 0.0;
+};
+
+struct CameraConfig {
+  double rate_hz = 25.0;
+  double latency_s = 0.1;
+  double noise_m = 0.0;
+  double noise_rad = 0.0;
+  double range_m = 0.0;
+};
+
+struct ContactConfig {
+  double stiffness_N_per_m = 0.0;
+  double damping_Ns_per_m = 0.0;
+  double friction = 0.0;
+};
+
+struct SceneConfig {
+  std::vector<BoxConfig> boxes;
+  std::vector<SphereConfig> spheres;
+  Pose slit_frame;  // base frame
+  RodConfig rod;
+  CameraConfig camera;
+  ContactConfig contact;
+};
+
+// Which node sits on which bus, and the SYNC period.
+struct BusesConfig {
+  std::vector<std::string> names;
+  std::vector<std::vector<int>> nodes;
+  std::uint32_t period_us = 4000;
+  // Bus of a node (0-based); throws std::runtime_error when it is on none.
+  std::size_t bus_of(int node) const;
+};
+
+enum class FaultKind { kMissing, kWrongIdentity, kSilent, kFault, kSto, kSlack };
+
+struct FaultConfig {
+  std::size_t drive = 0;
+  FaultKind kind = FaultKind::kFault;
+  std::uint32_t at_slot = 0;
+};
+
+// All loaders throw std::runtime_error naming file, field, value and allowed range.
+SceneConfig load_scene(const std::string& path);
+BusesConfig load_buses(const std::string& path);
+std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count);
+
+}  // namespace liana::bench

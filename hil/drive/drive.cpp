@@ -1,0 +1,205 @@
+#include "hil/drive/drive.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace liana::bench {
+
+namespace {
+
+constexpr std::uint16_t kPdoTooShort = 0x8210;
+
+}  // namespace
+
+Drive::Drive(const DriveSettings& settings, double start_counts)
+    : settings_(settings),
+      objects_(make_objects(settings)),
+      sdo_(
+          objects_, [this](const Object& o, std::int64_t v) { return guard(o, v); }, [this](const Object& o) { written(o); }),
+      motor_(settings.servo_time_constant_s, settings.pull_direction, start_counts) {
+  rebuild_pdos();
+  sample();
+  objects_.set(0x607A, 0, objects_.get(0x6064));
+}
+
+// ---- frames -------------------------------------------------------------------------------------------------------------------
+
+void Drive::receive(const CanFrame& frame, FrameList& out) {
+  if (dead_) return;
+  ++counts_.received;
+  now_us_ = std::max(now_us_, frame.time_us);
+  const auto node = static_cast<std::uint32_t>(settings_.node);
+  if (frame.id == 0x000) return handle_nmt(frame, out);
+  if (frame.id == 0x080) return handle_sync(out);
+  if (frame.id == 0x600 + node) {
+    CanFrame response;
+    response.id = 0x580 + node;
+    sample();
+    const bool listens = nmt_ == NmtState::kPreOperational || nmt_ == NmtState::kOperational;
+    if (listens && sdo_.answer(frame, response)) send(response, out);
+    return;
+  }
+  if (frame.id > 0x700 && frame.id < 0x780) return handle_heartbeat(frame, out);
+  handle_rpdo(frame, out);
+}
+
+void Drive::send(CanFrame frame, FrameList& out) {
+  if (silent_ || dead_) return;
+  frame.bus = settings_.bus;
+  out.push_back(frame);
+  ++counts_.sent;
+}
+
+void Drive::send_emergency(std::uint16_t code, FrameList& out) {
+  ++counts_.emergencies;
+  CanFrame frame;
+  frame.id = 0x080 + static_cast<std::uint32_t>(settings_.node);
+  frame.length = 8;
+  put_little_endian(frame.data.data(), 2, code);
+  frame.data[2] = static_cast<std::uint8_t>(objects_.get(0x1001));
+  send(frame, out);
+  if (code == 0) return;
+  objects_.set(0x1003, 0, 1);
+  objects_.set(0x1003, 1, code);
+}
+
+// ---- network management -------------------------------------------------------------------------------------------------------
+
+void Drive::handle_nmt(const CanFrame& frame, FrameList& out) {
+  if (frame.length != 2 || (frame.data[1] != 0 && frame.data[1] != settings_.node)) return;
+  switch (frame.data[0]) {
+    case 0x01:
+      return enter_nmt(NmtState::kOperational);
+    case 0x02:
+      return enter_nmt(NmtState::kStopped);
+    case 0x80:
+      return enter_nmt(NmtState::kPreOperational);
+    case 0x81:
+    case 0x82:
+      return reset_communication(out);
+    default:
+      return;
+  }
+}
+
+void Drive::enter_nmt(NmtState state) {
+  nmt_ = state;
+  targets_.armed = false;
+  pending_ = {};
+  if (state != NmtState::kOperational) stop_by_itself();  // 6007: without PDOs nobody steers
+}
+
+// Both resets: communication objects get their power-on values, the brake closes, boot-up is sent again.
+void Drive::reset_communication(FrameList& out) {
+  const ObjectDictionary fresh = make_objects(settings_);
+  for (std::uint16_t number = 0; number < kPdoCount; ++number) {
+    for (const int page : {0x1400, 0x1600, 0x1800, 0x1A00}) {
+      const auto index = static_cast<std::uint16_t>(page + number);
+      for (std::uint8_t sub = 0; sub <= 8; ++sub)
+        if (const Object* object = fresh.find(index, sub)) objects_.set(index, sub, object->value);
+    }
+  }
+  objects_.set(0x1016, 1, 0);
+  objects_.set(0x1017, 0, 0);
+  objects_.set(0x1001, 0, 0);
+  rebuild_pdos();
+  master_ = {};
+  targets_ = {};
+  pending_ = {};
+  connection_lost_ = targets_lost_ = false;
+  if (power_ != PowerState::kFault) enter_power(PowerState::kSwitchOnDisabled);
+  CanFrame boot_up;
+  boot_up.id = 0x700 + static_cast<std::uint32_t>(settings_.node);
+  boot_up.length = 1;
+  send(boot_up, out);
+  nmt_ = NmtState::kPreOperational;
+}
+
+void Drive::handle_heartbeat(const CanFrame& frame, FrameList& out) {
+  const auto producer = static_cast<std::uint32_t>(objects_.get(0x1016, 1) >> 16) & 0x7F;
+  if (producer == 0 || frame.id != 0x700 + producer) return;
+  master_ = {true, now_us_};
+  if (connection_lost_ && !targets_lost_) connection_back(out);
+}
+
+// ---- objects ------------------------------------------------------------------------------------------------------------------
+
+std::uint32_t Drive::guard(const Object& object, std::int64_t value) const {
+  if (is_pdo_object(object.index)) {
+    if (nmt_ != NmtState::kPreOperational) return abort_code::kDeviceState;
+    return check_pdo_write(objects_, object, value);
+  }
+  if (object.index == 0x6060 && value != kCyclicSynchronousPosition) return abort_code::kValue;
+  return abort_code::kNone;
+}
+
+void Drive::written(const Object& object) {
+  if (is_pdo_object(object.index)) return rebuild_pdos();
+  if (object.index == 0x1016) master_ = {};
+  if (object.index == 0x1017) next_heartbeat_us_ = now_us_;
+  if (object.index == 0x6060) objects_.set(0x6061, 0, object.value);
+  if (object.index == 0x6040) act_on_controlword(static_cast<std::uint16_t>(object.value));
+}
+
+void Drive::rebuild_pdos() {
+  receive_pdos_.clear();
+  transmit_pdos_.clear();
+  for (std::uint16_t number = 0; number < kPdoCount; ++number) {
+    receive_pdos_.emplace_back(objects_, number, true);
+    transmit_pdos_.emplace_back(objects_, number, false);
+  }
+}
+
+// ---- process data -------------------------------------------------------------------------------------------------------------
+
+void Drive::handle_rpdo(const CanFrame& frame, FrameList& out) {
+  if (nmt_ != NmtState::kOperational) return;
+  for (std::size_t i = 0; i < receive_pdos_.size(); ++i) {
+    const Pdo& pdo = receive_pdos_[i];
+    if (!pdo.enabled() || pdo.length() == 0 || pdo.cob_id() != frame.id) continue;
+    if (frame.length < pdo.length()) return send_emergency(kPdoTooShort, out);
+    ++counts_.rpdos;
+    pending_[i] = frame;
+    if (i == 0) targets_ = {true, now_us_};
+    targets_lost_ = false;
+    if (connection_lost_) connection_back(out);
+  }
+}
+
+// Targets that came since the last SYNC act now, and what is sent is what is now.
+void Drive::handle_sync(FrameList& out) {
+  ++counts_.syncs;
+  if (nmt_ != NmtState::kOperational) return;
+  for (std::size_t i = 0; i < pending_.size(); ++i) {
+    if (!pending_[i]) continue;
+    receive_pdos_[i].unpack(*pending_[i]);
+    pending_[i].reset();
+    act_on_controlword(static_cast<std::uint16_t>(objects_.get(0x6040)));
+  }
+  motor_.set_target(static_cast<double>(objects_.get(0x607A)));
+  sample();
+  for (const Pdo& pdo : transmit_pdos_)
+    if (pdo.enabled() && pdo.length() > 0 && counts_.syncs % pdo.every_nth_sync() == 0) send(pdo.pack(), out);
+}
+
+void Drive::sample() {
+  const double position = motor_.position_counts();
+  objects_.set(0x6064, 0, std::llround(position));
+  objects_.set(0x606C, 0, std::llround(motor_.velocity_counts_per_s()));
+  objects_.set(0x6077, 0, std::clamp<std::int64_t>(std::llround(measured_permille_), -32768, 32767));
+  objects_.set(0x6062, 0, objects_.get(0x607A));
+  objects_.set(0x60F4, 0, objects_.get(0x607A) - objects_.get(0x6064));
+  objects_.set(0x6041, 0, statusword());
+}
+
+std::uint16_t Drive::statusword() const {
+  unsigned word = state_bits(power_);
+  if (!safe_torque_off_) word |= 0x0010;                                                                              // voltage enabled
+  if (nmt_ == NmtState::kOperational) word |= 0x0200;                                                                 // remote
+  if (motor_.at_torque_limit()) word |= 0x0800;                                                                       // internal limit
+  if (power_ == PowerState::kOperationEnabled && objects_.get(0x6061) == kCyclicSynchronousPosition) word |= 0x1000;  // follows the target
+  if (following_error_) word |= 0x2000;
+  return static_cast<std::uint16_t>(word);
+}
+
+}  // namespace liana::bench

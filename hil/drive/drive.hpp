@@ -1,0 +1,114 @@
+// One simulated CiA 402 drive: a CANopen node with a motor and a brake (docs/drives.md).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "hil/drive/can_frame.hpp"
+#include "hil/drive/cia402.hpp"
+#include "hil/drive/drive_objects.hpp"
+#include "hil/drive/pdo.hpp"
+#include "hil/drive/sdo_server.hpp"
+#include "hil/drive/servo_motor.hpp"
+
+namespace liana::bench {
+
+constexpr int kCyclicSynchronousPosition = 8;  // 6060
+
+enum class NmtState : std::uint8_t { kInitialising = 0, kStopped = 4, kOperational = 5, kPreOperational = 0x7F };
+
+// What went over the wire and what the drive did; for the summary.
+struct DriveCounts {
+  std::uint64_t received = 0;
+  std::uint64_t sent = 0;
+  std::uint64_t syncs = 0;
+  std::uint64_t rpdos = 0;
+  std::uint64_t emergencies = 0;
+  std::uint64_t quick_stops = 0;
+  std::uint64_t sdo_aborts = 0;
+};
+
+class Drive {
+ public:
+  Drive(const DriveSettings& settings, double start_counts);
+  Drive(const Drive&) = delete;
+  Drive& operator=(const Drive&) = delete;
+
+  // A frame from the bus; what the drive sends in answer is appended to `out`.
+  void receive(const CanFrame& frame, FrameList& out);
+  // Timers, supervision and the end of ramps; call at least once a SYNC period, after receive().
+  void tick(std::uint64_t now_us, FrameList& out);
+  // Motor and brake, one physics step under the load.
+  void move(double step_s, double load_permille);
+  // What the torque sensor reads now [permille of rated].
+  void set_measured_torque(double permille) { measured_permille_ = permille; }
+
+  // Faults from outside.
+  void power_off();                      // dead: brake on, nothing heard or sent
+  void set_silent() { silent_ = true; }  // acts, but sends nothing
+  void set_safe_torque_off();            // STO line open: brake on, stays disabled
+  void raise_fault(std::uint16_t emergency_code);
+  void set_identity(std::uint32_t product) { objects_.set(0x1018, 2, product); }
+
+  PowerState power_state() const { return power_; }
+  NmtState nmt_state() const { return nmt_; }
+  const ServoMotor& motor() const { return motor_; }
+  std::uint8_t bus() const { return settings_.bus; }
+  int node() const { return settings_.node; }
+  DriveCounts counts() const;
+  // The statusword as it would be sent.
+  std::uint16_t statusword() const;
+
+ private:
+  std::uint32_t guard(const Object& object, std::int64_t value) const;
+  void written(const Object& object);
+  void handle_nmt(const CanFrame& frame, FrameList& out);
+  void reset_communication(FrameList& out);
+  void enter_nmt(NmtState state);
+  void handle_sync(FrameList& out);
+  void handle_rpdo(const CanFrame& frame, FrameList& out);
+  void handle_heartbeat(const CanFrame& frame, FrameList& out);
+  void rebuild_pdos();
+  void act_on_controlword(std::uint16_t controlword);
+  void enter_power(PowerState state);
+  void stop_by_itself();
+  void connection_lost(std::uint16_t code, FrameList& out);
+  void connection_back(FrameList& out);
+  void supervise_following(std::uint64_t now_us);
+  void sample();
+  void send(CanFrame frame, FrameList& out);
+  void send_emergency(std::uint16_t code, FrameList& out);
+
+  struct Supervised {
+    bool armed = false;
+    std::uint64_t last_us = 0;
+  };
+
+  DriveSettings settings_;
+  ObjectDictionary objects_;
+  SdoServer sdo_;
+  ServoMotor motor_;
+  std::vector<Pdo> receive_pdos_;
+  std::vector<Pdo> transmit_pdos_;
+  std::array<std::optional<CanFrame>, kPdoCount> pending_;
+  NmtState nmt_ = NmtState::kInitialising;
+  PowerState power_ = PowerState::kSwitchOnDisabled;
+  std::uint16_t controlword_ = 0;
+  bool dead_ = false;
+  bool silent_ = false;
+  bool safe_torque_off_ = false;
+  bool connection_lost_ = false;
+  bool targets_lost_ = false;  // of it the RPDO half: a heartbeat alone does not bring it back
+  double measured_permille_ = 0.0;
+  std::uint64_t now_us_ = 0;
+  std::uint64_t next_heartbeat_us_ = 0;
+  std::uint64_t following_since_us_ = 0;
+  bool following_error_ = false;
+  Supervised master_;
+  Supervised targets_;
+  std::vector<std::uint16_t> emergencies_;  // to be sent by the next tick
+  DriveCounts counts_;
+};
+
+}  // namespace liana::bench

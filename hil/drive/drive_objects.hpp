@@ -1,0 +1,26 @@
+// The table of objects a simulated drive has (docs/drives.md).
+#pragma once
+
+#include <cstdint>
+
+#include "hil/drive/object_dictionary.hpp"
+
+namespace liana::bench {
+
+// What differs from drive to drive.
+struct DriveSettings {
+  int node = 1;  // 1..126
+  std::uint8_t bus = 0;
+  std::uint32_t vendor = 0;
+  std::uint32_t product = 0;
+  std::uint32_t revision = 0;
+  std::uint32_t counts_per_turn = 65536;
+  std::uint32_t rated_torque_mNm = 9000;
+  double servo_time_constant_s = 0.03;
+  int pull_direction = -1;  // sign of counts that winds cable up
+};
+
+// Power-on values: PDO 1 of each direction enabled with its predefined COB-ID and no mapping, PDOs 2 to 4 disabled.
+ObjectDictionary make_objects(const DriveSettings& settings);
+
+}  // namespace liana::bench

@@ -1,0 +1,153 @@
+// The part of a drive that decides about power: CiA 402 commands, faults, lost connections, following error.
+#include <algorithm>
+#include <cmath>
+
+#include "hil/drive/drive.hpp"
+
+namespace liana::bench {
+
+namespace {
+
+constexpr std::uint16_t kHeartbeatLost = 0x8130;
+constexpr std::uint16_t kTargetsLost = 0x8250;
+constexpr std::uint16_t kFollowingError = 0x8611;
+constexpr std::uint16_t kSafeTorqueOff = 0xFF01;  // vendor code
+constexpr std::uint8_t kGenericError = 0x01;
+constexpr std::uint8_t kCommunicationError = 0x10;
+
+}  // namespace
+
+// ---- power --------------------------------------------------------------------------------------------------------------------
+
+void Drive::act_on_controlword(std::uint16_t controlword) {
+  const bool reset_edge = (controlword & 0x80) != 0 && (controlword_ & 0x80) == 0;
+  controlword_ = controlword;
+  if (power_ == PowerState::kFault) {
+    if (!reset_edge) return;
+    objects_.set(0x603F, 0, 0);
+    objects_.set(0x1001, 0, 0);
+    emergencies_.push_back(0);
+    return enter_power(PowerState::kSwitchOnDisabled);
+  }
+  if (safe_torque_off_) return;
+  const PowerState next = next_state(power_, decode_command(controlword));
+  const bool mode_missing = next == PowerState::kOperationEnabled && objects_.get(0x6061) != kCyclicSynchronousPosition;
+  if (next != power_ && !mode_missing) enter_power(next);
+}
+
+void Drive::enter_power(PowerState state) {
+  power_ = state;
+  following_error_ = false;
+  following_since_us_ = now_us_;
+  switch (state) {
+    case PowerState::kOperationEnabled:
+      return motor_.set_mode(MotorMode::kFollow);
+    case PowerState::kQuickStopActive:
+      ++counts_.quick_stops;
+      [[fallthrough]];
+    case PowerState::kFaultReactionActive:
+      motor_.set_deceleration(static_cast<double>(objects_.get(0x6085)));
+      return motor_.set_mode(MotorMode::kRamp);
+    default:
+      return motor_.set_mode(MotorMode::kBraked);
+  }
+}
+
+// Quick stop when moving, switch-on disabled when only switched on.
+void Drive::stop_by_itself() {
+  if (power_ == PowerState::kOperationEnabled) return enter_power(PowerState::kQuickStopActive);
+  if (power_ == PowerState::kReadyToSwitchOn || power_ == PowerState::kSwitchedOn) enter_power(PowerState::kSwitchOnDisabled);
+}
+
+void Drive::raise_fault(std::uint16_t emergency_code) {
+  if (power_ == PowerState::kFault || power_ == PowerState::kFaultReactionActive) return;
+  objects_.set(0x603F, 0, emergency_code);
+  objects_.set(0x1001, 0, objects_.get(0x1001) | kGenericError);
+  emergencies_.push_back(emergency_code);
+  enter_power(PowerState::kFaultReactionActive);
+}
+
+void Drive::set_safe_torque_off() {
+  if (safe_torque_off_) return;
+  safe_torque_off_ = true;
+  emergencies_.push_back(kSafeTorqueOff);
+  if (power_ != PowerState::kFault) enter_power(PowerState::kSwitchOnDisabled);
+}
+
+void Drive::power_off() {
+  dead_ = true;
+  enter_power(PowerState::kSwitchOnDisabled);
+}
+
+// ---- time ---------------------------------------------------------------------------------------------------------------------
+
+void Drive::connection_lost(std::uint16_t code, FrameList& out) {
+  connection_lost_ = true;
+  objects_.set(0x1001, 0, objects_.get(0x1001) | kCommunicationError);
+  send_emergency(code, out);
+  stop_by_itself();
+}
+
+void Drive::connection_back(FrameList& out) {
+  const std::uint64_t allowed_us = 1000 * static_cast<std::uint64_t>(objects_.get(0x1016, 1) & 0xFFFF);
+  if (allowed_us != 0 && now_us_ - master_.last_us > allowed_us) return;  // only half of it is back
+  connection_lost_ = false;
+  objects_.set(0x1001, 0, objects_.get(0x1001) & ~static_cast<std::int64_t>(kCommunicationError));
+  send_emergency(0, out);
+}
+
+void Drive::supervise_following(std::uint64_t now_us) {
+  const double window = static_cast<double>(objects_.get(0x6065));
+  const double error = std::fabs(static_cast<double>(objects_.get(0x607A)) - motor_.position_counts());
+  if (power_ != PowerState::kOperationEnabled || error <= window) {
+    following_since_us_ = now_us;
+    following_error_ = false;
+    return;
+  }
+  following_error_ = true;
+  if (now_us - following_since_us_ >= 1000 * static_cast<std::uint64_t>(objects_.get(0x6066))) raise_fault(kFollowingError);
+}
+
+void Drive::tick(std::uint64_t now_us, FrameList& out) {
+  if (dead_) return;
+  now_us_ = std::max(now_us_, now_us);
+  if (nmt_ == NmtState::kInitialising) reset_communication(out);
+
+  const std::uint64_t heartbeat_us = 1000 * static_cast<std::uint64_t>(objects_.get(0x1017));
+  if (heartbeat_us != 0 && now_us_ >= next_heartbeat_us_) {
+    next_heartbeat_us_ = std::max(next_heartbeat_us_ + heartbeat_us, now_us_ + heartbeat_us / 2);
+    CanFrame heartbeat;
+    heartbeat.id = 0x700 + static_cast<std::uint32_t>(settings_.node);
+    heartbeat.length = 1;
+    heartbeat.data[0] = static_cast<std::uint8_t>(nmt_);
+    send(heartbeat, out);
+  }
+  const std::uint64_t allowed_us = 1000 * static_cast<std::uint64_t>(objects_.get(0x1016, 1) & 0xFFFF);
+  if (master_.armed && allowed_us != 0 && now_us_ - master_.last_us > allowed_us) {
+    master_.armed = false;
+    connection_lost(kHeartbeatLost, out);
+  }
+  const std::uint64_t deadline_us = receive_pdos_[0].deadline_us();
+  if (targets_.armed && deadline_us != 0 && now_us_ - targets_.last_us > deadline_us) {
+    targets_.armed = false;
+    targets_lost_ = true;
+    connection_lost(kTargetsLost, out);
+  }
+  supervise_following(now_us_);
+
+  const bool ramp_done = motor_.velocity_counts_per_s() == 0.0;
+  if (power_ == PowerState::kQuickStopActive && ramp_done) enter_power(PowerState::kSwitchOnDisabled);
+  if (power_ == PowerState::kFaultReactionActive && ramp_done) enter_power(PowerState::kFault);
+  for (const std::uint16_t code : emergencies_) send_emergency(code, out);
+  emergencies_.clear();
+}
+
+void Drive::move(double step_s, double load_permille) { motor_.step(step_s, load_permille, static_cast<double>(objects_.get(0x6072))); }
+
+DriveCounts Drive::counts() const {
+  DriveCounts counts = counts_;
+  counts.sdo_aborts = sdo_.abort_count();
+  return counts;
+}
+
+}  // namespace liana::bench

@@ -1,0 +1,77 @@
+#include "hil/drive/object_dictionary.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "hil/drive/can_frame.hpp"
+
+namespace liana::bench {
+
+std::size_t size_of(ObjectType type) {
+  switch (type) {
+    case ObjectType::kU8:
+    case ObjectType::kI8:
+      return 1;
+    case ObjectType::kU16:
+    case ObjectType::kI16:
+      return 2;
+    case ObjectType::kU32:
+    case ObjectType::kI32:
+      return 4;
+    case ObjectType::kText:
+      break;
+  }
+  return 0;
+}
+
+std::int64_t decode(ObjectType type, const std::uint8_t* bytes) {
+  const std::uint64_t raw = get_little_endian(bytes, size_of(type));
+  switch (type) {
+    case ObjectType::kI8:
+      return static_cast<std::int8_t>(raw);
+    case ObjectType::kI16:
+      return static_cast<std::int16_t>(raw);
+    case ObjectType::kI32:
+      return static_cast<std::int32_t>(raw);
+    default:
+      return static_cast<std::int64_t>(raw);
+  }
+}
+
+ObjectDictionary::ObjectDictionary(std::vector<Object> objects) : objects_(std::move(objects)) {
+  std::sort(objects_.begin(), objects_.end(),
+            [](const Object& a, const Object& b) { return std::tie(a.index, a.sub) < std::tie(b.index, b.sub); });
+}
+
+const Object* ObjectDictionary::find(std::uint16_t index, std::uint8_t sub) const {
+  const auto found = std::lower_bound(objects_.begin(), objects_.end(), std::pair(index, sub),
+                                      [](const Object& object, const auto& key) { return std::pair(object.index, object.sub) < key; });
+  return found != objects_.end() && found->index == index && found->sub == sub ? &*found : nullptr;
+}
+
+Object* ObjectDictionary::find(std::uint16_t index, std::uint8_t sub) { return const_cast<Object*>(std::as_const(*this).find(index, sub)); }
+
+std::uint32_t ObjectDictionary::missing(std::uint16_t index) const {
+  const bool known = std::any_of(objects_.begin(), objects_.end(), [index](const Object& object) { return object.index == index; });
+  return known ? abort_code::kNoSub : abort_code::kNoObject;
+}
+
+std::uint32_t ObjectDictionary::check_read(std::uint16_t index, std::uint8_t sub) const {
+  const Object* object = find(index, sub);
+  if (object == nullptr) return missing(index);
+  return object->access == Access::kWriteOnly ? abort_code::kWriteOnly : abort_code::kNone;
+}
+
+std::uint32_t ObjectDictionary::check_write(std::uint16_t index, std::uint8_t sub, const std::uint8_t* bytes, std::size_t size) const {
+  const Object* object = find(index, sub);
+  if (object == nullptr) return missing(index);
+  if (object->access == Access::kReadOnly) return abort_code::kReadOnly;
+  if (size != size_of(object->type)) return size > size_of(object->type) ? abort_code::kTooLong : abort_code::kTooShort;
+  const std::int64_t value = decode(object->type, bytes);
+  if (value > object->high) return abort_code::kTooHigh;
+  if (value < object->low) return abort_code::kTooLow;
+  return abort_code::kNone;
+}
+
+}  // namespace liana::bench

@@ -1,0 +1,94 @@
+// liana-bench: simulated drives and arm on the other end of the bus.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hil/bench/bench.hpp"
+#include "hil/bus/embedded_bus.hpp"
+#include "hil/bus/socketcan_bus.hpp"
+
+namespace {
+
+constexpr double kRunOn_s = 0.5;  // longer than every deadline of the drives
+
+struct Paths {
+  std::string robot;
+  std::string scene;
+  std::string buses;
+  std::string faults;
+  std::string bus_socket;
+  std::string can;
+};
+
+void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, bool& no_spread) {
+  app.add_option("--robot", paths.robot, "robot JSON")->required();
+  app.add_option("--scene", paths.scene, "scene JSON")->required();
+  app.add_option("--buses", paths.buses, "bus table JSON")->required();
+  auto* socket = app.add_option("--bus-socket", paths.bus_socket, "socket of liana-bus");
+  auto* can = app.add_option("--can", paths.can, "SocketCAN interfaces, e.g. vcan0,vcan1; alone: the bus table's names")->expected(0, 1);
+  socket->excludes(can);
+  app.add_option("--api", options.api_socket, "API socket of lianad, for the tip camera");
+  app.add_option("--physics", options.physics, "friction: nominal, ideal or worn")->capture_default_str();
+  app.add_option("--seed", options.seed, "true parameters, start offset and noise")->capture_default_str();
+  app.add_option("--truth", options.truth_path, "write truth rows here");
+  app.add_option("--summary", options.summary_path, "write a JSON summary here at the end");
+  app.add_option("--faults", paths.faults, "JSON list of faults to inject");
+  app.add_option("--start-pose", options.start_pose, "named pose to start from")->capture_default_str();
+  app.add_option("--run-on", options.run_on_s, "seconds that drives and arm go on after the bus has ended, in truth and summary")
+      ->check(CLI::Range(0.0, 60.0))
+      ->capture_default_str();
+  app.add_flag("--no-spread", no_spread, "the arm is exactly as the table says (for tests)");
+}
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from <= list.size();) {
+    const std::size_t comma = std::min(list.find(',', from), list.size());
+    parts.push_back(list.substr(from, comma - from));
+    from = comma + 1;
+  }
+  return parts;
+}
+
+std::unique_ptr<liana::bench::Bus> open_bus(const Paths& paths, const liana::bench::BusesConfig& buses) {
+  if (!paths.bus_socket.empty()) return std::make_unique<liana::bench::EmbeddedBus>(paths.bus_socket, buses.period_us, buses.names.size());
+  const auto interfaces = paths.can.empty() ? buses.names : split(paths.can);
+  if (interfaces.size() != buses.names.size())
+    throw std::runtime_error("--can: " + std::to_string(interfaces.size()) + " interfaces for " + std::to_string(buses.names.size()) +
+                             " buses of the table; name one for each");
+  return std::make_unique<liana::bench::SocketCanBus>(interfaces, buses.period_us);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Simulated CiA 402 drives and arm physics on the other end of the bus"};
+  Paths paths;
+  liana::bench::BenchOptions options;
+  bool no_spread = false;
+  options.run_on_s = kRunOn_s;
+  declare(app, paths, options, no_spread);
+  CLI11_PARSE(app, argc, argv);
+  if (paths.bus_socket.empty() && app.count("--can") == 0) {
+    std::cerr << "liana-bench: say where the bus is: --bus-socket PATH or --can [IF,IF]\n";
+    return 2;
+  }
+  liana::bench::end_on_signals();
+  try {
+    options.robot = liana::bench::load_robot(paths.robot);
+    options.scene = liana::bench::load_scene(paths.scene);
+    options.buses = liana::bench::load_buses(paths.buses);
+    if (!paths.faults.empty()) options.faults = liana::bench::load_faults(paths.faults, options.robot.cable_count());
+    options.spread = !no_spread;
+    liana::bench::Bench bench(options);
+    const auto bus = open_bus(paths, options.buses);
+    bench.run(*bus);
+  } catch (const std::exception& error) {
+    std::cerr << "liana-bench: " << error.what() << '\n';
+    return 2;
+  }
+  return 0;
+}

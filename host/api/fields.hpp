@@ -1,0 +1,32 @@
+// Checked reading of request fields; every function throws RequestError naming field, value and allowed range.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "firmware_like/math/pose.hpp"
+
+namespace liana {
+
+// A number in [min, max]: `bad_request` when missing or no number, `out_of_range` outside.
+double number_field(const nlohmann::json& object, const std::string& key, double min, double max);
+// The same, or `fallback` when the key is missing.
+double number_field_or(const nlohmann::json& object, const std::string& key, double min, double max, double fallback);
+// A whole number in [min, max].
+std::int64_t integer_field(const nlohmann::json& object, const std::string& key, std::int64_t min, std::int64_t max);
+// An array of exactly `count` numbers, each in [min, max].
+std::vector<double> numbers_field(const nlohmann::json& object, const std::string& key, std::size_t count, double min, double max);
+// A point in metres, each coordinate within +-reach_m.
+Vec3 point_field(const nlohmann::json& object, const std::string& key, double reach_m);
+// [x,y,z,qw,qx,qy,qz]: coordinates within +-reach_m, quaternion of unit length to 1e-6.
+Pose pose_field(const nlohmann::json& object, const std::string& key, double reach_m);
+// A text of 1 to max_bytes bytes.
+std::string text_field(const nlohmann::json& object, const std::string& key, std::size_t max_bytes);
+// true or false (also 1 or 0).
+bool flag_field(const nlohmann::json& object, const std::string& key);
+// The array under `key`, at most `max_items` long; empty when the key is missing.
+const nlohmann::json& array_field(const nlohmann::json& object, const std::string& key, std::size_t max_items);
+
+}  // namespace liana

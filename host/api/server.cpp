@@ -1,0 +1,271 @@
+#include "host/api/server.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <deque>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "host/api/fields.hpp"
+#include "host/api/request_error.hpp"
+
+namespace liana {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+namespace {
+
+constexpr std::size_t kMaxInbox = 512;    // requests waiting for the next interval; beyond it the client's own sends wait
+constexpr std::size_t kMaxDroppable = 8;  // state or camera messages waiting for a slow subscriber
+constexpr std::size_t kMaxOutbox = 8192;  // packets of any kind waiting
+constexpr std::size_t kMaxClients = 32;
+constexpr std::array<const char*, 6> kRoleNames{"mission", "operator", "camera", "archive", "client", "observer"};
+constexpr std::array<const char*, 3> kTopicNames{"state", "camera", "tick"};
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::string error_packet(const json& request, const std::string& code, const std::string& message) {
+  json answer{{"op", "error"}, {"code", code}, {"message", message}};
+  if (request.is_object() && request.contains("id")) answer["id"] = request["id"];
+  return answer.dump(-1, ' ', false, json::error_handler_t::replace);
+}
+
+std::string op_of(const json& request) {
+  const auto op = request.find("op");
+  return op != request.end() && op->is_string() ? op->get<std::string>() : std::string();
+}
+
+}  // namespace
+
+Role role_of(const std::string& name) {
+  for (std::size_t i = 0; i < kRoleNames.size(); ++i) {
+    if (name == kRoleNames[i]) return static_cast<Role>(i);
+  }
+  throw RequestError("bad_request", "role '" + name + "': allowed mission, operator, camera, archive, client, observer");
+}
+
+const char* role_name(Role role) { return kRoleNames[static_cast<std::size_t>(role)]; }
+
+struct ApiServer::Client {
+  struct Packet {
+    Topic topic;
+    bool droppable;
+    std::string bytes;
+  };
+  UniqueFd fd;
+  ClientInfo info;
+  bool greeted = false;
+  std::string why_closed;  // not empty: to be buried
+  std::array<bool, kTopicNames.size()> subscribed{};
+  std::uint64_t done_tick = 0;
+  bool has_done = false;
+  bool awaited = false;  // was there when waiting began: who joins meanwhile cannot answer a state it never got
+  std::deque<json> inbox;
+  std::deque<Packet> outbox;
+  std::array<std::size_t, kTopicNames.size()> waiting{};
+
+  auto order() const { return std::tie(info.role, info.name, info.id); }
+  bool wants(Topic topic) const { return greeted && why_closed.empty() && subscribed[static_cast<std::size_t>(topic)]; }
+  bool in_lockstep() const { return greeted && info.lockstep && why_closed.empty(); }
+  bool is_done(std::uint64_t tick) const { return has_done && done_tick == tick; }
+  bool late_for(std::uint64_t tick) const { return in_lockstep() && awaited && !is_done(tick); }
+  bool readable(std::uint64_t tick) const { return inbox.size() < kMaxInbox && !(in_lockstep() && is_done(tick)); }
+};
+
+ApiServer::ApiServer(const std::string& path, ApiHandler& handler) : listener_(listen_at(path)), handler_(handler) {}
+ApiServer::~ApiServer() = default;
+
+void ApiServer::pump(double timeout_s) {
+  std::vector<pollfd> polled{{listener_.get(), POLLIN, 0}};
+  for (const auto& client : clients_) {
+    const int in = client->readable(lockstep_tick_) ? POLLIN : 0;
+    const int out = client->outbox.empty() ? 0 : POLLOUT;
+    const bool watched = client->why_closed.empty() && (in | out) != 0;  // a hang-up would wake us again and again
+    polled.push_back({watched ? client->fd.get() : -1, static_cast<short>(in | out), 0});
+  }
+  if (::poll(polled.data(), polled.size(), timeout_s > 0.0 ? static_cast<int>(timeout_s * 1e3) + 1 : 0) <= 0) return;
+  for (std::size_t i = 0; i < clients_.size(); ++i) {
+    const short events = polled[i + 1].revents;
+    if ((events & POLLOUT) != 0) flush(*clients_[i]);
+    if ((events & (POLLIN | POLLHUP | POLLERR)) != 0) read_from(*clients_[i]);
+  }
+  if (polled[0].revents != 0) accept_new();
+}
+
+void ApiServer::accept_new() {
+  const int fd = ::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (fd < 0) return;
+  auto client = std::make_unique<Client>();
+  client->fd = UniqueFd(fd);
+  client->info.id = next_id_++;
+  if (clients_.size() >= kMaxClients) {
+    send_packet(fd, error_packet(json(), "busy", "32 clients are connected already; close one"));
+    return;
+  }
+  clients_.push_back(std::move(client));
+}
+
+void ApiServer::read_from(Client& client) {
+  std::string packet;
+  while (client.why_closed.empty() && client.readable(lockstep_tick_)) {
+    const SocketResult result = receive_packet(client.fd.get(), packet);
+    if (result == SocketResult::kWouldBlock) return;
+    if (result == SocketResult::kClosed) return close(client, "connection closed");
+    take_packet(client, packet);
+  }
+}
+
+void ApiServer::take_packet(Client& client, const std::string& packet) {
+  json request;
+  try {
+    if (packet.size() > kMaxPacketBytes) throw RequestError("bad_request", "packet over 65536 bytes");
+    request = json::parse(packet);
+    if (!request.is_object()) throw RequestError("bad_request", "a request is one JSON object");
+    if (request.contains("id") && !request["id"].is_number_integer()) {
+      request.erase("id");
+      throw RequestError("bad_request", "field 'id': must be a whole number");
+    }
+    const std::string op = op_of(request);
+    if (op == "hello") return greet(client, request);
+    if (!client.greeted) throw RequestError("bad_request", "say hello first: {\"op\":\"hello\",\"name\":...,\"role\":...}");
+    if (op == "done") {
+      client.done_tick = static_cast<std::uint64_t>(integer_field(request, "tick", 0, 1LL << 53));
+      client.has_done = true;
+      return;
+    }
+    client.inbox.push_back(std::move(request));
+  } catch (const RequestError& error) {
+    enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
+  } catch (const json::exception& error) {
+    enqueue(client, Topic::kState, false, error_packet(json(), "bad_request", std::string("not JSON: ") + error.what()));
+  }
+}
+
+void ApiServer::greet(Client& client, const json& request) {
+  if (client.greeted) throw RequestError("bad_request", "hello was said already");
+  client.info.name = text_field(request, "name", 64);
+  client.info.role = role_of(text_field(request, "role", 32));
+  client.info.lockstep = request.contains("lockstep") && flag_field(request, "lockstep");
+  for (const json& topic : array_field(request, "subscribe", 8)) {
+    const auto found = std::find(kTopicNames.begin(), kTopicNames.end(), topic.is_string() ? topic.get<std::string>() : std::string());
+    if (found == kTopicNames.end()) throw RequestError("bad_request", "subscribe: allowed state, camera, tick");
+    client.subscribed[static_cast<std::size_t>(found - kTopicNames.begin())] = true;
+  }
+  if (client.info.lockstep) client.subscribed[static_cast<std::size_t>(Topic::kState)] = true;
+  client.greeted = true;
+  json welcome = handler_.welcome(client.info);
+  if (request.contains("id")) welcome["id"] = request["id"];
+  enqueue(client, Topic::kState, false, welcome.dump());
+}
+
+void ApiServer::dispatch() {
+  std::sort(clients_.begin(), clients_.end(), [](const auto& a, const auto& b) { return a->order() < b->order(); });
+  for (auto& client : clients_) {
+    while (!client->inbox.empty()) {
+      const json request = std::move(client->inbox.front());
+      client->inbox.pop_front();
+      answer_one(*client, request);
+    }
+    flush(*client);
+  }
+  bury();
+}
+
+void ApiServer::answer_one(Client& client, const json& request) {
+  try {
+    json answer = handler_.handle(client.info, request);
+    if (!request.contains("id")) return;
+    answer["op"] = "ok";
+    answer["id"] = request["id"];
+    enqueue(client, Topic::kState, false, answer.dump());
+  } catch (const RequestError& error) {
+    enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
+  } catch (const json::exception& error) {
+    enqueue(client, Topic::kState, false, error_packet(request, "bad_request", error.what()));
+  }
+}
+
+void ApiServer::enqueue(Client& client, Topic topic, bool droppable, const std::string& packet) {
+  const auto t = static_cast<std::size_t>(topic);
+  if (droppable && !client.info.lockstep && client.waiting[t] >= kMaxDroppable) {
+    const auto oldest =
+        std::find_if(client.outbox.begin(), client.outbox.end(), [&](const Client::Packet& p) { return p.droppable && p.topic == topic; });
+    client.outbox.erase(oldest);
+    --client.waiting[t];
+    ++dropped_;
+  }
+  if (client.outbox.size() >= kMaxOutbox) {
+    if (topic != Topic::kTick) return close(client, "does not read its socket");
+    ++dropped_;
+    ++dropped_ticks_;
+    return;
+  }
+  if (droppable) ++client.waiting[t];
+  client.outbox.push_back({topic, droppable, packet});
+}
+
+void ApiServer::flush(Client& client) {
+  while (!client.outbox.empty() && client.why_closed.empty()) {
+    const SocketResult result = send_packet(client.fd.get(), client.outbox.front().bytes);
+    if (result == SocketResult::kWouldBlock) return;
+    if (result == SocketResult::kClosed) return close(client, "connection closed");
+    if (client.outbox.front().droppable) --client.waiting[static_cast<std::size_t>(client.outbox.front().topic)];
+    client.outbox.pop_front();
+  }
+}
+
+void ApiServer::publish(Topic topic, const std::string& packet) {
+  for (auto& client : clients_) {
+    if (!client->wants(topic)) continue;
+    enqueue(*client, topic, topic != Topic::kTick, packet);
+    flush(*client);
+  }
+}
+
+void ApiServer::wait_done(std::uint64_t tick, double timeout_s) {
+  lockstep_tick_ = tick;
+  for (auto& client : clients_) client->awaited = client->greeted;
+  const Clock::time_point start = Clock::now();
+  const auto late = [tick](const auto& client) { return client->late_for(tick); };
+  while (std::any_of(clients_.begin(), clients_.end(), late)) {
+    const double left_s = timeout_s - seconds_since(start);
+    if (left_s > 0.0) {
+      pump(left_s);
+      continue;
+    }
+    for (auto& client : clients_) {
+      if (late(client)) close(*client, "silent in lockstep time");
+    }
+  }
+}
+
+bool ApiServer::has_role(Role role) const {
+  return std::any_of(clients_.begin(), clients_.end(), [role](const auto& c) { return c->greeted && c->info.role == role; });
+}
+
+bool ApiServer::has_subscriber(Topic topic) const {
+  return std::any_of(clients_.begin(), clients_.end(), [topic](const auto& c) { return c->wants(topic); });
+}
+
+void ApiServer::close(Client& client, const std::string& why) {
+  if (client.why_closed.empty()) client.why_closed = why;
+}
+
+// After their last requests have been handled (an emergency stop may be among them): the death of an owner is a hold.
+void ApiServer::bury() {
+  std::vector<std::unique_ptr<Client>> dead;
+  for (auto& client : clients_) {
+    if (!client->why_closed.empty()) dead.push_back(std::move(client));
+  }
+  std::erase(clients_, nullptr);
+  for (const auto& client : dead) {
+    if (client->greeted) handler_.gone(client->info, client->why_closed);
+  }
+}
+
+}  // namespace liana

@@ -1,0 +1,90 @@
+// The daemon's end of the API socket: clients, sessions, bounded queues. Never blocks on a client.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "host/api/socket.hpp"
+
+namespace liana {
+
+// What a client is; also the order in which clients are served (smaller first).
+enum class Role : std::uint8_t { kMission, kOperator, kCamera, kArchive, kClient, kObserver };
+
+// One greeted client, as the handler sees it.
+struct ClientInfo {
+  std::uint32_t id = 0;  // 1, 2, ... never reused
+  std::string name;
+  Role role = Role::kObserver;
+  bool lockstep = false;
+};
+
+enum class Topic : std::uint8_t { kState, kCamera, kTick };
+
+// What the daemon does with requests.
+class ApiHandler {
+ public:
+  virtual ~ApiHandler() = default;
+  // The welcome message for a new client.
+  virtual nlohmann::json welcome(const ClientInfo& client) = 0;
+  // Acts on one request; the result's fields join the "ok" answer. Throws RequestError to refuse.
+  virtual nlohmann::json handle(const ClientInfo& client, const nlohmann::json& request) = 0;
+  // The client has died or left.
+  virtual void gone(const ClientInfo& client, const std::string& why) = 0;
+};
+
+class ApiServer {
+ public:
+  // Listens at `path`; throws std::runtime_error.
+  ApiServer(const std::string& path, ApiHandler& handler);
+  ~ApiServer();
+
+  // Moves packets between sockets and queues, waiting up to `timeout_s` for something to do.
+  void pump(double timeout_s);
+  // Hands every queued request to the handler: clients by role, then name, each in its own order.
+  void dispatch();
+  // Sends to every subscriber of the topic. Slow subscribers lose their oldest state and camera messages, and newest ticks (counted).
+  void publish(Topic topic, const std::string& packet);
+  // Pumps until every lockstep client has answered the state of `tick` with done; drops those silent for `timeout_s`. What a lockstep
+  // client sends after its done, its end included, is read in the next call, so that runs repeat.
+  void wait_done(std::uint64_t tick, double timeout_s);
+  // From now on lockstep clients are read like all others.
+  void end_lockstep() { lockstep_tick_ = UINT64_MAX; }
+  // True when a client with this role has said hello.
+  bool has_role(Role role) const;
+  // True when somebody subscribes to the topic.
+  bool has_subscriber(Topic topic) const;
+  // Packets thrown away because a subscriber was slow.
+  std::uint64_t dropped() const { return dropped_; }
+  // Tick packets among them.
+  std::uint64_t dropped_ticks() const { return dropped_ticks_; }
+
+ private:
+  struct Client;
+  void accept_new();
+  void read_from(Client& client);
+  void take_packet(Client& client, const std::string& packet);
+  void greet(Client& client, const nlohmann::json& request);
+  void answer_one(Client& client, const nlohmann::json& request);
+  void enqueue(Client& client, Topic topic, bool droppable, const std::string& packet);
+  void flush(Client& client);
+  void close(Client& client, const std::string& why);
+  void bury();
+
+  UniqueFd listener_;
+  ApiHandler& handler_;
+  std::vector<std::unique_ptr<Client>> clients_;  // in serving order
+  std::uint32_t next_id_ = 1;
+  std::uint64_t lockstep_tick_ = 0;
+  std::uint64_t dropped_ = 0, dropped_ticks_ = 0;
+};
+
+// Role of its name in docs/api.md; throws RequestError for others.
+Role role_of(const std::string& name);
+// The name of a role.
+const char* role_name(Role role);
+
+}  // namespace liana

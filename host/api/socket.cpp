@@ -1,0 +1,77 @@
+#include "host/api/socket.hpp"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "host/api/address.hpp"
+
+namespace liana {
+
+UniqueFd& UniqueFd::operator=(UniqueFd&& other) noexcept {
+  if (this != &other) {
+    if (fd_ >= 0) ::close(fd_);
+    fd_ = other.release();
+  }
+  return *this;
+}
+
+UniqueFd::~UniqueFd() {
+  if (fd_ >= 0) ::close(fd_);
+}
+
+int UniqueFd::release() { return std::exchange(fd_, -1); }
+
+SocketResult send_packet(int fd, std::string_view packet) {
+  for (;;) {
+    if (::send(fd, packet.data(), packet.size(), MSG_NOSIGNAL | MSG_DONTWAIT) >= 0) return SocketResult::kDone;
+    if (errno == EINTR) continue;
+    const bool full = errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS;
+    return full ? SocketResult::kWouldBlock : SocketResult::kClosed;
+  }
+}
+
+SocketResult receive_packet(int fd, std::string& packet) {
+  packet.resize(kMaxPacketBytes + 1);
+  for (;;) {
+    const ssize_t n = ::recv(fd, packet.data(), packet.size(), MSG_DONTWAIT);
+    if (n < 0 && errno == EINTR) continue;
+    packet.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
+    if (n > 0) return SocketResult::kDone;
+    const bool empty = n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);
+    return empty ? SocketResult::kWouldBlock : SocketResult::kClosed;
+  }
+}
+
+namespace {
+bool wait_for(int fd, short events, double timeout_s) {
+  pollfd p{fd, events, 0};
+  const int timeout_ms = timeout_s <= 0.0 ? 0 : static_cast<int>(timeout_s * 1e3) + 1;
+  return ::poll(&p, 1, timeout_ms) > 0;
+}
+}  // namespace
+
+bool wait_readable(int fd, double timeout_s) { return wait_for(fd, POLLIN, timeout_s); }
+bool wait_writable(int fd, double timeout_s) { return wait_for(fd, POLLOUT, timeout_s); }
+
+UniqueFd listen_at(const std::string& path) {
+  const sockaddr_un address = unix_address(path);
+  UniqueFd probe(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  if (::connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
+    throw std::runtime_error("api socket " + path + ": another lianad listens here; stop it or choose another path with --api");
+  }
+  if (errno == ECONNREFUSED) ::unlink(path.c_str());
+  UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (fd.get() < 0 || ::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 || ::listen(fd.get(), 16) != 0) {
+    throw std::runtime_error("api socket " + path + ": " + std::strerror(errno) + "; the folder must exist and be writable");
+  }
+  return fd;
+}
+
+}  // namespace liana

@@ -1,0 +1,45 @@
+// One AF_UNIX SOCK_SEQPACKET packet in, one packet out; shared by both ends of the API.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace liana {
+
+// Largest packet of the API in bytes; longer ones are refused by both ends.
+constexpr std::size_t kMaxPacketBytes = 65536;
+
+// Owns one file descriptor.
+class UniqueFd {
+ public:
+  UniqueFd() = default;
+  explicit UniqueFd(int fd) : fd_(fd) {}
+  UniqueFd(UniqueFd&& other) noexcept : fd_(other.release()) {}
+  UniqueFd& operator=(UniqueFd&& other) noexcept;
+  ~UniqueFd();
+  // The descriptor, or -1.
+  int get() const { return fd_; }
+  // Gives the descriptor away.
+  int release();
+
+ private:
+  int fd_ = -1;
+};
+
+enum class SocketResult { kDone, kWouldBlock, kClosed };
+
+// Writes one packet without waiting; kClosed when the peer is gone.
+SocketResult send_packet(int fd, std::string_view packet);
+
+// Reads one packet without waiting; kClosed when the peer is gone. Packets over kMaxPacketBytes arrive cut to that size plus one.
+SocketResult receive_packet(int fd, std::string& packet);
+
+// Waits until `fd` is readable (or writable), at most `timeout_s`; true when it is.
+bool wait_readable(int fd, double timeout_s);
+bool wait_writable(int fd, double timeout_s);
+
+// A listening socket at `path`; replaces a stale socket file, throws std::runtime_error when the path is in use or too long.
+UniqueFd listen_at(const std::string& path);
+
+}  // namespace liana

@@ -1,0 +1,112 @@
+#include "host/bus/embedded_link.hpp"
+
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include "host/bus/time_mode.hpp"
+
+namespace liana {
+namespace {
+
+int connect_to(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (path.empty() || path.size() >= sizeof address.sun_path) {
+    throw std::runtime_error("bus socket '" + path + "': allowed are paths of 1 to " + std::to_string(sizeof address.sun_path - 1) +
+                             " bytes");
+  }
+  std::memcpy(address.sun_path, path.c_str(), path.size());
+  const int descriptor = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
+  if (descriptor >= 0 && connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return descriptor;
+  const std::string reason = std::strerror(errno);
+  if (descriptor >= 0) close(descriptor);
+  throw std::runtime_error("bus socket " + path + ": " + reason + "; start liana-bus with --socket " + path + " first");
+}
+
+wire::Welcome greet(int descriptor, const std::string& path) {
+  wire::Hello hello;
+  std::strncpy(hello.name.data(), "lianad", hello.name.size() - 1);
+  std::array<char, 4096> packet{};
+  ssize_t size = -1;
+  if (send(descriptor, &hello, sizeof hello, MSG_NOSIGNAL) == static_cast<ssize_t>(sizeof hello)) {
+    do {
+      size = recv(descriptor, packet.data(), packet.size(), 0);
+    } while (size < 0 && errno == EINTR);
+  }
+  if (size > 0 && packet[0] == static_cast<char>(wire::Type::kError)) {
+    throw std::runtime_error("bus socket " + path + ": refused: " + std::string(packet.data() + 1, static_cast<std::size_t>(size - 1)));
+  }
+  wire::Welcome welcome;
+  const auto bytes = static_cast<std::size_t>(size < 0 ? 0 : size);
+  if (bytes >= 8 && bytes <= sizeof welcome) std::memcpy(&welcome, packet.data(), bytes);
+  if (bytes < 8 || welcome.type != wire::Type::kWelcome || welcome.bus_count > wire::kMaxBuses || bytes != welcome.size()) {
+    throw std::runtime_error("bus socket " + path +
+                             ": closed or answered with something else than WELCOME; is it liana-bus of this version?");
+  }
+  return welcome;
+}
+
+std::string describe(const wire::Welcome& welcome) {
+  std::string text = std::to_string(welcome.period_us) + " us";
+  for (std::size_t b = 0; b < welcome.bus_count; ++b) {
+    const std::string name(welcome.bus[b].name.data(), strnlen(welcome.bus[b].name.data(), welcome.bus[b].name.size()));
+    text += ", " + name + " at " + std::to_string(welcome.bus[b].bitrate);
+  }
+  return text;
+}
+
+wire::Welcome expected_welcome(const BusesConfig& config) {
+  wire::Welcome expected;
+  expected.period_us = static_cast<std::uint32_t>(config.period_us());
+  expected.bus_count = static_cast<std::uint8_t>(config.buses.size());
+  for (std::size_t b = 0; b < config.buses.size(); ++b) {
+    expected.bus[b].bitrate = static_cast<std::uint32_t>(config.buses[b].bitrate);
+    std::strncpy(expected.bus[b].name.data(), config.buses[b].name.c_str(), expected.bus[b].name.size() - 1);
+  }
+  return expected;
+}
+
+}  // namespace
+
+EmbeddedLink::EmbeddedLink(const std::string& path, const BusesConfig& config) : descriptor_(connect_to(path)) {
+  try {
+    welcome_ = greet(descriptor_, path);
+    const std::string runs = describe(welcome_);
+    const std::string expected = describe(expected_welcome(config));
+    if (runs != expected) {
+      throw std::runtime_error("bus socket " + path + ": liana-bus runs " + runs + "; table " + config.name + " says " + expected +
+                               "; give both the same table");
+    }
+  } catch (...) {
+    close(descriptor_);
+    throw;
+  }
+}
+
+EmbeddedLink::~EmbeddedLink() { close(descriptor_); }
+
+bool EmbeddedLink::send(const wire::Yield& yield, bool block) noexcept {
+  const int flags = MSG_NOSIGNAL | (block ? 0 : MSG_DONTWAIT);
+  while (::send(descriptor_, &yield, yield.size(), flags) < 0) {
+    if (errno != EINTR) return false;
+  }
+  return true;
+}
+
+EmbeddedLink::Received EmbeddedLink::receive(wire::Wake& wake, bool block) noexcept {
+  for (;;) {
+    const ssize_t size = recv(descriptor_, &wake, sizeof wake, block ? 0 : MSG_DONTWAIT);
+    if (size < 0 && errno == EINTR) continue;
+    if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return Received::kNothing;
+    const bool whole = size >= static_cast<ssize_t>(wire::kHeaderBytes) && wake.type == wire::Type::kWake &&
+                       wake.frame_count <= wire::kMaxPacketFrames && static_cast<std::size_t>(size) == wake.size();
+    return whole ? Received::kWake : Received::kEnded;
+  }
+}
+
+}  // namespace liana

@@ -1,0 +1,33 @@
+// The controller's end of the liana-bus socket (docs/bus-protocol.md).
+#pragma once
+
+#include <string>
+
+#include "host/bus/wire_packets.hpp"
+#include "host/config/config.hpp"
+
+namespace liana {
+
+class EmbeddedLink {
+ public:
+  // Connects to `path` and exchanges HELLO and WELCOME, as liana-bus answers at once. Throws std::runtime_error when nobody
+  // listens there, the bus refuses, or it runs other buses than `config`.
+  EmbeddedLink(const std::string& path, const BusesConfig& config);
+  ~EmbeddedLink();
+  EmbeddedLink(const EmbeddedLink&) = delete;
+  EmbeddedLink& operator=(const EmbeddedLink&) = delete;
+
+  int descriptor() const noexcept { return descriptor_; }
+  const wire::Welcome& welcome() const noexcept { return welcome_; }
+  // False when the bus has gone (or, with `block` false, when its socket is full).
+  bool send(const wire::Yield& yield, bool block) noexcept;
+  enum class Received { kWake, kNothing, kEnded };
+  // Waits for a WAKE, or only looks when `block` is false.
+  Received receive(wire::Wake& wake, bool block) noexcept;
+
+ private:
+  int descriptor_ = -1;
+  wire::Welcome welcome_;
+};
+
+}  // namespace liana

@@ -1,0 +1,64 @@
+#include "host/canopen/boot_sequence.hpp"
+
+#include <algorithm>
+
+#include "host/canopen/cob_id.hpp"
+
+namespace liana::canopen {
+
+BootSequence::BootSequence(const std::vector<DriveExpectation>& drives, const BootTiming& timing) {
+  nodes_.reserve(drives.size());
+  for (const DriveExpectation& drive : drives) nodes_.emplace_back(drive, timing);
+}
+
+void BootSequence::step(DriveBus& bus) noexcept {
+  if (state_ != BootState::kRunning) return;
+  for (BootNode& node : nodes_) {
+    CanFrame frame;
+    if (node.step(frame)) node.sent(bus.send(node.bus(), frame) == SendResult::kOk);
+  }
+  update_state();
+}
+
+void BootSequence::on_frame(int bus, const CanFrame& frame) noexcept {
+  const FrameRoute from = route(frame.id);
+  if (from.kind != FrameKind::kHeartbeat && from.kind != FrameKind::kSdoResponse) return;
+  for (BootNode& node : nodes_) {
+    if (node.node() != from.node || node.bus() != bus) continue;
+    if (from.kind == FrameKind::kSdoResponse) {
+      node.on_sdo_response(frame);
+    } else if (frame.length == 1) {
+      node.on_heartbeat(frame.data[0]);
+    }
+  }
+}
+
+int BootSequence::count(NodePhase least, NodePhase most) const noexcept {
+  return static_cast<int>(
+      std::count_if(nodes_.begin(), nodes_.end(), [=](const BootNode& node) { return node.phase() >= least && node.phase() <= most; }));
+}
+
+void BootSequence::update_state() noexcept {
+  const int all = static_cast<int>(nodes_.size());
+  const int failed = count(NodePhase::kFailed, NodePhase::kFailed);
+  const int still_busy = count(NodePhase::kReset, NodePhase::kObjects);
+  if (count(NodePhase::kOperational, NodePhase::kOperational) == all) state_ = BootState::kOperational;
+  if (failed > 0 && still_busy == 0) state_ = BootState::kFailed;
+  if (failed > 0 || still_busy > 0) return;
+  for (BootNode& node : nodes_) node.allow_start();
+}
+
+BootProgress BootSequence::progress() const noexcept {
+  BootProgress progress;
+  progress.nodes = static_cast<int>(nodes_.size());
+  progress.configured = count(NodePhase::kConfigured, NodePhase::kOperational);
+  progress.operational = count(NodePhase::kOperational, NodePhase::kOperational);
+  progress.failed = count(NodePhase::kFailed, NodePhase::kFailed);
+  for (const BootNode& node : nodes_) {
+    progress.objects_done += node.objects_done();
+    progress.objects_total += node.objects_total();
+  }
+  return progress;
+}
+
+}  // namespace liana::canopen

@@ -1,0 +1,48 @@
+// Boots all drives of all buses at once: one SDO exchange per node and tick. Nothing allocates after construction.
+#pragma once
+
+#include <vector>
+
+#include "host/bus/drive_bus.hpp"
+#include "host/canopen/boot_node.hpp"
+
+namespace liana::canopen {
+
+enum class BootState : std::uint8_t { kRunning, kOperational, kFailed };
+
+// How far the boot is; for status lines.
+struct BootProgress {
+  int nodes = 0;
+  int configured = 0;  // or further
+  int operational = 0;
+  int failed = 0;
+  std::size_t objects_done = 0;
+  std::size_t objects_total = 0;
+};
+
+class BootSequence {
+ public:
+  BootSequence(const std::vector<DriveExpectation>& drives, const BootTiming& timing);
+
+  // Once per tick, after the received frames have been passed to on_frame(): sends what each node needs next.
+  // No node is started before all are configured; when one fails, the others go on to the end of their plan and none is started.
+  void step(DriveBus& bus) noexcept;
+  // Boot-up messages, heartbeats and SDO responses; other frames are ignored.
+  void on_frame(int bus, const CanFrame& frame) noexcept;
+
+  BootState state() const noexcept { return state_; }
+  BootProgress progress() const noexcept;
+  // One entry per drive, in the order given; failure kNone = ok so far.
+  std::size_t node_count() const noexcept { return nodes_.size(); }
+  const BootMismatch& mismatch(std::size_t drive) const noexcept { return nodes_[drive].mismatch(); }
+  NodePhase phase(std::size_t drive) const noexcept { return nodes_[drive].phase(); }
+
+ private:
+  int count(NodePhase least, NodePhase most) const noexcept;
+  void update_state() noexcept;
+
+  std::vector<BootNode> nodes_;
+  BootState state_ = BootState::kRunning;
+};
+
+}  // namespace liana::canopen

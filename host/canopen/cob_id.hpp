@@ -1,0 +1,66 @@
+// Identifiers of the predefined connection set (CiA 301) and what the drives and the master use of it (docs/drives.md).
+#pragma once
+
+#include <cstdint>
+
+namespace liana::canopen {
+
+constexpr std::uint8_t kMasterNode = 127;
+
+constexpr std::uint32_t kNmtId = 0x000;
+constexpr std::uint32_t kSyncId = 0x080;
+constexpr std::uint32_t kEmergencyBase = 0x080;
+constexpr std::uint32_t kTpdo1Base = 0x180;
+constexpr std::uint32_t kRpdo1Base = 0x200;
+constexpr std::uint32_t kSdoResponseBase = 0x580;
+constexpr std::uint32_t kSdoRequestBase = 0x600;
+constexpr std::uint32_t kHeartbeatBase = 0x700;
+
+// NMT commands.
+constexpr std::uint8_t kNmtStart = 0x01;
+constexpr std::uint8_t kNmtStop = 0x02;
+constexpr std::uint8_t kNmtPreOperational = 0x80;
+constexpr std::uint8_t kNmtResetNode = 0x81;
+constexpr std::uint8_t kNmtResetCommunication = 0x82;
+
+// NMT states as in heartbeats.
+constexpr std::uint8_t kStateBootUp = 0x00;
+constexpr std::uint8_t kStateStopped = 0x04;
+constexpr std::uint8_t kStateOperational = 0x05;
+constexpr std::uint8_t kStatePreOperational = 0x7F;
+
+// What kind of frame an identifier stands for.
+enum class FrameKind : std::uint8_t { kNmt, kSync, kEmergency, kTpdo1, kRpdo1, kSdoResponse, kSdoRequest, kHeartbeat, kOther };
+
+// Kind and node (0 where there is none) of an identifier.
+struct FrameRoute {
+  FrameKind kind = FrameKind::kOther;
+  std::uint8_t node = 0;
+};
+
+// Reads an identifier as received (flags included; extended and remote frames are kOther).
+constexpr FrameRoute route(std::uint32_t id) noexcept {
+  if (id > 0x7FF) return {};
+  const auto node = static_cast<std::uint8_t>(id & 0x7F);
+  if (id == kNmtId) return {FrameKind::kNmt, 0};
+  if (id == kSyncId) return {FrameKind::kSync, 0};
+  if (node == 0) return {};
+  switch (id & 0x780) {
+    case kEmergencyBase:
+      return {FrameKind::kEmergency, node};
+    case kTpdo1Base:
+      return {FrameKind::kTpdo1, node};
+    case kRpdo1Base:
+      return {FrameKind::kRpdo1, node};
+    case kSdoResponseBase:
+      return {FrameKind::kSdoResponse, node};
+    case kSdoRequestBase:
+      return {FrameKind::kSdoRequest, node};
+    case kHeartbeatBase:
+      return {FrameKind::kHeartbeat, node};
+    default:
+      return {};
+  }
+}
+
+}  // namespace liana::canopen

@@ -1,0 +1,36 @@
+// What a drive must be and what it is told at boot (docs/drives.md).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/config/config.hpp"
+
+namespace liana::canopen {
+
+struct DriveExpectation {
+  int bus = 0;            // 0-based
+  std::uint8_t node = 1;  // 1..126
+  // Must be found.
+  std::uint32_t vendor = 0;            // 1018:1
+  std::uint32_t product = 0;           // 1018:2
+  std::uint32_t revision = 0;          // 1018:3
+  std::uint32_t serial = 0;            // 1018:4
+  std::uint32_t counts_per_turn = 0;   // 608F:1, per motor turn
+  std::uint32_t gear_motor_turns = 1;  // 6091:1
+  std::uint32_t gear_drum_turns = 1;   // 6091:2
+  std::uint32_t rated_torque_mNm = 0;  // 6076
+  // Is written.
+  InterpolationPeriod period{};               // 60C2, the SYNC period
+  std::uint16_t rpdo_deadline_ms = 0;         // 1400:5
+  std::uint16_t heartbeat_ms = 100;           // 1017
+  std::uint16_t master_timeout_ms = 300;      // 1016:1
+  std::uint16_t max_torque_permille = 1000;   // 6072
+  std::uint32_t following_window_counts = 0;  // 6065
+  std::uint16_t following_time_ms = 100;      // 6066
+};
+
+// One expectation per drive, in the order of the cables. Throws std::runtime_error when a node is on no bus.
+std::vector<DriveExpectation> drive_expectations(const RobotConfig& robot, const BusesConfig& buses);
+
+}  // namespace liana::canopen

@@ -1,0 +1,124 @@
+#include "host/cli/arguments.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "host/cli/errors.hpp"
+
+namespace liana {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+[[noreturn]] void refuse(std::string_view option, std::string_view value, const std::string& allowed) {
+  throw BadInput(std::string(option) + ": '" + std::string(value) + "': allowed: " + allowed);
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t at = text.find(separator);
+    parts.push_back(text.substr(0, at));
+    if (at == std::string_view::npos) return parts;
+    text.remove_prefix(at + 1);
+  }
+}
+
+std::string short_number(double value) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
+  return {text, end};
+}
+
+std::int32_t parse_index(std::string_view option, std::string_view text, std::int32_t last, const std::string& what) {
+  std::int32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || value < 1 || value > last) {
+    refuse(option, text, what + " from 1 to " + std::to_string(last));
+  }
+  return value;
+}
+
+double theta_limit_rad(const RobotTable& robot, std::size_t theta) { return robot.segment[theta / 2].theta_limit_rad; }
+
+double checked_angle_deg(std::string_view option, std::string_view text, const RobotTable& robot, std::size_t theta) {
+  const double angle_deg = parse_number(option, text);
+  const double limit_deg = theta_limit_rad(robot, theta) / kDegree;
+  // The limit itself is allowed; its degrees went through radians and back.
+  if (std::fabs(angle_deg) > limit_deg * (1.0 + 1e-12)) {
+    refuse(option, text, "theta " + std::to_string(theta + 1) + " within +-" + short_number(std::round(limit_deg * 1e9) / 1e9) + " deg");
+  }
+  return angle_deg;
+}
+
+}  // namespace
+
+double parse_number(std::string_view option, std::string_view text) {
+  double value = 0.0;
+  const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value)) refuse(option, text, "a finite number");
+  return value;
+}
+
+std::vector<double> parse_numbers(std::string_view option, std::string_view text, std::size_t count) {
+  const auto parts = split(text, ',');
+  if (parts.size() != count) {
+    refuse(option, text, std::to_string(count) + " numbers separated by commas, not " + std::to_string(text.empty() ? 0 : parts.size()));
+  }
+  std::vector<double> values;
+  for (const std::string_view part : parts) values.push_back(parse_number(option, part));
+  return values;
+}
+
+ThetaVector parse_theta_deg(std::string_view option, std::string_view text, const RobotTable& robot) {
+  const auto count = static_cast<std::size_t>(robot.theta_count());
+  const auto parts = split(text, ',');
+  parse_numbers(option, text, count);
+  ThetaVector theta_rad{};
+  for (std::size_t i = 0; i < count; ++i) theta_rad[i] = checked_angle_deg(option, parts[i], robot, i) * kDegree;
+  return theta_rad;
+}
+
+Pose parse_pose(std::string_view option, std::string_view text) {
+  const auto v = parse_numbers(option, text, 7);
+  const Pose pose{{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
+  const double length = std::sqrt(v[3] * v[3] + v[4] * v[4] + v[5] * v[5] + v[6] * v[6]);
+  if (std::fabs(length - 1.0) > 1e-6) {
+    refuse(option, text, "x,y,z,qw,qx,qy,qz with a quaternion of length 1 within 1e-6, not " + short_number(length) + "; normalise it");
+  }
+  return pose;
+}
+
+std::vector<HoldArgument> parse_hold(std::string_view text, const RobotTable& robot) {
+  std::vector<HoldArgument> holds;
+  for (const std::string_view part : split(text, ',')) {
+    const std::size_t equals = part.find('=');
+    HoldArgument hold;
+    hold.theta = parse_index("--hold", part.substr(0, equals), robot.theta_count(), "a theta number");
+    for (const HoldArgument& other : holds) {
+      if (other.theta == hold.theta) refuse("--hold", text, "each theta at most once");
+    }
+    if (equals != std::string_view::npos) {
+      hold.has_value = true;
+      hold.value_deg = checked_angle_deg("--hold", part.substr(equals + 1), robot, static_cast<std::size_t>(hold.theta - 1));
+    }
+    holds.push_back(hold);
+  }
+  return holds;
+}
+
+ControlPointArgument parse_control_point(std::string_view text, const RobotTable& robot) {
+  const auto parts = split(text, ':');
+  if (parts.size() != 2 && parts.size() != 3) refuse("--control-point", text, "NODE:x,y,z or NODE:x,y,z:WEIGHT");
+  ControlPointArgument point;
+  point.node = parse_index("--control-point", parts[0], robot.segment_count, "a node (the end of a segment)");
+  const auto position = parse_numbers("--control-point", parts[1], 3);
+  point.position_m = {position[0], position[1], position[2]};
+  if (parts.size() == 3) point.weight = parse_number("--control-point", parts[2]);
+  if (point.weight <= 0.0) refuse("--control-point", text, "a weight over 0");
+  return point;
+}
+
+}  // namespace liana

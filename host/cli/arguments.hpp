@@ -1,0 +1,46 @@
+// The values of command line options: strict readers that name the option, the value and what is allowed. All throw BadInput.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/math/pose.hpp"
+
+namespace liana {
+
+// One held variable: theta counted from 1, and its value where one was given [deg].
+struct HoldArgument {
+  std::int32_t theta = 0;
+  bool has_value = false;
+  double value_deg = 0.0;
+};
+
+// Where a node should go: node counted from 1 (the end of that segment), base frame, weight > 0.
+struct ControlPointArgument {
+  std::int32_t node = 0;
+  Vec3 position_m{};
+  double weight = 1.0;
+};
+
+// A finite number, all of `text`.
+double parse_number(std::string_view option, std::string_view text);
+
+// Comma-separated finite numbers, exactly `count` of them.
+std::vector<double> parse_numbers(std::string_view option, std::string_view text, std::size_t count);
+
+// Joint angles in degrees within the robot's limits, as radians; entries beyond the robot's are 0.
+ThetaVector parse_theta_deg(std::string_view option, std::string_view text, const RobotTable& robot);
+
+// x,y,z,qw,qx,qy,qz: metres in the base frame, quaternion of unit length within 1e-6.
+Pose parse_pose(std::string_view option, std::string_view text);
+
+// 7,9 or 7=0.5,9: variables to hold, each at most once, values in degrees within the robot's limits.
+std::vector<HoldArgument> parse_hold(std::string_view text, const RobotTable& robot);
+
+// 3:x,y,z:weight (the weight may be left out).
+ControlPointArgument parse_control_point(std::string_view text, const RobotTable& robot);
+
+}  // namespace liana

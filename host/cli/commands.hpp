@@ -1,0 +1,72 @@
+// Every command of `liana`: its options as a struct, and the function that does it and returns the exit code.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace liana {
+
+struct PoseOptions {
+  std::string robot = "zhu2022";
+  std::string theta_deg;
+  bool json = false;
+};
+// Forward kinematics and cable lengths of one pose.
+int pose_command(const PoseOptions& options);
+
+struct IkOptions {
+  std::string robot = "zhu2022";
+  std::string from_deg;
+  std::string tip;
+  std::string hold;                         // empty: nothing is held
+  std::vector<std::string> control_points;  // in order
+  bool json = false;
+};
+// The goal solver; exit code 3 when it did not converge.
+int ik_command(const IkOptions& options);
+
+struct RunOptions {
+  std::string mission;
+  std::string robot = "zhu2022";
+  std::string scene = "panel_slit";
+  std::string bus = "embedded";
+  std::string time;  // empty: fast, or real on SocketCAN
+  std::string physics = "nominal";
+  std::string record_dir;   // empty: nothing is kept
+  std::string report_file;  // empty: a summary on standard output; "-": JSON on standard output
+  std::uint64_t seed = 1;
+};
+// Starts the whole system, runs one mission, reports; exit code 0 only on success.
+int run_command(const RunOptions& options);
+
+struct ClientOptions {
+  std::string api;  // empty: the system that `liana run` started last
+  bool json = false;
+};
+// The state of a running lianad.
+int status_command(const ClientOptions& options);
+// Emergency stop of a running lianad: stop, brakes, disable.
+int estop_command(const ClientOptions& options);
+
+struct ReplayOptions {
+  std::string directory;
+  bool json = false;
+};
+// Runs recorded Inputs through the core again; exit code 0 only when no tick differs.
+int replay_command(const ReplayOptions& options);
+
+struct ExportOptions {
+  std::string robot = "zhu2022";
+  std::string file;  // empty: standard output
+};
+// A robot table as canonical JSON.
+int export_command(const ExportOptions& options);
+
+// What this host can and cannot do, and what to do about it; exit code 0 always, it only tells.
+int doctor_command(bool json);
+
+// Bash completion of `liana` on standard output.
+int completion_command(const std::string& shell);
+
+}  // namespace liana

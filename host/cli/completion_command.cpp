@@ -1,0 +1,44 @@
+#include <cstdio>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/errors.hpp"
+
+namespace liana {
+namespace {
+
+constexpr const char* kBash = R"bash(_liana() {
+  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words=""
+  case $before in
+    --time) words="fast paced real" ;;
+    --physics) words="nominal ideal worn" ;;
+    --bus) words="embedded embedded_single vcan" ;;
+    run) words="slit_crossing" ;;
+    robot) words="export" ;;
+    completion) words="bash" ;;
+    --record | --json | --api | --out | replay) COMPREPLY=($(compgen -f -- "$word")); return ;;
+  esac
+  if [[ $COMP_CWORD == 1 ]]; then
+    words="run pose ik status estop replay robot doctor completion help"
+  elif [[ -z $words ]]; then
+    case ${COMP_WORDS[1]} in
+      run) words="--robot --scene --bus --time --physics --record --json --seed" ;;
+      pose) words="--robot --theta-deg --json" ;;
+      ik) words="--robot --from-deg --tip --hold --control-point --json" ;;
+      status | estop) words="--api --json" ;;
+      robot) words="--robot --out --json" ;;
+      replay | doctor) words="--json" ;;
+    esac
+  fi
+  COMPREPLY=($(compgen -W "$words" -- "$word"))
+}
+complete -F _liana liana
+)bash";
+
+}  // namespace
+
+int completion_command(const std::string& shell) {
+  if (shell != "bash") throw BadInput("completion: '" + shell + "': allowed: bash");
+  return std::fputs(kBash, stdout) < 0 ? kExitFailure : kExitOk;
+}
+
+}  // namespace liana

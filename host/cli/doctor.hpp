@@ -1,0 +1,21 @@
+// What a host must offer to Liana, looked up one by one.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace liana {
+
+// One thing looked at: whether it is as Liana wants it, what was found, what it is for, and what to do when it is not.
+struct Finding {
+  std::string name;
+  bool good = false;
+  std::string found;
+  std::string meaning;
+  std::string action;  // what to do; empty when good
+};
+
+// Looks at real-time privileges, kernel, memory locking, clock, processors, CAN and the test tools. Changes nothing.
+std::vector<Finding> examine_host();
+
+}  // namespace liana

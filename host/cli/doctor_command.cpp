@@ -1,0 +1,39 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/doctor.hpp"
+
+namespace liana {
+namespace {
+
+void print_json(const std::vector<Finding>& findings) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Finding& one : findings) {
+    list.push_back({{"name", one.name}, {"good", one.good}, {"found", one.found}, {"meaning", one.meaning}, {"action", one.action}});
+  }
+  std::puts(nlohmann::json{{"findings", list}}.dump().c_str());
+}
+
+void print_text(const std::vector<Finding>& findings) {
+  for (const Finding& one : findings) {
+    std::printf("%s %-20s %s\n", one.good ? "yes" : " no", one.name.c_str(), one.found.c_str());
+    std::printf("    what for: %s\n", one.meaning.c_str());
+    if (!one.good) std::printf("    to do:    %s\n", one.action.c_str());
+  }
+  std::puts("Nothing of this is needed for: liana run slit_crossing (embedded bus, virtual time).");
+}
+
+}  // namespace
+
+int doctor_command(bool json) {
+  const auto findings = examine_host();
+  if (json) {
+    print_json(findings);
+  } else {
+    print_text(findings);
+  }
+  return 0;
+}
+
+}  // namespace liana

@@ -1,0 +1,145 @@
+// `liana`: the command line. This file holds the options and the exit codes; every command has a file of its own.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/errors.hpp"
+
+namespace {
+
+using liana::ExitCode;
+using Action = std::function<int()>;
+
+constexpr const char* kFooter =
+    "Exit codes: 0 done, 1 failed, 2 bad input (one message on standard error), 3 inverse kinematics did not converge.\n"
+    "Angles are degrees where the option says deg, lengths metres, poses in the base frame.";
+
+// Adds a subcommand and remembers what to do when it is chosen.
+template <typename Options>
+CLI::App* add(CLI::App& app, Action& action, const char* name, const char* text, Options& options, int (*command)(const Options&)) {
+  CLI::App* sub = app.add_subcommand(name, text);
+  sub->callback([&action, &options, command] { action = [&options, command] { return command(options); }; });
+  return sub;
+}
+
+void add_kinematics(CLI::App& app, Action& action, liana::PoseOptions& pose, liana::IkOptions& ik) {
+  CLI::App* sub = add(app, action, "pose", "tip pose, segment ends, Jacobian and cable lengths of joint angles", pose, liana::pose_command);
+  sub->add_option("--robot", pose.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  sub->add_option("--theta-deg", pose.theta_deg, "joint angles t1,t2,... (pitch, yaw per segment)")->required();
+  sub->add_flag("--json", pose.json, "print JSON");
+
+  sub = add(app, action, "ik", "joint angles of a tip pose (goal solver)", ik, liana::ik_command);
+  sub->add_option("--robot", ik.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  sub->add_option("--from-deg", ik.from_deg, "joint angles to start from")->required();
+  sub->add_option("--tip", ik.tip, "goal x,y,z,qw,qx,qy,qz")->required();
+  sub->add_option("--hold", ik.hold, "joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg where no value is given)");
+  sub->add_option("--control-point", ik.control_points, "node target NODE:x,y,z:WEIGHT; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  sub->add_flag("--json", ik.json, "print JSON");
+}
+
+void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
+  CLI::App* sub = add(app, action, "run", "start the whole system and run a mission", run, liana::run_command);
+  sub->add_option("mission", run.mission, "a name under lua/missions or a file")->required();
+  sub->add_option("--robot", run.robot, "robot table")->capture_default_str();
+  sub->add_option("--scene", run.scene, "scene table")->capture_default_str();
+  sub->add_option("--bus", run.bus, "bus table")->capture_default_str();
+  sub->add_option("--time", run.time, "fast, paced or real; fast where nothing is said, real on SocketCAN")
+      ->check(CLI::IsMember({"fast", "paced", "real"}));
+  sub->add_option("--physics", run.physics, "nominal, ideal or worn")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
+  sub->add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
+  sub->add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
+  sub->add_option("--seed", run.seed, "seed of everything random: hand, start pose, bench parameters, camera")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
+void add_client(CLI::App& app, Action& action, const char* name, const char* text, liana::ClientOptions& client,
+                int (*command)(const liana::ClientOptions&)) {
+  CLI::App* sub = add(app, action, name, text, client, command);
+  sub->add_option("--api", client.api, "API socket of lianad; where not given, that of the run started last");
+  sub->add_flag("--json", client.json, "print JSON");
+}
+
+void add_tools(CLI::App& app, Action& action, liana::ReplayOptions& replay, liana::ExportOptions& exported, bool& doctor_json,
+               std::string& shell) {
+  CLI::App* sub =
+      add(app, action, "replay", "run a recording through the core again and compare every output", replay, liana::replay_command);
+  sub->add_option("directory", replay.directory, "what `liana run --record` wrote")->required();
+  sub->add_flag("--json", replay.json, "print JSON");
+
+  CLI::App* robot = app.add_subcommand("robot", "robot tables");
+  robot->require_subcommand(1);
+  sub = add(*robot, action, "export", "a robot table as canonical JSON", exported, liana::export_command);
+  sub->add_option("robot", exported.robot, "a name under lua/robots or a file")->capture_default_str();
+  sub->add_option("--robot", exported.robot, "the same as an option");
+  sub->add_option("--out", exported.file, "file to write; standard output where not given");
+  sub->add_flag("--json")->description("the output is JSON with or without it");
+
+  sub = app.add_subcommand("doctor", "what this host can and cannot do, and what to do about it");
+  sub->add_flag("--json", doctor_json, "print JSON");
+  sub->callback([&] { action = [&] { return liana::doctor_command(doctor_json); }; });
+
+  sub = app.add_subcommand("completion", "tab completion: source <(liana completion bash)");
+  sub->add_option("shell", shell, "bash")->capture_default_str();
+  sub->callback([&] { action = [&] { return liana::completion_command(shell); }; });
+  app.add_subcommand("help", "this text, or `liana help COMMAND`");
+}
+
+// `help` and `help COMMAND` are `--help` and `COMMAND --help`.
+std::vector<std::string> arguments_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + 1, argv + argc);
+  if (!words.empty() && words.front() == "help") {
+    words.erase(words.begin());
+    words.push_back("--help");
+  }
+  std::reverse(words.begin(), words.end());  // as CLI11 wants it
+  return words;
+}
+
+int perform(const Action& action) {
+  try {
+    return action();
+  } catch (const liana::BadInput& error) {
+    std::fprintf(stderr, "liana: %s\n", error.what());
+    return ExitCode::kExitBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "liana: %s\n", error.what());
+    return ExitCode::kExitFailure;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Liana: control of cable-driven snake arms", "liana");
+  app.require_subcommand(1);
+  app.footer(kFooter);
+  Action action;
+  liana::PoseOptions pose;
+  liana::IkOptions ik;
+  liana::RunOptions run;
+  liana::ClientOptions client;
+  liana::ReplayOptions replay;
+  liana::ExportOptions exported;
+  bool doctor_json = false;
+  std::string shell = "bash";
+  add_kinematics(app, action, pose, ik);
+  add_run(app, action, run);
+  add_client(app, action, "status", "state of the running system", client, liana::status_command);
+  add_client(app, action, "estop", "emergency stop: stop, brakes, disable", client, liana::estop_command);
+  add_tools(app, action, replay, exported, doctor_json, shell);
+  try {
+    app.parse(arguments_of(argc, argv));
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    std::fprintf(stderr, "liana: %s; see liana help\n", error.what());
+    return ExitCode::kExitBadInput;
+  }
+  return perform(action);
+}

@@ -1,0 +1,84 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "firmware_like/arm/cables.hpp"
+#include "firmware_like/arm/kinematics.hpp"
+#include "host/cli/arguments.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/tables.hpp"
+
+namespace liana {
+namespace {
+
+using nlohmann::json;
+
+json homogeneous(const Pose& pose) {
+  json rows = json::array();
+  for (std::size_t row = 0; row < 3; ++row) {
+    json values = json::array();
+    for (std::size_t column = 0; column < 3; ++column) {
+      Vec3 axis{};
+      axis[column] = 1.0;
+      values.push_back(rotate(pose.quaternion, axis)[row]);
+    }
+    values.push_back(pose.position_m[row]);
+    rows.push_back(values);
+  }
+  rows.push_back({0.0, 0.0, 0.0, 1.0});
+  return rows;
+}
+
+json jacobian_rows(const Jacobian& jacobian, std::size_t theta_count) {
+  json rows = json::array();
+  for (std::size_t row = 0; row < 6; ++row) {
+    json values = json::array();
+    for (std::size_t i = 0; i < theta_count; ++i) values.push_back(row < 3 ? jacobian.linear[i][row] : jacobian.angular[i][row - 3]);
+    rows.push_back(values);
+  }
+  return rows;
+}
+
+json pose_of(const RobotTable& table, const ThetaVector& theta_rad) {
+  const ArmTrig trig = arm_trig(table, theta_rad);
+  const ArmKinematics arm = forward_kinematics(table, trig);
+  const CableLayout layout = cable_layout(table);
+  const CableGeometry cables = cable_geometry(table, layout, trig);
+  json ends = json::array();
+  for (std::size_t m = 1; m <= static_cast<std::size_t>(table.segment_count); ++m) ends.push_back(arm.node_in_base[m].position_m);
+  json length = json::array();
+  json change = json::array();
+  for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
+    length.push_back(cables.length_m[c]);
+    change.push_back(cables.length_m[c] - layout.zero_length_m[c]);
+  }
+  return {{"tip_pose", homogeneous(arm.tip_in_base)},
+          {"segment_ends_m", ends},
+          {"jacobian", jacobian_rows(arm.tip_jacobian, static_cast<std::size_t>(table.theta_count()))},
+          {"cable_length_m", length},
+          {"cable_length_change_m", change}};
+}
+
+void print_summary(const json& pose) {
+  for (const json& row : pose["tip_pose"]) {
+    std::printf("%10.6f %10.6f %10.6f %11.6f m\n", row[0].get<double>(), row[1].get<double>(), row[2].get<double>(), row[3].get<double>());
+  }
+  const json& change = pose["cable_length_change_m"];
+  for (std::size_t c = 0; c < change.size(); ++c) {
+    std::printf("cable %2zu: %10.6f m, %+9.3f mm\n", c, pose["cable_length_m"][c].get<double>(), 1000.0 * change[c].get<double>());
+  }
+}
+
+}  // namespace
+
+int pose_command(const PoseOptions& options) {
+  const RobotConfig robot = robot_for_kinematics(options.robot);
+  const json pose = pose_of(robot.table, parse_theta_deg("--theta-deg", options.theta_deg, robot.table));
+  if (options.json) {
+    std::puts(pose.dump().c_str());
+  } else {
+    print_summary(pose);
+  }
+  return 0;
+}
+
+}  // namespace liana

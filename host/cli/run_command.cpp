@@ -1,0 +1,66 @@
+#include <cstdio>
+#include <fstream>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/errors.hpp"
+#include "host/cli/run_plan.hpp"
+#include "host/cli/run_report.hpp"
+#include "host/cli/run_session.hpp"
+
+namespace liana {
+namespace {
+
+using nlohmann::json;
+
+json report_of(const RunPlan& plan, const RunSession& session, const RunEnd& end) {
+  ReportSources sources;
+  sources.outcome = end.outcome;
+  sources.reason = end.message.substr(0, end.message.find('\n'));
+  sources.time_mode = plan.time_mode;
+  sources.truth_file = plan.file("truth.bin");
+  sources.mission_report_file = plan.file("mission.json");
+  sources.bus_stats_file = plan.file("bus_stats.json");
+  sources.states = session.states();
+  sources.welcome = &session.welcome();
+  sources.last_state = &session.last_state();
+  sources.rod = plan.scene.rod.pose;
+  return make_report(sources);
+}
+
+void write_report(const std::string& path, const json& report) {
+  std::ofstream file(path);
+  file << report.dump(1) << '\n';
+  file.close();
+  if (!file) throw BadInput(path + ": the report cannot be written; give a file in a directory that exists");
+}
+
+void publish_report(const RunOptions& options, const RunPlan& plan, const json& report) {
+  if (plan.keep_directory) write_report(plan.file("report.json"), report);
+  if (options.report_file == "-") {
+    std::puts(report.dump().c_str());
+    return;
+  }
+  if (!options.report_file.empty()) write_report(options.report_file, report);
+  std::fputs(report_text(report).c_str(), stdout);
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  const RunPlan plan = make_plan(options);
+  RunSession session(plan);
+  const RunEnd end = session.run();
+  if (end.bad_input) {
+    clean_up(plan, true);
+    throw BadInput(end.message);
+  }
+  const json report = report_of(plan, session, end);
+  publish_report(options, plan, report);
+  const bool success = report.value("outcome", "") == "success";
+  if (!end.message.empty()) std::fprintf(stderr, "liana: %s\n", end.message.c_str());
+  if (!success) std::fprintf(stderr, "liana: the run did not succeed; logs are in %s\n", plan.directory.c_str());
+  clean_up(plan, success);
+  return success ? kExitOk : kExitFailure;
+}
+
+}  // namespace liana

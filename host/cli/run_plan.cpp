@@ -1,0 +1,158 @@
+#include "host/cli/run_plan.hpp"
+
+#include <net/if.h>
+#include <stdlib.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "host/cli/errors.hpp"
+#include "host/cli/process.hpp"
+#include "host/cli/tables.hpp"
+
+namespace liana {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string temporary_directory() {
+  std::string name = (fs::temp_directory_path() / "liana-run-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr) throw BadInput(name + ": a temporary directory cannot be made; free space there or set TMPDIR");
+  return name;
+}
+
+std::string record_directory(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw BadInput("--record: '" + path + "': cannot be made: " + error.message() + "; give a directory you may write");
+  if (!fs::is_empty(path)) throw BadInput("--record: '" + path + "': is not empty; give a new directory");
+  return fs::absolute(path).string();
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  if (!file) throw BadInput(path + ": cannot be written");
+}
+
+// Every interface of a SocketCAN table must exist here and now.
+void check_interfaces(const BusesConfig& buses) {
+  if (buses.backend != "socketcan") return;
+  const int fd = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, 1);
+  if (fd < 0)
+    throw BadInput("--bus: '" + buses.name + "': this kernel has no CAN; load can and can-raw, or use --bus embedded; see liana doctor");
+  close(fd);
+  for (const BusConfig& bus : buses.buses) {
+    if (if_nametoindex(bus.name.c_str()) == 0) {
+      throw BadInput("--bus: '" + buses.name + "': interface " + bus.name + " does not exist; make it (ip link add dev " + bus.name +
+                     " type vcan; ip link set " + bus.name + " up) or use --bus embedded");
+    }
+  }
+}
+
+std::string time_mode_of(const RunOptions& options, const BusesConfig& buses) {
+  const bool wall_clock_only = buses.backend == "socketcan";
+  if (options.time.empty()) return wall_clock_only ? "real" : "fast";
+  if (wall_clock_only && options.time != "real") {
+    throw BadInput("--time: '" + options.time + "': bus " + buses.name + " is SocketCAN, which has no virtual time; allowed: real");
+  }
+  return options.time;
+}
+
+std::string interface_names(const BusesConfig& buses) {
+  std::string names;
+  for (const BusConfig& bus : buses.buses) names += (names.empty() ? "" : ",") + bus.name;
+  return names;
+}
+
+void append(std::vector<std::string>& argv, const std::vector<std::string>& words) { argv.insert(argv.end(), words.begin(), words.end()); }
+
+ProgramCall bus_call(const RunPlan& plan) {
+  return {"liana-bus",
+          {sibling_program("liana-bus"), "--socket", plan.bus_socket(), "--buses", plan.file("buses.json"), "--time", plan.time_mode,
+           "--log", plan.directory, "--stats", plan.file("bus_stats.json")}};
+}
+
+ProgramCall daemon_call(const RunPlan& plan, const RunOptions& options, bool embedded) {
+  ProgramCall call{"lianad",
+                   {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"), "--buses",
+                    plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode, "--physics", options.physics, "--expect",
+                    plan.keep_directory ? "mission,operator,camera,archive" : "mission,operator,camera"}};
+  if (embedded) append(call.argv, {"--bus-socket", plan.bus_socket()});
+  return call;
+}
+
+ProgramCall archive_call(const RunPlan& plan) {
+  return {"liana-archive", {sibling_program("liana-archive"), "--api", plan.api_socket(), "--record", plan.directory}};
+}
+
+ProgramCall bench_call(const RunPlan& plan, const RunOptions& options, bool embedded) {
+  ProgramCall call{"liana-bench",
+                   {sibling_program("liana-bench"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"), "--buses",
+                    plan.file("buses.json"), "--api", plan.api_socket(), "--physics", options.physics, "--seed",
+                    std::to_string(options.seed), "--truth", plan.file("truth.bin"), "--summary", plan.file("bench_summary.json")}};
+  if (embedded) {
+    append(call.argv, {"--bus-socket", plan.bus_socket()});
+  } else {
+    append(call.argv, {"--can", interface_names(plan.buses)});
+  }
+  return call;
+}
+
+ProgramCall operator_call(const RunPlan& plan, const RunOptions& options) {
+  return {"liana-operator",
+          {sibling_program("liana-operator"), "--api", plan.api_socket(), "--recordings", LIANA_LUA_DIR "/recordings", "--scene",
+           plan.file("scene.json"), "--seed", std::to_string(options.seed), "--lockstep"}};
+}
+
+ProgramCall mission_call(const RunPlan& plan, const RunOptions& options) {
+  return {"liana-mission",
+          {sibling_program("liana-mission"), "run", "--api", plan.api_socket(), "--mission", options.mission, "--report",
+           plan.file("mission.json"), "--lockstep", "--progress"}};
+}
+
+void write_tables(const RunPlan& plan, const std::string& robot, const std::string& scene, const std::string& buses) {
+  write_file(plan.file("robot.json"), robot);
+  write_file(plan.file("scene.json"), scene);
+  write_file(plan.file("buses.json"), buses);
+}
+
+}  // namespace
+
+RunPlan make_plan(const RunOptions& options) {
+  check_mission(options.mission);
+  const std::string buses_text = evaluate_table("buses", options.bus);
+  const std::string robot_text = evaluate_table("robot", options.robot);
+  const std::string scene_text = evaluate_table("scene", options.scene);
+  RunPlan plan;
+  plan.buses = checked([&] { return parse_buses(buses_text, options.bus); });
+  checked([&] { return parse_robot(robot_text, options.robot, options.physics, plan.buses); });
+  plan.scene = checked([&] { return parse_scene(scene_text, options.scene); });
+  check_interfaces(plan.buses);
+  plan.time_mode = time_mode_of(options, plan.buses);
+  plan.keep_directory = !options.record_dir.empty();
+  if (plan.keep_directory) plan.directory = record_directory(options.record_dir);
+  plan.socket_dir = temporary_directory();
+  if (!plan.keep_directory) plan.directory = plan.socket_dir;
+  write_tables(plan, robot_text, scene_text, buses_text);
+  const bool embedded = plan.buses.backend == "embedded";
+  if (embedded) plan.programs.push_back(bus_call(plan));
+  plan.programs.push_back(daemon_call(plan, options, embedded));
+  if (plan.keep_directory) plan.programs.push_back(archive_call(plan));
+  plan.programs.push_back(bench_call(plan, options, embedded));
+  plan.programs.push_back(operator_call(plan, options));
+  plan.programs.push_back(mission_call(plan, options));
+  return plan;
+}
+
+void clean_up(const RunPlan& plan, bool success) {
+  std::error_code error;
+  fs::remove(plan.api_socket(), error);
+  fs::remove(plan.bus_socket(), error);
+  if (plan.keep_directory || success) fs::remove_all(plan.socket_dir, error);
+}
+
+}  // namespace liana

@@ -1,0 +1,39 @@
+// What one `liana run` starts: where its files are and how every program is called.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/cli/commands.hpp"
+#include "host/config/config.hpp"
+
+namespace liana {
+
+// One program to start.
+struct ProgramCall {
+  std::string name;
+  std::vector<std::string> argv;
+};
+
+// The files, sockets and programs of one run, all inputs checked.
+struct RunPlan {
+  std::string directory;   // everything that is written; the user's with --record
+  std::string socket_dir;  // short temporary path: socket names are limited to 107 bytes
+  bool keep_directory = false;
+  std::string time_mode;
+  BusesConfig buses;
+  SceneConfig scene;
+  std::vector<ProgramCall> programs;  // in the order in which they start
+
+  std::string file(const std::string& name) const { return directory + "/" + name; }
+  std::string api_socket() const { return socket_dir + "/api"; }
+  std::string bus_socket() const { return socket_dir + "/bus"; }
+};
+
+// Evaluates and checks tables and mission, makes the directories, writes the tables there. Throws BadInput.
+RunPlan make_plan(const RunOptions& options);
+
+// Removes what the run does not keep.
+void clean_up(const RunPlan& plan, bool success);
+
+}  // namespace liana

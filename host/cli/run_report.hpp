@@ -1,0 +1,40 @@
+// The report of `liana run`: what the mission says, what lianad counted, what the physics did.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "firmware_like/math/pose.hpp"
+#include "host/config/config.hpp"
+
+namespace liana {
+
+// What is kept of every state message.
+struct StateSample {
+  std::uint64_t tick = 0;
+  Pose commanded_tip{};  // kinematics of the commanded joint angles
+};
+
+// Everything a report is made of. Files that do not exist leave their keys out.
+struct ReportSources {
+  std::string outcome;  // overrides the mission's when not empty
+  std::string reason;   // beside an outcome that is not success; the mission's own where empty
+  std::string time_mode;
+  std::string truth_file;           // of the bench
+  std::string mission_report_file;  // of liana-mission
+  std::string bus_stats_file;       // of liana-bus
+  std::vector<StateSample> states;
+  const nlohmann::json* welcome = nullptr;     // of lianad
+  const nlohmann::json* last_state = nullptr;  // of lianad
+  ScenePose rod;
+};
+
+// The report with the keys of docs/command-line.md.
+nlohmann::json make_report(const ReportSources& sources);
+
+// A few lines for people.
+std::string report_text(const nlohmann::json& report);
+
+}  // namespace liana

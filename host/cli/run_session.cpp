@@ -1,0 +1,217 @@
+#include "host/cli/run_session.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <thread>
+#include <utility>
+
+#include "host/cli/observer.hpp"
+
+namespace liana {
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kStartTimeout_s = 30.0;
+constexpr double kStopTimeout_s = 15.0;
+constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
+constexpr double kFinishGrace_s = 3.0;  // for the others to write their summaries after that
+constexpr double kLook_s = 0.02;
+constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
+constexpr int kShownLines = 5;
+
+volatile std::sig_atomic_t interrupts = 0;
+void count_interrupt(int) { interrupts = interrupts + 1; }
+
+// While it lives, Ctrl-C and SIGTERM are counted instead of ending the program.
+class InterruptGuard {
+ public:
+  InterruptGuard() {
+    interrupts = 0;
+    std::signal(SIGINT, count_interrupt);
+    std::signal(SIGTERM, count_interrupt);
+  }
+  ~InterruptGuard() {
+    std::signal(SIGINT, SIG_DFL);
+    std::signal(SIGTERM, SIG_DFL);
+  }
+  InterruptGuard(const InterruptGuard&) = delete;
+  InterruptGuard& operator=(const InterruptGuard&) = delete;
+};
+
+Clock::time_point after(double seconds) {
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+std::string how(const ChildEnd& end) {
+  return end.signal != 0 ? "was killed by signal " + std::to_string(end.signal) : "ended with code " + std::to_string(end.code);
+}
+
+// The newest run is what `status` and `estop` talk to; the link is a convenience, so that it cannot be made is no error.
+void publish_socket(const std::string& socket) {
+  std::error_code error;
+  const std::string fresh = current_api_link() + "." + std::to_string(::getpid());
+  fs::remove(fresh, error);
+  fs::create_symlink(socket, fresh, error);
+  fs::rename(fresh, current_api_link(), error);
+}
+
+Pose pose_of(const json& numbers) {
+  Pose pose;
+  if (!numbers.is_array() || numbers.size() != 7) return pose;
+  for (std::size_t i = 0; i < 3; ++i) pose.position_m[i] = numbers[i].get<double>();
+  for (std::size_t i = 0; i < 4; ++i) pose.quaternion[i] = numbers[i + 3].get<double>();
+  return pose;
+}
+
+}  // namespace
+
+RunSession::RunSession(const RunPlan& plan) : plan_(plan) {}
+
+RunSession::~RunSession() = default;
+
+RunEnd RunSession::run() {
+  const InterruptGuard guard;
+  std::signal(SIGPIPE, SIG_IGN);
+  RunEnd end;
+  if (const auto failed = start()) {
+    end = *failed;
+  } else {
+    end = watch();
+  }
+  shut_down();
+  return end;
+}
+
+std::optional<RunEnd> RunSession::start() {
+  for (const ProgramCall& call : plan_.programs) {
+    children_.push_back(std::make_unique<ChildProcess>(call.name, call.argv, plan_.file(call.name + ".log")));
+    const bool serves = call.name == "liana-bus" || call.name == "lianad";
+    if (serves && !wait_for_socket(call.name == "lianad" ? plan_.api_socket() : plan_.bus_socket())) {
+      if (const auto dead = dead_child(false)) return dead;
+      return RunEnd{"failed", call.name + " did not open its socket within 30 s", false};
+    }
+    if (call.name == "lianad") {
+      publish_socket(plan_.api_socket());
+      api_ = ApiClient::connect(plan_.api_socket());
+      welcome_ = hello_as_observer(*api_, true);
+    }
+  }
+  mission_ = children_.back().get();
+  return std::nullopt;
+}
+
+bool RunSession::wait_for_socket(const std::string& path) {
+  const auto deadline = after(kStartTimeout_s);
+  while (!fs::exists(path)) {
+    if (Clock::now() > deadline || children_.back()->poll() || interrupts > 0) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
+RunEnd RunSession::watch() {
+  const auto ended = [](const auto& child) { return child->poll().has_value(); };
+  while (std::none_of(children_.begin(), children_.end(), ended)) {
+    look(kLook_s);
+    if (interrupts > 0) return interrupted();
+  }
+  return conclusion();
+}
+
+// Somebody has ended. The others follow within moments, in any order: who failed by itself is seen only after that. Once the mission has
+// ended, the others end in order.
+RunEnd RunSession::conclusion() {
+  const auto end = mission_->wait(kFinishGrace_s);
+  if (!end || end->code != 0) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(kAftermath_s));
+    if (const auto failed = dead_child(true)) return *failed;
+  }
+  return end ? end_of_mission(*end) : *dead_child(false);
+}
+
+// A mission runner that ended by itself has written its report; one that was killed has not.
+RunEnd RunSession::end_of_mission(const ChildEnd& end) {
+  if (end.signal == 0 && fs::exists(plan_.file("mission.json"))) return {};
+  return {"failed", "the mission runner " + how(end) + "; the arm held\n" + mission_->last_lines(kShownLines), end.code == 2};
+}
+
+// Of the programs beside the mission runner that have ended the one that ended worst: killed, failed or, unless `failed_only`, in order.
+// Exit code 2 means that it refused its input.
+std::optional<RunEnd> RunSession::dead_child(bool failed_only) {
+  const ChildProcess* cause = nullptr;
+  ChildEnd worst;
+  for (const auto& child : children_) {
+    const auto end = child->poll();
+    if (!end || child.get() == mission_ || (failed_only && end->code == 0)) continue;
+    if (cause != nullptr && std::pair(end->signal, end->code) <= std::pair(worst.signal, worst.code)) continue;
+    cause = child.get();
+    worst = *end;
+  }
+  if (cause == nullptr) return std::nullopt;
+  return RunEnd{"failed", cause->name() + " " + how(worst) + "\n" + cause->last_lines(kShownLines), worst.code == 2 && states_.empty()};
+}
+
+RunEnd RunSession::interrupted() {
+  progress_.say("stopping (again Ctrl-C ends at once)");
+  request({{"op", "stop"}, {"reason", "interrupted"}});
+  wait_disabled(kStopTimeout_s);
+  return {"aborted", "interrupted: stop, brakes, disabled", false};
+}
+
+void RunSession::wait_disabled(double timeout_s) {
+  const auto deadline = after(timeout_s);
+  while (api_ && interrupts < 2 && Clock::now() < deadline && last_state_.value("state", "") != "DISABLED") look(kLook_s);
+}
+
+// Takes in what lianad has sent; a closed socket is noticed through lianad's end.
+void RunSession::look(double timeout_s) {
+  if (!api_) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(timeout_s));
+    return;
+  }
+  try {
+    for (auto message = api_->receive(timeout_s); message; message = api_->receive(0.0)) {
+      if (message->value("op", "") == "state") keep(*message);
+      if (mission_ != nullptr && mission_->poll()) return;
+    }
+  } catch (const std::runtime_error&) {
+    api_.reset();
+  }
+}
+
+void RunSession::keep(const json& state) {
+  progress_.show(state);
+  states_.push_back({state.value("tick", std::uint64_t{0}), pose_of(state.value("setpoint_cp", json()))});
+  last_state_ = state;
+}
+
+void RunSession::request(const json& message) {
+  try {
+    if (api_) api_->send(message);
+  } catch (const std::runtime_error&) {
+    api_.reset();
+  }
+}
+
+// lianad stops the arm and leaves the bus; bus and bench then end by themselves and write their summaries.
+void RunSession::shut_down() {
+  request({{"op", "shutdown"}});
+  auto deadline = after(interrupts < 2 ? kEndGrace_s : 0.0);
+  const auto running = [](const auto& child) { return !child->poll(); };
+  while (Clock::now() < deadline && std::any_of(children_.begin(), children_.end(), running)) {
+    if (api_) {
+      look(kLook_s);
+      if (!api_) deadline = std::min(deadline, after(kFinishGrace_s));
+    } else {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  }
+  for (const auto& child : children_) child->end(1.0);
+}
+
+}  // namespace liana

@@ -1,0 +1,63 @@
+// The processes of one run: started in order, watched, ended together.
+#pragma once
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/api/client.hpp"
+#include "host/cli/process.hpp"
+#include "host/cli/progress.hpp"
+#include "host/cli/run_plan.hpp"
+#include "host/cli/run_report.hpp"
+
+namespace liana {
+
+// How a run ended, as far as the processes tell.
+struct RunEnd {
+  std::string outcome;     // empty: the mission's own report says it
+  std::string message;     // why, when something went wrong outside the mission
+  bool bad_input = false;  // a program refused what it was given before anything moved
+};
+
+class RunSession {
+ public:
+  explicit RunSession(const RunPlan& plan);
+  ~RunSession();
+  RunSession(const RunSession&) = delete;
+  RunSession& operator=(const RunSession&) = delete;
+
+  // Starts everything, waits until the mission has ended, ends everything. Ctrl-C is a stop; a second one ends at once.
+  RunEnd run();
+
+  const std::vector<StateSample>& states() const { return states_; }
+  const nlohmann::json& welcome() const { return welcome_; }
+  const nlohmann::json& last_state() const { return last_state_; }
+
+ private:
+  std::optional<RunEnd> start();
+  RunEnd watch();
+  RunEnd conclusion();
+  std::optional<RunEnd> dead_child(bool failed_only);
+  RunEnd end_of_mission(const ChildEnd& end);
+  RunEnd interrupted();
+  bool wait_for_socket(const std::string& path);
+  void look(double timeout_s);
+  void keep(const nlohmann::json& state);
+  void request(const nlohmann::json& message);
+  void wait_disabled(double timeout_s);
+  void shut_down();
+
+  const RunPlan& plan_;
+  Progress progress_;
+  std::vector<std::unique_ptr<ChildProcess>> children_;
+  ChildProcess* mission_ = nullptr;
+  std::optional<ApiClient> api_;
+  nlohmann::json welcome_;
+  nlohmann::json last_state_;
+  std::vector<StateSample> states_;
+};
+
+}  // namespace liana

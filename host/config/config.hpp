@@ -1,0 +1,168 @@
+// Robot, scene and buses: canonical JSON (docs/formats.md) to checked C++ structs.
+// Every function that reads throws std::runtime_error "file: field: value: allowed ...: what to do" on the first fault it finds.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "firmware_like/arm/robot_table.hpp"
+
+namespace liana {
+
+// One CAN bus and the drives on it.
+struct BusConfig {
+  std::string name;                 // interface name for socketcan
+  std::int32_t bitrate = 0;         // bit/s
+  std::vector<std::int32_t> nodes;  // CANopen node ids, 1..126
+};
+
+// The buses, the control rate and the command interval.
+struct BusesConfig {
+  std::string name;
+  std::string backend;  // "embedded" or "socketcan"
+  double rate_hz = 0.0;
+  double command_interval_s = 0.0;  // T_c, a whole number of ticks
+  std::vector<BusConfig> buses;     // 1..8
+  std::int32_t heartbeat_ms = 0;
+  double max_load = 0.0;  // highest worst-case load accepted, 0..1
+  std::string canonical_json;
+
+  // Control period [s].
+  double tick_s() const { return 1.0 / rate_hz; }
+  // Control period [us]; the checker has made sure that it is whole.
+  std::int32_t period_us() const;
+  // T_c in ticks, at least 1.
+  std::int32_t interval_ticks() const;
+  // 0-based index of the bus that carries `node`, or -1.
+  std::int32_t bus_of_node(std::int32_t node) const;
+};
+
+// The period as object 60C2 holds it: value x 10^exponent seconds.
+struct InterpolationPeriod {
+  std::uint8_t value = 0;
+  std::int8_t exponent = 0;
+};
+
+// 60C2 for a period of `period_us`; value 0 when CiA 402 cannot express it exactly.
+InterpolationPeriod interpolation_period(std::int32_t period_us);
+
+// Worst-case share of the wire (0..) of one bus: SYNC, RPDO1 and TPDO1 of every node each tick with worst stuffing, heartbeats of all and
+// the master.
+double worst_case_load(const BusesConfig& buses, std::size_t bus);
+
+// What object 0x1018 of every drive must say.
+struct DriveIdentity {
+  std::uint32_t vendor = 0;
+  std::uint32_t product = 0;
+  std::uint32_t revision = 0;
+};
+
+// The robot: what the core needs (table) and what only the host needs.
+struct RobotConfig {
+  std::string name;
+  RobotTable table{};  // mu, tick and T_c included
+  DriveIdentity identity{};
+  double rated_torque_Nm = 0.0;  // 6076, at the drum
+  std::uint32_t counts_per_turn = 0;
+  double gear = 1.0;  // motor turns per drum turn
+  double drum_radius_m = 0.0;
+  double module_radius_m = 0.0;                                // of the capsules of every link
+  double joint_viscous_Nms_per_rad = 0.0;                      // per theta
+  std::map<std::string, std::vector<double>> named_poses_deg;  // theta_count angles each; "zero" always exists
+  std::string canonical_json;
+};
+
+// A pose in the base frame.
+struct ScenePose {
+  Vec3 position_m{};
+  std::array<double, 4> quaternion_wxyz{1.0, 0.0, 0.0, 0.0};  // unit length
+};
+
+// An oriented box.
+struct SceneBox {
+  std::string name;
+  Vec3 center_m{};
+  Vec3 half_extent_m{};            // along the rows of rotation
+  std::array<Vec3, 3> rotation{};  // the three axes as rows, right-handed, in the base frame
+};
+
+// A sphere.
+struct SceneSphere {
+  std::string name;
+  Vec3 center_m{};
+  double radius_m = 0.0;
+};
+
+// The slit between two parallel plates: its plane, and where it begins and ends along u.
+struct SceneSlit {
+  Vec3 normal{};  // n.p = offset_m on the plane
+  double offset_m = 0.0;
+  Vec3 u_axis{};  // into the slit
+  Vec3 w_axis{};  // u x n
+  double mouth_u_m = 0.0;
+  double end_u_m = 0.0;
+  double half_gap_m = 0.0;
+  ScenePose frame;  // x = u, y = n, z = w, origin on the plane at the mouth
+};
+
+// The press rod: where the tip has to go.
+struct SceneRod {
+  ScenePose pose;
+  double radius_m = 0.0;
+  double stiffness_N_per_m = 0.0;
+};
+
+// The tip camera.
+struct SceneCamera {
+  double rate_hz = 0.0;
+  double latency_s = 0.0;
+  double noise_m = 0.0;
+  double noise_deg = 0.0;
+  double range_m = 0.0;
+};
+
+// What contacts are made of.
+struct SceneContact {
+  double stiffness_N_per_m = 0.0;
+  double damping_Ns_per_m = 0.0;
+  double friction = 0.0;
+};
+
+// Everything around the arm.
+struct SceneConfig {
+  std::string name;
+  std::vector<SceneBox> boxes;
+  std::vector<SceneSphere> spheres;
+  SceneSlit slit;
+  SceneRod rod;
+  SceneCamera camera;
+  SceneContact contact;
+  std::string canonical_json;
+};
+
+// Loads and checks the buses: rate expressible by CiA 402, T_c whole ticks, node ids unique, worst-case load within max_load.
+BusesConfig load_buses(const std::string& path);
+
+// Loads and checks the robot for these buses (every drive on exactly one bus); physics is "nominal", "ideal" or "worn" and chooses
+// friction_mu.
+RobotConfig load_robot(const std::string& path, const std::string& physics, const BusesConfig& buses);
+
+// Loads and checks the scene: axes orthonormal, slit frame and plane consistent, sizes positive.
+SceneConfig load_scene(const std::string& path);
+
+// The same from JSON text; `file` is what messages call it.
+BusesConfig parse_buses(const std::string& text, const std::string& file);
+RobotConfig parse_robot(const std::string& text, const std::string& file, const std::string& physics, const BusesConfig& buses);
+SceneConfig parse_scene(const std::string& text, const std::string& file);
+
+// Checks one table of kind "robot", "scene" or "buses" by itself and returns its canonical JSON.
+std::string check_table(const std::string& kind, const nlohmann::json& table, const std::string& file);
+
+// SHA-256 (64 hex digits) over the canonical robot, scene and buses JSON, one line each.
+std::string config_hash(const RobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses);
+
+}  // namespace liana

@@ -1,0 +1,65 @@
+// Robots: the table put together, alone and with the buses that carry its drives.
+#include "host/config/canonical.hpp"
+#include "host/config/robot_parts.hpp"
+
+namespace liana {
+namespace {
+
+// The robot without what the buses decide (tick, T_c).
+RobotConfig read_robot(const nlohmann::json& json, const std::string& file, const std::string& physics) {
+  const Field table(json, file, "");
+  check_kind(table, "robot");
+  table.only({"format", "kind", "name", "segments", "module", "joint", "cables", "tension", "drives", "limits", "named_poses_deg"});
+  RobotConfig out;
+  out.name = table.at("name").name(40);
+  read_arm(table, out);
+  read_cables(table, physics, out);
+  read_drives(table, out);
+  read_limits(table.at("limits"), out.table.limits);
+  read_named_poses(table.at("named_poses_deg"), out);
+  out.canonical_json = canonical_json(json);
+  return out;
+}
+
+// Drive i has node id i + 1 (docs/drives.md): every drive on a bus, no node without a drive.
+void check_nodes(const RobotConfig& robot, const std::string& file, const BusesConfig& buses) {
+  const std::int32_t drives = robot.table.cable_count();
+  const std::string allowed = ": allowed the nodes 1 to " + std::to_string(drives) + " of robot " + robot.name + ", each on one bus: ";
+  for (std::int32_t node = 1; node <= drives; ++node) {
+    if (buses.bus_of_node(node) < 0) {
+      throw std::runtime_error(file + ": buses " + buses.name + ": node " + std::to_string(node) + " is on no bus" + allowed +
+                               "add it to a bus");
+    }
+  }
+  for (const BusConfig& bus : buses.buses) {
+    for (const std::int32_t node : bus.nodes) {
+      if (node <= drives) continue;
+      throw std::runtime_error(file + ": buses " + buses.name + ": node " + std::to_string(node) + allowed + "remove it from bus " +
+                               bus.name);
+    }
+  }
+}
+
+}  // namespace
+
+RobotConfig parse_robot(const std::string& text, const std::string& file, const std::string& physics, const BusesConfig& buses) {
+  RobotConfig out = read_robot(parse_json(text, file), file, physics);
+  check_nodes(out, file, buses);
+  out.table.tick_s = buses.tick_s();
+  out.table.interval_ticks = buses.interval_ticks();
+  return out;
+}
+
+RobotConfig load_robot(const std::string& path, const std::string& physics, const BusesConfig& buses) {
+  return parse_robot(read_text_file(path), path, physics, buses);
+}
+
+std::string check_table(const std::string& kind, const nlohmann::json& table, const std::string& file) {
+  const std::string text = table.dump();
+  if (kind == "robot") return read_robot(table, file, "nominal").canonical_json;
+  if (kind == "scene") return parse_scene(text, file).canonical_json;
+  if (kind == "buses") return parse_buses(text, file).canonical_json;
+  throw std::runtime_error("kind: " + kind + ": allowed robot, scene, buses: use one of these words");
+}
+
+}  // namespace liana

@@ -1,0 +1,138 @@
+// Scenes: checks of the table.
+#include <cmath>
+
+#include "host/config/canonical.hpp"
+#include "host/config/config.hpp"
+#include "host/config/field.hpp"
+
+namespace liana {
+namespace {
+
+constexpr double kUnitTolerance = 1e-9;
+constexpr Range kPlace{-100, 100};      // metres from the base
+constexpr Range kLength{0, 100, true};  // metres
+constexpr Range kDirection{-1 - kUnitTolerance, 1 + kUnitTolerance};
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+
+bool near(const Vec3& a, const Vec3& b, double tolerance) {
+  return std::fabs(a[0] - b[0]) < tolerance && std::fabs(a[1] - b[1]) < tolerance && std::fabs(a[2] - b[2]) < tolerance;
+}
+
+bool right_handed(const std::array<Vec3, 3>& axes) {
+  const bool unit = std::fabs(dot(axes[0], axes[0]) - 1) < kUnitTolerance && std::fabs(dot(axes[1], axes[1]) - 1) < kUnitTolerance;
+  return unit && std::fabs(dot(axes[0], axes[1])) < kUnitTolerance && near(cross(axes[0], axes[1]), axes[2], kUnitTolerance);
+}
+
+// Columns of the rotation matrix of a unit quaternion: the frame's axes in base coordinates.
+std::array<Vec3, 3> axes_of(const std::array<double, 4>& q) {
+  const auto [w, x, y, z] = q;
+  return {Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+          Vec3{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+          Vec3{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+}
+
+ScenePose read_pose(const Field& field) {
+  ScenePose pose;
+  pose.position_m = field.at("position_m").numbers<3>(kPlace);
+  pose.quaternion_wxyz = field.at("quaternion_wxyz").numbers<4>(kDirection);
+  double square = 0.0;
+  for (const double q : pose.quaternion_wxyz) square += q * q;
+  if (std::fabs(square - 1) > kUnitTolerance) field.at("quaternion_wxyz").refuse("unit length to 1e-9", "divide it by its length");
+  return pose;
+}
+
+SceneBox read_box(const Field& field) {
+  field.only({"name", "center_m", "half_extent_m", "rotation"});
+  SceneBox box;
+  box.name = field.at("name").name(40);
+  box.center_m = field.at("center_m").numbers<3>(kPlace);
+  box.half_extent_m = field.at("half_extent_m").numbers<3>(kLength);
+  const Field rotation = field.at("rotation");
+  rotation.size(3, 3, "give the three axes as rows");
+  for (std::size_t i = 0; i < 3; ++i) box.rotation[i] = rotation.element(i).numbers<3>(kDirection);
+  if (!right_handed(box.rotation)) rotation.refuse("three orthonormal right-handed rows", "recompute the axes");
+  return box;
+}
+
+SceneSphere read_sphere(const Field& field) {
+  field.only({"name", "center_m", "radius_m"});
+  return {field.at("name").name(40), field.at("center_m").numbers<3>(kPlace), field.at("radius_m").number(kLength)};
+}
+
+SceneSlit read_slit(const Field& field) {
+  field.only({"normal", "offset_m", "u_axis", "w_axis", "mouth_u_m", "end_u_m", "half_gap_m", "frame"});
+  field.at("frame").only({"position_m", "quaternion_wxyz"});
+  SceneSlit slit;
+  slit.normal = field.at("normal").numbers<3>(kDirection);
+  slit.offset_m = field.at("offset_m").number(kPlace);
+  slit.u_axis = field.at("u_axis").numbers<3>(kDirection);
+  slit.w_axis = field.at("w_axis").numbers<3>(kDirection);
+  slit.mouth_u_m = field.at("mouth_u_m").number(kPlace);
+  slit.end_u_m = field.at("end_u_m").number({slit.mouth_u_m, 100, true});
+  slit.half_gap_m = field.at("half_gap_m").number({0, 10, true});
+  slit.frame = read_pose(field.at("frame"));
+  return slit;
+}
+
+void check_slit(const Field& field, const SceneSlit& slit) {
+  const std::array<Vec3, 3> axes = {slit.u_axis, slit.normal, slit.w_axis};
+  if (!right_handed(axes))
+    field.at("w_axis").refuse("u x n of unit vectors u and n at right angles", "compute w_axis from u_axis and normal");
+  const std::array<Vec3, 3> frame = axes_of(slit.frame.quaternion_wxyz);
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!near(frame[i], axes[i], 1e-8))
+      field.at("frame").at("quaternion_wxyz").refuse("axes x = u, y = n, z = w", "compute it from the axes");
+  }
+  Vec3 mouth{};
+  for (std::size_t i = 0; i < 3; ++i) mouth[i] = slit.u_axis[i] * slit.mouth_u_m + slit.normal[i] * slit.offset_m;
+  if (!near(mouth, slit.frame.position_m, 1e-8))
+    field.at("frame").at("position_m").refuse("u_axis * mouth_u_m + normal * offset_m", "compute it from these fields");
+}
+
+SceneRod read_rod(const Field& field) {
+  field.only({"position_m", "quaternion_wxyz", "radius_m", "stiffness_N_per_m"});
+  return {read_pose(field), field.at("radius_m").number({0, 1, true}), field.at("stiffness_N_per_m").number({0, 1e6})};
+}
+
+SceneCamera read_camera(const Field& field) {
+  field.only({"rate_hz", "latency_s", "noise_m", "noise_deg", "range_m"});
+  return {field.at("rate_hz").number({1, 1000}), field.at("latency_s").number({0, 10}), field.at("noise_m").number({0, 1}),
+          field.at("noise_deg").number({0, 45}), field.at("range_m").number(kLength)};
+}
+
+SceneContact read_contact(const Field& field) {
+  field.only({"stiffness_N_per_m", "damping_Ns_per_m", "friction"});
+  return {field.at("stiffness_N_per_m").number({0, 1e7, true}), field.at("damping_Ns_per_m").number({0, 1e5}),
+          field.at("friction").number({0, 2})};
+}
+
+}  // namespace
+
+SceneConfig parse_scene(const std::string& text, const std::string& file) {
+  const nlohmann::json json = parse_json(text, file);
+  const Field table(json, file, "");
+  check_kind(table, "scene");
+  table.only({"format", "kind", "name", "boxes", "spheres", "slit", "rod", "camera", "contact"});
+  SceneConfig out;
+  out.name = table.at("name").name(40);
+  const Field boxes = table.at("boxes");
+  const Field spheres = table.at("spheres");
+  const std::size_t box_count = boxes.size(0, 64, "at most 64 boxes");
+  for (std::size_t i = 0; i < box_count; ++i) out.boxes.push_back(read_box(boxes.element(i)));
+  const std::size_t sphere_count = spheres.size(0, 64, "at most 64 spheres");
+  for (std::size_t i = 0; i < sphere_count; ++i) out.spheres.push_back(read_sphere(spheres.element(i)));
+  out.slit = read_slit(table.at("slit"));
+  check_slit(table.at("slit"), out.slit);
+  out.rod = read_rod(table.at("rod"));
+  out.camera = read_camera(table.at("camera"));
+  out.contact = read_contact(table.at("contact"));
+  out.canonical_json = canonical_json(json);
+  return out;
+}
+
+SceneConfig load_scene(const std::string& path) { return parse_scene(read_text_file(path), path); }
+
+}  // namespace liana

@@ -1,0 +1,195 @@
+#include "host/daemon/arbiter.hpp"
+
+#include <string>
+
+#include "firmware_like/safety/faults.hpp"
+#include "host/api/request_error.hpp"
+
+namespace liana {
+
+namespace {
+
+// A tip goal counts as reached within these, some intervals after it was set: a request needs two to show in the arm's report.
+constexpr double kArrived_m = 1e-5;
+constexpr double kArrived_rad = 1e-5;
+constexpr std::int32_t kSettledIntervals = 10;
+
+bool has_nodes(const std::array<NodeTarget, kMaxNodeTargets>& nodes) {
+  for (const NodeTarget& target : nodes) {
+    if (target.node != 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+Arbiter::Arbiter(const RobotTable& table, const SpeedZone& zone)
+    : table_(table), zone_(zone), interval_s_(table.tick_s * table.interval_ticks), tip_speed_m_s_(table.limits.tip_speed_m_s) {}
+
+void Arbiter::require_ready(const Outputs& now) const {
+  if (now.faults.count > 0) {
+    throw RequestError("fault", std::string("fault ") + fault_info(now.faults.fault[0].number).name + " is latched: clear it first");
+  }
+  if (now.state != OperatingState::kEnabled) throw RequestError("not_enabled", "the arm is not enabled");
+}
+
+void Arbiter::require_free(const Outputs& now) const {
+  require_ready(now);
+  if (is_busy()) throw RequestError("busy", "a planned move is under way: wait for it or send hold");
+  if (device_.engaged()) throw RequestError("busy", "the operator steers: wait for the deadman to open");
+}
+
+// The tip stays where the command stands now.
+void Arbiter::stay_here(const Outputs& now) {
+  tip_goal_ = now.tip_command;
+  mode_ = Mode::kTip;
+  unchanged_intervals_ = 0;
+}
+
+void Arbiter::move_joints(const Outputs& now, const ThetaVector& goal_rad, double rate_rad_s) {
+  require_free(now);
+  joint_move_.emplace(table_, now.theta_command_rad, goal_rad, rate_rad_s);
+  move_time_s_ = 0.0;
+  mode_ = Mode::kJoint;
+}
+
+void Arbiter::move_line(const Outputs& now, const Pose& goal) {
+  require_free(now);
+  line_.emplace(table_, mode_ == Mode::kTip ? tip_goal_ : now.tip_command, goal, tip_speed_m_s_);
+  move_time_s_ = 0.0;
+  mode_ = Mode::kLine;
+}
+
+void Arbiter::servo_tip(const Outputs& now, const Pose& goal) {
+  require_free(now);
+  tip_goal_ = goal;
+  mode_ = Mode::kTip;
+  unchanged_intervals_ = 0;
+}
+
+void Arbiter::hold_theta(const Outputs& now, std::uint32_t mask, const ThetaVector& held_rad) {
+  require_ready(now);
+  held_mask_ = mask;
+  held_rad_ = held_rad;
+  unchanged_intervals_ = 0;
+  if (mode_ == Mode::kIdle && !device_.engaged()) stay_here(now);
+}
+
+void Arbiter::shape(const Outputs& now, const std::array<NodeTarget, kMaxNodeTargets>& nodes) {
+  require_ready(now);
+  nodes_ = nodes;
+  unchanged_intervals_ = 0;
+  if (mode_ == Mode::kIdle && !device_.engaged()) stay_here(now);
+}
+
+void Arbiter::use_device(const DeviceUse& use) {
+  if (is_busy()) throw RequestError("busy", "a planned move is under way: wait for it or send hold");
+  device_.use(use);
+  device_node_ = NodeTarget{};
+  was_engaged_ = false;
+  tip_speed_m_s_ = use.speed_m_s > 0.0 ? use.speed_m_s : table_.limits.tip_speed_m_s;
+}
+
+// The way out takes over from whatever is under way, the operator included.
+void Arbiter::retract(const Outputs& now, std::uint64_t until_tick) {
+  require_ready(now);
+  if (path_.empty()) throw RequestError("refused", "there is no stored path to go back along");
+  device_.let_go();
+  retract_until_ = until_tick;
+  mode_ = Mode::kRetract;
+}
+
+void Arbiter::hold() {
+  mode_ = Mode::kIdle;
+  device_.let_go();
+}
+
+void Arbiter::refused() {
+  mode_ = Mode::kIdle;
+  device_.drop_anchor();
+}
+
+Setpoint Arbiter::tip_setpoint(const Outputs& now) const {
+  Setpoint setpoint;
+  setpoint.kind = CommandKind::kTip;
+  setpoint.tip_in_base = tip_goal_;
+  setpoint.held_mask = held_mask_;
+  setpoint.held_rad = held_rad_;
+  setpoint.node = nodes_;
+  setpoint.tip_speed_m_s = zone_.advice_at(now.tip_command.position_m, zone_.advice_at(tip_goal_.position_m, tip_speed_m_s_));
+  if (device_node_.node == 0) return setpoint;
+  for (NodeTarget& slot : setpoint.node) {
+    if (slot.node != 0 && slot.node != device_node_.node) continue;
+    slot = device_node_;
+    break;
+  }
+  return setpoint;
+}
+
+Setpoint Arbiter::joint_setpoint(const ThetaVector& theta_rad) const {
+  Setpoint setpoint;
+  setpoint.kind = CommandKind::kJoint;
+  setpoint.joint_rad = theta_rad;
+  setpoint.tip_speed_m_s = table_.limits.tip_speed_m_s;
+  return setpoint;
+}
+
+std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const Outputs& now) {
+  const std::optional<SteerGoal> steer = device_.finish_interval(now, interval_s_);
+  if (now.state != OperatingState::kEnabled) {
+    hold();
+    path_.clear();
+    held_mask_ = 0;
+    nodes_ = {};
+    return std::nullopt;
+  }
+  if (mode_ != Mode::kRetract) path_.note(tick, now.theta_command_rad);
+  if (is_busy()) {
+    device_.drop_anchor();  // a hand that closes the deadman now starts from where the move ends
+    return planned_setpoint(now);
+  }
+  if (steer) return steered_setpoint(now, *steer);
+  if (was_engaged_) mode_ = Mode::kIdle;  // the operator let go: stop along the path
+  was_engaged_ = false;
+  if (mode_ == Mode::kTip && has_arrived(now)) mode_ = Mode::kIdle;
+  ++unchanged_intervals_;
+  return mode_ == Mode::kTip ? std::optional(tip_setpoint(now)) : std::nullopt;
+}
+
+// Tip and held variables stand where they should; nothing more is asked for, and the null space comes to rest. Node targets are in force
+// until they stand, too.
+bool Arbiter::has_arrived(const Outputs& now) const {
+  if (unchanged_intervals_ < kSettledIntervals || now.held_at_target == 0) return false;
+  if (has_nodes(tip_setpoint(now).node)) return now.at_rest != 0;
+  const Vec3 turn = rotation_vector(multiply(tip_goal_.quaternion, conjugate(now.tip_command.quaternion)));
+  return norm(subtract(tip_goal_.position_m, now.tip_command.position_m)) < kArrived_m && norm(turn) < kArrived_rad;
+}
+
+std::optional<Setpoint> Arbiter::steered_setpoint(const Outputs& now, const SteerGoal& goal) {
+  was_engaged_ = true;
+  unchanged_intervals_ = 0;
+  mode_ = Mode::kTip;
+  tip_goal_ = goal.tip_in_base;
+  device_node_ = goal.node;
+  return tip_setpoint(now);
+}
+
+std::optional<Setpoint> Arbiter::planned_setpoint(const Outputs& now) {
+  move_time_s_ += interval_s_;
+  if (mode_ == Mode::kLine) {
+    tip_goal_ = line_->at(move_time_s_);
+    if (move_time_s_ >= line_->duration_s()) mode_ = Mode::kTip;
+    unchanged_intervals_ = 0;
+    return tip_setpoint(now);
+  }
+  if (mode_ == Mode::kJoint) {
+    const bool arrived = move_time_s_ >= joint_move_->duration_s();
+    if (arrived && now.at_rest != 0) mode_ = Mode::kIdle;
+    return joint_setpoint(joint_move_->at(move_time_s_));
+  }
+  const std::optional<ThetaVector> back = path_.step_back(retract_until_);
+  if (!back) mode_ = Mode::kIdle;
+  return back ? std::optional(joint_setpoint(*back)) : std::nullopt;
+}
+
+}  // namespace liana

@@ -1,0 +1,54 @@
+// One tracked hand: samples at device rate in, one averaged reading per command interval out. Every sample is counted.
+#pragma once
+
+#include <cstdint>
+
+#include "firmware_like/math/pose.hpp"
+
+namespace liana {
+
+// One sample of a device.
+struct HandSample {
+  std::int64_t t_us = 0;  // device time
+  bool valid = false;     // the tracker sees the hand
+  bool pressed = false;   // deadman: trigger or button
+  Pose pose{};            // in the device frame
+};
+
+// What one command interval of samples says.
+struct HandReading {
+  std::uint32_t samples = 0;  // all that came
+  std::uint32_t used = 0;     // averaged into `mean`
+  std::uint32_t jumps = 0;    // rejected: faster than a hand moves
+  bool let_go = false;        // the deadman was open in at least one sample
+  bool pressed = false;       // closed in the newest sample
+  bool lost = false;          // no usable pose for longer than kTrackingLost_s
+  bool has_mean = false;      // `mean` is from this interval; otherwise from an earlier one
+  Pose mean{};
+};
+
+constexpr double kHandSpeed_m_s = 4.0;  // a sample that implies more is a tracker jump, not a hand
+constexpr double kHandTurn_rad_s = 30.0;
+constexpr double kJumpWindow_s = 0.05;  // longest time over which those speeds are believed
+constexpr double kTrackingLost_s = 0.25;
+
+class HandTrack {
+ public:
+  // Takes one sample; times must not go back (such samples are counted and ignored).
+  void add_sample(const HandSample& sample);
+  // The reading of the interval that ends now; the next interval starts empty.
+  HandReading finish_interval();
+
+ private:
+  bool is_jump(const HandSample& sample) const;
+  void average_in(const Pose& pose);
+
+  HandReading reading_{};
+  Vec3 position_sum_m_{}, turn_sum_rad_{};
+  Pose first_{};  // reference of the rotation average
+  Pose last_good_{};
+  std::int64_t last_t_us_ = 0, last_good_t_us_ = 0;
+  bool any_ = false, any_good_ = false;
+};
+
+}  // namespace liana

@@ -1,0 +1,46 @@
+// The real-time side of lianad: one tick against the buses.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/bus/drive_bus.hpp"
+#include "host/canopen/master.hpp"
+#include "host/config/config.hpp"
+#include "host/daemon/tick_core.hpp"
+
+namespace liana {
+
+class RtCycle {
+ public:
+  // Setup: may allocate and throw. `bus` and `link` must outlive this.
+  RtCycle(const RobotConfig& robot, const BusesConfig& buses, DriveBus& bus, Link& link);
+
+  // Waits for the next deadline and runs one tick; false when the other side of the bus has left. After construction nothing here
+  // allocates, waits for a lock, or makes a system call that the bus and the timer do not need.
+  bool run_tick() noexcept;
+
+  // After booting has failed: every node, object, expected and found value. Not for the real-time thread.
+  std::string boot_problem() const;
+
+ private:
+  void collect(const TickStart& start) noexcept;
+  void take_emergencies() noexcept;
+  void command_drives(const Outputs& outputs) noexcept;
+  void count_overrun(const TickStart& start) noexcept;
+  void finish_tick(std::uint64_t tick) noexcept;
+
+  RobotTable table_;
+  DriveBus& bus_;
+  std::vector<canopen::DriveExpectation> drives_;  // bus and node of every drive, in the order of the cables
+  std::vector<std::string> bus_names_;
+  std::uint64_t half_period_us_, period_us_;
+  canopen::Master master_;
+  TickCore core_;
+  std::array<std::array<std::int8_t, 128>, kMaxDriveBuses> drive_of_node_{};  // -1: not ours
+  Inputs inputs_{};
+  CycleReport report_{};
+  std::uint64_t began_us_ = 0, heard_us_ = 0, ended_us_ = 0;  // of the last tick, on the bus's clock
+};
+
+}  // namespace liana

@@ -1,0 +1,122 @@
+// The service side of lianad: once per command interval it hears the clients, decides what to ask for, verifies and releases it.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/api/server.hpp"
+#include "host/bus/time_mode.hpp"
+#include "host/config/config.hpp"
+#include "host/daemon/arbiter.hpp"
+#include "host/daemon/link.hpp"
+#include "host/daemon/owner.hpp"
+#include "host/daemon/release.hpp"
+#include "host/daemon/state_message.hpp"
+#include "host/daemon/twin.hpp"
+#include "host/daemon/verify.hpp"
+
+namespace liana {
+
+// What the service needs to know about the run.
+struct ServiceConfig {
+  std::string api_path;
+  TimeMode time_mode = TimeMode::kFast;
+  RobotConfig robot;
+  SceneConfig scene;
+  BusesConfig buses;
+  bool ends_with_mission = false;             // stop the arm once the mission has come and gone
+  std::function<std::string()> boot_problem;  // asked once booting has failed: which node, what, and what to do
+};
+
+class Service : private ApiHandler {
+ public:
+  // Listens at config.api_path; throws std::runtime_error.
+  Service(const ServiceConfig& config, Link& link);
+
+  // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after `timeout_s`.
+  void wait_for(const std::vector<Role>& roles, double timeout_s);
+  // One command interval. Lockstep time: returns after every lockstep client has answered.
+  void cycle();
+  // A new command interval has begun since the last cycle().
+  bool interval_began() const { return link_.image.has_new(); }
+  // Between intervals, real time only: moves packets and acts on requests at once, waiting up to `timeout_s`.
+  void idle(double timeout_s);
+  // Stops the arm (stop category stop); finished() becomes true when drives are off, or after 10 s of arm time.
+  void begin_shutdown(const std::string& reason);
+  bool finished() const;
+  // There will be no further cycle().
+  void end_lockstep() { server_.end_lockstep(); }
+  // Somebody has asked for the end; otherwise clients may still want to read the last state.
+  bool dismissed() const { return dismissed_; }
+
+ private:
+  using Json = nlohmann::json;
+  using Handler = Json (Service::*)(const ClientInfo&, const Json&);
+
+  Json welcome(const ClientInfo& client) override;
+  Json handle(const ClientInfo& client, const Json& request) override;
+  void gone(const ClientInfo& client, const std::string& why) override;
+  static const std::map<std::string, Handler>& handlers();
+
+  Json on_acquire(const ClientInfo& client, const Json& request);
+  Json on_release(const ClientInfo& client, const Json& request);
+  Json on_state_command(const ClientInfo& client, const Json& request);
+  Json on_move_jp(const ClientInfo& client, const Json& request);
+  Json on_move_cp(const ClientInfo& client, const Json& request);
+  Json on_servo_cp(const ClientInfo& client, const Json& request);
+  Json on_hold_theta(const ClientInfo& client, const Json& request);
+  Json on_shape(const ClientInfo& client, const Json& request);
+  Json on_use_device(const ClientInfo& client, const Json& request);
+  Json on_retract(const ClientInfo& client, const Json& request);
+  Json on_hold(const ClientInfo& client, const Json& request);
+  Json on_tool(const ClientInfo& client, const Json& request);
+  Json on_stop(const ClientInfo& client, const Json& request);
+  Json on_shutdown(const ClientInfo& client, const Json& request);
+  Json on_announce(const ClientInfo& client, const Json& request);
+  Json on_operator_says(const ClientInfo& client, const Json& request);
+  Json on_device(const ClientInfo& client, const Json& request);
+  Json on_camera(const ClientInfo& client, const Json& request);
+
+  const Outputs& now() const { return link_.report.value().outputs; }
+  std::uint64_t tick() const { return link_.report.value().next_tick; }
+  void note(const std::string& text);
+  void request(Request what);
+  void drop_motion(const std::string& why);
+  void watch_arm();
+  void note_clear();
+  void forward_ticks();
+  void forward_camera();
+  void publish_state();
+  void release_next();
+  void verify_and_release(const Setpoint& setpoint);
+
+  ServiceConfig config_;
+  Link& link_;
+  double reach_m_;
+  Owner owner_;
+  SpeedZone zone_;
+  Arbiter arbiter_;
+  Release release_;
+  Twin twin_;
+  std::vector<Telecommand> released_;  // not yet due at the newest image
+  Notes notes_;
+  BootPhase boot_seen_ = BootPhase::kBooting;
+  bool image_sent_ = false;
+  struct CameraFrame {
+    std::uint64_t due_tick;
+    std::string packet;
+  };
+  std::deque<CameraFrame> camera_;
+  std::uint64_t clear_seen_tick_ = 0;
+  std::optional<std::uint64_t> mission_end_tick_, shutdown_tick_;
+  bool dismissed_ = false;
+  ApiServer server_;  // last: its destructor may call gone()
+};
+
+}  // namespace liana

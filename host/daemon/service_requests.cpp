@@ -1,0 +1,245 @@
+// What each request of docs/api.md does.
+#include <cmath>
+
+#include "host/api/fields.hpp"
+#include "host/api/request_error.hpp"
+#include "host/daemon/device_messages.hpp"
+#include "host/daemon/service.hpp"
+
+namespace liana {
+
+namespace {
+constexpr double kDegree = 0.017453292519943295;
+}  // namespace
+
+const std::map<std::string, Service::Handler>& Service::handlers() {
+  static const std::map<std::string, Handler> kHandlers{{"acquire", &Service::on_acquire},
+                                                        {"release", &Service::on_release},
+                                                        {"state_command", &Service::on_state_command},
+                                                        {"move_jp", &Service::on_move_jp},
+                                                        {"move_cp", &Service::on_move_cp},
+                                                        {"servo_cp", &Service::on_servo_cp},
+                                                        {"hold_theta", &Service::on_hold_theta},
+                                                        {"shape", &Service::on_shape},
+                                                        {"use_device", &Service::on_use_device},
+                                                        {"retract", &Service::on_retract},
+                                                        {"hold", &Service::on_hold},
+                                                        {"tool", &Service::on_tool},
+                                                        {"stop", &Service::on_stop},
+                                                        {"shutdown", &Service::on_shutdown},
+                                                        {"announce", &Service::on_announce},
+                                                        {"operator_says", &Service::on_operator_says},
+                                                        {"device", &Service::on_device},
+                                                        {"camera", &Service::on_camera}};
+  return kHandlers;
+}
+
+Service::Json Service::handle(const ClientInfo& client, const Json& request) {
+  const auto found = handlers().find(text_field(request, "op", 32));
+  if (found == handlers().end()) throw RequestError("bad_request", "unknown op " + request["op"].dump());
+  return (this->*found->second)(client, request);
+}
+
+Service::Json Service::welcome(const ClientInfo&) {
+  return {{"op", "welcome"},
+          {"time_mode", time_mode_name(config_.time_mode)},
+          {"period_s", config_.robot.table.tick_s},
+          {"interval_ticks", config_.robot.table.interval_ticks},
+          {"config_hash", config_hash(config_.robot, config_.scene, config_.buses)},
+          {"robot", Json::parse(config_.robot.canonical_json)},
+          {"scene", Json::parse(config_.scene.canonical_json)},
+          {"buses", Json::parse(config_.buses.canonical_json)}};
+}
+
+void Service::gone(const ClientInfo& client, const std::string& why) {
+  note(std::string(role_name(client.role)) + " '" + client.name + "' is gone (" + why + ")");
+  if (owner_.gone(client.id)) drop_motion("the owner of motion died");
+  if (config_.ends_with_mission && client.role == Role::kMission) mission_end_tick_ = tick();
+}
+
+Service::Json Service::on_acquire(const ClientInfo& client, const Json&) {
+  if (client.role != Role::kMission && client.role != Role::kClient) {
+    throw RequestError("not_owner", "role '" + std::string(role_name(client.role)) + "' cannot own motion; mission and client can");
+  }
+  owner_.acquire(client.id, static_cast<std::uint32_t>(client.role) + 1, client.name);
+  return Json::object();
+}
+
+Service::Json Service::on_release(const ClientInfo& client, const Json&) {
+  owner_.release(client.id);
+  drop_motion("'" + client.name + "' released motion");
+  return Json::object();
+}
+
+Service::Json Service::on_state_command(const ClientInfo& client, const Json& request) {
+  owner_.require(client.id);
+  const std::string command = text_field(request, "command", 16);
+  if (boot_seen_ == BootPhase::kFailed) throw RequestError("fault", "booting failed: " + config_.boot_problem());
+  if (boot_seen_ == BootPhase::kBooting) throw RequestError("busy", "the drives are still booting");
+  if (command == "enable") {
+    if (now().faults.count > 0) throw RequestError("fault", "a fault is latched: clear it first");
+    if (shutdown_tick_) throw RequestError("refused", "lianad is stopping");
+    this->request(Request::kEnable);
+  } else if (command == "disable") {
+    this->request(Request::kDisable);
+  } else if (command == "clear") {
+    this->request(Request::kClear);
+  } else if (command == "home") {
+    // Encoders are absolute: homing is the comparison of stored zeros with the lengths found, which every tick repeats.
+    if (now().homed == 0) throw RequestError("refused", "the motor lengths contradict each other: check zero_counts and slack cables");
+  } else {
+    throw RequestError("bad_request", "command '" + command + "': allowed enable, disable, clear, home");
+  }
+  return Json::object();
+}
+
+Service::Json Service::on_move_jp(const ClientInfo& client, const Json& request) {
+  owner_.require(client.id);
+  const RobotTable& table = config_.robot.table;
+  const auto count = static_cast<std::size_t>(table.theta_count());
+  const std::vector<double> goal_deg = numbers_field(request, "goal_deg", count, -180.0, 180.0);
+  const double most_deg_s = table.limits.theta_rate_rad_s / kDegree;
+  const double rate_deg_s = number_field_or(request, "rate_deg_s", 0.01, most_deg_s, most_deg_s);
+  ThetaVector goal_rad{};
+  for (std::size_t i = 0; i < count; ++i) {
+    const double limit_deg = table.segment[i / 2].theta_limit_rad / kDegree;
+    if (std::fabs(goal_deg[i]) > limit_deg) {
+      throw RequestError("out_of_range", "goal_deg[" + std::to_string(i) + "] = " + std::to_string(goal_deg[i]) + ": allowed -" +
+                                             std::to_string(limit_deg) + " to " + std::to_string(limit_deg));
+    }
+    goal_rad[i] = goal_deg[i] * kDegree;
+  }
+  arbiter_.move_joints(now(), goal_rad, rate_deg_s * kDegree);
+  return Json::object();
+}
+
+Service::Json Service::on_move_cp(const ClientInfo& client, const Json& request) {
+  owner_.require(client.id);
+  const Pose goal = pose_field(request, "goal", reach_m_);
+  if (request.contains("hold")) on_hold_theta(client, {{"held", request["hold"]}});
+  arbiter_.move_line(now(), goal);
+  return Json::object();
+}
+
+Service::Json Service::on_servo_cp(const ClientInfo& client, const Json& request) {
+  owner_.require(client.id);
+  arbiter_.servo_tip(now(), pose_field(request, "goal", reach_m_));
+  return Json::object();
+}
+
+Service::Json Service::on_hold_theta(const ClientInfo& client, const Json& request) {
+  owner_.require(client.id);
+  const RobotTable& table = config_.robot.table;
+  std::uint32_t mask = 0;
+  ThetaVector held_rad{};
+  for (const Json& entry : array_field(request, "held", kMaxTheta)) {
+    const auto i = static_cast<std::size_t>(integer_field(entry, "theta", 1, table.theta_count())) - 1;
+    const double limit_deg = table.segment[i / 2].theta_limit_rad / kDegree;
+    held_rad[i] = number_field(entry, "target_deg", -limit_deg, limit_deg) * kDegree;
+    mask |= 1u << i;
+  }
+  arbiter_.hold_theta(now(), mask, held_rad);
+  return Json::object();
+}
+
+Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
+  owner_.require(client.id);
+  std::array<NodeTarget, kMaxNodeTargets> nodes{};
+  std::size_t used = 0;
+  for (const Json& entry : array_field(request, "nodes", nodes.size())) {
+    nodes[used++] = {static_cast<std::int32_t>(integer_field(entry, "node", 1, config_.robot.table.segment_count - 1)),
+                     point_field(entry, "position_m", reach_m_), number_field_or(entry, "weight", 0.0, 1000.0, 1.0),
+                     number_field_or(entry, "threshold_m", 0.0, reach_m_, kNodeThreshold_m)};
+  }
+  arbiter_.shape(now(), nodes);
+  return Json::object();
+}
+
+Service::Json Service::on_use_device(const ClientInfo& client, const Json& request) {
+  owner_.require(client.id);
+  const RobotTable& table = config_.robot.table;
+  DeviceUse use;
+  use.kind = device_kind(text_field(request, "device", 16));
+  use.mapping.scale = number_field_or(request, "scale", 0.01, 100.0, 1.0);
+  use.mapping.rotation_scale = number_field_or(request, "rotation_scale", 0.0, 10.0, 1.0);
+  use.node = request.contains("node") ? static_cast<std::int32_t>(integer_field(request, "node", 0, table.segment_count - 1)) : 0;
+  use.speed_m_s = number_field_or(request, "speed_m_s", 1e-4, table.limits.tip_speed_m_s, table.limits.tip_speed_m_s);
+  if (use.kind != DeviceKind::kNone && !server_.has_role(Role::kOperator)) throw RequestError("no_device", "no operator is connected");
+  arbiter_.use_device(use);
+  return Json::object();
+}
+
+Service::Json Service::on_retract(const ClientInfo& client, const Json& request) {
+  owner_.require(client.id);
+  const std::int64_t until = request.contains("until_tick") ? integer_field(request, "until_tick", 0, 1LL << 53) : 0;
+  arbiter_.retract(now(), static_cast<std::uint64_t>(until));
+  return Json::object();
+}
+
+Service::Json Service::on_hold(const ClientInfo& client, const Json&) {
+  owner_.require(client.id);
+  arbiter_.hold();
+  return Json::object();
+}
+
+Service::Json Service::on_tool(const ClientInfo& client, const Json& request) {
+  owner_.require(client.id);
+  note("tool: " + text_field(request, "command", 64));
+  return {{"tick", tick()}};
+}
+
+Service::Json Service::on_stop(const ClientInfo& client, const Json& request) {
+  const std::string reason = request.contains("reason") ? text_field(request, "reason", 200) : "no reason given";
+  arbiter_.hold();
+  this->request(Request::kStop);
+  note("stop by '" + client.name + "': " + reason);
+  return Json::object();
+}
+
+// Acted on at the next interval: where the end of the mission stops the arm, and the mission has just ended, its (repeatable) time counts.
+Service::Json Service::on_shutdown(const ClientInfo& client, const Json&) {
+  dismissed_ = true;
+  note("shutdown asked for by '" + client.name + "'");
+  return Json::object();
+}
+
+Service::Json Service::on_announce(const ClientInfo& client, const Json& request) {
+  if (client.role != Role::kMission) throw RequestError("bad_request", "announce is for role mission");
+  const Json step = request.value("step", Json());
+  if (!step.is_null() && !step.is_object()) throw RequestError("bad_request", "field 'step': must be an object or null");
+  notes_.step = nullptr;
+  if (step.is_null()) return Json::object();
+  notes_.step = {{"index", integer_field(step, "index", 0, 1000)},
+                 {"name", text_field(step, "name", 120)},
+                 {"device", text_field(step, "device", 16)}};
+  note("step " + std::to_string(notes_.step["index"].get<int>()) + ": " + notes_.step["name"].get<std::string>());
+  return {{"tick", tick()}};
+}
+
+Service::Json Service::on_operator_says(const ClientInfo& client, const Json& request) {
+  if (client.role != Role::kOperator) throw RequestError("bad_request", "operator_says is for role operator");
+  notes_.operator_says = {{"what", text_field(request, "what", 40)}, {"tick", tick()}};
+  return Json::object();
+}
+
+Service::Json Service::on_device(const ClientInfo& client, const Json& request) {
+  if (client.role != Role::kOperator) throw RequestError("bad_request", "device samples are for role operator");
+  add_samples(request, arbiter_.device());
+  return Json::object();
+}
+
+Service::Json Service::on_camera(const ClientInfo& client, const Json& request) {
+  if (client.role != Role::kCamera) throw RequestError("bad_request", "camera frames are for role camera");
+  const double capture_s = number_field(request, "capture_time_s", 0.0, 1e9);
+  CameraFrame frame{0, request.dump()};
+  if (config_.time_mode != TimeMode::kReal) {
+    // Sent in the slot after capture plus latency, it is certainly here two slots later; one more for rounding.
+    const double ready_s = capture_s + config_.scene.camera.latency_s;
+    frame.due_tick = static_cast<std::uint64_t>(std::ceil(ready_s / config_.robot.table.tick_s - 1e-6)) + 3;
+  }
+  if (camera_.size() >= 64) throw RequestError("busy", "64 camera frames are waiting: their time stamps lie in the future");
+  camera_.push_back(frame);
+  return Json::object();
+}
+
+}  // namespace liana

@@ -1,0 +1,170 @@
+#include "host/daemon/state_message.hpp"
+
+#include <array>
+
+#include "firmware_like/drive/cia402.hpp"
+#include "firmware_like/safety/faults.hpp"
+
+namespace liana {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr double kDegrees = 57.29577951308232;
+
+json pose_json(const Pose& p) {
+  return {p.position_m[0], p.position_m[1], p.position_m[2], p.quaternion[0], p.quaternion[1], p.quaternion[2], p.quaternion[3]};
+}
+
+json first(const CableVector& values, std::int32_t count) { return json(std::vector<double>(values.begin(), values.begin() + count)); }
+
+json nodes_json(const RobotTable& table, const Outputs& outputs) {
+  json nodes = json::array();
+  for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m) nodes.push_back(outputs.node_command_m[m]);
+  return nodes;
+}
+
+json held_json(std::uint32_t mask) {
+  json held = json::array();
+  for (int i = 0; i < kMaxTheta; ++i) {
+    if (((mask >> i) & 1u) != 0) held.push_back(i + 1);
+  }
+  return held;
+}
+
+json faults_json(const FaultList& list) {
+  json faults = json::array();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(list.count); ++i) {
+    const Fault& f = list.fault[i];
+    const FaultInfo& info = fault_info(f.number);
+    faults.push_back({{"number", static_cast<int>(f.number)},
+                      {"name", info.name},
+                      {"index", f.index},
+                      {"detail", f.detail},
+                      {"tick", f.tick},
+                      {"text", info.text},
+                      {"remedy", info.remedy}});
+  }
+  return faults;
+}
+
+json limits_json(std::uint32_t limits) {
+  static constexpr std::array<const char*, 11> kNames{"tip_speed",   "tip_accel",   "theta",         "theta_rate",
+                                                      "theta_accel", "cable_speed", "tension_floor", "tension_ceiling",
+                                                      "singular",    "gate",        "expired"};
+  json names = json::array();
+  for (std::size_t i = 0; i < kNames.size(); ++i) {
+    if (((limits >> i) & 1u) != 0) names.push_back(kNames[i]);
+  }
+  return names;
+}
+
+json drives_json(const RobotTable& table, const CycleReport& report) {
+  json drives = json::array();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
+    const DriveFeedback& d = report.inputs.drive[i];
+    const double position_m =
+        table.drive[i].direction * (static_cast<double>(d.position_counts) - table.drive[i].zero_counts) * table.drive[i].metres_per_count;
+    drives.push_back({{"node", i + 1},
+                      {"state", drive_state_name(decode(d.statusword))},
+                      {"position_m", position_m},
+                      {"tension_N", d.torque_permille * table.drive[i].newtons_per_permille}});
+  }
+  return drives;
+}
+
+json buses_json(const BusesConfig& buses, const CycleReport& report) {
+  const double time_s = static_cast<double>(report.next_tick) * buses.tick_s();
+  json list = json::array();
+  for (std::size_t b = 0; b < buses.buses.size(); ++b) {
+    const DriveBusStats& bus = report.bus[b];
+    list.push_back({{"name", buses.buses[b].name},
+                    {"frames", bus.sent + bus.received},
+                    {"refused", bus.refused},
+                    {"errors", bus.errors},
+                    {"down", bus.state == BusState::kDown || bus.state == BusState::kBusOff},
+                    {"worst_load", worst_case_load(buses, b)},
+                    {"measured_load", time_s > 0.0 ? static_cast<double>(bus.bits) / (time_s * buses.buses[b].bitrate) : 0.0}});
+  }
+  return list;
+}
+
+const char* stop_name(StopCategory category) {
+  static constexpr std::array<const char*, 4> kNames{"none", "hold", "stop", "off"};
+  return kNames[static_cast<std::size_t>(category)];
+}
+
+const char* device_name(DeviceKind kind) {
+  static constexpr std::array<const char*, 3> kNames{"none", "vr", "hand"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+json verdict_json(const RobotTable& table, const LastVerdict& v) {
+  return {{"sequence", v.sequence}, {"released", v.released},   {"code", static_cast<int>(v.worst.code)},
+          {"text", v.worst.text},   {"margin", v.worst.margin}, {"twin_js_deg", degrees(table, v.twin_theta_rad)}};
+}
+
+void add_arm(json& state, const RobotTable& table, const CycleReport& report) {
+  const Outputs& o = report.outputs;
+  state["is_homed"] = o.homed != 0;
+  state["measured_js_deg"] = degrees(table, o.theta_measured_rad);
+  state["setpoint_js_deg"] = degrees(table, o.theta_command_rad);
+  state["measured_cp"] = pose_json(o.tip_measured);
+  state["setpoint_cp"] = pose_json(o.tip_command);
+  state["goal_cp"] = pose_json(o.tip_goal);
+  state["node_m"] = nodes_json(table, o);
+  state["held"] = held_json(o.held_mask);
+  state["held_at_target"] = o.held_at_target != 0;
+  state["at_rest"] = o.at_rest != 0;
+  state["tension_N"] = first(o.tension_measured_N, table.cable_count());
+  state["stop_category"] = stop_name(o.stop_category);
+  state["faults"] = faults_json(o.faults);
+  state["limits"] = limits_json(o.limits);
+}
+
+}  // namespace
+
+json degrees(const RobotTable& table, const ThetaVector& theta_rad) {
+  json list = json::array();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) list.push_back(theta_rad[i] * kDegrees);
+  return list;
+}
+
+const char* state_name(const CycleReport& report) {
+  static constexpr std::array<const char*, 5> kNames{"DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT"};
+  if (report.boot == BootPhase::kBooting) return "BOOTING";
+  if (report.boot == BootPhase::kFailed) return "FAULT";
+  return kNames[static_cast<std::size_t>(report.outputs.state)];
+}
+
+json state_message(const RobotTable& table, const BusesConfig& buses, const CycleReport& report, const Arbiter& arbiter, const Owner& owner,
+                   const Notes& notes) {
+  const Outputs& o = report.outputs;
+  const DeviceUse& device = arbiter.device().in_use();
+  const bool moving = o.state == OperatingState::kEnabled && (o.at_rest == 0 || o.held_at_target == 0);
+  json state{{"op", "state"},
+             {"tick", report.next_tick},
+             {"time_s", static_cast<double>(report.next_tick) * table.tick_s},
+             {"state", state_name(report)},
+             {"is_busy", arbiter.is_busy() || moving},
+             {"owner", owner.name()},
+             {"device", device_name(device.kind)},
+             {"device_engaged", arbiter.device().engaged()},
+             {"device_reason", arbiter.device().reason()},
+             {"device_samples", arbiter.device().samples()},
+             {"mapping", {{"scale", device.mapping.scale}, {"rotation_scale", device.mapping.rotation_scale}}},
+             {"step", notes.step},
+             {"operator_says", notes.operator_says},
+             {"overruns", report.overruns.total()},
+             {"refusals", notes.refusals},
+             {"verdict", verdict_json(table, notes.verdict)},
+             {"drives", drives_json(table, report)},
+             {"buses", buses_json(buses, report)},
+             {"events", notes.events},
+             {"stopping", notes.stopping}};
+  add_arm(state, table, report);
+  return state;
+}
+
+}  // namespace liana

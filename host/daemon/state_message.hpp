@@ -1,0 +1,45 @@
+// The state message (docs/api.md) from what the arm reports and what the service knows.
+#pragma once
+
+#include <deque>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "host/config/config.hpp"
+#include "host/daemon/arbiter.hpp"
+#include "host/daemon/link.hpp"
+#include "host/daemon/owner.hpp"
+#include "host/daemon/verdict.hpp"
+
+namespace liana {
+
+// How the last candidate fared.
+struct LastVerdict {
+  std::uint64_t sequence = 0;
+  bool released = false;
+  Verdict worst{};               // the refusing end, or the tighter margin
+  ThetaVector twin_theta_rad{};  // predicted at the end of the candidate's interval
+};
+
+// What the service adds to the arm's own report.
+struct Notes {
+  static constexpr std::size_t kKeptEvents = 10;
+  nlohmann::json step = nullptr;           // announced by the mission
+  nlohmann::json operator_says = nullptr;  // with the tick
+  std::deque<nlohmann::json> events;       // newest last, at most kKeptEvents
+  LastVerdict verdict{};
+  std::uint64_t refusals = 0;
+  bool stopping = false;
+};
+
+// Name of the operating state in the API.
+const char* state_name(const CycleReport& report);
+
+// Angles as degrees, the first theta_count of them.
+nlohmann::json degrees(const RobotTable& table, const ThetaVector& theta_rad);
+
+// The whole message.
+nlohmann::json state_message(const RobotTable& table, const BusesConfig& buses, const CycleReport& report, const Arbiter& arbiter,
+                             const Owner& owner, const Notes& notes);
+
+}  // namespace liana

@@ -1,0 +1,135 @@
+#include "host/lua/json_bridge.hpp"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+namespace liana {
+namespace {
+
+constexpr int kDeepest = 24;
+
+// One conversion; knows where it is for messages.
+class Reader {
+ public:
+  Reader(lua_State* state, const std::string& file) : state_(state), file_(file) {}
+
+  nlohmann::json read(int index, const std::string& path, int depth) const {
+    switch (lua_type(state_, index)) {
+      case LUA_TNIL:
+        return nullptr;
+      case LUA_TBOOLEAN:
+        return lua_toboolean(state_, index) != 0;
+      case LUA_TNUMBER:
+        return number(index, path);
+      case LUA_TSTRING:
+        return text(index, path);
+      case LUA_TTABLE:
+        return table(lua_absindex(state_, index), path, depth);
+      default:
+        refuse(path, luaL_typename(state_, index), "numbers, texts, true, false and tables", "remove it");
+    }
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& path, const std::string& value, const std::string& allowed, const std::string& advice) const {
+    throw std::runtime_error(file_ + ": " + (path.empty() ? "result" : path) + ": " + value + ": allowed " + allowed + ": " + advice);
+  }
+
+  nlohmann::json number(int index, const std::string& path) const {
+    if (lua_isinteger(state_, index) != 0) return static_cast<std::int64_t>(lua_tointeger(state_, index));
+    const double value = lua_tonumber(state_, index);
+    if (!std::isfinite(value)) refuse(path, std::isnan(value) ? "nan" : "inf", "finite numbers", "correct the computation");
+    return value;
+  }
+
+  nlohmann::json text(int index, const std::string& path) const {
+    std::size_t length = 0;
+    const char* bytes = lua_tolstring(state_, index, &length);
+    const std::string value(bytes, length);
+    for (const char c : value) {
+      if (static_cast<unsigned char>(c) >= 0x80 || static_cast<unsigned char>(c) < 0x20)
+        refuse(path, "a text", "printable ASCII", "rewrite the text");
+    }
+    return value;
+  }
+
+  nlohmann::json table(int index, const std::string& path, int depth) const {
+    if (depth > kDeepest || lua_checkstack(state_, 4) == 0)
+      refuse(path, "a table", "at most 24 levels", "look for a table that contains itself");
+    const auto length = static_cast<std::size_t>(lua_rawlen(state_, index));
+    std::size_t keys = 0;
+    std::size_t texts = 0;
+    for (lua_pushnil(state_); lua_next(state_, index) != 0; lua_pop(state_, 1)) {
+      ++keys;
+      if (lua_type(state_, -2) == LUA_TSTRING) ++texts;
+    }
+    if (keys == texts && keys > 0) return object(index, path, depth);
+    if (keys == length) return array(index, length, path, depth);
+    refuse(path, "a table", "lists 1..n without gaps, or named fields only", "do not mix them");
+  }
+
+  nlohmann::json array(int index, std::size_t length, const std::string& path, int depth) const {
+    nlohmann::json out = nlohmann::json::array();
+    for (std::size_t i = 1; i <= length; ++i) {
+      lua_rawgeti(state_, index, static_cast<lua_Integer>(i));
+      out.push_back(read(-1, path + "[" + std::to_string(i) + "]", depth + 1));
+      lua_pop(state_, 1);
+    }
+    return out;
+  }
+
+  nlohmann::json object(int index, const std::string& path, int depth) const {
+    nlohmann::json out = nlohmann::json::object();
+    for (lua_pushnil(state_); lua_next(state_, index) != 0; lua_pop(state_, 1)) {
+      const std::string key = lua_tostring(state_, -2);  // a text already: no conversion in place
+      out[key] = read(-1, path.empty() ? key : path + "." + key, depth + 1);
+    }
+    return out;
+  }
+
+  lua_State* state_;
+  const std::string& file_;
+};
+
+void push_list(lua_State* state, const nlohmann::json& list) {
+  lua_createtable(state, static_cast<int>(list.size()), 0);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    push_json(state, list[i]);
+    lua_rawseti(state, -2, static_cast<lua_Integer>(i + 1));
+  }
+}
+
+void push_table(lua_State* state, const nlohmann::json& table) {
+  lua_createtable(state, 0, static_cast<int>(table.size()));
+  for (auto it = table.begin(); it != table.end(); ++it) {
+    push_json(state, it.value());
+    lua_setfield(state, -2, it.key().c_str());
+  }
+}
+
+}  // namespace
+
+nlohmann::json to_json(lua_State* state, int index, const std::string& file) {
+  const int top = lua_gettop(state);
+  try {
+    return Reader(state, file).read(index, "", 0);
+  } catch (...) {
+    lua_settop(state, top);
+    throw;
+  }
+}
+
+void push_json(lua_State* state, const nlohmann::json& value) {
+  luaL_checkstack(state, 4, "JSON too deep");
+  if (value.is_array()) return push_list(state, value);
+  if (value.is_object()) return push_table(state, value);
+  if (value.is_boolean()) return lua_pushboolean(state, value.get<bool>() ? 1 : 0);
+  if (value.is_number_integer()) return lua_pushinteger(state, value.get<lua_Integer>());
+  if (value.is_number()) return lua_pushnumber(state, value.get<double>());
+  if (!value.is_string()) return lua_pushnil(state);
+  const auto& text = value.get_ref<const std::string&>();
+  lua_pushlstring(state, text.data(), text.size());
+}
+
+}  // namespace liana

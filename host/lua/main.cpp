@@ -1,0 +1,108 @@
+// liana-mission: evaluates Lua tables and runs missions, each in a process that a watchdog can kill.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <functional>
+#include <nlohmann/json.hpp>
+
+#include "host/lua/bindings.hpp"
+#include "host/lua/evaluate.hpp"
+#include "host/lua/mission_run.hpp"
+#include "host/lua/watchdog.hpp"
+
+namespace {
+
+// Runs `body`; bad input becomes one message on standard error and exit code 2.
+int with_message(const std::function<int()>& body) {
+  try {
+    return body();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "liana-mission: %s\n", error.what());
+    return liana::kExitBadInput;
+  }
+}
+
+int evaluate_and_print(const std::string& lua_dir, const std::string& kind, const std::string& name, liana::Activity& activity) {
+  liana::Script script(liana::ScriptLimits{}, lua_dir, activity);
+  std::printf("%s\n", liana::evaluate(script, lua_dir, kind, name).c_str());
+  return 0;
+}
+
+// What the watchdog's kill means for the user, in one message.
+std::string killed_text(const std::string& name, const liana::Activity& activity) {
+  return name + ": computed for more than 2 s without giving back control and was killed, last seen at " + liana::last_seen(activity) +
+         ": look for an endless loop";
+}
+
+int eval_command(const std::string& lua_dir, const std::string& kind, const std::string& name) {
+  liana::Activity& activity = liana::shared_activity();
+  const liana::WatchedEnd end =
+      liana::run_watched(activity, {}, [&] { return with_message([&] { return evaluate_and_print(lua_dir, kind, name, activity); }); });
+  if (end.killed_by_watchdog) std::fprintf(stderr, "liana-mission: %s\n", killed_text(name, activity).c_str());
+  if (end.signal != 0) std::fprintf(stderr, "liana-mission: %s: the script's process was killed by signal %d\n", name.c_str(), end.signal);
+  return end.killed_by_watchdog ? liana::kExitBadInput : end.exit_code;
+}
+
+// Reports for a script's process that can no longer do it.
+int report_death(const liana::MissionOptions& options, const liana::Activity& activity, const std::string& reason) {
+  std::fprintf(stderr, "liana-mission: %s\n", reason.c_str());
+  if (!options.report_file.empty()) liana::write_report(options.report_file, liana::failed_report(activity, options.mission, reason));
+  return liana::kExitWatchdog;
+}
+
+int run_command(const liana::MissionOptions& options) {
+  liana::Activity& activity = liana::shared_activity();
+  const liana::WatchedEnd end =
+      liana::run_watched(activity, {}, [&] { return with_message([&] { return liana::run_mission(options, activity); }); });
+  if (end.killed_by_watchdog) return report_death(options, activity, killed_text(options.mission, activity) + "; the arm holds");
+  if (end.signal != 0) {
+    return report_death(options, activity,
+                        options.mission + ": its process was killed by signal " + std::to_string(end.signal) + "; the arm holds");
+  }
+  return end.exit_code;
+}
+
+int bindings_command() {
+  nlohmann::json list = nlohmann::json::array();
+  for (const liana::Binding& binding : liana::bindings()) {
+    nlohmann::json fields = nlohmann::json::array();
+    for (const auto& field : binding.fields) fields.push_back({{"name", field.name}, {"type", field.type}, {"required", field.required}});
+    list.push_back({{"name", binding.name}, {"fields", fields}});
+  }
+  std::printf("%s\n", list.dump().c_str());
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Evaluates Liana's Lua tables and runs missions"};
+  app.require_subcommand(1);
+  liana::MissionOptions options;
+  options.lua_dir = LIANA_LUA_DIR;
+  std::string kind;
+  std::string name;
+  CLI::App* eval = app.add_subcommand("eval", "check a table and print it as canonical JSON");
+  eval->add_option("kind", kind, "robot, scene, buses or mission")->required();
+  eval->add_option("name", name, "a name in the Lua folder or a file")->required();
+  eval->add_option("--lua-dir", options.lua_dir, "the Lua folder");
+  CLI::App* run =
+      app.add_subcommand("run", "run a mission; exit 0 on success, 1 when not, 2 for bad input, 4 when the script had to be killed");
+  run->add_option("--api", options.api, "socket of lianad")->required();
+  run->add_option("--mission", options.mission, "a name in lua/missions or a file")->required();
+  run->add_option("--lua-dir", options.lua_dir, "the Lua folder");
+  run->add_option("--report", options.report_file, "file for the report (JSON)");
+  run->add_flag("--lockstep", options.lockstep, "let virtual time wait for this mission");
+  run->add_flag("--progress", options.progress, "print a line when a step begins and ends");
+  run->add_flag("--json", options.json, "print progress and report as JSON lines");
+  CLI::App* list = app.add_subcommand("bindings", "print the commands a mission can give, as JSON");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : liana::kExitBadInput;
+  }
+  return with_message([&] {
+    if (eval->parsed()) return eval_command(options.lua_dir, kind, name);
+    return list->parsed() ? bindings_command() : run_command(options);
+  });
+}

@@ -1,0 +1,84 @@
+#include "host/lua/session.hpp"
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace liana {
+namespace {
+
+constexpr double kWelcome_s = 30.0;
+constexpr double kWait_s = 0.5;
+
+std::string progress_line(const nlohmann::json& event) {
+  char line[300];
+  const std::string name = event.value("name", "");
+  const int index = event.value("index", 0);
+  const int count = event.value("count", 0);
+  if (event.value("event", "") == "begin") {
+    std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  device %s", event.value("time_s", 0.0), index, count, name.c_str(),
+                  event.value("device", "").c_str());
+  } else {
+    std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  %s after %.2f s%s%s", event.value("time_s", 0.0), index, count,
+                  name.c_str(), event.value("outcome", "").c_str(), event.value("duration_s", 0.0),
+                  event.value("reason", "").empty() ? "" : ": ", event.value("reason", "").c_str());
+  }
+  return line;
+}
+
+}  // namespace
+
+MissionSession::MissionSession(const MissionOptions& options, Activity& activity)
+    : options_(options), activity_(activity), client_(ApiClient::connect(options.api, kWelcome_s)) {
+  client_.send({{"op", "hello"}, {"name", "mission"}, {"role", "mission"}, {"lockstep", options.lockstep}, {"subscribe", {"state"}}});
+  for (double waited_s = 0.0; waited_s < kWelcome_s; waited_s += kWait_s) {
+    const auto message = client_.receive(kWait_s);
+    activity_.beat();
+    if (!message) continue;
+    if (message->value("op", "") == "error")
+      throw std::runtime_error("lianad refuses the mission runner: " + message->value("message", ""));
+    welcome_ = *message;
+    return;
+  }
+  throw std::runtime_error(options.api + ": lianad does not answer: is it running?");
+}
+
+nlohmann::json MissionSession::next() {
+  activity_.beat();
+  auto message = client_.receive(kWait_s);
+  activity_.beat();
+  return message ? std::move(*message) : nlohmann::json();
+}
+
+void MissionSession::done(std::int64_t tick) {
+  if (options_.lockstep) client_.send({{"op", "done"}, {"tick", tick}});
+}
+
+void MissionSession::hold_quietly() {
+  try {
+    client_.send({{"op", "hold"}});
+  } catch (const std::exception&) {
+    // lianad is gone, or holds because its owner is
+  }
+}
+
+std::int64_t MissionSession::request(const Binding& binding, nlohmann::json fields) {
+  fields["op"] = binding.name;
+  fields["id"] = ++last_id_;
+  if (std::string(binding.name) == "announce" && !fields.contains("step")) fields["step"] = nullptr;
+  client_.send(fields);
+  return last_id_;
+}
+
+void MissionSession::progress(const nlohmann::json& event) {
+  if (options_.json) std::printf("%s\n", event.dump().c_str());
+  if (options_.progress && !options_.json) std::printf("%s\n", progress_line(event).c_str());
+  std::fflush(stdout);
+}
+
+void MissionSession::report(const nlohmann::json& report) {
+  report_ = report;
+  const std::string text = report.dump();
+  if (text.size() < activity_.report.size()) put_text(activity_.report, text);
+}
+
+}  // namespace liana

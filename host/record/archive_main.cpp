@@ -1,0 +1,70 @@
+// liana-archive: takes tick records from lianad and writes what lasts. lianad itself writes no files.
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "host/api/client.hpp"
+#include "host/record/recording.hpp"
+
+namespace {
+
+using nlohmann::json;
+
+volatile std::sig_atomic_t g_stop = 0;
+void on_signal(int) { g_stop = 1; }
+
+liana::RecordingInfo info_from(const json& welcome) {
+  if (welcome.value("op", "") != "welcome") throw std::runtime_error("lianad refused the archive: " + welcome.dump());
+  return {welcome.at("config_hash"),  welcome.at("robot").dump(), welcome.at("scene").dump(),
+          welcome.at("buses").dump(), welcome.at("time_mode"),    welcome.at("period_s")};
+}
+
+// Until lianad ends or a signal comes. A state is answered with done, so that in lockstep time no tick is ever lost.
+void record_until_end(liana::ApiClient& client, liana::Recording& recording) {
+  std::string packet;
+  while (g_stop == 0) {
+    if (!client.receive_bytes(packet, 0.5)) continue;
+    if (packet[0] != '{') {
+      recording.take(packet);
+      continue;
+    }
+    const json message = json::parse(packet);
+    if (message.value("op", "") == "state") client.send({{"op", "done"}, {"tick", message.at("tick")}});
+  }
+}
+
+int run(const std::string& api, const std::string& directory) {
+  liana::ApiClient client = liana::ApiClient::connect(api, 10.0);
+  client.send({{"op", "hello"}, {"name", "archive"}, {"role", "archive"}, {"lockstep", true}, {"subscribe", {"tick", "state"}}});
+  const std::optional<json> welcome = client.receive(30.0);
+  if (!welcome) throw std::runtime_error("lianad did not answer the archive's hello within 30 s");
+  liana::Recording recording(directory, info_from(*welcome));
+  try {
+    record_until_end(client, recording);
+  } catch (const std::runtime_error& gone) {
+    std::fprintf(stderr, "liana-archive: %s; finishing the recording\n", gone.what());
+  }
+  recording.finish();
+  std::printf("liana-archive: %llu ticks in %s/%s, %llu dropped\n", static_cast<unsigned long long>(recording.ticks()), directory.c_str(),
+              liana::kRecordingFile, static_cast<unsigned long long>(recording.dropped()));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string api, directory;
+  CLI::App app{"Writes the recording of a run (ticks.mcap)"};
+  app.add_option("--api", api, "API socket of lianad")->required();
+  app.add_option("--record", directory, "folder for ticks.mcap")->required()->check(CLI::ExistingDirectory);
+  CLI11_PARSE(app, argc, argv);
+  std::signal(SIGTERM, on_signal);
+  std::signal(SIGINT, on_signal);
+  try {
+    return run(api, directory);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "liana-archive: %s\n", error.what());
+    return 1;
+  }
+}

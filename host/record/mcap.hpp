@@ -1,0 +1,52 @@
+// MCAP files: writer and reader of the uncompressed, unchunked subset that recordings use (https://mcap.dev/spec).
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+namespace liana {
+
+class McapWriter {
+ public:
+  // Creates the file; throws std::runtime_error with the system's reason.
+  McapWriter(const std::string& path, const std::string& library);
+  ~McapWriter();
+  McapWriter(const McapWriter&) = delete;
+  McapWriter& operator=(const McapWriter&) = delete;
+
+  // Declares a channel with a schema of its own; returns its id (1, 2, ...).
+  std::uint16_t add_channel(const std::string& topic, const std::string& encoding, const std::string& schema_text);
+  void add_metadata(const std::string& name, const std::map<std::string, std::string>& values);
+  void write_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data);
+  // Ends the file properly; throws std::runtime_error when the disk refused any write. A file without it can still be read.
+  void finish();
+
+ private:
+  void record(std::uint8_t opcode, std::string_view content);
+
+  struct Close {
+    void operator()(std::FILE* f) const { std::fclose(f); }
+  };
+  std::unique_ptr<std::FILE, Close> file_;
+  std::string path_;
+  std::string buffer_;
+  std::uint16_t channels_ = 0;
+  bool failed_ = false;
+};
+
+// What a reader calls; unset members are skipped.
+struct McapVisitor {
+  std::function<void(const std::string& topic, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data)> message;
+  std::function<void(const std::string& name, const std::map<std::string, std::string>& values)> metadata;
+};
+
+// Reads a whole file in order. Returns true when it was finished properly, false when it was cut short (what is there has been visited).
+// Throws std::runtime_error when it cannot be opened or is no MCAP file.
+bool read_mcap(const std::string& path, const McapVisitor& visitor);
+
+}  // namespace liana

@@ -1,0 +1,119 @@
+#include "host/record/recording.hpp"
+
+#include "host/record/build_id.hpp"
+#include "host/record/codec.hpp"
+#include "host/record/serialise.hpp"
+#include "host/record/tick_packet.hpp"
+
+namespace liana {
+
+namespace {
+
+constexpr const char* kEncoding = "liana-fields-1";
+constexpr const char* kImageEncoding = "liana-image-1";
+
+// Lists the fields of one recorded structure, a line each: path and width in bytes.
+class FieldLister {
+ public:
+  template <Scalar T>
+  void operator()(const char* name, const T& value) {
+    text_ += path_ + name + " " + std::to_string(sizeof(bits_of(value))) + "\n";
+  }
+  template <class T, std::size_t N>
+  void operator()(const char* name, const std::array<T, N>& values) {
+    (*this)((std::string(name) + "[" + std::to_string(N) + "]").c_str(), values[0]);
+  }
+  template <class T>
+  requires std::is_class_v<T>
+  void operator()(const char* name, const T& value) {
+    const std::size_t length = path_.size();
+    path_ += std::string(name) + ".";
+    visit(*this, value);
+    path_.resize(length);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string path_, text_;
+};
+
+std::string inputs_schema() {
+  FieldLister lister;
+  const Inputs inputs;
+  visit(lister, inputs);
+  lister("telecommand", TelecommandFields{});
+  return lister.text();
+}
+
+std::string outputs_schema() {
+  FieldLister lister;
+  const Outputs outputs;
+  visit(lister, outputs);
+  return lister.text();
+}
+
+std::uint64_t tick_of(std::string_view inputs) {
+  std::uint64_t tick = 0;
+  Reader reader(inputs);
+  reader("tick", tick);
+  return tick;
+}
+
+}  // namespace
+
+Recording::Recording(const std::string& directory, const RecordingInfo& info)
+    : ticks_file_(directory + "/" + kRecordingFile, "liana " + build_id()),
+      images_file_(directory + "/" + kImagesFile, "liana " + build_id()),
+      period_s_(info.period_s) {
+  constexpr const char* kImageSchema = "next_tick 8, fresh 1, robot table, memory of the Controller";
+  start_ = ticks_file_.add_channel(kStartTopic, kImageEncoding, kImageSchema);
+  inputs_ = ticks_file_.add_channel(kInputsTopic, kEncoding, inputs_schema());
+  outputs_ = ticks_file_.add_channel(kOutputsTopic, kEncoding, outputs_schema());
+  image_ = images_file_.add_channel(kImageTopic, kImageEncoding, kImageSchema);
+  ticks_file_.add_metadata("run", {{"build_id", build_id()},
+                                   {"config_hash", info.config_hash},
+                                   {"robot", info.robot_json},
+                                   {"scene", info.scene_json},
+                                   {"buses", info.buses_json},
+                                   {"time_mode", info.time_mode},
+                                   {"period_s", std::to_string(info.period_s)}});
+}
+
+void Recording::write(McapWriter& file, std::uint16_t channel, std::uint64_t tick, std::string_view data) {
+  const auto time_ns = static_cast<std::uint64_t>(static_cast<double>(tick) * period_s_ * 1e9);
+  file.write_message(channel, static_cast<std::uint32_t>(tick), time_ns, data);
+}
+
+void Recording::take(std::string_view packet) {
+  if (tick_packet_kind(packet) == TickPacket::kImage) {
+    const ControllerImage image = parse_image(packet.substr(1));
+    write(image.fresh ? ticks_file_ : images_file_, image.fresh ? start_ : image_, image.next_tick, packet.substr(1));
+    return;
+  }
+  const TickParts parts = split_tick_packet(packet);
+  const std::uint64_t tick = tick_of(parts.inputs);
+  write(ticks_file_, inputs_, tick, parts.inputs);
+  write(ticks_file_, outputs_, tick, parts.outputs);
+  dropped_ = parts.dropped;
+  ++ticks_;
+}
+
+void Recording::finish() {
+  ticks_file_.add_metadata("end", {{"ticks", std::to_string(ticks_)}, {"dropped", std::to_string(dropped_)}});
+  ticks_file_.finish();
+  images_file_.finish();
+}
+
+ControllerImage parse_image(std::string_view data) {
+  ControllerImage image;
+  std::uint8_t fresh = 0;
+  Reader reader(data);
+  reader("next_tick", image.next_tick);
+  reader("fresh", fresh);
+  reader("table", image.table);
+  image.fresh = fresh != 0;
+  image.controller_bytes = data.substr(reader.position());
+  return image;
+}
+
+}  // namespace liana

@@ -1,0 +1,56 @@
+// The recording of a run. DIR/ticks.mcap (channels start, inputs, outputs) holds all that a replay needs, and is the same byte for byte
+// when a run is repeated. DIR/images.mcap (channel controller_image) makes it seekable; images are memory, padding included, and are not.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "firmware_like/arm/robot_table.hpp"
+#include "host/record/mcap.hpp"
+
+namespace liana {
+
+constexpr const char* kRecordingFile = "ticks.mcap";
+constexpr const char* kImagesFile = "images.mcap";
+constexpr const char* kStartTopic = "start";
+constexpr const char* kInputsTopic = "inputs";
+constexpr const char* kOutputsTopic = "outputs";
+constexpr const char* kImageTopic = "controller_image";
+
+// What a recording says about its run.
+struct RecordingInfo {
+  std::string config_hash, robot_json, scene_json, buses_json, time_mode;
+  double period_s = 0.0;
+};
+
+class Recording {
+ public:
+  // Creates both files (DIR must exist); throws std::runtime_error.
+  Recording(const std::string& directory, const RecordingInfo& info);
+  // Takes one binary packet of the API topic `tick`.
+  void take(std::string_view packet);
+  // Writes how many ticks there are and were lost, and ends the files.
+  void finish();
+  std::uint64_t ticks() const { return ticks_; }
+  std::uint64_t dropped() const { return dropped_; }
+
+ private:
+  void write(McapWriter& file, std::uint16_t channel, std::uint64_t tick, std::string_view data);
+
+  McapWriter ticks_file_, images_file_;
+  double period_s_;
+  std::uint16_t start_, inputs_, outputs_, image_;
+  std::uint64_t ticks_ = 0, dropped_ = 0;
+};
+
+// Content of a start or controller_image message.
+struct ControllerImage {
+  std::uint64_t next_tick = 0;
+  bool fresh = false;  // the Controller has not ticked yet: the table says all
+  RobotTable table{};
+  std::string_view controller_bytes;  // memory of the Controller, empty when fresh; only the same build can use it
+};
+ControllerImage parse_image(std::string_view data);
+
+}  // namespace liana

@@ -1,0 +1,23 @@
+// Runs recorded Inputs through the core again and compares every Outputs field, bit by bit.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace liana {
+
+struct ReplayResult {
+  std::uint64_t ticks = 0;
+  std::uint64_t differing_ticks = 0;
+  std::uint64_t first_differing_tick = 0;  // valid when differing_ticks > 0
+  std::string first_differing_field;       // e.g. "drive[3].target_counts"
+  std::uint64_t missing_ticks = 0;         // recorded ticks that could not be replayed: after a gap, before the next image
+  bool complete = false;                   // the file was finished properly
+  bool same_build = false;                 // recorded by this build's core; another core may well differ
+};
+
+// Replays `directory`/ticks.mcap; a recording that starts in mid-run, or has a gap, goes on from an image in images.mcap. Throws
+// std::runtime_error when there is no recording, it is damaged, or it starts in mid-run without an image that this build can use.
+ReplayResult replay(const std::string& directory);
+
+}  // namespace liana

@@ -1,0 +1,34 @@
+// Inputs, Outputs and RobotTable as bytes.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "firmware_like/controller_io.hpp"
+
+namespace liana {
+
+// Rebuilds telecommands that were released and recorded; nothing else but Release can make one.
+class RecordingDecoder {
+ public:
+  // Inputs from their recorded bytes; throws std::runtime_error when the length is wrong.
+  static Inputs inputs(std::string_view bytes);
+};
+
+// Appends the recorded form: every field, little-endian, in the order of visit.hpp.
+void append_serialised(std::string& out, const Inputs& inputs);
+void append_serialised(std::string& out, const Outputs& outputs);
+void append_serialised(std::string& out, const RobotTable& table);
+
+// Back again; throw std::runtime_error when the length is wrong.
+Outputs outputs_from(std::string_view bytes);
+RobotTable robot_table_from(std::string_view bytes);
+
+// Length of the recorded form in bytes.
+std::size_t serialised_inputs_size();
+std::size_t serialised_outputs_size();
+
+// Name of the Outputs field at a byte of the recorded form, e.g. "drive[3].target_counts".
+std::string outputs_field_at(std::size_t offset);
+
+}  // namespace liana

@@ -1,0 +1,188 @@
+// The field lists of everything that is recorded, in recorded order. One list serves writing, reading and naming.
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include "firmware_like/controller_io.hpp"
+
+namespace liana {
+
+// T or const T: writers visit constants, readers visit variables.
+template <class T, class Plain>
+concept Like = std::same_as<std::remove_const_t<T>, Plain>;
+
+// A telecommand's fields, in the open: Telecommand itself can be made only by Release and RecordingDecoder.
+struct TelecommandFields {
+  std::uint64_t sequence = 0, first_tick = 0, expiry_tick = 0;
+  std::uint32_t owner = 0;
+  Setpoint setpoint{};
+};
+
+template <class A, Like<Pose> T>
+void visit(A& a, T& p) {
+  a("position_m", p.position_m);
+  a("quaternion", p.quaternion);
+}
+
+template <class A, Like<NodeTarget> T>
+void visit(A& a, T& n) {
+  a("node", n.node);
+  a("position_m", n.position_m);
+  a("weight", n.weight);
+  a("threshold_m", n.threshold_m);
+}
+
+template <class A, Like<Setpoint> T>
+void visit(A& a, T& s) {
+  a("kind", s.kind);
+  a("tip_in_base", s.tip_in_base);
+  a("held_mask", s.held_mask);
+  a("held_rad", s.held_rad);
+  a("node", s.node);
+  a("joint_rad", s.joint_rad);
+  a("tip_speed_m_s", s.tip_speed_m_s);
+}
+
+template <class A, Like<TelecommandFields> T>
+void visit(A& a, T& t) {
+  a("sequence", t.sequence);
+  a("first_tick", t.first_tick);
+  a("expiry_tick", t.expiry_tick);
+  a("owner", t.owner);
+  a("setpoint", t.setpoint);
+}
+
+template <class A, Like<DriveFeedback> T>
+void visit(A& a, T& d) {
+  a("statusword", d.statusword);
+  a("torque_permille", d.torque_permille);
+  a("position_counts", d.position_counts);
+  a("feedback_age_ticks", d.feedback_age_ticks);
+  a("heartbeat_age_ticks", d.heartbeat_age_ticks);
+  a("emergency_code", d.emergency_code);
+  a("operational", d.operational);
+}
+
+// All of Inputs but the telecommand, which follows as TelecommandFields.
+template <class A, Like<Inputs> T>
+void visit(A& a, T& i) {
+  a("tick", i.tick);
+  a("lost_ticks", i.lost_ticks);
+  a("lost_bus_mask", i.lost_bus_mask);
+  a("request", i.request);
+  a("drive", i.drive);
+}
+
+template <class A, Like<Fault> T>
+void visit(A& a, T& f) {
+  a("number", f.number);
+  a("index", f.index);
+  a("detail", f.detail);
+  a("tick", f.tick);
+}
+
+template <class A, Like<FaultList> T>
+void visit(A& a, T& l) {
+  a("fault", l.fault);
+  a("count", l.count);
+  a("dropped", l.dropped);
+  a("category", l.category);
+  a("immediate", l.immediate);
+}
+
+template <class A, Like<DriveCommand> T>
+void visit(A& a, T& d) {
+  a("controlword", d.controlword);
+  a("target_counts", d.target_counts);
+}
+
+template <class A, Like<Outputs> T>
+void visit(A& a, T& o) {
+  a("tick", o.tick);
+  a("state", o.state);
+  a("stop_category", o.stop_category);
+  a("limits", o.limits);
+  a("held_mask", o.held_mask);
+  a("held_at_target", o.held_at_target);
+  a("at_rest", o.at_rest);
+  a("homed", o.homed);
+  a("active_sequence", o.active_sequence);
+  a("faults", o.faults);
+  a("drive", o.drive);
+  a("theta_command_rad", o.theta_command_rad);
+  a("theta_rate_rad_s", o.theta_rate_rad_s);
+  a("theta_measured_rad", o.theta_measured_rad);
+  a("tip_goal", o.tip_goal);
+  a("tip_command", o.tip_command);
+  a("tip_measured", o.tip_measured);
+  a("tip_speed_m_s", o.tip_speed_m_s);
+  a("tip_rate_rad_s", o.tip_rate_rad_s);
+  a("node_command_m", o.node_command_m);
+  a("tension_plan_N", o.tension_plan_N);
+  a("tension_measured_N", o.tension_measured_N);
+  a("payout_command_m", o.payout_command_m);
+  a("ik_position_error_m", o.ik_position_error_m);
+  a("ik_attitude_error_rad", o.ik_attitude_error_rad);
+}
+
+template <class A, Like<SegmentTable> T>
+void visit(A& a, T& s) {
+  a("modules", s.modules);
+  a("cables", s.cables);
+  a("module_length_m", s.module_length_m);
+  a("theta_limit_rad", s.theta_limit_rad);
+  a("module_mass_kg", s.module_mass_kg);
+  a("cable_phase_rad", s.cable_phase_rad);
+}
+
+template <class A, Like<TensionLimits> T>
+void visit(A& a, T& t) {
+  a("plan_N", t.plan_N);
+  a("floor_motor_N", t.floor_motor_N);
+  a("floor_anywhere_N", t.floor_anywhere_N);
+  a("ceiling_free_N", t.ceiling_free_N);
+  a("alarm_N", t.alarm_N);
+  a("hard_limit_N", t.hard_limit_N);
+}
+
+template <class A, Like<MotionLimits> T>
+void visit(A& a, T& m) {
+  a("theta_rate_rad_s", m.theta_rate_rad_s);
+  a("theta_accel_rad_s2", m.theta_accel_rad_s2);
+  a("tip_speed_m_s", m.tip_speed_m_s);
+  a("tip_speed_slit_m_s", m.tip_speed_slit_m_s);
+  a("tip_accel_m_s2", m.tip_accel_m_s2);
+  a("tip_jerk_m_s3", m.tip_jerk_m_s3);
+  a("tip_rate_rad_s", m.tip_rate_rad_s);
+  a("tip_angular_accel_rad_s2", m.tip_angular_accel_rad_s2);
+  a("tip_angular_jerk_rad_s3", m.tip_angular_jerk_rad_s3);
+  a("cable_speed_m_s", m.cable_speed_m_s);
+}
+
+template <class A, Like<DriveTable> T>
+void visit(A& a, T& d) {
+  a("metres_per_count", d.metres_per_count);
+  a("direction", d.direction);
+  a("zero_counts", d.zero_counts);
+  a("newtons_per_permille", d.newtons_per_permille);
+}
+
+template <class A, Like<RobotTable> T>
+void visit(A& a, T& r) {
+  a("segment_count", r.segment_count);
+  a("segment", r.segment);
+  a("hole_radius_m", r.hole_radius_m);
+  a("face_offset_m", r.face_offset_m);
+  a("cable_EA_N", r.cable_EA_N);
+  a("lead_m", r.lead_m);
+  a("friction_mu", r.friction_mu);
+  a("servo_time_constant_s", r.servo_time_constant_s);
+  a("tick_s", r.tick_s);
+  a("interval_ticks", r.interval_ticks);
+  a("tension", r.tension);
+  a("limits", r.limits);
+  a("drive", r.drive);
+}
+
+}  // namespace liana

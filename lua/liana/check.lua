@@ -1,0 +1,135 @@
+-- Checks a mission's structure before anything moves; every refusal says step, field, value, what is allowed and what to do.
+local check = {}
+
+local kDevices = { vr = true, hand = true, none = true }
+local kOnFail = { retract = true, hold = true, stop = true }
+local kDefaultEnterLimit_s = 10
+
+local function refuse(where, field, value, allowed, advice)
+  error(where .. ": " .. field .. ": " .. tostring(value) .. ": allowed " .. allowed .. ": " .. advice, 0)
+end
+
+local function is_condition(value) return type(value) == "table" and type(value.met) == "function" end
+
+local function number_in(low, high)
+  return {
+    allowed = "numbers over " .. low .. ", up to " .. high,
+    ok = function(v) return type(v) == "number" and v > low and v <= high end,
+  }
+end
+
+local function one_of(words, text)
+  return { allowed = text, ok = function(v) return words[v] == true end }
+end
+
+local condition_rule = { allowed = "a condition, such as at_rest() or all { ... }", ok = is_condition }
+local action_rule = { allowed = "an action such as move_to \"prepare\", or a function of arm", ok = function(v) return type(v) == "function" end }
+
+local function held_ok(held)
+  if type(held) ~= "table" then return false end
+  for theta, target_deg in pairs(held) do
+    if math.type(theta) ~= "integer" or theta < 1 or theta > 16 then return false end
+    if type(target_deg) ~= "number" or target_deg < -60 or target_deg > 60 then return false end
+  end
+  return true
+end
+
+-- Mapping of hand motion; the device fields of use_device in docs/api.md.
+local kSteer = {
+  scale = number_in(0, 100),
+  rotation_scale = number_in(-1e-9, 10),
+  node = { allowed = "0 (none) or a node 1 to 7", ok = function(v) return math.type(v) == "integer" and v >= 0 and v <= 7 end },
+  speed_m_s = number_in(0, 2),
+}
+
+local function steer_ok(steer)
+  if type(steer) ~= "table" then return false end
+  for field, value in pairs(steer) do
+    if not kSteer[field] or not kSteer[field].ok(value) then return false end
+  end
+  return true
+end
+
+local kStep = {
+  name = { allowed = "a text of 1 to 60 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 60 end, required = true },
+  device = { allowed = "\"vr\", \"hand\" or \"none\"", ok = one_of(kDevices).ok, required = true },
+  exit = { allowed = condition_rule.allowed, ok = is_condition, required = true },
+  time_limit_s = { allowed = "seconds over 0, up to 3600", ok = number_in(0, 3600).ok, required = true },
+  on_fail = { allowed = "\"retract\", \"hold\" or \"stop\"", ok = one_of(kOnFail).ok, required = true },
+  enter = condition_rule,
+  enter_limit_s = number_in(0, 3600),
+  hold = { allowed = "{ [theta 1..16] = degrees }, such as { [9] = 0 }", ok = held_ok },
+  steer = { allowed = "scale, rotation_scale, node, speed_m_s in their ranges", ok = steer_ok },
+  run = action_rule,
+  task = { allowed = "a text of 1 to 40 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 40 end },
+}
+
+local function check_step(where, fields)
+  if type(fields) ~= "table" then refuse(where, "step", fields, "step \"name\" { ... }", "write the step with step") end
+  if type(fields.name) == "string" then where = where .. " \"" .. fields.name .. "\"" end
+  for field, value in pairs(fields) do
+    local rule = kStep[field]
+    if not rule then refuse(where, tostring(field), value, "no such field", "remove it or correct its spelling") end
+    if not rule.ok(value) then refuse(where, field, value, rule.allowed, "correct the step") end
+  end
+  for field, rule in pairs(kStep) do
+    if rule.required and fields[field] == nil then refuse(where, field, "missing", rule.allowed, "add the field") end
+  end
+  if fields.steer and fields.device == "none" then
+    refuse(where, "steer", "given", "only with device vr or hand", "name the device or remove steer")
+  end
+end
+
+-- The step with defaults; what it holds is what the step before held unless it says otherwise.
+local function filled_in(fields, held_before)
+  local step = {
+    hold = held_before, steer = {}, run = function() end, enter_limit_s = kDefaultEnterLimit_s,
+    enter = { text = "none", met = function() return true end },
+  }
+  for field, value in pairs(fields) do step[field] = value end
+  return step
+end
+
+-- A checked mission { name, steps, finish }; raises a message without position on the first fault.
+function check.mission(name, fields)
+  local where = "mission " .. tostring(name)
+  if type(name) ~= "string" or not name:find("^[%w_-]+$") then refuse("mission", "name", name, "letters, digits, _ and -", "choose another name") end
+  if type(fields) ~= "table" then refuse(where, "steps", fields, "a table of steps", "write mission \"name\" { step ... }") end
+  local mission = { is_mission = true, name = name, steps = {}, finish = fields.finish or function() end }
+  for key, value in pairs(fields) do
+    if key == "finish" then
+      if type(value) ~= "function" then refuse(where, "finish", value, action_rule.allowed, "correct the field") end
+    elseif math.type(key) ~= "integer" then
+      refuse(where, tostring(key), value, "no such field", "remove it or correct its spelling")
+    end
+  end
+  for i, step in ipairs(fields) do
+    check_step(where .. ": step " .. i, step)
+    mission.steps[i] = filled_in(step, i > 1 and mission.steps[i - 1].hold or {})
+  end
+  if #mission.steps == 0 then refuse(where, "steps", "none", "at least one step", "add a step") end
+  return mission
+end
+
+local function sorted_held(hold)
+  local held = {}
+  for theta in pairs(hold) do held[#held + 1] = theta end
+  return held
+end
+
+-- Plain data about a mission, for `liana-mission eval mission`.
+function check.describe(mission)
+  if type(mission) ~= "table" or mission.is_mission ~= true then
+    refuse("mission", "file", type(mission), "return liana.mission \"name\" { ... }", "return the mission at the end of the file")
+  end
+  local steps = {}
+  for i, step in ipairs(mission.steps) do
+    steps[i] = {
+      name = step.name, device = step.device, held_theta = sorted_held(step.hold), time_limit_s = step.time_limit_s,
+      on_fail = step.on_fail, enter = step.enter.text, exit = step.exit.text,
+    }
+  end
+  return { format = 1, kind = "mission", name = mission.name, steps = steps }
+end
+
+return check

@@ -1,0 +1,279 @@
+-- Runs a mission: one call per state from lianad (every command interval), never blocking.
+-- boot -> (enter -> run) for each step -> finish -> over; any fault leads through the step's on_fail to over.
+local view = require "liana.view"
+
+local engine = {}
+
+local kBootLimit_s = 60 -- drives boot, home and enable in this time or the mission fails
+local kSettle_s = 0.1 -- commands need a few intervals before the state shows them
+local kFinishLimit_s = 5
+local kRetractLimit_s = 600 -- the way back may be as long as the way in
+local kRetry_s = 2 -- between attempts that lianad answers with busy or refused
+
+local Runner = {}
+Runner.__index = Runner
+
+-- The bindings, remembering in `pending` what lianad has not answered yet.
+local function tracked(commands, pending)
+  local out = {}
+  for name, command in pairs(commands) do
+    out[name] = function(fields)
+      local id = command(fields or {})
+      pending[id] = name
+      return id
+    end
+  end
+  return out
+end
+
+-- A runner for a checked mission. `native` has commands (the bindings), progress(event) and report(table); `name` is ours at lianad.
+function engine.new(mission, welcome, native, name)
+  local pending = {} -- request id -> command
+  return setmetatable({
+    mission = mission, native = native, name = name, arm = view.new(tracked(native.commands, pending), welcome),
+    phase = "boot", index = 0, pending = pending, not_before = 0, first_retract_tick = nil, current_hold = {},
+    boot_reason = "state_command got no refusal",
+    report = { mission = mission.name, outcome = "failed", reason = "", steps = {}, duration_s = 0 },
+  }, Runner)
+end
+
+function Runner:step() return self.mission.steps[self.index] end
+
+function Runner:request(command, fields) self.arm[command](fields) end
+
+function Runner:waiting()
+  local count = 0
+  for _ in pairs(self.pending) do count = count + 1 end
+  return count > 0
+end
+
+function Runner:enter_phase(phase)
+  self.phase = phase
+  self.phase_tick = self.arm.state.tick
+end
+
+function Runner:phase_s() return self.arm.elapsed_s(self.phase_tick) end
+
+-- ---- boot: own motion, home, enable -------------------------------------------------------------------------------
+
+local function boot_request(runner)
+  local state = runner.arm.state
+  if not runner.owned then return "acquire" end
+  if state.state == "DISABLED" and not state.is_homed then return "state_command", { command = "home" } end
+  if state.state == "DISABLED" then return "state_command", { command = "enable" } end
+end
+
+local function boot(runner)
+  local state = runner.arm.state
+  if state.state == "FAULT" then return runner:fail("failed", "drives in fault at start: " .. runner:fault_names()) end
+  -- Somebody stopped the arm while it was being enabled: that is final, never enabled again by itself.
+  if state.state == "STOPPING" then return runner:fail("aborted", "stopped while the drives were being enabled") end
+  if runner:phase_s() > kBootLimit_s then return runner:fail("failed", ("not enabled after %g s, %s"):format(kBootLimit_s, runner.boot_reason)) end
+  if state.state == "ENABLED" and runner.owned then return runner:begin_step(1) end
+  if runner:waiting() or runner:phase_s() < runner.not_before then return end
+  local command, fields = boot_request(runner)
+  if command then
+    runner:request(command, fields)
+    runner.not_before = runner:phase_s() + kRetry_s
+  end
+end
+
+-- ---- steps --------------------------------------------------------------------------------------------------------
+
+local function held_list(hold)
+  local held = {}
+  for theta in pairs(hold) do held[#held + 1] = theta end
+  return held
+end
+
+function Runner:begin_step(index)
+  self.index = index
+  local step, state = self:step(), self.arm.state
+  self.record = {
+    name = step.name, device = step.device, held_theta = held_list(step.hold), outcome = "running", reason = "",
+    start_tick = state.tick, end_tick = state.tick, duration_s = 0,
+  }
+  self.report.steps[index] = self.record
+  if step.on_fail == "retract" and not self.first_retract_tick then self.first_retract_tick = state.tick end
+  self.arm.begin_tick, self.arm.was_engaged, self.arm.must_hold = state.tick, false, step.hold
+  self:request("announce", { step = { index = index, name = step.name, device = step.device, task = step.task } })
+  self.native.progress { event = "begin", index = index, count = #self.mission.steps, name = step.name, device = step.device, time_s = state.time_s }
+  self.native.report(self.report)
+  self:enter_phase("enter")
+end
+
+local function same_hold(a, b)
+  for theta, target_deg in pairs(a) do if b[theta] ~= target_deg then return false end end
+  for theta in pairs(b) do if a[theta] == nil then return false end end
+  return true
+end
+
+function Runner:send_hold(hold)
+  if same_hold(hold, self.current_hold) then return end
+  local held = {}
+  for theta, target_deg in pairs(hold) do held[#held + 1] = { theta = theta, target_deg = target_deg } end
+  self:request("hold_theta", { held = held })
+  self.current_hold = hold
+end
+
+local function enter(runner)
+  local step = runner:step()
+  if not step.enter.met(runner.arm) then
+    if runner:phase_s() > step.enter_limit_s then runner:fail("failed", "cannot enter, not met: " .. step.enter.text) end
+    return
+  end
+  runner:send_hold(step.hold)
+  if step.device ~= "none" then
+    local fields = { device = step.device }
+    for field, value in pairs(step.steer) do fields[field] = value end
+    runner:request("use_device", fields)
+  end
+  step.run(runner.arm)
+  runner:enter_phase("run")
+end
+
+local function run(runner)
+  local step, arm = runner:step(), runner.arm
+  local fresh = runner:phase_s() >= kSettle_s -- before, the state may still speak of the step before
+  if fresh and arm.state.device_engaged then arm.was_engaged = true end
+  if fresh and not runner:waiting() and step.exit.met(arm) then return runner:end_step() end
+  if arm.elapsed_s(arm.begin_tick) > step.time_limit_s then
+    runner:fail("failed", ("time limit of %g s passed, not met: %s"):format(step.time_limit_s, step.exit.text))
+  end
+end
+
+function Runner:close_record(outcome, reason)
+  local record, state = self.record, self.arm.state
+  record.outcome, record.reason, record.end_tick = outcome, reason, state.tick
+  record.duration_s = self.arm.elapsed_s(record.start_tick)
+  self.native.progress {
+    event = "end", index = self.index, count = #self.mission.steps, name = record.name, device = record.device, outcome = outcome,
+    reason = reason, duration_s = record.duration_s, time_s = state.time_s,
+  }
+  self.native.report(self.report)
+end
+
+function Runner:end_step()
+  self:close_record("success", "")
+  if self:step().device ~= "none" then self:request("use_device", { device = "none" }) end
+  if self.index < #self.mission.steps then return self:begin_step(self.index + 1) end
+  self.report.repair_tick = self.arm.state.tick
+  self.report.duration_s = self.arm.elapsed_s(self.report.steps[1].start_tick)
+  self.mission.finish(self.arm)
+  self:enter_phase("finish")
+end
+
+local function finish(runner)
+  if not runner:waiting() then return runner:over("success", "") end
+  if runner:phase_s() > kFinishLimit_s then runner:over("failed", "no answer to the last command") end
+end
+
+-- ---- failing ------------------------------------------------------------------------------------------------------
+
+function Runner:fault_names()
+  local names = {}
+  for i, fault in ipairs(self.arm.state.faults) do names[i] = fault.number .. " " .. fault.name .. " " .. (fault.index or "") end
+  return #names > 0 and table.concat(names, ", ") or "none named"
+end
+
+-- Ends the step with `outcome` and does what the step says; without a step, holds.
+function Runner:fail(outcome, reason)
+  local step = self:step()
+  if self.record and self.record.outcome == "running" then self:close_record(outcome, reason) end
+  for id in pairs(self.pending) do self.pending[id] = nil end
+  self.failed_outcome, self.failed_reason = outcome, reason
+  local action = step and step.on_fail or "hold"
+  if action == "retract" then
+    self:request("retract", { until_tick = self.first_retract_tick })
+    return self:enter_phase("retract")
+  end
+  if self.owned or action == "stop" then self:request(action, action == "stop" and { reason = reason } or {}) end
+  self:enter_phase("give_up")
+end
+
+local function retract(runner)
+  if runner:waiting() or runner:phase_s() < kSettle_s then return end
+  local state = runner.arm.state
+  if state.at_rest and not state.is_busy then return runner:over("aborted", runner.failed_reason .. "; retracted along the verified path") end
+  if runner:phase_s() > kRetractLimit_s then
+    runner:request("hold")
+    runner:enter_phase("give_up")
+  end
+end
+
+local function give_up(runner)
+  if not runner:waiting() or runner:phase_s() > kFinishLimit_s then runner:over(runner.failed_outcome, runner.failed_reason) end
+end
+
+function Runner:over(outcome, reason)
+  self.report.outcome, self.report.reason = outcome, reason
+  if self.report.repair_tick == nil and self.report.steps[1] then
+    self.report.duration_s = self.arm.elapsed_s(self.report.steps[1].start_tick)
+  end
+  self.arm.announce {}
+  if self.owned then self.arm.release {} end
+  self.phase = "over"
+  self.native.report(self.report)
+end
+
+-- ---- what lianad says ---------------------------------------------------------------------------------------------
+
+-- The arm stopped by itself, by the operator or by a fault: nothing is left to command.
+local function stopped(runner)
+  local state = runner.arm.state
+  if runner.phase == "boot" or state.state == "ENABLED" then return false end
+  local outcome = #state.faults > 0 and "failed" or "aborted"
+  local reason = ("the arm is %s (stop category %s), faults: %s"):format(state.state, state.stop_category, runner:fault_names())
+  if runner.failed_reason then reason = runner.failed_reason .. "; " .. reason end
+  if runner.record and runner.record.outcome == "running" then runner:close_record(outcome, reason) end
+  runner:over(runner.failed_outcome or outcome, reason)
+  return true
+end
+
+local function lost(runner)
+  local owner = runner.arm.state.owner
+  return runner.owned and runner.phase ~= "boot" and owner ~= nil and owner ~= runner.name and owner ~= ""
+end
+
+-- While drives boot and lengths settle these answers are normal; kBootLimit_s bounds the patience.
+local kBootRetry = { busy = true, refused = true }
+
+local kPhases = { boot = boot, enter = enter, run = run, finish = finish, retract = retract, give_up = give_up }
+
+-- One state message. Returns true when the mission is over.
+function Runner:on_state(state)
+  self.arm.state = state
+  if not self.phase_tick then self.phase_tick = state.tick end
+  if self.phase ~= "over" and not stopped(self) then
+    if lost(self) then
+      self.owned = false
+      self:over("aborted", "motion belongs to " .. tostring(state.owner) .. " now")
+    else
+      kPhases[self.phase](self)
+    end
+  end
+  return self.phase == "over"
+end
+
+-- The answer to a request. `message` is ok or error as docs/api.md says.
+function Runner:on_answer(message)
+  local command = self.pending[message.id]
+  self.pending[message.id] = nil
+  if message.op == "ok" then
+    if command == "acquire" then self.owned = true end
+    return
+  end
+  if command == nil then return end
+  local reason = ("%s refused: %s: %s"):format(command, message.code, message.message)
+  if self.phase == "boot" and kBootRetry[message.code] then
+    self.boot_reason = reason
+    return
+  end
+  if self.phase == "retract" or self.phase == "give_up" then
+    self.failed_reason = self.failed_reason .. "; " .. reason
+    return self:enter_phase("give_up")
+  end
+  self:fail("refused", reason)
+end
+
+return engine

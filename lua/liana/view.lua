@@ -1,0 +1,49 @@
+-- The arm as missions see it: the last state, the robot and scene, and every command of lua/liana/arm_stubs.lua.
+local geometry = require "liana.geometry"
+
+local view = {}
+
+-- A view for one session; `commands` are the bindings, `welcome` is lianad's first message (docs/api.md).
+function view.new(commands, welcome)
+  local arm = {
+    robot = welcome.robot, scene = welcome.scene, period_s = welcome.period_s,
+    state = nil, -- the last state message, docs/api.md
+    begin_tick = 0, -- tick at which the current step began
+    was_engaged = false, -- the operator has engaged the device in this step
+    must_hold = {}, -- what the current step holds: theta number -> degrees
+  }
+
+  -- Angles (deg) of a named pose; raises when the robot has none of that name.
+  function arm.named_pose(name)
+    return arm.robot.named_poses_deg[name] or error("the robot " .. arm.robot.name .. " has no pose named " .. tostring(name), 0)
+  end
+
+  -- Measured tip position {x, y, z} in the base frame [m].
+  function arm.tip()
+    local pose = arm.state.measured_cp
+    return { pose[1], pose[2], pose[3] }
+  end
+
+  -- How far the tip is along the slit, measured from the base [m].
+  function arm.slit_u() return geometry.dot(arm.tip(), arm.scene.slit.u_axis) end
+
+  -- Signed distance of the tip from the slit's middle plane [m].
+  function arm.slit_offset() return geometry.dot(arm.tip(), arm.scene.slit.normal) - arm.scene.slit.offset_m end
+
+  -- True when exactly the variables of this step are held.
+  function arm.holds_what_it_should()
+    local count = 0
+    for _ in pairs(arm.must_hold) do count = count + 1 end
+    for _, theta in ipairs(arm.state.held) do
+      if arm.must_hold[theta] == nil then return false end
+    end
+    return count == #arm.state.held
+  end
+
+  -- Time of the arm since tick `since` [s].
+  function arm.elapsed_s(since) return (arm.state.tick - since) * arm.period_s end
+
+  return setmetatable(arm, { __index = commands })
+end
+
+return view

@@ -1,0 +1,67 @@
+// The real core in a loop with the plant: drives answer as CiA 402 wants, and telecommands come every T_c.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "firmware_like/controller.hpp"
+#include "plant.hpp"
+
+namespace liana::closed_loop {
+
+// Truth against a commanded pose.
+struct TruthError {
+  double joint_deg = 0.0;  // largest of all angles
+  double tip_mm = 0.0;
+  double tip_deg = 0.0;
+};
+
+class ArmUnderControl {
+ public:
+  // A path: what to ask for at `share` (0..1) of the time.
+  using Path = std::function<Setpoint(double share)>;
+  // Called after every tick.
+  using Observer = std::function<void(ArmUnderControl&)>;
+
+  // Plant and core with drives off; `told` names the friction that the core believes (empty: the plant's physics).
+  explicit ArmUnderControl(const PlantSetup& setup, const std::string& told = "");
+
+  // Homing, enable, pretension ramp; throws std::runtime_error with the first fault when the arm is not enabled in 10 s.
+  void boot();
+  // One tick.
+  void step();
+  // Ticks with no new telecommand.
+  void wait(double seconds);
+  // One telecommand every T_c along `path`.
+  void follow(double seconds, const Path& path, const Observer& observer = {});
+  // Minimum jerk in joint space to `goal_rad`.
+  void move_joints(const ThetaVector& goal_rad, double seconds);
+  // Asks for where the arm is commanded to be, again and again.
+  void hold(double seconds, const Observer& observer = {});
+
+  // From now on the torque reading of a drive is 0.
+  void lose_tension_reading(std::size_t drive) { lost_reading_ = static_cast<std::int32_t>(drive); }
+
+  const Outputs& outputs() const { return out_; }
+  Plant& plant() { return plant_; }
+  const RobotTable& table() const { return table_; }
+  TruthError error_against(const ThetaVector& theta_rad) const;
+  TruthError error_against_command() const { return error_against(out_.theta_command_rad); }
+
+ private:
+  void read_drives();
+  void answer(std::size_t drive, std::uint16_t controlword);
+  CableVector targets_m() const;
+
+  RobotTable table_;
+  CableVector zero_payout_m_{};
+  Plant plant_;
+  Controller controller_;
+  Inputs in_{};
+  Outputs out_{};
+  std::uint64_t sequence_ = 0;
+  std::int32_t lost_reading_ = -1;
+};
+
+}  // namespace liana::closed_loop

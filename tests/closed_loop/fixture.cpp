@@ -1,0 +1,59 @@
+#include "fixture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <map>
+
+#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/math/trig.hpp"
+
+namespace liana::closed_loop {
+namespace {
+
+const RobotConfig& robot(const std::string& physics) {
+  static std::map<std::string, RobotConfig> loaded;
+  const auto found = loaded.find(physics);
+  if (found != loaded.end()) return found->second;
+  const BusesConfig buses = load_buses(CLOSED_LOOP_DATA "/buses.json");
+  return loaded.emplace(physics, load_robot(CLOSED_LOOP_DATA "/robot.json", physics, buses)).first->second;
+}
+
+}  // namespace
+
+const RobotTable& robot_table(const std::string& physics) { return robot(physics).table; }
+
+ThetaVector named_pose_rad(const std::string& name) {
+  ThetaVector theta{};
+  std::ranges::transform(robot("nominal").named_poses_deg.at(name), theta.begin(), [](double deg) { return deg * kDegree; });
+  return theta;
+}
+
+Pose tip_at(const std::string& pose_name) { return forward_kinematics(robot_table(), named_pose_rad(pose_name)).tip_in_base; }
+
+const SceneConfig& scene() {
+  static const SceneConfig loaded = load_scene(CLOSED_LOOP_DATA "/scene.json");
+  return loaded;
+}
+
+double largest_difference_deg(const ThetaVector& a_rad, const ThetaVector& b_rad) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a_rad.size(); ++i) largest = std::max(largest, std::fabs(a_rad[i] - b_rad[i]) / kDegree);
+  return largest;
+}
+
+double distance_mm(const Vec3& a_m, const Vec3& b_m) { return 1000.0 * norm(subtract(a_m, b_m)); }
+
+double minimum_jerk(double x) { return x * x * x * (10.0 - 15.0 * x + 6.0 * x * x); }
+
+void measured(const std::string& what, double value, const std::string& unit) {
+  std::printf("  measured: %s %.4g %s\n", what.c_str(), value, unit.c_str());
+  std::string key = what;
+  std::ranges::replace_if(
+      key, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+  ::testing::Test::RecordProperty(key, std::to_string(value) + " " + unit);
+}
+
+}  // namespace liana::closed_loop

@@ -1,0 +1,99 @@
+#include "plant.hpp"
+
+#include <cmath>
+
+#include "hil/arm/arm_physics.hpp"
+#include "hil/math/random.hpp"
+
+namespace liana::closed_loop {
+namespace {
+
+constexpr double kPhysicsStep_s = 0.001;
+constexpr double kTorqueNoise = 0.003;                   // of the reading, as the bench's drives
+constexpr double kStartSpread_rad = 8.7266462599716e-3;  // 0.5 deg, mission figure A8
+
+bench::TrueParameters parameters(const bench::RobotConfig& robot, const PlantSetup& setup) {
+  return setup.spread ? bench::spread_parameters(robot, setup.physics, setup.seed) : bench::table_parameters(robot, setup.physics);
+}
+
+}  // namespace
+
+struct Plant::Parts {
+  bench::RobotConfig robot;
+  bench::TrueParameters truth;
+  bench::ArmPhysics arm;
+  CableVector drum_m;  // unstretched length that each drum holds
+  bool noisy;
+  bench::Random noise;
+
+  Parts(const bench::RobotConfig& table, const PlantSetup& setup)
+      : robot(table),
+        truth(parameters(table, setup)),
+        arm(table, bench::load_scene(CLOSED_LOOP_DATA "/scene.json"), truth,
+            bench::start_pose(table, setup.start_pose, setup.spread ? kStartSpread_rad : 0.0, setup.seed)),
+        drum_m(arm.payouts_m()),
+        noisy(setup.spread),
+        noise(setup.seed, "closed loop torque noise") {}
+};
+
+Plant::Plant(const PlantSetup& setup) : parts_(std::make_unique<Parts>(bench::load_robot(CLOSED_LOOP_DATA "/robot.json"), setup)) {}
+Plant::~Plant() = default;
+
+CableVector Plant::measured_payout_m() const {
+  CableVector payout{};
+  for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c) payout[c] = parts_->drum_m[c] - parts_->truth.zero_offset_m[c];
+  return payout;
+}
+
+CableVector Plant::measured_tension_N() {
+  CableVector tension{};
+  for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c) {
+    const double noise = parts_->noisy ? parts_->noise.gaussian(kTorqueNoise) : 0.0;
+    tension[c] = parts_->arm.motor_tension_N(c) * parts_->truth.torque_gain[c] * (1.0 + noise);
+  }
+  return tension;
+}
+
+void Plant::advance(double tick_s, const CableVector& target_m, bool powered) {
+  const double share = powered ? -std::expm1(-kPhysicsStep_s / parts_->robot.servo_time_constant_s) : 0.0;
+  parts_->arm.begin_slot(tick_s);
+  const long steps = std::lround(tick_s / kPhysicsStep_s);
+  for (long i = 0; i < steps; ++i) {
+    for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c) {
+      const double target = target_m[c] + parts_->truth.zero_offset_m[c];
+      parts_->drum_m[c] += share * (target - parts_->drum_m[c]);
+    }
+    parts_->arm.step(kPhysicsStep_s, parts_->drum_m);
+  }
+}
+
+const ThetaVector& Plant::theta_rad() const { return parts_->arm.theta_rad(); }
+const ThetaVector& Plant::rate_rad_s() const { return parts_->arm.rate_rad_s(); }
+
+Pose Plant::tip_in_base() const {
+  const bench::Pose tip = parts_->arm.tip();
+  return {{tip.position_m.x, tip.position_m.y, tip.position_m.z}, {tip.attitude.w, tip.attitude.x, tip.attitude.y, tip.attitude.z}};
+}
+
+double Plant::kinetic_energy_J() {
+  bench::ThetaMatrix mass;
+  parts_->arm.chain().inertia(mass);
+  const ThetaVector& rate = rate_rad_s();
+  double energy = 0.0;
+  for (std::size_t a = 0; a < parts_->robot.theta_count(); ++a)
+    for (std::size_t b = 0; b < parts_->robot.theta_count(); ++b) energy += 0.5 * mass[a][b] * rate[a] * rate[b];
+  return energy;
+}
+
+double Plant::slit_clearance_m() const { return parts_->arm.clearance().slit_m; }
+double Plant::sphere_clearance_m() const { return parts_->arm.clearance().sphere_m; }
+
+Load Plant::take_load() {
+  const bench::LoadRecord record = parts_->arm.take_record();
+  return {record.contact_N, record.least_tension_N, record.least_motor_tension_N, record.most_motor_tension_N};
+}
+
+void Plant::kick(const ThetaVector& rate_rad_s) { parts_->arm.set_state(parts_->arm.theta_rad(), rate_rad_s); }
+void Plant::set_joint_damping(double viscous_Nms_per_rad) { parts_->arm.set_joint_damping(viscous_Nms_per_rad); }
+
+}  // namespace liana::closed_loop

@@ -1,0 +1,63 @@
+// The bench's arm behind servo motors, without bus and drive state machines. Hides the bench's headers: plant.cpp alone includes them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/math/pose.hpp"
+
+namespace liana::closed_loop {
+
+// Which arm the core meets.
+struct PlantSetup {
+  std::string physics = "nominal";  // friction: nominal, ideal or worn
+  std::uint64_t seed = 1;           // of the spread and of the torque noise
+  bool spread = true;  // true parameters and start pose differ from the table (mission figure A9); false: exactly the table, no noise
+  std::string start_pose = "prepare";
+};
+
+// Extremes since the last take_load().
+struct Load {
+  double contact_N = 0.0;
+  double least_N = 0.0;        // anywhere along any cable
+  double least_motor_N = 0.0;  // at the motor
+  double most_motor_N = 0.0;
+};
+
+class Plant {
+ public:
+  // Arm at rest with balanced tensions; throws std::runtime_error when the setup names something unknown.
+  explicit Plant(const PlantSetup& setup);
+  ~Plant();
+  Plant(const Plant&) = delete;
+  Plant& operator=(const Plant&) = delete;
+
+  // What the drives measure: unstretched length [m] by their stored zero, and tension [N] with gain error and noise.
+  CableVector measured_payout_m() const;
+  CableVector measured_tension_N();
+  // One control period. Motors follow `target_m` (in measured lengths) with the servo's lag, or stand when `powered` is false.
+  void advance(double tick_s, const CableVector& target_m, bool powered);
+
+  // The truth, which the core never sees.
+  const ThetaVector& theta_rad() const;
+  const ThetaVector& rate_rad_s() const;
+  Pose tip_in_base() const;
+  double kinetic_energy_J();
+  double slit_clearance_m() const;
+  double sphere_clearance_m() const;
+  Load take_load();
+
+  // Rates set from outside, angles and cables as they are: a kick.
+  void kick(const ThetaVector& rate_rad_s);
+  // Joint damping set from outside, to let an arm without friction come to rest.
+  void set_joint_damping(double viscous_Nms_per_rad);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace liana::closed_loop

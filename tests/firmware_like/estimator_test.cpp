@@ -1,0 +1,139 @@
+// Joint angles back from motor lengths and tensions.
+#include "firmware_like/arm/estimator.hpp"
+
+#include <gtest/gtest.h>
+
+#include "firmware_like/arm/tension.hpp"
+#include "tests/firmware_like/zhu2022.hpp"
+
+namespace liana {
+namespace {
+
+using zhu2022::Random;
+
+// What the motors of an arm at rest would report.
+struct Measured {
+  CableVector payout_m{};
+  CableVector tension_N{};
+};
+
+Measured measured_at(const RobotTable& robot, const ThetaVector& theta, const SlipState& slip) {
+  const CableLayout layout = cable_layout(robot);
+  const CableGeometry geometry = cable_geometry(robot, layout, arm_trig(robot, theta));
+  const TensionRatio ratio = tension_ratio(robot, layout, geometry, slip);
+  const CableVector motor_N = plan_tension(robot, geometry, ratio, robot.tension.plan_N).motor_N;
+  return {payout_for(robot, layout, geometry, ratio, motor_N), motor_N};
+}
+
+SlipState random_slip(Random& random) {
+  SlipState slip;
+  for (auto& row : slip.sigma) {
+    for (double& sigma : row) sigma = random.uniform(-1.0, 1.0);
+  }
+  return slip;
+}
+
+void run(const RobotTable& robot, const SlipState& slip, const Measured& measured, std::int32_t ticks, EstimatorState& state) {
+  const CableLayout layout = cable_layout(robot);
+  for (std::int32_t i = 0; i < ticks; ++i) estimate(robot, layout, slip, measured.payout_m, measured.tension_N, state);
+}
+
+TEST(Estimator, FindsAnyPoseFromZeroWithinThirtyTicks) {
+  for (const RobotTable& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
+    Random random(1);
+    for (std::int32_t i = 0; i < 300; ++i) {
+      const ThetaVector theta = random.theta(robot, 20.0);
+      const SlipState slip = random_slip(random);
+      EstimatorState state;
+      run(robot, slip, measured_at(robot, theta, slip), 30, state);
+      ASSERT_LE(zhu2022::largest_difference(state.theta_rad, theta), 1e-10) << i;
+      ASSERT_LE(state.largest_step_rad, 1e-10);
+      ASSERT_LE(zhu2022::length(state.residual_m), 1e-10);
+    }
+  }
+}
+
+TEST(Estimator, TakesTheElongationOutOfTheLengths) {
+  const RobotTable robot = zhu2022::table(0.0);
+  const ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  Measured measured = measured_at(robot, theta, SlipState{});
+  EstimatorState right, wrong;
+  run(robot, SlipState{}, measured, 30, right);
+  measured.tension_N = CableVector{};  // as if the cables did not stretch
+  run(robot, SlipState{}, measured, 30, wrong);
+  EXPECT_LE(zhu2022::largest_difference(right.theta_rad, theta), 1e-10);
+  EXPECT_GE(zhu2022::largest_difference(wrong.theta_rad, theta), 0.01 * kDegree);
+}
+
+TEST(Estimator, FollowsAMovingArmWithAFractionOfATicksMotion) {
+  const RobotTable robot = zhu2022::table();
+  const ThetaVector step = Random(2).theta(robot, 2.0 * robot.tick_s);  // 2 deg/s
+  ThetaVector theta{};
+  EstimatorState state;
+  for (std::int32_t i = 0; i < 500; ++i) {
+    theta = zhu2022::plus(theta, step);
+    run(robot, SlipState{}, measured_at(robot, theta, SlipState{}), 1, state);
+  }
+  EXPECT_LE(zhu2022::largest_difference(state.theta_rad, theta), 0.01 * kDegree);
+}
+
+TEST(Estimator, AWrongZeroShowsInTheResidual) {
+  const RobotTable robot = zhu2022::table();
+  Measured measured = measured_at(robot, zhu2022::radians(zhu2022::kPrepare_deg), SlipState{});
+  measured.payout_m[7] += 0.010;
+  EstimatorState state;
+  run(robot, SlipState{}, measured, 100, state);
+  EXPECT_GE(std::fabs(state.residual_m[7]), 1.5e-3);
+}
+
+TEST(Estimator, TakesTheFirstTensionAsItIsAndFiltersTheOthers) {
+  const RobotTable robot = zhu2022::table();
+  Measured measured = measured_at(robot, ThetaVector{}, SlipState{});
+  EstimatorState state;
+  run(robot, SlipState{}, measured, 1, state);
+  EXPECT_EQ(state.tension_N, measured.tension_N);
+  const double before_N = measured.tension_N[0];
+  measured.tension_N[0] += 6.0;
+  run(robot, SlipState{}, measured, 1, state);
+  EXPECT_NEAR(state.tension_N[0], before_N + 6.0 * 0.004 / 0.024, 1e-12);
+}
+
+// A wild measurement moves the estimate by a bounded step, and it comes back.
+TEST(Estimator, OneWildMeasurementIsBoundedAndForgotten) {
+  const RobotTable robot = zhu2022::table();
+  const ThetaVector theta = zhu2022::radians(zhu2022::kPressRod_deg);
+  const Measured measured = measured_at(robot, theta, SlipState{});
+  EstimatorState state;
+  run(robot, SlipState{}, measured, 30, state);
+  Measured wild = measured;
+  wild.payout_m[0] += 5.0;
+  const ThetaVector before = state.theta_rad;
+  run(robot, SlipState{}, wild, 1, state);
+  EXPECT_LE(zhu2022::largest_difference(state.theta_rad, before), 0.1 + 1e-15);
+  run(robot, SlipState{}, measured, 60, state);
+  EXPECT_LE(zhu2022::largest_difference(state.theta_rad, theta), 1e-9);
+}
+
+TEST(LeastSquaresTheta, UndoesTheCableJacobian) {
+  const RobotTable robot = zhu2022::table();
+  Random random(3);
+  for (std::int32_t i = 0; i < 100; ++i) {
+    const CableGeometry geometry = cable_geometry(robot, cable_layout(robot), arm_trig(robot, random.theta(robot, 20.0)));
+    const ThetaVector turn = random.theta(robot, 1.0);
+    CableVector change{};
+    for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
+      for (std::size_t k = 0; k < zhu2022::kThetas; ++k) change[c] += geometry.jacobian_m_rad[c][k] * turn[k];
+    }
+    ASSERT_LE(zhu2022::largest_difference(least_squares_theta(robot, geometry, change), turn), 1e-13);
+  }
+}
+
+TEST(LeastSquaresTheta, GivesZeroWhenNoCableTurnsAnAngle) {
+  const RobotTable robot = zhu2022::table();
+  CableVector change{};
+  change.fill(0.01);
+  EXPECT_EQ(least_squares_theta(robot, CableGeometry{}, change), ThetaVector{});
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,101 @@
+#include "firmware_like/safety/faults.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace liana {
+namespace {
+
+// Every number that was ever published, with the name that logs, Lua and docs use. Rows are only ever added.
+struct Published {
+  FaultNumber number;
+  std::uint16_t value;
+  const char* name;
+};
+const std::vector<Published> kPublished{
+    {FaultNumber::kNone, 0, "none"},
+    {FaultNumber::kCommandInvalid, 1001, "command_invalid"},
+    {FaultNumber::kTicksLost, 2001, "ticks_lost"},
+    {FaultNumber::kDriveMissing, 3001, "drive_missing"},
+    {FaultNumber::kDriveSilent, 3002, "drive_silent"},
+    {FaultNumber::kDriveFault, 3003, "drive_fault"},
+    {FaultNumber::kDriveLeftOperation, 3004, "drive_left_operation"},
+    {FaultNumber::kDriveEnableTimeout, 3005, "drive_enable_timeout"},
+    {FaultNumber::kFollowingError, 3006, "following_error"},
+    {FaultNumber::kDriveNotOperational, 3007, "drive_not_operational"},
+    {FaultNumber::kDriveStopTimeout, 3008, "drive_stop_timeout"},
+    {FaultNumber::kBusLost, 4001, "bus_lost"},
+    {FaultNumber::kCableSlack, 5001, "cable_slack"},
+    {FaultNumber::kCableOverload, 5002, "cable_overload"},
+    {FaultNumber::kTensionAlarm, 5003, "tension_alarm"},
+    {FaultNumber::kHomingImplausible, 5004, "homing_implausible"},
+    {FaultNumber::kGateRefused, 6001, "gate_refused"},
+};
+
+TEST(Faults, EveryNumberKeepsItsValueAndItsName) {
+  ASSERT_EQ(all_faults().size(), kPublished.size());
+  for (std::size_t i = 0; i < kPublished.size(); ++i) {
+    EXPECT_EQ(static_cast<std::uint16_t>(kPublished[i].number), kPublished[i].value);
+    EXPECT_EQ(all_faults()[i].number, kPublished[i].number);
+    EXPECT_STREQ(fault_info(kPublished[i].number).name, kPublished[i].name);
+  }
+}
+
+TEST(Faults, EveryFaultSaysWhatHappenedWhatToDoAndHowTheArmStops) {
+  std::set<std::string> names;
+  std::set<std::string> remedies;
+  for (const FaultInfo& info : all_faults()) {
+    names.insert(info.name);
+    remedies.insert(info.remedy);
+    EXPECT_EQ(std::string(info.text).back(), '.') << info.name;
+    EXPECT_EQ(info.category == StopCategory::kNone, info.number == FaultNumber::kNone) << info.name;
+  }
+  EXPECT_EQ(names.size(), all_faults().size());
+  EXPECT_EQ(remedies.size(), all_faults().size());
+}
+
+TEST(Faults, ANumberThatDoesNotExistHasTheEntryOfNone) { EXPECT_EQ(fault_info(static_cast<FaultNumber>(1234)).number, FaultNumber::kNone); }
+
+TEST(Faults, TheSameNumberAndIndexIsLatchedOnceAndKeepsItsFirstTick) {
+  FaultList faults{};
+  EXPECT_TRUE(latch(faults, {FaultNumber::kDriveSilent, 3, 0, 10}));
+  EXPECT_FALSE(latch(faults, {FaultNumber::kDriveSilent, 3, 0, 11}));
+  EXPECT_TRUE(latch(faults, {FaultNumber::kDriveSilent, 4, 0, 11}));
+  EXPECT_TRUE(latch(faults, {FaultNumber::kDriveMissing, 3, 0, 12}));
+  EXPECT_EQ(faults.count, 3);
+  EXPECT_EQ(faults.dropped, 0U);
+  EXPECT_EQ(faults.fault[0].tick, 10U);
+}
+
+TEST(Faults, ADetailThatComesLaterIsFilledInButNeverOverwritten) {
+  FaultList faults{};
+  latch(faults, {FaultNumber::kDriveFault, 3, 0, 10});
+  latch(faults, {FaultNumber::kDriveFault, 3, 0x8130, 11});
+  latch(faults, {FaultNumber::kDriveFault, 3, 0x8250, 12});
+  EXPECT_EQ(faults.fault[0].detail, 0x8130);
+  EXPECT_EQ(faults.fault[0].tick, 10U);
+}
+
+TEST(Faults, AFullListCountsTheRestAndStillRaisesTheStopCategory) {
+  FaultList faults{};
+  for (std::int16_t i = 0; i < FaultList::kCapacity; ++i) EXPECT_TRUE(latch(faults, {FaultNumber::kCableSlack, i, 0, 1}));
+  EXPECT_EQ(faults.category, StopCategory::kHold);
+  EXPECT_EQ(faults.immediate, 0);
+  EXPECT_FALSE(latch(faults, {FaultNumber::kCableOverload, 0, 0, 2}));
+  EXPECT_EQ(faults.count, FaultList::kCapacity);
+  EXPECT_EQ(faults.dropped, 1U);
+  EXPECT_EQ(faults.category, StopCategory::kOff);
+  EXPECT_EQ(faults.immediate, 1);
+}
+
+TEST(Faults, NoFaultIsNeverLatched) {
+  FaultList faults{};
+  EXPECT_FALSE(latch(faults, Fault{}));
+  EXPECT_EQ(faults.count, 0);
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,135 @@
+// Goal IK: success rate, honesty, held variables, nodes, repeatability.
+#include "firmware_like/motion/goal_ik.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/firmware_like/zhu2022.hpp"
+
+namespace liana {
+namespace {
+
+using zhu2022::Random;
+
+constexpr std::uint32_t kX5 = 1u << 8;
+constexpr std::uint32_t kX4AndX5 = (1u << 6) | (1u << 8);
+
+double error_of(const RobotTable& robot, const Pose& goal, const ThetaVector& theta) {
+  return zhu2022::length(pose_error(goal, forward_kinematics(robot, theta).tip_in_base));
+}
+
+// Whatever it says, the angles must keep limits and held values, and "converged" must be true.
+void expect_honest(const RobotTable& robot, const GoalIkProblem& problem, const GoalIkResult& result) {
+  const double error = error_of(robot, problem.tip_in_base, result.theta_rad);
+  ASSERT_TRUE(!result.converged || error <= 1e-6) << error;
+  ASSERT_NEAR(std::hypot(result.position_error_m, result.attitude_error_rad), error, 1e-9);
+  for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
+    ASSERT_LE(std::fabs(result.theta_rad[k]), robot.segment[k / 2].theta_limit_rad) << k;
+    ASSERT_TRUE(((problem.held_mask >> k) & 1u) == 0 || result.theta_rad[k] == problem.held_rad[k]) << k;
+  }
+}
+
+// A goal that some pose within +-15 deg with the same held angles has.
+GoalIkProblem random_goal(const RobotTable& robot, Random& random, std::uint32_t held, bool from_nearby) {
+  GoalIkProblem problem;
+  ThetaVector solution = random.theta(robot, 15.0);
+  for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
+    if (((held >> k) & 1u) != 0) solution[k] = 0.0;
+  }
+  problem.tip_in_base = forward_kinematics(robot, solution).tip_in_base;
+  problem.held_mask = held;
+  if (from_nearby) problem.from_rad = zhu2022::plus(solution, random.theta(robot, 3.0));
+  return problem;
+}
+
+TEST(GoalIk, SolvesNinetySevenPercentOfRandomGoalsWithTenNineAndEightVariables) {
+  constexpr std::int32_t kGoals = 100;
+  const RobotTable robot = zhu2022::table();
+  for (const std::uint32_t held : {0u, kX5, kX4AndX5}) {
+    for (const bool from_nearby : {false, true}) {
+      Random random(1);
+      std::int32_t converged = 0;
+      for (std::int32_t i = 0; i < kGoals; ++i) {
+        const GoalIkProblem problem = random_goal(robot, random, held, from_nearby);
+        const GoalIkResult result = solve_goal(robot, problem);
+        expect_honest(robot, problem, result);
+        if (HasFatalFailure()) return;
+        converged += result.converged ? 1 : 0;
+      }
+      EXPECT_GE(converged, 97) << held << " " << from_nearby;
+    }
+  }
+}
+
+TEST(GoalIk, UnreachableGoalsAreSaidToBeUnreachable) {
+  const RobotTable robot = zhu2022::table();
+  for (const Vec3& far : {Vec3{4.5, 0, 0}, Vec3{0, 6, 0}, Vec3{0, 0, -1e3}}) {
+    GoalIkProblem problem;
+    problem.tip_in_base.position_m = far;
+    const GoalIkResult result = solve_goal(robot, problem);
+    EXPECT_FALSE(result.converged);
+    EXPECT_GT(result.position_error_m, 0.1);
+    expect_honest(robot, problem, result);
+  }
+}
+
+TEST(GoalIk, HeldAnglesMayHaveAnyValueAndKeepIt) {
+  const RobotTable robot = zhu2022::table();
+  GoalIkProblem problem;
+  ThetaVector solution = zhu2022::radians(zhu2022::kPressRod_deg);
+  solution[8] = problem.held_rad[8] = 0.7 * kDegree;
+  problem.held_mask = kX5;
+  problem.tip_in_base = forward_kinematics(robot, solution).tip_in_base;
+  const GoalIkResult result = solve_goal(robot, problem);
+  EXPECT_TRUE(result.converged);
+  expect_honest(robot, problem, result);
+}
+
+// A44: when the targets can all be met, they are.
+TEST(GoalIk, A44MeetsNodeTargetsThatTheGoalsOwnShapeHas) {
+  const RobotTable robot = zhu2022::table();
+  Random random(2);
+  double worst_m = 0.0;
+  for (std::int32_t i = 0; i < 10; ++i) {
+    const ThetaVector solution = random.theta(robot, 10.0);
+    const ArmKinematics arm = forward_kinematics(robot, solution);
+    GoalIkProblem problem;
+    problem.tip_in_base = arm.tip_in_base;
+    problem.from_rad = zhu2022::plus(solution, random.theta(robot, 1.0));
+    GoalIkResult without = solve_goal(robot, problem);
+    problem.node[0] = {3, arm.node_in_base[3].position_m, 1.0, 0.0};
+    const GoalIkResult result = solve_goal(robot, problem);
+    expect_honest(robot, problem, result);
+    EXPECT_TRUE(result.converged);
+    const Vec3 node = forward_kinematics(robot, result.theta_rad).node_in_base[3].position_m;
+    EXPECT_NEAR(result.node_distance_m[0], norm(subtract(node, problem.node[0].position_m)), 1e-12);
+    const Vec3 before = forward_kinematics(robot, without.theta_rad).node_in_base[3].position_m;
+    EXPECT_LT(result.node_distance_m[0], norm(subtract(before, problem.node[0].position_m)));
+    worst_m = std::max(worst_m, result.node_distance_m[0]);
+  }
+  EXPECT_LT(worst_m, 0.002);
+}
+
+TEST(GoalIk, TheSameQuestionHasTheSameAnswerToTheLastBit) {
+  const RobotTable robot = zhu2022::table();
+  Random random(3);
+  for (std::int32_t i = 0; i < 10; ++i) {
+    const GoalIkProblem problem = random_goal(robot, random, kX5, false);
+    const GoalIkResult a = solve_goal(robot, problem), b = solve_goal(robot, problem);
+    EXPECT_EQ(a.theta_rad, b.theta_rad);
+    EXPECT_EQ(a.iterations, b.iterations);
+  }
+}
+
+TEST(GoalIk, AGoalThatIsAlreadyMetTakesNoIteration) {
+  const RobotTable robot = zhu2022::table();
+  GoalIkProblem problem;
+  problem.from_rad = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  problem.tip_in_base = forward_kinematics(robot, problem.from_rad).tip_in_base;
+  const GoalIkResult result = solve_goal(robot, problem);
+  EXPECT_TRUE(result.converged);
+  EXPECT_EQ(result.iterations, 0);
+  EXPECT_EQ(result.theta_rad, problem.from_rad);
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,190 @@
+// Servo IK: convergence, exact limits, variables held to the last bit, calm at singular poses.
+#include "firmware_like/motion/servo_ik.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/firmware_like/zhu2022.hpp"
+
+namespace liana {
+namespace {
+
+using zhu2022::Random;
+
+constexpr std::uint32_t kX5 = 1u << 8;
+constexpr std::uint32_t kX4AndX5 = (1u << 6) | (1u << 8);
+
+Pose tip_at(const RobotTable& robot, const ThetaVector& theta) { return forward_kinematics(robot, theta).tip_in_base; }
+
+IkReport run(const RobotTable& robot, const IkGoal& goal, std::int32_t steps, ThetaVector& theta) {
+  IkReport report;
+  for (std::int32_t i = 0; i < steps; ++i) report = ik_step(robot, goal, kDamping, theta);
+  return report;
+}
+
+double error_of(const RobotTable& robot, const Pose& goal, const ThetaVector& theta) {
+  return zhu2022::length(pose_error(goal, tip_at(robot, theta)));
+}
+
+bool within_limits(const RobotTable& robot, const ThetaVector& theta) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(robot.theta_count()); ++k) {
+    if (!(std::fabs(theta[k]) <= robot.segment[k / 2].theta_limit_rad)) return false;
+  }
+  return true;
+}
+
+// A36..A40: ten, nine and eight variables in the iteration.
+TEST(ServoIk, ConvergesFromNearbyWithTenNineAndEightVariables) {
+  const RobotTable robot = zhu2022::table();
+  for (const std::uint32_t held : {0u, kX5, kX4AndX5}) {
+    Random random(1);
+    for (std::int32_t i = 0; i < 100; ++i) {
+      ThetaVector goal_theta = random.theta(robot, 15.0);
+      ThetaVector theta = zhu2022::plus(goal_theta, random.theta(robot, 0.3));
+      for (std::size_t k : {6u, 8u}) goal_theta[k] = theta[k] = 0.0;
+      const IkGoal goal{tip_at(robot, goal_theta), held};
+      run(robot, goal, 60, theta);
+      ASSERT_LE(error_of(robot, goal.tip_in_base, theta), 1e-8) << i << " " << held;
+    }
+  }
+}
+
+TEST(ServoIk, WorksOnAnotherArm) {
+  const RobotTable robot = zhu2022::uneven_table();
+  const ThetaVector goal_theta = Random(2).theta(robot, 10.0);
+  ThetaVector theta = zhu2022::plus(goal_theta, Random(3).theta(robot, 0.1));
+  const Pose goal = tip_at(robot, goal_theta);
+  run(robot, {goal, 0}, 200, theta);
+  EXPECT_LE(error_of(robot, goal, theta), 1e-8);
+}
+
+// A38: locked variables are constant, not nearly constant.
+TEST(ServoIk, A38HeldVariablesKeepTheirBits) {
+  const RobotTable robot = zhu2022::table();
+  Random random(4);
+  for (std::int32_t i = 0; i < 200; ++i) {
+    ThetaVector theta = random.theta(robot, 20.0);
+    const ThetaVector before = theta;
+    const auto held = static_cast<std::uint32_t>(random.uniform(1.0, 1024.0));
+    run(robot, {tip_at(robot, random.theta(robot, 20.0)), held}, 20, theta);
+    for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
+      if (((held >> k) & 1u) != 0) {
+        ASSERT_EQ(theta[k], before[k]) << k;
+      }
+    }
+    ASSERT_NE(theta, before);
+  }
+}
+
+TEST(ServoIk, LimitsAreNeverPassedAndSaidToAct) {
+  const RobotTable robot = zhu2022::table();
+  Random random(5);
+  std::int32_t at_limit = 0;
+  for (std::int32_t i = 0; i < 300; ++i) {
+    ThetaVector theta = random.theta(robot, 20.0);
+    const IkGoal goal{tip_at(robot, random.theta(robot, 20.0)), 0};
+    for (std::int32_t k = 0; k < 30; ++k) {
+      const IkReport report = ik_step(robot, goal, kDamping, theta);
+      ASSERT_TRUE(within_limits(robot, theta)) << i;
+      if (report.at_limit) ++at_limit;
+    }
+  }
+  EXPECT_GT(at_limit, 100);  // far goals do meet limits
+}
+
+TEST(ServoIk, AVariableOnItsLimitStandsExactlyOnIt) {
+  const RobotTable robot = zhu2022::table();
+  RobotTable wide = robot;
+  for (auto& segment : wide.segment) segment.theta_limit_rad = 40.0 * kDegree;
+  ThetaVector beyond{};
+  for (std::size_t k = 0; k < 2; ++k) beyond[k] = 24.0 * kDegree;  // only reachable past the limit
+  const Pose goal = tip_at(wide, beyond);
+  ThetaVector theta{};
+  for (std::size_t k = 0; k < 2; ++k) theta[k] = 19.5 * kDegree;
+  const IkReport report = ik_step(robot, {goal, 0}, kDamping, theta);
+  EXPECT_TRUE(report.at_limit);
+  const double limit = robot.segment[0].theta_limit_rad;
+  EXPECT_GE(std::count_if(theta.begin(), theta.end(), [limit](double angle) { return std::fabs(angle) == limit; }), 1);
+}
+
+// What a theta on its limit cannot give, the others give in the same step.
+TEST(ServoIk, TheOthersTakeOverTheShareOfAVariableOnItsLimit) {
+  const RobotTable robot = zhu2022::table();
+  Random random(7);
+  std::int32_t taken_over = 0;
+  for (std::int32_t i = 0; i < 100; ++i) {
+    ThetaVector theta = random.theta(robot, 15.0);
+    theta[3] = robot.segment[1].theta_limit_rad - 0.05 * kDegree;
+    ThetaVector turn = random.theta(robot, 0.05);
+    turn[3] = 0.3 * kDegree;
+    const Pose goal = tip_at(robot, zhu2022::plus(theta, turn));
+    const double before = error_of(robot, goal, theta);
+    ThetaVector alone = theta;
+    const IkReport report = ik_step(robot, {goal, 0}, 1e-12, alone);
+    if (alone[3] != robot.segment[1].theta_limit_rad) continue;
+    ++taken_over;
+    EXPECT_TRUE(report.at_limit);
+    ASSERT_LE(error_of(robot, goal, alone), 0.2 * before) << i;
+  }
+  EXPECT_GT(taken_over, 20);
+}
+
+// The straight arm cannot move its tip along itself: the closed forms and the iteration must stay calm there (A34 note).
+TEST(ServoIk, TheStraightArmNeitherBlowsUpNorDividesByZero) {
+  const RobotTable robot = zhu2022::table();
+  for (const double size_deg : {0.0, 1e-10, 1e-6, 1e-3}) {
+    for (const double along_m : {0.001, -0.001, 0.2, -0.2}) {
+      ThetaVector theta = Random(6).theta(robot, size_deg);
+      Pose goal = tip_at(robot, theta);
+      goal.position_m[0] += along_m;
+      for (std::int32_t i = 0; i < 300; ++i) {
+        ik_step(robot, {goal, 0}, kDamping, theta);
+        ASSERT_TRUE(within_limits(robot, theta)) << size_deg << " " << along_m;  // false for NaN too
+      }
+    }
+  }
+}
+
+TEST(ServoIk, TheStraightArmMovesSidewaysAndSaysWhereItCannotGo) {
+  const RobotTable robot = zhu2022::table();
+  ThetaVector theta{};
+  Pose goal = tip_at(robot, theta);
+  goal.position_m[1] += 0.01;
+  run(robot, {goal, 0}, 60, theta);
+  const std::array<double, 6> error = pose_error(goal, tip_at(robot, theta));
+  EXPECT_LE(std::fabs(error[1]), 1e-6);
+  EXPECT_LE(zhu2022::length(error), 1e-4);  // the shortening that a bend brings is slow to follow: that direction is singular
+
+  ThetaVector straight{};
+  Pose longer = tip_at(robot, straight);
+  longer.position_m[0] += 0.1;
+  const IkReport report = ik_step(robot, {longer, 0}, kDamping, straight);
+  EXPECT_TRUE(report.singular);
+  EXPECT_EQ(straight, ThetaVector{});
+}
+
+TEST(ServoIk, ReportsTheErrorBeforeTheStep) {
+  const RobotTable robot = zhu2022::table();
+  ThetaVector theta = zhu2022::radians(zhu2022::kPrepare_deg);
+  Pose goal = tip_at(robot, theta);
+  goal.position_m[2] += 0.003;
+  goal.quaternion = multiply(quaternion_of({0.0, 0.02, 0.0}), goal.quaternion);
+  const IkReport report = ik_step(robot, {goal, 0}, kDamping, theta);
+  EXPECT_NEAR(report.position_error_m, 0.003, 1e-12);
+  EXPECT_NEAR(report.attitude_error_rad, 0.02, 1e-12);
+  EXPECT_LT(error_of(robot, goal, theta), 0.005);
+}
+
+// The path of a moving tip at full speed, two iterations a tick, as the tick does it.
+TEST(ServoIk, FollowsATipAtFullSpeedToMicrometres) {
+  const RobotTable robot = zhu2022::table();
+  ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  Pose goal = tip_at(robot, theta);
+  for (std::int32_t i = 0; i < 500; ++i) {
+    goal.position_m[0] += robot.limits.tip_speed_m_s * robot.tick_s;
+    run(robot, {goal, 0}, kServoIterations, theta);
+    ASSERT_LE(error_of(robot, goal, theta), 1e-6) << i;
+  }
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,203 @@
+// Shape control in the null space of the tip (A42-A45).
+#include "firmware_like/motion/shape.hpp"
+
+#include <gtest/gtest.h>
+
+#include "firmware_like/motion/servo_ik.hpp"
+#include "tests/firmware_like/zhu2022.hpp"
+
+namespace liana {
+namespace {
+
+using zhu2022::Random;
+
+constexpr std::uint32_t kX5 = 1u << 8;
+constexpr std::uint32_t kX4AndX5 = (1u << 6) | (1u << 8);
+
+ArmKinematics arm_at(const RobotTable& robot, const ThetaVector& theta) { return forward_kinematics(robot, theta); }
+
+double tip_rate(const Jacobian& J, const ThetaVector& v) {
+  Vec3 linear{}, angular{};
+  for (std::size_t k = 0; k < kMaxTheta; ++k) {
+    linear = add(linear, scale(J.linear[k], v[k]));
+    angular = add(angular, scale(J.angular[k], v[k]));
+  }
+  return std::sqrt(dot(linear, linear) + dot(angular, angular));
+}
+
+NodeTargets target_of(std::int32_t node, const Vec3& position_m, double weight = 1.0, double threshold_m = 0.0) {
+  NodeTargets targets{};
+  targets[0] = {node, position_m, weight, threshold_m};
+  return targets;
+}
+
+double distance_m(const RobotTable& robot, const ThetaVector& theta, const NodeTarget& target) {
+  return norm(subtract(target.position_m, arm_at(robot, theta).node_in_base[static_cast<std::size_t>(target.node)].position_m));
+}
+
+// Shape motion for `ticks` with the tip brought back by two IK steps a tick, as the tick does it.
+void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, std::int32_t ticks, ThetaVector& theta) {
+  const IkGoal goal{arm_at(robot, theta).tip_in_base, held};
+  ThetaVector rate{};
+  for (std::int32_t i = 0; i < ticks; ++i) {
+    theta = zhu2022::plus(theta, shape_move(robot, nodes, held, false, theta, rate));
+    for (std::int32_t k = 0; k < kServoIterations; ++k) ik_step(robot, goal, kDamping, theta);
+  }
+}
+
+// A43: a true projector, not a damped inverse.
+TEST(Shape, A43ProjectedVectorsDoNotMoveTheTip) {
+  const RobotTable robot = zhu2022::table();
+  Random random(1);
+  for (const std::uint32_t held : {0u, kX5, kX4AndX5, (1u << 3) | kX4AndX5}) {
+    for (std::int32_t i = 0; i < 300; ++i) {
+      const double bend_deg = i == 0 ? 0.0 : (i < 50 ? std::pow(10.0, random.uniform(-6.0, 0.0)) : 20.0);  // nearly straight, too
+      const Jacobian J = arm_at(robot, random.theta(robot, bend_deg)).tip_jacobian;
+      const NullSpace space = null_space(J, robot.theta_count(), held);
+      const ThetaVector v = random.theta(robot, 57.0);
+      const ThetaVector projected = project(space, v);
+      ASSERT_LE(tip_rate(J, projected), 1e-9 * zhu2022::length(projected));
+      ASSERT_LE(zhu2022::largest_difference(project(space, projected), projected), 1e-12);  // P P = P
+      for (std::size_t k = 0; k < zhu2022::kThetas; ++k) ASSERT_TRUE(((held >> k) & 1u) == 0 || projected[k] == 0.0);
+    }
+  }
+}
+
+TEST(Shape, TheNullSpaceHasTheDimensionThatTheTipLeaves) {
+  const RobotTable robot = zhu2022::table();
+  const ThetaVector bent = Random(2).theta(robot, 15.0);
+  for (const auto& [held, rank] : {std::pair{0u, 6}, std::pair{kX5, 6}, std::pair{kX4AndX5, 6}, std::pair{0x3F8u, 3}}) {
+    EXPECT_EQ(null_space(arm_at(robot, bent).tip_jacobian, robot.theta_count(), held).rank, rank) << held;
+  }
+  // The straight arm can neither stretch nor roll: four directions are left to the tip, six to the shape.
+  EXPECT_EQ(null_space(arm_at(robot, ThetaVector{}).tip_jacobian, robot.theta_count(), 0).rank, 4);
+}
+
+TEST(Shape, ProjectionIsSymmetricSoThatDescentStaysDescent) {
+  const RobotTable robot = zhu2022::table();
+  Random random(3);
+  for (std::int32_t i = 0; i < 100; ++i) {
+    const NullSpace space = null_space(arm_at(robot, random.theta(robot, 20.0)).tip_jacobian, robot.theta_count(), kX5);
+    const ThetaVector a = random.theta(robot, 57.0), b = random.theta(robot, 57.0), pa = project(space, a), pb = project(space, b);
+    double left = 0.0, right = 0.0;
+    for (std::size_t k = 0; k < zhu2022::kThetas; ++k) left += pa[k] * b[k], right += a[k] * pb[k];
+    ASSERT_NEAR(left, right, 1e-12);
+  }
+}
+
+TEST(Shape, NodeCostIsTheWeightedDistanceAndItsGradient) {
+  const RobotTable robot = zhu2022::table();
+  const ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  NodeTargets nodes = target_of(3, {1.0, 0.2, 0.5}, 2.0);
+  nodes[1] = {1, {0.7, -0.1, 0.3}, 0.5, 0.0};
+  const NodeCost cost = node_cost(robot, arm_at(robot, theta), nodes);
+  EXPECT_NEAR(cost.sum_m, 2.0 * distance_m(robot, theta, nodes[0]) + 0.5 * distance_m(robot, theta, nodes[1]), 1e-12);
+  constexpr double kStep = 1e-6;
+  for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
+    ThetaVector more = theta, less = theta;
+    more[k] += kStep, less[k] -= kStep;
+    const double slope =
+        (node_cost(robot, arm_at(robot, more), nodes).sum_m - node_cost(robot, arm_at(robot, less), nodes).sum_m) / (2 * kStep);
+    EXPECT_NEAR(cost.descent[k], -slope, 1e-6) << k;
+  }
+}
+
+// A43: nothing happens within the threshold.
+TEST(Shape, A43OnlyNodesBeyondTheirThresholdCount) {
+  const RobotTable robot = zhu2022::table();
+  const ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  const Vec3 at = arm_at(robot, theta).node_in_base[3].position_m;
+  const Vec3 near = add(at, {0.0, 0.0, 0.05});
+  EXPECT_EQ(node_cost(robot, arm_at(robot, theta), target_of(3, near, 1.0, 0.06)).sum_m, 0.0);
+  EXPECT_NEAR(node_cost(robot, arm_at(robot, theta), target_of(3, near, 1.0, 0.04)).sum_m, 0.05, 1e-12);
+  EXPECT_EQ(node_cost(robot, arm_at(robot, theta), target_of(3, at)).sum_m, 0.0);  // no direction to go when there
+  EXPECT_EQ(node_cost(robot, arm_at(robot, theta), target_of(0, near)).sum_m, 0.0);
+  EXPECT_EQ(node_cost(robot, arm_at(robot, theta), target_of(6, near)).sum_m, 0.0);
+}
+
+// A43, A44: towards a target that another shape with the same tip has d falls, up to the balance with centring, and the tip stays.
+TEST(Shape, A43TheNodeDistanceFallsWhileTheTipStays) {
+  const RobotTable robot = zhu2022::table();
+  ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  ThetaVector other = theta;
+  run(robot, target_of(3, add(arm_at(robot, theta).node_in_base[3].position_m, {0.3, 0.1, 0.2})), 0, 1500, other);
+  const NodeTargets nodes = target_of(3, arm_at(robot, other).node_in_base[3].position_m, 1.0, 0.005);
+  const Pose tip = arm_at(robot, theta).tip_in_base;
+  const double before_m = distance_m(robot, theta, nodes[0]);
+  ASSERT_GT(before_m, 0.05);
+  double last_m = before_m;
+  for (std::int32_t second = 0; second < 12; ++second) {
+    run(robot, nodes, 0, 250, theta);
+    const double now_m = distance_m(robot, theta, nodes[0]);
+    EXPECT_LE(now_m, last_m + 1e-4) << second;
+    EXPECT_LE(zhu2022::length(pose_error(tip, arm_at(robot, theta).tip_in_base)), 1e-6);
+    last_m = now_m;
+  }
+  EXPECT_LE(last_m, 0.4 * before_m) << before_m;
+}
+
+// A44: weights decide between targets that contradict each other. A45: node 3 with the larger weight wins.
+TEST(Shape, A44A45TheHeavierNodeComesCloser) {
+  const RobotTable robot = zhu2022::table();
+  const ThetaVector start = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  const ArmKinematics arm = arm_at(robot, start);
+  std::array<double, 2> third_m{}, second_m{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    NodeTargets nodes = target_of(3, add(arm.node_in_base[3].position_m, {0.0, 0.0, 0.3}), i == 0 ? 5.0 : 0.2);
+    nodes[1] = {2, add(arm.node_in_base[2].position_m, {0.0, 0.0, -0.3}), i == 0 ? 0.2 : 5.0, 0.0};
+    ThetaVector theta = start;
+    run(robot, nodes, 0, 3000, theta);
+    third_m[i] = distance_m(robot, theta, nodes[0]);
+    second_m[i] = distance_m(robot, theta, nodes[1]);
+  }
+  EXPECT_LT(third_m[0], third_m[1] - 0.02);
+  EXPECT_LT(second_m[1], second_m[0] - 0.02);
+}
+
+TEST(Shape, MovesStayWithinLimitsAndBelowTheirShareOfTheRate) {
+  const RobotTable robot = zhu2022::table();
+  Random random(4);
+  for (std::int32_t i = 0; i < 100; ++i) {
+    ThetaVector theta = random.theta(robot, 20.0), rate{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const double limit = robot.segment[0].theta_limit_rad - (i % 2 == 0 ? 0.0 : 1e-4);
+      theta[k] = k % 2 == 0 ? limit : -limit;
+    }
+    const NodeTargets nodes = target_of(1 + i % 4, random.vector(3.0), 1.0);
+    for (std::int32_t tick = 0; tick < 100; ++tick) {
+      const ThetaVector move = shape_move(robot, nodes, kX5, false, theta, rate);
+      theta = zhu2022::plus(theta, move);
+      for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
+        ASSERT_LE(std::fabs(move[k]), robot.limits.theta_rate_rad_s * robot.tick_s * (1.0 + 1e-9)) << k;
+        ASSERT_LE(std::fabs(theta[k]), robot.segment[k / 2].theta_limit_rad + 1e-12) << k;
+      }
+      ASSERT_EQ(move[8], 0.0);
+    }
+  }
+}
+
+TEST(Shape, BrakingEndsTheShapeMotionWithinABoundedNumberOfTicks) {
+  const RobotTable robot = zhu2022::table();
+  ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg), rate{};
+  const NodeTargets nodes = target_of(3, {0.0, 0.0, 0.0});
+  for (std::int32_t i = 0; i < 250; ++i) theta = zhu2022::plus(theta, shape_move(robot, nodes, 0, false, theta, rate));
+  ASSERT_GT(zhu2022::length(rate), 0.1 * kDegree);
+  for (std::int32_t i = 0; i < 350; ++i) theta = zhu2022::plus(theta, shape_move(robot, nodes, 0, true, theta, rate));
+  EXPECT_LT(zhu2022::length(rate), 1e-9);
+}
+
+// The pitch of the segment that enters the slit next is drawn to zero more than the others.
+TEST(Shape, ThePitchAheadOfThePlanarPartComesIntoThePlaneFirst) {
+  const RobotTable robot = zhu2022::table();
+  ThetaVector theta = zhu2022::radians({3, 2, -4, 3, 3, -2, 4, -5, 0, 3});
+  const ThetaVector start = theta;
+  ThetaVector without_lead = start;
+  run(robot, {}, kX5, 2500, theta);
+  run(robot, {}, 0, 2500, without_lead);
+  EXPECT_LT(std::fabs(theta[6]), 0.3 * std::fabs(start[6]));
+  EXPECT_LT(std::fabs(theta[6]), std::fabs(without_lead[6]));
+  EXPECT_EQ(theta[8], start[8]);
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,348 @@
+#include "firmware_like/safety/supervisor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "firmware_like/safety/gate.hpp"
+#include "tests/firmware_like/safety_bench.hpp"
+
+namespace liana {
+namespace {
+
+using namespace safety_bench;
+
+constexpr std::size_t kNoDrive = 99;
+
+// Supervisor, watchdogs and gate joined as in a tick, on drives that follow controlwords one tick later.
+class Operation : public ::testing::Test {
+ protected:
+  // One tick; drives answer the controlwords in the next one.
+  Orders tick(Request request = Request::kNone) {
+    ++inputs_.tick;
+    inputs_.request = request;
+    const std::int32_t active = watch(limits_, watch_scope(state_), inputs_, sent_, tension_N_, watchdogs_, faults_);
+    orders_ = supervise(limits_, inputs_, motion_, active, state_, faults_);
+    GateProposal proposal{orders_.goal, orders_.live_targets, zero_payout_m(), tension_N_};
+    sent_ = gate(robot_, gate_limits_, proposal, sent_, inputs_.drive).command;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
+      if (i != stuck_drive_) inputs_.drive[i].statusword = answer(inputs_.drive[i].statusword, sent_[i].controlword);
+    }
+    return orders_;
+  }
+
+  // Ticks until the state is reached; the number of ticks, or `most` + 1.
+  int ticks_until(OperatingState wanted, int most) {
+    for (int count = 1; count <= most; ++count) {
+      if (tick().state == wanted) return count;
+    }
+    return most + 1;
+  }
+
+  void enable() {
+    tick(Request::kEnable);
+    ASSERT_LE(ticks_until(OperatingState::kEnabled, 20), 20);
+    ASSERT_TRUE(orders_.motion_allowed);
+  }
+
+  static std::uint16_t answer(std::uint16_t status, std::uint16_t word) {
+    if (status == kStatusFault) return (word & 0x0080) != 0 ? kStatusDisabled : status;
+    if ((word & 0x0002) == 0) return kStatusDisabled;
+    if ((word & 0x0006) == 0x0002) return status == kStatusEnabled ? kStatusQuickStop : kStatusDisabled;
+    if (status == kStatusQuickStop) return kStatusDisabled;
+    if (word == 0x0006) return kStatusReady;
+    if (word == 0x0007) return kStatusSwitchedOn;
+    return status == kStatusSwitchedOn || status == kStatusEnabled ? kStatusEnabled : status;
+  }
+
+  bool any_drive_shows(std::uint16_t status) const {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
+      if (inputs_.drive[i].statusword == status) return true;
+    }
+    return false;
+  }
+
+  RobotTable robot_ = table();
+  WatchdogLimits limits_ = make_watchdog_limits(robot_);
+  GateLimits gate_limits_ = make_gate_limits(robot_, zero_payout_m());
+  WatchdogState watchdogs_{};
+  SupervisorState state_{};
+  FaultList faults_{};
+  Inputs inputs_ = healthy(kStatusDisabled, 0);
+  MotionStatus motion_{false, true, true, true};
+  CableVector tension_N_ = [] {
+    CableVector tension{};
+    tension.fill(40.0);
+    return tension;
+  }();
+  std::array<DriveCommand, kMaxCables> sent_{};
+  std::size_t stuck_drive_ = kNoDrive;
+  Orders orders_{};
+};
+
+TEST_F(Operation, EnablingGoesThroughSwitchedOnAndTheRampBeforeMotionIsAllowed) {
+  motion_.pretension_done = false;
+  EXPECT_EQ(tick().state, OperatingState::kDisabled);
+  EXPECT_EQ(tick(Request::kEnable).state, OperatingState::kEnabling);
+  EXPECT_EQ(orders_.goal, DriveGoal::kSwitchedOn);
+  EXPECT_FALSE(orders_.live_targets);
+  for (int i = 0; i < 20; ++i) tick();
+  EXPECT_TRUE(orders_.ramp_active);
+  EXPECT_TRUE(orders_.live_targets);
+  EXPECT_FALSE(orders_.motion_allowed);
+  EXPECT_EQ(orders_.state, OperatingState::kEnabling);
+  motion_.pretension_done = true;
+  EXPECT_EQ(tick().state, OperatingState::kEnabled);
+  EXPECT_TRUE(orders_.motion_allowed);
+  EXPECT_FALSE(orders_.ramp_active);
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(Operation, NoBrakeOpensBeforeEveryDriveIsSwitchedOn) {
+  inputs_.drive[4].statusword = kStatusReady;
+  stuck_drive_ = 4;
+  tick(Request::kEnable);
+  for (int i = 0; i < 100; ++i) {
+    tick();
+    EXPECT_FALSE(any_drive_shows(kStatusEnabled));
+  }
+}
+
+TEST_F(Operation, OneDriveThatDoesNotEnableAbortsAllWithinTheBudgetAndIsNamed) {
+  for (const std::uint16_t status : {kStatusDisabled, kStatusReady, kStatusSwitchedOn}) {
+    state_ = SupervisorState{};
+    faults_ = FaultList{};
+    inputs_ = healthy(kStatusDisabled, 0);
+    inputs_.drive[4].statusword = status;
+    stuck_drive_ = 4;
+    tick(Request::kEnable);
+    const int limit = static_cast<int>(2 * kPoweringBudgetTicks);
+    EXPECT_LE(ticks_until(OperatingState::kStopping, limit), limit);
+    EXPECT_TRUE(has(faults_, FaultNumber::kDriveEnableTimeout, 4));
+    EXPECT_EQ(faults_.fault[0].detail, status);
+    EXPECT_EQ(faults_.count, 1);
+    stuck_drive_ = kNoDrive;
+    EXPECT_LE(ticks_until(OperatingState::kFault, 20), 20);
+    EXPECT_FALSE(any_drive_shows(kStatusEnabled));
+  }
+}
+
+TEST_F(Operation, APretensionRampThatNeverEndsIsATimeout) {
+  motion_.pretension_done = false;
+  tick(Request::kEnable);
+  const int limit = static_cast<int>(kTensioningBudgetTicks) + 100;
+  EXPECT_LE(ticks_until(OperatingState::kFault, limit), limit);
+  EXPECT_TRUE(has(faults_, FaultNumber::kDriveEnableTimeout, -1));
+}
+
+struct Blocker {
+  std::uint32_t missing;
+  void (*apply)(Inputs&, MotionStatus&, FaultList&);
+};
+
+TEST_F(Operation, EnablingIsRefusedAndSaysWhyWhenAnyConditionIsMissing) {
+  const std::vector<Blocker> blockers{
+      {kBusesUp, [](Inputs& in, MotionStatus&, FaultList&) { in.lost_bus_mask = 1; }},
+      {kDrivesFresh, [](Inputs& in, MotionStatus&, FaultList&) { in.drive[5].feedback_age_ticks = 3; }},
+      {kDrivesFresh, [](Inputs& in, MotionStatus&, FaultList&) { in.drive[5].heartbeat_age_ticks = 76; }},
+      {kDrivesOperational, [](Inputs& in, MotionStatus&, FaultList&) { in.drive[0].operational = 0; }},
+      {kNoDriveInFault, [](Inputs& in, MotionStatus&, FaultList&) { in.drive[2].statusword = kStatusFault; }},
+      {kHomed, [](Inputs&, MotionStatus& motion, FaultList&) { motion.homed = false; }},
+      {kNoFault,
+       [](Inputs&, MotionStatus&, FaultList& faults) {
+         latch(faults, {FaultNumber::kCommandInvalid, -1, 0, 0});
+       }},
+  };
+  for (const Blocker& blocker : blockers) {
+    Inputs inputs = healthy(kStatusDisabled);
+    MotionStatus motion = motion_;
+    SupervisorState state{};
+    FaultList faults{};
+    blocker.apply(inputs, motion, faults);
+    inputs.request = Request::kEnable;
+    const Orders orders = supervise(limits_, inputs, motion, 0, state, faults);
+    EXPECT_NE(orders.state, OperatingState::kEnabling) << condition_name(blocker.missing);
+    EXPECT_EQ(orders.goal, DriveGoal::kDisabled);
+    EXPECT_EQ(orders.enable_missing, blocker.missing) << condition_name(blocker.missing);
+  }
+}
+
+TEST_F(Operation, DisableStopsAlongThePathThenBrakesThenPowersDown) {
+  enable();
+  motion_.at_rest = false;
+  EXPECT_EQ(tick(Request::kDisable).state, OperatingState::kStopping);
+  EXPECT_TRUE(orders_.live_targets);
+  EXPECT_FALSE(orders_.motion_allowed);
+  EXPECT_EQ(orders_.stop_category, StopCategory::kStop);
+  for (int i = 0; i < 100; ++i) tick();
+  EXPECT_EQ(orders_.goal, DriveGoal::kOperationEnabled) << "still decelerating";
+  motion_.at_rest = true;
+  for (std::uint32_t i = 1; i < kRestTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
+  for (std::uint32_t i = 0; i < kBrakingTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kSwitchedOn);
+  for (std::uint32_t i = 0; i < kOffTicks; ++i) {
+    EXPECT_EQ(tick().goal, DriveGoal::kDisabled);
+    EXPECT_EQ(orders_.state, OperatingState::kStopping);
+  }
+  EXPECT_EQ(tick().state, OperatingState::kDisabled);
+  EXPECT_EQ(orders_.stop_category, StopCategory::kNone);
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(Operation, RestThatIsInterruptedIsCountedAgain) {
+  enable();
+  motion_.at_rest = false;
+  tick(Request::kStop);
+  motion_.at_rest = true;
+  for (std::uint32_t i = 1; i < kRestTicks; ++i) tick();
+  motion_.at_rest = false;
+  tick();
+  motion_.at_rest = true;
+  for (std::uint32_t i = 1; i < kRestTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
+  EXPECT_EQ(tick().goal, DriveGoal::kSwitchedOn);
+}
+
+TEST_F(Operation, AStopThatNeverComesToRestEndsInAQuickStop) {
+  enable();
+  motion_.at_rest = false;
+  tick(Request::kStop);
+  for (std::uint32_t i = 1; i < kPathStopBudgetTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
+  EXPECT_EQ(tick().goal, DriveGoal::kQuickStop);
+  EXPECT_LE(ticks_until(OperatingState::kDisabled, 20), 20);
+}
+
+TEST_F(Operation, AStopTelecommandStopsLikeTheRequest) {
+  enable();
+  motion_.stop_commanded = true;
+  EXPECT_EQ(tick().state, OperatingState::kStopping);
+  motion_.stop_commanded = false;
+  EXPECT_LE(ticks_until(OperatingState::kDisabled, 100), 100);
+}
+
+TEST_F(Operation, AStopWhileEnablingDisablesAll) {
+  for (int ticks_before = 0; ticks_before < 6; ++ticks_before) {
+    state_ = SupervisorState{};
+    inputs_ = healthy(kStatusDisabled, 0);
+    motion_.pretension_done = false;
+    tick(Request::kEnable);
+    for (int i = 0; i < ticks_before; ++i) tick();
+    EXPECT_EQ(tick(Request::kStop).state, OperatingState::kStopping) << ticks_before;
+    EXPECT_LE(ticks_until(OperatingState::kDisabled, 100), 100);
+    EXPECT_EQ(faults_.count, 0);
+  }
+}
+
+TEST_F(Operation, AHoldFaultKeepsTheDrivesEnabledAndBlocksMotionUntilCleared) {
+  enable();
+  tension_N_[2] = 0.0;
+  for (int i = 0; i < kSlackDebounceTicks; ++i) tick();
+  EXPECT_TRUE(has(faults_, FaultNumber::kCableSlack, 2));
+  EXPECT_EQ(orders_.state, OperatingState::kEnabled);
+  EXPECT_EQ(orders_.stop_category, StopCategory::kHold);
+  EXPECT_FALSE(orders_.motion_allowed);
+  EXPECT_TRUE(orders_.live_targets) << "the path stop still moves the drives";
+  tick(Request::kClear);
+  EXPECT_EQ(state_.clear.missing, static_cast<std::uint32_t>(kCausesGone));
+  EXPECT_FALSE(orders_.motion_allowed) << "the cable is still slack";
+  tension_N_[2] = 40.0;
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(tick().motion_allowed) << "clearing is explicit";
+  tick(Request::kClear);
+  EXPECT_EQ(state_.clear.missing, 0U);
+  EXPECT_EQ(state_.clear.checked, kClearable);
+  EXPECT_EQ(state_.clear.tick, inputs_.tick);
+  EXPECT_TRUE(orders_.motion_allowed);
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(Operation, AHoldFaultIsNotClearedWhileTheArmStillMoves) {
+  enable();
+  latch(faults_, {FaultNumber::kCommandInvalid, -1, 0, 1});
+  motion_.at_rest = false;
+  tick(Request::kClear);
+  EXPECT_EQ(state_.clear.missing, static_cast<std::uint32_t>(kAtRest));
+  EXPECT_EQ(faults_.count, 1);
+}
+
+TEST_F(Operation, ACauseThatPersistsTurnsAHoldIntoAStop) {
+  enable();
+  tension_N_[2] = 450.0;
+  for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kPersistTicks - 1; ++i) ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
+  EXPECT_EQ(tick().state, OperatingState::kStopping);
+  EXPECT_LE(ticks_until(OperatingState::kFault, 100), 100);
+}
+
+TEST_F(Operation, ADriveThatGoesSilentQuickStopsTheOthersInTheSameTick) {
+  enable();
+  motion_.at_rest = false;
+  inputs_.drive[3].feedback_age_ticks = 3;
+  EXPECT_EQ(tick().goal, DriveGoal::kQuickStop);
+  EXPECT_FALSE(orders_.live_targets);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) EXPECT_EQ(sent_[i].controlword, kQuickStopCommand);
+  const int limit = static_cast<int>(kQuickStopBudgetTicks + kOffBudgetTicks) + 2;
+  EXPECT_LE(ticks_until(OperatingState::kFault, limit), limit) << "a drive that cannot confirm does not hold the others up for ever";
+  EXPECT_TRUE(has(faults_, FaultNumber::kDriveStopTimeout, 3));
+}
+
+TEST_F(Operation, ALostBusQuickStopsTheOthersInTheSameTick) {
+  enable();
+  inputs_.lost_bus_mask = 2;
+  EXPECT_EQ(tick().goal, DriveGoal::kQuickStop);
+}
+
+TEST_F(Operation, AnOverloadedCableTakesTheTorqueAwayAtOnce) {
+  enable();
+  tension_N_[0] = 700.0;
+  for (int i = 1; i < kOverloadDebounceTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
+  EXPECT_EQ(tick().goal, DriveGoal::kDisabled);
+  EXPECT_EQ(orders_.stop_category, StopCategory::kOff);
+  EXPECT_EQ(sent_[0].controlword, kDisableVoltage);
+}
+
+TEST_F(Operation, AGateRefusalLatchedByTheTickStopsInTheNextOne) {
+  enable();
+  latch(faults_, {FaultNumber::kGateRefused, 2, 3, inputs_.tick});
+  EXPECT_EQ(tick().goal, DriveGoal::kQuickStop);
+}
+
+TEST_F(Operation, AFaultOfADriveIsResetByClearAndNothingElse) {
+  enable();
+  inputs_.drive[1].statusword = kStatusFault;
+  EXPECT_LE(ticks_until(OperatingState::kFault, 100), 100);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(tick(Request::kEnable).state, OperatingState::kFault);
+  EXPECT_EQ(inputs_.drive[1].statusword, kStatusFault);
+  tick(Request::kClear);
+  EXPECT_EQ(orders_.goal, DriveGoal::kFaultReset);
+  EXPECT_EQ(ticks_until(OperatingState::kDisabled, 100), static_cast<int>(kResetTicks));
+  EXPECT_EQ(faults_.count, 0);
+  EXPECT_EQ(faults_.category, StopCategory::kNone);
+  enable();
+}
+
+TEST_F(Operation, AClearWhoseCauseIsStillThereReportsItAndStaysInFault) {
+  inputs_.drive[1].statusword = kStatusFault;
+  stuck_drive_ = 1;
+  tick();
+  EXPECT_EQ(tick().state, OperatingState::kFault);
+  tick(Request::kClear);
+  for (std::uint32_t i = 0; i < kResetBudgetTicks; ++i) tick();
+  EXPECT_EQ(orders_.goal, DriveGoal::kDisabled) << "back from resetting";
+  EXPECT_EQ(orders_.state, OperatingState::kFault);
+  EXPECT_EQ(state_.clear.missing, kNoDriveInFault | kCausesGone);
+  EXPECT_EQ(faults_.count, 1);
+}
+
+TEST_F(Operation, ClearingChecksHomingAgain) {
+  latch(faults_, {FaultNumber::kHomingImplausible, 0, 0, 1});
+  motion_.homed = false;
+  EXPECT_EQ(tick().state, OperatingState::kFault);
+  tick(Request::kClear);
+  for (std::uint32_t i = 0; i <= kResetTicks; ++i) tick();
+  EXPECT_EQ(state_.clear.missing, static_cast<std::uint32_t>(kHomed));
+  EXPECT_EQ(orders_.state, OperatingState::kFault);
+  motion_.homed = true;
+  tick(Request::kClear);
+  EXPECT_LE(ticks_until(OperatingState::kDisabled, 20), 20);
+}
+
+}  // namespace
+}  // namespace liana

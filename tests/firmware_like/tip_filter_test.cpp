@@ -1,0 +1,168 @@
+// Operator filter (A16): whatever comes in, velocity, acceleration and jerk stay bounded, and the lag is the stated one.
+#include "firmware_like/operator_input/tip_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/firmware_like/zhu2022.hpp"
+
+namespace liana {
+namespace {
+
+using zhu2022::Random;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kRounding = 1.0 + 1e-9;
+
+TipFilterConfig config() { return tip_filter_config(zhu2022::table(), 0.0); }
+
+// Checks one channel of one tick against its bounds; says which one broke.
+void expect_bounded(const FilterBounds& bounds, double tick_s, const ChannelState& before, const ChannelState& now) {
+  ASSERT_LE(norm(now.velocity), bounds.speed * kRounding);
+  ASSERT_LE(norm(now.acceleration), bounds.accel * kRounding);
+  ASSERT_LE(norm(subtract(now.velocity, before.velocity)), bounds.accel * tick_s * kRounding);
+  ASSERT_LE(norm(subtract(now.acceleration, before.acceleration)), bounds.jerk * tick_s * kRounding);
+}
+
+// One tick towards `target`, with every bound checked, on the state and on the pose that comes out.
+void step(const Pose& target, TipFilterState& state) {
+  const TipFilterConfig with = config();
+  const TipFilterState before = state;
+  filter_tip(with, target, state);
+  ASSERT_TRUE(is_valid(state.pose));
+  expect_bounded(with.linear, with.tick_s, before.linear, state.linear);
+  expect_bounded(with.angular, with.tick_s, before.angular, state.angular);
+  const double moved_m = norm(subtract(state.pose.position_m, before.pose.position_m));
+  const double turned = norm(rotation_vector(multiply(state.pose.quaternion, conjugate(before.pose.quaternion))));
+  ASSERT_LE(moved_m, with.linear.speed * with.tick_s * kRounding);
+  ASSERT_LE(turned, with.angular.speed * with.tick_s * kRounding);
+}
+
+Pose random_pose(Random& random, double range_m) { return {random.vector(range_m), quaternion_of(random.vector(1.5))}; }
+
+TEST(TipFilter, A16RandomTargetsNeverPassTheBounds) {
+  Random random(1);
+  TipFilterState state;
+  Pose target;
+  for (std::int32_t i = 0; i < 40000; ++i) {
+    if (i % 150 == 0) target = random_pose(random, i % 300 == 0 ? 5.0 : 0.02);
+    step(target, state);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(TipFilter, A16GlitchesAndNoiseNeverPassTheBounds) {
+  Random random(2);
+  TipFilterState state;
+  for (std::int32_t i = 0; i < 20000; ++i) {
+    Pose target{{0.0004 * i, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+    target.position_m = add(target.position_m, random.vector(0.005));
+    if (i % 97 == 0) target.position_m[1] = 1e6;  // a jump of one sample
+    step(target, state);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(TipFilter, A16WhatIsNotAPoseMakesItBrakeAndStand) {
+  for (const double bad : {kNan, kInf, -kInf}) {
+    TipFilterState state;
+    const Pose far{{2.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+    for (std::int32_t i = 0; i < 500; ++i) filter_tip(config(), far, state);
+    ASSERT_GT(norm(state.linear.velocity), 0.05);
+    Pose broken = far;
+    broken.position_m[2] = bad;
+    for (std::int32_t i = 0; i < 500; ++i) {
+      filter_tip(config(), broken, state);
+      ASSERT_TRUE(is_valid(state.pose));
+    }
+    EXPECT_TRUE(at_rest(state));
+    broken = far;
+    broken.quaternion = {bad, 0.0, 0.0, 0.0};
+    const Pose stood = state.pose;
+    filter_tip(config(), broken, state);
+    EXPECT_EQ(state.pose.position_m, stood.position_m);
+  }
+}
+
+TEST(TipFilter, AStepIsReachedWithoutOvershoot) {
+  for (const double size_m : {0.0002, 0.005, 0.05, 0.5, 2.0}) {
+    TipFilterState state;
+    const Pose target{{size_m, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+    for (std::int32_t i = 0; i < 10000; ++i) {
+      step(target, state);
+      if (HasFatalFailure()) return;
+      ASSERT_LE(state.pose.position_m[0], size_m * (1.0 + 1e-3)) << size_m;
+    }
+    EXPECT_NEAR(state.pose.position_m[0], size_m, 1e-6) << size_m;
+    EXPECT_TRUE(at_rest(state));
+  }
+}
+
+TEST(TipFilter, ATurnIsReachedWithoutOvershoot) {
+  for (const double angle : {0.01, 0.5, 3.0}) {
+    TipFilterState state;
+    const Pose target{{0.0, 0.0, 0.0}, quaternion_of({0.0, 0.0, angle})};
+    for (std::int32_t i = 0; i < 10000; ++i) {
+      step(target, state);
+      if (HasFatalFailure()) return;
+      ASSERT_LE(rotation_vector(state.pose.quaternion)[2], angle * (1.0 + 1e-3)) << angle;
+    }
+    EXPECT_NEAR(rotation_vector(state.pose.quaternion)[2], angle, 1e-6) << angle;
+  }
+}
+
+TEST(TipFilter, LagBehindARampIsTheStatedOne) {
+  const TipFilterConfig with = config();
+  const double speed_m_s = 0.5 * with.linear.speed;
+  TipFilterState state;
+  double target_m = 0.0;
+  for (std::int32_t i = 0; i < 10000; ++i) {
+    target_m += speed_m_s * with.tick_s;
+    filter_tip(with, {{target_m, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, state);
+  }
+  EXPECT_NEAR((target_m - state.pose.position_m[0]) / speed_m_s, lag_s(with.linear), 1.01 * with.tick_s);
+  EXPECT_NEAR(lag_s(with.linear), 0.5, 1e-12);
+}
+
+TEST(TipFilter, BrakingComesToRestWithinABoundedNumberOfTicks) {
+  constexpr std::int32_t kMostTicks = 400;  // 1.6 s from full speed
+  TipFilterState state;
+  const Pose far{{50.0, -20.0, 5.0}, quaternion_of({0.0, 3.0, 0.0})};
+  for (std::int32_t i = 0; i < 500; ++i) step(far, state);
+  const TipFilterConfig with = config();
+  ASSERT_GT(norm(state.linear.velocity), 0.99 * with.linear.speed);
+  const Vec3 direction = scale(state.linear.velocity, 1.0 / norm(state.linear.velocity));
+  std::int32_t ticks = 0;
+  for (; ticks < kMostTicks && !at_rest(state); ++ticks) {
+    const double speed = norm(state.linear.velocity);
+    brake_tip(with, state);
+    ASSERT_LE(norm(state.linear.velocity), speed + with.linear.jerk * with.tick_s * with.tick_s);  // slower and slower
+    ASSERT_GE(dot(state.linear.velocity, direction), 0.0);                                         // and never backwards
+  }
+  EXPECT_LT(ticks, kMostTicks);
+  EXPECT_EQ(norm(state.linear.velocity), 0.0);
+}
+
+TEST(TipFilter, TheSlitsSpeedLowersTheBoundAndTheRobotsIsTheMost) {
+  const RobotTable robot = zhu2022::table();
+  EXPECT_EQ(tip_filter_config(robot, robot.limits.tip_speed_slit_m_s).linear.speed, robot.limits.tip_speed_slit_m_s);
+  EXPECT_EQ(tip_filter_config(robot, 5.0).linear.speed, robot.limits.tip_speed_m_s);
+  EXPECT_EQ(tip_filter_config(robot, 0.0).linear.speed, robot.limits.tip_speed_m_s);
+  EXPECT_EQ(tip_filter_config(robot, -1.0).linear.speed, robot.limits.tip_speed_m_s);
+}
+
+TEST(TipFilter, LimitsThatActAreNamed) {
+  TipFilterState state;
+  filter_tip(config(), {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, state);
+  EXPECT_TRUE(state.speed_limited);
+  EXPECT_TRUE(state.accel_limited);
+  TipFilterState quiet;
+  filter_tip(config(), {{1e-5, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, quiet);
+  EXPECT_FALSE(quiet.speed_limited);
+  EXPECT_FALSE(quiet.accel_limited);
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,228 @@
+#include "firmware_like/safety/watchdogs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "tests/firmware_like/safety_bench.hpp"
+
+namespace liana {
+namespace {
+
+using namespace safety_bench;
+
+constexpr WatchScope kUnpowered{false, false};
+constexpr WatchScope kRamp{true, false};
+constexpr WatchScope kRunning{true, true};
+
+// Watchdogs fed tick by tick with drives that are healthy until a test says otherwise.
+class Watchdogs : public ::testing::Test {
+ protected:
+  Watchdogs() {
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
+      sent_[i] = {0x000F, 1000000};
+      tension_N_[i] = 40.0;
+    }
+    run(kRunning);  // every drive has been seen alive
+    EXPECT_EQ(faults_.count, 0);
+  }
+
+  std::int32_t run(WatchScope scope) { return watch(limits_, scope, inputs_, sent_, tension_N_, state_, faults_); }
+
+  WatchdogLimits limits_ = make_watchdog_limits(table());
+  Inputs inputs_ = healthy(kStatusEnabled);
+  std::array<DriveCommand, kMaxCables> sent_{};
+  CableVector tension_N_{};
+  WatchdogState state_{};
+  FaultList faults_{};
+};
+
+TEST_F(Watchdogs, HealthyDrivesRaiseNothing) {
+  for (int tick = 0; tick < 1000; ++tick) EXPECT_EQ(run(kRunning), 0);
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(Watchdogs, ATpdoMayBeMissingForTwoTicksAndThenTheDriveIsSilent) {
+  inputs_.drive[3].feedback_age_ticks = 2;
+  EXPECT_EQ(run(kRunning), 0);
+  inputs_.drive[3].feedback_age_ticks = 3;
+  EXPECT_EQ(run(kRunning), 1);
+  EXPECT_TRUE(has(faults_, FaultNumber::kDriveSilent, 3));
+  EXPECT_EQ(faults_.fault[0].detail, 3);
+}
+
+TEST_F(Watchdogs, AHeartbeatMayBe300MillisecondsOld) {
+  inputs_.drive[5].heartbeat_age_ticks = 75;
+  EXPECT_EQ(run(kRunning), 0);
+  inputs_.drive[5].heartbeat_age_ticks = 76;
+  EXPECT_EQ(run(kRunning), 1);
+  EXPECT_TRUE(has(faults_, FaultNumber::kDriveMissing, 5));
+}
+
+TEST_F(Watchdogs, ADriveThatLeavesNmtOperationalIsReported) {
+  inputs_.drive[0].operational = 0;
+  run(kUnpowered);
+  EXPECT_TRUE(has(faults_, FaultNumber::kDriveNotOperational, 0));
+}
+
+TEST_F(Watchdogs, ADriveThatWasNeverAliveIsNoFault) {
+  state_ = WatchdogState{};
+  inputs_.drive[2] = DriveFeedback{};
+  EXPECT_EQ(run(kUnpowered), 0);
+  EXPECT_EQ(faults_.count, 0);
+}
+
+TEST_F(Watchdogs, ADriveThatStillBootsIsNoFaultUntilAllOfItWasAliveOnce) {
+  const std::vector<void (*)(DriveFeedback&)> halves{
+      [](DriveFeedback& drive) { drive.operational = 0; },
+      [](DriveFeedback& drive) { drive.feedback_age_ticks = 0xFFFF; },
+      [](DriveFeedback& drive) { drive.heartbeat_age_ticks = 0xFFFF; },
+  };
+  for (const auto& break_half : halves) {
+    state_ = WatchdogState{};
+    faults_ = FaultList{};
+    inputs_ = healthy(kStatusDisabled);
+    break_half(inputs_.drive[2]);
+    EXPECT_EQ(run(kUnpowered), 0);
+    inputs_ = healthy(kStatusDisabled);
+    EXPECT_EQ(run(kUnpowered), 0);
+    break_half(inputs_.drive[2]);
+    EXPECT_EQ(run(kUnpowered), 1);
+  }
+}
+
+TEST_F(Watchdogs, ADriveInFaultIsReportedWithItsEmergencyCodeWhicheverComesFirst) {
+  inputs_.drive[1].emergency_code = 0x8130;  // one tick before the statusword
+  EXPECT_EQ(run(kUnpowered), 0);
+  inputs_.drive[1].emergency_code = 0;
+  inputs_.drive[1].statusword = kStatusFaultReaction;
+  inputs_.drive[2].statusword = kStatusFault;
+  run(kUnpowered);
+  inputs_.drive[2].emergency_code = 0x8250;  // one tick after
+  EXPECT_EQ(run(kUnpowered), 2);
+  ASSERT_EQ(faults_.count, 2);
+  EXPECT_EQ(faults_.fault[0].number, FaultNumber::kDriveFault);
+  EXPECT_EQ(faults_.fault[0].detail, 0x8130);
+  EXPECT_EQ(faults_.fault[1].detail, 0x8250);
+}
+
+TEST_F(Watchdogs, AnOldEmergencyCodeIsNotBlamedForALaterFault) {
+  inputs_.drive[1].emergency_code = 0x8130;
+  run(kRunning);
+  inputs_.drive[1].emergency_code = 0;
+  run(kRunning);
+  inputs_.drive[1].statusword = kStatusFault;
+  run(kRunning);
+  EXPECT_EQ(faults_.fault[0].detail, 0);
+}
+
+TEST_F(Watchdogs, EveryStateButOperationEnabledIsLeavingOperationWhilePowered) {
+  for (const std::uint16_t status : {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusQuickStop, std::uint16_t{0x0001}}) {
+    faults_ = FaultList{};
+    inputs_ = healthy(kStatusEnabled);
+    inputs_.drive[4].statusword = status;
+    EXPECT_EQ(run(kUnpowered), 0);
+    EXPECT_EQ(run(kRamp), 1);
+    EXPECT_TRUE(has(faults_, FaultNumber::kDriveLeftOperation, 4));
+    EXPECT_EQ(faults_.fault[0].detail, status);
+  }
+}
+
+TEST_F(Watchdogs, TheFollowingWindowAllowsTheServosLagAtFullCableSpeed) {
+  // 0.2 mm + 1.25 * 10 mm/s * (30 ms + 4 * 4 ms) = 0.775 mm
+  EXPECT_EQ(limits_.following_counts[0], 775);
+  for (const std::int32_t sign : {1, -1}) {
+    faults_ = FaultList{};
+    inputs_.drive[2].position_counts = 1000000 + sign * 775;
+    for (int tick = 0; tick < 100; ++tick) EXPECT_EQ(run(kRunning), 0);
+    inputs_.drive[2].position_counts = 1000000 + sign * 776;
+    for (int tick = 1; tick < kFollowingDebounceTicks; ++tick) EXPECT_EQ(run(kRunning), 0);
+    EXPECT_EQ(run(kUnpowered), 0);  // not watched: the count starts again
+    for (int tick = 1; tick < kFollowingDebounceTicks; ++tick) EXPECT_EQ(run(kRunning), 0);
+    EXPECT_EQ(run(kRunning), 1);
+    EXPECT_TRUE(has(faults_, FaultNumber::kFollowingError, 2));
+  }
+}
+
+TEST_F(Watchdogs, ExtremePositionsDoNotOverflowTheFollowingError) {
+  sent_[0].target_counts = std::numeric_limits<std::int32_t>::max();
+  inputs_.drive[0].position_counts = std::numeric_limits<std::int32_t>::min();
+  for (int tick = 0; tick < kFollowingDebounceTicks; ++tick) run(kRunning);
+  EXPECT_TRUE(has(faults_, FaultNumber::kFollowingError, 0));
+}
+
+struct TensionCase {
+  double tension_N;
+  WatchScope scope;
+  int debounce;  // ticks until the fault; 0 = never
+  FaultNumber number;
+  const char* why;
+};
+
+TEST_F(Watchdogs, TensionIsHeldBetweenFloorAlarmAndHardLimit) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<TensionCase> cases{
+      {1.0, kRunning, 0, FaultNumber::kCableSlack, "exactly at the floor"},
+      {0.999, kRunning, kSlackDebounceTicks, FaultNumber::kCableSlack, "under the floor"},
+      {kNan, kRunning, kSlackDebounceTicks, FaultNumber::kCableSlack, "not a number is slack"},
+      {0.0, kRamp, 0, FaultNumber::kCableSlack, "the ramp starts slack"},
+      {0.0, kUnpowered, 0, FaultNumber::kCableSlack, "brakes hold: no torque to measure"},
+      {400.0, kRunning, 0, FaultNumber::kTensionAlarm, "exactly at the alarm"},
+      {400.1, kRunning, kAlarmDebounceTicks, FaultNumber::kTensionAlarm, "over the alarm"},
+      {400.1, kRamp, kAlarmDebounceTicks, FaultNumber::kTensionAlarm, "the ramp may not pull too hard either"},
+      {600.0, kRunning, 0, FaultNumber::kCableOverload, "exactly at the hard limit"},
+      {600.1, kRunning, kOverloadDebounceTicks, FaultNumber::kCableOverload, "over the hard limit"},
+      {600.1, kUnpowered, 0, FaultNumber::kCableOverload, "no torque to take away"},
+  };
+  for (const TensionCase& one : cases) {
+    faults_ = FaultList{};
+    state_ = WatchdogState{};
+    tension_N_[3] = one.tension_N;
+    int first = 0;
+    for (int tick = 1; tick <= 100; ++tick) {
+      run(one.scope);
+      if (first == 0 && has(faults_, one.number, 3)) first = tick;
+    }
+    EXPECT_EQ(first, one.debounce) << one.why;
+  }
+}
+
+TEST_F(Watchdogs, OneGoodTickStartsTheDebounceAgain) {
+  for (int tick = 0; tick < 200; ++tick) {
+    tension_N_[3] = tick % kSlackDebounceTicks == kSlackDebounceTicks - 1 ? 40.0 : 0.0;
+    EXPECT_EQ(run(kRunning), 0);
+  }
+}
+
+TEST_F(Watchdogs, EveryLostBusIsNamed) {
+  inputs_.lost_bus_mask = 0x80000002U;
+  EXPECT_EQ(run(kUnpowered), 2);
+  EXPECT_TRUE(has(faults_, FaultNumber::kBusLost, 1));
+  EXPECT_TRUE(has(faults_, FaultNumber::kBusLost, 31));
+}
+
+TEST_F(Watchdogs, ThreeLostTicksInARowAreToleratedFourAreNot) {
+  inputs_.lost_ticks = 3;
+  EXPECT_EQ(run(kRunning), 0);
+  inputs_.lost_ticks = 4;
+  EXPECT_EQ(run(kUnpowered), 0);
+  EXPECT_EQ(run(kRunning), 1);
+  EXPECT_TRUE(has(faults_, FaultNumber::kTicksLost, -1));
+}
+
+TEST_F(Watchdogs, ACauseThatIsGoneIsNoLongerActiveButStaysLatched) {
+  inputs_.drive[3].feedback_age_ticks = 3;
+  run(kRunning);
+  inputs_.drive[3].feedback_age_ticks = 0;
+  EXPECT_EQ(run(kRunning), 0);
+  EXPECT_EQ(faults_.count, 1);
+}
+
+TEST_F(Watchdogs, DrivesBeyondTheTableAreNotLookedAt) {
+  inputs_.drive[static_cast<std::size_t>(kDrives)].statusword = kStatusFault;
+  EXPECT_EQ(run(kRunning), 0);
+}
+
+}  // namespace
+}  // namespace liana

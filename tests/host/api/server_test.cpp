@@ -1,0 +1,176 @@
+// Sessions, malformed input, queues and lockstep over real sockets.
+#include "host/api/server.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <functional>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "host/api/client.hpp"
+#include "host/api/request_error.hpp"
+
+namespace liana {
+namespace {
+
+using nlohmann::json;
+
+class Recorder : public ApiHandler {
+ public:
+  json welcome(const ClientInfo&) override { return {{"op", "welcome"}}; }
+  json handle(const ClientInfo& client, const json& request) override {
+    log.push_back(client.name + ":" + request.at("op").get<std::string>());
+    if (request["op"] == "refuse") throw RequestError("refused", "because");
+    return {{"extra", 1}};
+  }
+  void gone(const ClientInfo& client, const std::string&) override { log.push_back(client.name + " gone"); }
+  std::vector<std::string> log;
+};
+
+class Api : public testing::Test {
+ protected:
+  Api() : path_(testing::TempDir() + "liana_api_" + std::to_string(::getpid())), server_(path_, recorder_) {}
+  ~Api() override { ::unlink(path_.c_str()); }
+
+  ApiClient join(const std::string& name, const std::string& role, bool lockstep = false, json topics = json::array()) {
+    ApiClient client = ApiClient::connect(path_);
+    client.send({{"op", "hello"}, {"name", name}, {"role", role}, {"lockstep", lockstep}, {"subscribe", topics}});
+    EXPECT_EQ(answer(client).value("op", ""), "welcome");
+    return client;
+  }
+  // What the client hears next.
+  json answer(ApiClient& client) {
+    for (int i = 0; i < 50; ++i) {
+      server_.pump(0.001);
+      server_.dispatch();
+      if (auto message = client.receive(0.0)) return *message;
+    }
+    return json::object();
+  }
+  json raw(ApiClient& client, const std::string& bytes) {
+    EXPECT_EQ(send_packet(client.fd(), bytes), SocketResult::kDone);
+    return answer(client);
+  }
+
+  Recorder recorder_;
+  std::string path_;
+  ApiServer server_;
+};
+
+TEST_F(Api, MalformedInputIsAnsweredWithAnErrorAndTheClientStays) {
+  ApiClient client = join("c", "client");
+  const std::vector<std::string> malformed{"{",
+                                           "[]",
+                                           "42",
+                                           "null",
+                                           "{\"op\":\"x\",}",
+                                           "\xff\xfe",
+                                           "{\"op\":\"done\"}",
+                                           "{\"op\":\"done\",\"tick\":\"now\"}",
+                                           "{\"op\":\"x\",\"id\":\"seven\"}",
+                                           "{\"op\":\"hello\",\"name\":\"again\",\"role\":\"client\"}",
+                                           "{\"a\":1e999}",
+                                           std::string(60000, '['),
+                                           std::string(70000, 'x')};
+  for (const std::string& bytes : malformed) {
+    const json error = raw(client, bytes);
+    EXPECT_EQ(error.value("op", ""), "error") << bytes.substr(0, 40);
+    EXPECT_EQ(error.value("code", ""), "bad_request") << bytes.substr(0, 40);
+    EXPECT_NE(error.value("message", ""), "");
+  }
+  EXPECT_EQ(raw(client, R"({"op":"fine","id":3})"), json({{"op", "ok"}, {"id", 3}, {"extra", 1}}));
+}
+
+TEST_F(Api, NothingIsDoneBeforeHello) {
+  ApiClient client = ApiClient::connect(path_);
+  EXPECT_EQ(raw(client, R"({"op":"stop"})").value("code", ""), "bad_request");
+  EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"king"})").value("code", ""), "bad_request");
+  EXPECT_EQ(raw(client, R"({"op":"hello","role":"client"})").value("code", ""), "bad_request");
+  EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"client","subscribe":["weather"]})").value("code", ""), "bad_request");
+  EXPECT_TRUE(recorder_.log.empty());
+}
+
+TEST_F(Api, ARefusalCarriesCodeAndId) {
+  ApiClient client = join("c", "client");
+  const json error = raw(client, R"({"op":"refuse","id":9})");
+  EXPECT_EQ(error, json({{"op", "error"}, {"id", 9}, {"code", "refused"}, {"message", "because"}}));
+}
+
+TEST_F(Api, ClientsAreServedByRoleWhateverOrderTheyCameIn) {
+  ApiClient watcher = join("w", "observer"), op = join("o", "operator"), mission = join("m", "mission");
+  watcher.send({{"op", "one"}});
+  op.send({{"op", "two"}});
+  mission.send({{"op", "three"}});
+  for (int i = 0; i < 5; ++i) server_.pump(0.001);
+  server_.dispatch();
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m:three", "o:two", "w:one"}));
+}
+
+TEST_F(Api, TheLastRequestsOfADeadClientAreHeardBeforeItsDeath) {
+  {
+    ApiClient client = join("c", "client");
+    client.send({{"op", "stop"}});
+  }
+  for (int i = 0; i < 5; ++i) server_.pump(0.001);
+  server_.dispatch();
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"c:stop", "c gone"}));
+}
+
+TEST_F(Api, ASlowObserverLosesOldStatesAndHoldsNobodyUp) {
+  ApiClient slow = join("slow", "observer", false, {"state"});
+  const std::string filler(4000, ' ');
+  for (int i = 0; i < 1000; ++i) server_.publish(Topic::kState, json({{"op", "state"}, {"tick", i}}).dump() + filler);
+  EXPECT_GT(server_.dropped(), 0u);
+  json last;
+  for (json state = answer(slow); !state.empty(); state = answer(slow)) last = state;
+  EXPECT_EQ(last.value("tick", 0), 999) << "the newest state arrives";
+}
+
+TEST_F(Api, LockstepWaitsForDoneOfThisTick) {
+  ApiClient client = join("m", "mission", true);
+  std::thread answering([&] {
+    client.send({{"op", "done"}, {"tick", 4}});  // of an earlier state: does not count
+    ::usleep(20000);
+    client.send({{"op", "move"}});
+    client.send({{"op", "done"}, {"tick", 5}});
+  });
+  server_.wait_done(5, 10.0);
+  answering.join();
+  server_.dispatch();
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m:move"}));
+}
+
+TEST_F(Api, WhatALockstepClientSendsAfterItsDoneBelongsToTheNextInterval) {
+  auto client = std::make_unique<ApiClient>(join("m", "mission", true));
+  client->send({{"op", "done"}, {"tick", 5}});
+  client->send({{"op", "late"}});
+  client.reset();
+  server_.wait_done(5, 10.0);
+  server_.pump(0.01);
+  server_.dispatch();
+  EXPECT_TRUE(recorder_.log.empty()) << "neither the request nor the end of the client";
+  server_.wait_done(10, 10.0);
+  server_.dispatch();
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m:late", "m gone"}));
+}
+
+TEST_F(Api, ASilentLockstepClientIsDroppedAndNamed) {
+  ApiClient client = join("m", "mission", true);
+  server_.wait_done(5, 0.05);
+  server_.dispatch();
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m gone"}));
+  EXPECT_THROW(client.receive(1.0), std::runtime_error);
+}
+
+TEST_F(Api, ASecondServerOnTheSamePathIsRefused) {
+  EXPECT_THROW(ApiServer(path_, recorder_), std::runtime_error);
+  EXPECT_THROW(ApiServer(std::string(200, 'x'), recorder_), std::runtime_error);
+  EXPECT_THROW(ApiServer("/nonexistent/folder/api", recorder_), std::runtime_error);
+}
+
+TEST_F(Api, AClientWithoutAServerIsToldSo) { EXPECT_THROW(ApiClient::connect(path_ + "_none", 0.05), std::runtime_error); }
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,34 @@
+"""Calling the built programs from tests: one place for paths and exit codes."""
+import atexit
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+BIN = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/bin").resolve()
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+
+# `status` and `estop` find the newest run through this directory: every test program has its own.
+os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="liana-test-")
+atexit.register(shutil.rmtree, os.environ["XDG_RUNTIME_DIR"])
+
+
+def liana(*arguments, timeout_s=120):
+    """Runs `liana` and returns (exit code, standard output, standard error)."""
+    done = subprocess.run([str(BIN / "liana"), *map(str, arguments)], capture_output=True, text=True, timeout=timeout_s, check=False)
+    return done.returncode, done.stdout, done.stderr
+
+
+def liana_json(*arguments, expected=(0,), timeout_s=120):
+    """Runs `liana ... --json`, checks its exit code and returns the object it printed."""
+    code, out, error = liana(*arguments, "--json", timeout_s=timeout_s)
+    assert code in expected, f"liana {arguments}: exit {code}: {error}"
+    return json.loads(out)
+
+
+def start_liana(*arguments, **options):
+    """Starts `liana` without waiting for it."""
+    return subprocess.Popen([str(BIN / "liana"), *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)

@@ -1,0 +1,117 @@
+// The processes of a run, with shell scripts in place of the programs and a thread in place of lianad's API.
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "host/api/socket.hpp"
+#include "host/cli/run_session.hpp"
+
+namespace liana {
+namespace {
+
+using nlohmann::json;
+
+// Answers as lianad does: welcome, states, and after a stop DISABLED.
+class FakeDaemon {
+ public:
+  explicit FakeDaemon(const std::string& path) : listener_(listen_at(path)), thread_([this] { serve(); }) {}
+  ~FakeDaemon() {
+    quit_ = true;
+    thread_.join();
+  }
+  bool saw(const std::string& op) const { return op == "stop" ? stopped_.load() : shut_down_.load(); }
+
+ private:
+  void serve() {
+    while (!quit_ && !wait_readable(listener_.get(), 0.01)) {
+    }
+    if (quit_) return;
+    const UniqueFd client(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+    for (int tick = 0; !quit_ && !shut_down_; ++tick) {
+      send_packet(client.get(), json{{"op", "state"}, {"tick", tick}, {"state", stopped_ ? "DISABLED" : "ENABLED"}}.dump());
+      std::string packet;
+      if (!wait_readable(client.get(), 0.01) || receive_packet(client.get(), packet) != SocketResult::kDone) continue;
+      const std::string op = json::parse(packet)["op"];
+      if (op == "hello") send_packet(client.get(), R"({"op":"welcome","config_hash":"abc","period_s":0.004})");
+      if (op == "stop") stopped_ = true;
+      if (op == "shutdown") shut_down_ = true;
+    }
+  }
+
+  UniqueFd listener_;
+  std::atomic<bool> quit_ = false, stopped_ = false, shut_down_ = false;
+  std::thread thread_;
+};
+
+class Session : public testing::Test {
+ protected:
+  Session() {
+    plan_.directory = testing::TempDir() + "liana-session-" + std::to_string(getpid());
+    std::filesystem::create_directories(plan_.directory);
+    plan_.socket_dir = plan_.directory;
+  }
+  ~Session() override { std::filesystem::remove_all(plan_.directory); }
+
+  void add(const std::string& name, const std::string& script) { plan_.programs.push_back({name, {"/bin/sh", "-c", script}}); }
+  // A program that lives until it is told to end, as bus, bench and operator do.
+  void add_living(const std::string& name) { add(name, "exec sleep 60"); }
+
+  RunPlan plan_;
+};
+
+TEST_F(Session, AMissionThatEndsByItselfLeavesTheOutcomeToItsReport) {
+  const FakeDaemon daemon(plan_.api_socket());
+  add("lianad", "exec sleep 0.5");
+  add("liana-mission", "echo '{}' > " + plan_.file("mission.json"));
+  RunSession session(plan_);
+  const RunEnd end = session.run();
+  EXPECT_EQ(end.outcome, "");
+  EXPECT_TRUE(daemon.saw("shutdown"));
+  EXPECT_EQ(session.welcome()["config_hash"], "abc");
+  EXPECT_FALSE(session.states().empty());
+}
+
+TEST_F(Session, ADyingBenchEndsTheRunWithItsNameAndLastLines) {
+  const FakeDaemon daemon(plan_.api_socket());
+  add("lianad", "exec sleep 0.5");
+  add("liana-bench", "sleep 0.2; echo first; echo cable 7 tore >&2; exit 3");
+  add_living("liana-mission");
+  const RunEnd end = RunSession(plan_).run();
+  EXPECT_EQ(end.outcome, "failed");
+  EXPECT_NE(end.message.find("liana-bench ended with code 3"), std::string::npos) << end.message;
+  EXPECT_NE(end.message.find("cable 7 tore"), std::string::npos) << end.message;
+}
+
+TEST_F(Session, AKilledMissionRunnerFailsTheRun) {
+  const FakeDaemon daemon(plan_.api_socket());
+  add("lianad", "exec sleep 0.5");
+  add("liana-mission", "kill -9 $$");
+  const RunEnd end = RunSession(plan_).run();
+  EXPECT_EQ(end.outcome, "failed");
+  EXPECT_NE(end.message.find("killed by signal 9"), std::string::npos) << end.message;
+}
+
+TEST_F(Session, AProgramThatRefusesItsInputAtTheStartIsBadInput) {
+  add("liana-bus", "echo buses.json: rate_hz: 0 >&2; exit 2");
+  const RunEnd end = RunSession(plan_).run();
+  EXPECT_TRUE(end.bad_input);
+  EXPECT_NE(end.message.find("rate_hz"), std::string::npos) << end.message;
+}
+
+TEST_F(Session, CtrlCBecomesAStopOfTheArm) {
+  const FakeDaemon daemon(plan_.api_socket());
+  add("lianad", "exec sleep 0.5");
+  add("liana-mission", "kill -INT " + std::to_string(getpid()) + "; exec sleep 60");
+  const RunEnd end = RunSession(plan_).run();
+  EXPECT_EQ(end.outcome, "aborted");
+  EXPECT_TRUE(daemon.saw("stop"));
+}
+
+}  // namespace
+}  // namespace liana

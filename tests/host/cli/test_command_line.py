@@ -1,0 +1,170 @@
+"""`liana` as users call it: kinematics, tables and what it says about bad input. A fresh process per call."""
+import json
+import math
+import pathlib
+import random
+import sys
+import tempfile
+import unittest
+
+from programs import ROOT, liana, liana_json
+
+GOLDEN = json.loads((ROOT / "tests/golden/arm.json").read_text())["cases"]
+ZERO = ",".join(["0"] * 10)
+REACHABLE = "3.392167,-0.767048,0.291155,0.9655934,-0.0586164,0.2527781,-0.0172244"
+
+
+def largest_difference(a, b):
+    """Largest |a - b| over two nested lists of the same shape."""
+    if isinstance(a, list):
+        assert len(a) == len(b), f"{len(a)} entries against {len(b)}"
+        return max((largest_difference(x, y) for x, y in zip(a, b)), default=0.0)
+    return abs(a - b)
+
+
+def joined(numbers):
+    return ",".join(repr(float(x)) for x in numbers)
+
+
+def quaternion_of(rotation):
+    """Quaternion (w, x, y, z) of a rotation matrix, by the largest of four squares."""
+    r = rotation
+    squares = [1 + r[0][0] + r[1][1] + r[2][2], 1 + r[0][0] - r[1][1] - r[2][2], 1 - r[0][0] + r[1][1] - r[2][2], 1 - r[0][0] - r[1][1] + r[2][2]]
+    k = max(range(4), key=squares.__getitem__)
+    s = 2 * math.sqrt(squares[k])
+    antisymmetric = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]]
+    if k == 0:
+        return [s / 4] + [a / s for a in antisymmetric]
+    q = [antisymmetric[k - 1] / s, 0.0, 0.0, 0.0]
+    for j in range(3):
+        q[j + 1] = s / 4 if j == k - 1 else (r[k - 1][j] + r[j][k - 1]) / s
+    return q
+
+
+def tip_of(theta_deg):
+    pose = liana_json("pose", f"--theta-deg={joined(theta_deg)}")["tip_pose"]
+    return [row[3] for row in pose[:3]] + quaternion_of(pose)
+
+
+class Pose(unittest.TestCase):
+    def test_every_golden_case_agrees_to_1e_9(self):
+        for case in GOLDEN:
+            pose = liana_json("pose", "--robot", "zhu2022", f"--theta-deg={joined(case['theta_deg'])}")
+            self.assertEqual(set(pose), {"tip_pose", "segment_ends_m", "jacobian", "cable_length_m", "cable_length_change_m"})
+            for key in pose:
+                self.assertLess(largest_difference(pose[key], case[key]), 1e-9, f"{case['name']}: {key}")
+
+    def test_angles_over_the_limit_are_bad_input(self):
+        code, out, error = liana("pose", "--theta-deg=20.5" + ",0" * 9)
+        self.assertEqual((code, out), (2, ""))
+        self.assertIn("20.5", error)
+        self.assertEqual(error.count("\n"), 1)
+
+
+class InverseKinematics(unittest.TestCase):
+    def solve(self, theta_deg, *options):
+        """Solves for the tip of theta_deg and checks what was found with `pose`."""
+        tip = tip_of(theta_deg)
+        answer = liana_json("ik", f"--tip={joined(tip)}", *options, expected=(0, 3))
+        if answer["converged"]:
+            reached = tip_of(answer["theta_deg"])
+            self.assertLess(math.dist(reached[:3], tip[:3]), 1e-6)
+            same_sign = math.copysign(1.0, sum(a * b for a, b in zip(reached[3:], tip[3:])))
+            self.assertLess(math.dist([same_sign * q for q in reached[3:]], tip[3:]), 0.5e-6)
+        return answer
+
+    def test_random_goals_are_found_and_never_claimed_wrongly(self):
+        draw = random.Random(7)
+        converged = 0
+        for _ in range(30):
+            goal = [draw.uniform(-15, 15) for _ in range(10)]
+            converged += self.solve(goal, f"--from-deg={ZERO}")["converged"]
+        self.assertGreaterEqual(converged, 29)
+
+    def test_held_angles_stay_exactly_where_they_were_put(self):
+        draw = random.Random(8)
+        goal = [draw.uniform(-15, 15) for _ in range(10)]
+        goal[6], goal[8] = 0.5, 0.0
+        answer = self.solve(goal, f"--from-deg={ZERO}", "--hold=7=0.5,9")
+        self.assertTrue(answer["converged"])
+        self.assertAlmostEqual(answer["theta_deg"][6], 0.5, delta=1e-12)
+        self.assertEqual(answer["theta_deg"][8], 0.0)
+
+    def test_a_control_point_comes_nearer_while_the_tip_stays(self):
+        goal = GOLDEN[1]["theta_deg"]
+        start = f"--from-deg={joined(goal)}"
+        node = [x + 0.05 for x in GOLDEN[1]["segment_ends_m"][2]]
+        answer = self.solve(goal, start, f"--control-point=3:{joined(node)}:1")
+        self.assertTrue(answer["converged"])
+        self.assertLess(answer["node_distance_m"][0], math.dist(node, GOLDEN[1]["segment_ends_m"][2]))
+
+    def test_an_unreachable_goal_ends_with_3_and_json(self):
+        answer = liana_json("ik", f"--from-deg={ZERO}", "--tip=9,0,0,1,0,0,0", expected=(3,))
+        self.assertFalse(answer["converged"])
+        self.assertGreater(answer["position_error_m"], 1.0)
+
+    def test_bad_input_ends_with_2_and_one_message(self):
+        for options, named in [
+            ([f"--from-deg={ZERO}", "--tip=nan,0,0,1,0,0,0"], "nan"),
+            ([f"--from-deg={ZERO}", "--tip=1,0,0,1,0,0"], "7 numbers"),
+            ([f"--from-deg={ZERO}", "--tip=1,0,0,2,0,0,0"], "1e-6"),
+            (["--from-deg=0", f"--tip={REACHABLE}"], "10 numbers"),
+            (["--from-deg=21" + ",0" * 9, f"--tip={REACHABLE}"], "20 deg"),
+            ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--hold=11"], "--hold"),
+            ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--hold=9=30"], "20 deg"),
+            ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--control-point=6:0,0,0:1"], "--control-point"),
+            ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--robot=nobody"], "nobody"),
+        ]:
+            code, out, error = liana("ik", *options, "--json")
+            self.assertEqual((code, out), (2, ""), options)
+            self.assertIn(named, error)
+            self.assertEqual(error.count("\n"), 1, error)
+
+
+class Tables(unittest.TestCase):
+    def test_an_exported_robot_can_be_read_back(self):
+        with tempfile.TemporaryDirectory() as directory:
+            file = pathlib.Path(directory) / "robot.json"
+            self.assertEqual(liana("robot", "export", "zhu2022", "--out", file)[0], 0)
+            self.assertEqual(json.loads(file.read_text())["name"], "zhu2022")
+            theta = f"--theta-deg={joined(GOLDEN[0]['theta_deg'])}"
+            self.assertEqual(liana_json("pose", theta, "--robot", file), liana_json("pose", theta))
+
+    def test_a_run_of_something_that_does_not_exist_ends_with_2(self):
+        for arguments, named in [(["no_such_mission"], "no_such_mission"), (["slit_crossing", "--bus", "no_such_bus"], "no_such_bus"),
+                                 (["slit_crossing", "--time", "slow"], "slow"), (["slit_crossing", "--physics", "odd"], "odd"),
+                                 (["slit_crossing", "--seed", "many"], "many"), (["slit_crossing", "--bus", "vcan", "--time", "fast"], "vcan")]:
+            code, _, error = liana("run", *arguments)
+            self.assertEqual(code, 2, error)
+            self.assertIn(named, error)
+            self.assertEqual(error.count("\n"), 1, error)
+
+    def test_a_replay_of_nothing_ends_with_2(self):
+        with tempfile.TemporaryDirectory() as directory:
+            code, _, error = liana("replay", directory)
+            self.assertEqual(code, 2)
+            self.assertIn("ticks.mcap", error)
+
+
+class Help(unittest.TestCase):
+    def test_help_names_every_command(self):
+        code, out, _ = liana("help")
+        self.assertEqual(code, 0)
+        for command in ["run", "pose", "ik", "status", "estop", "replay", "robot", "doctor", "completion"]:
+            self.assertIn(f"\n  {command} ", out)
+
+    def test_the_doctor_says_what_to_do_about_everything_that_is_missing(self):
+        findings = liana_json("doctor")["findings"]
+        self.assertGreaterEqual(len(findings), 8)
+        for finding in findings:
+            self.assertTrue(finding["found"] and finding["meaning"], finding)
+            self.assertEqual(finding["good"], finding["action"] == "", finding)
+
+    def test_status_without_a_running_system_says_so(self):
+        code, _, error = liana("status", "--api", "/tmp/liana-no-such-socket")
+        self.assertEqual(code, 2)
+        self.assertIn("liana-no-such-socket", error)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,0 +1,65 @@
+#include "host/config/config.hpp"
+#include "tests/host/config/tables.hpp"
+
+namespace liana {
+namespace {
+
+TEST(Buses, KnowPeriodIntervalAndTheBusOfANode) {
+  const BusesConfig buses = parse_buses(good_table("buses", "embedded").dump(), "b");
+  EXPECT_EQ(buses.period_us(), 4000);
+  EXPECT_EQ(buses.interval_ticks(), 5);
+  EXPECT_EQ(buses.bus_of_node(8), 0);
+  EXPECT_EQ(buses.bus_of_node(9), 1);
+  EXPECT_EQ(buses.bus_of_node(16), -1);
+}
+
+// SYNC 55, RPDO 115, TPDO 135, heartbeat 65 bits at worst stuffing.
+TEST(Buses, WorstCaseLoadIsTheSumOfTheLongestFrames) {
+  const BusesConfig two = parse_buses(good_table("buses", "embedded").dump(), "b");
+  EXPECT_NEAR(worst_case_load(two, 0), ((55 + 8 * 250) * 250 + 9 * 65 * 10) / 1e6, 1e-12);
+  const BusesConfig one = parse_buses(good_table("buses", "embedded_single").dump(), "b");
+  EXPECT_NEAR(worst_case_load(one, 0), ((55 + 15 * 250) * 100 + 16 * 65 * 10) / 1e6, 1e-12);
+}
+
+TEST(Buses, PeriodIsWhatObject60C2Holds) {
+  const auto expect = [](std::int32_t period_us, int value, int exponent) {
+    const InterpolationPeriod period = interpolation_period(period_us);
+    EXPECT_EQ(period.value, value) << period_us;
+    if (value != 0) {
+      EXPECT_EQ(period.exponent, exponent) << period_us;
+    }
+  };
+  expect(4000, 4, -3);
+  expect(10000, 1, -2);
+  expect(2000, 2, -3);
+  expect(2500, 25, -4);
+  expect(6667, 0, 0);  // 150 Hz
+}
+
+TEST(Buses, AreRefusedWithFileFieldValueRangeAndAdvice) {
+  const nlohmann::json good = good_table("buses", "embedded");
+  const std::vector<Spoiled> cases = {{"/kind", "bus", "kind", "allowed buses"},
+                                      {"/backend", "serial", "backend", "embedded, socketcan"},
+                                      {"/rate_hz", 150, "rate_hz", "60C2"},
+                                      {"/rate_hz", 5000, "rate_hz", "10 to 1000"},
+                                      {"/rate_hz", 500, "buses[1].nodes", "use more buses"},
+                                      {"/command_interval_s", 0.018, "command_interval_s", "whole multiples"},
+                                      {"/command_interval_s", 0.001, "command_interval_s", "whole multiples"},
+                                      {"/buses", nlohmann::json::array(), "buses", "1 to 8 entries"},
+                                      {"/buses/0/bitrate", 2000000, "buses[1].bitrate", "10000 to 1000000"},
+                                      {"/buses/0/bitrate", 250000, "buses[1].nodes", "worst-case load"},
+                                      {"/buses/0/name", "a-very-long-interface", "buses[1].name", "1 to 11 letters"},
+                                      {"/buses/0/nodes/0", 127, "buses[1].nodes[1]", "1 to 126"},
+                                      {"/buses/1/nodes/0", 8, "buses[2].nodes[1]", "already on bus can0"},
+                                      {"/buses/0/nodes/1", 1, "buses[1].nodes[2]", "each node id once"},
+                                      {"/buses/0/nodes", nullptr, "buses[1].nodes", "missing"},
+                                      {"/heartbeat_ms", 5, "heartbeat_ms", "10 to 1000"},
+                                      {"/max_load", 1.2, "max_load", "up to 0.9"},
+                                      {"/extra", 1, "extra", "no such field"}};
+  for (const Spoiled& spoiled : cases) {
+    expect_refused(good, spoiled, [](const std::string& text) { parse_buses(text, "given.json"); });
+  }
+}
+
+}  // namespace
+}  // namespace liana

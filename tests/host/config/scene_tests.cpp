@@ -1,0 +1,62 @@
+#include <cmath>
+
+#include "host/config/config.hpp"
+#include "tests/host/config/tables.hpp"
+
+namespace liana {
+namespace {
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// A8 of the mission page.
+TEST(Scene, PanelSlitHasThePlaneOfThePressRodPose) {
+  const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
+  EXPECT_NEAR(scene.slit.normal[0], 0.0036, 1e-4);
+  EXPECT_NEAR(scene.slit.normal[1], 0.9925, 1e-4);
+  EXPECT_NEAR(scene.slit.normal[2], -0.1219, 1e-4);
+  EXPECT_NEAR(scene.slit.offset_m, -0.78450, 1e-5);
+  EXPECT_NEAR(scene.rod.pose.position_m[0], 3.3922, 1e-4);
+  EXPECT_NEAR(dot(scene.rod.pose.position_m, scene.slit.normal), scene.slit.offset_m, 1e-12);
+}
+
+TEST(Scene, PlatesLeaveAGapOf100MillimetresAroundThePlane) {
+  const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
+  for (const SceneBox& box : scene.boxes) {
+    const double distance_m = std::fabs(dot(box.center_m, scene.slit.normal) - scene.slit.offset_m) - box.half_extent_m[1];
+    EXPECT_NEAR(distance_m, 0.05, 1e-12) << box.name;
+    const double along_m = dot(box.center_m, scene.slit.u_axis);
+    EXPECT_NEAR(along_m - box.half_extent_m[0], 1.75, 1e-12) << box.name;
+    EXPECT_NEAR(along_m + box.half_extent_m[0], 3.70, 1e-12) << box.name;
+  }
+  EXPECT_EQ(scene.boxes[0].name, "panel");
+  EXPECT_GT(dot(scene.boxes[0].center_m, scene.slit.normal), scene.slit.offset_m);
+}
+
+TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {
+  const nlohmann::json good = good_table("scene", "panel_slit");
+  const std::vector<Spoiled> cases = {
+      {"/format", "1", "format", "a number"},
+      {"/sphere", 1, "sphere", "no such field"},
+      {"/spheres", "none", "spheres", "a list"},
+      {"/spheres/0/radius_m", 0, "spheres[1].radius_m", "over 0"},
+      {"/spheres/0/center_m", {1, 2}, "spheres[1].center_m", "exactly 3 numbers"},
+      {"/spheres/0/name", nullptr, "spheres[1].name", "missing"},
+      {"/boxes/0/half_extent_m/1", -0.01, "boxes[1].half_extent_m[2]", "over 0"},
+      {"/boxes/1/rotation/0", {1, 0, 0.5}, "boxes[2].rotation", "orthonormal right-handed"},
+      {"/boxes/1/rotation", {{1, 0, 0}, {0, 1, 0}, {0, 0, -1}}, "boxes[2].rotation", "orthonormal right-handed"},
+      {"/slit/normal", {0, 1, 0}, "slit.w_axis", "u x n"},
+      {"/slit/end_u_m", 1.0, "slit.end_u_m", "over 1.75"},
+      {"/slit/half_gap_m", 0, "slit.half_gap_m", "over 0"},
+      {"/slit/frame/quaternion_wxyz", {1, 0, 0, 0}, "slit.frame.quaternion_wxyz", "axes x = u"},
+      {"/slit/frame/position_m/0", 0.0, "slit.frame.position_m", "compute it"},
+      {"/rod/quaternion_wxyz", {1, 0, 0, 1}, "rod.quaternion_wxyz", "unit length"},
+      {"/camera/rate_hz", 0, "camera.rate_hz", "1 to 1000"},
+      {"/contact/friction", -0.2, "contact.friction", "0 to 2"},
+      {"/camera", 5, "camera", "named fields"}};
+  for (const Spoiled& spoiled : cases) {
+    expect_refused(good, spoiled, [](const std::string& text) { parse_scene(text, "given.json"); });
+  }
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,207 @@
+// The arbiter: what the owner and the operator ask for becomes one setpoint per interval.
+#include "host/daemon/arbiter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "firmware_like/arm/kinematics.hpp"
+#include "host/api/request_error.hpp"
+#include "tests/firmware_like/zhu2022.hpp"
+
+namespace liana {
+namespace {
+
+class Arbitration : public testing::Test {
+ protected:
+  Arbitration() : table_(zhu2022::table()), arbiter_(table_) {
+    now_.state = OperatingState::kEnabled;
+    now_.at_rest = 1;
+    stand_at(zhu2022::radians(zhu2022::kPrepare_deg));
+  }
+  void stand_at(const ThetaVector& theta_rad) {
+    now_.theta_command_rad = theta_rad;
+    now_.tip_command = now_.tip_goal = forward_kinematics(table_, theta_rad).tip_in_base;
+  }
+  std::optional<Setpoint> next() { return arbiter_.next_setpoint(tick_ += 5, now_); }
+  std::optional<Setpoint> steered(double x, bool pressed = true) {
+    arbiter_.device().add_tip_sample(
+        {static_cast<std::int64_t>(tick_ * 4000 + 1), true, pressed, Pose{{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}});
+    return next();
+  }
+  void use_hand() {
+    DeviceUse use;
+    use.kind = DeviceKind::kHand;
+    use.speed_m_s = 0.03;
+    arbiter_.use_device(use);
+  }
+  static std::string code_of(const std::function<void()>& request) {
+    try {
+      request();
+    } catch (const RequestError& error) {
+      return error.code();
+    }
+    return "accepted";
+  }
+
+  RobotTable table_;
+  Arbiter arbiter_;
+  Outputs now_{};
+  std::uint64_t tick_ = 0;
+};
+
+TEST_F(Arbitration, WithoutARequestNothingIsAskedFor) { EXPECT_FALSE(next()); }
+
+TEST_F(Arbitration, NothingMovesUnlessEnabledAndWithoutFault) {
+  const ThetaVector goal{};
+  now_.state = OperatingState::kDisabled;
+  EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, goal, 0.03); }), "not_enabled");
+  now_.faults.count = 1;
+  EXPECT_EQ(code_of([&] { arbiter_.move_line(now_, now_.tip_command); }), "fault");
+}
+
+TEST_F(Arbitration, AJointMoveEndsAtItsGoalAndThenAsksForNothing) {
+  ThetaVector goal = now_.theta_command_rad;
+  goal[0] += 0.01;
+  arbiter_.move_joints(now_, goal, 0.03);
+  EXPECT_TRUE(arbiter_.is_busy());
+  EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, goal, 0.03); }), "busy");
+  ThetaVector last{};
+  for (int i = 0; i < 2000 && arbiter_.is_busy(); ++i) {
+    const auto setpoint = next();
+    ASSERT_TRUE(setpoint);
+    ASSERT_EQ(setpoint->kind, CommandKind::kJoint);
+    last = setpoint->joint_rad;
+  }
+  EXPECT_FALSE(arbiter_.is_busy());
+  EXPECT_EQ(last, goal);
+  EXPECT_FALSE(next());
+}
+
+TEST_F(Arbitration, AReachedGoalIsNoLongerAskedForSoThatTheArmRests) {
+  ThetaVector held{};
+  now_.held_at_target = 1;
+  arbiter_.hold_theta(now_, 1u << 8, held);
+  for (int i = 0; i < 10; ++i) EXPECT_TRUE(next()) << "the request does not show in the report at once";
+  now_.held_at_target = 0;
+  EXPECT_TRUE(next()) << "the held variable is on its way";
+  now_.held_at_target = 1;
+  now_.tip_command.position_m[0] += 1e-3;
+  EXPECT_TRUE(next()) << "the tip is away from its goal";
+  now_.tip_command.position_m[0] -= 1e-3;
+  EXPECT_FALSE(next());
+}
+
+TEST_F(Arbitration, ALineEndsAtItsGoalAndStaysThere) {
+  Pose goal = now_.tip_command;
+  goal.position_m[2] += 0.05;
+  arbiter_.move_line(now_, goal);
+  std::optional<Setpoint> setpoint = next();
+  EXPECT_LT(norm(subtract(setpoint->tip_in_base.position_m, now_.tip_command.position_m)), 1e-3) << "starts slowly from where the tip is";
+  for (int i = 0; i < 500; ++i) setpoint = next();
+  ASSERT_TRUE(setpoint);
+  EXPECT_EQ(setpoint->tip_in_base.position_m, goal.position_m);
+}
+
+TEST_F(Arbitration, HeldVariablesAndShapeTravelWithTheTipGoal) {
+  ThetaVector held{};
+  arbiter_.hold_theta(now_, 1u << 8, held);
+  std::array<NodeTarget, kMaxNodeTargets> nodes{};
+  nodes[0] = {2, {0.1, 0.2, 0.3}, 2.0, 0.02};
+  arbiter_.shape(now_, nodes);
+  const auto setpoint = next();
+  ASSERT_TRUE(setpoint);
+  EXPECT_EQ(setpoint->kind, CommandKind::kTip);
+  EXPECT_EQ(setpoint->held_mask, 1u << 8);
+  EXPECT_EQ(setpoint->node[0].node, 2);
+  EXPECT_EQ(setpoint->tip_in_base.position_m, now_.tip_command.position_m) << "the tip stays";
+}
+
+TEST_F(Arbitration, TheOperatorSteersFromWhereTheTipIsWithTheSpeedOfTheDevice) {
+  use_hand();
+  const auto first = steered(0.2);
+  ASSERT_TRUE(first);
+  EXPECT_EQ(first->tip_in_base.position_m, now_.tip_command.position_m);
+  EXPECT_EQ(first->tip_speed_m_s, 0.03);
+  EXPECT_NEAR(steered(0.21)->tip_in_base.position_m[0], now_.tip_command.position_m[0] + 0.01, 1e-12);
+}
+
+TEST_F(Arbitration, LettingGoAsksForNothingSoThatTheArmStops) {
+  use_hand();
+  steered(0.2);
+  EXPECT_FALSE(steered(0.21, false));
+}
+
+TEST_F(Arbitration, AMoveWhileTheOperatorSteersIsRefused) {
+  use_hand();
+  steered(0.2);
+  EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, now_.theta_command_rad, 0.03); }), "busy");
+}
+
+TEST_F(Arbitration, AGripDuringAPlannedMoveStartsFromWhereTheMoveEnds) {
+  use_hand();
+  Pose goal = now_.tip_command;
+  goal.position_m[0] += 0.01;
+  arbiter_.move_line(now_, goal);
+  while (arbiter_.is_busy()) steered(0.2);
+  now_.tip_command = goal;
+  EXPECT_EQ(steered(0.3)->tip_in_base.position_m, goal.position_m) << "hand motion during the move does not count";
+}
+
+TEST_F(Arbitration, ARefusalEndsThePlannedMove) {
+  Pose goal = now_.tip_command;
+  goal.position_m[0] += 0.1;
+  arbiter_.move_line(now_, goal);
+  next();
+  arbiter_.refused();
+  EXPECT_FALSE(arbiter_.is_busy());
+  EXPECT_FALSE(next());
+}
+
+TEST_F(Arbitration, ARefusalGivesTheOperatorNewAnchors) {
+  use_hand();
+  steered(0.2);
+  steered(0.3);
+  arbiter_.refused();
+  EXPECT_EQ(steered(0.3)->tip_in_base.position_m, now_.tip_command.position_m);
+}
+
+TEST_F(Arbitration, RetractGoesBackAlongWhatWasCommanded) {
+  EXPECT_EQ(code_of([&] { arbiter_.retract(now_, 0); }), "refused") << "nothing was stored yet";
+  std::vector<double> forward;
+  for (int i = 0; i < 20; ++i) {
+    next();
+    forward.push_back(now_.theta_command_rad[0]);
+    now_.theta_command_rad[0] += 0.001;
+  }
+  arbiter_.retract(now_, 0);
+  for (int i = 19; i >= 0; --i) {
+    const auto setpoint = next();
+    ASSERT_TRUE(setpoint);
+    EXPECT_EQ(setpoint->joint_rad[0], forward[static_cast<std::size_t>(i)]);
+  }
+  EXPECT_FALSE(next());
+  EXPECT_FALSE(arbiter_.is_busy());
+}
+
+TEST_F(Arbitration, RetractTakesOverFromTheOperator) {
+  use_hand();
+  steered(0.2);
+  steered(0.21);
+  EXPECT_EQ(code_of([&] { arbiter_.retract(now_, 0); }), "accepted");
+  EXPECT_EQ(steered(0.3)->kind, CommandKind::kJoint);
+  EXPECT_FALSE(steered(0.3)) << "at the end of the path the operator has to let go and engage again";
+}
+
+TEST_F(Arbitration, DisablingForgetsHeldVariablesAndMotion) {
+  ThetaVector held{};
+  arbiter_.hold_theta(now_, 1u << 8, held);
+  now_.state = OperatingState::kDisabled;
+  EXPECT_FALSE(next());
+  EXPECT_EQ(arbiter_.held_mask(), 0u);
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,252 @@
+// The service side over its real socket, with an arm that has ideal drives.
+#include "host/daemon/service.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <memory>
+#include <thread>
+
+#include "host/api/client.hpp"
+#include "tests/host/daemon/sim_arm.hpp"
+
+namespace liana {
+namespace {
+
+using Json = nlohmann::json;
+
+ServiceConfig config_for(const SimArm& arm) {
+  ServiceConfig config;
+  config.api_path = testing::TempDir() + "liana_service_" + std::to_string(::getpid());
+  config.robot.table = arm.table();
+  config.robot.canonical_json = config.scene.canonical_json = config.buses.canonical_json = "{}";
+  config.scene.camera.latency_s = 0.1;
+  config.buses.rate_hz = 250.0;
+  config.boot_problem = [] { return std::string("drive 3 did not answer"); };
+  return config;
+}
+
+class ServiceOverSocket : public testing::Test {
+ protected:
+  ServiceOverSocket() : arm_(std::make_unique<SimArm>()), config_(config_for(*arm_)), service_(config_, arm_->link) {}
+  ~ServiceOverSocket() override { ::unlink(config_.api_path.c_str()); }
+
+  ApiClient join(const std::string& role, Json topics = {"state"}) {
+    ApiClient client = ApiClient::connect(config_.api_path);
+    client.send({{"op", "hello"}, {"name", role}, {"role", role}, {"subscribe", topics}});
+    service_.idle(0.01);
+    service_.idle(0.0);
+    EXPECT_EQ(client.receive(1.0).value_or(Json()).value("op", ""), "welcome");
+    return client;
+  }
+  void intervals(int count) {
+    for (int i = 0; i < count; ++i) {
+      service_.cycle();
+      arm_->interval();
+    }
+  }
+  // The answer to a request; "ok" or an error code.
+  std::string ask(ApiClient& client, Json request) {
+    request["id"] = ++id_;
+    client.send(request);
+    for (int i = 0; i < 500; ++i) {
+      service_.idle(0.001);
+      const auto message = client.receive(0.0);
+      if (message && message->value("id", 0) == id_) return (*message)["op"] == "ok" ? "ok" : message->value("code", "");
+    }
+    return "no answer";
+  }
+  Json state(ApiClient& client) {
+    intervals(1);
+    Json newest;
+    for (int idle = 0; idle < 2; ++idle) {  // a client that has not read for long has more waiting in the daemon than in its socket
+      service_.idle(0.0);
+      while (const auto message = client.receive(0.0)) {
+        if ((*message)["op"] == "state") newest = *message;
+        service_.idle(0.0);
+      }
+    }
+    return newest;
+  }
+  void enable(ApiClient& mission) {
+    ASSERT_EQ(ask(mission, {{"op", "acquire"}}), "ok");
+    intervals(10);
+    ASSERT_EQ(ask(mission, {{"op", "state_command"}, {"command", "enable"}}), "ok");
+    for (int i = 0; i < 400 && arm_->now().state != OperatingState::kEnabled; ++i) intervals(1);
+    state(mission);
+    ASSERT_EQ(state(mission)["state"], "ENABLED");
+  }
+  Json move_request(double change_deg) const {
+    Json goal = degrees(arm_->table(), arm_->now().theta_command_rad);
+    goal[0] = goal[0].get<double>() + change_deg;
+    return {{"op", "move_jp"}, {"goal_deg", goal}};
+  }
+
+  std::unique_ptr<SimArm> arm_;
+  ServiceConfig config_;
+  Service service_;
+  int id_ = 0;
+};
+
+TEST_F(ServiceOverSocket, AMoveGoesThroughVerificationToTheArm) {
+  ApiClient mission = join("mission");
+  enable(mission);
+  const double before = arm_->now().theta_command_rad[0];
+  ASSERT_EQ(ask(mission, move_request(0.2)), "ok");
+  const Json moving = state(mission);
+  EXPECT_TRUE(moving["is_busy"]);
+  for (int i = 0; i < 400 && state(mission)["is_busy"]; ++i) {
+  }
+  const Json done = state(mission);
+  EXPECT_NEAR(arm_->now().theta_command_rad[0], before + 0.2 * 0.017453292519943295, 1e-6);
+  EXPECT_TRUE(done["verdict"]["released"]);
+  EXPECT_EQ(done["refusals"], 0);
+  EXPECT_TRUE(done["at_rest"]);
+}
+
+TEST_F(ServiceOverSocket, TheDeathOfTheMissionIsAHold) {
+  auto mission = std::make_unique<ApiClient>(join("mission"));
+  ApiClient watcher = join("observer");
+  enable(*mission);
+  ASSERT_EQ(ask(*mission, move_request(5.0)), "ok");
+  intervals(40);
+  ASSERT_GT(arm_->now().tip_speed_m_s, 1e-3) << "the arm moves";
+  mission.reset();
+  intervals(100);
+  const Json after = state(watcher);
+  EXPECT_EQ(after["state"], "ENABLED") << "a hold keeps the drives enabled";
+  EXPECT_TRUE(after["at_rest"]);
+  EXPECT_EQ(after["owner"], "");
+  const ThetaVector stopped = arm_->now().theta_command_rad;
+  intervals(20);
+  EXPECT_EQ(arm_->now().theta_command_rad, stopped);
+}
+
+TEST_F(ServiceOverSocket, OnlyOneClientMovesTheArm) {
+  ApiClient mission = join("mission"), second = join("client"), watcher = join("observer");
+  enable(mission);
+  EXPECT_EQ(ask(second, {{"op", "acquire"}}), "not_owner");
+  EXPECT_EQ(ask(second, move_request(0.1)), "not_owner");
+  EXPECT_EQ(ask(second, {{"op", "hold"}}), "not_owner");
+  EXPECT_EQ(ask(second, {{"op", "state_command"}, {"command", "disable"}}), "not_owner");
+  EXPECT_EQ(ask(watcher, {{"op", "acquire"}}), "not_owner");
+  ASSERT_EQ(ask(mission, {{"op", "release"}}), "ok");
+  EXPECT_EQ(ask(second, {{"op", "acquire"}}), "ok");
+}
+
+TEST_F(ServiceOverSocket, AnyoneMayStop) {
+  ApiClient mission = join("mission"), watcher = join("observer");
+  enable(mission);
+  ask(mission, move_request(5.0));
+  intervals(30);
+  ASSERT_EQ(ask(watcher, {{"op", "stop"}, {"reason", "test"}}), "ok");
+  for (int i = 0; i < 500 && arm_->now().state != OperatingState::kDisabled; ++i) intervals(1);
+  EXPECT_EQ(state(watcher)["state"], "DISABLED");
+}
+
+TEST_F(ServiceOverSocket, BadMotionRequestsAreRefusedWithTheirReason) {
+  ApiClient mission = join("mission");
+  ask(mission, {{"op", "acquire"}});
+  intervals(2);
+  EXPECT_EQ(ask(mission, move_request(0.1)), "not_enabled");
+  enable(mission);
+  const Json unit{1, 0, 0, 0};
+  const auto pose = [](double x, double qw) { return Json{x, 0, 0, qw, 0, 0, 0}; };
+  const std::vector<std::pair<Json, std::string>> table{
+      {{{"op", "dance"}}, "bad_request"},
+      {{{"op", "move_jp"}}, "bad_request"},
+      {{{"op", "move_jp"}, {"goal_deg", {1, 2, 3}}}, "bad_request"},
+      {{{"op", "move_jp"}, {"goal_deg", {25, 0, 0, 0, 0, 0, 0, 0, 0, 0}}}, "out_of_range"},
+      {{{"op", "move_jp"}, {"goal_deg", {nullptr, 0, 0, 0, 0, 0, 0, 0, 0, 0}}}, "bad_request"},
+      {{{"op", "move_jp"}, {"goal_deg", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}}, {"rate_deg_s", 50}}, "out_of_range"},
+      {{{"op", "move_cp"}, {"goal", pose(1e30, 1)}}, "out_of_range"},
+      {{{"op", "move_cp"}, {"goal", pose(4.5, 1)}}, "out_of_range"},
+      {{{"op", "move_cp"}, {"goal", pose(1, 0.5)}}, "out_of_range"},
+      {{{"op", "servo_cp"}, {"goal", "there"}}, "bad_request"},
+      {{{"op", "hold_theta"}, {"held", {{{"theta", 11}, {"target_deg", 0}}}}}, "out_of_range"},
+      {{{"op", "hold_theta"}, {"held", {{{"theta", 9}, {"target_deg", 30}}}}}, "out_of_range"},
+      {{{"op", "hold_theta"}, {"held", 9}}, "bad_request"},
+      {{{"op", "shape"}, {"nodes", {{{"node", 9}, {"position_m", {0, 0, 0}}}}}}, "out_of_range"},
+      {{{"op", "use_device"}, {"device", "mouse"}}, "bad_request"},
+      {{{"op", "use_device"}, {"device", "vr"}}, "no_device"},
+      {{{"op", "use_device"}, {"device", "none"}, {"scale", -1}}, "out_of_range"},
+      {{{"op", "state_command"}, {"command", "fly"}}, "bad_request"},
+      {{{"op", "device"}, {"device", "vr"}, {"samples", Json::array()}}, "bad_request"},
+      {{{"op", "camera"}, {"capture_time_s", 0}}, "bad_request"},
+      {{{"op", 7}}, "bad_request"},
+  };
+  for (const auto& [request, code] : table) EXPECT_EQ(ask(mission, request), code) << request.dump();
+  intervals(20);
+  EXPECT_TRUE(arm_->now().at_rest);
+  EXPECT_EQ(arm_->now().faults.count, 0);
+}
+
+TEST_F(ServiceOverSocket, TheOperatorSteersAndLettingGoIsAHold) {
+  ApiClient mission = join("mission"), person = join("operator");
+  enable(mission);
+  ASSERT_EQ(ask(mission, {{"op", "use_device"}, {"device", "hand"}, {"scale", 1.0}, {"speed_m_s", 0.03}}), "ok");
+  const Vec3 start = arm_->now().tip_command.position_m;
+  std::int64_t t_us = 0;
+  const auto steer = [&](double x, int button) {
+    Json samples = Json::array();
+    for (int i = 0; i < 20; ++i) {
+      samples.push_back({{"t_us", t_us += 1000}, {"valid", true}, {"button", button}, {"pose", {x, 0, 0, 1, 0, 0, 0}}});
+    }
+    person.send({{"op", "device"}, {"device", "hand"}, {"samples", samples}});
+    return state(mission);
+  };
+  for (int i = 0; i <= 100; ++i) steer(1e-4 * i, 1);
+  const Json moving = steer(0.01, 1);
+  EXPECT_TRUE(moving["device_engaged"]);
+  EXPECT_EQ(moving["mapping"]["scale"], 1.0);
+  EXPECT_GT(norm(subtract(arm_->now().tip_command.position_m, start)), 2e-3);
+  for (int i = 0; i < 100; ++i) steer(0.01, 0);
+  EXPECT_FALSE(steer(0.01, 0)["device_engaged"]);
+  EXPECT_TRUE(arm_->now().at_rest);
+  EXPECT_EQ(steer(0.01, 0)["refusals"], 0);
+}
+
+TEST_F(ServiceOverSocket, WhatMissionAndOperatorTellEachOtherIsRepeated) {
+  ApiClient mission = join("mission"), person = join("operator");
+  EXPECT_EQ(ask(mission, {{"op", "announce"}, {"step", {{"index", 2}, {"name", "around"}, {"device", "vr"}}}}), "ok");
+  EXPECT_EQ(ask(person, {{"op", "operator_says"}, {"what", "arrived"}}), "ok");
+  EXPECT_EQ(ask(person, {{"op", "announce"}, {"step", nullptr}}), "bad_request");
+  const Json heard = state(mission);
+  EXPECT_EQ(heard["step"]["name"], "around");
+  EXPECT_EQ(heard["operator_says"]["what"], "arrived");
+  EXPECT_EQ(ask(mission, {{"op", "announce"}, {"step", nullptr}}), "ok");
+  EXPECT_TRUE(state(mission)["step"].is_null());
+}
+
+TEST_F(ServiceOverSocket, ACameraFrameIsForwardedWhenEveryRunHasReceivedIt) {
+  ApiClient camera = join("camera", Json::array()), person = join("operator", {"camera"});
+  camera.send({{"op", "camera"}, {"capture_time_s", 0.0}, {"slit", nullptr}, {"rod", nullptr}});
+  // Ready at 0.1 s = tick 25, certain three ticks later: forwarded at the start of the interval at tick 30.
+  intervals(6);
+  EXPECT_FALSE(person.receive(0.0));
+  intervals(1);
+  EXPECT_EQ(person.receive(0.0).value_or(Json()).value("op", ""), "camera");
+}
+
+TEST_F(ServiceOverSocket, ShutdownEndsWhenTheDrivesAreOff) {
+  ApiClient mission = join("mission");
+  enable(mission);
+  EXPECT_FALSE(service_.finished());
+  ASSERT_EQ(ask(mission, {{"op", "shutdown"}}), "ok");
+  int count = 0;
+  while (!service_.finished() && ++count < 600) intervals(1);
+  EXPECT_TRUE(service_.finished());
+  EXPECT_EQ(arm_->now().state, OperatingState::kDisabled);
+}
+
+TEST_F(ServiceOverSocket, MissingClientsAreNamed) {
+  try {
+    service_.wait_for({Role::kOperator}, 0.05);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("operator"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,114 @@
+// Replay finds no difference in a true recording, and the first changed bit in a false one.
+#include "host/record/replay.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "firmware_like/controller.hpp"
+#include "host/record/recording.hpp"
+#include "host/record/tick_packet.hpp"
+#include "tests/firmware_like/zhu2022.hpp"
+
+namespace liana {
+namespace {
+
+constexpr std::uint64_t kFirstTick = 40;
+
+// Inputs of a run in which drives report slowly changing positions, one falls silent, and somebody asks for a clear.
+Inputs inputs_of(std::uint64_t tick) {
+  Inputs inputs;
+  inputs.tick = tick;
+  for (std::size_t i = 0; i < zhu2022::kCables; ++i) {
+    DriveFeedback& drive = inputs.drive[i];
+    drive.statusword = 0x0250;
+    drive.position_counts = static_cast<std::int32_t>(1000000 + 10 * i + tick);
+    drive.torque_permille = static_cast<std::int16_t>(60 + i);
+    drive.feedback_age_ticks = i == 3 && tick > 100 ? 9 : 0;
+    drive.heartbeat_age_ticks = 0;
+    drive.operational = 1;
+  }
+  if (tick == 120) inputs.request = Request::kClear;
+  return inputs;
+}
+
+std::string fresh_folder(const std::string& name) {
+  const std::string folder = testing::TempDir() + "liana_" + std::to_string(::getpid()) + name;
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+// Records `ticks` ticks; `change` may falsify what is written. An image is written at every tick in `images`.
+template <class Change>
+std::string record_run(const std::string& folder, std::uint64_t ticks, Change change, std::uint64_t image_at = kFirstTick) {
+  Recording recording(folder, {"hash", "{}", "{}", "{}", "fast", 0.004});
+  Controller controller(zhu2022::table());
+  for (std::uint64_t tick = kFirstTick; tick < kFirstTick + ticks; ++tick) {
+    if (tick == image_at) {
+      const std::string_view memory(reinterpret_cast<const char*>(&controller), sizeof controller);
+      const bool fresh = tick == kFirstTick;
+      recording.take(image_packet(tick, fresh, zhu2022::table(), fresh ? std::string_view() : memory));
+    }
+    TickRecord record{inputs_of(tick), controller.tick(inputs_of(tick))};
+    change(record);
+    recording.take(tick_packet(record, 0));
+  }
+  recording.finish();
+  return folder;
+}
+
+TEST(Replay, ATrueRecordingHasNoDifferingTick) {
+  const ReplayResult result = replay(record_run(fresh_folder("true"), 200, [](TickRecord&) {}));
+  EXPECT_EQ(result.ticks, 200u);
+  EXPECT_EQ(result.differing_ticks, 0u);
+  EXPECT_TRUE(result.complete);
+}
+
+TEST(Replay, OneChangedBitIsFoundAndNamed) {
+  const ReplayResult result = replay(record_run(fresh_folder("bit"), 200, [](TickRecord& record) {
+    if (record.outputs.tick == 77) record.outputs.drive[5].target_counts ^= 1;
+  }));
+  EXPECT_EQ(result.ticks, 200u);
+  EXPECT_EQ(result.differing_ticks, 1u);
+  EXPECT_EQ(result.first_differing_tick, 77u);
+  EXPECT_EQ(result.first_differing_field, "drive[5].target_counts");
+}
+
+TEST(Replay, AChangedInputShowsInTheOutputs) {
+  const ReplayResult result = replay(record_run(fresh_folder("input"), 100, [](TickRecord& record) {
+    if (record.inputs.tick == 60) record.inputs.drive[2].position_counts += 1000;
+  }));
+  EXPECT_GT(result.differing_ticks, 0u);
+  EXPECT_EQ(result.first_differing_tick, 60u);
+}
+
+TEST(Replay, ARecordingThatStartsInMidRunGoesOnFromItsImage) {
+  const ReplayResult result = replay(record_run(
+      fresh_folder("image"), 200, [](TickRecord&) {}, 150));
+  EXPECT_EQ(result.ticks, kFirstTick + 200 - 150);
+  EXPECT_EQ(result.missing_ticks, 150 - kFirstTick);
+  EXPECT_EQ(result.differing_ticks, 0u);
+}
+
+TEST(Replay, ARepeatedRunGivesTheSameFileByteForByte) {
+  const auto bytes_of = [](const std::string& folder) {
+    std::ifstream in(folder + "/" + kRecordingFile, std::ios::binary);
+    return std::string((std::istreambuf_iterator<char>(in)), {});
+  };
+  const std::string first = bytes_of(record_run(fresh_folder("one"), 50, [](TickRecord&) {}));
+  EXPECT_EQ(first, bytes_of(record_run(fresh_folder("two"), 50, [](TickRecord&) {})));
+  EXPECT_GT(first.size(), 50u * 3000u);
+}
+
+TEST(Replay, AFolderWithoutARecordingIsRefused) {
+  EXPECT_THROW(replay(fresh_folder("none")), std::runtime_error);
+  EXPECT_THROW(replay(record_run(
+                   fresh_folder("no_image"), 5, [](TickRecord&) {}, 0)),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,122 @@
+// Serialisation: complete, little-endian, the same both ways.
+#include "host/record/serialise.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <utility>
+
+#include "host/record/visit.hpp"
+#include "tests/firmware_like/zhu2022.hpp"
+
+namespace liana {
+namespace {
+
+// Bytes of a value in which every bit pattern is different from its neighbours; padding included.
+template <class T>
+T patterned() {
+  std::array<unsigned char, sizeof(T)> bytes{};
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<unsigned char>(1 + (i * 37) % 120);
+  T value;
+  std::memcpy(static_cast<void*>(&value), bytes.data(), sizeof(T));
+  return value;
+}
+
+template <class T>
+std::string serialised(const T& value) {
+  std::string out;
+  append_serialised(out, value);
+  return out;
+}
+
+TEST(Serialise, OutputsComeBackBitForBit) {
+  const std::string bytes = serialised(patterned<Outputs>());
+  EXPECT_EQ(serialised(outputs_from(bytes)), bytes);
+}
+
+TEST(Serialise, InputsComeBackBitForBitWithTheirTelecommand) {
+  const Inputs inputs = patterned<Inputs>();
+  const Inputs back = RecordingDecoder::inputs(serialised(inputs));
+  EXPECT_EQ(serialised(back), serialised(inputs));
+  EXPECT_EQ(back.telecommand.sequence(), inputs.telecommand.sequence());
+  EXPECT_EQ(back.telecommand.expiry_tick(), inputs.telecommand.expiry_tick());
+}
+
+TEST(Serialise, TheRobotTableComesBack) {
+  const std::string bytes = serialised(zhu2022::table());
+  EXPECT_EQ(serialised(robot_table_from(bytes)), bytes);
+}
+
+TEST(Serialise, NumbersAreLittleEndian) {
+  Outputs outputs;
+  outputs.tick = 0x0102030405060708u;
+  EXPECT_EQ(serialised(outputs).substr(0, 8), std::string("\x08\x07\x06\x05\x04\x03\x02\x01"));
+}
+
+TEST(Serialise, ShortOrLongDataIsRefused) {
+  const std::string bytes = serialised(Outputs{});
+  EXPECT_THROW(outputs_from(bytes.substr(1)), std::runtime_error);
+  EXPECT_THROW(outputs_from(bytes + "x"), std::runtime_error);
+}
+
+TEST(Serialise, AByteOffsetNamesItsField) {
+  EXPECT_EQ(outputs_field_at(0), "tick");
+  EXPECT_EQ(outputs_field_at(8), "state");
+  Outputs a, b;
+  b.drive[3].target_counts = 7;
+  const std::string x = serialised(a), y = serialised(b);
+  std::size_t at = 0;
+  while (x[at] == y[at]) ++at;
+  EXPECT_EQ(outputs_field_at(at), "drive[3].target_counts");
+  EXPECT_EQ(outputs_field_at(1u << 20), "");
+}
+
+// Converts to any field; counts how many an aggregate has.
+struct AnyField {
+  template <class T>
+  operator T() const;
+};
+template <class T, std::size_t... I>
+constexpr bool has_fields(std::index_sequence<I...>) {
+  return requires { T{(static_cast<void>(I), AnyField{})...}; };
+}
+template <class T, std::size_t N = 48>
+constexpr std::size_t field_count() {
+  if constexpr (has_fields<T>(std::make_index_sequence<N>{})) return N;
+  if constexpr (!has_fields<T>(std::make_index_sequence<N>{})) return field_count<T, N - 1>();
+}
+
+struct FieldCounter {
+  std::size_t count = 0;
+  template <class T>
+  void operator()(const char*, const T&) {
+    ++count;
+  }
+};
+template <class T>
+std::size_t visited_fields() {
+  FieldCounter counter;
+  const T value{};
+  visit(counter, value);
+  return counter.count;
+}
+
+TEST(Serialise, NoFieldIsForgotten) {
+  EXPECT_EQ(visited_fields<Inputs>() + 1, field_count<Inputs>()) << "the telecommand is visited by itself";
+  EXPECT_EQ(visited_fields<Outputs>(), field_count<Outputs>());
+  EXPECT_EQ(visited_fields<FaultList>(), field_count<FaultList>());
+  EXPECT_EQ(visited_fields<Fault>(), field_count<Fault>());
+  EXPECT_EQ(visited_fields<DriveFeedback>(), field_count<DriveFeedback>());
+  EXPECT_EQ(visited_fields<DriveCommand>(), field_count<DriveCommand>());
+  EXPECT_EQ(visited_fields<Pose>(), field_count<Pose>());
+  EXPECT_EQ(visited_fields<Setpoint>(), field_count<Setpoint>());
+  EXPECT_EQ(visited_fields<NodeTarget>(), field_count<NodeTarget>());
+  EXPECT_EQ(visited_fields<RobotTable>(), field_count<RobotTable>());
+  EXPECT_EQ(visited_fields<SegmentTable>(), field_count<SegmentTable>());
+  EXPECT_EQ(visited_fields<TensionLimits>(), field_count<TensionLimits>());
+  EXPECT_EQ(visited_fields<MotionLimits>(), field_count<MotionLimits>());
+  EXPECT_EQ(visited_fields<DriveTable>(), field_count<DriveTable>());
+}
+
+}  // namespace
+}  // namespace liana

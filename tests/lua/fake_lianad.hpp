@@ -1,0 +1,82 @@
+// A scripted stand-in for lianad: real socket, real packets, an arm that obeys at once. Written from docs/api.md alone.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace liana {
+
+// What goes wrong, and how the operator behaves.
+struct FakeBehaviour {
+  std::map<std::string, std::string> refuse = {};  // op -> error code
+  int refuse_in_step = 0;                          // only from this step on (0 = always)
+  bool operator_arrives = true;                    // releases and says so in device steps
+  bool operator_speaks_too_early = false;          // says "arrived" once, before step 2, and only then
+  int fault_in_step = 0;                           // FAULT state while this step runs
+  int stop_in_step = 0;                            // somebody presses the emergency stop
+  int vanish_in_step = 0;                          // lianad dies
+  int silent_in_step = 0;                          // sends no more states, waits for the runner to leave
+  int slow_in_step = 0;                            // lets the runner wait for longer than the watchdog's limit, once
+  int steal_in_step = 0;                           // another owner
+  double tip_in_slit_u_m = 3.2;                    // where the hand steps bring the tip
+};
+
+// Serves one mission runner at `path` until it leaves; its log holds every request in order.
+class FakeLianad {
+ public:
+  FakeLianad(const std::string& path, const FakeBehaviour& behaviour);
+  ~FakeLianad();
+  FakeLianad(const FakeLianad&) = delete;
+  FakeLianad& operator=(const FakeLianad&) = delete;
+
+  // Waits for the end of the session and returns the requests (without done).
+  const std::vector<nlohmann::json>& requests();
+  // True when the silent fake saw the runner's socket close.
+  bool runner_left() {
+    requests();
+    return runner_left_;
+  }
+
+ private:
+  void serve();
+  void converse();
+  void send(const nlohmann::json& message) const;
+  bool handle_until_done();
+  void answer(const nlohmann::json& request);
+  void obey(const nlohmann::json& request);
+  void advance();
+  nlohmann::json state() const;
+  nlohmann::json named_pose(const char* name) const;
+
+  FakeBehaviour behaviour_;
+  nlohmann::json robot_;
+  nlohmann::json scene_;
+  int listener_ = -1;
+  int client_ = -1;
+  std::thread thread_;
+  std::vector<nlohmann::json> requests_;
+  bool runner_left_ = false;
+
+  // The arm.
+  std::int64_t tick_ = 0;
+  std::string state_ = "BOOTING";
+  bool is_homed_ = false;
+  std::string owner_;
+  std::string device_ = "none";
+  bool engaged_ = false;
+  int intervals_with_device_ = 0;
+  int busy_intervals_ = 0;
+  int step_ = 0;
+  nlohmann::json goal_deg_;
+  nlohmann::json js_deg_;
+  nlohmann::json tip_;
+  nlohmann::json held_ = nlohmann::json::array();
+  nlohmann::json said_;
+};
+
+}  // namespace liana

@@ -1,0 +1,280 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/lua/fake_lianad.hpp"
+#include "tests/lua/program.hpp"
+
+namespace liana {
+namespace {
+
+using nlohmann::json;
+
+// How one mission against the fake ended.
+struct MissionRun {
+  Ended ended;
+  json report;
+  std::vector<json> requests;
+
+  std::vector<std::string> ops(const std::string& op) const {
+    std::vector<std::string> found;
+    for (const auto& request : requests) {
+      if (request["op"] == op) found.push_back(request.dump());
+    }
+    return found;
+  }
+  std::string last_command() const {  // before announce and release at the end
+    for (auto it = requests.rbegin(); it != requests.rend(); ++it) {
+      if ((*it)["op"] != "announce" && (*it)["op"] != "release") return (*it)["op"];
+    }
+    return "";
+  }
+};
+
+MissionRun run_mission_against(const FakeBehaviour& behaviour, const std::string& mission = "slit_crossing",
+                               const std::string& flags = "") {
+  const TemporaryFolder folder;
+  FakeLianad lianad(folder.file("api"), behaviour);
+  MissionRun run;
+  run.ended = run_program("run --lockstep --api " + folder.file("api") + " --mission " + mission + " --report " +
+                          folder.file("report.json") + flags);
+  run.requests = lianad.requests();
+  run.report = json::parse(read_file(folder.file("report.json")), nullptr, false);
+  return run;
+}
+
+// A mission file of one step whose run and exit are given.
+std::string one_step(const TemporaryFolder& folder, const std::string& body) {
+  return folder.write("given.lua", "local liana = require 'liana'\nreturn liana.mission 'given' { liana.step 'only' {\n" + body +
+                                       "\n device = 'none', time_limit_s = 5, on_fail = 'hold' } }\n");
+}
+
+// A50, A40: six steps, 10+0, 9+1, 8+2, then the repair command.
+TEST(Mission, CrossesTheSlitInSixSteps) {
+  const MissionRun run = run_mission_against({}, "slit_crossing", " --progress");
+  ASSERT_EQ(run.ended.code, 0) << run.ended.error;
+  EXPECT_EQ(run.report["outcome"], "success");
+  const std::vector<std::string> devices = {"none", "vr", "none", "hand", "none", "hand"};
+  const std::vector<std::vector<int>> held = {{}, {}, {9}, {9}, {7, 9}, {7, 9}};
+  ASSERT_EQ(run.report["steps"].size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i) {
+    const json& step = run.report["steps"][i];
+    EXPECT_EQ(step["device"], devices[i]);
+    EXPECT_EQ(step["held_theta"], json(held[i]));
+    EXPECT_EQ(step["outcome"], "success");
+    EXPECT_GT(step["end_tick"].get<int>(), step["start_tick"].get<int>());
+    EXPECT_NEAR(step["duration_s"], (step["end_tick"].get<int>() - step["start_tick"].get<int>()) * 0.004, 1e-12);
+  }
+  EXPECT_EQ(run.ops("tool").size(), 1u);
+  EXPECT_EQ(run.report["repair_tick"], run.report["steps"][5]["end_tick"]);
+  EXPECT_NE(run.ended.out.find("step 4/6  segment 5 into the slit"), std::string::npos) << run.ended.out;
+}
+
+TEST(Mission, SendsWhatTheApiPageSays) {
+  const MissionRun run = run_mission_against({});
+  ASSERT_FALSE(run.requests.empty());
+  EXPECT_EQ(run.requests[0]["role"], "mission");
+  EXPECT_EQ(run.requests[0]["lockstep"], true);
+  EXPECT_EQ(run.requests[1]["op"], "acquire");
+  const auto holds = run.ops("hold_theta");
+  ASSERT_EQ(holds.size(), 2u);
+  EXPECT_EQ(json::parse(holds[1])["held"], json::parse(R"([{"theta":7,"target_deg":0},{"theta":9,"target_deg":0}])"));
+  EXPECT_EQ(json::parse(run.ops("use_device")[0])["node"], 3);
+  EXPECT_EQ(json::parse(run.ops("use_device")[1])["device"], "none");  // nobody steers between the steps
+  EXPECT_EQ(json::parse(run.ops("announce")[1])["step"]["device"], "vr");
+  EXPECT_TRUE(json::parse(run.ops("announce").back())["step"].is_null());
+  EXPECT_EQ(run.requests.back()["op"], "release");
+}
+
+TEST(Mission, TwoRunsSendIdenticalRequests) { EXPECT_EQ(run_mission_against({}).requests, run_mission_against({}).requests); }
+
+TEST(Mission, PrintsJsonLinesForPrograms) {
+  const MissionRun run = run_mission_against({}, "slit_crossing", " --json");
+  std::istringstream lines(run.ended.out);
+  int count = 0;
+  json last;
+  for (std::string line; std::getline(lines, line); ++count) last = json::parse(line);
+  EXPECT_EQ(count, 13);  // begin and end of six steps, the report
+  EXPECT_EQ(last["outcome"], "success");
+}
+
+TEST(Mission, HoldsWhenTheOperatorDoesNotArriveInTime) {
+  const MissionRun run = run_mission_against({.operator_arrives = false});
+  EXPECT_EQ(run.ended.code, 1);
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_EQ(run.last_command(), "hold");
+  ASSERT_EQ(run.report["steps"].size(), 2u);
+  EXPECT_NE(run.ended.error.find("time limit of 120 s passed, not met: device released by the operator and operator says arrived"),
+            std::string::npos)
+      << run.ended.error;
+}
+
+TEST(Mission, WhatTheOperatorSaidBeforeTheStepDoesNotEndIt) {
+  const MissionRun run = run_mission_against({.operator_speaks_too_early = true});
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_EQ(run.report["steps"].size(), 2u);
+}
+
+// The only way out of the slit is the verified path backwards.
+TEST(Mission, RetractsOutOfTheSlitToWhereItEntered) {
+  const MissionRun run = run_mission_against({.tip_in_slit_u_m = 2.5});
+  EXPECT_EQ(run.ended.code, 1);
+  EXPECT_EQ(run.report["outcome"], "aborted");
+  ASSERT_EQ(run.ops("retract").size(), 1u);
+  EXPECT_EQ(json::parse(run.ops("retract")[0])["until_tick"], run.report["steps"][3]["start_tick"]);
+  EXPECT_EQ(run.report["steps"][3]["outcome"], "failed");
+}
+
+TEST(Mission, ARefusalEndsItAsRefusedAndHolds) {
+  const MissionRun run = run_mission_against({.refuse = {{"hold_theta", "out_of_range"}}});
+  EXPECT_EQ(run.ended.code, 1);
+  EXPECT_EQ(run.report["outcome"], "refused");
+  EXPECT_EQ(run.last_command(), "hold");
+  EXPECT_NE(run.report["reason"].get<std::string>().find("hold_theta refused: out_of_range"), std::string::npos);
+}
+
+TEST(Mission, ARefusalInTheSlitRetracts) {
+  const MissionRun run = run_mission_against({.refuse = {{"use_device", "no_device"}}, .refuse_in_step = 6});
+  EXPECT_EQ(run.report["outcome"], "aborted");
+  EXPECT_EQ(run.last_command(), "retract");
+}
+
+TEST(Mission, ARefusedRetractionHoldsAndSaysSo) {
+  const MissionRun run = run_mission_against({.refuse = {{"use_device", "no_device"}, {"retract", "refused"}}, .refuse_in_step = 6});
+  EXPECT_EQ(run.report["outcome"], "refused");
+  EXPECT_NE(run.report["reason"].get<std::string>().find("retract refused"), std::string::npos);
+}
+
+TEST(Mission, IsPatientWhileDrivesBootAndThenSaysWhy) {
+  const MissionRun run = run_mission_against({.refuse = {{"state_command", "busy"}}});
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_GT(run.ops("state_command").size(), 10u);
+  EXPECT_LT(run.ops("state_command").size(), 60u);
+  EXPECT_NE(run.report["reason"].get<std::string>().find("not enabled after 60 s, state_command refused: busy"), std::string::npos)
+      << run.report;
+}
+
+TEST(Mission, DoesNotMoveWhenMotionBelongsToAnother) {
+  const MissionRun run = run_mission_against({.refuse = {{"acquire", "not_owner"}}});
+  EXPECT_EQ(run.ended.code, 1);
+  EXPECT_EQ(run.report["outcome"], "refused");
+  EXPECT_TRUE(run.ops("state_command").empty());
+  EXPECT_TRUE(run.ops("move_jp").empty());
+}
+
+TEST(Mission, GivesUpWhenAnotherTakesMotion) {
+  const MissionRun run = run_mission_against({.steal_in_step = 2});
+  EXPECT_EQ(run.report["outcome"], "aborted");
+  EXPECT_NE(run.report["reason"].get<std::string>().find("somebody"), std::string::npos);
+}
+
+TEST(Mission, ADriveFaultFailsItByNameAndNumber) {
+  const MissionRun run = run_mission_against({.fault_in_step = 4});
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_NE(run.report["reason"].get<std::string>().find("3101 drive_silent 3"), std::string::npos) << run.report;
+  EXPECT_TRUE(run.ops("retract").empty());  // the drives are stopped: there is nothing to command
+}
+
+TEST(Mission, AnEmergencyStopAbortsIt) {
+  const MissionRun run = run_mission_against({.stop_in_step = 2});
+  EXPECT_EQ(run.report["outcome"], "aborted");
+  EXPECT_EQ(run.report["steps"][1]["outcome"], "aborted");
+}
+
+TEST(Mission, TheEndOfLianadIsReported) {
+  const MissionRun run = run_mission_against({.vanish_in_step = 3});
+  EXPECT_EQ(run.ended.code, 1);
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_EQ(run.report["steps"].size(), 3u);
+}
+
+TEST(Mission, AnErrorInAStepNamesFileAndLineAndHolds) {
+  const TemporaryFolder folder;
+  const MissionRun run =
+      run_mission_against({}, one_step(folder, "run = function(arm) local x = arm.nothing.at_all end, exit = liana.at_rest(),"));
+  EXPECT_EQ(run.ended.code, 1);
+  EXPECT_EQ(run.last_command(), "hold");
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_EQ(run.report["steps"][0]["outcome"], "failed");
+  EXPECT_NE(run.ended.error.find("given.lua:3: attempt to index a nil value (field 'nothing')"), std::string::npos) << run.ended.error;
+}
+
+TEST(Mission, AWrongCommandNamesItsField) {
+  const TemporaryFolder folder;
+  const MissionRun run =
+      run_mission_against({}, one_step(folder, "run = function(arm) arm.move_jp { goal = 1 } end, exit = liana.at_rest(),"));
+  EXPECT_NE(run.ended.error.find("move_jp: goal_deg: missing: allowed number[]"), std::string::npos) << run.ended.error;
+  EXPECT_EQ(run.last_command(), "hold");
+}
+
+TEST(Mission, AnEndlessConditionIsStoppedByTheBudget) {
+  const TemporaryFolder folder;
+  const MissionRun run = run_mission_against({}, one_step(folder, "exit = liana.condition('never', function() while true do end end),"));
+  EXPECT_EQ(run.ended.code, 1);
+  EXPECT_EQ(run.last_command(), "hold");
+  EXPECT_NE(run.ended.error.find("computes too long"), std::string::npos) << run.ended.error;
+}
+
+// A loop no hook can stop: the process is killed, its socket closes (lianad holds), and the report still comes.
+TEST(Mission, TheWatchdogKillsWhatTheBudgetCannotStop) {
+  const TemporaryFolder folder;
+  const MissionRun run = run_mission_against(
+      {}, one_step(folder, "exit = liana.condition('never', function() xpcall(error, function() while true do end end) end),"));
+  EXPECT_EQ(run.ended.code, 4);
+  EXPECT_NE(run.ended.error.find("given.lua: computed for more than 2 s"), std::string::npos) << run.ended.error;
+  EXPECT_NE(run.ended.error.find("given.lua:3"), std::string::npos) << run.ended.error;
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_EQ(run.report["mission"].get<std::string>().find("given") != std::string::npos, true);
+}
+
+// Nothing is left behind that could keep the socket, and with it ownership of motion.
+TEST(Mission, KilledWithSignal9LeavesNoProcessThatOwnsMotion) {
+  const TemporaryFolder folder;
+  FakeLianad lianad(folder.file("api"), {.silent_in_step = 2});
+  const std::string command =
+      std::string(LIANA_MISSION) + " run --lockstep --api " + folder.file("api") + " --mission slit_crossing & sleep 2; kill -9 $!";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_TRUE(lianad.runner_left());
+  EXPECT_EQ(lianad.requests().back()["op"], "announce");
+}
+
+TEST(Mission, WaitingForLianadIsNotComputing) {
+  const MissionRun run = run_mission_against({.slow_in_step = 3});
+  EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
+}
+
+TEST(Mission, AMemoryBombInAStepHolds) {
+  const TemporaryFolder folder;
+  const MissionRun run = run_mission_against(
+      {}, one_step(folder, "run = function() local t = {} for i = 1, 1e9 do t[i] = {i} end end, exit = liana.at_rest(),"));
+  EXPECT_EQ(run.ended.code, 1);
+  EXPECT_NE(run.ended.error.find("too much memory"), std::string::npos) << run.ended.error;
+  EXPECT_EQ(run.last_command(), "hold");
+}
+
+TEST(Mission, ABadMissionFileNeverReachesLianad) {
+  const TemporaryFolder folder;
+  const MissionRun run = run_mission_against({}, folder.write("given.lua", "return {"));
+  EXPECT_EQ(run.ended.code, 2);
+  EXPECT_TRUE(run.requests.empty());
+  EXPECT_NE(run.ended.error.find("given.lua:1:"), std::string::npos) << run.ended.error;
+}
+
+// The mission reads like the experiment: steps 2 and 3 change places by moving text, and what step 2 makes planar stays so.
+TEST(Mission, StepsRunInTheOrderInWhichTheyAreWritten) {
+  const TemporaryFolder folder;
+  std::string text = read_file(LIANA_SOURCE_DIR "/lua/missions/slit_crossing.lua");
+  const auto third = text.find("  step \"segment 5 goes planar\"");
+  const auto second = text.find("  step \"around the obstacle");
+  const auto fourth = text.find("  step \"segment 5 into the slit\"");
+  ASSERT_LT(second, third);
+  text = text.substr(0, second) + text.substr(third, fourth - third) + text.substr(second, third - second) + text.substr(fourth);
+  const MissionRun run = run_mission_against({}, folder.write("swapped.lua", text));
+  EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
+  EXPECT_EQ(run.report["steps"][1]["name"], "segment 5 goes planar");
+  EXPECT_EQ(run.report["steps"][2]["device"], "vr");
+  EXPECT_EQ(run.report["steps"][2]["held_theta"], json({9}));
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "host/lua/script.hpp"
+#include "tests/lua/program.hpp"
+
+namespace liana {
+namespace {
+
+struct Attack {
+  const char* file;
+  const char* message;
+};
+
+// Every attack ends with one message and exit code 2, whatever bound it meets: budget, cap, memory or watchdog.
+TEST(Sandbox, EveryAttackEndsWithOneClearMessage) {
+  const std::vector<Attack> attacks = {{"endless_loop", "attacks/endless_loop.lua:1: computes too long"},
+                                       {"endless_pcall", "computes too long"},
+                                       {"endless_xpcall", "was killed, last seen at"},
+                                       {"endless_pattern", "was killed, last seen at"},
+                                       {"endless_coroutine", "computes too long"},
+                                       {"finaliser", "__gc is not allowed"},
+                                       {"finaliser_hidden", "the end is reached"},
+                                       {"memory_bomb", "too much memory: allowed 64 MiB"},
+                                       {"memory_bomb_caught", "was killed, last seen at"},
+                                       {"long_text", "string.rep: too long"},
+                                       {"endless_sort", "table.sort: too long"},
+                                       {"syntax_error", "attacks/syntax_error.lua:1: unexpected symbol near ','"},
+                                       {"bytecode", "attempt to load a binary chunk"},
+                                       {"files", "global 'io'"},
+                                       {"load", "global 'load'"},
+                                       {"escape_require", "allowed modules of the Lua folder"},
+                                       {"change_library", "read-only"},
+                                       {"change_text_methods", "attempt to index a boolean value"},
+                                       {"deep_recursion", "too much memory"},
+                                       {"self_containing", "a table that contains itself"},
+                                       {"not_a_number", "segments[1].modules: nan"},
+                                       {"function_in_table", "name: function: allowed"},
+                                       {"mixed_keys", "boxes: a table: allowed lists 1..n without gaps"},
+                                       {"error_value", "raised a table"},
+                                       {"nothing", "named fields"}};
+  for (const Attack& attack : attacks) {
+    const Ended ended = run_program("eval robot " LIANA_SOURCE_DIR "/tests/lua/attacks/" + std::string(attack.file) + ".lua");
+    EXPECT_EQ(ended.code, 2) << attack.file << ": " << ended.error;
+    EXPECT_EQ(ended.out, "") << attack.file;
+    EXPECT_NE(ended.error.find(attack.message), std::string::npos) << attack.file << ": " << ended.error;
+  }
+}
+
+// Keys of a table in the order of pairs, and some random numbers: both must not depend on the process.
+TEST(Sandbox, RunsTheSameInEveryProcess) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("order.lua", R"(
+    local text = ""
+    for key in pairs { zeta = 1, alpha = 2, [3] = 1, [1] = 1, mid = 3 } do text = text .. key .. " " end
+    for _ = 1, 3 do text = text .. math.random(1000) .. " " end
+    error(text .. tostring({}) .. " " .. tostring(print), 0))");
+  const Ended first = run_program("eval robot " + file);
+  const Ended second = run_program("eval robot " + file);
+  EXPECT_NE(first.error.find("1 3 alpha mid zeta "), std::string::npos) << first.error;
+  EXPECT_NE(first.error.find(" table function"), std::string::npos) << first.error;
+  EXPECT_EQ(first.error, second.error);
+}
+
+TEST(Sandbox, PairsAllowsRemovingWhileItRuns) {
+  Activity activity;
+  Script script(ScriptLimits{}, LIANA_SOURCE_DIR "/lua", activity);
+  script.run({"remove.lua", "local t, n = { a = 1, b = 2, c = 3 }, 0 for k in pairs(t) do n = n + 1 t.b = nil t[k] = nil end return n"});
+  EXPECT_EQ(lua_tointeger(script.state(), -1), 2);
+}
+
+TEST(Sandbox, GivesEveryFileItsOwnGlobals) {
+  Activity activity;
+  Script script(ScriptLimits{}, LIANA_SOURCE_DIR "/lua", activity);
+  script.run({"a.lua", "leak = 1 return leak"});
+  script.run({"b.lua", "return leak"});
+  EXPECT_TRUE(lua_isnil(script.state(), -1));
+}
+
+TEST(Sandbox, MemoryIsFreedAndCountedAcrossManyCalls) {
+  Activity activity;
+  Script script(ScriptLimits{.memory_bytes = 4u << 20}, LIANA_SOURCE_DIR "/lua", activity);
+  script.run({"grow.lua", "return function() local s = ('x'):rep(1000000) return #s end"});
+  for (int i = 0; i < 200; ++i) {
+    lua_pushvalue(script.state(), -1);
+    script.call(0, 1);
+    EXPECT_EQ(lua_tointeger(script.state(), -1), 1000000);
+    lua_pop(script.state(), 1);
+  }
+}
+
+// luacheck must allow exactly what the sandbox gives.
+TEST(Sandbox, GivesWhatLuacheckAllowsAndNoDoorOutside) {
+  const std::string rules = read_file(LIANA_SOURCE_DIR "/.luacheckrc");
+  Activity activity;
+  Script script(ScriptLimits{}, LIANA_SOURCE_DIR "/lua", activity);
+  ASSERT_NE(rules.find("stds.liana"), std::string::npos);
+  script.run({"probe.lua", R"(
+    local stds = { liana = nil }
+    local missing = {}
+    )" + rules.substr(rules.find("stds.liana"), rules.find("\nstd =") - rules.find("stds.liana")) +
+                               R"(
+    local env = { assert = assert, error = error, getmetatable = getmetatable, ipairs = ipairs, pairs = pairs, pcall = pcall,
+      print = print, rawequal = rawequal, rawget = rawget, rawlen = rawlen, require = require, select = select,
+      setmetatable = setmetatable, tonumber = tonumber, tostring = tostring, type = type, xpcall = xpcall,
+      math = math, string = string, table = table, coroutine = coroutine }
+    for key, value in pairs(stds.liana.read_globals) do
+      if type(value) == "string" then
+        if env[value] == nil then missing[#missing + 1] = value end
+      else
+        for _, field in ipairs(value.fields) do if env[key][field] == nil then missing[#missing + 1] = key .. "." .. field end end
+      end
+    end
+    return table.concat(missing, " "))"});
+  EXPECT_STREQ(lua_tostring(script.state(), -1), "");
+  for (const char* name :
+       {"io", "os", "debug", "load", "loadfile", "dofile", "collectgarbage", "package", "next", "rawset", "_G", "utf8"}) {
+    script.run({"absent.lua", "return " + std::string(name)});
+    EXPECT_TRUE(lua_isnil(script.state(), -1)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace liana

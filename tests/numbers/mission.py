@@ -1,0 +1,49 @@
+"""The slit crossing, fast mode: seeds 1 to 10 nominal, 1 to 3 ideal, 1 to 3 worn."""
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+import time
+
+from page import table
+
+RUNS = [("nominal", seed) for seed in range(1, 11)] + [(physics, seed) for physics in ("ideal", "worn") for seed in range(1, 4)]
+DEG_PER_RAD = 57.29577951308232
+
+
+def run_once(binaries, directory, physics, seed):
+    """One run; its report with wall time and exit code added."""
+    file = pathlib.Path(directory) / f"{physics}-{seed}.json"
+    start = time.monotonic()
+    call = [str(binaries / "liana"), "run", "slit_crossing", "--physics", physics, "--seed", str(seed), "--json", str(file)]
+    done = subprocess.run(call, capture_output=True, text=True, check=False)
+    report = json.loads(file.read_text()) if file.exists() else {"outcome": "no report"}
+    report.update(physics=physics, seed=seed, exit_code=done.returncode, wall_s=time.monotonic() - start)
+    print(f"   {physics} {seed}: {report['outcome']}, {report['wall_s']:.0f} s", file=sys.stderr, flush=True)
+    return report
+
+
+def scaled(report, key, factor, digits):
+    return f"{report[key] * factor:.{digits}f}" if key in report else "-"
+
+
+def row(report):
+    tension = report.get("cable_tension_N", {})
+    return [report["physics"], report["seed"], report["outcome"], scaled(report, "duration_s", 1, 1), scaled(report, "tip_error_m", 1e3, 2),
+            scaled(report, "tip_attitude_error_rad", DEG_PER_RAD, 3), scaled(report, "open_loop_tip_error_m", 1e3, 1),
+            scaled(report, "min_slit_clearance_m", 1e3, 1), scaled(report, "min_sphere_clearance_m", 1e3, 0),
+            scaled(report, "max_contact_force_N", 1, 2), scaled(tension, "min", 1, 1), scaled(tension, "min_motor", 1, 1),
+            scaled(tension, "max", 1, 1), scaled(report, "wall_s", 1, 0)]
+
+
+HEAD = ["physics", "seed", "outcome", "arm time s", "tip mm", "tip deg", "open loop mm", "slit mm", "sphere mm", "contact N", "tension min N",
+        "at motor N", "max N", "wall s"]
+
+
+def measure(binaries):
+    with tempfile.TemporaryDirectory(prefix="liana-numbers-") as directory:
+        reports = [run_once(binaries, directory, physics, seed) for physics, seed in RUNS]
+    successes = sum(report["outcome"] == "success" for report in reports)
+    text = f"{successes} of {len(reports)} runs succeeded. Clearances, forces, tensions and errors are the physics' truth.\n\n"
+    return reports, text + table(HEAD, [row(report) for report in reports])

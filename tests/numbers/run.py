@@ -1,0 +1,38 @@
+"""Measures at full size and writes docs/numbers.md: `./dev numbers [NAME]`. A section is replaced by the newest measurement of its name."""
+import argparse
+import importlib
+import json
+import pathlib
+import sys
+import time
+
+from page import Page, commit_of
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="+")
+    parser.add_argument("--json", action="store_true", help="also print what was measured as JSON")
+    parser.add_argument("--bin", default=str(ROOT / "build/bin"), help="where the programs are")
+    return parser.parse_args()
+
+
+def main():
+    options = arguments()
+    page = Page(ROOT / "docs/numbers.md")
+    measured = {}
+    for name in options.names:
+        print(f"== numbers: {name}", file=sys.stderr, flush=True)
+        start = time.monotonic()
+        values, text = importlib.import_module(name).measure(pathlib.Path(options.bin))
+        measured[name] = values
+        page.put(name, text, commit_of(ROOT), time.monotonic() - start)
+        page.write()
+    if options.json:
+        print(json.dumps(measured))
+
+
+if __name__ == "__main__":
+    main()

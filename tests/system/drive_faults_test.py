@@ -1,0 +1,158 @@
+"""Drives that are missing, wrong, silent, in fault or without power: a named message and a safe arm (A28, C5)."""
+import unittest
+
+from liana_system import System, SystemTest, brief, must
+
+kFaultSlot = 2500  # the move that start_moving begins is under way then; checked in each test
+kDrive, kNode = 3, 4
+
+
+def fault(kind, at_slot=kFaultSlot):
+    return [{"drive": kDrive, "kind": kind, "at_slot": at_slot}]
+
+
+def says(state, *parts):
+    """One event of the state has all the parts."""
+    return any(all(part in event["text"] for part in parts) for event in state["events"])
+
+
+class DrivesThatDoNotBoot(SystemTest):
+    def refused_boot(self, kind, *words):
+        with System(faults=fault(kind, 0)) as system:
+            client = system.client()
+            must(client.ask("acquire"))
+            state = client.until(lambda state: state["state"] == "FAULT")
+            self.assertTrue(any(all(word in event["text"] for word in words) for event in state["events"]), brief(state))
+            for command in ("enable", "home", "clear"):
+                self.assert_refused(client.ask("state_command", command=command), "fault", *words)
+            self.assert_refused(client.ask("move_jp", goal_deg=[0] * 10), "not_enabled")
+            client.go_on(0.5)
+            self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
+            truth = system.truth()
+            self.assertEqual(max(truth.column("enabled")), 0)
+            self.assert_still(truth, 0)
+
+    def test_a_missing_drive_is_named_and_nothing_is_enabled(self):
+        self.refused_boot("missing", "node 4 on can0", "no boot-up")
+
+    def test_a_wrong_identity_is_named_with_what_was_expected_and_found(self):
+        self.refused_boot("wrong_identity", "node 4 on can0", "0x1018:2", "expected 1", "found 2")
+
+
+class DrivesThatFailInMotion(SystemTest):
+    def moving_into(self, kind):
+        """A system whose drive fails while the arm moves; the state some time after it."""
+        system = self.enterContext(System(faults=fault(kind)))
+        client = system.client()
+        client.enable()
+        client.start_moving()
+        self.assertLess(client.state["tick"], kFaultSlot - 5, "the move must be under way before the fault")
+        client.until(lambda state: state["faults"])
+        self.assertLess(client.state["tick"], kFaultSlot + 50)
+        return system, client
+
+    def ended(self, system, client, stop_deg=1.0):
+        self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
+        truth = system.truth()
+        self.assertGreater(truth.travel_deg(kFaultSlot - 50, kFaultSlot), 0.05, "the fault has to meet a moving arm")
+        self.assert_stopped(truth, kFaultSlot, stop_deg)
+
+    def in_fault(self, client):
+        client.until(lambda state: state["state"] == "FAULT")
+        self.assertIn(client.state["stop_category"], ("stop", "off"))
+        goal = client.state["setpoint_js_deg"]
+        self.assert_refused(client.ask("move_jp", goal_deg=goal), "fault", "clear")
+        self.assert_refused(client.ask("state_command", command="enable"), "fault", "clear")
+
+    def test_a_silent_drive_is_fault_3002_and_stays_latched_while_it_is_silent(self):
+        system, client = self.moving_into("silent")
+        self.assert_fault(client.state, 3002, kDrive)
+        self.in_fault(client)
+        must(client.ask("state_command", command="clear"))
+        client.until(lambda state: says(state, "faults not cleared, not met: ", "; checked: "))
+        client.go_on(1.0)
+        self.assertEqual(client.state["state"], "FAULT")
+        self.assert_fault(client.state, 3002, kDrive)
+        self.ended(system, client)
+
+    def test_a_drive_that_loses_power_is_fault_3002(self):
+        system, client = self.moving_into("missing")
+        self.assert_fault(client.state, 3002, kDrive)
+        self.in_fault(client)
+        self.ended(system, client)
+
+    def test_a_drive_in_fault_is_3003_with_its_emergency_code_and_clear_makes_it_usable_again(self):
+        system, client = self.moving_into("fault")
+        self.assert_fault(client.state, 3003, kDrive)
+        self.assertEqual(client.state["faults"][0]["detail"], 0x2310)
+        self.in_fault(client)
+        client.go_on(1.0)
+        self.assertEqual(client.state["state"], "FAULT", "nothing clears itself")
+        must(client.ask("state_command", command="clear"))
+        client.until(lambda state: says(state, "faults cleared; checked: "))
+        client.until(lambda state: state["state"] == "DISABLED" and not state["faults"])
+        must(client.ask("state_command", command="enable"))
+        client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
+        must(client.ask("state_command", command="disable"))
+        client.until(lambda state: state["state"] == "DISABLED")
+        self.ended(system, client)
+        self.assertEqual(system.emergencies()[kNode][:2], [0x2310, 0])
+
+    def test_safe_torque_off_is_3004_and_a_drive_without_power_is_not_enabled_again(self):
+        system, client = self.moving_into("sto")
+        self.assert_fault(client.state, 3004, kDrive)
+        self.in_fault(client)
+        must(client.ask("state_command", command="clear"))
+        client.until(lambda state: state["state"] == "DISABLED")
+        must(client.ask("state_command", command="enable"))
+        client.until(lambda state: state["state"] == "FAULT")
+        self.assert_fault(client.state, 3005, kDrive)
+        self.ended(system, client)
+        self.assertEqual(system.emergencies(), {kNode: [0xFF01]})
+
+    def test_a_cable_that_comes_loose_is_5001_first_a_hold_and_when_it_stays_a_stop(self):
+        system, client = self.moving_into("slack")
+        self.assert_fault(client.state, 5001, kDrive)
+        self.assertEqual(client.state["stop_category"], "hold")
+        self.assertEqual(client.state["state"], "ENABLED")
+        client.until(lambda state: state["stop_category"] == "stop")
+        client.until(lambda state: state["state"] == "FAULT")
+        client.go_on(1.0)
+        self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
+        truth = system.truth()
+        self.assertEqual(truth.column("enabled")[-1], 0)
+        # 20 mm of cable at 25 mm from the axes of 8 joints let the segment give way by 5.7 deg; it settles for 10 s.
+        self.assertLess(truth.travel_deg(kFaultSlot, None), 8.0)
+
+
+class DrivesWithoutTargets(SystemTest):
+    def test_a_drive_without_targets_for_three_periods_stops_by_itself_with_emergency_8250(self):
+        lost = [{"bus": 0, "id": hex(0x200 + kNode), "from_slot": kFaultSlot, "to_slot": 1000000, "action": "drop"}]
+        with System(bus_script=lost) as system:
+            client = system.client()
+            client.enable()
+            client.start_moving()
+            state = client.until(lambda state: state["state"] == "FAULT")
+            self.assert_fault(state, 3004, kDrive)
+            client.go_on(1.0)
+            system.shut_down(client)
+            self.assertEqual(system.emergencies(), {kNode: [0x8250]})
+            self.assert_stopped(system.truth(), kFaultSlot)
+            self.assertEqual(system.json("bench_summary.json")["drives"][kDrive]["quick_stops"], 1)
+
+    def test_drives_that_do_not_hear_the_master_stop_by_themselves_with_emergency_8130(self):
+        lost = [{"bus": 1, "id": "0x77F", "from_slot": kFaultSlot, "to_slot": 1000000, "action": "drop"}]
+        with System(bus_script=lost) as system:
+            client = system.client()
+            client.enable()
+            client.start_moving()
+            state = client.until(lambda state: state["state"] == "FAULT")
+            self.assert_fault(state, 3004, 8)
+            client.go_on(1.0)
+            system.shut_down(client)
+            self.assertEqual({node: codes[0] for node, codes in system.emergencies().items()}, {node: 0x8130 for node in range(9, 16)})
+            self.assert_stopped(system.truth(), kFaultSlot, stop_deg=2.0)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,113 @@
+"""One owner of motion, and a stop that anybody may send (A29, C5)."""
+import pathlib
+import unittest
+
+from liana_system import System, SystemTest, brief, must, run
+
+MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
+
+
+class OwnershipOfMotion(SystemTest):
+    def mission_under_way(self):
+        system = self.enterContext(System("client,mission"))
+        client = system.client()
+        system.start_mission(MISSIONS / "short.lua")
+        client.until(lambda state: state["owner"] == "mission" and state["step"] and not state["at_rest"], 120)
+        return system, client
+
+    def test_a_second_client_cannot_move_the_arm_and_the_mission_goes_on(self):
+        system, client = self.mission_under_way()
+        self.assert_refused(client.ask("acquire"), "not_owner", "mission")
+        requests = {"move_jp": {"goal_deg": [0] * 10}, "move_cp": {"goal": client.state["setpoint_cp"]}, "servo_cp": {"goal": [2, 0, 0, 1, 0, 0, 0]},
+                    "hold": {}, "retract": {}, "release": {}, "hold_theta": {"held": []}, "shape": {"nodes": []}, "tool": {"command": "x"},
+                    "use_device": {"device": "none"}, "state_command": {"command": "disable"}}
+        for op, fields in requests.items():
+            self.assert_refused(client.ask(op, **fields), "not_owner", "mission")
+        client.until(lambda state: state["owner"] == "", 60)
+        self.assertEqual(system.ended("liana-mission"), 0, system.log("liana-mission"))
+        self.assertEqual(system.json("mission.json")["outcome"], "success")
+        self.assert_holds(client.state)
+        self.assertAlmostEqual(client.state["setpoint_js_deg"][8], 11.0, delta=0.01)
+
+    def test_an_emergency_stop_during_a_mission_brakes_disables_and_ends_the_mission_with_the_reason(self):
+        system, client = self.mission_under_way()
+        stopper = system.client("stopper", "observer", lockstep=False)
+        number = stopper.request("stop", reason="hand on the red button")
+        categories = set()
+        while client.state["state"] != "DISABLED":
+            categories.add(client.state["stop_category"])
+            client.step()
+            self.assertLess(client.state["tick"], 20000, brief(client.state))
+        self.assertIn("stop", categories)
+        tick = client.state["tick"]
+        while number not in stopper.answers:
+            stopper.next_state()
+        self.assertEqual(stopper.answers[number]["op"], "ok")
+        self.assertTrue(any("hand on the red button" in event["text"] for event in client.state["events"]))
+        self.assertTrue(all(drive["state"] == "switch_on_disabled" for drive in client.until(lambda state: state["tick"] > tick + 25)["drives"]))
+        client.until(lambda state: state["owner"] == "", 60)
+        self.assertEqual(system.ended("liana-mission"), 1)
+        report = system.json("mission.json")
+        self.assertEqual(report["outcome"], "aborted")
+        self.assertIn("stop category stop", report["reason"])
+        client.go_on(0.5)
+        system.shut_down(client)
+        self.assert_stopped(system.truth(), tick)
+
+    def test_after_a_stop_another_client_can_enable_again(self):
+        with System() as system:
+            client = system.client()
+            client.enable()
+            client.start_moving()
+            must(client.ask("stop", reason="test"))
+            client.until(lambda state: state["state"] == "DISABLED")
+            self.assert_refused(client.ask("move_jp", goal_deg=[0] * 10), "not_enabled")
+            must(client.ask("release"))
+            second = system.client("second", lockstep=False)
+            second.request("acquire")
+            client.until(lambda state: state["owner"] == "second")
+            second.request("state_command", command="enable")
+            client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
+            self.assert_holds(client.state)
+
+    def test_the_death_of_an_owner_in_motion_is_a_hold_and_ownership_is_free(self):
+        with System() as system:
+            watcher = system.client("watcher")
+            owner = system.client("owner", lockstep=False)
+            owner.request("acquire")
+            watcher.until(lambda state: state["owner"] == "owner" and state["state"] == "DISABLED" and state["is_homed"])
+            owner.request("state_command", command="enable")
+            watcher.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
+            goal = list(watcher.state["setpoint_js_deg"])
+            goal[8] -= 6.0
+            owner.request("move_jp", goal_deg=goal)
+            watcher.until(lambda state: state["is_busy"] and abs(state["setpoint_js_deg"][8] - goal[8]) < 5.5)
+            owner.close()
+            watcher.until(lambda state: state["owner"] == "")
+            watcher.until(lambda state: state["at_rest"] and not state["is_busy"])
+            self.assert_holds(watcher.state)
+            self.assertGreater(abs(watcher.state["setpoint_js_deg"][8] - goal[8]), 1.0, "the move must not go on")
+            must(watcher.ask("acquire"))
+
+    def test_the_command_line_estop_stops_the_arm(self):
+        with System() as system:
+            client = system.client()
+            client.enable()
+            client.start_moving()
+            system.start("liana", "estop", "--api", system.api)
+            client.until(lambda state: state["state"] == "DISABLED")
+            self.assertEqual(system.ended("liana"), 0, system.log("liana"))
+            self.assertTrue(any("liana estop" in event["text"] for event in client.state["events"]))
+
+
+class NobodyToTalkTo(SystemTest):
+    def test_status_and_estop_without_lianad_fail_with_one_message(self):
+        for command in ("status", "estop"):
+            done = run("liana", command, "--api", "/nonexistent/api")
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn("/nonexistent/api", done.stderr)
+            self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,124 @@
+"""What a run leaves behind: repeatable, replayable, readable by others (A36)."""
+import collections
+import json
+import pathlib
+import shutil
+import subprocess
+import unittest
+
+from liana_system import SystemTest, Truth, run, start_run
+
+MISSION = pathlib.Path(__file__).resolve().parent / "missions" / "short.lua"
+kMessageRecord, kMessageHead = 0x05, 22  # of the MCAP format: channel, sequence, two times before the data
+FILES = ("ticks.mcap", "truth.bin", "can0.log", "can1.log")
+
+
+def record(test, seed):
+    process = start_run(test, MISSION, "--time", "fast", "--seed", seed, "--record", "record", "--json", "report.json")
+    _, error = process.communicate(timeout=300)
+    assert process.returncode == 0, error
+    return process.home / "record"
+
+
+def longest_messages(mcap):
+    """Start and length of the messages with the most bytes, in file order: the outputs of the ticks."""
+    messages, at = [], len(b"\x89MCAP0\r\n")
+    while at + 9 <= len(mcap):
+        length = int.from_bytes(mcap[at + 1:at + 9], "little")
+        if mcap[at] == kMessageRecord:
+            messages.append((at + 9, length))
+        at += 9 + length
+    most = collections.Counter(length for _, length in messages)
+    longest = max(length for length, count in most.items() if count > 1000)
+    return [message for message in messages if message[1] == longest]
+
+
+def decoded(log):
+    """tshark's lines for a candump log."""
+    done = subprocess.run(["tshark", "-r", str(log), "-d", "can.subdissector,canopen"], capture_output=True, text=True, timeout=120, check=False)
+    return done.stdout.splitlines()
+
+
+class Recordings(SystemTest):
+    """Three runs, two with one seed; their directories live as long as the class."""
+
+    @classmethod
+    def setUpClass(cls):
+        keeper = cls()
+        cls.addClassCleanup(keeper.doCleanups)
+        cls.first, cls.second, cls.other = (record(keeper, seed) for seed in (3, 3, 4))
+
+    def runTest(self):
+        """Lets setUpClass make an instance whose clean-ups outlive single tests."""
+
+    def test_two_runs_with_one_seed_are_identical_file_by_file(self):
+        for name in FILES:
+            first, second = (directory / name for directory in (self.first, self.second))
+            self.assertGreater(first.stat().st_size, 10000, name)
+            self.assertTrue(first.read_bytes() == second.read_bytes(), f"{name} differs")
+
+    def test_another_seed_gives_another_run(self):
+        for name in FILES:
+            self.assertFalse((self.first / name).read_bytes() == (self.other / name).read_bytes(), f"{name} does not depend on the seed")
+
+    def test_replay_finds_no_differing_tick(self):
+        done = run("liana", "replay", self.first, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        result = json.loads(done.stdout)
+        self.assertEqual((result["differing_ticks"], result["missing_ticks"], result["complete"]), (0, 0, True))
+        self.assertGreater(result["ticks"], 1000)
+
+    def test_a_flipped_byte_of_an_output_is_found_wherever_it_is(self):
+        whole = (self.first / "ticks.mcap").read_bytes()
+        outputs = longest_messages(whole)
+        self.assertGreater(len(outputs), 1000)
+        copy = self.second.parent / "flipped"
+        for share in (0.01, 0.3, 0.5, 0.7, 0.99):
+            shutil.rmtree(copy, ignore_errors=True)
+            copy.mkdir()
+            start, length = outputs[int(share * len(outputs))]
+            at = start + kMessageHead + int(share * (length - kMessageHead))
+            (copy / "ticks.mcap").write_bytes(whole[:at] + bytes([whole[at] ^ 0x10]) + whole[at + 1:])
+            done = run("liana", "replay", copy)
+            self.assertIn(done.returncode, (1, 2), f"byte {at} of {len(whole)}: {done.stdout}{done.stderr}")
+            self.assertNotEqual((done.stdout + done.stderr).strip(), "")
+
+    def test_a_recording_cut_short_is_not_called_whole(self):
+        copy = self.second.parent / "short"
+        copy.mkdir()
+        whole = (self.first / "ticks.mcap").read_bytes()
+        (copy / "ticks.mcap").write_bytes(whole[:len(whole) // 2])
+        done = run("liana", "replay", copy, "--json")
+        if done.returncode in (0, 1):
+            self.assertFalse(json.loads(done.stdout)["complete"])
+        else:
+            self.assertEqual(done.returncode, 2)
+
+    def test_replay_of_nothing_is_bad_input(self):
+        done = run("liana", "replay", self.first.parent)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("ticks.mcap", done.stderr)
+
+    def test_tshark_reads_every_frame_as_canopen_and_none_is_malformed(self):
+        self.assertIsNotNone(shutil.which("tshark"), "tshark is missing: apt-get install tshark")
+        for name, drives in (("can0.log", 8), ("can1.log", 7)):
+            lines, frames = decoded(self.first / name), (self.first / name).read_text().splitlines()
+            self.assertEqual(len(lines), len(frames))
+            self.assertEqual([line for line in lines if "CANopen" not in line], [])
+            self.assertEqual([line for line in lines if "alformed" in line], [])
+            kinds = collections.Counter(frame.split()[2].split("#")[0] for frame in frames)
+            self.assertGreater(kinds["080"], 1000)
+            feedback = [kinds[f"{0x180 + node:03X}"] for node in range(1, 16) if kinds[f"{0x180 + node:03X}"] > 1000]
+            self.assertEqual(len(feedback), drives)
+
+    def test_the_truth_of_a_short_mission_is_in_order(self):
+        truth = Truth(self.first / "truth.bin")
+        report = json.loads((self.first / "report.json").read_text())
+        self.assertEqual((report["outcome"], report["faults"]), ("success", []))
+        self.assertEqual([int(slot) for slot in truth.column("slot")], list(range(len(truth.rows))))
+        self.assert_stopped(truth, len(truth.rows) - 130)
+        self.assertAlmostEqual(report["final_theta_deg"][8], 11.0, delta=1.0)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

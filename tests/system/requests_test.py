@@ -1,0 +1,170 @@
+"""Targets no arm can reach and packets nobody can read: one clear answer each, and the arm stays where it is (A34)."""
+import math
+import unittest
+
+from liana_system import System, SystemTest, must
+
+kUpright = [1.0, 0.0, 0.0, 0.0]
+
+
+class Requests(SystemTest):
+    """One running system for all; every test leaves the arm enabled, at rest, and another client served."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.system = cls.enterClassContext(System())
+        cls.client = cls.system.client()
+        cls.other = cls.system.client("other", "observer", lockstep=False)
+        cls.client.enable()
+
+    def setUp(self):
+        self.client.until(lambda state: state["at_rest"] and not state["is_busy"])
+        self.client.complaints.clear()
+        self.start_deg = list(self.client.state["setpoint_js_deg"])
+
+    def tearDown(self):
+        self.client.go_on(0.3)
+        self.assert_holds(self.client.state)
+        self.assertEqual(self.client.state["faults"], [])
+        for now, before in zip(self.client.state["setpoint_js_deg"], self.start_deg):
+            self.assertAlmostEqual(now, before, delta=1e-3)
+        tick = self.client.state["tick"]
+        while self.other.next_state()["tick"] < tick:
+            pass
+
+    def tip(self):
+        return list(self.client.state["setpoint_cp"])
+
+    def test_a_tip_target_out_of_reach_is_refused_with_the_reach(self):
+        for op in ("move_cp", "servo_cp"):
+            self.assert_refused(self.client.ask(op, goal=[3.5, 3.5, 0.0] + kUpright), "out_of_range", "reaches 4")
+
+    def test_huge_numbers_are_refused_with_the_allowed_range(self):
+        for op in ("move_cp", "servo_cp"):
+            for i in range(7):
+                for huge in (1e300, -1e300, 1.7976931348623157e308):
+                    goal = self.tip()
+                    goal[i] = huge
+                    self.assert_refused(self.client.ask(op, goal=goal), "out_of_range", f"goal[{i}]", "allowed")
+        self.assert_refused(self.client.ask("move_jp", goal_deg=[1e300] + [0.0] * 9), "out_of_range", "goal_deg[0]", "allowed")
+
+    def test_nan_and_infinity_are_not_json_and_are_refused(self):
+        for op, field, count in (("move_cp", "goal", 7), ("servo_cp", "goal", 7), ("move_jp", "goal_deg", 10)):
+            for word in (math.nan, math.inf, -math.inf):
+                self.client.send({"op": op, field: [word] * count})
+                self.client.step()
+                self.client.step()
+                self.assert_refused(self.client.complaints.pop(), "bad_request", "not JSON")
+                self.assertEqual(self.client.complaints, [])
+
+    def test_numbers_beyond_a_double_are_refused(self):
+        self.client.send(b'{"op":"move_jp","goal_deg":[1e999,0,0,0,0,0,0,0,0,0]}')
+        self.client.step()
+        self.client.step()
+        self.assert_refused(self.client.complaints.pop(), "bad_request")
+
+    def test_words_instead_of_numbers_are_refused(self):
+        for word in ("NaN", None, True, [], {}):
+            self.assert_refused(self.client.ask("move_cp", goal=[word] + self.tip()[1:]), "bad_request", "goal[0]", "number")
+            self.assert_refused(self.client.ask("move_jp", goal_deg=[0.0] * 9 + [word]), "bad_request", "goal_deg[9]", "number")
+
+    def test_the_wrong_number_of_values_is_refused(self):
+        for op, field, counts in (("move_cp", "goal", (0, 6, 8)), ("servo_cp", "goal", (0, 6, 8)), ("move_jp", "goal_deg", (0, 9, 11, 80))):
+            for count in counts:
+                self.assert_refused(self.client.ask(op, **{field: [0.1] * count}), "bad_request", field, "array of")
+            self.assert_refused(self.client.ask(op), "bad_request", field, "missing")
+
+    def test_a_quaternion_that_is_not_of_unit_length_is_refused(self):
+        for op in ("move_cp", "servo_cp"):
+            for quaternion in ([0.0] * 4, [1.0, 0.01, 0.0, 0.0], [0.5] * 3 + [0.4999]):
+                self.assert_refused(self.client.ask(op, goal=self.tip()[:3] + quaternion), "out_of_range", "quaternion", "1e-6")
+
+    def test_angles_over_the_limits_are_refused_with_the_limits(self):
+        for i in range(10):
+            for angle in (20.01, -20.01, 179.0):
+                goal = list(self.start_deg)
+                goal[i] = angle
+                self.assert_refused(self.client.ask("move_jp", goal_deg=goal), "out_of_range", f"goal_deg[{i}]", "20")
+
+    def test_rates_over_the_limit_are_refused(self):
+        for rate in (2.1, 0.0, -1.0, 1e300):
+            self.assert_refused(self.client.ask("move_jp", goal_deg=self.start_deg, rate_deg_s=rate), "out_of_range", "rate_deg_s", "2")
+
+    def test_held_angles_and_nodes_out_of_range_are_refused(self):
+        self.assert_refused(self.client.ask("hold_theta", held=[{"theta": 11, "target_deg": 0}]), "out_of_range", "theta")
+        self.assert_refused(self.client.ask("hold_theta", held=[{"theta": 9, "target_deg": 21}]), "out_of_range", "target_deg")
+        self.assert_refused(self.client.ask("hold_theta", held=[7]), "bad_request")
+        self.assert_refused(self.client.ask("shape", nodes=[{"node": 5, "position_m": [0, 0, 0]}]), "out_of_range", "node")
+        self.assert_refused(self.client.ask("shape", nodes=[{"node": 3, "position_m": [0, 0]}]), "bad_request", "position_m")
+
+    def test_an_unknown_op_is_named(self):
+        self.assert_refused(self.client.ask("fly"), "bad_request", "fly")
+        self.assert_refused(self.client.ask("x" * 5000), "bad_request", "op")
+
+    def test_packets_that_are_no_request_get_one_clear_answer_each(self):
+        packets = {b"\x00\xff\xfe": "JSON", b"hello": "JSON", b"{": "JSON", b"[1,2]": "object", b"7": "object", b"{}": "op", b'{"op":7}': "op",
+                   b'{"op":"hello","name":"twice","role":"client"}': "already", b'{"op":"hold","id":"x"}': "id", b'{"op":"\xc3\x28"}': "JSON",
+                   b"[" * 60000: "JSON", b" " * 70000: "65536"}
+        for packet, word in packets.items():
+            self.client.send(packet)
+            self.client.step()
+            self.client.step()
+            self.assertEqual(len(self.client.complaints), 1, packet[:40])
+            self.assert_refused(self.client.complaints.pop(), "bad_request", word)
+
+    def test_who_does_not_say_hello_properly_is_told_how(self):
+        hellos = [({"op": "acquire"}, "hello"), ({"op": "hello", "role": "client"}, "name"), ({"op": "hello", "name": "x", "role": "king"}, "king"),
+                  ({"op": "hello", "name": "x", "role": "client", "subscribe": ["weather"]}, "subscribe"),
+                  ({"op": "hello", "name": 5, "role": "client"}, "name"), ({"op": "hello", "name": "x", "role": "client", "subscribe": 5}, "subscribe")]
+        for hello, word in hellos:
+            stranger = self.system.stranger()
+            stranger.send(hello)
+            self.client.go_on(0.1)
+            self.assert_refused(stranger.receive(), "bad_request", word)
+            stranger.close()
+
+    def test_only_an_operator_sends_device_samples_and_only_a_camera_pictures(self):
+        self.assert_refused(self.client.ask("device", device="hand", samples=[]), "bad_request", "operator")
+        self.assert_refused(self.client.ask("camera", capture_time_s=0, slit=None, rod=None), "bad_request", "camera")
+        self.assert_refused(self.client.ask("announce", step=None), "bad_request", "mission")
+
+    def test_a_device_nobody_serves_is_refused(self):
+        self.assert_refused(self.client.ask("use_device", device="vr"), "no_device", "operator")
+        self.assert_refused(self.client.ask("use_device", device="piano"), "bad_request", "piano")
+
+    def test_an_observer_that_asks_for_motion_does_not_get_it(self):
+        must(self.client.ask("release"))
+        number = self.other.request("acquire")
+        self.client.go_on(0.1)
+        while number not in self.other.answers:
+            self.other.next_state()
+        self.assert_refused(self.other.answers.pop(number), "not_owner", "observer")
+        must(self.client.ask("acquire"))
+
+
+class TargetsTheArmCannotFollow(SystemTest):
+    def test_targets_in_range_that_the_arm_cannot_take_end_in_a_hold_or_a_named_cable_fault(self):
+        with System() as system:
+            client = system.client()
+            client.enable()
+            first = client.state["tick"]
+            for goal in ([-3.9, 0.1, 0.2] + kUpright, [0.0, 0.0, 0.0] + kUpright, [3.99, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]):
+                answer = client.ask("servo_cp", goal=goal)
+                self.assertIn(answer.get("code"), (None, "fault", "out_of_range"), answer)
+                client.go_on(1.0)
+                self.assertEqual(client.state["state"], "ENABLED")
+                self.assertLessEqual({fault["name"] for fault in client.state["faults"]}, {"cable_slack"})
+                client.ask("hold")
+                client.until(lambda state: state["at_rest"])
+            must(client.ask("state_command", command="disable"))
+            client.until(lambda state: state["state"] in ("DISABLED", "FAULT"))
+            client.go_on(3.0)
+            system.shut_down(client)
+            truth = system.truth()
+            self.assertLess(max(abs(angle) for row in range(first, len(truth.rows), 25) for angle in truth.theta_deg(row)), 20.5)
+            self.assertLess(max(truth.column("contact_force_N")), 5.0)
+            self.assert_stopped(truth, len(truth.rows) - 130)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
