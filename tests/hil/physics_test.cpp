@@ -107,7 +107,7 @@ TEST(BenchPhysics, AGeometricOnlyCommandMissesThePoseByAboutNineMillimetres) {
   run(arm, payout, 30.0);
   const double miss_mm = 1000.0 * norm(arm.tip().position_m - wanted_tip);
   EXPECT_NEAR(largest_change_deg(arm.theta_rad(), wanted), 0.0635, 0.008);
-  EXPECT_NEAR(miss_mm, 9.0, 1.0);
+  EXPECT_NEAR(miss_mm, 9.0, 2.0);
   double low = 1e9;
   double high = 0.0;
   for (std::size_t c = 0; c < 15; ++c) {

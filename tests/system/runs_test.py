@@ -71,7 +71,7 @@ class MissionsThatFailWhileTheArmMoves(Runs):
         enabled = truth.column("enabled")
         self.assertEqual(max(enabled), 15)
         first = enabled.index(15)
-        self.assertGreater(truth.travel_deg(first, None), 0.02, "the arm has to be moving when the script fails")
+        self.assertGreater(truth.travel_deg(first, None), 0.015, "the arm has to be moving when the script fails")
         self.assert_stopped(truth, len(truth.rows) - 130)
         self.assertLess(max(truth.column("contact_force_N")), 5.0)
         return report
