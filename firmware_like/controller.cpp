@@ -37,7 +37,9 @@ Controller::Controller(const RobotTable& table) noexcept : table_(table), layout
   gate_limits_ = make_gate_limits(table, zero_payout_m_);
   watchdog_limits_ = make_watchdog_limits(table);
   reset_motion(table_, ThetaVector{}, motion_);
-  geometry_ = cable_geometry(table_, layout_, arm_trig(table_, motion_.limiter.theta_rad));
+  trig_ = arm_trig(table_, motion_.limiter.theta_rad);
+  update_cable_geometry(table_, layout_, trig_, geometry_);
+  update_tension_ratio(table_, layout_, trig_, slip_, ratio_);
 }
 
 Outputs Controller::tick(const Inputs& inputs) noexcept {
@@ -56,7 +58,7 @@ Outputs Controller::tick(const Inputs& inputs) noexcept {
 
 void Controller::read_drives(const Inputs& inputs) noexcept {
   bool all_heard = true, all_fresh = true;
-  for (Index c = 0; c < as_index(table_.cable_count()); ++c) {
+  for (Index c = 0; c < cables(); ++c) {
     const DriveFeedback& drive = inputs.drive[c];
     all_heard = all_heard && drive.feedback_age_ticks != 0xFFFF;
     all_fresh = all_fresh && drive.feedback_age_ticks <= kFeedbackAgeTicks;
@@ -64,9 +66,9 @@ void Controller::read_drives(const Inputs& inputs) noexcept {
     tension_measured_N_[c] = table_.drive[c].newtons_per_permille * drive.torque_permille;
   }
   if (!all_heard) return;
-  estimate(table_, layout_, slip_, payout_measured_m_, tension_measured_N_, estimator_);
+  estimate(table_, layout_, ratio_, payout_measured_m_, tension_measured_N_, estimator_);
   double residual_m = 0.0;
-  for (Index c = 0; c < as_index(table_.cable_count()); ++c) residual_m = larger(residual_m, std::fabs(estimator_.residual_m[c]));
+  for (Index c = 0; c < cables(); ++c) residual_m = larger(residual_m, std::fabs(estimator_.residual_m[c]));
   const bool plausible = all_fresh && estimator_.largest_step_rad < kHomingStep_rad && residual_m < kHomingResidual_m;
   // Once homed, a moving arm may well step further; only before that does the estimate have to settle.
   if (plausible && homing_ticks_ < kHomingTicks) ++homing_ticks_;
@@ -75,7 +77,7 @@ void Controller::read_drives(const Inputs& inputs) noexcept {
 }
 
 bool Controller::cables_taut() const noexcept {
-  for (Index c = 0; c < as_index(table_.cable_count()); ++c) {
+  for (Index c = 0; c < cables(); ++c) {
     if (!(estimator_.tension_N[c] >= kSlackCheckShare * table_.tension.floor_motor_N)) return false;
   }
   return true;
@@ -126,7 +128,7 @@ void Controller::move(const Inputs&, const Orders& orders) noexcept {
 
 void Controller::limit_payout_speed(CableVector& wanted_m) noexcept {
   const double step_m = table_.limits.cable_speed_m_s * table_.tick_s;
-  for (Index c = 0; c < as_index(table_.cable_count()); ++c) {
+  for (Index c = 0; c < cables(); ++c) {
     const double change = wanted_m[c] - payout_command_m_[c];
     if (std::fabs(change) <= step_m) continue;
     wanted_m[c] = payout_command_m_[c] + (change > 0.0 ? step_m : -step_m);
@@ -134,44 +136,50 @@ void Controller::limit_payout_speed(CableVector& wanted_m) noexcept {
   }
 }
 
+CableVector Controller::ramp_payouts(const CableVector& planned_m) const noexcept {
+  CableVector wanted_m{};
+  const double share = smooth_step(ramp_);
+  for (Index c = 0; c < cables(); ++c) wanted_m[c] = ramp_start_m_[c] + share * (planned_m[c] - ramp_start_m_[c]);
+  return wanted_m;
+}
+
 void Controller::plan_payouts(const Orders& orders) noexcept {
-  const CableGeometry before = geometry_;
-  geometry_ = cable_geometry(table_, layout_, arm_trig(table_, motion_.limiter.theta_rad));
+  trig_ = arm_trig(table_, motion_.limiter.theta_rad);
+  update_cable_geometry(table_, layout_, trig_, geometry_);
+  if (!orders.live_targets || !live_) reset_slip(geometry_, slip_);
+  advance_slip(layout_, geometry_, slip_);
+  update_tension_ratio(table_, layout_, trig_, slip_, ratio_);
   if (!orders.live_targets) {
     live_ = false;
     ramp_ = 0.0;
-    slip_ = SlipState{};
     damping_ = DampingState{};
     payout_command_m_ = payout_measured_m_;
     return;
   }
   if (!live_) {
-    for (Index c = 0; c < as_index(table_.cable_count()); ++c) {
-      ramp_start_m_[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], sent_[c].target_counts);
-    }
+    for (Index c = 0; c < cables(); ++c) ramp_start_m_[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], sent_[c].target_counts);
     payout_command_m_ = ramp_start_m_;
     live_ = true;
-  } else {
-    advance_slip(table_, layout_, before, geometry_, slip_);
   }
   if (orders.ramp_active) ramp_ = smaller(1.0, ramp_ + table_.tick_s / kPretensionRamp_s);
 
-  TensionRatio ratio = tension_ratio(table_, layout_, geometry_, slip_);
-  tension_ = plan_tension(table_, geometry_, ratio, table_.tension.plan_N);
+  tension_ = plan_tension(table_, geometry_, ratio_, table_.tension.plan_N);
   if (tension_.floor_acted) limits_ |= kLimitTensionFloor;
   if (tension_.ceiling_exceeded) limits_ |= kLimitTensionCeiling;
 
-  CableVector wanted_m{};
+  CableVector wanted_m = payout_for(table_, layout_, geometry_, ratio_, tension_.motor_N);
   if (ramp_ < 1.0) {
-    wanted_m = payout_for(table_, layout_, geometry_, ratio, tension_.motor_N);
-    const double share = smooth_step(ramp_);
-    for (Index c = 0; c < as_index(table_.cable_count()); ++c) wanted_m[c] = ramp_start_m_[c] + share * (wanted_m[c] - ramp_start_m_[c]);
+    wanted_m = ramp_payouts(wanted_m);
   } else {
-    if (faults_.count == 0) damp(table_, layout_, geometry_, ratio, tension_.motor_N, estimator_.tension_N, damping_);
-    ThetaVector at_motors = motion_.limiter.theta_rad;
-    for (Index k = 0; k < as_index(table_.theta_count()); ++k) at_motors[k] += damping_.output_rad[k];
-    const CableGeometry shifted = cable_geometry(table_, layout_, arm_trig(table_, at_motors));
-    wanted_m = payout_for(table_, layout_, shifted, ratio, tension_.motor_N);
+    if (faults_.count == 0) {
+      const CableVector measured_m = payout_for(table_, layout_, geometry_, ratio_, estimator_.tension_N);
+      damp(table_, layout_, estimator_.solver, wanted_m, measured_m, damping_);
+    }
+    // The shift is small (kDampingLimit_rad): what its square adds to a length is below 20 um.
+    for (Index c = 0; c < cables(); ++c) {
+      const auto& row = geometry_.jacobian_m_rad[c];
+      for (Index k = 0; k < 2 * (as_index(layout_.segment[c]) + 1); ++k) wanted_m[c] += row[k] * damping_.output_rad[k];
+    }
   }
   limit_payout_speed(wanted_m);
   payout_command_m_ = wanted_m;
@@ -204,11 +212,11 @@ Outputs Controller::report(const Inputs& inputs, const Orders& orders) const noe
   out.theta_rate_rad_s = motion_.limiter.rate_rad_s;
   out.theta_measured_rad = estimator_.theta_rad;
   out.tip_goal = motion_.filter.pose;
-  const ArmKinematics command = forward_kinematics(table_, motion_.limiter.theta_rad);
+  const ArmKinematics command = forward_kinematics(table_, trig_);
   out.tip_command = command.tip_in_base;
-  out.tip_measured = forward_kinematics(table_, estimator_.theta_rad).tip_in_base;
+  out.tip_measured = tip_pose(table_, arm_trig(table_, estimator_.theta_rad));
   Vec3 velocity{}, turning{};
-  for (Index k = 0; k < as_index(table_.theta_count()); ++k) {
+  for (Index k = 0; k < thetas(); ++k) {
     velocity = add(velocity, scale(command.tip_jacobian.linear[k], motion_.limiter.rate_rad_s[k]));
     turning = add(turning, scale(command.tip_jacobian.angular[k], motion_.limiter.rate_rad_s[k]));
   }

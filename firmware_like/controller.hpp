@@ -36,6 +36,8 @@ class Controller {
   const SupervisorState& supervisor() const noexcept { return supervisor_; }
 
  private:
+  using Index = std::size_t;
+
   void read_drives(const Inputs& inputs) noexcept;
   void take_telecommand(const Inputs& inputs) noexcept;
   void move(const Inputs& inputs, const Orders& orders) noexcept;
@@ -46,7 +48,10 @@ class Controller {
   bool homed() const noexcept { return homing_ticks_ >= kHomingTicks; }
   bool cables_taut() const noexcept;
   void reject_telecommand(const Inputs& inputs) noexcept;
+  CableVector ramp_payouts(const CableVector& planned_m) const noexcept;
   void limit_payout_speed(CableVector& wanted_m) noexcept;
+  Index cables() const noexcept { return static_cast<Index>(layout_.cable_count); }
+  Index thetas() const noexcept { return static_cast<Index>(table_.theta_count()); }
 
   RobotTable table_{};
   CableLayout layout_{};
@@ -70,7 +75,9 @@ class Controller {
   std::uint32_t limits_ = 0;
 
   SlipState slip_{};
+  ArmTrig trig_{};            // of the commanded angles
   CableGeometry geometry_{};  // at the commanded angles
+  TensionRatio ratio_{};      // planned friction
   DampingState damping_{};
   TensionPlan tension_{};
   CableVector payout_command_m_{};

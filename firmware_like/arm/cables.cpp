@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/trig.hpp"
 
 namespace liana {
@@ -9,19 +10,32 @@ namespace {
 
 using Index = std::size_t;
 
-struct HoleDistance {
-  double length_m;
-  double by_pitch, by_yaw;  // derivatives [m/rad]
+// Squared hole-to-hole distance of one universal joint: a quadratic form of the hole (y, z) whose coefficients all cables share (formula
+// in cables.hpp), and half its derivatives by (pitch, yaw).
+struct JointForm {
+  double one, y, z, yy, yz, zz;
+  Pair by_one, by_y, by_z, by_yz, by_squares;  // the last one goes with (yy, zz): pitch has no zz, yaw no yy
 };
 
-// Hole-to-hole distance of one universal joint and its derivatives; never zero while |angle| < pi.
-HoleDistance hole_distance(const SegmentTrig& t, double g, double y, double z) noexcept {
-  const double sa = t.sin_pitch, ca = t.cos_pitch, sb = t.sin_yaw, cb = t.cos_yaw;
-  const double bracket = -g * g * ca * cb + g * y * sa * (1.0 + cb) - g * z * sb * (1.0 + ca) + y * y * ca + y * z * sa * sb + z * z * cb;
-  const double by_a = g * g * sa * cb + g * y * ca * (1.0 + cb) + g * z * sb * sa - y * y * sa + y * z * ca * sb;
-  const double by_b = g * g * ca * sb - g * y * sa * sb - g * z * cb * (1.0 + ca) + y * z * sa * cb - z * z * sb;
-  const double d = std::sqrt(2.0 * (g * g + y * y + z * z) - 2.0 * bracket);
-  return {d, -by_a / d, -by_b / d};
+JointForm joint_form(const SegmentTrig& t, double g) noexcept {
+  const double sa = t.sin_pitch, ca = t.cos_pitch, sb = t.sin_yaw, cb = t.cos_yaw, g2 = g * g;
+  return {2.0 * g2 * (1.0 + ca * cb),
+          -2.0 * g * sa * (1.0 + cb),
+          2.0 * g * sb * (1.0 + ca),
+          2.0 * (1.0 - ca),
+          -2.0 * sa * sb,
+          2.0 * (1.0 - cb),
+          Pair{-g2 * sa * cb, -g2 * ca * sb},
+          Pair{-g * ca * (1.0 + cb), g * sa * sb},
+          Pair{-g * sb * sa, g * cb * (1.0 + ca)},
+          Pair{-ca * sb, -sa * cb},
+          Pair{sa, sb}};
+}
+
+// A planar bend turns every cable by the bend angle psi of the joint, cos psi = cos a cos b.
+double bend_angle(const SegmentTrig& t) noexcept {
+  const double y = t.sin_yaw, z = t.sin_pitch * t.cos_yaw;
+  return arc_tangent(std::sqrt(y * y + z * z), t.cos_pitch * t.cos_yaw);
 }
 
 }  // namespace
@@ -33,6 +47,7 @@ CableLayout cable_layout(const RobotTable& table) noexcept {
     const SegmentTable& own = table.segment[static_cast<Index>(m)];
     for (std::int32_t c = 0; c < own.cables; ++c, ++cable) {
       const SinCos phase = sin_cos(own.cable_phase_rad[static_cast<Index>(c)]);
+      ++layout.cable_count;
       layout.segment[cable] = m;
       layout.hole_y_m[cable] = table.hole_radius_m * phase.cos;
       layout.hole_z_m[cable] = table.hole_radius_m * phase.sin;
@@ -48,25 +63,36 @@ CableLayout cable_layout(const RobotTable& table) noexcept {
   return layout;
 }
 
+void update_cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, CableGeometry& out) noexcept {
+  const Index segments = static_cast<Index>(table.segment_count);
+  std::array<JointForm, kMaxSegments> form;
+  for (Index j = 0; j < segments; ++j) form[j] = joint_form(trig[j], table.face_offset_m);
+  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
+    const double y = layout.hole_y_m[c], z = layout.hole_z_m[c], yy = y * y, yz = y * z, zz = z * z;
+    double length_m = 0.0;
+    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) {
+      const JointForm& f = form[j];
+      const double modules = table.segment[j].modules;
+      // Never zero while |angle| < pi.
+      const double d_m = std::sqrt(f.one + f.y * y + f.z * z + f.yy * yy + f.yz * yz + f.zz * zz);
+      const Pair by = f.by_one + f.by_y * both(y) + f.by_z * both(z) + f.by_yz * both(yz) + f.by_squares * Pair{yy, zz};
+      store_pair(both(modules / d_m) * by, &out.jacobian_m_rad[c][2 * j]);
+      out.part_m[c][j] = modules * d_m + layout.straight_m[c][j];
+      length_m += out.part_m[c][j];
+    }
+    out.length_m[c] = length_m;
+  }
+}
+
+SegmentVector cable_wraps(const RobotTable& table, const ArmTrig& trig) noexcept {
+  SegmentVector wrap_rad{};
+  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) wrap_rad[j] = table.segment[j].modules * bend_angle(trig[j]);
+  return wrap_rad;
+}
+
 CableGeometry cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig) noexcept {
   CableGeometry out;
-  const Index cables = static_cast<Index>(table.cable_count());
-  for (Index c = 0; c < cables; ++c) {
-    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) {
-      const HoleDistance d = hole_distance(trig[j], table.face_offset_m, layout.hole_y_m[c], layout.hole_z_m[c]);
-      const double n = table.segment[j].modules;
-      out.part_m[c][j] = n * d.length_m + layout.straight_m[c][j];
-      out.length_m[c] += out.part_m[c][j];
-      out.jacobian_m_rad[c][2 * j] = n * d.by_pitch;
-      out.jacobian_m_rad[c][2 * j + 1] = n * d.by_yaw;
-    }
-  }
-  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
-    const SegmentTrig& t = trig[j];
-    // A planar bend turns every cable by the bend angle psi of the joint; cos psi = cos a cos b.
-    const double y = t.sin_yaw, z = t.sin_pitch * t.cos_yaw;
-    out.wrap_rad[j] = table.segment[j].modules * arc_tangent(std::sqrt(y * y + z * z), t.cos_pitch * t.cos_yaw);
-  }
+  update_cable_geometry(table, layout, trig, out);
   return out;
 }
 

@@ -19,11 +19,11 @@ struct CableGeometry {
   CableVector length_m{};                                                  // path from the first disc to the anchor
   std::array<std::array<double, kMaxSegments>, kMaxCables> part_m{};       // path within one segment
   std::array<std::array<double, kMaxTheta>, kMaxCables> jacobian_m_rad{};  // d length / d theta
-  std::array<double, kMaxSegments> wrap_rad{};                             // bend of a cable along one whole segment
 };
 
-// Unit hole positions and straight parts, computed once from the table.
+// Hole positions and straight parts, computed once from the table.
 struct CableLayout {
+  std::int32_t cable_count = 0;
   std::array<std::int32_t, kMaxCables> segment{};  // 0-based segment a cable is anchored in
   CableVector hole_y_m{}, hole_z_m{};
   std::array<std::array<double, kMaxSegments>, kMaxCables> straight_m{};  // parts of the path inside links
@@ -33,7 +33,13 @@ struct CableLayout {
 // Layout of a table; phases may be anything.
 CableLayout cable_layout(const RobotTable& table) noexcept;
 
-// Lengths, parts, Jacobian and wrap angles at one pose.
+// Lengths, parts and Jacobian at one pose. `out` must have been zero or a geometry of the same table: entries beyond a
+// cable's own segment are not written. Cost: one square root per cable and segment passed (45 for five segments of three cables).
+void update_cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, CableGeometry& out) noexcept;
 CableGeometry cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig) noexcept;
+
+// Bend [rad] of a cable along each whole segment, the same for all cables.
+using SegmentVector = std::array<double, kMaxSegments>;
+SegmentVector cable_wraps(const RobotTable& table, const ArmTrig& trig) noexcept;
 
 }  // namespace liana

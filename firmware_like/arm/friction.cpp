@@ -9,32 +9,43 @@ namespace liana {
 
 using Index = std::size_t;
 
-void advance_slip(const RobotTable& table, const CableLayout& layout, const CableGeometry& before, const CableGeometry& now,
-                  SlipState& slip) noexcept {
-  for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
-    double beyond = 0.0;  // change of path from the middle of segment j to the anchor
-    for (std::int32_t m = layout.segment[c]; m >= 0; --m) {
-      const Index j = static_cast<Index>(m);
-      const double change = now.part_m[c][j] - before.part_m[c][j];
-      const double slide = -(beyond + 0.5 * change);  // a shrinking path pulls the cable towards the motor
-      beyond += change;
-      double& sigma = slip.sigma[c][j];
-      sigma = clamp(sigma + slide / kPreslidingDistance_m - std::fabs(slide) / kPreslidingDistance_m * sigma, -1.0, 1.0);
+void reset_slip(const CableGeometry& geometry, SlipState& slip) noexcept {
+  slip = SlipState{};
+  slip.part_m = geometry.part_m;
+}
+
+void advance_slip(const CableLayout& layout, const CableGeometry& geometry, SlipState& slip) noexcept {
+  constexpr double kPerMetre = 1.0 / kPreslidingDistance_m;
+  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
+    double beyond_m = 0.0;  // change of path from the middle of segment j to the anchor
+    for (Index j = static_cast<Index>(layout.segment[c]) + 1; j-- > 0;) {
+      const double change_m = geometry.part_m[c][j] - slip.part_m[c][j];
+      const double slide = -(beyond_m + 0.5 * change_m) * kPerMetre;  // a shrinking path pulls the cable towards the motor
+      beyond_m += change_m;
+      slip.part_m[c][j] = geometry.part_m[c][j];
+      const double sigma = slip.sigma[c][j];
+      slip.sigma[c][j] = clamp(sigma + slide - std::fabs(slide) * sigma, -1.0, 1.0);
     }
   }
 }
 
-TensionRatio tension_ratio(const RobotTable& table, const CableLayout& layout, const CableGeometry& geometry,
-                           const SlipState& slip) noexcept {
-  TensionRatio ratio{};
-  for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
+void update_tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, const SlipState& slip,
+                          TensionRatio& ratio) noexcept {
+  SegmentVector half_rate = cable_wraps(table, trig);
+  for (double& rate : half_rate) rate *= -0.5 * table.friction_mu;
+  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     double at_entry = 1.0;
     for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) {
-      const double half = exponential(-0.5 * table.friction_mu * slip.sigma[c][j] * geometry.wrap_rad[j]);
+      const double half = exponential(half_rate[j] * slip.sigma[c][j]);
       ratio[c][j] = at_entry * half;
       at_entry *= half * half;
     }
   }
+}
+
+TensionRatio tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, const SlipState& slip) noexcept {
+  TensionRatio ratio{};
+  update_tension_ratio(table, layout, trig, slip, ratio);
   return ratio;
 }
 

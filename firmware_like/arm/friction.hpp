@@ -11,18 +11,23 @@ namespace liana {
 // Dahl's model: d sigma = (u / delta) (1 - sigma sign u), u the slip towards the motor, delta the presliding distance.
 struct SlipState {
   std::array<std::array<double, kMaxSegments>, kMaxCables> sigma{};
+  std::array<std::array<double, kMaxSegments>, kMaxCables> part_m{};  // cable paths when sigma was last advanced
 };
 
 // Presliding distance: the stretch that friction can hold, mu beta T / k, is 0.02 to 0.3 mm here; smooth enough for the motors.
 constexpr double kPreslidingDistance_m = 2.0e-4;
 
-// Advances sigma by the planned change of geometry; `before` and `now` are one tick apart.
-void advance_slip(const RobotTable& table, const CableLayout& layout, const CableGeometry& before, const CableGeometry& now,
-                  SlipState& slip) noexcept;
+// Nothing has slipped yet at this geometry.
+void reset_slip(const CableGeometry& geometry, SlipState& slip) noexcept;
 
-// Tension in the middle of each segment divided by tension at the motor: exp(-mu sum sigma wrap). Row c, segment j.
+// Advances sigma by the planned change of geometry since the last call.
+void advance_slip(const CableLayout& layout, const CableGeometry& geometry, SlipState& slip) noexcept;
+
+// Tension in the middle of each segment divided by tension at the motor: exp(-mu sum sigma wrap). Row c, segment j; entries beyond a
+// cable's own segment are not written. Cost: one exponential per cable and segment passed.
 using TensionRatio = std::array<std::array<double, kMaxSegments>, kMaxCables>;
-TensionRatio tension_ratio(const RobotTable& table, const CableLayout& layout, const CableGeometry& geometry,
-                           const SlipState& slip) noexcept;
+void update_tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, const SlipState& slip,
+                          TensionRatio& ratio) noexcept;
+TensionRatio tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, const SlipState& slip) noexcept;
 
 }  // namespace liana

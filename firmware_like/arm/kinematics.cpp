@@ -9,77 +9,117 @@ namespace {
 
 using Index = std::size_t;
 
-// One segment in the frame of its root, with derivatives by pitch [0] and yaw [1].
-struct SegmentMotion {
-  Quat rotation;
-  Vec3 tip_m;
-  std::array<Vec3, 2> tip_rate;      // d tip / d angle
-  std::array<Vec3, 2> angular_rate;  // angular velocity of the end per angle rate
+// Direction of a segment: w = cos psi, (0, z, -y) the side it bends to (kinematics.hpp).
+struct Bend {
+  double w, y, z;
 };
+Bend bend_of(const SegmentTrig& t) noexcept { return {t.cos_pitch * t.cos_yaw, t.sin_yaw, t.sin_pitch * t.cos_yaw}; }
 
-// Chebyshev sums of a segment: C = sum T_k, S = sum U_(k-1), k = 1..n, with derivatives by w, and T_h, U_(h-1) at h = floor(n / 2).
+// Chebyshev sums of a segment of n modules: C = sum T_k, S = sum U_(k-1), k = 1..n, and T = T_h, U = U_(h-1) at h = floor(n / 2). All
+// follow from U_(h-1) and U_h:
+//   T_h = U_h - w U_(h-1),  T_(h+1) = w U_h - U_(h-1),
+//   n = 2 h:      C = U_(h-1) (T_h + T_(h+1)),  S = U_(h-1) (U_(h-1) + U_h),
+//   n = 2 h + 1:  C + T_n,  S + U_(n-1)  with T_n = 2 T_h T_(h+1) - w,  U_(n-1) = U_h^2 - U_(h-1)^2.
 struct ChebyshevSums {
-  double C = 0.0, S = 0.0, dC = 0.0, dS = 0.0;
-  double T_half = 1.0, U_half = 0.0, dT_half = 0.0, dU_half = 0.0;
+  double C, S, T, U;
+  double T_next, U_next;  // T_(h+1), U_h
 };
 
 ChebyshevSums chebyshev_sums(double w, std::int32_t modules) noexcept {
-  ChebyshevSums sums;
-  double T0 = 1.0, T1 = w;                          // T_(k-1), T_k
-  double U0 = 0.0, U1 = 1.0, dU0 = 0.0, dU1 = 0.0;  // U_(k-2), U_(k-1) and derivatives
-  const std::int32_t half = modules / 2;
-  for (std::int32_t k = 1; k <= modules; ++k) {
-    const double dT1 = k * U1;
-    sums.C += T1;
-    sums.S += U1;
-    sums.dC += dT1;
-    sums.dS += dU1;
-    if (k == half) {
-      sums.T_half = T1;
-      sums.U_half = U1;
-      sums.dT_half = dT1;
-      sums.dU_half = dU1;
-    }
-    const double T2 = 2.0 * w * T1 - T0;
+  double U0 = 0.0, U1 = 1.0;  // U_(k-1), U_k
+  for (std::int32_t k = modules / 2; k > 0; --k) {
     const double U2 = 2.0 * w * U1 - U0;
-    const double dU2 = 2.0 * U1 + 2.0 * w * dU1 - dU0;
-    T0 = T1, T1 = T2;
     U0 = U1, U1 = U2;
-    dU0 = dU1, dU1 = dU2;
+  }
+  const double T0 = U1 - w * U0, T1 = w * U1 - U0;
+  ChebyshevSums sums{U0 * (T0 + T1), U0 * (U0 + U1), T0, U0, T1, U1};
+  if (modules % 2 == 1) {
+    sums.C += 2.0 * T0 * T1 - w;
+    sums.S += U1 * U1 - U0 * U0;
   }
   return sums;
 }
 
-// An odd number of modules ends with one Rz(pitch) Ry(yaw) more than the planar rotation has.
-void append_odd_module(const SegmentTrig& t, SegmentMotion& motion) noexcept {
-  const double ca = std::sqrt(0.5 * (1.0 + t.cos_pitch)), sa = 0.5 * t.sin_pitch / ca;
-  const double cb = std::sqrt(0.5 * (1.0 + t.cos_yaw)), sb = 0.5 * t.sin_yaw / cb;
-  motion.angular_rate[0] = add(motion.angular_rate[0], rotate(motion.rotation, {0.0, 0.0, 1.0}));
-  motion.angular_rate[1] = add(motion.angular_rate[1], rotate(motion.rotation, {-t.sin_pitch, t.cos_pitch, 0.0}));
-  motion.rotation = multiply(motion.rotation, {ca * cb, -sa * sb, ca * sb, sa * cb});
+// Their derivatives by w: dT_k = k U_(k-1), dU_k by the recurrence differentiated.
+struct ChebyshevSlopes {
+  double dC, dS, dT, dU;
+};
+
+ChebyshevSlopes chebyshev_slopes(double w, std::int32_t modules, const ChebyshevSums& c) noexcept {
+  const std::int32_t half = modules / 2;
+  double U0 = 0.0, U1 = 1.0, dU0 = 0.0, dU1 = 0.0;
+  for (std::int32_t k = half; k > 0; --k) {
+    const double U2 = 2.0 * w * U1 - U0, dU2 = 2.0 * (U1 + w * dU1) - dU0;
+    U0 = U1, U1 = U2, dU0 = dU1, dU1 = dU2;
+  }
+  const double dT0 = half * U0, dT1 = (half + 1) * U1;
+  ChebyshevSlopes d{dU0 * (c.T + c.T_next) + U0 * (dT0 + dT1), dU0 * (U0 + U1) + U0 * (dU0 + dU1), dT0, dU0};
+  if (modules % 2 == 1) {
+    d.dC += 2.0 * (dT0 * c.T_next + c.T * dT1) - 1.0;
+    d.dS += 2.0 * (U1 * dU1 - U0 * dU0);
+  }
+  return d;
 }
 
-SegmentMotion segment_motion(const SegmentTable& segment, const SegmentTrig& t) noexcept {
-  const double w = t.cos_pitch * t.cos_yaw, y = t.sin_yaw, z = t.sin_pitch * t.cos_yaw;
-  const std::array<double, 2> dw{-z, -t.cos_pitch * t.sin_yaw};
-  const std::array<double, 2> dy{0.0, t.cos_yaw};
-  const std::array<double, 2> dz{w, -t.sin_pitch * t.sin_yaw};
-  const ChebyshevSums c = chebyshev_sums(w, segment.modules);
-  const double l = segment.module_length_m;
+// Rows of a rotation matrix: cheaper than a quaternion from the second vector on.
+struct Rotation {
+  Vec3 x, y, z;
+};
 
-  SegmentMotion motion;
-  motion.tip_m = {l * c.C, l * c.S * z, -l * c.S * y};
-  motion.rotation = {c.T_half, 0.0, c.U_half * y, c.U_half * z};
-  for (Index i = 0; i < 2; ++i) {
-    const double dS = c.dS * dw[i];
-    motion.tip_rate[i] = {l * c.dC * dw[i], l * (dS * z + c.S * dz[i]), -l * (dS * y + c.S * dy[i])};
-    const double dU = c.dU_half * dw[i];
-    const Quat dq{c.dT_half * dw[i], 0.0, dU * y + c.U_half * dy[i], dU * z + c.U_half * dz[i]};
-    const Quat spin = multiply(dq, conjugate(motion.rotation));  // half the angular velocity
-    motion.angular_rate[i] = {2.0 * spin[1], 2.0 * spin[2], 2.0 * spin[3]};
+Rotation rotation_of(const Quat& q) noexcept {
+  const double x2 = 2.0 * q[1], y2 = 2.0 * q[2], z2 = 2.0 * q[3];
+  const double xx = x2 * q[1], yy = y2 * q[2], zz = z2 * q[3], xy = x2 * q[2], xz = x2 * q[3], yz = y2 * q[3];
+  const double wx = x2 * q[0], wy = y2 * q[0], wz = z2 * q[0];
+  return {{1.0 - yy - zz, xy - wz, xz + wy}, {xy + wz, 1.0 - xx - zz, yz - wx}, {xz - wy, yz + wx, 1.0 - xx - yy}};
+}
+
+Vec3 apply(const Rotation& r, const Vec3& v) noexcept { return {dot(r.x, v), dot(r.y, v), dot(r.z, v)}; }
+
+// q (w, 0, y, z): the rotation of a segment has no x component.
+Quat times_planar(const Quat& q, double w, double y, double z) noexcept {
+  return {q[0] * w - q[2] * y - q[3] * z, q[1] * w + q[2] * z - q[3] * y, q[0] * y + q[2] * w - q[1] * z, q[0] * z + q[1] * y + q[3] * w};
+}
+
+// An odd number of modules ends with one Rz(pitch) Ry(yaw) more than the planar rotation has: its half angles.
+Quat odd_module(const SegmentTrig& t) noexcept {
+  const double ca = std::sqrt(0.5 * (1.0 + t.cos_pitch)), sa = 0.5 * t.sin_pitch / ca;
+  const double cb = std::sqrt(0.5 * (1.0 + t.cos_yaw)), sb = 0.5 * t.sin_yaw / cb;
+  return {ca * cb, -sa * sb, ca * sb, sa * cb};
+}
+
+bool is_odd(const SegmentTable& segment) noexcept { return segment.modules % 2 == 1; }
+
+// Pose of the end of a segment that starts at `root`, whose matrix is `frame`.
+Pose segment_end(const SegmentTable& segment, const SegmentTrig& t, const Bend& bend, const ChebyshevSums& c, const Pose& root,
+                 const Rotation& frame) noexcept {
+  const double l = segment.module_length_m;
+  const Vec3 along{l * c.C, l * c.S * bend.z, -l * c.S * bend.y};
+  Pose end{add(root.position_m, apply(frame, along)), times_planar(root.quaternion, c.T, c.U * bend.y, c.U * bend.z)};
+  if (is_odd(segment)) end.quaternion = multiply(end.quaternion, odd_module(t));
+  return end;
+}
+
+// Velocity of a segment's end for its own angle (pitch: axis 0, yaw: axis 1), in the frame of its root.
+struct EndRate {
+  Vec3 linear, angular;
+};
+
+EndRate end_rate(const SegmentTable& segment, const SegmentTrig& t, const Bend& bend, const ChebyshevSums& c, const ChebyshevSlopes& d,
+                 bool yaw) noexcept {
+  const double dw = yaw ? -t.cos_pitch * t.sin_yaw : -bend.z;
+  const double dy = yaw ? t.cos_yaw : 0.0;
+  const double dz = yaw ? -t.sin_pitch * t.sin_yaw : bend.w;
+  const double l = segment.module_length_m, dS = d.dS * dw, dT = d.dT * dw, dU = d.dU * dw;
+  const double y = c.U * bend.y, z = c.U * bend.z;                        // of the segment's quaternion
+  const double qy = dU * bend.y + c.U * dy, qz = dU * bend.z + c.U * dz;  // its derivative
+  EndRate rate{{l * d.dC * dw, l * (dS * bend.z + c.S * dz), -l * (dS * bend.y + c.S * dy)},
+               // twice the vector part of dq times the conjugate of q
+               {2.0 * (qz * y - qy * z), 2.0 * (qy * c.T - dT * y), 2.0 * (qz * c.T - dT * z)}};
+  if (is_odd(segment)) {
+    const Rotation turned = rotation_of({c.T, 0.0, y, z});
+    rate.angular = add(rate.angular, yaw ? apply(turned, {-t.sin_pitch, t.cos_pitch, 0.0}) : apply(turned, {0.0, 0.0, 1.0}));
   }
-  if (segment.modules % 2 == 1) append_odd_module(t, motion);
-  return motion;
+  return rate;
 }
 
 }  // namespace
@@ -97,26 +137,38 @@ ArmTrig arm_trig(const RobotTable& table, const ThetaVector& theta_rad) noexcept
 ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) noexcept {
   ArmKinematics out;
   Jacobian& J = out.tip_jacobian;
+  const Index segments = static_cast<Index>(table.segment_count);
   // Columns first hold the velocity of the end of their own segment, then are carried to the tip.
-  for (std::int32_t m = 0; m < table.segment_count; ++m) {
-    const Index i = static_cast<Index>(m);
-    const SegmentMotion motion = segment_motion(table.segment[i], trig[i]);
+  for (Index i = 0; i < segments; ++i) {
+    const SegmentTable& segment = table.segment[i];
+    const Bend bend = bend_of(trig[i]);
+    const ChebyshevSums sums = chebyshev_sums(bend.w, segment.modules);
+    const ChebyshevSlopes slopes = chebyshev_slopes(bend.w, segment.modules, sums);
     const Pose& root = out.node_in_base[i];
-    Pose& end = out.node_in_base[i + 1];
-    end.position_m = add(root.position_m, rotate(root.quaternion, motion.tip_m));
-    end.quaternion = multiply(root.quaternion, motion.rotation);
+    const Rotation frame = rotation_of(root.quaternion);
+    out.node_in_base[i + 1] = segment_end(segment, trig[i], bend, sums, root, frame);
     for (Index axis = 0; axis < 2; ++axis) {
-      J.linear[2 * i + axis] = rotate(root.quaternion, motion.tip_rate[axis]);
-      J.angular[2 * i + axis] = rotate(root.quaternion, motion.angular_rate[axis]);
+      const EndRate rate = end_rate(segment, trig[i], bend, sums, slopes, axis == 1);
+      J.linear[2 * i + axis] = apply(frame, rate.linear);
+      J.angular[2 * i + axis] = apply(frame, rate.angular);
     }
   }
-  out.tip_in_base = out.node_in_base[static_cast<Index>(table.segment_count)];
-  for (std::int32_t m = 0; m < table.segment_count; ++m) {
-    const Index i = static_cast<Index>(m);
+  out.tip_in_base = out.node_in_base[segments];
+  for (Index i = 0; i < segments; ++i) {
     const Vec3 lever = subtract(out.tip_in_base.position_m, out.node_in_base[i + 1].position_m);
     for (Index k = 2 * i; k < 2 * i + 2; ++k) J.linear[k] = add(J.linear[k], cross(J.angular[k], lever));
   }
   return out;
+}
+
+Pose tip_pose(const RobotTable& table, const ArmTrig& trig) noexcept {
+  Pose tip;
+  for (Index i = 0; i < static_cast<Index>(table.segment_count); ++i) {
+    const SegmentTable& segment = table.segment[i];
+    const Bend bend = bend_of(trig[i]);
+    tip = segment_end(segment, trig[i], bend, chebyshev_sums(bend.w, segment.modules), tip, rotation_of(tip.quaternion));
+  }
+  return tip;
 }
 
 ArmKinematics forward_kinematics(const RobotTable& table, const ThetaVector& theta_rad) noexcept {

@@ -34,9 +34,13 @@ struct ArmKinematics {
   Jacobian tip_jacobian{};  // 6 x theta_count
 };
 
-// Pose of every node and the 6x10 Jacobian of the tip. Cost: one closed form per segment, no loop over modules beyond the Chebyshev sums.
+// Pose of every node and the 6x10 Jacobian of the tip. Cost: one closed form per segment, no loop over modules beyond the Chebyshev sums;
+// derived in docs/kinematics.md.
 ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) noexcept;
 ArmKinematics forward_kinematics(const RobotTable& table, const ThetaVector& theta_rad) noexcept;
+
+// Pose of the tip alone, a third of the cost.
+Pose tip_pose(const RobotTable& table, const ArmTrig& trig) noexcept;
 
 // Linear Jacobian column of node `node` (1..segment_count) for theta `column`; zero for segments beyond the node.
 Vec3 node_jacobian_column(const ArmKinematics& kinematics, std::int32_t node, std::int32_t column) noexcept;

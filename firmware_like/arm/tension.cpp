@@ -6,7 +6,7 @@ namespace liana {
 namespace {
 
 using Index = std::size_t;
-using SegmentVector = std::array<double, kMaxSegmentCables>;
+using AnchoredVector = std::array<double, kMaxSegmentCables>;  // one number per cable of a segment
 
 // Smooth maximum of two numbers: exact far apart, rounded over `width` [N] near equality.
 double smooth_maximum(double a, double b, double width) noexcept {
@@ -16,8 +16,8 @@ double smooth_maximum(double a, double b, double width) noexcept {
 
 // x = projection of v on the null space of the 2 x n matrix with rows p, q, plus the least-norm solution of [p; q] x = rhs.
 // Returns false when the rows are dependent.
-bool project(const SegmentVector& p, const SegmentVector& q, Index n, double rhs_p, double rhs_q, const SegmentVector& v,
-             SegmentVector& x) noexcept {
+bool project(const AnchoredVector& p, const AnchoredVector& q, Index n, double rhs_p, double rhs_q, const AnchoredVector& v,
+             AnchoredVector& x) noexcept {
   double pp = 0.0, pq = 0.0, qq = 0.0, pv = 0.0, qv = 0.0;
   for (Index i = 0; i < n; ++i) {
     pp += p[i] * p[i];
@@ -35,7 +35,7 @@ bool project(const SegmentVector& p, const SegmentVector& q, Index n, double rhs
 }
 
 // Largest s (smooth) such that t + s n keeps every cable under `ceiling_N`.
-double ceiling_shift(const SegmentVector& t, const SegmentVector& n, Index count, double ceiling_N) noexcept {
+double ceiling_shift(const AnchoredVector& t, const AnchoredVector& n, Index count, double ceiling_N) noexcept {
   constexpr double kWidth_N = 2.0;
   double shift = 1e3;
   for (Index i = 0; i < count; ++i) {
@@ -45,7 +45,7 @@ double ceiling_shift(const SegmentVector& t, const SegmentVector& n, Index count
 }
 
 // Least s >= 0 (smooth) such that t + s n keeps every cable over its floor.
-double floor_shift(const SegmentVector& t, const SegmentVector& n, Index count, double floor_N) noexcept {
+double floor_shift(const AnchoredVector& t, const AnchoredVector& n, Index count, double floor_N) noexcept {
   constexpr double kWidth_N = 2.0;
   double shift = 0.0;
   for (Index i = 0; i < count; ++i) {
@@ -71,7 +71,7 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
       rhs_pitch -= geometry.jacobian_m_rad[c][2 * j] * t;
       rhs_yaw -= geometry.jacobian_m_rad[c][2 * j + 1] * t;
     }
-    SegmentVector pitch{}, yaw{}, level{}, ones{}, t{}, null{};
+    AnchoredVector pitch{}, yaw{}, level{}, ones{}, t{}, null{};
     for (Index i = 0; i < n; ++i) {
       pitch[i] = geometry.jacobian_m_rad[first + i][2 * j] * ratio[first + i][j];
       yaw[i] = geometry.jacobian_m_rad[first + i][2 * j + 1] * ratio[first + i][j];
@@ -99,10 +99,11 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
 CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableGeometry& geometry, const TensionRatio& ratio,
                        const CableVector& motor_N) noexcept {
   CableVector payout{};
-  for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
+  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     const double strain = motor_N[c] / table.cable_EA_N;
-    payout[c] = table.lead_m / (1.0 + strain);
-    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) payout[c] += geometry.part_m[c][j] / (1.0 + strain * ratio[c][j]);
+    double sum_m = table.lead_m / (1.0 + strain);
+    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) sum_m += geometry.part_m[c][j] / (1.0 + strain * ratio[c][j]);
+    payout[c] = sum_m;
   }
   return payout;
 }

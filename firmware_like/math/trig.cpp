@@ -6,31 +6,6 @@
 namespace liana {
 namespace {
 
-// Taylor series on |r| <= pi/4: the first term left out is below 1e-17.
-double sine_kernel(double r) noexcept {
-  const double x = r * r;
-  double p = -1.0 / 1307674368000.0;  // -1/15!
-  p = p * x + 1.0 / 6227020800.0;
-  p = p * x - 1.0 / 39916800.0;
-  p = p * x + 1.0 / 362880.0;
-  p = p * x - 1.0 / 5040.0;
-  p = p * x + 1.0 / 120.0;
-  p = p * x - 1.0 / 6.0;
-  return r + r * x * p;
-}
-
-double cosine_kernel(double r) noexcept {
-  const double x = r * r;
-  double p = 1.0 / 20922789888000.0;  // 1/16!
-  p = p * x - 1.0 / 87178291200.0;
-  p = p * x + 1.0 / 479001600.0;
-  p = p * x - 1.0 / 3628800.0;
-  p = p * x + 1.0 / 40320.0;
-  p = p * x - 1.0 / 720.0;
-  p = p * x + 1.0 / 24.0;
-  return 1.0 - 0.5 * x + x * x * p;
-}
-
 // Arc tangent of t in [0, 1]: two half-angle steps bring it under 0.2, where the series ends at 1e-17.
 double arc_tangent_unit(double t) noexcept {
   const double half = t / (1.0 + std::sqrt(1.0 + t * t));
@@ -51,9 +26,7 @@ double arc_tangent_unit(double t) noexcept {
 
 }  // namespace
 
-SinCos sin_cos(double x_rad) noexcept {
-  constexpr double kQuarter = kPi / 4.0;
-  if (x_rad >= -kQuarter && x_rad <= kQuarter) return {sine_kernel(x_rad), cosine_kernel(x_rad)};
+SinCos wide_sin_cos(double x_rad) noexcept {
   if (!(x_rad >= -1000.0 && x_rad <= 1000.0)) return {0.0, 1.0};
   // Cody-Waite: pi/2 in two parts, the first with 33 bits, so that quadrant * high is exact.
   constexpr double kHigh = 1.57079632673412561417;
@@ -61,8 +34,7 @@ SinCos sin_cos(double x_rad) noexcept {
   const double turns = x_rad * (2.0 / kPi);
   const auto quadrant = static_cast<std::int32_t>(turns >= 0.0 ? turns + 0.5 : turns - 0.5);
   const double r = (x_rad - quadrant * kHigh) - quadrant * kLow;
-  const double s = sine_kernel(r);
-  const double c = cosine_kernel(r);
+  const auto [s, c] = small_sin_cos(r);
   switch (quadrant & 3) {
     case 0:
       return {s, c};
@@ -86,9 +58,19 @@ double arc_tangent(double y, double x) noexcept {
 
 double exponential(double x) noexcept {
   const double bounded = x > 4.0 ? 4.0 : (x < -4.0 ? -4.0 : x);
-  const double r = bounded / 16.0;  // |r| <= 1/4: twelve terms end below 1e-16
-  double p = 1.0;
-  for (std::int32_t n = 12; n >= 1; --n) p = 1.0 + r * p / n;
+  const double r = bounded / 16.0;  // |r| <= 1/4: the series ends below 1e-16
+  double p = 1.0 / 39916800.0;      // 1/11!
+  p = p * r + 1.0 / 3628800.0;
+  p = p * r + 1.0 / 362880.0;
+  p = p * r + 1.0 / 40320.0;
+  p = p * r + 1.0 / 5040.0;
+  p = p * r + 1.0 / 720.0;
+  p = p * r + 1.0 / 120.0;
+  p = p * r + 1.0 / 24.0;
+  p = p * r + 1.0 / 6.0;
+  p = p * r + 0.5;
+  p = p * r + 1.0;
+  p = p * r + 1.0;
   p *= p;
   p *= p;
   p *= p;

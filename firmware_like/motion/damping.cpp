@@ -1,20 +1,16 @@
 #include "firmware_like/motion/damping.hpp"
 
-#include "firmware_like/arm/estimator.hpp"
-#include "firmware_like/arm/tension.hpp"
 #include "firmware_like/math/scalar.hpp"
 
 namespace liana {
 
 using Index = std::size_t;
 
-void damp(const RobotTable& table, const CableLayout& layout, const CableGeometry& geometry, const TensionRatio& ratio,
-          const CableVector& planned_N, const CableVector& measured_N, DampingState& state) noexcept {
-  const CableVector planned_m = payout_for(table, layout, geometry, ratio, planned_N);
-  const CableVector measured_m = payout_for(table, layout, geometry, ratio, measured_N);
-  CableVector stretch_m{};
-  for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) stretch_m[c] = planned_m[c] - measured_m[c];
-  const ThetaVector deflection = least_squares_theta(table, geometry, stretch_m);
+void damp(const RobotTable& table, const CableLayout& layout, const CableSolver& solver, const CableVector& planned_m,
+          const CableVector& measured_m, DampingState& state) noexcept {
+  CableVector stretch_m;
+  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) stretch_m[c] = planned_m[c] - measured_m[c];
+  const ThetaVector deflection = solve_cables(table, layout, solver, stretch_m);
 
   const double lead_s = table.servo_time_constant_s + kTensionFilter_s + table.tick_s;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {

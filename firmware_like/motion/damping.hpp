@@ -6,8 +6,7 @@
 // lead makes up for the lag of motor and tension filter.
 #pragma once
 
-#include "firmware_like/arm/cables.hpp"
-#include "firmware_like/arm/friction.hpp"
+#include "firmware_like/arm/estimator.hpp"
 
 namespace liana {
 
@@ -22,8 +21,9 @@ struct DampingState {
   ThetaVector output_rad{};    // added to the commanded angles at the motors; stands still while a cable fault makes tensions doubtful
 };
 
-// One tick; output_rad is to be added to the commanded angles before the cable map.
-void damp(const RobotTable& table, const CableLayout& layout, const CableGeometry& geometry, const TensionRatio& ratio,
-          const CableVector& planned_N, const CableVector& measured_N, DampingState& state) noexcept;
+// One tick; output_rad is to be added to the commanded angles before the cable map. `planned_m` and `measured_m` are the unstretched
+// lengths that the planned and the measured tensions mean at the commanded angles; `solver` may belong to a pose a few degrees away.
+void damp(const RobotTable& table, const CableLayout& layout, const CableSolver& solver, const CableVector& planned_m,
+          const CableVector& measured_m, DampingState& state) noexcept;
 
 }  // namespace liana

@@ -26,12 +26,15 @@ double wanted_rate(double gap_rad, double reference_rate, double accel, double t
 
 // Factor <= 1 that brings the fastest cable under the cable speed limit.
 double cable_factor(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& rate) noexcept {
-  const Index n = static_cast<Index>(table.theta_count());
   double fastest = 0.0;
-  for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
-    double speed = 0.0;
-    for (Index k = 0; k < n; ++k) speed += geometry.jacobian_m_rad[c][k] * rate[k];
-    fastest = larger(fastest, std::fabs(speed));
+  Index c = 0;
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
+    for (const Index end = c + static_cast<Index>(table.segment[m].cables); c < end; ++c) {
+      const double* const row = geometry.jacobian_m_rad[c].data();
+      double speed = 0.0;
+      for (Index k = 0; k < 2 * (m + 1); ++k) speed += row[k] * rate[k];
+      fastest = larger(fastest, std::fabs(speed));
+    }
   }
   constexpr double kShare = 0.8;  // the rest is for tension changes and damping
   return fastest > kShare * table.limits.cable_speed_m_s ? kShare * table.limits.cable_speed_m_s / fastest : 1.0;

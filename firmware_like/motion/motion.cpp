@@ -60,15 +60,12 @@ void follow_tip(const RobotTable& table, bool braking, MotionState& state) noexc
   if (state.filter.speed_limited) state.limits |= kLimitTipSpeed;
   if (state.filter.accel_limited) state.limits |= kLimitTipAccel;
 
-  const ThetaVector move = shape_move(table, state.to.node, state.held_mask, braking, state.ik_rad, state.shape_rate_rad_s);
-  for (Index k = 0; k < kMaxTheta; ++k) state.ik_rad[k] += move[k];
-  const IkGoal goal{state.filter.pose, state.held_mask};
-  for (std::int32_t i = 0; i < kServoIterations; ++i) {
-    const double error2 = state.ik.position_error_m * state.ik.position_error_m + state.ik.attitude_error_rad * state.ik.attitude_error_rad;
-    state.ik = ik_step(table, goal, kDamping + error2, state.ik_rad);
-  }
-  if (state.ik.at_limit) state.limits |= kLimitTheta;
-  if (state.ik.singular) state.limits |= kLimitSingular;
+  const ArmKinematics arm = forward_kinematics(table, state.ik_rad);
+  const ThetaVector move = shape_move(table, arm, state.to.node, state.held_mask, braking, state.ik_rad, state.shape_rate_rad_s);
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
+  state.ik = servo_ik(table, {state.filter.pose, state.held_mask}, arm, state.ik_rad);
+  if (state.ik.limit_mask != 0) state.limits |= kLimitTheta;
+  if (state.ik.outcome == IkOutcome::kSingular) state.limits |= kLimitSingular;
 }
 
 // Joint reference: linear over the command interval; the limiter does the rest.

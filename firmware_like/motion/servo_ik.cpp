@@ -12,52 +12,142 @@ using Task = std::array<double, 6>;
 
 bool is_set(std::uint32_t mask, Index i) noexcept { return ((mask >> i) & 1u) != 0; }
 
-double column(const Jacobian& J, Index row, Index k) noexcept { return row < 3 ? J.linear[k][row] : J.angular[k][row - 3]; }
+double limit_of(const RobotTable& table, Index theta) noexcept { return table.segment[theta / 2].theta_limit_rad; }
 
-// dtheta = J^T (J J^T + damping I)^-1 e over the thetas that `fixed` leaves free.
-ThetaVector damped_step(const Jacobian& J, Index n, std::uint32_t fixed, const Task& e, double damping) noexcept {
-  SquareMatrix<6> A{};
-  Task y = e;
-  for (Index r = 0; r < 6; ++r) {
-    for (Index s = 0; s <= r; ++s) {
-      double sum = 0.0;
-      for (Index k = 0; k < n; ++k) {
-        if (!is_set(fixed, k)) sum += column(J, r, k) * column(J, s, k);
-      }
-      A[r][s] = sum;
-    }
-    A[r][r] += damping;
+double size2(const Task& e) noexcept { return e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3] + e[4] * e[4] + e[5] * e[5]; }
+
+// J J^T + damping I over the thetas that `fixed` leaves free, factored.
+struct TaskSolver {
+  SquareMatrix<6> factor{};
+  std::uint32_t fixed = 0;
+  double damping = 0.0;
+  bool regular = false;
+};
+
+// Adds u v^T to the 3 x 3 block of A whose corner is (row, column).
+void add_block(SquareMatrix<6>& A, Index row, Index column, const Vec3& u, const Vec3& v) noexcept {
+  for (Index i = 0; i < 3; ++i) {
+    double* const out = &A[row + i][column];
+    out[0] += u[i] * v[0];
+    out[1] += u[i] * v[1];
+    out[2] += u[i] * v[2];
   }
-  ThetaVector step{};
-  if (!cholesky_solve(A, y, 6)) return step;
+}
+
+TaskSolver factor_task(const Jacobian& J, Index n, std::uint32_t fixed, double damping) noexcept {
+  TaskSolver solver;
+  solver.fixed = fixed;
+  solver.damping = damping;
   for (Index k = 0; k < n; ++k) {
     if (is_set(fixed, k)) continue;
-    for (Index r = 0; r < 6; ++r) step[k] += column(J, r, k) * y[r];
+    add_block(solver.factor, 0, 0, J.linear[k], J.linear[k]);
+    add_block(solver.factor, 3, 0, J.angular[k], J.linear[k]);
+    add_block(solver.factor, 3, 3, J.angular[k], J.angular[k]);
   }
+  for (Index r = 0; r < 6; ++r) solver.factor[r][r] += damping;
+  solver.regular = cholesky_factor(solver.factor, 6);
+  return solver;
+}
+
+// A step of the free thetas, and the part of the error that it will leave because of damping: e - J step = damping y.
+struct Step {
+  ThetaVector theta_rad{};
+  double left2 = 0.0;  // squared length
+};
+
+Step solve_step(const TaskSolver& solver, const Jacobian& J, Index n, const Task& e) noexcept {
+  Step step;
+  step.left2 = size2(e);
+  if (!solver.regular) return step;
+  Task y = e;
+  cholesky_solve(solver.factor, y, 6);
+  for (Index k = 0; k < n; ++k) {
+    if (is_set(solver.fixed, k)) continue;
+    const Vec3 &l = J.linear[k], &a = J.angular[k];
+    step.theta_rad[k] = l[0] * y[0] + l[1] * y[1] + l[2] * y[2] + a[0] * y[3] + a[1] * y[4] + a[2] * y[5];
+  }
+  step.left2 = solver.damping * solver.damping * size2(y);
   return step;
 }
 
-double limit_of(const RobotTable& table, Index theta) noexcept { return table.segment[theta / 2].theta_limit_rad; }
-
 // Sets thetas that the step would carry over their limit onto it; returns those newly fixed and takes their share from e.
-std::uint32_t clip_to_limits(const RobotTable& table, const Jacobian& J, Index n, std::uint32_t fixed, ThetaVector& theta,
-                             ThetaVector& step, Task& e) noexcept {
+std::uint32_t clip_to_limits(const RobotTable& table, const Jacobian& J, std::uint32_t fixed, const ThetaVector& step, ThetaVector& theta,
+                             Task& e) noexcept {
   std::uint32_t clipped = 0;
-  for (Index k = 0; k < n; ++k) {
-    if (is_set(fixed, k)) continue;
-    const double limit = limit_of(table, k);
-    const double wanted = theta[k] + step[k];
-    if (wanted <= limit && wanted >= -limit) continue;
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    const double limit = limit_of(table, k), wanted = theta[k] + step[k];
+    if ((wanted <= limit && wanted >= -limit) || is_set(fixed, k)) continue;
     const double bound = wanted > limit ? limit : -limit;
     const double moved = bound - theta[k];
     clipped |= 1u << k;
     theta[k] = bound;  // theta + moved may be a rounding beyond it
-    for (Index r = 0; r < 6; ++r) e[r] -= column(J, r, k) * moved;
+    for (Index r = 0; r < 3; ++r) {
+      e[r] -= J.linear[k][r] * moved;
+      e[r + 3] -= J.angular[k][r] * moved;
+    }
   }
   return clipped;
 }
 
+void add_free(const TaskSolver& solver, Index n, const ThetaVector& step, ThetaVector& theta) noexcept {
+  for (Index k = 0; k < n; ++k) {
+    if (!is_set(solver.fixed, k)) theta[k] += step[k];
+  }
+}
+
+// One damped step with limits; `left2` is the squared error it is expected to leave.
+struct DampedMove {
+  TaskSolver solver;
+  std::uint32_t limit_mask = 0;
+  double left2 = 0.0;
+};
+
+DampedMove move_damped(const RobotTable& table, const Jacobian& J, std::uint32_t held_mask, double damping, Task e,
+                       ThetaVector& theta) noexcept {
+  const Index n = static_cast<Index>(table.theta_count());
+  DampedMove move;
+  for (std::int32_t pass = 0; pass < kLimitPasses; ++pass) {
+    move.solver = factor_task(J, n, held_mask | move.limit_mask, damping);
+    const Step step = solve_step(move.solver, J, n, e);
+    move.left2 = step.left2;
+    const std::uint32_t clipped = clip_to_limits(table, J, move.solver.fixed, step.theta_rad, theta, e);
+    if (clipped == 0) {
+      add_free(move.solver, n, step.theta_rad, theta);
+      break;
+    }
+    move.limit_mask |= clipped;  // too many at once: the rest waits for the next tick
+  }
+  return move;
+}
+
+IkReport report_of(const Task& e) noexcept {
+  IkReport report;
+  report.residual = e;
+  report.position_error_m = std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
+  report.attitude_error_rad = std::sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5]);
+  return report;
+}
+
+double arm_length_m(const RobotTable& table) noexcept {
+  double length_m = 0.0;
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
+    length_m += table.segment[m].modules * table.segment[m].module_length_m;
+  return length_m;
+}
+
+IkOutcome outcome_of(const RobotTable& table, const IkGoal& goal, const IkReport& report, double asked2, double left2) noexcept {
+  if (report.position_error_m <= kIkConverged && report.attitude_error_rad <= kIkConverged) return IkOutcome::kConverged;
+  if (norm(goal.tip_in_base.position_m) > arm_length_m(table)) return IkOutcome::kUnreachable;
+  if (left2 <= kIkBlockedShare * kIkBlockedShare * asked2) return IkOutcome::kApproaching;
+  return report.limit_mask != 0 ? IkOutcome::kLimited : IkOutcome::kSingular;
+}
+
 }  // namespace
+
+const char* ik_outcome_name(IkOutcome outcome) noexcept {
+  constexpr std::array<const char*, 5> kNames{"converged", "approaching", "limited", "singular", "unreachable"};
+  return kNames[static_cast<Index>(outcome)];
+}
 
 std::array<double, 6> pose_error(const Pose& goal, const Pose& tip) noexcept {
   const Vec3 p = subtract(goal.position_m, tip.position_m);
@@ -66,33 +156,27 @@ std::array<double, 6> pose_error(const Pose& goal, const Pose& tip) noexcept {
 }
 
 IkReport ik_step(const RobotTable& table, const IkGoal& goal, double damping, ThetaVector& theta_rad) noexcept {
-  const Index n = static_cast<Index>(table.theta_count());
   const ArmKinematics arm = forward_kinematics(table, theta_rad);
-  Task e = pose_error(goal.tip_in_base, arm.tip_in_base);
-  IkReport report;
-  report.position_error_m = std::sqrt(e[0] * e[0] + e[1] * e[1] + e[2] * e[2]);
-  report.attitude_error_rad = std::sqrt(e[3] * e[3] + e[4] * e[4] + e[5] * e[5]);
-  std::uint32_t fixed = goal.held_mask;
-  ThetaVector step{};
-  for (std::int32_t pass = 0; pass < kLimitPasses; ++pass) {
-    step = damped_step(arm.tip_jacobian, n, fixed, e, damping);
-    const std::uint32_t clipped = clip_to_limits(table, arm.tip_jacobian, n, fixed, theta_rad, step, e);
-    if (clipped == 0) break;
-    report.at_limit = true;
-    fixed |= clipped;
-    if (pass + 1 == kLimitPasses) step = ThetaVector{};  // too many at once: the rest waits for the next tick
-  }
-  double left2 = 0.0, asked2 = 0.0;
-  for (Index r = 0; r < 6; ++r) {
-    double reached = 0.0;
-    for (Index k = 0; k < n; ++k) reached += is_set(fixed, k) ? 0.0 : column(arm.tip_jacobian, r, k) * step[k];
-    left2 += (e[r] - reached) * (e[r] - reached);
-    asked2 += e[r] * e[r];
-  }
-  report.singular = left2 > 0.25 * asked2 && asked2 > 1e-12;
+  const Task e = pose_error(goal.tip_in_base, arm.tip_in_base);
+  IkReport report = report_of(e);
+  const DampedMove move = move_damped(table, arm.tip_jacobian, goal.held_mask, damping, e, theta_rad);
+  report.limit_mask = move.limit_mask;
+  report.outcome = outcome_of(table, goal, report, size2(e), move.left2);
+  return report;
+}
+
+IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, ThetaVector& theta_rad) noexcept {
+  const Index n = static_cast<Index>(table.theta_count());
+  const Task asked = pose_error(goal.tip_in_base, arm.tip_in_base);
+  const DampedMove move = move_damped(table, arm.tip_jacobian, goal.held_mask, kDamping + size2(asked), asked, theta_rad);
+  Task rest = pose_error(goal.tip_in_base, tip_pose(table, arm_trig(table, theta_rad)));
+  IkReport report = report_of(rest);
+  const Step correction = solve_step(move.solver, arm.tip_jacobian, n, rest);
+  report.limit_mask = move.limit_mask | clip_to_limits(table, arm.tip_jacobian, move.solver.fixed, correction.theta_rad, theta_rad, rest);
   for (Index k = 0; k < n; ++k) {
-    if (!is_set(fixed, k)) theta_rad[k] += step[k];
+    if (!is_set(move.solver.fixed | report.limit_mask, k)) theta_rad[k] += correction.theta_rad[k];
   }
+  report.outcome = outcome_of(table, goal, report, size2(asked), move.left2);
   return report;
 }
 

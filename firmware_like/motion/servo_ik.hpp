@@ -2,7 +2,7 @@
 //
 // Damped least squares on the free thetas: dtheta = J^T (J J^T + mu I)^-1 e, mu = kDamping + e.e. Held thetas are removed from the
 // iteration and moved only by their own profile. A free theta that would pass its limit is set onto it and removed, and the rest is solved
-// again. What the tip leaves free is moved by motion/shape.hpp.
+// again. What the tip leaves free is moved by motion/shape.hpp. Outcomes and ways out: docs/follow-a-command.md.
 #pragma once
 
 #include <array>
@@ -13,26 +13,42 @@
 
 namespace liana {
 
-constexpr std::int32_t kServoIterations = 2;  // per tick, always
-constexpr std::int32_t kLimitPasses = 3;      // re-solves per iteration, at most
-constexpr double kDamping = 1e-6;             // m2/rad2; singular directions slow down below |sigma| = 1e-3
+constexpr std::int32_t kLimitPasses = 3;  // re-solves per iteration, at most
+constexpr double kDamping = 1e-6;         // m2/rad2; singular directions slow down below |sigma| = 1e-3
+constexpr double kIkConverged = 1e-6;     // m and rad
+constexpr double kIkBlockedShare = 0.5;   // of the error that a step leaves: more is not on its way any more
 
 struct IkGoal {
   Pose tip_in_base{};
   std::uint32_t held_mask = 0;  // bit i: theta i is not free
 };
 
+// What became of the goal. The way out of the last three is a goal back along minus the residual; the arm follows it at once.
+enum class IkOutcome : std::uint8_t {
+  kConverged = 0,    // position and attitude within kIkConverged
+  kApproaching = 1,  // not there yet, the error more than halves per tick
+  kLimited = 2,      // thetas on their limits keep the tip away
+  kSingular = 3,     // no free theta moves the tip towards the goal: straight or folded
+  kUnreachable = 4,  // the goal is farther from the base than the arm is long
+};
+const char* ik_outcome_name(IkOutcome outcome) noexcept;
+
 struct IkReport {
   double position_error_m = 0.0;
   double attitude_error_rad = 0.0;
-  bool at_limit = false;  // a theta stands on its limit
-  bool singular = false;  // the damping, not the target, decided the step
+  IkOutcome outcome = IkOutcome::kConverged;
+  std::array<double, 6> residual{};  // goal less tip, base frame: position [m], rotation vector [rad]
+  std::uint32_t limit_mask = 0;      // bit i: theta i was stopped by its limit
 };
 
 // Tip error (position, rotation vector) of `tip` against `goal`, base frame.
 std::array<double, 6> pose_error(const Pose& goal, const Pose& tip) noexcept;
 
-// One damped step of the free thetas towards the goal; limits respected exactly. Returns the tip error before the step.
+// One damped step of the free thetas towards the goal; limits respected exactly. Reports the tip error before the step.
 IkReport ik_step(const RobotTable& table, const IkGoal& goal, double damping, ThetaVector& theta_rad) noexcept;
+
+// What a tick does: a damped step from `arm`, then a correction with the same factors for what curvature left. `theta_rad` may be off
+// `arm` by a small null-space move. Reports the tip error before the correction. Cost: one factorisation per limit pass, one tip pose.
+IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, ThetaVector& theta_rad) noexcept;
 
 }  // namespace liana

@@ -113,10 +113,9 @@ NodeCost node_cost(const RobotTable& table, const ArmKinematics& arm, const Node
   return cost;
 }
 
-ThetaVector shape_move(const RobotTable& table, const NodeTargets& nodes, std::uint32_t held_mask, bool braking,
+ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, std::uint32_t held_mask, bool braking,
                        const ThetaVector& theta_rad, ThetaVector& rate_rad_s) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
-  const ArmKinematics arm = forward_kinematics(table, theta_rad);
   std::uint32_t fixed = held_mask;
   NullSpace space;
   ThetaVector wanted{};

@@ -42,9 +42,10 @@ struct NodeCost {
 };
 NodeCost node_cost(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept;
 
-// Shape motion of one tick [rad] at theta: within joint limits, at most kShapeShare of the rate limit, held thetas still. `rate_rad_s` is
-// the shape velocity kept between ticks: it follows what is wanted (zero while braking) smoothly, so that a new target never jerks the arm.
-ThetaVector shape_move(const RobotTable& table, const NodeTargets& nodes, std::uint32_t held_mask, bool braking,
+// Shape motion of one tick [rad] at theta, whose kinematics are `arm`: within joint limits, at most kShapeShare of the rate limit, held
+// thetas still. `rate_rad_s` is the shape velocity kept between ticks: it follows what is wanted (zero while braking) smoothly, so that a
+// new target never jerks the arm.
+ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, std::uint32_t held_mask, bool braking,
                        const ThetaVector& theta_rad, ThetaVector& rate_rad_s) noexcept;
 
 }  // namespace liana

@@ -123,13 +123,13 @@ TEST(Cables, WrapIsTheBendOfAllJointsOfTheSegment) {
   Random random(5);
   for (std::int32_t i = 0; i < 100; ++i) {
     const ThetaVector theta = random.theta(robot, 20.0);
-    const CableGeometry geometry = geometry_at(robot, theta);
+    const SegmentVector wrap_rad = cable_wraps(robot, arm_trig(robot, theta));
     for (std::size_t m = 0; m < 3; ++m) {
       const double bend = std::acos(std::cos(theta[2 * m]) * std::cos(theta[2 * m + 1]));
-      ASSERT_NEAR(geometry.wrap_rad[m], robot.segment[m].modules * bend, 1e-12);
+      ASSERT_NEAR(wrap_rad[m], robot.segment[m].modules * bend, 1e-12);
     }
   }
-  for (double wrap : geometry_at(robot, ThetaVector{}).wrap_rad) EXPECT_EQ(wrap, 0.0);
+  for (double wrap : cable_wraps(robot, arm_trig(robot, ThetaVector{}))) EXPECT_EQ(wrap, 0.0);
 }
 
 }  // namespace

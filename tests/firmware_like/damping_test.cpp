@@ -15,8 +15,9 @@ struct Bench {
   RobotTable robot;
   ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   CableLayout layout = cable_layout(robot);
-  CableGeometry geometry = cable_geometry(robot, layout, arm_trig(robot, theta));
-  TensionRatio ratio = tension_ratio(robot, layout, geometry, SlipState{});
+  ArmTrig trig = arm_trig(robot, theta);
+  CableGeometry geometry = cable_geometry(robot, layout, trig);
+  TensionRatio ratio = tension_ratio(robot, layout, trig, SlipState{});
   CableVector planned_N = plan_tension(robot, geometry, ratio, robot.tension.plan_N).motor_N;
 
   // Tensions when the arm hangs `deflection` away from where its motors want it.
@@ -30,7 +31,10 @@ struct Bench {
     return tension;
   }
   ThetaVector step(const CableVector& measured_N, DampingState& state) const {
-    damp(robot, layout, geometry, ratio, planned_N, measured_N, state);
+    CableSolver solver;
+    update_cable_solver(robot, layout, trig, solver);
+    damp(robot, layout, solver, payout_for(robot, layout, geometry, ratio, planned_N),
+         payout_for(robot, layout, geometry, ratio, measured_N), state);
     return state.output_rad;
   }
 };

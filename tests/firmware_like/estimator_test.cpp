@@ -15,14 +15,16 @@ using zhu2022::Random;
 struct Measured {
   CableVector payout_m{};
   CableVector tension_N{};
+  TensionRatio ratio{};
 };
 
 Measured measured_at(const RobotTable& robot, const ThetaVector& theta, const SlipState& slip) {
   const CableLayout layout = cable_layout(robot);
-  const CableGeometry geometry = cable_geometry(robot, layout, arm_trig(robot, theta));
-  const TensionRatio ratio = tension_ratio(robot, layout, geometry, slip);
+  const ArmTrig trig = arm_trig(robot, theta);
+  const CableGeometry geometry = cable_geometry(robot, layout, trig);
+  const TensionRatio ratio = tension_ratio(robot, layout, trig, slip);
   const CableVector motor_N = plan_tension(robot, geometry, ratio, robot.tension.plan_N).motor_N;
-  return {payout_for(robot, layout, geometry, ratio, motor_N), motor_N};
+  return {payout_for(robot, layout, geometry, ratio, motor_N), motor_N, ratio};
 }
 
 SlipState random_slip(Random& random) {
@@ -33,9 +35,9 @@ SlipState random_slip(Random& random) {
   return slip;
 }
 
-void run(const RobotTable& robot, const SlipState& slip, const Measured& measured, std::int32_t ticks, EstimatorState& state) {
+void run(const RobotTable& robot, const Measured& measured, std::int32_t ticks, EstimatorState& state) {
   const CableLayout layout = cable_layout(robot);
-  for (std::int32_t i = 0; i < ticks; ++i) estimate(robot, layout, slip, measured.payout_m, measured.tension_N, state);
+  for (std::int32_t i = 0; i < ticks; ++i) estimate(robot, layout, measured.ratio, measured.payout_m, measured.tension_N, state);
 }
 
 TEST(Estimator, FindsAnyPoseFromZeroWithinThirtyTicks) {
@@ -45,7 +47,7 @@ TEST(Estimator, FindsAnyPoseFromZeroWithinThirtyTicks) {
       const ThetaVector theta = random.theta(robot, 20.0);
       const SlipState slip = random_slip(random);
       EstimatorState state;
-      run(robot, slip, measured_at(robot, theta, slip), 30, state);
+      run(robot, measured_at(robot, theta, slip), 30, state);
       ASSERT_LE(zhu2022::largest_difference(state.theta_rad, theta), 1e-10) << i;
       ASSERT_LE(state.largest_step_rad, 1e-10);
       ASSERT_LE(zhu2022::length(state.residual_m), 1e-10);
@@ -58,9 +60,9 @@ TEST(Estimator, TakesTheElongationOutOfTheLengths) {
   const ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   Measured measured = measured_at(robot, theta, SlipState{});
   EstimatorState right, wrong;
-  run(robot, SlipState{}, measured, 30, right);
+  run(robot, measured, 30, right);
   measured.tension_N = CableVector{};  // as if the cables did not stretch
-  run(robot, SlipState{}, measured, 30, wrong);
+  run(robot, measured, 30, wrong);
   EXPECT_LE(zhu2022::largest_difference(right.theta_rad, theta), 1e-10);
   EXPECT_GE(zhu2022::largest_difference(wrong.theta_rad, theta), 0.01 * kDegree);
 }
@@ -72,7 +74,7 @@ TEST(Estimator, FollowsAMovingArmWithAFractionOfATicksMotion) {
   EstimatorState state;
   for (std::int32_t i = 0; i < 500; ++i) {
     theta = zhu2022::plus(theta, step);
-    run(robot, SlipState{}, measured_at(robot, theta, SlipState{}), 1, state);
+    run(robot, measured_at(robot, theta, SlipState{}), 1, state);
   }
   EXPECT_LE(zhu2022::largest_difference(state.theta_rad, theta), 0.01 * kDegree);
 }
@@ -82,7 +84,7 @@ TEST(Estimator, AWrongZeroShowsInTheResidual) {
   Measured measured = measured_at(robot, zhu2022::radians(zhu2022::kPrepare_deg), SlipState{});
   measured.payout_m[7] += 0.010;
   EstimatorState state;
-  run(robot, SlipState{}, measured, 100, state);
+  run(robot, measured, 100, state);
   EXPECT_GE(std::fabs(state.residual_m[7]), 1.5e-3);
 }
 
@@ -90,11 +92,11 @@ TEST(Estimator, TakesTheFirstTensionAsItIsAndFiltersTheOthers) {
   const RobotTable robot = zhu2022::table();
   Measured measured = measured_at(robot, ThetaVector{}, SlipState{});
   EstimatorState state;
-  run(robot, SlipState{}, measured, 1, state);
+  run(robot, measured, 1, state);
   EXPECT_EQ(state.tension_N, measured.tension_N);
   const double before_N = measured.tension_N[0];
   measured.tension_N[0] += 6.0;
-  run(robot, SlipState{}, measured, 1, state);
+  run(robot, measured, 1, state);
   EXPECT_NEAR(state.tension_N[0], before_N + 6.0 * 0.004 / 0.024, 1e-12);
 }
 
@@ -104,35 +106,41 @@ TEST(Estimator, OneWildMeasurementIsBoundedAndForgotten) {
   const ThetaVector theta = zhu2022::radians(zhu2022::kPressRod_deg);
   const Measured measured = measured_at(robot, theta, SlipState{});
   EstimatorState state;
-  run(robot, SlipState{}, measured, 30, state);
+  run(robot, measured, 30, state);
   Measured wild = measured;
   wild.payout_m[0] += 5.0;
   const ThetaVector before = state.theta_rad;
-  run(robot, SlipState{}, wild, 1, state);
+  run(robot, wild, 1, state);
   EXPECT_LE(zhu2022::largest_difference(state.theta_rad, before), 0.1 + 1e-15);
-  run(robot, SlipState{}, measured, 60, state);
+  run(robot, measured, 60, state);
   EXPECT_LE(zhu2022::largest_difference(state.theta_rad, theta), 1e-9);
 }
 
-TEST(LeastSquaresTheta, UndoesTheCableJacobian) {
+TEST(CableSolver, UndoesTheCableJacobian) {
   const RobotTable robot = zhu2022::table();
+  const CableLayout layout = cable_layout(robot);
   Random random(3);
+  CableSolver solver;
   for (std::int32_t i = 0; i < 100; ++i) {
-    const CableGeometry geometry = cable_geometry(robot, cable_layout(robot), arm_trig(robot, random.theta(robot, 20.0)));
+    update_cable_solver(robot, layout, arm_trig(robot, random.theta(robot, 20.0)), solver);
     const ThetaVector turn = random.theta(robot, 1.0);
     CableVector change{};
     for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
-      for (std::size_t k = 0; k < zhu2022::kThetas; ++k) change[c] += geometry.jacobian_m_rad[c][k] * turn[k];
+      for (std::size_t k = 0; k < zhu2022::kThetas; ++k) change[c] += solver.geometry.jacobian_m_rad[c][k] * turn[k];
     }
-    ASSERT_LE(zhu2022::largest_difference(least_squares_theta(robot, geometry, change), turn), 1e-13);
+    ASSERT_LE(zhu2022::largest_difference(solve_cables(robot, layout, solver, change), turn), 1e-13);
   }
 }
 
-TEST(LeastSquaresTheta, GivesZeroWhenNoCableTurnsAnAngle) {
-  const RobotTable robot = zhu2022::table();
+TEST(CableSolver, GivesZeroWhenNoCableTurnsAnAngle) {
+  RobotTable robot = zhu2022::table();
+  robot.hole_radius_m = 0.0;
+  const CableLayout layout = cable_layout(robot);
+  CableSolver solver;
+  update_cable_solver(robot, layout, arm_trig(robot, ThetaVector{}), solver);
   CableVector change{};
   change.fill(0.01);
-  EXPECT_EQ(least_squares_theta(robot, CableGeometry{}, change), ThetaVector{});
+  EXPECT_EQ(solve_cables(robot, layout, solver, change), ThetaVector{});
 }
 
 }  // namespace

@@ -14,15 +14,16 @@ struct Arm {
   RobotTable robot = zhu2022::table();
   CableLayout layout = cable_layout(robot);
   CableGeometry at(const ThetaVector& theta) const { return cable_geometry(robot, layout, arm_trig(robot, theta)); }
+  TensionRatio ratio(const ThetaVector& theta, const SlipState& slip) const {
+    return tension_ratio(robot, layout, arm_trig(robot, theta), slip);
+  }
 };
 
 // Slip after a straight way from `from` to `to` in `steps` ticks.
 SlipState slip_along(const Arm& arm, const ThetaVector& from, const ThetaVector& to, std::int32_t steps, SlipState slip = {}) {
-  CableGeometry before = arm.at(from);
+  slip.part_m = arm.at(from).part_m;
   for (std::int32_t i = 1; i <= steps; ++i) {
-    const CableGeometry now = arm.at(zhu2022::plus(from, zhu2022::plus(to, from, -1.0), static_cast<double>(i) / steps));
-    advance_slip(arm.robot, arm.layout, before, now, slip);
-    before = now;
+    advance_slip(arm.layout, arm.at(zhu2022::plus(from, zhu2022::plus(to, from, -1.0), static_cast<double>(i) / steps)), slip);
   }
   return slip;
 }
@@ -98,7 +99,7 @@ TEST(Friction, WithoutFrictionTensionIsTheSameEverywhere) {
   Arm arm;
   arm.robot.friction_mu = 0.0;
   const ThetaVector pose = zhu2022::radians(zhu2022::kPanelEdge_deg);
-  const TensionRatio ratio = tension_ratio(arm.robot, arm.layout, arm.at(pose), slip_along(arm, ThetaVector{}, pose, 100));
+  const TensionRatio ratio = arm.ratio(pose, slip_along(arm, ThetaVector{}, pose, 100));
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
     for (std::size_t j = 0; j <= c / 3; ++j) EXPECT_EQ(ratio[c][j], 1.0);
   }
@@ -107,16 +108,17 @@ TEST(Friction, WithoutFrictionTensionIsTheSameEverywhere) {
 TEST(Friction, RatioIsTheCapstanLawUpToTheMiddleOfEachSegment) {
   const Arm arm;
   Random random(3);
-  const CableGeometry geometry = arm.at(random.theta(arm.robot, 20.0));
+  const ThetaVector theta = random.theta(arm.robot, 20.0);
+  const SegmentVector wrap_rad = cable_wraps(arm.robot, arm_trig(arm.robot, theta));
   SlipState slip;
   for (auto& row : slip.sigma) {
     for (double& sigma : row) sigma = random.uniform(-1.0, 1.0);
   }
-  const TensionRatio ratio = tension_ratio(arm.robot, arm.layout, geometry, slip);
+  const TensionRatio ratio = arm.ratio(theta, slip);
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
     double turned = 0.0;
     for (std::size_t j = 0; j <= c / 3; ++j) {
-      const double bend = slip.sigma[c][j] * geometry.wrap_rad[j];
+      const double bend = slip.sigma[c][j] * wrap_rad[j];
       EXPECT_NEAR(ratio[c][j], std::exp(-zhu2022::kMu * (turned + 0.5 * bend)), 1e-13);
       turned += bend;
     }

@@ -28,8 +28,9 @@ class IdealDrives {
   // Cables pulled as planned at `theta_rad`, drives switched off.
   IdealDrives(const RobotTable& robot, const ThetaVector& theta_rad) : robot_(robot) {
     const CableLayout layout = cable_layout(robot);
-    const CableGeometry geometry = cable_geometry(robot, layout, arm_trig(robot, theta_rad));
-    const TensionRatio ratio = tension_ratio(robot, layout, geometry, SlipState{});
+    const ArmTrig trig = arm_trig(robot, theta_rad);
+    const CableGeometry geometry = cable_geometry(robot, layout, trig);
+    const TensionRatio ratio = tension_ratio(robot, layout, trig, SlipState{});
     const CableVector motor_N = plan_tension(robot, geometry, ratio, robot.tension.plan_N).motor_N;
     const CableVector payout_m = payout_for(robot, layout, geometry, ratio, motor_N);
     for (std::size_t c = 0; c < count(); ++c) {

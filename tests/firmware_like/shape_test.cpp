@@ -35,13 +35,14 @@ double distance_m(const RobotTable& robot, const ThetaVector& theta, const NodeT
   return norm(subtract(target.position_m, arm_at(robot, theta).node_in_base[static_cast<std::size_t>(target.node)].position_m));
 }
 
-// Shape motion for `ticks` with the tip brought back by two IK steps a tick, as the tick does it.
+// Shape motion for `ticks` with the tip brought back by the servo IK, as the tick does it.
 void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, std::int32_t ticks, ThetaVector& theta) {
   const IkGoal goal{arm_at(robot, theta).tip_in_base, held};
   ThetaVector rate{};
   for (std::int32_t i = 0; i < ticks; ++i) {
-    theta = zhu2022::plus(theta, shape_move(robot, nodes, held, false, theta, rate));
-    for (std::int32_t k = 0; k < kServoIterations; ++k) ik_step(robot, goal, kDamping, theta);
+    const ArmKinematics arm = arm_at(robot, theta);
+    theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, held, false, theta, rate));
+    servo_ik(robot, goal, arm, theta);
   }
 }
 
@@ -165,7 +166,7 @@ TEST(Shape, MovesStayWithinLimitsAndBelowTheirShareOfTheRate) {
     }
     const NodeTargets nodes = target_of(1 + i % 4, random.vector(3.0), 1.0);
     for (std::int32_t tick = 0; tick < 100; ++tick) {
-      const ThetaVector move = shape_move(robot, nodes, kX5, false, theta, rate);
+      const ThetaVector move = shape_move(robot, arm_at(robot, theta), nodes, kX5, false, theta, rate);
       theta = zhu2022::plus(theta, move);
       for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
         ASSERT_LE(std::fabs(move[k]), robot.limits.theta_rate_rad_s * robot.tick_s * (1.0 + 1e-9)) << k;
@@ -180,9 +181,10 @@ TEST(Shape, BrakingEndsTheShapeMotionWithinABoundedNumberOfTicks) {
   const RobotTable robot = zhu2022::table();
   ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg), rate{};
   const NodeTargets nodes = target_of(3, {0.0, 0.0, 0.0});
-  for (std::int32_t i = 0; i < 250; ++i) theta = zhu2022::plus(theta, shape_move(robot, nodes, 0, false, theta, rate));
+  for (std::int32_t i = 0; i < 250; ++i)
+    theta = zhu2022::plus(theta, shape_move(robot, arm_at(robot, theta), nodes, 0, false, theta, rate));
   ASSERT_GT(zhu2022::length(rate), 0.1 * kDegree);
-  for (std::int32_t i = 0; i < 350; ++i) theta = zhu2022::plus(theta, shape_move(robot, nodes, 0, true, theta, rate));
+  for (std::int32_t i = 0; i < 350; ++i) theta = zhu2022::plus(theta, shape_move(robot, arm_at(robot, theta), nodes, 0, true, theta, rate));
   EXPECT_LT(zhu2022::length(rate), 1e-9);
 }
 

@@ -28,8 +28,9 @@ SlipState random_slip(Random& random) {
 Planned plan_at(const RobotTable& robot, const ThetaVector& theta, const SlipState& slip) {
   const CableLayout layout = cable_layout(robot);
   Planned out;
-  out.geometry = cable_geometry(robot, layout, arm_trig(robot, theta));
-  out.ratio = tension_ratio(robot, layout, out.geometry, slip);
+  const ArmTrig trig = arm_trig(robot, theta);
+  out.geometry = cable_geometry(robot, layout, trig);
+  out.ratio = tension_ratio(robot, layout, trig, slip);
   out.plan = plan_tension(robot, out.geometry, out.ratio, robot.tension.plan_N);
   return out;
 }
@@ -168,7 +169,8 @@ ThetaVector rest_pose(const RobotTable& robot, const CableVector& payout_m, Thet
         }
       }
     }
-    EXPECT_TRUE(cholesky_solve(stiffness, step, zhu2022::kThetas));
+    EXPECT_TRUE(cholesky_factor(stiffness, zhu2022::kThetas));
+    cholesky_solve(stiffness, step, zhu2022::kThetas);
     theta = zhu2022::plus(theta, step);
   }
   return theta;
