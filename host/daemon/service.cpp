@@ -165,7 +165,7 @@ void Service::note(const std::string& text) {
 }
 
 void Service::request(Request what) {
-  if (boot_seen_ != BootPhase::kDone) return;  // drives that are not booted have no power
+  if (boot_seen_ != BootPhase::kDone) return;  // drives that are not booted have no power, and a stop in force keeps it so
   if (!link_.requests.push(what)) throw RequestError("busy", "too many requests are waiting for the next ticks");
 }
 

@@ -10,6 +10,11 @@ namespace liana {
 
 namespace {
 constexpr double kDegree = 0.017453292519943295;
+
+std::string stop_text(const nlohmann::json& stop) {
+  const std::string reason = stop["reason"];
+  return "emergency stop by " + stop["by"].get<std::string>() + (reason.empty() ? "" : ": " + reason);
+}
 }  // namespace
 
 const std::map<std::string, Service::Handler>& Service::handlers() {
@@ -62,6 +67,7 @@ Service::Json Service::on_acquire(const ClientInfo& client, const Json&) {
     throw RequestError("not_owner", "role '" + std::string(role_name(client.role)) + "' cannot own motion; mission and client can");
   }
   owner_.acquire(client.id, static_cast<std::uint32_t>(client.role) + 1, client.name);
+  if (client.role == Role::kClient) notes_.stop = nullptr;  // a mission may have asked before it saw the stop
   return Json::object();
 }
 
@@ -77,12 +83,16 @@ Service::Json Service::on_state_command(const ClientInfo& client, const Json& re
   if (boot_seen_ == BootPhase::kFailed) throw RequestError("fault", "booting failed: " + config_.boot_problem());
   if (boot_seen_ == BootPhase::kBooting) throw RequestError("busy", "the drives are still booting");
   if (command == "enable") {
+    if (!notes_.stop.is_null()) {
+      throw RequestError("refused", stop_text(notes_.stop) + " is in force: a client has to acquire motion anew, or to send clear");
+    }
     if (now().faults.count > 0) throw RequestError("fault", "a fault is latched: clear it first");
     if (shutdown_tick_) throw RequestError("refused", "lianad is stopping");
     this->request(Request::kEnable);
   } else if (command == "disable") {
     this->request(Request::kDisable);
   } else if (command == "clear") {
+    notes_.stop = nullptr;
     this->request(Request::kClear);
   } else if (command == "home") {
     // Encoders are absolute: homing is the comparison of stored zeros with the lengths found, which every tick repeats.
@@ -189,10 +199,12 @@ Service::Json Service::on_tool(const ClientInfo& client, const Json& request) {
 }
 
 Service::Json Service::on_stop(const ClientInfo& client, const Json& request) {
-  const std::string reason = request.contains("reason") ? text_field(request, "reason", 200) : "no reason given";
+  const Json stop{{"by", client.name}, {"reason", request.contains("reason") ? text_field(request, "reason", 200) : ""}, {"tick", tick()}};
   arbiter_.hold();
   this->request(Request::kStop);
-  note("stop by '" + client.name + "': " + reason);
+  // A mission's own stop is how it ends; everybody else's stays in force, so that nothing enables the arm by itself afterwards.
+  if (client.role != Role::kMission && notes_.stop.is_null()) notes_.stop = stop;
+  note(stop_text(stop));
   return Json::object();
 }
 

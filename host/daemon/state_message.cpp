@@ -162,6 +162,7 @@ json state_message(const RobotTable& table, const BusesConfig& buses, const Cycl
              {"drives", drives_json(table, report)},
              {"buses", buses_json(buses, report)},
              {"events", notes.events},
+             {"stop", notes.stop},
              {"stopping", notes.stopping}};
   add_arm(state, table, report);
   return state;

@@ -29,6 +29,7 @@ struct Notes {
   std::deque<nlohmann::json> events;       // newest last, at most kKeptEvents
   LastVerdict verdict{};
   std::uint64_t refusals = 0;
+  nlohmann::json stop = nullptr;  // the emergency stop in force: by, reason (may be empty), tick
   bool stopping = false;
 };
 

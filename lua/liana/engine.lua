@@ -63,8 +63,14 @@ local function boot_request(runner)
   if state.state == "DISABLED" then return "state_command", { command = "enable" } end
 end
 
+-- Who stopped the arm, and why.
+local function stop_text(stop)
+  return "emergency stop by " .. stop.by .. (stop.reason ~= "" and ": " .. stop.reason or "")
+end
+
 local function boot(runner)
   local state = runner.arm.state
+  if state.stop then return runner:fail("aborted", stop_text(state.stop) .. ", before the drives were enabled") end
   if state.state == "FAULT" then return runner:fail("failed", "drives in fault at start: " .. runner:fault_names()) end
   -- Somebody stopped the arm while it was being enabled: that is final, never enabled again by itself.
   if state.state == "STOPPING" then return runner:fail("aborted", "stopped while the drives were being enabled") end
@@ -224,6 +230,7 @@ local function stopped(runner)
   if runner.phase == "boot" or state.state == "ENABLED" then return false end
   local outcome = #state.faults > 0 and "failed" or "aborted"
   local reason = ("the arm is %s (stop category %s), faults: %s"):format(state.state, state.stop_category, runner:fault_names())
+  if state.stop then reason = stop_text(state.stop) .. ": " .. reason end
   if runner.failed_reason then reason = runner.failed_reason .. "; " .. reason end
   if runner.record and runner.record.outcome == "running" then runner:close_record(outcome, reason) end
   runner:over(runner.failed_outcome or outcome, reason)

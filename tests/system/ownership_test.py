@@ -100,6 +100,55 @@ class OwnershipOfMotion(SystemTest):
             self.assertTrue(any("liana estop" in event["text"] for event in client.state["events"]))
 
 
+class StopsBeforeTheArmIsEnabled(SystemTest):
+    """A stop is final for the mission, whatever the drives are doing when it comes (BOOTING, DISABLED, ENABLING)."""
+
+    def stopped_in(self, wanted):
+        system = self.enterContext(System("client,mission"))
+        client = system.client()
+        system.start_mission(MISSIONS / "short.lua")
+        client.until(lambda state: state["state"] == wanted)
+        stopper = system.client("red button", "observer", lockstep=False, subscribe=())
+        number = stopper.request("stop")
+        client.until(lambda state: state["stop"])
+        self.assertEqual(stopper.receive(), {"op": "ok", "id": number})
+        self.assertEqual((client.state["stop"]["by"], client.state["stop"]["reason"]), ("red button", ""))
+        client.until(lambda state: state["state"] == "DISABLED" and state["owner"] == "")
+        self.assertEqual(system.ended("liana-mission"), 1)
+        report = system.json("mission.json")
+        self.assertEqual((report["outcome"], report["steps"]), ("aborted", []))
+        self.assertIn("emergency stop by red button", report["reason"])
+        client.go_on(0.5)
+        self.assertEqual(client.state["state"], "DISABLED", brief(client.state))
+        system.shut_down(client)
+        return system.truth()
+
+    def test_a_stop_while_the_drives_boot_keeps_them_without_power_and_aborts_the_mission(self):
+        self.assertEqual(max(self.stopped_in("BOOTING").column("enabled")), 0)
+
+    def test_a_stop_between_booting_and_enabling_does_the_same(self):
+        self.assertEqual(max(self.stopped_in("DISABLED").column("enabled")), 0)
+
+    def test_a_stop_while_the_drives_are_being_enabled_takes_their_power_and_aborts_the_mission(self):
+        truth = self.stopped_in("ENABLING")
+        self.assert_stopped(truth, len(truth.rows) - 130)
+
+    def test_after_a_stop_motion_has_to_be_acquired_anew_or_cleared_before_anybody_enables(self):
+        with System() as system:
+            client = system.client()
+            must(client.ask("acquire"))
+            must(client.ask("stop", reason="look first"))
+            client.until(lambda state: state["state"] == "DISABLED" and state["is_homed"])
+            self.assert_refused(client.ask("state_command", command="enable"), "refused", "emergency stop by test: look first", "clear")
+            must(client.ask("state_command", command="clear"))
+            client.until(lambda state: state["stop"] is None)
+            must(client.ask("stop"))
+            must(client.ask("acquire"))
+            self.assertIsNone(client.step()["stop"])
+            must(client.ask("state_command", command="enable"))
+            client.until(lambda state: state["state"] == "ENABLED")
+
+
 class NobodyToTalkTo(SystemTest):
     def test_status_and_estop_without_lianad_fail_with_one_message(self):
         for command in ("status", "estop"):
