@@ -209,11 +209,17 @@ void ApiServer::enqueue(Client& client, Topic topic, bool droppable, const std::
   client.outbox.push_back({topic, droppable, packet});
 }
 
+// That a client has left is found by reading alone: its last requests come before its end, and in lockstep time both wait for the next
+// interval, whatever the moment at which a packet to it fails.
 void ApiServer::flush(Client& client) {
   while (!client.outbox.empty() && client.why_closed.empty()) {
     const SocketResult result = send_packet(client.fd.get(), client.outbox.front().bytes);
     if (result == SocketResult::kWouldBlock) return;
-    if (result == SocketResult::kClosed) return close(client, "connection closed");
+    if (result == SocketResult::kClosed) {
+      client.outbox.clear();
+      client.waiting = {};
+      return;
+    }
     if (client.outbox.front().droppable) --client.waiting[static_cast<std::size_t>(client.outbox.front().topic)];
     client.outbox.pop_front();
   }

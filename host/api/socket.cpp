@@ -41,7 +41,8 @@ SocketResult receive_packet(int fd, std::string& packet) {
   packet.resize(kMaxPacketBytes + 1);
   for (;;) {
     const ssize_t n = ::recv(fd, packet.data(), packet.size(), MSG_DONTWAIT);
-    if (n < 0 && errno == EINTR) continue;
+    // A peer that left without reading everything is reported once as a reset; what it sent before is still there.
+    if (n < 0 && (errno == EINTR || errno == ECONNRESET)) continue;
     packet.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
     if (n > 0) return SocketResult::kDone;
     const bool empty = n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);

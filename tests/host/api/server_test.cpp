@@ -156,6 +156,31 @@ TEST_F(Api, WhatALockstepClientSendsAfterItsDoneBelongsToTheNextInterval) {
   EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m:late", "m gone"}));
 }
 
+TEST_F(Api, ALockstepClientThatLeavesWithoutItsAnswerBelongsToTheNextIntervalToo) {
+  auto client = std::make_unique<ApiClient>(join("m", "mission", true));
+  client->send({{"op", "move"}, {"id", 1}});
+  client->send({{"op", "done"}, {"tick", 5}});
+  server_.wait_done(5, 10.0);
+  client.reset();
+  server_.dispatch();
+  server_.publish(Topic::kState, R"({"op":"state","tick":10})");
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m:move"})) << "its answer and the next state meet a closed socket";
+  server_.wait_done(10, 10.0);
+  server_.dispatch();
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m:move", "m gone"}));
+}
+
+TEST_F(Api, TheLastRequestOfAClientThatLeavesUnreadStatesIsHeard) {
+  {
+    ApiClient client = join("c", "client", false, {"state"});
+    server_.publish(Topic::kState, R"({"op":"state","tick":5})");
+    client.send({{"op", "stop"}});
+  }
+  for (int i = 0; i < 5; ++i) server_.pump(0.001);
+  server_.dispatch();
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"c:stop", "c gone"}));
+}
+
 TEST_F(Api, ASilentLockstepClientIsDroppedAndNamed) {
   ApiClient client = join("m", "mission", true);
   server_.wait_done(5, 0.05);
