@@ -61,10 +61,15 @@ bool wait_for(int fd, short events, double timeout_s) {
 bool wait_readable(int fd, double timeout_s) { return wait_for(fd, POLLIN, timeout_s); }
 bool wait_writable(int fd, double timeout_s) { return wait_for(fd, POLLOUT, timeout_s); }
 
+bool is_listening(const std::string& path) {
+  const sockaddr_un address = unix_address(path);
+  const UniqueFd probe(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  return ::connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 || errno == EAGAIN;
+}
+
 UniqueFd listen_at(const std::string& path) {
   const sockaddr_un address = unix_address(path);
-  UniqueFd probe(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
-  if (::connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
+  if (is_listening(path)) {
     throw std::runtime_error("api socket " + path + ": another lianad listens here; stop it or choose another path with --api");
   }
   if (errno == ECONNREFUSED) ::unlink(path.c_str());

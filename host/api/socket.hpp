@@ -39,6 +39,9 @@ SocketResult receive_packet(int fd, std::string& packet);
 bool wait_readable(int fd, double timeout_s);
 bool wait_writable(int fd, double timeout_s);
 
+// Somebody listens at `path`, though perhaps too busy to answer; errno says why not. Throws std::runtime_error for too long a path.
+bool is_listening(const std::string& path);
+
 // A listening socket at `path`; replaces a stale socket file, throws std::runtime_error when the path is in use or too long.
 UniqueFd listen_at(const std::string& path);
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -12,13 +13,70 @@ namespace {
 
 using nlohmann::json;
 
+constexpr double kConnectTimeout_s = 1.0;
 constexpr double kAnswerTimeout_s = 5.0;
 
-void print_state(const json& state) {
-  std::printf("%s, t = %.2f s, owner %s\n", state.value("state", "?").c_str(), state.value("time_s", 0.0),
-              state.value("owner", "nobody").c_str());
+// One running system while a command deals with it.
+struct Talk {
+  std::string api;
+  std::optional<ApiClient> client;
+  std::string problem;  // empty: none so far
+};
+
+// Does `action` with a system, unless something went wrong with it before; what goes wrong is kept, so that others get their turn.
+template <typename Action>
+void attempt(Talk& talk, const Action& action) {
+  if (!talk.problem.empty()) return;
+  try {
+    action();
+  } catch (const std::exception& error) {
+    talk.problem = error.what();
+  }
+}
+
+// Greets every system before anything is waited for: one that hangs must not keep a stop from the others.
+template <typename Action>
+std::vector<Talk> begin_talks(const ClientOptions& options, const char* name, bool subscribe_state, const Action& action) {
+  std::vector<Talk> talks;
+  for (const std::string& api : systems_to_ask(options.api)) {
+    Talk& talk = talks.emplace_back();
+    talk.api = api;
+    attempt(talk, [&] {
+      talk.client.emplace(ApiClient::connect(api, kConnectTimeout_s));
+      say_hello(*talk.client, name, subscribe_state);
+      action(*talk.client);
+    });
+  }
+  return talks;
+}
+
+// The answer whose `op` is given; what is missing without one is the problem's text.
+json answer_of(Talk& talk, const char* op, const char* missing) {
+  json answer;
+  attempt(talk, [&] {
+    auto message = wait_for(*talk.client, op, kAnswerTimeout_s);
+    if (!message) throw std::runtime_error(missing);
+    answer = std::move(*message);
+  });
+  return answer;
+}
+
+int exit_code_of(const std::vector<Talk>& talks) {
+  for (const Talk& talk : talks) {
+    if (!talk.problem.empty()) std::fprintf(stderr, "liana: %s: %s\n", talk.api.c_str(), talk.problem.c_str());
+  }
+  return std::all_of(talks.begin(), talks.end(), [](const Talk& talk) { return talk.problem.empty(); }) ? kExitOk : kExitFailure;
+}
+
+void print_state(const std::string& api, const json& state) {
+  const std::string owner = state.value("owner", "");
+  std::printf("%s: %s, t = %.2f s, owner %s\n", api.c_str(), state.value("state", "?").c_str(), state.value("time_s", 0.0),
+              owner.empty() ? "nobody" : owner.c_str());
+  const json stop = state.value("stop", json());
+  if (stop.is_object()) std::printf("emergency stop by %s %s\n", stop.value("by", "").c_str(), stop.value("reason", "").c_str());
   for (const json& fault : state.value("faults", json::array())) {
-    std::printf("fault %d %s (index %d)\n", fault.value("number", 0), fault.value("name", "").c_str(), fault.value("index", -1));
+    std::printf("fault %d %s (index %d): %s\n", fault.value("number", 0), fault.value("name", "").c_str(), fault.value("index", -1),
+                fault.value("text", "").c_str());
   }
   std::printf("theta (deg):");
   for (const json& angle : state.value("measured_js_deg", json::array())) std::printf(" %.3f", angle.get<double>());
@@ -28,25 +86,33 @@ void print_state(const json& state) {
 }  // namespace
 
 int status_command(const ClientOptions& options) {
-  ApiClient client = ApiClient::connect(api_path(options.api), 1.0);
-  hello_as_observer(client, true);
-  const auto state = wait_for(client, "state", kAnswerTimeout_s);
-  if (!state) throw std::runtime_error("lianad runs but sent no state within 5 s");
-  if (options.json) {
-    std::puts(state->dump().c_str());
-  } else {
-    print_state(*state);
+  std::vector<Talk> talks = begin_talks(options, "liana status", true, [](ApiClient&) {});
+  for (Talk& talk : talks) {
+    json state = answer_of(talk, "state", "lianad runs but sent no state within 5 s");
+    if (!talk.problem.empty()) continue;
+    if (options.json) {
+      state["api"] = talk.api;
+      std::puts(state.dump().c_str());
+    } else {
+      print_state(talk.api, state);
+    }
   }
-  return kExitOk;
+  return exit_code_of(talks);
 }
 
 int estop_command(const ClientOptions& options) {
-  ApiClient client = ApiClient::connect(api_path(options.api), 1.0);
-  hello_as_observer(client, false);
-  client.send({{"op", "stop"}, {"id", 1}, {"reason", "liana estop"}});
-  if (!wait_for(client, "ok", kAnswerTimeout_s)) throw std::runtime_error("lianad did not confirm the stop within 5 s; cut the power");
-  std::puts(options.json ? R"({"stopped":true})" : "stop: brakes, then disabled");
-  return kExitOk;
+  const auto stop = [](ApiClient& client) { client.send({{"op", "stop"}, {"id", 1}}); };
+  std::vector<Talk> talks = begin_talks(options, "liana estop", false, stop);
+  for (Talk& talk : talks) {
+    answer_of(talk, "ok", "lianad did not confirm the stop within 5 s; cut the power");
+    const bool stopped = talk.problem.empty();
+    if (options.json) {
+      std::puts(json{{"api", talk.api}, {"stopped", stopped}}.dump().c_str());
+    } else if (stopped) {
+      std::printf("%s: stop, brakes, then disabled\n", talk.api.c_str());
+    }
+  }
+  return exit_code_of(talks);
 }
 
 }  // namespace liana

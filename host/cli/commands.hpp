@@ -41,12 +41,12 @@ struct RunOptions {
 int run_command(const RunOptions& options);
 
 struct ClientOptions {
-  std::string api;  // empty: the system that `liana run` started last
+  std::string api;  // empty: all running systems of this user
   bool json = false;
 };
-// The state of a running lianad.
+// The state of every running system, each named by its socket; exit code 1 when one does not answer.
 int status_command(const ClientOptions& options);
-// Emergency stop of a running lianad: stop, brakes, disable.
+// Emergency stop of every running system (stop, brakes, disable), each named by its socket; exit code 1 when one does not confirm.
 int estop_command(const ClientOptions& options);
 
 struct ReplayOptions {

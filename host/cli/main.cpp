@@ -62,8 +62,8 @@ void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
 void add_client(CLI::App& app, Action& action, const char* name, const char* text, liana::ClientOptions& client,
                 int (*command)(const liana::ClientOptions&)) {
   CLI::App* sub = add(app, action, name, text, client, command);
-  sub->add_option("--api", client.api, "API socket of lianad; where not given, that of the run started last");
-  sub->add_flag("--json", client.json, "print JSON");
+  sub->add_option("--api", client.api, "API socket of one lianad; where not given, all running systems of this user");
+  sub->add_flag("--json", client.json, "print JSON, one line for each system");
 }
 
 void add_tools(CLI::App& app, Action& action, liana::ReplayOptions& replay, liana::ExportOptions& exported, bool& doctor_json,
@@ -131,8 +131,8 @@ int main(int argc, char** argv) {
   std::string shell = "bash";
   add_kinematics(app, action, pose, ik);
   add_run(app, action, run);
-  add_client(app, action, "status", "state of the running system", client, liana::status_command);
-  add_client(app, action, "estop", "emergency stop: stop, brakes, disable", client, liana::estop_command);
+  add_client(app, action, "status", "state of every running system", client, liana::status_command);
+  add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client, liana::estop_command);
   add_tools(app, action, replay, exported, doctor_json, shell);
   try {
     app.parse(arguments_of(argc, argv));

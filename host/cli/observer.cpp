@@ -1,36 +1,29 @@
 #include "host/cli/observer.hpp"
 
-#include <unistd.h>
-
 #include <chrono>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "host/api/client.hpp"
+#include "host/api/registry.hpp"
 #include "host/cli/errors.hpp"
 
 namespace liana {
 
 using nlohmann::json;
 
-std::string current_api_link() {
-  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
-  const std::string directory = runtime != nullptr && *runtime != '\0' ? runtime : "/tmp";
-  return directory + "/liana-" + std::to_string(getuid()) + ".api";
-}
-
-std::string api_path(const std::string& given) {
+std::vector<std::string> systems_to_ask(const std::string& given) {
   if (!given.empty()) {
     if (!std::filesystem::exists(given)) throw BadInput("--api: '" + given + "': no such socket; is lianad running there?");
-    return given;
+    return {given};
   }
-  std::error_code error;
-  const std::filesystem::path target = std::filesystem::read_symlink(current_api_link(), error);
-  if (error || !std::filesystem::exists(target))
-    throw BadInput("no system is running; start one with liana run, or name its socket with --api");
-  return target.string();
+  std::vector<std::string> systems = running_systems();
+  if (systems.empty()) {
+    throw BadInput("no system of this user is running (looked in " + registry_folder() +
+                   "); start one with liana run, or name its socket with --api");
+  }
+  return systems;
 }
 
 std::optional<json> wait_for(ApiClient& client, const std::string& op, double timeout_s) {
@@ -45,9 +38,13 @@ std::optional<json> wait_for(ApiClient& client, const std::string& op, double ti
   return std::nullopt;
 }
 
-json hello_as_observer(ApiClient& client, bool subscribe_state) {
+void say_hello(ApiClient& client, const std::string& name, bool subscribe_state) {
   const json subscriptions = subscribe_state ? json::array({"state"}) : json::array();
-  client.send({{"op", "hello"}, {"name", "liana"}, {"role", "observer"}, {"lockstep", false}, {"subscribe", subscriptions}});
+  client.send({{"op", "hello"}, {"name", name}, {"role", "observer"}, {"lockstep", false}, {"subscribe", subscriptions}});
+}
+
+json hello_as_observer(ApiClient& client, const std::string& name) {
+  say_hello(client, name, true);
   const auto welcome = wait_for(client, "welcome", 5.0);
   if (!welcome) throw std::runtime_error("lianad does not answer on its API socket");
   return *welcome;

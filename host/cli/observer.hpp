@@ -4,19 +4,21 @@
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace liana {
 
 class ApiClient;
 
-// File that names the API socket of the run started last, for `status` and `estop` without --api.
-std::string current_api_link();
+// API sockets: `given` alone, or those of all running systems of this user; throws BadInput when there is none.
+std::vector<std::string> systems_to_ask(const std::string& given);
 
-// `given`, or the socket of the run started last; throws BadInput when there is none.
-std::string api_path(const std::string& given);
+// Says hello as an observer without waiting for the welcome; `name` is what a stop's reason names. Throws std::runtime_error when lianad
+// is gone.
+void say_hello(ApiClient& client, const std::string& name, bool subscribe_state);
 
-// Says hello as an observer; returns the welcome. Throws std::runtime_error when lianad refuses or does not answer within 5 s.
-nlohmann::json hello_as_observer(ApiClient& client, bool subscribe_state);
+// Says hello, subscribes to states, returns the welcome. Throws std::runtime_error when lianad refuses or does not answer within 5 s.
+nlohmann::json hello_as_observer(ApiClient& client, const std::string& name);
 
 // Waits for a message whose `op` is given, at most `timeout_s`; an error message of lianad throws std::runtime_error.
 std::optional<nlohmann::json> wait_for(ApiClient& client, const std::string& op, double timeout_s);

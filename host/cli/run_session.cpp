@@ -16,6 +16,7 @@ using nlohmann::json;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* kName = "liana run";  // as the reason of a stop names it
 constexpr double kStartTimeout_s = 30.0;
 constexpr double kStopTimeout_s = 15.0;
 constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
@@ -49,15 +50,6 @@ Clock::time_point after(double seconds) {
 
 std::string how(const ChildEnd& end) {
   return end.signal != 0 ? "was killed by signal " + std::to_string(end.signal) : "ended with code " + std::to_string(end.code);
-}
-
-// The newest run is what `status` and `estop` talk to; the link is a convenience, so that it cannot be made is no error.
-void publish_socket(const std::string& socket) {
-  std::error_code error;
-  const std::string fresh = current_api_link() + "." + std::to_string(::getpid());
-  fs::remove(fresh, error);
-  fs::create_symlink(socket, fresh, error);
-  fs::rename(fresh, current_api_link(), error);
 }
 
 Pose pose_of(const json& numbers) {
@@ -96,9 +88,8 @@ std::optional<RunEnd> RunSession::start() {
       return RunEnd{"failed", call.name + " did not open its socket within 30 s", false};
     }
     if (call.name == "lianad") {
-      publish_socket(plan_.api_socket());
       api_ = ApiClient::connect(plan_.api_socket());
-      welcome_ = hello_as_observer(*api_, true);
+      welcome_ = hello_as_observer(*api_, kName);
     }
   }
   mission_ = children_.back().get();

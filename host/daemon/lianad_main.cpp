@@ -5,8 +5,10 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <sstream>
 
+#include "host/api/registry.hpp"
 #include "host/daemon/realtime.hpp"
 #include "host/daemon/rt_cycle.hpp"
 #include "host/daemon/service.hpp"
@@ -81,6 +83,16 @@ bool run_real(Service& service, RtCycle& cycle) {
   return finished;
 }
 
+// That status and estop do not find it by themselves is no reason not to run.
+std::optional<Registration> registered(const std::string& api) {
+  try {
+    return std::optional<Registration>(std::in_place, api);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "lianad: liana status and estop find this system only with --api %s: %s\n", api.c_str(), error.what());
+    return std::nullopt;
+  }
+}
+
 int run(const Options& options) {
   const std::optional<TimeMode> mode = time_mode_from(options.time);
   if (!mode) throw std::runtime_error("--time " + options.time + ": allowed fast, paced, real");
@@ -95,6 +107,7 @@ int run(const Options& options) {
   std::unique_ptr<RtCycle> cycle;
   const bool ends_with_mission = *mode != TimeMode::kReal && std::find(expected.begin(), expected.end(), Role::kMission) != expected.end();
   Service service({options.api, *mode, robot, scene, buses, ends_with_mission, [&] { return cycle->boot_problem(); }}, *link);
+  const std::optional<Registration> registration = registered(options.api);
   const std::unique_ptr<DriveBus> bus = open_drive_bus(buses, *mode, options.bus_socket);
   cycle = std::make_unique<RtCycle>(robot, buses, *bus, *link);
   handle_signals();

@@ -1,8 +1,14 @@
 """One owner of motion, and a stop that anybody may send (A29, C5)."""
+import json
+import os
 import pathlib
+import shutil
+import subprocess
+import tempfile
 import unittest
+import unittest.mock
 
-from liana_system import System, SystemTest, brief, must, run
+from liana_system import PATIENCE_S, System, SystemTest, brief, must, program, run, start_run, wait_until
 
 MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
 
@@ -147,6 +153,72 @@ class StopsBeforeTheArmIsEnabled(SystemTest):
             self.assertIsNone(client.step()["stop"])
             must(client.ask("state_command", command="enable"))
             client.until(lambda state: state["state"] == "ENABLED")
+
+
+class StopsFromTheCommandLine(SystemTest):
+    """`liana status` and `estop` without --api deal with every running system of the user."""
+
+    def setUp(self):
+        self.home = tempfile.mkdtemp(prefix="liana-home-")
+        self.addCleanup(shutil.rmtree, self.home)
+        self.enterContext(unittest.mock.patch.dict(os.environ, XDG_RUNTIME_DIR=self.home))
+
+    def moving(self):
+        system = self.enterContext(System())
+        client = system.client()
+        client.enable()
+        client.start_moving()
+        return system, client
+
+    def while_running(self, command, clients):
+        """`liana COMMAND --json` while time goes on for all clients: exit code and a list of what it printed."""
+        process = subprocess.Popen([program("liana"), command, "--json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        while process.poll() is None:
+            for client in clients:
+                client.step()
+        out, error = process.communicate()
+        return process.returncode, [json.loads(line) for line in out.splitlines()], error
+
+    def test_without_api_every_running_system_is_listed_and_stopped_by_name(self):
+        first, client = self.moving()
+        second, other = self.moving()
+        code, states, error = self.while_running("status", [client, other])
+        self.assertEqual((code, {state["api"] for state in states}), (0, {str(first.api), str(second.api)}), error)
+        self.assertEqual({state["state"] for state in states}, {"ENABLED"})
+        code, stops, error = self.while_running("estop", [client, other])
+        self.assertEqual(code, 0, error)
+        self.assertEqual({(stop["api"], stop["stopped"]) for stop in stops}, {(str(first.api), True), (str(second.api), True)})
+        for each in (client, other):
+            each.until(lambda state: state["state"] == "DISABLED")
+            self.assertEqual(each.state["stop"]["by"], "liana estop")
+
+    def test_the_death_of_the_newest_system_does_not_hide_an_older_one(self):
+        first, client = self.moving()
+        second, _ = self.moving()
+        second.kill("lianad")
+        code, stops, error = self.while_running("estop", [client])
+        self.assertEqual((code, stops), (0, [{"api": str(first.api), "stopped": True}]), error)
+        client.until(lambda state: state["state"] == "DISABLED")
+        first.shut_down(client)
+        done = run("liana", "status")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("no system of this user is running", done.stderr)
+
+    def test_a_folder_of_somebody_else_is_not_believed(self):
+        (pathlib.Path(self.home) / f"liana-{os.getuid()}").symlink_to("/")
+        done = run("liana", "estop")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("is not a folder of this user", done.stderr)
+
+    def test_the_report_of_a_run_says_who_stopped_it(self):
+        process = start_run(self, MISSIONS / "short.lua", "--time", "paced", "--json", "report.json")
+        with unittest.mock.patch.dict(os.environ, XDG_RUNTIME_DIR=str(process.home)):
+            wait_until(lambda: run("liana", "status").stdout.count("ENABLED"), "the arm to be enabled")
+            self.assertEqual(run("liana", "estop").returncode, 0)
+        process.communicate(timeout=PATIENCE_S)
+        report = json.loads((process.home / "report.json").read_text())
+        self.assertEqual((process.returncode, report["outcome"]), (1, "aborted"))
+        self.assertIn("emergency stop by liana estop", report["reason"])
 
 
 class NobodyToTalkTo(SystemTest):
