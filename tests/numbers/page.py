@@ -12,11 +12,11 @@ Written by `./dev numbers`; do not edit by hand. Each section says with which co
 
 
 def commit_of(root):
-    """Short commit, with + when the working tree differs from it."""
+    """Short commit, with + when the working tree differs from it in more than the measured pages."""
     def git(*words):
         return subprocess.run(["git", "-C", str(root), *words], capture_output=True, text=True, check=False).stdout.strip()
 
-    return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain", "--untracked-files=no", "--", ":!docs/numbers.md") else "")
+    return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain", "--untracked-files=no", "--", ":!docs/numbers.md", ":!docs/bench.md") else "")
 
 
 def table(head, rows):
