@@ -38,6 +38,8 @@ TAIL = """## What the peers are
 
 - `kdl`: Orocos KDL with 80 joints from the D-H rows of the source, columns summed to 6x10. It knows no coupled joints, so its inverse problems
   are easier than ours and its solutions are not for this arm.
+- Pinocchio is not in Debian and not measured here. Version 3.7 at -O2 on the same 80 joints, summed to 6x10, once took 50,644 instructions for
+  `fk_jacobian`.
 - `own_80`: our own loop over 80 hinges, without waste; for inverse problems all 80 are free and have no limits.
 - `textbook`: every hole of every disc, hole to hole; derivative by central differences.
 - `fcl`, `libccd`: no broad phase anywhere. All but `fcl` only say whether two bodies touch.
@@ -49,7 +51,7 @@ moves the arm (all but disabled and fault), the worst over every tick.
 
 def arguments():
     parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__)
-    parser.add_argument("--json", type=pathlib.Path, metavar="FILE", help="also write what was measured as JSON")
+    parser.add_argument("--json", type=argparse.FileType("w"), metavar="FILE", help="also write what was measured as JSON")
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/dev/bin", help="where the programs are")
     return parser.parse_args()
 
@@ -124,7 +126,7 @@ def main():
     (ROOT / "docs/bench.md").write_text(f"{head}\n{text.rstrip()}\n")
     print(text)
     if options.json:
-        options.json.write_text(json.dumps(report, indent=1) + "\n")
+        print(json.dumps(report, indent=1), file=options.json)
 
 
 if __name__ == "__main__":
