@@ -26,6 +26,22 @@ struct IkOptions {
 // The goal solver; exit code 3 when it did not converge.
 int ik_command(const IkOptions& options);
 
+struct ReachOptions {
+  std::string robot = "zhu2022";
+  std::string scene;      // empty: none is drawn
+  std::string hold;       // empty: nothing is held
+  std::string from_deg;   // region: where held thetas are and the arm is drawn, zero pose where empty; path: its begin
+  std::string to_deg;     // path: its end
+  std::string path;       // path: a file with waypoints_deg
+  std::int32_t node = 0;  // 0: the tip
+  std::int64_t samples = 200000;
+  std::uint64_t seed = 1;
+  std::string svg_file;  // empty: no picture
+  bool json = false;
+};
+// Where the tip or a node can go, or how well the arm is conditioned along a path.
+int reach_command(const ReachOptions& options);
+
 struct RunOptions {
   std::string mission;
   std::string robot = "zhu2022";

@@ -15,15 +15,16 @@ constexpr const char* kBash = R"bash(_liana() {
     run) words="slit_crossing" ;;
     robot) words="export" ;;
     completion) words="bash" ;;
-    --record | --json | --api | --out | replay) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    --record | --json | --svg | --path | --api | --out | replay) COMPREPLY=($(compgen -f -- "$word")); return ;;
   esac
   if [[ $COMP_CWORD == 1 ]]; then
-    words="run pose ik status estop replay robot doctor completion help"
+    words="run pose ik reach status estop replay robot doctor completion help"
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
       run) words="--robot --scene --bus --time --physics --record --json --seed" ;;
       pose) words="--robot --theta-deg --json" ;;
       ik) words="--robot --from-deg --tip --hold --control-point --json" ;;
+      reach) words="--robot --scene --hold --from-deg --to-deg --path --node --samples --seed --svg --json" ;;
       status | estop) words="--api --json" ;;
       robot) words="--robot --out --json" ;;
       replay | doctor) words="--json" ;;

@@ -41,6 +41,22 @@ void add_kinematics(CLI::App& app, Action& action, liana::PoseOptions& pose, lia
   sub->add_flag("--json", ik.json, "print JSON");
 }
 
+void add_reach(CLI::App& app, Action& action, liana::ReachOptions& reach) {
+  CLI::App* sub = add(app, action, "reach", "where tip or node can go; conditioning and limits along a path", reach, liana::reach_command);
+  sub->add_option("--robot", reach.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  sub->add_option("--scene", reach.scene, "scene table drawn to scale; takes nothing away from the region");
+  sub->add_option("--hold", reach.hold, "joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg or 0 where no value is given)");
+  sub->add_option("--from-deg", reach.from_deg, "joint angles that are drawn, or where the path begins");
+  sub->add_option("--to-deg", reach.to_deg, "joint angles where the path ends");
+  sub->add_option("--path", reach.path, "JSON file with waypoints_deg, as plan --json prints it");
+  sub->add_option("--node", reach.node, "node (the end of that segment) whose region is wanted; the tip where not given")
+      ->check(CLI::PositiveNumber);
+  sub->add_option("--samples", reach.samples, "poses drawn")->capture_default_str();
+  sub->add_option("--seed", reach.seed, "of the poses drawn")->check(CLI::NonNegativeNumber)->capture_default_str();
+  sub->add_option("--svg", reach.svg_file, "write the picture to this file");
+  sub->add_flag("--json", reach.json, "print JSON");
+}
+
 void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
   CLI::App* sub = add(app, action, "run", "start the whole system and run a mission", run, liana::run_command);
   sub->add_option("mission", run.mission, "a name under lua/missions or a file")->required();
@@ -123,6 +139,7 @@ int main(int argc, char** argv) {
   Action action;
   liana::PoseOptions pose;
   liana::IkOptions ik;
+  liana::ReachOptions reach;
   liana::RunOptions run;
   liana::ClientOptions client;
   liana::ReplayOptions replay;
@@ -130,6 +147,7 @@ int main(int argc, char** argv) {
   bool doctor_json = false;
   std::string shell = "bash";
   add_kinematics(app, action, pose, ik);
+  add_reach(app, action, reach);
   add_run(app, action, run);
   add_client(app, action, "status", "state of every running system", client, liana::status_command);
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client, liana::estop_command);

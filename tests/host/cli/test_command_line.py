@@ -150,7 +150,7 @@ class Help(unittest.TestCase):
     def test_help_names_every_command(self):
         code, out, _ = liana("help")
         self.assertEqual(code, 0)
-        for command in ["run", "pose", "ik", "status", "estop", "replay", "robot", "doctor", "completion"]:
+        for command in ["run", "pose", "ik", "reach", "status", "estop", "replay", "robot", "doctor", "completion"]:
             self.assertIn(f"\n  {command} ", out)
 
     def test_the_doctor_says_what_to_do_about_everything_that_is_missing(self):

@@ -1,0 +1,303 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
+
+#include "host/cli/arguments.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/errors.hpp"
+#include "host/cli/tables.hpp"
+#include "host/reach/path.hpp"
+#include "host/reach/picture.hpp"
+#include "host/reach/region.hpp"
+
+namespace liana {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+// --- what is asked ---
+
+std::string number_list(const std::vector<double>& numbers) {
+  std::string text;
+  for (const double number : numbers) text += (text.empty() ? "" : ",") + json(number).dump();
+  return text;
+}
+
+// The waypoints of a file: what `liana plan --json` prints, or a JSON object with waypoints_deg (rows of joint angles, degrees).
+std::vector<ThetaVector> read_waypoints(const std::string& path, const RobotTable& robot) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
+  const json document = json::parse(std::string{std::istreambuf_iterator<char>(file), {}}, nullptr, false);
+  const json rows = document.is_object() ? document.value("waypoints_deg", json()) : json();
+  if (!rows.is_array() || rows.empty() || rows.size() > kMaxWaypoints) {
+    throw BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " + std::to_string(kMaxWaypoints) +
+                   " rows of joint angles under this key");
+  }
+  std::vector<ThetaVector> waypoints;
+  for (const json& row : rows) {
+    const std::string name = "--path: " + path + ": waypoints_deg row " + std::to_string(waypoints.size() + 1);
+    const auto is_number = [](const json& value) { return value.is_number(); };
+    if (!row.is_array() || !std::all_of(row.begin(), row.end(), is_number)) throw BadInput(name + ": allowed: an array of numbers");
+    waypoints.push_back(parse_theta_deg(name, number_list(row.get<std::vector<double>>()), robot));
+  }
+  return waypoints;
+}
+
+bool is_path(const ReachOptions& options) { return !options.path.empty() || !options.to_deg.empty(); }
+
+// Options that only one of the two uses have no silent effect on the other.
+void refuse_contradictions(const ReachOptions& options) {
+  const auto refuse = [](const char* text) { throw BadInput(text); };
+  if (!options.path.empty() && !options.to_deg.empty()) refuse("--path: not together with --to-deg; give one of them");
+  if (!options.path.empty() && !options.from_deg.empty())
+    refuse("--path: not together with --from-deg; the file's first waypoint is the start");
+  if (!options.to_deg.empty() && options.from_deg.empty()) refuse("--to-deg: needs --from-deg, where the path begins");
+  if (!is_path(options)) return;
+  if (!options.scene.empty()) refuse("--scene: is drawn with a region only; leave it out for a path");
+  if (options.node != 0) refuse("--node: a path is examined for the tip; leave it out");
+}
+
+std::uint32_t mask_of(const std::vector<HoldArgument>& holds) {
+  std::uint32_t mask = 0;
+  for (const HoldArgument& hold : holds) mask |= 1u << (hold.theta - 1);
+  return mask;
+}
+
+std::vector<HoldArgument> holds_of(const ReachOptions& options, const RobotTable& robot) {
+  return options.hold.empty() ? std::vector<HoldArgument>{} : parse_hold(options.hold, robot);
+}
+
+void require_free(std::uint32_t held_mask, std::int32_t theta_count, const std::string& what) {
+  const std::uint32_t all = (1u << theta_count) - 1u;
+  if ((held_mask & all) == all)
+    throw BadInput("--hold: nothing is left that moves " + what + "; free at least one of theta 1 to " + std::to_string(theta_count));
+}
+
+RegionRequest region_request(const ReachOptions& options, const RobotTable& robot, const ThetaVector& pose_rad) {
+  if (options.node < 0 || options.node > robot.segment_count) {
+    throw BadInput("--node: '" + std::to_string(options.node) + "': allowed: 1 to " + std::to_string(robot.segment_count) + " (the tip)");
+  }
+  if (options.samples < kMinSamples || options.samples > kMaxSamples) {
+    throw BadInput("--samples: '" + std::to_string(options.samples) + "': allowed: " + std::to_string(kMinSamples) + " to " +
+                   std::to_string(kMaxSamples));
+  }
+  RegionRequest request;
+  request.point.node = options.node == 0 ? robot.segment_count : options.node;
+  request.held_rad = pose_rad;
+  const auto holds = holds_of(options, robot);
+  request.point.held_mask = mask_of(holds);
+  for (const HoldArgument& hold : holds) {
+    if (hold.has_value) request.held_rad[static_cast<std::size_t>(hold.theta - 1)] = hold.value_deg * kDegree;
+  }
+  require_free(request.point.held_mask, 2 * request.point.node, "node " + std::to_string(request.point.node));
+  request.samples = static_cast<std::int32_t>(options.samples);
+  request.seed = options.seed;
+  return request;
+}
+
+// --- what is answered ---
+
+json thetas_in(std::uint32_t mask) {
+  json list = json::array();
+  for (std::int32_t i = 0; i < kMaxTheta; ++i) {
+    if (mask >> i & 1u) list.push_back(i + 1);
+  }
+  return list;
+}
+
+json degrees(const ThetaVector& theta_rad, const RobotTable& robot) {
+  json list = json::array();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) list.push_back(theta_rad[i] / kDegree);
+  return list;
+}
+
+json held_json(const RegionRequest& request, const RobotTable& robot) {
+  json held = json::object();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) {
+    if (request.point.held_mask >> i & 1u) held[std::to_string(i + 1)] = request.held_rad[i] / kDegree;
+  }
+  return held;
+}
+
+json end_json(const BoundaryPoint& end, const RobotTable& robot) {
+  return {{"distance_m", end.distance_m},
+          {"point_m", end.point_in_base_m},
+          {"theta_deg", degrees(end.theta_rad, robot)},
+          {"binding_theta", thetas_in(end.binding)}};
+}
+
+json bins_json(const Region& region, const RobotTable& robot) {
+  json bins = json::array();
+  for (const DirectionBin& bin : region.bins) {
+    json row = {{"polar_deg", bin.polar_rad / kDegree},
+                {"azimuth_deg", bin.azimuth_rad / kDegree},
+                {"polar_width_deg", bin.polar_width_rad / kDegree},
+                {"azimuth_width_deg", bin.azimuth_width_rad / kDegree},
+                {"samples", bin.samples},
+                {"outer", nullptr},
+                {"inner", nullptr}};
+    if (bin.samples > 0) {
+      row["outer"] = end_json(bin.outer, robot);
+      row["inner"] = end_json(bin.inner, robot);
+    }
+    bins.push_back(row);
+  }
+  return bins;
+}
+
+json shells_json(const Region& region) {
+  json shells = json::array();
+  const double width_m = region.length_m / kRadialShells;
+  for (std::size_t i = 0; i < kRadialShells; ++i) {
+    const double from_m = static_cast<double>(i) * width_m;
+    shells.push_back({{"from_m", from_m}, {"to_m", from_m + width_m}, {"share", region.shell_share[i]}});
+  }
+  return shells;
+}
+
+json binding_json(const Region& region, const RobotTable& robot) {
+  json shares = json::array();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) shares.push_back(region.outer_binding_share[i]);
+  return {{"theta_share", shares}, {"no_limit_share", region.outer_stretched_share}};
+}
+
+json region_json(const RegionRequest& request, const Region& region, const RobotConfig& robot) {
+  json extent = json::object();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    extent[std::string(1, "xyz"[axis])] = {region.extent_m[0][axis], region.extent_m[1][axis]};
+  }
+  return {{"robot", robot.name},
+          {"node", request.point.node},
+          {"held_deg", held_json(request, robot.table)},
+          {"samples", request.samples},
+          {"seed", request.seed},
+          {"dimension", region.dimension},
+          {"origin_m", region.origin_in_base_m},
+          {"length_m", region.length_m},
+          {"extent_m", extent},
+          {"nearest_m", region.nearest_m},
+          {"farthest_m", region.farthest_m},
+          {"radial_profile", shells_json(region)},
+          {"outer_binding", binding_json(region, robot.table)},
+          {"boundary", bins_json(region, robot.table)}};
+}
+
+json point_json(const PathPoint& point, const RobotTable& robot) {
+  const double condition = condition_number(point);
+  return {{"way", point.way},
+          {"theta_deg", degrees(point.theta_rad, robot)},
+          {"tip_m", point.tip_in_base_m},
+          {"least_singular_value", point.least_singular_value},
+          {"condition", std::isfinite(condition) ? json(condition) : json()},
+          {"limit_margin_deg", point.limit_margin_rad / kDegree},
+          {"nearest_theta", point.nearest_theta}};
+}
+
+json path_json(const PathReport& report, std::uint32_t held_mask, const RobotConfig& robot) {
+  json points = json::array();
+  for (const PathPoint& point : report.points) points.push_back(point_json(point, robot.table));
+  return {{"robot", robot.name},
+          {"held_theta", thetas_in(held_mask)},
+          {"joint_travel_deg", report.joint_travel_rad / kDegree},
+          {"waypoint_way", report.waypoint_way},
+          {"worst_conditioned", point_json(report.points[report.worst_conditioned], robot.table)},
+          {"nearest_limit", point_json(report.points[report.nearest_limit], robot.table)},
+          {"points", points}};
+}
+
+void print_region(const RegionRequest& request, const Region& region, const RobotTable& robot) {
+  std::printf("node %d, held: %s\n", request.point.node, held_text(robot, request.point.held_mask, request.held_rad).c_str());
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::printf("%c: %.3f .. %.3f m\n", "xyz"[axis], region.extent_m[0][axis], region.extent_m[1][axis]);
+  }
+  const Vec3& origin = region.origin_in_base_m;
+  std::printf("distance from (%.3f, %.3f, %.3f): %.3f .. %.3f m (straight arm %.3f m)\n", origin[0], origin[1], origin[2], region.nearest_m,
+              region.farthest_m, region.length_m);
+  std::printf("what binds at the outer boundary: no limit %.0f %%", 100.0 * region.outer_stretched_share);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) {
+    if (region.outer_binding_share[i] > 0.0) std::printf(", theta %zu %.0f %%", i + 1, 100.0 * region.outer_binding_share[i]);
+  }
+  std::printf("\n");
+}
+
+void print_path(const PathReport& report) {
+  const PathPoint& worst = report.points[report.worst_conditioned];
+  const PathPoint& nearest = report.points[report.nearest_limit];
+  std::printf("%zu points over %.1f deg of joint travel\n", report.points.size(), report.joint_travel_rad / kDegree);
+  std::printf("least singular value %.4f at %.1f %% of the way, condition %.1f\n", worst.least_singular_value, 100.0 * worst.way,
+              condition_number(worst));
+  std::printf("nearest limit: theta %d, %.3f deg left at %.1f %% of the way\n", nearest.nearest_theta, nearest.limit_margin_rad / kDegree,
+              100.0 * nearest.way);
+}
+
+void write_picture(const std::string& path, const std::string& picture) {
+  std::ofstream file(path, std::ios::binary);
+  file << picture;
+  file.close();
+  if (!file) throw BadInput("--svg: " + path + ": cannot be written; give a file in an existing directory");
+}
+
+int reach_along_path(const ReachOptions& options, const RobotConfig& robot) {
+  std::vector<ThetaVector> waypoints_rad;
+  if (options.path.empty()) {
+    waypoints_rad = {parse_theta_deg("--from-deg", options.from_deg, robot.table),
+                     parse_theta_deg("--to-deg", options.to_deg, robot.table)};
+  } else {
+    waypoints_rad = read_waypoints(options.path, robot.table);
+  }
+  const auto holds = holds_of(options, robot.table);
+  for (const HoldArgument& hold : holds) {
+    if (hold.has_value) throw BadInput("--hold: a path gives every angle; name the held thetas without values, e.g. 7,9");
+  }
+  const std::uint32_t held_mask = mask_of(holds);
+  require_free(held_mask, robot.table.theta_count(), "the tip");
+  const PathReport report = examine_path(robot.table, waypoints_rad, held_mask);
+  if (!options.svg_file.empty()) write_picture(options.svg_file, path_picture(robot, report, held_mask));
+  if (options.json) {
+    std::puts(path_json(report, held_mask, robot).dump().c_str());
+  } else {
+    print_path(report);
+  }
+  return kExitOk;
+}
+
+int reach_region(const ReachOptions& options, const RobotConfig& robot) {
+  std::optional<SceneConfig> scene;
+  if (!options.scene.empty()) {
+    const std::string text = evaluate_table("scene", options.scene);
+    scene = checked([&] { return parse_scene(text, options.scene); });
+  }
+  ThetaVector pose_rad{};
+  if (!options.from_deg.empty()) pose_rad = parse_theta_deg("--from-deg", options.from_deg, robot.table);
+  const RegionRequest request = region_request(options, robot.table, pose_rad);
+  for (std::size_t i = 0; i < kMaxTheta; ++i) {
+    if (request.point.held_mask >> i & 1u) pose_rad[i] = request.held_rad[i];
+  }
+  const Region region = explore_region(robot.table, request);
+  if (!options.svg_file.empty()) {
+    write_picture(options.svg_file, region_picture(robot, scene ? &*scene : nullptr, request, region, pose_rad));
+  }
+  if (options.json) {
+    std::puts(region_json(request, region, robot).dump().c_str());
+  } else {
+    print_region(request, region, robot.table);
+  }
+  return kExitOk;
+}
+
+}  // namespace
+
+int reach_command(const ReachOptions& options) {
+  refuse_contradictions(options);
+  const RobotConfig robot = robot_for_kinematics(options.robot);
+  return is_path(options) ? reach_along_path(options, robot) : reach_region(options, robot);
+}
+
+}  // namespace liana

@@ -1,0 +1,121 @@
+#include "host/reach/boundary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace liana {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRingWidth_rad = kPi / kPolarBins;
+
+using Members = std::vector<const ReachSample*>;  // of one range of directions
+
+std::vector<DirectionBin> empty_bins() {
+  std::vector<DirectionBin> bins;
+  for (std::int32_t ring = 0; ring < kPolarBins; ++ring) {
+    const std::int32_t count = azimuth_bins(ring);
+    const double width = 2.0 * kPi / count;
+    for (std::int32_t k = 0; k < count; ++k) bins.push_back({(ring + 0.5) * kRingWidth_rad, (k + 0.5) * width, kRingWidth_rad, width});
+  }
+  return bins;
+}
+
+// The end of the region along the ray of one sample, sign +1 outwards, -1 inwards.
+BoundaryPoint end_of_ray(const RaySearch& search, double sign, const ReachSample& start) {
+  BoundaryPoint end;
+  end.theta_rad = start.theta_rad;
+  push_along_ray(search.table, search.point, search.origin_in_base_m, sign, end.theta_rad);
+  end.point_in_base_m = point_motion(search.table, search.point, end.theta_rad).point_in_base_m;
+  end.distance_m = norm(subtract(end.point_in_base_m, search.origin_in_base_m));
+  return end;
+}
+
+// The end furthest out (sign +1) or in (-1) over the pushes of the first members.
+BoundaryPoint furthest_end(const RaySearch& search, double sign, const Members& members) {
+  BoundaryPoint best;
+  for (std::size_t i = 0; i < std::min(members.size(), kPushStarts); ++i) {
+    const BoundaryPoint end = end_of_ray(search, sign, *members[i]);
+    if (i == 0 || sign * (end.distance_m - best.distance_m) > 0.0) best = end;
+  }
+  if (best.distance_m > kPushResolution_m) {
+    const Vec3 outwards = scale(subtract(best.point_in_base_m, search.origin_in_base_m), sign / best.distance_m);
+    best.binding = binding_limits(search.table, search.point, outwards, best.theta_rad);
+  }
+  return best;
+}
+
+struct Ends {
+  BoundaryPoint outer, inner;
+};
+
+// Outer and inner end from at least one member; `distance` orders them.
+template <typename Distance>
+Ends find_ends(const RaySearch& search, Members& members, const Distance& distance) {
+  std::stable_sort(members.begin(), members.end(), [&](auto* a, auto* b) { return distance(*a) > distance(*b); });
+  Ends ends;
+  ends.outer = furthest_end(search, 1.0, members);
+  std::reverse(members.begin(), members.end());
+  ends.inner = furthest_end(search, -1.0, members);
+  return ends;
+}
+
+}  // namespace
+
+std::int32_t azimuth_bins(std::int32_t ring) {
+  return 4 * static_cast<std::int32_t>(std::ceil(6.0 * std::sin((ring + 0.5) * kRingWidth_rad)));
+}
+
+std::size_t direction_bin(const Vec3& direction) {
+  const double polar = std::atan2(std::hypot(direction[1], direction[2]), direction[0]);
+  double azimuth = std::atan2(direction[2], direction[1]);
+  if (azimuth < 0.0) azimuth += 2.0 * kPi;
+  const std::int32_t ring = std::min(static_cast<std::int32_t>(polar / kRingWidth_rad), kPolarBins - 1);
+  std::int32_t index = 0;
+  for (std::int32_t i = 0; i < ring; ++i) index += azimuth_bins(i);
+  const std::int32_t count = azimuth_bins(ring);
+  return static_cast<std::size_t>(index + std::min(static_cast<std::int32_t>(azimuth / (2.0 * kPi) * count), count - 1));
+}
+
+std::vector<DirectionBin> find_boundary(const RaySearch& search, const std::vector<ReachSample>& samples) {
+  std::vector<DirectionBin> bins = empty_bins();
+  std::vector<Members> members(bins.size());
+  for (const ReachSample& sample : samples) {
+    if (sample.distance_m <= kPushResolution_m) continue;
+    members[direction_bin(subtract(sample.point_in_base_m, search.origin_in_base_m))].push_back(&sample);
+  }
+  for (std::size_t i = 0; i < bins.size(); ++i) {
+    bins[i].samples = static_cast<std::int32_t>(members[i].size());
+    if (members[i].empty()) continue;
+    const Ends ends = find_ends(search, members[i], [](const ReachSample& sample) { return sample.distance_m; });
+    bins[i].outer = ends.outer;
+    bins[i].inner = ends.inner;
+  }
+  return bins;
+}
+
+Outline find_outline(const RaySearch& search, std::int32_t flat_axis, const std::vector<ReachSample>& samples) {
+  const std::size_t right = flat_axis == 0 ? 1 : 0, up = flat_axis == 2 ? 1 : 2;
+  RaySearch flat = search;
+  flat.point.flat_axis = flat_axis;
+  flat.origin_in_base_m[static_cast<std::size_t>(flat_axis)] = 0.0;
+  const auto seen = [&](const ReachSample& sample) { return subtract(sample.point_in_base_m, search.origin_in_base_m); };
+  const auto distance = [&](const ReachSample& sample) { return std::hypot(seen(sample)[right], seen(sample)[up]); };
+  std::array<Members, kOutlineSectors> members;
+  for (const ReachSample& sample : samples) {
+    if (distance(sample) <= kPushResolution_m) continue;
+    const double turns = std::atan2(seen(sample)[up], seen(sample)[right]) / (2.0 * kPi);
+    members[static_cast<std::size_t>((turns + 1.0) * kOutlineSectors) % kOutlineSectors].push_back(&sample);
+  }
+  Outline outline;
+  for (std::size_t i = 0; i < kOutlineSectors; ++i) {
+    if (members[i].empty()) continue;
+    const auto [outer, inner] = find_ends(flat, members[i], distance);
+    outline[i] = {
+        true, {outer.point_in_base_m[right], outer.point_in_base_m[up]}, {inner.point_in_base_m[right], inner.point_in_base_m[up]}};
+  }
+  return outline;
+}
+
+}  // namespace liana

@@ -1,0 +1,99 @@
+#include "host/reach/path.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "host/reach/spectrum.hpp"
+
+namespace liana {
+namespace {
+
+bool is_held(std::uint32_t held_mask, std::size_t theta) { return (held_mask >> theta & 1u) != 0; }
+
+void find_singular_values(const RobotTable& table, std::uint32_t held_mask, PathPoint& point) {
+  const ArmKinematics arm = forward_kinematics(table, point.theta_rad);
+  point.tip_in_base_m = arm.tip_in_base.position_m;
+  ThetaRows<6> rows{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
+    if (is_held(held_mask, i)) continue;
+    for (std::size_t row = 0; row < 3; ++row) {
+      rows[row][i] = arm.tip_jacobian.linear[i][row];
+      rows[row + 3][i] = arm.tip_jacobian.angular[i][row];
+    }
+  }
+  const Spectrum<6> s = spectrum(rows);
+  point.largest_singular_value = s.value.front();
+  point.least_singular_value = s.value.back();
+}
+
+void find_nearest_limit(const RobotTable& table, std::uint32_t held_mask, PathPoint& point) {
+  point.limit_margin_rad = std::numeric_limits<double>::infinity();
+  for (std::int32_t i = 0; i < table.theta_count(); ++i) {
+    const auto index = static_cast<std::size_t>(i);
+    if (is_held(held_mask, index)) continue;
+    const double margin_rad = table.segment[index / 2].theta_limit_rad - std::fabs(point.theta_rad[index]);
+    if (margin_rad >= point.limit_margin_rad) continue;
+    point.limit_margin_rad = margin_rad;
+    point.nearest_theta = i + 1;
+  }
+}
+
+PathPoint examine(const RobotTable& table, std::uint32_t held_mask, double travel_rad, const ThetaVector& theta_rad) {
+  PathPoint point;
+  point.way = travel_rad;
+  point.theta_rad = theta_rad;
+  find_singular_values(table, held_mask, point);
+  find_nearest_limit(table, held_mask, point);
+  return point;
+}
+
+double largest_change_rad(const ThetaVector& a, const ThetaVector& b) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < kMaxTheta; ++i) largest = std::max(largest, std::fabs(b[i] - a[i]));
+  return largest;
+}
+
+ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share) {
+  ThetaVector theta{};
+  for (std::size_t i = 0; i < kMaxTheta; ++i) theta[i] = a[i] + share * (b[i] - a[i]);
+  return theta;
+}
+
+template <typename Less>
+std::size_t first_least(const std::vector<PathPoint>& points, const Less& less) {
+  return static_cast<std::size_t>(std::min_element(points.begin(), points.end(), less) - points.begin());
+}
+
+}  // namespace
+
+double condition_number(const PathPoint& point) {
+  if (point.least_singular_value <= 1e-12 * point.largest_singular_value) return std::numeric_limits<double>::infinity();
+  return point.largest_singular_value / point.least_singular_value;
+}
+
+PathReport examine_path(const RobotTable& table, const std::vector<ThetaVector>& waypoints_rad, std::uint32_t held_mask) {
+  PathReport report;
+  report.points.push_back(examine(table, held_mask, 0.0, waypoints_rad.front()));
+  report.waypoint_way.push_back(0.0);
+  for (std::size_t leg = 1; leg < waypoints_rad.size(); ++leg) {
+    const ThetaVector &from = waypoints_rad[leg - 1], &to = waypoints_rad[leg];
+    const double change_rad = largest_change_rad(from, to);
+    const int steps = std::max(1, static_cast<int>(std::ceil(change_rad / kPathStep_rad - 1e-9)));
+    for (int k = 1; k < steps; ++k) {
+      const double share = static_cast<double>(k) / steps;
+      report.points.push_back(examine(table, held_mask, report.joint_travel_rad + share * change_rad, between(from, to, share)));
+    }
+    report.joint_travel_rad += change_rad;
+    report.points.push_back(examine(table, held_mask, report.joint_travel_rad, to));
+    report.waypoint_way.push_back(report.joint_travel_rad);
+  }
+  const double travel_rad = report.joint_travel_rad > 0.0 ? report.joint_travel_rad : 1.0;
+  for (PathPoint& point : report.points) point.way /= travel_rad;
+  for (double& way : report.waypoint_way) way /= travel_rad;
+  report.worst_conditioned = first_least(report.points, [](auto& a, auto& b) { return a.least_singular_value < b.least_singular_value; });
+  report.nearest_limit = first_least(report.points, [](auto& a, auto& b) { return a.limit_margin_rad < b.limit_margin_rad; });
+  return report;
+}
+
+}  // namespace liana

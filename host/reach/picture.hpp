@@ -1,0 +1,23 @@
+// Pictures a person can read: a reachable region in three views, and a path's conditioning and limits.
+#pragma once
+
+#include <string>
+
+#include "host/config/config.hpp"
+#include "host/reach/path.hpp"
+#include "host/reach/region.hpp"
+
+namespace liana {
+
+// Top (x, y), side (x, z) and front (y, z) view of the region at one scale, in the base frame. The colour of a cell is the mean mobility of
+// the samples in it, over the whole depth of the view; the arm in `pose_rad` and the scene (may be null) are drawn to scale over it.
+std::string region_picture(const RobotConfig& robot, const SceneConfig* scene, const RegionRequest& request, const Region& region,
+                           const ThetaVector& pose_rad);
+
+// Least singular value, condition number and limit margins over the way, the worst places marked.
+std::string path_picture(const RobotConfig& robot, const PathReport& report, std::uint32_t held_mask);
+
+// "theta 7 = 0.5, theta 9 = 0 deg", or "none".
+std::string held_text(const RobotTable& table, std::uint32_t held_mask, const ThetaVector& held_rad);
+
+}  // namespace liana

@@ -1,0 +1,167 @@
+#include "host/reach/region.hpp"
+
+#include <algorithm>
+
+#include "host/devices/random.hpp"
+#include "host/reach/spectrum.hpp"
+
+namespace liana {
+namespace {
+
+constexpr double kRankLimit_m_per_rad = 1e-6;
+constexpr std::size_t kClimbStarts = 8;  // samples that climb towards each side of the extent
+constexpr std::uint64_t kSampleStream = 1;
+
+using Samples = std::vector<ReachSample>;
+
+ReachSample sample_at(const RaySearch& search, const ThetaVector& theta_rad) {
+  const PointMotion motion = point_motion(search.table, search.point, theta_rad);
+  ThetaRows<3> rows{};
+  for (std::size_t i = 0; i < kMaxTheta; ++i) {
+    for (std::size_t row = 0; row < 3; ++row) rows[row][i] = motion.column[i][row];
+  }
+  const double distance_m = norm(subtract(motion.point_in_base_m, search.origin_in_base_m));
+  return {theta_rad, motion.point_in_base_m, distance_m, spectrum(rows).value};
+}
+
+ThetaVector draw(const RobotTable& table, const RegionRequest& request, std::int32_t index, RandomStream& random) {
+  const double factor = index == 0 ? 0.0 : index % 2 == 1 ? 1.0 : random.uniform(0.0, 1.0);
+  ThetaVector theta_rad = request.held_rad;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
+    if (is_free(request.point, i)) theta_rad[i] = factor * theta_limit_rad(table, i) * random.uniform(-1.0, 1.0);
+  }
+  return theta_rad;
+}
+
+Samples draw_samples(const RaySearch& search, const RegionRequest& request) {
+  RandomStream random(request.seed, kSampleStream);
+  Samples samples;
+  samples.reserve(static_cast<std::size_t>(request.samples));
+  for (std::int32_t i = 0; i < request.samples; ++i) samples.push_back(sample_at(search, draw(search.table, request, i, random)));
+  return samples;
+}
+
+// Segments at the root whose thetas are all held.
+std::int32_t still_segments(const ArmPoint& point) {
+  std::int32_t count = 0;
+  while (count + 1 < point.node && !is_free(point, static_cast<std::size_t>(2 * count)) &&
+         !is_free(point, static_cast<std::size_t>(2 * count + 1)))
+    ++count;
+  return count;
+}
+
+double length_between(const RobotTable& table, std::int32_t first_segment, std::int32_t node) {
+  double length_m = 0.0;
+  for (std::int32_t m = first_segment; m < node; ++m) {
+    const SegmentTable& segment = table.segment[static_cast<std::size_t>(m)];
+    length_m += segment.modules * segment.module_length_m;
+  }
+  return length_m;
+}
+
+std::int32_t dimension_of(const Samples& samples) {
+  std::int32_t dimension = 0;
+  for (const ReachSample& sample : samples) {
+    for (std::int32_t i = dimension; i < 3; ++i) {
+      if (sample.travel_m_per_rad[static_cast<std::size_t>(i)] > kRankLimit_m_per_rad) dimension = i + 1;
+    }
+  }
+  return dimension;
+}
+
+// Poses as far along `sign` times base axis `axis` as climbing from the best samples leads.
+Samples climb_from_best(const RaySearch& search, const Samples& samples, std::size_t axis, double sign) {
+  std::vector<const ReachSample*> order;
+  for (const ReachSample& sample : samples) order.push_back(&sample);
+  const std::size_t starts = std::min(order.size(), kClimbStarts);
+  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(starts), order.end(),
+                    [&](auto* a, auto* b) { return sign * (a->point_in_base_m[axis] - b->point_in_base_m[axis]) > 0.0; });
+  Vec3 direction{};
+  direction[axis] = sign;
+  Samples found;
+  for (std::size_t i = 0; i < starts; ++i) {
+    ThetaVector theta_rad = order[i]->theta_rad;
+    climb(search.table, search.point, direction, theta_rad);
+    found.push_back(sample_at(search, theta_rad));
+  }
+  return found;
+}
+
+// Appends the poses at the six sides to `samples` and returns the extent over all of them.
+std::array<Vec3, 2> find_extent(const RaySearch& search, Samples& samples) {
+  Samples found;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double sign : {-1.0, 1.0}) {
+      const Samples side = climb_from_best(search, samples, axis, sign);
+      found.insert(found.end(), side.begin(), side.end());
+    }
+  }
+  samples.insert(samples.end(), found.begin(), found.end());
+  std::array<Vec3, 2> extent_m{samples.front().point_in_base_m, samples.front().point_in_base_m};
+  for (const ReachSample& sample : samples) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      extent_m[0][axis] = std::min(extent_m[0][axis], sample.point_in_base_m[axis]);
+      extent_m[1][axis] = std::max(extent_m[1][axis], sample.point_in_base_m[axis]);
+    }
+  }
+  return extent_m;
+}
+
+void describe_samples(const Samples& samples, Region& region) {
+  region.dimension = dimension_of(samples);
+  const auto worst = static_cast<std::size_t>(std::max(region.dimension, 1) - 1);
+  for (const ReachSample& sample : samples) {
+    region.samples.push_back({sample.point_in_base_m, sample.travel_m_per_rad[worst]});
+    const double shell = std::min(sample.distance_m / region.length_m * kRadialShells, kRadialShells - 1.0);
+    region.shell_share[static_cast<std::size_t>(shell)] += 1.0 / static_cast<double>(samples.size());
+  }
+}
+
+void describe_distances(const Samples& samples, Region& region) {
+  region.nearest_m = region.farthest_m = samples.front().distance_m;
+  const auto count = [&](double distance_m) {
+    region.nearest_m = std::min(region.nearest_m, distance_m);
+    region.farthest_m = std::max(region.farthest_m, distance_m);
+  };
+  for (const ReachSample& sample : samples) count(sample.distance_m);
+  for (const DirectionBin& bin : region.bins) {
+    if (bin.samples == 0) continue;
+    count(bin.outer.distance_m);
+    count(bin.inner.distance_m);
+  }
+}
+
+void count_binding(const RobotTable& table, Region& region) {
+  double ends = 0.0;
+  for (const DirectionBin& bin : region.bins) {
+    if (bin.samples == 0) continue;
+    ends += 1.0;
+    region.outer_stretched_share += bin.outer.binding == 0 ? 1.0 : 0.0;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
+      region.outer_binding_share[i] += bin.outer.binding >> i & 1u ? 1.0 : 0.0;
+    }
+  }
+  if (ends == 0.0) return;
+  region.outer_stretched_share /= ends;
+  for (double& share : region.outer_binding_share) share /= ends;
+}
+
+}  // namespace
+
+Region explore_region(const RobotTable& table, const RegionRequest& request) {
+  Region region;
+  const std::int32_t still = still_segments(request.point);
+  region.origin_in_base_m = forward_kinematics(table, request.held_rad).node_in_base[static_cast<std::size_t>(still)].position_m;
+  region.length_m = length_between(table, still, request.point.node);
+  const RaySearch search{table, request.point, region.origin_in_base_m};
+  Samples samples = draw_samples(search, request);
+  describe_samples(samples, region);
+  region.extent_m = find_extent(search, samples);
+  region.bins = find_boundary(search, samples);
+  for (std::int32_t axis = 0; axis < 3; ++axis) region.outline[static_cast<std::size_t>(axis)] = find_outline(search, axis, samples);
+  describe_distances(samples, region);
+  count_binding(table, region);
+  return region;
+}
+
+}  // namespace liana

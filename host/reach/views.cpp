@@ -1,0 +1,137 @@
+#include "host/reach/views.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace liana {
+namespace {
+
+constexpr double kLeastArm_px = 3.0;
+constexpr double kRing_px = 7.0;
+
+double pixels_per_m(const View& view) { return view.axes.width / (view.axes.x.high - view.axes.x.low); }
+
+// Corners of the convex hull, in order (Andrew's monotone chain).
+std::vector<Pixel> convex_hull(std::vector<Pixel> points) {
+  std::sort(points.begin(), points.end(), [](const Pixel& a, const Pixel& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  const auto left_turn = [](const Pixel& a, const Pixel& b, const Pixel& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0.0;
+  };
+  std::vector<Pixel> hull;
+  for (int side = 0; side < 2; ++side) {
+    const std::size_t start = hull.size();
+    for (const Pixel& point : points) {
+      while (hull.size() >= start + 2 && !left_turn(hull[hull.size() - 2], hull.back(), point)) hull.pop_back();
+      hull.push_back(point);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+std::size_t heat_class(double value, double top) {
+  if (top <= 0.0) return 0;
+  return std::min(static_cast<std::size_t>(value / top * kHeatClasses), kHeatClasses - 1);
+}
+
+}  // namespace
+
+std::array<Vec3, 8> box_corners(const SceneBox& box) {
+  std::array<Vec3, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i) {
+    corners[i] = box.center_m;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      corners[i] = add(corners[i], scale(box.rotation[axis], i >> axis & 1u ? box.half_extent_m[axis] : -box.half_extent_m[axis]));
+    }
+  }
+  return corners;
+}
+
+std::map<Cell, double> heat_cells(const View& view, const std::vector<ReachedPoint>& samples) {
+  std::map<Cell, std::pair<double, std::size_t>> sums;
+  for (const ReachedPoint& sample : samples) {
+    const Pixel at = view.at(sample.point_in_base_m);
+    const Cell cell{static_cast<int>(std::floor((view.axes.corner.y + view.axes.height - at.y) / kHeatCell_px)),
+                    static_cast<int>(std::floor((at.x - view.axes.corner.x) / kHeatCell_px))};
+    auto& [sum, count] = sums[cell];
+    sum += sample.mobility_m_per_rad;
+    ++count;
+  }
+  std::map<Cell, double> means;
+  for (const auto& [cell, sum] : sums) {
+    if (sum.second >= kLeastSamples) means[cell] = sum.first / static_cast<double>(sum.second);
+  }
+  return means;
+}
+
+void draw_heat(Svg& svg, const View& view, const std::map<Cell, double>& cells, double top_m_per_rad) {
+  std::array<std::vector<Svg::Bar>, kHeatClasses> bars;
+  for (auto cell = cells.begin(); cell != cells.end();) {
+    const auto [row, first] = cell->first;
+    const std::size_t kind = heat_class(cell->second, top_m_per_rad);
+    int column = first;
+    while (cell != cells.end() && cell->first == Cell{row, column} && heat_class(cell->second, top_m_per_rad) == kind) ++cell, ++column;
+    bars[kind].push_back({{view.axes.corner.x + first * kHeatCell_px, view.axes.corner.y + view.axes.height - (row + 0.5) * kHeatCell_px},
+                          (column - first) * kHeatCell_px});
+  }
+  for (std::size_t kind = 0; kind < kHeatClasses; ++kind) svg.bars(bars[kind], kHeatCell_px, kHeatColours[kind]);
+}
+
+void draw_outline(Svg& svg, const View& view, const Outline& outline, const Look& look) {
+  const auto pixel = [&](const std::array<double, 2>& place_m) { return view.axes.at(place_m[0], place_m[1]); };
+  const auto gap =
+      static_cast<std::size_t>(std::find_if(outline.begin(), outline.end(), [](auto& s) { return !s.seen; }) - outline.begin());
+  // Runs of neighbouring sectors: out along the outer ends, back along the inner ones. Counting starts behind a gap, if there is one.
+  std::vector<Pixel> there, back;
+  const auto close_run = [&] {
+    there.insert(there.end(), back.rbegin(), back.rend());
+    if (there.size() >= 3) svg.polygon(there, look);
+    there.clear();
+    back.clear();
+  };
+  const bool all_round = gap == kOutlineSectors;
+  for (std::size_t k = 0; k < kOutlineSectors; ++k) {
+    const OutlineSector& sector = outline[(gap + k) % kOutlineSectors];
+    if (!sector.seen) {
+      close_run();
+      continue;
+    }
+    there.push_back(pixel(sector.outer_m));
+    if (!all_round) back.push_back(pixel(sector.inner_m));
+  }
+  close_run();
+}
+
+void draw_scene(Svg& svg, const View& view, const SceneConfig& scene) {
+  for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
+    std::vector<Pixel> corners;
+    for (const Vec3& corner : box_corners(scene.boxes[i])) corners.push_back(view.at(corner));
+    const std::string_view colour = kBoxColours[std::min(i, kBoxColours.size() - 1)];
+    svg.polygon(convex_hull(corners), {.fill = colour, .opacity = 0.25});
+    svg.polygon(convex_hull(corners), {.stroke = colour, .width = 1.2});
+  }
+  for (const SceneSphere& sphere : scene.spheres) {
+    svg.circle(view.at(sphere.center_m), sphere.radius_m * pixels_per_m(view), {.fill = kSphereColour, .opacity = 0.55});
+  }
+  const Pixel rod = view.at(scene.rod.pose.position_m);
+  svg.circle(rod, scene.rod.radius_m * pixels_per_m(view), {.fill = kRodColour});
+  svg.circle(rod, kRing_px, {.stroke = kRodColour, .width = 2.0});
+}
+
+void draw_arm(Svg& svg, const View& view, const RobotConfig& robot, const ThetaVector& theta_rad, std::int32_t marked_node) {
+  const LinkPoints links = link_points(robot.table, theta_rad);
+  std::vector<Pixel> line;
+  for (std::int32_t i = 0; i < links.count; ++i) line.push_back(view.at(links.point_in_base[static_cast<std::size_t>(i)]));
+  const double width_px = std::max(kLeastArm_px, 2.0 * robot.module_radius_m * pixels_per_m(view));
+  svg.polyline(line, {.stroke = kArmColour, .width = width_px});
+  const ArmKinematics arm = forward_kinematics(robot.table, theta_rad);
+  for (std::int32_t m = 1; m <= robot.table.segment_count; ++m) {
+    const Pixel node = view.at(arm.node_in_base[static_cast<std::size_t>(m)].position_m);
+    svg.circle(node, m == marked_node ? 4.5 : 2.5, {.fill = m == marked_node ? kMarkColour : kNodeColour});
+  }
+  const Pixel base = view.at({0.0, 0.0, 0.0});
+  svg.rectangle({base.x - 5.0, base.y - 5.0}, 10.0, 10.0, {.fill = "#222222"});
+}
+
+}  // namespace liana

@@ -1,0 +1,142 @@
+"""`liana reach` as users call it: what it prints, its pictures, and what it says about bad input."""
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
+from programs import ROOT, liana, liana_json  # noqa: E402
+
+PREPARE = "-8.5,0,-12,0,8,-2,13,0,12,-2"
+PANEL_EDGE = "-6.14,-15,-3.29,-8.72,7.2,15,5.55,15,1,-2.8"
+FEW = "--samples=2000"
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def picture(*options):
+    """The picture of a call as a parsed tree: fails when it is not well-formed XML."""
+    with tempfile.TemporaryDirectory() as directory:
+        file = pathlib.Path(directory) / "picture.svg"
+        code, _, error = liana("reach", *options, "--svg", file)
+        assert code == 0, error
+        assert "nan" not in file.read_text() and "inf\"" not in file.read_text()
+        return xml.etree.ElementTree.parse(file).getroot()
+
+
+def texts(root):
+    return [element.text for element in root.iter(SVG + "text")]
+
+
+class Region(unittest.TestCase):
+    def test_the_answer_holds_extent_boundary_profile_and_what_binds(self):
+        answer = liana_json("reach", FEW)
+        self.assertAlmostEqual(answer["extent_m"]["x"][1], 4.0, delta=1e-9)
+        self.assertEqual((answer["node"], answer["dimension"], answer["held_deg"]), (5, 3, {}))
+        self.assertAlmostEqual(sum(shell["share"] for shell in answer["radial_profile"]), 1.0, delta=1e-9)
+        self.assertEqual(len(answer["outer_binding"]["theta_share"]), 10)
+        for found in filter(lambda found: found["outer"], answer["boundary"]):
+            self.assertGreaterEqual(found["outer"]["distance_m"], found["inner"]["distance_m"])
+            self.assertTrue(all(abs(angle) <= 20.0 + 1e-9 for angle in found["outer"]["theta_deg"]))
+
+    def test_held_angles_are_where_they_were_put_or_where_the_pose_has_them(self):
+        answer = liana_json("reach", FEW, "--hold=7=0.5,9", f"--from-deg={PREPARE}")
+        self.assertAlmostEqual(answer["held_deg"]["7"], 0.5, delta=1e-12)
+        self.assertAlmostEqual(answer["held_deg"]["9"], 12.0, delta=1e-12)
+
+    def test_the_same_call_prints_the_same_bytes(self):
+        self.assertEqual(liana("reach", FEW, "--json"), liana("reach", FEW, "--json"))
+
+
+class Path(unittest.TestCase):
+    def test_the_worst_places_are_those_of_the_points(self):
+        answer = liana_json("reach", f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}")
+        self.assertEqual(answer["worst_conditioned"], min(answer["points"], key=lambda point: point["least_singular_value"]))
+        self.assertEqual(answer["nearest_limit"], min(answer["points"], key=lambda point: point["limit_margin_deg"]))
+        self.assertAlmostEqual(answer["points"][0]["least_singular_value"], 4.10, delta=0.005)
+        self.assertEqual(answer["nearest_limit"]["nearest_theta"], 2)
+
+    def test_a_file_of_waypoints_is_the_same_as_its_ends_on_the_command_line(self):
+        rows = [[float(x) for x in text.split(",")] for text in (PREPARE, PANEL_EDGE)]
+        with tempfile.TemporaryDirectory() as directory:
+            file = pathlib.Path(directory) / "plan.json"
+            file.write_text(json.dumps({"outcome": "solved", "waypoints_deg": rows}))
+            self.assertEqual(liana_json("reach", "--path", file), liana_json("reach", f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}"))
+
+    def test_a_condition_without_bound_is_null(self):
+        zero = ",".join(["0"] * 10)
+        self.assertIsNone(liana_json("reach", f"--from-deg={zero}", f"--to-deg={PREPARE}")["points"][0]["condition"])
+
+
+class Pictures(unittest.TestCase):
+    def test_a_region_shows_three_views_with_axes_and_a_legend(self):
+        words = texts(picture(FEW, "--scene=panel_slit", "--hold=7,9"))
+        for needed in ["Where the tip of zhu2022 can go", "held: theta 7 = 0, theta 9 = 0 deg", "top view, from +z", "side view, from -y",
+                       "front view, from +x", "x (m)", "y (m)", "z (m)", "obstacle", "press rod, inside the ring"]:
+            self.assertIn(needed, words)
+
+    def test_the_scene_and_the_arm_are_to_scale(self):
+        root = picture(FEW, "--scene=panel_slit")
+        ticks = {element.text: float(element.get("x")) for element in root.iter(SVG + "text")
+                 if element.get("text-anchor") == "middle" and element.text in ("1", "2")}
+        self.assertEqual(len(ticks), 2)
+        pixels_per_m = ticks["2"] - ticks["1"]
+        spheres = [float(element.get("r")) for element in root.iter(SVG + "circle") if element.get("opacity") == "0.55"]
+        self.assertEqual(sum(abs(radius - 0.25 * pixels_per_m) < 0.15 for radius in spheres), 3)  # one a view
+        arms = [float(element.get("stroke-width")) for element in root.iter(SVG + "polyline")]
+        self.assertEqual(len(arms), 3)
+        self.assertTrue(all(abs(width - 0.06 * pixels_per_m) < 0.15 for width in arms))
+
+    def test_every_use_gives_a_picture(self):
+        for options in [("--node=1",), ("--node=3", "--hold=1,2"), ("--hold=1,2,3,4,5,6,7,8,9",), ("--hold=2,4,6,8,10",), ("--hold=1=20,2=-20",)]:
+            self.assertIn("In figures", texts(picture(FEW, *options)))
+        for options in [(), ("--hold=7,9",), ("--hold=1,2,3,4,5",), ("--hold=1,2,3,4,5,6,7,8,9",)]:
+            words = texts(picture(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", *options))
+            self.assertIn("margin to the limit (deg)", words)
+        self.assertIn("condition number", texts(picture(f"--from-deg={PREPARE}", f"--to-deg={PREPARE}")))
+
+    def test_the_pictures_of_the_documentation_are_well_formed_and_small(self):
+        files = sorted((ROOT / "docs/pictures").glob("*.svg"))
+        self.assertGreaterEqual(len(files), 2)
+        for file in files:
+            xml.etree.ElementTree.parse(file)
+            self.assertLess(file.stat().st_size, 100_000, file)
+
+
+class BadInput(unittest.TestCase):
+    def expect_refusal(self, options, named):
+        code, out, error = liana("reach", *options, "--json")
+        self.assertEqual((code, out), (2, ""), (options, error))
+        self.assertIn(named, error, options)
+        self.assertEqual(error.count("\n"), 1, error)
+
+    def test_every_wrong_option_ends_with_2_and_one_message(self):
+        ends = (f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}")
+        for options, named in [
+            (["--node=6"], "1 to 5"), (["--node=0"], "--node"), (["--node=x"], "--node"),
+            (["--samples=999"], "1000 to 1000000"), (["--samples=1000001"], "1000 to 1000000"), (["--samples=nan"], "--samples"),
+            (["--seed=-1"], "--seed"), (["--hold=11"], "--hold"), (["--hold=7=21"], "20 deg"), (["--hold=7=nan"], "nan"),
+            (["--hold=1,2", "--node=1"], "free at least one of theta 1 to 2"), (["--hold=1,2,3,4,5,6,7,8,9,10"], "free at least one"),
+            (["--from-deg=0"], "10 numbers"), (["--robot=nobody"], "nobody"), (["--scene=nowhere"], "nowhere"),
+            ([FEW, "--svg=/no/such/directory/x.svg"], "--svg"), ([f"--to-deg={PREPARE}"], "--from-deg"),
+            ([*ends, "--hold=7=1"], "without values"), ([*ends, "--node=3"], "--node"), ([*ends, "--scene=panel_slit"], "--scene"),
+            ([*ends, "--hold=1,2,3,4,5,6,7,8,9,10"], "free at least one"), (["--path=/no/such/file"], "/no/such/file"),
+            (["--path=x.json", f"--to-deg={PREPARE}"], "--to-deg"), (["--path=x.json", f"--from-deg={PREPARE}"], "--from-deg"),
+        ]:
+            self.expect_refusal(options, named)
+
+    def test_every_wrong_file_of_waypoints_ends_with_2_and_one_message(self):
+        with tempfile.TemporaryDirectory() as directory:
+            file = pathlib.Path(directory) / "path.json"
+            for content, named in [("", "waypoints_deg"), ("[]", "waypoints_deg"), ("{}", "waypoints_deg"), ('{"waypoints_deg": []}', "1 to 2000"),
+                                   ('{"waypoints_deg": [1]}', "row 1"), ('{"waypoints_deg": [[1, "2"]]}', "row 1"),
+                                   ('{"waypoints_deg": [[1, 2]]}', "10 numbers"), ('{"waypoints_deg": [[]]}', "10 numbers"),
+                                   (f'{{"waypoints_deg": [[{PREPARE}], [21,0,0,0,0,0,0,0,0,0]]}}', "row 2"),
+                                   (json.dumps({"waypoints_deg": [[0.0] * 10] * 2001}), "1 to 2000")]:
+                file.write_text(content)
+                self.expect_refusal(["--path", file], named)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
