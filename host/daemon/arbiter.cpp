@@ -13,6 +13,7 @@ namespace {
 constexpr double kArrived_m = 1e-5;
 constexpr double kArrived_rad = 1e-5;
 constexpr std::int32_t kSettledIntervals = 10;
+constexpr std::int32_t kRestIntervals = 3;  // a command released before the stop may still be on its way
 
 bool has_nodes(const std::array<NodeTarget, kMaxNodeTargets>& nodes) {
   for (const NodeTarget& target : nodes) {
@@ -84,18 +85,25 @@ void Arbiter::shape(const Outputs& now, const std::array<NodeTarget, kMaxNodeTar
 
 void Arbiter::use_device(const DeviceUse& use) {
   if (is_busy()) throw RequestError("busy", "a planned move is under way: wait for it or send hold");
+  take_device_away();
   device_.use(use);
-  device_node_ = NodeTarget{};
-  was_engaged_ = false;
   tip_speed_m_s_ = use.speed_m_s > 0.0 ? use.speed_m_s : table_.limits.tip_speed_m_s;
 }
 
-// The way out takes over from whatever is under way, the operator included.
+void Arbiter::take_device_away() {
+  device_.use(DeviceUse{});
+  device_node_ = NodeTarget{};
+  was_engaged_ = false;
+}
+
+// The way out takes over from whatever is under way. An operator who could grip again would steer back in as soon as it ends.
 void Arbiter::retract(const Outputs& now, std::uint64_t until_tick) {
   require_ready(now);
   if (path_.empty()) throw RequestError("refused", "there is no stored path to go back along");
-  device_.let_go();
-  retract_until_ = until_tick;
+  take_device_away();
+  way_back_.emplace(until_tick);
+  rest_intervals_ = 0;
+  has_retracted_ = false;
   mode_ = Mode::kRetract;
 }
 
@@ -105,7 +113,8 @@ void Arbiter::hold() {
 }
 
 void Arbiter::refused() {
-  mode_ = Mode::kIdle;
+  rest_intervals_ = 0;
+  if (mode_ != Mode::kRetract || !way_back_->start_again()) mode_ = Mode::kIdle;
   device_.drop_anchor();
 }
 
@@ -143,7 +152,8 @@ std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const Outputs
     nodes_ = {};
     return std::nullopt;
   }
-  if (mode_ != Mode::kRetract) path_.note(tick, now.theta_command_rad);
+  const bool going_back = mode_ == Mode::kRetract && rest_intervals_ >= kRestIntervals;
+  if (!going_back) path_.note(tick, now.theta_command_rad);  // the stop before the way back is part of the way in
   if (is_busy()) {
     device_.drop_anchor();  // a hand that closes the deadman now starts from where the move ends
     return planned_setpoint(now);
@@ -187,9 +197,20 @@ std::optional<Setpoint> Arbiter::planned_setpoint(const Outputs& now) {
     if (arrived && now.at_rest != 0) mode_ = Mode::kIdle;
     return joint_setpoint(joint_move_->at(move_time_s_));
   }
-  const std::optional<ThetaVector> back = path_.step_back(retract_until_);
-  if (!back) mode_ = Mode::kIdle;
-  return back ? std::optional(joint_setpoint(*back)) : std::nullopt;
+  return way_back_setpoint(now);
+}
+
+// Nothing is asked for until the arm has come to rest; then the way back begins where it stands.
+std::optional<Setpoint> Arbiter::way_back_setpoint(const Outputs& now) {
+  if (rest_intervals_ < kRestIntervals) {
+    rest_intervals_ = now.at_rest != 0 ? rest_intervals_ + 1 : 0;
+    return std::nullopt;
+  }
+  const std::optional<ThetaVector> back = way_back_->next(path_);
+  if (back) return joint_setpoint(*back);
+  has_retracted_ = true;
+  mode_ = Mode::kIdle;
+  return std::nullopt;
 }
 
 }  // namespace liana

@@ -24,18 +24,20 @@ class Arbiter {
   // Null-space targets; unused entries have node = 0.
   void shape(const Outputs& now, const std::array<NodeTarget, kMaxNodeTargets>& nodes);
   void use_device(const DeviceUse& use);
-  // Back along the verified path, not beyond `until_tick`.
+  // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until use_device is asked for.
   void retract(const Outputs& now, std::uint64_t until_tick);
   // Stop along the path: nothing is asked for any more. The operator has to let go and engage again.
   void hold();
 
   // Ends the interval: what to verify for the next one; nothing = the arm holds. `tick` counts the ticks done.
   std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Outputs& now);
-  // The setpoint was refused: planned moves end, the operator's clutch takes new anchors.
+  // The setpoint was refused: planned moves end, the operator's clutch takes new anchors. The way back stops and starts again, some times.
   void refused();
 
   // A planned move is under way.
   bool is_busy() const { return mode_ == Mode::kLine || mode_ == Mode::kJoint || mode_ == Mode::kRetract; }
+  // The last retract has gone back all the way.
+  bool has_retracted() const { return has_retracted_; }
   std::uint32_t held_mask() const { return held_mask_; }
   DeviceSteer& device() { return device_; }
   const DeviceSteer& device() const { return device_; }
@@ -46,10 +48,12 @@ class Arbiter {
   void require_ready(const Outputs& now) const;
   void require_free(const Outputs& now) const;
   void stay_here(const Outputs& now);
+  void take_device_away();
   Setpoint tip_setpoint(const Outputs& now) const;
   Setpoint joint_setpoint(const ThetaVector& theta_rad) const;
   bool has_arrived(const Outputs& now) const;
   std::optional<Setpoint> planned_setpoint(const Outputs& now);
+  std::optional<Setpoint> way_back_setpoint(const Outputs& now);
   std::optional<Setpoint> steered_setpoint(const Outputs& now, const SteerGoal& goal);
 
   RobotTable table_;
@@ -60,7 +64,9 @@ class Arbiter {
   std::int32_t unchanged_intervals_ = 0;  // since the tip goal, held variables or nodes were set
   std::optional<JointMove> joint_move_;
   std::optional<TipLine> line_;
-  std::uint64_t retract_until_ = 0;
+  std::optional<WayBack> way_back_;
+  std::int32_t rest_intervals_ = 0;  // in a row at rest before the way back starts
+  bool has_retracted_ = false;
   Pose tip_goal_{};
   std::uint32_t held_mask_ = 0;
   ThetaVector held_rad_{};

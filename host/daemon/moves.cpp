@@ -14,6 +14,8 @@ constexpr double kPeakAccel = 5.7735026919;  // 10 / sqrt(3)
 constexpr double kPeakJerk = 60.0;
 constexpr std::size_t kMaxPathPoints = 500000;  // 2.7 h of motion at 50 Hz; the oldest go first
 constexpr double kSamePoint_rad = 1e-7;
+constexpr double kPaceGain = 0.008;  // of the way back, per command interval: full pace after 2 s
+constexpr int kMostStarts = 10;
 
 double duration_for(double way, double speed, double accel, double jerk) {
   return std::max({kPeakSpeed * way / speed, std::sqrt(kPeakAccel * way / accel), std::cbrt(kPeakJerk * way / jerk)});
@@ -90,6 +92,30 @@ std::optional<ThetaVector> PathMemory::step_back(std::uint64_t until_tick) {
   const ThetaVector theta = points_.back().theta_rad;
   points_.pop_back();
   return theta;
+}
+
+std::optional<ThetaVector> WayBack::next(PathMemory& path) {
+  if (!to_rad_) {  // at rest: the newest point is where the command stands
+    to_rad_ = path.step_back(until_tick_);
+    if (!to_rad_ || ended_) return std::nullopt;
+    share_ = 1.0;
+  }
+  pace_ = std::min(kWayBackPace, pace_ + kPaceGain);
+  share_ += pace_;
+  if (share_ >= 1.0) {
+    share_ -= 1.0;
+    from_rad_ = *to_rad_;
+    to_rad_ = path.step_back(until_tick_);
+    ended_ = !to_rad_;
+  }
+  return ended_ ? from_rad_ : between(from_rad_, *to_rad_, share_);
+}
+
+bool WayBack::start_again() {
+  pace_ = 0.0;
+  to_rad_ = std::nullopt;
+  ended_ = false;
+  return ++starts_ < kMostStarts;
 }
 
 }  // namespace liana

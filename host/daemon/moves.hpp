@@ -64,4 +64,27 @@ class PathMemory {
   std::deque<Point> points_;
 };
 
+// Path points per command interval on the way back: slower than the way in, so that what passed verification then passes it again.
+constexpr double kWayBackPace = 0.8;
+
+// The way back along a path memory, from rest. A refusal ends in rest, too; the next start takes the place that was refused slowly.
+class WayBack {
+ public:
+  // Back to where the command stood at `until_tick`.
+  explicit WayBack(std::uint64_t until_tick) : until_tick_(until_tick) {}
+  // One command interval on: the angles to command next; nothing at the end.
+  std::optional<ThetaVector> next(PathMemory& path);
+  // Starts again from rest, at the newest point of the path; false when that was refused too often.
+  bool start_again();
+
+ private:
+  std::uint64_t until_tick_;
+  int starts_ = 0;
+  bool ended_ = false;
+  double pace_ = 0.0;   // points per interval now
+  double share_ = 0.0;  // of the way from the point reached last to the next one
+  ThetaVector from_rad_{};
+  std::optional<ThetaVector> to_rad_;
+};
+
 }  // namespace liana

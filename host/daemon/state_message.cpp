@@ -148,6 +148,7 @@ json state_message(const RobotTable& table, const BusesConfig& buses, const Cycl
              {"time_s", static_cast<double>(report.next_tick) * table.tick_s},
              {"state", state_name(report)},
              {"is_busy", arbiter.is_busy() || moving},
+             {"retracted", arbiter.has_retracted()},
              {"owner", owner.name()},
              {"device", device_name(device.kind)},
              {"device_engaged", arbiter.device().engaged()},

@@ -200,8 +200,13 @@ end
 local function retract(runner)
   if runner:waiting() or runner:phase_s() < kSettle_s then return end
   local state = runner.arm.state
-  if state.at_rest and not state.is_busy then return runner:over("aborted", runner.failed_reason .. "; retracted along the verified path") end
+  if state.at_rest and not state.is_busy then
+    if state.retracted then return runner:over("aborted", runner.failed_reason .. "; retracted along the verified path") end
+    return runner:over("failed", runner.failed_reason .. "; the way back was refused before its end, the arm holds")
+  end
   if runner:phase_s() > kRetractLimit_s then
+    runner.failed_outcome = "failed"
+    runner.failed_reason = ("%s; not back along the verified path after %g s, the arm holds"):format(runner.failed_reason, kRetractLimit_s)
     runner:request("hold")
     runner:enter_phase("give_up")
   end

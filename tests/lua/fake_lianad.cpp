@@ -149,6 +149,7 @@ void FakeLianad::obey(const json& request) {
     engaged_ = false;
     intervals_with_device_ = 0;
   }
+  if (op == "retract") retracted_ = !behaviour_.way_back_ends_early;
   if (op == "move_jp" || op == "hold_theta" || op == "retract") busy_intervals_ = kMotionIntervals;
 }
 
@@ -191,6 +192,7 @@ json FakeLianad::state() const {
           {"stop_category", fault || stopped ? "stop" : "none"},
           {"is_homed", is_homed_},
           {"is_busy", busy_intervals_ > 0},
+          {"retracted", retracted_ && busy_intervals_ == 0},
           {"at_rest", busy_intervals_ == 0 && !engaged_},
           {"owner", stolen ? "somebody" : owner_},
           {"device", device_},

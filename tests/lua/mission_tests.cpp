@@ -145,6 +145,12 @@ TEST(Mission, ARefusedRetractionHoldsAndSaysSo) {
   EXPECT_NE(run.report["reason"].get<std::string>().find("retract refused"), std::string::npos);
 }
 
+TEST(Mission, AWayBackThatEndsEarlyIsAFailureAndSaysSo) {
+  const MissionRun run = run_mission_against({.way_back_ends_early = true, .tip_in_slit_u_m = 2.5});
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_NE(run.report["reason"].get<std::string>().find("the way back was refused before its end"), std::string::npos) << run.report;
+}
+
 TEST(Mission, IsPatientWhileDrivesBootAndThenSaysWhy) {
   const MissionRun run = run_mission_against({.refuse = {{"state_command", "busy"}}});
   EXPECT_EQ(run.report["outcome"], "failed");

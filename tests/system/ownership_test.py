@@ -60,6 +60,25 @@ class OwnershipOfMotion(SystemTest):
         system.shut_down(client)
         self.assert_stopped(system.truth(), tick)
 
+    def test_the_way_back_out_takes_the_device_from_an_operator_who_goes_on_steering(self):
+        with System("client,mission,operator") as system:
+            client = system.client()
+            system.start_operator()
+            system.start_mission(MISSIONS / "back_out.lua")
+            start = client.until(lambda state: state["step"] and state["at_rest"], 60)["setpoint_js_deg"]
+            client.until(lambda state: state["device_engaged"] and not state["at_rest"])
+            client.until(lambda state: state["device"] == "none")
+            self.assertGreater(max(abs(a - b) for a, b in zip(client.state["setpoint_js_deg"], start)), 0.5, "there has to be a way back")
+            client.until(lambda state: state["owner"] == "", 60)
+            self.assertTrue(client.state["retracted"])
+            client.go_on(0.5)
+            self.assert_holds(client.state)
+            self.assertLess(max(abs(a - b) for a, b in zip(client.state["setpoint_js_deg"], start)), 1e-6)
+            self.assertEqual(system.ended("liana-mission"), 1, system.log("liana-mission"))
+            report = system.json("mission.json")
+            self.assertEqual(report["outcome"], "aborted", report)
+            self.assertIn("retracted along the verified path", report["reason"])
+
     def test_after_a_stop_another_client_can_enable_again(self):
         with System() as system:
             client = system.client()

@@ -168,31 +168,114 @@ TEST_F(Arbitration, ARefusalGivesTheOperatorNewAnchors) {
   EXPECT_EQ(steered(0.3)->tip_in_base.position_m, now_.tip_command.position_m);
 }
 
-TEST_F(Arbitration, RetractGoesBackAlongWhatWasCommanded) {
+// A way in along theta 1: 20 intervals of 1 mrad each.
+class WayOut : public Arbitration {
+ protected:
+  static constexpr double kStep_rad = 0.001;
+
+  void go_in() {
+    for (int i = 0; i < 20; ++i) {
+      now_.theta_command_rad[0] += kStep_rad;
+      next();
+    }
+  }
+  // The arm follows each setpoint of the way back until there is none; how many there were.
+  int follow() {
+    int count = 0;
+    for (auto setpoint = next(); setpoint; setpoint = next(), ++count) {
+      EXPECT_EQ(setpoint->kind, CommandKind::kJoint);
+      const double step = setpoint->joint_rad[0] - now_.theta_command_rad[0];
+      EXPECT_LE(step, 0.0);
+      EXPECT_GE(step, -1.0001 * kWayBackPace * kStep_rad) << "slower than the way in";
+      now_.theta_command_rad = setpoint->joint_rad;
+    }
+    return count;
+  }
+  void wait_for_rest() {
+    for (int i = 0; i < 3; ++i) EXPECT_FALSE(next());
+  }
+
+  const double start_ = now_.theta_command_rad[0] + kStep_rad;
+};
+
+TEST_F(WayOut, LeadsBackAlongWhatWasCommandedAndSaysSo) {
   EXPECT_EQ(code_of([&] { arbiter_.retract(now_, 0); }), "refused") << "nothing was stored yet";
-  std::vector<double> forward;
-  for (int i = 0; i < 20; ++i) {
-    next();
-    forward.push_back(now_.theta_command_rad[0]);
-    now_.theta_command_rad[0] += 0.001;
-  }
+  go_in();
   arbiter_.retract(now_, 0);
-  for (int i = 19; i >= 0; --i) {
-    const auto setpoint = next();
-    ASSERT_TRUE(setpoint);
-    EXPECT_EQ(setpoint->joint_rad[0], forward[static_cast<std::size_t>(i)]);
-  }
-  EXPECT_FALSE(next());
+  wait_for_rest();
+  EXPECT_GT(follow(), 25);
+  EXPECT_EQ(now_.theta_command_rad[0], start_);
   EXPECT_FALSE(arbiter_.is_busy());
+  EXPECT_TRUE(arbiter_.has_retracted());
 }
 
-TEST_F(Arbitration, RetractTakesOverFromTheOperator) {
+TEST_F(WayOut, BeginsWhereTheArmHasComeToRest) {
+  go_in();
+  now_.at_rest = 0;
+  arbiter_.retract(now_, 0);
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_FALSE(next()) << "the arm stops along its path first";
+    EXPECT_TRUE(arbiter_.is_busy());
+    now_.theta_command_rad[0] += 0.1 * kStep_rad;
+  }
+  now_.at_rest = 1;
+  wait_for_rest();
+  const double rest = now_.theta_command_rad[0];
+  EXPECT_NEAR(next()->joint_rad[0], rest, 0.01 * kStep_rad);
+  follow();
+  EXPECT_EQ(now_.theta_command_rad[0], start_);
+}
+
+TEST_F(WayOut, EndsWhereTheCommandStoodAtTheTickAskedFor) {
+  for (int i = 0; i < 20; ++i) {
+    now_.theta_command_rad[0] += kStep_rad;
+    next();
+  }
+  arbiter_.retract(now_, tick_ - 45);  // ten intervals before
+  wait_for_rest();
+  follow();
+  EXPECT_NEAR(now_.theta_command_rad[0], start_ + 10 * kStep_rad, 1e-12);
+}
+
+TEST_F(WayOut, StartsAgainFromRestWhenItIsRefusedAndGivesUpInTheEnd) {
+  go_in();
+  arbiter_.retract(now_, 0);
+  int refusals = 0;
+  for (; arbiter_.is_busy() && refusals < 100; ++refusals) {
+    wait_for_rest();
+    EXPECT_TRUE(next());
+    arbiter_.refused();
+  }
+  EXPECT_EQ(refusals, 10);
+  EXPECT_FALSE(arbiter_.has_retracted());
+  EXPECT_FALSE(next());
+}
+
+TEST_F(WayOut, GoesAllTheWayAfterARefusal) {
+  go_in();
+  arbiter_.retract(now_, 0);
+  wait_for_rest();
+  for (int i = 0; i < 10; ++i) now_.theta_command_rad = next()->joint_rad;
+  next();
+  arbiter_.refused();
+  wait_for_rest();
+  follow();
+  EXPECT_EQ(now_.theta_command_rad[0], start_);
+  EXPECT_TRUE(arbiter_.has_retracted());
+}
+
+// Otherwise the operator grips again as soon as the way back ends, and steers in again.
+TEST_F(WayOut, TakesTheDeviceAwayFromTheOperator) {
   use_hand();
   steered(0.2);
-  steered(0.21);
+  go_in();
   EXPECT_EQ(code_of([&] { arbiter_.retract(now_, 0); }), "accepted");
-  EXPECT_EQ(steered(0.3)->kind, CommandKind::kJoint);
-  EXPECT_FALSE(steered(0.3)) << "at the end of the path the operator has to let go and engage again";
+  wait_for_rest();
+  follow();
+  EXPECT_FALSE(steered(0.3, false));
+  EXPECT_FALSE(steered(0.3, true));
+  EXPECT_FALSE(steered(0.4, true));
+  EXPECT_EQ(arbiter_.device().in_use().kind, DeviceKind::kNone);
 }
 
 TEST_F(Arbitration, DisablingForgetsHeldVariablesAndMotion) {
