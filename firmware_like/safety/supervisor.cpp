@@ -163,12 +163,22 @@ void enter(Phase next, SupervisorState& state) noexcept {
   if (state.phase_ticks < kForever) ++state.phase_ticks;
 }
 
-Orders orders_of(Phase phase, std::uint32_t now, const FaultList& faults) noexcept {
+StopCategory higher(StopCategory a, StopCategory b) noexcept { return a > b ? a : b; }
+
+// A hold that persisted became a stop, and stays one in Fault. Taking the power away ends every stop and does not count.
+void remember_stop(const FaultList& faults, SupervisorState& state) noexcept {
+  const bool after = state.phase == Phase::kPowerDown || state.phase == Phase::kFault || state.phase == Phase::kResetting;
+  const StopCategory before = after ? state.stopped : traits_of(state.phase).stop;
+  state.stopped = higher(before, faults.category);
+}
+
+Orders orders_of(const SupervisorState& state, std::uint32_t now, const FaultList& faults) noexcept {
+  const Phase phase = state.phase;
   const PhaseTraits& traits = traits_of(phase);
   Orders orders{};
   orders.state = traits.state;
   orders.goal = traits.goal;
-  orders.stop_category = traits.stop > faults.category ? traits.stop : faults.category;
+  orders.stop_category = higher(traits.stop, state.stopped);
   orders.live_targets = traits.live_targets;
   orders.motion_allowed = phase == Phase::kEnabled && faults.category == StopCategory::kNone;
   orders.ramp_active = phase == Phase::kTensioning;
@@ -192,7 +202,8 @@ Orders supervise(const WatchdogLimits& limits, const Inputs& inputs, const Motio
   if (is_clear_due(state.phase, now)) judge_clear(inputs.tick, now, state, faults);
   now |= fault_conditions(faults);
   enter(next_phase(state.phase, now), state);
-  return orders_of(state.phase, now, faults);
+  remember_stop(faults, state);
+  return orders_of(state, now, faults);
 }
 
 }  // namespace liana

@@ -50,9 +50,10 @@ struct ClearReport {
 
 struct SupervisorState {
   Phase phase = Phase::kDisabled;
-  std::uint32_t phase_ticks = 0;  // ticks spent in it, saturating
-  std::uint32_t rest_ticks = 0;   // in a row at rest, up to kRestTicks
-  std::uint32_t wrong_ticks = 0;  // in a row with something wrong, up to kPersistTicks
+  std::uint32_t phase_ticks = 0;               // ticks spent in it, saturating
+  std::uint32_t rest_ticks = 0;                // in a row at rest, up to kRestTicks
+  std::uint32_t wrong_ticks = 0;               // in a row with something wrong, up to kPersistTicks
+  StopCategory stopped = StopCategory::kNone;  // highest category of the stop that led into Fault; kept until the faults are cleared
   ClearReport clear{};
 };
 static_assert(std::is_trivially_copyable_v<SupervisorState>);
@@ -68,10 +69,10 @@ struct MotionStatus {
 // What the supervisor orders for this tick.
 struct Orders {
   OperatingState state = OperatingState::kDisabled;
-  StopCategory stop_category = StopCategory::kNone;
-  DriveGoal goal = DriveGoal::kDisabled;  // of every drive
-  bool motion_allowed = false;            // telecommands may move the arm; false while live_targets: decelerate along the path and hold
-  bool ramp_active = false;               // run the pretension ramp; it starts at the targets sent last
+  StopCategory stop_category = StopCategory::kNone;  // in Fault: of the stop that led there
+  DriveGoal goal = DriveGoal::kDisabled;             // of every drive
+  bool motion_allowed = false;       // telecommands may move the arm; false while live_targets: decelerate along the path and hold
+  bool ramp_active = false;          // run the pretension ramp; it starts at the targets sent last
   bool live_targets = false;         // proposed payouts go to the drives; otherwise the gate freezes targets or follows actual positions
   std::uint32_t enable_missing = 0;  // bits of kReady that keep the drives from being enabled
 };

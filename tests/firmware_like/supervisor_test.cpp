@@ -269,6 +269,11 @@ TEST_F(Operation, ACauseThatPersistsTurnsAHoldIntoAStop) {
   for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kPersistTicks - 1; ++i) ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
   EXPECT_EQ(tick().state, OperatingState::kStopping);
   EXPECT_LE(ticks_until(OperatingState::kFault, 100), 100);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(tick().stop_category, StopCategory::kStop) << "in Fault it still says what happened";
+  tension_N_[2] = 40.0;
+  tick(Request::kClear);
+  EXPECT_LE(ticks_until(OperatingState::kDisabled, 100), 100);
+  EXPECT_EQ(orders_.stop_category, StopCategory::kNone);
 }
 
 TEST_F(Operation, ADriveThatGoesSilentQuickStopsTheOthersInTheSameTick) {

@@ -118,6 +118,7 @@ class DrivesThatFailInMotion(SystemTest):
         client.until(lambda state: state["stop_category"] == "stop")
         client.until(lambda state: state["state"] == "FAULT")
         client.go_on(1.0)
+        self.assertEqual(client.state["stop_category"], "stop")
         self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
         truth = system.truth()
         self.assertEqual(truth.column("enabled")[-1], 0)
