@@ -112,8 +112,10 @@ Outline find_outline(const RaySearch& search, std::int32_t flat_axis, const std:
   for (std::size_t i = 0; i < kOutlineSectors; ++i) {
     if (members[i].empty()) continue;
     const auto [outer, inner] = find_ends(flat, members[i], distance);
-    outline[i] = {
-        true, {outer.point_in_base_m[right], outer.point_in_base_m[up]}, {inner.point_in_base_m[right], inner.point_in_base_m[up]}};
+    outline[i] = {true,
+                  {outer.point_in_base_m[right], outer.point_in_base_m[up]},
+                  {inner.point_in_base_m[right], inner.point_in_base_m[up]},
+                  outer.binding};
   }
   return outline;
 }

@@ -54,6 +54,7 @@ struct OutlineSector {
   bool seen = false;
   std::array<double, 2> outer_m{};  // along the two axes of the view, in the order x, y, z
   std::array<double, 2> inner_m{};
+  std::uint32_t outer_binding = 0;  // binding_limits() of the outer end: bit i = theta i
 };
 using Outline = std::array<OutlineSector, kOutlineSectors>;
 

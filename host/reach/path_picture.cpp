@@ -6,6 +6,7 @@
 
 #include "host/draw/axes.hpp"
 #include "host/reach/picture.hpp"
+#include "host/reach/views.hpp"
 
 namespace liana {
 namespace {
@@ -16,13 +17,10 @@ constexpr double kLeft_px = 80.0, kPlotWidth_px = 880.0, kPlotHeight_px = 200.0;
 constexpr std::array<double, 3> kPlotTop_px{110.0, 385.0, 660.0};
 constexpr double kStrip_px = 14.0;      // height of the strip that says which theta is nearest
 constexpr double kLabelRoom_px = 52.0;  // shorter runs of the strip get no label
+constexpr double kLeastAdvance_px = 0.7;
 constexpr std::size_t kMostWaypointLines = 25;
 constexpr std::string_view kLineColour = "#1f65a3";
 constexpr std::string_view kWorstColour = "#d62728";
-constexpr std::array<std::string_view, 10> kThetaColours{"#4e79a7", "#f28e2b", "#59a14f", "#b07aa1", "#9c755f",
-                                                         "#e15759", "#76b7b2", "#edc948", "#ff9da7", "#79706e"};
-
-std::string_view colour_of(std::int32_t theta) { return kThetaColours[static_cast<std::size_t>(theta - 1) % kThetaColours.size()]; }
 
 Axes plot(std::size_t index, const Range& y, bool log_y) {
   return {{kLeft_px, kPlotTop_px[index]}, kPlotWidth_px, kPlotHeight_px, {0.0, 100.0}, y, log_y};
@@ -30,16 +28,18 @@ Axes plot(std::size_t index, const Range& y, bool log_y) {
 
 using Value = std::function<double(const PathPoint&)>;
 
-// The curve of a value, broken where it is not finite.
+// The curve of a value, broken where it is not finite; places nearer than kLeastAdvance_px to the last one are left out.
 void draw_curve(Svg& svg, const Axes& axes, const PathReport& report, const Value& value, const Look& look) {
   std::vector<Pixel> run;
   for (const PathPoint& point : report.points) {
-    if (std::isfinite(value(point))) {
-      run.push_back(axes.at(100.0 * point.way, value(point)));
-    } else {
+    if (!std::isfinite(value(point))) {
       svg.polyline(run, look);
       run.clear();
+      continue;
     }
+    const Pixel at = axes.at(100.0 * point.way, value(point));
+    const bool last = &point == &report.points.back();
+    if (run.empty() || last || at.x - run.back().x >= kLeastAdvance_px) run.push_back(at);
   }
   svg.polyline(run, look);
 }
@@ -48,7 +48,7 @@ void mark_worst(Svg& svg, const Axes& axes, const PathPoint& point, double value
   const Pixel at = axes.at(100.0 * point.way, value);
   svg.circle(at, 5.0, {.stroke = kWorstColour, .width = 2.0});
   const bool right_half = at.x > kLeft_px + kPlotWidth_px / 2.0;
-  const bool low = at.y > axes.corner.y + axes.height / 2.0;
+  const bool low = at.y > axes.corner.y + axes.height - 50.0;  // no room for words below
   svg.text({at.x + (right_half ? -10.0 : 10.0), at.y + (low ? -12.0 : 22.0)}, words,
            {.size = 12.0, .anchor = right_half ? "end" : "start", .colour = kWorstColour, .bold = true, .halo = true});
 }
@@ -102,7 +102,7 @@ void draw_strip(Svg& svg, const Axes& axes, const PathReport& report) {
     const double last_way = next < report.points.size() ? report.points[next].way : 1.0;
     const Pixel from = axes.at(100.0 * report.points[first].way, axes.y.low);
     const double width_px = axes.at(100.0 * last_way, 0.0).x - from.x;
-    svg.rectangle({from.x, from.y - kStrip_px}, width_px, kStrip_px, {.fill = colour_of(theta), .opacity = 0.85});
+    svg.rectangle({from.x, from.y - kStrip_px}, width_px, kStrip_px, {.fill = theta_colour(theta), .opacity = 0.85});
     if (width_px >= kLabelRoom_px) {
       svg.text({from.x + width_px / 2.0, from.y - 3.0}, "theta " + std::to_string(theta), {.size = 11.0, .anchor = "middle", .bold = true});
     }
@@ -124,7 +124,7 @@ void draw_margins(Svg& svg, const RobotTable& table, const PathReport& report, s
       return (table.segment[i / 2].theta_limit_rad - std::fabs(point.theta_rad[i])) * kPerDegree;
     };
     const auto theta = static_cast<std::int32_t>(i + 1);
-    draw_curve(svg, axes, report, margin_deg, {.stroke = colour_of(theta), .width = 1.3, .opacity = 0.8});
+    draw_curve(svg, axes, report, margin_deg, {.stroke = theta_colour(theta), .width = 1.3, .opacity = 0.8});
   }
   const auto least_deg = [](const PathPoint& point) { return point.limit_margin_rad * kPerDegree; };
   draw_curve(svg, axes, report, least_deg, {.stroke = "#111111", .width = 2.4});
@@ -139,7 +139,7 @@ void draw_theta_legend(Svg& svg, const RobotTable& table, std::uint32_t held_mas
   const double y = kHeight_px - 16.0;
   for (std::int32_t theta = 1; theta <= table.theta_count(); ++theta) {
     if (held_mask >> (theta - 1) & 1) continue;
-    svg.line({x, y - 4.0}, {x + 16.0, y - 4.0}, {.stroke = colour_of(theta), .width = 3.0});
+    svg.line({x, y - 4.0}, {x + 16.0, y - 4.0}, {.stroke = theta_colour(theta), .width = 3.0});
     svg.text({x + 20.0, y}, std::to_string(theta), {.size = 11.0});
     x += 46.0;
   }

@@ -74,16 +74,18 @@ void step_towards(const RobotTable& table, const PointMotion& motion, ThetaMask 
 }
 
 // The direction that the thetas off their limits move the point least in, on the side of `direction`; `direction` where there is none.
-Vec3 wall_normal(const RobotTable& table, const PointMotion& motion, const Vec3& direction, const ThetaVector& theta_rad) {
+Vec3 wall_normal(const RobotTable& table, const PointMotion& motion, std::size_t dimensions, const Vec3& direction,
+                 const ThetaVector& theta_rad) {
   ThetaRows<3> rows{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
     if (on_limit(table, theta_rad, i)) continue;
     for (std::size_t row = 0; row < 3; ++row) rows[row][i] = motion.column[i][row];
   }
   const Spectrum<3> s = spectrum(rows);
-  if (s.value[1] < 1e-6) return direction;  // a line or a point: no wall
-  const double side = dot(s.axis[2], direction);
-  return std::fabs(side) < 0.1 ? direction : scale(s.axis[2], side > 0.0 ? 1.0 : -1.0);
+  if (s.value[dimensions - 2] < 1e-6) return direction;  // too few ways to move: no wall
+  const Vec3& across = s.axis[dimensions - 1];           // a flat axis has the value 0 and comes behind
+  const double side = dot(across, direction);
+  return std::fabs(side) < 0.1 ? direction : scale(across, side > 0.0 ? 1.0 : -1.0);
 }
 
 }  // namespace
@@ -165,7 +167,7 @@ void climb(const RobotTable& table, const ArmPoint& point, const Vec3& direction
 
 std::uint32_t binding_limits(const RobotTable& table, const ArmPoint& point, const Vec3& direction, const ThetaVector& theta_rad) {
   const PointMotion motion = point_motion(table, point, theta_rad);
-  const Vec3 normal = wall_normal(table, motion, direction, theta_rad);
+  const Vec3 normal = wall_normal(table, motion, point.flat_axis < 0 ? 3 : 2, direction, theta_rad);
   std::uint32_t mask = 0;
   for (std::size_t i = 0; i < kMaxTheta; ++i) {
     if (is_free(point, i) && on_limit(table, theta_rad, i) && dot(motion.column[i], normal) * theta_rad[i] > 1e-9) mask |= 1u << i;

@@ -12,7 +12,7 @@ constexpr double kPerDegree = 180.0 / std::numbers::pi;
 constexpr double kBorder_m = 0.25;      // around everything that is drawn
 constexpr double kDrawing_px = 1000.0;  // widths of top and front view together
 constexpr double kLeft_px = 70.0, kTop_px = 80.0, kGap_px = 80.0, kBottom_px = 60.0, kRight_px = 30.0;
-constexpr double kLegendWidth_px = 430.0, kLegendHeight_px = 470.0;
+constexpr double kLegendWidth_px = 480.0, kLegendHeight_px = 470.0;
 constexpr double kRow_px = 21.0;
 
 using Space = std::array<Range, 3>;
@@ -148,6 +148,19 @@ void describe_heat(Legend& legend, double top) {
   }
 }
 
+// The limits that the outlines are coloured by.
+void describe_binding(Legend& legend, const Region& region) {
+  std::uint32_t seen = 0;
+  for (const Outline& outline : region.outline) {
+    for (const OutlineSector& sector : outline) seen |= sector.outer_binding;
+  }
+  if (seen == 0) return;
+  legend.words("colour on the outline: limit that binds there; none: stretched arm");
+  for (std::int32_t theta = 1; theta <= kMaxTheta; ++theta) {
+    if (seen >> (theta - 1) & 1u) legend.swatch({.fill = theta_colour(theta)}, "theta " + std::to_string(theta));
+  }
+}
+
 void describe_objects(Legend& legend, const SceneConfig* scene, const std::string& point) {
   legend.heading("Drawn to scale");
   legend.swatch({.fill = kArmColour}, "arm, nodes as dots; black square: base");
@@ -208,12 +221,14 @@ std::string region_picture(const RobotConfig& robot, const SceneConfig* scene, c
     draw_outline(svg, view, region.outline[i], {.fill = kRegionColour});
     draw_heat(svg, view, cells[i], top);
     draw_outline(svg, view, region.outline[i], {.stroke = kOutlineColour, .width = 1.6});
+    draw_binding(svg, view, region.outline[i]);
     if (scene != nullptr) draw_scene(svg, view, *scene);
     draw_arm(svg, view, robot, pose_rad, request.point.node);
     svg.text({view.axes.corner.x + 8.0, view.axes.corner.y + 18.0}, kViewNames[i], {.size = 13.0, .bold = true, .halo = true});
   }
   Legend legend(svg, layout.legend);
   describe_heat(legend, top);
+  describe_binding(legend, region);
   describe_objects(legend, scene, point);
   describe_region(legend, robot.table, request, region);
   return svg.document();

@@ -8,6 +8,9 @@ namespace {
 
 constexpr double kLeastArm_px = 3.0;
 constexpr double kRing_px = 7.0;
+constexpr double kBinding_px = 6.0;  // width of the first limit that binds; each further one is 3 px narrower
+constexpr std::array<std::string_view, 10> kThetaColours{"#5b6fd6", "#bcbd22", "#59a14f", "#b07aa1", "#9c755f",
+                                                         "#e15759", "#76b7b2", "#edc948", "#ff9da7", "#79706e"};
 
 double pixels_per_m(const View& view) { return view.axes.width / (view.axes.x.high - view.axes.x.low); }
 
@@ -36,6 +39,8 @@ std::size_t heat_class(double value, double top) {
 }
 
 }  // namespace
+
+std::string_view theta_colour(std::int32_t theta) { return kThetaColours[static_cast<std::size_t>(theta - 1) % kThetaColours.size()]; }
 
 std::array<Vec3, 8> box_corners(const SceneBox& box) {
   std::array<Vec3, 8> corners;
@@ -101,6 +106,21 @@ void draw_outline(Svg& svg, const View& view, const Outline& outline, const Look
     if (!all_round) back.push_back(pixel(sector.inner_m));
   }
   close_run();
+}
+
+void draw_binding(Svg& svg, const View& view, const Outline& outline) {
+  const auto pixel = [&](const OutlineSector& sector) { return view.axes.at(sector.outer_m[0], sector.outer_m[1]); };
+  for (std::size_t k = 0; k < kOutlineSectors; ++k) {
+    const OutlineSector &here = outline[k], &next = outline[(k + 1) % kOutlineSectors];
+    if (!here.seen || !next.seen) continue;
+    double width_px = kBinding_px;
+    for (std::int32_t theta = 1; theta <= kMaxTheta && width_px > 0.0; ++theta) {
+      if ((here.outer_binding & next.outer_binding) >> (theta - 1) & 1u) {
+        svg.polyline({pixel(here), pixel(next)}, {.stroke = theta_colour(theta), .width = width_px});
+        width_px -= 3.0;
+      }
+    }
+  }
 }
 
 void draw_scene(Svg& svg, const View& view, const SceneConfig& scene) {

@@ -33,6 +33,8 @@ constexpr std::array<std::string_view, kHeatClasses> kHeatColours{"#deebf7", "#b
 
 // Cells in the colour of their class; `top_m_per_rad` is the upper end of the highest one.
 void draw_heat(Svg& svg, const View& view, const std::map<Cell, double>& cells, double top_m_per_rad);
+// Over the outline: the limits that bind there, one colour each; where several do, they lie inside each other.
+void draw_binding(Svg& svg, const View& view, const Outline& outline);
 // The region's outline as seen in the view; `fill` or `stroke` may be none.
 void draw_outline(Svg& svg, const View& view, const Outline& outline, const Look& look);
 // Boxes (first, second, ... in fixed colours), spheres and the rod with a ring around it.
@@ -48,6 +50,9 @@ constexpr std::string_view kMarkColour = "#d62728";
 constexpr std::string_view kSphereColour = "#9467bd";
 constexpr std::string_view kRodColour = "#e377c2";
 constexpr std::array<std::string_view, 3> kBoxColours{"#2ca02c", "#7f7f7f", "#8c564b"};
+
+// Colour of theta 1, 2, ...; repeats after ten.
+std::string_view theta_colour(std::int32_t theta);
 
 // Corners of a box in the base frame.
 std::array<Vec3, 8> box_corners(const SceneBox& box);

@@ -168,6 +168,37 @@ TEST(Region, IsTheSameForTheSameSeedAndAnotherDrawForAnother) {
   EXPECT_NE(a.samples[7].point_in_base_m, c.samples[7].point_in_base_m);
 }
 
+// Seen from above, the arm goes straight back only with the pitch of its first segment on the limit; forwards it ends stretched out.
+TEST(Outline, NamesTheFirstPitchBehindTheBaseAndNoLimitBeforeIt) {
+  const Region region = explore_region(zhu2022::table(), request(5));
+  int behind = 0, behind_bound = 0;
+  for (std::size_t k = 0; k < kOutlineSectors; ++k) {
+    const OutlineSector& sector = region.outline[2][k];
+    const double from_x_deg = std::fabs(std::remainder((static_cast<double>(k) + 0.5) * 360.0 / kOutlineSectors, 360.0));
+    ASSERT_TRUE(sector.seen);
+    if (from_x_deg < 90.0) {
+      EXPECT_EQ(sector.outer_binding, 0u) << from_x_deg;
+    }
+    if (from_x_deg < 150.0) continue;
+    ++behind;
+    behind_bound += sector.outer_binding == 1u ? 1 : 0;
+  }
+  std::printf("measured: theta 1 binds in %d of %d sectors behind the base\n", behind_bound, behind);
+  EXPECT_GE(2 * behind_bound, behind);
+}
+
+TEST(Outline, IsNeverInsideASampleOfItsSector) {
+  const Region region = explore_region(zhu2022::table(), request(5));
+  double beyond_m = -1e9;
+  for (const ReachedPoint& sample : region.samples) {
+    const Vec3& p = sample.point_in_base_m;
+    const double turns = std::atan2(p[1], p[0]) / (2.0 * std::numbers::pi);
+    const OutlineSector& sector = region.outline[2][static_cast<std::size_t>((turns + 1.0) * kOutlineSectors) % kOutlineSectors];
+    beyond_m = std::max(beyond_m, std::hypot(p[0], p[1]) - std::hypot(sector.outer_m[0], sector.outer_m[1]));
+  }
+  EXPECT_LE(beyond_m, 1e-9);  // the farthest one was pushed itself
+}
+
 TEST(Region, SharesOfShellsAndBindingsAddUp) {
   const Region region = explore_region(zhu2022::table(), request(5));
   double shells = 0.0;

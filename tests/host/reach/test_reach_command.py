@@ -84,7 +84,7 @@ class Pictures(unittest.TestCase):
         pixels_per_m = ticks["2"] - ticks["1"]
         spheres = [float(element.get("r")) for element in root.iter(SVG + "circle") if element.get("opacity") == "0.55"]
         self.assertEqual(sum(abs(radius - 0.25 * pixels_per_m) < 0.15 for radius in spheres), 3)  # one a view
-        arms = [float(element.get("stroke-width")) for element in root.iter(SVG + "polyline")]
+        arms = [float(element.get("stroke-width")) for element in root.iter(SVG + "polyline") if element.get("stroke") == "#f28e2b"]
         self.assertEqual(len(arms), 3)
         self.assertTrue(all(abs(width - 0.06 * pixels_per_m) < 0.15 for width in arms))
 
