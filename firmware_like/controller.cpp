@@ -4,6 +4,7 @@
 
 #include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/math/convert.hpp"
+#include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
 
 namespace liana {
@@ -37,8 +38,7 @@ Controller::Controller(const RobotTable& table) noexcept : table_(table), layout
   gate_limits_ = make_gate_limits(table, zero_payout_m_);
   watchdog_limits_ = make_watchdog_limits(table);
   reset_motion(table_, ThetaVector{}, motion_);
-  trig_ = arm_trig(table_, motion_.limiter.theta_rad);
-  update_cable_geometry(table_, layout_, trig_, geometry_);
+  take_geometry();
   update_tension_ratio(table_, layout_, trig_, slip_, ratio_);
 }
 
@@ -53,7 +53,9 @@ Outputs Controller::tick(const Inputs& inputs) noexcept {
   move(inputs, orders);            // filter, IK, limiter: commanded angles
   plan_payouts(orders);            // damping, tension plan, cable map: commanded lengths
   command_drives(inputs, orders);  // the gate, then CiA 402
-  return report(inputs, orders);
+  const Outputs outputs = report(inputs, orders);
+  tip_command_ = outputs.tip_command;
+  return outputs;
 }
 
 void Controller::read_drives(const Inputs& inputs) noexcept {
@@ -66,7 +68,7 @@ void Controller::read_drives(const Inputs& inputs) noexcept {
     tension_measured_N_[c] = table_.drive[c].newtons_per_permille * drive.torque_permille;
   }
   if (!all_heard) return;
-  estimate(table_, layout_, ratio_, payout_measured_m_, tension_measured_N_, estimator_);
+  estimate(table_, layout_, geometry_, solver_, ratio_, payout_measured_m_, tension_measured_N_, estimator_);
   double residual_m = 0.0;
   for (Index c = 0; c < cables(); ++c) residual_m = larger(residual_m, std::fabs(estimator_.residual_m[c]));
   const bool plausible = all_fresh && estimator_.largest_step_rad < kHomingStep_rad && residual_m < kHomingResidual_m;
@@ -136,16 +138,32 @@ void Controller::limit_payout_speed(CableVector& wanted_m) noexcept {
   }
 }
 
-CableVector Controller::ramp_payouts(const CableVector& planned_m) const noexcept {
-  CableVector wanted_m{};
+void Controller::ramp_payouts(CableVector& wanted_m) const noexcept {
   const double share = smooth_step(ramp_);
-  for (Index c = 0; c < cables(); ++c) wanted_m[c] = ramp_start_m_[c] + share * (planned_m[c] - ramp_start_m_[c]);
-  return wanted_m;
+  for (Index c = 0; c < cables(); ++c) wanted_m[c] = ramp_start_m_[c] + share * (wanted_m[c] - ramp_start_m_[c]);
+}
+
+void Controller::damp_payouts(CableVector& wanted_m) noexcept {
+  if (faults_.count == 0) {
+    CableVector more_N;
+    for (Index c = 0; c < cables(); ++c) more_N[c] = estimator_.tension_N[c] - tension_.motor_N[c];
+    damp(table_, geometry_, solver_, stretch_for(table_, layout_, geometry_.part_m, ratio_, more_N), damping_);
+  }
+  // The shift is small (kDampingLimit_rad): what its square adds to a length is below 20 um.
+  for (Index c = 0; c < cables(); ++c) {
+    const double* const row = geometry_.jacobian_m_rad[c].data();
+    wanted_m[c] += dot_pairs(row, damping_.output_rad.data(), as_index(layout_.segment[c]) + 1);
+  }
+}
+
+void Controller::take_geometry() noexcept {
+  trig_ = arm_trig(table_, motion_.limiter.theta_rad);
+  update_cable_geometry(table_, layout_, trig_, geometry_);
+  update_cable_solver(table_, geometry_, solver_);
 }
 
 void Controller::plan_payouts(const Orders& orders) noexcept {
-  trig_ = arm_trig(table_, motion_.limiter.theta_rad);
-  update_cable_geometry(table_, layout_, trig_, geometry_);
+  take_geometry();
   if (!orders.live_targets || !live_) reset_slip(geometry_, slip_);
   advance_slip(layout_, geometry_, slip_);
   update_tension_ratio(table_, layout_, trig_, slip_, ratio_);
@@ -167,19 +185,11 @@ void Controller::plan_payouts(const Orders& orders) noexcept {
   if (tension_.floor_acted) limits_ |= kLimitTensionFloor;
   if (tension_.ceiling_exceeded) limits_ |= kLimitTensionCeiling;
 
-  CableVector wanted_m = payout_for(table_, layout_, geometry_, ratio_, tension_.motor_N);
+  CableVector wanted_m = payout_for(table_, layout_, geometry_.part_m, ratio_, tension_.motor_N);
   if (ramp_ < 1.0) {
-    wanted_m = ramp_payouts(wanted_m);
+    ramp_payouts(wanted_m);
   } else {
-    if (faults_.count == 0) {
-      const CableVector measured_m = payout_for(table_, layout_, geometry_, ratio_, estimator_.tension_N);
-      damp(table_, layout_, estimator_.solver, wanted_m, measured_m, damping_);
-    }
-    // The shift is small (kDampingLimit_rad): what its square adds to a length is below 20 um.
-    for (Index c = 0; c < cables(); ++c) {
-      const auto& row = geometry_.jacobian_m_rad[c];
-      for (Index k = 0; k < 2 * (as_index(layout_.segment[c]) + 1); ++k) wanted_m[c] += row[k] * damping_.output_rad[k];
-    }
+    damp_payouts(wanted_m);
   }
   limit_payout_speed(wanted_m);
   payout_command_m_ = wanted_m;
@@ -212,22 +222,22 @@ Outputs Controller::report(const Inputs& inputs, const Orders& orders) const noe
   out.theta_rate_rad_s = motion_.limiter.rate_rad_s;
   out.theta_measured_rad = estimator_.theta_rad;
   out.tip_goal = motion_.filter.pose;
-  const ArmKinematics command = forward_kinematics(table_, trig_);
-  out.tip_command = command.tip_in_base;
-  out.tip_measured = tip_pose(table_, arm_trig(table_, estimator_.theta_rad));
-  Vec3 velocity{}, turning{};
-  for (Index k = 0; k < thetas(); ++k) {
-    velocity = add(velocity, scale(command.tip_jacobian.linear[k], motion_.limiter.rate_rad_s[k]));
-    turning = add(turning, scale(command.tip_jacobian.angular[k], motion_.limiter.rate_rad_s[k]));
+  const NodePoses node = node_poses(table_, trig_);
+  out.tip_command = node[as_index(table_.segment_count)];
+  out.tip_measured = tip_pose(table_, estimator_.trig);
+  if (live_) {
+    const auto moved = pose_error(out.tip_command, tip_command_);
+    out.tip_speed_m_s = norm({moved[0], moved[1], moved[2]}) / table_.tick_s;
+    out.tip_rate_rad_s = norm({moved[3], moved[4], moved[5]}) / table_.tick_s;
   }
-  out.tip_speed_m_s = norm(velocity);
-  out.tip_rate_rad_s = norm(turning);
-  for (Index m = 0; m < as_index(table_.segment_count); ++m) out.node_command_m[m] = command.node_in_base[m + 1].position_m;
+  for (Index m = 0; m < as_index(table_.segment_count); ++m) out.node_command_m[m] = node[m + 1].position_m;
   out.tension_plan_N = tension_.motor_N;
   out.tension_measured_N = tension_measured_N_;
   out.payout_command_m = payout_command_m_;
   out.ik_position_error_m = motion_.ik.position_error_m;
   out.ik_attitude_error_rad = motion_.ik.attitude_error_rad;
+  out.ik_outcome = motion_.ik.outcome;
+  out.ik_residual = motion_.ik.residual;
   return out;
 }
 

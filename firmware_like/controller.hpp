@@ -41,6 +41,7 @@ class Controller {
   void read_drives(const Inputs& inputs) noexcept;
   void take_telecommand(const Inputs& inputs) noexcept;
   void move(const Inputs& inputs, const Orders& orders) noexcept;
+  void take_geometry() noexcept;
   void plan_payouts(const Orders& orders) noexcept;
   void command_drives(const Inputs& inputs, const Orders& orders) noexcept;
   Outputs report(const Inputs& inputs, const Orders& orders) const noexcept;
@@ -48,7 +49,8 @@ class Controller {
   bool homed() const noexcept { return homing_ticks_ >= kHomingTicks; }
   bool cables_taut() const noexcept;
   void reject_telecommand(const Inputs& inputs) noexcept;
-  CableVector ramp_payouts(const CableVector& planned_m) const noexcept;
+  void ramp_payouts(CableVector& wanted_m) const noexcept;
+  void damp_payouts(CableVector& wanted_m) noexcept;
   void limit_payout_speed(CableVector& wanted_m) noexcept;
   Index cables() const noexcept { return static_cast<Index>(layout_.cable_count); }
   Index thetas() const noexcept { return static_cast<Index>(table_.theta_count()); }
@@ -77,13 +79,15 @@ class Controller {
   SlipState slip_{};
   ArmTrig trig_{};            // of the commanded angles
   CableGeometry geometry_{};  // at the commanded angles
+  CableSolver solver_{};      // of that geometry
   TensionRatio ratio_{};      // planned friction
   DampingState damping_{};
   TensionPlan tension_{};
   CableVector payout_command_m_{};
   CableVector ramp_start_m_{};
-  double ramp_ = 0.0;  // 0..1 share of the planned pretension
-  bool live_ = false;  // targets were live in the last tick
+  double ramp_ = 0.0;   // 0..1 share of the planned pretension
+  bool live_ = false;   // targets were live in the last tick
+  Pose tip_command_{};  // of the last tick
 
   std::array<DriveCommand, kMaxCables> sent_{};
 };

@@ -7,6 +7,7 @@
 
 #include "firmware_like/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
+#include "firmware_like/motion/servo_ik.hpp"
 #include "firmware_like/safety/faults.hpp"
 #include "firmware_like/telecommand.hpp"
 
@@ -84,6 +85,8 @@ struct Outputs {
   CableVector payout_command_m{};    // unstretched length
   double ik_position_error_m = 0.0;
   double ik_attitude_error_rad = 0.0;
+  IkOutcome ik_outcome = IkOutcome::kConverged;
+  std::array<double, 6> ik_residual{};  // filtered target less tip of the IK, base frame: position [m], rotation vector [rad]
 };
 
 static_assert(std::is_trivially_copyable_v<Inputs>);

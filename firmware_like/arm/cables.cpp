@@ -11,25 +11,35 @@ namespace {
 using Index = std::size_t;
 
 // Squared hole-to-hole distance of one universal joint: a quadratic form of the hole (y, z) whose coefficients all cables share (formula
-// in cables.hpp), and half its derivatives by (pitch, yaw).
-struct JointForm {
+// in cables.hpp).
+struct PathForm {
   double one, y, z, yy, yz, zz;
-  Pair by_one, by_y, by_z, by_yz, by_squares;  // the last one goes with (yy, zz): pitch has no zz, yaw no yy
 };
 
-JointForm joint_form(const SegmentTrig& t, double g) noexcept {
-  const double sa = t.sin_pitch, ca = t.cos_pitch, sb = t.sin_yaw, cb = t.cos_yaw, g2 = g * g;
-  return {2.0 * g2 * (1.0 + ca * cb),
+inline PathForm path_form(const SegmentTrig& t, double g) noexcept {
+  const double sa = t.sin_pitch, ca = t.cos_pitch, sb = t.sin_yaw, cb = t.cos_yaw;
+  return {2.0 * g * g * (1.0 + ca * cb),
           -2.0 * g * sa * (1.0 + cb),
           2.0 * g * sb * (1.0 + ca),
           2.0 * (1.0 - ca),
           -2.0 * sa * sb,
-          2.0 * (1.0 - cb),
-          Pair{-g2 * sa * cb, -g2 * ca * sb},
-          Pair{-g * ca * (1.0 + cb), g * sa * sb},
-          Pair{-g * sb * sa, g * cb * (1.0 + ca)},
-          Pair{-ca * sb, -sa * cb},
-          Pair{sa, sb}};
+          2.0 * (1.0 - cb)};
+}
+
+// Never zero while |angle| < pi.
+inline double distance_m(const PathForm& f, double y, double z) noexcept {
+  return std::sqrt(f.one + y * (f.y + f.yy * y + f.yz * z) + z * (f.z + f.zz * z));
+}
+
+// Half the derivatives of the same form by (pitch, yaw).
+struct SlopeForm {
+  Pair one, y, z, yz, squares;  // the last one goes with (yy, zz): pitch has no zz, yaw no yy
+};
+
+inline SlopeForm slope_form(const SegmentTrig& t, double g) noexcept {
+  const double sa = t.sin_pitch, ca = t.cos_pitch, sb = t.sin_yaw, cb = t.cos_yaw, g2 = g * g;
+  return {Pair{-g2 * sa * cb, -g2 * ca * sb}, Pair{-g * ca * (1.0 + cb), g * sa * sb}, Pair{-g * sb * sa, g * cb * (1.0 + ca)},
+          Pair{-ca * sb, -sa * cb}, Pair{sa, sb}};
 }
 
 // A planar bend turns every cable by the bend angle psi of the joint, cos psi = cos a cos b.
@@ -65,23 +75,73 @@ CableLayout cable_layout(const RobotTable& table) noexcept {
 
 void update_cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, CableGeometry& out) noexcept {
   const Index segments = static_cast<Index>(table.segment_count);
-  std::array<JointForm, kMaxSegments> form;
-  for (Index j = 0; j < segments; ++j) form[j] = joint_form(trig[j], table.face_offset_m);
+  std::array<PathForm, kMaxSegments> path;
+  std::array<SlopeForm, kMaxSegments> slope;
+  for (Index j = 0; j < segments; ++j) {
+    path[j] = path_form(trig[j], table.face_offset_m);
+    slope[j] = slope_form(trig[j], table.face_offset_m);
+  }
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
-    const double y = layout.hole_y_m[c], z = layout.hole_z_m[c], yy = y * y, yz = y * z, zz = z * z;
+    const double y = layout.hole_y_m[c], z = layout.hole_z_m[c];
+    const Pair squares{y * y, z * z};
     double length_m = 0.0;
     for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) {
-      const JointForm& f = form[j];
-      const double modules = table.segment[j].modules;
-      // Never zero while |angle| < pi.
-      const double d_m = std::sqrt(f.one + f.y * y + f.z * z + f.yy * yy + f.yz * yz + f.zz * zz);
-      const Pair by = f.by_one + f.by_y * both(y) + f.by_z * both(z) + f.by_yz * both(yz) + f.by_squares * Pair{yy, zz};
-      store_pair(both(modules / d_m) * by, &out.jacobian_m_rad[c][2 * j]);
+      const SlopeForm& s = slope[j];
+      const double modules = table.segment[j].modules, d_m = distance_m(path[j], y, z);
+      const Pair by = s.one + s.y * y + (s.z + s.yz * y) * z + s.squares * squares;
+      store_pair(by * (modules / d_m), &out.jacobian_m_rad[c][2 * j]);
       out.part_m[c][j] = modules * d_m + layout.straight_m[c][j];
       length_m += out.part_m[c][j];
     }
     out.length_m[c] = length_m;
   }
+}
+
+void update_cable_parts(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, CableParts& part_m) noexcept {
+  Index first = 0;  // the first cable that passes segment j
+  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
+    const PathForm f = path_form(trig[j], table.face_offset_m);
+    const double modules = table.segment[j].modules;
+    for (Index c = first; c < static_cast<Index>(layout.cable_count); ++c) {
+      part_m[c][j] = modules * distance_m(f, layout.hole_y_m[c], layout.hole_z_m[c]) + layout.straight_m[c][j];
+    }
+    first += static_cast<Index>(table.segment[j].cables);
+  }
+}
+
+void update_cable_solver(const RobotTable& table, const CableGeometry& geometry, CableSolver& solver) noexcept {
+  Index c = 0;
+  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
+    CableSolver::Segment normal;
+    for (const Index end = c + static_cast<Index>(table.segment[j].cables); c < end; ++c) {
+      const double p = geometry.jacobian_m_rad[c][2 * j], q = geometry.jacobian_m_rad[c][2 * j + 1];
+      normal.pp += p * p;
+      normal.pq += p * q;
+      normal.qq += q * q;
+    }
+    const double det = normal.pp * normal.qq - normal.pq * normal.pq;
+    if (det > 1e-12 * normal.pp * normal.qq) normal.inverse_det = 1.0 / det;
+    solver.segment[j] = normal;
+  }
+}
+
+ThetaVector solve_cables(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver,
+                         const CableVector& change_m) noexcept {
+  ThetaVector theta{};
+  Index c = 0;
+  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
+    double by_pitch = 0.0, by_yaw = 0.0;
+    for (const Index end = c + static_cast<Index>(table.segment[j].cables); c < end; ++c) {
+      const double* const row = geometry.jacobian_m_rad[c].data();
+      const double own_m = change_m[c] - dot_pairs(row, theta.data(), j);
+      by_pitch += row[2 * j] * own_m;
+      by_yaw += row[2 * j + 1] * own_m;
+    }
+    const CableSolver::Segment& n = solver.segment[j];
+    theta[2 * j] = (n.qq * by_pitch - n.pq * by_yaw) * n.inverse_det;
+    theta[2 * j + 1] = (n.pp * by_yaw - n.pq * by_pitch) * n.inverse_det;
+  }
+  return theta;
 }
 
 SegmentVector cable_wraps(const RobotTable& table, const ArmTrig& trig) noexcept {

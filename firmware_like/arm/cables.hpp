@@ -14,10 +14,13 @@
 
 namespace liana {
 
+// Path of each cable within each segment [m].
+using CableParts = std::array<std::array<double, kMaxSegments>, kMaxCables>;
+
 // Geometry of all cables at one pose. Row c is a cable, [m] a segment it passes; entries beyond its own segment are zero.
 struct CableGeometry {
   CableVector length_m{};                                                  // path from the first disc to the anchor
-  std::array<std::array<double, kMaxSegments>, kMaxCables> part_m{};       // path within one segment
+  CableParts part_m{};                                                     // path within one segment
   std::array<std::array<double, kMaxTheta>, kMaxCables> jacobian_m_rad{};  // d length / d theta
 };
 
@@ -37,6 +40,24 @@ CableLayout cable_layout(const RobotTable& table) noexcept;
 // cable's own segment are not written. Cost: one square root per cable and segment passed (45 for five segments of three cables).
 void update_cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, CableGeometry& out) noexcept;
 CableGeometry cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig) noexcept;
+
+// The paths alone, a third of the cost.
+void update_cable_parts(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, CableParts& part_m) noexcept;
+
+// Two angles from three lengths, segment by segment from the base: each segment's angles are the least squares of its own cables, whose
+// paths are first freed from what the segments before them do. What is left over is each segment's own contradiction.
+struct CableSolver {
+  struct Segment {
+    double pp = 0.0, pq = 0.0, qq = 0.0, inverse_det = 0.0;  // 2 x 2 normal matrix; inverse_det 0 = these cables cannot turn both angles
+  };
+  std::array<Segment, kMaxSegments> segment{};
+};
+void update_cable_solver(const RobotTable& table, const CableGeometry& geometry, CableSolver& solver) noexcept;
+
+// Angles by which a change of cable paths moves the arm, with the geometry that `solver` belongs to; zero where a segment is singular.
+// Cost: one multiplication per entry of the Jacobian.
+ThetaVector solve_cables(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver,
+                         const CableVector& change_m) noexcept;
 
 // Bend [rad] of a cable along each whole segment, the same for all cables.
 using SegmentVector = std::array<double, kMaxSegments>;

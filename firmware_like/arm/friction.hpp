@@ -11,7 +11,7 @@ namespace liana {
 // Dahl's model: d sigma = (u / delta) (1 - sigma sign u), u the slip towards the motor, delta the presliding distance.
 struct SlipState {
   std::array<std::array<double, kMaxSegments>, kMaxCables> sigma{};
-  std::array<std::array<double, kMaxSegments>, kMaxCables> part_m{};  // cable paths when sigma was last advanced
+  CableParts part_m{};  // cable paths when sigma was last advanced
 };
 
 // Presliding distance: the stretch that friction can hold, mu beta T / k, is 0.02 to 0.3 mm here; smooth enough for the motors.

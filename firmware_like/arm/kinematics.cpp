@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/trig.hpp"
 
 namespace liana {
@@ -13,7 +14,7 @@ using Index = std::size_t;
 struct Bend {
   double w, y, z;
 };
-Bend bend_of(const SegmentTrig& t) noexcept { return {t.cos_pitch * t.cos_yaw, t.sin_yaw, t.sin_pitch * t.cos_yaw}; }
+inline Bend bend_of(const SegmentTrig& t) noexcept { return {t.cos_pitch * t.cos_yaw, t.sin_yaw, t.sin_pitch * t.cos_yaw}; }
 
 // Chebyshev sums of a segment of n modules: C = sum T_k, S = sum U_(k-1), k = 1..n, and T = T_h, U = U_(h-1) at h = floor(n / 2). All
 // follow from U_(h-1) and U_h:
@@ -25,7 +26,7 @@ struct ChebyshevSums {
   double T_next, U_next;  // T_(h+1), U_h
 };
 
-ChebyshevSums chebyshev_sums(double w, std::int32_t modules) noexcept {
+inline ChebyshevSums chebyshev_sums(double w, std::int32_t modules) noexcept {
   double U0 = 0.0, U1 = 1.0;  // U_(k-1), U_k
   for (std::int32_t k = modules / 2; k > 0; --k) {
     const double U2 = 2.0 * w * U1 - U0;
@@ -45,7 +46,7 @@ struct ChebyshevSlopes {
   double dC, dS, dT, dU;
 };
 
-ChebyshevSlopes chebyshev_slopes(double w, std::int32_t modules, const ChebyshevSums& c) noexcept {
+inline ChebyshevSlopes chebyshev_slopes(double w, std::int32_t modules, const ChebyshevSums& c) noexcept {
   const std::int32_t half = modules / 2;
   double U0 = 0.0, U1 = 1.0, dU0 = 0.0, dU1 = 0.0;
   for (std::int32_t k = half; k > 0; --k) {
@@ -66,17 +67,17 @@ struct Rotation {
   Vec3 x, y, z;
 };
 
-Rotation rotation_of(const Quat& q) noexcept {
+inline Rotation rotation_of(const Quat& q) noexcept {
   const double x2 = 2.0 * q[1], y2 = 2.0 * q[2], z2 = 2.0 * q[3];
   const double xx = x2 * q[1], yy = y2 * q[2], zz = z2 * q[3], xy = x2 * q[2], xz = x2 * q[3], yz = y2 * q[3];
   const double wx = x2 * q[0], wy = y2 * q[0], wz = z2 * q[0];
   return {{1.0 - yy - zz, xy - wz, xz + wy}, {xy + wz, 1.0 - xx - zz, yz - wx}, {xz - wy, yz + wx, 1.0 - xx - yy}};
 }
 
-Vec3 apply(const Rotation& r, const Vec3& v) noexcept { return {dot(r.x, v), dot(r.y, v), dot(r.z, v)}; }
+inline Vec3 apply(const Rotation& r, const Vec3& v) noexcept { return {dot(r.x, v), dot(r.y, v), dot(r.z, v)}; }
 
 // q (w, 0, y, z): the rotation of a segment has no x component.
-Quat times_planar(const Quat& q, double w, double y, double z) noexcept {
+inline Quat times_planar(const Quat& q, double w, double y, double z) noexcept {
   return {q[0] * w - q[2] * y - q[3] * z, q[1] * w + q[2] * z - q[3] * y, q[0] * y + q[2] * w - q[1] * z, q[0] * z + q[1] * y + q[3] * w};
 }
 
@@ -90,8 +91,8 @@ Quat odd_module(const SegmentTrig& t) noexcept {
 bool is_odd(const SegmentTable& segment) noexcept { return segment.modules % 2 == 1; }
 
 // Pose of the end of a segment that starts at `root`, whose matrix is `frame`.
-Pose segment_end(const SegmentTable& segment, const SegmentTrig& t, const Bend& bend, const ChebyshevSums& c, const Pose& root,
-                 const Rotation& frame) noexcept {
+inline Pose segment_end(const SegmentTable& segment, const SegmentTrig& t, const Bend& bend, const ChebyshevSums& c, const Pose& root,
+                        const Rotation& frame) noexcept {
   const double l = segment.module_length_m;
   const Vec3 along{l * c.C, l * c.S * bend.z, -l * c.S * bend.y};
   Pose end{add(root.position_m, apply(frame, along)), times_planar(root.quaternion, c.T, c.U * bend.y, c.U * bend.z)};
@@ -99,75 +100,94 @@ Pose segment_end(const SegmentTable& segment, const SegmentTrig& t, const Bend& 
   return end;
 }
 
-// Velocity of a segment's end for its own angle (pitch: axis 0, yaw: axis 1), in the frame of its root.
-struct EndRate {
-  Vec3 linear, angular;
+inline Pose next_node(const SegmentTable& segment, const SegmentTrig& t, const Pose& root) noexcept {
+  const Bend bend = bend_of(t);
+  return segment_end(segment, t, bend, chebyshev_sums(bend.w, segment.modules), root, rotation_of(root.quaternion));
+}
+
+// Velocity of a segment's end for its own (pitch, yaw), linear and angular.
+struct PairVec {
+  Pair x, y, z;
+};
+struct EndRates {
+  PairVec linear, angular;
 };
 
-EndRate end_rate(const SegmentTable& segment, const SegmentTrig& t, const Bend& bend, const ChebyshevSums& c, const ChebyshevSlopes& d,
-                 bool yaw) noexcept {
-  const double dw = yaw ? -t.cos_pitch * t.sin_yaw : -bend.z;
-  const double dy = yaw ? t.cos_yaw : 0.0;
-  const double dz = yaw ? -t.sin_pitch * t.sin_yaw : bend.w;
-  const double l = segment.module_length_m, dS = d.dS * dw, dT = d.dT * dw, dU = d.dU * dw;
-  const double y = c.U * bend.y, z = c.U * bend.z;                        // of the segment's quaternion
-  const double qy = dU * bend.y + c.U * dy, qz = dU * bend.z + c.U * dz;  // its derivative
-  EndRate rate{{l * d.dC * dw, l * (dS * bend.z + c.S * dz), -l * (dS * bend.y + c.S * dy)},
-               // twice the vector part of dq times the conjugate of q
-               {2.0 * (qz * y - qy * z), 2.0 * (qy * c.T - dT * y), 2.0 * (qz * c.T - dT * z)}};
+PairVec apply(const Rotation& r, const PairVec& v) noexcept {
+  return {both(r.x[0]) * v.x + both(r.x[1]) * v.y + both(r.x[2]) * v.z, both(r.y[0]) * v.x + both(r.y[1]) * v.y + both(r.y[2]) * v.z,
+          both(r.z[0]) * v.x + both(r.z[1]) * v.y + both(r.z[2]) * v.z};
+}
+
+// In the frame of the segment's root.
+inline EndRates end_rates(const SegmentTable& segment, const SegmentTrig& t, const Bend& bend, const ChebyshevSums& c) noexcept {
+  const ChebyshevSlopes d = chebyshev_slopes(bend.w, segment.modules, c);
+  const Pair dw{-bend.z, -t.cos_pitch * t.sin_yaw}, dy{0.0, t.cos_yaw}, dz{bend.w, -t.sin_pitch * t.sin_yaw};
+  const double l = segment.module_length_m, y = c.U * bend.y, z = c.U * bend.z;  // y, z of the segment's quaternion (T, 0, y, z)
+  const Pair dS = d.dS * dw, dT = d.dT * dw, dU = d.dU * dw;
+  const Pair qy = dU * bend.y + c.U * dy, qz = dU * bend.z + c.U * dz;  // their derivatives
+  EndRates rates{{l * d.dC * dw, l * (dS * bend.z + c.S * dz), -l * (dS * bend.y + c.S * dy)},
+                 // twice the vector part of dq times the conjugate of q
+                 {2.0 * (qz * y - qy * z), 2.0 * (qy * c.T - dT * y), 2.0 * (qz * c.T - dT * z)}};
   if (is_odd(segment)) {
-    const Rotation turned = rotation_of({c.T, 0.0, y, z});
-    rate.angular = add(rate.angular, yaw ? apply(turned, {-t.sin_pitch, t.cos_pitch, 0.0}) : apply(turned, {0.0, 0.0, 1.0}));
+    const PairVec axis{Pair{0.0, -t.sin_pitch}, Pair{0.0, t.cos_pitch}, Pair{1.0, 0.0}};
+    const PairVec turned = apply(rotation_of({c.T, 0.0, y, z}), axis);
+    rates.angular = {rates.angular.x + turned.x, rates.angular.y + turned.y, rates.angular.z + turned.z};
   }
-  return rate;
+  return rates;
+}
+
+// Columns of the tip for a segment whose end is `lever` away from it.
+void put_columns(const EndRates& end, const Vec3& lever, Index first, Jacobian& J) noexcept {
+  const PairVec& w = end.angular;
+  const PairVec tip{end.linear.x + (w.y * lever[2] - w.z * lever[1]), end.linear.y + (w.z * lever[0] - w.x * lever[2]),
+                    end.linear.z + (w.x * lever[1] - w.y * lever[0])};
+  for (Index axis = 0; axis < 2; ++axis) {
+    J.linear[first + axis] = {tip.x[axis], tip.y[axis], tip.z[axis]};
+    J.angular[first + axis] = {w.x[axis], w.y[axis], w.z[axis]};
+  }
 }
 
 }  // namespace
 
 ArmTrig arm_trig(const RobotTable& table, const ThetaVector& theta_rad) noexcept {
   ArmTrig trig{};
-  for (std::int32_t m = 0; m < table.segment_count; ++m) {
-    const SinCos pitch = sin_cos(theta_rad[static_cast<Index>(2 * m)]);
-    const SinCos yaw = sin_cos(theta_rad[static_cast<Index>(2 * m + 1)]);
-    trig[static_cast<Index>(m)] = {pitch.sin, pitch.cos, yaw.sin, yaw.cos};
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
+    const SinCosOf<Pair> angle = sin_cos(load_pair(&theta_rad[2 * m]));
+    trig[m] = {angle.sin[0], angle.cos[0], angle.sin[1], angle.cos[1]};
   }
   return trig;
 }
 
 ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) noexcept {
   ArmKinematics out;
-  Jacobian& J = out.tip_jacobian;
   const Index segments = static_cast<Index>(table.segment_count);
-  // Columns first hold the velocity of the end of their own segment, then are carried to the tip.
+  std::array<EndRates, kMaxSegments> end;
   for (Index i = 0; i < segments; ++i) {
     const SegmentTable& segment = table.segment[i];
     const Bend bend = bend_of(trig[i]);
     const ChebyshevSums sums = chebyshev_sums(bend.w, segment.modules);
-    const ChebyshevSlopes slopes = chebyshev_slopes(bend.w, segment.modules, sums);
     const Pose& root = out.node_in_base[i];
     const Rotation frame = rotation_of(root.quaternion);
+    const EndRates rates = end_rates(segment, trig[i], bend, sums);
+    end[i] = {apply(frame, rates.linear), apply(frame, rates.angular)};
     out.node_in_base[i + 1] = segment_end(segment, trig[i], bend, sums, root, frame);
-    for (Index axis = 0; axis < 2; ++axis) {
-      const EndRate rate = end_rate(segment, trig[i], bend, sums, slopes, axis == 1);
-      J.linear[2 * i + axis] = apply(frame, rate.linear);
-      J.angular[2 * i + axis] = apply(frame, rate.angular);
-    }
   }
   out.tip_in_base = out.node_in_base[segments];
   for (Index i = 0; i < segments; ++i) {
-    const Vec3 lever = subtract(out.tip_in_base.position_m, out.node_in_base[i + 1].position_m);
-    for (Index k = 2 * i; k < 2 * i + 2; ++k) J.linear[k] = add(J.linear[k], cross(J.angular[k], lever));
+    put_columns(end[i], subtract(out.tip_in_base.position_m, out.node_in_base[i + 1].position_m), 2 * i, out.tip_jacobian);
   }
   return out;
 }
 
+NodePoses node_poses(const RobotTable& table, const ArmTrig& trig) noexcept {
+  NodePoses node;
+  for (Index i = 0; i < static_cast<Index>(table.segment_count); ++i) node[i + 1] = next_node(table.segment[i], trig[i], node[i]);
+  return node;
+}
+
 Pose tip_pose(const RobotTable& table, const ArmTrig& trig) noexcept {
   Pose tip;
-  for (Index i = 0; i < static_cast<Index>(table.segment_count); ++i) {
-    const SegmentTable& segment = table.segment[i];
-    const Bend bend = bend_of(trig[i]);
-    tip = segment_end(segment, trig[i], bend, chebyshev_sums(bend.w, segment.modules), tip, rotation_of(tip.quaternion));
-  }
+  for (Index i = 0; i < static_cast<Index>(table.segment_count); ++i) tip = next_node(table.segment[i], trig[i], tip);
   return tip;
 }
 

@@ -28,8 +28,11 @@ struct Jacobian {
   std::array<Vec3, kMaxTheta> angular{};
 };
 
+// [0] = base, [m] = end of segment m; the last one is the tip.
+using NodePoses = std::array<Pose, kMaxSegments + 1>;
+
 struct ArmKinematics {
-  std::array<Pose, kMaxSegments + 1> node_in_base{};  // [0] = base, [m] = end of segment m; the last one is the tip
+  NodePoses node_in_base{};
   Pose tip_in_base{};
   Jacobian tip_jacobian{};  // 6 x theta_count
 };
@@ -39,7 +42,8 @@ struct ArmKinematics {
 ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) noexcept;
 ArmKinematics forward_kinematics(const RobotTable& table, const ThetaVector& theta_rad) noexcept;
 
-// Pose of the tip alone, a third of the cost.
+// Poses of the base and all nodes, or of the tip alone: half the cost.
+NodePoses node_poses(const RobotTable& table, const ArmTrig& trig) noexcept;
 Pose tip_pose(const RobotTable& table, const ArmTrig& trig) noexcept;
 
 // Linear Jacobian column of node `node` (1..segment_count) for theta `column`; zero for segments beyond the node.

@@ -14,24 +14,39 @@ double smooth_maximum(double a, double b, double width) noexcept {
   return 0.5 * (a + b + std::sqrt(d * d + width * width));
 }
 
-// x = projection of v on the null space of the 2 x n matrix with rows p, q, plus the least-norm solution of [p; q] x = rhs.
-// Returns false when the rows are dependent.
-bool project(const AnchoredVector& p, const AnchoredVector& q, Index n, double rhs_p, double rhs_q, const AnchoredVector& v,
-             AnchoredVector& x) noexcept {
-  double pp = 0.0, pq = 0.0, qq = 0.0, pv = 0.0, qv = 0.0;
+// The two equations of one segment, [p; q] x = rhs, over its own cables.
+struct SegmentBalance {
+  AnchoredVector p{}, q{};
+  double pp = 0.0, pq = 0.0, qq = 0.0, det = 0.0;
+};
+
+void complete(Index n, SegmentBalance& b) noexcept {
   for (Index i = 0; i < n; ++i) {
-    pp += p[i] * p[i];
-    pq += p[i] * q[i];
-    qq += q[i] * q[i];
-    pv += p[i] * v[i];
-    qv += q[i] * v[i];
+    b.pp += b.p[i] * b.p[i];
+    b.pq += b.p[i] * b.q[i];
+    b.qq += b.q[i] * b.q[i];
   }
-  const double det = pp * qq - pq * pq;
-  if (!(det > 1e-12 * pp * qq)) return false;
-  const double u = ((rhs_p - pv) * qq - (rhs_q - qv) * pq) / det;
-  const double w = ((rhs_q - qv) * pp - (rhs_p - pv) * pq) / det;
-  for (Index i = 0; i < n; ++i) x[i] = v[i] + p[i] * u + q[i] * w;
-  return true;
+  b.det = b.pp * b.qq - b.pq * b.pq;
+}
+
+bool is_solvable(const SegmentBalance& b) noexcept { return b.det > 1e-12 * b.pp * b.qq; }
+
+// Least-norm solution.
+AnchoredVector solve(const SegmentBalance& b, Index n, double rhs_p, double rhs_q) noexcept {
+  const double u = (rhs_p * b.qq - rhs_q * b.pq) / b.det;
+  const double w = (rhs_q * b.pp - rhs_p * b.pq) / b.det;
+  AnchoredVector x{};
+  for (Index i = 0; i < n; ++i) x[i] = b.p[i] * u + b.q[i] * w;
+  return x;
+}
+
+// Projection of (1, ..., 1) on the null space: pulling all cables of the segment harder without turning it.
+AnchoredVector pull_together(const SegmentBalance& b, Index n) noexcept {
+  double sum_p = 0.0, sum_q = 0.0;
+  for (Index i = 0; i < n; ++i) sum_p += b.p[i], sum_q += b.q[i];
+  AnchoredVector x = solve(b, n, sum_p, sum_q);
+  for (Index i = 0; i < n; ++i) x[i] = 1.0 - x[i];
+  return x;
 }
 
 // Largest s (smooth) such that t + s n keeps every cable under `ceiling_N`.
@@ -71,16 +86,20 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
       rhs_pitch -= geometry.jacobian_m_rad[c][2 * j] * t;
       rhs_yaw -= geometry.jacobian_m_rad[c][2 * j + 1] * t;
     }
-    AnchoredVector pitch{}, yaw{}, level{}, ones{}, t{}, null{};
+    SegmentBalance balance;
     for (Index i = 0; i < n; ++i) {
-      pitch[i] = geometry.jacobian_m_rad[first + i][2 * j] * ratio[first + i][j];
-      yaw[i] = geometry.jacobian_m_rad[first + i][2 * j + 1] * ratio[first + i][j];
-      level[i] = level_N;
-      ones[i] = 1.0;
+      balance.p[i] = geometry.jacobian_m_rad[first + i][2 * j] * ratio[first + i][j];
+      balance.q[i] = geometry.jacobian_m_rad[first + i][2 * j + 1] * ratio[first + i][j];
     }
-    if (!project(pitch, yaw, n, rhs_pitch, rhs_yaw, level, t) || !project(pitch, yaw, n, 0.0, 0.0, ones, null)) {
+    complete(n, balance);
+    AnchoredVector t{}, null{};
+    if (is_solvable(balance)) {
+      t = solve(balance, n, rhs_pitch, rhs_yaw);
+      null = pull_together(balance, n);
+      for (Index i = 0; i < n; ++i) t[i] += level_N * null[i];
+    } else {
       plan.balanced = false;
-      t = level;
+      t.fill(level_N);
     }
     // The margin over the floor gives way to the ceiling, the floor itself does not.
     const double wanted = floor_shift(t, null, n, table.tension.floor_motor_N + margin_N);
@@ -96,13 +115,24 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
   return plan;
 }
 
-CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableGeometry& geometry, const TensionRatio& ratio,
+CableVector stretch_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m, const TensionRatio& ratio,
+                        const CableVector& change_N) noexcept {
+  CableVector stretch_m{};
+  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
+    double pulled_m = table.lead_m;
+    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) pulled_m += part_m[c][j] * ratio[c][j];
+    stretch_m[c] = change_N[c] * pulled_m / table.cable_EA_N;
+  }
+  return stretch_m;
+}
+
+CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m, const TensionRatio& ratio,
                        const CableVector& motor_N) noexcept {
   CableVector payout{};
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     const double strain = motor_N[c] / table.cable_EA_N;
     double sum_m = table.lead_m / (1.0 + strain);
-    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) sum_m += geometry.part_m[c][j] / (1.0 + strain * ratio[c][j]);
+    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) sum_m += part_m[c][j] / (1.0 + strain * ratio[c][j]);
     payout[c] = sum_m;
   }
   return payout;

@@ -10,10 +10,10 @@ namespace liana {
 template <std::size_t Capacity>
 using SquareMatrix = std::array<std::array<double, Capacity>, Capacity>;
 
-// Factors the leading n x n part of A (lower triangle read) into L L^T in place; the diagonal then holds 1 / L_jj, for the solves.
+// Factors A (lower triangle read) into L L^T in place; the diagonal then holds 1 / L_jj, for the solves.
 // Returns false when A is not positive definite. Cost: n^3 / 6 multiplications.
-template <std::size_t Capacity>
-bool cholesky_factor(SquareMatrix<Capacity>& A, std::size_t n) noexcept {
+template <std::size_t n>
+bool cholesky_factor(SquareMatrix<n>& A) noexcept {
   for (std::size_t j = 0; j < n; ++j) {
     double* const row_j = A[j].data();
     double diagonal = row_j[j];
@@ -32,8 +32,8 @@ bool cholesky_factor(SquareMatrix<Capacity>& A, std::size_t n) noexcept {
 }
 
 // Solves A x = b in place of b with the factor from cholesky_factor. Cost: n^2 multiplications.
-template <std::size_t Capacity>
-void cholesky_solve(const SquareMatrix<Capacity>& factor, std::array<double, Capacity>& b, std::size_t n) noexcept {
+template <std::size_t n>
+void cholesky_solve(const SquareMatrix<n>& factor, std::array<double, n>& b) noexcept {
   for (std::size_t i = 0; i < n; ++i) {
     double sum = b[i];
     for (std::size_t k = 0; k < i; ++k) sum -= factor[i][k] * b[k];

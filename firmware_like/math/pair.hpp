@@ -2,6 +2,7 @@
 // with two lanes need half the instructions.
 #pragma once
 
+#include <cstddef>
 #include <cstring>
 
 namespace liana {
@@ -15,5 +16,20 @@ inline Pair load_pair(const double* from) noexcept {
   return pair;
 }
 inline void store_pair(const Pair& pair, double* to) noexcept { std::memcpy(to, &pair, sizeof pair); }
+
+inline double sum(const Pair& pair) noexcept { return pair[0] + pair[1]; }
+
+// Sum of a[k] b[k] and y[k] += s x[k] over `count` pairs of numbers: thetas come in pairs.
+inline double dot_pairs(const double* a, const double* b, std::size_t count) noexcept {
+  Pair products{};
+  for (std::size_t i = 0; i < count; ++i) products += load_pair(a + 2 * i) * load_pair(b + 2 * i);
+  return sum(products);
+}
+inline void add_scaled_pairs(double s, const double* x, double* y, std::size_t count) noexcept {
+  for (std::size_t i = 0; i < count; ++i) store_pair(load_pair(y + 2 * i) + s * load_pair(x + 2 * i), y + 2 * i);
+}
+
+// True when both lanes lie in [-limit, limit]; false for NaN.
+inline bool within(const Pair& x, double limit) noexcept { return x[0] <= limit && x[0] >= -limit && x[1] <= limit && x[1] >= -limit; }
 
 }  // namespace liana

@@ -56,21 +56,9 @@ double arc_tangent(double y, double x) noexcept {
   return y < 0.0 ? -angle : angle;
 }
 
-double exponential(double x) noexcept {
+double wide_exponential(double x) noexcept {
   const double bounded = x > 4.0 ? 4.0 : (x < -4.0 ? -4.0 : x);
-  const double r = bounded / 16.0;  // |r| <= 1/4: the series ends below 1e-16
-  double p = 1.0 / 39916800.0;      // 1/11!
-  p = p * r + 1.0 / 3628800.0;
-  p = p * r + 1.0 / 362880.0;
-  p = p * r + 1.0 / 40320.0;
-  p = p * r + 1.0 / 5040.0;
-  p = p * r + 1.0 / 720.0;
-  p = p * r + 1.0 / 120.0;
-  p = p * r + 1.0 / 24.0;
-  p = p * r + 1.0 / 6.0;
-  p = p * r + 0.5;
-  p = p * r + 1.0;
-  p = p * r + 1.0;
+  double p = small_exponential(bounded / 16.0);
   p *= p;
   p *= p;
   p *= p;

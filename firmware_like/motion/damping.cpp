@@ -6,12 +6,9 @@ namespace liana {
 
 using Index = std::size_t;
 
-void damp(const RobotTable& table, const CableLayout& layout, const CableSolver& solver, const CableVector& planned_m,
-          const CableVector& measured_m, DampingState& state) noexcept {
-  CableVector stretch_m;
-  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) stretch_m[c] = planned_m[c] - measured_m[c];
-  const ThetaVector deflection = solve_cables(table, layout, solver, stretch_m);
-
+void damp(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver, const CableVector& stretch_m,
+          DampingState& state) noexcept {
+  const ThetaVector deflection = solve_cables(table, geometry, solver, stretch_m);
   const double lead_s = table.servo_time_constant_s + kTensionFilter_s + table.tick_s;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     state.standing_rad[k] += table.tick_s / kDampingHighPass_s * (deflection[k] - state.standing_rad[k]);

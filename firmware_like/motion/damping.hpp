@@ -21,9 +21,9 @@ struct DampingState {
   ThetaVector output_rad{};    // added to the commanded angles at the motors; stands still while a cable fault makes tensions doubtful
 };
 
-// One tick; output_rad is to be added to the commanded angles before the cable map. `planned_m` and `measured_m` are the unstretched
-// lengths that the planned and the measured tensions mean at the commanded angles; `solver` may belong to a pose a few degrees away.
-void damp(const RobotTable& table, const CableLayout& layout, const CableSolver& solver, const CableVector& planned_m,
-          const CableVector& measured_m, DampingState& state) noexcept;
+// One tick; output_rad is to be added to the commanded angles before the cable map. `stretch_m` is how much longer the cables are than
+// planned, from measured less planned tensions.
+void damp(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver, const CableVector& stretch_m,
+          DampingState& state) noexcept;
 
 }  // namespace liana

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "firmware_like/controller_io.hpp"
+#include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
 
 namespace liana {
@@ -30,10 +31,7 @@ double cable_factor(const RobotTable& table, const CableGeometry& geometry, cons
   Index c = 0;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
     for (const Index end = c + static_cast<Index>(table.segment[m].cables); c < end; ++c) {
-      const double* const row = geometry.jacobian_m_rad[c].data();
-      double speed = 0.0;
-      for (Index k = 0; k < 2 * (m + 1); ++k) speed += row[k] * rate[k];
-      fastest = larger(fastest, std::fabs(speed));
+      fastest = larger(fastest, std::fabs(dot_pairs(geometry.jacobian_m_rad[c].data(), rate.data(), m + 1)));
     }
   }
   constexpr double kShare = 0.8;  // the rest is for tension changes and damping

@@ -24,13 +24,32 @@ struct TaskSolver {
   bool regular = false;
 };
 
-// Adds u v^T to the 3 x 3 block of A whose corner is (row, column).
-void add_block(SquareMatrix<6>& A, Index row, Index column, const Vec3& u, const Vec3& v) noexcept {
+// Sum of u v^T over the free columns, as rows; the loops of three are written out so that the sums stay in registers.
+struct Block {
+  Vec3 x{}, y{}, z{};
+};
+
+void add_outer(const Vec3& u, const Vec3& v, Block& sum) noexcept {
+  sum.x = {sum.x[0] + u[0] * v[0], sum.x[1] + u[0] * v[1], sum.x[2] + u[0] * v[2]};
+  sum.y = {sum.y[0] + u[1] * v[0], sum.y[1] + u[1] * v[1], sum.y[2] + u[1] * v[2]};
+  sum.z = {sum.z[0] + u[2] * v[0], sum.z[1] + u[2] * v[1], sum.z[2] + u[2] * v[2]};
+}
+
+using Columns = std::array<Vec3, kMaxTheta>;
+
+Block outer_sum(const Columns& u, const Columns& v, Index n, std::uint32_t fixed) noexcept {
+  Block sum;
+  for (Index k = 0; k < n; ++k) {
+    if (!is_set(fixed, k)) add_outer(u[k], v[k], sum);
+  }
+  return sum;
+}
+
+void put_block(const Block& block, Index row, Index column, SquareMatrix<6>& A) noexcept {
   for (Index i = 0; i < 3; ++i) {
-    double* const out = &A[row + i][column];
-    out[0] += u[i] * v[0];
-    out[1] += u[i] * v[1];
-    out[2] += u[i] * v[2];
+    A[row][column + i] = block.x[i];
+    A[row + 1][column + i] = block.y[i];
+    A[row + 2][column + i] = block.z[i];
   }
 }
 
@@ -38,14 +57,11 @@ TaskSolver factor_task(const Jacobian& J, Index n, std::uint32_t fixed, double d
   TaskSolver solver;
   solver.fixed = fixed;
   solver.damping = damping;
-  for (Index k = 0; k < n; ++k) {
-    if (is_set(fixed, k)) continue;
-    add_block(solver.factor, 0, 0, J.linear[k], J.linear[k]);
-    add_block(solver.factor, 3, 0, J.angular[k], J.linear[k]);
-    add_block(solver.factor, 3, 3, J.angular[k], J.angular[k]);
-  }
+  put_block(outer_sum(J.linear, J.linear, n, fixed), 0, 0, solver.factor);
+  put_block(outer_sum(J.angular, J.linear, n, fixed), 3, 0, solver.factor);
+  put_block(outer_sum(J.angular, J.angular, n, fixed), 3, 3, solver.factor);
   for (Index r = 0; r < 6; ++r) solver.factor[r][r] += damping;
-  solver.regular = cholesky_factor(solver.factor, 6);
+  solver.regular = cholesky_factor(solver.factor);
   return solver;
 }
 
@@ -60,7 +76,7 @@ Step solve_step(const TaskSolver& solver, const Jacobian& J, Index n, const Task
   step.left2 = size2(e);
   if (!solver.regular) return step;
   Task y = e;
-  cholesky_solve(solver.factor, y, 6);
+  cholesky_solve(solver.factor, y);
   for (Index k = 0; k < n; ++k) {
     if (is_set(solver.fixed, k)) continue;
     const Vec3 &l = J.linear[k], &a = J.angular[k];

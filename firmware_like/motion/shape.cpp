@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
 
 namespace liana {
@@ -11,19 +12,15 @@ using Index = std::size_t;
 
 bool is_set(std::uint32_t mask, Index i) noexcept { return ((mask >> i) & 1u) != 0; }
 
-double product(const ThetaVector& a, const ThetaVector& b, Index n) noexcept {
-  double sum = 0.0;
-  for (Index k = 0; k < n; ++k) sum += a[k] * b[k];
-  return sum;
-}
+double product(const ThetaVector& a, const ThetaVector& b, Index n) noexcept { return dot_pairs(a.data(), b.data(), n / 2); }
 
 // v less its parts along the first `rank` rows, twice (once leaves rounding of the order of the cancelled part).
 void remove_rows(const NullSpace& space, ThetaVector& v) noexcept {
-  const Index n = static_cast<Index>(space.theta_count);
+  const Index pairs = static_cast<Index>(space.theta_count) / 2;
   for (std::int32_t pass = 0; pass < 2; ++pass) {
     for (Index r = 0; r < static_cast<Index>(space.rank); ++r) {
-      const double share = product(v, space.row[r], n);
-      for (Index k = 0; k < n; ++k) v[k] -= share * space.row[r][k];
+      const double* const row = space.row[r].data();
+      add_scaled_pairs(-dot_pairs(v.data(), row, pairs), row, v.data(), pairs);
     }
   }
 }
@@ -79,13 +76,14 @@ NullSpace null_space(const Jacobian& J, std::int32_t theta_count, std::uint32_t 
   space.theta_count = theta_count;
   const Index n = static_cast<Index>(theta_count);
   for (Index r = 0; r < 6; ++r) {
-    ThetaVector v{};
-    for (Index k = 0; k < n; ++k) v[k] = is_set(fixed, k) ? 0.0 : (r < 3 ? J.linear[k][r] : J.angular[k][r - 3]);
+    ThetaVector& v = space.row[static_cast<Index>(space.rank)];
+    const auto& column = r < 3 ? J.linear : J.angular;
+    for (Index k = 0; k < n; ++k) v[k] = is_set(fixed, k) ? 0.0 : column[k][r % 3];
     remove_rows(space, v);
     const double length = std::sqrt(product(v, v, n));
     if (!(length > kDependent_m_rad)) continue;
     for (Index k = 0; k < n; ++k) v[k] /= length;
-    space.row[static_cast<Index>(space.rank++)] = v;
+    ++space.rank;
   }
   return space;
 }

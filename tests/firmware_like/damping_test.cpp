@@ -32,9 +32,10 @@ struct Bench {
   }
   ThetaVector step(const CableVector& measured_N, DampingState& state) const {
     CableSolver solver;
-    update_cable_solver(robot, layout, trig, solver);
-    damp(robot, layout, solver, payout_for(robot, layout, geometry, ratio, planned_N),
-         payout_for(robot, layout, geometry, ratio, measured_N), state);
+    update_cable_solver(robot, geometry, solver);
+    CableVector more_N{};
+    for (std::size_t c = 0; c < zhu2022::kCables; ++c) more_N[c] = measured_N[c] - planned_N[c];
+    damp(robot, geometry, solver, stretch_for(robot, layout, geometry.part_m, ratio, more_N), state);
     return state.output_rad;
   }
 };

@@ -161,7 +161,9 @@ ThetaVector rest_pose(const RobotTable& robot, const CableVector& payout_m, Thet
   for (std::int32_t i = 0; i < 60; ++i) {
     const Planned at = plan_at(robot, theta, SlipState{});
     ThetaVector step = torque_of(robot, at, tension_from(robot, at.geometry, payout_m));
-    SquareMatrix<kMaxTheta> stiffness{};
+    SquareMatrix<zhu2022::kThetas> stiffness{};
+    std::array<double, zhu2022::kThetas> turn{};
+    std::copy_n(step.begin(), zhu2022::kThetas, turn.begin());
     for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
       for (std::size_t r = 0; r < zhu2022::kThetas; ++r) {
         for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
@@ -169,8 +171,9 @@ ThetaVector rest_pose(const RobotTable& robot, const CableVector& payout_m, Thet
         }
       }
     }
-    EXPECT_TRUE(cholesky_factor(stiffness, zhu2022::kThetas));
-    cholesky_solve(stiffness, step, zhu2022::kThetas);
+    EXPECT_TRUE(cholesky_factor(stiffness));
+    cholesky_solve(stiffness, turn);
+    std::copy_n(turn.begin(), zhu2022::kThetas, step.begin());
     theta = zhu2022::plus(theta, step);
   }
   return theta;
@@ -192,7 +195,7 @@ TEST(Tension, AGeometricCommandLeavesATorqueThatPlannedTensionsDoNot) {
       const double elongation_m = straight_m * robot.tension.plan_N / robot.cable_EA_N;  // the same at every pose
       geometric_m[c] = at.geometry.length_m[c] + robot.lead_m - elongation_m;
     }
-    const CableVector planned_m = payout_for(robot, layout, at.geometry, at.ratio, at.plan.motor_N);
+    const CableVector planned_m = payout_for(robot, layout, at.geometry.part_m, at.ratio, at.plan.motor_N);
 
     EXPECT_GT(zhu2022::length(torque_of(robot, at, tension_from(robot, at.geometry, geometric_m))), 0.1);
     EXPECT_LT(zhu2022::length(torque_of(robot, at, tension_from(robot, at.geometry, planned_m))), 1e-8);
@@ -206,8 +209,8 @@ TEST(Tension, PayoutIsShorterThanThePathByWhatTheTensionStretches) {
   const RobotTable robot = zhu2022::table();
   const CableLayout layout = cable_layout(robot);
   const Planned at = plan_at(robot, zhu2022::radians(zhu2022::kPrepare_deg), SlipState{});
-  const CableVector slack_m = payout_for(robot, layout, at.geometry, at.ratio, CableVector{});
-  const CableVector tight_m = payout_for(robot, layout, at.geometry, at.ratio, at.plan.motor_N);
+  const CableVector slack_m = payout_for(robot, layout, at.geometry.part_m, at.ratio, CableVector{});
+  const CableVector tight_m = payout_for(robot, layout, at.geometry.part_m, at.ratio, at.plan.motor_N);
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
     const double path_m = at.geometry.length_m[c] + robot.lead_m;
     EXPECT_NEAR(slack_m[c], path_m, 1e-14);
@@ -223,8 +226,8 @@ TEST(Tension, PayoutCountsTheStretchOfEveryPieceAtItsOwnTension) {
   for (auto& row : inwards.sigma) row.fill(1.0);
   const Planned at = plan_at(robot, zhu2022::radians(zhu2022::kPanelEdge_deg), inwards);
   const Planned even = plan_at(robot, zhu2022::radians(zhu2022::kPanelEdge_deg), SlipState{});
-  const CableVector payout_m = payout_for(robot, layout, at.geometry, at.ratio, at.plan.motor_N);
-  const CableVector even_m = payout_for(robot, layout, at.geometry, even.ratio, at.plan.motor_N);
+  const CableVector payout_m = payout_for(robot, layout, at.geometry.part_m, at.ratio, at.plan.motor_N);
+  const CableVector even_m = payout_for(robot, layout, at.geometry.part_m, even.ratio, at.plan.motor_N);
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
     double unstretched_m = 0.0;
     for (std::size_t j = 0; j <= c / 3; ++j) {
