@@ -52,6 +52,7 @@ enum LimitBit : std::uint32_t {
   kLimitSingular = 1u << 8,
   kLimitGate = 1u << 9,
   kLimitExpired = 1u << 10,  // no valid telecommand: the arm holds
+  kLimitReach = 1u << 11,    // the target is farther away than the arm is long
 };
 
 struct DriveCommand {

@@ -66,6 +66,7 @@ void follow_tip(const RobotTable& table, bool braking, MotionState& state) noexc
   state.ik = servo_ik(table, {state.filter.pose, state.held_mask}, arm, state.ik_rad);
   if (state.ik.limit_mask != 0) state.limits |= kLimitTheta;
   if (state.ik.outcome == IkOutcome::kSingular) state.limits |= kLimitSingular;
+  if (state.ik.outcome == IkOutcome::kUnreachable) state.limits |= kLimitReach;
 }
 
 // Joint reference: linear over the command interval; the limiter does the rest.

@@ -50,9 +50,9 @@ json faults_json(const FaultList& list) {
 }
 
 json limits_json(std::uint32_t limits) {
-  static constexpr std::array<const char*, 11> kNames{"tip_speed",   "tip_accel",   "theta",         "theta_rate",
+  static constexpr std::array<const char*, 12> kNames{"tip_speed",   "tip_accel",   "theta",         "theta_rate",
                                                       "theta_accel", "cable_speed", "tension_floor", "tension_ceiling",
-                                                      "singular",    "gate",        "expired"};
+                                                      "singular",    "gate",        "expired",       "reach"};
   json names = json::array();
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     if (((limits >> i) & 1u) != 0) names.push_back(kNames[i]);
@@ -119,6 +119,9 @@ void add_arm(json& state, const RobotTable& table, const CycleReport& report) {
   state["at_rest"] = o.at_rest != 0;
   state["tension_N"] = first(o.tension_measured_N, table.cable_count());
   state["stop_category"] = stop_name(o.stop_category);
+  state["ik"] = {{"outcome", ik_outcome_name(o.ik_outcome)},
+                 {"residual_m", {o.ik_residual[0], o.ik_residual[1], o.ik_residual[2]}},
+                 {"residual_rad", {o.ik_residual[3], o.ik_residual[4], o.ik_residual[5]}}};
   state["faults"] = faults_json(o.faults);
   state["limits"] = limits_json(o.limits);
 }

@@ -27,9 +27,9 @@ ThetaVector damped_step(const PointMotion& motion, ThetaMask active, const Vec3&
     }
   }
   ThetaVector step{};
-  if (!cholesky_factor(A, 3)) return step;
+  if (!cholesky_factor(A)) return step;
   Vec3 x = error_m;
-  cholesky_solve(A, x, 3);
+  cholesky_solve(A, x);
   for (std::size_t i = 0; i < kMaxTheta; ++i) {
     if (active >> i & 1u) step[i] = dot(motion.column[i], x);
   }

@@ -124,6 +124,8 @@ void visit(A& a, T& o) {
   a("payout_command_m", o.payout_command_m);
   a("ik_position_error_m", o.ik_position_error_m);
   a("ik_attitude_error_rad", o.ik_attitude_error_rad);
+  a("ik_outcome", o.ik_outcome);
+  a("ik_residual", o.ik_residual);
 }
 
 template <class A, Like<SegmentTable> T>

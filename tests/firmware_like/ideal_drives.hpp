@@ -161,7 +161,8 @@ inline std::vector<double> numbers(const Outputs& out) {
                           out.tip_speed_m_s,
                           out.tip_rate_rad_s,
                           out.ik_position_error_m,
-                          out.ik_attitude_error_rad};
+                          out.ik_attitude_error_rad,
+                          out.ik_residual[0]};
   for (const DriveCommand& drive : out.drive)
     all.insert(all.end(), {static_cast<double>(drive.controlword), static_cast<double>(drive.target_counts)});
   for (const Pose& pose : {out.tip_goal, out.tip_command, out.tip_measured}) {

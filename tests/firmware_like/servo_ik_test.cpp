@@ -162,6 +162,36 @@ TEST(ServoIk, TheStraightArmMovesSidewaysAndSaysWhereItCannotGo) {
   EXPECT_EQ(straight, ThetaVector{});
 }
 
+// A37 and the teleoperation outcomes: each has a name, and the residual points to where the target is.
+TEST(ServoIk, A37EveryOutcomeIsNamedWithTheDirectionThatIsLeft) {
+  const RobotTable robot = zhu2022::table();
+  const auto settle = [&](const Pose& goal, ThetaVector theta, std::uint32_t held = 0) {
+    IkReport report;
+    for (std::int32_t i = 0; i < 400; ++i) report = servo_ik(robot, {goal, held}, forward_kinematics(robot, theta), theta);
+    return report;
+  };
+  const ThetaVector bent = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  EXPECT_STREQ(ik_outcome_name(settle(tip_at(robot, bent), bent).outcome), "converged");
+
+  ThetaVector beyond = bent;
+  beyond[1] = 24.0 * kDegree;
+  const IkReport limited = settle(tip_at(robot, beyond), bent, ~2u);  // theta 2 alone may move
+  EXPECT_STREQ(ik_outcome_name(limited.outcome), "limited");
+  EXPECT_EQ(limited.limit_mask, 2u);
+
+  Pose longer = tip_at(robot, ThetaVector{});
+  longer.position_m[0] += 0.1;
+  const IkReport unreachable = settle(longer, ThetaVector{});
+  EXPECT_STREQ(ik_outcome_name(unreachable.outcome), "unreachable");
+  EXPECT_GT(unreachable.residual[0], 0.099);
+
+  Pose shorter = tip_at(robot, ThetaVector{});
+  shorter.position_m[0] -= 0.1;
+  const IkReport singular = settle(shorter, ThetaVector{});
+  EXPECT_STREQ(ik_outcome_name(singular.outcome), "singular");
+  EXPECT_LT(singular.residual[0], -0.099);
+}
+
 TEST(ServoIk, ReportsTheErrorBeforeTheStep) {
   const RobotTable robot = zhu2022::table();
   ThetaVector theta = zhu2022::radians(zhu2022::kPrepare_deg);
