@@ -118,8 +118,8 @@ void hinge_ik_step(const HingeKinematics& arm, std::array<double, 6> e, double d
     }
     A[r][r] += damping;
   }
-  if (!cholesky_factor(A, 6)) return;
-  cholesky_solve(A, e, 6);
+  if (!cholesky_factor(A)) return;
+  cholesky_solve(A, e);
   for (std::size_t i = 0; i < kHinges; ++i) {
     for (std::size_t r = 0; r < 6; ++r) angle_rad[i] += J[r][i] * e[r];
   }
