@@ -38,6 +38,16 @@ double cable_factor(const RobotTable& table, const CableGeometry& geometry, cons
   return fastest > kShare * table.limits.cable_speed_m_s ? kShare * table.limits.cable_speed_m_s / fastest : 1.0;
 }
 
+// Fastest rate towards a joint limit from which the joint still stops before it: v^2 + 2 a h v = 2 a d, under which no later tick needs to
+// brake harder than `accel` or goes past. It may leave the limit at any rate.
+double rate_before_limit(double rate, double theta_rad, double limit_rad, double accel, double tick_s) noexcept {
+  const double room = larger(0.0, limit_rad - (rate < 0.0 ? -theta_rad : theta_rad));
+  const double step = accel * tick_s, size = std::fabs(rate);
+  if (size * (size + 2.0 * step) <= 2.0 * accel * room) return rate;
+  const double allowed = std::sqrt(step * step + 2.0 * accel * room) - step;
+  return rate < 0.0 ? -allowed : allowed;
+}
+
 }  // namespace
 
 void reset_limiter(const ThetaVector& theta_rad, LimiterState& state) noexcept {
@@ -59,8 +69,10 @@ void limit_motion(const RobotTable& table, const CableGeometry& geometry, const 
   for (Index k = 0; k < n; ++k) {
     const double rate = clamp(wanted[k] * factor, -table.limits.theta_rate_rad_s, table.limits.theta_rate_rad_s);
     if (rate != wanted[k] * factor) state.limits |= kLimitThetaRate;
-    const double bounded = clamp(rate, state.rate_rad_s[k] - accel * h, state.rate_rad_s[k] + accel * h);
-    if (bounded != rate) state.limits |= kLimitThetaAccel;
+    const double stopping = rate_before_limit(rate, state.theta_rad[k], table.segment[k / 2].theta_limit_rad, accel, h);
+    if (stopping != rate) state.limits |= kLimitTheta;
+    const double bounded = clamp(stopping, state.rate_rad_s[k] - accel * h, state.rate_rad_s[k] + accel * h);
+    if (bounded != stopping) state.limits |= kLimitThetaAccel;
     if (bounded == wanted[k] && state.reference_rad[k] == state.theta_rad[k]) {
       state.theta_rad[k] = reference_rad[k];  // exactly, so that held variables stand still to the last bit
     } else {

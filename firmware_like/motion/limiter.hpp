@@ -19,8 +19,8 @@ struct LimiterState {
 void reset_limiter(const ThetaVector& theta_rad, LimiterState& state) noexcept;
 
 // One tick towards `reference` (which may move). Follows exactly while its rate and acceleration are inside the limits; otherwise it lags
-// and comes back along a braking parabola, past a standing reference by accel tick^2 / 8 at most (8e-6 deg). `geometry` is the cable
-// Jacobian for the cable speed limit.
+// and comes back along a braking parabola, past a standing reference by accel tick^2 / 8 at most (8e-6 deg), and never past a joint limit.
+// `geometry` is the cable Jacobian for the cable speed limit.
 void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad, LimiterState& state) noexcept;
 
 // Largest |rate| of the command [rad/s].

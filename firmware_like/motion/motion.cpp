@@ -10,7 +10,10 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double kHeldShare = 0.4;  // of the theta limits that held variables use on their way
+constexpr double kHeldShare = 0.4;           // of the theta limits that held variables use on their way
+constexpr double kHeldNear_rad = 2e-6;       // from here a held variable that has slowed down
+constexpr double kHeldSlow_rad_s = 2e-5;     // to this rate
+constexpr double kHeldArrival_rad_s = 7e-5;  // goes the rest straight: others make up for its steps many times magnified
 
 bool is_tip(const Setpoint& setpoint) noexcept { return setpoint.kind == CommandKind::kTip; }
 
@@ -28,14 +31,15 @@ void advance_held(const RobotTable& table, MotionState& state) noexcept {
     if (((state.held_mask >> k) & 1u) == 0) continue;
     HeldProfile& held = state.held[k];
     const double error = state.to.held_rad[k] - held.value_rad;
-    if (std::fabs(error) < 2e-6 && std::fabs(held.channel.velocity[0]) < 2e-5) {
-      held.value_rad = state.to.held_rad[k];
+    if (std::fabs(error) < kHeldNear_rad && std::fabs(held.channel.velocity[0]) < kHeldSlow_rad_s) {
+      const double step = kHeldArrival_rad_s * table.tick_s;
+      held.value_rad = std::fabs(error) <= step ? state.to.held_rad[k] : held.value_rad + (error < 0.0 ? -step : step);
       held.channel = ChannelState{};
     } else {
       follow_channel(bounds, table.tick_s, {error, 0.0, 0.0}, held.channel);
       held.value_rad += held.channel.velocity[0] * table.tick_s;
-      state.held_at_target = false;
     }
+    if (held.value_rad != state.to.held_rad[k]) state.held_at_target = false;
     state.ik_rad[k] = held.value_rad;
   }
 }
@@ -128,6 +132,8 @@ void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionSt
     const bool newly_held = ((held_mask >> k) & 1u) != 0 && ((state.held_mask >> k) & 1u) == 0;
     if (newly_held) state.held[k] = HeldProfile{state.ik_rad[k], {{state.limiter.rate_rad_s[k], 0.0, 0.0}, {}}};
   }
+  // A changed mask changes how thetas share the tip's motion. What they do now lives on as shape velocity, which goes over smoothly.
+  if (is_tip(setpoint) && held_mask != state.held_mask) state.shape_rate_rad_s = state.limiter.rate_rad_s;
   state.held_mask = held_mask;
   state.to = setpoint;
   state.interval_tick = 0;

@@ -111,6 +111,28 @@ TEST(Limiter, CatchesUpWithAMovingReferenceWithoutPassingIt) {
   EXPECT_EQ(state.theta_rad[0], reference[0]);
 }
 
+// A reference that runs against a joint limit and stands there: a lagging command, on its way at full rate, must not swing past it.
+TEST(Limiter, ALaggingCommandStopsBeforeTheJointLimitWithoutBrakingHarderThanItMay) {
+  const RobotTable robot = zhu2022::table();
+  const double limit = robot.segment[0].theta_limit_rad;
+  const CableGeometry geometry = geometry_at(robot, ThetaVector{});
+  Random random(3);
+  for (std::int32_t i = 0; i < 20; ++i) {
+    ThetaVector reference = random.theta(robot, 17.0);
+    LimiterState state = at_rest_at(reference);
+    const double speed = random.uniform(1.0, 6.0) * robot.limits.theta_rate_rad_s;  // of the reference: too fast to follow
+    for (std::int32_t tick = 0; tick < 10000; ++tick) {
+      for (std::size_t k = 8; k < 10; ++k) {
+        reference[k] = std::clamp(reference[k] + (k % 2 == 0 ? speed : -speed) * robot.tick_s, -limit, limit);
+      }
+      step(robot, geometry, reference, state);
+      if (HasFatalFailure()) return;
+      for (std::size_t k = 0; k < zhu2022::kThetas; ++k) ASSERT_LE(std::fabs(state.theta_rad[k]), limit + kRounding) << k;
+    }
+    EXPECT_LE(zhu2022::largest_difference(state.theta_rad, reference), 1e-6);
+  }
+}
+
 TEST(Limiter, EveryLimitThatActsIsNamed) {
   RobotTable robot = zhu2022::table();
   robot.limits.cable_speed_m_s = 1000.0;
