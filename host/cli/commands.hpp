@@ -69,7 +69,7 @@ struct ReplayOptions {
   std::string directory;
   bool json = false;
 };
-// Runs recorded Inputs through the core again; exit code 0 only when no tick differs.
+// Runs recorded Inputs through the core again; exit code 0 only when the recording is whole and no tick differs.
 int replay_command(const ReplayOptions& options);
 
 struct ExportOptions {

@@ -16,6 +16,8 @@ void print_json(const ReplayResult& result) {
                            {"differing_ticks", result.differing_ticks},
                            {"missing_ticks", result.missing_ticks},
                            {"complete", result.complete},
+                           {"same_build", result.same_build},
+                           {"recorded_by", result.recorded_by},
                            {"first_differing_tick", result.differing_ticks > 0 ? nlohmann::json(result.first_differing_tick) : nullptr},
                            {"first_differing_field", result.first_differing_field}}
                 .dump()
@@ -28,7 +30,7 @@ void print_text(const ReplayResult& result) {
     std::printf("first: tick %" PRIu64 ", field %s\n", result.first_differing_tick, result.first_differing_field.c_str());
   }
   if (result.missing_ticks > 0) std::printf("%" PRIu64 " ticks are missing in the recording\n", result.missing_ticks);
-  if (!result.complete) std::puts("the recording was not finished properly; what is there was compared");
+  std::printf("recorded by %s build (%s)\n", result.same_build ? "this" : "another", result.recorded_by.c_str());
 }
 
 }  // namespace
@@ -44,7 +46,13 @@ int replay_command(const ReplayOptions& options) {
   } else {
     print_text(result);
   }
-  return result.ticks > 0 && result.differing_ticks == 0 ? kExitOk : kExitFailure;
+  if (!result.complete) {
+    std::fprintf(stderr,
+                 "liana: %s: the recording was cut short: the file ends before its end record, so nothing says how much is missing; "
+                 "the ticks that are there were compared\n",
+                 file.c_str());
+  }
+  return result.complete && result.ticks > 0 && result.differing_ticks == 0 ? kExitOk : kExitFailure;
 }
 
 }  // namespace liana

@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 
+#include "host/record/crc32.hpp"
+
 namespace liana {
 
 class McapWriter {
@@ -23,11 +25,13 @@ class McapWriter {
   std::uint16_t add_channel(const std::string& topic, const std::string& encoding, const std::string& schema_text);
   void add_metadata(const std::string& name, const std::map<std::string, std::string>& values);
   void write_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data);
-  // Ends the file properly; throws std::runtime_error when the disk refused any write. A file without it can still be read.
+  // Ends the file properly, with the checksums of the format (data section, summary); throws std::runtime_error when the disk refused any
+  // write. A file without it can still be read.
   void finish();
 
  private:
   void record(std::uint8_t opcode, std::string_view content);
+  void write(std::string_view bytes);
 
   struct Close {
     void operator()(std::FILE* f) const { std::fclose(f); }
@@ -35,6 +39,7 @@ class McapWriter {
   std::unique_ptr<std::FILE, Close> file_;
   std::string path_;
   std::string buffer_;
+  Crc32 crc_;  // of all that was written
   std::uint16_t channels_ = 0;
   bool failed_ = false;
 };
@@ -45,8 +50,14 @@ struct McapVisitor {
   std::function<void(const std::string& name, const std::map<std::string, std::string>& values)> metadata;
 };
 
-// Reads a whole file in order. Returns true when it was finished properly, false when it was cut short (what is there has been visited).
-// Throws std::runtime_error when it cannot be opened or is no MCAP file.
-bool read_mcap(const std::string& path, const McapVisitor& visitor);
+enum class McapState : std::uint8_t {
+  kWhole,     // finished properly, and every byte is as it was written
+  kCutShort,  // ends before its end record: nothing vouches for what is there
+  kDamaged,   // some byte is not as it was written
+};
+
+// Reads a whole file in order and visits what is there, damaged or not. Throws std::runtime_error when it cannot be opened, is no MCAP
+// file, or is damaged so that its records cannot be told apart.
+McapState read_mcap(const std::string& path, const McapVisitor& visitor);
 
 }  // namespace liana

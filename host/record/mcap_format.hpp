@@ -1,8 +1,12 @@
 // The numbers of the MCAP format that writer and reader share.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
+
+#include "host/record/crc32.hpp"
 
 namespace liana::mcap {
 
@@ -17,5 +21,17 @@ enum Opcode : std::uint8_t {
   kMetadata = 0x0C,
   kDataEnd = 0x0F,
 };
+
+constexpr std::size_t kFooterBytes = 20;  // summary start, summary offset start, summary CRC
+
+// The footer's own checksum: from the start of the summary (here empty: of the footer record) up to the checksum itself.
+inline std::uint32_t summary_crc(std::string_view footer_before_crc) {
+  std::string bytes{static_cast<char>(kFooter), static_cast<char>(kFooterBytes)};
+  bytes.append(7, '\0');  // the rest of the record's 64-bit length
+  bytes += footer_before_crc;
+  Crc32 crc;
+  crc.add(bytes);
+  return crc.value();
+}
 
 }  // namespace liana::mcap

@@ -34,7 +34,7 @@ void put_map(std::string& out, const std::map<std::string, std::string>& values)
 
 McapWriter::McapWriter(const std::string& path, const std::string& library) : file_(std::fopen(path.c_str(), "wb")), path_(path) {
   if (!file_) throw std::runtime_error("recording " + path + ": " + std::strerror(errno) + "; the folder must exist and be writable");
-  failed_ = std::fwrite(mcap::kMagic.data(), 1, mcap::kMagic.size(), file_.get()) != mcap::kMagic.size();
+  write(mcap::kMagic);
   std::string content;
   put_text(content, "liana");
   put_text(content, library);
@@ -43,12 +43,17 @@ McapWriter::McapWriter(const std::string& path, const std::string& library) : fi
 
 McapWriter::~McapWriter() = default;
 
+void McapWriter::write(std::string_view bytes) {
+  crc_.add(bytes);
+  failed_ = std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() || failed_;
+}
+
 void McapWriter::record(std::uint8_t opcode, std::string_view content) {
   buffer_.clear();
   put(buffer_, opcode);
   put(buffer_, static_cast<std::uint64_t>(content.size()));
   buffer_ += content;
-  failed_ = std::fwrite(buffer_.data(), 1, buffer_.size(), file_.get()) != buffer_.size() || failed_;
+  write(buffer_);
 }
 
 std::uint16_t McapWriter::add_channel(const std::string& topic, const std::string& encoding, const std::string& schema_text) {
@@ -89,13 +94,13 @@ void McapWriter::write_message(std::uint16_t channel, std::uint32_t sequence, st
 
 void McapWriter::finish() {
   std::string data_end, footer;
-  put(data_end, std::uint32_t{0});
+  put(data_end, crc_.value());
   record(mcap::kDataEnd, data_end);
+  put(footer, std::uint64_t{0});  // no summary, no summary offsets
   put(footer, std::uint64_t{0});
-  put(footer, std::uint64_t{0});
-  put(footer, std::uint32_t{0});
+  put(footer, mcap::summary_crc(footer));
   record(mcap::kFooter, footer);
-  failed_ = std::fwrite(mcap::kMagic.data(), 1, mcap::kMagic.size(), file_.get()) != mcap::kMagic.size() || failed_;
+  write(mcap::kMagic);
   failed_ = std::fflush(file_.get()) != 0 || failed_;
   if (failed_) throw std::runtime_error("recording " + path_ + ": a write failed (disk full?); the file is incomplete");
 }

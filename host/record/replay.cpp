@@ -19,6 +19,26 @@ namespace {
 
 using Images = std::map<std::uint64_t, std::string>;  // controller_image messages by next tick
 
+// No checksum vouches for a file that was cut short: what sizes the core's loops is looked at before the core sees it.
+void require_plausible(const RobotTable& table, const std::string& directory) {
+  const auto within = [](std::int32_t value, std::int32_t least, std::int32_t most) { return value >= least && value <= most; };
+  bool plausible = within(table.segment_count, 1, kMaxSegments) && table.interval_ticks > 0;
+  for (std::size_t m = 0; plausible && m < static_cast<std::size_t>(table.segment_count); ++m) {
+    plausible = within(table.segment[m].modules, 1, kMaxModules) && within(table.segment[m].cables, 3, kMaxSegmentCables);
+  }
+  if (!plausible) throw std::runtime_error("recording " + directory + ": damaged: its robot table makes no sense; take a good copy of the file");
+}
+
+// Throws std::runtime_error when a byte of the file is not as it was written; true when the file is whole, false when it was cut short.
+bool require_undamaged(const std::string& file) {
+  const McapState state = read_mcap(file, {});
+  if (state == McapState::kDamaged) {
+    throw std::runtime_error("recording " + file +
+                             ": damaged: its bytes do not match the checksum they were written with; take a good copy of the file");
+  }
+  return state == McapState::kWhole;
+}
+
 class Replayer {
  public:
   Replayer(ReplayResult& result, const std::string& directory) : result_(result), directory_(directory) {}
@@ -30,13 +50,16 @@ class Replayer {
   }
   void metadata(const std::map<std::string, std::string>& values) {
     const auto found = values.find("build_id");
-    result_.same_build = result_.same_build || (found != values.end() && found->second == build_id());
+    if (found == values.end()) return;
+    result_.recorded_by = found->second;
+    result_.same_build = found->second == build_id();
   }
   bool started() const { return controller_.has_value(); }
 
  private:
   bool start_from(std::string_view data) {
     const ControllerImage image = parse_image(data);
+    require_plausible(image.table, directory_);
     const bool usable = result_.same_build && image.controller_bytes.size() == sizeof(Controller);
     if (!image.fresh && !usable) return false;
     controller_.emplace(image.table);
@@ -53,7 +76,11 @@ class Replayer {
       visitor.message = [this](const std::string&, std::uint32_t, std::uint64_t, std::string_view data) {
         (*images_)[parse_image(data).next_tick] = data;
       };
-      if (std::filesystem::exists(directory_ + "/" + kImagesFile)) read_mcap(directory_ + "/" + kImagesFile, visitor);
+      const std::string file = directory_ + "/" + kImagesFile;
+      if (std::filesystem::exists(file)) {
+        require_undamaged(file);
+        read_mcap(file, visitor);
+      }
     }
     const auto found = images_->find(tick);
     return found != images_->end() && start_from(found->second);
@@ -93,12 +120,14 @@ class Replayer {
 }  // namespace
 
 ReplayResult replay(const std::string& directory) {
+  const std::string file = directory + "/" + kRecordingFile;
   ReplayResult result;
+  result.complete = require_undamaged(file);
   Replayer replayer(result, directory);
   McapVisitor visitor;
   visitor.message = [&](const std::string& topic, std::uint32_t, std::uint64_t, std::string_view data) { replayer.take(topic, data); };
   visitor.metadata = [&](const std::string&, const std::map<std::string, std::string>& values) { replayer.metadata(values); };
-  result.complete = read_mcap(directory + "/" + kRecordingFile, visitor);
+  read_mcap(file, visitor);
   if (!replayer.started())
     throw std::runtime_error(
         "recording " + directory +

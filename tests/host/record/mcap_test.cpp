@@ -28,7 +28,7 @@ std::string write_small(const std::string& path, bool finish) {
 struct Seen {
   std::vector<std::string> messages;
   std::map<std::string, std::string> metadata;
-  bool complete = false;
+  McapState state = McapState::kDamaged;
 };
 
 Seen read_all(const std::string& path) {
@@ -38,13 +38,13 @@ Seen read_all(const std::string& path) {
     seen.messages.push_back(topic + " " + std::to_string(sequence) + " " + std::string(data));
   };
   visitor.metadata = [&](const std::string&, const std::map<std::string, std::string>& values) { seen.metadata = values; };
-  seen.complete = read_mcap(path, visitor);
+  seen.state = read_mcap(path, visitor);
   return seen;
 }
 
 TEST(Mcap, WhatWasWrittenIsReadInOrder) {
   const Seen seen = read_all(write_small(temporary("a.mcap"), true));
-  EXPECT_TRUE(seen.complete);
+  EXPECT_EQ(seen.state, McapState::kWhole);
   EXPECT_EQ(seen.messages, (std::vector<std::string>{"inputs 7 hello", std::string("inputs 8 \0z", 11)}));
   EXPECT_EQ(seen.metadata.at("seed"), "1");
 }
@@ -62,8 +62,37 @@ TEST(Mcap, AFileCutShortIsReadUpToTheCut) {
   const std::string path = write_small(temporary("c.mcap"), true);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 60);
   const Seen seen = read_all(path);
-  EXPECT_FALSE(seen.complete);
+  EXPECT_EQ(seen.state, McapState::kCutShort);
   EXPECT_FALSE(seen.messages.empty());
+}
+
+TEST(Mcap, TheChecksumIsTheOneOfTheStandards) {
+  Crc32 crc;
+  EXPECT_EQ(crc.value(), 0u);
+  crc.add("1234");
+  crc.add("56789");
+  EXPECT_EQ(crc.value(), 0xCBF43926u) << "the check value of CRC-32/ISO-HDLC";
+  crc.add("0123456789abcdef");
+  Crc32 whole;
+  whole.add("1234567890123456789abcdef");
+  EXPECT_EQ(crc.value(), whole.value());
+}
+
+// Every byte and bit of a small file: records, checksums, end record, magic.
+TEST(Mcap, NoFlippedBitAnywhereGoesUnnoticed) {
+  const std::string path = write_small(temporary("e.mcap"), true);
+  std::ifstream in(path, std::ios::binary);
+  const std::string good((std::istreambuf_iterator<char>(in)), {});
+  for (std::size_t bit = 0; bit < 8 * good.size(); ++bit) {
+    std::string bad = good;
+    bad[bit / 8] = static_cast<char>(bad[bit / 8] ^ (1 << (bit % 8)));
+    std::ofstream(path, std::ios::binary) << bad;
+    try {
+      EXPECT_NE(read_all(path).state, McapState::kWhole) << "bit " << bit;
+    } catch (const std::runtime_error&) {
+      // noticed, too
+    }
+  }
 }
 
 TEST(Mcap, OtherFilesAndMissingFilesAreRefused) {

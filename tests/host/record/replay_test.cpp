@@ -7,8 +7,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 
 #include "firmware_like/controller.hpp"
+#include "host/record/build_id.hpp"
 #include "host/record/recording.hpp"
 #include "host/record/tick_packet.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
@@ -93,13 +95,50 @@ TEST(Replay, ARecordingThatStartsInMidRunGoesOnFromItsImage) {
   EXPECT_EQ(result.differing_ticks, 0u);
 }
 
+std::string bytes_of(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Replay, AFlippedByteAnywhereIsNoticedBeforeTheCoreSeesIt) {
+  const std::string folder = record_run(fresh_folder("flipped"), 100, [](TickRecord&) {});
+  const std::string file = folder + "/" + kRecordingFile, good = bytes_of(file);
+  std::mt19937 draw(5);
+  for (int i = 0; i < 100; ++i) {
+    std::string bad = good;
+    char& byte = bad[draw() % bad.size()];
+    byte = static_cast<char>(byte ^ (1 + draw() % 255));
+    std::ofstream(file, std::ios::binary) << bad;
+    try {
+      const ReplayResult result = replay(folder);
+      EXPECT_FALSE(result.complete) << "byte " << &byte - bad.data();
+    } catch (const std::runtime_error&) {
+      // noticed and said
+    }
+  }
+}
+
+TEST(Replay, ARecordingCutShortIsComparedAsFarAsItGoesAndNotCalledComplete) {
+  const std::string folder = record_run(fresh_folder("cut"), 100, [](TickRecord&) {});
+  std::filesystem::resize_file(folder + "/" + kRecordingFile, std::filesystem::file_size(folder + "/" + kRecordingFile) / 2);
+  const ReplayResult result = replay(folder);
+  EXPECT_FALSE(result.complete);
+  EXPECT_GT(result.ticks, 10u);
+  EXPECT_EQ(result.differing_ticks, 0u);
+}
+
+TEST(Replay, ItIsKnownWhoRecorded) {
+  const ReplayResult result = replay(record_run(fresh_folder("build"), 5, [](TickRecord&) {}));
+  EXPECT_TRUE(result.same_build);
+  EXPECT_EQ(result.recorded_by, build_id());
+}
+
 TEST(Replay, ARepeatedRunGivesTheSameFileByteForByte) {
-  const auto bytes_of = [](const std::string& folder) {
-    std::ifstream in(folder + "/" + kRecordingFile, std::ios::binary);
-    return std::string((std::istreambuf_iterator<char>(in)), {});
+  const auto recorded = [](const std::string& name) {
+    return bytes_of(record_run(fresh_folder(name), 50, [](TickRecord&) {}) + "/" + kRecordingFile);
   };
-  const std::string first = bytes_of(record_run(fresh_folder("one"), 50, [](TickRecord&) {}));
-  EXPECT_EQ(first, bytes_of(record_run(fresh_folder("two"), 50, [](TickRecord&) {})));
+  const std::string first = recorded("one");
+  EXPECT_EQ(first, recorded("two"));
   EXPECT_GT(first.size(), 50u * 3000u);
 }
 
