@@ -14,6 +14,10 @@ namespace {
 std::string text_of(double value) { return json(value).dump(); }
 
 const json& field(const json& object, const std::string& key) {
+  if (!object.is_object()) {
+    throw RequestError("bad_request",
+                       "field '" + key + "' is missing: found " + object.dump() + " where an object with this field belongs");
+  }
   const auto found = object.find(key);
   if (found == object.end()) throw RequestError("bad_request", "field '" + key + "' is missing");
   return *found;

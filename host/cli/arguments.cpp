@@ -10,6 +10,9 @@ namespace liana {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kFarthest_m = 1000.0;  // no arm reaches so far, and squares of it are no problem for anybody
+constexpr double kLargestWeight = 1000.0;
+constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 53) - 1;
 
 [[noreturn]] void refuse(std::string_view option, std::string_view value, const std::string& allowed) {
   throw BadInput(std::string(option) + ": '" + std::string(value) + "': allowed: " + allowed);
@@ -40,6 +43,13 @@ std::int32_t parse_index(std::string_view option, std::string_view text, std::in
   return value;
 }
 
+Vec3 checked_position(std::string_view option, std::string_view text, const std::vector<double>& v) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::fabs(v[i]) > kFarthest_m) refuse(option, text, "coordinates within +-" + short_number(kFarthest_m) + " m");
+  }
+  return {v[0], v[1], v[2]};
+}
+
 double theta_limit_rad(const RobotTable& robot, std::size_t theta) { return robot.segment[theta / 2].theta_limit_rad; }
 
 double checked_angle_deg(std::string_view option, std::string_view text, const RobotTable& robot, std::size_t theta) {
@@ -59,6 +69,15 @@ double parse_number(std::string_view option, std::string_view text) {
   const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value)) refuse(option, text, "a finite number");
+  return value;
+}
+
+std::uint64_t parse_seed(std::string_view option, std::string_view text) {
+  std::uint64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || value > kLargestSeed) {
+    refuse(option, text, "a whole number from 0 to " + std::to_string(kLargestSeed));
+  }
   return value;
 }
 
@@ -83,7 +102,7 @@ ThetaVector parse_theta_deg(std::string_view option, std::string_view text, cons
 
 Pose parse_pose(std::string_view option, std::string_view text) {
   const auto v = parse_numbers(option, text, 7);
-  const Pose pose{{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
+  const Pose pose{checked_position(option, text, v), {v[3], v[4], v[5], v[6]}};
   const double length = std::sqrt(v[3] * v[3] + v[4] * v[4] + v[5] * v[5] + v[6] * v[6]);
   if (std::fabs(length - 1.0) > 1e-6) {
     refuse(option, text, "x,y,z,qw,qx,qy,qz with a quaternion of length 1 within 1e-6, not " + short_number(length) + "; normalise it");
@@ -114,10 +133,11 @@ ControlPointArgument parse_control_point(std::string_view text, const RobotTable
   if (parts.size() != 2 && parts.size() != 3) refuse("--control-point", text, "NODE:x,y,z or NODE:x,y,z:WEIGHT");
   ControlPointArgument point;
   point.node = parse_index("--control-point", parts[0], robot.segment_count, "a node (the end of a segment)");
-  const auto position = parse_numbers("--control-point", parts[1], 3);
-  point.position_m = {position[0], position[1], position[2]};
+  point.position_m = checked_position("--control-point", parts[1], parse_numbers("--control-point", parts[1], 3));
   if (parts.size() == 3) point.weight = parse_number("--control-point", parts[2]);
-  if (point.weight <= 0.0) refuse("--control-point", text, "a weight over 0");
+  if (point.weight <= 0.0 || point.weight > kLargestWeight) {
+    refuse("--control-point", text, "a weight over 0, up to " + short_number(kLargestWeight));
+  }
   return point;
 }
 

@@ -18,7 +18,7 @@ struct HoldArgument {
   double value_deg = 0.0;
 };
 
-// Where a node should go: node counted from 1 (the end of that segment), base frame, weight > 0.
+// Where a node should go: node counted from 1 (the end of that segment), base frame.
 struct ControlPointArgument {
   std::int32_t node = 0;
   Vec3 position_m{};
@@ -28,19 +28,22 @@ struct ControlPointArgument {
 // A finite number, all of `text`.
 double parse_number(std::string_view option, std::string_view text);
 
+// A whole number from 0 to 2^53 - 1, the largest that JSON keeps exactly.
+std::uint64_t parse_seed(std::string_view option, std::string_view text);
+
 // Comma-separated finite numbers, exactly `count` of them.
 std::vector<double> parse_numbers(std::string_view option, std::string_view text, std::size_t count);
 
 // Joint angles in degrees within the robot's limits, as radians; entries beyond the robot's are 0.
 ThetaVector parse_theta_deg(std::string_view option, std::string_view text, const RobotTable& robot);
 
-// x,y,z,qw,qx,qy,qz: metres in the base frame, quaternion of unit length within 1e-6.
+// x,y,z,qw,qx,qy,qz: metres in the base frame within +-1000, quaternion of unit length within 1e-6.
 Pose parse_pose(std::string_view option, std::string_view text);
 
 // 7,9 or 7=0.5,9: variables to hold, each at most once, values in degrees within the robot's limits.
 std::vector<HoldArgument> parse_hold(std::string_view text, const RobotTable& robot);
 
-// 3:x,y,z:weight (the weight may be left out).
+// 3:x,y,z:weight: metres within +-1000; the weight, over 0 up to 1000, may be left out.
 ControlPointArgument parse_control_point(std::string_view text, const RobotTable& robot);
 
 }  // namespace liana

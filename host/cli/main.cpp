@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <functional>
+#include <span>
 
+#include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/errors.hpp"
 
@@ -70,9 +72,10 @@ void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
       ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
   sub->add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
   sub->add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
-  sub->add_option("--seed", run.seed, "seed of everything random: hand, start pose, bench parameters, camera")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  sub->add_option_function<std::string>(
+         "--seed", [&run](const std::string& text) { run.seed = liana::parse_seed("--seed", text); },
+         "seed of everything random: hand, start pose, bench parameters, camera; 0 to 9007199254740991")
+      ->default_str("1");
 }
 
 void add_client(CLI::App& app, Action& action, const char* name, const char* text, liana::ClientOptions& client,
@@ -107,13 +110,35 @@ void add_tools(CLI::App& app, Action& action, liana::ReplayOptions& replay, lian
   app.add_subcommand("help", "this text, or `liana help COMMAND`");
 }
 
+// `--hold= --json` must not read `--json` as the value of --hold.
+void check_values(const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    if (word.starts_with("--") && word.ends_with('='))
+      throw liana::BadInput(word + ": no value after =; give one, or leave the option out");
+  }
+}
+
+// A word in place of a command that is none gets the list of those that are; `before` are the words before it.
+void check_command(const CLI::App& app, const std::string& before, std::span<const std::string> words) {
+  std::string names;
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+    names += (names.empty() ? "" : ", ") + sub->get_name();
+    if (!words.empty() && words.front() == sub->get_name()) return check_command(*sub, before + words.front() + " ", words.subspan(1));
+  }
+  if (names.empty() || (!words.empty() && words.front().starts_with('-'))) return;  // options are CLI11's affair
+  const std::string problem = words.empty() ? "no command given" : "'" + before + words.front() + "': no such command";
+  throw liana::BadInput(problem + "; liana " + before + "knows: " + names + "; see liana help");
+}
+
 // `help` and `help COMMAND` are `--help` and `COMMAND --help`.
-std::vector<std::string> arguments_of(int argc, char** argv) {
+std::vector<std::string> arguments_of(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
   if (!words.empty() && words.front() == "help") {
     words.erase(words.begin());
     words.push_back("--help");
   }
+  check_values(words);
+  check_command(app, "", words);
   std::reverse(words.begin(), words.end());  // as CLI11 wants it
   return words;
 }
@@ -153,7 +178,10 @@ int main(int argc, char** argv) {
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client, liana::estop_command);
   add_tools(app, action, replay, exported, doctor_json, shell);
   try {
-    app.parse(arguments_of(argc, argv));
+    app.parse(arguments_of(app, argc, argv));
+  } catch (const liana::BadInput& error) {
+    std::fprintf(stderr, "liana: %s\n", error.what());
+    return ExitCode::kExitBadInput;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     std::fprintf(stderr, "liana: %s; see liana help\n", error.what());

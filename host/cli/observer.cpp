@@ -15,7 +15,8 @@ using nlohmann::json;
 
 std::vector<std::string> systems_to_ask(const std::string& given) {
   if (!given.empty()) {
-    if (!std::filesystem::exists(given)) throw BadInput("--api: '" + given + "': no such socket; is lianad running there?");
+    std::error_code error;
+    if (!std::filesystem::exists(given, error)) throw BadInput("--api: '" + given + "': no such socket; is lianad running there?");
     return {given};
   }
   std::vector<std::string> systems = running_systems();

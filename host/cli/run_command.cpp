@@ -12,8 +12,12 @@ namespace {
 
 using nlohmann::json;
 
-json report_of(const RunPlan& plan, const RunSession& session, const RunEnd& end) {
+json report_of(const RunOptions& options, const RunPlan& plan, const RunSession& session, const RunEnd& end) {
   ReportSources sources;
+  sources.robot = options.robot;
+  sources.mission = options.mission;
+  sources.physics = options.physics;
+  sources.seed = options.seed;
   sources.outcome = end.outcome;
   sources.reason = end.message.substr(0, end.message.find('\n'));
   sources.time_mode = plan.time_mode;
@@ -21,27 +25,31 @@ json report_of(const RunPlan& plan, const RunSession& session, const RunEnd& end
   sources.mission_report_file = plan.file("mission.json");
   sources.bus_stats_file = plan.file("bus_stats.json");
   sources.states = session.states();
+  sources.announced = session.announced();
   sources.welcome = &session.welcome();
   sources.last_state = &session.last_state();
   sources.rod = plan.scene.rod.pose;
   return make_report(sources);
 }
 
-void write_report(const std::string& path, const json& report) {
+// The place was writable when the run began; what happened to it since must not lose the rest of the report.
+bool write_report(const std::string& path, const json& report) {
   std::ofstream file(path);
   file << report.dump(1) << '\n';
   file.close();
-  if (!file) throw BadInput(path + ": the report cannot be written; give a file in a directory that exists");
+  if (!file) std::fprintf(stderr, "liana: %s: the report cannot be written any more; is the disk full?\n", path.c_str());
+  return file.good();
 }
 
-void publish_report(const RunOptions& options, const RunPlan& plan, const json& report) {
-  if (plan.keep_directory) write_report(plan.file("report.json"), report);
+bool publish_report(const RunOptions& options, const RunPlan& plan, const json& report) {
+  bool written = !plan.keep_directory || write_report(plan.file("report.json"), report);
   if (options.report_file == "-") {
     std::puts(report.dump().c_str());
-    return;
+    return written;
   }
-  if (!options.report_file.empty()) write_report(options.report_file, report);
+  if (!options.report_file.empty()) written = write_report(options.report_file, report) && written;
   std::fputs(report_text(report).c_str(), stdout);
+  return written;
 }
 
 }  // namespace
@@ -54,13 +62,13 @@ int run_command(const RunOptions& options) {
     clean_up(plan, true);
     throw BadInput(end.message);
   }
-  const json report = report_of(plan, session, end);
-  publish_report(options, plan, report);
+  const json report = report_of(options, plan, session, end);
+  const bool written = publish_report(options, plan, report);
   const bool success = report.value("outcome", "") == "success";
   if (!end.message.empty()) std::fprintf(stderr, "liana: %s\n", end.message.c_str());
   if (!success) std::fprintf(stderr, "liana: the run did not succeed; logs are in %s\n", plan.directory.c_str());
   clean_up(plan, success);
-  return success ? kExitOk : kExitFailure;
+  return success && written ? kExitOk : kExitFailure;
 }
 
 }  // namespace liana

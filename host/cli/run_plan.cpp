@@ -1,10 +1,13 @@
 #include "host/cli/run_plan.hpp"
 
+#include <fcntl.h>
 #include <net/if.h>
 #include <stdlib.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 
@@ -29,6 +32,20 @@ std::string record_directory(const std::string& path) {
   if (error) throw BadInput("--record: '" + path + "': cannot be made: " + error.message() + "; give a directory you may write");
   if (!fs::is_empty(path)) throw BadInput("--record: '" + path + "': is not empty; give a new directory");
   return fs::absolute(path).string();
+}
+
+// The report is what a run is for: that it can be written is tried before anything starts.
+void check_report_file(const std::string& path, const std::string& record_dir) {
+  if (path.empty() || path == "-") return;
+  const fs::path file = fs::weakly_canonical(path);
+  if (!record_dir.empty() && file.parent_path() == fs::weakly_canonical(record_dir)) return;  // made, and tried, below
+  const bool was_there = fs::exists(path);
+  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  if (fd < 0) {
+    throw BadInput("--json: '" + path + "': cannot be written: " + std::strerror(errno) + "; give a file in a directory that exists, or -");
+  }
+  close(fd);
+  if (!was_there) unlink(path.c_str());
 }
 
 void write_file(const std::string& path, const std::string& text) {
@@ -123,17 +140,18 @@ void write_tables(const RunPlan& plan, const std::string& robot, const std::stri
 }  // namespace
 
 RunPlan make_plan(const RunOptions& options) {
-  check_mission(options.mission);
   const std::string buses_text = evaluate_table("buses", options.bus);
   const std::string robot_text = evaluate_table("robot", options.robot);
   const std::string scene_text = evaluate_table("scene", options.scene);
   RunPlan plan;
   plan.buses = checked([&] { return parse_buses(buses_text, options.bus); });
   checked([&] { return parse_robot(robot_text, options.robot, options.physics, plan.buses); });
+  check_mission(options.mission, options.robot);
   plan.scene = checked([&] { return parse_scene(scene_text, options.scene); });
   check_interfaces(plan.buses);
   plan.time_mode = time_mode_of(options, plan.buses);
   plan.keep_directory = !options.record_dir.empty();
+  check_report_file(options.report_file, options.record_dir);
   if (plan.keep_directory) plan.directory = record_directory(options.record_dir);
   plan.socket_dir = temporary_directory();
   if (!plan.keep_directory) plan.directory = plan.socket_dir;

@@ -28,10 +28,9 @@ struct Window {
   std::uint64_t last_tick = 0;
 };
 
-Window window_of(const json& mission, const std::vector<StateSample>& states) {
+Window window_of(const json& mission, const json& steps, const std::vector<StateSample>& states) {
   Window window;
   window.last_tick = states.empty() ? 0 : states.back().tick;
-  const json steps = mission.value("steps", json::array());
   if (!steps.empty()) {
     window.first_tick = steps.front().value("start_tick", std::uint64_t{0});
     window.last_tick = std::max(window.first_tick, steps.back().value("end_tick", window.last_tick));
@@ -40,9 +39,28 @@ Window window_of(const json& mission, const std::vector<StateSample>& states) {
   return window;
 }
 
-json steps_of(const json& mission) {
+// The steps the mission reported, or else announced: all but the last one made way for the next.
+json known_steps(const json& mission, const ReportSources& sources) {
+  if (mission.contains("steps")) return mission["steps"];
   json steps = json::array();
-  for (const json& step : mission.value("steps", json::array())) {
+  for (std::size_t i = 0; i < sources.announced.size(); ++i) {
+    const AnnouncedStep& step = sources.announced[i];
+    const bool last = i + 1 == sources.announced.size();
+    const std::uint64_t end = last ? sources.states.back().tick : sources.announced[i + 1].start_tick;
+    steps.push_back({{"name", step.name},
+                     {"device", step.device},
+                     {"outcome", last ? "failed" : "success"},
+                     {"start_tick", step.start_tick},
+                     {"end_tick", end},
+                     {"duration_s", static_cast<double>(end - step.start_tick) * object_of(sources.welcome).value("period_s", 0.0)}});
+    if (last) steps.back()["reason"] = "the mission runner left no report";
+  }
+  return steps;
+}
+
+json steps_of(const json& known) {
+  json steps = json::array();
+  for (const json& step : known) {
     json kept = json::object();
     for (const char* key : {"name", "device", "held_theta", "duration_s", "outcome", "reason"}) {
       if (step.contains(key)) kept[key] = step[key];
@@ -117,14 +135,19 @@ std::string line(const char* format, double value) {
 json make_report(const ReportSources& sources) {
   const json mission = read_json(sources.mission_report_file);
   const json state = object_of(sources.last_state);
-  const Window window = window_of(mission, sources.states);
   const json welcome = object_of(sources.welcome);
+  const json steps = known_steps(mission, sources);
+  const Window window = window_of(mission, steps, sources.states);
   const std::uint64_t ticks = window.last_tick - window.first_tick;
   json report = {{"outcome", sources.outcome.empty() ? mission.value("outcome", "failed") : sources.outcome},
+                 {"robot", sources.robot},
+                 {"mission", sources.mission},
+                 {"physics", sources.physics},
+                 {"seed", sources.seed},
                  {"time_mode", sources.time_mode},
                  {"config_hash", welcome.value("config_hash", "")},
                  {"duration_s", static_cast<double>(ticks) * welcome.value("period_s", 0.0)},
-                 {"steps", steps_of(mission)},
+                 {"steps", steps_of(steps)},
                  {"ticks", ticks},
                  {"overruns", state.value("overruns", 0)},
                  {"faults", state.value("faults", json::array())},
@@ -137,6 +160,9 @@ json make_report(const ReportSources& sources) {
 std::string report_text(const json& report) {
   std::string text = "outcome " + report.value("outcome", "") + line(", arm time %.1f s\n", report.value("duration_s", 0.0));
   if (!report.value("reason", "").empty()) text += "reason: " + report.value("reason", "") + "\n";
+  for (const json& fault : report.value("faults", json::array())) {
+    text += "fault " + std::to_string(fault.value("number", 0)) + " " + fault.value("name", "") + ": " + fault.value("text", "") + "\n";
+  }
   for (const json& step : report.value("steps", json::array())) {
     text += line("  %7.1f s  ", step.value("duration_s", 0.0)) + step.value("outcome", "") + "  " + step.value("name", "") + " (" +
             step.value("device", "none") + ")\n";

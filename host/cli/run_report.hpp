@@ -17,15 +17,25 @@ struct StateSample {
   Pose commanded_tip{};  // kinematics of the commanded joint angles
 };
 
+// A step as the mission announced it.
+struct AnnouncedStep {
+  int index = 0;
+  std::string name, device;
+  std::uint64_t start_tick = 0;
+};
+
 // Everything a report is made of. Files that do not exist leave their keys out.
 struct ReportSources {
-  std::string outcome;  // overrides the mission's when not empty
-  std::string reason;   // beside an outcome that is not success; the mission's own where empty
+  std::string outcome;                  // overrides the mission's when not empty
+  std::string reason;                   // beside an outcome that is not success; the mission's own where empty
+  std::string robot, mission, physics;  // as they were given
+  std::uint64_t seed = 0;
   std::string time_mode;
   std::string truth_file;           // of the bench
   std::string mission_report_file;  // of liana-mission
   std::string bus_stats_file;       // of liana-bus
   std::vector<StateSample> states;
+  std::vector<AnnouncedStep> announced;        // stands in for the steps of a mission runner that left no report
   const nlohmann::json* welcome = nullptr;     // of lianad
   const nlohmann::json* last_state = nullptr;  // of lianad
   ScenePose rod;

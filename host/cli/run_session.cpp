@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <filesystem>
 #include <thread>
 #include <utility>
@@ -150,13 +151,26 @@ std::optional<RunEnd> RunSession::dead_child(bool failed_only) {
 RunEnd RunSession::interrupted() {
   progress_.say("stopping (again Ctrl-C ends at once)");
   request({{"op", "stop"}, {"reason", "interrupted"}});
-  wait_disabled(kStopTimeout_s);
-  return {"aborted", "interrupted: stop, brakes, disabled", false};
+  const auto deadline = after(kStopTimeout_s);
+  while (api_ && interrupts < 2 && Clock::now() < deadline && !is_stopped()) look(kLook_s);
+  return {"aborted", "interrupted: " + how_the_arm_was_left(), false};
 }
 
-void RunSession::wait_disabled(double timeout_s) {
-  const auto deadline = after(timeout_s);
-  while (api_ && interrupts < 2 && Clock::now() < deadline && last_state_.value("state", "") != "DISABLED") look(kLook_s);
+// lianad has taken the stop, and the drives are without power.
+bool RunSession::is_stopped() const {
+  const std::string state = last_state_.value("state", "");
+  return last_state_.value("stop", json()).is_object() && (state == "DISABLED" || state == "FAULT");
+}
+
+// What lianad has said, no more.
+std::string RunSession::how_the_arm_was_left() const {
+  if (!last_state_.is_object()) return "lianad never reported a state of the arm";
+  if (is_stopped()) return "the arm was stopped and is " + last_state_.value("state", "");
+  char time[32];
+  std::snprintf(time, sizeof time, "%.2f s", last_state_.value("time_s", 0.0));
+  return std::string(api_ ? "lianad did not confirm the stop" : "lianad was gone before it confirmed the stop") +
+         "; the arm was last seen " + last_state_.value("state", "") + ", at " + time +
+         "; drives without a master stop and brake by themselves";
 }
 
 // Takes in what lianad has sent; a closed socket is noticed through lianad's end.
@@ -179,6 +193,10 @@ void RunSession::keep(const json& state) {
   progress_.show(state);
   states_.push_back({state.value("tick", std::uint64_t{0}), pose_of(state.value("setpoint_cp", json()))});
   last_state_ = state;
+  const json step = state.value("step", json());
+  const int index = step.is_object() ? step.value("index", 0) : 0;
+  if (index == 0 || (!announced_.empty() && announced_.back().index == index)) return;
+  announced_.push_back({index, step.value("name", ""), step.value("device", ""), states_.back().tick});
 }
 
 void RunSession::request(const json& message) {

@@ -33,6 +33,7 @@ class RunSession {
   RunEnd run();
 
   const std::vector<StateSample>& states() const { return states_; }
+  const std::vector<AnnouncedStep>& announced() const { return announced_; }
   const nlohmann::json& welcome() const { return welcome_; }
   const nlohmann::json& last_state() const { return last_state_; }
 
@@ -47,7 +48,8 @@ class RunSession {
   void look(double timeout_s);
   void keep(const nlohmann::json& state);
   void request(const nlohmann::json& message);
-  void wait_disabled(double timeout_s);
+  bool is_stopped() const;
+  std::string how_the_arm_was_left() const;
   void shut_down();
 
   const RunPlan& plan_;
@@ -58,6 +60,7 @@ class RunSession {
   nlohmann::json welcome_;
   nlohmann::json last_state_;
   std::vector<StateSample> states_;
+  std::vector<AnnouncedStep> announced_;
 };
 
 }  // namespace liana

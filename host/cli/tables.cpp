@@ -16,8 +16,9 @@ std::string first_message(const Captured& captured) {
   return line.empty() ? "liana-mission eval ended with code " + std::to_string(captured.code) + " and no message" : line;
 }
 
-std::string evaluate(const std::string& kind, const std::string& name) {
-  const Captured captured = run_and_capture({sibling_program("liana-mission"), "eval", kind, name});
+std::string evaluate(std::vector<std::string> words) {
+  words.insert(words.begin(), {sibling_program("liana-mission"), "eval"});
+  const Captured captured = run_and_capture(words);
   if (captured.code != 0) throw BadInput(first_message(captured));
   return captured.out;
 }
@@ -31,10 +32,10 @@ std::string read_file(const std::string& path) {
 }  // namespace
 
 std::string evaluate_table(const std::string& kind, const std::string& name) {
-  return name.ends_with(".json") ? read_file(name) : evaluate(kind, name);
+  return name.ends_with(".json") ? read_file(name) : evaluate({"--", kind, name});
 }
 
-void check_mission(const std::string& name) { evaluate("mission", name); }
+void check_mission(const std::string& name, const std::string& robot) { evaluate({"--robot=" + robot, "--", "mission", name}); }
 
 RobotConfig robot_for_kinematics(const std::string& name) {
   const std::string robot = evaluate_table("robot", name);

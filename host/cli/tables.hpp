@@ -13,8 +13,8 @@ namespace liana {
 // Throws BadInput with the evaluator's one message.
 std::string evaluate_table(const std::string& kind, const std::string& name);
 
-// Checks a mission script's structure without running it; throws BadInput with the evaluator's one message.
-void check_mission(const std::string& name);
+// Checks a mission script against a robot (a name, or exported JSON) without running it; throws BadInput with the evaluator's one message.
+void check_mission(const std::string& name, const std::string& robot);
 
 // Runs a loader of host/config and turns its refusal into BadInput.
 template <typename Loader>

@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kMicrosecondsPerSecond = 1e6;
 constexpr std::size_t kMaxBuses = 8;
-constexpr std::int64_t kMasterNode = 127;  // docs/drives.md
+constexpr double kSdoPairsPerSecond = 20.0;  // as host/bus/bus_load.hpp has it
+constexpr std::int64_t kMasterNode = 127;    // docs/drives.md
 
 BusConfig read_bus(const Field& field, std::map<std::int32_t, std::string>& owner) {
   field.only({"name", "bitrate", "nodes"});
@@ -87,7 +88,8 @@ double worst_case_load(const BusesConfig& buses, std::size_t bus) {
   const auto nodes = static_cast<double>(buses.buses[bus].nodes.size());
   const double tick_bits = worst_frame_bits(0) + nodes * (worst_frame_bits(6) + worst_frame_bits(8));
   const double heartbeat_bits = (nodes + 1.0) * worst_frame_bits(1);
-  const double bits_per_second = tick_bits * buses.rate_hz + heartbeat_bits * 1000.0 / buses.heartbeat_ms;
+  const double sdo_bits = 2.0 * worst_frame_bits(8);  // request and response
+  const double bits_per_second = tick_bits * buses.rate_hz + heartbeat_bits * 1000.0 / buses.heartbeat_ms + sdo_bits * kSdoPairsPerSecond;
   return bits_per_second / buses.buses[bus].bitrate;
 }
 

@@ -51,7 +51,7 @@ struct InterpolationPeriod {
 InterpolationPeriod interpolation_period(std::int32_t period_us);
 
 // Worst-case share of the wire (0..) of one bus: SYNC, RPDO1 and TPDO1 of every node each tick with worst stuffing, heartbeats of all and
-// the master.
+// the master, SDO traffic.
 double worst_case_load(const BusesConfig& buses, std::size_t bus);
 
 // What object 0x1018 of every drive must say.

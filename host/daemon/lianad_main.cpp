@@ -106,7 +106,7 @@ int run(const Options& options) {
   const auto link = std::make_unique<Link>(robot.table);
   std::unique_ptr<RtCycle> cycle;
   const bool ends_with_mission = *mode != TimeMode::kReal && std::find(expected.begin(), expected.end(), Role::kMission) != expected.end();
-  Service service({options.api, *mode, robot, scene, buses, ends_with_mission, [&] { return cycle->boot_problem(); }}, *link);
+  Service service({options.api, *mode, robot, scene, buses, ends_with_mission, [&] { return cycle->boot_problems(); }}, *link);
   const std::optional<Registration> registration = registered(options.api);
   const std::unique_ptr<DriveBus> bus = open_drive_bus(buses, *mode, options.bus_socket);
   cycle = std::make_unique<RtCycle>(robot, buses, *bus, *link);

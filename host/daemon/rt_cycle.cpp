@@ -133,13 +133,21 @@ void RtCycle::finish_tick(std::uint64_t tick) noexcept {
   core_.publish(report_);
 }
 
-std::string RtCycle::boot_problem() const {
-  std::string text;
+std::vector<BootProblem> RtCycle::boot_problems() const {
+  std::vector<BootProblem> problems;
   for (std::size_t i = 0; i < master_.boot().node_count(); ++i) {
     const canopen::BootMismatch& mismatch = master_.boot().mismatch(i);
     if (mismatch.failure == canopen::BootFailure::kNone) continue;
-    text += (text.empty() ? "" : "; ") + canopen::describe(mismatch, bus_names_[static_cast<std::size_t>(mismatch.bus)]);
+    const bool missing = mismatch.failure == canopen::BootFailure::kNoBootUp || mismatch.failure == canopen::BootFailure::kNoAnswer;
+    problems.push_back({static_cast<int>(i), missing ? FaultNumber::kDriveMissing : FaultNumber::kDriveNotOperational,
+                        canopen::describe(mismatch, bus_names_[static_cast<std::size_t>(mismatch.bus)])});
   }
+  return problems;
+}
+
+std::string text_of(const std::vector<BootProblem>& problems) {
+  std::string text;
+  for (const BootProblem& problem : problems) text += (text.empty() ? "" : "; ") + problem.text;
   return text.empty() ? "no drive named a reason" : text;
 }
 

@@ -7,6 +7,7 @@
 #include "host/bus/drive_bus.hpp"
 #include "host/canopen/master.hpp"
 #include "host/config/config.hpp"
+#include "host/daemon/boot_problem.hpp"
 #include "host/daemon/tick_core.hpp"
 
 namespace liana {
@@ -20,8 +21,8 @@ class RtCycle {
   // allocates, waits for a lock, or makes a system call that the bus and the timer do not need.
   bool run_tick() noexcept;
 
-  // After booting has failed: every node, object, expected and found value. Not for the real-time thread.
-  std::string boot_problem() const;
+  // After booting has failed: every drive that is to blame. Not for the real-time thread.
+  std::vector<BootProblem> boot_problems() const;
 
  private:
   void collect(const TickStart& start) noexcept;

@@ -99,7 +99,9 @@ void Service::watch_arm() {
   if (boot == boot_seen_) return;
   boot_seen_ = boot;
   if (boot == BootPhase::kDone) note("all drives are booted");
-  if (boot == BootPhase::kFailed) note("booting failed: " + config_.boot_problem());
+  if (boot != BootPhase::kFailed) return;
+  notes_.boot_problems = config_.boot_problems();
+  note("booting failed: " + text_of(notes_.boot_problems));
 }
 
 // Tick records and controller images for the archive. The image before the first tick makes a recording complete.

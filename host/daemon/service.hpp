@@ -14,6 +14,7 @@
 #include "host/bus/time_mode.hpp"
 #include "host/config/config.hpp"
 #include "host/daemon/arbiter.hpp"
+#include "host/daemon/boot_problem.hpp"
 #include "host/daemon/link.hpp"
 #include "host/daemon/owner.hpp"
 #include "host/daemon/release.hpp"
@@ -30,8 +31,8 @@ struct ServiceConfig {
   RobotConfig robot;
   SceneConfig scene;
   BusesConfig buses;
-  bool ends_with_mission = false;             // stop the arm once the mission has come and gone
-  std::function<std::string()> boot_problem;  // asked once booting has failed: which node, what, and what to do
+  bool ends_with_mission = false;                           // stop the arm once the mission has come and gone
+  std::function<std::vector<BootProblem>()> boot_problems;  // asked once, when booting has failed
 };
 
 class Service : private ApiHandler {

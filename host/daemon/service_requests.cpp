@@ -80,7 +80,7 @@ Service::Json Service::on_release(const ClientInfo& client, const Json&) {
 Service::Json Service::on_state_command(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const std::string command = text_field(request, "command", 16);
-  if (boot_seen_ == BootPhase::kFailed) throw RequestError("fault", "booting failed: " + config_.boot_problem());
+  if (boot_seen_ == BootPhase::kFailed) throw RequestError("fault", "booting failed: " + text_of(notes_.boot_problems));
   if (boot_seen_ == BootPhase::kBooting) throw RequestError("busy", "the drives are still booting");
   if (command == "enable") {
     if (!notes_.stop.is_null()) {

@@ -49,6 +49,20 @@ json faults_json(const FaultList& list) {
   return faults;
 }
 
+// Of drives that did not boot: the core has not run, and knows nothing of them. The text is about this drive.
+void add_boot_faults(json& state, const std::vector<BootProblem>& problems) {
+  for (const BootProblem& problem : problems) {
+    const FaultInfo& info = fault_info(problem.number);
+    state["faults"].push_back({{"number", static_cast<int>(problem.number)},
+                               {"name", info.name},
+                               {"index", problem.drive},
+                               {"detail", 0},
+                               {"tick", state["tick"]},
+                               {"text", problem.text},
+                               {"remedy", info.remedy}});
+  }
+}
+
 json limits_json(std::uint32_t limits) {
   static constexpr std::array<const char*, 12> kNames{"tip_speed",   "tip_accel",   "theta",         "theta_rate",
                                                       "theta_accel", "cable_speed", "tension_floor", "tension_ceiling",
@@ -169,6 +183,7 @@ json state_message(const RobotTable& table, const BusesConfig& buses, const Cycl
              {"stop", notes.stop},
              {"stopping", notes.stopping}};
   add_arm(state, table, report);
+  add_boot_faults(state, notes.boot_problems);
   return state;
 }
 

@@ -4,9 +4,11 @@
 #include <deque>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "host/config/config.hpp"
 #include "host/daemon/arbiter.hpp"
+#include "host/daemon/boot_problem.hpp"
 #include "host/daemon/link.hpp"
 #include "host/daemon/owner.hpp"
 #include "host/daemon/verdict.hpp"
@@ -29,7 +31,8 @@ struct Notes {
   std::deque<nlohmann::json> events;       // newest last, at most kKeptEvents
   LastVerdict verdict{};
   std::uint64_t refusals = 0;
-  nlohmann::json stop = nullptr;  // the emergency stop in force: by, reason (may be empty), tick
+  std::vector<BootProblem> boot_problems;  // faults of drives that did not boot
+  nlohmann::json stop = nullptr;           // the emergency stop in force: by, reason (may be empty), tick
   bool stopping = false;
 };
 

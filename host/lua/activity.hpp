@@ -13,6 +13,8 @@ struct Activity {
   std::atomic<std::uint64_t> beats{0};  // grows whenever the script has given back control
   std::atomic<std::uint32_t> line{0};   // last line the count hook saw
   std::array<char, 128> file{};         // and its file
+  std::atomic<std::uint64_t> tick{0};   // of the last state
+  double period_s = 0.0;                // of a tick, written once before the first state
   std::array<char, 128> mission{};      // what runs
   std::array<char, 60000> report{};     // last report, JSON
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<BindingField, 1> kStateCommand = {{{"command", "string", true}}};
 constexpr std::array<BindingField, 2> kMoveJp = {{{"goal_deg", "number[]", true}, {"rate_deg_s", "number", false}}};
-constexpr std::array<BindingField, 2> kMoveCp = {{{"goal", "number[]", true}, {"hold", "integer[]", false}}};
+constexpr std::array<BindingField, 2> kMoveCp = {{{"goal", "number[]", true}, {"hold", "table[]", false}}};
 constexpr std::array<BindingField, 1> kServoCp = {{{"goal", "number[]", true}}};
 constexpr std::array<BindingField, 1> kHoldTheta = {{{"held", "table[]", true}}};
 constexpr std::array<BindingField, 1> kShape = {{{"nodes", "table[]", true}}};

@@ -22,6 +22,17 @@ void naming_file(const std::string& display, const Action& action) {
   }
 }
 
+// Refuses the mission on the stack, which stays there, when the robot cannot do it.
+void check_against_robot(Script& script, const nlohmann::json& robot) {
+  lua_State* state = script.state();
+  script.require("liana.check");
+  lua_getfield(state, -1, "against");
+  lua_pushvalue(state, -3);
+  push_in_protection(script, robot);
+  script.call(2, 0);
+  lua_pop(state, 1);
+}
+
 // Replaces the mission on the stack by its description; refuses anything that is no mission.
 nlohmann::json describe(Script& script, const std::string& display) {
   script.require("liana.check");
@@ -48,9 +59,20 @@ std::string evaluate(Script& script, const std::string& lua_dir, const std::stri
   nlohmann::json result;
   naming_file(file.display, [&] {
     script.run(file);
-    result = kind == "mission" ? describe(script, file.display) : to_json(script.state(), -1, file.display);
+    result = to_json(script.state(), -1, file.display);
   });
-  return kind == "mission" ? canonical_json(result) : check_table(kind, result, file.display);
+  return check_table(kind, result, file.display);
+}
+
+std::string evaluate_mission(Script& script, const std::string& lua_dir, const std::string& name, const std::string& robot_json) {
+  const ScriptFile file = find_script(lua_dir, "mission", name);
+  nlohmann::json result;
+  naming_file(file.display, [&] {
+    script.run(file);
+    check_against_robot(script, nlohmann::json::parse(robot_json));
+    result = describe(script, file.display);
+  });
+  return canonical_json(result);
 }
 
 }  // namespace liana

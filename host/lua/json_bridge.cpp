@@ -4,6 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "host/lua/script.hpp"
+
 namespace liana {
 namespace {
 
@@ -130,6 +132,15 @@ void push_json(lua_State* state, const nlohmann::json& value) {
   if (!value.is_string()) return lua_pushnil(state);
   const auto& text = value.get_ref<const std::string&>();
   lua_pushlstring(state, text.data(), text.size());
+}
+
+void push_in_protection(Script& script, const nlohmann::json& value) {
+  lua_pushcfunction(script.state(), [](lua_State* state) {
+    push_json(state, *static_cast<const nlohmann::json*>(lua_touserdata(state, 1)));
+    return 1;
+  });
+  lua_pushlightuserdata(script.state(), const_cast<nlohmann::json*>(&value));
+  script.call(1, 1);
 }
 
 }  // namespace liana

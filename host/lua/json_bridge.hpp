@@ -14,4 +14,8 @@ nlohmann::json to_json(lua_State* state, int index, const std::string& file);
 // Pushes `value` on the stack of a protected call (may raise lack of memory); null becomes nil.
 void push_json(lua_State* state, const nlohmann::json& value);
 
+class Script;
+// The same from outside a protected call; throws std::runtime_error as Script::call does.
+void push_in_protection(Script& script, const nlohmann::json& value);
+
 }  // namespace liana

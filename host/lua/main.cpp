@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "host/config/field.hpp"
 #include "host/lua/bindings.hpp"
 #include "host/lua/evaluate.hpp"
 #include "host/lua/mission_run.hpp"
@@ -22,9 +23,22 @@ int with_message(const std::function<int()>& body) {
   }
 }
 
-int evaluate_and_print(const std::string& lua_dir, const std::string& kind, const std::string& name, liana::Activity& activity) {
-  liana::Script script(liana::ScriptLimits{}, lua_dir, activity);
-  std::printf("%s\n", liana::evaluate(script, lua_dir, kind, name).c_str());
+struct EvalOptions {
+  std::string lua_dir, kind, name, robot = "zhu2022";
+};
+
+std::string robot_json(const EvalOptions& options, liana::Activity& activity) {
+  if (options.robot.ends_with(".json")) return liana::read_text_file(options.robot);
+  liana::Script script(liana::ScriptLimits{}, options.lua_dir, activity);
+  return liana::evaluate(script, options.lua_dir, "robot", options.robot);
+}
+
+int evaluate_and_print(const EvalOptions& options, liana::Activity& activity) {
+  liana::Script script(liana::ScriptLimits{}, options.lua_dir, activity);
+  const std::string text = options.kind == "mission"
+                               ? liana::evaluate_mission(script, options.lua_dir, options.name, robot_json(options, activity))
+                               : liana::evaluate(script, options.lua_dir, options.kind, options.name);
+  std::printf("%s\n", text.c_str());
   return 0;
 }
 
@@ -34,10 +48,11 @@ std::string killed_text(const std::string& name, const liana::Activity& activity
          ": look for an endless loop";
 }
 
-int eval_command(const std::string& lua_dir, const std::string& kind, const std::string& name) {
+int eval_command(const EvalOptions& options) {
+  const std::string& name = options.name;
   liana::Activity& activity = liana::shared_activity();
   const liana::WatchedEnd end =
-      liana::run_watched(activity, {}, [&] { return with_message([&] { return evaluate_and_print(lua_dir, kind, name, activity); }); });
+      liana::run_watched(activity, {}, [&] { return with_message([&] { return evaluate_and_print(options, activity); }); });
   if (end.killed_by_watchdog) std::fprintf(stderr, "liana-mission: %s\n", killed_text(name, activity).c_str());
   if (end.signal != 0) std::fprintf(stderr, "liana-mission: %s: the script's process was killed by signal %d\n", name.c_str(), end.signal);
   return end.killed_by_watchdog ? liana::kExitBadInput : end.exit_code;
@@ -80,11 +95,11 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   liana::MissionOptions options;
   options.lua_dir = LIANA_LUA_DIR;
-  std::string kind;
-  std::string name;
+  EvalOptions evaluated;
   CLI::App* eval = app.add_subcommand("eval", "check a table and print it as canonical JSON");
-  eval->add_option("kind", kind, "robot, scene, buses or mission")->required();
-  eval->add_option("name", name, "a name in the Lua folder or a file")->required();
+  eval->add_option("kind", evaluated.kind, "robot, scene, buses or mission")->required();
+  eval->add_option("name", evaluated.name, "a name in the Lua folder or a file")->required();
+  eval->add_option("--robot", evaluated.robot, "robot a mission is checked against: a name or exported JSON")->capture_default_str();
   eval->add_option("--lua-dir", options.lua_dir, "the Lua folder");
   CLI::App* run =
       app.add_subcommand("run", "run a mission; exit 0 on success, 1 when not, 2 for bad input, 4 when the script had to be killed");
@@ -102,7 +117,8 @@ int main(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : liana::kExitBadInput;
   }
   return with_message([&] {
-    if (eval->parsed()) return eval_command(options.lua_dir, kind, name);
+    evaluated.lua_dir = options.lua_dir;
+    if (eval->parsed()) return eval_command(evaluated);
     return list->parsed() ? bindings_command() : run_command(options);
   });
 }

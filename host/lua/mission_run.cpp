@@ -14,17 +14,6 @@ namespace {
 constexpr const char* kClientName = "mission";  // as said in hello; lianad's state names the owner so
 constexpr int kLastMessages = 20;               // each waited for half a second at most
 
-int push_json_protected(lua_State* state) {
-  push_json(state, *static_cast<const nlohmann::json*>(lua_touserdata(state, 1)));
-  return 1;
-}
-
-void push_in_protection(Script& script, const nlohmann::json& value) {
-  lua_pushcfunction(script.state(), push_json_protected);
-  lua_pushlightuserdata(script.state(), const_cast<nlohmann::json*>(&value));
-  script.call(1, 1);
-}
-
 int push_native_protected(lua_State* state) {
   push_native(state, *static_cast<RequestSink*>(lua_touserdata(state, 1)));
   return 1;

@@ -37,6 +37,7 @@ MissionSession::MissionSession(const MissionOptions& options, Activity& activity
     if (message->value("op", "") == "error")
       throw std::runtime_error("lianad refuses the mission runner: " + message->value("message", ""));
     welcome_ = *message;
+    activity_.period_s = welcome_.value("period_s", 0.0);
     return;
   }
   throw std::runtime_error(options.api + ": lianad does not answer: is it running?");
@@ -46,7 +47,9 @@ nlohmann::json MissionSession::next() {
   activity_.beat();
   auto message = client_.receive(kWait_s);
   activity_.beat();
-  return message ? std::move(*message) : nlohmann::json();
+  if (!message) return {};
+  if (message->value("op", "") == "state") activity_.tick.store(message->value("tick", std::uint64_t{0}), std::memory_order_relaxed);
+  return std::move(*message);
 }
 
 void MissionSession::done(std::int64_t tick) {

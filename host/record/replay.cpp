@@ -26,7 +26,8 @@ void require_plausible(const RobotTable& table, const std::string& directory) {
   for (std::size_t m = 0; plausible && m < static_cast<std::size_t>(table.segment_count); ++m) {
     plausible = within(table.segment[m].modules, 1, kMaxModules) && within(table.segment[m].cables, 3, kMaxSegmentCables);
   }
-  if (!plausible) throw std::runtime_error("recording " + directory + ": damaged: its robot table makes no sense; take a good copy of the file");
+  if (!plausible)
+    throw std::runtime_error("recording " + directory + ": damaged: its robot table makes no sense; take a good copy of the file");
 }
 
 // Throws std::runtime_error when a byte of the file is not as it was written; true when the file is whole, false when it was cut short.

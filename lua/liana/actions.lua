@@ -1,18 +1,25 @@
 -- Actions for `run` of a step and `finish` of a mission: functions of arm.
+local need = require "liana.need"
+local poses = require "liana.poses"
+
 local actions = {}
 
 -- Joint motion to a named pose of the robot, at most rate_deg_s (default: the robot's limit).
 function actions.move_to(name, rate_deg_s)
-  return function(arm) arm.move_jp { goal_deg = arm.named_pose(name), rate_deg_s = rate_deg_s } end
+  need("move_to", "name", name, "string")
+  if rate_deg_s ~= nil then need("move_to", "rate_deg_s", rate_deg_s, "number") end
+  return poses.noted(function(arm) arm.move_jp { goal_deg = arm.named_pose(name), rate_deg_s = rate_deg_s } end, name)
 end
 
 -- Steers nodes by null-space targets { { node = 3, position_m = {x, y, z}, weight = 1, threshold_m = 0.01 }, ... }.
 function actions.shape(nodes)
+  need("shape", "nodes", nodes, "table")
   return function(arm) arm.shape { nodes = nodes } end
 end
 
 -- A command to the tool at the tip.
 function actions.tool(command)
+  need("tool", "command", command, "string")
   return function(arm) arm.tool { command = command } end
 end
 

@@ -60,8 +60,8 @@ function arm.state_command(fields) end
 ---@return integer id
 function arm.move_jp(fields) end
 
----Tip goal [x,y,z,qw,qx,qy,qz] along a straight line; `hold` lists theta numbers to keep.
----@param fields { goal: number[], hold?: integer[] }
+---Tip goal [x,y,z,qw,qx,qy,qz] along a straight line; `hold` as `held` of hold_theta, in force from the start.
+---@param fields { goal: number[], hold?: table[] }
 ---@return integer id
 function arm.move_cp(fields) end
 

@@ -1,4 +1,6 @@
 -- Checks a mission's structure before anything moves; every refusal says step, field, value, what is allowed and what to do.
+local poses = require "liana.poses"
+
 local check = {}
 
 local kDevices = { vr = true, hand = true, none = true }
@@ -11,11 +13,12 @@ end
 
 local function is_condition(value) return type(value) == "table" and type(value.met) == "function" end
 
+local function seconds_up_to(most_s)
+  return { allowed = "seconds over 0, up to " .. most_s, ok = function(v) return type(v) == "number" and v > 0 and v <= most_s end }
+end
+
 local function number_in(low, high)
-  return {
-    allowed = "numbers over " .. low .. ", up to " .. high,
-    ok = function(v) return type(v) == "number" and v > low and v <= high end,
-  }
+  return { allowed = ("%g to %g"):format(low, high), ok = function(v) return type(v) == "number" and v >= low and v <= high end }
 end
 
 local function one_of(words, text)
@@ -25,41 +28,45 @@ end
 local condition_rule = { allowed = "a condition, such as at_rest() or all { ... }", ok = is_condition }
 local action_rule = { allowed = "an action such as move_to \"prepare\", or a function of arm", ok = function(v) return type(v) == "function" end }
 
-local function held_ok(held)
-  if type(held) ~= "table" then return false end
+-- What any robot could have; check.against knows the robot.
+local kHeldTarget = number_in(-60, 60)
+
+local function check_hold(where, held)
+  if type(held) ~= "table" then refuse(where, "hold", held, "{ [theta 1..16] = degrees }, such as { [9] = 0 }", "correct the step") end
   for theta, target_deg in pairs(held) do
-    if math.type(theta) ~= "integer" or theta < 1 or theta > 16 then return false end
-    if type(target_deg) ~= "number" or target_deg < -60 or target_deg > 60 then return false end
+    local field = "hold[" .. tostring(theta) .. "]"
+    if math.type(theta) ~= "integer" or theta < 1 or theta > 16 then refuse(where, field, target_deg, "theta 1 to 16", "correct the step") end
+    if not kHeldTarget.ok(target_deg) then refuse(where, field, target_deg, kHeldTarget.allowed .. " degrees", "correct the step") end
   end
-  return true
 end
 
 -- Mapping of hand motion; the device fields of use_device in docs/api.md.
 local kSteer = {
-  scale = number_in(0, 100),
-  rotation_scale = number_in(-1e-9, 10),
+  scale = number_in(0.01, 100),
+  rotation_scale = number_in(0, 10),
   node = { allowed = "0 (none) or a node 1 to 7", ok = function(v) return math.type(v) == "integer" and v >= 0 and v <= 7 end },
-  speed_m_s = number_in(0, 2),
+  speed_m_s = number_in(1e-4, 2),
 }
 
-local function steer_ok(steer)
-  if type(steer) ~= "table" then return false end
+local function check_steer(where, steer)
+  if type(steer) ~= "table" then refuse(where, "steer", steer, "scale, rotation_scale, node, speed_m_s", "correct the step") end
   for field, value in pairs(steer) do
-    if not kSteer[field] or not kSteer[field].ok(value) then return false end
+    local rule, path = kSteer[field], "steer." .. tostring(field)
+    if not rule then refuse(where, path, value, "only scale, rotation_scale, node, speed_m_s", "remove it or correct its spelling") end
+    if not rule.ok(value) then refuse(where, path, value, rule.allowed, "correct the step") end
   end
-  return true
 end
 
 local kStep = {
   name = { allowed = "a text of 1 to 60 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 60 end, required = true },
   device = { allowed = "\"vr\", \"hand\" or \"none\"", ok = one_of(kDevices).ok, required = true },
   exit = { allowed = condition_rule.allowed, ok = is_condition, required = true },
-  time_limit_s = { allowed = "seconds over 0, up to 3600", ok = number_in(0, 3600).ok, required = true },
+  time_limit_s = { allowed = "seconds over 0, up to 3600", ok = seconds_up_to(3600).ok, required = true },
   on_fail = { allowed = "\"retract\", \"hold\" or \"stop\"", ok = one_of(kOnFail).ok, required = true },
   enter = condition_rule,
-  enter_limit_s = number_in(0, 3600),
-  hold = { allowed = "{ [theta 1..16] = degrees }, such as { [9] = 0 }", ok = held_ok },
-  steer = { allowed = "scale, rotation_scale, node, speed_m_s in their ranges", ok = steer_ok },
+  enter_limit_s = seconds_up_to(3600),
+  hold = { check = check_hold },
+  steer = { check = check_steer },
   run = action_rule,
   task = { allowed = "a text of 1 to 40 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 40 end },
 }
@@ -70,7 +77,11 @@ local function check_step(where, fields)
   for field, value in pairs(fields) do
     local rule = kStep[field]
     if not rule then refuse(where, tostring(field), value, "no such field", "remove it or correct its spelling") end
-    if not rule.ok(value) then refuse(where, field, value, rule.allowed, "correct the step") end
+    if rule.check then
+      rule.check(where, value)
+    elseif not rule.ok(value) then
+      refuse(where, field, value, rule.allowed, "correct the step")
+    end
   end
   for field, rule in pairs(kStep) do
     if rule.required and fields[field] == nil then refuse(where, field, "missing", rule.allowed, "add the field") end
@@ -111,6 +122,49 @@ function check.mission(name, fields)
   return mission
 end
 
+local function require_mission(mission)
+  if type(mission) == "table" and mission.is_mission == true then return end
+  refuse("mission", "file", type(mission), "return liana.mission \"name\" { ... }", "return the mission at the end of the file")
+end
+
+local function has_poses(where, field, names, robot)
+  local known = {}
+  for name in pairs(robot.named_poses_deg) do known[#known + 1] = name end
+  for _, name in ipairs(names) do
+    if robot.named_poses_deg[name] == nil then
+      local allowed = table.concat(known, ", ") .. " (robot " .. robot.name .. ")"
+      refuse(where, field, "pose " .. tostring(name), allowed, "name one of them or add the pose")
+    end
+  end
+end
+
+local function step_suits(where, step, robot)
+  local of_robot = " (robot " .. robot.name .. ")"
+  for theta, target_deg in pairs(step.hold) do
+    local field, segment = "hold[" .. theta .. "]", robot.segments[(theta + 1) // 2]
+    if not segment then refuse(where, field, target_deg, "theta 1 to " .. 2 * #robot.segments .. of_robot, "correct the step") end
+    local limit_deg = segment.theta_limit_deg
+    local allowed = ("-%g to %g degrees"):format(limit_deg, limit_deg) .. of_robot
+    if math.abs(target_deg) > limit_deg then refuse(where, field, target_deg, allowed, "correct the step") end
+  end
+  local node, speed_m_s = step.steer.node or 0, step.steer.speed_m_s or 0
+  if node >= #robot.segments then refuse(where, "steer.node", node, "0 (none) to " .. #robot.segments - 1 .. of_robot, "correct the step") end
+  if speed_m_s > robot.limits.tip_speed_m_s then
+    refuse(where, "steer.speed_m_s", speed_m_s, "up to " .. robot.limits.tip_speed_m_s .. of_robot, "correct the step")
+  end
+  has_poses(where, "enter", step.enter.poses or {}, robot)
+  has_poses(where, "run", poses.of(step.run), robot)
+  has_poses(where, "exit", step.exit.poses or {}, robot)
+end
+
+-- Refuses what this robot (docs/formats.md) cannot do: angles and nodes it does not have, targets beyond its limits, poses it does not know.
+function check.against(mission, robot)
+  require_mission(mission)
+  local where = "mission " .. mission.name
+  for i, step in ipairs(mission.steps) do step_suits(where .. ": step " .. i .. " \"" .. step.name .. "\"", step, robot) end
+  has_poses(where, "finish", poses.of(mission.finish), robot)
+end
+
 local function sorted_held(hold)
   local held = {}
   for theta in pairs(hold) do held[#held + 1] = theta end
@@ -119,9 +173,7 @@ end
 
 -- Plain data about a mission, for `liana-mission eval mission`.
 function check.describe(mission)
-  if type(mission) ~= "table" or mission.is_mission ~= true then
-    refuse("mission", "file", type(mission), "return liana.mission \"name\" { ... }", "return the mission at the end of the file")
-  end
+  require_mission(mission)
   local steps = {}
   for i, step in ipairs(mission.steps) do
     steps[i] = {

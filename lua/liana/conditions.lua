@@ -1,13 +1,38 @@
 -- Conditions for `enter` and `exit` of steps. A condition is { text, met(arm) -> boolean }; the text appears when it is not met in time.
 -- `arm` is the view of lua/liana/view.lua: the last state, the scene, the robot, and what happened since the step began.
 local geometry = require "liana.geometry"
+local need = require "liana.need"
 
 local conditions = {}
 
 -- A condition of your own: what it says, and a function of arm that returns true when it is met.
-function conditions.condition(text, met) return { text = text, met = met } end
+function conditions.condition(text, met)
+  need("condition", "text", text, "string")
+  need("condition", "met", met, "function")
+  return { text = text, met = met }
+end
 
 local condition = conditions.condition
+
+-- The same, remembering which named poses of the robot it uses; a mission is checked for them before it starts.
+local function condition_on(poses, text, met) return { text = text, met = met, poses = poses } end
+
+local function need_conditions(what, list)
+  need(what, "list", list, "table")
+  for i, each in ipairs(list) do
+    if type(each) ~= "table" or type(each.met) ~= "function" then
+      error(("%s: entry %d: %s: allowed conditions, such as at_rest(): correct the call"):format(what, i, tostring(each)), 3)
+    end
+  end
+end
+
+local function poses_of(list)
+  local poses = {}
+  for _, each in ipairs(list) do
+    for _, name in ipairs(each.poses or {}) do poses[#poses + 1] = name end
+  end
+  return poses
+end
 
 local function texts(list, word)
   local out = {}
@@ -17,7 +42,8 @@ end
 
 -- Met when all of the list are.
 function conditions.all(list)
-  return condition(texts(list, " and "), function(arm)
+  need_conditions("all", list)
+  return condition_on(poses_of(list), texts(list, " and "), function(arm)
     for _, each in ipairs(list) do
       if not each.met(arm) then return false end
     end
@@ -27,7 +53,8 @@ end
 
 -- Met when one of the list is.
 function conditions.any(list)
-  return condition(texts(list, " or "), function(arm)
+  need_conditions("any", list)
+  return condition_on(poses_of(list), texts(list, " or "), function(arm)
     for _, each in ipairs(list) do
       if each.met(arm) then return true end
     end
@@ -42,8 +69,10 @@ end
 
 -- Every joint setpoint within tolerance_deg (default 0.02) of a named pose of the robot.
 function conditions.at_pose(name, tolerance_deg)
+  need("at_pose", "name", name, "string")
   tolerance_deg = tolerance_deg or 0.02
-  return condition("at pose " .. name, function(arm)
+  need("at_pose", "tolerance_deg", tolerance_deg, "number")
+  return condition_on({ name }, "at pose " .. name, function(arm)
     for i, target_deg in ipairs(arm.named_pose(name)) do
       if math.abs(arm.state.setpoint_js_deg[i] - target_deg) > tolerance_deg then return false end
     end
@@ -53,7 +82,9 @@ end
 
 -- The tip within distance_m of where a named pose puts it.
 function conditions.tip_near_pose(name, distance_m)
-  return condition(("tip within %g m of pose %s"):format(distance_m, name), function(arm)
+  need("tip_near_pose", "name", name, "string")
+  need("tip_near_pose", "distance_m", distance_m, "number")
+  return condition_on({ name }, ("tip within %g m of pose %s"):format(distance_m, name), function(arm)
     local there = geometry.tip(arm.robot, arm.named_pose(name)).position
     return geometry.distance(arm.tip(), there) <= distance_m
   end)
@@ -61,6 +92,7 @@ end
 
 -- The tip within distance_m of the press rod.
 function conditions.tip_near_rod(distance_m)
+  need("tip_near_rod", "distance_m", distance_m, "number")
   return condition(("tip within %g m of the rod"):format(distance_m), function(arm)
     return geometry.distance(arm.tip(), arm.scene.rod.position_m) <= distance_m
   end)
@@ -68,11 +100,13 @@ end
 
 -- The tip at least u_m along the slit, from the base (the mouth is at slit.mouth_u_m).
 function conditions.tip_past(u_m)
+  need("tip_past", "u_m", u_m, "number")
   return condition(("tip past u = %g m"):format(u_m), function(arm) return arm.slit_u() >= u_m end)
 end
 
 -- The tip at most distance_m off the middle plane of the slit.
 function conditions.tip_in_plane(distance_m)
+  need("tip_in_plane", "distance_m", distance_m, "number")
   return condition(("tip within %g m of the slit plane"):format(distance_m), function(arm)
     return math.abs(arm.slit_offset()) <= distance_m
   end)
@@ -90,6 +124,7 @@ end
 
 -- The operator said `what` after this step began.
 function conditions.operator_says(what)
+  need("operator_says", "what", what, "string")
   return condition("operator says " .. what, function(arm)
     local said = arm.state.operator_says
     return said ~= nil and said.what == what and said.tick > arm.begin_tick

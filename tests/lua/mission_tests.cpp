@@ -192,6 +192,16 @@ TEST(Mission, TheEndOfLianadIsReported) {
   EXPECT_EQ(run.ended.code, 1);
   EXPECT_EQ(run.report["outcome"], "failed");
   EXPECT_EQ(run.report["steps"].size(), 3u);
+  EXPECT_EQ(run.report["steps"][2]["outcome"], "failed");
+}
+
+TEST(Mission, AStepThatWasCutOffLastedUntilTheLastState) {
+  const TemporaryFolder folder;
+  const MissionRun run = run_mission_against(
+      {}, one_step(folder, "exit = liana.condition('never', function(arm) if arm.elapsed_s(arm.begin_tick) > 1 then error 'x' end end),"));
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_GT(run.report["steps"][0]["duration_s"], 1.0);
+  EXPECT_EQ(run.report["duration_s"], run.report["steps"][0]["duration_s"]);
 }
 
 TEST(Mission, AnErrorInAStepNamesFileAndLineAndHolds) {

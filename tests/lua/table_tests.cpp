@@ -31,6 +31,9 @@ TEST(Eval, RefusesMalformedLuaTablesByField) {
       {"robot", "robots.zhu2022", "t.module.mass_kg = 'heavy'", "given.lua: module.mass_kg: \"heavy\": allowed a number over 0"},
       {"robot", "robots.zhu2022", "t.format = 3", "given.lua: format: 3: allowed 1 to 1"},
       {"robot", "robots.zhu2022", "t.limits.tip_speed = 1", "given.lua: limits.tip_speed: 1: allowed no such field"},
+      {"robot", "robots.zhu2022", "t.limits.tip_sped_m_s, t.limits.tip_speed_m_s = t.limits.tip_speed_m_s, nil",
+       "given.lua: limits.tip_sped_m_s: 0.1: allowed no such field: remove it or correct its spelling"},
+      {"robot", "robots.zhu2022", "t.drives.idenity, t.drives.identity = t.drives.identity, nil", "given.lua: drives.idenity: {"},
       {"robot", "robots.zhu2022", "t.drives = nil", "given.lua: drives: missing"},
       {"robot", "robots.zhu2022", "for i = 6, 9 do t.segments[i] = t.segments[1] end",
        "given.lua: segments: 9 entries: allowed a list of 1 to 8"},
@@ -88,13 +91,36 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "on_fail: pray: allowed \"retract\", \"hold\" or \"stop\""},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1 }", "on_fail: missing"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [17] = 0 } }",
-       "hold: table: allowed { [theta 1..16]"},
+       "hold[17]: 0: allowed theta 1 to 16"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', untill = 1 }",
        "untill: 1: allowed no such field"},
       {"step 'a' { device = 'none', steer = {}, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        "steer: given: allowed only with device"},
       {"step 'a' { device = 'vr', steer = { node = 9 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer: table: allowed scale"},
+       "steer.node: 9: allowed 0 (none) or a node 1 to 7"},
+      {"step 'a' { device = 'vr', steer = { sclae = 1 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "steer.sclae: 1: allowed only scale, rotation_scale, node, speed_m_s"},
+      {"step 'a' { device = 'vr', steer = { scale = 0 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "steer.scale: 0: allowed 0.01 to 100"},
+      {"step 'a' { device = 'none', exit = liana.at_pose(nil), time_limit_s = 1, on_fail = 'hold' }",
+       "given.lua:3: at_pose: name: nil: allowed a string"},
+      {"step 'a' { device = 'none', exit = liana.all { at_rest }, time_limit_s = 1, on_fail = 'hold' }", "all: entry 1: function: "},
+      {"step 'a' { device = 'none', exit = liana.tip_past 'x', time_limit_s = 1, on_fail = 'hold' }", "tip_past: u_m: x: allowed a number"},
+      // What only the robot (zhu2022: 5 segments, 20 deg) forbids.
+      {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [11] = 0 } }",
+       "step 1 \"a\": hold[11]: 0: allowed theta 1 to 10 (robot zhu2022)"},
+      {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [9] = 45 } }",
+       "hold[9]: 45: allowed -20 to 20 degrees (robot zhu2022)"},
+      {"step 'a' { device = 'vr', steer = { node = 5 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "steer.node: 5: allowed 0 (none) to 4 (robot zhu2022)"},
+      {"step 'a' { device = 'vr', steer = { speed_m_s = 0.5 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "steer.speed_m_s: 0.5: allowed up to 0.1 (robot zhu2022)"},
+      {"step 'a' { device = 'none', run = liana.move_to 'nowhere', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "run: pose nowhere: allowed panel_edge, prepare"},
+      {"step 'a' { device = 'none', exit = liana.any { at_rest(), liana.all { liana.at_pose 'x' } }, time_limit_s = 1, on_fail = 'hold' }",
+       "exit: pose x: allowed panel_edge, prepare"},
+      {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }, finish = liana.move_to 'home'",
+       "finish: pose home: allowed panel_edge, prepare"},
       {"finish = 3", "finish: 3: allowed an action"}};
   const TemporaryFolder folder;
   for (const BadMission& mission : missions) {
@@ -104,8 +130,19 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
     const Ended ended = run_program("eval mission " + file);
     EXPECT_EQ(ended.code, 2) << mission.steps;
     EXPECT_NE(ended.error.find(mission.message), std::string::npos) << mission.steps << " -> " << ended.error;
-    EXPECT_NE(ended.error.find("given.lua: "), std::string::npos) << ended.error;
+    EXPECT_NE(ended.error.find("given.lua:"), std::string::npos) << ended.error;
   }
+}
+
+TEST(Eval, AMissionIsCheckedAgainstTheRobotThatIsNamed) {
+  const TemporaryFolder folder;
+  const std::string robot = folder.write("short.lua",
+                                         "local t = require 'robots.zhu2022'\nt.name, t.named_poses_deg.panel_edge = 'short', nil\n"
+                                         "return t\n");
+  const Ended ended = run_program("eval mission slit_crossing --robot " + robot);
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_NE(ended.error.find("pose panel_edge: allowed prepare, press_rod, segment5_in_slit, zero (robot short)"), std::string::npos)
+      << ended.error;
 }
 
 TEST(Eval, RefusesAMissionFileThatReturnsSomethingElse) {

@@ -17,12 +17,15 @@ def says(state, *parts):
 
 
 class DrivesThatDoNotBoot(SystemTest):
-    def refused_boot(self, kind, *words):
+    def refused_boot(self, kind, number, *words):
         with System(faults=fault(kind, 0)) as system:
             client = system.client()
             must(client.ask("acquire"))
             state = client.until(lambda state: state["state"] == "FAULT")
             self.assertTrue(any(all(word in event["text"] for word in words) for event in state["events"]), brief(state))
+            self.assertEqual([(fault["number"], fault["index"]) for fault in state["faults"]], [(number, kDrive)])
+            for word in words:
+                self.assertIn(word, state["faults"][0]["text"])
             for command in ("enable", "home", "clear"):
                 self.assert_refused(client.ask("state_command", command=command), "fault", *words)
             self.assert_refused(client.ask("move_jp", goal_deg=[0] * 10), "not_enabled")
@@ -33,10 +36,10 @@ class DrivesThatDoNotBoot(SystemTest):
             self.assert_still(truth, 0)
 
     def test_a_missing_drive_is_named_and_nothing_is_enabled(self):
-        self.refused_boot("missing", "node 4 on can0", "no boot-up")
+        self.refused_boot("missing", 3001, "node 4 on can0", "no boot-up")
 
     def test_a_wrong_identity_is_named_with_what_was_expected_and_found(self):
-        self.refused_boot("wrong_identity", "node 4 on can0", "0x1018:2", "expected 1", "found 2")
+        self.refused_boot("wrong_identity", 3007, "node 4 on can0", "0x1018:2", "expected 1", "found 2")
 
 
 class DrivesThatFailInMotion(SystemTest):

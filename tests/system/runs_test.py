@@ -2,6 +2,7 @@
 import json
 import pathlib
 import socket
+import tempfile
 import unittest
 
 from liana_system import SOURCE, SystemTest, Truth, start_run
@@ -47,8 +48,23 @@ class RunsThatAreRefused(Runs):
         self.refused("nosuch", says=["nosuch"])
 
     def test_time_physics_and_seed_that_do_not_exist(self):
-        for option, value in (("--time", "soon"), ("--physics", "magic"), ("--seed", "-1"), ("--seed", "1.5"), ("--seed", "x")):
+        for option, value in (("--time", "soon"), ("--physics", "magic"), ("--seed", "-1"), ("--seed", "1.5"), ("--seed", "x"),
+                              ("--seed", "9007199254740992"), ("--seed", "18446744073709551616")):
             self.refused("slit_crossing", option, value, says=[option])
+
+    def test_the_range_of_seeds_is_said(self):
+        self.refused("slit_crossing", "--seed", "1e30", says=["--seed", "1e30", "0 to 9007199254740991"])
+
+    def test_a_report_that_cannot_be_written(self):
+        self.refused("slit_crossing", "--json", "/nonexistent/report.json", says=["--json", "/nonexistent/report.json", "directory that exists"])
+        self.refused("slit_crossing", "--json", "/nonexistent/report.json", "--record", "record", says=["--json"])
+        self.refused("slit_crossing", "--json", "/", says=["--json", "directory"])
+
+    def test_a_mission_that_the_robot_cannot_do(self):
+        with tempfile.TemporaryDirectory() as folder:
+            script = pathlib.Path(folder) / "far.lua"
+            script.write_text((MISSIONS / "short.lua").read_text().replace('liana.move_to "prepare"', 'liana.move_to "moon"'))
+            self.refused(script, says=["far.lua", "step 1", "run: pose moon", "zhu2022"])
 
     def test_scripts_that_fail_before_they_are_missions(self):
         for name, says in {"syntax_error": "syntax_error.lua:1", "endless_loop": "endless_loop", "endless_pcall": "endless_pcall",
@@ -58,8 +74,12 @@ class RunsThatAreRefused(Runs):
 
 
 class MissionsThatFailWhileTheArmMoves(Runs):
-    def failed(self, name, *says):
-        process = start_run(self, MISSIONS / f"{name}.lua", "--json", "report.json", "--record", "record")
+    def failed(self, what, *says):
+        script = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "goes_wrong.lua"
+        text = (MISSIONS / "goes_wrong.lua").read_text()
+        self.assertIn("-- WHAT GOES WRONG", text)
+        script.write_text(text.replace("-- WHAT GOES WRONG", what))
+        process = start_run(self, script, "--json", "report.json", "--record", "record", "--seed", 5)
         directory = process.home
         out, error = process.communicate(timeout=PATIENCE_S)
         self.assertEqual(process.returncode, 1, error)
@@ -67,6 +87,7 @@ class MissionsThatFailWhileTheArmMoves(Runs):
             self.assertIn(word, out + error)
         report = json.loads((directory / "report.json").read_text())
         self.assertEqual(report["outcome"], "failed")
+        self.assertEqual([report[key] for key in ("robot", "mission", "physics", "seed")], ["zhu2022", str(script), "nominal", 5])
         truth = Truth(directory / "record" / "truth.bin")
         enabled = truth.column("enabled")
         self.assertEqual(max(enabled), 15)
@@ -77,13 +98,13 @@ class MissionsThatFailWhileTheArmMoves(Runs):
         return report
 
     def test_an_endless_loop_inside_pcall_is_ended_and_named(self):
-        self.failed("endless", "instructions")
+        self.failed("while true do pcall(function() while true do end end) end", "instructions")
 
     def test_a_memory_bomb_is_ended_and_named(self):
-        self.failed("bomb", "memory", "64 MiB")
+        self.failed("local t = {} for i = 1, 1e9 do t[i] = { i, i, i, i } end", "memory", "64 MiB")
 
     def test_a_mistake_in_a_step_is_named(self):
-        self.failed("mistake", "no pose named nowhere")
+        self.failed('arm.move_jp { goal_deg = arm.named_pose "nowhere" }', "no pose named nowhere")
 
 
 if __name__ == "__main__":

@@ -58,6 +58,10 @@ std::string refusal(const BusesConfig& config) {
 TEST(BusLoad, TheDefaultTableIsAcceptedAndItsLoadCountsTheMastersHeartbeatToo) {
   EXPECT_EQ(refusal(two_buses()), "");
   EXPECT_NEAR(worst_load_with_sdo(two_buses(), 0), 0.525, 1e-9);
+  for (const std::size_t bus : {0u, 1u}) {
+    EXPECT_NEAR(worst_case_load(two_buses(), bus), worst_load_with_sdo(two_buses(), bus), 1e-12)
+        << "what lianad reports and what liana-bus checks";
+  }
 }
 
 TEST(BusLoad, AllDrivesOnOneBusAt250HzAreRefusedWithTheLoad) {

@@ -115,6 +115,34 @@ TEST_F(RunReport, AnOutcomeOfTheRunGoesBeforeTheMissions) {
   EXPECT_EQ(make_report(all)["outcome"], "aborted");
 }
 
+TEST_F(RunReport, SaysWhatRan) {
+  ReportSources all = sources();
+  all.robot = "zhu2022";
+  all.mission = "my.lua";
+  all.physics = "worn";
+  all.seed = 9007199254740991;
+  const json report = make_report(all);
+  EXPECT_EQ(report["robot"], "zhu2022");
+  EXPECT_EQ(report["mission"], "my.lua");
+  EXPECT_EQ(report["physics"], "worn");
+  EXPECT_EQ(report["seed"], 9007199254740991u);
+}
+
+TEST_F(RunReport, StepsOfAMissionRunnerThatLeftNoReportLastAsLongAsTheyWereSeen) {
+  const json welcome = {{"period_s", 0.004}};
+  ReportSources all = sources();
+  all.welcome = &welcome;
+  all.announced = {{1, "prepare", "none", 2}, {2, "go", "hand", 5}};
+  const json report = make_report(all);
+  ASSERT_EQ(report["steps"].size(), 2u);
+  EXPECT_EQ(report["steps"][0]["outcome"], "success");
+  EXPECT_DOUBLE_EQ(report["steps"][0]["duration_s"], 0.012);
+  EXPECT_EQ(report["steps"][1]["outcome"], "failed");
+  EXPECT_EQ(report["steps"][1]["name"], "go");
+  EXPECT_DOUBLE_EQ(report["steps"][1]["duration_s"], 0.016);
+  EXPECT_DOUBLE_EQ(report["duration_s"], 0.028);
+}
+
 TEST_F(RunReport, WithoutAMissionReportTheOutcomeIsFailed) {
   const json report = make_report(sources());
   EXPECT_EQ(report["outcome"], "failed");

@@ -20,7 +20,8 @@ using nlohmann::json;
 // Answers as lianad does: welcome, states, and after a stop DISABLED.
 class FakeDaemon {
  public:
-  explicit FakeDaemon(const std::string& path) : listener_(listen_at(path)), thread_([this] { serve(); }) {}
+  // `deaf`: leaves when it hears a stop, without having stopped anything.
+  explicit FakeDaemon(const std::string& path, bool deaf = false) : deaf_(deaf), listener_(listen_at(path)), thread_([this] { serve(); }) {}
   ~FakeDaemon() {
     quit_ = true;
     thread_.join();
@@ -34,7 +35,10 @@ class FakeDaemon {
     if (quit_) return;
     const UniqueFd client(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
     for (int tick = 0; !quit_ && !shut_down_; ++tick) {
-      send_packet(client.get(), json{{"op", "state"}, {"tick", tick}, {"state", stopped_ ? "DISABLED" : "ENABLED"}}.dump());
+      if (stopped_ && deaf_) return;
+      json state{{"op", "state"}, {"tick", tick}, {"time_s", 0.5}, {"state", stopped_ ? "DISABLED" : "ENABLED"}, {"stop", nullptr}};
+      if (stopped_) state["stop"] = {{"by", "liana run"}, {"reason", "interrupted"}, {"tick", tick}};
+      send_packet(client.get(), state.dump());
       std::string packet;
       if (!wait_readable(client.get(), 0.01) || receive_packet(client.get(), packet) != SocketResult::kDone) continue;
       const std::string op = json::parse(packet)["op"];
@@ -44,6 +48,7 @@ class FakeDaemon {
     }
   }
 
+  bool deaf_;
   UniqueFd listener_;
   std::atomic<bool> quit_ = false, stopped_ = false, shut_down_ = false;
   std::thread thread_;
@@ -104,6 +109,16 @@ TEST_F(Session, AProgramThatRefusesItsInputAtTheStartIsBadInput) {
   EXPECT_NE(end.message.find("rate_hz"), std::string::npos) << end.message;
 }
 
+TEST_F(Session, AnInterruptedRunSaysOnlyWhatIsKnownOfTheArm) {
+  const FakeDaemon daemon(plan_.api_socket(), true);
+  add("lianad", "exec sleep 0.5");
+  add("liana-mission", "kill -TERM " + std::to_string(getpid()) + "; exec sleep 60");
+  const RunEnd end = RunSession(plan_).run();
+  EXPECT_EQ(end.outcome, "aborted");
+  EXPECT_NE(end.message.find("lianad was gone before it confirmed the stop; the arm was last seen ENABLED, at 0.50 s"), std::string::npos)
+      << end.message;
+}
+
 TEST_F(Session, CtrlCBecomesAStopOfTheArm) {
   const FakeDaemon daemon(plan_.api_socket());
   add("lianad", "exec sleep 0.5");
@@ -111,6 +126,7 @@ TEST_F(Session, CtrlCBecomesAStopOfTheArm) {
   const RunEnd end = RunSession(plan_).run();
   EXPECT_EQ(end.outcome, "aborted");
   EXPECT_TRUE(daemon.saw("stop"));
+  EXPECT_EQ(end.message, "interrupted: the arm was stopped and is DISABLED");
 }
 
 }  // namespace

@@ -114,6 +114,11 @@ class InverseKinematics(unittest.TestCase):
             ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--hold=9=30"], "20 deg"),
             ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--control-point=6:0,0,0:1"], "--control-point"),
             ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--robot=nobody"], "nobody"),
+            ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--robot=-h"], "-h"),
+            ([f"--from-deg={ZERO}", "--tip=1e308,0,0,1,0,0,0"], "within +-1000 m"),
+            ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--control-point=3:1e308,0,0"], "within +-1000 m"),
+            ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--control-point=3:1,0,0:1e308"], "up to 1000"),
+            ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--hold="], "--hold="),
         ]:
             code, out, error = liana("ik", *options, "--json")
             self.assertEqual((code, out), (2, ""), options)
@@ -153,6 +158,14 @@ class Help(unittest.TestCase):
         for command in ["run", "pose", "ik", "reach", "status", "estop", "replay", "robot", "doctor", "completion"]:
             self.assertIn(f"\n  {command} ", out)
 
+    def test_a_command_that_does_not_exist_is_named_and_those_that_exist_are_listed(self):
+        for words, named in [(["nosuch"], "'nosuch'"), (["help", "nosuch"], "'nosuch'"), ([], "no command"), (["robot", "dance"], "'robot dance'")]:
+            code, out, error = liana(*words)
+            self.assertEqual((code, out), (2, ""), words)
+            self.assertIn(named, error)
+            self.assertIn("export" if words[:1] == ["robot"] else "run, status, estop", error)
+            self.assertEqual(error.count("\n"), 1, error)
+
     def test_the_doctor_says_what_to_do_about_everything_that_is_missing(self):
         findings = liana_json("doctor")["findings"]
         self.assertGreaterEqual(len(findings), 8)
@@ -164,6 +177,7 @@ class Help(unittest.TestCase):
         code, _, error = liana("status", "--api", "/tmp/liana-no-such-socket")
         self.assertEqual(code, 2)
         self.assertIn("liana-no-such-socket", error)
+        self.assertEqual(liana("status", "--api", "/tmp/" + "x" * 300)[0], 2)
 
 
 if __name__ == "__main__":

@@ -13,12 +13,12 @@ TEST(Buses, KnowPeriodIntervalAndTheBusOfANode) {
   EXPECT_EQ(buses.bus_of_node(16), -1);
 }
 
-// SYNC 55, RPDO 115, TPDO 135, heartbeat 65 bits at worst stuffing.
+// SYNC 55, RPDO 115, TPDO 135, heartbeat 65 bits at worst stuffing; 20 SDO pairs a second of 2 x 135 bits.
 TEST(Buses, WorstCaseLoadIsTheSumOfTheLongestFrames) {
   const BusesConfig two = parse_buses(good_table("buses", "embedded").dump(), "b");
-  EXPECT_NEAR(worst_case_load(two, 0), ((55 + 8 * 250) * 250 + 9 * 65 * 10) / 1e6, 1e-12);
+  EXPECT_NEAR(worst_case_load(two, 0), ((55 + 8 * 250) * 250 + 9 * 65 * 10 + 5400) / 1e6, 1e-12);
   const BusesConfig one = parse_buses(good_table("buses", "embedded_single").dump(), "b");
-  EXPECT_NEAR(worst_case_load(one, 0), ((55 + 15 * 250) * 100 + 16 * 65 * 10) / 1e6, 1e-12);
+  EXPECT_NEAR(worst_case_load(one, 0), ((55 + 15 * 250) * 100 + 16 * 65 * 10 + 5400) / 1e6, 1e-12);
 }
 
 TEST(Buses, PeriodIsWhatObject60C2Holds) {

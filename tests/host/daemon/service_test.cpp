@@ -22,7 +22,7 @@ ServiceConfig config_for(const SimArm& arm) {
   config.robot.canonical_json = config.scene.canonical_json = config.buses.canonical_json = "{}";
   config.scene.camera.latency_s = 0.1;
   config.buses.rate_hz = 250.0;
-  config.boot_problem = [] { return std::string("drive 3 did not answer"); };
+  config.boot_problems = [] { return std::vector<BootProblem>{{3, FaultNumber::kDriveMissing, "node 4 on can0: silent"}}; };
   return config;
 }
 
@@ -104,6 +104,17 @@ TEST_F(ServiceOverSocket, AMoveGoesThroughVerificationToTheArm) {
   EXPECT_TRUE(done["at_rest"]);
 }
 
+TEST_F(ServiceOverSocket, ALineMayHoldVariablesAsHoldThetaWritesThem) {
+  ApiClient mission = join("mission");
+  enable(mission);
+  const Json before = state(mission);
+  const Json held{{{"theta", 9}, {"target_deg", before["setpoint_js_deg"][8]}}};
+  EXPECT_EQ(ask(mission, {{"op", "move_cp"}, {"goal", before["setpoint_cp"]}, {"hold", {9}}}), "bad_request");
+  ASSERT_EQ(ask(mission, {{"op", "move_cp"}, {"goal", before["setpoint_cp"]}, {"hold", held}}), "ok");
+  intervals(10);
+  EXPECT_EQ(state(mission)["held"], Json({9}));
+}
+
 TEST_F(ServiceOverSocket, TheDeathOfTheMissionIsAHold) {
   auto mission = std::make_unique<ApiClient>(join("mission"));
   ApiClient watcher = join("observer");
@@ -166,6 +177,7 @@ TEST_F(ServiceOverSocket, BadMotionRequestsAreRefusedWithTheirReason) {
       {{{"op", "hold_theta"}, {"held", {{{"theta", 11}, {"target_deg", 0}}}}}, "out_of_range"},
       {{{"op", "hold_theta"}, {"held", {{{"theta", 9}, {"target_deg", 30}}}}}, "out_of_range"},
       {{{"op", "hold_theta"}, {"held", 9}}, "bad_request"},
+      {{{"op", "hold_theta"}, {"held", {9}}}, "bad_request"},
       {{{"op", "shape"}, {"nodes", {{{"node", 9}, {"position_m", {0, 0, 0}}}}}}, "out_of_range"},
       {{{"op", "use_device"}, {"device", "mouse"}}, "bad_request"},
       {{{"op", "use_device"}, {"device", "vr"}}, "no_device"},
