@@ -86,13 +86,14 @@ void follow_joints(const RobotTable& table, bool braking, MotionState& state) no
   }
 }
 
-// Braking of joint motion: the reference moves on by the least distance in which the limiter can stop.
+// Braking of joint motion: the fastest joint as hard as it may, the others in proportion. All come to rest together and the arm stays on
+// its path; joints that stop one by one would no longer cancel at the tip, and the tip would move faster for a while.
 void brake_joints(const RobotTable& table, MotionState& state) noexcept {
+  const double fastest = largest_rate(table, state.limiter);
+  const double change = table.limits.theta_accel_rad_s2 * table.tick_s;
+  const double share = fastest > change ? 1.0 - change / fastest : 0.0;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
-    const double rate = state.limiter.rate_rad_s[k];
-    const double change = table.limits.theta_accel_rad_s2 * table.tick_s;
-    const double slower = rate > change ? rate - change : (rate < -change ? rate + change : 0.0);
-    state.ik_rad[k] = state.limiter.theta_rad[k] + slower * table.tick_s;
+    state.ik_rad[k] = state.limiter.theta_rad[k] + share * state.limiter.rate_rad_s[k] * table.tick_s;
     state.limiter.reference_rad[k] = state.limiter.theta_rad[k];
   }
 }

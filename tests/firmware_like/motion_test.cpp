@@ -161,6 +161,26 @@ TEST_F(Motion, BrakingComesToRestFromTipAndFromJointMotion) {
   }
 }
 
+// Joints that stopped one by one would leave the path, and what cancels at the tip would not cancel any more.
+TEST_F(Motion, BrakingJointMotionKeepsTheProportionOfTheRates) {
+  ThetaVector goal = theta();
+  for (std::size_t k = 0; k < zhu2022::kThetas; ++k) goal[k] += (k % 2 == 0 ? 0.002 : -0.0005) * static_cast<double>(k + 1);
+  accept_setpoint(robot_, joint_setpoint(goal), state_);
+  run(20);
+  const ThetaVector rate = state_.limiter.rate_rad_s;
+  ASSERT_GT(rate[0], 0.0);
+  ASSERT_GT(std::fabs(rate[8]), 2.0 * std::fabs(rate[1]));
+  state_.braking = true;
+  for (int i = 0; i < 250 && !at_rest(robot_, state_); ++i) {
+    run(1);
+    const double share = state_.limiter.rate_rad_s[8] / rate[8];
+    EXPECT_GE(share, 0.0);
+    EXPECT_LT(share, 1.0);
+    for (std::size_t k = 0; k < zhu2022::kThetas; ++k) EXPECT_NEAR(state_.limiter.rate_rad_s[k], share * rate[k], 1e-12) << k;
+  }
+  EXPECT_TRUE(at_rest(robot_, state_));
+}
+
 TEST_F(Motion, MotionThatIsNotAllowedBrakes) {
   accept_setpoint(robot_, tip_setpoint({0.5, 0.0, 0.0}), state_);
   run(300);
