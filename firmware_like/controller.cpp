@@ -39,7 +39,7 @@ Controller::Controller(const RobotTable& table) noexcept : table_(table), layout
   watchdog_limits_ = make_watchdog_limits(table);
   reset_motion(table_, ThetaVector{}, motion_);
   take_geometry();
-  update_tension_ratio(table_, layout_, trig_, slip_, ratio_);
+  update_tension_ratio(table_, layout_, motion_.trig, slip_, ratio_);
 }
 
 Outputs Controller::tick(const Inputs& inputs) noexcept {
@@ -53,9 +53,7 @@ Outputs Controller::tick(const Inputs& inputs) noexcept {
   move(inputs, orders);            // filter, IK, limiter: commanded angles
   plan_payouts(orders);            // damping, tension plan, cable map: commanded lengths
   command_drives(inputs, orders);  // the gate, then CiA 402
-  const Outputs outputs = report(inputs, orders);
-  tip_command_ = outputs.tip_command;
-  return outputs;
+  return report(inputs, orders);
 }
 
 void Controller::read_drives(const Inputs& inputs) noexcept {
@@ -157,8 +155,7 @@ void Controller::damp_payouts(CableVector& wanted_m) noexcept {
 }
 
 void Controller::take_geometry() noexcept {
-  trig_ = arm_trig(table_, motion_.limiter.theta_rad);
-  update_cable_geometry(table_, layout_, trig_, geometry_);
+  update_cable_geometry(table_, layout_, motion_.trig, geometry_);
   update_cable_solver(table_, geometry_, solver_);
 }
 
@@ -166,7 +163,7 @@ void Controller::plan_payouts(const Orders& orders) noexcept {
   take_geometry();
   if (!orders.live_targets || !live_) reset_slip(geometry_, slip_);
   advance_slip(layout_, geometry_, slip_);
-  update_tension_ratio(table_, layout_, trig_, slip_, ratio_);
+  update_tension_ratio(table_, layout_, motion_.trig, slip_, ratio_);
   if (!orders.live_targets) {
     live_ = false;
     ramp_ = 0.0;
@@ -222,15 +219,11 @@ Outputs Controller::report(const Inputs& inputs, const Orders& orders) const noe
   out.theta_rate_rad_s = motion_.limiter.rate_rad_s;
   out.theta_measured_rad = estimator_.theta_rad;
   out.tip_goal = motion_.filter.pose;
-  const NodePoses node = node_poses(table_, trig_);
-  out.tip_command = node[as_index(table_.segment_count)];
-  out.tip_measured = tip_pose(table_, estimator_.trig);
-  if (live_) {
-    const auto moved = pose_error(out.tip_command, tip_command_);
-    out.tip_speed_m_s = norm({moved[0], moved[1], moved[2]}) / table_.tick_s;
-    out.tip_rate_rad_s = norm({moved[3], moved[4], moved[5]}) / table_.tick_s;
-  }
-  for (Index m = 0; m < as_index(table_.segment_count); ++m) out.node_command_m[m] = node[m + 1].position_m;
+  out.tip_command = motion_.arm.tip_in_base;
+  const Twist tip = tip_twist(table_, motion_);
+  out.tip_speed_m_s = norm(tip.linear_m_s);
+  out.tip_rate_rad_s = norm(tip.angular_rad_s);
+  for (Index m = 0; m < as_index(table_.segment_count); ++m) out.node_command_m[m] = motion_.arm.node_in_base[m + 1].position_m;
   out.tension_plan_N = tension_.motor_N;
   out.tension_measured_N = tension_measured_N_;
   out.payout_command_m = payout_command_m_;

@@ -77,7 +77,6 @@ class Controller {
   std::uint32_t limits_ = 0;
 
   SlipState slip_{};
-  ArmTrig trig_{};            // of the commanded angles
   CableGeometry geometry_{};  // at the commanded angles
   CableSolver solver_{};      // of that geometry
   TensionRatio ratio_{};      // planned friction
@@ -85,9 +84,8 @@ class Controller {
   TensionPlan tension_{};
   CableVector payout_command_m_{};
   CableVector ramp_start_m_{};
-  double ramp_ = 0.0;   // 0..1 share of the planned pretension
-  bool live_ = false;   // targets were live in the last tick
-  Pose tip_command_{};  // of the last tick
+  double ramp_ = 0.0;  // 0..1 share of the planned pretension
+  bool live_ = false;  // targets were live in the last tick
 
   std::array<DriveCommand, kMaxCables> sent_{};
 };

@@ -77,7 +77,6 @@ struct Outputs {
   ThetaVector theta_measured_rad{};  // estimate from motor lengths with elongation removed
   Pose tip_goal{};                   // filtered operator target
   Pose tip_command{};                // kinematics of theta_command
-  Pose tip_measured{};               // kinematics of theta_measured
   double tip_speed_m_s = 0.0;        // of the command
   double tip_rate_rad_s = 0.0;
   std::array<Vec3, kMaxSegments> node_command_m{};

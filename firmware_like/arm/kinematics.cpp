@@ -100,11 +100,6 @@ inline Pose segment_end(const SegmentTable& segment, const SegmentTrig& t, const
   return end;
 }
 
-inline Pose next_node(const SegmentTable& segment, const SegmentTrig& t, const Pose& root) noexcept {
-  const Bend bend = bend_of(t);
-  return segment_end(segment, t, bend, chebyshev_sums(bend.w, segment.modules), root, rotation_of(root.quaternion));
-}
-
 // Velocity of a segment's end for its own (pitch, yaw), linear and angular.
 struct PairVec {
   Pair x, y, z;
@@ -179,15 +174,13 @@ ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) n
   return out;
 }
 
-NodePoses node_poses(const RobotTable& table, const ArmTrig& trig) noexcept {
-  NodePoses node;
-  for (Index i = 0; i < static_cast<Index>(table.segment_count); ++i) node[i + 1] = next_node(table.segment[i], trig[i], node[i]);
-  return node;
-}
-
 Pose tip_pose(const RobotTable& table, const ArmTrig& trig) noexcept {
   Pose tip;
-  for (Index i = 0; i < static_cast<Index>(table.segment_count); ++i) tip = next_node(table.segment[i], trig[i], tip);
+  for (Index i = 0; i < static_cast<Index>(table.segment_count); ++i) {
+    const SegmentTable& segment = table.segment[i];
+    const Bend bend = bend_of(trig[i]);
+    tip = segment_end(segment, trig[i], bend, chebyshev_sums(bend.w, segment.modules), tip, rotation_of(tip.quaternion));
+  }
   return tip;
 }
 

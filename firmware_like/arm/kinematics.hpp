@@ -42,8 +42,7 @@ struct ArmKinematics {
 ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) noexcept;
 ArmKinematics forward_kinematics(const RobotTable& table, const ThetaVector& theta_rad) noexcept;
 
-// Poses of the base and all nodes, or of the tip alone: half the cost.
-NodePoses node_poses(const RobotTable& table, const ArmTrig& trig) noexcept;
+// Pose of the tip alone, at half the cost.
 Pose tip_pose(const RobotTable& table, const ArmTrig& trig) noexcept;
 
 // Linear Jacobian column of node `node` (1..segment_count) for theta `column`; zero for segments beyond the node.

@@ -79,15 +79,6 @@ std::uint16_t controlword_for(DriveState state, DriveGoal goal, std::uint16_t pr
   return edge_is_spent ? kDisableVoltage : word;
 }
 
-bool has_torque(DriveState state) noexcept {
-  return state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive || state == DriveState::kFaultReactionActive;
-}
-
-bool is_off(DriveState state) noexcept {
-  return state == DriveState::kNotReadyToSwitchOn || state == DriveState::kSwitchOnDisabled || state == DriveState::kReadyToSwitchOn ||
-         state == DriveState::kFault;
-}
-
 const char* drive_state_name(DriveState state) noexcept { return kStateNames[row_of(state)]; }
 
 }  // namespace liana

@@ -45,10 +45,15 @@ DriveState decode(std::uint16_t statusword) noexcept;
 std::uint16_t controlword_for(DriveState state, DriveGoal goal, std::uint16_t previous_controlword) noexcept;
 
 // True when the drive produces torque with its brake open (Operation enabled, Quick stop active, Fault reaction active).
-bool has_torque(DriveState state) noexcept;
+constexpr bool has_torque(DriveState state) noexcept {
+  return state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive || state == DriveState::kFaultReactionActive;
+}
 
 // True when the drive is known to be without power: Not ready, Switch on disabled, Ready to switch on or Fault.
-bool is_off(DriveState state) noexcept;
+constexpr bool is_off(DriveState state) noexcept {
+  return state == DriveState::kNotReadyToSwitchOn || state == DriveState::kSwitchOnDisabled || state == DriveState::kReadyToSwitchOn ||
+         state == DriveState::kFault;
+}
 
 // Name as the API prints it, e.g. "operation_enabled"; never null.
 const char* drive_state_name(DriveState state) noexcept;

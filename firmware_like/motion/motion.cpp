@@ -64,10 +64,11 @@ void follow_tip(const RobotTable& table, bool braking, MotionState& state) noexc
   if (state.filter.speed_limited) state.limits |= kLimitTipSpeed;
   if (state.filter.accel_limited) state.limits |= kLimitTipAccel;
 
-  const ArmKinematics arm = forward_kinematics(table, state.ik_rad);
-  const ThetaVector move = shape_move(table, arm, state.to.node, state.held_mask, braking, state.ik_rad, state.shape_rate_rad_s);
+  // The IK goes on from where the command stands, unless a limit or a held theta has come between.
+  if (state.ik_rad != state.limiter.theta_rad) state.arm = forward_kinematics(table, state.ik_rad);
+  const ThetaVector move = shape_move(table, state.arm, state.to.node, state.held_mask, braking, state.ik_rad, state.shape_rate_rad_s);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
-  state.ik = servo_ik(table, {state.filter.pose, state.held_mask}, arm, state.ik_rad);
+  state.ik = servo_ik(table, {state.filter.pose, state.held_mask}, state.arm, state.ik_rad);
   if (state.ik.limit_mask != 0) state.limits |= kLimitTheta;
   if (state.ik.outcome == IkOutcome::kSingular) state.limits |= kLimitSingular;
   if (state.ik.outcome == IkOutcome::kUnreachable) state.limits |= kLimitReach;
@@ -98,13 +99,29 @@ void brake_joints(const RobotTable& table, MotionState& state) noexcept {
   }
 }
 
+void take_kinematics(const RobotTable& table, MotionState& state) noexcept {
+  state.trig = arm_trig(table, state.limiter.theta_rad);
+  state.arm = forward_kinematics(table, state.trig);
+}
+
 }  // namespace
+
+Twist tip_twist(const RobotTable& table, const MotionState& state) noexcept {
+  Twist twist;
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    const double rate = state.limiter.rate_rad_s[k];
+    twist.linear_m_s = add(twist.linear_m_s, scale(state.arm.tip_jacobian.linear[k], rate));
+    twist.angular_rad_s = add(twist.angular_rad_s, scale(state.arm.tip_jacobian.angular[k], rate));
+  }
+  return twist;
+}
 
 void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionState& state) noexcept {
   state = MotionState{};
   state.ik_rad = theta_rad;
-  state.filter.pose = forward_kinematics(table, theta_rad).tip_in_base;
   reset_limiter(theta_rad, state.limiter);
+  take_kinematics(table, state);
+  state.filter.pose = state.arm.tip_in_base;
 }
 
 void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionState& state) noexcept {
@@ -113,13 +130,11 @@ void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionSt
     if (!is_tip(state.to)) {  // from joint motion: take over pose and rates
       state.ik_rad = state.limiter.theta_rad;
       state.shape_rate_rad_s = ThetaVector{};
-      const ArmKinematics arm = forward_kinematics(table, state.ik_rad);
+      const Twist tip = tip_twist(table, state);
       state.filter = TipFilterState{};
-      state.filter.pose = arm.tip_in_base;
-      for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
-        state.filter.linear.velocity = add(state.filter.linear.velocity, scale(arm.tip_jacobian.linear[k], state.limiter.rate_rad_s[k]));
-        state.filter.angular.velocity = add(state.filter.angular.velocity, scale(arm.tip_jacobian.angular[k], state.limiter.rate_rad_s[k]));
-      }
+      state.filter.pose = state.arm.tip_in_base;
+      state.filter.linear.velocity = tip.linear_m_s;
+      state.filter.angular.velocity = tip.angular_rad_s;
     }
     state.from = setpoint;
     state.from.tip_in_base = state.filter.pose;
@@ -154,6 +169,7 @@ void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool
   }
   limit_motion(table, geometry, state.ik_rad, state.limiter);
   state.limits |= state.limiter.limits;
+  take_kinematics(table, state);
 }
 
 bool at_rest(const RobotTable& table, const MotionState& state) noexcept {

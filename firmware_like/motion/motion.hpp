@@ -29,6 +29,8 @@ struct MotionState {
   std::uint32_t held_mask = 0;
   bool held_at_target = true;
   LimiterState limiter{};
+  ArmTrig trig{};       // of the commanded angles (limiter.theta_rad)
+  ArmKinematics arm{};  // at the commanded angles
   IkReport ik{};
   std::uint32_t limits = 0;  // LimitBit of this tick
 };
@@ -41,6 +43,13 @@ void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionSt
 
 // One tick. With `allowed` false or braking, everything comes to rest along its path.
 void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool allowed, MotionState& state) noexcept;
+
+// Velocity of the commanded tip in the base frame.
+struct Twist {
+  Vec3 linear_m_s{};
+  Vec3 angular_rad_s{};
+};
+Twist tip_twist(const RobotTable& table, const MotionState& state) noexcept;
 
 // True when nothing moves any more.
 bool at_rest(const RobotTable& table, const MotionState& state) noexcept;

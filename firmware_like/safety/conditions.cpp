@@ -17,17 +17,28 @@ static_assert(kFaultPersists == 1u << (kConditionNames.size() - 1), "every condi
 
 }  // namespace
 
+namespace {
+
+// What each drive state says.
+constexpr std::array<std::uint32_t, kDriveStateCount> kConditionsOfState = [] {
+  std::array<std::uint32_t, kDriveStateCount> of{};
+  for (std::size_t i = 0; i < of.size(); ++i) {
+    const auto state = static_cast<DriveState>(i);
+    if (state != DriveState::kFault && state != DriveState::kFaultReactionActive) of[i] |= kNoDriveInFault;
+    if (state == DriveState::kSwitchedOn || state == DriveState::kOperationEnabled) of[i] |= kAllSwitchedOn;
+    if (state == DriveState::kOperationEnabled) of[i] |= kAllEnabled;
+    if (is_off(state)) of[i] |= kAllOff;
+  }
+  return of;
+}();
+
+}  // namespace
+
 std::uint32_t drive_conditions_of(const WatchdogLimits& limits, const DriveFeedback& drive) noexcept {
-  const DriveState state = decode(drive.statusword);
   const bool fresh = drive.feedback_age_ticks <= kFeedbackAgeTicks && drive.heartbeat_age_ticks <= limits.heartbeat_age_ticks;
-  std::uint32_t kept = 0;
-  if (fresh) kept |= kDrivesFresh;
-  if (drive.operational != 0) kept |= kDrivesOperational;
-  if (state != DriveState::kFault && state != DriveState::kFaultReactionActive) kept |= kNoDriveInFault;
-  if (fresh && (state == DriveState::kSwitchedOn || state == DriveState::kOperationEnabled)) kept |= kAllSwitchedOn;
-  if (fresh && state == DriveState::kOperationEnabled) kept |= kAllEnabled;
-  if (fresh && is_off(state)) kept |= kAllOff;
-  return kept;
+  const std::uint32_t of_state = kConditionsOfState[as_index(static_cast<std::int32_t>(decode(drive.statusword)))];
+  const std::uint32_t kept = fresh ? of_state | kDrivesFresh : of_state & kNoDriveInFault;  // an old statusword proves only a fault
+  return drive.operational != 0 ? kept | kDrivesOperational : kept;
 }
 
 std::uint32_t drive_conditions(const WatchdogLimits& limits, const Inputs& inputs) noexcept {

@@ -124,7 +124,7 @@ void add_arm(json& state, const RobotTable& table, const CycleReport& report) {
   state["is_homed"] = o.homed != 0;
   state["measured_js_deg"] = degrees(table, o.theta_measured_rad);
   state["setpoint_js_deg"] = degrees(table, o.theta_command_rad);
-  state["measured_cp"] = pose_json(o.tip_measured);
+  state["measured_cp"] = pose_json(tip_pose(table, arm_trig(table, o.theta_measured_rad)));
   state["setpoint_cp"] = pose_json(o.tip_command);
   state["goal_cp"] = pose_json(o.tip_goal);
   state["node_m"] = nodes_json(table, o);

@@ -115,7 +115,6 @@ void visit(A& a, T& o) {
   a("theta_measured_rad", o.theta_measured_rad);
   a("tip_goal", o.tip_goal);
   a("tip_command", o.tip_command);
-  a("tip_measured", o.tip_measured);
   a("tip_speed_m_s", o.tip_speed_m_s);
   a("tip_rate_rad_s", o.tip_rate_rad_s);
   a("node_command_m", o.node_command_m);

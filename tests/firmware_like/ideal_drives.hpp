@@ -165,7 +165,7 @@ inline std::vector<double> numbers(const Outputs& out) {
                           out.ik_residual[0]};
   for (const DriveCommand& drive : out.drive)
     all.insert(all.end(), {static_cast<double>(drive.controlword), static_cast<double>(drive.target_counts)});
-  for (const Pose& pose : {out.tip_goal, out.tip_command, out.tip_measured}) {
+  for (const Pose& pose : {out.tip_goal, out.tip_command}) {
     all.insert(all.end(), pose.position_m.begin(), pose.position_m.end());
     all.insert(all.end(), pose.quaternion.begin(), pose.quaternion.end());
   }
