@@ -1,8 +1,8 @@
 // Goal IK: joint angles for a tip pose from anywhere, with restarts in a fixed order. For goals and plans, outside the tick.
 //
-// Each attempt iterates ik_step with error-proportional damping mu = e.e + 1e-9 (performance study, section 3: that and restarts are what
-// helps). Attempt 0 starts at `from`, attempt 1 at the middle, the others at pseudo-random poses of a fixed sequence: same input, same
-// result.
+// An attempt iterates servo_ik, whose damping is proportional to the squared error (performance study: that and restarts are what helps).
+// Attempt 0 starts at `from`; each later one at the best of kGoalSeeds pseudo-random poses of a fixed sequence: same input, same result.
+// With node targets, the shape is improved from kGoalShapeStarts solutions and the best is taken. Figures: docs/shape.md.
 #pragma once
 
 #include <array>
@@ -14,9 +14,12 @@
 namespace liana {
 
 constexpr std::int32_t kGoalAttempts = 100;
-constexpr std::int32_t kGoalIterations = 25;   // per attempt
-constexpr std::int32_t kGoalShapeSteps = 200;  // towards node targets, after the tip has been reached
-constexpr double kGoalTolerance = 1e-7;        // m and rad; half a decade inside what is promised (1e-6)
+constexpr std::int32_t kGoalIterations = 10;      // per attempt, more only while the error halves with each
+constexpr std::int32_t kGoalMostIterations = 30;  // per attempt
+constexpr std::int32_t kGoalSeeds = 32;           // poses that an attempt chooses from
+constexpr std::int32_t kGoalShapeSteps = 100;     // towards node targets, after the tip has been reached
+constexpr std::int32_t kGoalShapeStarts = 8;      // solutions whose shape is improved
+constexpr double kGoalTolerance = 1e-7;           // m and rad; half a decade inside what is promised (1e-6)
 
 struct GoalIkProblem {
   Pose tip_in_base{};
@@ -36,6 +39,11 @@ struct GoalIkResult {
 };
 
 // Solves; when no attempt converges, the result holds the best one. Angles respect the limits, held ones are exact.
+// At most kGoalAttempts * kGoalMostIterations iterations for the tip.
 GoalIkResult solve_goal(const RobotTable& table, const GoalIkProblem& problem) noexcept;
+
+// Brings the shape of `theta_rad` to the nearest minimum of the node targets' sum while the tip stays where `problem` wants it, from where
+// it already is. Returns the sum [m] of weighted excesses over thresholds; adds to `iterations`.
+double improve_shape(const RobotTable& table, const GoalIkProblem& problem, ThetaVector& theta_rad, std::int32_t& iterations) noexcept;
 
 }  // namespace liana

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
 
 namespace liana {
@@ -10,96 +9,94 @@ namespace {
 
 using Index = std::size_t;
 
-bool is_set(std::uint32_t mask, Index i) noexcept { return ((mask >> i) & 1u) != 0; }
+constexpr double kLastMoment_s = 0.1;  // room to a limit over this bounds the smoothed rate
 
-double product(const ThetaVector& a, const ThetaVector& b, Index n) noexcept { return dot_pairs(a.data(), b.data(), n / 2); }
+bool is_node(const RobotTable& table, const NodeTarget& target) noexcept { return target.node >= 1 && target.node <= table.segment_count; }
 
-// v less its parts along the first `rank` rows, twice (once leaves rounding of the order of the cancelled part).
-void remove_rows(const NullSpace& space, ThetaVector& v) noexcept {
-  const Index pairs = static_cast<Index>(space.theta_count) / 2;
-  for (std::int32_t pass = 0; pass < 2; ++pass) {
-    for (Index r = 0; r < static_cast<Index>(space.rank); ++r) {
-      const double* const row = space.row[r].data();
-      add_scaled_pairs(-dot_pairs(v.data(), row, pairs), row, v.data(), pairs);
-    }
-  }
+Vec3 towards_target(const ArmKinematics& arm, const NodeTarget& target) noexcept {
+  return subtract(target.position_m, arm.node_in_base[static_cast<Index>(target.node)].position_m);
 }
-
-double limit_of(const RobotTable& table, Index theta) noexcept { return table.segment[theta / 2].theta_limit_rad; }
 
 // Pitch of the segment before the planar part at the arm's end; theta_count when there is no planar part.
 Index lead_pitch(const RobotTable& table, std::uint32_t held_mask) noexcept {
   std::int32_t m = table.segment_count - 1;
-  while (m >= 0 && is_set(held_mask, static_cast<Index>(2 * m))) --m;
+  while (m >= 0 && ((held_mask >> (2 * m)) & 1u) != 0) --m;
   const bool planar = m < table.segment_count - 1 && m >= 0;
   return static_cast<Index>(planar ? 2 * m : table.theta_count());
 }
 
+// Change of theta that centring asks for within kShapeTime_s.
 ThetaVector centring(const RobotTable& table, std::uint32_t held_mask, const ThetaVector& theta) noexcept {
   const Index lead = lead_pitch(table, held_mask);
   ThetaVector pull{};
-  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
-    pull[k] = -(k == lead ? kLeadWeight : 1.0) * kCentringRate_1_s * theta[k];
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) pull[k] = -kCentringRate_1_s * kShapeTime_s * theta[k];
+  if (lead < static_cast<Index>(table.theta_count())) pull[lead] *= kLeadWeight;
   return pull;
 }
 
-// Scales v so that no entry is larger than `largest`: one factor for all keeps it in the null space.
-void scale_to(double largest, Index n, ThetaVector& v) noexcept {
-  double factor = 1.0;
-  for (Index k = 0; k < n; ++k) {
-    const double size = std::fabs(v[k]);
-    if (size > largest) factor = smaller(factor, largest / size);
-  }
-  for (Index k = 0; k < n; ++k) v[k] *= factor;
+// Weight of centring beside these targets; its size does not matter when there are none.
+double centring_weight(const RobotTable& table, const NodeTargets& nodes) noexcept {
+  const double largest = largest_weight(table, nodes);
+  return largest > 0.0 ? kCentringShare * largest : 1.0;
 }
 
-// Null-space velocity [rad/s] with the thetas in `space.fixed` still.
-ThetaVector shape_velocity(const RobotTable& table, const ArmKinematics& arm, const NullSpace& space, std::uint32_t held_mask,
-                           const NodeTargets& nodes, const ThetaVector& theta) noexcept {
-  const Index n = static_cast<Index>(table.theta_count());
-  ThetaVector velocity = project(space, centring(table, held_mask, theta));
-  const NodeCost cost = node_cost(table, arm, nodes);
-  if (!(cost.sum_m > 0.0)) return velocity;
-  const ThetaVector descent = project(space, cost.descent);
-  const double slope2 = product(descent, descent, n);
-  const double rate = kNodeRate_1_s * cost.sum_m / (slope2 + kNodeFade_m_rad * kNodeFade_m_rad);
-  for (Index k = 0; k < n; ++k) velocity[k] += rate * descent[k];
-  return velocity;
+double largest_entry(const ThetaVector& v, Index n) noexcept {
+  double largest = 0.0;
+  for (Index k = 0; k < n; ++k) largest = larger(largest, std::fabs(v[k]));
+  return largest;
+}
+
+// Least room of any theta to its limit; negative when one is beyond it.
+double least_room_rad(const RobotTable& table, const ThetaVector& theta) noexcept {
+  double least = 1e300;
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
+    least = smaller(least, table.segment[m].theta_limit_rad - larger(std::fabs(theta[2 * m]), std::fabs(theta[2 * m + 1])));
+  return least;
+}
+
+// Where the arm stands, for all steps of a tick.
+struct Stand {
+  const RobotTable& table;
+  const ThetaVector& theta_rad;
+  const NullSpace& space;
+  double least_room_rad;
+};
+
+// Bounds a rate by room to the limits over `time_s`; true when it had to be changed.
+bool bound_rate(const Stand& stand, const ShapeFactor& metric, double time_s, double largest, NullPoint& rate) noexcept {
+  if (largest * time_s <= stand.least_room_rad) return false;  // far from every limit
+  restrict_to(stand.space, metric, room_to_limits(stand.table, stand.theta_rad, 1.0 / time_s), rate);
+  return true;
+}
+
+// Velocity [rad/s] that the shape wants.
+ThetaVector wanted_rate(const Stand& stand, const ArmKinematics& arm, const NodeTargets& nodes, std::uint32_t held_mask) noexcept {
+  const Index n = static_cast<Index>(stand.space.theta_count);
+  const double limit = kShapeShare * stand.table.limits.theta_rate_rad_s;
+  ShapeModel model = resting_model(stand.space, centring_weight(stand.table, nodes), centring(stand.table, held_mask, stand.theta_rad));
+  add_nodes(stand.table, arm, nodes, stand.space, model);
+  const ShapeFactor metric = factor(stand.space, model);
+  NullPoint rate;
+  rate.z = minimum(stand.space, metric, model.pull);
+  rate.theta_rad = combine(stand.space, rate.z);
+  // The rate limit first: what is far out of bounds at full speed may be inside at this one.
+  const double largest = largest_entry(rate.theta_rad, n) / kShapeTime_s;
+  const double share = largest > limit ? limit / largest : 1.0;
+  scale_by(stand.space, share / kShapeTime_s, rate);
+  if (bound_rate(stand, metric, kLimitApproach_s, share * largest, rate)) {
+    const double bounded = largest_entry(rate.theta_rad, n);
+    if (bounded > limit) scale_by(stand.space, limit / bounded, rate);
+  }
+  return rate.theta_rad;
 }
 
 }  // namespace
 
-NullSpace null_space(const Jacobian& J, std::int32_t theta_count, std::uint32_t fixed) noexcept {
-  constexpr double kDependent_m_rad = 1e-10;  // below this a row adds nothing that the tip could feel
-  NullSpace space;
-  space.fixed = fixed;
-  space.theta_count = theta_count;
-  const Index n = static_cast<Index>(theta_count);
-  for (Index r = 0; r < 6; ++r) {
-    ThetaVector& v = space.row[static_cast<Index>(space.rank)];
-    const auto& column = r < 3 ? J.linear : J.angular;
-    for (Index k = 0; k < n; ++k) v[k] = is_set(fixed, k) ? 0.0 : column[k][r % 3];
-    remove_rows(space, v);
-    const double length = std::sqrt(product(v, v, n));
-    if (!(length > kDependent_m_rad)) continue;
-    for (Index k = 0; k < n; ++k) v[k] /= length;
-    ++space.rank;
-  }
-  return space;
-}
-
-ThetaVector project(const NullSpace& space, const ThetaVector& v) noexcept {
-  ThetaVector out{};
-  for (Index k = 0; k < static_cast<Index>(space.theta_count); ++k) out[k] = is_set(space.fixed, k) ? 0.0 : v[k];
-  remove_rows(space, out);
-  return out;
-}
-
 NodeCost node_cost(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept {
   NodeCost cost;
   for (const NodeTarget& target : nodes) {
-    if (target.node < 1 || target.node > table.segment_count) continue;
-    const Vec3 towards = subtract(target.position_m, arm.node_in_base[static_cast<Index>(target.node)].position_m);
+    if (!is_node(table, target)) continue;
+    const Vec3 towards = towards_target(arm, target);
     const double distance = norm(towards);
     if (!(distance > target.threshold_m) || distance < 1e-9) continue;
     cost.sum_m += target.weight * distance;
@@ -111,39 +108,64 @@ NodeCost node_cost(const RobotTable& table, const ArmKinematics& arm, const Node
   return cost;
 }
 
+double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept {
+  double sum_m = 0.0;
+  for (const NodeTarget& target : nodes) {
+    if (is_node(table, target)) sum_m += target.weight * larger(0.0, norm(towards_target(arm, target)) - target.threshold_m);
+  }
+  return sum_m;
+}
+
+double largest_weight(const RobotTable& table, const NodeTargets& nodes) noexcept {
+  double largest = 0.0;
+  for (const NodeTarget& target : nodes) {
+    if (is_node(table, target)) largest = larger(largest, target.weight);
+  }
+  return largest;
+}
+
+void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, const NullSpace& space,
+               ShapeModel& model) noexcept {
+  for (const NodeTarget& target : nodes) {
+    if (!is_node(table, target) || !(target.weight > 0.0)) continue;
+    const Vec3 towards = towards_target(arm, target);
+    const double distance = std::sqrt(dot(towards, towards));
+    if (!(distance > target.threshold_m) || distance < 1e-9) continue;
+    Pull pull;
+    pull.weight = target.weight;
+    pull.excess_m = distance - target.threshold_m;
+    pull.distance_m = distance;
+    pull.towards = scale(towards, 1.0 / distance);
+    pull.columns = 2 * target.node;
+    const Vec3 lever = subtract(arm.node_in_base[static_cast<Index>(target.node)].position_m, arm.tip_in_base.position_m);
+    for (Index k = 0; k < static_cast<Index>(pull.columns); ++k)
+      pull.column[k] = add(arm.tip_jacobian.linear[k], cross(arm.tip_jacobian.angular[k], lever));
+    add_pull(space, pull, model);
+  }
+}
+
 ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, std::uint32_t held_mask, bool braking,
                        const ThetaVector& theta_rad, ThetaVector& rate_rad_s) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
-  std::uint32_t fixed = held_mask;
-  NullSpace space;
-  ThetaVector wanted{};
-  // Thetas that stand on their limit and are pushed outwards take no part; the second pass is for them.
-  for (std::int32_t pass = 0; pass < 2; ++pass) {
-    space = null_space(arm.tip_jacobian, table.theta_count(), fixed);
-    if (!braking) wanted = shape_velocity(table, arm, space, held_mask, nodes, theta_rad);
-    for (Index k = 0; k < n; ++k) {
-      const double room = limit_of(table, k) - (wanted[k] > 0.0 ? theta_rad[k] : -theta_rad[k]);
-      if (wanted[k] != 0.0 && room < 1e-9) fixed |= 1u << k;
-    }
-    if (fixed == held_mask) break;
-  }
-  scale_to(kShapeShare * table.limits.theta_rate_rad_s, n, wanted);
+  const NullSpace space = null_space(arm.tip_jacobian, table.theta_count(), held_mask);
+  const Stand stand{table, theta_rad, space, least_room_rad(table, theta_rad)};
   ThetaVector change{};
+  if (!braking) change = wanted_rate(stand, arm, nodes, held_mask);
   // Braking has to end: straight down to zero, without the smoothing's tail.
   const double share = braking ? 1.0 : smaller(1.0, table.tick_s / kShapeSmoothing_s);
-  for (Index k = 0; k < n; ++k) change[k] = (wanted[k] - rate_rad_s[k]) * share;
-  scale_to(kShapeAccelShare * table.limits.theta_accel_rad_s2 * table.tick_s, n, change);
-  for (Index k = 0; k < n; ++k) rate_rad_s[k] += change[k];
-  rate_rad_s = project(space, rate_rad_s);
-
-  double factor = table.tick_s;
-  for (Index k = 0; k < n; ++k) {
-    const double room = limit_of(table, k) - (rate_rad_s[k] > 0.0 ? theta_rad[k] : -theta_rad[k]);
-    const double size = std::fabs(rate_rad_s[k]);
-    if (size * factor > room) factor = room > 0.0 ? room / size : 0.0;
-  }
+  for (Index k = 0; k < n; ++k) change[k] = (change[k] - rate_rad_s[k]) * share;
+  const double accel = kShapeAccelShare * table.limits.theta_accel_rad_s2 * table.tick_s, largest = largest_entry(change, n);
+  const double slower = largest > accel ? accel / largest : 1.0;  // one factor for all keeps it in the null space
+  for (Index k = 0; k < n; ++k) change[k] = rate_rad_s[k] + slower * change[k];
+  NullPoint rate;
+  rate.z = coordinates(space, change);
+  rate.theta_rad = combine(space, rate.z);
+  bound_rate(stand, unit_factor(space), kLastMoment_s, largest_entry(rate.theta_rad, n), rate);
   ThetaVector move{};
-  for (Index k = 0; k < n; ++k) move[k] = rate_rad_s[k] * factor;
+  for (Index k = 0; k < n; ++k) {
+    rate_rad_s[k] = rate.theta_rad[k];
+    move[k] = rate.theta_rad[k] * table.tick_s;
+  }
   return move;
 }
 

@@ -1,39 +1,31 @@
-// Shape: what the arm does with the freedom that the tip leaves (mission figure A6, requirements A42-A45).
+// Shape: what the arm does with the freedom that the tip leaves (mission figure A6, requirements A42-A45). Method and figures:
+// docs/shape.md.
 //
-// Null-space velocity = N (nodes) + N (centring), N the true projector onto the null space of the tip Jacobian over the free thetas: an
-// orthonormal basis of J's rows, not a damped inverse, so that |J dtheta| <= 1e-9 |dtheta|.
-// Nodes: steepest descent of sum lambda_j d_j, its length chosen so that the sum decays with kNodeRate; near an unreachable minimum it
-// fades out. Centring: -theta, with kLeadWeight on the pitch of the segment next to enter a planar part (the first free one before held
-// pitches): it has to come into the plane before it reaches the slit. Without centring the arm's middle drifts into the panel.
+// Each tick takes the step that would bring the nodes to their targets at once, or as near as a quadratic model says (shape_model.hpp), in
+// the null space of the tip, over kShapeTime_s. Its fixed point is a minimum of sum lambda_j d_j. What the nodes leave free is
+// drawn to the middle of the joints (centring), with kLeadWeight on the pitch of the segment next to enter a planar part (the first free
+// one before held pitches): it has to come into the plane before it reaches the slit. Joint limits are bounds of the same problem.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
 #include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/motion/shape_model.hpp"
 #include "firmware_like/telecommand.hpp"
 
 namespace liana {
 
-constexpr double kNodeRate_1_s = 1.0;
-constexpr double kNodeFade_m_rad = 0.2;  // descent fades where a null-space radian brings less than this
-constexpr double kCentringRate_1_s = 0.2;
+constexpr double kShapeTime_s = 1.0;       // in which distances would fall to 1 / e without rate limits
+constexpr double kCentringRate_1_s = 0.2;  // of every theta, where no node target is given
+constexpr double kCentringShare = 0.02;    // m2/rad2 times the largest node weight: centring beside node targets
 constexpr double kLeadWeight = 15.0;       // found good from 10 to 20 for the slit, for one and two planar segments
 constexpr double kShapeShare = 0.35;       // of the theta rate limit
 constexpr double kShapeAccelShare = 0.1;   // of the theta acceleration limit: the shape moves most of the arm's mass
 constexpr double kShapeSmoothing_s = 0.5;  // how the shape velocity follows what is wanted
+constexpr double kLimitApproach_s = 2.0;   // room to a limit over this bounds the wanted rate: 4 kShapeSmoothing_s, no overshoot
 
 using NodeTargets = std::array<NodeTarget, kMaxNodeTargets>;
-
-// Projector onto the null space of the tip Jacobian over free thetas.
-struct NullSpace {
-  std::array<ThetaVector, 6> row{};  // orthonormal rows
-  std::int32_t rank = 0;
-  std::uint32_t fixed = 0;  // bit i: theta i does not move
-  std::int32_t theta_count = 0;
-};
-NullSpace null_space(const Jacobian& J, std::int32_t theta_count, std::uint32_t fixed) noexcept;
-ThetaVector project(const NullSpace& space, const ThetaVector& v) noexcept;
 
 // sum lambda_j d_j [m] over the nodes farther away than their thresholds, and its negative gradient by theta.
 struct NodeCost {
@@ -42,9 +34,19 @@ struct NodeCost {
 };
 NodeCost node_cost(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept;
 
+// Sum of weight times excess over the threshold [m]: what add_nodes works on; with thresholds of zero the same as sum_m.
+double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept;
+
+// Largest weight of a node target; 0 when there is none.
+double largest_weight(const RobotTable& table, const NodeTargets& nodes) noexcept;
+
+// Adds what the nodes want at `arm` to a model. A node within its threshold wants nothing; one outside wants to come back within.
+void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, const NullSpace& space,
+               ShapeModel& model) noexcept;
+
 // Shape motion of one tick [rad] at theta, whose kinematics are `arm`: within joint limits, at most kShapeShare of the rate limit, held
-// thetas still. `rate_rad_s` is the shape velocity kept between ticks: it follows what is wanted (zero while braking) smoothly, so that a
-// new target never jerks the arm.
+// thetas still, |J move| <= 1e-9 |move|. `rate_rad_s` is the shape velocity kept between ticks: it follows what is wanted (zero while
+// braking) smoothly, so that a new target never jerks the arm.
 ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, std::uint32_t held_mask, bool braking,
                        const ThetaVector& theta_rad, ThetaVector& rate_rad_s) noexcept;
 
