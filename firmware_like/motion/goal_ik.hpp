@@ -18,7 +18,7 @@ constexpr std::int32_t kGoalIterations = 10;      // per attempt, more only whil
 constexpr std::int32_t kGoalMostIterations = 30;  // per attempt
 constexpr std::int32_t kGoalSeeds = 32;           // poses that an attempt chooses from
 constexpr std::int32_t kGoalShapeSteps = 100;     // towards node targets, after the tip has been reached
-constexpr std::int32_t kGoalShapeStarts = 8;      // solutions whose shape is improved
+constexpr std::int32_t kGoalShapeStarts = 24;     // solutions whose shape is improved
 constexpr double kGoalTolerance = 1e-7;           // m and rad; half a decade inside what is promised (1e-6)
 
 struct GoalIkProblem {
