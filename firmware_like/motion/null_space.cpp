@@ -10,16 +10,6 @@ using Index = std::size_t;
 constexpr Index kRows = 6;
 constexpr double kDependent_m_rad = 1e-10;  // below this a row adds nothing that the tip could feel
 
-inline double product(const double* a, const double* b, Index from, Index to) noexcept {
-  Pair sum{};
-  for (Index i = from; i < to; i += 2) sum += load_pair(a + i) * load_pair(b + i);
-  return sum[0] + sum[1];
-}
-
-inline void add_scaled(double s, const double* x, Index from, Index to, double* y) noexcept {
-  for (Index i = from; i < to; i += 2) store_pair(load_pair(y + i) + both(s) * load_pair(x + i), y + i);
-}
-
 // I - scale v v^T; v is zero before `from`, which is even.
 struct Reflection {
   const double* v;
@@ -28,7 +18,9 @@ struct Reflection {
 };
 
 inline void reflect(const Reflection& r, Index to, double* x) noexcept {
-  add_scaled(-r.scale * product(r.v, x, r.from, to), r.v, r.from, to, x);
+  const Index pairs = (to - r.from) / 2;
+  const double* const v = r.v + r.from;
+  add_scaled_pairs(-r.scale * dot_pairs(v, x + r.from, pairs), v, x + r.from, pairs);
 }
 
 // The rows of J over free thetas, one after the other, and which thetas these are.
@@ -59,7 +51,7 @@ Index reflections_of(FreeRows& free, Index to, std::array<Reflection, kRows>& re
     double* const v = free.row[r].data();
     const Index from = rank & ~Index{1};
     if (rank > from) v[from] = 0.0;
-    const double length = std::sqrt(product(v, v, from, to));
+    const double length = std::sqrt(dot_pairs(v + from, v + from, (to - from) / 2));
     if (!(length > kDependent_m_rad)) continue;
     const double pivot = v[rank];
     v[rank] = pivot < 0.0 ? pivot - length : pivot + length;
@@ -147,8 +139,8 @@ ThetaVector combine(const NullSpace& space, const NullVector& z) noexcept {
   for (Index b = 0; b < static_cast<Index>(space.blocks()); ++b) {
     const Pair low = load_pair(&z[4 * b]), high = load_pair(&z[4 * b + 2]);
     for (Index k = 0; k < static_cast<Index>(space.theta_count); ++k) {
-      const Pair sum = low * space.block[b][k].low + high * space.block[b][k].high;
-      v[k] += sum[0] + sum[1];
+      const Pair share = low * space.block[b][k].low + high * space.block[b][k].high;
+      v[k] += sum(share);
     }
   }
   return v;
