@@ -110,9 +110,10 @@ void add_tools(CLI::App& app, Action& action, liana::ReplayOptions& replay, lian
   app.add_subcommand("help", "this text, or `liana help COMMAND`");
 }
 
-// `--hold= --json` must not read `--json` as the value of --hold.
+// `--hold= --json` must not read `--json` as the value of --hold, and an unset shell variable must not mean "everything" or "nothing".
 void check_values(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
+    if (word.empty()) throw liana::BadInput("an argument is empty (''); give a value, or leave the option out");
     if (word.starts_with("--") && word.ends_with('='))
       throw liana::BadInput(word + ": no value after =; give one, or leave the option out");
   }

@@ -46,7 +46,7 @@ json known_steps(const json& mission, const ReportSources& sources) {
   for (std::size_t i = 0; i < sources.announced.size(); ++i) {
     const AnnouncedStep& step = sources.announced[i];
     const bool last = i + 1 == sources.announced.size();
-    const std::uint64_t end = last ? sources.states.back().tick : sources.announced[i + 1].start_tick;
+    const std::uint64_t end = last ? step.last_tick : sources.announced[i + 1].start_tick;
     steps.push_back({{"name", step.name},
                      {"device", step.device},
                      {"outcome", last ? "failed" : "success"},

@@ -22,6 +22,7 @@ struct AnnouncedStep {
   int index = 0;
   std::string name, device;
   std::uint64_t start_tick = 0;
+  std::uint64_t last_tick = 0;  // the last at which the mission was seen to own motion in this step
 };
 
 // Everything a report is made of. Files that do not exist leave their keys out.

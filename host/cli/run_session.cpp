@@ -129,7 +129,9 @@ RunEnd RunSession::conclusion() {
 // A mission runner that ended by itself has written its report; one that was killed has not.
 RunEnd RunSession::end_of_mission(const ChildEnd& end) {
   if (end.signal == 0 && fs::exists(plan_.file("mission.json"))) return {};
-  return {"failed", "the mission runner " + how(end) + "; the arm held\n" + mission_->last_lines(kShownLines), end.code == 2};
+  return {"failed",
+          "the mission runner " + how(end) + "; lianad holds the arm when the owner of motion dies\n" + mission_->last_lines(kShownLines),
+          end.code == 2};
 }
 
 // Of the programs beside the mission runner that have ended the one that ended worst: killed, failed or, unless `failed_only`, in order.
@@ -195,8 +197,12 @@ void RunSession::keep(const json& state) {
   last_state_ = state;
   const json step = state.value("step", json());
   const int index = step.is_object() ? step.value("index", 0) : 0;
-  if (index == 0 || (!announced_.empty() && announced_.back().index == index)) return;
-  announced_.push_back({index, step.value("name", ""), step.value("device", ""), states_.back().tick});
+  if (index == 0 || state.value("owner", "").empty()) return;
+  const std::uint64_t tick = states_.back().tick;
+  if (announced_.empty() || announced_.back().index != index) {
+    announced_.push_back({index, step.value("name", ""), step.value("device", ""), tick, tick});
+  }
+  announced_.back().last_tick = tick;
 }
 
 void RunSession::request(const json& message) {

@@ -235,7 +235,8 @@ local function stopped(runner)
   if runner.phase == "boot" or state.state == "ENABLED" then return false end
   local outcome = #state.faults > 0 and "failed" or "aborted"
   local reason = ("the arm is %s (stop category %s), faults: %s"):format(state.state, state.stop_category, runner:fault_names())
-  if state.stop then reason = stop_text(state.stop) .. ": " .. reason end
+  local stop = state.stop and stop_text(state.stop)
+  if stop and not (runner.failed_reason or ""):find(stop, 1, true) then reason = stop .. ": " .. reason end
   if runner.failed_reason then reason = runner.failed_reason .. "; " .. reason end
   if runner.record and runner.record.outcome == "running" then runner:close_record(outcome, reason) end
   runner:over(runner.failed_outcome or outcome, reason)

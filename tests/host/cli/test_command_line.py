@@ -158,6 +158,12 @@ class Help(unittest.TestCase):
         for command in ["run", "pose", "ik", "reach", "status", "estop", "replay", "robot", "doctor", "completion"]:
             self.assertIn(f"\n  {command} ", out)
 
+    def test_an_empty_argument_is_never_taken_for_a_missing_one(self):
+        for words in (["estop", "--api", ""], ["run", "slit_crossing", "--record", ""], ["run", "slit_crossing", "--json", ""], ["replay", ""]):
+            code, out, error = liana(*words)
+            self.assertEqual((code, out), (2, ""), words)
+            self.assertIn("an argument is empty", error)
+
     def test_a_command_that_does_not_exist_is_named_and_those_that_exist_are_listed(self):
         for words, named in [(["nosuch"], "'nosuch'"), (["help", "nosuch"], "'nosuch'"), ([], "no command"), (["robot", "dance"], "'robot dance'")]:
             code, out, error = liana(*words)
