@@ -42,6 +42,25 @@ struct ReachOptions {
 // Where the tip or a node can go, or how well the arm is conditioned along a path.
 int reach_command(const ReachOptions& options);
 
+struct PlanOptions {
+  std::string robot = "zhu2022";
+  std::string scene = "panel_slit";  // "none": nothing in the way
+  std::string from_deg;
+  std::string to_deg;                       // either this
+  std::string tip;                          // or this
+  std::string hold;                         // empty: nothing is held
+  std::string planar;                       // empty: no planar phases
+  std::vector<std::string> control_points;  // in order
+  int waypoints = 20;
+  double margin_m = 0.005;
+  double max_step_deg = 0.0;  // 0: the planner's default
+  int max_iterations = 300;
+  std::string out_file;  // empty: the plan is only printed
+  bool json = false;
+};
+// The offline planner; exit code 3 when there is no plan, 130 when it was interrupted.
+int plan_command(const PlanOptions& options);
+
 struct RunOptions {
   std::string mission;
   std::string robot = "zhu2022";

@@ -6,7 +6,7 @@
 namespace liana {
 
 // Exit codes of `liana`; the same for every command.
-enum ExitCode : int { kExitOk = 0, kExitFailure = 1, kExitBadInput = 2, kExitNotConverged = 3 };
+enum ExitCode : int { kExitOk = 0, kExitFailure = 1, kExitBadInput = 2, kExitNotConverged = 3, kExitInterrupted = 130 };
 
 // What the user gave cannot be used: the message says what, the value, what is allowed and what to do. Ends with exit code 2.
 struct BadInput : std::runtime_error {

@@ -15,7 +15,8 @@ using liana::ExitCode;
 using Action = std::function<int()>;
 
 constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 failed, 2 bad input (one message on standard error), 3 inverse kinematics did not converge.\n"
+    "Exit codes: 0 done, 1 failed, 2 bad input (one message on standard error), 3 inverse kinematics did not converge or there is no "
+    "plan,\n130 interrupted.\n"
     "Angles are degrees where the option says deg, lengths metres, poses in the base frame.";
 
 // Adds a subcommand and remembers what to do when it is chosen.
@@ -57,6 +58,30 @@ void add_reach(CLI::App& app, Action& action, liana::ReachOptions& reach) {
   sub->add_option("--seed", reach.seed, "of the poses drawn")->check(CLI::NonNegativeNumber)->capture_default_str();
   sub->add_option("--svg", reach.svg_file, "write the picture to this file");
   sub->add_flag("--json", reach.json, "print JSON");
+}
+
+void add_plan(CLI::App& app, Action& action, liana::PlanOptions& plan) {
+  CLI::App* sub =
+      add(app, action, "plan", "joint angles or a tip pose reached past the scene (offline planner)", plan, liana::plan_command);
+  sub->add_option("--robot", plan.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  sub->add_option("--scene", plan.scene, "scene table: a name under lua/scenes, a file, or none")->capture_default_str();
+  sub->add_option("--from-deg", plan.from_deg, "joint angles to start from")->required();
+  sub->add_option("--to-deg", plan.to_deg, "goal as joint angles");
+  sub->add_option("--tip", plan.tip, "goal as tip pose x,y,z,qw,qx,qy,qz");
+  sub->add_option(
+      "--hold", plan.hold,
+      "joint angles held, e.g. 7,9 or 7=0.5,9 (deg); one with another value than at the start is there after a third of the way");
+  sub->add_option("--planar", plan.planar, "segments whose pitch is 0 from a share of the way on, e.g. 5@0.4,4@0.7");
+  sub->add_option("--control-point", plan.control_points, "node target NODE:x,y,z:WEIGHT; may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  sub->add_option("--waypoints", plan.waypoints, "waypoints with both ends; 1: only the end pose")->capture_default_str();
+  sub->add_option("--margin", plan.margin_m, "least clearance of every link from every obstacle, m")->capture_default_str();
+  sub->add_option("--max-step-deg", plan.max_step_deg,
+                  "most that an angle changes between waypoints; 80 / (waypoints - 1) where not given");
+  sub->add_option("--iterations", plan.max_iterations, "of the solver in each round")->capture_default_str();
+  sub->add_option("--out", plan.out_file, "keep the plan with its inputs in this file, JSON");
+  sub->add_flag("--json", plan.json, "print JSON");
 }
 
 void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
@@ -166,6 +191,7 @@ int main(int argc, char** argv) {
   liana::PoseOptions pose;
   liana::IkOptions ik;
   liana::ReachOptions reach;
+  liana::PlanOptions plan;
   liana::RunOptions run;
   liana::ClientOptions client;
   liana::ReplayOptions replay;
@@ -174,6 +200,7 @@ int main(int argc, char** argv) {
   std::string shell = "bash";
   add_kinematics(app, action, pose, ik);
   add_reach(app, action, reach);
+  add_plan(app, action, plan);
   add_run(app, action, run);
   add_client(app, action, "status", "state of every running system", client, liana::status_command);
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client, liana::estop_command);

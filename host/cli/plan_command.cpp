@@ -1,0 +1,237 @@
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "host/cli/arguments.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/errors.hpp"
+#include "host/cli/tables.hpp"
+#include "host/plan/plan.hpp"
+
+namespace liana {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kTransitionShare = 1.0 / 3.0;  // of the way, in which a held angle with another value than the start's gets there
+
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+void interrupt(int) { interrupted = true; }
+
+SceneConfig scene_of(const std::string& name) {
+  if (name == "none") {
+    SceneConfig scene;
+    scene.name = scene.canonical_json = "none";
+    return scene;
+  }
+  const std::string text = evaluate_table("scene", name);
+  return checked([&] { return parse_scene(text, name); });
+}
+
+void add_phase(const HeldPhase& phase, const PlanOptions& options, PlanRequest& request) {
+  for (const HeldPhase& other : request.held) {
+    if (other.theta == phase.theta)
+      throw BadInput("--planar: '" + options.planar + "': allowed: angles that --hold and --planar name once");
+  }
+  request.held.push_back(phase);
+}
+
+void read_hold(const PlanOptions& options, PlanRequest& request) {
+  if (options.hold.empty()) return;
+  for (const HoldArgument& held : parse_hold(options.hold, request.robot.table)) {
+    const double at_start = request.from_rad[static_cast<std::size_t>(held.theta - 1)];
+    const double value = held.has_value ? held.value_deg * kDegree : at_start;
+    add_phase({held.theta - 1, value, std::fabs(value - at_start) < 1e-12 ? 0.0 : kTransitionShare}, options, request);
+  }
+}
+
+// SEGMENT@SHARE,... : the segment's pitch is 0 from that share of the way on.
+void read_planar(const PlanOptions& options, PlanRequest& request) {
+  std::string_view rest = options.planar;
+  while (!rest.empty()) {
+    const std::size_t comma = std::min(rest.find(','), rest.size());
+    const std::string_view part = rest.substr(0, comma);
+    rest.remove_prefix(std::min(comma + 1, rest.size()));
+    const std::size_t at = std::min(part.find('@'), part.size());
+    const double segment = parse_number("--planar", part.substr(0, at));
+    const double share = at < part.size() ? parse_number("--planar", part.substr(at + 1)) : 0.0;
+    const bool good =
+        segment >= 1 && segment <= request.robot.table.segment_count && segment == std::floor(segment) && share >= 0 && share <= 1;
+    if (!good)
+      throw BadInput("--planar: '" + std::string(part) + "': allowed: SEGMENT@SHARE, a segment of the robot and a share from 0 to 1");
+    add_phase({2 * static_cast<std::int32_t>(segment) - 2, 0.0, share}, options, request);
+  }
+}
+
+// The end of a held angle must be the goal's.
+void check_held_goal(const PlanRequest& request) {
+  for (const HeldPhase& phase : request.held) {
+    const auto k = static_cast<std::size_t>(phase.theta);
+    const std::string name = "theta " + std::to_string(phase.theta + 1);
+    if (request.to_rad && std::fabs((*request.to_rad)[k] - phase.value_rad) > 1e-12) {
+      throw BadInput("--to-deg: " + name + " is " + std::to_string((*request.to_rad)[k] / kDegree) +
+                     ": allowed: the value at which it is held, " + std::to_string(phase.value_rad / kDegree));
+    }
+    if (phase.from_share == 0.0 && std::fabs(request.from_rad[k] - phase.value_rad) > 1e-12) {
+      throw BadInput("--planar: " + name + " is " + std::to_string(request.from_rad[k] / kDegree) +
+                     " at the start: allowed: a share over 0, in which it can reach 0");
+    }
+  }
+}
+
+void read_goal(const PlanOptions& options, PlanRequest& request) {
+  if (options.to_deg.empty() == options.tip.empty()) throw BadInput("--to-deg, --tip: allowed: exactly one of them");
+  if (!options.to_deg.empty()) request.to_rad = parse_theta_deg("--to-deg", options.to_deg, request.robot.table);
+  if (!options.tip.empty()) request.tip_in_base = parse_pose("--tip", options.tip);
+  if (request.tip_in_base) request.tip_in_base->quaternion = normalize(request.tip_in_base->quaternion);
+}
+
+void read_sizes(const PlanOptions& options, PlanRequest& request) {
+  const auto refuse = [](const char* option, double value, const char* allowed) {
+    throw BadInput(std::string(option) + ": " + std::to_string(value) + ": allowed: " + allowed);
+  };
+  const bool alone = options.waypoints == 1 && request.tip_in_base;
+  if (!alone && (options.waypoints < 2 || options.waypoints > kMaxWaypoints)) {
+    refuse("--waypoints", options.waypoints, "2 to 100, or 1 with --tip for the end pose alone");
+  }
+  if (!(options.margin_m >= 0.0 && options.margin_m <= 0.5)) refuse("--margin", options.margin_m, "0 to 0.5 m");
+  if (!(options.max_step_deg >= 0.0 && options.max_step_deg <= 180.0)) refuse("--max-step-deg", options.max_step_deg, "over 0, up to 180");
+  if (options.max_iterations < 1 || options.max_iterations > 100000) refuse("--iterations", options.max_iterations, "1 to 100000");
+  request.waypoints = options.waypoints;
+  request.margin_m = options.margin_m;
+  request.max_step_rad =
+      options.max_step_deg > 0.0 ? options.max_step_deg * kDegree : default_max_step_rad(request.robot.table, request.waypoints);
+}
+
+void read_control_points(const PlanOptions& options, PlanRequest& request) {
+  if (options.control_points.size() > kMaxControlPoints) {
+    throw BadInput("--control-point: " + std::to_string(options.control_points.size()) + " given: allowed: at most " +
+                   std::to_string(kMaxControlPoints));
+  }
+  for (const std::string& text : options.control_points) {
+    const ControlPointArgument point = parse_control_point(text, request.robot.table);
+    request.control_points.push_back({point.node, point.position_m, point.weight});
+  }
+}
+
+PlanRequest request_of(const PlanOptions& options) {
+  PlanRequest request;
+  request.robot = robot_for_kinematics(options.robot);
+  request.scene = scene_of(options.scene);
+  request.from_rad = parse_theta_deg("--from-deg", options.from_deg, request.robot.table);
+  read_goal(options, request);
+  read_hold(options, request);
+  read_planar(options, request);
+  check_held_goal(request);
+  read_control_points(options, request);
+  read_sizes(options, request);
+  return request;
+}
+
+json to_json(const PlanRequest& request, const PlanResult& result, double time_s) {
+  json waypoints = json::array();
+  for (const ThetaVector& theta : result.waypoints_rad) {
+    json row = json::array();
+    for (std::int32_t k = 0; k < request.robot.table.theta_count(); ++k) row.push_back(theta[static_cast<std::size_t>(k)] / kDegree);
+    waypoints.push_back(row);
+  }
+  json answer{{"outcome", name_of(result.outcome)},
+              {"waypoints_deg", waypoints},
+              {"objective", result.objective},
+              {"iterations", result.iterations},
+              {"rounds", result.rounds},
+              {"settled", result.settled},
+              {"time_s", time_s},
+              {"start", result.start},
+              {"checked", nullptr},
+              {"hash", plan_hash(request, result)}};
+  if (result.checked) {
+    const PlanCheck& check = *result.checked;
+    answer["checked"] = {{"min_clearance_m", check.min_clearance_m}, {"nearest", check.nearest},
+                         {"nearest_link", check.nearest_link},       {"max_joint_deg", check.max_joint_deg},
+                         {"max_step_deg", check.max_step_deg},       {"max_cable_step_m", check.max_cable_step_m},
+                         {"tip_error_m", check.tip_error_m},         {"tip_attitude_error_rad", check.tip_attitude_error_rad},
+                         {"min_tension_N", check.min_tension_N},     {"max_tension_N", check.max_tension_N},
+                         {"duration_s", check.duration_s},           {"poses", check.poses}};
+  }
+  if (!result.constraint.empty()) answer["constraint"] = result.constraint;
+  if (!result.reason.empty()) answer["reason"] = result.reason;
+  return answer;
+}
+
+// What the plan was asked for, as it was given.
+json inputs(const PlanOptions& options, const PlanRequest& request) {
+  return {{"robot", json::parse(request.robot.canonical_json)},
+          {"scene", options.scene == "none" ? json("none") : json::parse(request.scene.canonical_json)},
+          {"from_deg", options.from_deg},
+          {"to_deg", options.to_deg},
+          {"tip", options.tip},
+          {"hold", options.hold},
+          {"planar", options.planar},
+          {"control_points", options.control_points},
+          {"waypoints", request.waypoints},
+          {"margin_m", request.margin_m},
+          {"max_step_deg", request.max_step_rad / kDegree}};
+}
+
+void keep(const std::string& path, const json& plan) {
+  std::ofstream file(path, std::ios::binary);
+  file << plan.dump(1) << "\n";
+  if (!file.flush()) throw BadInput("--out: " + path + ": cannot be written; give a file in an existing folder");
+}
+
+void print_text(const json& answer) {
+  std::printf("%s after %d iterations in %.2f s", answer["outcome"].get<std::string>().c_str(), answer["iterations"].get<int>(),
+              answer["time_s"].get<double>());
+  if (answer.contains("reason")) std::printf(": %s", answer["reason"].get<std::string>().c_str());
+  std::printf("\n");
+  for (const json& row : answer["waypoints_deg"]) {
+    for (const json& angle : row) std::printf(" %9.4f", angle.get<double>());
+    std::printf("\n");
+  }
+  if (answer["outcome"] != "solved") return;
+  const json& check = answer["checked"];
+  std::printf("checked: clearance %.1f mm, joints up to %.2f deg, steps up to %.2f deg, tip error %.1e m\n",
+              1000.0 * check["min_clearance_m"].get<double>(), check["max_joint_deg"].get<double>(), check["max_step_deg"].get<double>(),
+              check["tip_error_m"].get<double>());
+}
+
+int exit_code(PlanOutcome outcome) {
+  if (outcome == PlanOutcome::solved) return kExitOk;
+  return outcome == PlanOutcome::cancelled ? kExitInterrupted : kExitNotConverged;
+}
+
+}  // namespace
+
+int plan_command(const PlanOptions& options) {
+  const PlanRequest request = request_of(options);
+  PlanControl control;
+  control.max_iterations = options.max_iterations;
+  control.progress = [](const std::string& line) { std::fprintf(stderr, "plan: %s\n", line.c_str()); };
+  control.cancelled = &interrupted;
+  std::signal(SIGINT, interrupt);
+  const auto begin = std::chrono::steady_clock::now();
+  const PlanResult result = plan(request, control);
+  const double time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  json answer = to_json(request, result, time_s);
+  if (options.json) {
+    std::puts(answer.dump().c_str());
+  } else {
+    print_text(answer);
+  }
+  if (!options.out_file.empty()) {
+    answer["inputs"] = inputs(options, request);
+    keep(options.out_file, answer);
+  }
+  return exit_code(result.outcome);
+}
+
+}  // namespace liana

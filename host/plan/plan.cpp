@@ -1,0 +1,293 @@
+#include "host/plan/plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "firmware_like/math/trig.hpp"
+#include "host/plan/goal_poses.hpp"
+#include "host/plan/ipopt_solver.hpp"
+#include "host/plan/plan_rows.hpp"
+#include "host/plan/relax.hpp"
+#include "host/plan/start_path.hpp"
+
+namespace liana {
+namespace {
+
+using Index = std::size_t;
+
+constexpr std::int32_t kMaxRounds = 12;
+constexpr double kStride_rad = 0.05;      // of every theta in one round: planes made on a path are good near it, and Newton steps too
+constexpr double kInner_m = 0.001;        // the solver keeps this beyond the margin, so that what lies between rows keeps the margin
+constexpr double kRecheck_m = 0.0003;     // rows are added where less than this beyond the margin is left
+constexpr double kStartSpacing_m = 0.01;  // of motion between the poses looked at in a start path
+constexpr double kSettled = 0.01;         // of the objective: what a last round gains at most
+constexpr double kTipTolerance = 1e-6;    // m and rad
+constexpr double kRoundOff = 1e-6;        // relative
+
+template <typename... Values>
+std::string text(const char* format, Values... values) {
+  char buffer[300];
+  std::snprintf(buffer, sizeof buffer, format, values...);
+  return buffer;
+}
+
+void require(bool good, const char* message) {
+  if (!good) throw std::invalid_argument(message);
+}
+
+void validate(const PlanRequest& request) {
+  require(request.waypoints >= 1 && request.waypoints <= kMaxWaypoints, "waypoints: allowed: 1 to 100");
+  require(request.to_rad.has_value() != request.tip_in_base.has_value(), "goal: either joint angles or a tip pose");
+  require(request.waypoints > 1 || request.tip_in_base, "waypoints: 1 is for a tip pose: joint angles leave nothing to find");
+  require(request.margin_m >= 0.0 && request.margin_m <= 1.0, "margin: allowed: 0 to 1 m");
+  require(request.max_step_rad > 0.0, "max step: allowed: over 0");
+  require(request.control_points.size() <= kMaxControlPoints, "control points: at most 4");
+}
+
+// Where the arm is nearest, as one clause.
+std::string nearest_text(const Room& room, double clearance_m, std::int32_t link, std::int32_t obstacle) {
+  const char* name = obstacle_name(room.scene(), obstacle).c_str();
+  if (clearance_m < 0.0) return text("link %d is %.1f mm inside '%s'", static_cast<int>(link) + 1, -1000.0 * clearance_m, name);
+  return text("link %d is %.1f mm from '%s'", static_cast<int>(link) + 1, 1000.0 * clearance_m, name);
+}
+
+class Planner {
+ public:
+  Planner(const PlanRequest& request, const PlanControl& control)
+      : request_(request), control_(control), room_(request.robot, request.scene) {}
+
+  PlanResult run() {
+    if (!pose_is_free(request_.from_rad, "start")) return result_;
+    const Path goals = goals_or_none();
+    if (goals.empty()) return result_;
+    for (const ThetaVector& goal : goals) {
+      if (search(goal)) return result_;
+    }
+    if (result_.constraint.empty())
+      fail(PlanOutcome::limit, "path", "no free way was found; try more waypoints, a smaller margin or a control point");
+    return result_;
+  }
+
+ private:
+  bool cancelled() const { return control_.cancelled != nullptr && control_.cancelled->load(); }
+  void tell(const std::string& line) const {
+    if (control_.progress) control_.progress(line);
+  }
+
+  bool fail(PlanOutcome outcome, const char* constraint, const std::string& reason) {
+    result_.outcome = outcome;
+    result_.constraint = constraint;
+    result_.reason = reason;
+    result_.waypoints_rad.clear();
+    return false;
+  }
+
+  bool pose_is_free(const ThetaVector& theta, const char* which) {
+    const ArmClearance here = room_.look(theta);
+    if (here.nearest.distance_m >= request_.margin_m) return true;
+    return fail(PlanOutcome::infeasible, which,
+                text("at the %s %s; the margin is %.1f mm", which,
+                     nearest_text(room_, here.nearest.distance_m, here.link, here.obstacle).c_str(), 1000.0 * request_.margin_m));
+  }
+
+  Path goals_or_none() {
+    if (request_.to_rad) {
+      if (!pose_is_free(*request_.to_rad, "goal") || !steps_suffice(*request_.to_rad)) return {};
+      return {*request_.to_rad};
+    }
+    tell("looking for joint angles of the tip pose");
+    const GoalPoses poses = goal_poses(room_, request_);
+    if (!poses.reachable) {
+      fail(PlanOutcome::infeasible, "tip", "no joint angles within the limits bring the tip there");
+    } else if (poses.theta_rad.empty()) {
+      pose_is_free(poses.nearest_rad, "goal");
+    }
+    return poses.theta_rad;
+  }
+
+  bool steps_suffice(const ThetaVector& goal) {
+    for (Index k = 0; k < goal.size(); ++k) {
+      const double way = std::fabs(goal[k] - request_.from_rad[k]), most = request_.max_step_rad * (request_.waypoints - 1);
+      if (way <= most * (1.0 + kRoundOff)) continue;
+      return fail(PlanOutcome::infeasible, "step",
+                  text("theta %d has %.2f deg to go, %d waypoints with steps of %.2f deg allow %.2f deg", static_cast<int>(k) + 1,
+                       way / kDegree, static_cast<int>(request_.waypoints), request_.max_step_rad / kDegree, most / kDegree));
+    }
+    return true;
+  }
+
+  // Tries the start paths in order; true when the search is over (solved or cancelled).
+  bool search(const ThetaVector& goal) {
+    const PathEnds ends{request_.from_rad, goal};
+    if (control_.straight_start_only || request_.waypoints <= 2) return improve(straight_path(request_, ends), "straight");
+    Path best;
+    double best_m = -kNoObstacle_m;
+    for (const StartKind kind : kStartKinds) {
+      const Path path = start_path(room_, request_, ends, kind, control_);
+      if (cancelled()) return !fail(PlanOutcome::cancelled, "", "cancelled");
+      if (path.empty()) continue;
+      const PathLook look = look_along(room_, path, kStartSpacing_m);
+      tell(text("start %s: clearance %.1f mm", name_of(kind), 1000.0 * look.distance_m));
+      if (look.distance_m >= request_.margin_m && improve(path, name_of(kind))) return true;
+      if (look.distance_m < request_.margin_m && look.distance_m > best_m) best = path, best_m = look.distance_m;
+    }
+    return !best.empty() && improve(best, "nearest to free");  // no start was free or led anywhere
+  }
+
+  // Solves in rounds, each from the best free path so far with constraints made there; true when the search is over.
+  bool improve(Path path, const char* start) {
+    result_.start = start;
+    result_.settled = false;
+    bool free = is_free(path);
+    std::vector<RowSite> sites;  // where earlier solutions came too near
+    for (std::int32_t round = 0; round < kMaxRounds && !result_.settled; ++round) {
+      PlanProblem problem(request_, path, rows_near(room_, request_, path, sites), request_.margin_m + kInner_m, kStride_rad);
+      const double before = problem.objective(problem.start().data());
+      const Solution solution = solve_one(problem);
+      const Path found = within_limits(problem.path_of(solution.x.data()));
+      if (solution.status == SolveStatus::cancelled) return !fail(PlanOutcome::cancelled, "", "cancelled");
+      const bool holds = solution.worst_constraint < 0 && steps_hold(request_, found);
+      if (!holds && !free) return unsolved(problem, solution);
+      const std::vector<RowSite> below = sites_below(room_, request_, found, request_.margin_m + kRecheck_m);
+      sites.insert(sites.end(), below.begin(), below.end());
+      if (holds && below.empty()) {
+        result_.settled = free && solution.status == SolveStatus::solved && solution.objective > (1.0 - kSettled) * before;
+        path = found;
+        free = true;
+      } else {
+        path = free ? part_of_the_way(path, found) : found;
+      }
+    }
+    return accept(path);
+  }
+
+  bool is_free(const Path& path) const {
+    return sites_below(room_, request_, path, request_.margin_m).empty() && steps_hold(request_, path);
+  }
+
+  // As far towards a solution that is not free as the way stays free; the last waypoint keeps its tip.
+  Path part_of_the_way(const Path& path, const Path& found) const {
+    for (double share = 0.5; share > 0.02; share *= 0.5) {
+      Path part = path;
+      for (Index w = 0; w + 1 < path.size(); ++w) part[w] = between(path[w], found[w], share);
+      if (is_free(part)) return part;
+    }
+    return path;
+  }
+
+  Solution solve_one(PlanProblem& problem) {
+    Solution solution;
+    ++result_.rounds;
+    if (problem.variables() == 0) {
+      solution.status = SolveStatus::solved;
+      solution.x = {0.0};
+      solution.objective = problem.objective(solution.x.data());
+      return solution;
+    }
+    tell(text("round %d: %d variables, %d constraints", static_cast<int>(result_.rounds), static_cast<int>(problem.variables()),
+              static_cast<int>(problem.constraints())));
+    solution = solve(problem, control_);
+    result_.iterations += solution.iterations;
+    return solution;
+  }
+
+  bool unsolved(const PlanProblem& problem, const Solution& solution) {
+    const PlanOutcome outcome = solution.status == SolveStatus::infeasible ? PlanOutcome::infeasible : PlanOutcome::limit;
+    if (solution.worst_constraint < 0) return fail(outcome, "iterations", "the solver ended without an optimum, all constraints holding");
+    return fail(outcome, problem.constraint_kind(solution.worst_constraint),
+                text("the solver ended with a %s constraint violated by %.2g", problem.constraint_kind(solution.worst_constraint),
+                     solution.worst_violation));
+  }
+
+  // The solver lets variables pass their bounds by 1e-8.
+  Path within_limits(Path path) const {
+    for (ThetaVector& theta : path) {
+      for (Index k = 0; k < Index(room_.table().theta_count()); ++k) {
+        const double limit = room_.table().segment[k / 2].theta_limit_rad;
+        theta[k] = std::clamp(theta[k], -limit, limit);
+      }
+    }
+    return path;
+  }
+
+  CheckedTip goal_tip(const Path& path) const {
+    if (request_.tip_in_base) return {request_.tip_in_base->position_m, request_.tip_in_base->quaternion};
+    return plain_tip(room_.table(), request_.to_rad.value_or(path.back()));
+  }
+
+  double objective(const Path& path) const {
+    PlanProblem problem(request_, path, {}, 0.0, 0.0);
+    return problem.objective(problem.start().data());
+  }
+
+  // The independent check decides.
+  bool accept(const Path& path) {
+    const Path whole = request_.waypoints == 1 ? Path{path.back()} : path;
+    const PlanCheck check = check_plan(request_.robot, request_.scene, whole, goal_tip(path));
+    result_.checked = check;
+    result_.objective = objective(path);
+    const TensionLimits& tension = room_.table().tension;
+    if (check.min_clearance_m < request_.margin_m) {
+      return fail(PlanOutcome::limit, "clearance",
+                  text("the path found comes within %.2f mm of '%s' at link %d", 1000.0 * check.min_clearance_m, check.nearest.c_str(),
+                       static_cast<int>(check.nearest_link)));
+    }
+    if (check.over_limit_deg > 0.0)
+      return fail(PlanOutcome::limit, "limits", text("a theta is %.2g deg over its limit", check.over_limit_deg));
+    if (check.max_step_deg * kDegree > request_.max_step_rad * (1.0 + kRoundOff)) {
+      return fail(PlanOutcome::limit, "step", text("a step of %.3f deg", check.max_step_deg));
+    }
+    if (check.max_cable_step_m > request_.max_cable_step_m() * (1.0 + kRoundOff)) {
+      return fail(PlanOutcome::limit, "cable", text("a cable changes by %.1f mm in a step", 1000.0 * check.max_cable_step_m));
+    }
+    if (check.tip_error_m > kTipTolerance || check.tip_attitude_error_rad > kTipTolerance) {
+      return fail(PlanOutcome::limit, "tip", text("the tip ends %.2g m and %.2g rad off", check.tip_error_m, check.tip_attitude_error_rad));
+    }
+    if (check.min_tension_N < tension.floor_motor_N || check.max_tension_N > tension.ceiling_free_N) {
+      return fail(PlanOutcome::infeasible, "tension",
+                  text("cables would be pulled with %.0f to %.0f N; allowed are %.0f to %.0f N", check.min_tension_N, check.max_tension_N,
+                       tension.floor_motor_N, tension.ceiling_free_N));
+    }
+    result_.outcome = PlanOutcome::solved;
+    result_.waypoints_rad = whole;
+    result_.constraint.clear();
+    result_.reason.clear();
+    return true;
+  }
+
+  const PlanRequest& request_;
+  const PlanControl& control_;
+  Room room_;
+  PlanResult result_;
+};
+
+}  // namespace
+
+double default_max_step_rad(const RobotTable& table, std::int32_t waypoints) {
+  double limit_rad = 0.0;
+  for (Index m = 0; m < Index(table.segment_count); ++m) limit_rad = std::max(limit_rad, table.segment[m].theta_limit_rad);
+  return 4.0 * limit_rad / std::max(1, waypoints - 1);
+}
+
+const char* name_of(PlanOutcome outcome) {
+  switch (outcome) {
+    case PlanOutcome::solved:
+      return "solved";
+    case PlanOutcome::infeasible:
+      return "infeasible";
+    case PlanOutcome::limit:
+      return "limit";
+    case PlanOutcome::cancelled:
+      return "cancelled";
+  }
+  return "";
+}
+
+PlanResult plan(const PlanRequest& request, const PlanControl& control) {
+  validate(request);
+  return Planner(request, control).run();
+}
+
+}  // namespace liana
