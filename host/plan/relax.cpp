@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware_like/math/cholesky.hpp"
 #include "firmware_like/motion/servo_ik.hpp"
 #include "host/plan/arm_derivatives.hpp"
 #include "host/plan/plan_problem.hpp"
@@ -12,7 +11,7 @@ namespace liana {
 namespace {
 
 using Index = std::size_t;
-using Matrix = SquareMatrix<kMaxTheta>;
+using Matrix = ThetaHessian;
 
 constexpr double kPenalty = 2e4;           // 1/m^2
 constexpr double kSampleSpacing_m = 0.05;  // of motion between waypoints
@@ -320,8 +319,9 @@ SettledPose settle(const Room& room, const PoseAim& aim, ThetaVector theta, std:
     const Vec3 x_axis = rotate(arm.tip_in_base.quaternion, {1, 0, 0});
     if (aim.direction_only) turn = cross(x_axis, rotate(aim.tip_in_base.quaternion, {1, 0, 0}));
     PoseModel model = push_model(room, theta, aim.clearance_m, true);
-    Matrix A{};
-    ThetaVector b{};
+    BlockSystem system(1);
+    Matrix& A = system.own.front();
+    ThetaVector& b = system.rhs.front();
     for (Index k = 0; k < n; ++k) {
       const auto turning = [&](Index c) {
         const Vec3& w = arm.tip_jacobian.angular[c];
@@ -341,7 +341,7 @@ SettledPose settle(const Room& room, const PoseAim& aim, ThetaVector theta, std:
       A[k][k] = 1.0;
       b[k] = 0.0;
     }
-    if (!cholesky_solve(A, b, n)) break;
+    if (!solve(system, n)) break;
     for (Index k = 0; k < n; ++k) {
       const double limit = room.table().segment[k / 2].theta_limit_rad;
       theta[k] = std::clamp(theta[k] + std::clamp(b[k], -0.1, 0.1), -limit, limit);
