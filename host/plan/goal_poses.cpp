@@ -82,7 +82,7 @@ bool find_pose(const Room& room, const PlanRequest& request, const GoalIkProblem
 GoalPoses goal_poses(const Room& room, const PlanRequest& request) {
   GoalPoses out;
   std::vector<GoalIkProblem> problems;
-  for (std::int32_t seed = 0; seed < kGoalSeeds; ++seed) {
+  for (std::int32_t seed = 0; seed < kGoalPoseSeeds; ++seed) {
     problems.push_back(ik_problem(request));
     problems.back().from_rad = seed_pose(room.table(), request.from_rad, seed);
   }

@@ -5,7 +5,7 @@
 
 namespace liana {
 
-constexpr std::int32_t kGoalSeeds = 8;
+constexpr std::int32_t kGoalPoseSeeds = 8;
 constexpr std::int32_t kGoalPoses = 3;
 
 struct GoalPoses {
