@@ -7,7 +7,7 @@ local engine = {}
 local kBootLimit_s = 60 -- drives boot, home and enable in this time or the mission fails
 local kSettle_s = 0.1 -- commands need a few intervals before the state shows them
 local kFinishLimit_s = 5
-local kRetractLimit_s = 600 -- the way back may be as long as the way in
+local kRetractLimit_s = 600 -- the way back takes a quarter longer than the way in
 local kRetry_s = 2 -- between attempts that lianad answers with busy or refused
 
 local Runner = {}
