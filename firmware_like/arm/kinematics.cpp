@@ -153,8 +153,7 @@ ArmTrig arm_trig(const RobotTable& table, const ThetaVector& theta_rad) noexcept
   return trig;
 }
 
-ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) noexcept {
-  ArmKinematics out;
+void update_kinematics(const RobotTable& table, const ArmTrig& trig, ArmKinematics& out) noexcept {
   const Index segments = static_cast<Index>(table.segment_count);
   std::array<EndRates, kMaxSegments> end;
   for (Index i = 0; i < segments; ++i) {
@@ -171,6 +170,11 @@ ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) n
   for (Index i = 0; i < segments; ++i) {
     put_columns(end[i], subtract(out.tip_in_base.position_m, out.node_in_base[i + 1].position_m), 2 * i, out.tip_jacobian);
   }
+}
+
+ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) noexcept {
+  ArmKinematics out;
+  update_kinematics(table, trig, out);
   return out;
 }
 

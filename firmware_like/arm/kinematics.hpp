@@ -39,6 +39,7 @@ struct ArmKinematics {
 
 // Pose of every node and the 6x10 Jacobian of the tip. Cost: one closed form per segment, no loop over modules beyond the Chebyshev sums;
 // derived in docs/kinematics.md.
+void update_kinematics(const RobotTable& table, const ArmTrig& trig, ArmKinematics& out) noexcept;  // all that the table uses is written
 ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) noexcept;
 ArmKinematics forward_kinematics(const RobotTable& table, const ThetaVector& theta_rad) noexcept;
 

@@ -49,24 +49,24 @@ AnchoredVector pull_together(const SegmentBalance& b, Index n) noexcept {
   return x;
 }
 
-// Largest s (smooth) such that t + s n keeps every cable under `ceiling_N`.
-double ceiling_shift(const AnchoredVector& t, const AnchoredVector& n, Index count, double ceiling_N) noexcept {
-  constexpr double kWidth_N = 2.0;
-  double shift = 1e3;
-  for (Index i = 0; i < count; ++i) {
-    if (n[i] > 0.05) shift = -smooth_maximum(-shift, -(ceiling_N - t[i]) / n[i], kWidth_N);
-  }
-  return shift;
-}
+// Shifts s such that t + s null keeps every cable of a segment on the right side, smooth.
+struct Shifts {
+  double wanted = 0.0;  // least s >= 0 over the floor and its margin
+  double least = 0.0;   // least s >= 0 over the floor
+  double most = 1e3;    // largest s under the ceiling
+};
 
-// Least s >= 0 (smooth) such that t + s n keeps every cable over its floor.
-double floor_shift(const AnchoredVector& t, const AnchoredVector& n, Index count, double floor_N) noexcept {
+Shifts shifts_for(const AnchoredVector& t, const AnchoredVector& null, Index n, const TensionLimits& limits, double margin_N) noexcept {
   constexpr double kWidth_N = 2.0;
-  double shift = 0.0;
-  for (Index i = 0; i < count; ++i) {
-    if (n[i] > 0.05) shift = smooth_maximum(shift, (floor_N + kWidth_N - t[i]) / n[i], kWidth_N);
+  Shifts s;
+  for (Index i = 0; i < n; ++i) {
+    if (!(null[i] > 0.05)) continue;
+    const double per_N = 1.0 / null[i], to_floor = (limits.floor_motor_N + kWidth_N - t[i]) * per_N;
+    s.wanted = smooth_maximum(s.wanted, to_floor + margin_N * per_N, kWidth_N);
+    s.least = smooth_maximum(s.least, to_floor, kWidth_N);
+    s.most = -smooth_maximum(-s.most, (t[i] - kCeilingShare * limits.ceiling_free_N) * per_N, kWidth_N);
   }
-  return shift;
+  return s;
 }
 
 }  // namespace
@@ -102,15 +102,13 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
       t.fill(level_N);
     }
     // The margin over the floor gives way to the ceiling, the floor itself does not.
-    const double wanted = floor_shift(t, null, n, table.tension.floor_motor_N + margin_N);
-    const double least = floor_shift(t, null, n, table.tension.floor_motor_N);
-    const double most = ceiling_shift(t, null, n, kCeilingShare * table.tension.ceiling_free_N);
-    const double shift = smooth_maximum(least, -smooth_maximum(-wanted, -most, 2.0), 2.0);
+    const Shifts s = shifts_for(t, null, n, table.tension, margin_N);
+    const double shift = smooth_maximum(s.least, -smooth_maximum(-s.wanted, -s.most, 2.0), 2.0);
     for (Index i = 0; i < n; ++i) {
       plan.motor_N[first + i] = t[i] + shift * null[i];
       plan.ceiling_exceeded = plan.ceiling_exceeded || plan.motor_N[first + i] > table.tension.ceiling_free_N;
     }
-    plan.floor_acted = plan.floor_acted || least > 2.0;  // the floor itself, not the margin over it
+    plan.floor_acted = plan.floor_acted || s.least > 2.0;  // the floor itself, not the margin over it
   }
   return plan;
 }

@@ -6,8 +6,6 @@
 
 namespace liana {
 
-double norm(const Vec3& a) { return std::sqrt(dot(a, a)); }
-
 Quat normalize(const Quat& q) {
   const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   if (!(length > 0.0) || !(length < 1e150)) return {1.0, 0.0, 0.0, 0.0};

@@ -44,13 +44,16 @@ void advance_held(const RobotTable& table, MotionState& state) noexcept {
   }
 }
 
+// Share of the way from `from` to `to` that is over.
+double interval_share(const RobotTable& table, const MotionState& state) noexcept {
+  return state.interval_tick >= table.interval_ticks ? 1.0 : static_cast<double>(state.interval_tick) / table.interval_ticks;
+}
+
 Pose interpolated_target(const RobotTable& table, const MotionState& state) noexcept {
-  const double share = state.interval_tick >= table.interval_ticks ? 1.0 : static_cast<double>(state.interval_tick) / table.interval_ticks;
+  const double share = interval_share(table, state);
   const Pose& a = state.from.tip_in_base;
-  const Pose& b = state.to.tip_in_base;
-  const Vec3 turn = rotation_vector(multiply(b.quaternion, conjugate(a.quaternion)));
-  return {add(a.position_m, scale(subtract(b.position_m, a.position_m), share)),
-          normalize(multiply(quaternion_of(scale(turn, share)), a.quaternion))};
+  return {add(a.position_m, scale(subtract(state.to.tip_in_base.position_m, a.position_m), share)),
+          normalize(multiply(quaternion_of(scale(state.turn_rad, share)), a.quaternion))};
 }
 
 void follow_tip(const RobotTable& table, bool braking, MotionState& state) noexcept {
@@ -65,7 +68,7 @@ void follow_tip(const RobotTable& table, bool braking, MotionState& state) noexc
   if (state.filter.accel_limited) state.limits |= kLimitTipAccel;
 
   // The IK goes on from where the command stands, unless a limit or a held theta has come between.
-  if (state.ik_rad != state.limiter.theta_rad) state.arm = forward_kinematics(table, state.ik_rad);
+  if (state.ik_rad != state.limiter.theta_rad) update_kinematics(table, arm_trig(table, state.ik_rad), state.arm);
   const ThetaVector move = shape_move(table, state.arm, state.to.node, state.held_mask, braking, state.ik_rad, state.shape_rate_rad_s);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
   state.ik = servo_ik(table, {state.filter.pose, state.held_mask}, state.arm, state.ik_rad);
@@ -77,7 +80,7 @@ void follow_tip(const RobotTable& table, bool braking, MotionState& state) noexc
 // Joint reference: linear over the command interval; the limiter does the rest.
 void follow_joints(const RobotTable& table, bool braking, MotionState& state) noexcept {
   if (braking) return;
-  const double share = state.interval_tick >= table.interval_ticks ? 1.0 : static_cast<double>(state.interval_tick) / table.interval_ticks;
+  const double share = interval_share(table, state);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double limit = table.segment[k / 2].theta_limit_rad;
     const double wanted = state.from.joint_rad[k] + share * (state.to.joint_rad[k] - state.from.joint_rad[k]);
@@ -101,7 +104,7 @@ void brake_joints(const RobotTable& table, MotionState& state) noexcept {
 
 void take_kinematics(const RobotTable& table, MotionState& state) noexcept {
   state.trig = arm_trig(table, state.limiter.theta_rad);
-  state.arm = forward_kinematics(table, state.trig);
+  update_kinematics(table, state.trig, state.arm);
 }
 
 }  // namespace
@@ -152,6 +155,7 @@ void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionSt
   if (is_tip(setpoint) && held_mask != state.held_mask) state.shape_rate_rad_s = state.limiter.rate_rad_s;
   state.held_mask = held_mask;
   state.to = setpoint;
+  state.turn_rad = rotation_vector(multiply(state.to.tip_in_base.quaternion, conjugate(state.from.tip_in_base.quaternion)));
   state.interval_tick = 0;
   state.braking = false;
 }

@@ -20,6 +20,7 @@ struct HeldProfile {
 struct MotionState {
   Setpoint from{};                 // where interpolation over the command interval started
   Setpoint to{};                   // the setpoint in force
+  Vec3 turn_rad{};                 // rotation of the tip from `from` to `to`, base frame
   std::int32_t interval_tick = 0;  // ticks since `to` came into force
   bool braking = true;             // no valid setpoint: stop along the path
   TipFilterState filter{};

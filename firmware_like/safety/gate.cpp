@@ -33,17 +33,17 @@ double most_bend_m(const RobotTable& table, std::int32_t segment) noexcept {
 }
 
 // A drive holds its previous target only while it has torque and was told to; any other has no target worth holding.
-std::int32_t safe_target(const DriveCommand& previous, const DriveFeedback& feedback) noexcept {
-  const bool holds = has_torque(decode(feedback.statusword)) && previous.controlword != kDisableVoltage;
+std::int32_t safe_target(DriveState state, const DriveCommand& previous, const DriveFeedback& feedback) noexcept {
+  const bool holds = has_torque(state) && previous.controlword != kDisableVoltage;
   return holds ? previous.target_counts : feedback.position_counts;
 }
 
 // First check that the proposal for one drive fails; `target_counts` is its target when it passes.
 GateCheck judge(const RobotTable& table, const GateLimits& limits, const GateProposal& proposal, const DriveCommand& previous,
-                const DriveFeedback& feedback, std::size_t i, std::int32_t& target_counts) noexcept {
+                DriveState state, std::size_t i, std::int32_t& target_counts) noexcept {
   const double payout_m = proposal.payout_m[i];
   const double tension_N = proposal.tension_plan_N[i];
-  if (decode(feedback.statusword) != DriveState::kOperationEnabled) return GateCheck::kDriveNotEnabled;
+  if (state != DriveState::kOperationEnabled) return GateCheck::kDriveNotEnabled;
   if (is_not_finite(payout_m)) return GateCheck::kPayoutNotFinite;
   if (is_outside(payout_m, limits.least_payout_m[i], limits.most_payout_m[i])) return GateCheck::kPayoutOutOfRange;
   const Counts target = counts_at_payout(table.drive[i], limits.zero_payout_m[i], payout_m);
@@ -83,10 +83,11 @@ GateResult gate(const RobotTable& table, const GateLimits& limits, const GatePro
   std::array<std::int32_t, kMaxCables> judged_counts{};
   for (std::int32_t drive = 0; drive < limits.drive_count; ++drive) {
     const std::size_t i = as_index(drive);
-    result.command[i].controlword = controlword_for(decode(feedback[i].statusword), proposal.goal, previous[i].controlword);
-    result.command[i].target_counts = safe_target(previous[i], feedback[i]);
+    const DriveState state = decode(feedback[i].statusword);
+    result.command[i].controlword = controlword_for(state, proposal.goal, previous[i].controlword);
+    result.command[i].target_counts = safe_target(state, previous[i], feedback[i]);
     if (!proposal.live_targets || result.check != GateCheck::kPassed) continue;
-    result.check = judge(table, limits, proposal, previous[i], feedback[i], i, judged_counts[i]);
+    result.check = judge(table, limits, proposal, previous[i], state, i, judged_counts[i]);
     if (result.check != GateCheck::kPassed) result.drive = narrow<std::int16_t>(drive);
   }
   if (!proposal.live_targets || result.check != GateCheck::kPassed) return result;

@@ -38,6 +38,7 @@ class Watch {
 };
 
 void watch_buses(std::uint32_t lost_bus_mask, Watch& out) noexcept {
+  if (lost_bus_mask == 0) return;
   for (std::int32_t bus = 0; bus < 32; ++bus) {
     if ((lost_bus_mask >> static_cast<std::uint32_t>(bus)) & 1U) out.wrong(FaultNumber::kBusLost, bus, 0);
   }
