@@ -23,6 +23,7 @@ constexpr double kInner_m = 0.001;        // the solver keeps this beyond the ma
 constexpr double kRecheck_m = 0.0003;     // rows are added where less than this beyond the margin is left
 constexpr double kStartSpacing_m = 0.01;  // of motion between the poses looked at in a start path
 constexpr double kSettled = 0.01;         // of the objective: what a last round gains at most
+constexpr double kAnyStride_rad = 10.0;   // while the path is not free it has to go where it can become so
 constexpr double kTipTolerance = 1e-6;    // m and rad
 constexpr double kRoundOff = 1e-6;        // relative
 
@@ -143,7 +144,8 @@ class Planner {
     bool free = is_free(path);
     std::vector<RowSite> sites;  // where earlier solutions came too near
     for (std::int32_t round = 0; round < kMaxRounds && !result_.settled; ++round) {
-      PlanProblem problem(request_, path, rows_near(room_, request_, path, sites), request_.margin_m + kInner_m, kStride_rad);
+      PlanProblem problem(request_, path, rows_near(room_, request_, path, sites), request_.margin_m + kInner_m,
+                          free ? kStride_rad : kAnyStride_rad);
       const double before = problem.objective(problem.start().data());
       const Solution solution = solve_one(problem);
       const Path found = within_limits(problem.path_of(solution.x.data()));

@@ -80,7 +80,7 @@ struct PlanControl {
   std::function<void(const std::string&)> progress;  // one line; may be empty
   const std::atomic<bool>* cancelled = nullptr;      // may be set by a signal handler at any time
   std::int32_t max_iterations = 300;                 // of Ipopt in each round
-  bool straight_start_only = false;                  // for comparison: Ipopt from the straight line in theta
+  bool straight_start_only = false;                  // for comparison: no other start than the straight line in theta, and that not relaxed
 };
 
 // Plans. Throws std::invalid_argument on a request out of range; everything else is an outcome.

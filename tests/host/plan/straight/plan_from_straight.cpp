@@ -1,0 +1,50 @@
+// The planner started from the straight line in theta, for comparison with its own starts. Reads one problem as JSON from standard input:
+// robot, buses and scene tables, from_deg, to_deg or tip; prints outcome, constraint, iterations and time_s as JSON.
+#include <chrono>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "firmware_like/math/trig.hpp"
+#include "host/plan/plan.hpp"
+
+namespace {
+
+using nlohmann::json;
+
+liana::ThetaVector angles(const json& degrees) {
+  liana::ThetaVector theta{};
+  for (std::size_t k = 0; k < degrees.size(); ++k) theta.at(k) = degrees.at(k).get<double>() * liana::kDegree;
+  return theta;
+}
+
+liana::PlanRequest request_of(const json& problem) {
+  liana::PlanRequest request;
+  const liana::BusesConfig buses = liana::parse_buses(problem.at("buses").dump(), "buses");
+  request.robot = liana::parse_robot(problem.at("robot").dump(), "robot", "nominal", buses);
+  request.scene = liana::parse_scene(problem.at("scene").dump(), "scene");
+  request.from_rad = angles(problem.at("from_deg"));
+  if (problem.contains("to_deg")) request.to_rad = angles(problem.at("to_deg"));
+  if (problem.contains("tip")) {
+    const auto tip = problem.at("tip").get<std::array<double, 7>>();
+    request.tip_in_base = liana::Pose{{tip[0], tip[1], tip[2]}, liana::normalize({tip[3], tip[4], tip[5], tip[6]})};
+  }
+  request.max_step_rad = liana::default_max_step_rad(request.robot.table, request.waypoints);
+  return request;
+}
+
+}  // namespace
+
+int main() {
+  const liana::PlanRequest request = request_of(json::parse(std::cin));
+  liana::PlanControl control;
+  control.straight_start_only = true;
+  const auto begin = std::chrono::steady_clock::now();
+  const liana::PlanResult result = liana::plan(request, control);
+  const double time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  std::cout << json{{"outcome", liana::name_of(result.outcome)},
+                    {"constraint", result.constraint},
+                    {"objective", result.objective},
+                    {"iterations", result.iterations},
+                    {"time_s", time_s}}
+            << "\n";
+}
