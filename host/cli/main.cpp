@@ -77,8 +77,8 @@ void add_plan(CLI::App& app, Action& action, liana::PlanOptions& plan) {
       ->allow_extra_args(false);
   sub->add_option("--waypoints", plan.waypoints, "waypoints with both ends; 1: only the end pose")->capture_default_str();
   sub->add_option("--margin", plan.margin_m, "least clearance of every link from every obstacle, m")->capture_default_str();
-  sub->add_option("--max-step-deg", plan.max_step_deg,
-                  "most that an angle changes between waypoints; 80 / (waypoints - 1) where not given");
+  sub->add_option("--max-step-deg", plan.max_step_deg, "most that an angle changes between waypoints; 80 / (waypoints - 1) where not given")
+      ->check(CLI::PositiveNumber);
   sub->add_option("--iterations", plan.max_iterations, "of the solver in each round")->capture_default_str();
   sub->add_option("--out", plan.out_file, "keep the plan with its inputs in this file, JSON");
   sub->add_flag("--json", plan.json, "print JSON");

@@ -95,7 +95,7 @@ void read_goal(const PlanOptions& options, PlanRequest& request) {
 }
 
 void read_sizes(const PlanOptions& options, PlanRequest& request) {
-  const auto refuse = [](const char* option, double value, const char* allowed) {
+  const auto refuse = [](const char* option, auto value, const char* allowed) {
     throw BadInput(std::string(option) + ": " + std::to_string(value) + ": allowed: " + allowed);
   };
   const bool alone = options.waypoints == 1 && request.tip_in_base;
@@ -103,7 +103,7 @@ void read_sizes(const PlanOptions& options, PlanRequest& request) {
     refuse("--waypoints", options.waypoints, "2 to 100, or 1 with --tip for the end pose alone");
   }
   if (!(options.margin_m >= 0.0 && options.margin_m <= 0.5)) refuse("--margin", options.margin_m, "0 to 0.5 m");
-  if (!(options.max_step_deg >= 0.0 && options.max_step_deg <= 180.0)) refuse("--max-step-deg", options.max_step_deg, "over 0, up to 180");
+  if (!(options.max_step_deg <= 180.0)) refuse("--max-step-deg", options.max_step_deg, "over 0, up to 180");
   if (options.max_iterations < 1 || options.max_iterations > 100000) refuse("--iterations", options.max_iterations, "1 to 100000");
   request.waypoints = options.waypoints;
   request.margin_m = options.margin_m;

@@ -1,0 +1,94 @@
+"""`liana plan` as users call it: answers, exit codes, cancelling, the kept file. Usage: test_plan_command.py BIN."""
+import json
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BIN = pathlib.Path(sys.argv.pop(1))
+PREPARE = "-8.5,0,-12,0,8,-2,13,0,12,-2"
+PANEL_EDGE = "-6.14,-15,-3.29,-8.72,7.2,15,5.55,15,1,-2.8"
+ZERO = "0,0,0,0,0,0,0,0,0,0"
+
+
+def words(*options):
+    return [str(BIN / "liana"), "plan", *options, "--json"]
+
+
+def call(*options):
+    return subprocess.run(words(*options), capture_output=True, text=True, check=False)
+
+
+class PlanCommand(unittest.TestCase):
+    def test_a_plan_ends_with_0_and_has_everything_that_callers_read(self):
+        done = call(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", "--waypoints=15")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        answer = json.loads(done.stdout)
+        self.assertEqual(answer["outcome"], "solved")
+        self.assertEqual(len(answer["waypoints_deg"]), 15)
+        for waypoint, wanted in ((answer["waypoints_deg"][0], PREPARE), (answer["waypoints_deg"][-1], PANEL_EDGE)):
+            for angle, number in zip(waypoint, wanted.split(",")):
+                self.assertAlmostEqual(angle, float(number), 9)
+        for key in ("objective", "iterations", "time_s", "hash", "settled"):
+            self.assertIn(key, answer)
+        self.assertGreaterEqual(answer["checked"]["min_clearance_m"], 0.005)
+        self.assertLessEqual(answer["checked"]["max_joint_deg"], 20.0)
+        self.assertLess(answer["checked"]["max_step_deg"], 80 / 14)
+        self.assertLess(answer["checked"]["tip_error_m"], 1e-6)
+
+    def test_progress_goes_to_standard_error(self):
+        done = call(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}")
+        self.assertIn("plan: round 1", done.stderr)
+
+    def test_the_same_request_has_the_same_hash_and_another_margin_another(self):
+        ends = (f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}")
+        hashes = [json.loads(call(*ends, *more).stdout)["hash"] for more in ((), (), ("--margin=0.004",))]
+        self.assertEqual(hashes[0], hashes[1])
+        self.assertNotEqual(hashes[0], hashes[2])
+
+    def test_an_end_inside_a_body_ends_with_3_and_says_which_and_how_deep(self):
+        done = call(f"--from-deg={ZERO}", "--to-deg=0,0,0,-8,0,0,0,0,0,0")
+        self.assertEqual(done.returncode, 3)
+        answer = json.loads(done.stdout)
+        self.assertEqual((answer["outcome"], answer["constraint"]), ("infeasible", "goal"))
+        self.assertRegex(answer["reason"], r"link \d+ is [\d.]+ mm inside '(panel|wall)'")
+        self.assertEqual(answer["waypoints_deg"], [])
+
+    def test_without_a_scene_the_same_way_is_free(self):
+        self.assertEqual(call(f"--from-deg={ZERO}", "--to-deg=0,0,0,-8,0,0,0,0,0,0", "--scene=none").returncode, 0)
+
+    def test_bad_input_ends_with_2_and_one_message(self):
+        ends = [f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}"]
+        for bad in (ends[:1], [*ends, "--tip=1,0,0,1,0,0,0"], [*ends, "--waypoints=1"], [*ends, "--waypoints=101"], [*ends, "--margin=-1"],
+                    [*ends, "--max-step-deg=0"], [*ends, "--iterations=0"], [*ends, "--hold=9"], [*ends, "--planar=6@0.5"], [*ends, "--planar=,"],
+                    [*ends, "--hold=9=1", "--planar=5@0.5"], [*ends, "--scene=nowhere"], [*ends, "--control-point=9:0,0,0"]):
+            done = call(*bad)
+            self.assertEqual(done.returncode, 2, bad)
+            self.assertEqual((done.stdout, done.stderr.count("\n")), ("", 1), bad)
+
+    def test_interrupting_ends_with_130_and_the_outcome_cancelled(self):
+        running = subprocess.Popen(words(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", "--waypoints=100", "--control-point=3:1.5,-0.5,0.8:1"),
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        for line in running.stderr:
+            if "iteration" in line:
+                break
+        running.send_signal(signal.SIGINT)
+        out, _ = running.communicate()
+        self.assertEqual(running.returncode, 130)
+        self.assertEqual(json.loads(out)["outcome"], "cancelled")
+
+    def test_the_kept_file_has_the_plan_and_its_inputs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "plan.json"
+            answer = json.loads(call(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", f"--out={path}").stdout)
+            kept = json.loads(path.read_text(encoding="utf-8"))
+        self.assertEqual(kept["hash"], answer["hash"])
+        self.assertEqual(kept["inputs"]["from_deg"], PREPARE)
+        self.assertEqual(kept["inputs"]["scene"]["name"], "panel_slit")
+        self.assertEqual(kept["inputs"]["robot"]["name"], "zhu2022")
+
+
+if __name__ == "__main__":
+    unittest.main()
