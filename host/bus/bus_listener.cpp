@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 
@@ -22,16 +24,25 @@ constexpr int kSocketBufferBytes = 1 << 20;
 OwnedDescriptor listen_on(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  if (path.empty() || path.size() >= sizeof address.sun_path) {
-    throw std::runtime_error("--socket " + path + ": allowed are paths of 1 to " + std::to_string(sizeof address.sun_path - 1) + " bytes");
+  if (path.empty() || path.size() + 1 >= sizeof address.sun_path) {
+    throw std::runtime_error("--socket " + path + ": allowed are paths of 1 to " + std::to_string(sizeof address.sun_path - 2) + " bytes");
   }
   std::memcpy(address.sun_path, path.c_str(), path.size());
   OwnedDescriptor listener(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   if (connect(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
     throw std::runtime_error("--socket " + path + ": another bus listens there already; end it or give another path");
   }
-  unlink(path.c_str());
-  if (bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 || listen(listener.get(), 4) != 0) {
+  // The path appears only when it can be connected to: those who wait for it start at once.
+  const std::string before = path + "~";
+  std::memcpy(address.sun_path, before.c_str(), before.size() + 1);
+  std::error_code unreadable;
+  const auto kind = std::filesystem::status(path, unreadable).type();
+  if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::socket) {
+    throw std::runtime_error("--socket " + path + ": a file that is no socket is there; give another path");
+  }
+  unlink(before.c_str());
+  if (bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 || listen(listener.get(), 4) != 0 ||
+      std::rename(before.c_str(), path.c_str()) != 0) {
     throw std::runtime_error("--socket " + path + ": cannot listen: " + std::strerror(errno) +
                              "; give a path in a directory you may write");
   }
