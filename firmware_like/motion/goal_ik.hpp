@@ -2,14 +2,13 @@
 //
 // An attempt iterates servo_ik, whose damping is proportional to the squared error (performance study: that and restarts are what helps).
 // Attempt 0 starts at `from`; each later one at the best of kGoalSeeds pseudo-random poses of a fixed sequence: same input, same result.
-// With node targets, the shape is improved from kGoalShapeStarts solutions and the best is taken. Figures: docs/shape.md.
+// When something is wanted of the shape, it is improved from kGoalShapeStarts solutions and the best is taken. Figures: docs/shape.md.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-#include "firmware_like/motion/servo_ik.hpp"
-#include "firmware_like/motion/shape.hpp"
+#include "firmware_like/motion/improve_shape.hpp"
 
 namespace liana {
 
@@ -17,9 +16,7 @@ constexpr std::int32_t kGoalAttempts = 100;
 constexpr std::int32_t kGoalIterations = 10;      // per attempt, more only while the error halves with each
 constexpr std::int32_t kGoalMostIterations = 30;  // per attempt
 constexpr std::int32_t kGoalSeeds = 32;           // poses that an attempt chooses from
-constexpr std::int32_t kGoalShapeSteps = 100;     // towards node targets, after the tip has been reached
 constexpr std::int32_t kGoalShapeStarts = 24;     // solutions whose shape is improved
-constexpr double kGoalTolerance = 1e-7;           // m and rad; half a decade inside what is promised (1e-6)
 
 struct GoalIkProblem {
   Pose tip_in_base{};
@@ -27,23 +24,21 @@ struct GoalIkProblem {
   std::uint32_t held_mask = 0;  // bit i: theta i stays at held_rad
   ThetaVector held_rad{};
   NodeTargets node{};
+  KeepClearTargets clear{};
 };
 
 struct GoalIkResult {
   ThetaVector theta_rad{};
   bool converged = false;
-  std::int32_t iterations = 0;  // over all attempts
+  std::int32_t iterations = 0;  // over all attempts, those of the shape included
   double position_error_m = 0.0;
   double attitude_error_rad = 0.0;
   std::array<double, kMaxNodeTargets> node_distance_m{};  // in the order of the problem's targets
+  std::array<NodeReach, kMaxNodeTargets> node_reach{};    // of each alone, from the first solution found; zero when not converged
 };
 
 // Solves; when no attempt converges, the result holds the best one. Angles respect the limits, held ones are exact.
 // At most kGoalAttempts * kGoalMostIterations iterations for the tip.
 GoalIkResult solve_goal(const RobotTable& table, const GoalIkProblem& problem) noexcept;
-
-// Brings the shape of `theta_rad` to the nearest minimum of the node targets' sum while the tip stays where `problem` wants it, from where
-// it already is. Returns the sum [m] of weighted excesses over thresholds; adds to `iterations`.
-double improve_shape(const RobotTable& table, const GoalIkProblem& problem, ThetaVector& theta_rad, std::int32_t& iterations) noexcept;
 
 }  // namespace liana

@@ -47,55 +47,62 @@ double product(const NullVector& a, const NullVector& b, Index n) noexcept {
   return sum;
 }
 
-// Bounds that hold z: normal_i . z <= bound_i, and what a unit force along each normal changes.
+// A bound on z: normal . z <= bound. `reply` is what a unit force against it changes.
+struct Bound {
+  NullVector normal;
+  NullVector reply;
+  double bound;
+  double force;
+};
+
+// The bounds that hold z back, at most one per dimension.
 struct ActiveSet {
-  std::array<Index, kMaxTheta> theta;
-  Rows normal;
-  Rows reply;
-  NullVector bound;
-  NullVector force;
+  std::array<Bound, kMaxTheta> held;
   Index count = 0;
 };
 
-void add(const NullSpace& space, const ShapeFactor& factor, Index theta, double side, double bound, ActiveSet& active) noexcept {
-  const Index m = static_cast<Index>(space.dimension), i = active.count++;
-  active.theta[i] = theta;
-  for (Index d = 0; d < m; ++d)
-    active.normal[i][d] = side * space.component(static_cast<std::int32_t>(d), static_cast<std::int32_t>(theta));
-  active.reply[i] = active.normal[i];
-  solve_in_place(factor.row, m, active.reply[i]);
-  active.bound[i] = bound;
+Bound bound_on(const NullSpace& space, const ShapeFactor& factor, Index theta, double side, double value) noexcept {
+  Bound out;
+  for (Index d = 0; d < static_cast<Index>(space.dimension); ++d)
+    out.normal[d] = side * space.component(static_cast<std::int32_t>(d), static_cast<std::int32_t>(theta));
+  out.reply = out.normal;
+  solve_in_place(factor.row, static_cast<Index>(space.dimension), out.reply);
+  out.bound = value;
+  out.force = 0.0;
+  return out;
 }
 
-void remove(Index i, ActiveSet& active) noexcept {
-  const Index last = --active.count;
-  active.theta[i] = active.theta[last];
-  active.normal[i] = active.normal[last];
-  active.reply[i] = active.reply[last];
-  active.bound[i] = active.bound[last];
-}
-
-// Forces that put z exactly on all active bounds; false when these contradict each other.
-bool solve_forces(const NullVector& free, Index m, ActiveSet& active) noexcept {
+// How the forces of the active bounds give way to a unit force of `added`, so that they stay met. False when they contradict each other.
+bool yielding(const ActiveSet& active, const Bound& added, Index m, NullVector& yield) noexcept {
   Rows S;
   for (Index i = 0; i < active.count; ++i) {
-    for (Index j = 0; j <= i; ++j) S[i][j] = product(active.normal[i], active.reply[j], m);
-    S[i][i] *= 1.0 + 1e-12;
-    active.force[i] = product(active.normal[i], free, m) - active.bound[i];
+    for (Index j = 0; j <= i; ++j) S[i][j] = product(active.held[i].normal, active.held[j].reply, m);
+    yield[i] = product(active.held[i].reply, added.normal, m);
   }
   if (!factor_in_place(S, active.count)) return false;
-  solve_in_place(S, active.count, active.force);
+  solve_in_place(S, active.count, yield);
   return true;
 }
 
-// Index of the bound that holds z back from where it would not go; count when there is none.
-Index wrong_force(const ActiveSet& active) noexcept {
-  Index wrong = active.count;
-  double least = 0.0;
+// Raises the force of `added` until its bound is met or an active force has fallen to zero; returns the latter's index, else count.
+Index press(ActiveSet& active, Bound& added, const NullVector& yield, Index m, NullVector& z) noexcept {
+  constexpr double kLeastReply = 1e-12;  // below this the bound depends on the active ones
+  NullVector way = added.reply;
   for (Index i = 0; i < active.count; ++i) {
-    if (active.force[i] < least) least = active.force[i], wrong = i;
+    for (Index d = 0; d < m; ++d) way[d] -= yield[i] * active.held[i].reply[d];
   }
-  return wrong;
+  const double reply = product(added.normal, way, m);
+  const bool moves = reply > kLeastReply * product(added.normal, added.reply, m);
+  double force = moves ? (product(added.normal, z, m) - added.bound) / reply : 1e300;
+  Index released = active.count;
+  for (Index i = 0; i < active.count; ++i) {
+    if (yield[i] > 0.0 && active.held[i].force < force * yield[i]) force = active.held[i].force / yield[i], released = i;
+  }
+  if (!moves && released == active.count) return released;
+  for (Index i = 0; i < active.count; ++i) active.held[i].force -= force * yield[i];
+  added.force += force;
+  for (Index d = 0; moves && d < m; ++d) z[d] -= force * way[d];
+  return released;
 }
 
 // The theta that is farthest outside its bounds; `side` is the bound's, 0 when all are inside.
@@ -219,27 +226,27 @@ void scale_by(const NullSpace& space, double factor, NullPoint& point) noexcept 
 }
 
 void restrict_to(const NullSpace& space, const ShapeFactor& factor, const ThetaBounds& bounds, NullPoint& point) noexcept {
+  const Index m = static_cast<Index>(space.dimension);
+  ActiveSet active;
   Violation worst = worst_violation(space, bounds, point.theta_rad);
   if (worst.side == 0.0) return;
-  const Index m = static_cast<Index>(space.dimension);
-  const NullVector free = point.z;
-  ActiveSet active;
-  for (Index pass = 0; pass < 2 * m && active.count < m; ++pass) {
-    add(space, factor, worst.theta, worst.side, worst.bound, active);
-    bool solved = solve_forces(free, m, active);
-    for (Index drop = wrong_force(active); solved && drop < active.count; drop = wrong_force(active)) {
-      remove(drop, active);
-      solved = solve_forces(free, m, active);
-    }
-    if (!solved) break;
-    point.z = free;
-    for (Index i = 0; i < active.count; ++i) {
-      for (Index d = 0; d < m; ++d) point.z[d] -= active.force[i] * active.reply[i][d];
+  Bound added = bound_on(space, factor, worst.theta, worst.side, worst.bound);
+  for (Index pass = 0; pass < 4 * m && active.count <= m; ++pass) {
+    NullVector yield;
+    if (!yielding(active, added, m, yield)) break;
+    const Index released = press(active, added, yield, m, point.z);
+    if (released < active.count) {
+      active.held[released] = active.held[--active.count];
+      continue;
     }
     point.theta_rad = combine(space, point.z);
     worst = worst_violation(space, bounds, point.theta_rad);
     if (worst.side == 0.0) return;
+    if (active.count == m) break;
+    active.held[active.count++] = added;
+    added = bound_on(space, factor, worst.theta, worst.side, worst.bound);
   }
+  point.theta_rad = combine(space, point.z);
   scale_into(space, bounds, point);
 }
 

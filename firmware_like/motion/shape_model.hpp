@@ -62,8 +62,9 @@ struct NullPoint {
 
 void scale_by(const NullSpace& space, double factor, NullPoint& point) noexcept;
 
-// Moves `point` to where, within bounds, it is nearest in the metric of `factor`: thetas on their bound are added to and taken from the
-// active set, at most 2 dimension passes. When these run out, the point is scaled until it is inside.
+// Moves `point` to where, within bounds, it is nearest in the metric of `factor`, which the curvature makes the minimum of the model. Exact
+// by the dual active-set method (D. Goldfarb, A. Idnani, Math. Program. 27, 1983); after 4 dimension passes without an end, the point is
+// scaled until it is inside.
 void restrict_to(const NullSpace& space, const ShapeFactor& factor, const ThetaBounds& bounds, NullPoint& point) noexcept;
 
 }  // namespace liana

@@ -39,14 +39,18 @@ void aim_nodes(const std::vector<std::string>& texts, const RobotTable& robot, G
 json to_json(const GoalIkResult& result, std::size_t theta_count, std::size_t node_count) {
   json theta = json::array();
   for (std::size_t i = 0; i < theta_count; ++i) theta.push_back(result.theta_rad[i] / kDegree);
-  json distances = json::array();
-  for (std::size_t i = 0; i < node_count; ++i) distances.push_back(result.node_distance_m[i]);
+  json distances = json::array(), reaches = json::array();
+  for (std::size_t i = 0; i < node_count; ++i) {
+    distances.push_back(result.node_distance_m[i]);
+    reaches.push_back({{"now", result.node_reach[i].now_m}, {"least", result.node_reach[i].least_m}});
+  }
   return {{"theta_deg", theta},
           {"converged", result.converged},
           {"iterations", result.iterations},
           {"position_error_m", result.position_error_m},
           {"attitude_error_rad", result.attitude_error_rad},
-          {"node_distance_m", distances}};
+          {"node_distance_m", distances},
+          {"node_reach_m", reaches}};
 }
 
 void print_text(const json& answer) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware_like/motion/servo_ik.hpp"
+#include "firmware_like/motion/improve_shape.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
@@ -199,6 +199,106 @@ TEST(Shape, ThePitchAheadOfThePlanarPartComesIntoThePlaneFirst) {
   EXPECT_LT(std::fabs(theta[6]), 0.3 * std::fabs(start[6]));
   EXPECT_LT(std::fabs(theta[6]), std::fabs(without_lead[6]));
   EXPECT_EQ(theta[8], start[8]);
+}
+
+// A43, at every kind of pose: nearly straight, at limits, with rival nodes, with held thetas.
+TEST(Shape, A43TheMoveOfATickDoesNotMoveTheTip) {
+  const RobotTable robot = zhu2022::table();
+  Random random(5);
+  for (const std::uint32_t held : {0u, kX5, kX4AndX5}) {
+    for (std::int32_t i = 0; i < 200; ++i) {
+      ThetaVector theta = random.theta(robot, i % 2 == 0 ? 20.0 : std::pow(10.0, random.uniform(-6.0, 0.0)));
+      if (i % 4 == 0) theta[0] = theta[3] = 20.0 * kDegree;
+      ThetaVector rate = random.theta(robot, 0.5);
+      NodeTargets nodes = target_of(3, random.vector(2.0));
+      nodes[1] = {2, random.vector(2.0), 0.5, 0.01};
+      const ArmKinematics arm = arm_at(robot, theta);
+      const ThetaVector move = shape_move(robot, arm, nodes, held, i % 5 == 0, theta, rate);
+      ASSERT_LE(tip_rate(arm.tip_jacobian, move), 1e-9 * zhu2022::length(move)) << i;
+    }
+  }
+}
+
+// No null-space point within bounds is nearer, in the metric of the model, than the one found.
+TEST(Shape, LimitsAreBoundsOfTheSameProblem) {
+  const RobotTable robot = zhu2022::table();
+  Random random(6);
+  std::int32_t bounded = 0;
+  for (std::int32_t i = 0; i < 300; ++i) {
+    ThetaVector theta = random.theta(robot, 15.0);
+    for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
+      if (random.uniform(0.0, 1.0) < 0.3) theta[k] = (theta[k] > 0.0 ? 1.0 : -1.0) * random.uniform(19.9, 20.0) * kDegree;
+    }
+    const ArmKinematics arm = arm_at(robot, theta);
+    const NullSpace space = null_space(arm.tip_jacobian, robot.theta_count(), 0);
+    ShapeModel model = resting_model(space, 0.01, random.theta(robot, 10.0));
+    add_nodes(robot, arm, target_of(3, random.vector(2.0)), space, model);
+    const ShapeFactor metric = factor(space, model);
+    const ThetaBounds bounds = room_to_limits(robot, theta, 1.0);
+    const NullVector free = minimum(space, metric, model.pull);
+    NullPoint found{free, combine(space, free)};
+    restrict_to(space, metric, bounds, found);
+    bounded += found.z == free ? 0 : 1;
+    const std::size_t m = static_cast<std::size_t>(space.dimension);
+    NullVector slope{};  // of the model at what was found
+    for (std::size_t a = 0; a < m; ++a) {
+      slope[a] = -model.pull[a];
+      for (std::size_t b = 0; b < m; ++b) slope[a] += (a >= b ? model.curvature[a][b] : model.curvature[b][a]) * found.z[b];
+    }
+    for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
+      ASSERT_LE(found.theta_rad[k], bounds.high[k] + 1e-10);
+      ASSERT_GE(found.theta_rad[k], bounds.low[k] - 1e-10);
+    }
+    for (std::int32_t trial = 0; trial < 50; ++trial) {
+      NullPoint other{coordinates(space, zhu2022::plus(found.theta_rad, random.theta(robot, 3.0))), {}};
+      other.theta_rad = combine(space, other.z);
+      restrict_to(space, unit_factor(space), bounds, other);
+      double gain = 0.0;
+      for (std::size_t a = 0; a < m; ++a) gain += slope[a] * (other.z[a] - found.z[a]);
+      ASSERT_GE(gain, -1e-7) << i;
+    }
+  }
+  EXPECT_GE(bounded, 100);  // the test has something to test
+}
+
+// 500 cases against the best of 50 solves by tests/numbers/planning_shape.cpp.
+TEST(Shape, A44TheTickEndsWhereTheOfflineSolveFromTheSameStartEnds) {
+  const RobotTable robot = zhu2022::table();
+  Random random(7);
+  std::int32_t same = 0;
+  for (std::int32_t i = 0; i < 10; ++i) {
+    const ThetaVector start = random.theta(robot, 15.0);
+    const ArmKinematics arm = arm_at(robot, start);
+    ShapeProblem problem{{arm.tip_in_base, 0}, target_of(3, add(arm.node_in_base[3].position_m, random.vector(0.2))), {}};
+    problem.node[1] = {2, add(arm.node_in_base[2].position_m, random.vector(0.2)), 0.5, i % 2 == 0 ? 0.0 : 0.02};
+    ThetaVector offline = start, theta = start;
+    std::int32_t iterations = 0;
+    const double least_m = improve_shape(robot, problem, offline, iterations);
+    run(robot, problem.node, 0, 15000, theta);
+    EXPECT_LE(zhu2022::length(pose_error(arm.tip_in_base, arm_at(robot, theta).tip_in_base)), 1e-6);
+    same += shape_sum_m(robot, problem, theta) <= 1.01 * least_m + 1e-4 ? 1 : 0;
+  }
+  EXPECT_GE(same, 8);
+}
+
+// A target that jumps to and fro, into limits and back: rates change by no more than their share of the acceleration.
+TEST(Shape, MotionIsSmoothWhateverTheTargetsDo) {
+  const RobotTable robot = zhu2022::table();
+  Random random(8);
+  const double accel = kShapeAccelShare * robot.limits.theta_accel_rad_s2 * robot.tick_s;
+  for (std::int32_t i = 0; i < 10; ++i) {
+    ThetaVector theta = random.theta(robot, 18.0), rate{};
+    const IkGoal goal{arm_at(robot, theta).tip_in_base, 0};
+    NodeTargets nodes{};
+    for (std::int32_t tick = 0; tick < 5000; ++tick) {
+      if (tick % 700 == 0) nodes = target_of(2 + i % 3, random.vector(3.0));
+      const ThetaVector before = rate;
+      const ArmKinematics arm = arm_at(robot, theta);
+      theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, 0, false, theta, rate));
+      servo_ik(robot, goal, arm, theta);
+      ASSERT_LE(zhu2022::largest_difference(rate, before), 2.0 * accel) << i << " " << tick;
+    }
+  }
 }
 
 }  // namespace
