@@ -8,6 +8,9 @@ import tempfile
 import unittest
 
 BIN = pathlib.Path(sys.argv.pop(1))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "numbers"))
+import planning_plans  # noqa: E402 (found through the line above)
+
 PREPARE = "-8.5,0,-12,0,8,-2,13,0,12,-2"
 PANEL_EDGE = "-6.14,-15,-3.29,-8.72,7.2,15,5.55,15,1,-2.8"
 TILTED = "-2.641,-2.064,-1.81,-4.64,4.777,5.87,0,4.764,8,-0.543"  # the press rod pose, with the last segment bent out of the slit
@@ -88,6 +91,12 @@ class PlanCommand(unittest.TestCase):
         self.assertEqual(kept["inputs"]["from_deg"], PREPARE)
         self.assertEqual(kept["inputs"]["scene"]["name"], "panel_slit")
         self.assertEqual(kept["inputs"]["robot"]["name"], "zhu2022")
+
+    def test_the_study_at_reduced_size_solves_both_legs_and_nearly_all_random_scenes(self):
+        found = planning_plans.study(BIN, 6)
+        self.assertEqual([leg[1] for leg in found["legs"]], ["solved"] * 3)
+        self.assertGreaterEqual(found["random"]["solved"], 5, found["random"]["failures"])
+        self.assertEqual(found["wrong"], 0)
 
 
 if __name__ == "__main__":
