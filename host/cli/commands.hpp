@@ -10,9 +10,10 @@ namespace liana {
 struct PoseOptions {
   std::string robot = "zhu2022";
   std::string theta_deg;
+  std::string scene;  // empty: without a slit
   bool json = false;
 };
-// Forward kinematics and cable lengths of one pose.
+// Forward kinematics and cable lengths of one pose, and its planar part in a scene's slit.
 int pose_command(const PoseOptions& options);
 
 struct IkOptions {

@@ -22,7 +22,7 @@ constexpr const char* kBash = R"bash(_liana() {
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
       run) words="--robot --scene --bus --time --physics --record --json --seed" ;;
-      pose) words="--robot --theta-deg --json" ;;
+      pose) words="--robot --theta-deg --scene --json" ;;
       ik) words="--robot --from-deg --tip --hold --control-point --json" ;;
       reach) words="--robot --scene --hold --from-deg --to-deg --path --node --samples --seed --svg --json" ;;
       status | estop) words="--api --json" ;;

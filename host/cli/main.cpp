@@ -31,6 +31,7 @@ void add_kinematics(CLI::App& app, Action& action, liana::PoseOptions& pose, lia
   CLI::App* sub = add(app, action, "pose", "tip pose, segment ends, Jacobian and cable lengths of joint angles", pose, liana::pose_command);
   sub->add_option("--robot", pose.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
   sub->add_option("--theta-deg", pose.theta_deg, "joint angles t1,t2,... (pitch, yaw per segment)")->required();
+  sub->add_option("--scene", pose.scene, "scene: which segments its slit wants planar, where they begin, what their yaws may be");
   sub->add_flag("--json", pose.json, "print JSON");
 
   sub = add(app, action, "ik", "joint angles of a tip pose (goal solver)", ik, liana::ik_command);

@@ -5,6 +5,7 @@
 #include "firmware_like/arm/kinematics.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/slit_part.hpp"
 #include "host/cli/tables.hpp"
 
 namespace liana {
@@ -66,13 +67,19 @@ void print_summary(const json& pose) {
   for (std::size_t c = 0; c < change.size(); ++c) {
     std::printf("cable %2zu: %10.6f m, %+9.3f mm\n", c, pose["cable_length_m"][c].get<double>(), 1000.0 * change[c].get<double>());
   }
+  if (pose.contains("slit")) std::printf("slit: %s\n", pose["slit"].dump().c_str());
 }
 
 }  // namespace
 
 int pose_command(const PoseOptions& options) {
   const RobotConfig robot = robot_for_kinematics(options.robot);
-  const json pose = pose_of(robot.table, parse_theta_deg("--theta-deg", options.theta_deg, robot.table));
+  const ThetaVector theta_rad = parse_theta_deg("--theta-deg", options.theta_deg, robot.table);
+  json pose = pose_of(robot.table, theta_rad);
+  if (!options.scene.empty()) {
+    const std::string scene = evaluate_table("scene", options.scene);
+    pose["slit"] = slit_part(robot, checked([&] { return parse_scene(scene, options.scene); }), theta_rad);
+  }
   if (options.json) {
     std::puts(pose.dump().c_str());
   } else {

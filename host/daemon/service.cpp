@@ -30,6 +30,7 @@ Service::Service(const ServiceConfig& config, Link& link)
       link_(link),
       reach_m_(reach_of(config.robot.table)),
       zone_(config.scene.slit, config.robot.table.limits.tip_speed_slit_m_s),
+      mouth_(slit_mouth(config.scene.slit, config.robot.module_radius_m)),
       arbiter_(config.robot.table, zone_),
       twin_(config.robot.table),
       server_(config.api_path, *this) {}
@@ -50,6 +51,7 @@ void Service::cycle() {
   link_.report.refresh();
   link_.image.refresh();
   watch_arm();
+  watch_slit();
   forward_ticks();
   idle(0.0);  // what came from clients outside lockstep
   forward_camera();
@@ -84,6 +86,13 @@ void Service::note_clear() {
   };
   note((clear.missing == 0 ? "faults cleared" : "faults not cleared, not met: " + names(clear.missing)) +
        "; checked: " + names(clear.checked));
+}
+
+// By the commanded angles: they have no noise.
+void Service::watch_slit() {
+  const RobotTable& table = config_.robot.table;
+  const LinkPoints links = link_points(table, link_.report.value().outputs.theta_command_rad);
+  notes_.planar_segments = planar_segments(table, links, mouth_, PlanarSwitch{}, notes_.planar_segments);
 }
 
 // What changes by itself: the end of booting, the end of the run after the mission.

@@ -13,6 +13,7 @@
 #include "host/api/server.hpp"
 #include "host/bus/time_mode.hpp"
 #include "host/config/config.hpp"
+#include "host/config/slit_mouth.hpp"
 #include "host/daemon/arbiter.hpp"
 #include "host/daemon/boot_problem.hpp"
 #include "host/daemon/link.hpp"
@@ -90,6 +91,7 @@ class Service : private ApiHandler {
   void request(Request what);
   void drop_motion(const std::string& why);
   void watch_arm();
+  void watch_slit();
   void note_clear();
   void forward_ticks();
   void forward_camera();
@@ -102,6 +104,7 @@ class Service : private ApiHandler {
   double reach_m_;
   Owner owner_;
   SpeedZone zone_;
+  SlitMouth mouth_;
   Arbiter arbiter_;
   Release release_;
   Twin twin_;

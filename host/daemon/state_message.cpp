@@ -181,7 +181,8 @@ json state_message(const RobotTable& table, const BusesConfig& buses, const Cycl
              {"buses", buses_json(buses, report)},
              {"events", notes.events},
              {"stop", notes.stop},
-             {"stopping", notes.stopping}};
+             {"stopping", notes.stopping},
+             {"planar_segments", notes.planar_segments}};
   add_arm(state, table, report);
   add_boot_faults(state, notes.boot_problems);
   return state;

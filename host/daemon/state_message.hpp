@@ -34,6 +34,7 @@ struct Notes {
   std::vector<BootProblem> boot_problems;  // faults of drives that did not boot
   nlohmann::json stop = nullptr;           // the emergency stop in force: by, reason (may be empty), tick
   bool stopping = false;
+  std::int32_t planar_segments = 0;  // how many the slit asks for now (motion/dof_split.hpp)
 };
 
 // Name of the operating state in the API.

@@ -104,6 +104,12 @@ function conditions.tip_past(u_m)
   return condition(("tip past u = %g m"):format(u_m), function(arm) return arm.slit_u() >= u_m end)
 end
 
+-- The slit asks for at least `count` planar segments: the point to go from 10+0 to 9+1 to 8+2 variables, found from the slit's mouth.
+function conditions.needs_planar(count)
+  need("needs_planar", "count", count, "number")
+  return condition(("slit asks for %d planar segments"):format(count), function(arm) return arm.state.planar_segments >= count end)
+end
+
 -- The tip at most distance_m off the middle plane of the slit.
 function conditions.tip_in_plane(distance_m)
   need("tip_in_plane", "distance_m", distance_m, "number")

@@ -5,11 +5,10 @@ local step, all = liana.step, liana.all
 local move_to, tool = liana.move_to, liana.tool
 local at_pose, at_rest, held = liana.at_pose, liana.at_rest, liana.held
 local released, operator_says = liana.released, liana.operator_says
-local tip_near_pose, tip_near_rod, tip_past = liana.tip_near_pose, liana.tip_near_rod, liana.tip_past
+local tip_near_pose, tip_near_rod, needs_planar = liana.tip_near_pose, liana.tip_near_rod, liana.needs_planar
 
 -- Numbers to tune.
 local kEdgeArrival_m = 0.15 -- how near the panel edge the tip has to be for step 2 to end
-local kSwitchDepth_m = 3.10 -- tip along the slit when X4 joins X5: just before node 3's module reaches the mouth
 local kRodArrival_m = 0.02 -- how near the rod, by the arm's own measurement, the tip has to be for step 6 to end
 local kVrScale = 4.0 -- metres of tip per metre of right hand, node 3 and left hand alike; the recording is made for it
 local kVrRotationScale = 2.0
@@ -50,7 +49,7 @@ return liana.mission "slit_crossing" {
     steer = { scale = kEntryScale, rotation_scale = 1, speed_m_s = kFreeSpeed_m_s },
     hold = { [9] = 0 },
     enter = held(),
-    exit = tip_past(kSwitchDepth_m),
+    exit = needs_planar(2),
     time_limit_s = 200,
     on_fail = "retract",
   },

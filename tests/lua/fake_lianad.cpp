@@ -203,7 +203,15 @@ json FakeLianad::state() const {
           {"held", held_},
           {"held_at_target", busy_intervals_ == 0},
           {"faults", faults},
+          {"planar_segments", planar_segments()},
           {"operator_says", said_}};
+}
+
+// By the tip alone, as if the arm were straight behind it: a segment 0.65 m deep has to be planar.
+int FakeLianad::planar_segments() const {
+  double depth_m = -scene_["slit"]["mouth_u_m"].get<double>();
+  for (std::size_t k = 0; k < 3; ++k) depth_m += scene_["slit"]["u_axis"][k].get<double>() * tip_[k].get<double>();
+  return depth_m > 1.35 ? 2 : (depth_m > 0.65 ? 1 : 0);
 }
 
 json FakeLianad::named_pose(const char* name) const { return robot_["named_poses_deg"][name]; }

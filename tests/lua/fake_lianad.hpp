@@ -52,6 +52,7 @@ class FakeLianad {
   void obey(const nlohmann::json& request);
   void advance();
   nlohmann::json state() const;
+  int planar_segments() const;
   nlohmann::json named_pose(const char* name) const;
 
   FakeBehaviour behaviour_;

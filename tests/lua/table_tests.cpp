@@ -106,6 +106,8 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "given.lua:3: at_pose: name: nil: allowed a string"},
       {"step 'a' { device = 'none', exit = liana.all { at_rest }, time_limit_s = 1, on_fail = 'hold' }", "all: entry 1: function: "},
       {"step 'a' { device = 'none', exit = liana.tip_past 'x', time_limit_s = 1, on_fail = 'hold' }", "tip_past: u_m: x: allowed a number"},
+      {"step 'a' { device = 'none', exit = liana.needs_planar(nil), time_limit_s = 1, on_fail = 'hold' }",
+       "needs_planar: count: nil: allowed a number"},
       // What only the robot (zhu2022: 5 segments, 20 deg) forbids.
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [11] = 0 } }",
        "step 1 \"a\": hold[11]: 0: allowed theta 1 to 10 (robot zhu2022)"},

@@ -54,6 +54,12 @@ class Pose(unittest.TestCase):
             for key in pose:
                 self.assertLess(largest_difference(pose[key], case[key]), 1e-9, f"{case['name']}: {key}")
 
+    def test_a_pose_in_a_scene_says_what_its_slit_wants_planar(self):
+        slit = liana_json("pose", "--scene", "panel_slit", "--theta-deg=-2.641,-2.064,-1.81,-4.64,4.777,5.87,0,4.764,0,-0.543")["slit"]
+        self.assertEqual((slit["planar_segments"], slit["held_theta"]), (2, [7, 9]))
+        self.assertTrue(slit["yaw_range_deg"][0][0] < 4.764 < slit["yaw_range_deg"][0][1])
+        self.assertEqual(len(slit["root"]), 7)
+
     def test_angles_over_the_limit_are_bad_input(self):
         code, out, error = liana("pose", "--theta-deg=20.5" + ",0" * 9)
         self.assertEqual((code, out), (2, ""))

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "host/config/config.hpp"
+#include "host/config/slit_mouth.hpp"
 #include "tests/host/config/tables.hpp"
 
 namespace liana {
@@ -30,6 +31,16 @@ TEST(Scene, PlatesLeaveAGapOf100MillimetresAroundThePlane) {
   }
   EXPECT_EQ(scene.boxes[0].name, "panel");
   EXPECT_GT(dot(scene.boxes[0].center_m, scene.slit.normal), scene.slit.offset_m);
+}
+
+TEST(Scene, TheSlitLeavesLinkAxesTheGapLessTheArm) {
+  const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
+  const SlitMouth mouth = slit_mouth(scene.slit, 0.03);
+  EXPECT_NEAR(mouth.half_gap_m, 0.02, 1e-12);
+  EXPECT_NEAR(mouth.depth_m, 1.95, 1e-12);
+  const Vec3 along = rotate(mouth.frame_in_base.quaternion, {1.0, 0.0, 0.0});
+  EXPECT_NEAR(dot(along, scene.slit.u_axis), 1.0, 1e-9);
+  EXPECT_NEAR(dot(mouth.frame_in_base.position_m, scene.slit.u_axis), scene.slit.mouth_u_m, 1e-9);
 }
 
 TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {

@@ -1,0 +1,48 @@
+#include "host/cli/slit_part.hpp"
+
+#include <numbers>
+
+#include "host/config/slit_mouth.hpp"
+
+namespace liana {
+namespace {
+
+using nlohmann::json;
+
+json held_theta(std::uint32_t mask) {
+  json held = json::array();
+  for (int k = 0; k < kMaxTheta; ++k) {
+    if (((mask >> k) & 1u) != 0) held.push_back(k + 1);
+  }
+  return held;
+}
+
+json range_deg(const YawInterval& interval) {
+  if (interval.empty) return nullptr;
+  constexpr double kDegrees = 180.0 / std::numbers::pi;
+  return {interval.lowest_rad * kDegrees, interval.highest_rad * kDegrees};
+}
+
+}  // namespace
+
+json slit_part(const RobotConfig& robot, const SceneConfig& scene, const ThetaVector& theta_rad) {
+  const RobotTable& table = robot.table;
+  const SlitMouth mouth = slit_mouth(scene.slit, robot.module_radius_m);
+  const std::int32_t segments = planar_segments(table, link_points(table, theta_rad), mouth, PlanarSwitch{}, 0);
+  const PlanarPart part{segments, forward_kinematics(table, theta_rad).tip_in_base, theta_rad};
+  json out{{"planar_segments", segments},
+           {"held_theta", held_theta(planar_pitches(table, segments))},
+           {"root", nullptr},
+           {"yaw_range_deg", json::array()}};
+  if (segments == 0) return out;
+  const Pose root = root_of(table, part);
+  const Vec3& p = root.position_m;
+  const Quat& q = root.quaternion;
+  out["root"] = {p[0], p[1], p[2], q[0], q[1], q[2], q[3]};
+  for (std::int32_t m = table.segment_count - segments + 1; m <= table.segment_count; ++m) {
+    out["yaw_range_deg"].push_back(range_deg(feasible_yaw(table, part, mouth, m)));
+  }
+  return out;
+}
+
+}  // namespace liana
