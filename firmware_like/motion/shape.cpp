@@ -62,11 +62,12 @@ struct Stand {
   double least_room_rad;
 };
 
-// Bounds a rate by room to the limits over `time_s`; true when it had to be changed.
-bool bound_rate(const Stand& stand, const ShapeFactor& metric, double time_s, double largest, NullPoint& rate) noexcept {
-  if (largest * time_s <= stand.least_room_rad) return false;  // far from every limit
+// True when a rate with this largest entry may pass a limit within `time_s`.
+bool may_pass_limit(const Stand& stand, double time_s, double largest) noexcept { return largest * time_s > stand.least_room_rad; }
+
+// Bounds a rate by the room to the limits over `time_s`.
+void bound_rate(const Stand& stand, const ShapeFactor& metric, double time_s, NullPoint& rate) noexcept {
   restrict_to(stand.space, metric, room_to_limits(stand.table, stand.theta_rad, 1.0 / time_s), rate);
-  return true;
 }
 
 // Velocity [rad/s] that the shape wants.
@@ -83,7 +84,8 @@ ThetaVector wanted_rate(const Stand& stand, const ArmKinematics& arm, const Node
   const double largest = largest_entry(rate.theta_rad, n) / kShapeTime_s;
   const double share = largest > limit ? limit / largest : 1.0;
   scale_by(stand.space, share / kShapeTime_s, rate);
-  if (bound_rate(stand, metric, kLimitApproach_s, share * largest, rate)) {
+  if (may_pass_limit(stand, kLimitApproach_s, share * largest)) {
+    bound_rate(stand, metric, kLimitApproach_s, rate);
     const double bounded = largest_entry(rate.theta_rad, n);
     if (bounded > limit) scale_by(stand.space, limit / bounded, rate);
   }
@@ -91,22 +93,6 @@ ThetaVector wanted_rate(const Stand& stand, const ArmKinematics& arm, const Node
 }
 
 }  // namespace
-
-NodeCost node_cost(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept {
-  NodeCost cost;
-  for (const NodeTarget& target : nodes) {
-    if (!is_node(table, target)) continue;
-    const Vec3 towards = towards_target(arm, target);
-    const double distance = norm(towards);
-    if (!(distance > target.threshold_m) || distance < 1e-9) continue;
-    cost.sum_m += target.weight * distance;
-    const Vec3 pull = scale(towards, target.weight / distance);
-    for (std::int32_t k = 0; k < 2 * target.node; ++k) {
-      cost.descent[static_cast<Index>(k)] += dot(pull, node_jacobian_column(arm, target.node, k));
-    }
-  }
-  return cost;
-}
 
 double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept {
   double sum_m = 0.0;
@@ -160,7 +146,7 @@ ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const 
   NullPoint rate;
   rate.z = coordinates(space, change);
   rate.theta_rad = combine(space, rate.z);
-  bound_rate(stand, unit_factor(space), kLastMoment_s, largest_entry(rate.theta_rad, n), rate);
+  if (may_pass_limit(stand, kLastMoment_s, largest_entry(rate.theta_rad, n))) bound_rate(stand, unit_factor(space), kLastMoment_s, rate);
   ThetaVector move{};
   for (Index k = 0; k < n; ++k) {
     rate_rad_s[k] = rate.theta_rad[k];

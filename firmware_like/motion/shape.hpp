@@ -27,14 +27,7 @@ constexpr double kLimitApproach_s = 2.0;   // room to a limit over this bounds t
 
 using NodeTargets = std::array<NodeTarget, kMaxNodeTargets>;
 
-// sum lambda_j d_j [m] over the nodes farther away than their thresholds, and its negative gradient by theta.
-struct NodeCost {
-  double sum_m = 0.0;
-  ThetaVector descent{};
-};
-NodeCost node_cost(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept;
-
-// Sum of weight times excess over the threshold [m]: what add_nodes works on; with thresholds of zero the same as sum_m.
+// Sum over the nodes of lambda_j max(0, d_j - threshold_j) [m]: what add_nodes works on.
 double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept;
 
 // Largest weight of a node target; 0 when there is none.

@@ -86,20 +86,26 @@ TEST(Shape, ProjectionIsSymmetricSoThatDescentStaysDescent) {
   }
 }
 
-TEST(Shape, NodeCostIsTheWeightedDistanceAndItsGradient) {
+// The pull of a model at rest is the negative gradient of the weighted excesses along the null space.
+TEST(Shape, TheModelsPullIsDownhill) {
   const RobotTable robot = zhu2022::table();
   const ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   NodeTargets nodes = target_of(3, {1.0, 0.2, 0.5}, 2.0);
-  nodes[1] = {1, {0.7, -0.1, 0.3}, 0.5, 0.0};
-  const NodeCost cost = node_cost(robot, arm_at(robot, theta), nodes);
-  EXPECT_NEAR(cost.sum_m, 2.0 * distance_m(robot, theta, nodes[0]) + 0.5 * distance_m(robot, theta, nodes[1]), 1e-12);
+  nodes[1] = {1, {0.7, -0.1, 0.3}, 0.5, 0.05};
+  const ArmKinematics arm = arm_at(robot, theta);
+  EXPECT_NEAR(node_excess_m(robot, arm, nodes),
+              2.0 * distance_m(robot, theta, nodes[0]) + 0.5 * (distance_m(robot, theta, nodes[1]) - 0.05), 1e-12);
+  const NullSpace space = null_space(arm.tip_jacobian, robot.theta_count(), 0);
+  ShapeModel model = resting_model(space, 1.0, ThetaVector{});
+  add_nodes(robot, arm, nodes, space, model);
   constexpr double kStep = 1e-6;
-  for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
-    ThetaVector more = theta, less = theta;
-    more[k] += kStep, less[k] -= kStep;
-    const double slope =
-        (node_cost(robot, arm_at(robot, more), nodes).sum_m - node_cost(robot, arm_at(robot, less), nodes).sum_m) / (2 * kStep);
-    EXPECT_NEAR(cost.descent[k], -slope, 1e-6) << k;
+  for (std::size_t d = 0; d < static_cast<std::size_t>(space.dimension); ++d) {
+    NullVector unit{};
+    unit[d] = kStep;
+    const ThetaVector step = combine(space, unit);
+    const double more = node_excess_m(robot, arm_at(robot, zhu2022::plus(theta, step)), nodes);
+    const double less = node_excess_m(robot, arm_at(robot, zhu2022::plus(theta, step, -1.0)), nodes);
+    EXPECT_NEAR(model.pull[d], -(more - less) / (2 * kStep), 1e-6) << d;
   }
 }
 
@@ -107,13 +113,18 @@ TEST(Shape, NodeCostIsTheWeightedDistanceAndItsGradient) {
 TEST(Shape, A43OnlyNodesBeyondTheirThresholdCount) {
   const RobotTable robot = zhu2022::table();
   const ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
-  const Vec3 at = arm_at(robot, theta).node_in_base[3].position_m;
+  const ArmKinematics arm = arm_at(robot, theta);
+  const Vec3 at = arm.node_in_base[3].position_m;
   const Vec3 near = add(at, {0.0, 0.0, 0.05});
-  EXPECT_EQ(node_cost(robot, arm_at(robot, theta), target_of(3, near, 1.0, 0.06)).sum_m, 0.0);
-  EXPECT_NEAR(node_cost(robot, arm_at(robot, theta), target_of(3, near, 1.0, 0.04)).sum_m, 0.05, 1e-12);
-  EXPECT_EQ(node_cost(robot, arm_at(robot, theta), target_of(3, at)).sum_m, 0.0);  // no direction to go when there
-  EXPECT_EQ(node_cost(robot, arm_at(robot, theta), target_of(0, near)).sum_m, 0.0);
-  EXPECT_EQ(node_cost(robot, arm_at(robot, theta), target_of(6, near)).sum_m, 0.0);
+  EXPECT_NEAR(node_excess_m(robot, arm, target_of(3, near, 1.0, 0.04)), 0.01, 1e-12);
+  const NullSpace space = null_space(arm.tip_jacobian, robot.theta_count(), 0);
+  for (const NodeTargets& nodes :
+       {target_of(3, near, 1.0, 0.06), target_of(3, at), target_of(0, near), target_of(6, near), target_of(3, near, 0.0)}) {
+    EXPECT_EQ(node_excess_m(robot, arm, nodes), 0.0);
+    ShapeModel model = resting_model(space, 1.0, ThetaVector{});
+    add_nodes(robot, arm, nodes, space, model);
+    for (std::size_t d = 0; d < static_cast<std::size_t>(space.dimension); ++d) EXPECT_EQ(model.pull[d], 0.0);
+  }
 }
 
 // A43, A44: towards a target that another shape with the same tip has d falls, up to the balance with centring, and the tip stays.
@@ -298,6 +309,24 @@ TEST(Shape, MotionIsSmoothWhateverTheTargetsDo) {
       servo_ik(robot, goal, arm, theta);
       ASSERT_LE(zhu2022::largest_difference(rate, before), 2.0 * accel) << i << " " << tick;
     }
+  }
+}
+
+// Three segments leave the tip nothing to spare; eight leave ten directions.
+TEST(Shape, ArmsOfOtherSizesKeepTheirTipToo) {
+  Random random(9);
+  RobotTable eight = zhu2022::table();
+  eight.segment_count = 8;
+  for (std::size_t m = 5; m < 8; ++m) eight.segment[m] = zhu2022::segment(8, 3, 24.0 * static_cast<double>(m));
+  for (const RobotTable& robot : {zhu2022::uneven_table(), eight}) {
+    const ThetaVector theta = random.theta(robot, 15.0);
+    ThetaVector rate{};
+    const ArmKinematics arm = arm_at(robot, theta);
+    const NodeTargets nodes = target_of(2, add(arm.node_in_base[2].position_m, {0.0, 0.0, 0.2}));
+    const ThetaVector move = shape_move(robot, arm, nodes, 0, false, theta, rate);
+    EXPECT_LE(tip_rate(arm.tip_jacobian, move), 1e-9 * zhu2022::length(move));
+    EXPECT_EQ(zhu2022::length(move) > 0.0, robot.segment_count == 8);
+    EXPECT_EQ(null_space(arm.tip_jacobian, robot.theta_count(), 0).dimension, robot.theta_count() - 6);
   }
 }
 
