@@ -56,6 +56,33 @@ void reset_limiter(const ThetaVector& theta_rad, LimiterState& state) noexcept {
   state.reference_rad = theta_rad;
 }
 
+StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& step_rad,
+                        const LimiterState& state) noexcept {
+  constexpr double kPathShare = 0.95;  // of speeds; the rest is for making up a lag
+  const double change = table.limits.theta_accel_rad_s2 * table.tick_s;
+  ThetaVector rate{};
+  double fastest = 0.0, most = 1.0, least = 0.0;  // acceleration: least <= share <= most
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    rate[k] = step_rad[k] / table.tick_s;
+    const double size = std::fabs(rate[k]);
+    const double now = rate[k] < 0.0 ? -state.rate_rad_s[k] : state.rate_rad_s[k];
+    fastest = larger(fastest, size);
+    if (now + change < size) most = smaller(most, larger(0.0, now + change) / size);
+    if (now - change > 0.0) least = larger(least, smaller(1.0, (now - change) / size));
+    rate[k] /= kPathShare;
+  }
+  const double allowed = kPathShare * table.limits.theta_rate_rad_s;
+  const double by_rate = fastest > allowed ? allowed / fastest : 1.0;
+  const double by_cable = cable_factor(table, geometry, rate);
+  const double by_accel = larger(most, least);
+  StepShare out{smaller(smaller(by_rate, by_cable), by_accel), 0};
+  if (out.share == 1.0) return out;
+  if (by_rate <= out.share) out.limits |= kLimitThetaRate;
+  if (by_cable <= out.share) out.limits |= kLimitCableSpeed;
+  if (by_accel <= out.share) out.limits |= kLimitThetaAccel;
+  return out;
+}
+
 void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad, LimiterState& state) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const double h = table.tick_s;

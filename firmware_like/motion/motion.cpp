@@ -11,6 +11,7 @@ namespace {
 using Index = std::size_t;
 
 constexpr double kHeldShare = 0.4;           // of the theta limits that held variables use on their way
+constexpr double kBehind = 1e-4;             // m and rad: from here the target does not wait, or a blocked arm could not be led away
 constexpr double kHeldNear_rad = 2e-6;       // from here a held variable that has slowed down
 constexpr double kHeldSlow_rad_s = 2e-5;     // to this rate
 constexpr double kHeldArrival_rad_s = 7e-5;  // goes the rest straight: others make up for its steps many times magnified
@@ -56,7 +57,62 @@ Pose interpolated_target(const RobotTable& table, const MotionState& state) noex
           normalize(multiply(quaternion_of(scale(state.turn_rad, share)), a.quaternion))};
 }
 
-void follow_tip(const RobotTable& table, bool braking, MotionState& state) noexcept {
+// Between two poses that are one tick apart.
+Pose pose_between(const Pose& a, const Pose& b, double share) noexcept {
+  Quat q{};
+  for (Index i = 0; i < 4; ++i) q[i] = a.quaternion[i] + share * (b.quaternion[i] - a.quaternion[i]);
+  return {add(a.position_m, scale(subtract(b.position_m, a.position_m), share)), normalize(q)};
+}
+
+void slow_channel(double share, ChannelState& channel) noexcept {
+  channel.velocity = scale(channel.velocity, share);
+  channel.acceleration = scale(channel.acceleration, share);
+}
+
+// What servo IK reported, for the pose and angles now.
+void report_again(const RobotTable& table, MotionState& state) noexcept {
+  IkReport& ik = state.ik;
+  ik.residual = pose_error(state.filter.pose, tip_pose(table, arm_trig(table, state.ik_rad)));
+  ik.position_error_m = norm({ik.residual[0], ik.residual[1], ik.residual[2]});
+  ik.attitude_error_rad = norm({ik.residual[3], ik.residual[4], ik.residual[5]});
+  const bool converged = ik.position_error_m <= kIkConverged && ik.attitude_error_rad <= kIkConverged;
+  if (ik.outcome == IkOutcome::kConverged && !converged) ik.outcome = IkOutcome::kApproaching;
+}
+
+// Takes only a share of this tick's motion, of the target as of the joints: the arm slows down on its path and does not leave it.
+void slow_down(const RobotTable& table, double share, const Pose& target_before, const ThetaVector& ik_before,
+               MotionState& state) noexcept {
+  if (state.ik.position_error_m + state.ik.attitude_error_rad < kBehind) {
+    state.filter.pose = pose_between(target_before, state.filter.pose, share);
+    slow_channel(share, state.filter.linear);
+    slow_channel(share, state.filter.angular);
+  }
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    state.ik_rad[k] = ik_before[k] + share * (state.ik_rad[k] - ik_before[k]);
+    state.shape_rate_rad_s[k] *= share;
+    if (((state.held_mask >> k) & 1u) == 0) continue;
+    state.held[k].value_rad = state.ik_rad[k];
+    slow_channel(share, state.held[k].channel);
+    if (state.ik_rad[k] != state.to.held_rad[k]) state.held_at_target = false;
+  }
+  report_again(table, state);
+}
+
+// Shape and servo IK: angles for the filtered target.
+void solve_tip(const RobotTable& table, bool braking, MotionState& state) noexcept {
+  // The IK goes on from where the command stands, unless a limit or a held theta has come between.
+  if (state.ik_rad != state.limiter.theta_rad) update_kinematics(table, arm_trig(table, state.ik_rad), state.arm);
+  const ThetaVector move = shape_move(table, state.arm, state.to.node, state.held_mask, braking, state.ik_rad, state.shape_rate_rad_s);
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
+  state.ik = servo_ik(table, {state.filter.pose, state.held_mask, kTipCurvature_m}, state.arm, state.ik_rad);
+  if (state.ik.limit_mask != 0) state.limits |= kLimitTheta;
+  if (state.ik.outcome == IkOutcome::kSingular) state.limits |= kLimitSingular;
+  if (state.ik.outcome == IkOutcome::kUnreachable) state.limits |= kLimitReach;
+}
+
+void follow_tip(const RobotTable& table, const CableGeometry& geometry, bool braking, MotionState& state) noexcept {
+  const Pose target_before = state.filter.pose;
+  const ThetaVector ik_before = state.ik_rad;
   const TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s);
   if (braking) {
     brake_tip(config, state.filter);
@@ -66,15 +122,13 @@ void follow_tip(const RobotTable& table, bool braking, MotionState& state) noexc
   }
   if (state.filter.speed_limited) state.limits |= kLimitTipSpeed;
   if (state.filter.accel_limited) state.limits |= kLimitTipAccel;
+  solve_tip(table, braking, state);
 
-  // The IK goes on from where the command stands, unless a limit or a held theta has come between.
-  if (state.ik_rad != state.limiter.theta_rad) update_kinematics(table, arm_trig(table, state.ik_rad), state.arm);
-  const ThetaVector move = shape_move(table, state.arm, state.to.node, state.held_mask, braking, state.ik_rad, state.shape_rate_rad_s);
-  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
-  state.ik = servo_ik(table, {state.filter.pose, state.held_mask}, state.arm, state.ik_rad);
-  if (state.ik.limit_mask != 0) state.limits |= kLimitTheta;
-  if (state.ik.outcome == IkOutcome::kSingular) state.limits |= kLimitSingular;
-  if (state.ik.outcome == IkOutcome::kUnreachable) state.limits |= kLimitReach;
+  ThetaVector step{};
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) step[k] = state.ik_rad[k] - ik_before[k];
+  const StepShare allowed = allowed_share(table, geometry, step, state.limiter);
+  state.limits |= allowed.limits;
+  if (allowed.share < 1.0) slow_down(table, allowed.share, target_before, ik_before, state);
 }
 
 // Joint reference: linear over the command interval; the limiter does the rest.
@@ -165,7 +219,7 @@ void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool
   const bool braking = state.braking || !allowed;
   if (state.interval_tick < table.interval_ticks) ++state.interval_tick;
   if (is_tip(state.to)) {
-    follow_tip(table, braking, state);
+    follow_tip(table, geometry, braking, state);
   } else if (braking) {
     brake_joints(table, state);
   } else {

@@ -151,6 +151,11 @@ double arm_length_m(const RobotTable& table) noexcept {
   return length_m;
 }
 
+double damping_for(const IkGoal& goal, const Task& e) noexcept {
+  const double e2 = size2(e);
+  return goal.curvature_m > 0.0 ? kDamping + goal.curvature_m * std::sqrt(e2) : kDamping + e2;
+}
+
 IkOutcome outcome_of(const RobotTable& table, const IkGoal& goal, const IkReport& report, double asked2, double left2) noexcept {
   if (report.position_error_m <= kIkConverged && report.attitude_error_rad <= kIkConverged) return IkOutcome::kConverged;
   if (norm(goal.tip_in_base.position_m) > arm_length_m(table)) return IkOutcome::kUnreachable;
@@ -184,7 +189,7 @@ IkReport ik_step(const RobotTable& table, const IkGoal& goal, double damping, Th
 IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, ThetaVector& theta_rad) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const Task asked = pose_error(goal.tip_in_base, arm.tip_in_base);
-  const DampedMove move = move_damped(table, arm.tip_jacobian, goal.held_mask, kDamping + size2(asked), asked, theta_rad);
+  const DampedMove move = move_damped(table, arm.tip_jacobian, goal.held_mask, damping_for(goal, asked), asked, theta_rad);
   Task rest = pose_error(goal.tip_in_base, tip_pose(table, arm_trig(table, theta_rad)));
   IkReport report = report_of(rest);
   const Step correction = solve_step(move.solver, arm.tip_jacobian, n, rest);

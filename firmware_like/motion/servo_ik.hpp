@@ -1,8 +1,12 @@
 // Servo IK: joint angles that follow a moving tip pose, a constant number of iterations per tick (mission figures A2, A5, A6).
 //
-// Damped least squares on the free thetas: dtheta = J^T (J J^T + mu I)^-1 e, mu = kDamping + e.e. Held thetas are removed from the
-// iteration and moved only by their own profile. A free theta that would pass its limit is set onto it and removed, and the rest is solved
-// again. What the tip leaves free is moved by motion/shape.hpp. Outcomes and ways out: docs/follow-a-command.md.
+// Damped least squares on the free thetas: dtheta = J^T (J J^T + mu I)^-1 e. Held thetas are removed from the iteration and moved only by
+// their own profile. A free theta that would pass its limit is set onto it and removed, and the rest is solved again. What the tip leaves
+// free is moved by motion/shape.hpp. Outcomes and ways out: docs/follow-a-command.md.
+//
+// mu = kDamping + c |e| for a target that is followed. The tip's path bends by c = kTipCurvature_m per rad2; where an error e cannot be
+// taken away, as just beyond the stretched arm, a step with less damping than c |e| overshoots, and the next one jumps back. mu = kDamping
+// + e.e for goals, where far jumps are what helps.
 #pragma once
 
 #include <array>
@@ -13,14 +17,16 @@
 
 namespace liana {
 
-constexpr std::int32_t kLimitPasses = 3;  // re-solves per iteration, at most
-constexpr double kDamping = 1e-6;         // m2/rad2; singular directions slow down below |sigma| = 1e-3
-constexpr double kIkConverged = 1e-6;     // m and rad
-constexpr double kIkBlockedShare = 0.5;   // of the error that a step leaves: more is not on its way any more
+constexpr std::int32_t kLimitPasses = 3;   // re-solves per iteration, at most
+constexpr double kDamping = 1e-6;          // m2/rad2; singular directions slow down below |sigma| = 1e-3
+constexpr double kTipCurvature_m = 200.0;  // per rad2: eight joints turn by one theta, 64 times the length behind them; less at the tip
+constexpr double kIkConverged = 1e-6;      // m and rad
+constexpr double kIkBlockedShare = 0.5;    // of the error that a step leaves: more is not on its way any more
 
 struct IkGoal {
   Pose tip_in_base{};
   std::uint32_t held_mask = 0;  // bit i: theta i is not free
+  double curvature_m = 0.0;     // kTipCurvature_m to follow a moving target; 0 for a goal that may be far away
 };
 
 // What became of the goal. The way out of the last three is a goal back along minus the residual; the arm follows it at once.

@@ -121,7 +121,7 @@ TEST_F(HeldMotion, A38AnyVariablesAtAnyValuesAreHeldExactlyWhileTheTipMoves) {
         ASSERT_EQ(state_.limiter.theta_rad[k], held.rad[k]) << hold.what << ", theta " << k + 1;
       }
     });
-    EXPECT_LE(tip_error(), 1e-9) << hold.what;
+    EXPECT_LE(tip_error(), 1e-6) << hold.what;
     EXPECT_GT(norm(subtract(tip().position_m, before)), 0.02) << hold.what;
   }
 }
@@ -158,14 +158,14 @@ TEST_F(HeldMotion, A38ReleasingIsFarBelowWhatTheJointsCan) {
 // A39, A41: segment 5 comes into the plane, at 0 and elsewhere, while the tip stands still or goes on.
 TEST_F(HeldMotion, A41ASegmentComesIntoThePlaneWhileTheTipStaysOrFollows) {
   for (const double speed_m_s : {0.0, 0.01}) {
-    for (const double from_deg : {-1.0, 0.5, 1.0}) {
+    for (const double from_deg : {-2.0, 1.0, 9.0}) {
       for (const double to_deg : {0.0, 3.0}) {
         zhu2022::Degrees theta = zhu2022::kPanelEdge_deg;
         theta[8] = from_deg;
         start(theta);
         const Held held = held_by({"X5", {{9, to_deg}}, false});
         double largest = 0.0;
-        steer(scale(Vec3{0.7, 0.0, 0.7}, speed_m_s), held, 800, [&] { largest = std::max(largest, command_error()); });
+        steer(scale(Vec3{0.7, 0.0, 0.7}, speed_m_s), held, 1500, [&] { largest = std::max(largest, command_error()); });
         EXPECT_LE(largest, 1e-6) << from_deg << " to " << to_deg << " at " << speed_m_s;
         EXPECT_EQ(state_.limiter.theta_rad[8], to_deg * kDegree) << from_deg << " to " << to_deg;
       }
