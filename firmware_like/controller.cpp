@@ -47,7 +47,7 @@ Outputs Controller::tick(const Inputs& inputs) noexcept {
   read_drives(inputs);  // lengths, tensions, measured angles
   const std::int32_t wrong = watch(watchdog_limits_, watch_scope(supervisor_), inputs, sent_, tension_measured_N_, watchdogs_, faults_);
   const bool stop = active_.setpoint().kind == CommandKind::kStop;
-  const MotionStatus status{stop, homed(), at_rest(table_, motion_), ramp_ >= 1.0 && cables_taut()};
+  const MotionStatus status{stop, homed(), at_rest_, ramp_ >= 1.0 && cables_taut()};
   const Orders orders = supervise(watchdog_limits_, inputs, status, wrong, supervisor_, faults_);
   take_telecommand(inputs);        // what is in force now
   move(inputs, orders);            // filter, IK, limiter: commanded angles
@@ -66,7 +66,7 @@ void Controller::read_drives(const Inputs& inputs) noexcept {
     tension_measured_N_[c] = table_.drive[c].newtons_per_permille * drive.torque_permille;
   }
   if (!all_heard) return;
-  estimate(table_, layout_, geometry_, solver_, ratio_, payout_measured_m_, tension_measured_N_, estimator_);
+  estimate(table_, layout_, model_, ratio_, payout_measured_m_, tension_measured_N_, estimator_);
   double residual_m = 0.0;
   for (Index c = 0; c < cables(); ++c) residual_m = larger(residual_m, std::fabs(estimator_.residual_m[c]));
   const bool plausible = all_fresh && estimator_.largest_step_rad < kHomingStep_rad && residual_m < kHomingResidual_m;
@@ -121,9 +121,10 @@ void Controller::move(const Inputs&, const Orders& orders) noexcept {
     active_ = Telecommand{};
   } else {
     if (!orders.motion_allowed) motion_.braking = true;
-    advance_motion(table_, geometry_, orders.motion_allowed, motion_);
+    advance_motion(table_, model_.geometry, orders.motion_allowed, motion_);
     limits_ |= motion_.limits;
   }
+  at_rest_ = at_rest(table_, motion_);
 }
 
 void Controller::limit_payout_speed(CableVector& wanted_m) noexcept {
@@ -141,28 +142,34 @@ void Controller::ramp_payouts(CableVector& wanted_m) const noexcept {
   for (Index c = 0; c < cables(); ++c) wanted_m[c] = ramp_start_m_[c] + share * (wanted_m[c] - ramp_start_m_[c]);
 }
 
+// Moves the motors after the swing that the measured tensions show; while a fault makes tensions doubtful the last shift stays.
 void Controller::damp_payouts(CableVector& wanted_m) noexcept {
   if (faults_.count == 0) {
-    CableVector more_N;
-    for (Index c = 0; c < cables(); ++c) more_N[c] = estimator_.tension_N[c] - tension_.motor_N[c];
-    damp(table_, geometry_, solver_, stretch_for(table_, layout_, geometry_.part_m, ratio_, more_N), damping_);
+    // A cable stretches in proportion to its tension (to 0.3 %); as planned it is stretched by the path less the unstretched length.
+    CableVector stretch_m;
+    for (Index c = 0; c < cables(); ++c) {
+      const double planned_N = larger(tension_.motor_N[c], table_.tension.floor_anywhere_N);
+      stretch_m[c] = (estimator_.tension_N[c] / planned_N - 1.0) * (model_.geometry.length_m[c] + table_.lead_m - wanted_m[c]);
+    }
+    damp(table_, model_.geometry, model_.solver, stretch_m, damping_);
   }
   // The shift is small (kDampingLimit_rad): what its square adds to a length is below 20 um.
   for (Index c = 0; c < cables(); ++c) {
-    const double* const row = geometry_.jacobian_m_rad[c].data();
+    const double* const row = model_.geometry.jacobian_m_rad[c].data();
     wanted_m[c] += dot_pairs(row, damping_.output_rad.data(), as_index(layout_.segment[c]) + 1);
   }
 }
 
 void Controller::take_geometry() noexcept {
-  update_cable_geometry(table_, layout_, motion_.trig, geometry_);
-  update_cable_solver(table_, geometry_, solver_);
+  model_.theta_rad = motion_.limiter.theta_rad;
+  update_cable_geometry(table_, layout_, motion_.trig, model_.geometry);
+  update_cable_solver(table_, model_.geometry, model_.solver);
 }
 
 void Controller::plan_payouts(const Orders& orders) noexcept {
   take_geometry();
-  if (!orders.live_targets || !live_) reset_slip(geometry_, slip_);
-  advance_slip(layout_, geometry_, slip_);
+  if (!orders.live_targets || !live_) reset_slip(model_.geometry, slip_);
+  advance_slip(layout_, model_.geometry, slip_);
   update_tension_ratio(table_, layout_, motion_.trig, slip_, ratio_);
   if (!orders.live_targets) {
     live_ = false;
@@ -178,11 +185,11 @@ void Controller::plan_payouts(const Orders& orders) noexcept {
   }
   if (orders.ramp_active) ramp_ = smaller(1.0, ramp_ + table_.tick_s / kPretensionRamp_s);
 
-  tension_ = plan_tension(table_, geometry_, ratio_, table_.tension.plan_N);
+  tension_ = plan_tension(table_, model_.geometry, ratio_, table_.tension.plan_N);
   if (tension_.floor_acted) limits_ |= kLimitTensionFloor;
   if (tension_.ceiling_exceeded) limits_ |= kLimitTensionCeiling;
 
-  CableVector wanted_m = payout_for(table_, layout_, geometry_.part_m, ratio_, tension_.motor_N);
+  CableVector wanted_m = payout_for(table_, layout_, model_.geometry.part_m, ratio_, tension_.motor_N);
   if (ramp_ < 1.0) {
     ramp_payouts(wanted_m);
   } else {
@@ -210,7 +217,7 @@ Outputs Controller::report(const Inputs& inputs, const Orders& orders) const noe
   out.limits = limits_;
   out.held_mask = motion_.held_mask;
   out.held_at_target = motion_.held_at_target ? 1 : 0;
-  out.at_rest = at_rest(table_, motion_) ? 1 : 0;
+  out.at_rest = at_rest_ ? 1 : 0;
   out.homed = homed() ? 1 : 0;
   out.active_sequence = motion_.braking ? 0 : active_.sequence();
   out.faults = faults_;

@@ -75,11 +75,11 @@ class Controller {
   std::uint64_t last_sequence_ = 0;
   MotionState motion_{};
   std::uint32_t limits_ = 0;
+  bool at_rest_ = true;  // nothing moves by command
 
   SlipState slip_{};
-  CableGeometry geometry_{};  // at the commanded angles
-  CableSolver solver_{};      // of that geometry
-  TensionRatio ratio_{};      // planned friction
+  CableModel model_{};    // at the commanded angles
+  TensionRatio ratio_{};  // planned friction
   DampingState damping_{};
   TensionPlan tension_{};
   CableVector payout_command_m_{};

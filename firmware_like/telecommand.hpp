@@ -28,6 +28,11 @@ struct NodeTarget {
   double threshold_m = 0.0;  // acts only while the distance is larger
 };
 
+// Weight of a target that names none: the arm's middle node comes first (A45: d_3 of five segments).
+constexpr double default_node_weight(const RobotTable& table, std::int32_t node) {
+  return node == (table.segment_count + 1) / 2 ? 1.0 : 0.25;
+}
+
 // What a device, mission, plan or client asks for; not yet verified.
 struct Setpoint {
   CommandKind kind = CommandKind::kNone;

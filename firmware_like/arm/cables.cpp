@@ -97,18 +97,6 @@ void update_cable_geometry(const RobotTable& table, const CableLayout& layout, c
   }
 }
 
-void update_cable_parts(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, CableParts& part_m) noexcept {
-  Index first = 0;  // the first cable that passes segment j
-  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
-    const PathForm f = path_form(trig[j], table.face_offset_m);
-    const double modules = table.segment[j].modules;
-    for (Index c = first; c < static_cast<Index>(layout.cable_count); ++c) {
-      part_m[c][j] = modules * distance_m(f, layout.hole_y_m[c], layout.hole_z_m[c]) + layout.straight_m[c][j];
-    }
-    first += static_cast<Index>(table.segment[j].cables);
-  }
-}
-
 void update_cable_solver(const RobotTable& table, const CableGeometry& geometry, CableSolver& solver) noexcept {
   Index c = 0;
   for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
@@ -125,23 +113,26 @@ void update_cable_solver(const RobotTable& table, const CableGeometry& geometry,
   }
 }
 
-ThetaVector solve_cables(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver,
-                         const CableVector& change_m) noexcept {
-  ThetaVector theta{};
-  Index c = 0;
+CableSolution solve_cables(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver,
+                           const CableVector& change_m) noexcept {
+  CableSolution out;
+  ThetaVector& theta = out.theta_rad;
+  Index first = 0;
   for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
+    const Index end = first + static_cast<Index>(table.segment[j].cables);
     double by_pitch = 0.0, by_yaw = 0.0;
-    for (const Index end = c + static_cast<Index>(table.segment[j].cables); c < end; ++c) {
+    for (Index c = first; c < end; ++c) {
       const double* const row = geometry.jacobian_m_rad[c].data();
-      const double own_m = change_m[c] - dot_pairs(row, theta.data(), j);
-      by_pitch += row[2 * j] * own_m;
-      by_yaw += row[2 * j + 1] * own_m;
+      out.left_m[c] = change_m[c] - dot_pairs(row, theta.data(), j);
+      by_pitch += row[2 * j] * out.left_m[c];
+      by_yaw += row[2 * j + 1] * out.left_m[c];
     }
     const CableSolver::Segment& n = solver.segment[j];
     theta[2 * j] = (n.qq * by_pitch - n.pq * by_yaw) * n.inverse_det;
     theta[2 * j + 1] = (n.pp * by_yaw - n.pq * by_pitch) * n.inverse_det;
+    for (; first < end; ++first) out.left_m[first] -= dot_pairs(&geometry.jacobian_m_rad[first][2 * j], &theta[2 * j], 1);
   }
-  return theta;
+  return out;
 }
 
 SegmentVector cable_wraps(const RobotTable& table, const ArmTrig& trig) noexcept {

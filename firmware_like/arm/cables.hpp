@@ -41,9 +41,6 @@ CableLayout cable_layout(const RobotTable& table) noexcept;
 void update_cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, CableGeometry& out) noexcept;
 CableGeometry cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig) noexcept;
 
-// The paths alone, a third of the cost.
-void update_cable_parts(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, CableParts& part_m) noexcept;
-
 // Two angles from three lengths, segment by segment from the base: each segment's angles are the least squares of its own cables, whose
 // paths are first freed from what the segments before them do. What is left over is each segment's own contradiction.
 struct CableSolver {
@@ -56,8 +53,12 @@ void update_cable_solver(const RobotTable& table, const CableGeometry& geometry,
 
 // Angles by which a change of cable paths moves the arm, with the geometry that `solver` belongs to; zero where a segment is singular.
 // Cost: one multiplication per entry of the Jacobian.
-ThetaVector solve_cables(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver,
-                         const CableVector& change_m) noexcept;
+struct CableSolution {
+  ThetaVector theta_rad{};
+  CableVector left_m{};  // of the change, not explained by any angles: cables of a segment that contradict each other
+};
+CableSolution solve_cables(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver,
+                           const CableVector& change_m) noexcept;
 
 // Bend [rad] of a cable along each whole segment, the same for all cables.
 using SegmentVector = std::array<double, kMaxSegments>;

@@ -9,26 +9,24 @@ namespace liana {
 
 using Index = std::size_t;
 
-void estimate(const RobotTable& table, const CableLayout& layout, const CableGeometry& geometry, const CableSolver& solver,
-              const TensionRatio& ratio, const CableVector& payout_m, const CableVector& tension_N, EstimatorState& state) noexcept {
+void estimate(const RobotTable& table, const CableLayout& layout, const CableModel& model, const TensionRatio& ratio,
+              const CableVector& payout_m, const CableVector& tension_N, EstimatorState& state) noexcept {
   const Index cables = static_cast<Index>(layout.cable_count);
   const double blend = state.primed ? table.tick_s / (kTensionFilter_s + table.tick_s) : 1.0;
   for (Index c = 0; c < cables; ++c) state.tension_N[c] += blend * (tension_N[c] - state.tension_N[c]);
-  if (!state.primed) state.trig = arm_trig(table, state.theta_rad);
   state.primed = true;
 
-  update_cable_parts(table, layout, state.trig, state.part_m);
-  const CableVector expected_m = payout_for(table, layout, state.part_m, ratio, state.tension_N);
-  for (Index c = 0; c < cables; ++c) state.residual_m[c] = payout_m[c] - expected_m[c];
-  const ThetaVector step = solve_cables(table, geometry, solver, state.residual_m);
+  CableVector change_m = payout_for(table, layout, model.geometry.part_m, ratio, state.tension_N);
+  for (Index c = 0; c < cables; ++c) change_m[c] = payout_m[c] - change_m[c];
+  const CableSolution found = solve_cables(table, model.geometry, model.solver, change_m);
+  state.residual_m = found.left_m;
   state.largest_step_rad = 0.0;
   for (Index i = 0; i < static_cast<Index>(table.theta_count()); ++i) {
     constexpr double kLargestStep_rad = 0.1;  // keeps the first steps from far away inside the geometry's range
-    const double bounded = clamp(step[i], -kLargestStep_rad, kLargestStep_rad);
-    state.theta_rad[i] += bounded;
-    state.largest_step_rad = larger(state.largest_step_rad, std::fabs(bounded));
+    const double step = clamp(model.theta_rad[i] + found.theta_rad[i] - state.theta_rad[i], -kLargestStep_rad, kLargestStep_rad);
+    state.theta_rad[i] += step;
+    state.largest_step_rad = larger(state.largest_step_rad, std::fabs(step));
   }
-  state.trig = arm_trig(table, state.theta_rad);
 }
 
 }  // namespace liana

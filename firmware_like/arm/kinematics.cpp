@@ -144,12 +144,16 @@ void put_columns(const EndRates& end, const Vec3& lever, Index first, Jacobian& 
 
 }  // namespace
 
-ArmTrig arm_trig(const RobotTable& table, const ThetaVector& theta_rad) noexcept {
-  ArmTrig trig{};
+void update_trig(const RobotTable& table, const ThetaVector& theta_rad, ArmTrig& trig) noexcept {
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
     const SinCosOf<Pair> angle = sin_cos(load_pair(&theta_rad[2 * m]));
     trig[m] = {angle.sin[0], angle.cos[0], angle.sin[1], angle.cos[1]};
   }
+}
+
+ArmTrig arm_trig(const RobotTable& table, const ThetaVector& theta_rad) noexcept {
+  ArmTrig trig{};
+  update_trig(table, theta_rad, trig);
   return trig;
 }
 

@@ -20,6 +20,7 @@ struct SegmentTrig {
 using ArmTrig = std::array<SegmentTrig, kMaxSegments>;
 
 // Sine and cosine of all angles; theta in radians, any size within 1000.
+void update_trig(const RobotTable& table, const ThetaVector& theta_rad, ArmTrig& trig) noexcept;  // all that the table uses is written
 ArmTrig arm_trig(const RobotTable& table, const ThetaVector& theta_rad) noexcept;
 
 // Columns are thetas; linear m/rad, angular rad/rad, of one point in the base frame.

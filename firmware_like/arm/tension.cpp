@@ -113,17 +113,6 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
   return plan;
 }
 
-CableVector stretch_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m, const TensionRatio& ratio,
-                        const CableVector& change_N) noexcept {
-  CableVector stretch_m{};
-  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
-    double pulled_m = table.lead_m;
-    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) pulled_m += part_m[c][j] * ratio[c][j];
-    stretch_m[c] = change_N[c] * pulled_m / table.cable_EA_N;
-  }
-  return stretch_m;
-}
-
 CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m, const TensionRatio& ratio,
                        const CableVector& motor_N) noexcept {
   CableVector payout{};

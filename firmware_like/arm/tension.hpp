@@ -28,10 +28,6 @@ struct TensionPlan {
 // Plan at one pose around `level_N` at the motor. Residual torque is below 1e-9 N m when balanced.
 TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio, double level_N) noexcept;
 
-// How much longer the cables stretch when tension at the motor grows by `change_N`; to first order in strain (0.3 % of the result).
-CableVector stretch_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m, const TensionRatio& ratio,
-                        const CableVector& change_N) noexcept;
-
 // Unstretched length from drum to anchor when the cables are pulled with motor_N: the elastic part is taken off piece by piece.
 CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m, const TensionRatio& ratio,
                        const CableVector& motor_N) noexcept;

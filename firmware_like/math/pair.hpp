@@ -2,6 +2,7 @@
 // with two lanes need half the instructions.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 
@@ -30,6 +31,6 @@ inline void add_scaled_pairs(double s, const double* x, double* y, std::size_t c
 }
 
 // True when both lanes lie in [-limit, limit]; false for NaN.
-inline bool within(const Pair& x, double limit) noexcept { return x[0] <= limit && x[0] >= -limit && x[1] <= limit && x[1] >= -limit; }
+inline bool within(const Pair& x, double limit) noexcept { return std::fabs(x[0]) <= limit && std::fabs(x[1]) <= limit; }
 
 }  // namespace liana

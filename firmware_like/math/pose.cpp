@@ -16,8 +16,14 @@ Vec3 rotation_vector(const Quat& q) {
   const double sign = q[0] < 0.0 ? -1.0 : 1.0;  // the shorter way round
   const Vec3 v{sign * q[1], sign * q[2], sign * q[3]};
   const double s = norm(v);
-  if (s < 1e-12) return scale(v, 2.0);
-  return scale(v, 2.0 * arc_tangent(s, sign * q[0]) / s);
+  if (s > 0.05) return scale(v, 2.0 * arc_tangent(s, sign * q[0]) / s);
+  const double x = s * s;  // arc sine of s over s; the first term left out is below 1e-17
+  double p = 63.0 / 2816.0;
+  p = p * x + 35.0 / 1152.0;
+  p = p * x + 5.0 / 112.0;
+  p = p * x + 3.0 / 40.0;
+  p = p * x + 1.0 / 6.0;
+  return scale(v, 2.0 + 2.0 * p * x);
 }
 
 Quat quaternion_of(const Vec3& rotation_vector_rad) {

@@ -2,6 +2,8 @@
 // Only + - * / and sqrt are used. Errors are against the exact value, tested over the whole range stated.
 #pragma once
 
+#include <cmath>
+
 #include "firmware_like/math/pair.hpp"
 
 namespace liana {
@@ -70,5 +72,5 @@ inline double small_exponential(double x) noexcept {
 
 // e^x for |x| <= 4: relative error <= 1e-14; outside, x is taken at the nearer end.
 double wide_exponential(double x) noexcept;
-inline double exponential(double x) noexcept { return x >= -0.25 && x <= 0.25 ? small_exponential(x) : wide_exponential(x); }
+inline double exponential(double x) noexcept { return std::fabs(x) <= 0.25 ? small_exponential(x) : wide_exponential(x); }
 }  // namespace liana

@@ -25,8 +25,10 @@ double wanted_rate(double gap_rad, double reference_rate, double accel, double t
   return reference_rate + (gap_rad < 0.0 ? -close : close);
 }
 
-// Factor <= 1 that brings the fastest cable under the cable speed limit.
-double cable_factor(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& rate) noexcept {
+constexpr double kCableShare = 0.8;  // of the cable speed limit; the rest is for tension changes and damping
+
+// Factor <= 1 that brings the fastest cable under `share` of the cable speed limit.
+double cable_factor(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& rate, double share) noexcept {
   double fastest = 0.0;
   Index c = 0;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
@@ -34,8 +36,8 @@ double cable_factor(const RobotTable& table, const CableGeometry& geometry, cons
       fastest = larger(fastest, std::fabs(dot_pairs(geometry.jacobian_m_rad[c].data(), rate.data(), m + 1)));
     }
   }
-  constexpr double kShare = 0.8;  // the rest is for tension changes and damping
-  return fastest > kShare * table.limits.cable_speed_m_s ? kShare * table.limits.cable_speed_m_s / fastest : 1.0;
+  const double allowed = share * table.limits.cable_speed_m_s;
+  return fastest > allowed ? allowed / fastest : 1.0;
 }
 
 // Fastest rate towards a joint limit from which the joint still stops before it: v^2 + 2 a h v = 2 a d, under which no later tick needs to
@@ -69,11 +71,10 @@ StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, 
     fastest = larger(fastest, size);
     if (now + change < size) most = smaller(most, larger(0.0, now + change) / size);
     if (now - change > 0.0) least = larger(least, smaller(1.0, (now - change) / size));
-    rate[k] /= kPathShare;
   }
   const double allowed = kPathShare * table.limits.theta_rate_rad_s;
   const double by_rate = fastest > allowed ? allowed / fastest : 1.0;
-  const double by_cable = cable_factor(table, geometry, rate);
+  const double by_cable = cable_factor(table, geometry, rate, kPathShare * kCableShare);
   const double by_accel = larger(most, least);
   StepShare out{smaller(smaller(by_rate, by_cable), by_accel), 0};
   if (out.share == 1.0) return out;
@@ -83,7 +84,8 @@ StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, 
   return out;
 }
 
-void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad, LimiterState& state) noexcept {
+void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad, LimiterState& state,
+                  bool judged) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const double h = table.tick_s;
   const double accel = table.limits.theta_accel_rad_s2;
@@ -91,7 +93,8 @@ void limit_motion(const RobotTable& table, const CableGeometry& geometry, const 
   for (Index k = 0; k < n; ++k) {
     wanted[k] = wanted_rate(state.reference_rad[k] - state.theta_rad[k], (reference_rad[k] - state.reference_rad[k]) / h, accel, h);
   }
-  const double factor = cable_factor(table, geometry, wanted);
+  const bool follows = judged && state.reference_rad == state.theta_rad;
+  const double factor = follows ? 1.0 : cable_factor(table, geometry, wanted, kCableShare);
   state.limits = factor < 1.0 ? kLimitCableSpeed : 0u;
   for (Index k = 0; k < n; ++k) {
     const double rate = clamp(wanted[k] * factor, -table.limits.theta_rate_rad_s, table.limits.theta_rate_rad_s);

@@ -157,7 +157,7 @@ void brake_joints(const RobotTable& table, MotionState& state) noexcept {
 }
 
 void take_kinematics(const RobotTable& table, MotionState& state) noexcept {
-  state.trig = arm_trig(table, state.limiter.theta_rad);
+  update_trig(table, state.limiter.theta_rad, state.trig);
   update_kinematics(table, state.trig, state.arm);
 }
 
@@ -225,7 +225,7 @@ void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool
   } else {
     follow_joints(table, braking, state);
   }
-  limit_motion(table, geometry, state.ik_rad, state.limiter);
+  limit_motion(table, geometry, state.ik_rad, state.limiter, is_tip(state.to));
   state.limits |= state.limiter.limits;
   take_kinematics(table, state);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "firmware_like/math/cholesky.hpp"
+#include "firmware_like/math/scalar.hpp"
 
 namespace liana {
 namespace {
@@ -190,12 +191,17 @@ IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinemati
   const Index n = static_cast<Index>(table.theta_count());
   const Task asked = pose_error(goal.tip_in_base, arm.tip_in_base);
   const DampedMove move = move_damped(table, arm.tip_jacobian, goal.held_mask, damping_for(goal, asked), asked, theta_rad);
-  Task rest = pose_error(goal.tip_in_base, tip_pose(table, arm_trig(table, theta_rad)));
+  ArmTrig trig;  // only what the table uses is written, and read
+  update_trig(table, theta_rad, trig);
+  const Task rest = pose_error(goal.tip_in_base, tip_pose(table, trig));
   IkReport report = report_of(rest);
   const Step correction = solve_step(move.solver, arm.tip_jacobian, n, rest);
-  report.limit_mask = move.limit_mask | clip_to_limits(table, arm.tip_jacobian, move.solver.fixed, correction.theta_rad, theta_rad, rest);
+  report.limit_mask = move.limit_mask;
   for (Index k = 0; k < n; ++k) {
-    if (!is_set(move.solver.fixed | report.limit_mask, k)) theta_rad[k] += correction.theta_rad[k];
+    if (is_set(move.solver.fixed, k)) continue;
+    const double limit = limit_of(table, k), wanted = theta_rad[k] + correction.theta_rad[k];
+    theta_rad[k] = clamp(wanted, -limit, limit);
+    if (theta_rad[k] != wanted) report.limit_mask |= 1u << k;
   }
   report.outcome = outcome_of(table, goal, report, size2(asked), move.left2);
   return report;

@@ -72,6 +72,10 @@ void watch_state(WatchScope scope, const DriveFeedback& drive, std::int32_t i, W
 void watch_cable(const WatchdogLimits& limits, WatchScope scope, double tension_N, std::int32_t drive, WatchdogState& state,
                  Watch& out) noexcept {
   const std::size_t i = as_index(drive);
+  if (tension_N >= limits.slack_N && tension_N <= limits.alarm_N && tension_N <= limits.hard_limit_N) {
+    state.slack_ticks[i] = state.alarm_ticks[i] = state.overload_ticks[i] = 0;
+    return;
+  }
   const bool slack = scope.tensioned && !(tension_N >= limits.slack_N);  // so written, NaN is slack
   out.debounced(slack, kSlackDebounceTicks, state.slack_ticks[i], FaultNumber::kCableSlack, drive);
   out.debounced(scope.powered && tension_N > limits.alarm_N, kAlarmDebounceTicks, state.alarm_ticks[i], FaultNumber::kTensionAlarm, drive);

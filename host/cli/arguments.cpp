@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "firmware_like/telecommand.hpp"
 #include "host/cli/errors.hpp"
 
 namespace liana {
@@ -134,7 +135,7 @@ ControlPointArgument parse_control_point(std::string_view text, const RobotTable
   ControlPointArgument point;
   point.node = parse_index("--control-point", parts[0], robot.segment_count, "a node (the end of a segment)");
   point.position_m = checked_position("--control-point", parts[1], parse_numbers("--control-point", parts[1], 3));
-  if (parts.size() == 3) point.weight = parse_number("--control-point", parts[2]);
+  point.weight = parts.size() == 3 ? parse_number("--control-point", parts[2]) : default_node_weight(robot, point.node);
   if (point.weight <= 0.0 || point.weight > kLargestWeight) {
     refuse("--control-point", text, "a weight over 0, up to " + short_number(kLargestWeight));
   }

@@ -157,8 +157,9 @@ Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
   std::array<NodeTarget, kMaxNodeTargets> nodes{};
   std::size_t used = 0;
   for (const Json& entry : array_field(request, "nodes", nodes.size())) {
-    nodes[used++] = {static_cast<std::int32_t>(integer_field(entry, "node", 1, config_.robot.table.segment_count - 1)),
-                     point_field(entry, "position_m", reach_m_), number_field_or(entry, "weight", 0.0, 1000.0, 1.0),
+    const auto node = static_cast<std::int32_t>(integer_field(entry, "node", 1, config_.robot.table.segment_count - 1));
+    nodes[used++] = {node, point_field(entry, "position_m", reach_m_),
+                     number_field_or(entry, "weight", 0.0, 1000.0, default_node_weight(config_.robot.table, node)),
                      number_field_or(entry, "threshold_m", 0.0, reach_m_, kNodeThreshold_m)};
   }
   arbiter_.shape(now(), nodes);

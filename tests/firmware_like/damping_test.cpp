@@ -33,9 +33,11 @@ struct Bench {
   ThetaVector step(const CableVector& measured_N, DampingState& state) const {
     CableSolver solver;
     update_cable_solver(robot, geometry, solver);
-    CableVector more_N{};
-    for (std::size_t c = 0; c < zhu2022::kCables; ++c) more_N[c] = measured_N[c] - planned_N[c];
-    damp(robot, geometry, solver, stretch_for(robot, layout, geometry.part_m, ratio, more_N), state);
+    const CableVector planned_m = payout_for(robot, layout, geometry.part_m, ratio, planned_N);
+    const CableVector measured_m = payout_for(robot, layout, geometry.part_m, ratio, measured_N);
+    CableVector stretch_m{};
+    for (std::size_t c = 0; c < zhu2022::kCables; ++c) stretch_m[c] = planned_m[c] - measured_m[c];
+    damp(robot, geometry, solver, stretch_m, state);
     return state.output_rad;
   }
 };

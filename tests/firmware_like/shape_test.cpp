@@ -46,6 +46,11 @@ void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, 
   }
 }
 
+TEST(Shape, A45TheMiddleNodeComesFirstUnlessWeightsSayOtherwise) {
+  const RobotTable robot = zhu2022::table();
+  for (const std::int32_t node : {1, 2, 4, 5}) EXPECT_LT(default_node_weight(robot, node), default_node_weight(robot, 3));
+}
+
 // A43: a true projector, not a damped inverse.
 TEST(Shape, A43ProjectedVectorsDoNotMoveTheTip) {
   const RobotTable robot = zhu2022::table();

@@ -33,7 +33,7 @@ class Page:
 
     def put(self, name, text, commit, seconds):
         """Replaces the section of that name."""
-        machine = f"{os.cpu_count()} processors, {platform.machine()}, Linux {platform.release()}"
+        machine = f"{os.cpu_count()} processors, {platform.machine()}"
         date = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
         self.sections[name] = f"`./dev numbers {name}`, {date}, commit {commit}, {machine}, took {seconds:.0f} s.\n\n{text.strip()}\n\n"
 
