@@ -66,6 +66,7 @@ class Telecommand {
   std::uint64_t first_tick_ = 0;
   std::uint64_t expiry_tick_ = 0;
   std::uint32_t owner_ = 0;
+  std::uint32_t no_padding_ = 0;  // images of a Controller are recorded as memory: no byte of it may be left to chance
   Setpoint setpoint_{};
 };
 

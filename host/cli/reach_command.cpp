@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -32,8 +33,10 @@ std::string number_list(const std::vector<double>& numbers) {
 
 // The waypoints of a file: what `liana plan --json` prints, or a JSON object with waypoints_deg (rows of joint angles, degrees).
 std::vector<ThetaVector> read_waypoints(const std::string& path, const RobotTable& robot) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
+  std::error_code unreadable;
+  std::ifstream file;
+  if (std::filesystem::is_regular_file(path, unreadable)) file.open(path, std::ios::binary);
+  if (!file.is_open()) throw BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
   const json document = json::parse(std::string{std::istreambuf_iterator<char>(file), {}}, nullptr, false);
   const json rows = document.is_object() ? document.value("waypoints_deg", json()) : json();
   if (!rows.is_array() || rows.empty() || rows.size() > kMaxWaypoints) {
