@@ -77,7 +77,7 @@ struct ApiServer::Client {
   bool readable(std::uint64_t tick) const { return inbox.size() < kMaxInbox && !(in_lockstep() && is_done(tick)); }
 };
 
-ApiServer::ApiServer(const std::string& path, ApiHandler& handler) : listener_(listen_at(path)), handler_(handler) {}
+ApiServer::ApiServer(const std::string& path, ApiHandler& handler) : listener_(listen_at("--api", path)), handler_(handler) {}
 ApiServer::~ApiServer() = default;
 
 void ApiServer::pump(double timeout_s) {

@@ -69,23 +69,22 @@ bool is_listening(const std::string& path) {
   return ::connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 || errno == EAGAIN;
 }
 
-UniqueFd listen_at(const std::string& path) {
-  // The path appears only when it can be connected to: those who wait for it start at once.
-  const std::string before = path + "~";
-  const sockaddr_un address = unix_address(before);
-  if (is_listening(path)) {
-    throw std::runtime_error("api socket " + path + ": another lianad listens here; stop it or choose another path with --api");
-  }
+UniqueFd listen_at(const std::string& option, const std::string& path) {
+  const auto fail = [&](const std::string& why) { throw std::runtime_error(option + " " + path + ": " + why); };
+  if (is_listening(path)) fail("another program listens there; end it or give another path");
   std::error_code unreadable;
   const auto kind = std::filesystem::status(path, unreadable).type();
   if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::socket) {
-    throw std::runtime_error("api socket " + path + ": a file that is no socket is there; choose another path with --api");
+    fail("a file that is no socket is there; give another path");
   }
+  // The path appears only when it can be connected to: those who wait for it start at once.
+  const std::string before = path + "~";
+  const sockaddr_un address = unix_address(before);
   ::unlink(before.c_str());
   UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (fd.get() < 0 || ::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 || ::listen(fd.get(), 16) != 0 ||
       ::rename(before.c_str(), path.c_str()) != 0) {
-    throw std::runtime_error("api socket " + path + ": " + std::strerror(errno) + "; the folder must exist and be writable");
+    fail(std::string("cannot listen: ") + std::strerror(errno) + "; give a path in a folder you may write");
   }
   return fd;
 }

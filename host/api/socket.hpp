@@ -1,4 +1,4 @@
-// One AF_UNIX SOCK_SEQPACKET packet in, one packet out; shared by both ends of the API.
+// AF_UNIX SOCK_SEQPACKET sockets: who listens, one packet in, one packet out; for both ends of the API and of the embedded bus.
 #pragma once
 
 #include <cstddef>
@@ -42,7 +42,8 @@ bool wait_writable(int fd, double timeout_s);
 // Somebody listens at `path`, though perhaps too busy to answer; errno says why not. Throws std::runtime_error for too long a path.
 bool is_listening(const std::string& path);
 
-// A listening socket at `path`; replaces a stale socket file, throws std::runtime_error when the path is in use or too long.
-UniqueFd listen_at(const std::string& path);
+// A listening socket at `path`, which the program was given with `option`; replaces a stale socket file. Accepting from it never waits.
+// Throws std::runtime_error when the path is in use, no socket, too long or not writable.
+UniqueFd listen_at(const std::string& option, const std::string& path);
 
 }  // namespace liana

@@ -3,51 +3,17 @@
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/time.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
 #include <optional>
-#include <stdexcept>
 
 namespace liana {
 namespace {
 
 volatile std::sig_atomic_t g_stop = 0;
 constexpr int kSocketBufferBytes = 1 << 20;
-
-OwnedDescriptor listen_on(const std::string& path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.empty() || path.size() + 1 >= sizeof address.sun_path) {
-    throw std::runtime_error("--socket " + path + ": allowed are paths of 1 to " + std::to_string(sizeof address.sun_path - 2) + " bytes");
-  }
-  std::memcpy(address.sun_path, path.c_str(), path.size());
-  OwnedDescriptor listener(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
-  if (connect(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
-    throw std::runtime_error("--socket " + path + ": another bus listens there already; end it or give another path");
-  }
-  // The path appears only when it can be connected to: those who wait for it start at once.
-  const std::string before = path + "~";
-  std::memcpy(address.sun_path, before.c_str(), before.size() + 1);
-  std::error_code unreadable;
-  const auto kind = std::filesystem::status(path, unreadable).type();
-  if (kind != std::filesystem::file_type::not_found && kind != std::filesystem::file_type::socket) {
-    throw std::runtime_error("--socket " + path + ": a file that is no socket is there; give another path");
-  }
-  unlink(before.c_str());
-  if (bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 || listen(listener.get(), 4) != 0 ||
-      std::rename(before.c_str(), path.c_str()) != 0) {
-    throw std::runtime_error("--socket " + path + ": cannot listen: " + std::strerror(errno) +
-                             "; give a path in a directory you may write");
-  }
-  return listener;
-}
 
 // HELLO of a new connection, or nothing when it says something else or nothing within a second.
 std::optional<wire::Hello> read_hello(int descriptor) {
@@ -74,8 +40,8 @@ std::string objection(const wire::Hello& hello, const std::vector<Participant>& 
 }
 
 void admit_one(int listener, const wire::Welcome& welcome, std::vector<Participant>& present) {
-  OwnedDescriptor socket(accept4(listener, nullptr, nullptr, SOCK_CLOEXEC));
-  if (!socket.open()) return;
+  UniqueFd socket(accept4(listener, nullptr, nullptr, SOCK_CLOEXEC));
+  if (socket.get() < 0) return;
   const std::optional<wire::Hello> hello = read_hello(socket.get());
   if (!hello) return;
   // A whole boot of the other side fits, so that sending hardly ever waits.
@@ -101,7 +67,7 @@ void request_bus_stop() { g_stop = 1; }
 bool bus_stop_requested() { return g_stop != 0; }
 
 std::vector<Participant> admit_participants(const std::string& socket_path, const wire::Welcome& welcome) {
-  const OwnedDescriptor listener = listen_on(socket_path);
+  const UniqueFd listener = listen_at("--socket", socket_path);
   std::vector<Participant> present;
   while (present.size() < 2 && !bus_stop_requested()) {
     pollfd ready{listener.get(), POLLIN, 0};

@@ -1,31 +1,23 @@
 #include "host/bus/embedded_link.hpp"
 
 #include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
 
-#include "host/bus/time_mode.hpp"
+#include "host/api/address.hpp"
 
 namespace liana {
 namespace {
 
-int connect_to(const std::string& path) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  if (path.empty() || path.size() >= sizeof address.sun_path) {
-    throw std::runtime_error("bus socket '" + path + "': allowed are paths of 1 to " + std::to_string(sizeof address.sun_path - 1) +
-                             " bytes");
+UniqueFd connect_to(const std::string& path) {
+  const sockaddr_un address = unix_address(path);
+  UniqueFd fd(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  if (fd.get() < 0 || connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
+    throw std::runtime_error("bus socket " + path + ": " + std::strerror(errno) + "; start liana-bus with --socket " + path + " first");
   }
-  std::memcpy(address.sun_path, path.c_str(), path.size());
-  const int descriptor = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
-  if (descriptor >= 0 && connect(descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) return descriptor;
-  const std::string reason = std::strerror(errno);
-  if (descriptor >= 0) close(descriptor);
-  throw std::runtime_error("bus socket " + path + ": " + reason + "; start liana-bus with --socket " + path + " first");
+  return fd;
 }
 
 wire::Welcome greet(int descriptor, const std::string& path) {
@@ -73,26 +65,19 @@ wire::Welcome expected_welcome(const BusesConfig& config) {
 
 }  // namespace
 
-EmbeddedLink::EmbeddedLink(const std::string& path, const BusesConfig& config) : descriptor_(connect_to(path)) {
-  try {
-    welcome_ = greet(descriptor_, path);
-    const std::string runs = describe(welcome_);
-    const std::string expected = describe(expected_welcome(config));
-    if (runs != expected) {
-      throw std::runtime_error("bus socket " + path + ": liana-bus runs " + runs + "; table " + config.name + " says " + expected +
-                               "; give both the same table");
-    }
-  } catch (...) {
-    close(descriptor_);
-    throw;
+EmbeddedLink::EmbeddedLink(const std::string& path, const BusesConfig& config)
+    : socket_(connect_to(path)), welcome_(greet(socket_.get(), path)) {
+  const std::string runs = describe(welcome_);
+  const std::string expected = describe(expected_welcome(config));
+  if (runs != expected) {
+    throw std::runtime_error("bus socket " + path + ": liana-bus runs " + runs + "; table " + config.name + " says " + expected +
+                             "; give both the same table");
   }
 }
 
-EmbeddedLink::~EmbeddedLink() { close(descriptor_); }
-
 bool EmbeddedLink::send(const wire::Yield& yield, bool block) noexcept {
   const int flags = MSG_NOSIGNAL | (block ? 0 : MSG_DONTWAIT);
-  while (::send(descriptor_, &yield, yield.size(), flags) < 0) {
+  while (::send(socket_.get(), &yield, yield.size(), flags) < 0) {
     if (errno != EINTR) return false;
   }
   return true;
@@ -100,7 +85,7 @@ bool EmbeddedLink::send(const wire::Yield& yield, bool block) noexcept {
 
 EmbeddedLink::Received EmbeddedLink::receive(wire::Wake& wake, bool block) noexcept {
   for (;;) {
-    const ssize_t size = recv(descriptor_, &wake, sizeof wake, block ? 0 : MSG_DONTWAIT);
+    const ssize_t size = recv(socket_.get(), &wake, sizeof wake, block ? 0 : MSG_DONTWAIT);
     if (size < 0 && errno == EINTR) continue;
     if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return Received::kNothing;
     const bool whole = size >= static_cast<ssize_t>(wire::kHeaderBytes) && wake.type == wire::Type::kWake &&

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "host/api/socket.hpp"
 #include "host/bus/wire_packets.hpp"
 #include "host/config/config.hpp"
 
@@ -13,11 +14,8 @@ class EmbeddedLink {
   // Connects to `path` and exchanges HELLO and WELCOME, as liana-bus answers at once. Throws std::runtime_error when nobody
   // listens there, the bus refuses, or it runs other buses than `config`.
   EmbeddedLink(const std::string& path, const BusesConfig& config);
-  ~EmbeddedLink();
-  EmbeddedLink(const EmbeddedLink&) = delete;
-  EmbeddedLink& operator=(const EmbeddedLink&) = delete;
 
-  int descriptor() const noexcept { return descriptor_; }
+  int descriptor() const noexcept { return socket_.get(); }
   const wire::Welcome& welcome() const noexcept { return welcome_; }
   // False when the bus has gone (or, with `block` false, when its socket is full).
   bool send(const wire::Yield& yield, bool block) noexcept;
@@ -26,7 +24,7 @@ class EmbeddedLink {
   Received receive(wire::Wake& wake, bool block) noexcept;
 
  private:
-  int descriptor_ = -1;
+  UniqueFd socket_;
   wire::Welcome welcome_;
 };
 

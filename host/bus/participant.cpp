@@ -1,7 +1,6 @@
 #include "host/bus/participant.hpp"
 
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -10,16 +9,7 @@
 
 namespace liana {
 
-OwnedDescriptor::~OwnedDescriptor() {
-  if (descriptor_ >= 0) close(descriptor_);
-}
-
-OwnedDescriptor& OwnedDescriptor::operator=(OwnedDescriptor&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_);
-  return *this;
-}
-
-Participant::Participant(OwnedDescriptor socket, const wire::Hello& hello)
+Participant::Participant(UniqueFd socket, const wire::Hello& hello)
     : socket_(std::move(socket)), name_(hello.name.data(), strnlen(hello.name.data(), hello.name.size())), role_(hello.role) {
   inbox_.reserve(4 * wire::kMaxPacketFrames);
 }

@@ -5,27 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "host/api/socket.hpp"
 #include "host/bus/wire_packets.hpp"
 
 namespace liana {
 
-// A file descriptor that closes itself.
-class OwnedDescriptor {
- public:
-  explicit OwnedDescriptor(int descriptor = -1) : descriptor_(descriptor) {}
-  ~OwnedDescriptor();
-  OwnedDescriptor(OwnedDescriptor&& other) noexcept : descriptor_(other.descriptor_) { other.descriptor_ = -1; }
-  OwnedDescriptor& operator=(OwnedDescriptor&& other) noexcept;
-  int get() const { return descriptor_; }
-  bool open() const { return descriptor_ >= 0; }
-
- private:
-  int descriptor_;
-};
-
 class Participant {
  public:
-  Participant(OwnedDescriptor socket, const wire::Hello& hello);
+  Participant(UniqueFd socket, const wire::Hello& hello);
 
   const std::string& name() const { return name_; }
   wire::Role role() const { return role_; }
@@ -52,7 +39,7 @@ class Participant {
   bool wake_on_sync = false;
 
  private:
-  OwnedDescriptor socket_;
+  UniqueFd socket_;
   std::string name_;
   wire::Role role_;
   std::vector<wire::Frame> inbox_;

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -193,6 +195,14 @@ TEST_F(Api, ASecondServerOnTheSamePathIsRefused) {
   EXPECT_THROW(ApiServer(path_, recorder_), std::runtime_error);
   EXPECT_THROW(ApiServer(std::string(200, 'x'), recorder_), std::runtime_error);
   EXPECT_THROW(ApiServer("/nonexistent/folder/api", recorder_), std::runtime_error);
+}
+
+TEST_F(Api, AFileThatIsNoSocketStays) {
+  const std::string file = path_ + "_file";
+  std::ofstream(file) << "precious";
+  EXPECT_THROW(ApiServer(file, recorder_), std::runtime_error);
+  EXPECT_TRUE(std::filesystem::is_regular_file(file));
+  std::filesystem::remove(file);
 }
 
 TEST_F(Api, AClientWithoutAServerIsToldSo) { EXPECT_THROW(ApiClient::connect(path_ + "_none", 0.05), std::runtime_error); }

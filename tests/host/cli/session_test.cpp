@@ -21,7 +21,7 @@ using nlohmann::json;
 class FakeDaemon {
  public:
   // `deaf`: leaves when it hears a stop, without having stopped anything.
-  explicit FakeDaemon(const std::string& path, bool deaf = false) : deaf_(deaf), listener_(listen_at(path)), thread_([this] { serve(); }) {}
+  explicit FakeDaemon(const std::string& path, bool deaf = false) : deaf_(deaf), listener_(listen_at("--api", path)), thread_([this] { serve(); }) {}
   ~FakeDaemon() {
     quit_ = true;
     thread_.join();
