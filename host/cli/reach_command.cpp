@@ -12,6 +12,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/errors.hpp"
 #include "host/cli/tables.hpp"
+#include "host/config/theta_numbers.hpp"
 #include "host/reach/path.hpp"
 #include "host/reach/picture.hpp"
 #include "host/reach/region.hpp"
@@ -107,14 +108,6 @@ RegionRequest region_request(const ReachOptions& options, const RobotTable& robo
 
 // --- what is answered ---
 
-json thetas_in(std::uint32_t mask) {
-  json list = json::array();
-  for (std::int32_t i = 0; i < kMaxTheta; ++i) {
-    if (mask >> i & 1u) list.push_back(i + 1);
-  }
-  return list;
-}
-
 json degrees(const ThetaVector& theta_rad, const RobotTable& robot) {
   json list = json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) list.push_back(theta_rad[i] / kDegree);
@@ -133,7 +126,7 @@ json end_json(const BoundaryPoint& end, const RobotTable& robot) {
   return {{"distance_m", end.distance_m},
           {"point_m", end.point_in_base_m},
           {"theta_deg", degrees(end.theta_rad, robot)},
-          {"binding_theta", thetas_in(end.binding)}};
+          {"binding_theta", theta_numbers(end.binding)}};
 }
 
 json bins_json(const Region& region, const RobotTable& robot) {
@@ -207,7 +200,7 @@ json path_json(const PathReport& report, std::uint32_t held_mask, const RobotCon
   json points = json::array();
   for (const PathPoint& point : report.points) points.push_back(point_json(point, robot.table));
   return {{"robot", robot.name},
-          {"held_theta", thetas_in(held_mask)},
+          {"held_theta", theta_numbers(held_mask)},
           {"joint_travel_deg", report.joint_travel_rad / kDegree},
           {"waypoint_way", report.waypoint_way},
           {"worst_conditioned", point_json(report.points[report.worst_conditioned], robot.table)},

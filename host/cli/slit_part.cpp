@@ -3,19 +3,12 @@
 #include <numbers>
 
 #include "host/config/slit_mouth.hpp"
+#include "host/config/theta_numbers.hpp"
 
 namespace liana {
 namespace {
 
 using nlohmann::json;
-
-json held_theta(std::uint32_t mask) {
-  json held = json::array();
-  for (int k = 0; k < kMaxTheta; ++k) {
-    if (((mask >> k) & 1u) != 0) held.push_back(k + 1);
-  }
-  return held;
-}
 
 json range_deg(const YawInterval& interval) {
   if (interval.empty) return nullptr;
@@ -31,7 +24,7 @@ json slit_part(const RobotConfig& robot, const SceneConfig& scene, const ThetaVe
   const std::int32_t segments = planar_segments(table, link_points(table, theta_rad), mouth, PlanarSwitch{}, 0);
   const PlanarPart part{segments, forward_kinematics(table, theta_rad).tip_in_base, theta_rad};
   json out{{"planar_segments", segments},
-           {"held_theta", held_theta(planar_pitches(table, segments))},
+           {"held_theta", theta_numbers(planar_pitches(table, segments))},
            {"root", nullptr},
            {"yaw_range_deg", json::array()}};
   if (segments == 0) return out;

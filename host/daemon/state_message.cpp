@@ -4,6 +4,7 @@
 
 #include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/safety/faults.hpp"
+#include "host/config/theta_numbers.hpp"
 
 namespace liana {
 
@@ -23,14 +24,6 @@ json nodes_json(const RobotTable& table, const Outputs& outputs) {
   json nodes = json::array();
   for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m) nodes.push_back(outputs.node_command_m[m]);
   return nodes;
-}
-
-json held_json(std::uint32_t mask) {
-  json held = json::array();
-  for (int i = 0; i < kMaxTheta; ++i) {
-    if (((mask >> i) & 1u) != 0) held.push_back(i + 1);
-  }
-  return held;
 }
 
 json faults_json(const FaultList& list) {
@@ -128,7 +121,7 @@ void add_arm(json& state, const RobotTable& table, const CycleReport& report) {
   state["setpoint_cp"] = pose_json(o.tip_command);
   state["goal_cp"] = pose_json(o.tip_goal);
   state["node_m"] = nodes_json(table, o);
-  state["held"] = held_json(o.held_mask);
+  state["held"] = theta_numbers(o.held_mask);
   state["held_at_target"] = o.held_at_target != 0;
   state["at_rest"] = o.at_rest != 0;
   state["tension_N"] = first(o.tension_measured_N, table.cable_count());
