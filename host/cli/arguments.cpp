@@ -13,7 +13,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kFarthest_m = 1000.0;  // no arm reaches so far, and squares of it are no problem for anybody
 constexpr double kLargestWeight = 1000.0;
-constexpr std::uint64_t kLargestSeed = (std::uint64_t{1} << 53) - 1;
+constexpr std::int64_t kLargestSeed = (std::int64_t{1} << 53) - 1;
 
 [[noreturn]] void refuse(std::string_view option, std::string_view value, const std::string& allowed) {
   throw BadInput(std::string(option) + ": '" + std::string(value) + "': allowed: " + allowed);
@@ -33,15 +33,6 @@ std::string short_number(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
   return {text, end};
-}
-
-std::int32_t parse_index(std::string_view option, std::string_view text, std::int32_t last, const std::string& what) {
-  std::int32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || value < 1 || value > last) {
-    refuse(option, text, what + " from 1 to " + std::to_string(last));
-  }
-  return value;
 }
 
 Vec3 checked_position(std::string_view option, std::string_view text, const std::vector<double>& v) {
@@ -73,13 +64,27 @@ double parse_number(std::string_view option, std::string_view text) {
   return value;
 }
 
-std::uint64_t parse_seed(std::string_view option, std::string_view text) {
-  std::uint64_t value = 0;
+double parse_number_in(std::string_view option, std::string_view text, double least, double most, std::string_view unit) {
+  const double value = parse_number(option, text);
+  if (value < least || value > most) refuse(option, text, short_number(least) + " to " + short_number(most) + " " + std::string(unit));
+  return value;
+}
+
+std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most, std::string_view note) {
+  std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || value > kLargestSeed) {
-    refuse(option, text, "a whole number from 0 to " + std::to_string(kLargestSeed));
+  if (error != std::errc{} || end != text.data() + text.size() || value < least || value > most) {
+    refuse(option, text, "a whole number from " + std::to_string(least) + " to " + std::to_string(most) + std::string(note));
   }
   return value;
+}
+
+std::int32_t parse_node(std::string_view option, std::string_view text, const RobotTable& robot) {
+  return static_cast<std::int32_t>(parse_whole(option, text, 1, robot.segment_count, ": a node (the end of a segment)"));
+}
+
+std::uint64_t parse_seed(std::string_view option, std::string_view text) {
+  return static_cast<std::uint64_t>(parse_whole(option, text, 0, kLargestSeed));
 }
 
 std::vector<double> parse_numbers(std::string_view option, std::string_view text, std::size_t count) {
@@ -116,7 +121,7 @@ std::vector<HoldArgument> parse_hold(std::string_view text, const RobotTable& ro
   for (const std::string_view part : split(text, ',')) {
     const std::size_t equals = part.find('=');
     HoldArgument hold;
-    hold.theta = parse_index("--hold", part.substr(0, equals), robot.theta_count(), "a theta number");
+    hold.theta = static_cast<std::int32_t>(parse_whole("--hold", part.substr(0, equals), 1, robot.theta_count(), ": a theta"));
     for (const HoldArgument& other : holds) {
       if (other.theta == hold.theta) refuse("--hold", text, "each theta at most once");
     }
@@ -133,7 +138,7 @@ ControlPointArgument parse_control_point(std::string_view text, const RobotTable
   const auto parts = split(text, ':');
   if (parts.size() != 2 && parts.size() != 3) refuse("--control-point", text, "NODE:x,y,z or NODE:x,y,z:WEIGHT");
   ControlPointArgument point;
-  point.node = parse_index("--control-point", parts[0], robot.segment_count, "a node (the end of a segment)");
+  point.node = parse_node("--control-point", parts[0], robot);
   point.position_m = checked_position("--control-point", parts[1], parse_numbers("--control-point", parts[1], 3));
   point.weight = parts.size() == 3 ? parse_number("--control-point", parts[2]) : default_node_weight(robot, point.node);
   if (point.weight <= 0.0 || point.weight > kLargestWeight) {

@@ -28,6 +28,15 @@ struct ControlPointArgument {
 // A finite number, all of `text`.
 double parse_number(std::string_view option, std::string_view text);
 
+// A finite number from `least` to `most`; `unit` is for the message.
+double parse_number_in(std::string_view option, std::string_view text, double least, double most, std::string_view unit);
+
+// A whole number from `least` to `most`; `note`, if any, is added to what the message allows.
+std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most, std::string_view note = "");
+
+// A node, which is the end of a segment, counted from 1.
+std::int32_t parse_node(std::string_view option, std::string_view text, const RobotTable& robot);
+
 // A whole number from 0 to 2^53 - 1, the largest that JSON keeps exactly.
 std::uint64_t parse_seed(std::string_view option, std::string_view text);
 

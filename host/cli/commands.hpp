@@ -29,13 +29,13 @@ int ik_command(const IkOptions& options);
 
 struct ReachOptions {
   std::string robot = "zhu2022";
-  std::string scene;      // empty: none is drawn
-  std::string hold;       // empty: nothing is held
-  std::string from_deg;   // region: where held thetas are and the arm is drawn, zero pose where empty; path: its begin
-  std::string to_deg;     // path: its end
-  std::string path;       // path: a file with waypoints_deg
-  std::int32_t node = 0;  // 0: the tip
-  std::int64_t samples = 200000;
+  std::string scene;     // empty: none is drawn
+  std::string hold;      // empty: nothing is held
+  std::string from_deg;  // region: where held thetas are and the arm is drawn, zero pose where empty; path: its begin
+  std::string to_deg;    // path: its end
+  std::string path;      // path: a file with waypoints_deg
+  std::string node;      // empty: the tip
+  std::string samples = "200000";
   std::uint64_t seed = 1;
   std::string svg_file;  // empty: no picture
   bool json = false;
@@ -52,10 +52,10 @@ struct PlanOptions {
   std::string hold;                         // empty: nothing is held
   std::string planar;                       // empty: no planar phases
   std::vector<std::string> control_points;  // in order
-  int waypoints = 20;
-  double margin_m = 0.005;
-  double max_step_deg = 0.0;  // 0: the planner's default
-  int max_iterations = 300;
+  std::string waypoints = "20";
+  std::string margin_m = "0.005";
+  std::string max_step_deg;  // empty: the planner's default
+  std::string max_iterations = "300";
   std::string out_file;  // empty: the plan is only printed
   bool json = false;
 };

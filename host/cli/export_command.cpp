@@ -1,18 +1,19 @@
 #include <cstdio>
-#include <fstream>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/output.hpp"
 #include "host/cli/tables.hpp"
 
 namespace liana {
 
 int export_command(const ExportOptions& options) {
+  if (!options.file.empty()) check_output("--out", options.file);
   const std::string table = evaluate_table("robot", options.robot);
-  if (options.file.empty()) return std::fputs(table.c_str(), stdout) < 0 ? kExitFailure : kExitOk;
-  std::ofstream file(options.file);
-  file << table;
-  file.close();
-  if (!file) throw BadInput(options.file + ": cannot be written; give a file in a directory that exists");
+  if (options.file.empty()) {
+    std::fputs(table.c_str(), stdout);
+  } else {
+    write_output(options.file, table);
+  }
   return kExitOk;
 }
 

@@ -8,6 +8,8 @@
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/errors.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/output.hpp"
 
 namespace {
 
@@ -27,6 +29,12 @@ CLI::App* add(CLI::App& app, Action& action, const char* name, const char* text,
   return sub;
 }
 
+void add_seed(CLI::App& sub, std::uint64_t& seed, const std::string& what) {
+  sub.add_option_function<std::string>(
+         "--seed", [&seed](const std::string& text) { seed = liana::parse_seed("--seed", text); }, what + "; 0 to 9007199254740991")
+      ->default_str("1");
+}
+
 void add_kinematics(CLI::App& app, Action& action, liana::PoseOptions& pose, liana::IkOptions& ik) {
   CLI::App* sub = add(app, action, "pose", "tip pose, segment ends, Jacobian and cable lengths of joint angles", pose, liana::pose_command);
   sub->add_option("--robot", pose.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
@@ -39,7 +47,9 @@ void add_kinematics(CLI::App& app, Action& action, liana::PoseOptions& pose, lia
   sub->add_option("--from-deg", ik.from_deg, "joint angles to start from")->required();
   sub->add_option("--tip", ik.tip, "goal x,y,z,qw,qx,qy,qz")->required();
   sub->add_option("--hold", ik.hold, "joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg where no value is given)");
-  sub->add_option("--control-point", ik.control_points, "node target NODE:x,y,z:WEIGHT; may be repeated")
+  sub->add_option(
+         "--control-point", ik.control_points,
+         "node target NODE:x,y,z[:WEIGHT]; may be repeated; WEIGHT is 1 for the arm's middle node and 0.25 for others where not given")
       ->take_all()
       ->allow_extra_args(false);
   sub->add_flag("--json", ik.json, "print JSON");
@@ -53,10 +63,9 @@ void add_reach(CLI::App& app, Action& action, liana::ReachOptions& reach) {
   sub->add_option("--from-deg", reach.from_deg, "joint angles that are drawn, or where the path begins");
   sub->add_option("--to-deg", reach.to_deg, "joint angles where the path ends");
   sub->add_option("--path", reach.path, "JSON file with waypoints_deg, as plan --json prints it");
-  sub->add_option("--node", reach.node, "node (the end of that segment) whose region is wanted; the tip where not given")
-      ->check(CLI::PositiveNumber);
+  sub->add_option("--node", reach.node, "node (the end of that segment) whose region is wanted; the tip where not given");
   sub->add_option("--samples", reach.samples, "poses drawn")->capture_default_str();
-  sub->add_option("--seed", reach.seed, "of the poses drawn")->check(CLI::NonNegativeNumber)->capture_default_str();
+  add_seed(*sub, reach.seed, "of the poses drawn");
   sub->add_option("--svg", reach.svg_file, "write the picture to this file");
   sub->add_flag("--json", reach.json, "print JSON");
 }
@@ -72,14 +81,17 @@ void add_plan(CLI::App& app, Action& action, liana::PlanOptions& plan) {
   sub->add_option(
       "--hold", plan.hold,
       "joint angles held, e.g. 7,9 or 7=0.5,9 (deg); one with another value than at the start is there after a third of the way");
-  sub->add_option("--planar", plan.planar, "segments whose pitch is 0 from a share of the way on, e.g. 5@0.4,4@0.7");
-  sub->add_option("--control-point", plan.control_points, "node target NODE:x,y,z:WEIGHT; may be repeated")
+  sub->add_option("--planar", plan.planar,
+                  "segments whose pitch is 0 from a share of the way on, e.g. 5@0.4,4@0.7; all the way where no share is given");
+  sub->add_option(
+         "--control-point", plan.control_points,
+         "node target NODE:x,y,z[:WEIGHT]; may be repeated; WEIGHT is 1 for the arm's middle node and 0.25 for others where not given")
       ->take_all()
       ->allow_extra_args(false);
   sub->add_option("--waypoints", plan.waypoints, "waypoints with both ends; 1: only the end pose")->capture_default_str();
   sub->add_option("--margin", plan.margin_m, "least clearance of every link from every obstacle, m")->capture_default_str();
-  sub->add_option("--max-step-deg", plan.max_step_deg, "most that an angle changes between waypoints; 80 / (waypoints - 1) where not given")
-      ->check(CLI::PositiveNumber);
+  sub->add_option("--max-step-deg", plan.max_step_deg,
+                  "most that an angle changes between waypoints; 80 / (waypoints - 1) where not given");
   sub->add_option("--iterations", plan.max_iterations, "of the solver in each round")->capture_default_str();
   sub->add_option("--out", plan.out_file, "keep the plan with its inputs in this file, JSON");
   sub->add_flag("--json", plan.json, "print JSON");
@@ -98,10 +110,7 @@ void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
       ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
   sub->add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
   sub->add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
-  sub->add_option_function<std::string>(
-         "--seed", [&run](const std::string& text) { run.seed = liana::parse_seed("--seed", text); },
-         "seed of everything random: hand, start pose, bench parameters, camera; 0 to 9007199254740991")
-      ->default_str("1");
+  add_seed(*sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
 }
 
 void add_client(CLI::App& app, Action& action, const char* name, const char* text, liana::ClientOptions& client,
@@ -145,6 +154,16 @@ void check_values(const std::vector<std::string>& words) {
   }
 }
 
+// An option that its command does not know is named, whatever else is missing. `before`: the command's words, each with a blank.
+void check_options(const CLI::App& command, const std::string& before, std::span<const std::string> words) {
+  for (const std::string& word : words) {
+    if (word == "--") return;
+    const std::string option = word.substr(0, word.find('='));
+    if (word.starts_with("--") && option != "--help" && command.get_option_no_throw(option) == nullptr)
+      throw liana::BadInput(option + ": liana " + before + "has no such option; see liana " + before + "--help");
+  }
+}
+
 // A word in place of a command that is none gets the list of those that are; `before` are the words before it.
 void check_command(const CLI::App& app, const std::string& before, std::span<const std::string> words) {
   std::string names;
@@ -152,7 +171,7 @@ void check_command(const CLI::App& app, const std::string& before, std::span<con
     names += (names.empty() ? "" : ", ") + sub->get_name();
     if (!words.empty() && words.front() == sub->get_name()) return check_command(*sub, before + words.front() + " ", words.subspan(1));
   }
-  if (names.empty() || (!words.empty() && words.front().starts_with('-'))) return;  // options are CLI11's affair
+  if (names.empty() || (!words.empty() && words.front().starts_with('-'))) return check_options(app, before, words);
   const std::string problem = words.empty() ? "no command given" : "'" + before + words.front() + "': no such command";
   throw liana::BadInput(problem + "; liana " + before + "knows: " + names + "; see liana help");
 }
@@ -182,9 +201,7 @@ int perform(const Action& action) {
   }
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   CLI::App app("Liana: control of cable-driven snake arms", "liana");
   app.require_subcommand(1);
   app.footer(kFooter);
@@ -217,4 +234,11 @@ int main(int argc, char** argv) {
     return ExitCode::kExitBadInput;
   }
   return perform(action);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  liana::end_on_interrupt();
+  return liana::after_standard_output(run(argc, argv));
 }

@@ -16,7 +16,10 @@ using nlohmann::json;
 std::vector<std::string> systems_to_ask(const std::string& given) {
   if (!given.empty()) {
     std::error_code error;
-    if (!std::filesystem::exists(given, error)) throw BadInput("--api: '" + given + "': no such socket; is lianad running there?");
+    const auto kind = std::filesystem::status(given, error).type();
+    if (kind == std::filesystem::file_type::not_found || error)
+      throw BadInput("--api: '" + given + "': no such socket; is lianad running there?");
+    if (kind != std::filesystem::file_type::socket) throw BadInput("--api: '" + given + "': is no socket; give the API socket of a lianad");
     return {given};
   }
   std::vector<std::string> systems = running_systems();

@@ -1,15 +1,14 @@
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/errors.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/output.hpp"
 #include "host/cli/tables.hpp"
 #include "host/plan/plan.hpp"
 
@@ -20,11 +19,6 @@ using nlohmann::json;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTransitionShare = 1.0 / 3.0;  // of the way, in which a held angle with another value than the start's gets there
-
-std::atomic<bool> interrupted = false;
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-void interrupt(int) { interrupted = true; }
 
 SceneConfig scene_of(const std::string& name) {
   if (name == "none") {
@@ -95,20 +89,14 @@ void read_goal(const PlanOptions& options, PlanRequest& request) {
 }
 
 void read_sizes(const PlanOptions& options, PlanRequest& request) {
-  const auto refuse = [](const char* option, auto value, const char* allowed) {
-    throw BadInput(std::string(option) + ": " + std::to_string(value) + ": allowed: " + allowed);
-  };
-  const bool alone = options.waypoints == 1 && request.tip_in_base;
-  if (!alone && (options.waypoints < 2 || options.waypoints > kMaxWaypoints)) {
-    refuse("--waypoints", options.waypoints, "2 to 100, or 1 with --tip for the end pose alone");
-  }
-  if (!(options.margin_m >= 0.0 && options.margin_m <= 0.5)) refuse("--margin", options.margin_m, "0 to 0.5 m");
-  if (!(options.max_step_deg <= 180.0)) refuse("--max-step-deg", options.max_step_deg, "over 0, up to 180");
-  if (options.max_iterations < 1 || options.max_iterations > 100000) refuse("--iterations", options.max_iterations, "1 to 100000");
-  request.waypoints = options.waypoints;
-  request.margin_m = options.margin_m;
-  request.max_step_rad =
-      options.max_step_deg > 0.0 ? options.max_step_deg * kDegree : default_max_step_rad(request.robot.table, request.waypoints);
+  constexpr double kLeastStep_deg = 0.001;
+  const std::int64_t fewest = request.tip_in_base ? 1 : 2;
+  const char* note = request.tip_in_base ? "; 1: the end pose alone" : "; 1, the end pose alone, is for --tip";
+  request.waypoints = static_cast<std::int32_t>(parse_whole("--waypoints", options.waypoints, fewest, kMaxWaypoints, note));
+  request.margin_m = parse_number_in("--margin", options.margin_m, 0.0, 0.5, "m");
+  request.max_step_rad = options.max_step_deg.empty()
+                             ? default_max_step_rad(request.robot.table, request.waypoints)
+                             : parse_number_in("--max-step-deg", options.max_step_deg, kLeastStep_deg, 180.0, "deg") * kDegree;
 }
 
 void read_control_points(const PlanOptions& options, PlanRequest& request) {
@@ -182,12 +170,6 @@ json inputs(const PlanOptions& options, const PlanRequest& request) {
           {"max_step_deg", request.max_step_rad / kDegree}};
 }
 
-void keep(const std::string& path, const json& plan) {
-  std::ofstream file(path, std::ios::binary);
-  file << plan.dump(1) << "\n";
-  if (!file.flush()) throw BadInput("--out: " + path + ": cannot be written; give a file in an existing folder");
-}
-
 void print_text(const json& answer) {
   std::printf("%s after %d iterations in %.2f s", answer["outcome"].get<std::string>().c_str(), answer["iterations"].get<int>(),
               answer["time_s"].get<double>());
@@ -199,9 +181,14 @@ void print_text(const json& answer) {
   }
   if (answer["outcome"] != "solved") return;
   const json& check = answer["checked"];
-  std::printf("checked: clearance %.1f mm, joints up to %.2f deg, steps up to %.2f deg, tip error %.1e m\n",
-              1000.0 * check["min_clearance_m"].get<double>(), check["max_joint_deg"].get<double>(), check["max_step_deg"].get<double>(),
-              check["tip_error_m"].get<double>());
+  std::printf("checked: ");
+  if (check["nearest"] == "") {
+    std::printf("nothing in the scene");
+  } else {
+    std::printf("clearance %.1f mm", 1000.0 * check["min_clearance_m"].get<double>());
+  }
+  std::printf(", joints up to %.2f deg, steps up to %.2f deg, tip error %.1e m\n", check["max_joint_deg"].get<double>(),
+              check["max_step_deg"].get<double>(), check["tip_error_m"].get<double>());
 }
 
 int exit_code(PlanOutcome outcome) {
@@ -212,12 +199,13 @@ int exit_code(PlanOutcome outcome) {
 }  // namespace
 
 int plan_command(const PlanOptions& options) {
-  const PlanRequest request = request_of(options);
+  const InterruptGuard interrupt;
   PlanControl control;
-  control.max_iterations = options.max_iterations;
+  control.max_iterations = static_cast<std::int32_t>(parse_whole("--iterations", options.max_iterations, 1, 100000));
+  if (!options.out_file.empty()) check_output("--out", options.out_file);
+  const PlanRequest request = request_of(options);
   control.progress = [](const std::string& line) { std::fprintf(stderr, "plan: %s\n", line.c_str()); };
-  control.cancelled = &interrupted;
-  std::signal(SIGINT, interrupt);
+  control.cancelled = &interrupt.any();
   const auto begin = std::chrono::steady_clock::now();
   const PlanResult result = plan(request, control);
   const double time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
@@ -229,7 +217,7 @@ int plan_command(const PlanOptions& options) {
   }
   if (!options.out_file.empty()) {
     answer["inputs"] = inputs(options, request);
-    keep(options.out_file, answer);
+    write_output(options.out_file, answer.dump(1) + "\n");
   }
   return exit_code(result.outcome);
 }

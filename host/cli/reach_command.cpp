@@ -11,6 +11,7 @@
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/errors.hpp"
+#include "host/cli/output.hpp"
 #include "host/cli/tables.hpp"
 #include "host/config/theta_numbers.hpp"
 #include "host/reach/path.hpp"
@@ -65,7 +66,7 @@ void refuse_contradictions(const ReachOptions& options) {
   if (!options.to_deg.empty() && options.from_deg.empty()) refuse("--to-deg: needs --from-deg, where the path begins");
   if (!is_path(options)) return;
   if (!options.scene.empty()) refuse("--scene: is drawn with a region only; leave it out for a path");
-  if (options.node != 0) refuse("--node: a path is examined for the tip; leave it out");
+  if (!options.node.empty()) refuse("--node: a path is examined for the tip; leave it out");
 }
 
 std::uint32_t mask_of(const std::vector<HoldArgument>& holds) {
@@ -85,15 +86,9 @@ void require_free(std::uint32_t held_mask, std::int32_t theta_count, const std::
 }
 
 RegionRequest region_request(const ReachOptions& options, const RobotTable& robot, const ThetaVector& pose_rad) {
-  if (options.node < 0 || options.node > robot.segment_count) {
-    throw BadInput("--node: '" + std::to_string(options.node) + "': allowed: 1 to " + std::to_string(robot.segment_count) + " (the tip)");
-  }
-  if (options.samples < kMinSamples || options.samples > kMaxSamples) {
-    throw BadInput("--samples: '" + std::to_string(options.samples) + "': allowed: " + std::to_string(kMinSamples) + " to " +
-                   std::to_string(kMaxSamples));
-  }
   RegionRequest request;
-  request.point.node = options.node == 0 ? robot.segment_count : options.node;
+  request.point.node = options.node.empty() ? robot.segment_count : parse_node("--node", options.node, robot);
+  request.samples = static_cast<std::int32_t>(parse_whole("--samples", options.samples, kMinSamples, kMaxSamples));
   request.held_rad = pose_rad;
   const auto holds = holds_of(options, robot);
   request.point.held_mask = mask_of(holds);
@@ -101,7 +96,6 @@ RegionRequest region_request(const ReachOptions& options, const RobotTable& robo
     if (hold.has_value) request.held_rad[static_cast<std::size_t>(hold.theta - 1)] = hold.value_deg * kDegree;
   }
   require_free(request.point.held_mask, 2 * request.point.node, "node " + std::to_string(request.point.node));
-  request.samples = static_cast<std::int32_t>(options.samples);
   request.seed = options.seed;
   return request;
 }
@@ -233,13 +227,6 @@ void print_path(const PathReport& report) {
               100.0 * nearest.way);
 }
 
-void write_picture(const std::string& path, const std::string& picture) {
-  std::ofstream file(path, std::ios::binary);
-  file << picture;
-  file.close();
-  if (!file) throw BadInput("--svg: " + path + ": cannot be written; give a file in an existing directory");
-}
-
 int reach_along_path(const ReachOptions& options, const RobotConfig& robot) {
   std::vector<ThetaVector> waypoints_rad;
   if (options.path.empty()) {
@@ -255,7 +242,7 @@ int reach_along_path(const ReachOptions& options, const RobotConfig& robot) {
   const std::uint32_t held_mask = mask_of(holds);
   require_free(held_mask, robot.table.theta_count(), "the tip");
   const PathReport report = examine_path(robot.table, waypoints_rad, held_mask);
-  if (!options.svg_file.empty()) write_picture(options.svg_file, path_picture(robot, report, held_mask));
+  if (!options.svg_file.empty()) write_output(options.svg_file, path_picture(robot, report, held_mask));
   if (options.json) {
     std::puts(path_json(report, held_mask, robot).dump().c_str());
   } else {
@@ -278,7 +265,7 @@ int reach_region(const ReachOptions& options, const RobotConfig& robot) {
   }
   const Region region = explore_region(robot.table, request);
   if (!options.svg_file.empty()) {
-    write_picture(options.svg_file, region_picture(robot, scene ? &*scene : nullptr, request, region, pose_rad));
+    write_output(options.svg_file, region_picture(robot, scene ? &*scene : nullptr, request, region, pose_rad));
   }
   if (options.json) {
     std::puts(region_json(request, region, robot).dump().c_str());
@@ -292,6 +279,7 @@ int reach_region(const ReachOptions& options, const RobotConfig& robot) {
 
 int reach_command(const ReachOptions& options) {
   refuse_contradictions(options);
+  if (!options.svg_file.empty()) check_output("--svg", options.svg_file);
   const RobotConfig robot = robot_for_kinematics(options.robot);
   return is_path(options) ? reach_along_path(options, robot) : reach_region(options, robot);
 }

@@ -1,8 +1,8 @@
 #include <cstdio>
-#include <fstream>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/errors.hpp"
+#include "host/cli/output.hpp"
 #include "host/cli/run_plan.hpp"
 #include "host/cli/run_report.hpp"
 #include "host/cli/run_session.hpp"
@@ -34,11 +34,13 @@ json report_of(const RunOptions& options, const RunPlan& plan, const RunSession&
 
 // The place was writable when the run began; what happened to it since must not lose the rest of the report.
 bool write_report(const std::string& path, const json& report) {
-  std::ofstream file(path);
-  file << report.dump(1) << '\n';
-  file.close();
-  if (!file) std::fprintf(stderr, "liana: %s: the report cannot be written any more; is the disk full?\n", path.c_str());
-  return file.good();
+  try {
+    write_output(path, report.dump(1) + "\n");
+    return true;
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "liana: the report is lost: %s\n", error.what());
+    return false;
+  }
 }
 
 bool publish_report(const RunOptions& options, const RunPlan& plan, const json& report) {

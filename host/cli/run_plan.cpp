@@ -1,17 +1,14 @@
 #include "host/cli/run_plan.hpp"
 
-#include <fcntl.h>
 #include <net/if.h>
 #include <stdlib.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 
 #include "host/cli/errors.hpp"
+#include "host/cli/output.hpp"
 #include "host/cli/process.hpp"
 #include "host/cli/tables.hpp"
 
@@ -39,20 +36,7 @@ void check_report_file(const std::string& path, const std::string& record_dir) {
   if (path.empty() || path == "-") return;
   const fs::path file = fs::weakly_canonical(path);
   if (!record_dir.empty() && file.parent_path() == fs::weakly_canonical(record_dir)) return;  // made, and tried, below
-  const bool was_there = fs::exists(path);
-  const int fd = open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  if (fd < 0) {
-    throw BadInput("--json: '" + path + "': cannot be written: " + std::strerror(errno) + "; give a file in a directory that exists, or -");
-  }
-  close(fd);
-  if (!was_there) unlink(path.c_str());
-}
-
-void write_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  if (!file) throw BadInput(path + ": cannot be written");
+  check_output("--json", path);
 }
 
 // Every interface of a SocketCAN table must exist here and now.
@@ -132,9 +116,9 @@ ProgramCall mission_call(const RunPlan& plan, const RunOptions& options) {
 }
 
 void write_tables(const RunPlan& plan, const std::string& robot, const std::string& scene, const std::string& buses) {
-  write_file(plan.file("robot.json"), robot);
-  write_file(plan.file("scene.json"), scene);
-  write_file(plan.file("buses.json"), buses);
+  write_output(plan.file("robot.json"), robot);
+  write_output(plan.file("scene.json"), scene);
+  write_output(plan.file("buses.json"), buses);
 }
 
 }  // namespace

@@ -26,25 +26,6 @@ constexpr double kLook_s = 0.02;
 constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
 constexpr int kShownLines = 5;
 
-volatile std::sig_atomic_t interrupts = 0;
-void count_interrupt(int) { interrupts = interrupts + 1; }
-
-// While it lives, Ctrl-C and SIGTERM are counted instead of ending the program.
-class InterruptGuard {
- public:
-  InterruptGuard() {
-    interrupts = 0;
-    std::signal(SIGINT, count_interrupt);
-    std::signal(SIGTERM, count_interrupt);
-  }
-  ~InterruptGuard() {
-    std::signal(SIGINT, SIG_DFL);
-    std::signal(SIGTERM, SIG_DFL);
-  }
-  InterruptGuard(const InterruptGuard&) = delete;
-  InterruptGuard& operator=(const InterruptGuard&) = delete;
-};
-
 Clock::time_point after(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
@@ -68,7 +49,6 @@ RunSession::RunSession(const RunPlan& plan) : plan_(plan) {}
 RunSession::~RunSession() = default;
 
 RunEnd RunSession::run() {
-  const InterruptGuard guard;
   std::signal(SIGPIPE, SIG_IGN);
   RunEnd end;
   if (const auto failed = start()) {
@@ -100,7 +80,7 @@ std::optional<RunEnd> RunSession::start() {
 bool RunSession::wait_for_socket(const std::string& path) {
   const auto deadline = after(kStartTimeout_s);
   while (!fs::exists(path)) {
-    if (Clock::now() > deadline || children_.back()->poll() || interrupts > 0) return false;
+    if (Clock::now() > deadline || children_.back()->poll() || interrupts_.count() > 0) return false;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   return true;
@@ -110,7 +90,7 @@ RunEnd RunSession::watch() {
   const auto ended = [](const auto& child) { return child->poll().has_value(); };
   while (std::none_of(children_.begin(), children_.end(), ended)) {
     look(kLook_s);
-    if (interrupts > 0) return interrupted();
+    if (interrupts_.count() > 0) return interrupted();
   }
   return conclusion();
 }
@@ -154,7 +134,7 @@ RunEnd RunSession::interrupted() {
   progress_.say("stopping (again Ctrl-C ends at once)");
   request({{"op", "stop"}, {"reason", "interrupted"}});
   const auto deadline = after(kStopTimeout_s);
-  while (api_ && interrupts < 2 && Clock::now() < deadline && !is_stopped()) look(kLook_s);
+  while (api_ && interrupts_.count() < 2 && Clock::now() < deadline && !is_stopped()) look(kLook_s);
   return {"aborted", "interrupted: " + how_the_arm_was_left(), false};
 }
 
@@ -216,7 +196,7 @@ void RunSession::request(const json& message) {
 // lianad stops the arm and leaves the bus; bus and bench then end by themselves and write their summaries.
 void RunSession::shut_down() {
   request({{"op", "shutdown"}});
-  auto deadline = after(interrupts < 2 ? kEndGrace_s : 0.0);
+  auto deadline = after(interrupts_.count() < 2 ? kEndGrace_s : 0.0);
   const auto running = [](const auto& child) { return !child->poll(); };
   while (Clock::now() < deadline && std::any_of(children_.begin(), children_.end(), running)) {
     if (api_) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "host/api/client.hpp"
+#include "host/cli/interrupt.hpp"
 #include "host/cli/process.hpp"
 #include "host/cli/progress.hpp"
 #include "host/cli/run_plan.hpp"
@@ -53,6 +54,7 @@ class RunSession {
   void shut_down();
 
   const RunPlan& plan_;
+  InterruptGuard interrupts_;
   Progress progress_;
   std::vector<std::unique_ptr<ChildProcess>> children_;
   ChildProcess* mission_ = nullptr;

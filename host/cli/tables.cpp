@@ -1,5 +1,6 @@
 #include "host/cli/tables.hpp"
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -32,6 +33,11 @@ std::string read_file(const std::string& path) {
 }  // namespace
 
 std::string evaluate_table(const std::string& kind, const std::string& name) {
+  std::error_code unreadable;
+  const bool is_file = name.find('/') != std::string::npos || name.ends_with(".json");
+  if (is_file && std::filesystem::is_directory(name, unreadable)) {
+    throw BadInput(kind + ": '" + name + "': is a directory; give a table's name or an existing file");
+  }
   return name.ends_with(".json") ? read_file(name) : evaluate({"--", kind, name});
 }
 

@@ -36,7 +36,7 @@ Field Field::at(const std::string& key) const {
   const auto found = value_->find(key);
   const std::string path = path_.empty() ? key : path_ + "." + key;
   if (found == value_->end())
-    throw std::runtime_error(file_ + ": " + path + ": missing: allowed any valid value: add the field (docs/formats.md)");
+    throw std::runtime_error(file_ + ": " + path + ": missing: allowed a value as docs/formats.md gives it: add the field");
   return Field(*found, file_, path);
 }
 
@@ -108,7 +108,8 @@ std::string read_text_file(const std::string& path) {
 
 void check_kind(const Field& table, const std::string& kind) {
   table.at("format").integer(1, 1);
-  table.at("kind").choice({kind});
+  const Field found = table.at("kind");
+  if (found.json() != kind) found.refuse(kind, "give a table of this kind");
 }
 
 }  // namespace liana

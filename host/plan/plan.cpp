@@ -130,7 +130,8 @@ class Planner {
       if (cancelled()) return !fail(PlanOutcome::cancelled, "", "cancelled");
       if (path.empty()) continue;
       const PathLook look = look_along(room_, path, kStartSpacing_m);
-      tell(text("start %s: clearance %.1f mm", name_of(kind), 1000.0 * look.distance_m));
+      tell(look.distance_m < kNoObstacle_m ? text("start %s: clearance %.1f mm", name_of(kind), 1000.0 * look.distance_m)
+                                           : text("start %s: nothing in the scene", name_of(kind)));
       if (look.distance_m >= request_.margin_m && improve(path, name_of(kind))) return true;
       if (look.distance_m < request_.margin_m && look.distance_m > best_m) best = path, best_m = look.distance_m;
     }
@@ -155,7 +156,7 @@ class Planner {
       const std::vector<RowSite> below = sites_below(room_, request_, found, request_.margin_m + kRecheck_m);
       sites.insert(sites.end(), below.begin(), below.end());
       if (holds && below.empty()) {
-        result_.settled = free && solution.status == SolveStatus::solved && solution.objective > (1.0 - kSettled) * before;
+        result_.settled = free && solution.status == SolveStatus::solved && solution.objective >= (1.0 - kSettled) * before;
         path = found;
         free = true;
       } else {

@@ -7,7 +7,7 @@ import sys
 import tempfile
 import unittest
 
-from programs import ROOT, liana, liana_json
+from programs import ROOT, liana, liana_json, liana_to_full_disk
 
 GOLDEN = json.loads((ROOT / "tests/golden/arm.json").read_text())["cases"]
 ZERO = ",".join(["0"] * 10)
@@ -157,6 +157,41 @@ class Tables(unittest.TestCase):
             self.assertIn("ticks.mcap", error)
 
 
+    def test_what_is_no_table_of_the_wanted_kind_is_named_with_what_it_is(self):
+        with tempfile.TemporaryDirectory() as directory:
+            robot, empty = pathlib.Path(directory) / "robot.json", pathlib.Path(directory) / "empty.json"
+            liana("robot", "export", "--out", robot)
+            empty.write_text('{"format": 1}')
+            for options, named in [(["--robot", directory], "is a directory"), (["--robot", empty], "kind: missing"),
+                                   (["--scene", robot], 'kind: "robot": allowed scene')]:
+                code, out, error = liana("pose", f"--theta-deg={ZERO}", *options)
+                self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
+                self.assertIn(named, error)
+
+
+class Output(unittest.TestCase):
+    def test_what_standard_output_does_not_take_ends_with_1_and_the_reason(self):
+        for words in (["pose", f"--theta-deg={ZERO}"], ["pose", f"--theta-deg={ZERO}", "--json"], ["ik", f"--from-deg={ZERO}", f"--tip={REACHABLE}"],
+                      ["robot", "export"], ["reach", "--samples=1000", "--json"], ["plan", f"--from-deg={ZERO}", f"--to-deg={ZERO}", "--scene=none"],
+                      ["help"]):
+            code, error = liana_to_full_disk(*words)
+            self.assertEqual(code, 1, words)
+            self.assertRegex(error.splitlines()[-1], "standard output cannot be written: (No space left on device|is the disk full)")
+
+    def test_a_file_that_cannot_be_written_is_refused_before_the_work(self):
+        for words in (["robot", "export", "--out"], ["reach", "--svg"], ["plan", f"--from-deg={ZERO}", f"--to-deg={ZERO}", "--out"]):
+            for file, reason in (("/no/such/folder/file", "No such file"), ("/tmp", "Is a directory")):
+                code, out, error = liana(*words, file)
+                self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
+                self.assertIn(f"{words[-1]}: '{file}'", error)
+                self.assertIn(reason, error)
+
+    def test_a_file_on_a_full_disk_ends_with_1_and_the_reason(self):
+        code, _, error = liana("robot", "export", "--out", "/dev/full")
+        self.assertEqual(code, 1)
+        self.assertIn("/dev/full: cannot be written: No space left on device", error)
+
+
 class Help(unittest.TestCase):
     def test_help_names_every_command(self):
         code, out, _ = liana("help")
@@ -178,6 +213,13 @@ class Help(unittest.TestCase):
             self.assertIn("export" if words[:1] == ["robot"] else "run, status, estop", error)
             self.assertEqual(error.count("\n"), 1, error)
 
+    def test_an_option_that_a_command_does_not_have_is_named_whatever_else_is_missing(self):
+        for words, named in [(["pose", "--frob"], "--frob: liana pose has"), (["robot", "export", "--frob=1"], "--frob: liana robot export has"),
+                             (["--frob"], "--frob: liana has")]:
+            code, out, error = liana(*words)
+            self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
+            self.assertIn(named, error)
+
     def test_the_doctor_says_what_to_do_about_everything_that_is_missing(self):
         findings = liana_json("doctor")["findings"]
         self.assertGreaterEqual(len(findings), 8)
@@ -190,6 +232,10 @@ class Help(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn("liana-no-such-socket", error)
         self.assertEqual(liana("status", "--api", "/tmp/" + "x" * 300)[0], 2)
+        for command in ("status", "estop"):
+            code, _, error = liana(command, "--api", "/tmp")
+            self.assertEqual(code, 2)
+            self.assertIn("--api: '/tmp': is no socket", error)
 
 
 if __name__ == "__main__":

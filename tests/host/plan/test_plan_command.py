@@ -7,9 +7,11 @@ import sys
 import tempfile
 import unittest
 
-BIN = pathlib.Path(sys.argv.pop(1))
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "numbers"))
+sys.path[:0] = [str(pathlib.Path(__file__).resolve().parents[2] / folder) for folder in ("numbers", "host/cli")]
 import planning_plans  # noqa: E402 (found through the line above)
+from programs import interrupt  # noqa: E402
+
+BIN = pathlib.Path(sys.argv.pop(1))
 
 PREPARE = "-8.5,0,-12,0,8,-2,13,0,12,-2"
 PANEL_EDGE = "-6.14,-15,-3.29,-8.72,7.2,15,5.55,15,1,-2.8"
@@ -65,7 +67,7 @@ class PlanCommand(unittest.TestCase):
     def test_bad_input_ends_with_2_and_one_message(self):
         ends = [f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}"]
         for bad in (ends[:1], [*ends, "--tip=1,0,0,1,0,0,0"], [*ends, "--waypoints=1"], [*ends, "--waypoints=101"], [*ends, "--margin=-1"],
-                    [*ends, "--max-step-deg=0"], [*ends, "--iterations=0"], [*ends, "--hold=9"], [*ends, "--planar=6@0.5"], [*ends, "--planar=,"],
+                    [*ends, "--max-step-deg=0"], [*ends, "--max-step-deg=1e-300"], [*ends, "--margin=1e308"], [*ends, "--waypoints=1e3"], [*ends, "--iterations=0"], [*ends, "--hold=9"], [*ends, "--planar=6@0.5"], [*ends, "--planar=,"],
                     [*ends, "--hold=9=1", "--planar=5@0.5"], [*ends, "--scene=nowhere"], [*ends, "--control-point=9:0,0,0"]):
             done = call(*bad)
             self.assertEqual(done.returncode, 2, bad)
@@ -81,6 +83,19 @@ class PlanCommand(unittest.TestCase):
         out, _ = running.communicate()
         self.assertEqual(running.returncode, 130)
         self.assertEqual(json.loads(out)["outcome"], "cancelled")
+
+    def test_an_interrupt_right_after_the_start_is_no_death_by_signal(self):
+        running = subprocess.Popen(words(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", "--waypoints=100"), stdout=subprocess.PIPE, text=True)
+        interrupt(running)
+        out, _ = running.communicate()
+        self.assertEqual(running.returncode, 130)
+        self.assertIn(out and json.loads(out)["outcome"], ("", "cancelled"))  # before the command began there is nothing to tell
+
+    def test_a_way_of_no_length_is_settled_at_once(self):
+        done = call(f"--from-deg={PREPARE}", f"--to-deg={PREPARE}", "--scene=none")
+        answer = json.loads(done.stdout)
+        self.assertEqual((answer["outcome"], answer["objective"], answer["settled"], answer["rounds"]), ("solved", 0.0, True, 1))
+        self.assertIn("nothing in the scene", done.stderr)
 
     def test_the_kept_file_has_the_plan_and_its_inputs(self):
         with tempfile.TemporaryDirectory() as folder:

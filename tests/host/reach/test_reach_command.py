@@ -7,7 +7,7 @@ import unittest
 import xml.etree.ElementTree
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "cli"))
-from programs import ROOT, liana, liana_json  # noqa: E402
+from programs import ROOT, interrupt, liana, liana_json, start_liana  # noqa: E402
 
 PREPARE = "-8.5,0,-12,0,8,-2,13,0,12,-2"
 PANEL_EDGE = "-6.14,-15,-3.29,-8.72,7.2,15,5.55,15,1,-2.8"
@@ -104,6 +104,13 @@ class Pictures(unittest.TestCase):
             self.assertLess(file.stat().st_size, 100_000, file)
 
 
+class Interrupt(unittest.TestCase):
+    def test_ctrl_c_ends_with_130_and_one_message(self):
+        running = start_liana("reach", "--samples=1000000")
+        interrupt(running)
+        self.assertEqual((*running.communicate(), running.returncode), ("", "liana: interrupted\n", 130))
+
+
 class BadInput(unittest.TestCase):
     def expect_refusal(self, options, named):
         code, out, error = liana("reach", *options, "--json")
@@ -114,9 +121,9 @@ class BadInput(unittest.TestCase):
     def test_every_wrong_option_ends_with_2_and_one_message(self):
         ends = (f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}")
         for options, named in [
-            (["--node=6"], "1 to 5"), (["--node=0"], "--node"), (["--node=x"], "--node"),
+            (["--node=6"], "1 to 5"), (["--node=0"], "--node: '0': allowed: a whole number from 1 to 5"), (["--node=x"], "--node"),
             (["--samples=999"], "1000 to 1000000"), (["--samples=1000001"], "1000 to 1000000"), (["--samples=nan"], "--samples"),
-            (["--seed=-1"], "--seed"), (["--hold=11"], "--hold"), (["--hold=7=21"], "20 deg"), (["--hold=7=nan"], "nan"),
+            (["--seed=-1"], "--seed: '-1'"), ([f"--seed={2**64}"], "0 to 9007199254740991"), (["--hold=11"], "--hold"), (["--hold=7=21"], "20 deg"), (["--hold=7=nan"], "nan"),
             (["--hold=1,2", "--node=1"], "free at least one of theta 1 to 2"), (["--hold=1,2,3,4,5,6,7,8,9,10"], "free at least one"),
             (["--from-deg=0"], "10 numbers"), (["--robot=nobody"], "nobody"), (["--scene=nowhere"], "nowhere"),
             ([FEW, "--svg=/no/such/directory/x.svg"], "--svg"), ([f"--to-deg={PREPARE}"], "--from-deg"),
