@@ -2,16 +2,45 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/errors.hpp"
+#include "host/record/mcap.hpp"
 #include "host/record/recording.hpp"
 #include "host/record/replay.hpp"
 
 namespace liana {
 namespace {
 
-void print_json(const ReplayResult& result) {
+// What images.mcap is worth: replay itself reads it only where the recording has a gap.
+struct ImagesCheck {
+  std::string state = "missing";  // or whole, cut short, damaged
+  std::uint64_t count = 0;        // images that can be read; of a whole file only
+  bool good() const { return state == "missing" || state == "whole"; }
+};
+
+ImagesCheck check_images(const std::filesystem::path& file) {
+  ImagesCheck check;
+  if (!std::filesystem::exists(file)) return check;
+  check.state = "damaged";
+  try {
+    const McapState state = read_mcap(file, {});
+    if (state == McapState::kCutShort) check.state = "cut short";
+    if (state != McapState::kWhole) return check;
+    McapVisitor visitor;
+    visitor.message = [&](const std::string&, std::uint32_t, std::uint64_t, std::string_view data) {
+      parse_image(data);
+      ++check.count;
+    };
+    read_mcap(file, visitor);
+    check.state = "whole";
+  } catch (const std::runtime_error&) {  // not MCAP, or an image that ends too early
+  }
+  return check;
+}
+
+void print_json(const ReplayResult& result, const ImagesCheck& images) {
   std::puts(nlohmann::json{{"ticks", result.ticks},
                            {"differing_ticks", result.differing_ticks},
                            {"missing_ticks", result.missing_ticks},
@@ -19,17 +48,25 @@ void print_json(const ReplayResult& result) {
                            {"same_build", result.same_build},
                            {"recorded_by", result.recorded_by},
                            {"first_differing_tick", result.differing_ticks > 0 ? nlohmann::json(result.first_differing_tick) : nullptr},
-                           {"first_differing_field", result.first_differing_field}}
+                           {"first_differing_field", result.first_differing_field},
+                           {"compared", {kRecordingFile}},
+                           {"images", {{"file", kImagesFile}, {"state", images.state}, {"count", images.count}}}}
                 .dump()
                 .c_str());
 }
 
-void print_text(const ReplayResult& result) {
+void print_text(const ReplayResult& result, const ImagesCheck& images) {
   std::printf("%" PRIu64 " ticks, %" PRIu64 " differ\n", result.ticks, result.differing_ticks);
   if (result.differing_ticks > 0) {
     std::printf("first: tick %" PRIu64 ", field %s\n", result.first_differing_tick, result.first_differing_field.c_str());
   }
   if (result.missing_ticks > 0) std::printf("%" PRIu64 " ticks are missing in the recording\n", result.missing_ticks);
+  std::printf("compared: %s, every field of Outputs\n", kRecordingFile);
+  if (images.state == "whole") {
+    std::printf("checked: %s, its checksums, and that each of its %" PRIu64 " images can be read\n", kImagesFile, images.count);
+  } else if (images.good()) {
+    std::printf("not there, so not checked: %s\n", kImagesFile);
+  }
   std::printf("recorded by %s build (%s)\n", result.same_build ? "this" : "another", result.recorded_by.c_str());
 }
 
@@ -41,10 +78,11 @@ int replay_command(const ReplayOptions& options) {
     throw BadInput("replay: '" + options.directory + "': holds no " + kRecordingFile + "; give a directory that liana run --record wrote");
   }
   const ReplayResult result = replay(options.directory);
+  const ImagesCheck images = check_images(std::filesystem::path(options.directory) / kImagesFile);
   if (options.json) {
-    print_json(result);
+    print_json(result, images);
   } else {
-    print_text(result);
+    print_text(result, images);
   }
   if (!result.complete) {
     std::fprintf(stderr,
@@ -52,7 +90,11 @@ int replay_command(const ReplayOptions& options) {
                  "the ticks that are there were compared\n",
                  file.c_str());
   }
-  return result.complete && result.ticks > 0 && result.differing_ticks == 0 ? kExitOk : kExitFailure;
+  if (!images.good()) {
+    std::fprintf(stderr, "liana: %s/%s: %s; take a good copy of the file: a replay from mid-run needs it\n", options.directory.c_str(),
+                 kImagesFile, images.state.c_str());
+  }
+  return result.complete && images.good() && result.ticks > 0 && result.differing_ticks == 0 ? kExitOk : kExitFailure;
 }
 
 }  // namespace liana

@@ -79,8 +79,24 @@ class Recordings(SystemTest):
         self.assertEqual((result["complete"], result["differing_ticks"]), (False, 0))
         self.assertGreater(result["ticks"], 100)
 
-    def test_replay_says_that_the_same_build_recorded(self):
-        self.assertIn("recorded by this build", run("liana", "replay", self.first).stdout)
+    def test_replay_says_what_it_compared_and_that_the_same_build_recorded(self):
+        said = run("liana", "replay", self.first).stdout
+        self.assertIn("compared: ticks.mcap", said)
+        self.assertRegex(said, "checked: images.mcap, its checksums, and that each of its [1-9]")
+        self.assertIn("recorded by this build", said)
+
+    def test_replay_notices_images_that_are_damaged_cut_short_or_missing(self):
+        copy = self.second.parent / "images"
+        shutil.copytree(self.first, copy)
+        whole = (copy / "images.mcap").read_bytes()
+        at = len(whole) // 2
+        for content, state in ((whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1:], "damaged"), (whole[:at], "cut short"), (b"other", "damaged")):
+            (copy / "images.mcap").write_bytes(content)
+            done = run("liana", "replay", copy, "--json")
+            self.assertEqual((done.returncode, json.loads(done.stdout)["images"]["state"]), (1, state))
+            self.assertIn(f"images.mcap: {state}", done.stderr)
+        (copy / "images.mcap").unlink()
+        self.assertEqual(run("liana", "replay", copy).returncode, 0)
 
     def test_replay_of_nothing_is_bad_input(self):
         done = run("liana", "replay", self.first.parent)
