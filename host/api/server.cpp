@@ -225,12 +225,18 @@ void ApiServer::flush(Client& client) {
   }
 }
 
-void ApiServer::publish(Topic topic, const std::string& packet) {
+void ApiServer::publish(Topic topic, const std::string& packet, bool keep) {
   for (auto& client : clients_) {
     if (!client->wants(topic)) continue;
-    enqueue(*client, topic, topic != Topic::kTick, packet);
+    enqueue(*client, topic, topic != Topic::kTick && !keep, packet);
     flush(*client);
   }
+}
+
+void ApiServer::deliver(double timeout_s) {
+  const Clock::time_point start = Clock::now();
+  const auto waits = [](const auto& client) { return client->why_closed.empty() && !client->outbox.empty(); };
+  while (std::any_of(clients_.begin(), clients_.end(), waits) && seconds_since(start) < timeout_s) pump(0.05);
 }
 
 void ApiServer::wait_done(std::uint64_t tick, double timeout_s) {

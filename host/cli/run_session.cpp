@@ -161,13 +161,19 @@ void RunSession::look(double timeout_s) {
     std::this_thread::sleep_for(std::chrono::duration<double>(timeout_s));
     return;
   }
+  bool more = take(timeout_s);
+  while (more && (mission_ == nullptr || !mission_->poll())) more = take(0.0);
+}
+
+// Takes in one message; false when none came or lianad is gone.
+bool RunSession::take(double timeout_s) {
   try {
-    for (auto message = api_->receive(timeout_s); message; message = api_->receive(0.0)) {
-      if (message->value("op", "") == "state") keep(*message);
-      if (mission_ != nullptr && mission_->poll()) return;
-    }
+    const auto message = api_ ? api_->receive(timeout_s) : std::nullopt;
+    if (message && message->value("op", "") == "state") keep(*message);
+    return message.has_value();
   } catch (const std::runtime_error&) {
     api_.reset();
+    return false;
   }
 }
 
@@ -207,6 +213,8 @@ void RunSession::shut_down() {
     }
   }
   for (const auto& child : children_) child->end(1.0);
+  while (take(0.0)) {  // what lianad said last may not have been read yet
+  }
 }
 
 }  // namespace liana

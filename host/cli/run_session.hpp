@@ -47,6 +47,7 @@ class RunSession {
   RunEnd interrupted();
   bool wait_for_socket(const std::string& path);
   void look(double timeout_s);
+  bool take(double timeout_s);
   void keep(const nlohmann::json& state);
   void request(const nlohmann::json& message);
   bool is_stopped() const;

@@ -113,6 +113,7 @@ int run(const Options& options) {
   handle_signals();
   if (*mode != TimeMode::kReal) service.wait_for(expected, kExpectTimeout_s);
   const bool finished = *mode == TimeMode::kReal ? run_real(service, *cycle) : run_lockstep(service, *cycle, robot.table.interval_ticks);
+  service.take_leave();
   if (!finished) throw std::runtime_error("the bus has ended: liana-bus or the bench left");
   return 0;
 }

@@ -69,7 +69,9 @@ void Service::idle(double timeout_s) {
 void Service::publish_state() {
   if (!server_.has_subscriber(Topic::kState)) return;
   const Json state = state_message(config_.robot.table, config_.buses, link_.report.value(), arbiter_, owner_, notes_);
-  server_.publish(Topic::kState, state.dump());
+  const char* name = state_name(link_.report.value());
+  server_.publish(Topic::kState, state.dump(), name != published_);  // a slow reader may lose states, but no change of state
+  published_ = name;
 }
 
 // A clear says what it looked at, and what kept it from clearing.

@@ -54,6 +54,8 @@ class Service : private ApiHandler {
   bool finished() const;
   // There will be no further cycle().
   void end_lockstep() { server_.end_lockstep(); }
+  // Gives slow readers a moment to take what was said last; for the end.
+  void take_leave() { server_.deliver(1.0); }
   // Somebody has asked for the end; otherwise clients may still want to read the last state.
   bool dismissed() const { return dismissed_; }
 
@@ -112,6 +114,7 @@ class Service : private ApiHandler {
   Notes notes_;
   BootPhase boot_seen_ = BootPhase::kBooting;
   bool image_sent_ = false;
+  std::string published_;  // operating state of the last state message
   struct CameraFrame {
     std::uint64_t due_tick;
     std::string packet;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -123,11 +124,19 @@ TEST_F(Api, TheLastRequestsOfADeadClientAreHeardBeforeItsDeath) {
 TEST_F(Api, ASlowObserverLosesOldStatesAndHoldsNobodyUp) {
   ApiClient slow = join("slow", "observer", false, {"state"});
   const std::string filler(4000, ' ');
-  for (int i = 0; i < 1000; ++i) server_.publish(Topic::kState, json({{"op", "state"}, {"tick", i}}).dump() + filler);
+  const auto is_change = [](int i) { return i == 500 || i == 501; };
+  for (int i = 0; i < 1000; ++i) server_.publish(Topic::kState, json({{"op", "state"}, {"tick", i}}).dump() + filler, is_change(i));
   EXPECT_GT(server_.dropped(), 0u);
-  json last;
-  for (json state = answer(slow); !state.empty(); state = answer(slow)) last = state;
-  EXPECT_EQ(last.value("tick", 0), 999) << "the newest state arrives";
+  std::vector<int> ticks;
+  std::thread reader([&] {
+    for (auto state = slow.receive(5.0); state; state = slow.receive(0.5)) ticks.push_back(state->value("tick", -1));
+  });
+  server_.deliver(10.0);
+  reader.join();
+  ASSERT_FALSE(ticks.empty());
+  EXPECT_TRUE(std::is_sorted(ticks.begin(), ticks.end()));
+  EXPECT_EQ(std::count_if(ticks.begin(), ticks.end(), is_change), 2) << "what is to be kept arrives";
+  EXPECT_EQ(ticks.back(), 999) << "the newest state arrives";
 }
 
 TEST_F(Api, LockstepWaitsForDoneOfThisTick) {

@@ -21,7 +21,8 @@ using nlohmann::json;
 class FakeDaemon {
  public:
   // `deaf`: leaves when it hears a stop, without having stopped anything.
-  explicit FakeDaemon(const std::string& path, bool deaf = false) : deaf_(deaf), listener_(listen_at("--api", path)), thread_([this] { serve(); }) {}
+  explicit FakeDaemon(const std::string& path, bool deaf = false)
+      : deaf_(deaf), farewell_(path + ".farewell"), listener_(listen_at("--api", path)), thread_([this] { serve(); }) {}
   ~FakeDaemon() {
     quit_ = true;
     thread_.join();
@@ -46,9 +47,21 @@ class FakeDaemon {
       if (op == "stop") stopped_ = true;
       if (op == "shutdown") shut_down_ = true;
     }
+    say_farewell(client);
+  }
+
+  // The last states, faster than they are read; lianad's stand-in ends at once after them.
+  void say_farewell(const UniqueFd& client) {
+    for (int i = 0; i < 60; ++i) {
+      const json state{
+          {"op", "state"}, {"tick", 1000 + i}, {"time_s", 9.5}, {"state", i < 59 ? "STOPPING" : "DISABLED"}, {"stop", nullptr}};
+      send_packet(client.get(), state.dump());
+    }
+    std::ofstream(farewell_) << "said";
   }
 
   bool deaf_;
+  std::string farewell_;
   UniqueFd listener_;
   std::atomic<bool> quit_ = false, stopped_ = false, shut_down_ = false;
   std::thread thread_;
@@ -80,6 +93,17 @@ TEST_F(Session, AMissionThatEndsByItselfLeavesTheOutcomeToItsReport) {
   EXPECT_TRUE(daemon.saw("shutdown"));
   EXPECT_EQ(session.welcome()["config_hash"], "abc");
   EXPECT_FALSE(session.states().empty());
+}
+
+TEST_F(Session, EveryChangeOfStateIsShownOnceAndInOrderUpToTheEnd) {
+  const FakeDaemon daemon(plan_.api_socket());
+  add("lianad", "while [ ! -e " + plan_.api_socket() + ".farewell ]; do :; done");
+  add("liana-mission", "echo '{}' > " + plan_.file("mission.json"));
+  RunSession session(plan_);
+  testing::internal::CaptureStderr();
+  session.run();
+  const std::string shown = testing::internal::GetCapturedStderr();
+  EXPECT_NE(shown.find("ENABLED\n    9.5 s  STOPPING\n    9.5 s  DISABLED\n"), std::string::npos) << shown;
 }
 
 TEST_F(Session, ADyingBenchEndsTheRunWithItsNameAndLastLines) {
