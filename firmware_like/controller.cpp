@@ -175,6 +175,7 @@ void Controller::plan_payouts(const Orders& orders) noexcept {
     live_ = false;
     ramp_ = 0.0;
     damping_ = DampingState{};
+    lift_N_ = SegmentVector{};
     payout_command_m_ = payout_measured_m_;
     return;
   }
@@ -185,7 +186,8 @@ void Controller::plan_payouts(const Orders& orders) noexcept {
   }
   if (orders.ramp_active) ramp_ = smaller(1.0, ramp_ + table_.tick_s / kPretensionRamp_s);
 
-  tension_ = plan_tension(table_, model_.geometry, ratio_, table_.tension.plan_N);
+  if (ramp_ >= 1.0 && faults_.count == 0) keep_taut(table_, estimator_.tension_N, lift_N_);
+  tension_ = plan_tension(table_, model_.geometry, ratio_, lift_N_);
   if (tension_.floor_acted) limits_ |= kLimitTensionFloor;
   if (tension_.ceiling_exceeded) limits_ |= kLimitTensionCeiling;
 

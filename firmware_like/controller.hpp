@@ -81,6 +81,7 @@ class Controller {
   CableModel model_{};    // at the commanded angles
   TensionRatio ratio_{};  // planned friction
   DampingState damping_{};
+  SegmentVector lift_N_{};  // pulled tighter than planned
   TensionPlan tension_{};
   CableVector payout_command_m_{};
   CableVector ramp_start_m_{};

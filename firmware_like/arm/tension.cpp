@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "firmware_like/math/scalar.hpp"
+
 namespace liana {
 namespace {
 
@@ -71,7 +73,8 @@ Shifts shifts_for(const AnchoredVector& t, const AnchoredVector& null, Index n, 
 
 }  // namespace
 
-TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio, double level_N) noexcept {
+TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
+                         const SegmentVector& lift_N) noexcept {
   TensionPlan plan;
   const Index cables = static_cast<Index>(table.cable_count());
   Index first = cables;
@@ -96,13 +99,13 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
     if (is_solvable(balance)) {
       t = solve(balance, n, rhs_pitch, rhs_yaw);
       null = pull_together(balance, n);
-      for (Index i = 0; i < n; ++i) t[i] += level_N * null[i];
+      for (Index i = 0; i < n; ++i) t[i] += table.tension.plan_N * null[i];
     } else {
       plan.balanced = false;
-      t.fill(level_N);
+      t.fill(table.tension.plan_N);
     }
     // The margin over the floor gives way to the ceiling, the floor itself does not.
-    const Shifts s = shifts_for(t, null, n, table.tension, margin_N);
+    const Shifts s = shifts_for(t, null, n, table.tension, margin_N + lift_N[j]);
     const double shift = smooth_maximum(s.least, -smooth_maximum(-s.wanted, -s.most, 2.0), 2.0);
     for (Index i = 0; i < n; ++i) {
       plan.motor_N[first + i] = t[i] + shift * null[i];
@@ -111,6 +114,18 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
     plan.floor_acted = plan.floor_acted || s.least > 2.0;  // the floor itself, not the margin over it
   }
   return plan;
+}
+
+void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVector& lift_N) noexcept {
+  const double limit_N = kLiftLimit_N * larger(0.0, 1.0 - table.friction_mu / kMarginFriction);
+  const double enough_N = table.tension.floor_motor_N + kLiftBelow_N;
+  Index c = 0;
+  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
+    double missing_N = 0.0;
+    for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c) missing_N = larger(missing_N, enough_N - tension_N[c]);
+    const double rate_N_s = kLiftRate_1_s * missing_N - lift_N[j] / kLiftLeak_s;
+    lift_N[j] = smaller(lift_N[j] + rate_N_s * table.tick_s, limit_N);
+  }
 }
 
 CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m, const TensionRatio& ratio,

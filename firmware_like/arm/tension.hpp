@@ -25,8 +25,21 @@ struct TensionPlan {
   bool balanced = true;           // false: a segment's cables cannot turn both angles (degenerate table)
 };
 
-// Plan at one pose around `level_N` at the motor. Residual torque is below 1e-9 N m when balanced.
-TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio, double level_N) noexcept;
+// Plan at one pose around the table's level at the motor, every segment `lift_N` further above the floor (zero: as planned without
+// measurements). Residual torque is below 1e-9 N m when balanced.
+TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
+                         const SegmentVector& lift_N) noexcept;
+
+// Friction that the plan does not know can take a cable further down than the margin. A segment whose lowest measured tension nears the
+// floor is pulled tighter, which turns no joint. First order, slower than the arm's modes. The more friction, the less lift, and none above
+// kMarginFriction: there more tension brings more friction than it repairs (with mu 0.1 it let cables go slack in whole missions).
+constexpr double kLiftBelow_N = 9.0;   // over the floor: under it the lift rises
+constexpr double kLiftRate_1_s = 3.0;  // share of what is missing, per second
+constexpr double kLiftLeak_s = 5.0;    // time constant of letting go
+constexpr double kLiftLimit_N = 20.0;  // without friction
+
+// One tick of that lift from measured tensions at the motor, low-passed.
+void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVector& lift_N) noexcept;
 
 // Unstretched length from drum to anchor when the cables are pulled with motor_N: the elastic part is taken off piece by piece.
 CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m, const TensionRatio& ratio,

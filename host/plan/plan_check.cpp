@@ -259,7 +259,7 @@ void check_tension(const RobotTable& table, const std::vector<ThetaVector>& path
   for (const ThetaVector& theta : path) {
     const ArmTrig trig = arm_trig(table, theta);
     const TensionRatio ratio = tension_ratio(table, layout, trig, SlipState{});
-    const TensionPlan plan = plan_tension(table, cable_geometry(table, layout, trig), ratio, table.tension.plan_N);
+    const TensionPlan plan = plan_tension(table, cable_geometry(table, layout, trig), ratio, SegmentVector{});
     for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) {
       out.min_tension_N = std::min(out.min_tension_N, plan.motor_N[c]);
       out.max_tension_N = std::max(out.max_tension_N, plan.motor_N[c]);

@@ -18,7 +18,7 @@ struct Bench {
   ArmTrig trig = arm_trig(robot, theta);
   CableGeometry geometry = cable_geometry(robot, layout, trig);
   TensionRatio ratio = tension_ratio(robot, layout, trig, SlipState{});
-  CableVector planned_N = plan_tension(robot, geometry, ratio, robot.tension.plan_N).motor_N;
+  CableVector planned_N = plan_tension(robot, geometry, ratio, SegmentVector{}).motor_N;
 
   // Tensions when the arm hangs `deflection` away from where its motors want it.
   CableVector pulled(const ThetaVector& deflection) const {

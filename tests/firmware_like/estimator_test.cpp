@@ -23,7 +23,7 @@ Measured measured_at(const RobotTable& robot, const ThetaVector& theta, const Sl
   const ArmTrig trig = arm_trig(robot, theta);
   const CableGeometry geometry = cable_geometry(robot, layout, trig);
   const TensionRatio ratio = tension_ratio(robot, layout, trig, slip);
-  const CableVector motor_N = plan_tension(robot, geometry, ratio, robot.tension.plan_N).motor_N;
+  const CableVector motor_N = plan_tension(robot, geometry, ratio, SegmentVector{}).motor_N;
   return {payout_for(robot, layout, geometry.part_m, ratio, motor_N), motor_N, ratio};
 }
 

@@ -31,7 +31,7 @@ class IdealDrives {
     const ArmTrig trig = arm_trig(robot, theta_rad);
     const CableGeometry geometry = cable_geometry(robot, layout, trig);
     const TensionRatio ratio = tension_ratio(robot, layout, trig, SlipState{});
-    const CableVector motor_N = plan_tension(robot, geometry, ratio, robot.tension.plan_N).motor_N;
+    const CableVector motor_N = plan_tension(robot, geometry, ratio, SegmentVector{}).motor_N;
     const CableVector payout_m = payout_for(robot, layout, geometry.part_m, ratio, motor_N);
     for (std::size_t c = 0; c < count(); ++c) {
       const double zero_m = layout.zero_length_m[c] + robot.lead_m;

@@ -31,7 +31,7 @@ Planned plan_at(const RobotTable& robot, const ThetaVector& theta, const SlipSta
   const ArmTrig trig = arm_trig(robot, theta);
   out.geometry = cable_geometry(robot, layout, trig);
   out.ratio = tension_ratio(robot, layout, trig, slip);
-  out.plan = plan_tension(robot, out.geometry, out.ratio, robot.tension.plan_N);
+  out.plan = plan_tension(robot, out.geometry, out.ratio, SegmentVector{});
   return out;
 }
 
@@ -236,6 +236,49 @@ TEST(Tension, PayoutCountsTheStretchOfEveryPieceAtItsOwnTension) {
     ASSERT_GT(unstretched_m, 1e-6);
     EXPECT_NEAR(payout_m[c] - even_m[c], unstretched_m, 2e-3 * unstretched_m) << c;
   }
+}
+
+const ThetaVector kBent_rad = zhu2022::radians({-8.0, 0.0, -12.0, 0.0, 8.0, -2.0, 13.0, 0.0, 12.0, -2.0});
+
+// A plant in which unknown friction takes `lost_N` off the first cable at its motor.
+SegmentVector lifted_until_taut(const RobotTable& robot, double lost_N, CableVector& measured_N) {
+  SegmentVector lift_N{};
+  const std::int32_t ten_seconds = static_cast<std::int32_t>(10.0 / robot.tick_s);
+  const Planned at = plan_at(robot, kBent_rad, SlipState{});
+  for (std::int32_t tick = 0; tick < ten_seconds; ++tick) {
+    measured_N = plan_tension(robot, at.geometry, at.ratio, lift_N).motor_N;
+    measured_N[0] -= lost_N;
+    keep_taut(robot, measured_N, lift_N);
+  }
+  return lift_N;
+}
+
+TEST(Tension, A9_ASegmentWhoseCableLosesTensionIsPulledTighterAndTurnsNoJoint) {
+  const RobotTable robot = zhu2022::table(zhu2022::kMu);
+  const Planned at = plan_at(robot, kBent_rad, SlipState{});
+  const double lost_N = at.plan.motor_N[0] - robot.tension.floor_motor_N - kLiftBelow_N + 5.0;  // 5 N under where lifting starts
+  CableVector measured_N{};
+  const SegmentVector lift_N = lifted_until_taut(robot, lost_N, measured_N);
+  EXPECT_GT(lift_N[0], 4.0);
+  EXPECT_GT(measured_N[0], robot.tension.floor_motor_N + kLiftBelow_N - 1.0);
+  for (std::size_t j = 1; j < kMaxSegments; ++j) EXPECT_EQ(lift_N[j], 0.0) << j;
+  const TensionPlan lifted = plan_tension(robot, at.geometry, at.ratio, lift_N);
+  EXPECT_LE(zhu2022::length(torque_of(robot, at, lifted.motor_N)), 1e-9);
+}
+
+TEST(Tension, TheLiftIsBoundedAndGoesWhenTheTensionIsBack) {
+  const RobotTable robot = zhu2022::table(zhu2022::kMu);
+  CableVector measured_N{};
+  SegmentVector lift_N = lifted_until_taut(robot, 1000.0, measured_N);
+  EXPECT_EQ(lift_N[0], kLiftLimit_N * (1.0 - zhu2022::kMu / kMarginFriction));
+  measured_N.fill(robot.tension.plan_N);
+  for (double time_s = 0.0; time_s < kLiftLeak_s; time_s += robot.tick_s) keep_taut(robot, measured_N, lift_N);
+  EXPECT_NEAR(lift_N[0], kLiftLimit_N * (1.0 - zhu2022::kMu / kMarginFriction) * std::exp(-1.0), 0.01);
+}
+
+TEST(Tension, WithMuchFrictionNothingIsLifted) {
+  CableVector measured_N{};
+  EXPECT_EQ(lifted_until_taut(zhu2022::table(0.1), 1000.0, measured_N)[0], 0.0);
 }
 
 }  // namespace
