@@ -35,10 +35,11 @@ void update_tension_ratio(const RobotTable& table, const CableLayout& layout, co
   for (double& rate : half_rate) rate *= -0.5 * table.friction_mu;
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     double at_entry = 1.0;
-    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) {
-      const double half = exponential(half_rate[j] * slip.sigma[c][j]);
-      ratio[c][j] = at_entry * half;
-      at_entry *= half * half;
+    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); j += 2) {  // two segments at a time; nothing slips beyond the cable's own
+      const Pair half = exponential(load_pair(&half_rate[j]) * load_pair(&slip.sigma[c][j]));
+      const double at_next = at_entry * (half[0] * half[0]);
+      store_pair(Pair{at_entry, at_next} * half, &ratio[c][j]);
+      at_entry = at_next * (half[1] * half[1]);
     }
   }
 }

@@ -10,7 +10,7 @@ namespace liana {
 
 using Pair = double __attribute__((vector_size(16)));  // a language extension that g++ and clang share
 
-inline Pair both(double x) noexcept { return Pair{x, x}; }
+constexpr Pair both(double x) noexcept { return Pair{x, x}; }
 inline Pair load_pair(const double* from) noexcept {
   Pair pair;
   std::memcpy(&pair, from, sizeof pair);

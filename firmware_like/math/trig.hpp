@@ -2,7 +2,11 @@
 // Only + - * / and sqrt are used. Errors are against the exact value, tested over the whole range stated.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
 
 #include "firmware_like/math/pair.hpp"
 
@@ -17,24 +21,38 @@ struct SinCosOf {
 };
 using SinCos = SinCosOf<double>;
 
+// Coefficients of a power series, highest power first, each twice: read from memory they cost nothing, while compilers build a Pair of
+// equal constants with two instructions more.
+template <std::size_t N>
+using Series = std::array<Pair, N>;
+extern const Series<7> kSineSeries;          // (sin x / x - 1) / x^2 in x^2: -1/15! ... -1/3!
+extern const Series<7> kCosineSeries;        // (cos x - 1 + x^2 / 2) / x^4 in x^2: 1/16! ... 1/4!
+extern const Series<12> kExponentialSeries;  // 1/11! ... 1/0!
+
+template <class Number>
+Number coefficient(const Pair& twice) noexcept {
+  if constexpr (std::is_same_v<Number, Pair>)
+    return twice;
+  else
+    return twice[0];
+}
+// Horner's rule for a double or a Pair.
+template <class Number, std::size_t N>
+Number evaluate(const Series<N>& series, const Number& x) noexcept {
+  return [&]<std::size_t... I>(std::index_sequence<I...>) {
+    Number p = coefficient<Number>(series[0]);
+    ((p = p * x + coefficient<Number>(series[I + 1])), ...);
+    return p;
+  }
+  (std::make_index_sequence<N - 1>{});
+}
+
 // Sine and cosine of x [rad], |x| <= pi/4, for a double or a Pair: absolute error <= 3e-16. Taylor series; the first term left out is
 // below 1e-17.
 template <class Number>
-SinCosOf<Number> small_sin_cos(Number x_rad) noexcept {
+SinCosOf<Number> small_sin_cos(const Number& x_rad) noexcept {
   const Number x = x_rad * x_rad;
-  Number s = x * (-1.0 / 1307674368000.0) + 1.0 / 6227020800.0;  // -1/15! and so on
-  s = s * x - 1.0 / 39916800.0;
-  s = s * x + 1.0 / 362880.0;
-  s = s * x - 1.0 / 5040.0;
-  s = s * x + 1.0 / 120.0;
-  s = s * x - 1.0 / 6.0;
-  Number c = x * (1.0 / 20922789888000.0) - 1.0 / 87178291200.0;  // 1/16! and so on
-  c = c * x + 1.0 / 479001600.0;
-  c = c * x - 1.0 / 3628800.0;
-  c = c * x + 1.0 / 40320.0;
-  c = c * x - 1.0 / 720.0;
-  c = c * x + 1.0 / 24.0;
-  return {x_rad + x_rad * x * s, 1.0 - 0.5 * x + x * x * c};
+  return {x_rad + x_rad * x * evaluate(kSineSeries, x), 1.0 - 0.5 * x + x * x * evaluate(kCosineSeries, x)};
 }
 
 // The same for |x| <= 1000, by range reduction: absolute error <= 1e-13. Larger or not finite x give {0, 1}.
@@ -55,22 +73,15 @@ inline SinCosOf<Pair> sin_cos(const Pair& x_rad) noexcept {
 double arc_tangent(double y, double x) noexcept;
 
 // e^x for |x| <= 1/4: relative error <= 1e-15. Series whose first term left out is below 2e-16.
-inline double small_exponential(double x) noexcept {
-  double p = 1.0 / 39916800.0;  // 1/11!
-  p = p * x + 1.0 / 3628800.0;
-  p = p * x + 1.0 / 362880.0;
-  p = p * x + 1.0 / 40320.0;
-  p = p * x + 1.0 / 5040.0;
-  p = p * x + 1.0 / 720.0;
-  p = p * x + 1.0 / 120.0;
-  p = p * x + 1.0 / 24.0;
-  p = p * x + 1.0 / 6.0;
-  p = p * x + 0.5;
-  p = p * x + 1.0;
-  return p * x + 1.0;
+template <class Number>
+Number small_exponential(const Number& x) noexcept {
+  return evaluate(kExponentialSeries, x);
 }
 
 // e^x for |x| <= 4: relative error <= 1e-14; outside, x is taken at the nearer end.
 double wide_exponential(double x) noexcept;
 inline double exponential(double x) noexcept { return std::fabs(x) <= 0.25 ? small_exponential(x) : wide_exponential(x); }
+inline Pair exponential(const Pair& x) noexcept {
+  return within(x, 0.25) ? small_exponential(x) : Pair{wide_exponential(x[0]), wide_exponential(x[1])};
+}
 }  // namespace liana
