@@ -36,14 +36,14 @@ void attempt(Talk& talk, const Action& action) {
 
 // Greets every system before anything is waited for: one that hangs must not keep a stop from the others.
 template <typename Action>
-std::vector<Talk> begin_talks(const ClientOptions& options, const char* name, bool subscribe_state, const Action& action) {
+std::vector<Talk> begin_talks(const ClientOptions& options, const char* name, Observer observer, const Action& action) {
   std::vector<Talk> talks;
   for (const std::string& api : systems_to_ask(options.api)) {
     Talk& talk = talks.emplace_back();
     talk.api = api;
     attempt(talk, [&] {
       talk.client.emplace(ApiClient::connect(api, kConnectTimeout_s));
-      say_hello(*talk.client, name, subscribe_state);
+      say_hello(*talk.client, name, observer);
       action(*talk.client);
     });
   }
@@ -86,7 +86,7 @@ void print_state(const std::string& api, const json& state) {
 }  // namespace
 
 int status_command(const ClientOptions& options) {
-  std::vector<Talk> talks = begin_talks(options, "liana status", true, [](ApiClient&) {});
+  std::vector<Talk> talks = begin_talks(options, "liana status", Observer::kSeeing, [](ApiClient&) {});
   for (Talk& talk : talks) {
     json state = answer_of(talk, "state", "lianad runs but sent no state within 5 s");
     if (!talk.problem.empty()) continue;
@@ -102,7 +102,7 @@ int status_command(const ClientOptions& options) {
 
 int estop_command(const ClientOptions& options) {
   const auto stop = [](ApiClient& client) { client.send({{"op", "stop"}, {"id", 1}}); };
-  std::vector<Talk> talks = begin_talks(options, "liana estop", false, stop);
+  std::vector<Talk> talks = begin_talks(options, "liana estop", Observer::kBlind, stop);
   for (Talk& talk : talks) {
     answer_of(talk, "ok", "lianad did not confirm the stop within 5 s; cut the power");
     const bool stopped = talk.problem.empty();

@@ -85,6 +85,10 @@ int status_command(const ClientOptions& options);
 // Emergency stop of every running system (stop, brakes, disable), each named by its socket; exit code 1 when one does not confirm.
 int estop_command(const ClientOptions& options);
 
+// Clears the emergency stop in force and the latched faults of one running system, and names them; it enables nothing. Exit code 1 when
+// somebody else owns motion, the arm is not at rest yet, or a fault is still there.
+int clear_command(const ClientOptions& options);
+
 struct ReplayOptions {
   std::string directory;
   bool json = false;

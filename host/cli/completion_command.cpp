@@ -18,14 +18,15 @@ constexpr const char* kBash = R"bash(_liana() {
     --record | --json | --svg | --path | --api | --out | replay) COMPREPLY=($(compgen -f -- "$word")); return ;;
   esac
   if [[ $COMP_CWORD == 1 ]]; then
-    words="run pose ik reach status estop replay robot doctor completion help"
+    words="run pose ik reach plan status estop clear replay robot doctor completion help"
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
       run) words="--robot --scene --bus --time --physics --record --json --seed" ;;
       pose) words="--robot --theta-deg --scene --json" ;;
       ik) words="--robot --from-deg --tip --hold --control-point --json" ;;
       reach) words="--robot --scene --hold --from-deg --to-deg --path --node --samples --seed --svg --json" ;;
-      status | estop) words="--api --json" ;;
+      plan) words="--robot --scene --from-deg --to-deg --tip --hold --planar --control-point --waypoints --margin --max-step-deg --iterations --out --json" ;;
+      status | estop | clear) words="--api --json" ;;
       robot) words="--robot --out --json" ;;
       replay | doctor) words="--json" ;;
     esac

@@ -42,13 +42,14 @@ std::optional<json> wait_for(ApiClient& client, const std::string& op, double ti
   return std::nullopt;
 }
 
-void say_hello(ApiClient& client, const std::string& name, bool subscribe_state) {
-  const json subscriptions = subscribe_state ? json::array({"state"}) : json::array();
-  client.send({{"op", "hello"}, {"name", name}, {"role", "observer"}, {"lockstep", false}, {"subscribe", subscriptions}});
+void say_hello(ApiClient& client, const std::string& name, Observer observer) {
+  const json subscriptions = observer == Observer::kBlind ? json::array() : json::array({"state"});
+  const char* role = observer == Observer::kClient ? "client" : "observer";
+  client.send({{"op", "hello"}, {"name", name}, {"role", role}, {"lockstep", false}, {"subscribe", subscriptions}});
 }
 
 json hello_as_observer(ApiClient& client, const std::string& name) {
-  say_hello(client, name, true);
+  say_hello(client, name, Observer::kSeeing);
   const auto welcome = wait_for(client, "welcome", 5.0);
   if (!welcome) throw std::runtime_error("lianad does not answer on its API socket");
   return *welcome;

@@ -144,7 +144,8 @@ local function run(runner)
   if fresh and arm.state.device_engaged then arm.was_engaged = true end
   if fresh and not runner:waiting() and step.exit.met(arm) then return runner:end_step() end
   if arm.elapsed_s(arm.begin_tick) > step.time_limit_s then
-    runner:fail("failed", ("time limit of %g s passed, not met: %s"):format(step.time_limit_s, step.exit.text))
+    local busy = arm.state.is_busy and " while the arm was still moving" or ""
+    runner:fail("failed", ("time limit of %g s passed%s, not met: %s"):format(step.time_limit_s, busy, step.exit.text))
   end
 end
 

@@ -175,15 +175,15 @@ class StopsBeforeTheArmIsEnabled(SystemTest):
 
 
 class StopsFromTheCommandLine(SystemTest):
-    """`liana status` and `estop` without --api deal with every running system of the user."""
+    """`liana status` and `estop` without --api deal with every running system of the user, `clear` with the only one."""
 
     def setUp(self):
         self.home = tempfile.mkdtemp(prefix="liana-home-")
         self.addCleanup(shutil.rmtree, self.home)
         self.enterContext(unittest.mock.patch.dict(os.environ, XDG_RUNTIME_DIR=self.home))
 
-    def moving(self):
-        system = self.enterContext(System())
+    def moving(self, faults=None):
+        system = self.enterContext(System(faults=faults))
         client = system.client()
         client.enable()
         client.start_moving()
@@ -223,6 +223,42 @@ class StopsFromTheCommandLine(SystemTest):
         self.assertEqual((done.returncode, done.stdout), (2, ""))
         self.assertIn("no system of this user is running", done.stderr)
 
+    def test_clear_takes_back_the_stop_and_the_faults_by_name_and_enables_nothing(self):
+        _, client = self.moving([{"drive": 3, "kind": "fault", "at_slot": 2500}])
+        client.until(lambda state: state["faults"])
+        code, _, error = self.while_running("clear", [client])
+        self.assertEqual(code, 1)
+        self.assertRegex(error, "nothing was cleared|'test' owns motion")  # the arm may still be stopping
+        client.until(lambda state: state["state"] == "FAULT")
+        self.assertEqual(self.while_running("estop", [client])[0], 0)
+        code, _, error = self.while_running("clear", [client])
+        self.assertEqual(code, 1)
+        self.assertIn("'test' owns motion", error)
+        self.assertEqual((client.state["stop"]["by"], len(client.state["faults"])), ("liana estop", 1))
+        must(client.ask("release"))
+        code, cleared, error = self.while_running("clear", [client])
+        self.assertEqual((code, error), (0, ""))
+        self.assertEqual((cleared[0]["cleared"], cleared[0]["stop"]["by"], cleared[0]["faults"][0]["number"]), (True, "liana estop", 3003))
+        self.assertIn("faults cleared; checked: ", cleared[0]["said"])
+        client.until(lambda state: state["state"] == "DISABLED" and not state["faults"] and not state["stop"] and not state["owner"])
+        client.go_on(1.0)
+        self.assertEqual(client.state["state"], "DISABLED")
+        self.assertEqual(self.while_running("clear", [client])[1][0]["stop"], None)
+        client.enable()
+
+    def test_a_fault_that_is_still_there_is_not_cleared_and_several_systems_are_not_cleared_at_once(self):
+        first, client = self.moving([{"drive": 3, "kind": "silent", "at_slot": 2500}])
+        client.until(lambda state: state["state"] == "FAULT")
+        must(client.ask("release"))
+        code, cleared, error = self.while_running("clear", [client])
+        self.assertEqual((code, cleared[0]["cleared"], cleared[0]["faults"][0]["number"]), (1, False, 3002))
+        self.assertIn("faults not cleared, not met: ", error)
+        second, other = self.moving()
+        code, cleared, error = self.while_running("clear", [client, other])
+        self.assertEqual((code, cleared), (2, []))
+        for system in (first, second):
+            self.assertIn(str(system.api), error)
+
     def test_a_folder_of_somebody_else_is_not_believed(self):
         (pathlib.Path(self.home) / f"liana-{os.getuid()}").symlink_to("/")
         done = run("liana", "estop")
@@ -241,8 +277,8 @@ class StopsFromTheCommandLine(SystemTest):
 
 
 class NobodyToTalkTo(SystemTest):
-    def test_status_and_estop_without_lianad_fail_with_one_message(self):
-        for command in ("status", "estop"):
+    def test_status_estop_and_clear_without_lianad_fail_with_one_message(self):
+        for command in ("status", "estop", "clear"):
             done = run("liana", command, "--api", "/nonexistent/api")
             self.assertNotEqual(done.returncode, 0)
             self.assertIn("/nonexistent/api", done.stderr)

@@ -196,7 +196,7 @@ class Help(unittest.TestCase):
     def test_help_names_every_command(self):
         code, out, _ = liana("help")
         self.assertEqual(code, 0)
-        for command in ["run", "pose", "ik", "reach", "status", "estop", "replay", "robot", "doctor", "completion"]:
+        for command in ["run", "pose", "ik", "reach", "plan", "status", "estop", "clear", "replay", "robot", "doctor", "completion"]:
             self.assertIn(f"\n  {command} ", out)
 
     def test_an_empty_argument_is_never_taken_for_a_missing_one(self):
@@ -210,7 +210,7 @@ class Help(unittest.TestCase):
             code, out, error = liana(*words)
             self.assertEqual((code, out), (2, ""), words)
             self.assertIn(named, error)
-            self.assertIn("export" if words[:1] == ["robot"] else "run, status, estop", error)
+            self.assertIn("export" if words[:1] == ["robot"] else "run, status, estop, clear", error)
             self.assertEqual(error.count("\n"), 1, error)
 
     def test_an_option_that_a_command_does_not_have_is_named_whatever_else_is_missing(self):

@@ -1,0 +1,121 @@
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
+
+#include "host/api/client.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/errors.hpp"
+#include "host/cli/observer.hpp"
+
+namespace liana {
+namespace {
+
+using nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+constexpr double kConnectTimeout_s = 1.0;
+constexpr double kAnswerTimeout_s = 5.0;
+constexpr double kVerdictTimeout_s = 15.0;  // the drives get their reset first
+
+// What a clear is for, as it was before and as lianad judged it.
+struct Clearing {
+  json stop;         // as in the state; null: no emergency stop was in force
+  json faults;       // as in the state
+  std::string said;  // of the faults; empty when there were none
+  bool good = true;
+  bool is_needed() const { return !stop.is_null() || !faults.empty(); }
+};
+
+std::string only_system(const std::string& given) {
+  const std::vector<std::string> systems = systems_to_ask(given);
+  if (systems.size() == 1) return systems.front();
+  std::string names;
+  for (const std::string& system : systems) names += (names.empty() ? "" : ", ") + system;
+  throw BadInput("clear: several systems run: " + names + "; name the one you have looked at with --api");
+}
+
+json state_of(ApiClient& client) {
+  auto state = wait_for(client, "state", kAnswerTimeout_s);
+  if (!state) throw std::runtime_error("lianad runs but sent no state within 5 s");
+  return *state;
+}
+
+// An arm that is still on its way to standing still is left alone.
+void require_settled(const Clearing& before, const json& state) {
+  const std::string name = state.value("state", "");
+  const bool settled = name == "DISABLED" || name == "FAULT" || (before.stop.is_null() && name == "ENABLED");
+  if (!settled) throw std::runtime_error("nothing was cleared: the arm is " + name + "; wait until liana status says DISABLED or FAULT");
+}
+
+void ask(ApiClient& client, json request, int id) {
+  request["id"] = id;
+  client.send(request);
+  if (!wait_for(client, "ok", kAnswerTimeout_s))
+    throw std::runtime_error("lianad did not answer " + request.value("op", "") + " within 5 s");
+}
+
+// What lianad says after `tick` of the faults it was to clear.
+std::string verdict_after(ApiClient& client, std::uint64_t tick) {
+  const auto deadline = Clock::now() + std::chrono::duration<double>(kVerdictTimeout_s);
+  while (Clock::now() < deadline) {
+    for (const json& event : state_of(client).value("events", json::array())) {
+      const std::string text = event.value("text", "");
+      if (event.value("tick", std::uint64_t{0}) >= tick && text.starts_with("faults ")) return text;
+    }
+  }
+  throw std::runtime_error("lianad did not say within 15 s whether the faults are cleared; look with liana status");
+}
+
+Clearing clear(ApiClient& client) {
+  say_hello(client, "liana clear", Observer::kClient);
+  const json state = state_of(client);
+  Clearing clearing;
+  clearing.stop = state.value("stop", json());
+  clearing.faults = state.value("faults", json::array());
+  if (!clearing.is_needed()) return clearing;
+  require_settled(clearing, state);
+  ask(client, {{"op", "acquire"}}, 1);
+  ask(client, {{"op", "state_command"}, {"command", "clear"}}, 2);
+  if (!clearing.faults.empty()) clearing.said = verdict_after(client, state.value("tick", std::uint64_t{0}));
+  clearing.good = !clearing.said.starts_with("faults not cleared");
+  ask(client, {{"op", "release"}}, 3);
+  return clearing;
+}
+
+void print_text(const std::string& api, const Clearing& clearing) {
+  if (!clearing.is_needed()) {
+    std::printf("%s: nothing to clear\n", api.c_str());
+    return;
+  }
+  if (!clearing.stop.is_null()) {
+    const std::string reason = clearing.stop.value("reason", "");
+    std::printf("%s: cleared: emergency stop by %s%s\n", api.c_str(), clearing.stop.value("by", "").c_str(),
+                (reason.empty() ? "" : ": " + reason).c_str());
+  }
+  for (const json& fault : clearing.faults) {
+    std::printf("%s: %s: fault %d %s (index %d)\n", api.c_str(), clearing.good ? "cleared" : "not cleared", fault.value("number", 0),
+                fault.value("name", "").c_str(), fault.value("index", -1));
+  }
+  if (!clearing.said.empty()) std::printf("%s: %s\n", api.c_str(), clearing.said.c_str());
+}
+
+}  // namespace
+
+int clear_command(const ClientOptions& options) {
+  const std::string api = only_system(options.api);
+  ApiClient client = ApiClient::connect(api, kConnectTimeout_s);
+  const Clearing clearing = clear(client);
+  if (options.json) {
+    std::puts(json{{"api", api}, {"cleared", clearing.good}, {"stop", clearing.stop}, {"faults", clearing.faults}, {"said", clearing.said}}
+                  .dump()
+                  .c_str());
+  } else {
+    print_text(api, clearing);
+  }
+  if (!clearing.good) std::fprintf(stderr, "liana: %s: %s\n", api.c_str(), clearing.said.c_str());
+  return clearing.good ? kExitOk : kExitFailure;
+}
+
+}  // namespace liana
