@@ -68,8 +68,10 @@ int run_command(const RunOptions& options) {
   const bool written = publish_report(options, plan, report);
   const bool success = report.value("outcome", "") == "success";
   if (!end.message.empty()) std::fprintf(stderr, "liana: %s\n", end.message.c_str());
-  if (!success)
-    std::fprintf(stderr, "liana: the run did not succeed; logs are kept in %s; delete it when you have looked\n", plan.directory.c_str());
+  if (!success) {
+    std::fprintf(stderr, "liana: the run did not succeed; its logs are kept in %s%s\n", plan.directory.c_str(),
+                 plan.keep_directory ? "" : "; delete it when you have looked");
+  }
   clean_up(plan, success);
   return success && written ? kExitOk : kExitFailure;
 }

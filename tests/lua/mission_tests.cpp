@@ -204,6 +204,14 @@ TEST(Mission, AStepThatWasCutOffLastedUntilTheLastState) {
   EXPECT_EQ(run.report["duration_s"], run.report["steps"][0]["duration_s"]);
 }
 
+TEST(Mission, ATimeLimitThatPassesDuringAMoveSaysSo) {
+  const TemporaryFolder folder;
+  const MissionRun run = run_mission_against(
+      {}, one_step(folder, "exit = liana.condition('never', function(arm) arm.move_jp { goal_deg = arm.named_pose 'zero' } end),"));
+  EXPECT_NE(run.ended.error.find("time limit of 5 s passed while the arm was still moving, not met: never"), std::string::npos)
+      << run.ended.error;
+}
+
 TEST(Mission, AnErrorInAStepNamesFileAndLineAndHolds) {
   const TemporaryFolder folder;
   const MissionRun run =

@@ -3,6 +3,7 @@ import json
 import math
 import pathlib
 import random
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -190,6 +191,17 @@ class Output(unittest.TestCase):
         code, _, error = liana("robot", "export", "--out", "/dev/full")
         self.assertEqual(code, 1)
         self.assertIn("/dev/full: cannot be written: No space left on device", error)
+
+
+class Dev(unittest.TestCase):
+    def test_what_dev_does_not_know_is_refused_before_any_work(self):
+        for words, named in [(["build", "now"], "not now"), (["docs", "x"], "not x"), (["help", "x"], "not x"), (["test", ""], "is empty"),
+                             (["test", "hil", "lua"], "hil lua"), (["test", "nosuch"], "tests/nosuch"), (["numbers", "ik", "nosuch"], "nosuch"),
+                             (["bench", "--json", "/no/such/file"], "/no/such/file"), (["format", "--check", "x"], "x"),
+                             (["completion", "bash", "x"], "bash x"), (["nosuch"], "nosuch")]:
+            done = subprocess.run([str(ROOT / "dev"), *words], capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), (words, done.stderr))
+            self.assertIn(named, done.stderr)
 
 
 class Help(unittest.TestCase):
