@@ -49,10 +49,11 @@ struct PlanOptions {
   std::string from_deg;
   std::string to_deg;                       // either this
   std::string tip;                          // or this
+  std::string follow;                       // empty: no curve; a curve's file, or "slit"
   std::string hold;                         // empty: nothing is held
   std::string planar;                       // empty: no planar phases
   std::vector<std::string> control_points;  // in order
-  std::string waypoints = "20";
+  std::string waypoints;                    // empty: 20, or as many as following needs
   std::string margin_m = "0.005";
   std::string max_step_deg;  // empty: the planner's default
   std::string max_iterations = "300";

@@ -79,6 +79,10 @@ void add_plan(CLI::App& app, Action& action, liana::PlanOptions& plan) {
   sub->add_option("--to-deg", plan.to_deg, "goal as joint angles");
   sub->add_option("--tip", plan.tip, "goal as tip pose x,y,z,qw,qx,qy,qz");
   sub->add_option(
+      "--follow", plan.follow,
+      "follow the leader: the tip along the curve of a JSON file (points_m), the body after it; or slit: through the scene's slit "
+      "to the goal");
+  sub->add_option(
       "--hold", plan.hold,
       "joint angles held, e.g. 7,9 or 7=0.5,9 (deg); one with another value than at the start is there after a third of the way");
   sub->add_option("--planar", plan.planar,
@@ -88,7 +92,7 @@ void add_plan(CLI::App& app, Action& action, liana::PlanOptions& plan) {
          "node target NODE:x,y,z[:WEIGHT]; may be repeated; WEIGHT is 1 for the arm's middle node and 0.25 for others where not given")
       ->take_all()
       ->allow_extra_args(false);
-  sub->add_option("--waypoints", plan.waypoints, "waypoints with both ends; 1: only the end pose")->capture_default_str();
+  sub->add_option("--waypoints", plan.waypoints, "waypoints with both ends, 20 where not given; 1: only the end pose");
   sub->add_option("--margin", plan.margin_m, "least clearance of every link from every obstacle, m")->capture_default_str();
   sub->add_option("--max-step-deg", plan.max_step_deg,
                   "most that an angle changes between waypoints; 80 / (waypoints - 1) where not given");

@@ -1,6 +1,10 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -19,6 +23,9 @@ using nlohmann::json;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTransitionShare = 1.0 / 3.0;  // of the way, in which a held angle with another value than the start's gets there
+
+constexpr double kFarthest_m = 100.0;  // of a curve's coordinates
+constexpr double kLeastGap_m = 0.001;  // between a curve's points
 
 SceneConfig scene_of(const std::string& name) {
   if (name == "none") {
@@ -81,7 +88,49 @@ void check_held_goal(const PlanRequest& request) {
   }
 }
 
+std::vector<Vec3> read_curve(const std::string& path) {
+  const std::string name = "--follow: " + path;
+  std::error_code unreadable;
+  std::ifstream file;
+  if (std::filesystem::is_regular_file(path, unreadable)) file.open(path, std::ios::binary);
+  if (!file.is_open()) throw BadInput(name + ": cannot be read; give an existing JSON file with points_m, or slit");
+  const json document = json::parse(std::string{std::istreambuf_iterator<char>(file), {}}, nullptr, false);
+  const json rows = document.is_object() ? document.value("points_m", json()) : json();
+  if (!rows.is_array() || rows.size() < 2 || rows.size() > kMaxFollowPoints) {
+    throw BadInput(name + ": points_m: allowed: a JSON object with 2 to " + std::to_string(kMaxFollowPoints) + " points under this key");
+  }
+  std::vector<Vec3> points;
+  for (const json& row : rows) {
+    const std::string point = name + ": points_m row " + std::to_string(points.size() + 1);
+    const auto is_good = [](const json& value) { return value.is_number() && std::fabs(value.get<double>()) <= kFarthest_m; };
+    if (!row.is_array() || row.size() != 3 || !std::all_of(row.begin(), row.end(), is_good))
+      throw BadInput(point + ": allowed: three numbers [x, y, z] in metres, each from -100 to 100");
+    points.push_back(row.get<Vec3>());
+    if (points.size() > 1 && norm(subtract(points.back(), points[points.size() - 2])) < kLeastGap_m)
+      throw BadInput(point + ": is less than 1 mm from the one before; leave one of them out");
+  }
+  return points;
+}
+
+void read_follow(const PlanOptions& options, PlanRequest& request) {
+  if (options.follow.empty()) return;
+  const auto refuse = [](const std::string& option, const char* why) { throw BadInput(option + ": not with --follow: " + why); };
+  if (!options.planar.empty()) refuse("--planar", "the curve says where the arm is; leave it out");
+  if (!options.control_points.empty()) refuse("--control-point", "the curve says where the arm is; leave it out");
+  if (!options.waypoints.empty()) refuse("--waypoints", "as many as the tip needs come out; leave it out");
+  if (options.hold.find('=') != std::string::npos) refuse("--hold with values", "name the angles alone, which keep what they have");
+  request.follow.emplace();
+  if (options.follow != "slit") {
+    if (!options.to_deg.empty() || !options.tip.empty()) refuse("--to-deg, --tip", "the curve's end is the goal; leave them out");
+    request.follow->points_m = read_curve(options.follow);
+  } else if (options.scene == "none") {
+    throw BadInput("--follow: slit: needs a scene with a slit; give --scene, or a curve's file");
+  }
+}
+
 void read_goal(const PlanOptions& options, PlanRequest& request) {
+  read_follow(options, request);
+  if (request.follow && !request.follow->points_m.empty()) return;
   if (options.to_deg.empty() == options.tip.empty()) throw BadInput("--to-deg, --tip: allowed: exactly one of them");
   if (!options.to_deg.empty()) request.to_rad = parse_theta_deg("--to-deg", options.to_deg, request.robot.table);
   if (!options.tip.empty()) request.tip_in_base = parse_pose("--tip", options.tip);
@@ -92,10 +141,11 @@ void read_sizes(const PlanOptions& options, PlanRequest& request) {
   constexpr double kLeastStep_deg = 0.001;
   const std::int64_t fewest = request.tip_in_base ? 1 : 2;
   const char* note = request.tip_in_base ? "; 1: the end pose alone" : "; 1, the end pose alone, is for --tip";
-  request.waypoints = static_cast<std::int32_t>(parse_whole("--waypoints", options.waypoints, fewest, kMaxWaypoints, note));
+  if (!options.waypoints.empty())
+    request.waypoints = static_cast<std::int32_t>(parse_whole("--waypoints", options.waypoints, fewest, kMaxWaypoints, note));
   request.margin_m = parse_number_in("--margin", options.margin_m, 0.0, 0.5, "m");
   request.max_step_rad = options.max_step_deg.empty()
-                             ? default_max_step_rad(request.robot.table, request.waypoints)
+                             ? (request.follow ? kFollowMaxStep_rad : default_max_step_rad(request.robot.table, request.waypoints))
                              : parse_number_in("--max-step-deg", options.max_step_deg, kLeastStep_deg, 180.0, "deg") * kDegree;
 }
 
@@ -150,9 +200,20 @@ json to_json(const PlanRequest& request, const PlanResult& result, double time_s
                          {"min_tension_N", check.min_tension_N},     {"max_tension_N", check.max_tension_N},
                          {"duration_s", check.duration_s},           {"poses", check.poses}};
   }
+  if (result.follow) {
+    const FollowFigures& figures = *result.follow;
+    answer["follow"] = {{"curve_length_m", figures.curve_length_m}, {"tip_off_m", figures.tip_off_m},
+                        {"body_off_m", figures.body_off_m},         {"mean_body_off_m", figures.mean_body_off_m},
+                        {"worst_link", figures.worst_link},         {"worst_tip_along_m", figures.worst_tip_along_m}};
+  }
   if (!result.constraint.empty()) answer["constraint"] = result.constraint;
   if (!result.reason.empty()) answer["reason"] = result.reason;
   return answer;
+}
+
+json follow_json(const PlanRequest& request) {
+  if (!request.follow) return nullptr;
+  return request.follow->points_m.empty() ? json("slit") : json{{"points_m", request.follow->points_m}};
 }
 
 // What the plan was asked for, as it was given.
@@ -162,6 +223,7 @@ json inputs(const PlanOptions& options, const PlanRequest& request) {
           {"from_deg", options.from_deg},
           {"to_deg", options.to_deg},
           {"tip", options.tip},
+          {"follow", follow_json(request)},
           {"hold", options.hold},
           {"planar", options.planar},
           {"control_points", options.control_points},
@@ -189,6 +251,11 @@ void print_text(const json& answer) {
   }
   std::printf(", joints up to %.2f deg, steps up to %.2f deg, tip error %.1e m\n", check["max_joint_deg"].get<double>(),
               check["max_step_deg"].get<double>(), check["tip_error_m"].get<double>());
+  if (!answer.contains("follow")) return;
+  const json& follow = answer["follow"];
+  std::printf("followed %.3f m: tip within %.1f mm of the curve, body within %.1f mm of the tip's path, %.1f mm on average\n",
+              follow["curve_length_m"].get<double>(), 1000.0 * follow["tip_off_m"].get<double>(),
+              1000.0 * follow["body_off_m"].get<double>(), 1000.0 * follow["mean_body_off_m"].get<double>());
 }
 
 int exit_code(PlanOutcome outcome) {

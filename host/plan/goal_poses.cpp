@@ -14,17 +14,6 @@ using Index = std::size_t;
 constexpr std::int32_t kPushIterations = 30;
 constexpr double kSame_rad = 0.02;
 
-// Seed poses: the start, the middle, then patterns of signs at half the limit.
-ThetaVector seed_pose(const RobotTable& table, const ThetaVector& from, std::int32_t seed) {
-  if (seed == 0) return from;
-  ThetaVector theta{};
-  for (Index k = 0; k < Index(table.theta_count()); ++k) {
-    const double sign = (Index(seed) * (k + 1) * 2654435761u >> 7) % 2 == 0 ? 1.0 : -1.0;
-    if (seed > 1) theta[k] = 0.5 * sign * table.segment[k / 2].theta_limit_rad;
-  }
-  return theta;
-}
-
 double largest_change(const ThetaVector& a, const ThetaVector& b) {
   double most = 0.0;
   for (Index k = 0; k < a.size(); ++k) most = std::max(most, std::fabs(a[k] - b[k]));
@@ -78,6 +67,16 @@ bool find_pose(const Room& room, const PlanRequest& request, const GoalIkProblem
 }
 
 }  // namespace
+
+ThetaVector seed_pose(const RobotTable& table, const ThetaVector& from, std::int32_t seed) {
+  if (seed == 0) return from;
+  ThetaVector theta{};
+  for (Index k = 0; k < Index(table.theta_count()); ++k) {
+    const double sign = (Index(seed) * (k + 1) * 2654435761u >> 7) % 2 == 0 ? 1.0 : -1.0;
+    if (seed > 1) theta[k] = 0.5 * sign * table.segment[k / 2].theta_limit_rad;
+  }
+  return theta;
+}
 
 GoalPoses goal_poses(const Room& room, const PlanRequest& request) {
   GoalPoses out;

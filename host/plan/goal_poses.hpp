@@ -19,4 +19,7 @@ struct GoalPoses {
 // with. Held thetas are those of the last waypoint.
 GoalPoses goal_poses(const Room& room, const PlanRequest& request);
 
+// Seed 0 is `from_rad`, 1 the straight arm, then patterns of signs at half the limits.
+ThetaVector seed_pose(const RobotTable& table, const ThetaVector& from_rad, std::int32_t seed);
+
 }  // namespace liana

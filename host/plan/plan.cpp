@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "firmware_like/math/trig.hpp"
+#include "host/plan/follow.hpp"
 #include "host/plan/goal_poses.hpp"
 #include "host/plan/ipopt_solver.hpp"
 #include "host/plan/plan_rows.hpp"
 #include "host/plan/relax.hpp"
 #include "host/plan/start_path.hpp"
+#include "host/plan/text.hpp"
 
 namespace liana {
 namespace {
@@ -27,20 +28,19 @@ constexpr double kAnyStride_rad = 10.0;   // while the path is not free it has t
 constexpr double kTipTolerance = 1e-6;    // m and rad
 constexpr double kRoundOff = 1e-6;        // relative
 
-template <typename... Values>
-std::string text(const char* format, Values... values) {
-  char buffer[300];
-  std::snprintf(buffer, sizeof buffer, format, values...);
-  return buffer;
-}
-
 void require(bool good, const char* message) {
   if (!good) throw std::invalid_argument(message);
 }
 
 void validate(const PlanRequest& request) {
+  if (request.follow && !request.follow->points_m.empty()) {
+    require(request.follow->points_m.size() >= 2 && request.follow->points_m.size() <= kMaxFollowPoints,
+            "curve: allowed: 2 to 1000 points");
+    require(!request.to_rad && !request.tip_in_base, "goal: a curve's end is the goal");
+  } else {
+    require(request.to_rad.has_value() != request.tip_in_base.has_value(), "goal: either joint angles or a tip pose");
+  }
   require(request.waypoints >= 1 && request.waypoints <= kMaxWaypoints, "waypoints: allowed: 1 to 100");
-  require(request.to_rad.has_value() != request.tip_in_base.has_value(), "goal: either joint angles or a tip pose");
   require(request.waypoints > 1 || request.tip_in_base, "waypoints: 1 is for a tip pose: joint angles leave nothing to find");
   require(request.margin_m >= 0.0 && request.margin_m <= 1.0, "margin: allowed: 0 to 1 m");
   require(request.max_step_rad > 0.0, "max step: allowed: over 0");
@@ -61,10 +61,11 @@ class Planner {
 
   PlanResult run() {
     if (!pose_is_free(request_.from_rad, "start")) return result_;
+    if (request_.follow && !request_.follow->points_m.empty()) return follow(Curve(request_.follow->points_m), {});
     const Path goals = goals_or_none();
     if (goals.empty()) return result_;
     for (const ThetaVector& goal : goals) {
-      if (search(goal)) return result_;
+      if (request_.follow ? through_slit(goal) : search(goal)) return result_;
     }
     if (result_.constraint.empty())
       fail(PlanOutcome::limit, "path", "no free way was found; try more waypoints, a smaller margin or a control point");
@@ -95,7 +96,7 @@ class Planner {
 
   Path goals_or_none() {
     if (request_.to_rad) {
-      if (!pose_is_free(*request_.to_rad, "goal") || !steps_suffice(*request_.to_rad)) return {};
+      if (!pose_is_free(*request_.to_rad, "goal") || (!request_.follow && !steps_suffice(*request_.to_rad))) return {};
       return {*request_.to_rad};
     }
     tell("looking for joint angles of the tip pose");
@@ -117,6 +118,30 @@ class Planner {
                        way / kDegree, static_cast<int>(request_.waypoints), request_.max_step_rad / kDegree, most / kDegree));
     }
     return true;
+  }
+
+  // True when the search is over.
+  bool through_slit(const ThetaVector& goal) {
+    const FollowCurve curve = slit_curve(room_, request_.from_rad, goal);
+    if (curve.points_m.empty()) return fail(PlanOutcome::infeasible, "goal", curve.reason);
+    const PlanOutcome outcome = follow(Curve(curve.points_m), goal).outcome;
+    return outcome == PlanOutcome::solved || outcome == PlanOutcome::cancelled;
+  }
+
+  const PlanResult& follow(const Curve& curve, const std::optional<ThetaVector>& goal) {
+    result_.start = "follow";
+    tell(text("following a curve of %.3f m", curve.length_m()));
+    const FollowPath found = follow_path(room_, request_, curve, goal, control_);
+    if (cancelled()) {
+      fail(PlanOutcome::cancelled, "", "cancelled");
+    } else if (found.theta_rad.empty()) {
+      fail(found.constraint == "curve" ? PlanOutcome::infeasible : PlanOutcome::limit, found.constraint.c_str(), found.reason);
+    } else {
+      const Path path = thin_out(room_, request_, curve, found.theta_rad);
+      tell(text("%d waypoints", static_cast<int>(path.size())));
+      if (accept(path)) result_.follow = follow_figures(room_.table(), path, curve);
+    }
+    return result_;
   }
 
   // Tries the start paths in order; true when the search is over (solved or cancelled).
@@ -217,7 +242,9 @@ class Planner {
 
   CheckedTip goal_tip(const Path& path) const {
     if (request_.tip_in_base) return {request_.tip_in_base->position_m, request_.tip_in_base->quaternion};
-    return plain_tip(room_.table(), request_.to_rad.value_or(path.back()));
+    CheckedTip tip = plain_tip(room_.table(), request_.to_rad.value_or(path.back()));
+    if (request_.follow && !request_.follow->points_m.empty()) tip.position_m = request_.follow->points_m.back();  // in any attitude
+    return tip;
   }
 
   double objective(const Path& path) const {

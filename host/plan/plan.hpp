@@ -15,6 +15,7 @@
 #include "firmware_like/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "host/config/config.hpp"
+#include "host/plan/follow_figures.hpp"
 #include "host/plan/plan_check.hpp"
 
 namespace liana {
@@ -36,7 +37,15 @@ struct HeldPhase {
   double from_share = 0.0;
 };
 
+// The tip goes along a curve through these points (base frame, at least two, neighbours apart), the body after it; no points: through the
+// scene's slit to the goal.
+struct FollowRequest {
+  std::vector<Vec3> points_m;
+};
+
 constexpr std::int32_t kMaxWaypoints = 100;
+constexpr std::size_t kMaxFollowPoints = 1000;
+constexpr std::size_t kMaxFollowWaypoints = 2000;
 constexpr std::size_t kMaxControlPoints = 4;
 constexpr double kDefaultMargin_m = 0.005;
 
@@ -44,11 +53,12 @@ struct PlanRequest {
   RobotConfig robot;
   SceneConfig scene;
   ThetaVector from_rad{};
-  std::optional<ThetaVector> to_rad;  // either this
-  std::optional<Pose> tip_in_base;    // or this
+  std::optional<ThetaVector> to_rad;    // either this
+  std::optional<Pose> tip_in_base;      // or this, or
+  std::optional<FollowRequest> follow;  // points alone; through the slit with one of the two above
   std::vector<HeldPhase> held;
   std::vector<ControlPoint> control_points;
-  std::int32_t waypoints = 20;         // with the ends, 2..kMaxWaypoints; 1: only the end pose, not the way
+  std::int32_t waypoints = 20;         // with the ends, 2..kMaxWaypoints; 1: only the end pose, not the way; no matter when following
   double margin_m = kDefaultMargin_m;  // clearance of every link from every obstacle, also between waypoints, >= 0
   double max_step_rad = 0.0;           // of every theta between waypoints; see default_max_step_rad
 
@@ -58,6 +68,7 @@ struct PlanRequest {
 
 // Every theta may cross its whole range twice on the way.
 double default_max_step_rad(const RobotTable& table, std::int32_t waypoints);
+constexpr double kFollowMaxStep_rad = 0.05;  // the same for following, where the waypoints come out as many as are needed
 
 enum class PlanOutcome { solved, infeasible, limit, cancelled };
 const char* name_of(PlanOutcome outcome);
@@ -69,10 +80,11 @@ struct PlanResult {
   std::int32_t iterations = 0;  // of Ipopt, over all rounds
   std::int32_t rounds = 0;      // solves of Ipopt
   bool settled = false;         // the last solve gained less than 1 % of the objective: a local optimum, not only a valid path
-  std::string start;            // which start path led here
-  std::string constraint;       // what stands in the way when not solved: start, goal, tip, step, clearance, cable, tension, limits, path
-  std::string reason;           // the same as one sentence with body, link and amount
-  std::optional<PlanCheck> checked;  // of the path found, also when the check refused it; empty when no path was found
+  std::string start;            // which start path led here; follow when following
+  std::string constraint;  // what stands in the way when not solved: start, goal, tip, step, clearance, cable, tension, limits, path, curve
+  std::string reason;      // the same as one sentence with body, link and amount
+  std::optional<FollowFigures> follow;  // how well the body followed, when it did
+  std::optional<PlanCheck> checked;     // of the path found, also when the check refused it; empty when no path was found
 };
 
 // What the planner tells while it runs, and how it is stopped.

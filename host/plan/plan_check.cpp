@@ -274,6 +274,10 @@ CheckedTip plain_tip(const RobotTable& table, const ThetaVector& theta_rad) {
   return {chain.link_end_m.back(), quaternion_of(chain.tip)};
 }
 
+std::vector<std::array<double, 3>> plain_axis(const RobotTable& table, const ThetaVector& theta_rad) {
+  return chain_of(table, theta_rad).link_end_m;
+}
+
 PlanCheck check_plan(const RobotConfig& robot, const SceneConfig& scene, const std::vector<ThetaVector>& waypoints_rad,
                      const CheckedTip& goal) {
   PlanCheck out;

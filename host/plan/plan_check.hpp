@@ -48,4 +48,7 @@ PlanCheck check_plan(const RobotConfig& robot, const SceneConfig& scene, const s
 // Tip of joint angles by the plain product of joints.
 CheckedTip plain_tip(const RobotTable& table, const ThetaVector& theta_rad);
 
+// The same way: ends of all links, base frame; the base comes first.
+std::vector<std::array<double, 3>> plain_axis(const RobotTable& table, const ThetaVector& theta_rad);
+
 }  // namespace liana

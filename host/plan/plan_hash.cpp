@@ -23,6 +23,7 @@ json inputs(const PlanRequest& request) {
            {"margin_m", request.margin_m},
            {"max_step_rad", request.max_step_rad}};
   if (request.to_rad) out["to_rad"] = angles(*request.to_rad, count);
+  if (request.follow) out["follow"] = request.follow->points_m;
   if (request.tip_in_base) out["tip"] = {request.tip_in_base->position_m, request.tip_in_base->quaternion};
   return out;
 }

@@ -67,6 +67,9 @@ ThetaVector theta_at(const Path& path, const PathPlace& place);
 // True where theta k is not free at waypoint w of a path as long as the request says.
 bool is_held(const HeldPhase& phase, std::int32_t waypoint, std::int32_t waypoints);
 
+// Thetas that move a link: how many there are up to its own segment.
+std::size_t thetas_before(const RobotTable& table, std::int32_t link);
+
 class PlanProblem {
  public:
   // `path` has as many waypoints as the problem; its values are the start and those of everything fixed. Clearance rows keep

@@ -4,8 +4,9 @@
 #include <cmath>
 
 #include "firmware_like/motion/servo_ik.hpp"
-#include "host/plan/arm_derivatives.hpp"
+#include "host/plan/block_system.hpp"
 #include "host/plan/plan_problem.hpp"
+#include "host/plan/pose_model.hpp"
 
 namespace liana {
 namespace {
@@ -16,100 +17,6 @@ using Matrix = ThetaHessian;
 constexpr double kPenalty = 2e4;           // 1/m^2
 constexpr double kSampleSpacing_m = 0.05;  // of motion between waypoints
 constexpr std::int32_t kMaxSamples = 12;   // per interval
-
-// Gauss-Newton model of a cost at one pose: the clearances below what is wanted, or the nodes.
-struct PoseModel {
-  double cost = 0.0;
-  ThetaVector gradient{};
-  Matrix hessian{};  // lower triangle
-};
-
-// Cost: sum over links and obstacles of (wanted - distance)^2 where positive.
-PoseModel push_model(const Room& room, const ThetaVector& theta, double wanted_m, bool derivatives) {
-  PoseModel model;
-  const LinkPoints points = link_points(room.table(), theta);
-  std::vector<std::pair<Clearance, std::int32_t>> close;
-  for (std::int32_t obstacle = 0; obstacle < obstacle_count(room.scene()); ++obstacle) {
-    for (std::int32_t link = 0; link + 1 < points.count; ++link) {
-      const Clearance here = clearance(link_capsule(points, link, room.link_radius_m()), room.scene(), obstacle);
-      if (here.distance_m < wanted_m) close.push_back({here, link});
-    }
-  }
-  for (const auto& [here, link] : close) model.cost += (wanted_m - here.distance_m) * (wanted_m - here.distance_m);
-  if (!derivatives || close.empty()) return model;
-  const ArmDerivatives arm(room.table(), theta);
-  for (const auto& [here, link] : close) {
-    const PointDerivatives point = arm.point({link, here.share});
-    ThetaVector slope{};
-    for (Index k = 0; k < slope.size(); ++k) slope[k] = dot(here.normal, point.by_theta[k]);
-    for (Index k = 0; k < slope.size(); ++k) {
-      model.gradient[k] -= 2.0 * (wanted_m - here.distance_m) * slope[k];
-      for (Index j = 0; j <= k; ++j) model.hessian[k][j] += 2.0 * slope[k] * slope[j];
-    }
-  }
-  return model;
-}
-
-// Symmetric block-tridiagonal system, a block per waypoint.
-struct BlockSystem {
-  std::vector<Matrix> own;   // lower triangles
-  std::vector<Matrix> next;  // [w]: rows of waypoint w + 1, columns of w
-  std::vector<ThetaVector> rhs;
-  explicit BlockSystem(Index blocks) : own(blocks), next(blocks), rhs(blocks) {}
-};
-
-// L of a positive matrix in place; false when it is not.
-bool factor(Matrix& A, Index n) {
-  for (Index j = 0; j < n; ++j) {
-    for (Index k = 0; k < j; ++k) A[j][j] -= A[j][k] * A[j][k];
-    if (!(A[j][j] > 0.0)) return false;
-    A[j][j] = std::sqrt(A[j][j]);
-    for (Index i = j + 1; i < n; ++i) {
-      for (Index k = 0; k < j; ++k) A[i][j] -= A[i][k] * A[j][k];
-      A[i][j] /= A[j][j];
-    }
-  }
-  return true;
-}
-
-// Solves in place of rhs by block Cholesky; false when the matrix is not positive.
-bool solve(BlockSystem& system, Index n) {
-  const Index blocks = system.own.size();
-  for (Index w = 0; w < blocks; ++w) {
-    Matrix& L = system.own[w];
-    if (!factor(L, n)) return false;
-    for (Index i = 0; i < n; ++i) {
-      for (Index k = 0; k < i; ++k) system.rhs[w][i] -= L[i][k] * system.rhs[w][k];
-      system.rhs[w][i] /= L[i][i];
-    }
-    if (w + 1 == blocks) break;
-    Matrix& M = system.next[w];  // becomes next L^-T
-    for (Index i = 0; i < n; ++i) {
-      for (Index j = 0; j < n; ++j) {
-        for (Index k = 0; k < j; ++k) M[i][j] -= M[i][k] * L[j][k];
-        M[i][j] /= L[j][j];
-      }
-    }
-    for (Index i = 0; i < n; ++i) {
-      for (Index k = 0; k < n; ++k) {
-        system.rhs[w + 1][i] -= M[i][k] * system.rhs[w][k];
-        for (Index j = 0; j <= i; ++j) system.own[w + 1][i][j] -= M[i][k] * M[j][k];
-      }
-    }
-  }
-  for (Index w = blocks; w-- > 0;) {
-    if (w + 1 < blocks) {
-      for (Index i = 0; i < n; ++i) {
-        for (Index k = 0; k < n; ++k) system.rhs[w][i] -= system.next[w][k][i] * system.rhs[w + 1][k];
-      }
-    }
-    for (Index i = n; i-- > 0;) {
-      for (Index k = i + 1; k < n; ++k) system.rhs[w][i] -= system.own[w][k][i] * system.rhs[w][k];
-      system.rhs[w][i] /= system.own[w][i][i];
-    }
-  }
-  return true;
-}
 
 class Relaxation {
  public:

@@ -6,29 +6,12 @@
 #include "host/clearance/clearance.hpp"
 #include "host/plan/plan_problem.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
-#include "tests/host/config/tables.hpp"
+#include "tests/host/plan/requests.hpp"
 
 namespace liana {
 namespace {
 
 using Index = std::size_t;
-
-RobotConfig the_robot() {
-  const BusesConfig buses = parse_buses(good_table("buses", "embedded").dump(), "b");
-  return parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
-}
-
-PlanRequest request_between(const zhu2022::Degrees& from_deg, const zhu2022::Degrees& to_deg, const SceneConfig& scene) {
-  PlanRequest request;
-  request.robot = the_robot();
-  request.scene = scene;
-  request.from_rad = zhu2022::radians(from_deg);
-  request.to_rad = zhu2022::radians(to_deg);
-  request.max_step_rad = default_max_step_rad(request.robot.table, request.waypoints);
-  return request;
-}
-
-SceneConfig panel_slit() { return parse_scene(good_table("scene", "panel_slit").dump(), "s"); }
 
 void aim_at_tip(PlanRequest& request) {
   request.tip_in_base = forward_kinematics(request.robot.table, *request.to_rad).tip_in_base;

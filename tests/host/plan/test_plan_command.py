@@ -73,6 +73,31 @@ class PlanCommand(unittest.TestCase):
             self.assertEqual(done.returncode, 2, bad)
             self.assertEqual((done.stdout, done.stderr.count("\n")), ("", 1), bad)
 
+    def test_following_a_file_s_curve_tells_how_well_the_body_followed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "curve.json"
+            path.write_text(json.dumps({"points_m": [planning_plans.tip_of(planning_plans.PANEL_EDGE)[:3], [0.6, -0.15, 0.4], [1.0, -0.05, 0.35]]}),
+                            encoding="utf-8")
+            done = call(f"--from-deg={PANEL_EDGE}", f"--follow={path}")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        answer = json.loads(done.stdout)
+        self.assertLess(answer["follow"]["tip_off_m"], 0.01)
+        self.assertLess(answer["follow"]["mean_body_off_m"], answer["follow"]["body_off_m"])
+        self.assertGreaterEqual(answer["checked"]["min_clearance_m"], 0.005)
+
+    def test_a_curve_that_is_none_ends_with_2_and_one_message(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "curve.json"
+            for text in ("", "[]", "{}", '{"points_m": 3}', '{"points_m": [[0, 0, 0]]}', '{"points_m": [[0, 0, 0], [1, 0]]}', '{"points_m": [[0, 0, 0], [1, 0, "a"]]}',
+                         '{"points_m": [[0, 0, 0], [1, 0, 1e9]]}', '{"points_m": [[0, 0, 0], [0, 0, 0]]}'):
+                path.write_text(text, encoding="utf-8")
+                done = call(f"--from-deg={PANEL_EDGE}", f"--follow={path}")
+                self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), text)
+        for bad in (["--follow=/nowhere"], ["--follow=/dev/zero"], ["--follow=slit"], ["--follow=slit", f"--to-deg={PREPARE}", "--scene=none"],
+                    ["--follow=slit", f"--to-deg={PREPARE}", "--waypoints=20"], ["--follow=slit", f"--to-deg={PREPARE}", "--hold=9=1"]):
+            done = call(f"--from-deg={PANEL_EDGE}", *bad)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), bad)
+
     def test_interrupting_ends_with_130_and_the_outcome_cancelled(self):
         running = subprocess.Popen(words(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", "--waypoints=100", "--control-point=3:1.5,-0.5,0.8:1"),
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

@@ -1,0 +1,224 @@
+#include "host/plan/follow.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/plan/follow_pose.hpp"
+#include "host/plan/goal_poses.hpp"
+#include "host/plan/plan_rows.hpp"
+#include "host/plan/relax.hpp"
+#include "host/plan/text.hpp"
+
+namespace liana {
+namespace {
+
+using Index = std::size_t;
+
+constexpr double kDraw_m2 = 0.01;     // towards the end pose on the way
+constexpr double kEndDraw_m2 = 1e-4;  // towards the seed while the end pose is looked for
+constexpr double kTurnDraw_m2 = 10.0;
+constexpr std::int32_t kEndIterations = 100;
+constexpr std::int32_t kPosesPerStep = 12;
+constexpr double kSettled_rad = 0.003;
+constexpr std::int32_t kTurnSteps = 400;
+constexpr double kTurn_rad = 0.01;  // of a theta in each of them
+constexpr double kTipTolerance_m = 1e-6;
+constexpr int kLooks = 8;  // at the tip between two waypoints
+
+double largest_change(const ThetaVector& a, const ThetaVector& b) {
+  double most = 0.0;
+  for (Index k = 0; k < a.size(); ++k) most = std::max(most, std::fabs(a[k] - b[k]));
+  return most;
+}
+
+double arm_length_m(const RobotTable& table) {
+  double length_m = 0.0;
+  for (Index m = 0; m < Index(table.segment_count); ++m) length_m += table.segment[m].modules * table.segment[m].module_length_m;
+  return length_m;
+}
+
+Vec3 tip_of(const Room& room, const ThetaVector& theta) { return forward_kinematics(room.table(), theta).tip_in_base.position_m; }
+
+std::uint32_t held_mask(const PlanRequest& request) {
+  std::uint32_t mask = 0;
+  for (const HeldPhase& phase : request.held) mask |= 1u << phase.theta;
+  return mask;
+}
+
+// Mean squared distance of the link ends that are past the curve's beginning; infinite when the tip is not at the end.
+double misfit(const Room& room, const Curve& curve, const ThetaVector& theta) {
+  if (tip_off_m(room, curve, curve.length_m(), theta) > kTipTolerance_m) return 1e300;
+  const LinkPoints points = link_points(room.table(), theta);
+  double sum = 0.0;
+  for (Index i = Index(points.count); i-- > 0;) {
+    const Vec3& here = points.point_in_base[i];
+    const Vec3 off = subtract(here, curve.nearest(here, curve.length_m()).position_m);
+    if (norm(subtract(here, points.point_in_base[Index(points.count) - 1])) < curve.length_m()) sum += dot(off, off);
+  }
+  return sum;
+}
+
+class Follower {
+ public:
+  Follower(const Room& room, const PlanRequest& request, const Curve& curve, const PlanControl& control)
+      : room_(room), request_(request), curve_(curve), control_(control) {}
+
+  FollowPath run(const std::optional<ThetaVector>& goal) {
+    if (!is_possible()) return out_;
+    const ThetaVector end = goal ? *goal : end_pose();
+    if (tip_off_m(room_, curve_, curve_.length_m(), end) > kTipTolerance_m) {
+      return failed("tip",
+                    text("no joint angles within the limits bring the tip to the end of the curve, %s", at(curve_.length_m()).c_str()));
+    }
+    Path path{request_.from_rad};
+    if (feed_in(end, path) && (!goal || turn_to(end, path))) out_.theta_rad = std::move(path);
+    return out_;
+  }
+
+ private:
+  std::string at(double along_m) const {
+    const Vec3 p = curve_.at(along_m).position_m;
+    return text("%.3f m along it, at (%.3f, %.3f, %.3f)", along_m, p[0], p[1], p[2]);
+  }
+
+  FollowPath failed(const char* constraint, const std::string& reason) {
+    out_.constraint = constraint;
+    out_.reason = reason;
+    return out_;
+  }
+
+  bool is_possible() {
+    const Vec3 tip = tip_of(room_, request_.from_rad);
+    const double off_m = norm(subtract(tip, curve_.at(0.0).position_m)), length_m = arm_length_m(room_.table());
+    if (off_m > kFollowStartOff_m) {
+      failed("curve", text("the curve begins %.1f mm from the tip, which is at (%.4f, %.4f, %.4f); at most %.0f mm are allowed",
+                           1000.0 * off_m, tip[0], tip[1], tip[2], 1000.0 * kFollowStartOff_m));
+      return false;
+    }
+    for (double along_m = 0.0; along_m < curve_.length_m() + kFollowStep_m; along_m += kFollowStep_m) {
+      const Vec3 here = curve_.at(along_m).position_m;
+      if (norm(here) > length_m) {
+        failed("curve", text("the curve leaves the arm's reach: %.3f m from the base %s; the arm is %.3f m long", norm(here),
+                             at(along_m).c_str(), length_m));
+        return false;
+      }
+      for (std::int32_t i = 0; i < obstacle_count(room_.scene()); ++i) {
+        const double left_m = clearance({here, here, room_.link_radius_m()}, room_.scene(), i).distance_m;
+        if (left_m >= request_.margin_m) continue;
+        failed("curve", text("the curve leaves the tip %.1f mm from '%s' %s; the margin is %.1f mm", 1000.0 * left_m,
+                             obstacle_name(room_.scene(), i).c_str(), at(along_m).c_str(), 1000.0 * request_.margin_m));
+        return false;
+      }
+    }
+    return true;
+  }
+
+  FollowAim aim(double along_m, const ThetaVector& to, double draw, double body = 1.0) const {
+    return {along_m, to, draw, held_mask(request_), request_.margin_m + kRelaxReach_m, body};
+  }
+
+  // From fixed seeds: the pose whose body is nearest to the curve, a free one when there is any.
+  ThetaVector end_pose() const {
+    ThetaVector best = request_.from_rad;
+    double least = 1e301;
+    for (std::int32_t seed = 0; seed < kGoalPoseSeeds; ++seed) {
+      ThetaVector from = seed_pose(room_.table(), request_.from_rad, seed);
+      for (Index k = 0; k < from.size(); ++k) {
+        if (((held_mask(request_) >> k) & 1u) != 0) from[k] = request_.from_rad[k];
+      }
+      const ThetaVector theta = follow_pose(room_, curve_, aim(curve_.length_m(), from, kEndDraw_m2), from, kEndIterations);
+      const double cost = misfit(room_, curve_, theta) + (room_.look(theta).nearest.distance_m < request_.margin_m ? 1e3 : 0.0);
+      if (cost < least) least = cost, best = theta;
+    }
+    return best;
+  }
+
+  // Appends poses with the tip ever farther along the curve; where the arm has to change its shape, several with the tip in one place.
+  bool feed_in(const ThetaVector& end, Path& path) {
+    const std::int32_t steps = static_cast<std::int32_t>(std::ceil(curve_.length_m() / kFollowStep_m));
+    for (std::int32_t s = 1; s <= steps; ++s) {
+      if (control_.cancelled != nullptr && control_.cancelled->load()) return false;
+      const double along_m = curve_.length_m() * s / steps;
+      for (std::int32_t i = 0; i < kPosesPerStep; ++i) {
+        path.push_back(follow_pose(room_, curve_, aim(along_m, end, kDraw_m2), path.back(), 1));
+        if (largest_change(path.back(), path[path.size() - 2]) < kSettled_rad) break;
+      }
+      if (tip_off_m(room_, curve_, along_m, path.back()) < kTipTolerance_m) continue;
+      const ArmClearance near = room_.look(path.back());
+      const bool pushed = near.nearest.distance_m < request_.margin_m + kRelaxReach_m;
+      const std::string what = pushed ? "'" + obstacle_name(room_.scene(), near.obstacle) + "'" : "the limits of the joints";
+      failed(pushed ? "clearance" : "tip", text("%s keep the tip off the curve %s", what.c_str(), at(along_m).c_str()));
+      return false;
+    }
+    return true;
+  }
+
+  // The tip stays at the end of the curve while the arm takes the shape wanted there.
+  bool turn_to(const ThetaVector& end, Path& path) {
+    for (std::int32_t i = 0; i < kTurnSteps && path.back() != end; ++i) {
+      const double left = largest_change(path.back(), end);
+      const ThetaVector next = left < kTurn_rad ? end : between(path.back(), end, kTurn_rad / left);
+      path.push_back(next == end ? end : follow_pose(room_, curve_, aim(curve_.length_m(), next, kTurnDraw_m2, 0.0), next, 1));
+    }
+    if (path.back() == end) return true;
+    failed("goal", "the arm cannot get from the shape in which it followed into that of the goal");
+    return false;
+  }
+
+  const Room& room_;
+  const PlanRequest& request_;
+  const Curve& curve_;
+  const PlanControl& control_;
+  FollowPath out_;
+};
+
+}  // namespace
+
+FollowPath follow_path(const Room& room, const PlanRequest& request, const Curve& curve, const std::optional<ThetaVector>& goal_rad,
+                       const PlanControl& control) {
+  return Follower(room, request, curve, control).run(goal_rad);
+}
+
+FollowCurve slit_curve(const Room& room, const ThetaVector& from_rad, const ThetaVector& goal_rad) {
+  const SceneSlit& slit = room.scene().slit;
+  const auto depth_m = [&](const Vec3& p) { return dot(slit.u_axis, p) - slit.mouth_u_m; };
+  const LinkPoints line = link_points(room.table(), goal_rad);
+  Index first = Index(line.count) - 1;
+  const Vec3 end = line.point_in_base[first];
+  if (depth_m(end) <= 0.0 || std::fabs(dot(slit.normal, end) - slit.offset_m) >= slit.half_gap_m) {
+    return {{}, text("the goal's tip (%.3f, %.3f, %.3f) is not inside the slit", end[0], end[1], end[2])};
+  }
+  while (first > 1 && depth_m(line.point_in_base[first - 1]) > 0.0) --first;  // the axis from here on is inside
+  const Pose tip = forward_kinematics(room.table(), from_rad).tip_in_base;
+  const Vec3 mouth = line.point_in_base[first - 1];
+  const Vec3 in = subtract(line.point_in_base[first], mouth), out = rotate(tip.quaternion, {1, 0, 0});
+  const double chord_m = norm(subtract(mouth, tip.position_m));
+  const Vec3 slope = scale(in, chord_m / norm(in));
+  FollowCurve curve{{tip.position_m}, {}};
+  constexpr int kPieces = 20;
+  for (int i = 1; i < kPieces && chord_m > 0.1; ++i) {
+    const double t = static_cast<double>(i) / kPieces, u = 1.0 - t;
+    const Vec3 ends = add(scale(tip.position_m, u * u * (1.0 + 2.0 * t)), scale(mouth, t * t * (3.0 - 2.0 * t)));
+    curve.points_m.push_back(add(ends, scale(subtract(scale(out, u * chord_m), scale(slope, t)), t * u)));
+  }
+  for (Index i = first - 1; i < Index(line.count); ++i) curve.points_m.push_back(line.point_in_base[i]);
+  return curve;
+}
+
+Path thin_out(const Room& room, const PlanRequest& request, const Curve& curve, const Path& path) {
+  const auto suffices = [&](const ThetaVector& a, const ThetaVector& b) {
+    if (!steps_hold(request, {a, b})) return false;
+    for (int i = 1; i < kLooks; ++i) {
+      const Vec3 tip = tip_of(room, between(a, b, static_cast<double>(i) / kLooks));
+      if (norm(subtract(tip, curve.nearest(tip, curve.length_m()).position_m)) > kFollowTipOff_m) return false;
+    }
+    return true;
+  };
+  Path out{path.front()};
+  for (Index i = 1; i < path.size(); ++i) {
+    if (i + 1 == path.size() || !suffices(out.back(), path[i + 1])) out.push_back(path[i]);
+  }
+  return out;
+}
+
+}  // namespace liana

@@ -1,0 +1,27 @@
+// Plans to ask for, in tests.
+#pragma once
+
+#include "host/plan/plan.hpp"
+#include "tests/firmware_like/zhu2022.hpp"
+#include "tests/host/config/tables.hpp"
+
+namespace liana {
+
+inline RobotConfig the_robot() {
+  const BusesConfig buses = parse_buses(good_table("buses", "embedded").dump(), "b");
+  return parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
+}
+
+inline PlanRequest request_between(const zhu2022::Degrees& from_deg, const zhu2022::Degrees& to_deg, const SceneConfig& scene) {
+  PlanRequest request;
+  request.robot = the_robot();
+  request.scene = scene;
+  request.from_rad = zhu2022::radians(from_deg);
+  request.to_rad = zhu2022::radians(to_deg);
+  request.max_step_rad = default_max_step_rad(request.robot.table, request.waypoints);
+  return request;
+}
+
+inline SceneConfig panel_slit() { return parse_scene(good_table("scene", "panel_slit").dump(), "s"); }
+
+}  // namespace liana
