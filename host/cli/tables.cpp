@@ -30,18 +30,25 @@ std::string read_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-}  // namespace
-
-std::string evaluate_table(const std::string& kind, const std::string& name) {
+void refuse_directory(const std::string& kind, const std::string& name) {
   std::error_code unreadable;
   const bool is_file = name.find('/') != std::string::npos || name.ends_with(".json");
   if (is_file && std::filesystem::is_directory(name, unreadable)) {
-    throw BadInput(kind + ": '" + name + "': is a directory; give a table's name or an existing file");
+    throw BadInput(kind + ": '" + name + "': is a directory; give a name or an existing file");
   }
+}
+
+}  // namespace
+
+std::string evaluate_table(const std::string& kind, const std::string& name) {
+  refuse_directory(kind, name);
   return name.ends_with(".json") ? read_file(name) : evaluate({"--", kind, name});
 }
 
-void check_mission(const std::string& name, const std::string& robot) { evaluate({"--robot=" + robot, "--", "mission", name}); }
+void check_mission(const std::string& name, const std::string& robot) {
+  refuse_directory("mission", name);
+  evaluate({"--robot=" + robot, "--", "mission", name});
+}
 
 RobotConfig robot_for_kinematics(const std::string& name) {
   const std::string robot = evaluate_table("robot", name);

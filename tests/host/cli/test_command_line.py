@@ -145,7 +145,7 @@ class Tables(unittest.TestCase):
     def test_a_run_of_something_that_does_not_exist_ends_with_2(self):
         for arguments, named in [(["no_such_mission"], "no_such_mission"), (["slit_crossing", "--bus", "no_such_bus"], "no_such_bus"),
                                  (["slit_crossing", "--time", "slow"], "slow"), (["slit_crossing", "--physics", "odd"], "odd"),
-                                 (["slit_crossing", "--seed", "many"], "many"), (["slit_crossing", "--bus", "vcan", "--time", "fast"], "vcan")]:
+                                 (["/tmp"], "mission: '/tmp': is a directory"), (["slit_crossing", "--seed", "many"], "many"), (["slit_crossing", "--bus", "vcan", "--time", "fast"], "vcan")]:
             code, _, error = liana("run", *arguments)
             self.assertEqual(code, 2, error)
             self.assertIn(named, error)
