@@ -26,6 +26,10 @@ bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept {
     if (!is_finite(dot(target.position_m, target.position_m)) || !(target.weight >= 0.0) || !is_finite(target.weight)) return false;
     if (!(target.threshold_m >= 0.0)) return false;
   }
+  for (const KeepClear& target : setpoint.clear) {
+    if (!is_finite(dot(target.centre_m, target.centre_m)) || !(target.weight >= 0.0) || !is_finite(target.weight)) return false;
+    if (!(target.distance_m >= 0.0) || !is_finite(target.distance_m)) return false;
+  }
   return is_valid(setpoint.tip_in_base) && setpoint.tip_speed_m_s > 0.0;
 }
 

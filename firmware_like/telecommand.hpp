@@ -11,6 +11,7 @@
 namespace liana {
 
 constexpr std::int32_t kMaxNodeTargets = 4;
+constexpr std::int32_t kMaxKeepClear = 4;
 
 enum class CommandKind : std::uint8_t {
   kNone = 0,   // nothing new this tick
@@ -28,6 +29,16 @@ struct NodeTarget {
   double threshold_m = 0.0;  // acts only while the distance is larger
 };
 
+using NodeTargets = std::array<NodeTarget, kMaxNodeTargets>;
+
+// A point that the arm's axis should keep its distance from: a sphere's centre, with radius + arm radius + margin.
+struct KeepClear {
+  Vec3 centre_m{};          // in the base frame
+  double distance_m = 0.0;  // 0 = unused
+  double weight = 0.0;      // against node targets; lambda of what is missing, per segment
+};
+using KeepClearTargets = std::array<KeepClear, kMaxKeepClear>;
+
 // Weight of a target that names none: the arm's middle node comes first (A45: d_3 of five segments).
 constexpr double default_node_weight(const RobotTable& table, std::int32_t node) {
   return node == (table.segment_count + 1) / 2 ? 1.0 : 0.25;
@@ -36,12 +47,13 @@ constexpr double default_node_weight(const RobotTable& table, std::int32_t node)
 // What a device, mission, plan or client asks for; not yet verified.
 struct Setpoint {
   CommandKind kind = CommandKind::kNone;
-  Pose tip_in_base{};                              // kTip
-  std::uint32_t held_mask = 0;                     // kTip: bit i holds theta i (0-based)
-  ThetaVector held_rad{};                          // kTip: where held variables go
-  std::array<NodeTarget, kMaxNodeTargets> node{};  // kTip
-  ThetaVector joint_rad{};                         // kJoint
-  double tip_speed_m_s = 0.0;                      // kTip: limit for this motion, > 0, at most the robot's
+  Pose tip_in_base{};           // kTip
+  std::uint32_t held_mask = 0;  // kTip: bit i holds theta i (0-based)
+  ThetaVector held_rad{};       // kTip: where held variables go
+  NodeTargets node{};           // kTip
+  KeepClearTargets clear{};     // kTip
+  ThetaVector joint_rad{};      // kJoint
+  double tip_speed_m_s = 0.0;   // kTip: limit for this motion, > 0, at most the robot's
 };
 
 // A verified setpoint with identity and life time. Only the release step (and the reader of recordings) can make one.

@@ -96,6 +96,14 @@ Pull push_of(const ArmKinematics& arm, const SegmentTrig& trig, Index m, const S
 
 }  // namespace
 
+double largest_weight(const KeepClearTargets& targets) noexcept {
+  double largest = 0.0;
+  for (const KeepClear& target : targets) {
+    if (is_used(target)) largest = larger(largest, target.weight);
+  }
+  return largest;
+}
+
 double missing_clearance_m(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
                            const KeepClearTargets& targets) noexcept {
   const ArmTrig trig = arm_trig(table, theta_rad);

@@ -102,7 +102,8 @@ void slow_down(const RobotTable& table, double share, const Pose& target_before,
 void solve_tip(const RobotTable& table, bool braking, MotionState& state) noexcept {
   // The IK goes on from where the command stands, unless a limit or a held theta has come between.
   if (state.ik_rad != state.limiter.theta_rad) update_kinematics(table, arm_trig(table, state.ik_rad), state.arm);
-  const ThetaVector move = shape_move(table, state.arm, state.to.node, state.held_mask, braking, state.ik_rad, state.shape_rate_rad_s);
+  const ThetaVector move =
+      shape_move(table, state.arm, state.to.node, state.to.clear, state.held_mask, braking, state.ik_rad, state.shape_rate_rad_s);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
   state.ik = servo_ik(table, {state.filter.pose, state.held_mask, kTipCurvature_m}, state.arm, state.ik_rad);
   if (state.ik.limit_mask != 0) state.limits |= kLimitTheta;

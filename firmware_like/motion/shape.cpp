@@ -34,11 +34,8 @@ ThetaVector centring(const RobotTable& table, std::uint32_t held_mask, const The
   return pull;
 }
 
-// Weight of centring beside these targets; its size does not matter when there are none.
-double centring_weight(const RobotTable& table, const NodeTargets& nodes) noexcept {
-  const double largest = largest_weight(table, nodes);
-  return largest > 0.0 ? kCentringShare * largest : 1.0;
-}
+// Weight of centring beside the largest weight of what else is wanted; its size does not matter when there is nothing.
+double centring_weight(double largest) noexcept { return largest > 0.0 ? kCentringShare * largest : 1.0; }
 
 double largest_entry(const ThetaVector& v, Index n) noexcept {
   double largest = 0.0;
@@ -71,11 +68,15 @@ void bound_rate(const Stand& stand, const ShapeFactor& metric, double time_s, Nu
 }
 
 // Velocity [rad/s] that the shape wants.
-ThetaVector wanted_rate(const Stand& stand, const ArmKinematics& arm, const NodeTargets& nodes, std::uint32_t held_mask) noexcept {
+ThetaVector wanted_rate(const Stand& stand, const ArmKinematics& arm, const NodeTargets& nodes, const KeepClearTargets& clear,
+                        std::uint32_t held_mask) noexcept {
+  const double clear_weight = largest_weight(clear);
   const Index n = static_cast<Index>(stand.space.theta_count);
   const double limit = kShapeShare * stand.table.limits.theta_rate_rad_s;
-  ShapeModel model = resting_model(stand.space, centring_weight(stand.table, nodes), centring(stand.table, held_mask, stand.theta_rad));
+  ShapeModel model = resting_model(stand.space, centring_weight(larger(largest_weight(stand.table, nodes), clear_weight)),
+                                   centring(stand.table, held_mask, stand.theta_rad));
   add_nodes(stand.table, arm, nodes, stand.space, model);
+  if (clear_weight > 0.0) add_clearance(stand.table, stand.theta_rad, arm, clear, stand.space, model);
   const ShapeFactor metric = factor(stand.space, model);
   NullPoint rate;
   rate.z = minimum(stand.space, metric, model.pull);
@@ -130,13 +131,13 @@ void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTarg
   }
 }
 
-ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, std::uint32_t held_mask, bool braking,
-                       const ThetaVector& theta_rad, ThetaVector& rate_rad_s) noexcept {
+ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, const KeepClearTargets& clear,
+                       std::uint32_t held_mask, bool braking, const ThetaVector& theta_rad, ThetaVector& rate_rad_s) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const NullSpace space = null_space(arm.tip_jacobian, table.theta_count(), held_mask);
   const Stand stand{table, theta_rad, space, least_room_rad(table, theta_rad)};
   ThetaVector change{};
-  if (!braking) change = wanted_rate(stand, arm, nodes, held_mask);
+  if (!braking) change = wanted_rate(stand, arm, nodes, clear, held_mask);
   // Braking has to end: straight down to zero, without the smoothing's tail.
   const double share = braking ? 1.0 : smaller(1.0, table.tick_s / kShapeSmoothing_s);
   for (Index k = 0; k < n; ++k) change[k] = (change[k] - rate_rad_s[k]) * share;

@@ -7,11 +7,10 @@
 // one before held pitches): it has to come into the plane before it reaches the slit. Joint limits are bounds of the same problem.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "firmware_like/arm/kinematics.hpp"
-#include "firmware_like/motion/shape_model.hpp"
+#include "firmware_like/motion/keep_clear.hpp"
 #include "firmware_like/telecommand.hpp"
 
 namespace liana {
@@ -24,8 +23,6 @@ constexpr double kShapeShare = 0.35;       // of the theta rate limit
 constexpr double kShapeAccelShare = 0.1;   // of the theta acceleration limit: the shape moves most of the arm's mass
 constexpr double kShapeSmoothing_s = 0.5;  // how the shape velocity follows what is wanted
 constexpr double kLimitApproach_s = 2.0;   // room to a limit over this bounds the wanted rate: 4 kShapeSmoothing_s, no overshoot
-
-using NodeTargets = std::array<NodeTarget, kMaxNodeTargets>;
 
 // Sum over the nodes of lambda_j max(0, d_j - threshold_j) [m]: what add_nodes works on.
 double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept;
@@ -40,7 +37,7 @@ void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTarg
 // Shape motion of one tick [rad] at theta, whose kinematics are `arm`: within joint limits, at most kShapeShare of the rate limit, held
 // thetas still, |J move| <= 1e-9 |move|. `rate_rad_s` is the shape velocity kept between ticks: it follows what is wanted (zero while
 // braking) smoothly, so that a new target never jerks the arm.
-ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, std::uint32_t held_mask, bool braking,
-                       const ThetaVector& theta_rad, ThetaVector& rate_rad_s) noexcept;
+ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, const KeepClearTargets& clear,
+                       std::uint32_t held_mask, bool braking, const ThetaVector& theta_rad, ThetaVector& rate_rad_s) noexcept;
 
 }  // namespace liana

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "firmware_like/motion/keep_clear.hpp"
 #include "firmware_like/safety/faults.hpp"
 #include "host/api/request_error.hpp"
 
@@ -15,7 +16,7 @@ constexpr double kArrived_rad = 1e-5;
 constexpr std::int32_t kSettledIntervals = 10;
 constexpr std::int32_t kRestIntervals = 3;  // a command released before the stop may still be on its way
 
-bool has_nodes(const std::array<NodeTarget, kMaxNodeTargets>& nodes) {
+bool has_nodes(const NodeTargets& nodes) {
   for (const NodeTarget& target : nodes) {
     if (target.node != 0) return true;
   }
@@ -76,9 +77,10 @@ void Arbiter::hold_theta(const Outputs& now, std::uint32_t mask, const ThetaVect
   if (mode_ == Mode::kIdle && !device_.engaged()) stay_here(now);
 }
 
-void Arbiter::shape(const Outputs& now, const std::array<NodeTarget, kMaxNodeTargets>& nodes) {
+void Arbiter::shape(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear) {
   require_ready(now);
   nodes_ = nodes;
+  clear_ = clear;
   unchanged_intervals_ = 0;
   if (mode_ == Mode::kIdle && !device_.engaged()) stay_here(now);
 }
@@ -125,6 +127,7 @@ Setpoint Arbiter::tip_setpoint(const Outputs& now) const {
   setpoint.held_mask = held_mask_;
   setpoint.held_rad = held_rad_;
   setpoint.node = nodes_;
+  setpoint.clear = clear_;
   setpoint.tip_speed_m_s = zone_.advice_at(now.tip_command.position_m, zone_.advice_at(tip_goal_.position_m, tip_speed_m_s_));
   if (device_node_.node == 0) return setpoint;
   for (NodeTarget& slot : setpoint.node) {
@@ -150,6 +153,7 @@ std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const Outputs
     path_.clear();
     held_mask_ = 0;
     nodes_ = {};
+    clear_ = {};
     return std::nullopt;
   }
   const bool going_back = mode_ == Mode::kRetract && rest_intervals_ >= kRestIntervals;
@@ -170,7 +174,8 @@ std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const Outputs
 // until they stand, too.
 bool Arbiter::has_arrived(const Outputs& now) const {
   if (unchanged_intervals_ < kSettledIntervals || now.held_at_target == 0) return false;
-  if (has_nodes(tip_setpoint(now).node)) return now.at_rest != 0;
+  const bool shape_wanted = has_nodes(tip_setpoint(now).node) || largest_weight(clear_) > 0.0;
+  if (shape_wanted) return now.at_rest != 0;
   const Vec3 turn = rotation_vector(multiply(tip_goal_.quaternion, conjugate(now.tip_command.quaternion)));
   return norm(subtract(tip_goal_.position_m, now.tip_command.position_m)) < kArrived_m && norm(turn) < kArrived_rad;
 }

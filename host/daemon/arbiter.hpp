@@ -22,7 +22,7 @@ class Arbiter {
   // Held variables: bit i of mask holds theta i at held_rad[i]; mask 0 releases all.
   void hold_theta(const Outputs& now, std::uint32_t mask, const ThetaVector& held_rad);
   // Null-space targets; unused entries have node = 0.
-  void shape(const Outputs& now, const std::array<NodeTarget, kMaxNodeTargets>& nodes);
+  void shape(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear);
   void use_device(const DeviceUse& use);
   // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until use_device is asked for.
   void retract(const Outputs& now, std::uint64_t until_tick);
@@ -70,7 +70,8 @@ class Arbiter {
   Pose tip_goal_{};
   std::uint32_t held_mask_ = 0;
   ThetaVector held_rad_{};
-  std::array<NodeTarget, kMaxNodeTargets> nodes_{};
+  NodeTargets nodes_{};
+  KeepClearTargets clear_{};
   NodeTarget device_node_{};
   double tip_speed_m_s_;
   bool was_engaged_ = false;

@@ -154,7 +154,7 @@ Service::Json Service::on_hold_theta(const ClientInfo& client, const Json& reque
 
 Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
-  std::array<NodeTarget, kMaxNodeTargets> nodes{};
+  NodeTargets nodes{};
   std::size_t used = 0;
   for (const Json& entry : array_field(request, "nodes", nodes.size())) {
     const auto node = static_cast<std::int32_t>(integer_field(entry, "node", 1, config_.robot.table.segment_count - 1));
@@ -162,7 +162,15 @@ Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
                      number_field_or(entry, "weight", 0.0, 1000.0, default_node_weight(config_.robot.table, node)),
                      number_field_or(entry, "threshold_m", 0.0, reach_m_, kNodeThreshold_m)};
   }
-  arbiter_.shape(now(), nodes);
+  KeepClearTargets clear{};
+  used = 0;
+  if (request.contains("keep_clear")) {
+    for (const Json& entry : array_field(request, "keep_clear", clear.size())) {
+      clear[used++] = {point_field(entry, "centre_m", reach_m_), number_field(entry, "distance_m", 0.0, reach_m_),
+                       number_field_or(entry, "weight", 0.0, 1000.0, 1.0)};
+    }
+  }
+  arbiter_.shape(now(), nodes, clear);
   return Json::object();
 }
 

@@ -16,7 +16,7 @@ constexpr std::array<BindingField, 2> kMoveJp = {{{"goal_deg", "number[]", true}
 constexpr std::array<BindingField, 2> kMoveCp = {{{"goal", "number[]", true}, {"hold", "table[]", false}}};
 constexpr std::array<BindingField, 1> kServoCp = {{{"goal", "number[]", true}}};
 constexpr std::array<BindingField, 1> kHoldTheta = {{{"held", "table[]", true}}};
-constexpr std::array<BindingField, 1> kShape = {{{"nodes", "table[]", true}}};
+constexpr std::array<BindingField, 2> kShape = {{{"nodes", "table[]", true}, {"keep_clear", "table[]", false}}};
 constexpr std::array<BindingField, 5> kUseDevice = {{{"device", "string", true},
                                                      {"scale", "number", false},
                                                      {"rotation_scale", "number", false},

@@ -33,6 +33,13 @@ void visit(A& a, T& n) {
   a("threshold_m", n.threshold_m);
 }
 
+template <class A, Like<KeepClear> T>
+void visit(A& a, T& k) {
+  a("centre_m", k.centre_m);
+  a("distance_m", k.distance_m);
+  a("weight", k.weight);
+}
+
 template <class A, Like<Setpoint> T>
 void visit(A& a, T& s) {
   a("kind", s.kind);
@@ -40,6 +47,7 @@ void visit(A& a, T& s) {
   a("held_mask", s.held_mask);
   a("held_rad", s.held_rad);
   a("node", s.node);
+  a("clear", s.clear);
   a("joint_rad", s.joint_rad);
   a("tip_speed_m_s", s.tip_speed_m_s);
 }

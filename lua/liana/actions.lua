@@ -11,10 +11,12 @@ function actions.move_to(name, rate_deg_s)
   return poses.noted(function(arm) arm.move_jp { goal_deg = arm.named_pose(name), rate_deg_s = rate_deg_s } end, name)
 end
 
--- Steers nodes by null-space targets { { node = 3, position_m = {x, y, z}, weight = 1, threshold_m = 0.01 }, ... }.
-function actions.shape(nodes)
+-- Steers nodes by null-space targets { { node = 3, position_m = {x, y, z}, weight = 1, threshold_m = 0.01 }, ... } and pushes
+-- the arm's middle away from points { { centre_m = {x, y, z}, distance_m = 0.3, weight = 1 }, ... } (optional).
+function actions.shape(nodes, keep_clear)
   need("shape", "nodes", nodes, "table")
-  return function(arm) arm.shape { nodes = nodes } end
+  if keep_clear ~= nil then need("shape", "keep_clear", keep_clear, "table") end
+  return function(arm) arm.shape { nodes = nodes, keep_clear = keep_clear } end
 end
 
 -- A command to the tool at the tip.

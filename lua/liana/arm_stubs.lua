@@ -75,8 +75,9 @@ function arm.servo_cp(fields) end
 ---@return integer id
 function arm.hold_theta(fields) end
 
----Null-space targets of nodes { { node = 3, position_m = {x,y,z}, weight = 1, threshold_m = 0.01 }, ... }; an empty list clears them.
----@param fields { nodes: table[] }
+---Null-space targets of nodes { { node = 3, position_m = {x,y,z}, weight = 1, threshold_m = 0.01 }, ... } and points
+---that the arm's middle keeps its distance from { { centre_m = {x,y,z}, distance_m = 0.3, weight = 1 }, ... }; an empty list clears them.
+---@param fields { nodes: table[], keep_clear?: table[] }
 ---@return integer id
 function arm.shape(fields) end
 

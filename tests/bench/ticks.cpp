@@ -69,11 +69,12 @@ void moving_tip(Meter& meter, const Rig& enabled) {
   phase.expect(phase.rig.out.tip_speed_m_s > 0.01);
 }
 
-// Tip and shape: the end of segment 3 is drawn aside, the last segment is held.
+// Tip and shape: the end of segment 3 is drawn aside, the middle keeps clear of two points, the last segment is held.
 void moving_shape(Meter& meter, const Rig& enabled) {
   Phase phase(meter, "moving_shape", enabled);
   Setpoint setpoint = phase.rig.tip_by({0.02, 0.0, 0.01});
   setpoint.node[0] = {3, add(phase.rig.out.node_command_m[2], {0.0, 0.03, 0.03}), 1.0, 0.001};
+  for (const std::size_t i : {0u, 1u}) setpoint.clear[i] = {add(phase.rig.out.node_command_m[i + 1], {0.0, 0.0, 0.1}), 0.3, 1.0};
   setpoint.held_mask = 0x300;
   setpoint.held_rad = phase.rig.out.theta_command_rad;
   phase.follow(setpoint);

@@ -88,6 +88,26 @@ TEST(KeepClear, TheArmsMiddleMakesWayWhileTheTipStays) {
   EXPECT_TRUE(tip_error(problem.goal.tip_in_base, forward_kinematics(robot, theta).tip_in_base).converged());
 }
 
+TEST(KeepClear, TheTickPushesTheArmsMiddleAwayWithinItsRatesWhileTheTipStays) {
+  const RobotTable robot = zhu2022::table();
+  ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg), rate{};
+  const ArmKinematics start = forward_kinematics(robot, theta);
+  const KeepClearTargets clear = one(add(start.node_in_base[3].position_m, {0.0, 0.0, 0.05}), 0.2);
+  const IkGoal goal{start.tip_in_base, 0};
+  const double missing_m = missing_clearance_m(robot, theta, start, clear);
+  double largest_rate = 0.0;
+  for (std::int32_t tick = 0; tick < 60 * 250; ++tick) {
+    const ArmKinematics arm = forward_kinematics(robot, theta);
+    theta = zhu2022::plus(theta, shape_move(robot, arm, {}, clear, 0, false, theta, rate));
+    servo_ik(robot, goal, arm, theta);
+    for (const double r : rate) largest_rate = std::max(largest_rate, std::fabs(r));
+  }
+  EXPECT_GT(missing_m, 0.1);
+  EXPECT_LT(missing_from_points_m(robot, theta, clear[0]), 2e-3);
+  EXPECT_LE(largest_rate, kShapeShare * robot.limits.theta_rate_rad_s * (1.0 + 1e-12));
+  EXPECT_LT(zhu2022::length(pose_error(start.tip_in_base, forward_kinematics(robot, theta).tip_in_base)), 1e-6);
+}
+
 TEST(KeepClear, TheGoalIkFindsAShapeThatKeepsClear) {
   const RobotTable robot = zhu2022::table();
   Random random(3);

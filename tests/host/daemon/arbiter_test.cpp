@@ -110,7 +110,7 @@ TEST_F(Arbitration, HeldVariablesAndShapeTravelWithTheTipGoal) {
   arbiter_.hold_theta(now_, 1u << 8, held);
   std::array<NodeTarget, kMaxNodeTargets> nodes{};
   nodes[0] = {2, {0.1, 0.2, 0.3}, 2.0, 0.02};
-  arbiter_.shape(now_, nodes);
+  arbiter_.shape(now_, nodes, {});
   const auto setpoint = next();
   ASSERT_TRUE(setpoint);
   EXPECT_EQ(setpoint->kind, CommandKind::kTip);
