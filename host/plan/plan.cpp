@@ -60,7 +60,7 @@ class Planner {
       : request_(request), control_(control), room_(request.robot, request.scene) {}
 
   PlanResult run() {
-    if (!pose_is_free(request_.from_rad, "start")) return result_;
+    if (!pose_is_good(request_.from_rad, "start")) return result_;
     if (request_.follow && !request_.follow->points_m.empty()) return follow(Curve(request_.follow->points_m), {});
     const Path goals = goals_or_none();
     if (goals.empty()) return result_;
@@ -86,17 +86,23 @@ class Planner {
     return false;
   }
 
-  bool pose_is_free(const ThetaVector& theta, const char* which) {
+  bool pose_is_good(const ThetaVector& theta, const char* which) {
     const ArmClearance here = room_.look(theta);
-    if (here.nearest.distance_m >= request_.margin_m) return true;
-    return fail(PlanOutcome::infeasible, which,
-                text("at the %s %s; the margin is %.1f mm", which,
-                     nearest_text(room_, here.nearest.distance_m, here.link, here.obstacle).c_str(), 1000.0 * request_.margin_m));
+    if (here.nearest.distance_m < request_.margin_m) {
+      return fail(PlanOutcome::infeasible, which,
+                  text("at the %s %s; the margin is %.1f mm", which,
+                       nearest_text(room_, here.nearest.distance_m, here.link, here.obstacle).c_str(), 1000.0 * request_.margin_m));
+    }
+    const double excess_N = PlannedTension(room_.table()).excess_N(theta);
+    if (excess_N <= 0.0) return true;
+    return fail(PlanOutcome::infeasible, "tension",
+                text("at the %s a cable would be pulled %.1f N beyond the %.0f to %.0f N that are allowed", which, excess_N,
+                     room_.table().tension.floor_motor_N, room_.table().tension.ceiling_free_N));
   }
 
   Path goals_or_none() {
     if (request_.to_rad) {
-      if (!pose_is_free(*request_.to_rad, "goal") || (!request_.follow && !steps_suffice(*request_.to_rad))) return {};
+      if (!pose_is_good(*request_.to_rad, "goal") || (!request_.follow && !steps_suffice(*request_.to_rad))) return {};
       return {*request_.to_rad};
     }
     tell("looking for joint angles of the tip pose");
@@ -104,7 +110,7 @@ class Planner {
     if (!poses.reachable) {
       fail(PlanOutcome::infeasible, "tip", "no joint angles within the limits bring the tip there");
     } else if (poses.theta_rad.empty()) {
-      pose_is_free(poses.nearest_rad, "goal");
+      pose_is_good(poses.nearest_rad, "goal");
     }
     return poses.theta_rad;
   }
@@ -180,7 +186,7 @@ class Planner {
       if (!holds && !free) return unsolved(problem, solution);
       const std::vector<RowSite> below = sites_below(room_, request_, found, request_.margin_m + kRecheck_m);
       sites.insert(sites.end(), below.begin(), below.end());
-      if (holds && below.empty()) {
+      if (holds && below.empty() && tensions_hold(request_, found)) {
         result_.settled = free && solution.status == SolveStatus::solved && solution.objective >= (1.0 - kSettled) * before;
         path = found;
         free = true;
@@ -192,7 +198,7 @@ class Planner {
   }
 
   bool is_free(const Path& path) const {
-    return sites_below(room_, request_, path, request_.margin_m).empty() && steps_hold(request_, path);
+    return sites_below(room_, request_, path, request_.margin_m).empty() && steps_hold(request_, path) && tensions_hold(request_, path);
   }
 
   // As far towards a solution that is not free as the way stays free; the last waypoint keeps its tip.

@@ -8,6 +8,8 @@
 namespace liana {
 namespace {
 
+constexpr double kPer_N = 1e-3;  // of tension rows
+
 // Adds J^T M J for a symmetric M.
 void add_projected(const std::array<Vec3, 3>& M, const PointDerivatives& at, std::size_t thetas, ThetaHessian& out) {
   for (std::size_t k = 0; k < thetas; ++k) {
@@ -113,6 +115,9 @@ void PlanProblem::constraint_values(const double* x, double* out) {
     const Index w = static_cast<Index>(row.interval), c = static_cast<Index>(row.cable);
     *out++ = cables_[w + 1].length_m[c] - cables_[w].length_m[c];
   }
+  for (const TensionRow& row : rows_.tension) {
+    *out++ = kPer_N * tension_.at(path_[static_cast<Index>(row.waypoint)])[static_cast<Index>(row.cable)];
+  }
 }
 
 void PlanProblem::jacobian(const double* x, double* out) {
@@ -151,6 +156,13 @@ void PlanProblem::jacobian(const double* x, double* out) {
     const Index count = 2 * cables_[w].by_segment_m[c].size();
     put(w, count, -1.0, slope(w));
     put(w + 1, count, 1.0, slope(w + 1));
+  }
+  std::array<ThetaVector, kMaxCables> slope{};
+  for (Index i = 0; i < rows_.tension.size(); ++i) {
+    const TensionRow& row = rows_.tension[i];
+    const Index w = static_cast<Index>(row.waypoint);
+    if (i == 0 || row.waypoint != rows_.tension[i - 1].waypoint) slope = tension_.by_theta(path_[w]);
+    put(w, thetas(), kPer_N, [&](Index k) { return slope[static_cast<Index>(row.cable)][k]; });
   }
 }
 
@@ -215,6 +227,22 @@ void PlanProblem::add_cable_hessian(const CableRow& row, double multiplier, doub
   }
 }
 
+void PlanProblem::add_tension_hessians(const double* multipliers, double* out) const {
+  for (Index i = 0; i < rows_.tension.size();) {
+    const std::int32_t w = rows_.tension[i].waypoint;
+    CableVector weight{};
+    bool pulls = false;
+    for (; i < rows_.tension.size() && rows_.tension[i].waypoint == w; ++i) {
+      weight[static_cast<Index>(rows_.tension[i].cable)] += kPer_N * multipliers[i];
+      pulls = pulls || multipliers[i] != 0.0;
+    }
+    if (!pulls) continue;
+    ThetaHessian block{};
+    tension_.add_hessian(path_[static_cast<Index>(w)], weight, block);
+    scatter({w - 1, 1.0}, block, out);
+  }
+}
+
 void PlanProblem::hessian(const double* x, double objective_factor, const double* multipliers, double* out) {
   evaluate(x);
   std::fill(out, out + hessian_.size(), 0.0);
@@ -248,6 +276,7 @@ void PlanProblem::hessian(const double* x, double objective_factor, const double
     scatter(places_[place], block, out);
   }
   for (Index i = 0; i < rows_.cable.size(); ++i) add_cable_hessian(rows_.cable[i], multipliers[first_cable_ + i], out);
+  add_tension_hessians(multipliers + first_tension_, out);
 }
 
 }  // namespace liana

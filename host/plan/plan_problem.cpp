@@ -30,7 +30,7 @@ bool is_held(const HeldPhase& phase, std::int32_t waypoint, std::int32_t waypoin
 }
 
 PlanProblem::PlanProblem(const PlanRequest& request, const Path& path, const PlanRows& rows, double clearance_m, double stride_rad)
-    : request_(request), stride_rad_(stride_rad), base_(path), rows_(rows) {
+    : request_(request), stride_rad_(stride_rad), base_(path), tension_(request.robot.table), rows_(rows) {
   std::stable_sort(rows_.clearance.begin(), rows_.clearance.end(), [](const ClearanceRow& a, const ClearanceRow& b) {
     return a.place.interval != b.place.interval ? a.place.interval < b.place.interval : a.place.share < b.place.share;
   });
@@ -78,13 +78,17 @@ void PlanProblem::build_bounds(double clearance_m) {
   rows(rows_.step.size(), -request_.max_step_rad, request_.max_step_rad);
   first_cable_ = constraint_lower_.size();
   rows(rows_.cable.size(), -request_.max_cable_step_m(), request_.max_cable_step_m());
+  first_tension_ = constraint_lower_.size();
+  const TensionLimits& tension = request_.robot.table.tension;
+  rows(rows_.tension.size(), 1e-3 * (tension.floor_motor_N + kInnerTension_N), 1e-3 * (tension.ceiling_free_N - kInnerTension_N));
 }
 
 const char* PlanProblem::constraint_kind(std::int32_t row) const {
   const Index i = static_cast<Index>(row);
   if (i < first_clearance_) return "tip";
   if (i < first_step_) return "clearance";
-  return i < first_cable_ ? "step" : "cable";
+  if (i < first_cable_) return "step";
+  return i < first_tension_ ? "cable" : "tension";
 }
 
 void PlanProblem::add_jacobian_row(std::int32_t row, Index waypoint, Index count) {
@@ -116,6 +120,7 @@ void PlanProblem::build_jacobian() {
     add_jacobian_row(row, w, count);
     add_jacobian_row(row++, w + 1, count);
   }
+  for (const TensionRow& tension : rows_.tension) add_jacobian_row(row++, static_cast<Index>(tension.waypoint), thetas());
 }
 
 std::int32_t PlanProblem::add_hessian_entry(std::int32_t a, std::int32_t b) {

@@ -10,6 +10,7 @@
 //   that is how boxes are kept off (plan_rows.hpp)
 // - step: change of a theta between two waypoints
 // - cable: change of a cable's length between two waypoints
+// - tension: of a cable at the motor at a waypoint, as the core plans it [kN, so that all rows are of one size]
 #pragma once
 
 #include <cstdint>
@@ -17,10 +18,12 @@
 
 #include "host/plan/arm_derivatives.hpp"
 #include "host/plan/plan.hpp"
+#include "host/plan/planned_tension.hpp"
 
 namespace liana {
 
 constexpr double kRound_m = 0.01;
+constexpr double kInnerTension_N = 0.01;  // what tension rows keep from floor and ceiling
 
 // The pose at `share` (0 < share <= 1) of the way from waypoint `interval` to the next.
 struct PathPlace {
@@ -49,10 +52,15 @@ struct CableRow {
   std::int32_t interval = 0;
   std::int32_t cable = 0;
 };
+struct TensionRow {
+  std::int32_t waypoint = 0;
+  std::int32_t cable = 0;
+};
 struct PlanRows {
   std::vector<ClearanceRow> clearance;
   std::vector<StepRow> step;
   std::vector<CableRow> cable;
+  std::vector<TensionRow> tension;  // in order of waypoints
 };
 
 // One entry of a sparse matrix.
@@ -83,7 +91,7 @@ class PlanProblem {
   const std::vector<double>& upper() const { return upper_; }
   const std::vector<double>& constraint_lower() const { return constraint_lower_; }
   const std::vector<double>& constraint_upper() const { return constraint_upper_; }
-  // What constraint `row` is: tip, clearance, step or cable.
+  // What constraint `row` is: tip, clearance, step, cable or tension.
   const char* constraint_kind(std::int32_t row) const;
 
   // The path of variables x.
@@ -115,6 +123,7 @@ class PlanProblem {
   void add_control_points(double factor, double* out) const;
   void add_tip_hessian(const double* multipliers, ThetaHessian& block) const;
   void add_cable_hessian(const CableRow& row, double multiplier, double* out) const;
+  void add_tension_hessians(const double* multipliers, double* out) const;
   bool has_tip() const { return request_.tip_in_base.has_value(); }
   Index thetas() const { return static_cast<Index>(request_.robot.table.theta_count()); }
   Index last() const { return base_.size() - 1; }
@@ -122,6 +131,7 @@ class PlanProblem {
   const PlanRequest& request_;
   double stride_rad_;
   Path base_;
+  PlannedTension tension_;
   PlanRows rows_;                     // clearance rows in order of their places
   std::vector<PathPlace> places_;     // different places of the clearance rows
   std::vector<Index> place_of_row_;   // per clearance row
@@ -130,7 +140,7 @@ class PlanProblem {
   std::vector<Entry> jacobian_, hessian_;
   std::vector<ThetaBlock> own_block_;   // [waypoint][k][j], j <= k: position in the Hessian
   std::vector<ThetaBlock> next_block_;  // [waypoint][k][j]: theta k of the next waypoint with theta j of this one
-  Index first_clearance_ = 0, first_step_ = 0, first_cable_ = 0;
+  Index first_clearance_ = 0, first_step_ = 0, first_cable_ = 0, first_tension_ = 0;
 
   // At evaluated_x_.
   std::vector<double> evaluated_x_;

@@ -15,6 +15,8 @@ constexpr std::int32_t kMostLooks = 256;   // per interval
 constexpr double kNear_m = 0.10;           // beyond the margin: rows for links that are nearest among their neighbours
 constexpr double kTight_m = 0.02;          // beyond the margin: rows for every link
 constexpr double kStepShare = 0.6;         // of the step and cable limits: rows for steps that are larger
+constexpr double kNearFloor_N = 1.0;       // the core's plan rounds there: it is often a little over the floor, and never far below
+constexpr double kNearCeiling_N = 40.0;    // what a round's change of theta can bring
 constexpr double kSamePlane = 1.0 - 1e-9;  // cosine between normals
 
 // Keeps both ends of a link before the plane that touches the box at its nearest point. The end that the link before shares is left out
@@ -85,6 +87,20 @@ void add_steps(const PlanRequest& request, const Path& path, double share, PlanR
   }
 }
 
+// Rows for cables near their floor or ceiling, at waypoints that can move.
+void add_tensions(const PlanRequest& request, const Path& path, PlanRows& rows) {
+  const RobotTable& table = request.robot.table;
+  const PlannedTension tension(table);
+  const std::int32_t end = static_cast<std::int32_t>(path.size()) - (request.tip_in_base ? 0 : 1);
+  for (std::int32_t w = 1; w < end; ++w) {
+    const CableVector here_N = tension.at(path[Index(w)]);
+    for (std::int32_t c = 0; c < table.cable_count(); ++c) {
+      const bool low = here_N[Index(c)] < table.tension.floor_motor_N + kNearFloor_N;
+      if (low || here_N[Index(c)] > table.tension.ceiling_free_N - kNearCeiling_N) rows.tension.push_back({w, c});
+    }
+  }
+}
+
 std::int32_t places_of(const Room& room, const Path& path, Index w, double spacing_m, std::int32_t most) {
   return std::clamp(static_cast<std::int32_t>(std::ceil(room.motion_m(path[w], path[w + 1]) / spacing_m)), 1, most);
 }
@@ -109,6 +125,7 @@ PlanRows rows_near(const Room& room, const PlanRequest& request, const Path& pat
     if (is_movable(request, path, place)) add_place(room, request, path, place, sites, rows.clearance);
   }
   if (!single_pose(request)) add_steps(request, path, kStepShare, rows);
+  add_tensions(request, path, rows);
   return rows;
 }
 
@@ -142,6 +159,11 @@ bool steps_hold(const PlanRequest& request, const Path& path) {
   PlanRows rows;
   add_steps(request, path, 1.0 + 1e-6, rows);
   return rows.step.empty() && rows.cable.empty();
+}
+
+bool tensions_hold(const PlanRequest& request, const Path& path) {
+  const PlannedTension tension(request.robot.table);
+  return std::none_of(path.begin(), path.end(), [&](const ThetaVector& theta) { return tension.excess_N(theta) > 0.0; });
 }
 
 }  // namespace liana

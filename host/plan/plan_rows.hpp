@@ -27,7 +27,10 @@ PlanRows rows_near(const Room& room, const PlanRequest& request, const Path& pat
 // links that are nearest there.
 std::vector<RowSite> sites_below(const Room& room, const PlanRequest& request, const Path& path, double clearance_m);
 
-// Steps and cables beyond their limits.
+// No step of a theta or cable is beyond its limit.
 bool steps_hold(const PlanRequest& request, const Path& path);
+
+// At no waypoint a cable is below its floor or over its ceiling.
+bool tensions_hold(const PlanRequest& request, const Path& path);
 
 }  // namespace liana

@@ -160,6 +160,32 @@ TEST(Plan, NamesTheConstraintThatCannotBeMet) {
   EXPECT_EQ(unreachable.constraint, "tip");
 }
 
+TEST(Plan, KeepsCablesUnderTheCeilingWhereTheShortestWayDoesNot) {
+  const zhu2022::Degrees from{5, 5, 0, -8, 1, 7, 4, 8, 6, 10}, to{-12, 13, 5, 3, 4, 1, -4, -3, -8, -11};
+  PlanRequest request = request_between(from, to, SceneConfig{});
+  aim_at_tip(request);
+  const PlanResult shortest = plan(request, {});
+  ASSERT_EQ(shortest.outcome, PlanOutcome::solved) << shortest.reason;
+  request.robot.table.tension.ceiling_free_N = 70.0;
+  const PlannedTension tension(request.robot.table);
+  double excess_N = 0.0;
+  for (const ThetaVector& theta : shortest.waypoints_rad) excess_N = std::max(excess_N, tension.excess_N(theta));
+  ASSERT_GT(excess_N, 1.0);
+  const PlanResult result = plan(request, {});
+  expect_solved(request, result);
+  EXPECT_LE(result.checked->max_tension_N, 70.0);
+  EXPECT_GT(result.checked->max_tension_N, 69.0);  // no farther than needed
+}
+
+TEST(Plan, NamesTheTensionOfAnEndThatTheCablesCannotHold) {
+  PlanRequest request = request_past_a_ball();
+  request.robot.table.tension.ceiling_free_N = 30.0;  // less than every pose is held with
+  const PlanResult result = plan(request, {});
+  EXPECT_EQ(result.outcome, PlanOutcome::infeasible);
+  EXPECT_EQ(result.constraint, "tension");
+  EXPECT_NE(result.reason.find("at the start"), std::string::npos) << result.reason;
+}
+
 TEST(Plan, EndsAsCancelledWhenAskedTo) {
   const std::atomic<bool> cancelled = true;
   PlanControl control;
