@@ -182,11 +182,11 @@ class Planner {
       const Solution solution = solve_one(problem);
       const Path found = within_limits(problem.path_of(solution.x.data()));
       if (solution.status == SolveStatus::cancelled) return !fail(PlanOutcome::cancelled, "", "cancelled");
-      const bool holds = solution.worst_constraint < 0 && steps_hold(request_, found);
-      if (!holds && !free) return unsolved(problem, solution);
+      const bool rows_hold = solution.worst_constraint < 0;
+      if (!rows_hold && !free) return unsolved(problem, solution);
       const std::vector<RowSite> below = sites_below(room_, request_, found, request_.margin_m + kRecheck_m);
       sites.insert(sites.end(), below.begin(), below.end());
-      if (holds && below.empty() && tensions_hold(request_, found)) {
+      if (rows_hold && below.empty() && steps_hold(request_, found) && tensions_hold(request_, found)) {
         result_.settled = free && solution.status == SolveStatus::solved && solution.objective >= (1.0 - kSettled) * before;
         path = found;
         free = true;
@@ -229,7 +229,6 @@ class Planner {
 
   bool unsolved(const PlanProblem& problem, const Solution& solution) {
     const PlanOutcome outcome = solution.status == SolveStatus::infeasible ? PlanOutcome::infeasible : PlanOutcome::limit;
-    if (solution.worst_constraint < 0) return fail(outcome, "iterations", "the solver ended without an optimum, all constraints holding");
     return fail(outcome, problem.constraint_kind(solution.worst_constraint),
                 text("the solver ended with a %s constraint violated by %.2g", problem.constraint_kind(solution.worst_constraint),
                      solution.worst_violation));

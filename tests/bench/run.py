@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/numbers"))
 from page import commit_of  # noqa: E402
 
-PROGRAMS = ("bench_core", "bench_kdl", "bench_collision")
+PROGRAMS = ("bench_core", "bench_kdl", "bench_collision", "bench_plan")
 MEANING = {
     "fk_jacobian": "tip pose, nodes and 6x10 Jacobian, random poses within +-15 deg",
     "ik_step": "one damped step with limits, goal 10 mm away",
@@ -24,6 +24,9 @@ MEANING = {
     "ik_random": "tip of a random pose within +-15 deg, from the straight arm",
     "cable_jacobian": "trigonometry, 15 cable lengths and their 15x10 Jacobian",
     "clearance": "one link against one box; mean of 40 links and 6 boxes",
+    "plan_edge": "whole plan of 12 waypoints past the scene's bodies, prepare to panel edge",
+    "plan_ball": "the same past a ball that stands in the middle of the straight line in theta",
+    "plan_slit": "the same through the slit, panel edge to press rod",
 }
 HEAD = """# Instructions and times beside peers
 
@@ -43,6 +46,8 @@ TAIL = """## What the peers are
 - `own_80`: our own loop over 80 hinges, without waste; for inverse problems all 80 are free and have no limits.
 - `textbook`: every hole of every disc, hole to hole; derivative by central differences.
 - `fcl`, `libccd`: no broad phase anywhere. All but `fcl` only say whether two bodies touch.
+- `ipopt_straight`: Ipopt with our problem, derivatives and rounds, but from the straight line in theta instead of our start paths. One call each,
+  the final check included; the remark says how it ended.
 
 Ticks are whole calls of `Controller::tick` with ideal drives, 100 in each phase. The median is over the phases in which the controller holds or
 moves the arm (all but disabled and fault), the worst over every tick.

@@ -19,6 +19,7 @@ RADIUS_M = 0.03  # of a link
 PATH_POSES = 120
 POINTS_PER_LINK = 3
 PREPARE = [-8.5, 0, -12, 0, 8, -2, 13, 0, 12, -2]
+SEGMENT_5_IN_SLIT = [-2.79, -6.63, -1.75, -6.31, 5.03, 11.6, 1.87, 9.68, 0, -4.64]  # not inside the slit of the scene: docs/sources-notes.md
 PANEL_EDGE = [-6.14, -15, -3.29, -8.72, 7.2, 15, 5.55, 15, 1, -2.8]
 PRESS_ROD = [-2.641, -2.064, -1.81, -4.64, 4.777, 5.87, 0, 4.764, 0, -0.543]
 
@@ -123,6 +124,30 @@ def run(words, text=None):
     return json.loads(done.stdout)
 
 
+def end_off(binaries, from_deg, to_deg, scene, *options):
+    """Largest and rms difference [deg] between the last pose of a plan to the tip of `to_deg` and `to_deg` itself."""
+    answer = run([str(binaries / "liana"), "plan", f"--scene={scene}", f"--from-deg={joined(from_deg)}", f"--tip={joined(tip_of(to_deg))}", "--json", *options])
+    if answer["outcome"] != "solved":
+        raise RuntimeError(f"{answer['outcome']}: {answer['reason']}")
+    off = [a - b for a, b in zip(answer["waypoints_deg"][-1], to_deg)]
+    return max(map(abs, off)), math.sqrt(statistics.fmean(x * x for x in off))
+
+
+def published(binaries):
+    """The published poses beside ours for the same tips: the shortest way there, the same with what the source holds planar, and the pose with the
+    published nodes as control points."""
+    rows = []
+    for name, from_deg, to_deg, scene, planar in (
+            ("prepare", [0] * 10, PREPARE, "none", None), ("panel edge", PREPARE, PANEL_EDGE, "panel_slit", None),
+            ("segment 5 in slit", PANEL_EDGE, SEGMENT_5_IN_SLIT, "none", "5@0.4"), ("press rod", PANEL_EDGE, PRESS_ROD, "panel_slit", "5@0.4,4@0.7")):
+        points, _ = link_points(to_deg)
+        nodes = [f"--control-point={m}:{joined(points[8 * POINTS_PER_LINK * m - 1])}:10" for m in (1, 2, 3, 4)]
+        cells = [end_off(binaries, from_deg, to_deg, scene), end_off(binaries, from_deg, to_deg, scene, f"--planar={planar}") if planar else None,
+                 end_off(binaries, from_deg, to_deg, scene, "--waypoints=1", *nodes)]
+        rows.append([name, *(f"{cell[0]:.3f} ({cell[1]:.3f})" if cell else "-" for cell in cells)])
+    return rows
+
+
 def joined(numbers):
     return ",".join(map(repr, numbers))
 
@@ -176,7 +201,7 @@ def study(binaries, count):
     wrong = sum(a["outcome"] == "solved" and not a["good"] for a in ours)
     settled = sum(a["outcome"] == "solved" and a["settled"] for a in ours)
     starts = collections.Counter(a["start"] for a in ours if a["outcome"] == "solved")
-    return {"random": summary(ours), "from_straight": summary(straight), "wrong": wrong, "settled": settled, "starts": dict(starts), "legs": rows}
+    return {"random": summary(ours), "from_straight": summary(straight), "wrong": wrong, "settled": settled, "starts": dict(starts), "legs": rows, "published": published(binaries)}
 
 
 def measure(binaries, count=PROBLEMS):
@@ -188,6 +213,7 @@ def measure(binaries, count=PROBLEMS):
             ["straight line in theta", straight["problems"], straight["solved"], f"{straight['median_s']:.2f} s", straight["median_iterations"], straight["failures"]]]
     text = f"Random scenes, 20 waypoints, margin {1000 * MARGIN_M:.0f} mm; {found['wrong']} solved plans fail the independent check; {found['settled']} settled; starts {found['starts']}.\n\n"
     text += table(["start", "problems", "solved", "median time", "median iterations", "failures"], rows) + "\n"
+    text += table(["published pose", "our end, deg largest (rms) off", "planar as published", "with the published nodes as control points"], found["published"]) + "\n"
     return found, text + table(["leg", "outcome", "start", "time", "iterations", "clearance", "from the straight line"], found["legs"])
 
 

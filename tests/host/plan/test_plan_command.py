@@ -137,6 +137,8 @@ class PlanCommand(unittest.TestCase):
         self.assertEqual([leg[1] for leg in found["legs"]], ["solved"] * 3)
         self.assertGreaterEqual(found["random"]["solved"], 5, found["random"]["failures"])
         self.assertEqual(found["wrong"], 0)
+        for row in found["published"]:  # given the nodes' places, the published angles come out
+            self.assertLess(float(row[-1].split()[0]), 0.02, row)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,53 @@
+// Whole plans: ours, and Ipopt alone from the straight line in theta, on the same problems with the same derivatives and constraints.
+#include <cstdio>
+
+#include "host/plan/plan.hpp"
+#include "tests/bench/meter.hpp"
+#include "tests/host/plan/requests.hpp"
+
+namespace liana::bench {
+namespace {
+
+constexpr std::int32_t kWaypoints = 12;
+
+PlanRequest past_a_ball() {
+  SceneConfig scene;
+  scene.spheres.push_back({"ball", {2.5, 0.0, 0.1}, 0.2});
+  return request_between({0, -5, 0, -5, 0, -5, 0, 0, 0, 0}, {0, 5, 0, 5, 0, 5, 0, 0, 0, 0}, scene);
+}
+
+PlanRequest to_the_edge() { return request_between(zhu2022::kPrepare_deg, zhu2022::kPanelEdge_deg, panel_slit()); }
+
+PlanRequest into_the_slit() { return request_between(zhu2022::kPanelEdge_deg, zhu2022::kPressRod_deg, panel_slit()); }
+
+void measure(Meter& meter, const std::string& operation, PlanRequest request) {
+  request.waypoints = kWaypoints;
+  request.max_step_rad = default_max_step_rad(request.robot.table, kWaypoints);
+  for (const bool straight : {false, true}) {
+    PlanControl control;
+    control.straight_start_only = straight;
+    PlanResult result;
+    const std::string version = straight ? "ipopt_straight" : "ours";
+    meter.once(operation, version, [&] {
+      result = plan(request, control);
+      return result.objective;
+    });
+    if (!straight && result.outcome != PlanOutcome::solved) throw std::runtime_error(operation + ": " + result.reason);
+    meter.note(operation, version, std::string(name_of(result.outcome)) + ", " + std::to_string(result.iterations) + " iterations");
+  }
+}
+
+}  // namespace
+}  // namespace liana::bench
+
+int main() try {
+  liana::bench::Meter meter;
+  liana::bench::measure(meter, "plan_edge", liana::bench::to_the_edge());
+  liana::bench::measure(meter, "plan_ball", liana::bench::past_a_ball());
+  liana::bench::measure(meter, "plan_slit", liana::bench::into_the_slit());
+  meter.print();
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}
