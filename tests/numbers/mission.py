@@ -1,6 +1,7 @@
 """The slit crossing, fast mode: seeds 1 to 10 nominal, 1 to 3 ideal, 1 to 3 worn."""
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -8,18 +9,33 @@ import time
 
 from page import table
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "system"))
+from liana_system import Truth  # noqa: E402
+
 RUNS = [("nominal", seed) for seed in range(1, 11)] + [(physics, seed) for physics in ("ideal", "worn") for seed in range(1, 4)]
 DEG_PER_RAD = 57.29577951308232
 
 
+def planar_error_deg(recording):
+    """Largest true angle of what the steered steps hold at 0: X5 on the way into the slit, X4 and X5 on the way to the rod."""
+    truth = Truth(recording / "truth.bin")
+    steps = json.loads((recording / "mission.json").read_text())["steps"]
+    held = [(step, truth.column(f"theta_deg_{theta}")) for step in steps if step["device"] == "hand" for theta in step["held_theta"]]
+    return max((abs(angle) for step, column in held for angle in column[step["start_tick"]:step["end_tick"]]), default=0.0)
+
+
 def run_once(binaries, directory, physics, seed):
     """One run; its report with wall time and exit code added."""
-    file = pathlib.Path(directory) / f"{physics}-{seed}.json"
+    recording = pathlib.Path(directory) / f"{physics}-{seed}"
+    file = recording.with_suffix(".json")
     start = time.monotonic()
-    call = [str(binaries / "liana"), "run", "slit_crossing", "--physics", physics, "--seed", str(seed), "--json", str(file)]
+    call = [str(binaries / "liana"), "run", "slit_crossing", "--physics", physics, "--seed", str(seed), "--json", str(file), "--record", str(recording)]
     done = subprocess.run(call, capture_output=True, text=True, check=False)
     report = json.loads(file.read_text()) if file.exists() else {"outcome": "no report"}
     report.update(physics=physics, seed=seed, exit_code=done.returncode, wall_s=time.monotonic() - start)
+    if report["outcome"] == "success":
+        report["planar_error_deg"] = planar_error_deg(recording)
+    shutil.rmtree(recording, ignore_errors=True)
     print(f"   {physics} {seed}: {report['outcome']}, {report['wall_s']:.0f} s", file=sys.stderr, flush=True)
     return report
 
@@ -32,12 +48,12 @@ def row(report):
     tension = report.get("cable_tension_N", {})
     return [report["physics"], report["seed"], report["outcome"], scaled(report, "duration_s", 1, 1), scaled(report, "tip_error_m", 1e3, 2),
             scaled(report, "tip_attitude_error_rad", DEG_PER_RAD, 3), scaled(report, "open_loop_tip_error_m", 1e3, 1),
-            scaled(report, "min_slit_clearance_m", 1e3, 1), scaled(report, "min_sphere_clearance_m", 1e3, 0),
+            scaled(report, "planar_error_deg", 1, 3), scaled(report, "min_slit_clearance_m", 1e3, 1), scaled(report, "min_sphere_clearance_m", 1e3, 0),
             scaled(report, "max_contact_force_N", 1, 2), scaled(tension, "min", 1, 1), scaled(tension, "min_motor", 1, 1),
             scaled(tension, "max", 1, 1), scaled(report, "wall_s", 1, 0)]
 
 
-HEAD = ["physics", "seed", "outcome", "arm time s", "tip mm", "tip deg", "open loop mm", "slit mm", "sphere mm", "contact N", "tension min N",
+HEAD = ["physics", "seed", "outcome", "arm time s", "tip mm", "tip deg", "open loop mm", "X4, X5 deg", "slit mm", "sphere mm", "contact N", "tension min N",
         "at motor N", "max N", "wall s"]
 
 
