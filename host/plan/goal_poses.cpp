@@ -13,6 +13,7 @@ using Index = std::size_t;
 
 constexpr std::int32_t kPushIterations = 30;
 constexpr double kSame_rad = 0.02;
+constexpr double kClearWeight = 100.0;  // against control points
 
 double largest_change(const ThetaVector& a, const ThetaVector& b) {
   double most = 0.0;
@@ -44,6 +45,25 @@ GoalIkProblem with_planar_end(GoalIkProblem problem, const RobotTable& table, st
   return problem;
 }
 
+// Also wanted of the shape: clear of the spheres that are nearest to a pose.
+GoalIkProblem with_clear_spheres(GoalIkProblem problem, const Room& room, const ThetaVector& theta, double clearance_m) {
+  const LinkPoints points = link_points(room.table(), theta);
+  std::vector<std::pair<double, Index>> near;
+  for (Index i = 0; i < room.scene().spheres.size(); ++i) {
+    double least_m = kNoObstacle_m;
+    for (std::int32_t link = 0; link + 1 < points.count; ++link) {
+      least_m = std::min(least_m, clearance(link_capsule(points, link, room.link_radius_m()), room.scene().spheres[i]).distance_m);
+    }
+    near.push_back({least_m, i});
+  }
+  std::sort(near.begin(), near.end());
+  for (Index i = 0; i < std::min(near.size(), problem.clear.size()); ++i) {
+    const SceneSphere& sphere = room.scene().spheres[near[i].second];
+    problem.clear[i] = {sphere.center_m, sphere.radius_m + room.link_radius_m() + clearance_m, kClearWeight};
+  }
+  return problem;
+}
+
 // A pose and its clearance.
 struct Candidate {
   ThetaVector theta_rad{};
@@ -59,6 +79,7 @@ bool find_pose(const Room& room, const PlanRequest& request, const GoalIkProblem
   const PoseAim aim{*request.tip_in_base, false, found.theta_rad, problem.held_mask, request.margin_m + kRelaxReach_m};
   GoalIkProblem beside = problem;
   beside.node = {};
+  beside.clear = {};
   beside.from_rad = settle(room, aim, found.theta_rad, kPushIterations).theta_rad;
   const GoalIkResult exact = solve_goal(room.table(), beside);  // the push leaves the tip some micrometres off
   const double clearance_m = room.look(exact.theta_rad).nearest.distance_m;
@@ -89,15 +110,18 @@ GoalPoses goal_poses(const Room& room, const PlanRequest& request) {
     for (const std::int32_t axis : {0, 1}) problems.push_back(with_planar_end(problems.front(), room.table(), segments, axis));
   }
   double most_clearance = -kNoObstacle_m;
-  for (const GoalIkProblem& problem : problems) {
+  const auto try_problem = [&](const GoalIkProblem& problem) {
     Candidate pose;
-    if (!find_pose(room, request, problem, pose)) continue;
+    if (!find_pose(room, request, problem, pose)) return;
     out.reachable = true;
     if (pose.clearance_m > most_clearance) most_clearance = pose.clearance_m, out.nearest_rad = pose.theta_rad;
     const auto same = [&](const ThetaVector& other) { return largest_change(other, pose.theta_rad) < kSame_rad; };
     const bool known = std::any_of(out.theta_rad.begin(), out.theta_rad.end(), same);
     if (pose.clearance_m >= request.margin_m && !known) out.theta_rad.push_back(pose.theta_rad);
-  }
+  };
+  for (const GoalIkProblem& problem : problems) try_problem(problem);
+  if (out.reachable && out.theta_rad.empty())
+    try_problem(with_clear_spheres(problems.front(), room, out.nearest_rad, request.margin_m + kRelaxReach_m));
   std::stable_sort(out.theta_rad.begin(), out.theta_rad.end(), [&](const ThetaVector& a, const ThetaVector& b) {
     return room.motion_m(request.from_rad, a) < room.motion_m(request.from_rad, b);
   });

@@ -16,7 +16,8 @@ struct GoalPoses {
 
 // Goal IK (firmware_like/motion/goal_ik.hpp) from the start pose and fixed seeds, each pushed off obstacles with its tip in place; also
 // with the last one and two segments planar (their pitch, or their yaw, at 0), which is how an arm fits a slit that the tip is in line
-// with. Held thetas are those of the last waypoint.
+// with. Where none of them is free, once more with clearance of the nearest spheres as an aim of the shape (GoalIkProblem::clear): that
+// finds a pose where pushing gets stuck, but far from the start, and knows no boxes. Held thetas are those of the last waypoint.
 GoalPoses goal_poses(const Room& room, const PlanRequest& request);
 
 // Seed 0 is `from_rad`, 1 the straight arm, then patterns of signs at half the limits.
