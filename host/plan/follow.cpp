@@ -31,12 +31,6 @@ double largest_change(const ThetaVector& a, const ThetaVector& b) {
   return most;
 }
 
-double arm_length_m(const RobotTable& table) {
-  double length_m = 0.0;
-  for (Index m = 0; m < Index(table.segment_count); ++m) length_m += table.segment[m].modules * table.segment[m].module_length_m;
-  return length_m;
-}
-
 Vec3 tip_of(const Room& room, const ThetaVector& theta) { return forward_kinematics(room.table(), theta).tip_in_base.position_m; }
 
 std::uint32_t held_mask(const PlanRequest& request) {

@@ -14,6 +14,7 @@ namespace liana {
 
 constexpr double kFollowStep_m = 0.01;       // of the tip along the curve
 constexpr double kFollowTipOff_m = 0.002;    // of the tip from the curve between waypoints
+constexpr double kFollowMostLengths = 2.0;   // of the arm: no body stays on a longer curve
 constexpr double kFollowStartOff_m = 0.001;  // how far from the tip a curve may begin
 
 // A way along a curve, or what stands against it.

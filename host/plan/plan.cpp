@@ -8,6 +8,7 @@
 #include "host/plan/follow.hpp"
 #include "host/plan/goal_poses.hpp"
 #include "host/plan/ipopt_solver.hpp"
+#include "host/plan/plan_refusal.hpp"
 #include "host/plan/plan_rows.hpp"
 #include "host/plan/relax.hpp"
 #include "host/plan/start_path.hpp"
@@ -25,7 +26,6 @@ constexpr double kRecheck_m = 0.0003;     // rows are added where less than this
 constexpr double kStartSpacing_m = 0.01;  // of motion between the poses looked at in a start path
 constexpr double kSettled = 0.01;         // of the objective: what a last round gains at most
 constexpr double kAnyStride_rad = 10.0;   // while the path is not free it has to go where it can become so
-constexpr double kTipTolerance = 1e-6;    // m and rad
 constexpr double kRoundOff = 1e-6;        // relative
 
 void require(bool good, const char* message) {
@@ -61,7 +61,10 @@ class Planner {
 
   PlanResult run() {
     if (!pose_is_good(request_.from_rad, "start")) return result_;
-    if (request_.follow && !request_.follow->points_m.empty()) return follow(Curve(request_.follow->points_m), {});
+    if (request_.follow && !request_.follow->points_m.empty()) {
+      if (is_short_enough(request_.follow->points_m)) follow(Curve(request_.follow->points_m), {});
+      return result_;
+    }
     const Path goals = goals_or_none();
     if (goals.empty()) return result_;
     for (const ThetaVector& goal : goals) {
@@ -124,6 +127,15 @@ class Planner {
                        way / kDegree, static_cast<int>(request_.waypoints), request_.max_step_rad / kDegree, most / kDegree));
     }
     return true;
+  }
+
+  bool is_short_enough(const std::vector<Vec3>& points_m) {
+    double length_m = 0.0;
+    for (Index i = 1; i < points_m.size(); ++i) length_m += norm(subtract(points_m[i], points_m[i - 1]));
+    const double most_m = kFollowMostLengths * arm_length_m(room_.table());
+    if (length_m <= most_m) return true;
+    return fail(PlanOutcome::infeasible, "curve",
+                text("the curve is %.1f m long; at most %.1f m are allowed, %.0f times the arm", length_m, most_m, kFollowMostLengths));
   }
 
   // True when the search is over.
@@ -263,28 +275,7 @@ class Planner {
     const PlanCheck check = check_plan(request_.robot, request_.scene, whole, goal_tip(path));
     result_.checked = check;
     result_.objective = objective(path);
-    const TensionLimits& tension = room_.table().tension;
-    if (check.min_clearance_m < request_.margin_m) {
-      return fail(PlanOutcome::limit, "clearance",
-                  text("the path found comes within %.2f mm of '%s' at link %d", 1000.0 * check.min_clearance_m, check.nearest.c_str(),
-                       static_cast<int>(check.nearest_link)));
-    }
-    if (check.over_limit_deg > 0.0)
-      return fail(PlanOutcome::limit, "limits", text("a theta is %.2g deg over its limit", check.over_limit_deg));
-    if (check.max_step_deg * kDegree > request_.max_step_rad * (1.0 + kRoundOff)) {
-      return fail(PlanOutcome::limit, "step", text("a step of %.3f deg", check.max_step_deg));
-    }
-    if (check.max_cable_step_m > request_.max_cable_step_m() * (1.0 + kRoundOff)) {
-      return fail(PlanOutcome::limit, "cable", text("a cable changes by %.1f mm in a step", 1000.0 * check.max_cable_step_m));
-    }
-    if (check.tip_error_m > kTipTolerance || check.tip_attitude_error_rad > kTipTolerance) {
-      return fail(PlanOutcome::limit, "tip", text("the tip ends %.2g m and %.2g rad off", check.tip_error_m, check.tip_attitude_error_rad));
-    }
-    if (check.min_tension_N < tension.floor_motor_N || check.max_tension_N > tension.ceiling_free_N) {
-      return fail(PlanOutcome::infeasible, "tension",
-                  text("cables would be pulled with %.0f to %.0f N; allowed are %.0f to %.0f N", check.min_tension_N, check.max_tension_N,
-                       tension.floor_motor_N, tension.ceiling_free_N));
-    }
+    if (const auto refused = refusal_of(request_, check)) return fail(refused->outcome, refused->constraint, refused->reason);
     result_.outcome = PlanOutcome::solved;
     result_.waypoints_rad = whole;
     result_.constraint.clear();

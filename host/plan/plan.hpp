@@ -45,7 +45,6 @@ struct FollowRequest {
 
 constexpr std::int32_t kMaxWaypoints = 100;
 constexpr std::size_t kMaxFollowPoints = 1000;
-constexpr std::size_t kMaxFollowWaypoints = 2000;
 constexpr std::size_t kMaxControlPoints = 4;
 constexpr double kDefaultMargin_m = 0.005;
 

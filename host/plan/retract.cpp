@@ -38,10 +38,7 @@ Pose on_axis(const LinkPoints& points, double behind_m) {
 
 Path retract(const Room& room, const ThetaVector& theta_rad, std::uint32_t held_mask, double margin_m) {
   const LinkPoints line = link_points(room.table(), theta_rad);
-  double length_m = 0.0;
-  for (Index m = 0; m < Index(room.table().segment_count); ++m) {
-    length_m += room.table().segment[m].modules * room.table().segment[m].module_length_m;
-  }
+  const double length_m = arm_length_m(room.table());
   Path path{theta_rad};
   for (double behind_m = kRetractStep_m; behind_m < kRetractShare * length_m; behind_m += kRetractStep_m) {
     if (room.look(path.back()).nearest.distance_m > kOutside_m) break;

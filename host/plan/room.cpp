@@ -37,6 +37,13 @@ bool Room::is_free(const ThetaVector& a, const ThetaVector& b, double margin_m) 
   }
 }
 
+double arm_length_m(const RobotTable& table) {
+  double length_m = 0.0;
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
+    length_m += table.segment[m].modules * table.segment[m].module_length_m;
+  return length_m;
+}
+
 ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share) {
   ThetaVector theta{};
   for (Index k = 0; k < theta.size(); ++k) theta[k] = (1.0 - share) * a[k] + share * b[k];

@@ -31,6 +31,9 @@ class Room {
   const SceneConfig& scene_;
 };
 
+// From the base to the tip of the straight arm [m].
+double arm_length_m(const RobotTable& table);
+
 // Pose at `share` (0..1) between a and b.
 ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share);
 

@@ -126,6 +126,10 @@ TEST(Follow, NamesWhatIsWrongWithACurve) {
   const PlanResult out = plan(far, {});
   EXPECT_EQ(out.constraint, "curve");
   EXPECT_NE(out.reason.find("leaves the arm's reach"), std::string::npos) << out.reason;
+  PlanRequest endless = request_along_a_bend();
+  for (int i = 0; i < 500; ++i) endless.follow->points_m.push_back({1.0, i % 2 == 0 ? 1.0 : -1.0, 0.0});
+  const PlanResult wound = plan(endless, {});
+  EXPECT_NE(wound.reason.find("at most 8.0 m are allowed"), std::string::npos) << wound.reason;
   PlanRequest blocked = request_along_a_bend();
   blocked.scene.spheres.push_back({"ball", {1.0, -0.05, 0.35}, 0.05});  // on the curve
   const PlanResult hit = plan(blocked, {});

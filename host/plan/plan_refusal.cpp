@@ -1,0 +1,41 @@
+#include "host/plan/plan_refusal.hpp"
+
+#include "firmware_like/math/trig.hpp"
+#include "host/plan/text.hpp"
+
+namespace liana {
+namespace {
+
+constexpr double kTipTolerance = 1e-6;  // m and rad
+constexpr double kRoundOff = 1e-6;      // relative
+
+}  // namespace
+
+std::optional<Refusal> refusal_of(const PlanRequest& request, const PlanCheck& check) {
+  const TensionLimits& tension = request.robot.table.tension;
+  if (check.min_clearance_m < request.margin_m) {
+    return Refusal{PlanOutcome::limit, "clearance",
+                   text("the path found comes within %.2f mm of '%s' at link %d", 1000.0 * check.min_clearance_m, check.nearest.c_str(),
+                        static_cast<int>(check.nearest_link))};
+  }
+  if (check.over_limit_deg > 0.0)
+    return Refusal{PlanOutcome::limit, "limits", text("a theta is %.2g deg over its limit", check.over_limit_deg)};
+  if (check.max_step_deg * kDegree > request.max_step_rad * (1.0 + kRoundOff)) {
+    return Refusal{PlanOutcome::limit, "step", text("a step of %.3f deg", check.max_step_deg)};
+  }
+  if (check.max_cable_step_m > request.max_cable_step_m() * (1.0 + kRoundOff)) {
+    return Refusal{PlanOutcome::limit, "cable", text("a cable changes by %.1f mm in a step", 1000.0 * check.max_cable_step_m)};
+  }
+  if (check.tip_error_m > kTipTolerance || check.tip_attitude_error_rad > kTipTolerance) {
+    return Refusal{PlanOutcome::limit, "tip",
+                   text("the tip ends %.2g m and %.2g rad off", check.tip_error_m, check.tip_attitude_error_rad)};
+  }
+  if (check.min_tension_N < tension.floor_motor_N || check.max_tension_N > tension.ceiling_free_N) {
+    return Refusal{PlanOutcome::infeasible, "tension",
+                   text("cables would be pulled with %.0f to %.0f N; allowed are %.0f to %.0f N", check.min_tension_N, check.max_tension_N,
+                        tension.floor_motor_N, tension.ceiling_free_N)};
+  }
+  return {};
+}
+
+}  // namespace liana

@@ -1,0 +1,20 @@
+// What the independent check says against a plan.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "host/plan/plan.hpp"
+
+namespace liana {
+
+struct Refusal {
+  PlanOutcome outcome = PlanOutcome::limit;
+  const char* constraint = "";
+  std::string reason;
+};
+
+// The first limit of the request that a checked plan does not keep; none: the plan is good.
+std::optional<Refusal> refusal_of(const PlanRequest& request, const PlanCheck& check);
+
+}  // namespace liana
