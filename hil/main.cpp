@@ -81,7 +81,8 @@ int main(int argc, char** argv) {
     options.robot = liana::bench::load_robot(paths.robot);
     options.scene = liana::bench::load_scene(paths.scene);
     options.buses = liana::bench::load_buses(paths.buses);
-    if (!paths.faults.empty()) options.faults = liana::bench::load_faults(paths.faults, options.robot.cable_count());
+    if (!paths.faults.empty())
+      options.faults = liana::bench::load_faults(paths.faults, options.robot.cable_count(), options.robot.theta_count());
     options.spread = !no_spread;
     liana::bench::Bench bench(options);
     const auto bus = open_bus(paths, options.buses);

@@ -29,6 +29,7 @@ Bench::Bench(const BenchOptions& options)
       arm_(options.robot, options.scene, truth_,
            start_pose(options.robot, options.start_pose, options.spread ? kStartSpread_rad : 0.0, options.seed)),
       drives_(options.robot, options.buses, truth_, arm_.payouts_m(), options.spread, options.seed),
+      injector_(options.faults),
       camera_(options.scene.camera, options.scene.slit_frame, options.scene.rod.pose, options.seed),
       link_(options.api_socket),
       log_(options.truth_path, options.robot.theta_count()),
@@ -46,14 +47,9 @@ CableValues Bench::motor_tensions_N() const {
   return tension;
 }
 
-void Bench::inject_faults(std::uint32_t slot) {
-  for (const FaultConfig& fault : options_.faults)
-    if (fault.at_slot == slot) drives_.inject(fault);
-}
-
 // State at the start of a slot goes to truth and camera before anything in the slot happens.
 void Bench::begin_slot(std::uint32_t slot, double now_s) {
-  inject_faults(slot);
+  injector_.step(slot, arm_.theta_rad(), arm_.rate_rad_s(), drives_);
   record(slot);
   camera_.look(now_s, arm_.tip());
   while (const auto view = camera_.deliver(now_s)) link_.send(camera_message(*view));
@@ -164,11 +160,20 @@ void Bench::write_summary(const Bus& bus) const {
   nlohmann::json buses = nlohmann::json::array();
   for (std::size_t b = 0; b < received_.size(); ++b)
     buses.push_back({{"name", options_.buses.names[b]}, {"received", received_[b]}, {"sent", sent_[b]}});
+  nlohmann::json faults = nlohmann::json::array();
+  for (std::size_t i = 0; i < injector_.faults().size(); ++i) {
+    const auto& [begun, ended] = injector_.courses()[i];
+    const FaultConfig& fault = injector_.faults()[i];
+    faults.push_back({{"kind", fault.name}, {"drives", fault.drives}, {"begun_slot", nullptr}, {"ended_slot", nullptr}});
+    if (begun) faults.back()["begun_slot"] = *begun;
+    if (ended) faults.back()["ended_slot"] = *ended;
+  }
   const nlohmann::json summary{
       {"slots", integrated_},
       {"seed", options_.seed},
       {"physics", options_.physics},
       {"drives", drives},
+      {"faults", faults},
       {"buses", buses},
       {"frames_refused", bus.refused()},
       {"mujoco_warnings", arm_.mujoco_warnings()},

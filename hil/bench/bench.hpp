@@ -8,6 +8,7 @@
 #include "hil/arm/arm_physics.hpp"
 #include "hil/arm/tip_camera.hpp"
 #include "hil/bench/drive_bank.hpp"
+#include "hil/bench/fault_injector.hpp"
 #include "hil/bench/truth_log.hpp"
 #include "hil/bus/bus.hpp"
 #include "hil/bus/camera_link.hpp"
@@ -42,7 +43,6 @@ class Bench {
   void begin_slot(std::uint32_t slot, double now_s);
   void integrate_slot(double period_s);
   void record(std::uint32_t slot);
-  void inject_faults(std::uint32_t slot);
   std::uint32_t count_syncs(const FrameList& frames);
   void catch_up(std::uint32_t slots, double period_s);
   void run_on(std::uint64_t now_us, std::uint32_t period_us);
@@ -53,6 +53,7 @@ class Bench {
   TrueParameters truth_;
   ArmPhysics arm_;
   DriveBank drives_;
+  FaultInjector injector_;
   TipCamera camera_;
   CameraLink link_;
   TruthLog log_;

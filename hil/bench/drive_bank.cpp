@@ -6,9 +6,7 @@ namespace liana::bench {
 
 namespace {
 
-constexpr double kTorqueNoise = 0.003;            // of the reading
-constexpr double kSlack_m = 0.02;                 // a clamp slipped: no tension left at any pose of the mission's
-constexpr std::uint16_t kInjectedFault = 0x2310;  // continuous over-current
+constexpr double kTorqueNoise = 0.003;  // of the reading
 
 DriveSettings settings_of(const RobotConfig& robot, const BusesConfig& buses, std::size_t i) {
   DriveSettings settings;
@@ -28,7 +26,12 @@ DriveSettings settings_of(const RobotConfig& robot, const BusesConfig& buses, st
 
 DriveBank::DriveBank(const RobotConfig& robot, const BusesConfig& buses, const TrueParameters& truth, const CableValues& payout_m,
                      bool noisy, std::uint64_t seed)
-    : robot_(robot), truth_(truth), noisy_(noisy), torque_noise_(seed, "torque noise") {
+    : robot_(robot),
+      truth_(truth),
+      noise_(robot.cable_count()),
+      noisy_(noisy),
+      torque_noise_(seed, "torque noise"),
+      fault_noise_(seed, "fault noise") {
   for (std::size_t m = 0; m < robot.segments.size(); ++m)
     for (std::size_t c = 0; c < robot.segments[m].cable_phase_rad.size(); ++c) path_at_zero_m_.push_back(robot.path_at_zero_m(m));
   for (std::size_t i = 0; i < robot.cable_count(); ++i) {
@@ -42,7 +45,7 @@ CableValues DriveBank::payouts_m() const {
   CableValues payout{};
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     const double counts = drives_[i]->motor().position_counts() - robot_.drives[i].zero_counts;
-    payout[i] = path_at_zero_m_[i] + robot_.lead_m + truth_.zero_offset_m[i] + slack_m_[i] +
+    payout[i] = path_at_zero_m_[i] + robot_.lead_m + truth_.zero_offset_m[i] + loose_m_[i] +
                 robot_.drives[i].direction * counts * robot_.metres_per_count();
   }
   return payout;
@@ -66,7 +69,11 @@ void DriveBank::move(double step_s, const CableValues& tension_N) {
 void DriveBank::measure(const CableValues& tension_N) {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     const double noise = noisy_ ? 1.0 + torque_noise_.gaussian(kTorqueNoise) : 1.0;
-    drives_[i]->set_measured_torque(permille(tension_N[i]) * truth_.torque_gain[i] * noise);
+    double reading = permille(tension_N[i]) * truth_.torque_gain[i] * noise;
+    double error_counts = 0.0;
+    if (noise_[i].permille > 0.0) reading += fault_noise_.gaussian(noise_[i].permille);
+    if (noise_[i].counts > 0.0) error_counts = fault_noise_.gaussian(noise_[i].counts);
+    drives_[i]->set_measured(reading, error_counts);
   }
 }
 
@@ -74,24 +81,6 @@ std::size_t DriveBank::enabled() const {
   std::size_t count = 0;
   for (const auto& drive : drives_) count += drive->power_state() == PowerState::kOperationEnabled ? 1 : 0;
   return count;
-}
-
-void DriveBank::inject(const FaultConfig& fault) {
-  Drive& drive = *drives_[fault.drive];
-  switch (fault.kind) {
-    case FaultKind::kMissing:
-      return drive.power_off();
-    case FaultKind::kWrongIdentity:
-      return drive.set_identity(robot_.product + 1);
-    case FaultKind::kSilent:
-      return drive.set_silent();
-    case FaultKind::kFault:
-      return drive.raise_fault(kInjectedFault);
-    case FaultKind::kSto:
-      return drive.set_safe_torque_off();
-    case FaultKind::kSlack:
-      slack_m_[fault.drive] = kSlack_m;
-  }
 }
 
 }  // namespace liana::bench

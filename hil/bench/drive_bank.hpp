@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hil/arm/true_parameters.hpp"
+#include "hil/config/fault_config.hpp"
 #include "hil/config/scene_config.hpp"
 #include "hil/drive/drive.hpp"
 #include "hil/math/random.hpp"
@@ -27,7 +28,9 @@ class DriveBank {
   // Unstretched cable the drums have paid out now [m].
   CableValues payouts_m() const;
 
-  void inject(const FaultConfig& fault);
+  // A fault of this drive begins; end() takes back what can end (load_faults allows for_slots for no other).
+  void begin(const FaultConfig& fault, std::size_t drive);
+  void end(const FaultConfig& fault, std::size_t drive);
 
   std::size_t size() const { return drives_.size(); }
   const Drive& drive(std::size_t i) const { return *drives_[i]; }
@@ -35,15 +38,23 @@ class DriveBank {
   std::size_t enabled() const;
 
  private:
+  // Standard deviations of sensor noise that a fault brings.
+  struct SensorNoise {
+    double counts = 0.0;
+    double permille = 0.0;
+  };
+
   double permille(double tension_N) const;
 
   RobotConfig robot_;
   TrueParameters truth_;
   std::vector<std::unique_ptr<Drive>> drives_;
   std::vector<double> path_at_zero_m_;
-  CableValues slack_m_{};  // cable that came loose (fault)
+  CableValues loose_m_{};  // cable that faults paid out beside the drum
+  std::vector<SensorNoise> noise_;
   bool noisy_;
   Random torque_noise_;
+  Random fault_noise_;
 };
 
 }  // namespace liana::bench

@@ -97,4 +97,10 @@ std::vector<std::string> JsonFile::keys(const std::string& field) const {
 
 bool JsonFile::has(const std::string& field) const { return document_->find(field) != nullptr; }
 
+bool JsonFile::is_text(const std::string& field) const { return has(field) && document_->find(field)->is_string(); }
+
+bool JsonFile::is_list(const std::string& field) const { return has(field) && document_->find(field)->is_array(); }
+
+bool JsonFile::is_true(const std::string& field) const { return has(field) && *document_->find(field) == json(true); }
+
 }  // namespace liana::bench

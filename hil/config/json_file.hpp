@@ -29,6 +29,9 @@ class JsonFile {
   std::size_t size(const std::string& field) const;
   std::vector<std::string> keys(const std::string& field) const;
   bool has(const std::string& field) const;
+  bool is_text(const std::string& field) const;
+  bool is_list(const std::string& field) const;
+  bool is_true(const std::string& field) const;  // the value true itself
 
   // The exception all complaints about this file use.
   [[noreturn]] void fail(const std::string& field, const std::string& why) const;

@@ -33,16 +33,6 @@ CameraConfig read_camera(const JsonFile& file) {
           file.number("/camera/range_m", 0.0, 1000.0)};
 }
 
-FaultKind read_kind(const JsonFile& file, const std::string& field) {
-  const std::string kind = file.text(field);
-  const std::pair<const char*, FaultKind> names[] = {{"missing", FaultKind::kMissing}, {"wrong_identity", FaultKind::kWrongIdentity},
-                                                     {"silent", FaultKind::kSilent},   {"fault", FaultKind::kFault},
-                                                     {"sto", FaultKind::kSto},         {"slack", FaultKind::kSlack}};
-  for (const auto& [name, value] : names)
-    if (kind == name) return value;
-  file.fail(field, "is \"" + kind + "\"; allowed are missing, wrong_identity, silent, fault, sto, slack");
-}
-
 }  // namespace
 
 SceneConfig load_scene(const std::string& path) {
@@ -81,17 +71,6 @@ std::size_t BusesConfig::bus_of(int node) const {
     for (const int candidate : nodes[b])
       if (candidate == node) return b;
   throw std::runtime_error("bus table: node " + std::to_string(node) + " is on no bus; add it to one bus's \"nodes\"");
-}
-
-std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count) {
-  const JsonFile file(path, "");
-  std::vector<FaultConfig> faults;
-  for (std::size_t i = 0; i < file.size(""); ++i) {
-    const std::string field = at("", i);
-    faults.push_back({static_cast<std::size_t>(file.integer(field + "/drive", 0, static_cast<int>(drive_count) - 1)),
-                      read_kind(file, field + "/kind"), static_cast<std::uint32_t>(file.integer(field + "/at_slot", 0, 2000000000))});
-  }
-  return faults;
 }
 
 }  // namespace liana::bench

@@ -1,4 +1,4 @@
-// Scene, bus table and fault list as the bench reads them (docs/formats.md).
+// Scene and bus table as the bench reads them (docs/formats.md).
 #pragma once
 
 #include <array>
@@ -62,17 +62,8 @@ struct BusesConfig {
   std::size_t bus_of(int node) const;
 };
 
-enum class FaultKind { kMissing, kWrongIdentity, kSilent, kFault, kSto, kSlack };
-
-struct FaultConfig {
-  std::size_t drive = 0;
-  FaultKind kind = FaultKind::kFault;
-  std::uint32_t at_slot = 0;
-};
-
 // All loaders throw std::runtime_error naming file, field, value and allowed range.
 SceneConfig load_scene(const std::string& path);
 BusesConfig load_buses(const std::string& path);
-std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count);
 
 }  // namespace liana::bench

@@ -44,7 +44,7 @@ void Drive::receive(const CanFrame& frame, FrameList& out) {
 }
 
 void Drive::send(CanFrame frame, FrameList& out) {
-  if (silent_ || dead_) return;
+  if (defects_.silent || dead_) return;
   frame.bus = settings_.bus;
   out.push_back(frame);
   ++counts_.sent;
@@ -86,6 +86,7 @@ void Drive::enter_nmt(NmtState state) {
   nmt_ = state;
   targets_.armed = false;
   pending_ = {};
+  late_.clear();
   if (state != NmtState::kOperational) stop_by_itself();  // 6007: without PDOs nobody steers
 }
 
@@ -106,6 +107,7 @@ void Drive::reset_communication(FrameList& out) {
   master_ = {};
   targets_ = {};
   pending_ = {};
+  late_.clear();
   connection_lost_ = targets_lost_ = false;
   if (power_ != PowerState::kFault) enter_power(PowerState::kSwitchOnDisabled);
   CanFrame boot_up;
@@ -176,17 +178,30 @@ void Drive::handle_sync(FrameList& out) {
     pending_[i].reset();
     act_on_controlword(static_cast<std::uint16_t>(objects_.get(0x6040)));
   }
-  motor_.set_target(static_cast<double>(objects_.get(0x607A)));
+  motor_.set_target(static_cast<double>(objects_.get(0x607A)) - encoder_offset_counts_);
   sample();
+  send_process_data(out);
+}
+
+void Drive::send_process_data(FrameList& out) {
+  FrameList sampled;
   for (const Pdo& pdo : transmit_pdos_)
-    if (pdo.enabled() && pdo.length() > 0 && counts_.syncs % pdo.every_nth_sync() == 0) send(pdo.pack(), out);
+    if (pdo.enabled() && pdo.length() > 0 && counts_.syncs % pdo.every_nth_sync() == 0) sampled.push_back(pdo.pack());
+  late_.push_back(std::move(sampled));
+  if (late_.size() <= defects_.late_cycles) return;
+  for (CanFrame frame : late_[late_.size() - 1 - defects_.late_cycles]) {
+    frame.length = defects_.pdo_length.value_or(frame.length);
+    send(frame, out);
+  }
+  while (late_.size() > defects_.late_cycles) late_.pop_front();
 }
 
 void Drive::sample() {
-  const double position = motor_.position_counts();
-  objects_.set(0x6064, 0, std::llround(position));
-  objects_.set(0x606C, 0, std::llround(motor_.velocity_counts_per_s()));
-  objects_.set(0x6077, 0, std::clamp<std::int64_t>(std::llround(measured_permille_), -32768, 32767));
+  if (!defects_.stuck) {
+    objects_.set(0x6064, 0, std::llround(motor_.position_counts() + encoder_offset_counts_ + position_error_counts_));
+    objects_.set(0x606C, 0, std::llround(motor_.velocity_counts_per_s()));
+    objects_.set(0x6077, 0, std::clamp<std::int64_t>(std::llround(measured_permille_), -32768, 32767));
+  }
   objects_.set(0x6062, 0, objects_.get(0x607A));
   objects_.set(0x60F4, 0, objects_.get(0x607A) - objects_.get(0x6064));
   objects_.set(0x6041, 0, statusword());

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <vector>
 
 #include "hil/drive/can_frame.hpp"
 #include "hil/drive/cia402.hpp"
+#include "hil/drive/defects.hpp"
 #include "hil/drive/drive_objects.hpp"
 #include "hil/drive/pdo.hpp"
 #include "hil/drive/sdo_server.hpp"
@@ -41,15 +43,18 @@ class Drive {
   void tick(std::uint64_t now_us, FrameList& out);
   // Motor and brake, one physics step under the load.
   void move(double step_s, double load_permille);
-  // What the torque sensor reads now [permille of rated].
-  void set_measured_torque(double permille) { measured_permille_ = permille; }
+  // What the torque sensor reads now [permille of rated], and by how much the reported position is wrong.
+  void set_measured(double permille, double position_error_counts = 0.0);
 
   // Faults from outside.
-  void power_off();                      // dead: brake on, nothing heard or sent
-  void set_silent() { silent_ = true; }  // acts, but sends nothing
-  void set_safe_torque_off();            // STO line open: brake on, stays disabled
+  DriveDefects& defects() { return defects_; }
+  void power_off();            // dead: brake on, nothing heard or sent
+  void power_on();             // after power_off(): objects have their power-on values, the next tick() sends the boot-up
+  void set_safe_torque_off();  // STO line open: brake on, stays disabled
   void raise_fault(std::uint16_t emergency_code);
-  void set_identity(std::uint32_t product) { objects_.set(0x1018, 2, product); }
+  void report_emergency(std::uint16_t code) { emergencies_.push_back(code); }  // sent, and nothing else happens
+  void set_identity(std::uint32_t product);
+  void jump_encoder(double counts) { encoder_offset_counts_ += counts; }  // reads so much more from now on; the servo goes by it
 
   PowerState power_state() const { return power_; }
   NmtState nmt_state() const { return nmt_; }
@@ -77,6 +82,7 @@ class Drive {
   void connection_back(FrameList& out);
   void supervise_following(std::uint64_t now_us);
   void sample();
+  void send_process_data(FrameList& out);
   void send(CanFrame frame, FrameList& out);
   void send_emergency(std::uint16_t code, FrameList& out);
 
@@ -96,11 +102,14 @@ class Drive {
   PowerState power_ = PowerState::kSwitchOnDisabled;
   std::uint16_t controlword_ = 0;
   bool dead_ = false;
-  bool silent_ = false;
   bool safe_torque_off_ = false;
   bool connection_lost_ = false;
   bool targets_lost_ = false;  // of it the RPDO half: a heartbeat alone does not bring it back
+  DriveDefects defects_;
+  std::deque<FrameList> late_;  // sampled, not sent yet
   double measured_permille_ = 0.0;
+  double position_error_counts_ = 0.0;
+  double encoder_offset_counts_ = 0.0;
   std::uint64_t now_us_ = 0;
   std::uint64_t next_heartbeat_us_ = 0;
   std::uint64_t following_since_us_ = 0;

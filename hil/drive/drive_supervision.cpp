@@ -79,6 +79,27 @@ void Drive::power_off() {
   enter_power(PowerState::kSwitchOnDisabled);
 }
 
+void Drive::power_on() {
+  dead_ = false;
+  objects_ = make_objects(settings_);
+  controlword_ = 0;
+  emergencies_.clear();
+  rebuild_pdos();
+  sample();
+  objects_.set(0x607A, 0, objects_.get(0x6064));
+  nmt_ = NmtState::kInitialising;
+}
+
+void Drive::set_identity(std::uint32_t product) {
+  settings_.product = product;
+  objects_.set(0x1018, 2, product);
+}
+
+void Drive::set_measured(double permille, double position_error_counts) {
+  measured_permille_ = permille;
+  position_error_counts_ = position_error_counts;
+}
+
 // ---- time ---------------------------------------------------------------------------------------------------------------------
 
 void Drive::connection_lost(std::uint16_t code, FrameList& out) {
@@ -98,7 +119,7 @@ void Drive::connection_back(FrameList& out) {
 
 void Drive::supervise_following(std::uint64_t now_us) {
   const double window = static_cast<double>(objects_.get(0x6065));
-  const double error = std::fabs(static_cast<double>(objects_.get(0x607A)) - motor_.position_counts());
+  const double error = std::fabs(static_cast<double>(objects_.get(0x607A)) - encoder_offset_counts_ - motor_.position_counts());
   if (power_ != PowerState::kOperationEnabled || error <= window) {
     following_since_us_ = now_us;
     following_error_ = false;
@@ -142,7 +163,9 @@ void Drive::tick(std::uint64_t now_us, FrameList& out) {
   emergencies_.clear();
 }
 
-void Drive::move(double step_s, double load_permille) { motor_.step(step_s, load_permille, static_cast<double>(objects_.get(0x6072))); }
+void Drive::move(double step_s, double load_permille) {
+  motor_.step(step_s, load_permille, std::min(static_cast<double>(objects_.get(0x6072)), defects_.most_torque_permille));
+}
 
 DriveCounts Drive::counts() const {
   DriveCounts counts = counts_;

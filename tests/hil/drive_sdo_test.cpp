@@ -123,7 +123,7 @@ TEST_F(DriveNode, AnswersNoSdoWhenStoppedAndSendsNothingWhenSilentOrDead) {
   EXPECT_TRUE(sdo({0x40, 0x00, 0x10, 0}).empty());
   give(0x000, {0x80, kNode});
   EXPECT_TRUE(read(0x1000, 0));
-  drive_.set_silent();
+  drive_.defects().silent = true;
   EXPECT_TRUE(sdo({0x40, 0x00, 0x10, 0}).empty());
 }
 

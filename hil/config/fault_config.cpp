@@ -1,0 +1,161 @@
+#include "hil/config/fault_config.hpp"
+
+#include <algorithm>
+
+#include "hil/config/json_file.hpp"
+
+namespace liana::bench {
+
+namespace {
+
+constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
+constexpr int kMostSlots = 2000000000;
+
+struct Parameter {
+  const char* name = nullptr;
+  double FaultParameters::*value = nullptr;
+  double low = 0.0;
+  double high = 0.0;
+  bool whole = false;
+  bool required = false;
+};
+
+struct Kind {
+  const char* name;
+  FaultKind kind;
+  bool can_end;  // the others leave something behind that no time takes back
+  std::vector<Parameter> parameters;
+};
+
+const std::vector<Kind>& kinds() {
+  using P = FaultParameters;
+  static const std::vector<Kind> all = {
+      {"missing", FaultKind::kMissing, true, {}},
+      {"wrong_identity", FaultKind::kWrongIdentity, false, {}},
+      {"silent", FaultKind::kSilent, true, {}},
+      {"fault", FaultKind::kFault, false, {{"code", &P::code, 1, 0xFFFF, true, false}}},
+      {"sto", FaultKind::kSto, false, {}},
+      {"slack", FaultKind::kSlack, true, {}},
+      {"late", FaultKind::kLate, true, {{"cycles", &P::cycles, 1, 100, true, false}}},
+      {"stuck", FaultKind::kStuck, true, {}},
+      {"noisy", FaultKind::kNoisy, true, {{"counts", &P::counts, 0, 1e6, false, false}, {"permille", &P::permille, 0, 1e4, false, false}}},
+      {"wrong_pdo_length", FaultKind::kWrongPdoLength, true, {{"bytes", &P::bytes, 0, 8, true, false}}},
+      {"emcy", FaultKind::kEmcy, false, {{"code", &P::code, 1, 0xFFFF, true, true}}},
+      {"reboot", FaultKind::kReboot, false, {}},
+      {"wrong_identity_after_reboot", FaultKind::kWrongIdentityAfterReboot, false, {}},
+      {"encoder_jump", FaultKind::kEncoderJump, false, {{"counts", &P::counts, -1e6, 1e6, true, true}}},
+      {"cable_slip", FaultKind::kCableSlip, false, {{"length_m", &P::length_m, 1e-6, 0.1, false, true}}},
+      {"cable_break", FaultKind::kCableBreak, false, {}},
+      {"motor_saturation", FaultKind::kMotorSaturation, true, {{"tension_N", &P::tension_N, 0, 1e4, false, true}}}};
+  return all;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+void refuse_others(const JsonFile& file, const std::string& field, const std::vector<std::string>& allowed) {
+  for (const std::string& key : file.keys(field))
+    if (std::find(allowed.begin(), allowed.end(), key) == allowed.end())
+      file.fail(field + "/" + key, "is not known here; allowed are " + listed(allowed));
+}
+
+const Kind& read_kind(const JsonFile& file, const std::string& field) {
+  const std::string name = file.text(field);
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds()) {
+    if (name == kind.name) return kind;
+    names.emplace_back(kind.name);
+  }
+  file.fail(field, "is \"" + name + "\"; allowed are " + listed(names));
+}
+
+std::vector<std::size_t> read_drives(const JsonFile& file, const std::string& field, std::size_t count) {
+  const int last = static_cast<int>(count) - 1;
+  std::vector<std::size_t> drives;
+  if (file.is_text(field)) {
+    if (file.text(field) != "all") file.fail(field, "is \"" + file.text(field) + "\"; allowed are an index, a list of them, or \"all\"");
+    for (std::size_t i = 0; i < count; ++i) drives.push_back(i);
+    return drives;
+  }
+  if (!file.is_list(field)) return {static_cast<std::size_t>(file.integer(field, 0, last))};
+  for (std::size_t i = 0; i < file.size(field); ++i)
+    drives.push_back(static_cast<std::size_t>(file.integer(field + "/" + std::to_string(i), 0, last)));
+  if (drives.empty()) file.fail(field, "is an empty list; name at least one drive");
+  std::vector<std::size_t> sorted = drives;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) file.fail(field, "names a drive twice; name each once");
+  return drives;
+}
+
+std::uint32_t read_slots(const JsonFile& file, const std::string& field, int low) {
+  return static_cast<std::uint32_t>(file.integer(field, low, kMostSlots));
+}
+
+FaultCondition read_condition(const JsonFile& file, const std::string& field, std::size_t theta_count) {
+  refuse_others(file, field, {"theta", "above_deg", "below_deg", "enabled", "moving", "for_slots"});
+  FaultCondition when;
+  const bool above = file.has(field + "/above_deg");
+  const bool below = file.has(field + "/below_deg");
+  if (file.has(field + "/theta")) {
+    when.theta = static_cast<std::size_t>(file.integer(field + "/theta", 1, static_cast<int>(theta_count)) - 1);
+    if (!above && !below) file.fail(field, "names theta, but neither above_deg nor below_deg; add one");
+  } else if (above || below) {
+    file.fail(field + "/theta", "is missing beside above_deg or below_deg; allowed is 1 to " + std::to_string(theta_count));
+  }
+  if (above) when.above_rad = kRadPerDeg * file.number(field + "/above_deg", -180.0, 180.0);
+  if (below) when.below_rad = kRadPerDeg * file.number(field + "/below_deg", -180.0, 180.0);
+  for (const auto& [name, flag] : {std::pair{"/enabled", &when.enabled}, std::pair{"/moving", &when.moving}}) {
+    if (!file.has(field + name)) continue;
+    if (!file.is_true(field + name)) file.fail(field + name, "can only be true; leave it out instead");
+    *flag = true;
+  }
+  if (!when.theta && !when.enabled && !when.moving) file.fail(field, "names no condition; add theta, enabled or moving");
+  if (file.has(field + "/for_slots")) when.for_slots = read_slots(file, field + "/for_slots", 1);
+  return when;
+}
+
+FaultParameters read_parameters(const JsonFile& file, const std::string& field, const Kind& kind) {
+  FaultParameters values;
+  for (const Parameter& parameter : kind.parameters) {
+    const std::string name = field + "/" + parameter.name;
+    if (!parameter.required && !file.has(name)) continue;
+    values.*parameter.value = parameter.whole ? file.integer(name, static_cast<int>(parameter.low), static_cast<int>(parameter.high))
+                                              : file.number(name, parameter.low, parameter.high);
+  }
+  if (kind.kind == FaultKind::kNoisy && values.counts == 0.0 && values.permille == 0.0)
+    file.fail(field, "is noisy by nothing; add counts or permille above 0");
+  return values;
+}
+
+FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size_t drive_count, std::size_t theta_count) {
+  const Kind& kind = read_kind(file, field + "/kind");
+  std::vector<std::string> allowed{"drive", "kind", "at_slot", "when"};
+  if (kind.can_end) allowed.emplace_back("for_slots");
+  for (const Parameter& parameter : kind.parameters) allowed.emplace_back(parameter.name);
+  refuse_others(file, field, allowed);
+
+  FaultConfig fault;
+  fault.drives = read_drives(file, field + "/drive", drive_count);
+  fault.kind = kind.kind;
+  fault.name = kind.name;
+  if (file.has(field + "/at_slot") == file.has(field + "/when")) file.fail(field, "needs exactly one of at_slot and when");
+  if (file.has(field + "/at_slot")) fault.at_slot = read_slots(file, field + "/at_slot", 0);
+  if (file.has(field + "/when")) fault.when = read_condition(file, field + "/when", theta_count);
+  if (file.has(field + "/for_slots")) fault.for_slots = read_slots(file, field + "/for_slots", 1);
+  fault.parameters = read_parameters(file, field, kind);
+  return fault;
+}
+
+}  // namespace
+
+std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count, std::size_t theta_count) {
+  const JsonFile file(path, "");
+  std::vector<FaultConfig> faults;
+  for (std::size_t i = 0; i < file.size(""); ++i) faults.push_back(read_fault(file, "/" + std::to_string(i), drive_count, theta_count));
+  return faults;
+}
+
+}  // namespace liana::bench

@@ -1,0 +1,66 @@
+// The fault list of the bench: which drive, what, from when, how long (docs/hil.md).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace liana::bench {
+
+enum class FaultKind {
+  kMissing,
+  kWrongIdentity,
+  kSilent,
+  kFault,
+  kSto,
+  kSlack,
+  kLate,
+  kStuck,
+  kNoisy,
+  kWrongPdoLength,
+  kEmcy,
+  kReboot,
+  kWrongIdentityAfterReboot,
+  kEncoderJump,
+  kCableSlip,
+  kCableBreak,
+  kMotorSaturation
+};
+
+// What a kind can be told; the kinds that have no use for a value ignore it.
+struct FaultParameters {
+  double cycles = 1.0;    // SYNC periods
+  double counts = 0.0;    // encoder
+  double permille = 0.0;  // of rated torque
+  double bytes = 7.0;
+  double code = 0x2310;  // emergency code; the default is continuous over-current
+  double length_m = 0.0;
+  double tension_N = 0.0;  // at the drum
+};
+
+// All that is named has to hold for `for_slots` slots in a row.
+struct FaultCondition {
+  std::optional<std::size_t> theta;  // 0-based; its true angle has to lie in [above, below]
+  double above_rad = -1e9;
+  double below_rad = 1e9;
+  bool enabled = false;  // every drive in Operation enabled
+  bool moving = false;   // some true angle turns faster than kMoving_rad_s
+  std::uint32_t for_slots = 1;
+};
+
+struct FaultConfig {
+  std::vector<std::size_t> drives;  // 0-based, at least one
+  FaultKind kind = FaultKind::kFault;
+  std::string name;                      // of the kind
+  std::optional<std::uint32_t> at_slot;  // without it `when` decides
+  FaultCondition when;
+  std::optional<std::uint32_t> for_slots;  // then it ends; without it, it stays
+  FaultParameters parameters;
+};
+
+// Reads a JSON list of faults; throws std::runtime_error naming file, field, value and what is allowed.
+std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count, std::size_t theta_count);
+
+}  // namespace liana::bench

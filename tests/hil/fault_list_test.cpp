@@ -1,0 +1,166 @@
+// The fault list: what is read and refused, when faults begin and end, and the faults that need an arm to be seen.
+#include "bench_harness.hpp"
+
+namespace liana::bench {
+namespace {
+
+std::vector<FaultConfig> faults_of(const std::string& text) {
+  const std::string path = temporary("faults.json");
+  std::ofstream(path) << text;
+  return load_faults(path, 15, 10);
+}
+
+struct Outcome {
+  Truth truth;
+  nlohmann::json summary;
+  int tpdos = 0;
+  int boot_ups = 0;
+  std::array<int, 15> torque_permille{};
+};
+
+// All drives are enabled from slot 49 on; from slot 90 on all targets move by `counts_per_slot`.
+Outcome run_with(const std::string& faults, std::uint32_t slots, int counts_per_slot = 0) {
+  BenchOptions options = options_of(1);
+  options.truth_path = temporary("truth.bin");
+  options.summary_path = temporary("summary.json");
+  options.faults = faults_of(faults);
+  ScriptedBus bus(slots, counts_per_slot);
+  {
+    Bench bench(options);
+    bench.run(bus);
+  }
+  return {read_truth(options.truth_path), nlohmann::json::parse(content(options.summary_path)), bus.tpdos, bus.boot_ups,
+          bus.torque_permille};
+}
+
+TEST(FaultList, IsReadWithDrivesParametersAndConditions) {
+  const auto faults = faults_of(R"([
+    {"drive":3,"kind":"fault","at_slot":7},
+    {"drive":[1,14],"kind":"noisy","counts":20,"when":{"theta":3,"above_deg":-6,"below_deg":5,"moving":true,"for_slots":9},"for_slots":50},
+    {"drive":"all","kind":"motor_saturation","tension_N":55,"when":{"enabled":true}}])");
+  ASSERT_EQ(faults.size(), 3U);
+  EXPECT_EQ(faults[0].drives, std::vector<std::size_t>{3});
+  EXPECT_EQ(faults[0].at_slot, 7U);
+  EXPECT_EQ(faults[0].parameters.code, 0x2310);
+  EXPECT_EQ(faults[1].drives, (std::vector<std::size_t>{1, 14}));
+  EXPECT_EQ(faults[1].parameters.counts, 20.0);
+  EXPECT_EQ(faults[1].when.theta, 2U) << "0-based";
+  EXPECT_NEAR(faults[1].when.above_rad, -6.0 * kRadPerDeg, 1e-12);
+  EXPECT_NEAR(faults[1].when.below_rad, 5.0 * kRadPerDeg, 1e-12);
+  EXPECT_TRUE(faults[1].when.moving);
+  EXPECT_FALSE(faults[1].when.enabled);
+  EXPECT_EQ(faults[1].when.for_slots, 9U);
+  EXPECT_EQ(faults[1].for_slots, 50U);
+  EXPECT_FALSE(faults[1].at_slot);
+  EXPECT_EQ(faults[2].drives.size(), 15U);
+  EXPECT_EQ(faults[2].parameters.tension_N, 55.0);
+}
+
+TEST(FaultList, RefusesWhatItDoesNotUnderstandWithFieldAndWhatIsAllowed) {
+  struct Case {
+    const char* fault;
+    std::vector<const char*> words;
+  };
+  const Case cases[] = {
+      {R"({"drive":15,"kind":"fault","at_slot":1})", {"/0/drive", "15", "0.0 to 14.0"}},
+      {R"({"drive":"some","kind":"fault","at_slot":1})", {"/0/drive", "some", "all"}},
+      {R"({"drive":[],"kind":"fault","at_slot":1})", {"/0/drive", "at least one"}},
+      {R"({"drive":[2,2],"kind":"fault","at_slot":1})", {"/0/drive", "twice"}},
+      {R"({"drive":[2,15],"kind":"fault","at_slot":1})", {"/0/drive/1", "15"}},
+      {R"({"drive":3,"kind":"tired","at_slot":1})", {"/0/kind", "tired", "allowed are missing, wrong_identity", "cable_break"}},
+      {R"({"drive":3,"kind":"fault"})", {"exactly one of at_slot and when"}},
+      {R"({"drive":3,"kind":"fault","at_slot":1,"when":{"moving":true}})", {"exactly one of at_slot and when"}},
+      {R"({"drive":3,"kind":"fault","at_slot":-1})", {"/0/at_slot", "-1"}},
+      {R"({"drive":3,"kind":"fault","at_slto":1})", {"/0/at_slto", "not known", "at_slot"}},
+      {R"({"drive":3,"kind":"fault","at_slot":1,"for_slots":5})", {"/0/for_slots", "not known"}},
+      {R"({"drive":3,"kind":"silent","at_slot":1,"for_slots":0})", {"/0/for_slots", "0"}},
+      {R"({"drive":3,"kind":"silent","at_slot":1,"counts":5})", {"/0/counts", "not known"}},
+      {R"({"drive":3,"kind":"encoder_jump","at_slot":1})", {"/0/counts", "missing"}},
+      {R"({"drive":3,"kind":"encoder_jump","at_slot":1,"counts":0.5})", {"/0/counts", "whole"}},
+      {R"({"drive":3,"kind":"noisy","at_slot":1})", {"counts or permille"}},
+      {R"({"drive":3,"kind":"late","at_slot":1,"cycles":0})", {"/0/cycles", "0"}},
+      {R"({"drive":3,"kind":"wrong_pdo_length","at_slot":1,"bytes":9})", {"/0/bytes", "9"}},
+      {R"({"drive":3,"kind":"emcy","at_slot":1})", {"/0/code", "missing"}},
+      {R"({"drive":3,"kind":"emcy","at_slot":1,"code":65536})", {"/0/code", "65536"}},
+      {R"({"drive":3,"kind":"cable_slip","at_slot":1,"length_m":1})", {"/0/length_m", "0.1"}},
+      {R"({"drive":3,"kind":"motor_saturation","at_slot":1,"tension_N":-1})", {"/0/tension_N", "-1"}},
+      {R"({"drive":3,"kind":"sto","when":{}})", {"/0/when", "no condition"}},
+      {R"({"drive":3,"kind":"sto","when":{"theta":11,"above_deg":1}})", {"/0/when/theta", "11"}},
+      {R"({"drive":3,"kind":"sto","when":{"theta":3}})", {"/0/when", "above_deg"}},
+      {R"({"drive":3,"kind":"sto","when":{"above_deg":3}})", {"/0/when/theta", "missing"}},
+      {R"({"drive":3,"kind":"sto","when":{"moving":false}})", {"/0/when/moving", "true"}},
+      {R"({"drive":3,"kind":"sto","when":{"moving":true,"for_slots":0}})", {"/0/when/for_slots", "0"}},
+      {R"({"drive":3,"kind":"sto","when":{"resting":true}})", {"/0/when/resting", "not known"}},
+      {R"({"drive":3,"kind":"sto","when":7})", {"/0/when"}},
+      {R"(5)", {"/0"}}};
+  for (const Case& test : cases) {
+    try {
+      faults_of(std::string("[") + test.fault + "]");
+      ADD_FAILURE() << test.fault << " was accepted";
+    } catch (const std::runtime_error& error) {
+      for (const char* word : test.words)
+        EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << test.fault << ": " << error.what();
+    }
+  }
+  EXPECT_THROW(faults_of("{}"), std::runtime_error);
+}
+
+TEST(FaultsOfTheBench, HitTheDriveAndTheSlotTheyName) {
+  for (const auto& [kind, expected] : {std::pair{"missing", 14.0}, std::pair{"fault", 14.0}, std::pair{"sto", 14.0},
+                                       std::pair{"silent", 15.0}, std::pair{"slack", 15.0}}) {
+    const Outcome run = run_with(std::string(R"([{"drive":3,"at_slot":120,"kind":")") + kind + "\"}]", 160);
+    EXPECT_EQ(run.truth.at(119, "enabled"), 15.0);
+    EXPECT_EQ(run.truth.at(159, "enabled"), expected);
+    EXPECT_EQ(run.truth.at(159, "tension_min_N") == 0.0, std::string(kind) == "slack");
+    const bool quiet = std::string(kind) == "missing" || std::string(kind) == "silent";
+    EXPECT_EQ(run.tpdos, quiet ? 15 * 140 - 40 : 15 * 140);
+    EXPECT_EQ(run.summary.at("faults")[0].at("begun_slot"), 120);
+    EXPECT_TRUE(run.summary.at("faults")[0].at("ended_slot").is_null());
+  }
+}
+
+TEST(FaultsOfTheBench, EndAfterTheSlotsTheyLast) {
+  const Outcome silent = run_with(R"([{"drive":[3,4],"kind":"silent","at_slot":120,"for_slots":10}])", 160);
+  EXPECT_EQ(silent.tpdos, 15 * 140 - 20);
+  EXPECT_EQ(silent.summary.at("faults")[0].at("ended_slot"), 130);
+  const Outcome missing = run_with(R"([{"drive":3,"kind":"missing","at_slot":120,"for_slots":10}])", 160);
+  EXPECT_EQ(missing.boot_ups, 16) << "it boots when its power is back";
+  EXPECT_EQ(missing.truth.at(159, "enabled"), 14.0);
+}
+
+TEST(FaultsOfTheBench, WaitForTheirConditionAndBeginOnce) {
+  const Outcome enabled = run_with(R"([{"drive":3,"kind":"sto","when":{"enabled":true,"for_slots":20}}])", 160);
+  const int begun = enabled.summary.at("faults")[0].at("begun_slot");
+  EXPECT_LT(enabled.truth.at(static_cast<std::size_t>(begun) - 20, "enabled"), 15.0) << "the first of twenty slots comes after this one";
+  EXPECT_EQ(enabled.truth.at(static_cast<std::size_t>(begun) - 19, "enabled"), 15.0);
+  EXPECT_EQ(enabled.truth.at(static_cast<std::size_t>(begun) + 1, "enabled"), 14.0);
+  EXPECT_LT(begun, 90);
+
+  const Outcome moving = run_with(R"([{"drive":3,"kind":"sto","when":{"moving":true,"enabled":true,"for_slots":3}}])", 160, 5);
+  EXPECT_GT(moving.summary.at("faults")[0].at("begun_slot"), 90) << "targets move from slot 90 on";
+
+  const Outcome resting = run_with(R"([{"drive":3,"kind":"sto","when":{"theta":3,"above_deg":30}}])", 160, 5);
+  EXPECT_TRUE(resting.summary.at("faults")[0].at("begun_slot").is_null());
+  const Outcome there = run_with(R"([{"drive":3,"kind":"sto","when":{"theta":3,"below_deg":-5}}])", 160, 5);
+  EXPECT_EQ(there.summary.at("faults")[0].at("begun_slot"), 0) << "theta 3 starts at -12 deg";
+}
+
+TEST(FaultsOfTheBench, NoiseIsInTheTorqueThatIsReported) {
+  const Outcome quiet = run_with(R"([])", 160);
+  const Outcome noisy = run_with(R"([{"drive":3,"kind":"noisy","permille":200,"at_slot":100}])", 160);
+  EXPECT_GT(std::abs(quiet.torque_permille[3] - static_cast<std::int16_t>(noisy.torque_permille[3])), 5);
+  EXPECT_EQ(quiet.torque_permille[4], noisy.torque_permille[4]) << "the others' readings are what they were";
+}
+
+TEST(FaultsOfTheBench, ASlipLosesTensionInProportionAndABreakAllOfIt) {
+  const Outcome quiet = run_with(R"([])", 160);
+  const Outcome slipped = run_with(R"([{"drive":3,"kind":"cable_slip","length_m":0.0002,"at_slot":120}])", 160);
+  const Outcome broken = run_with(R"([{"drive":3,"kind":"cable_break","at_slot":120}])", 160);
+  EXPECT_LT(slipped.torque_permille[3], quiet.torque_permille[3] - 2);
+  EXPECT_GT(slipped.torque_permille[3], 0);
+  EXPECT_EQ(broken.torque_permille[3], 0);
+  EXPECT_EQ(broken.truth.at(159, "tension_min_N"), 0.0);
+}
+
+}  // namespace
+}  // namespace liana::bench
