@@ -47,7 +47,7 @@ TAIL = """## What the peers are
 - `textbook`: every hole of every disc, hole to hole; derivative by central differences.
 - `fcl`, `libccd`: no broad phase anywhere. All but `fcl` only say whether two bodies touch.
 - `ipopt_straight`: Ipopt with our problem, derivatives and rounds, but from the straight line in theta instead of our start paths. One call each,
-  the final check included; the remark says how it ended.
+  the final check included, counted to within 0.01 %; the remark says how it ended.
 
 Ticks are whole calls of `Controller::tick` with ideal drives, 100 in each phase. The median is over the phases in which the controller holds or
 moves the arm (all but disabled and fault), the worst over every tick.
