@@ -1,8 +1,9 @@
 #include "host/daemon/arbiter.hpp"
 
+#include <algorithm>
 #include <string>
 
-#include "firmware_like/motion/keep_clear.hpp"
+#include "firmware_like/motion/goal_ik.hpp"
 #include "firmware_like/safety/faults.hpp"
 #include "host/api/request_error.hpp"
 
@@ -14,6 +15,7 @@ namespace {
 constexpr double kArrived_m = 1e-5;
 constexpr double kArrived_rad = 1e-5;
 constexpr std::int32_t kSettledIntervals = 10;
+constexpr double kLed_m = 0.005;            // nodes nearer than this to the shape that was found are there
 constexpr std::int32_t kRestIntervals = 3;  // a command released before the stop may still be on its way
 
 bool has_nodes(const NodeTargets& nodes) {
@@ -77,12 +79,38 @@ void Arbiter::hold_theta(const Outputs& now, std::uint32_t mask, const ThetaVect
   if (mode_ == Mode::kIdle && !device_.engaged()) stay_here(now);
 }
 
-void Arbiter::shape(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear) {
+void Arbiter::shape(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear, bool search) {
   require_ready(now);
+  if (search && now.at_rest == 0) throw RequestError("busy", "search looks for a shape of the arm at rest: wait for it or send hold");
   nodes_ = nodes;
   clear_ = clear;
+  lead_ = search ? nodes_of_best(now) : NodeTargets{};
   unchanged_intervals_ = 0;
   if (mode_ == Mode::kIdle && !device_.engaged()) stay_here(now);
+}
+
+// Nodes of the best shape for the tip as it stands; none when no solution was found.
+NodeTargets Arbiter::nodes_of_best(const Outputs& now) const {
+  const GoalIkResult best = solve_goal(table_, {now.tip_command, now.theta_command_rad, held_mask_, held_rad_, nodes_, clear_});
+  NodeTargets out{};
+  if (!best.converged) return out;
+  const ArmKinematics arm = forward_kinematics(table_, best.theta_rad);
+  const std::int32_t count = std::min(table_.segment_count - 1, kMaxNodeTargets);
+  for (std::int32_t node = 1; node <= count; ++node)
+    out[static_cast<std::size_t>(node - 1)] = {node, arm.node_in_base[static_cast<std::size_t>(node)].position_m, 1.0, 0.0};
+  return out;
+}
+
+// The lead is over when the nodes are there, or come no nearer.
+void Arbiter::end_lead(const Outputs& now) {
+  bool there = true;
+  for (const NodeTarget& target : lead_) {
+    if (target.node == 0) continue;
+    there = there && norm(subtract(target.position_m, now.node_command_m[static_cast<std::size_t>(target.node - 1)])) < kLed_m;
+  }
+  if (!there && (unchanged_intervals_ < kSettledIntervals || now.at_rest == 0)) return;
+  lead_ = NodeTargets{};
+  unchanged_intervals_ = 0;
 }
 
 void Arbiter::use_device(const DeviceUse& use) {
@@ -126,7 +154,7 @@ Setpoint Arbiter::tip_setpoint(const Outputs& now) const {
   setpoint.tip_in_base = tip_goal_;
   setpoint.held_mask = held_mask_;
   setpoint.held_rad = held_rad_;
-  setpoint.node = nodes_;
+  setpoint.node = has_nodes(lead_) ? lead_ : nodes_;
   setpoint.clear = clear_;
   setpoint.tip_speed_m_s = zone_.advice_at(now.tip_command.position_m, zone_.advice_at(tip_goal_.position_m, tip_speed_m_s_));
   if (device_node_.node == 0) return setpoint;
@@ -154,6 +182,7 @@ std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const Outputs
     held_mask_ = 0;
     nodes_ = {};
     clear_ = {};
+    lead_ = {};
     return std::nullopt;
   }
   const bool going_back = mode_ == Mode::kRetract && rest_intervals_ >= kRestIntervals;
@@ -165,6 +194,7 @@ std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const Outputs
   if (steer) return steered_setpoint(now, *steer);
   if (was_engaged_) mode_ = Mode::kIdle;  // the operator let go: stop along the path
   was_engaged_ = false;
+  if (has_nodes(lead_)) end_lead(now);
   if (mode_ == Mode::kTip && has_arrived(now)) mode_ = Mode::kIdle;
   ++unchanged_intervals_;
   return mode_ == Mode::kTip ? std::optional(tip_setpoint(now)) : std::nullopt;

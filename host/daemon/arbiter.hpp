@@ -21,8 +21,9 @@ class Arbiter {
   void servo_tip(const Outputs& now, const Pose& goal);
   // Held variables: bit i of mask holds theta i at held_rad[i]; mask 0 releases all.
   void hold_theta(const Outputs& now, std::uint32_t mask, const ThetaVector& held_rad);
-  // Null-space targets; unused entries have node = 0.
-  void shape(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear);
+  // Null-space targets; unused entries have node = 0. The core goes downhill from where it stands; with `search` (arm at rest) the goal IK
+  // looks for the best shape of all first, and the nodes are led there before the targets themselves are given.
+  void shape(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear, bool search);
   void use_device(const DeviceUse& use);
   // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until use_device is asked for.
   void retract(const Outputs& now, std::uint64_t until_tick);
@@ -52,6 +53,8 @@ class Arbiter {
   Setpoint tip_setpoint(const Outputs& now) const;
   Setpoint joint_setpoint(const ThetaVector& theta_rad) const;
   bool has_arrived(const Outputs& now) const;
+  NodeTargets nodes_of_best(const Outputs& now) const;
+  void end_lead(const Outputs& now);
   std::optional<Setpoint> planned_setpoint(const Outputs& now);
   std::optional<Setpoint> way_back_setpoint(const Outputs& now);
   std::optional<Setpoint> steered_setpoint(const Outputs& now, const SteerGoal& goal);
@@ -72,6 +75,7 @@ class Arbiter {
   ThetaVector held_rad_{};
   NodeTargets nodes_{};
   KeepClearTargets clear_{};
+  NodeTargets lead_{};  // to the shape that a search has found; unused: the targets themselves are in force
   NodeTarget device_node_{};
   double tip_speed_m_s_;
   bool was_engaged_ = false;

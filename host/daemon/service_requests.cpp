@@ -170,7 +170,7 @@ Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
                        number_field_or(entry, "weight", 0.0, 1000.0, 1.0)};
     }
   }
-  arbiter_.shape(now(), nodes, clear);
+  arbiter_.shape(now(), nodes, clear, request.contains("search") && flag_field(request, "search"));
   return Json::object();
 }
 

@@ -16,7 +16,8 @@ constexpr std::array<BindingField, 2> kMoveJp = {{{"goal_deg", "number[]", true}
 constexpr std::array<BindingField, 2> kMoveCp = {{{"goal", "number[]", true}, {"hold", "table[]", false}}};
 constexpr std::array<BindingField, 1> kServoCp = {{{"goal", "number[]", true}}};
 constexpr std::array<BindingField, 1> kHoldTheta = {{{"held", "table[]", true}}};
-constexpr std::array<BindingField, 2> kShape = {{{"nodes", "table[]", true}, {"keep_clear", "table[]", false}}};
+constexpr std::array<BindingField, 3> kShape = {
+    {{"nodes", "table[]", true}, {"keep_clear", "table[]", false}, {"search", "boolean", false}}};
 constexpr std::array<BindingField, 5> kUseDevice = {{{"device", "string", true},
                                                      {"scale", "number", false},
                                                      {"rotation_scale", "number", false},
@@ -45,6 +46,7 @@ constexpr std::array<Binding, 14> kBindings = {{{"acquire", {}},
 bool has_type(const nlohmann::json& value, const std::string& type) {
   if (type == "number") return value.is_number();
   if (type == "integer") return value.is_number_integer();
+  if (type == "boolean") return value.is_boolean();
   if (type == "string") return value.is_string();
   if (type == "table") return value.is_object();
   if (!value.is_array()) return false;

@@ -12,11 +12,12 @@ function actions.move_to(name, rate_deg_s)
 end
 
 -- Steers nodes by null-space targets { { node = 3, position_m = {x, y, z}, weight = 1, threshold_m = 0.01 }, ... } and pushes
--- the arm's middle away from points { { centre_m = {x, y, z}, distance_m = 0.3, weight = 1 }, ... } (optional).
-function actions.shape(nodes, keep_clear)
+-- the arm's middle away from points { { centre_m = {x, y, z}, distance_m = 0.3, weight = 1 }, ... } (optional). With `search` the best of
+-- all shapes is looked for and gone to first; the arm has to be at rest.
+function actions.shape(nodes, keep_clear, search)
   need("shape", "nodes", nodes, "table")
   if keep_clear ~= nil then need("shape", "keep_clear", keep_clear, "table") end
-  return function(arm) arm.shape { nodes = nodes, keep_clear = keep_clear } end
+  return function(arm) arm.shape { nodes = nodes, keep_clear = keep_clear, search = search } end
 end
 
 -- A command to the tool at the tip.

@@ -77,7 +77,8 @@ function arm.hold_theta(fields) end
 
 ---Null-space targets of nodes { { node = 3, position_m = {x,y,z}, weight = 1, threshold_m = 0.01 }, ... } and points
 ---that the arm's middle keeps its distance from { { centre_m = {x,y,z}, distance_m = 0.3, weight = 1 }, ... }; an empty list clears them.
----@param fields { nodes: table[], keep_clear?: table[] }
+---With `search` the best of all shapes is looked for and gone to first (arm at rest).
+---@param fields { nodes: table[], keep_clear?: table[], search?: boolean }
 ---@return integer id
 function arm.shape(fields) end
 

@@ -172,5 +172,19 @@ class TargetsTheArmCannotFollow(SystemTest):
             self.assert_stopped(truth, off, stop_deg=0.5, swing_deg=0.1)
 
 
+class Shapes(SystemTest):
+    def test_A43_a_search_finds_the_shape_that_brings_a_node_to_its_target_while_the_tip_stays(self):
+        with System() as system:
+            client = system.client()
+            client.enable()
+            tip, node = client.state["setpoint_cp"], client.state["node_m"][2]
+            target = [node[0], node[1] + 0.1, node[2] + 0.1]
+            must(client.ask("shape", nodes=[{"node": 3, "position_m": target, "threshold_m": 0.0}], search=True))
+            client.go_on(1.0)
+            self.assert_refused(client.ask("shape", nodes=[], search=True), "busy", "rest")
+            client.until(lambda state: math.dist(state["node_m"][2], target) < 0.005, limit_s=90.0)
+            self.assertLess(math.dist(client.state["setpoint_cp"][:3], tip[:3]), 1e-5)
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)

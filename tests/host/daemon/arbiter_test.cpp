@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/motion/goal_ik.hpp"
 #include "host/api/request_error.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
@@ -110,13 +111,52 @@ TEST_F(Arbitration, HeldVariablesAndShapeTravelWithTheTipGoal) {
   arbiter_.hold_theta(now_, 1u << 8, held);
   std::array<NodeTarget, kMaxNodeTargets> nodes{};
   nodes[0] = {2, {0.1, 0.2, 0.3}, 2.0, 0.02};
-  arbiter_.shape(now_, nodes, {});
+  arbiter_.shape(now_, nodes, {}, false);
   const auto setpoint = next();
   ASSERT_TRUE(setpoint);
   EXPECT_EQ(setpoint->kind, CommandKind::kTip);
   EXPECT_EQ(setpoint->held_mask, 1u << 8);
   EXPECT_EQ(setpoint->node[0].node, 2);
   EXPECT_EQ(setpoint->tip_in_base.position_m, now_.tip_command.position_m) << "the tip stays";
+}
+
+TEST_F(Arbitration, ASearchLeadsTheNodesToTheBestShapeAndThenGivesTheTargetsThemselves) {
+  NodeTargets nodes{};
+  nodes[0] = {3, {0.7, 0.3, 0.3}, 1.0, 0.0};
+  const GoalIkResult best = solve_goal(table_, {now_.tip_command, now_.theta_command_rad, 0, {}, nodes, {}});
+  ASSERT_TRUE(best.converged);
+  const ArmKinematics arm = forward_kinematics(table_, best.theta_rad);
+  arbiter_.shape(now_, nodes, {}, true);
+  now_.at_rest = 0;
+  const auto lead = next();
+  ASSERT_TRUE(lead);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(lead->node[i].node, static_cast<std::int32_t>(i) + 1);
+    EXPECT_EQ(lead->node[i].position_m, arm.node_in_base[i + 1].position_m);
+    now_.node_command_m[i] = arm.node_in_base[i + 1].position_m;
+  }
+  const auto target = next();
+  ASSERT_TRUE(target);
+  EXPECT_EQ(target->node[0].position_m, nodes[0].position_m);
+  EXPECT_EQ(target->node[1].node, 0);
+}
+
+TEST_F(Arbitration, ASearchWhoseShapeCannotBeReachedEndsWhenTheArmHasComeToRest) {
+  NodeTargets nodes{};
+  nodes[0] = {3, {0.7, 0.3, 0.3}, 1.0, 0.0};
+  arbiter_.shape(now_, nodes, {}, true);
+  std::optional<Setpoint> setpoint;
+  std::int32_t intervals = 0;
+  do setpoint = next();
+  while (setpoint && setpoint->node[1].node != 0 && ++intervals < 100);
+  ASSERT_TRUE(setpoint);
+  EXPECT_EQ(setpoint->node[0].position_m, nodes[0].position_m);
+  EXPECT_GE(intervals, 5) << "a request needs some intervals to show in the arm's report";
+}
+
+TEST_F(Arbitration, ASearchIsRefusedWhileTheArmMoves) {
+  now_.at_rest = 0;
+  EXPECT_EQ(code_of([&] { arbiter_.shape(now_, {}, {}, true); }), "busy");
 }
 
 TEST_F(Arbitration, TheOperatorSteersFromWhereTheTipIsWithTheSpeedOfTheDevice) {
