@@ -1,0 +1,90 @@
+"""Safety rules as checks over what a run left behind: the bus logs and truth.bin. Each gives a list of complaints, empty when the rule held."""
+import collections
+import math
+import re
+
+kEnableOperation = 0x0F
+kTargetOf = range(0x201, 0x280)
+kReportOf = range(0x181, 0x200)
+kLine = re.compile(r"\((\d+\.\d+)\) \S+ ([0-9A-F]{3})#([0-9A-F]*)")
+# The gate's own margin over the cable speed, and rounding of both ends to counts.
+kSpeedMargin, kRoundingCounts = 1.25, 2
+
+Command = collections.namedtuple("Command", "slot controlword target")
+Report = collections.namedtuple("Report", "slot position")
+
+
+def little_endian(text, first, count, signed=False):
+    return int.from_bytes(bytes.fromhex(text)[first:first + count], "little", signed=signed)
+
+
+class Traffic:
+    """Commands to and reports of every drive, by node, in the order of the wire."""
+
+    def __init__(self, log_texts, period_s):
+        self.commands, self.reports = collections.defaultdict(list), collections.defaultdict(list)
+        for text in log_texts:
+            for time, identifier, data in kLine.findall(text):
+                self.take(int(float(time) / period_s + 1e-6), int(identifier, 16), data)
+
+    def take(self, slot, identifier, data):
+        if identifier in kTargetOf and len(data) >= 12:
+            command = Command(slot, little_endian(data, 0, 2), little_endian(data, 2, 4, True))
+            self.commands[identifier - 0x200].append(command)
+        elif identifier in kReportOf and len(data) >= 12:
+            self.reports[identifier - 0x180].append(Report(slot, little_endian(data, 2, 4, True)))
+
+
+def is_enabling(command):
+    return command.controlword & 0x8F == kEnableOperation
+
+
+def step_limit_counts(robot, period_s):
+    """Largest change of a target in one period that the gate may let pass."""
+    drives = robot["drives"]
+    metres_per_count = 2 * math.pi * drives["drum_radius_m"] / (drives["counts_per_turn"] * drives.get("gear", 1))
+    return robot["limits"]["cable_speed_m_s"] * period_s * kSpeedMargin / metres_per_count + kRoundingCounts
+
+
+def target_steps(traffic, limit_counts):
+    """No target of an enabled drive changes more than the limit from one period to the next."""
+    complaints = []
+    for node, commands in sorted(traffic.commands.items()):
+        for before, now in zip(commands, commands[1:]):
+            periods = max(1, now.slot - before.slot)
+            step = abs(now.target - before.target)
+            if is_enabling(before) and is_enabling(now) and step > limit_counts * periods:
+                complaints.append(f"node {node}, slot {now.slot}: the target changes by {step} counts, allowed are {limit_counts * periods:.0f}")
+    return complaints
+
+
+def enabling_without_clear(traffic, first_slot, end_slot):
+    """Between the stop and the operator's clear and enable, no drive is told to enable operation."""
+    complaints = []
+    for node, commands in sorted(traffic.commands.items()):
+        found = [command.slot for command in commands if first_slot <= command.slot < end_slot and is_enabling(command)]
+        if found:
+            complaints.append(f"node {node}, slot {found[0]}: told to enable operation while the fault is latched ({len(found)} times)")
+    return complaints
+
+
+def drums_that_move(traffic, first_slot, end_slot, left_out=(), allowed_counts=1):
+    """Brakes hold: between the stop and the operator's enable, the drives report one place. `left_out`: nodes whose reports are the fault."""
+    complaints = []
+    for node, reports in sorted(traffic.reports.items()):
+        places = [report.position for report in reports if first_slot <= report.slot < end_slot]
+        if node not in left_out and places and max(places) - min(places) > allowed_counts:
+            complaints.append(f"node {node}: the drum moves by {max(places) - min(places)} counts while the fault is latched")
+    return complaints
+
+
+def drives_with_torque(enabled, first_slot, end_slot):
+    """From the end of the stop to the operator's enable, no drive is in Operation enabled; `enabled` is the column of truth.bin."""
+    found = [slot for slot, count in enumerate(enabled) if first_slot <= slot < end_slot and count > 0]
+    return [f"slot {found[0]}: {enabled[found[0]]:.0f} drives are enabled while the fault is latched"] if found else []
+
+
+def numbers_that_are_none(rows):
+    """Every number of truth.bin is finite."""
+    broken = [i for i, row in enumerate(rows) if not all(math.isfinite(value) for value in row)]
+    return [f"row {broken[0]} of truth.bin holds a number that is not finite"] if broken else []

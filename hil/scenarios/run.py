@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""Runs the scenarios of this folder in bring-up order; `./dev hil` builds first and calls this."""
+import argparse
+import fnmatch
+import json
+import pathlib
+import sys
+import time
+
+import scenario
+
+kWhere = "embedded bus, lockstep"
+kNotThere = ("latency histograms and pairs of faults", "the virtual machine: vcan, SJA1000, error states, bus-off", "faults of the host")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="dev hil", description="scenarios of the bench, in bring-up order")
+    parser.add_argument("--only", metavar="PATTERN", help="only scenarios whose name holds this text or matches it, e.g. 40_faults or '*/late*'")
+    parser.add_argument("--json", metavar="FILE", type=pathlib.Path, help="write the results here")
+    parser.add_argument("--reduced", action="store_true", help="only the scenarios marked reduced (what ./dev test runs)")
+    parser.add_argument("--check", action="store_true", help="read the scenarios and these options, run nothing")
+    return parser.parse_args()
+
+
+def chosen(options):
+    wanted = [one for one in scenario.all_scenarios() if one.reduced or not options.reduced]
+    if options.only:
+        wanted = [one for one in wanted if options.only in one.name or fnmatch.fnmatch(one.name, options.only)]
+    if not wanted:
+        raise scenario.BadScenario(f"--only: {options.only} names no scenario; they are {', '.join(one.name for one in scenario.all_scenarios())}")
+    return wanted
+
+
+def run_one(one):
+    run, start, why = scenario.Run(one), time.monotonic(), ""
+    try:
+        run.go()
+    except (scenario.Failed, AssertionError, OSError, ValueError, KeyError) as error:
+        why = f"{type(error).__name__}: {error}"
+    seconds = time.monotonic() - start
+    print(f"{'FAILED' if why else 'passed'}  {one.name}  {seconds:.1f} s  {', '.join(run.notes)}{'  ' + why if why else ''}", flush=True)
+    row = {"name": one.name, "where": kWhere, "outcome": "failed" if why else "passed", "seconds": round(seconds, 2), "why": why, "notes": run.notes}
+    return row, [{"scenario": one.name, "rule": rule} for rule in run.violations]
+
+
+def main():
+    options = arguments()
+    try:
+        wanted = chosen(options)
+        if options.json:
+            options.json.open("a").close()
+    except scenario.BadScenario as error:
+        print(f"dev hil: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"dev hil: --json: {options.json} cannot be written: {error.strerror}; give a file in a directory that exists", file=sys.stderr)
+        return 2
+    if options.check:
+        return 0
+    rows, violations = [], []
+    for one in wanted:
+        row, broken = run_one(one)
+        rows.append(row)
+        violations += broken
+    failed = [row["name"] for row in rows if row["outcome"] != "passed"]
+    faults = sum(one.fault_count() for one in wanted)
+    if options.json:
+        options.json.write_text(json.dumps({"scenarios": rows, "faults": faults, "violations": violations}, indent=1) + "\n")
+    print(f"{len(rows) - len(failed)} passed, {len(failed)} failed; {faults} faults injected, {len(violations)} violations; where: {kWhere}")
+    print(f"not there yet, so not run: {'; '.join(kNotThere)}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

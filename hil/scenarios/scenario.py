@@ -1,0 +1,205 @@
+"""One scenario: read it, run it on the embedded bus in lockstep, judge it (hil/scenarios/README.md)."""
+import json
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "tests" / "system"))
+
+import predicates  # noqa: E402
+from liana_system import System, brief, must  # noqa: E402
+
+kMoveDeg = 6.0
+kTravelDeg = 1.0  # of any angle from the fault to the end, where a scenario says nothing else
+kRested = 250  # ticks looked at after the end state, and after a clear
+kSelfReports = ("noisy", "encoder_jump", "late", "stuck")  # what these drives report is not where their drums are
+
+kFields = {"about": str, "during": str, "faults": list, "bus_script": list, "expect": dict, "reduced": bool}
+kExpected = {"fault": (int, type(None)), "index": int, "detail": int, "within_ticks": int, "state": str, "stopped_within_ticks": int, "travel_deg": (int, float),
+             "after_clear": str}
+kDuring = ("boot", "rest", "move")
+
+
+class BadScenario(Exception):
+    pass
+
+
+class Failed(Exception):
+    pass
+
+
+def check_fields(name, found, allowed, required):
+    for key, value in found.items():
+        if key not in allowed:
+            raise BadScenario(f"{name}: {key} is not known; allowed are {', '.join(allowed)}")
+        if not isinstance(value, allowed[key]) or (allowed[key] is int and isinstance(value, bool)):
+            raise BadScenario(f"{name}: {key} is {json.dumps(value)}, of the wrong type; see hil/scenarios/README.md")
+    for key in required:
+        if key not in found:
+            raise BadScenario(f"{name}: {key} is missing; add it")
+
+
+class Scenario:
+    def __init__(self, path):
+        self.name = f"{path.parent.name}/{path.stem}"
+        try:
+            content = json.loads(path.read_text())
+        except ValueError as error:
+            raise BadScenario(f"{path}: is not JSON: {error}") from None
+        if not isinstance(content, dict):
+            raise BadScenario(f"{self.name}: must be a JSON object")
+        check_fields(self.name, content, kFields, ("about", "during", "expect"))
+        expect = content["expect"]
+        check_fields(f"{self.name}: expect", expect, kExpected, ("fault", "state"))
+        if content["during"] not in kDuring:
+            raise BadScenario(f"{self.name}: during is {content['during']}; allowed are {', '.join(kDuring)}")
+        if expect["fault"] is not None and not {"index", "within_ticks"} <= expect.keys():
+            raise BadScenario(f"{self.name}: expect: a fault needs index and within_ticks")
+        if expect["fault"] is not None and content["during"] != "boot" and "stopped_within_ticks" not in expect:
+            raise BadScenario(f"{self.name}: expect: a fault of an enabled arm needs stopped_within_ticks")
+        self.during, self.expect = content["during"], expect
+        self.faults, self.bus_script = content.get("faults"), content.get("bus_script")
+        self.about, self.reduced = content["about"], content.get("reduced", False)
+
+    def fault_count(self):
+        return len(self.faults or []) + len(self.bus_script or [])
+
+
+def all_scenarios(folder=HERE):
+    """In bring-up order."""
+    return [Scenario(path) for path in sorted(folder.glob("[0-9]*/*.json"))]
+
+
+def expect_that(condition, message):
+    if not condition:
+        raise Failed(message)
+
+
+class Run:
+    """A scenario under way. `notes` says what was measured, `violations` which safety rules were broken."""
+
+    def __init__(self, scenario):
+        self.scenario, self.expect = scenario, scenario.expect
+        self.latched = self.enabled_again = None  # ticks
+        self.notes, self.violations = [], []
+
+    def go(self):
+        with System(faults=self.scenario.faults, bus_script=self.scenario.bus_script) as system:
+            client = system.client()
+            self.bring_up(client)
+            self.watch(client)
+            self.stay(client)
+            if "after_clear" in self.expect:
+                self.clear(client)
+            end = client.state["tick"]
+            codes = system.shut_down(client)
+            expect_that(set(codes.values()) == {0}, f"a program did not end well: {codes}")
+            self.judge(system, end)
+        expect_that(not self.violations, "; ".join(self.violations))
+
+    def bring_up(self, client):
+        must(client.ask("acquire"))
+        client.until(lambda state: state["faults"] or (state["state"] != "BOOTING" and state["is_homed"]))
+        if self.scenario.during == "boot":
+            return
+        expect_that(not client.state["faults"], f"a fault before the arm was enabled: {brief(client.state)}")
+        must(client.ask("state_command", command="enable"))
+        client.until(lambda state: state["faults"] or (state["state"] == "ENABLED" and state["at_rest"]))
+        if self.scenario.during == "move" and not client.state["faults"]:
+            goal = list(client.state["setpoint_js_deg"])
+            goal[8] -= kMoveDeg
+            must(client.ask("move_jp", goal_deg=goal))
+
+    def watch(self, client):
+        """Goes on until the expected fault, or, when none is expected, until the motion has ended."""
+        number = self.expect["fault"]
+        if number is None:
+            client.go_on(1.0)
+            client.until(lambda state: state["faults"] or not state["is_busy"], 60)
+            client.go_on(1.0)
+            expect_that(not client.state["faults"], f"no fault was expected: {brief(client.state)}")
+            return
+        try:
+            client.until(lambda state: any(fault["number"] == number for fault in state["faults"]), 60)
+        except AssertionError:
+            raise Failed(f"fault {number} was expected, but: {brief(client.state)}") from None
+        first = client.state["faults"][0]
+        self.latched = first["tick"]
+        expect_that((first["number"], first["index"]) == (number, self.expect["index"]),
+                    f"{number} of {self.expect['index']} was expected first, but: {brief(client.state)}")
+        if "detail" in self.expect:
+            expect_that(first["detail"] == self.expect["detail"], f"detail {self.expect['detail']} was expected, but: {first['detail']}")
+
+    def stay(self, client):
+        """The end state, for a second: nothing clears itself, and nothing moves or enables without a clear."""
+        wanted = self.expect["state"]
+        try:
+            client.until(lambda state: state["state"] == wanted)
+        except AssertionError:
+            raise Failed(f"state {wanted} was expected, but: {brief(client.state)}") from None
+        if self.latched is None:
+            return
+        end = client.state["tick"] + kRested
+        client.until(lambda state: state["tick"] >= end)
+        expect_that(client.state["state"] == wanted and client.state["faults"], f"the fault did not stay: {brief(client.state)}")
+        if wanted == "FAULT":
+            for op, words in (("state_command", {"command": "enable"}), ("move_jp", {"goal_deg": client.state["setpoint_js_deg"]})):
+                answer = client.ask(op, **words)
+                expect_that(answer["op"] == "error", f"{op} was accepted while a fault is latched: {answer}")
+
+    def clear(self, client):
+        wanted = self.expect["after_clear"]
+        must(client.ask("state_command", command="clear"))
+        client.until(lambda state: any("cleared" in event["text"] for event in state["events"]))
+        if wanted != "FAULT":
+            client.until(lambda state: state["state"] == "DISABLED" and not state["faults"])
+        if wanted == "ENABLED":
+            self.enabled_again = client.state["tick"]
+            must(client.ask("state_command", command="enable"))
+            client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
+        end = client.state["tick"] + kRested
+        client.until(lambda state: state["tick"] >= end)
+        expect_that(client.state["state"] == wanted, f"after the clear {wanted} was expected, but: {brief(client.state)}")
+
+    def begun(self, system):
+        """The slot in which the first fault began; 0 without one."""
+        courses = system.json("bench_summary.json")["faults"]
+        missing = [course["kind"] for course in courses if course["begun_slot"] is None]
+        expect_that(not missing, f"never began: {', '.join(missing)}")
+        slots = [course["begun_slot"] for course in courses] + [rule["from_slot"] for rule in self.scenario.bus_script or []]
+        return min(slots, default=0)
+
+    def judge(self, system, end):
+        begun, truth = self.begun(system), system.truth()
+        period_s = 1.0 / system.json("buses.json")["rate_hz"]
+        traffic = predicates.Traffic([path.read_text() for path in sorted(system.directory.glob("can*.log"))], period_s)
+        expect_that(self.scenario.during == "boot" or traffic.commands, "no command on the wire: the rules had nothing to look at")
+        self.violations += predicates.numbers_that_are_none(truth.rows)
+        self.violations += predicates.target_steps(traffic, predicates.step_limit_counts(system.json("robot.json"), period_s))
+        if self.latched is None:
+            return
+        took = self.latched - begun
+        self.notes.append(f"{self.expect['fault']} after {took} ticks")
+        expect_that(0 <= took <= self.expect["within_ticks"], f"latched {took} ticks after it began, allowed are {self.expect['within_ticks']}")
+        if self.expect["state"] == "FAULT":
+            self.judge_stop(truth, traffic, self.enabled_again or end)
+        travel, allowed = truth.travel_deg(begun, self.enabled_again or end), self.expect.get("travel_deg", kTravelDeg)
+        self.notes.append(f"travel {travel:.3f} deg")
+        expect_that(travel <= allowed, f"the arm travelled {travel:.2f} deg, allowed are {allowed}")
+
+    def judge_stop(self, truth, traffic, end):
+        stopped = self.latched + self.expect.get("stopped_within_ticks", 0)
+        enabled = truth.column("enabled")
+        last = max((slot for slot in range(self.latched, end) if enabled[slot] > 0), default=self.latched)
+        self.notes.append(f"without torque after {last - self.latched} ticks")
+        nodes = [1 + drive for course in self.self_reporting() for drive in course]
+        self.violations += predicates.drives_with_torque(enabled, stopped, end)
+        self.violations += predicates.enabling_without_clear(traffic, stopped, end)
+        self.violations += predicates.drums_that_move(traffic, stopped, end, nodes)
+
+    def self_reporting(self):
+        """Drives whose faults are in what they report."""
+        for fault in self.scenario.faults or []:
+            if fault["kind"] in kSelfReports:
+                drives = fault["drive"]
+                yield range(15) if drives == "all" else drives if isinstance(drives, list) else [drives]
