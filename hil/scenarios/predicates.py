@@ -68,6 +68,16 @@ def enabling_without_clear(traffic, first_slot, end_slot):
     return complaints
 
 
+def targets_that_move(traffic, first_slot, end_slot):
+    """From the end of the path stop to the operator's clear, the targets of drives that still hold the arm stay as they are."""
+    complaints = []
+    for node, commands in sorted(traffic.commands.items()):
+        targets = [command.target for command in commands if first_slot <= command.slot < end_slot and is_enabling(command)]
+        if targets and max(targets) != min(targets):
+            complaints.append(f"node {node}: the target moves by {max(targets) - min(targets)} counts while the fault is latched")
+    return complaints
+
+
 def drums_that_move(traffic, first_slot, end_slot, left_out=(), allowed_counts=1):
     """Brakes hold: between the stop and the operator's enable, the drives report one place. `left_out`: nodes whose reports are the fault."""
     complaints = []

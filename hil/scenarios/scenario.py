@@ -10,6 +10,7 @@ import predicates  # noqa: E402
 from liana_system import System, brief, must  # noqa: E402
 
 kMoveDeg = 6.0
+kPathStop = 500  # ticks; twice what rest from full speed takes
 kTravelDeg = 1.0  # of any angle from the fault to the end, where a scenario says nothing else
 kRested = 250  # ticks looked at after the end state, and after a clear
 kSelfReports = ("noisy", "encoder_jump", "late", "stuck")  # what these drives report is not where their drums are
@@ -181,6 +182,7 @@ class Run:
         took = self.latched - begun
         self.notes.append(f"{self.expect['fault']} after {took} ticks")
         expect_that(0 <= took <= self.expect["within_ticks"], f"latched {took} ticks after it began, allowed are {self.expect['within_ticks']}")
+        self.violations += predicates.targets_that_move(traffic, self.latched + kPathStop, self.enabled_again or end)
         if self.expect["state"] == "FAULT":
             self.judge_stop(truth, traffic, self.enabled_again or end)
         travel, allowed = truth.travel_deg(begun, self.enabled_again or end), self.expect.get("travel_deg", kTravelDeg)

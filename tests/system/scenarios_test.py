@@ -46,6 +46,12 @@ class Rules(unittest.TestCase):
         self.assertEqual(predicates.enabling_without_clear(traffic(commands), 11, 20), [])
         self.assertEqual(predicates.enabling_without_clear(traffic([(10, 0x8F, 0)]), 0, 20), [], "a fault reset enables nothing")
 
+    def test_a_target_that_moves_while_the_arm_holds_in_fault_is_found(self):
+        commands = [(10, 0x0F, 1000), (20, 0x0F, 1030), (21, 0x0F, 1030), (30, 0x0F, 1031)]
+        self.assertEqual(predicates.targets_that_move(traffic(commands), 20, 30), [])
+        self.assertEqual(len(predicates.targets_that_move(traffic(commands), 20, 31)), 1)
+        self.assertEqual(predicates.targets_that_move(traffic([(20, 0x00, 5), (21, 0x00, 9)]), 20, 31), [], "without torque a target follows the drum")
+
     def test_a_drum_that_moves_while_the_fault_is_latched_is_found(self):
         reports = [(10, 100), (11, 150), (12, 151), (13, 151), (20, 180)]
         self.assertEqual(predicates.drums_that_move(traffic(reports=reports), 11, 20), [])
