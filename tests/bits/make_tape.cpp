@@ -1,0 +1,144 @@
+#include "tests/bits/make_tape.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <ostream>
+#include <stdexcept>
+#include <vector>
+
+#include "firmware_like/controller.hpp"
+#include "host/record/mcap.hpp"
+#include "host/record/recording.hpp"
+#include "host/record/serialise.hpp"
+#include "tests/bits/tape.hpp"
+#include "tests/bits/what_ifs.hpp"
+
+namespace liana::bits {
+namespace {
+
+constexpr std::uint64_t kAtChange = 0, kAfterChange = 20;  // ticks after a change of state or of held variables: beginning, and in force
+
+struct RecordedTick {
+  std::string inputs, outputs;
+};
+
+struct RecordedRun {
+  std::optional<RobotTable> robot;
+  std::vector<RecordedTick> ticks;
+};
+
+RecordedRun read(const std::string& directory, std::uint64_t limit) {
+  RecordedRun run;
+  McapVisitor visitor;
+  visitor.message = [&](const std::string& topic, std::uint32_t, std::uint64_t, std::string_view data) {
+    if (topic == kStartTopic) run.robot = parse_image(data).table;
+    if (topic == kInputsTopic && run.ticks.size() < limit) run.ticks.push_back({std::string(data), {}});
+    if (topic == kOutputsTopic && !run.ticks.empty() && run.ticks.back().outputs.empty()) run.ticks.back().outputs = data;
+  };
+  const McapState state = read_mcap(directory + "/" + kRecordingFile, visitor);
+  if (state != McapState::kWhole || !run.robot || run.ticks.empty()) {
+    throw std::runtime_error("recording " + directory + ": not whole, or it does not begin at the start of a run; record it again");
+  }
+  return run;
+}
+
+// The same Inputs, but for the last bit of one motor position.
+std::string one_bit_off(const std::string& recorded) {
+  Inputs inputs = RecordingDecoder::inputs(recorded);
+  inputs.drive[0].position_counts ^= 1;
+  std::string bytes;
+  append_serialised(bytes, inputs);
+  return bytes;
+}
+
+class Maker {
+ public:
+  Maker(const TapeOptions& options, std::ostream& tape, std::ostream& expected, TapeSummary& summary)
+      : options_(options), tape_(tape), expected_(expected), summary_(summary) {}
+
+  void append(const RecordedRun& run) {
+    mark(Mark::kRobot);
+    std::string table;
+    append_serialised(table, *run.robot);
+    tape_ << table;
+    controller_.emplace(*run.robot);
+    for (std::size_t i = 0; i < run.ticks.size(); ++i) {
+      tick(run.ticks[i]);
+      if (is_branch(run, i)) branch(run, i + 1);
+    }
+  }
+
+ private:
+  void mark(Mark mark) { tape_.put(static_cast<char>(mark)); }
+
+  void tick(const RecordedTick& recorded) {
+    mark(Mark::kTick);
+    tape_ << (summary_.mission_ticks == options_.flip_at ? one_bit_off(recorded.inputs) : recorded.inputs);
+    expected_ << recorded.outputs;
+    out_ = outputs_from(recorded.outputs);
+    note_faults(out_);
+    controller_->tick(RecordingDecoder::inputs(recorded.inputs));
+    ++summary_.mission_ticks;
+    const bool changed = out_.state != state_ || out_.held_mask != held_mask_;
+    since_change_ = changed ? 0 : since_change_ + 1;
+    state_ = out_.state;
+    held_mask_ = out_.held_mask;
+  }
+
+  bool is_branch(const RecordedRun& run, std::size_t i) const {
+    return i + 1 < run.ticks.size() && (since_change_ == kAtChange || since_change_ == kAfterChange || (i + 1) % options_.apart == 0);
+  }
+
+  // What could have happened from recorded tick `next` on, as one branch each.
+  void branch(const RecordedRun& run, std::size_t next) {
+    mark(Mark::kKeep);
+    const Controller kept = *controller_;
+    for (const WhatIf& what_if : out_.state == OperatingState::kEnabled ? what_ifs_enabled() : what_ifs_enabling()) {
+      const std::size_t drive = summary_.what_ifs++ % static_cast<std::size_t>(run.robot->cable_count());
+      follow(run, next, what_if, drive);
+      mark(Mark::kReturn);
+      controller_ = kept;
+    }
+  }
+
+  void follow(const RecordedRun& run, std::size_t next, const WhatIf& what_if, std::size_t drive) {
+    for (std::uint32_t age = 0; age < what_if.ticks && next + age < run.ticks.size(); ++age) {
+      Inputs inputs = RecordingDecoder::inputs(run.ticks[next + age].inputs);
+      what_if.change(inputs, age, drive);
+      const Outputs outputs = controller_->tick(inputs);
+      note_faults(outputs);
+      std::string asked, answered;
+      append_serialised(asked, inputs);
+      append_serialised(answered, outputs);
+      mark(Mark::kTick);
+      tape_ << asked;
+      expected_ << answered;
+      ++summary_.what_if_ticks;
+    }
+  }
+
+  void note_faults(const Outputs& outputs) {
+    for (std::int32_t i = 0; i < outputs.faults.count; ++i)
+      summary_.faults.insert(outputs.faults.fault[static_cast<std::size_t>(i)].number);
+  }
+
+  TapeOptions options_;
+  std::ostream& tape_;
+  std::ostream& expected_;
+  TapeSummary& summary_;
+  std::optional<Controller> controller_;
+  Outputs out_{};  // of the last recorded tick
+  OperatingState state_ = OperatingState::kDisabled;
+  std::uint32_t held_mask_ = 0;
+  std::uint64_t since_change_ = 0;
+};
+
+}  // namespace
+
+void append_recording(const std::string& directory, const TapeOptions& options, std::ostream& tape, std::ostream& expected,
+                      TapeSummary& summary) {
+  Maker(options, tape, expected, summary).append(read(directory, options.limit));
+  if (!tape || !expected) throw std::runtime_error("tape: could not be written; is the disk full?");
+}
+
+}  // namespace liana::bits

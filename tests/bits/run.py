@@ -1,0 +1,194 @@
+"""The same bits from every build of the core: `./dev bits [--json FILE]`. Exit code 0 only if no tick differs, and planted differences are found."""
+import argparse
+import concurrent.futures
+import contextlib
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+TARGETS = pathlib.Path(__file__).resolve().parent / "target"
+QEMU = ["qemu-system-arm", "-M", "mps2-an500", "-nographic", "-monitor", "none", "-serial", "none",
+        "-semihosting-config", "enable=on,target=native", "-icount", "shift=5", "-kernel"]
+PATIENCE_S = 900  # wall clock after which a program counts as hung; nothing is measured by it
+
+
+class Failed(Exception):
+    """A step that had to work did not; the text says which and how."""
+
+
+class Target:
+    """One build of the core and its player."""
+
+    def __init__(self, name, compiler, options, planted="", quick=False):
+        self.name, self.compiler, self.options, self.planted, self.quick = name, compiler, options, planted, quick
+        self.is_m7 = compiler == "arm-none-eabi-g++"
+
+    def build(self, work):
+        folder = work / self.name
+        chosen = f"-DCMAKE_TOOLCHAIN_FILE={TARGETS / 'cortex_m7.cmake'}" if self.is_m7 else f"-DCMAKE_CXX_COMPILER={self.compiler}"
+        run(["cmake", "-G", "Ninja", "-S", TARGETS, "-B", folder, chosen, f"-DBITS_OPTIONS={self.options}", f"-DBITS_PLANTED={self.planted}"],
+            f"configuring {self.name}")
+        run(["ninja", "-C", folder, "-j", "1"], f"building {self.name}")
+        return folder
+
+    def play(self, folder, tape):
+        """Plays a tape and compares; what the Cortex-M7 counted comes along."""
+        with tempfile.TemporaryDirectory(dir=folder) as place:
+            answers = pathlib.Path(place)
+            os.symlink(tape.tape, answers / "tape.bits")
+            begin = time.monotonic()
+            run([*(QEMU if self.is_m7 else []), folder / "bits_ticks"], f"playing on {self.name}", cwd=answers)
+            result = {"name": self.name, "compiler": self.compiler, "options": self.options, "seconds": round(time.monotonic() - begin, 1),
+                      **tape.tool("compare", tape.expected, answers / "outputs.bits")}
+            if self.is_m7:
+                result["meter"] = tape.tool("meter", answers / "outputs.bits", answers / "meter.bits")
+        return result
+
+
+ALL_TARGETS = [
+    Target("gcc_O2", "g++", "-O2", quick=True),
+    Target("gcc_O3", "g++", "-O3"),
+    Target("clang_O2", "clang++", "-O2", quick=True),
+    Target("clang_O3", "clang++", "-O3"),
+    Target("gcc_O0", "g++", "-O0"),
+    Target("clang_O0", "clang++", "-O0"),
+    Target("gcc_sanitizers", "g++", "-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all"),
+    Target("cortex_m7_O2", "arm-none-eabi-g++", "-O2", quick=True),
+]
+FUSED = Target("cortex_m7_fused", "arm-none-eabi-g++", "-O2", planted="-ffp-contract=fast")
+
+# Mission, further options, exit code of `liana run`: the last is turned back by its operator, and does not succeed.
+SHORT_MISSION = (ROOT / "tests/system/missions/short.lua", [], 0)
+MISSIONS = [
+    ("slit_crossing", ["--seed", "1"], 0),
+    ("slit_crossing", ["--seed", "2", "--physics", "worn"], 0),
+    (ROOT / "tests/system/missions/back_out.lua", [], 1),
+]
+
+
+def run(words, what, expected=0, **options):
+    """A program to its end; returns its standard output."""
+    try:
+        done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=PATIENCE_S, check=False, **options)
+    except FileNotFoundError as reason:
+        raise Failed(f"{what}: {words[0]} is not there; ./dev bits installs it") from reason
+    except subprocess.TimeoutExpired as reason:
+        raise Failed(f"{what}: no end after {PATIENCE_S} s") from reason
+    if done.returncode != expected:
+        raise Failed(f"{what}: exit code {done.returncode}, not {expected}\n{(done.stdout + done.stderr)[-4000:]}")
+    return done.stdout
+
+
+def record(binaries, place, mission):
+    """Runs a mission in virtual time; returns the directory of its recording."""
+    what, options, expected = mission
+    home = pathlib.Path(tempfile.mkdtemp(dir=place))
+    run([binaries / "liana", "run", what, "--time", "fast", *options, "--record", home / "recording"], f"mission {what}", expected,
+        cwd=ROOT, env={**os.environ, "XDG_RUNTIME_DIR": str(home)})
+    return home / "recording"
+
+
+class Tape:
+    """A tape of recordings, and the Outputs that are expected of it."""
+
+    def __init__(self, binaries, place, name, recordings, *options):
+        self.program = binaries / "bits_tape"
+        self.tape, self.expected = place / f"{name}.tape", place / f"{name}.expected"
+        self.summary = self.tool("make", *options, self.tape, self.expected, *recordings)
+
+    def tool(self, *words):
+        return json.loads(run([self.program, *words], f"bits_tape {words[0]}"))
+
+
+def size_of(folder):
+    """Bytes of flash and static RAM of the least program with the core in it."""
+    text, data, bss = run(["arm-none-eabi-size", folder / "bits_footprint"], "arm-none-eabi-size").splitlines()[1].split()[:3]
+    return {"flash_bytes": int(text) + int(data), "static_ram_bytes": int(data) + int(bss)}
+
+
+def figures(folder, meter):
+    """What the core needs on the Cortex-M7."""
+    return {**size_of(folder), **meter, "worst_over_median": round(meter["worst_instructions"] / meter["median_instructions"], 3)}
+
+
+def measure(options, place, pool):
+    targets = [target for target in ALL_TARGETS if target.quick or not options.quick]
+    missions = [SHORT_MISSION] if options.quick else [*MISSIONS, SHORT_MISSION]
+    recorded = [pool.submit(record, options.bin, place, mission) for mission in missions]
+    built = {target: pool.submit(target.build, options.work) for target in [*targets, FUSED]}
+
+    recordings = [each.result() for each in recorded]
+    whole = Tape(options.bin, place, "whole", recordings, "--apart", "5000")
+    brief = Tape(options.bin, place, "brief", recordings[-1:], "--apart", "5000", "--limit", "2500")
+    flipped = Tape(options.bin, place, "flipped", recordings[-1:], "--apart", "5000", "--limit", "2500", "--flip-at", "1500")
+    for each in recordings:
+        shutil.rmtree(each.parent)
+
+    played = [pool.submit(target.play, built[target].result(), whole) for target in targets]
+    planted = {"fused multiply-add on the Cortex-M7": pool.submit(FUSED.play, built[FUSED].result(), brief),
+               "one bit of one input": pool.submit(targets[0].play, built[targets[0]].result(), flipped)}
+    results = [each.result() for each in played]
+    m7 = next(result for result in results if "meter" in result)
+    return {"tape": whole.summary, "targets": results, "planted": {what: each.result() for what, each in planted.items()},
+            "cortex_m7": figures(options.work / m7["name"], m7.pop("meter"))}
+
+
+def first_of(result):
+    first = result.get("first")
+    return f"; first: tick {first['tick']}, field {first['field']}" if first else ""
+
+
+def show(report):
+    tape, m7 = report["tape"], report["cortex_m7"]
+    print(f"{tape['mission_ticks']} ticks of missions, {tape['what_if_ticks']} of {tape['what_ifs']} planted faults and requests")
+    print("faults among them: " + " ".join(map(str, tape["faults"])) + "; not reached: " + " ".join(map(str, tape["faults_not_reached"])))
+    for result in report["targets"]:
+        print(f"{result['name']:16} {result['ticks']:8} ticks, {result['differing_ticks']} differ{first_of(result)}  ({result['seconds']} s)")
+    for what, result in report["planted"].items():
+        print(f"{'found' if result['differing_ticks'] else 'NOT FOUND'}: {what}: {result['differing_ticks']} of {result['ticks']} ticks differ{first_of(result)}")
+    print(f"Cortex-M7: flash {m7['flash_bytes']} bytes, RAM {m7['static_ram_bytes']} bytes and {m7['worst_stack_bytes']} of stack; instructions per tick: "
+          f"median {m7['median_instructions']:.0f} (enabled), worst {m7['worst_instructions']:.0f} (tick {m7['worst_tick']}, {m7['worst_state']}), "
+          f"{m7['worst_over_median']:.2f} times the median")
+
+
+def holds(report):
+    """No tick differs, and the comparison is one that finds differences."""
+    same = all(result["ticks"] > 0 and result["differing_ticks"] == 0 for result in report["targets"])
+    return same and all(result["differing_ticks"] > 0 for result in report["planted"].values())
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="./dev bits", description=__doc__)
+    parser.add_argument("--json", type=argparse.FileType("w"), metavar="FILE", help="also write what was measured as JSON")
+    parser.add_argument("--quick", action="store_true", help="a short mission, and fewer targets")
+    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/dev/bin", help="where the programs are")
+    parser.add_argument("--work", type=pathlib.Path, default=ROOT / "build/bits", help="where the targets are built")
+    return parser.parse_args()
+
+
+def main():
+    options = arguments()
+    options.work.mkdir(parents=True, exist_ok=True)
+    begin = time.monotonic()
+    with contextlib.ExitStack() as stack:
+        place = pathlib.Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="liana-bits-")))
+        pool = stack.enter_context(concurrent.futures.ThreadPoolExecutor(os.cpu_count()))
+        report = measure(options, place, pool)
+    report["seconds"] = round(time.monotonic() - begin, 1)
+    show(report)
+    if options.json:
+        json.dump(report, options.json, indent=1)
+    return 0 if holds(report) else 1
+
+
+if __name__ == "__main__":
+    try:
+        sys.exit(main())
+    except Failed as reason:
+        sys.exit(f"bits: {reason}")

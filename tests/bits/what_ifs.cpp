@@ -1,0 +1,85 @@
+#include "tests/bits/what_ifs.hpp"
+
+#include <limits>
+
+namespace liana {
+
+// Stand-in for the release step: a telecommand that no verifier has seen.
+class Release {
+ public:
+  static Telecommand make(std::uint64_t sequence, std::uint64_t first_tick, const Setpoint& setpoint) {
+    return {sequence, first_tick, first_tick + 1000, 1, setpoint};
+  }
+};
+
+namespace bits {
+namespace {
+
+constexpr std::uint32_t kBrief = 60;      // longer than every debounce, and than the quick stop takes to begin
+constexpr std::uint32_t kToTheEnd = 400;  // until the drives are without power, or are asked too long for it
+constexpr std::uint64_t kUnusedSequence = 1u << 30;
+constexpr std::uint16_t kSwitchOnDisabled = 0x0250, kInFault = 0x0218;
+
+void silent(Inputs& inputs, std::uint32_t age, std::size_t drive) {
+  inputs.drive[drive].feedback_age_ticks = static_cast<std::uint16_t>(age + 1);
+}
+void missing(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].heartbeat_age_ticks = 1000; }
+void in_fault(Inputs& inputs, std::uint32_t age, std::size_t drive) {
+  inputs.drive[drive].statusword = kInFault;
+  inputs.drive[drive].emergency_code = age == 1 ? 0x2310 : 0;
+}
+void off(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].statusword = kSwitchOnDisabled; }
+void not_operational(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].operational = 0; }
+void jumped(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].position_counts += 200000; }
+void slack(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].torque_permille = 0; }
+void alarming(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].torque_permille = 800; }
+void overloaded(Inputs& inputs, std::uint32_t, std::size_t drive) {
+  inputs.drive[drive].torque_permille = std::numeric_limits<std::int16_t>::max();
+}
+void bus_lost(Inputs& inputs, std::uint32_t, std::size_t) { inputs.lost_bus_mask = 2; }
+void late(Inputs& inputs, std::uint32_t age, std::size_t) { inputs.lost_ticks = age == 0 ? 10 : 0; }
+void nonsense(Inputs& inputs, std::uint32_t age, std::size_t) {
+  Setpoint setpoint;
+  setpoint.kind = CommandKind::kJoint;
+  setpoint.joint_rad[3] = std::numeric_limits<double>::quiet_NaN();
+  inputs.telecommand = Release::make(kUnusedSequence + age, inputs.tick, setpoint);
+}
+void no_telecommands(Inputs& inputs, std::uint32_t, std::size_t) { inputs.telecommand = Telecommand{}; }
+void stop(Inputs& inputs, std::uint32_t age, std::size_t) { inputs.request = age == 0 ? Request::kStop : Request::kNone; }
+void silent_then_cleared(Inputs& inputs, std::uint32_t age, std::size_t drive) {
+  if (age < 10) silent(inputs, age, drive);
+  if (age > 150) {
+    for (DriveFeedback& each : inputs.drive) each.statusword = kSwitchOnDisabled;
+  }
+  inputs.request = age == 300 ? Request::kClear : Request::kNone;
+}
+
+using enum FaultNumber;
+constexpr WhatIf kEnabled[] = {
+    {"a drive is silent", kDriveSilent, kBrief, silent},
+    {"a drive has no heartbeat", kDriveMissing, kBrief, missing},
+    {"a drive is in fault", kDriveFault, kBrief, in_fault},
+    {"a drive switches itself off", kDriveLeftOperation, kBrief, off},
+    {"a drive is not operational", kDriveNotOperational, kBrief, not_operational},
+    {"a position jumps", kFollowingError, kBrief, jumped},
+    {"a cable is slack", kCableSlack, kBrief, slack},
+    {"a tension is alarming", kTensionAlarm, kBrief, alarming},
+    {"a tension is over the hard limit", kCableOverload, kBrief, overloaded},
+    {"a bus is lost", kBusLost, kBrief, bus_lost},
+    {"ticks are lost", kTicksLost, kBrief, late},
+    {"telecommands hold what is not a number", kCommandInvalid, kBrief, nonsense},
+    {"no telecommand comes any more", kNone, kBrief, no_telecommands},
+    {"a stop is asked for, and the drives keep their power", kDriveStopTimeout, kToTheEnd, stop},
+    {"a silent drive comes back, and is cleared", kDriveSilent, kToTheEnd, silent_then_cleared},
+};
+constexpr WhatIf kEnabling[] = {
+    {"a drive does not follow while it is enabled", kDriveEnableTimeout, kToTheEnd, off},
+};
+
+}  // namespace
+
+std::span<const WhatIf> what_ifs_enabled() { return kEnabled; }
+std::span<const WhatIf> what_ifs_enabling() { return kEnabling; }
+
+}  // namespace bits
+}  // namespace liana
