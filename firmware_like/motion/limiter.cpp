@@ -95,7 +95,7 @@ void limit_motion(const RobotTable& table, const CableGeometry& geometry, const 
   }
   const bool follows = judged && state.reference_rad == state.theta_rad;
   const double factor = follows ? 1.0 : cable_factor(table, geometry, wanted, kCableShare);
-  state.limits = factor < 1.0 ? std::uint32_t{kLimitCableSpeed} : std::uint32_t{0};  // uint32_t is not everywhere unsigned int
+  state.limits = factor < 1.0 ? std::uint32_t{kLimitCableSpeed} : std::uint32_t{0};
   for (Index k = 0; k < n; ++k) {
     const double rate = clamp(wanted[k] * factor, -table.limits.theta_rate_rad_s, table.limits.theta_rate_rad_s);
     if (rate != wanted[k] * factor) state.limits |= kLimitThetaRate;

@@ -54,26 +54,13 @@ void silent_then_cleared(Inputs& inputs, std::uint32_t age, std::size_t drive) {
   inputs.request = age == 300 ? Request::kClear : Request::kNone;
 }
 
-using enum FaultNumber;
 constexpr WhatIf kEnabled[] = {
-    {"a drive is silent", kDriveSilent, kBrief, silent},
-    {"a drive has no heartbeat", kDriveMissing, kBrief, missing},
-    {"a drive is in fault", kDriveFault, kBrief, in_fault},
-    {"a drive switches itself off", kDriveLeftOperation, kBrief, off},
-    {"a drive is not operational", kDriveNotOperational, kBrief, not_operational},
-    {"a position jumps", kFollowingError, kBrief, jumped},
-    {"a cable is slack", kCableSlack, kBrief, slack},
-    {"a tension is alarming", kTensionAlarm, kBrief, alarming},
-    {"a tension is over the hard limit", kCableOverload, kBrief, overloaded},
-    {"a bus is lost", kBusLost, kBrief, bus_lost},
-    {"ticks are lost", kTicksLost, kBrief, late},
-    {"telecommands hold what is not a number", kCommandInvalid, kBrief, nonsense},
-    {"no telecommand comes any more", kNone, kBrief, no_telecommands},
-    {"a stop is asked for, and the drives keep their power", kDriveStopTimeout, kToTheEnd, stop},
-    {"a silent drive comes back, and is cleared", kDriveSilent, kToTheEnd, silent_then_cleared},
+    {kBrief, silent}, {kBrief, missing},  {kBrief, in_fault},        {kBrief, off},        {kBrief, not_operational},
+    {kBrief, jumped}, {kBrief, slack},    {kBrief, alarming},        {kBrief, overloaded}, {kBrief, bus_lost},
+    {kBrief, late},   {kBrief, nonsense}, {kBrief, no_telecommands}, {kToTheEnd, stop},    {kToTheEnd, silent_then_cleared},
 };
 constexpr WhatIf kEnabling[] = {
-    {"a drive does not follow while it is enabled", kDriveEnableTimeout, kToTheEnd, off},
+    {kToTheEnd, off},
 };
 
 }  // namespace

@@ -10,9 +10,7 @@
 namespace liana::bits {
 
 struct WhatIf {
-  const char* name;
-  FaultNumber leads_to;  // kNone: a request, no fault
-  std::uint32_t ticks;   // how long it is followed
+  std::uint32_t ticks;  // how long it is followed
   // Changes the Inputs of tick `age` (0 = the first) with drive `drive`.
   void (*change)(Inputs& inputs, std::uint32_t age, std::size_t drive);
 };

@@ -1,7 +1,6 @@
 // The Cortex-M7's meter: instructions of each tick, and how deep its stack goes.
 #include <cstdint>
 #include <cstdio>
-#include <vector>
 
 #include "tests/bits/tape.hpp"
 #include "tests/bits/target/meter.hpp"
@@ -20,7 +19,7 @@ struct SysTick {
 };
 SysTick* const sys_tick = reinterpret_cast<SysTick*>(0xE000E010);
 
-std::vector<Count> counts;
+std::FILE* meter = nullptr;  // what is written there is checked when it is closed
 
 std::uint32_t clocks_since(std::uint32_t before) noexcept { return (before - sys_tick->value) & kCounterMask; }
 
@@ -32,6 +31,10 @@ std::uint32_t calibration_clocks() noexcept {
   return clocks_since(before);
 }
 
+void write(const Count& count) noexcept {
+  if (meter != nullptr) std::fwrite(&count, sizeof count, 1, meter);
+}
+
 // Before main: opens the way to the host's files, and starts the counter.
 struct Start {
   Start() {
@@ -39,7 +42,8 @@ struct Start {
     sys_tick->reload = kCounterMask;
     sys_tick->value = 0;
     sys_tick->control = 5;  // on, processor clock, no interrupt
-    counts.push_back({calibration_clocks(), 0});
+    meter = std::fopen(kMeterFile, "wb");
+    write({calibration_clocks(), 0});
   }
 } start;
 
@@ -54,15 +58,10 @@ __attribute__((noinline)) Outputs metered_tick(Controller& controller, const Inp
   const Outputs outputs = controller.tick(inputs);
   const std::uint32_t clocks = clocks_since(before);
   while (*lowest == kPaint) ++lowest;
-  counts.push_back({clocks, static_cast<std::uint32_t>(stack_pointer - lowest) * sizeof(std::uint32_t)});
+  write({clocks, static_cast<std::uint32_t>(stack_pointer - lowest) * sizeof(std::uint32_t)});
   return outputs;
 }
 
-bool write_meter() {
-  std::FILE* const file = std::fopen(kMeterFile, "wb");
-  if (file == nullptr) return false;
-  const bool written = std::fwrite(counts.data(), sizeof(Count), counts.size(), file) == counts.size();
-  return std::fclose(file) == 0 && written;
-}
+bool close_meter() { return meter != nullptr && std::ferror(meter) == 0 && std::fclose(meter) == 0; }
 
 }  // namespace liana::bits

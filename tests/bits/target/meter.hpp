@@ -8,7 +8,7 @@ namespace liana::bits {
 // One tick; a target that can count does it here.
 Outputs metered_tick(Controller& controller, const Inputs& inputs) noexcept;
 
-// Writes what was counted, if anything; false when the disk refuses.
-bool write_meter();
+// Ends the file of what was counted, if anything was; false when the disk has refused any of it.
+bool close_meter();
 
 }  // namespace liana::bits

@@ -5,6 +5,6 @@ namespace liana::bits {
 
 Outputs metered_tick(Controller& controller, const Inputs& inputs) noexcept { return controller.tick(inputs); }
 
-bool write_meter() { return true; }
+bool close_meter() { return true; }
 
 }  // namespace liana::bits

@@ -75,7 +75,7 @@ int run() {
   const bool played = Player(tape, outputs).play();
   if (!played) std::fprintf(stderr, "bits_ticks: %s is no tape, or ends early, or the disk is full\n", kTapeFile);
   const bool closed = std::fclose(outputs) == 0 && std::fclose(tape) == 0;
-  return played && closed && write_meter() ? 0 : 1;
+  return played && closed && close_meter() ? 0 : 1;
 }
 
 }  // namespace
