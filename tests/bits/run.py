@@ -15,7 +15,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 TARGETS = pathlib.Path(__file__).resolve().parent / "target"
 QEMU = ["qemu-system-arm", "-M", "mps2-an500", "-nographic", "-monitor", "none", "-serial", "none",
         "-semihosting-config", "enable=on,target=native", "-icount", "shift=5", "-kernel"]
-NOT_REACHED = {5004, 6001}  # no stage raises the first; the stages before the gate leave it nothing to refuse
+NOT_REACHED = {5004, 6001}  # no stage raises the first; only a long mission brings the second
 PATIENCE_S = 900  # wall clock after which a program counts as hung; nothing is measured by it
 
 
@@ -147,7 +147,7 @@ def first_of(result):
 
 def show(report):
     tape, m7 = report["tape"], report["cortex_m7"]
-    print(f"{tape['mission_ticks']} ticks of missions, {tape['what_if_ticks']} of {tape['what_ifs']} planted faults and requests")
+    print(f"{tape['mission_ticks']} ticks of missions, {tape['what_if_ticks']} of {tape['what_ifs']} planted faults and commands")
     print("faults among them: " + " ".join(map(str, tape["faults"])) + "; not reached: " + " ".join(map(str, tape["faults_not_reached"])))
     for result in report["targets"]:
         print(f"{result['name']:16} {result['ticks']:8} ticks, {result['differing_ticks']} differ{first_of(result)}  ({result['seconds']} s)")

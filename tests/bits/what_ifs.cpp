@@ -15,8 +15,8 @@ class Release {
 namespace bits {
 namespace {
 
-constexpr std::uint32_t kBrief = 60;      // longer than every debounce, and than the quick stop takes to begin
-constexpr std::uint32_t kToTheEnd = 400;  // until the drives are without power, or are asked too long for it
+constexpr std::uint32_t kBrief = 60;  // longer than every debounce, and than the quick stop takes to begin
+constexpr std::uint32_t kLong = 400;  // until the drives are without power, or are asked too long for it; and a motion
 constexpr std::uint64_t kUnusedSequence = 1u << 30;
 constexpr std::uint16_t kSwitchOnDisabled = 0x0250, kInFault = 0x0218;
 
@@ -44,6 +44,19 @@ void nonsense(Inputs& inputs, std::uint32_t age, std::size_t) {
   setpoint.joint_rad[3] = std::numeric_limits<double>::quiet_NaN();
   inputs.telecommand = Release::make(kUnusedSequence + age, inputs.tick, setpoint);
 }
+// Every tip command asks for a shape as well: a node drawn aside, a point to keep away from.
+void shaped(Inputs& inputs, std::uint32_t, std::size_t) {
+  Setpoint setpoint = inputs.telecommand.setpoint();
+  if (setpoint.kind != CommandKind::kTip) return;
+  setpoint.node[0] = {2, {1.2, 0.3, 0.2}, 1.0, 0.0};
+  setpoint.clear[0] = {{0.8, 0.1, 0.1}, 0.3, 1.0};
+  inputs.telecommand = Release::make(inputs.telecommand.sequence(), inputs.telecommand.first_tick(), setpoint);
+}
+void straightened(Inputs& inputs, std::uint32_t age, std::size_t) {
+  Setpoint setpoint;
+  setpoint.kind = age == 0 ? CommandKind::kJoint : CommandKind::kNone;
+  inputs.telecommand = Release::make(kUnusedSequence, inputs.tick, setpoint);
+}
 void no_telecommands(Inputs& inputs, std::uint32_t, std::size_t) { inputs.telecommand = Telecommand{}; }
 void stop(Inputs& inputs, std::uint32_t age, std::size_t) { inputs.request = age == 0 ? Request::kStop : Request::kNone; }
 void silent_then_cleared(Inputs& inputs, std::uint32_t age, std::size_t drive) {
@@ -55,12 +68,26 @@ void silent_then_cleared(Inputs& inputs, std::uint32_t age, std::size_t drive) {
 }
 
 constexpr WhatIf kEnabled[] = {
-    {kBrief, silent}, {kBrief, missing},  {kBrief, in_fault},        {kBrief, off},        {kBrief, not_operational},
-    {kBrief, jumped}, {kBrief, slack},    {kBrief, alarming},        {kBrief, overloaded}, {kBrief, bus_lost},
-    {kBrief, late},   {kBrief, nonsense}, {kBrief, no_telecommands}, {kToTheEnd, stop},    {kToTheEnd, silent_then_cleared},
+    {kBrief, silent},
+    {kBrief, missing},
+    {kBrief, in_fault},
+    {kBrief, off},
+    {kBrief, not_operational},
+    {kBrief, jumped},
+    {kBrief, slack},
+    {kBrief, alarming},
+    {kBrief, overloaded},
+    {kBrief, bus_lost},
+    {kBrief, late},
+    {kBrief, nonsense},
+    {kBrief, no_telecommands},
+    {kLong, shaped},
+    {kLong, straightened},
+    {kLong, stop},
+    {kLong, silent_then_cleared},
 };
 constexpr WhatIf kEnabling[] = {
-    {kToTheEnd, off},
+    {kLong, off},
 };
 
 }  // namespace
