@@ -60,7 +60,7 @@ constexpr std::array<FaultInfo, 17> kFaultTable{{
     {kTicksLost, "ticks_lost", kStop, true, "More control deadlines in a row were lost than the drives tolerate.",
      "Run liana doctor, free the computer's cores from other work, then clear and enable again."},
     {kDriveMissing, "drive_missing", kStop, true, "A drive sent no heartbeat within the allowed time.",
-     "Check the drive's supply and its bus connector; let it boot again, then clear."},
+     "Check the drive's supply and its bus connector; when it comes back it is booted by itself: then clear."},
     {kDriveSilent, "drive_silent", kStop, true, "A drive sent no feedback for more than two ticks.",
      "Check the bus for errors and load, and the drive's supply, then clear."},
     {kDriveFault, "drive_fault", kStop, true, "A drive reports a fault; the detail is its emergency code.",
@@ -72,7 +72,8 @@ constexpr std::array<FaultInfo, 17> kFaultTable{{
     {kFollowingError, "following_error", kStop, true, "A motor does not follow its target within the allowed lag.",
      "Check brake, drum and cable for blockage; compare the servo time constant with the robot table, then clear."},
     {kDriveNotOperational, "drive_not_operational", kStop, true, "A drive left the NMT state operational.",
-     "The drive restarted or was stopped by another master; let it boot again, then clear."},
+     "The drive restarted or was stopped by another master; a restarted drive is booted by itself, a stopped one needs a reset: then "
+     "clear."},
     {kDriveStopTimeout, "drive_stop_timeout", kStop, true, "A drive did not confirm that it is without power.",
      "Use the STO switch; do not approach the arm before the drive shows Switch on disabled, then clear."},
     {kBusLost, "bus_lost", kStop, true, "A drive bus is down.", "Check connector, termination and interface state of the bus, then clear."},

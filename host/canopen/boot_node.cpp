@@ -114,12 +114,20 @@ void BootNode::next_object() noexcept {
 
 void BootNode::on_heartbeat(std::uint8_t state) noexcept {
   last_state_ = state & 0x7F;
-  if (last_state_ == kStateOperational && phase_ == NodePhase::kWaitOperational) return enter(NodePhase::kOperational);
+  if (last_state_ == kStateOperational && phase_ == NodePhase::kWaitOperational) {
+    was_operational_ = true;
+    return enter(NodePhase::kOperational);
+  }
   if (last_state_ == kStateBootUp) restart();
 }
 
 // A boot-up message: the first one is what we wait for; after a later one everything we wrote is gone.
 void BootNode::restart() noexcept {
+  if (was_operational_ && (phase_ == NodePhase::kOperational || phase_ == NodePhase::kFailed)) {
+    restarts_ = 0;
+    mismatch_ = BootMismatch{};
+    enter(NodePhase::kConfigured);
+  }
   const bool waiting = phase_ == NodePhase::kWaitBootUp && !out_waiting_;
   const bool configured = phase_ == NodePhase::kObjects || phase_ == NodePhase::kConfigured || phase_ == NodePhase::kWaitOperational;
   if (!waiting && !configured) return;

@@ -38,6 +38,7 @@ class BootNode {
   bool step(CanFrame& frame) noexcept;
   // The frame of the last step() has (or has not) been taken by the bus; if not, it comes again.
   void sent(bool accepted) noexcept;
+  // A boot-up message of a node that was operational, or failed after that, begins its plan again.
   void on_heartbeat(std::uint8_t state) noexcept;
   void on_sdo_response(const CanFrame& frame) noexcept;
 
@@ -65,6 +66,7 @@ class BootNode {
   int attempts_ = 0;                   // at the present transfer
   int restarts_ = 0;
   bool reading_back_ = false;
+  bool was_operational_ = false;    // from then on a boot-up message means that the drive has come back
   std::uint8_t last_state_ = 0xFF;  // NMT state last heard, 0xFF = none
   CanFrame out_;
   bool out_waiting_ = false;

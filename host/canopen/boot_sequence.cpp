@@ -29,6 +29,7 @@ void BootSequence::on_frame(int bus, const CanFrame& frame) noexcept {
       node.on_sdo_response(frame);
     } else if (frame.length == 1) {
       node.on_heartbeat(frame.data[0]);
+      if (was_operational_ && node.phase() == NodePhase::kObjects) state_ = BootState::kRunning;
     }
   }
 }
@@ -42,7 +43,10 @@ void BootSequence::update_state() noexcept {
   const int all = static_cast<int>(nodes_.size());
   const int failed = count(NodePhase::kFailed, NodePhase::kFailed);
   const int still_busy = count(NodePhase::kReset, NodePhase::kObjects);
-  if (count(NodePhase::kOperational, NodePhase::kOperational) == all) state_ = BootState::kOperational;
+  if (count(NodePhase::kOperational, NodePhase::kOperational) == all) {
+    state_ = BootState::kOperational;
+    was_operational_ = true;
+  }
   if (failed > 0 && still_busy == 0) state_ = BootState::kFailed;
   if (failed > 0 || still_busy > 0) return;
   for (BootNode& node : nodes_) node.allow_start();

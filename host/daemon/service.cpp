@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 #include <string_view>
 
 #include "host/api/request_error.hpp"
+#include "host/canopen/emergency.hpp"
 
 namespace liana {
 
@@ -115,12 +117,24 @@ void Service::watch_arm() {
   note("booting failed: " + text_of(notes_.boot_problems));
 }
 
+// What a drive reports beside its statusword; whether it is a fault, its statusword says.
+void Service::note_emergencies(const Inputs& inputs) {
+  for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
+    const std::uint16_t code = inputs.drive[i].emergency_code;
+    if (code == 0) continue;
+    char text[96];
+    std::snprintf(text, sizeof text, "drive %zu sent emergency 0x%04X: %s", i, static_cast<unsigned>(code), canopen::emergency_text(code));
+    note(text);
+  }
+}
+
 // Tick records and controller images for the archive. The image before the first tick makes a recording complete.
 void Service::forward_ticks() {
   const bool wanted = server_.has_subscriber(Topic::kTick);
   const TwinImage& image = link_.image.value();
   const std::uint64_t lost = link_.report.value().records_lost + server_.dropped_ticks();
   while (const TickRecord* record = link_.ticks.front()) {
+    note_emergencies(record->inputs);
     if (wanted) server_.publish(Topic::kTick, tick_packet(*record, lost));
     link_.ticks.pop();
   }

@@ -95,6 +95,7 @@ class Service : private ApiHandler {
   void watch_arm();
   void watch_slit();
   void note_clear();
+  void note_emergencies(const Inputs& inputs);
   void forward_ticks();
   void forward_camera();
   void publish_state();

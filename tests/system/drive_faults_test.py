@@ -101,6 +101,17 @@ class DrivesThatFailInMotion(SystemTest):
         self.ended(system, client)
         self.assertEqual(system.emergencies()[kNode][:2], [0x2310, 0])
 
+    def test_an_emergency_of_a_drive_that_goes_on_is_an_event_and_no_fault(self):
+        emergency = [{"drive": kDrive, "kind": "emcy", "code": 0x4210, "at_slot": kFaultSlot}]
+        with System(faults=emergency) as system:
+            client = system.client()
+            client.enable()
+            client.start_moving()
+            client.until(lambda state: says(state, f"drive {kDrive} sent emergency 0x4210: "))
+            self.assertEqual(client.state["faults"], [])
+            client.until(lambda state: not state["is_busy"])
+            self.assert_holds(client.state)
+
     def test_safe_torque_off_is_3004_and_a_drive_without_power_is_not_enabled_again(self):
         system, client = self.moving_into("sto")
         self.assert_fault(client.state, 3004, kDrive)

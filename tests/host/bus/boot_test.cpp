@@ -9,6 +9,7 @@
 
 #include "host/canopen/boot_sequence.hpp"
 #include "host/canopen/cob_id.hpp"
+#include "host/canopen/messages.hpp"
 #include "tests/host/bus/allocation_count.hpp"
 #include "tests/host/bus/fake_drive.hpp"
 
@@ -68,6 +69,9 @@ struct BootBench {
   int run() {
     boot = std::make_unique<BootSequence>(expected, kTiming);
     AllocationCount::clear();
+    return go_on();
+  }
+  int go_on() {
     int tick = 0;
     for (; boot->state() == BootState::kRunning && tick < 2000; ++tick) {
       if (before_tick) before_tick(tick);
@@ -276,6 +280,46 @@ TEST(Boot, ADriveThatRestartsIsConfiguredFromTheBeginningButNotForEver) {
   endless.drive(8).restarts = 1000;
   endless.run();
   EXPECT_EQ(endless.mismatch(8).failure, BootFailure::kRestarts);
+}
+
+// After the boot: reset communication, as a drive does by itself after a loss of power.
+void come_back(BootBench& bench, int node) {
+  const std::size_t d = static_cast<std::size_t>(node - 1);
+  bench.drive(node).writes.clear();
+  bench.deliver(bench.drive(node).receive(nmt_frame(kNmtResetCommunication, bench.drive(node).node)), d);
+}
+
+TEST(Boot, ADriveThatComesBackAfterTheBootIsConfiguredAgainAndTheOthersAreLeftAlone) {
+  BootBench bench;
+  bench.run();
+  for (FakeDrive& drive : bench.drives) drive.writes.clear();
+  for (int time = 0; time < 5; ++time) {  // as often as it likes
+    come_back(bench, 8);
+    EXPECT_EQ(bench.boot->state(), BootState::kRunning);
+    bench.go_on();
+    EXPECT_EQ(bench.boot->state(), BootState::kOperational);
+    EXPECT_EQ(bench.drive(8).state, kStateOperational);
+    EXPECT_EQ(std::count(bench.drive(8).writes.begin(), bench.drive(8).writes.end(), key(0x1400, 2)), 1);
+    EXPECT_TRUE(bench.drive(7).writes.empty());
+  }
+  EXPECT_EQ(AllocationCount::value(), 0);
+}
+
+TEST(Boot, ADriveThatComesBackAsAnotherIsNamedAndMayComeBackAsItself) {
+  BootBench bench;
+  bench.run();
+  const FakeDrive::Object right = bench.drive(8).objects[key(0x1018, 2)];
+  bench.drive(8).objects[key(0x1018, 2)].value += 1;
+  come_back(bench, 8);
+  bench.go_on();
+  EXPECT_EQ(bench.boot->state(), BootState::kFailed);
+  EXPECT_EQ(bench.mismatch(8).index, 0x1018);
+  EXPECT_NE(bench.drive(8).state, kStateOperational);
+  bench.drive(8).objects[key(0x1018, 2)] = right;
+  come_back(bench, 8);
+  bench.go_on();
+  EXPECT_EQ(bench.boot->state(), BootState::kOperational);
+  EXPECT_EQ(bench.mismatch(8).failure, BootFailure::kNone);
 }
 
 TEST(Boot, ADriveThatDoesNotStartIsReportedWithItsState) {
