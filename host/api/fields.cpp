@@ -34,6 +34,16 @@ double checked_number(const json& value, const std::string& name, double min, do
 
 }  // namespace
 
+void only_fields(const json& object, const std::vector<std::string>& allowed) {
+  if (!object.is_object()) return;  // the reading of a field says so
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
+    std::string names;
+    for (const std::string& name : allowed) names += (names.empty() ? "" : ", ") + name;
+    throw RequestError("bad_request", "field '" + key + "' is not known: allowed " + names);
+  }
+}
+
 double number_field(const json& object, const std::string& key, double min, double max) {
   return checked_number(field(object, key), key, min, max);
 }

@@ -10,6 +10,8 @@
 
 namespace liana {
 
+// Refuses (`bad_request`) the first key of an object that is not among `allowed`: a misspelt optional field must not pass unseen.
+void only_fields(const nlohmann::json& object, const std::vector<std::string>& allowed);
 // A number in [min, max]: `bad_request` when missing or no number, `out_of_range` outside.
 double number_field(const nlohmann::json& object, const std::string& key, double min, double max);
 // The same, or `fallback` when the key is missing.

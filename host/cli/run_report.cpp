@@ -152,7 +152,13 @@ json make_report(const ReportSources& sources) {
                  {"overruns", state.value("overruns", 0)},
                  {"faults", state.value("faults", json::array())},
                  {"buses", buses_of(state, read_json(sources.bus_stats_file))}};
-  if (report["outcome"] != "success") report["reason"] = sources.reason.empty() ? mission.value("reason", "") : sources.reason;
+  // The mission may have ended before the fault came; an arm that stands in a fault has not succeeded.
+  if (report["outcome"] == "success" && !report["faults"].empty()) {
+    report["outcome"] = "failed";
+    report["reason"] = "a fault is latched at the end";
+  } else if (report["outcome"] != "success") {
+    report["reason"] = sources.reason.empty() ? mission.value("reason", "") : sources.reason;
+  }
   if (std::filesystem::exists(sources.truth_file)) add_truth(report, sources, window);
   return report;
 }

@@ -140,6 +140,7 @@ RunEnd RunSession::interrupted() {
 
 // lianad has taken the stop, and the drives are without power.
 bool RunSession::is_stopped() const {
+  if (!last_state_.is_object()) return false;
   const std::string state = last_state_.value("state", "");
   return last_state_.value("stop", json()).is_object() && (state == "DISABLED" || state == "FAULT");
 }

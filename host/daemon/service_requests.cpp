@@ -143,6 +143,7 @@ Service::Json Service::on_hold_theta(const ClientInfo& client, const Json& reque
   std::uint32_t mask = 0;
   ThetaVector held_rad{};
   for (const Json& entry : array_field(request, "held", kMaxTheta)) {
+    only_fields(entry, {"theta", "target_deg"});
     const auto i = static_cast<std::size_t>(integer_field(entry, "theta", 1, table.theta_count())) - 1;
     const double limit_deg = table.segment[i / 2].theta_limit_rad / kDegree;
     held_rad[i] = number_field(entry, "target_deg", -limit_deg, limit_deg) * kDegree;
@@ -157,6 +158,7 @@ Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
   NodeTargets nodes{};
   std::size_t used = 0;
   for (const Json& entry : array_field(request, "nodes", nodes.size())) {
+    only_fields(entry, {"node", "position_m", "weight", "threshold_m"});
     const auto node = static_cast<std::int32_t>(integer_field(entry, "node", 1, config_.robot.table.segment_count - 1));
     nodes[used++] = {node, point_field(entry, "position_m", reach_m_),
                      number_field_or(entry, "weight", 0.0, 1000.0, default_node_weight(config_.robot.table, node)),
@@ -166,6 +168,7 @@ Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
   used = 0;
   if (request.contains("keep_clear")) {
     for (const Json& entry : array_field(request, "keep_clear", clear.size())) {
+      only_fields(entry, {"centre_m", "distance_m", "weight"});
       clear[used++] = {point_field(entry, "centre_m", reach_m_), number_field(entry, "distance_m", 0.0, reach_m_),
                        number_field_or(entry, "weight", 0.0, 1000.0, 1.0)};
     }

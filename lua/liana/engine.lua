@@ -100,6 +100,7 @@ function Runner:begin_step(index)
     start_tick = state.tick, end_tick = state.tick, duration_s = 0,
   }
   self.report.steps[index] = self.record
+  self.refusals_before = state.refusals
   if step.on_fail == "retract" and not self.first_retract_tick then self.first_retract_tick = state.tick end
   self.arm.begin_tick, self.arm.was_engaged, self.arm.must_hold = state.tick, false, step.hold
   self:request("announce", { step = { index = index, name = step.name, device = step.device, task = step.task } })
@@ -138,8 +139,17 @@ local function enter(runner)
   runner:enter_phase("run")
 end
 
+-- A motion that the script asked for has ended before its goal. (While an operator steers, a refusal is part of steering.)
+local function refused_motion(runner)
+  local state = runner.arm.state
+  if runner:step().device ~= "none" or state.refusals == runner.refusals_before then return false end
+  runner:fail("refused", "lianad refused the motion: " .. state.verdict.text)
+  return true
+end
+
 local function run(runner)
   local step, arm = runner:step(), runner.arm
+  if refused_motion(runner) then return end
   local fresh = runner:phase_s() >= kSettle_s -- before, the state may still speak of the step before
   if fresh and arm.state.device_engaged then arm.was_engaged = true end
   if fresh and not runner:waiting() and step.exit.met(arm) then return runner:end_step() end
@@ -244,6 +254,14 @@ local function stopped(runner)
   return true
 end
 
+-- A fault that only holds the arm leaves it enabled and at rest, as if it had arrived.
+local function held_by_fault(runner)
+  local under_way = runner.phase == "enter" or runner.phase == "run" or runner.phase == "finish"
+  if not under_way or #runner.arm.state.faults == 0 then return false end
+  runner:fail("failed", "fault " .. runner:fault_names())
+  return true
+end
+
 local function lost(runner)
   local owner = runner.arm.state.owner
   return runner.owned and runner.phase ~= "boot" and owner ~= nil and owner ~= runner.name and owner ~= ""
@@ -262,7 +280,7 @@ function Runner:on_state(state)
     if lost(self) then
       self.owned = false
       self:over("aborted", "motion belongs to " .. tostring(state.owner) .. " now")
-    else
+    elseif not held_by_fault(self) then
       kPhases[self.phase](self)
     end
   end

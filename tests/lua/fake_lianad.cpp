@@ -181,7 +181,10 @@ json FakeLianad::state() const {
   const bool fault = behaviour_.fault_in_step != 0 && step_ >= behaviour_.fault_in_step;
   const bool stopped = behaviour_.stop_in_step != 0 && step_ >= behaviour_.stop_in_step;
   const bool stolen = behaviour_.steal_in_step != 0 && step_ >= behaviour_.steal_in_step;
+  const bool held = behaviour_.hold_fault_in_step != 0 && step_ >= behaviour_.hold_fault_in_step;
+  const bool refused_motion = behaviour_.refuse_motion_in_step != 0 && step_ >= behaviour_.refuse_motion_in_step;
   json faults = json::array();
+  if (held) faults.push_back({{"number", 5001}, {"name", "cable_slack"}, {"index", 2}});
   if (fault) faults.push_back({{"number", 3101}, {"name", "drive_silent"}, {"index", 3}});
   return {{"op", "state"},
           {"tick", tick_},
@@ -203,6 +206,8 @@ json FakeLianad::state() const {
           {"held", held_},
           {"held_at_target", busy_intervals_ == 0},
           {"faults", faults},
+          {"refusals", refused_motion ? 1 : 0},
+          {"verdict", {{"text", "joint rate 1.2 of the limit"}}},
           {"planar_segments", planar_segments()},
           {"operator_says", said_}};
 }

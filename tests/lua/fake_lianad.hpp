@@ -18,6 +18,8 @@ struct FakeBehaviour {
   bool operator_arrives = true;                    // releases and says so in device steps
   bool operator_speaks_too_early = false;          // says "arrived" once, before step 2, and only then
   int fault_in_step = 0;                           // FAULT state while this step runs
+  int hold_fault_in_step = 0;                      // a fault that holds the arm and leaves it enabled
+  int refuse_motion_in_step = 0;                   // verification refuses a setpoint of the motion
   int stop_in_step = 0;                            // somebody presses the emergency stop
   int vanish_in_step = 0;                          // lianad dies
   int silent_in_step = 0;                          // sends no more states, waits for the runner to leave

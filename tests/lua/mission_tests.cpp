@@ -204,6 +204,27 @@ TEST(Mission, AStepThatWasCutOffLastedUntilTheLastState) {
   EXPECT_EQ(run.report["duration_s"], run.report["steps"][0]["duration_s"]);
 }
 
+TEST(Mission, AFaultThatOnlyHoldsTheArmFailsTheStepThoughTheArmIsAtRest) {
+  const MissionRun run = run_mission_against({.hold_fault_in_step = 1});
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_EQ(run.report["steps"][0]["outcome"], "failed");
+  EXPECT_NE(run.report["reason"].get<std::string>().find("fault 5001 cable_slack 2"), std::string::npos) << run.report;
+  EXPECT_EQ(run.last_command(), "hold");
+}
+
+TEST(Mission, AMotionOfTheScriptThatVerificationRefusesFailsItsStepWithTheReason) {
+  const MissionRun run = run_mission_against({.refuse_motion_in_step = 3});
+  EXPECT_EQ(run.report["outcome"], "refused");
+  EXPECT_EQ(run.report["steps"][2]["outcome"], "refused");
+  EXPECT_NE(run.report["reason"].get<std::string>().find("refused the motion: joint rate 1.2 of the limit"), std::string::npos)
+      << run.report;
+}
+
+TEST(Mission, ARefusalWhileTheOperatorSteersIsPartOfSteering) {
+  const MissionRun run = run_mission_against({.refuse_motion_in_step = 6});
+  EXPECT_EQ(run.report["outcome"], "success") << run.report;
+}
+
 TEST(Mission, ATimeLimitThatPassesDuringAMoveSaysSo) {
   const TemporaryFolder folder;
   const MissionRun run = run_mission_against(

@@ -96,6 +96,7 @@ class Requests(SystemTest):
         self.assert_refused(self.client.ask("hold_theta", held=[7]), "bad_request")
         self.assert_refused(self.client.ask("shape", nodes=[{"node": 5, "position_m": [0, 0, 0]}]), "out_of_range", "node")
         self.assert_refused(self.client.ask("shape", nodes=[{"node": 3, "position_m": [0, 0]}]), "bad_request", "position_m")
+        self.assert_refused(self.client.ask("shape", nodes=[{"node": 3, "position_m": [1, 0, 0], "wieght": 2}]), "bad_request", "wieght", "weight")
         self.assert_refused(self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [0, 0, 99], "distance_m": 0.1}]), "out_of_range", "centre_m")
         self.assert_refused(self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [1, 0, 0]}]), "bad_request", "distance_m")
         self.assert_refused(self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [1, 0, 0], "distance_m": 0.1}] * 5), "bad_request", "keep_clear")
