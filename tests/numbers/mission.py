@@ -17,11 +17,15 @@ DEG_PER_RAD = 57.29577951308232
 
 
 def planar_error_deg(recording):
-    """Largest true angle of what the steered steps hold at 0: X5 on the way into the slit, X4 and X5 on the way to the rod."""
+    """Largest true angle of what the steered steps hold at 0 (X5, then X4 and X5) while the tip is past the slit's mouth."""
     truth = Truth(recording / "truth.bin")
+    slit = json.loads((recording / "scene.json").read_text())["slit"]
+    tip = [truth.column(f"tip_{axis}_m") for axis in "xyz"]
+    inside = [sum(u * x for u, x in zip(slit["u_axis"], position)) > slit["mouth_u_m"] for position in zip(*tip)]
     steps = json.loads((recording / "mission.json").read_text())["steps"]
-    held = [(step, truth.column(f"theta_deg_{theta}")) for step in steps if step["device"] == "hand" for theta in step["held_theta"]]
-    return max((abs(angle) for step, column in held for angle in column[step["start_tick"]:step["end_tick"]]), default=0.0)
+    held = [(range(step["start_tick"], step["end_tick"]), truth.column(f"theta_deg_{theta}"))
+            for step in steps if step["device"] == "hand" for theta in step["held_theta"]]
+    return max((abs(angles[i]) for ticks, angles in held for i in ticks if inside[i]), default=0.0)
 
 
 def run_once(binaries, directory, physics, seed):
