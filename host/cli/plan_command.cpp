@@ -253,9 +253,11 @@ void print_text(const json& answer) {
               check["max_step_deg"].get<double>(), check["tip_error_m"].get<double>());
   if (!answer.contains("follow")) return;
   const json& follow = answer["follow"];
-  std::printf("followed %.3f m: tip within %.1f mm of the curve, body within %.1f mm of the tip's path, %.1f mm on average\n",
-              follow["curve_length_m"].get<double>(), 1000.0 * follow["tip_off_m"].get<double>(),
-              1000.0 * follow["body_off_m"].get<double>(), 1000.0 * follow["mean_body_off_m"].get<double>());
+  std::printf(
+      "followed %.3f m: tip within %.1f mm of the curve, body within %.1f mm of its line at the start and the tip's path, %.1f mm on "
+      "average\n",
+      follow["curve_length_m"].get<double>(), 1000.0 * follow["tip_off_m"].get<double>(), 1000.0 * follow["body_off_m"].get<double>(),
+      1000.0 * follow["mean_body_off_m"].get<double>());
 }
 
 int exit_code(PlanOutcome outcome) {
@@ -282,7 +284,9 @@ int plan_command(const PlanOptions& options) {
   } else {
     print_text(answer);
   }
-  if (!options.out_file.empty()) {
+  if (!options.out_file.empty() && result.outcome != PlanOutcome::solved) {  // an earlier plan in the file is worth more
+    std::fprintf(stderr, "plan: --out: nothing was written to %s: the outcome is %s\n", options.out_file.c_str(), name_of(result.outcome));
+  } else if (!options.out_file.empty()) {
     answer["inputs"] = inputs(options, request);
     write_output(options.out_file, answer.dump(1) + "\n");
   }

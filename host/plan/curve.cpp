@@ -59,13 +59,16 @@ CurvePlace Curve::at(double along_m) const {
   return {along_m, between(sample_m_[i - 1], sample_m_[i], share), scale(piece, 1.0 / norm(piece))};
 }
 
-CurvePlace Curve::nearest(const Vec3& point_m, double until_m) const {
-  double best_m = 1e300, along_m = 0.0;
-  for (Index i = 0; i + 1 < sample_m_.size() && along_m_[i] <= until_m; ++i) {
+CurvePlace Curve::nearest(const Vec3& point_m, double from_m, double until_m) const {
+  until_m = std::clamp(until_m, 0.0, length_m());
+  from_m = std::clamp(from_m, 0.0, until_m);
+  const auto after = std::upper_bound(along_m_.begin() + 1, along_m_.end() - 1, from_m);
+  double best_m = 1e300, along_m = from_m;
+  for (Index i = static_cast<Index>(after - along_m_.begin()) - 1; i + 1 < sample_m_.size() && along_m_[i] <= until_m; ++i) {
     const Vec3 piece = subtract(sample_m_[i + 1], sample_m_[i]);
     const double length_m = along_m_[i + 1] - along_m_[i];
-    const double share = std::clamp(dot(subtract(point_m, sample_m_[i]), piece) / (length_m * length_m), 0.0, 1.0);
-    const double here = std::min(along_m_[i] + share * length_m, until_m);
+    const double share = dot(subtract(point_m, sample_m_[i]), piece) / (length_m * length_m);
+    const double here = std::clamp(along_m_[i] + std::clamp(share, 0.0, 1.0) * length_m, from_m, until_m);
     const double away_m = distance(point_m, between(sample_m_[i], sample_m_[i + 1], (here - along_m_[i]) / length_m));
     if (away_m < best_m) best_m = away_m, along_m = here;
   }

@@ -23,8 +23,9 @@ class Curve {
   double length_m() const { return along_m_.back(); }
   // The place at `along_m`, taken into 0..length_m.
   CurvePlace at(double along_m) const;
-  // The place nearest to a point, of those from the beginning to `until_m`. Cost: one pass over the curve, a piece per 5 mm.
-  CurvePlace nearest(const Vec3& point_m, double until_m) const;
+  // The place nearest to a point, of those from `from_m` to `until_m`, both taken into 0..length_m. Cost: one pass over that part, a piece
+  // per 5 mm.
+  CurvePlace nearest(const Vec3& point_m, double from_m, double until_m) const;
 
  private:
   std::vector<Vec3> sample_m_;

@@ -23,7 +23,8 @@ constexpr double kSettled_rad = 0.003;
 constexpr std::int32_t kTurnSteps = 400;
 constexpr double kTurn_rad = 0.01;  // of a theta in each of them
 constexpr double kTipTolerance_m = 1e-6;
-constexpr int kLooks = 8;  // at the tip between two waypoints
+constexpr int kLooks = 8;         // at the tip between two waypoints
+constexpr int kMostHalvings = 5;  // of the way between two poses, where the tip swings out or a step is too long
 
 double largest_change(const ThetaVector& a, const ThetaVector& b) {
   double most = 0.0;
@@ -39,23 +40,16 @@ std::uint32_t held_mask(const PlanRequest& request) {
   return mask;
 }
 
-// Mean squared distance of the link ends that are past the curve's beginning; infinite when the tip is not at the end.
-double misfit(const Room& room, const Curve& curve, const ThetaVector& theta) {
-  if (tip_off_m(room, curve, curve.length_m(), theta) > kTipTolerance_m) return 1e300;
-  const LinkPoints points = link_points(room.table(), theta);
-  double sum = 0.0;
-  for (Index i = Index(points.count); i-- > 0;) {
-    const Vec3& here = points.point_in_base[i];
-    const Vec3 off = subtract(here, curve.nearest(here, curve.length_m()).position_m);
-    if (norm(subtract(here, points.point_in_base[Index(points.count) - 1])) < curve.length_m()) sum += dot(off, off);
-  }
-  return sum;
-}
+// The arm with its tip at a place on the curve.
+struct Stop {
+  ThetaVector theta_rad{};
+  double along_m = 0.0;
+};
 
 class Follower {
  public:
   Follower(const Room& room, const PlanRequest& request, const Curve& curve, const PlanControl& control)
-      : room_(room), request_(request), curve_(curve), control_(control) {}
+      : room_(room), request_(request), curve_(curve), track_(room, request.from_rad, curve), control_(control) {}
 
   FollowPath run(const std::optional<ThetaVector>& goal) {
     if (!is_possible()) return out_;
@@ -64,8 +58,8 @@ class Follower {
       return failed("tip",
                     text("no joint angles within the limits bring the tip to the end of the curve, %s", at(curve_.length_m()).c_str()));
     }
-    Path path{request_.from_rad};
-    if (feed_in(end, path) && (!goal || turn_to(end, path))) out_.theta_rad = std::move(path);
+    std::vector<Stop> way{{request_.from_rad, 0.0}};
+    if (feed_in(end, way) && (!goal || turn_to(end, way))) out_.theta_rad = thinned(refined(way));
     return out_;
   }
 
@@ -120,25 +114,28 @@ class Follower {
       for (Index k = 0; k < from.size(); ++k) {
         if (((held_mask(request_) >> k) & 1u) != 0) from[k] = request_.from_rad[k];
       }
-      const ThetaVector theta = follow_pose(room_, curve_, aim(curve_.length_m(), from, kEndDraw_m2), from, kEndIterations);
-      const double cost = misfit(room_, curve_, theta) + (room_.look(theta).nearest.distance_m < request_.margin_m ? 1e3 : 0.0);
+      const ThetaVector theta = follow_pose(room_, track_, aim(curve_.length_m(), from, kEndDraw_m2), from, kEndIterations);
+      if (tip_off_m(room_, curve_, curve_.length_m(), theta) > kTipTolerance_m) continue;
+      const double cost =
+          misfit_m2(room_, track_, curve_.length_m(), theta) + (room_.look(theta).nearest.distance_m < request_.margin_m ? 1e3 : 0.0);
       if (cost < least) least = cost, best = theta;
     }
     return best;
   }
 
   // Appends poses with the tip ever farther along the curve; where the arm has to change its shape, several with the tip in one place.
-  bool feed_in(const ThetaVector& end, Path& path) {
+  bool feed_in(const ThetaVector& end, std::vector<Stop>& way) {
     const std::int32_t steps = static_cast<std::int32_t>(std::ceil(curve_.length_m() / kFollowStep_m));
     for (std::int32_t s = 1; s <= steps; ++s) {
       if (control_.cancelled != nullptr && control_.cancelled->load()) return false;
       const double along_m = curve_.length_m() * s / steps;
       for (std::int32_t i = 0; i < kPosesPerStep; ++i) {
-        path.push_back(follow_pose(room_, curve_, aim(along_m, end, kDraw_m2), path.back(), 1));
-        if (largest_change(path.back(), path[path.size() - 2]) < kSettled_rad) break;
+        const ThetaVector before = way.back().theta_rad;
+        way.push_back({follow_pose(room_, track_, aim(along_m, end, kDraw_m2), before, 1), along_m});
+        if (largest_change(way.back().theta_rad, before) < kSettled_rad) break;
       }
-      if (tip_off_m(room_, curve_, along_m, path.back()) < kTipTolerance_m) continue;
-      const ArmClearance near = room_.look(path.back());
+      if (tip_off_m(room_, curve_, along_m, way.back().theta_rad) < kTipTolerance_m) continue;
+      const ArmClearance near = room_.look(way.back().theta_rad);
       const bool pushed = near.nearest.distance_m < request_.margin_m + kRelaxReach_m;
       const std::string what = pushed ? "'" + obstacle_name(room_.scene(), near.obstacle) + "'" : "the limits of the joints";
       failed(pushed ? "clearance" : "tip", text("%s keep the tip off the curve %s", what.c_str(), at(along_m).c_str()));
@@ -148,20 +145,60 @@ class Follower {
   }
 
   // The tip stays at the end of the curve while the arm takes the shape wanted there.
-  bool turn_to(const ThetaVector& end, Path& path) {
-    for (std::int32_t i = 0; i < kTurnSteps && path.back() != end; ++i) {
-      const double left = largest_change(path.back(), end);
-      const ThetaVector next = left < kTurn_rad ? end : between(path.back(), end, kTurn_rad / left);
-      path.push_back(next == end ? end : follow_pose(room_, curve_, aim(curve_.length_m(), next, kTurnDraw_m2, 0.0), next, 1));
+  bool turn_to(const ThetaVector& end, std::vector<Stop>& way) {
+    for (std::int32_t i = 0; i < kTurnSteps && way.back().theta_rad != end; ++i) {
+      const double left = largest_change(way.back().theta_rad, end);
+      const ThetaVector next = left < kTurn_rad ? end : between(way.back().theta_rad, end, kTurn_rad / left);
+      const FollowAim there = aim(curve_.length_m(), next, kTurnDraw_m2, 0.0);
+      way.push_back({next == end ? end : follow_pose(room_, track_, there, next, 1), curve_.length_m()});
     }
-    if (path.back() == end) return true;
+    if (way.back().theta_rad == end) return true;
     failed("goal", "the arm cannot get from the shape in which it followed into that of the goal");
     return false;
+  }
+
+  // Steps of the request and, between the two, the tip within kFollowTipOff_m of the curve.
+  bool suffices(const ThetaVector& a, const ThetaVector& b) const {
+    if (!steps_hold(request_, {a, b})) return false;
+    for (int i = 1; i < kLooks; ++i) {
+      const Vec3 tip = tip_of(room_, between(a, b, static_cast<double>(i) / kLooks));
+      if (norm(subtract(tip, curve_.nearest(tip, 0.0, curve_.length_m()).position_m)) > kFollowTipOff_m) return false;
+    }
+    return true;
+  }
+
+  // Appends the way from the last pose to `to`, with poses between where the two alone do not suffice.
+  void go_to(const Stop& to, int halvings, std::vector<Stop>& way) const {
+    const Stop from = way.back();
+    if (halvings > 0 && !suffices(from.theta_rad, to.theta_rad)) {
+      const ThetaVector half = between(from.theta_rad, to.theta_rad, 0.5);
+      const double along_m = 0.5 * (from.along_m + to.along_m);
+      go_to({follow_pose(room_, track_, aim(along_m, half, 0.0), half, 0), along_m}, halvings - 1, way);
+      go_to(to, halvings - 1, way);
+    } else {
+      way.push_back(to);
+    }
+  }
+
+  std::vector<Stop> refined(const std::vector<Stop>& way) const {
+    std::vector<Stop> out{way.front()};
+    for (Index i = 1; i < way.size(); ++i) go_to(way[i], kMostHalvings, out);
+    return out;
+  }
+
+  // As few of the poses as suffice.
+  Path thinned(const std::vector<Stop>& way) const {
+    Path out{way.front().theta_rad};
+    for (Index i = 1; i < way.size(); ++i) {
+      if (i + 1 == way.size() || !suffices(out.back(), way[i + 1].theta_rad)) out.push_back(way[i].theta_rad);
+    }
+    return out;
   }
 
   const Room& room_;
   const PlanRequest& request_;
   const Curve& curve_;
+  const FollowTrack track_;
   const PlanControl& control_;
   FollowPath out_;
 };
@@ -197,22 +234,6 @@ FollowCurve slit_curve(const Room& room, const ThetaVector& from_rad, const Thet
   }
   for (Index i = first - 1; i < Index(line.count); ++i) curve.points_m.push_back(line.point_in_base[i]);
   return curve;
-}
-
-Path thin_out(const Room& room, const PlanRequest& request, const Curve& curve, const Path& path) {
-  const auto suffices = [&](const ThetaVector& a, const ThetaVector& b) {
-    if (!steps_hold(request, {a, b})) return false;
-    for (int i = 1; i < kLooks; ++i) {
-      const Vec3 tip = tip_of(room, between(a, b, static_cast<double>(i) / kLooks));
-      if (norm(subtract(tip, curve.nearest(tip, curve.length_m()).position_m)) > kFollowTipOff_m) return false;
-    }
-    return true;
-  };
-  Path out{path.front()};
-  for (Index i = 1; i < path.size(); ++i) {
-    if (i + 1 == path.size() || !suffices(out.back(), path[i + 1])) out.push_back(path[i]);
-  }
-  return out;
 }
 
 }  // namespace liana

@@ -1,8 +1,8 @@
 // Follow-the-leader: the tip goes along a curve and the body stays on the path the tip took, as well as an arm with a fixed base can.
 //
-// Such an arm cannot follow exactly. Ten angles bend 40 links, and the part that is not on the curve yet has to take up the length that is
-// fed in. So the tip is exact, every link end past the curve's beginning is as near to the curve as it can be (follow_pose.hpp), and what
-// that leaves free is drawn towards the pose at the end of the curve. How far off the body is, is measured (follow_figures.hpp).
+// Such an arm cannot follow exactly. Ten angles bend 40 links, and the part that is not on the curve yet has to give the length that the
+// tip goes forwards: its bends become flatter. So the tip is exact, and every link end is as near as it can be to the track: the arm's own
+// line at the start, then the curve (follow_pose.hpp). How far off the body is, is measured (follow_figures.hpp).
 #pragma once
 
 #include <string>
@@ -19,7 +19,9 @@ constexpr double kFollowStartOff_m = 0.001;  // how far from the tip a curve may
 
 // A way along a curve, or what stands against it.
 struct FollowPath {
-  Path theta_rad;          // from the start pose to the end of the curve, a pose per kFollowStep_m; empty when there is none
+  // From the start pose to the end of the curve, empty when there is none. As few waypoints as keep the steps of the request and, between
+  // them, the tip within kFollowTipOff_m of the curve; where neither can be kept, the independent check and the figures tell.
+  Path theta_rad;
   std::string constraint;  // curve, start, tip
   std::string reason;
 };
@@ -35,8 +37,5 @@ FollowCurve slit_curve(const Room& room, const ThetaVector& from_rad, const Thet
 // The way along `curve`, to `goal_rad` where it is given (its tip at the curve's end). Nothing when cancelled.
 FollowPath follow_path(const Room& room, const PlanRequest& request, const Curve& curve, const std::optional<ThetaVector>& goal_rad,
                        const PlanControl& control);
-
-// Fewer poses of the way: as few as keep the steps of the request and, between them, the tip within kFollowTipOff_m of the curve.
-Path thin_out(const Room& room, const PlanRequest& request, const Curve& curve, const Path& path);
 
 }  // namespace liana

@@ -13,10 +13,10 @@ constexpr int kLooks = 4;  // per interval
 
 double distance(const Vec3& a, const Vec3& b) { return norm(subtract(a, b)); }
 
-// The way of the tip so far, as straight pieces.
+// The arm's line at the start and the way of the tip since, as straight pieces.
 class TipPath {
  public:
-  explicit TipPath(const Vec3& first_m) : point_m_{first_m} {}
+  explicit TipPath(const std::vector<Vec3>& start_line_m) : point_m_(start_line_m) {}
 
   void go_to(const Vec3& tip_m) { point_m_.push_back(tip_m); }
 
@@ -40,7 +40,7 @@ class TipPath {
 FollowFigures follow_figures(const RobotTable& table, const std::vector<ThetaVector>& path, const Curve& curve) {
   FollowFigures out;
   out.curve_length_m = curve.length_m();
-  TipPath tip_path(plain_axis(table, path.front()).back());
+  TipPath tip_path(plain_axis(table, path.front()));
   double sum_m = 0.0;
   std::int64_t asked = 0;
   for (Index i = 1; i <= kLooks * (path.size() - 1); ++i) {
@@ -50,12 +50,9 @@ FollowFigures follow_figures(const RobotTable& table, const std::vector<ThetaVec
     for (Index k = 0; k < theta.size(); ++k) theta[k] = (1.0 - share) * path[w][k] + share * path[w + 1][k];
     const std::vector<Vec3> end_m = plain_axis(table, theta);
     tip_path.go_to(end_m.back());
-    const CurvePlace tip = curve.nearest(end_m.back(), curve.length_m());
+    const CurvePlace tip = curve.nearest(end_m.back(), 0.0, curve.length_m());
     out.tip_off_m = std::max(out.tip_off_m, distance(end_m.back(), tip.position_m));
-    double behind_m = 0.0;
     for (Index link = end_m.size() - 1; link-- > 1;) {
-      behind_m += distance(end_m[link + 1], end_m[link]);
-      if (behind_m > tip.along_m) break;
       const double off_m = tip_path.distance_m(end_m[link]);
       sum_m += off_m;
       ++asked;

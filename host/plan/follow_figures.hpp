@@ -9,14 +9,14 @@
 
 namespace liana {
 
-// Looked at the waypoints and three times between. A link end is asked for its distance from the path that the tip has gone so far, when
-// the tip is farther along the curve than this link end is behind the tip.
+// Looked at the waypoints and three times between. Every link end is asked for its distance from the path before it: the arm's centre line
+// at the start, and from its tip on the way that the tip has gone so far.
 struct FollowFigures {
   double curve_length_m = 0.0;
   double tip_off_m = 0.0;          // greatest distance of the tip from the curve
-  double body_off_m = 0.0;         // greatest distance of a link end from the tip's path
-  double mean_body_off_m = 0.0;    // over all link ends asked and all poses
-  std::int32_t worst_link = 0;     // from 1: the link whose end is farthest off, 0 when none was asked
+  double body_off_m = 0.0;         // greatest distance of a link end from that path
+  double mean_body_off_m = 0.0;    // over all link ends and poses
+  std::int32_t worst_link = 0;     // from 1: the link whose end is farthest off
   double worst_tip_along_m = 0.0;  // where on the curve the tip was then
 };
 

@@ -12,7 +12,7 @@ namespace {
 
 using Index = std::size_t;
 
-// Against the square of a link end's distance from the curve.
+// Against the square of a link end's distance from the track.
 constexpr double kTipWeight = 1e8;
 constexpr double kPushWeight = 1e3;     // of missing clearance
 constexpr double kDirection_m2 = 0.05;  // of the tip's direction against the curve's
@@ -20,7 +20,9 @@ constexpr double kDamping_m2 = 0.1;     // of the step; ten times more while a t
 constexpr double kStepMost_rad = 0.03;  // this: the tip's path bends, and it has to stay where it is
 constexpr double kTipDamping_m2 = 1e4;  // of the last steps, which bring the tip onto its place
 constexpr std::int32_t kTipSteps = 8;
-constexpr double kRamp_m = 0.1;  // a link end counts fully when it is so far past the beginning
+constexpr double kRamp_m = 0.1;     // a link end counts fully when it is so far past the curve's beginning
+constexpr double kStartLine = 0.1;  // and so much before it: an arm that takes up length there cannot stay on its line
+constexpr double kWindow_m = 0.2;   // how far a link end may be from where it can be on the track
 constexpr double kMostDamping_m2 = 1e9;
 constexpr double kTipThere_m = 1e-8;
 constexpr double kStepSettled_rad = 1e-6;
@@ -84,37 +86,40 @@ double largest(const ThetaVector& step) {
   return most;
 }
 
-Quadratic model(const Room& room, const Curve& curve, const FollowAim& aim, const ThetaVector& theta) {
+double body_weight(double along_m, double behind_m) { return std::clamp((along_m - behind_m) / kRamp_m, kStartLine, 1.0); }
+
+// Nearest on the track to a link end so far behind the tip along the arm: between where it was at the start and where it is when it has
+// moved with the tip.
+CurvePlace body_place(const FollowTrack& track, double along_m, double behind_m, const Vec3& link_end_m) {
+  return track.nearest(link_end_m, -behind_m - kWindow_m, std::min(along_m, along_m - behind_m + kWindow_m));
+}
+
+Quadratic model(const Room& room, const FollowTrack& track, const FollowAim& aim, const ThetaVector& theta) {
   const RobotTable& table = room.table();
   const Index n = Index(table.theta_count());
   const ArmDerivatives arm(table, theta);
   const ArmPoint tip_point = arm.node(table.segment_count);
   const PointDerivatives tip = arm.point(tip_point);
-  const CurvePlace place = curve.at(aim.along_m);
+  const CurvePlace place = track.curve().at(aim.along_m);
   Quadratic q;
   q.add(tip.by_theta, subtract(tip.position_m, place.position_m), {}, kTipWeight);
   double behind_m = 0.0;
-  Vec3 link{};
   Index m = Index(table.segment_count) - 1;
   std::int32_t modules = table.segment[m].modules;
-  PointDerivatives next = tip;
   for (std::int32_t end = tip_point.link - 1; end >= 0; --end) {
     const double length_m = table.segment[m].module_length_m;
     behind_m += length_m;
     if (--modules == 0 && m > 0) modules = table.segment[--m].modules;
-    const double past_m = aim.along_m - behind_m;
-    if (past_m < -length_m) break;
     const PointDerivatives here = arm.point({end, 1.0});
     if (end == tip_point.link - 1) {  // the tip's direction
       std::array<Vec3, kMaxTheta> turning{};
-      for (Index k = 0; k < n; ++k) turning[k] = scale(subtract(next.by_theta[k], here.by_theta[k]), 1.0 / length_m);
-      link = scale(subtract(next.position_m, here.position_m), 1.0 / length_m);
+      for (Index k = 0; k < n; ++k) turning[k] = scale(subtract(tip.by_theta[k], here.by_theta[k]), 1.0 / length_m);
+      const Vec3 link = scale(subtract(tip.position_m, here.position_m), 1.0 / length_m);
       q.add(turning, subtract(link, place.tangent), {}, aim.body * kDirection_m2 * std::min(1.0, aim.along_m / kRamp_m));
     }
-    next = here;
-    if (past_m <= 0.0) break;
-    const CurvePlace on = curve.nearest(here.position_m, aim.along_m);
-    q.add(here.by_theta, subtract(here.position_m, on.position_m), on.tangent, aim.body * std::min(1.0, past_m / kRamp_m));
+    if (aim.body == 0.0) break;
+    const CurvePlace on = body_place(track, aim.along_m, behind_m, here.position_m);
+    q.add(here.by_theta, subtract(here.position_m, on.position_m), on.tangent, aim.body * body_weight(aim.along_m, behind_m));
   }
   const PoseModel push = push_model(room, theta, aim.clearance_m, true);
   for (Index k = 0; k < n; ++k) {
@@ -127,16 +132,28 @@ Quadratic model(const Room& room, const Curve& curve, const FollowAim& aim, cons
 
 }  // namespace
 
+double misfit_m2(const Room& room, const FollowTrack& track, double along_m, const ThetaVector& theta_rad) {
+  const LinkPoints points = link_points(room.table(), theta_rad);
+  double sum_m2 = 0.0, behind_m = 0.0;
+  for (Index i = Index(points.count) - 1; i-- > 1;) {
+    const Vec3& here = points.point_in_base[i];
+    behind_m += norm(subtract(points.point_in_base[i + 1], here));
+    const Vec3 off = subtract(here, body_place(track, along_m, behind_m, here).position_m);
+    sum_m2 += body_weight(along_m, behind_m) * dot(off, off);
+  }
+  return sum_m2;
+}
+
 double tip_off_m(const Room& room, const Curve& curve, double along_m, const ThetaVector& theta_rad) {
   const LinkPoints points = link_points(room.table(), theta_rad);
   return norm(subtract(points.point_in_base[Index(points.count) - 1], curve.at(along_m).position_m));
 }
 
-ThetaVector follow_pose(const Room& room, const Curve& curve, const FollowAim& aim, ThetaVector theta, std::int32_t iterations) {
+ThetaVector follow_pose(const Room& room, const FollowTrack& track, const FollowAim& aim, ThetaVector theta, std::int32_t iterations) {
   for (std::int32_t i = 0; i < iterations + kTipSteps; ++i) {
     const bool tip_only = i >= iterations;
-    if (tip_only && tip_off_m(room, curve, aim.along_m, theta) < kTipThere_m) break;
-    const Quadratic q = model(room, curve, aim, theta);
+    if (tip_only && tip_off_m(room, track.curve(), aim.along_m, theta) < kTipThere_m) break;
+    const Quadratic q = model(room, track, aim, theta);
     ThetaVector step{};
     for (double damping = tip_only ? kTipDamping_m2 : kDamping_m2; damping < kMostDamping_m2; damping *= 10.0) {
       step = bounded_step(room.table(), q, damping, theta, aim.held_mask);

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "host/plan/curve.hpp"
+#include "host/plan/follow_track.hpp"
 #include "host/plan/room.hpp"
 
 namespace liana {
@@ -14,12 +14,16 @@ struct FollowAim {
   double draw = 0.0;            // this strongly: m^2/rad^2
   std::uint32_t held_mask = 0;  // bit i: theta i does not move
   double clearance_m = 0.0;     // wanted
-  double body = 1.0;            // weight of the body's distance from the curve
+  double body = 1.0;            // weight of the body's distance from the track
 };
 
-// Joint angles near `theta_rad` with the tip on the curve and every link end that has come past the curve's beginning as near to the curve
-// as it can be (least squares), pushed off obstacles; limits hold exactly. Gauss-Newton, at most `iterations` steps.
-ThetaVector follow_pose(const Room& room, const Curve& curve, const FollowAim& aim, ThetaVector theta_rad, std::int32_t iterations);
+// Joint angles near `theta_rad` with the tip on the curve and every link end as near to the track as it can be (least squares; those that
+// are not past the curve's beginning yet count less), pushed off obstacles; limits hold exactly. Gauss-Newton, at most `iterations` steps,
+// then some that bring the tip alone onto its place.
+ThetaVector follow_pose(const Room& room, const FollowTrack& track, const FollowAim& aim, ThetaVector theta_rad, std::int32_t iterations);
+
+// Weighted sum of the squared distances of the link ends from the track, as follow_pose makes it least, with the tip at `along_m`.
+double misfit_m2(const Room& room, const FollowTrack& track, double along_m, const ThetaVector& theta_rad);
 
 // Distance of the tip from its place.
 double tip_off_m(const Room& room, const Curve& curve, double along_m, const ThetaVector& theta_rad);

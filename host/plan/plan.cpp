@@ -155,11 +155,18 @@ class Planner {
     } else if (found.theta_rad.empty()) {
       fail(found.constraint == "curve" ? PlanOutcome::infeasible : PlanOutcome::limit, found.constraint.c_str(), found.reason);
     } else {
-      const Path path = thin_out(room_, request_, curve, found.theta_rad);
-      tell(text("%d waypoints", static_cast<int>(path.size())));
-      if (accept(path)) result_.follow = follow_figures(room_.table(), path, curve);
+      tell(text("%d waypoints", static_cast<int>(found.theta_rad.size())));
+      if (accept(found.theta_rad)) accept_figures(follow_figures(room_.table(), found.theta_rad, curve));
     }
     return result_;
+  }
+
+  bool accept_figures(const FollowFigures& figures) {
+    result_.follow = figures;
+    if (figures.tip_off_m <= kFollowTipOff_m * (1.0 + kRoundOff)) return true;
+    return fail(PlanOutcome::limit, "tip",
+                text("between waypoints the tip leaves the curve by %.3f mm; allowed are %.3f mm", 1000.0 * figures.tip_off_m,
+                     1000.0 * kFollowTipOff_m));
   }
 
   // Tries the start paths in order; true when the search is over (solved or cancelled).

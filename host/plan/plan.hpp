@@ -65,6 +65,10 @@ struct PlanRequest {
   double max_cable_step_m() const { return robot.table.limits.cable_speed_m_s * max_step_rad / robot.table.limits.theta_rate_rad_s; }
 };
 
+// What a step may be beyond its limit, rad of a theta or m of a cable: twice what the solver leaves of a constraint
+// (kConstraintTolerance), so that what it calls solved passes the check.
+constexpr double kStepTolerance = 2e-7;
+
 // Every theta may cross its whole range twice on the way.
 double default_max_step_rad(const RobotTable& table, std::int32_t waypoints);
 constexpr double kFollowMaxStep_rad = 0.05;  // the same for following, where the waypoints come out as many as are needed

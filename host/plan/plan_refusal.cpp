@@ -7,7 +7,6 @@ namespace liana {
 namespace {
 
 constexpr double kTipTolerance = 1e-6;  // m and rad
-constexpr double kRoundOff = 1e-6;      // relative
 
 }  // namespace
 
@@ -20,11 +19,14 @@ std::optional<Refusal> refusal_of(const PlanRequest& request, const PlanCheck& c
   }
   if (check.over_limit_deg > 0.0)
     return Refusal{PlanOutcome::limit, "limits", text("a theta is %.2g deg over its limit", check.over_limit_deg)};
-  if (check.max_step_deg * kDegree > request.max_step_rad * (1.0 + kRoundOff)) {
-    return Refusal{PlanOutcome::limit, "step", text("a step of %.3f deg", check.max_step_deg)};
+  if (check.max_step_deg * kDegree > request.max_step_rad + kStepTolerance) {
+    return Refusal{PlanOutcome::limit, "step",
+                   text("a theta changes by %.6f deg in a step; allowed are %.6f deg", check.max_step_deg, request.max_step_rad / kDegree)};
   }
-  if (check.max_cable_step_m > request.max_cable_step_m() * (1.0 + kRoundOff)) {
-    return Refusal{PlanOutcome::limit, "cable", text("a cable changes by %.1f mm in a step", 1000.0 * check.max_cable_step_m)};
+  if (check.max_cable_step_m > request.max_cable_step_m() + kStepTolerance) {
+    return Refusal{PlanOutcome::limit, "cable",
+                   text("a cable changes by %.6f mm in a step; allowed are %.6f mm", 1000.0 * check.max_cable_step_m,
+                        1000.0 * request.max_cable_step_m())};
   }
   if (check.tip_error_m > kTipTolerance || check.tip_attitude_error_rad > kTipTolerance) {
     return Refusal{PlanOutcome::limit, "tip",

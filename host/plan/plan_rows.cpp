@@ -73,16 +73,17 @@ bool is_movable(const PlanRequest& request, const Path& path, const PathPlace& p
   return request.tip_in_base.has_value() || !at_end;
 }
 
-void add_steps(const PlanRequest& request, const Path& path, double share, PlanRows& rows) {
+// Rows for steps of more than `share` of their limit and `tolerance`.
+void add_steps(const PlanRequest& request, const Path& path, double share, double tolerance, PlanRows& rows) {
   const RobotTable& table = request.robot.table;
   for (std::int32_t w = 0; w + 1 < static_cast<std::int32_t>(path.size()); ++w) {
     const ThetaVector &before = path[Index(w)], &after = path[Index(w) + 1];
     for (std::int32_t k = 0; k < table.theta_count(); ++k) {
-      if (std::fabs(after[Index(k)] - before[Index(k)]) > share * request.max_step_rad) rows.step.push_back({w, k});
+      if (std::fabs(after[Index(k)] - before[Index(k)]) > share * request.max_step_rad + tolerance) rows.step.push_back({w, k});
     }
     const std::vector<double> short_m = cable_derivatives(table, before).length_m, long_m = cable_derivatives(table, after).length_m;
     for (std::int32_t c = 0; c < table.cable_count(); ++c) {
-      if (std::fabs(long_m[Index(c)] - short_m[Index(c)]) > share * request.max_cable_step_m()) rows.cable.push_back({w, c});
+      if (std::fabs(long_m[Index(c)] - short_m[Index(c)]) > share * request.max_cable_step_m() + tolerance) rows.cable.push_back({w, c});
     }
   }
 }
@@ -124,7 +125,7 @@ PlanRows rows_near(const Room& room, const PlanRequest& request, const Path& pat
   for (const PathPlace& place : places) {
     if (is_movable(request, path, place)) add_place(room, request, path, place, sites, rows.clearance);
   }
-  if (!single_pose(request)) add_steps(request, path, kStepShare, rows);
+  if (!single_pose(request)) add_steps(request, path, kStepShare, 0.0, rows);
   add_tensions(request, path, rows);
   return rows;
 }
@@ -157,7 +158,7 @@ std::vector<RowSite> sites_below(const Room& room, const PlanRequest& request, c
 bool steps_hold(const PlanRequest& request, const Path& path) {
   if (single_pose(request)) return true;
   PlanRows rows;
-  add_steps(request, path, 1.0 + 1e-6, rows);
+  add_steps(request, path, 1.0, kStepTolerance, rows);
   return rows.step.empty() && rows.cable.empty();
 }
 

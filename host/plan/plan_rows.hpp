@@ -27,7 +27,7 @@ PlanRows rows_near(const Room& room, const PlanRequest& request, const Path& pat
 // links that are nearest there.
 std::vector<RowSite> sites_below(const Room& room, const PlanRequest& request, const Path& path, double clearance_m);
 
-// No step of a theta or cable is beyond its limit.
+// No step of a theta or cable is beyond its limit by more than kStepTolerance.
 bool steps_hold(const PlanRequest& request, const Path& path);
 
 // At no waypoint a cable is below its floor or over its ceiling.
