@@ -64,7 +64,7 @@ struct PlanOptions {
 int plan_command(const PlanOptions& options);
 
 struct RunOptions {
-  std::string mission;
+  std::string mission;  // empty: none (liana latency)
   std::string robot = "zhu2022";
   std::string scene = "panel_slit";
   std::string bus = "embedded";
@@ -76,6 +76,16 @@ struct RunOptions {
 };
 // Starts the whole system, runs one mission, reports; exit code 0 only on success.
 int run_command(const RunOptions& options);
+
+struct LatencyOptions {
+  std::string rate_hz;  // empty: that of the bus table, 250 where none is given
+  double seconds = 10.0;
+  std::string buses;  // empty: the embedded table of the rate
+  bool json = false;
+};
+// Measures lianad's real-time thread with the arm enabled and at rest; exit code 1 when a deadline was missed or the arm did not stay
+// enabled.
+int latency_command(const LatencyOptions& options);
 
 struct ClientOptions {
   std::string api;  // empty: all running systems of this user

@@ -11,17 +11,19 @@ constexpr const char* kBash = R"bash(_liana() {
   case $before in
     --time) words="fast paced real" ;;
     --physics) words="nominal ideal worn" ;;
-    --bus) words="embedded embedded_single vcan" ;;
+    --bus | --buses) words="embedded embedded_500 embedded_single vcan" ;;
+    --rate) words="250 500" ;;
     run) words="slit_crossing" ;;
     robot) words="export" ;;
     completion) words="bash" ;;
     --record | --json | --svg | --path | --api | --out | replay) COMPREPLY=($(compgen -f -- "$word")); return ;;
   esac
   if [[ $COMP_CWORD == 1 ]]; then
-    words="run pose ik reach plan status estop clear replay robot doctor completion help"
+    words="run latency pose ik reach plan status estop clear replay robot doctor completion help"
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
       run) words="--robot --scene --bus --time --physics --record --json --seed" ;;
+      latency) words="--rate --seconds --buses --json" ;;
       pose) words="--robot --theta-deg --scene --json" ;;
       ik) words="--robot --from-deg --tip --hold --control-point --json" ;;
       reach) words="--robot --scene --hold --from-deg --to-deg --path --node --samples --seed --svg --json" ;;

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 namespace liana {
@@ -116,17 +117,23 @@ Finding tool(const std::string& program, const std::string& package, const std::
 
 }  // namespace
 
+std::vector<Finding> examine_realtime() { return {realtime_priority(), memory_lock(), kernel(), clock_source(), processors(), governor()}; }
+
 std::vector<Finding> examine_host() {
-  return {realtime_priority(),
-          memory_lock(),
-          kernel(),
-          clock_source(),
-          processors(),
-          governor(),
-          can_socket(),
-          can_interfaces(),
-          tool("tshark", "tshark", "decodes recorded bus logs as CANopen in the tests"),
-          tool("qemu-system-x86_64", "qemu-system-x86", "hil/vm: SocketCAN on machines whose kernel has no CAN")};
+  std::vector<Finding> findings = examine_realtime();
+  findings.push_back(can_socket());
+  findings.push_back(can_interfaces());
+  findings.push_back(tool("tshark", "tshark", "decodes recorded bus logs as CANopen in the tests"));
+  findings.push_back(tool("qemu-system-x86_64", "qemu-system-x86", "hil/vm: SocketCAN on machines whose kernel has no CAN"));
+  return findings;
+}
+
+nlohmann::json findings_json(const std::vector<Finding>& findings) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Finding& one : findings) {
+    list.push_back({{"name", one.name}, {"good", one.good}, {"found", one.found}, {"meaning", one.meaning}, {"action", one.action}});
+  }
+  return list;
 }
 
 }  // namespace liana

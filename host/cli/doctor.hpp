@@ -1,6 +1,7 @@
 // What a host must offer to Liana, looked up one by one.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,13 @@ struct Finding {
   std::string action;  // what to do; empty when good
 };
 
+// What --time real asks of the machine: privileges, kernel, clock, processors. Changes nothing.
+std::vector<Finding> examine_realtime();
+
 // Looks at real-time privileges, kernel, memory locking, clock, processors, CAN and the test tools. Changes nothing.
 std::vector<Finding> examine_host();
+
+// The findings as a JSON list of objects with the names above.
+nlohmann::json findings_json(const std::vector<Finding>& findings);
 
 }  // namespace liana

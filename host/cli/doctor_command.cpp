@@ -7,14 +7,6 @@
 namespace liana {
 namespace {
 
-void print_json(const std::vector<Finding>& findings) {
-  nlohmann::json list = nlohmann::json::array();
-  for (const Finding& one : findings) {
-    list.push_back({{"name", one.name}, {"good", one.good}, {"found", one.found}, {"meaning", one.meaning}, {"action", one.action}});
-  }
-  std::puts(nlohmann::json{{"findings", list}}.dump().c_str());
-}
-
 void print_text(const std::vector<Finding>& findings) {
   for (const Finding& one : findings) {
     std::printf("%s %-20s %s\n", one.good ? "yes" : " no", one.name.c_str(), one.found.c_str());
@@ -29,7 +21,7 @@ void print_text(const std::vector<Finding>& findings) {
 int doctor_command(bool json) {
   const auto findings = examine_host();
   if (json) {
-    print_json(findings);
+    std::puts(nlohmann::json{{"findings", findings_json(findings)}}.dump().c_str());
   } else {
     print_text(findings);
   }

@@ -117,6 +117,19 @@ void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
   add_seed(*sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
 }
 
+void add_latency(CLI::App& app, Action& action, liana::LatencyOptions& latency) {
+  CLI::App* sub = add(app, action, "latency", "how late this machine wakes lianad's real-time thread, and how long its ticks take", latency,
+                      liana::latency_command);
+  sub->add_option("--rate", latency.rate_hz, "250 or 500 Hz")->default_str("250");
+  sub->add_option_function<std::string>(
+         "--seconds",
+         [&latency](const std::string& text) { latency.seconds = liana::parse_number_in("--seconds", text, 0.1, 86400.0, "s"); },
+         "how long to measure; 0.1 to 86400")
+      ->default_str("10");
+  sub->add_option("--buses", latency.buses, "bus table, in place of the embedded one of the rate: vcan, or a table of your interfaces");
+  sub->add_flag("--json", latency.json, "print JSON");
+}
+
 void add_client(CLI::App& app, Action& action, const char* name, const char* text, liana::ClientOptions& client,
                 int (*command)(const liana::ClientOptions&)) {
   CLI::App* sub = add(app, action, name, text, client, command);
@@ -215,6 +228,7 @@ int run(int argc, char** argv) {
   liana::ReachOptions reach;
   liana::PlanOptions plan;
   liana::RunOptions run;
+  liana::LatencyOptions latency;
   liana::ClientOptions client;
   liana::ReplayOptions replay;
   liana::ExportOptions exported;
@@ -224,6 +238,7 @@ int run(int argc, char** argv) {
   add_reach(app, action, reach);
   add_plan(app, action, plan);
   add_run(app, action, run);
+  add_latency(app, action, latency);
   add_client(app, action, "status", "state of every running system", client, liana::status_command);
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client, liana::estop_command);
   add_client(app, action, "clear", "clear an emergency stop and the latched faults of one running system; enables nothing", client,

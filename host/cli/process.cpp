@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -21,6 +22,7 @@ namespace liana {
 namespace {
 
 constexpr int kExecFailed = 127;
+constexpr double kStartTimeout_s = 30.0;
 
 std::vector<char*> exec_arguments(const std::vector<std::string>& argv) {
   std::vector<char*> pointers;
@@ -30,9 +32,12 @@ std::vector<char*> exec_arguments(const std::vector<std::string>& argv) {
 }
 
 // In the child: own process group, so that Ctrl-C reaches only the parent, which turns it into a stop.
-[[noreturn]] void become(std::vector<char*>& argv, int out_fd, int error_fd) {
+[[noreturn]] void become(std::vector<char*>& argv, int out_fd, int error_fd, int realtime_priority) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
+  sched_param parameters{};
+  parameters.sched_priority = realtime_priority;
+  if (realtime_priority > 0) sched_setscheduler(0, SCHED_FIFO, &parameters);
   const int null_fd = open("/dev/null", O_RDONLY);
   dup2(null_fd, 0);
   dup2(out_fd, 1);
@@ -42,11 +47,11 @@ std::vector<char*> exec_arguments(const std::vector<std::string>& argv) {
   _exit(kExecFailed);
 }
 
-pid_t start(const std::vector<std::string>& argv, int out_fd, int error_fd) {
+pid_t start(const std::vector<std::string>& argv, int out_fd, int error_fd, int realtime_priority) {
   auto arguments = exec_arguments(argv);
   const pid_t pid = fork();
   if (pid < 0) throw std::runtime_error(argv[0] + ": cannot be started: " + strerror(errno));
-  if (pid == 0) become(arguments, out_fd, error_fd);
+  if (pid == 0) become(arguments, out_fd, error_fd, realtime_priority);
   return pid;
 }
 
@@ -77,11 +82,15 @@ void drain(int out_fd, int error_fd, Captured& captured) {
 
 }  // namespace
 
-ChildProcess::ChildProcess(std::string name, const std::vector<std::string>& argv, std::string log_path)
+std::string how(const ChildEnd& end) {
+  return end.signal != 0 ? "was killed by signal " + std::to_string(end.signal) : "ended with code " + std::to_string(end.code);
+}
+
+ChildProcess::ChildProcess(std::string name, const std::vector<std::string>& argv, std::string log_path, int realtime_priority)
     : name_(std::move(name)), log_path_(std::move(log_path)) {
   const int log_fd = open(log_path_.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0644);
   if (log_fd < 0) throw std::runtime_error(log_path_ + ": cannot be written: " + strerror(errno));
-  pid_ = start(argv, log_fd, log_fd);
+  pid_ = start(argv, log_fd, log_fd, realtime_priority);
   close(log_fd);
 }
 
@@ -120,13 +129,22 @@ std::string ChildProcess::last_lines(int count) const {
   return text;
 }
 
+bool wait_for_socket(const std::string& path, ChildProcess& maker, const std::atomic<bool>& stop) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(kStartTimeout_s);
+  while (!std::filesystem::exists(path)) {
+    if (std::chrono::steady_clock::now() > deadline || maker.poll() || stop) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  return true;
+}
+
 Captured run_and_capture(const std::vector<std::string>& argv) {
   std::array<int, 2> out{};
   std::array<int, 2> error{};
   if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(error.data(), O_CLOEXEC) != 0) {
     throw std::runtime_error(std::string("no pipe for a child process: ") + strerror(errno));
   }
-  const pid_t pid = start(argv, out[1], error[1]);
+  const pid_t pid = start(argv, out[1], error[1], 0);
   close(out[1]);
   close(error[1]);
   Captured captured;

@@ -3,6 +3,7 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,11 +16,15 @@ struct ChildEnd {
   int signal = 0;  // 0 = it exited by itself
 };
 
+// "ended with code 1", "was killed by signal 9".
+std::string how(const ChildEnd& end);
+
 // One running program; its standard output and error go to a log file. It is told to end when its parent dies.
 class ChildProcess {
  public:
   // Starts argv[0] (a path) with its output appended to `log_path`; throws std::runtime_error when it cannot be started.
-  ChildProcess(std::string name, const std::vector<std::string>& argv, std::string log_path);
+  // `realtime_priority` over 0: with SCHED_FIFO at that priority, where the machine grants it.
+  ChildProcess(std::string name, const std::vector<std::string>& argv, std::string log_path, int realtime_priority = 0);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
@@ -40,6 +45,9 @@ class ChildProcess {
   pid_t pid_ = -1;
   std::optional<ChildEnd> end_;
 };
+
+// Waits until `path` is there; false when `maker` has ended without it, `stop` became true, or after 30 s.
+bool wait_for_socket(const std::string& path, ChildProcess& maker, const std::atomic<bool>& stop);
 
 // What a short helper program printed.
 struct Captured {

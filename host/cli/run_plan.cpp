@@ -44,12 +44,12 @@ void check_interfaces(const BusesConfig& buses) {
   if (buses.backend != "socketcan") return;
   const int fd = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, 1);
   if (fd < 0)
-    throw BadInput("--bus: '" + buses.name + "': this kernel has no CAN; load can and can-raw, or use --bus embedded; see liana doctor");
+    throw BadInput("buses: '" + buses.name + "': this kernel has no CAN; load can and can-raw, or take table embedded; see liana doctor");
   close(fd);
   for (const BusConfig& bus : buses.buses) {
     if (if_nametoindex(bus.name.c_str()) == 0) {
-      throw BadInput("--bus: '" + buses.name + "': interface " + bus.name + " does not exist; make it (ip link add dev " + bus.name +
-                     " type vcan; ip link set " + bus.name + " up) or use --bus embedded");
+      throw BadInput("buses: '" + buses.name + "': interface " + bus.name + " does not exist; make it (ip link add dev " + bus.name +
+                     " type vcan; ip link set " + bus.name + " up) or take table embedded");
     }
   }
 }
@@ -130,7 +130,8 @@ RunPlan make_plan(const RunOptions& options) {
   RunPlan plan;
   plan.buses = checked([&] { return parse_buses(buses_text, options.bus); });
   checked([&] { return parse_robot(robot_text, options.robot, options.physics, plan.buses); });
-  check_mission(options.mission, options.robot);
+  const bool has_mission = !options.mission.empty();
+  if (has_mission) check_mission(options.mission, options.robot);
   plan.scene = checked([&] { return parse_scene(scene_text, options.scene); });
   check_interfaces(plan.buses);
   plan.time_mode = time_mode_of(options, plan.buses);
@@ -145,6 +146,7 @@ RunPlan make_plan(const RunOptions& options) {
   plan.programs.push_back(daemon_call(plan, options, embedded));
   if (plan.keep_directory) plan.programs.push_back(archive_call(plan));
   plan.programs.push_back(bench_call(plan, options, embedded));
+  if (!has_mission) return plan;
   plan.programs.push_back(operator_call(plan, options));
   plan.programs.push_back(mission_call(plan, options));
   return plan;

@@ -30,7 +30,8 @@ struct RunPlan {
   std::string bus_socket() const { return socket_dir + "/bus"; }
 };
 
-// Evaluates and checks tables and mission, makes the directories, writes the tables there. Throws BadInput.
+// Evaluates and checks tables and mission, makes the directories, writes the tables there. Without a mission there is no operator either.
+// Throws BadInput.
 RunPlan make_plan(const RunOptions& options);
 
 // Removes what the run does not keep.

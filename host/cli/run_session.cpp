@@ -18,7 +18,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr const char* kName = "liana run";  // as the reason of a stop names it
-constexpr double kStartTimeout_s = 30.0;
 constexpr double kStopTimeout_s = 15.0;
 constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
 constexpr double kFinishGrace_s = 3.0;  // for the others to write their summaries after that
@@ -28,10 +27,6 @@ constexpr int kShownLines = 5;
 
 Clock::time_point after(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
-}
-
-std::string how(const ChildEnd& end) {
-  return end.signal != 0 ? "was killed by signal " + std::to_string(end.signal) : "ended with code " + std::to_string(end.code);
 }
 
 Pose pose_of(const json& numbers) {
@@ -64,7 +59,7 @@ std::optional<RunEnd> RunSession::start() {
   for (const ProgramCall& call : plan_.programs) {
     children_.push_back(std::make_unique<ChildProcess>(call.name, call.argv, plan_.file(call.name + ".log")));
     const bool serves = call.name == "liana-bus" || call.name == "lianad";
-    if (serves && !wait_for_socket(call.name == "lianad" ? plan_.api_socket() : plan_.bus_socket())) {
+    if (serves && !wait_for_socket(call.name == "lianad" ? plan_.api_socket() : plan_.bus_socket(), *children_.back(), interrupts_.any())) {
       if (const auto dead = dead_child(false)) return dead;
       return RunEnd{"failed", call.name + " did not open its socket within 30 s", false};
     }
@@ -75,15 +70,6 @@ std::optional<RunEnd> RunSession::start() {
   }
   mission_ = children_.back().get();
   return std::nullopt;
-}
-
-bool RunSession::wait_for_socket(const std::string& path) {
-  const auto deadline = after(kStartTimeout_s);
-  while (!fs::exists(path)) {
-    if (Clock::now() > deadline || children_.back()->poll() || interrupts_.count() > 0) return false;
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return true;
 }
 
 RunEnd RunSession::watch() {

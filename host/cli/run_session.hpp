@@ -45,7 +45,6 @@ class RunSession {
   std::optional<RunEnd> dead_child(bool failed_only);
   RunEnd end_of_mission(const ChildEnd& end);
   RunEnd interrupted();
-  bool wait_for_socket(const std::string& path);
   void look(double timeout_s);
   bool take(double timeout_s);
   void keep(const nlohmann::json& state);

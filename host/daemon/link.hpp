@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "host/bus/drive_bus.hpp"
+#include "host/daemon/latency_histogram.hpp"
 #include "host/daemon/latest_value.hpp"
 #include "host/daemon/spsc_ring.hpp"
 #include "host/daemon/twin.hpp"
@@ -22,6 +23,10 @@ struct Overruns {
   std::uint64_t bus_wait = 0;    // the bus kept the thread waiting
   std::uint64_t lost_ticks = 0;  // periods skipped because of them
   std::uint64_t total() const { return late_wake + long_tick + bus_wait; }
+  // Those since `before` was taken.
+  Overruns since(const Overruns& before) const {
+    return {late_wake - before.late_wake, long_tick - before.long_tick, bus_wait - before.bus_wait, lost_ticks - before.lost_ticks};
+  }
 };
 
 // What the real-time side reports after every tick.
@@ -33,7 +38,6 @@ struct CycleReport {
   Overruns overruns{};
   std::array<DriveBusStats, kMaxDriveBuses> bus{};
   std::uint64_t records_lost = 0;  // tick records that found the ring full
-  std::uint32_t longest_tick_us = 0;
 };
 
 struct Link {
@@ -46,6 +50,7 @@ struct Link {
   SpscRing<TickRecord, 512> ticks;
   LatestValue<TwinImage> image;     // at the start of each command interval
   LatestValue<CycleReport> report;  // after each tick
+  TickTiming timing;
 };
 
 }  // namespace liana

@@ -31,6 +31,7 @@ RtCycle::RtCycle(const RobotConfig& robot, const BusesConfig& buses, DriveBus& b
       half_period_us_(static_cast<std::uint64_t>(buses.period_us()) / 2),
       period_us_(static_cast<std::uint64_t>(buses.period_us())),
       master_(drives_, buses),
+      timing_(link.timing),
       core_(robot.table, link) {
   for (auto& nodes : drive_of_node_) nodes.fill(-1);
   for (std::size_t i = 0; i < drives_.size(); ++i) {
@@ -45,11 +46,12 @@ bool RtCycle::run_tick() noexcept {
   count_overrun(start);
   bus_.write_sync();  // drives act on the targets of the last tick, and sample
   bus_.wait_feedback(static_cast<int>(drives_.size()));
+  heard_us_ = bus_.now_us();
   collect(start);      // TPDOs, heartbeats, emergencies: the inputs of this tick
   master_.step(bus_);  // heartbeat out; while booting, the next SDO requests
   if (report_.boot == BootPhase::kDone) command_drives(core_.step(inputs_));
   bus_.end_tick();
-  finish_tick(start.tick);  // what the service side sees
+  finish_tick(start);  // what the service side sees
   return true;
 }
 
@@ -80,7 +82,6 @@ void RtCycle::collect(const TickStart& start) noexcept {
   take_emergencies();
   inputs_.lost_bus_mask = 0;
   for (int b = 0; b < bus_.bus_count(); ++b) inputs_.lost_bus_mask |= is_lost(bus_.stats(b).state) ? 1u << b : 0u;
-  heard_us_ = bus_.now_us();
 }
 
 void RtCycle::take_emergencies() noexcept {
@@ -119,10 +120,8 @@ void RtCycle::count_overrun(const TickStart& start) noexcept {
 }
 
 // The Controller starts at the beginning of a command interval, so that recordings and twin images start there, too.
-void RtCycle::finish_tick(std::uint64_t tick) noexcept {
-  ended_us_ = bus_.now_us();
-  report_.longest_tick_us = std::max(report_.longest_tick_us, static_cast<std::uint32_t>(ended_us_ - began_us_));
-  report_.next_tick = tick + 1;
+void RtCycle::finish_tick(const TickStart& start) noexcept {
+  report_.next_tick = start.tick + 1;
   const bool interval_ends = report_.next_tick % static_cast<std::uint64_t>(table_.interval_ticks) == 0;
   const canopen::BootState boot = master_.boot().state();
   if (report_.boot == BootPhase::kBooting && interval_ends && boot != canopen::BootState::kRunning) {
@@ -131,6 +130,9 @@ void RtCycle::finish_tick(std::uint64_t tick) noexcept {
   for (int b = 0; b < bus_.bus_count(); ++b) report_.bus[static_cast<std::size_t>(b)] = bus_.stats(b);
   report_.inputs = inputs_;
   core_.publish(report_);
+  ended_us_ = bus_.now_us();
+  timing_.wakeup_us.record(start.lateness_us);
+  timing_.tick_us.record(static_cast<std::uint32_t>(ended_us_ - heard_us_));
 }
 
 std::vector<BootProblem> RtCycle::boot_problems() const {

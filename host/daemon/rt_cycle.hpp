@@ -29,7 +29,7 @@ class RtCycle {
   void take_emergencies() noexcept;
   void command_drives(const Outputs& outputs) noexcept;
   void count_overrun(const TickStart& start) noexcept;
-  void finish_tick(std::uint64_t tick) noexcept;
+  void finish_tick(const TickStart& start) noexcept;
 
   RobotTable table_;
   DriveBus& bus_;
@@ -37,11 +37,12 @@ class RtCycle {
   std::vector<std::string> bus_names_;
   std::uint64_t half_period_us_, period_us_;
   canopen::Master master_;
+  TickTiming& timing_;
   TickCore core_;
   std::array<std::array<std::int8_t, 128>, kMaxDriveBuses> drive_of_node_{};  // -1: not ours
   Inputs inputs_{};
   CycleReport report_{};
-  std::uint64_t began_us_ = 0, heard_us_ = 0, ended_us_ = 0;  // of the last tick, on the bus's clock
+  std::uint64_t began_us_ = 0, heard_us_ = 0, ended_us_ = 0;  // of the last tick, on the bus's clock; heard: the wait for feedback is over
 };
 
 }  // namespace liana

@@ -86,6 +86,7 @@ class Service : private ApiHandler {
   Json on_operator_says(const ClientInfo& client, const Json& request);
   Json on_device(const ClientInfo& client, const Json& request);
   Json on_camera(const ClientInfo& client, const Json& request);
+  Json on_timing(const ClientInfo& client, const Json& request);
 
   const Outputs& now() const { return link_.report.value().outputs; }
   std::uint64_t tick() const { return link_.report.value().next_tick; }
@@ -122,6 +123,7 @@ class Service : private ApiHandler {
   };
   std::deque<CameraFrame> camera_;
   std::uint64_t clear_seen_tick_ = 0;
+  Overruns overruns_before_;  // at the last reset of the timing
   std::optional<std::uint64_t> mission_end_tick_, shutdown_tick_;
   bool dismissed_ = false;
   ApiServer server_;  // last: its destructor may call gone()

@@ -5,6 +5,7 @@
 #include "host/api/request_error.hpp"
 #include "host/daemon/device_messages.hpp"
 #include "host/daemon/service.hpp"
+#include "host/daemon/timing_message.hpp"
 
 namespace liana {
 
@@ -35,7 +36,8 @@ const std::map<std::string, Service::Handler>& Service::handlers() {
                                                         {"announce", &Service::on_announce},
                                                         {"operator_says", &Service::on_operator_says},
                                                         {"device", &Service::on_device},
-                                                        {"camera", &Service::on_camera}};
+                                                        {"camera", &Service::on_camera},
+                                                        {"timing", &Service::on_timing}};
   return kHandlers;
 }
 
@@ -264,6 +266,22 @@ Service::Json Service::on_camera(const ClientInfo& client, const Json& request) 
   if (camera_.size() >= 64) throw RequestError("busy", "64 camera frames are waiting: their time stamps lie in the future");
   camera_.push_back(frame);
   return Json::object();
+}
+
+Service::Json Service::on_timing(const ClientInfo&, const Json& request) {
+  const bool reset = request.contains("reset") && flag_field(request, "reset");
+  if (config_.time_mode != TimeMode::kReal) {
+    throw RequestError("refused", "timing: time mode " + std::string(time_mode_name(config_.time_mode)) +
+                                      " has no wake-ups to measure; only --time real has");
+  }
+  link_.report.refresh();
+  const Overruns& overruns = link_.report.value().overruns;
+  Json answer = timing_message(link_.timing.wakeup_us.counts(), link_.timing.tick_us.counts(), overruns.since(overruns_before_));
+  if (!reset) return answer;
+  link_.timing.wakeup_us.reset();
+  link_.timing.tick_us.reset();
+  overruns_before_ = overruns;
+  return answer;
 }
 
 }  // namespace liana

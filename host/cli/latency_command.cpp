@@ -1,0 +1,67 @@
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "host/cli/arguments.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/errors.hpp"
+#include "host/cli/latency_report.hpp"
+#include "host/cli/latency_session.hpp"
+#include "host/cli/run_plan.hpp"
+
+namespace liana {
+namespace {
+
+using nlohmann::json;
+
+// The project's embedded tables by rate: which rate a table can carry is a matter of its buses.
+struct RateTable {
+  const char* rate_hz;
+  const char* name;
+};
+constexpr std::array<RateTable, 2> kTables{{{"250", "embedded"}, {"500", "embedded_500"}}};
+
+std::string table_of(const LatencyOptions& options) {
+  if (!options.buses.empty()) return options.buses;
+  if (options.rate_hz.empty()) return kTables.front().name;
+  for (const RateTable& table : kTables) {
+    if (parse_number("--rate", options.rate_hz) == parse_number("--rate", table.rate_hz)) return table.name;
+  }
+  throw BadInput(
+      "--rate: " + options.rate_hz +
+      " Hz: allowed 250 (buses embedded) or 500 (buses embedded_500); for another rate name a table that carries it with --buses");
+}
+
+void check_rate(const LatencyOptions& options, const BusesConfig& buses) {
+  if (options.rate_hz.empty() || parse_number("--rate", options.rate_hz) == buses.rate_hz) return;
+  char rate[32];
+  std::snprintf(rate, sizeof rate, "%g Hz", buses.rate_hz);
+  throw BadInput("--rate: " + options.rate_hz + " Hz: bus table " + buses.name + " has " + rate +
+                 "; leave --rate out or take another table");
+}
+
+LatencyMeasurement measured(const RunPlan& plan, double seconds) {
+  LatencySession session(plan);
+  return session.measure(seconds);
+}
+
+}  // namespace
+
+int latency_command(const LatencyOptions& options) {
+  RunOptions run;
+  run.bus = table_of(options);
+  run.time = "real";
+  const RunPlan plan = make_plan(run);
+  try {
+    check_rate(options, plan.buses);
+    const json report = latency_report(measured(plan, options.seconds), plan.buses, options.seconds, examine_realtime());
+    clean_up(plan, true);
+    std::fputs((options.json ? report.dump() + "\n" : latency_text(report)).c_str(), stdout);
+    return report.value("overruns", 1) == 0 && report.value("enabled", false) ? kExitOk : kExitFailure;
+  } catch (...) {
+    clean_up(plan, true);
+    throw;
+  }
+}
+
+}  // namespace liana
