@@ -8,7 +8,7 @@ namespace liana {
 namespace {
 
 TEST(Eval, PrintsTheSameCanonicalTextTwice) {
-  for (const std::string table : {"robot zhu2022", "scene panel_slit", "buses embedded", "buses embedded_single", "buses vcan"}) {
+  for (const std::string table : {"robot zhu2022", "scene panel_slit", "buses embedded", "buses embedded_500", "buses embedded_single", "buses vcan"}) {
     const Ended first = run_program("eval " + table);
     EXPECT_EQ(first.code, 0) << first.error;
     EXPECT_EQ(first.error, "");
@@ -61,7 +61,7 @@ TEST(Eval, RefusesMalformedLuaTablesByField) {
 TEST(Eval, NamesWhatThereIsWhenANameIsUnknown) {
   const Ended ended = run_program("eval buses can9");
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(ended.error.find("can9: allowed embedded, embedded_single, vcan"), std::string::npos) << ended.error;
+  EXPECT_NE(ended.error.find("can9: allowed embedded, embedded_500, embedded_single, vcan"), std::string::npos) << ended.error;
 }
 
 TEST(Eval, DescribesTheSlitCrossing) {

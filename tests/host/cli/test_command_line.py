@@ -239,6 +239,14 @@ class Help(unittest.TestCase):
             self.assertTrue(finding["found"] and finding["meaning"], finding)
             self.assertEqual(finding["good"], finding["action"] == "", finding)
 
+    def test_bad_input_of_latency_is_named_with_what_is_allowed(self):
+        for words, said in [(["--rate", "300"], "allowed 250 (buses embedded) or 500 (buses embedded_500)"), (["--rate", "fast"], "--rate: 'fast'"),
+                            (["--seconds", "nan"], "--seconds: 'nan'"), (["--seconds", "0"], "allowed: 0.1 to 86400 s"),
+                            (["--buses", "can9"], "can9: allowed embedded"), (["--rate", "500", "--buses", "embedded"], "embedded has 250 Hz")]:
+            code, out, error = liana("latency", *words)
+            self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
+            self.assertIn(said, error)
+
     def test_status_without_a_running_system_says_so(self):
         code, _, error = liana("status", "--api", "/tmp/liana-no-such-socket")
         self.assertEqual(code, 2)

@@ -17,6 +17,9 @@ TEST(Buses, KnowPeriodIntervalAndTheBusOfANode) {
 TEST(Buses, WorstCaseLoadIsTheSumOfTheLongestFrames) {
   const BusesConfig two = parse_buses(good_table("buses", "embedded").dump(), "b");
   EXPECT_NEAR(worst_case_load(two, 0), ((55 + 8 * 250) * 250 + 9 * 65 * 10 + 5400) / 1e6, 1e-12);
+  const BusesConfig fast = parse_buses(good_table("buses", "embedded_500").dump(), "b");
+  EXPECT_EQ(fast.interval_ticks(), 10);
+  EXPECT_NEAR(worst_case_load(fast, 0), ((55 + 4 * 250) * 500 + 5 * 65 * 10 + 5400) / 1e6, 1e-12);
   const BusesConfig one = parse_buses(good_table("buses", "embedded_single").dump(), "b");
   EXPECT_NEAR(worst_case_load(one, 0), ((55 + 15 * 250) * 100 + 16 * 65 * 10 + 5400) / 1e6, 1e-12);
 }

@@ -15,8 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-ServiceConfig config_for(const SimArm& arm) {
+ServiceConfig config_for(const SimArm& arm, TimeMode mode) {
   ServiceConfig config;
+  config.time_mode = mode;
   config.api_path = testing::TempDir() + "liana_service_" + std::to_string(::getpid());
   config.robot.table = arm.table();
   config.robot.canonical_json = config.scene.canonical_json = config.buses.canonical_json = "{}";
@@ -28,7 +29,8 @@ ServiceConfig config_for(const SimArm& arm) {
 
 class ServiceOverSocket : public testing::Test {
  protected:
-  ServiceOverSocket() : arm_(std::make_unique<SimArm>()), config_(config_for(*arm_)), service_(config_, arm_->link) {}
+  explicit ServiceOverSocket(TimeMode mode = TimeMode::kFast)
+      : arm_(std::make_unique<SimArm>()), config_(config_for(*arm_, mode)), service_(config_, arm_->link) {}
   ~ServiceOverSocket() override { ::unlink(config_.api_path.c_str()); }
 
   ApiClient join(const std::string& role, Json topics = {"state"}) {
@@ -47,14 +49,18 @@ class ServiceOverSocket : public testing::Test {
   }
   // The answer to a request; "ok" or an error code.
   std::string ask(ApiClient& client, Json request) {
+    const Json answer = full_answer(client, std::move(request));
+    return answer["op"] == "ok" ? "ok" : answer.value("code", "no answer");
+  }
+  Json full_answer(ApiClient& client, Json request) {
     request["id"] = ++id_;
     client.send(request);
     for (int i = 0; i < 500; ++i) {
       service_.idle(0.001);
       const auto message = client.receive(0.0);
-      if (message && message->value("id", 0) == id_) return (*message)["op"] == "ok" ? "ok" : message->value("code", "");
+      if (message && message->value("id", 0) == id_) return *message;
     }
-    return "no answer";
+    return {{"op", "none"}};
   }
   Json state(ApiClient& client) {
     intervals(1);
@@ -249,6 +255,46 @@ TEST_F(ServiceOverSocket, ShutdownEndsWhenTheDrivesAreOff) {
   while (!service_.finished() && ++count < 600) intervals(1);
   EXPECT_TRUE(service_.finished());
   EXPECT_EQ(arm_->now().state, OperatingState::kDisabled);
+}
+
+TEST_F(ServiceOverSocket, TimingIsRefusedInVirtualTime) {
+  ApiClient watcher = join("observer");
+  const Json answer = full_answer(watcher, {{"op", "timing"}});
+  EXPECT_EQ(answer["code"], "refused");
+  EXPECT_NE(answer["message"].get<std::string>().find("--time real"), std::string::npos) << answer;
+}
+
+class ServiceInRealTime : public ServiceOverSocket {
+ protected:
+  ServiceInRealTime() : ServiceOverSocket(TimeMode::kReal) {}
+};
+
+TEST_F(ServiceInRealTime, TimingTellsWhatTheRealTimeThreadRecordedSinceTheLastReset) {
+  ApiClient watcher = join("observer");
+  TickTiming& timing = arm_->link.timing;
+  CycleReport report = arm_->link.report.value();
+  const auto record = [&](std::uint32_t late_us, std::uint32_t tick_us, std::uint64_t overruns) {
+    timing.wakeup_us.record(late_us);
+    timing.tick_us.record(tick_us);
+    report.overruns = {overruns, 0, 0, overruns};
+    arm_->link.report.publish(report);
+  };
+  record(12, 150, 0);
+  record(5000, 170, 2);
+  const Json first = full_answer(watcher, {{"op", "timing"}, {"reset", true}});
+  EXPECT_EQ(first["ticks"], 2);
+  EXPECT_EQ(first["wakeup_us"], Json::parse(R"({"median":12,"p99":5000,"worst":5000,"buckets":[[12,1],[2048,1]]})"));
+  EXPECT_EQ(first["overruns"], 2);
+  record(9, 160, 3);
+  for (int i = 0; i < 2; ++i) {  // reading alone changes nothing
+    const Json second = full_answer(watcher, {{"op", "timing"}});
+    EXPECT_EQ(second["ticks"], 1);
+    EXPECT_EQ(second["wakeup_us"]["worst"], 9);
+    EXPECT_EQ(second["tick_us"]["median"], 160);
+    EXPECT_EQ(second["overruns"], 1);
+    EXPECT_EQ(second["overrun_causes"]["lost_ticks"], 1);
+  }
+  EXPECT_EQ(full_answer(watcher, {{"op", "timing"}, {"reset", "yes"}})["code"], "bad_request");
 }
 
 TEST_F(ServiceOverSocket, MissingClientsAreNamed) {
