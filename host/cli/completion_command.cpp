@@ -19,7 +19,7 @@ constexpr const char* kBash = R"bash(_liana() {
     --record | --json | --svg | --path | --api | --out | replay) COMPREPLY=($(compgen -f -- "$word")); return ;;
   esac
   if [[ $COMP_CWORD == 1 ]]; then
-    words="run latency pose ik reach plan status estop clear replay robot doctor completion help"
+    words="run pose ik reach plan status estop clear latency replay robot doctor completion help"
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
       run) words="--robot --scene --bus --time --physics --record --json --seed" ;;

@@ -238,11 +238,11 @@ int run(int argc, char** argv) {
   add_reach(app, action, reach);
   add_plan(app, action, plan);
   add_run(app, action, run);
-  add_latency(app, action, latency);
   add_client(app, action, "status", "state of every running system", client, liana::status_command);
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client, liana::estop_command);
   add_client(app, action, "clear", "clear an emergency stop and the latched faults of one running system; enables nothing", client,
              liana::clear_command);
+  add_latency(app, action, latency);
   add_tools(app, action, replay, exported, doctor_json, shell);
   try {
     app.parse(arguments_of(app, argc, argv));

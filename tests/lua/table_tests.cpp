@@ -8,7 +8,8 @@ namespace liana {
 namespace {
 
 TEST(Eval, PrintsTheSameCanonicalTextTwice) {
-  for (const std::string table : {"robot zhu2022", "scene panel_slit", "buses embedded", "buses embedded_500", "buses embedded_single", "buses vcan"}) {
+  for (const std::string table :
+       {"robot zhu2022", "scene panel_slit", "buses embedded", "buses embedded_500", "buses embedded_single", "buses vcan"}) {
     const Ended first = run_program("eval " + table);
     EXPECT_EQ(first.code, 0) << first.error;
     EXPECT_EQ(first.error, "");
