@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kReadyTimeout_s = 60.0;  // boot and enabling, each; a machine in a machine is slow
+constexpr double kReadyTimeout_s = 20.0;  // boot and enabling, each; they take about 2 s
 constexpr double kAnswerTimeout_s = 10.0;
 constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
 constexpr double kLook_s = 0.05;
