@@ -58,22 +58,26 @@ def target_steps(traffic, limit_counts):
     return complaints
 
 
+def enabling_commands(traffic, first_slot, end_slot):
+    """(node, its commands in these slots that enable operation), where there are any."""
+    for node, commands in sorted(traffic.commands.items()):
+        found = [command for command in commands if first_slot <= command.slot < end_slot and is_enabling(command)]
+        if found:
+            yield node, found
+
+
 def enabling_without_clear(traffic, first_slot, end_slot):
     """Between the stop and the operator's clear and enable, no drive is told to enable operation."""
-    complaints = []
-    for node, commands in sorted(traffic.commands.items()):
-        found = [command.slot for command in commands if first_slot <= command.slot < end_slot and is_enabling(command)]
-        if found:
-            complaints.append(f"node {node}, slot {found[0]}: told to enable operation while the fault is latched ({len(found)} times)")
-    return complaints
+    return [f"node {node}, slot {found[0].slot}: told to enable operation while the fault is latched ({len(found)} times)"
+            for node, found in enabling_commands(traffic, first_slot, end_slot)]
 
 
 def targets_that_move(traffic, first_slot, end_slot):
     """From the end of the path stop to the operator's clear, the targets of drives that still hold the arm stay as they are."""
     complaints = []
-    for node, commands in sorted(traffic.commands.items()):
-        targets = [command.target for command in commands if first_slot <= command.slot < end_slot and is_enabling(command)]
-        if targets and max(targets) != min(targets):
+    for node, found in enabling_commands(traffic, first_slot, end_slot):
+        targets = [command.target for command in found]
+        if max(targets) != min(targets):
             complaints.append(f"node {node}: the target moves by {max(targets) - min(targets)} counts while the fault is latched")
     return complaints
 

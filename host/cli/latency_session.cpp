@@ -19,7 +19,6 @@ constexpr double kReadyTimeout_s = 20.0;  // boot and enabling, each; they take 
 constexpr double kAnswerTimeout_s = 10.0;
 constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
 constexpr double kLook_s = 0.05;
-constexpr int kShownLines = 5;
 // Bus and bench stand for hardware, which is never late for want of a processor; under lianad's real-time thread (80).
 constexpr int kHardwarePriority = 70;
 
@@ -116,15 +115,8 @@ json LatencySession::ask(json request) {
 
 void LatencySession::require_alive() {
   if (interrupts_.count() > 0) throw std::runtime_error("interrupted: the arm is stopped, nothing was measured");
-  const ChildProcess* cause = nullptr;
-  ChildEnd worst;
-  for (const auto& child : children_) {
-    const auto end = child->poll();
-    if (!end || (cause != nullptr && end->code <= worst.code)) continue;
-    cause = child.get();
-    worst = *end;
-  }
-  if (cause != nullptr) throw std::runtime_error(cause->name() + " " + how(worst) + "\n" + cause->last_lines(kShownLines));
+  const auto worst = worst_end(children_, [](const ChildProcess&, const ChildEnd&) { return true; });
+  if (worst) throw std::runtime_error(worst->text);
 }
 
 // lianad stops the arm and leaves the bus; bus and bench then end by themselves.

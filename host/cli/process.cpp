@@ -17,6 +17,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 namespace liana {
 namespace {
@@ -127,6 +128,21 @@ std::string ChildProcess::last_lines(int count) const {
   std::string text;
   for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
   return text;
+}
+
+std::optional<NamedEnd> worst_end(const std::vector<std::unique_ptr<ChildProcess>>& children,
+                                  const std::function<bool(const ChildProcess&, const ChildEnd&)>& counts) {
+  const ChildProcess* cause = nullptr;
+  ChildEnd worst;
+  for (const auto& child : children) {
+    const auto end = child->poll();
+    if (!end || !counts(*child, *end)) continue;
+    if (cause != nullptr && std::pair(end->signal, end->code) <= std::pair(worst.signal, worst.code)) continue;
+    cause = child.get();
+    worst = *end;
+  }
+  if (cause == nullptr) return std::nullopt;
+  return NamedEnd{worst, cause->name() + " " + how(worst) + "\n" + cause->last_lines(kShownLines)};
 }
 
 bool wait_for_socket(const std::string& path, ChildProcess& maker, const std::atomic<bool>& stop) {

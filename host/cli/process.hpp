@@ -4,6 +4,8 @@
 #include <sys/types.h>
 
 #include <atomic>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +20,9 @@ struct ChildEnd {
 
 // "ended with code 1", "was killed by signal 9".
 std::string how(const ChildEnd& end);
+
+// Of a program's log, in what is said about its end.
+constexpr int kShownLines = 5;
 
 // One running program; its standard output and error go to a log file. It is told to end when its parent dies.
 class ChildProcess {
@@ -48,6 +53,16 @@ class ChildProcess {
 
 // Waits until `path` is there; false when `maker` has ended without it, `stop` became true, or after 30 s.
 bool wait_for_socket(const std::string& path, ChildProcess& maker, const std::atomic<bool>& stop);
+
+// How one of several programs ended, and in words: its name, its end, the last lines of its log.
+struct NamedEnd {
+  ChildEnd end;
+  std::string text;
+};
+
+// Of the programs that have ended and whose end `counts`, the one that ended worst: killed, failed, then in order. Nothing without any.
+std::optional<NamedEnd> worst_end(const std::vector<std::unique_ptr<ChildProcess>>& children,
+                                  const std::function<bool(const ChildProcess&, const ChildEnd&)>& counts);
 
 // What a short helper program printed.
 struct Captured {

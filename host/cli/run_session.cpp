@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <thread>
-#include <utility>
 
 #include "host/cli/observer.hpp"
 
@@ -23,7 +22,6 @@ constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
 constexpr double kFinishGrace_s = 3.0;  // for the others to write their summaries after that
 constexpr double kLook_s = 0.02;
 constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
-constexpr int kShownLines = 5;
 
 Clock::time_point after(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -103,17 +101,10 @@ RunEnd RunSession::end_of_mission(const ChildEnd& end) {
 // Of the programs beside the mission runner that have ended the one that ended worst: killed, failed or, unless `failed_only`, in order.
 // Exit code 2 means that it refused its input.
 std::optional<RunEnd> RunSession::dead_child(bool failed_only) {
-  const ChildProcess* cause = nullptr;
-  ChildEnd worst;
-  for (const auto& child : children_) {
-    const auto end = child->poll();
-    if (!end || child.get() == mission_ || (failed_only && end->code == 0)) continue;
-    if (cause != nullptr && std::pair(end->signal, end->code) <= std::pair(worst.signal, worst.code)) continue;
-    cause = child.get();
-    worst = *end;
-  }
-  if (cause == nullptr) return std::nullopt;
-  return RunEnd{"failed", cause->name() + " " + how(worst) + "\n" + cause->last_lines(kShownLines), worst.code == 2 && states_.empty()};
+  const auto worst = worst_end(
+      children_, [&](const ChildProcess& child, const ChildEnd& end) { return &child != mission_ && !(failed_only && end.code == 0); });
+  if (!worst) return std::nullopt;
+  return RunEnd{"failed", worst->text, worst->end.code == 2 && states_.empty()};
 }
 
 RunEnd RunSession::interrupted() {

@@ -168,12 +168,10 @@ Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
   }
   KeepClearTargets clear{};
   used = 0;
-  if (request.contains("keep_clear")) {
-    for (const Json& entry : array_field(request, "keep_clear", clear.size())) {
-      only_fields(entry, {"centre_m", "distance_m", "weight"});
-      clear[used++] = {point_field(entry, "centre_m", reach_m_), number_field(entry, "distance_m", 0.0, reach_m_),
-                       number_field_or(entry, "weight", 0.0, 1000.0, 1.0)};
-    }
+  for (const Json& entry : array_field(request, "keep_clear", clear.size())) {
+    only_fields(entry, {"centre_m", "distance_m", "weight"});
+    clear[used++] = {point_field(entry, "centre_m", reach_m_), number_field(entry, "distance_m", 0.0, reach_m_),
+                     number_field_or(entry, "weight", 0.0, 1000.0, 1.0)};
   }
   arbiter_.shape(now(), nodes, clear, request.contains("search") && flag_field(request, "search"));
   return Json::object();
