@@ -62,6 +62,9 @@ class Scenario:
         self.faults, self.bus_script = content.get("faults"), content.get("bus_script")
         self.about, self.reduced = content["about"], content.get("reduced", False)
 
+    def run(self):
+        return Run(self)
+
     def fault_count(self):
         return len(self.faults or []) + len(self.bus_script or [])
 

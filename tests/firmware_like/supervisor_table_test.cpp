@@ -1,8 +1,11 @@
 // The supervisor's table row by row: from every phase, with every severity, whatever the drives do.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <fstream>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -17,46 +20,51 @@ using namespace safety_bench;
 const WatchdogLimits kLimits = make_watchdog_limits(table());
 
 struct Severity {
-  const char* name;
   StopCategory category;
   std::uint8_t immediate;
 };
-struct Reaction {
-  Phase from;
-  std::array<Phase, 5> to;  // with no fault, hold, stop, immediate, off
-};
 
-TEST(SupervisorTable, EveryPhaseAnswersEverySeverityInTheSameTick) {
-  using P = Phase;
-  constexpr std::array<Severity, 5> kSeverities{{{"none", StopCategory::kNone, 0},
-                                                 {"hold", StopCategory::kHold, 0},
-                                                 {"stop", StopCategory::kStop, 0},
-                                                 {"immediate", StopCategory::kStop, 1},
-                                                 {"off", StopCategory::kOff, 1}}};
-  const std::vector<Reaction> reactions{
-      {P::kDisabled, {P::kDisabled, P::kFault, P::kFault, P::kFault, P::kFault}},
-      {P::kSwitchingOn, {P::kPowering, P::kPowerDown, P::kPowerDown, P::kPowerDown, P::kPowerDown}},
-      {P::kPowering, {P::kTensioning, P::kPowerDown, P::kPowerDown, P::kPowerDown, P::kPowerDown}},
-      {P::kTensioning, {P::kEnabled, P::kBraking, P::kBraking, P::kQuickStop, P::kPowerDown}},
-      {P::kEnabled, {P::kEnabled, P::kEnabled, P::kPathStop, P::kQuickStop, P::kPowerDown}},
-      {P::kPathStop, {P::kPathStop, P::kPathStop, P::kPathStop, P::kQuickStop, P::kPowerDown}},
-      {P::kBraking, {P::kBraking, P::kBraking, P::kBraking, P::kBraking, P::kPowerDown}},
-      {P::kQuickStop, {P::kQuickStop, P::kQuickStop, P::kQuickStop, P::kQuickStop, P::kPowerDown}},
-      {P::kPowerDown, {P::kPowerDown, P::kPowerDown, P::kPowerDown, P::kPowerDown, P::kPowerDown}},
-      {P::kFault, {P::kFault, P::kFault, P::kFault, P::kFault, P::kFault}},
-      {P::kResetting, {P::kResetting, P::kResetting, P::kResetting, P::kResetting, P::kResetting}},
-  };
-  ASSERT_EQ(reactions.size(), static_cast<std::size_t>(kPhaseCount));
-  for (const Reaction& reaction : reactions) {
+// Names of the phases in docs/priorities.md, in the order of Phase.
+const std::array<std::string, kPhaseCount> kPhaseNames{"disabled", "switching on", "powering",   "tensioning", "enabled",  "path stop",
+                                                       "braking",  "quick stop",   "power down", "fault",      "resetting"};
+
+// The rows of the page's table that begin with a phase: that phase and what it leads to, by rising severity.
+std::vector<std::vector<Phase>> documented_reactions() {
+  std::ifstream page(LIANA_DOCS_DIR "/priorities.md");
+  std::vector<std::vector<Phase>> rows;
+  for (std::string line; std::getline(page, line);) {
+    std::vector<Phase> row;
+    std::istringstream cells(line);
+    for (std::string cell; std::getline(cells, cell, '|');) {
+      const auto* const name = std::find(kPhaseNames.begin(), kPhaseNames.end(), cell.substr(cell.empty() ? 0 : 1, cell.size() - 2));
+      if (name != kPhaseNames.end()) row.push_back(static_cast<Phase>(name - kPhaseNames.begin()));
+    }
+    if (row.size() > 1) rows.push_back(row);
+  }
+  return rows;
+}
+
+TEST(SupervisorTable, EveryPhaseAnswersEverySeverityInTheSameTickAsThePageSays) {
+  // No fault, hold, stop, stop at once, off at once.
+  constexpr std::array<Severity, 5> kSeverities{
+      {{StopCategory::kNone, 0}, {StopCategory::kHold, 0}, {StopCategory::kStop, 0}, {StopCategory::kStop, 1}, {StopCategory::kOff, 1}}};
+  const std::vector<std::vector<Phase>> rows = documented_reactions();
+  ASSERT_EQ(rows.size(), static_cast<std::size_t>(kPhaseCount));
+  std::set<Phase> documented;
+  for (const std::vector<Phase>& row : rows) {
+    ASSERT_EQ(row.size(), kSeverities.size() + 1) << kPhaseNames[static_cast<std::size_t>(row[0])];
+    documented.insert(row[0]);
     for (std::size_t s = 0; s < kSeverities.size(); ++s) {
-      SupervisorState state{reaction.from, 1, 0, 0, {}};
+      SupervisorState state{row[0], 1, 0, 0, {}};
       FaultList faults{};
       faults.category = kSeverities[s].category;
       faults.immediate = kSeverities[s].immediate;
       supervise(kLimits, healthy(kStatusEnabled), {false, true, false, true}, 0, state, faults);
-      EXPECT_EQ(state.phase, reaction.to[s]) << "phase " << static_cast<int>(reaction.from) << ", " << kSeverities[s].name;
+      EXPECT_EQ(state.phase, row[s + 1]) << kPhaseNames[static_cast<std::size_t>(row[0])] << ", severity " << s << " leads to "
+                                         << kPhaseNames[static_cast<std::size_t>(state.phase)];
     }
   }
+  EXPECT_EQ(documented.size(), rows.size());
 }
 
 TEST(SupervisorTable, AFaultIsNeverShownAsDisabledNotEvenForOneTick) {

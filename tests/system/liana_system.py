@@ -67,7 +67,7 @@ class Client:
 
     def __init__(self, path, name, role, lockstep=False, subscribe=("state",)):
         self.lockstep, self.state, self.answers, self.complaints = lockstep, None, {}, []
-        self.last_id = 0
+        self.last_id, self.faults_told = 0, set()
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.socket.settimeout(PATIENCE_S)
         wait_until(lambda: self.socket.connect_ex(str(path)) == 0, f"{path} to listen")  # the path is there a moment before
@@ -91,6 +91,7 @@ class Client:
             message = self.receive()
             if message["op"] == "state":
                 self.state = message
+                self.faults_told.update((fault["number"], fault["index"], fault["tick"]) for fault in message["faults"])
                 return message
             if "id" in message:
                 self.answers[message["id"]] = message

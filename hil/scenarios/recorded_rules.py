@@ -1,0 +1,293 @@
+"""Safety rules over a recording (recording.py), tick by tick. Each gives a list of complaints, empty when the rule held; all_complaints() is all of them.
+
+What is wrong is judged anew from what the drives reported; only the reaction to each number is read, from docs/faults.md.
+"""
+import collections
+import math
+import pathlib
+import re
+
+import predicates
+
+FAULTS_PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "faults.md"
+
+kReactions = ("none", "hold", "stop", "stop at once", "off at once")  # a later one wins
+kNone, kHold, kStop, kAtOnce, kOff = range(5)
+kCategories = (0, 1, 2, 2, 3)  # stop category that the state shows for each
+kFollowers = {"DISABLED": ("ENABLING", "FAULT"), "ENABLING": ("ENABLED", "STOPPING"), "ENABLED": ("STOPPING",), "STOPPING": ("DISABLED", "FAULT"),
+              "FAULT": ("DISABLED",)}
+kLatchedLast = (1001, 6001)  # found after the reaction of their tick was decided: they act from the next one on
+kQuickStop, kDisableVoltage, kFaultReset = 0x02, 0x00, 0x80
+kClearTicks = 260  # from a clear to its verdict
+kPersistTicks = 1250  # a hold that stays so long is a stop
+kPathStopTicks = 500  # twice what rest from full speed takes
+kTellTicks = 10  # two command intervals: the next state tells
+kSettleTicks = 5  # from the state on: drives have heard the last command, their brakes are closed
+
+# Detection that is promised: wrong for more than so many ticks is a fault.
+kSilentTicks, kHeartbeat_s, kLostTicks = 2, 0.3, 3
+kSlackTicks, kAlarmTicks, kOverloadTicks = 25, 25, 3
+kFollowing_m, kFollowingTicks = 1e-3, 6
+
+Limits = collections.namedtuple("Limits", "step_counts following_counts newtons_per_permille heartbeat_ticks slack_N alarm_N overload_N")
+
+
+def limits_of(robot, period_s):
+    drives, tension = robot["drives"], robot["tension"]
+    metres_per_count = 2 * math.pi * drives["drum_radius_m"] / (drives["counts_per_turn"] * drives.get("gear", 1))
+    return Limits(predicates.step_limit_counts(robot, period_s), kFollowing_m / metres_per_count, drives["rated_torque_Nm"] / 1000 / drives["drum_radius_m"],
+                  round(kHeartbeat_s / period_s), tension["floor_anywhere_N"], tension["alarm_N"], tension["hard_limit_N"])
+
+
+def documented_reactions(text=None):
+    """Fault number -> index into kReactions, from the table of docs/faults.md."""
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in (text or FAULTS_PAGE.read_text()).splitlines() if line.startswith("|")]
+    head = next(row for row in rows if "number" in row)
+    number, reaction = head.index("number"), head.index("stops by")
+    return {int(row[number]): kReactions.index(row[reaction]) for row in rows if len(row) == len(head) and re.fullmatch(r"\d{4}", row[number])}
+
+
+def is_enabling(word):
+    return word & 0x8F == predicates.kEnableOperation
+
+
+def is_enabled(statusword):
+    return statusword & 0x6F == 0x27
+
+
+def is_in_fault(statusword):
+    return statusword & 0x4F in (0x0F, 0x08)
+
+
+def names(tick):
+    return {(fault.number, fault.index) for fault in tick.faults}
+
+
+def neighbours(ticks):
+    return zip(ticks, ticks[1:])
+
+
+def missing_ticks(ticks):
+    """Every tick is there."""
+    return [f"tick {now.tick} follows tick {before.tick}" for before, now in neighbours(ticks) if now.tick != before.tick + 1 + now.lost_ticks]
+
+
+def target_steps(ticks, limits):
+    """No target of a drive told to enable operation changes more in a tick than the cable speed with the gate's margin."""
+    complaints = []
+    for before, now in neighbours(ticks):
+        if now.target == before.target:
+            continue
+        for drive, (old, new) in enumerate(zip(before.target, now.target)):
+            if abs(new - old) > limits.step_counts and is_enabling(before.controlword[drive]) and is_enabling(now.controlword[drive]):
+                complaints.append(f"tick {now.tick}: the target of drive {drive} changes by {new - old} counts, allowed are {limits.step_counts:.0f}")
+    return complaints
+
+
+def commands_out_of_time(ticks):
+    """A telecommand is in force only from its first tick until before its expiry, and only one that was released."""
+    offered, complaints = {}, []
+    for now in ticks:
+        offered[now.sequence] = (now.first_tick, now.expiry_tick)
+        if now.active_sequence == 0:
+            continue
+        first, expiry = offered.get(now.active_sequence, (math.inf, 0))
+        if not first <= now.tick < expiry:
+            complaints.append(f"tick {now.tick}: telecommand {now.active_sequence} is in force, which holds from {first} until before {expiry}")
+    return complaints
+
+
+def acting(tick):
+    """The latched faults that decide how this tick reacts."""
+    return [fault for fault in tick.faults if fault.tick < tick.tick or fault.number not in kLatchedLast]
+
+
+def commands_while_latched(ticks):
+    """No telecommand is in force while a fault is latched, and what moved comes to rest."""
+    complaints = []
+    for now in ticks:
+        held = acting(now)
+        if held and now.active_sequence != 0:
+            complaints.append(f"tick {now.tick}: telecommand {now.active_sequence} is in force while {held[0].number} is latched")
+        if held and now.tick > held[0].tick + kPathStopTicks and any(now.theta_rate):
+            complaints.append(f"tick {now.tick}: the commanded arm still moves, {held[0].number} was latched in tick {held[0].tick}")
+    return complaints
+
+
+def states_not_documented(ticks, reactions):
+    """States follow each other as documented, and every fault is one that has a page."""
+    complaints = [f"tick {now.tick}: {now.state} follows {before.state}" for before, now in neighbours(ticks)
+                  if now.state != before.state and now.state not in kFollowers[before.state]]
+    unknown = {fault.number for now in ticks for fault in now.faults} - reactions.keys()
+    return complaints + [f"fault {number} is not in docs/faults.md" for number in sorted(unknown)]
+
+
+def enabling_unasked(ticks):
+    """Drives are enabled only after an operator's enable, and none is told to enable operation in DISABLED or FAULT."""
+    complaints = []
+    for before, now in neighbours(ticks):
+        if now.state == "ENABLING" != before.state and (now.request != "enable" or now.faults):
+            complaints.append(f"tick {now.tick}: enabling begins, asked for is {now.request}, {len(now.faults)} faults are latched")
+        if now.state in ("DISABLED", "FAULT") and any(map(is_enabling, now.controlword)):
+            complaints.append(f"tick {now.tick}: a drive is told to enable operation in {now.state}")
+    return complaints
+
+
+def faults_gone_unasked(ticks):
+    """A latched fault goes away only by an operator's clear, and Fault is left only so."""
+    asked, complaints = -math.inf, []
+    for before, now in neighbours(ticks):
+        if now.request == "clear":
+            asked = now.tick
+        gone = names(before) - names(now)
+        if gone and now.tick > asked + kClearTicks:
+            complaints.append(f"tick {now.tick}: faults {sorted(gone)} are gone without a clear")
+        if before.state == "FAULT" != now.state and (now.faults or now.tick > asked + kClearTicks):
+            complaints.append(f"tick {now.tick}: FAULT is left without a clear")
+    return complaints
+
+
+def weakest_reaction_broken(before, now, highest, was, persisted):
+    """Why this tick does less than the highest latched reaction asks for; None when it does enough."""
+    if now.state in ("DISABLED", "ENABLING") or (now.state == "ENABLED" and highest > kHold):
+        return f"the state is {now.state}"
+    if now.stop_category < kCategories[highest]:
+        return f"the stop category is {now.stop_category}"
+    if highest == kOff and any(word not in (kDisableVoltage, kFaultReset) for word in now.controlword):
+        return "a drive is not told to disable voltage"
+    if highest >= kAtOnce and any(map(is_enabling, now.controlword)):
+        return "a drive is told to enable operation"
+    if highest == kAtOnce > was and before.state == "ENABLED":
+        if any(is_enabled(status) and word != kQuickStop for status, word in zip(now.statusword, now.controlword)):
+            return "a drive with torque is not told to quick stop"
+    if highest == kHold and before.state == "ENABLED" != now.state and now.request not in ("stop", "disable") and not persisted:
+        return f"the state is {now.state}: a hold keeps the drives enabled"
+    return None
+
+
+def weak_reactions(ticks, reactions):
+    """The highest reaction of all latched faults is what happens, in the tick in which they are latched (docs/priorities.md)."""
+    complaints, was = [], kNone
+    for before, now in neighbours(ticks):
+        held = acting(now)
+        highest = max((reactions.get(fault.number, kOff) for fault in held), default=kNone)
+        persisted = bool(held) and now.tick >= held[0].tick + kPersistTicks - kSettleTicks
+        why = weakest_reaction_broken(before, now, highest, was, persisted) if held and not now.dropped else None
+        if why:
+            complaints.append(f"tick {now.tick}: {kReactions[highest]} is asked for by {[tuple(fault[:2]) for fault in held]}, but {why}")
+        was = highest
+    return complaints
+
+
+class Watch:
+    """Which faults the reports of one tick after the other must lead to."""
+
+    def __init__(self, limits):
+        self.limits, self.seen, self.wrong_for = limits, set(), collections.Counter()
+
+    def lasting(self, key, is_wrong, ticks):
+        self.wrong_for[key] = self.wrong_for[key] + 1 if is_wrong else 0
+        return self.wrong_for[key] >= ticks
+
+    def due(self, before, now):
+        """(number, index) of everything that is wrong and must be latched in this tick."""
+        powered = before.state == "ENABLED"
+        found = [(4001, bus) for bus in range(32) if now.lost_buses >> bus & 1]
+        if powered and now.lost_ticks > kLostTicks:
+            found.append((2001, -1))
+        for drive, status in enumerate(now.statusword):
+            found += ((number, drive) for number in self.of_link(now, drive))
+            if is_in_fault(status):
+                found.append((3003, drive))
+            elif powered and not is_enabled(status):
+                found.append((3004, drive))
+            found += ((number, drive) for number in self.of_cable(before, now, drive, powered))
+        return found
+
+    def of_link(self, now, drive):
+        silent, missing = now.age[drive] > kSilentTicks, now.heartbeat_age[drive] > self.limits.heartbeat_ticks
+        if not silent and not missing and now.operational[drive]:
+            self.seen.add(drive)
+        elif drive in self.seen:
+            if silent:
+                yield 3002
+            if missing:
+                yield 3001
+            if not now.operational[drive]:
+                yield 3007
+
+    def of_cable(self, before, now, drive, powered):
+        limits, tension_N = self.limits, now.torque[drive] * self.limits.newtons_per_permille
+        if self.lasting((5001, drive), powered and tension_N < limits.slack_N, kSlackTicks):
+            yield 5001
+        if self.lasting((5003, drive), powered and tension_N > limits.alarm_N, kAlarmTicks):
+            yield 5003
+        if self.lasting((5002, drive), powered and tension_N > limits.overload_N, kOverloadTicks):
+            yield 5002
+        lag = abs(before.target[drive] - now.position[drive])
+        if self.lasting((3006, drive), powered and lag > limits.following_counts, kFollowingTicks):
+            yield 3006
+
+
+def faults_not_latched(ticks, limits):
+    """Whatever the reports show wrong is latched in the same tick."""
+    watch, complaints = Watch(limits), []
+    for before, now in neighbours(ticks):
+        due = watch.due(before, now)
+        absent = set(due) - names(now) if due and not now.dropped else ()
+        if absent:
+            complaints.append(f"tick {now.tick}: {sorted(absent)} had to be latched, there are {sorted(names(now))}")
+    return complaints
+
+
+def faults_not_told(ticks, told):
+    """Every fault that a client was told of is in the recording, and every recorded one was told; `told`: (number, index, tick)."""
+    recorded = {(fault.number, fault.index, fault.tick) for now in ticks for fault in now.faults}
+    due = {fault for fault in recorded if fault[2] < ticks[-1].tick - kTellTicks}
+    return [f"fault {fault} was told to the client, but is not recorded" for fault in sorted(told - recorded)] + \
+           [f"fault {fault} is recorded, but the client was never told" for fault in sorted(due - told)]
+
+
+def standing_ranges(ticks):
+    """(first tick, tick after the last) of every stretch in which drives must be without torque and brakes closed."""
+    first = None
+    for now in ticks:
+        standing = now.state in ("DISABLED", "FAULT")
+        if standing and first is None:
+            first = now.tick + kSettleTicks
+        if not standing and first is not None:
+            yield first, now.tick
+            first = None
+    if first is not None:
+        yield first, ticks[-1].tick + 1
+
+
+def torque_while_off(ticks, enabled):
+    """In DISABLED and FAULT no drive has torque; `enabled` is the column of truth.bin."""
+    return [complaint for first, end in standing_ranges(ticks) for complaint in predicates.drives_with_torque(enabled, first, end)]
+
+
+def drums_moving_while_off(ticks, left_out):
+    """In DISABLED and FAULT brakes hold the drums; `left_out`: drives whose reports are the fault."""
+    complaints, index = [], {now.tick: i for i, now in enumerate(ticks)}
+    for first, end in standing_ranges(ticks):
+        rows = ticks[index.get(first, len(ticks)):index.get(end, len(ticks))]
+        for drive, places in enumerate(zip(*(row.position for row in rows))):
+            if drive not in left_out and max(places) - min(places) > 1:
+                complaints.append(f"ticks {first} to {end}: the drum of drive {drive} moves by {max(places) - min(places)} counts while the arm is off")
+    return complaints
+
+
+def all_complaints(recording, enabled, told, left_out=()):
+    """Everything that breaks a rule; `enabled`: column of truth.bin, `told`: faults that the client was told of."""
+    end = recording.metadata.get("end", {})
+    if not recording.whole or end.get("dropped") != "0" or end.get("ticks") != str(len(recording.ticks)):
+        return [f"the recording is not complete: {end}, {len(recording.ticks)} ticks read"]
+    ticks = recording.ticks
+    if not ticks:
+        return [f"slot {slot}: {count:.0f} drives are enabled, and nothing was recorded" for slot, count in enumerate(enabled) if count > 0][:1]
+    limits, reactions = limits_of(recording.robot(), float(recording.metadata["run"]["period_s"])), documented_reactions()
+    found = (missing_ticks(ticks), target_steps(ticks, limits), commands_out_of_time(ticks), commands_while_latched(ticks),
+             states_not_documented(ticks, reactions), enabling_unasked(ticks), faults_gone_unasked(ticks), weak_reactions(ticks, reactions),
+             faults_not_latched(ticks, limits), faults_not_told(ticks, told), torque_while_off(ticks, enabled), drums_moving_while_off(ticks, left_out))
+    return [complaint for complaints in found for complaint in complaints[:3]]

@@ -1,0 +1,157 @@
+"""Each safety rule over a recording can fail: good ticks pass it, one thing changed breaks it. Pairs of faults: what is expected first."""
+import sys
+import unittest
+
+from liana_system import SOURCE
+
+sys.path.insert(0, str(SOURCE / "hil" / "scenarios"))
+
+import pairs  # noqa: E402
+import recorded_rules as rules  # noqa: E402
+from recording import Fault, Tick, offsets  # noqa: E402
+
+kEnabled, kSwitchOnDisabled, kInFault = 0x1237, 0x0250, 0x0218
+kLimits = rules.Limits(step_counts=36, following_counts=700, newtons_per_permille=0.6, heartbeat_ticks=75, slack_N=1.0, alarm_N=400.0, overload_N=600.0)
+kReactions = {3002: rules.kAtOnce, 3003: rules.kAtOnce, 3004: rules.kAtOnce, 5001: rules.kHold, 5002: rules.kOff, 6001: rules.kAtOnce}
+kGood = Tick(tick=0, lost_ticks=0, lost_buses=0, request="none", sequence=7, first_tick=0, expiry_tick=10 ** 6, statusword=(kEnabled, kEnabled), torque=(70, 70),
+             position=(1000, 2000), age=(0, 0), heartbeat_age=(5, 5), operational=(1, 1), state="ENABLED", stop_category=0, at_rest=1, active_sequence=0, faults=(),
+             dropped=0, controlword=(0x0F, 0x0F), target=(1000, 2000), theta_rate=(0.0, 0.0))
+
+
+def ticks(count, **fields):
+    return [kGood._replace(tick=i, **fields) for i in range(count)]
+
+
+def changed(at, count=10, **fields):
+    """Good ticks, from `at` on with these fields."""
+    return [tick._replace(**fields) if tick.tick >= at else tick for tick in ticks(count)]
+
+
+def fault(number, index=1, tick=5):
+    return Fault(number, index, 0, tick)
+
+
+kStopped = {"faults": (fault(3003),), "state": "STOPPING", "stop_category": 2, "controlword": (0x02, 0x00), "statusword": (kEnabled, kInFault)}
+
+
+class Rules(unittest.TestCase):
+    def broken(self, complaints, *words):
+        self.assertEqual(len(complaints) > 0, True, "the rule did not see it")
+        for word in words:
+            self.assertIn(word, complaints[0])
+
+    def test_a_missing_tick_is_found_and_lost_deadlines_are_none(self):
+        self.assertEqual(rules.missing_ticks(ticks(4)), [])
+        self.broken(rules.missing_ticks(ticks(2) + [kGood._replace(tick=3)]), "tick 3")
+        self.assertEqual(rules.missing_ticks(ticks(2) + [kGood._replace(tick=3, lost_ticks=1)]), [])
+
+    def test_a_target_that_steps_too_far_is_found_where_the_drive_has_torque(self):
+        self.assertEqual(rules.target_steps(changed(5, target=(1036, 2000)), kLimits), [])
+        self.broken(rules.target_steps(changed(5, target=(1000, 1963)), kLimits), "tick 5", "drive 1")
+        self.assertEqual(rules.target_steps(changed(5, target=(9000, 2000), controlword=(0, 0)), kLimits), [])
+
+    def test_a_telecommand_before_its_time_after_its_expiry_or_never_released_is_found(self):
+        self.assertEqual(rules.commands_out_of_time(ticks(10, active_sequence=7)), [])
+        self.broken(rules.commands_out_of_time(ticks(10, active_sequence=7, expiry_tick=9)), "tick 9", "telecommand 7")
+        self.broken(rules.commands_out_of_time(ticks(10, active_sequence=7, first_tick=1)), "tick 0")
+        self.broken(rules.commands_out_of_time(ticks(10, active_sequence=8)), "telecommand 8")
+
+    def test_a_telecommand_or_motion_while_a_fault_is_latched_is_found(self):
+        held = (fault(5001),)
+        self.assertEqual(rules.commands_while_latched(changed(5, faults=held)), [])
+        self.broken(rules.commands_while_latched(changed(5, faults=held, active_sequence=7)), "tick 5")
+        self.assertEqual(rules.commands_while_latched(changed(5, 6, faults=(fault(6001),), active_sequence=7)), [], "the gate is last")
+        long = changed(5, 600, faults=held, theta_rate=(0.0, 0.01))
+        self.broken(rules.commands_while_latched(long), f"tick {5 + rules.kPathStopTicks + 1}", "still moves")
+
+    def test_a_state_or_a_fault_that_is_not_documented_is_found(self):
+        self.assertEqual(rules.states_not_documented(changed(5, **kStopped), kReactions), [])
+        self.broken(rules.states_not_documented(changed(5, state="FAULT"), kReactions), "FAULT follows ENABLED")
+        self.broken(rules.states_not_documented(changed(5, faults=(fault(1234),)), kReactions), "1234")
+
+    def test_enabling_that_nobody_asked_for_is_found(self):
+        off = [kGood._replace(tick=i, state="DISABLED", controlword=(0, 0)) for i in range(5)]
+        begins = kGood._replace(tick=5, state="ENABLING", controlword=(6, 6), request="enable")
+        self.assertEqual(rules.enabling_unasked([*off, begins]), [])
+        self.broken(rules.enabling_unasked([*off, begins._replace(request="none")]), "asked for is none")
+        self.broken(rules.enabling_unasked([*off, begins._replace(faults=(fault(3002),))]), "1 faults")
+        self.broken(rules.enabling_unasked([*off, off[0]._replace(tick=5, controlword=(0, 0x0F))]), "in DISABLED")
+
+    def test_a_fault_that_goes_away_without_a_clear_is_found(self):
+        faulty = [kGood._replace(tick=i, state="FAULT", faults=(fault(3003),)) for i in range(5)]
+        cleared = kGood._replace(tick=5, state="DISABLED")
+        self.broken(rules.faults_gone_unasked([*faulty, cleared]), "3003", "without a clear")
+        faulty[3] = faulty[3]._replace(request="clear")
+        self.assertEqual(rules.faults_gone_unasked([*faulty, cleared]), [])
+        self.broken(rules.faults_gone_unasked([*faulty, cleared._replace(faults=(fault(3003),))]), "FAULT is left")
+
+    def test_a_reaction_weaker_than_the_highest_latched_fault_asks_for_is_found(self):
+        self.assertEqual(rules.weak_reactions(changed(5, **kStopped), kReactions), [])
+        for weaker, said in (({"state": "ENABLED"}, "ENABLED"), ({"controlword": (0x0F, 0x00)}, "enable operation"), ({"controlword": (0x07, 0x00)}, "quick stop"),
+                             ({"stop_category": 1}, "category"), ({"faults": (fault(5001), fault(5002)), "stop_category": 3}, "disable voltage")):
+            self.broken(rules.weak_reactions(changed(5, **{**kStopped, **weaker}), kReactions), said)
+        self.assertEqual(rules.weak_reactions(changed(5, faults=(fault(5001),), stop_category=1), kReactions), [])
+        self.broken(rules.weak_reactions(changed(5, **{**kStopped, "faults": (fault(5001),)}), kReactions), "a hold keeps the drives enabled")
+
+    def test_everything_that_reports_show_wrong_has_to_be_latched(self):
+        for number, wrong in ((3002, {"age": (0, 3)}), (3001, {"heartbeat_age": (0, 76)}), (3007, {"operational": (1, 0)}), (3003, {"statusword": (kEnabled, kInFault)}),
+                              (3004, {"statusword": (kEnabled, kSwitchOnDisabled)}), (5001, {"torque": (70, 1)}), (5002, {"torque": (70, 1001)}),
+                              (5003, {"torque": (70, 700)}), (3006, {"position": (1000, 2701)})):
+            found = rules.faults_not_latched(changed(5, 60, **wrong), kLimits)
+            self.broken(found, f"({number}, 1)")
+            every = tuple(fault(known) for known in (3001, 3002, 3003, 3004, 3006, 3007, 5001, 5002, 5003))
+            self.assertEqual(rules.faults_not_latched(changed(5, 60, **wrong, faults=every), kLimits), [])
+        self.broken(rules.faults_not_latched(changed(5, lost_buses=2), kLimits), "(4001, 1)")
+        self.broken(rules.faults_not_latched(changed(5, lost_ticks=4), kLimits), "(2001, -1)")
+
+    def test_a_drive_that_was_never_there_is_no_fault(self):
+        self.assertEqual(rules.faults_not_latched(ticks(10, age=(0, 3), heartbeat_age=(0, 99), operational=(1, 0)), kLimits), [])
+
+    def test_a_fault_that_was_told_but_not_recorded_or_the_other_way_round_is_found(self):
+        latched = changed(5, 40, faults=(fault(3002),))
+        self.assertEqual(rules.faults_not_told(latched, {(3002, 1, 5)}), [])
+        self.broken(rules.faults_not_told(latched, set()), "never told")
+        self.broken(rules.faults_not_told(latched, {(3002, 1, 5), (3001, 1, 9)}), "not recorded")
+
+    def test_torque_and_drums_that_move_while_the_arm_is_off_are_found(self):
+        off = ticks(20, state="FAULT", controlword=(0, 0))
+        self.assertEqual(rules.torque_while_off(off, [15] * 5 + [0] * 15), [])
+        self.broken(rules.torque_while_off(off, [0] * 12 + [1] + [0] * 7), "slot 12")
+        self.assertEqual(rules.drums_moving_while_off(off, ()), [])
+        rolling = [tick._replace(position=(1000, 2000 + 2 * (tick.tick > 10))) for tick in off]
+        self.broken(rules.drums_moving_while_off(rolling, ()), "drive 1")
+        self.assertEqual(rules.drums_moving_while_off(rolling, {1}), [])
+
+    def test_reactions_are_those_of_the_page_of_faults(self):
+        found = rules.documented_reactions()
+        self.assertEqual((found[5001], found[3002], found[5002]), (rules.kHold, rules.kAtOnce, rules.kOff))
+
+
+class Recordings(unittest.TestCase):
+    def test_fields_of_arrays_of_structures_lie_one_structure_after_the_other(self):
+        found = offsets([("tick", 8), ("drive[2].word", 2), ("drive[2].place[2]", 4), ("end", 1)])
+        self.assertEqual(found["drive.word"], [(8, 2), (18, 2)])
+        self.assertEqual(found["drive.place"], [(10, 4), (14, 4), (20, 4), (24, 4)])
+        self.assertEqual(found["end"], [(28, 1)])
+
+
+class Pairs(unittest.TestCase):
+    def test_every_pair_of_the_members_is_there_once_and_delays_reach_50_ticks(self):
+        found = pairs.all_pairs()
+        count = len(pairs.kMembers)
+        self.assertGreaterEqual(count, 12)
+        self.assertEqual(len({frozenset(member.name for member in pair.members) for pair in found}), count * (count - 1) // 2)
+        self.assertEqual({pair.delay for pair in found}, set(pairs.kDelays))
+        self.assertEqual(sum(pair.reduced for pair in found), len(pairs.kReduced))
+
+    def test_the_one_that_is_found_sooner_is_expected_first_and_in_one_tick_the_lower_index(self):
+        member = {member.name: member for member in pairs.kMembers}
+        self.assertEqual(pairs.Pair(member["silent"], member["fault"], 3).expected_first(), [(3002, 3)])
+        self.assertEqual(pairs.Pair(member["silent"], member["fault"], 1).expected_first(), [(3003, 10)])
+        self.assertEqual(pairs.Pair(member["missing"], member["silent"], 0).expected_first(), [(3002, 3)])
+        self.assertEqual(pairs.Pair(member["slack"], member["cable_break"], 5).expected_first(), [(5001, 4), (5001, 9)])
+        self.assertEqual(pairs.Pair(member["operator_stop"], member["sto"], 5).expected_first(), [(3004, 1)])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
