@@ -31,6 +31,8 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
   auto* can = app.add_option("--can", paths.can, "SocketCAN interfaces, e.g. vcan0,vcan1; alone: the bus table's names")->expected(0, 1);
   socket->excludes(can);
   app.add_option("--api", options.api_socket, "API socket of lianad, for the tip camera");
+  app.add_option("--arm", options.arm, "arm model: full, or light for slow machines (no inertia, no contact; with --physics ideal only)")
+      ->capture_default_str();
   app.add_option("--physics", options.physics, "friction: nominal, ideal or worn")->capture_default_str();
   app.add_option("--seed", options.seed, "true parameters, start offset and noise")->capture_default_str();
   app.add_option("--truth", options.truth_path, "write truth rows here");

@@ -8,14 +8,6 @@
 
 namespace liana::bench {
 
-namespace {
-
-constexpr double kStartTensionN = 30.0;
-constexpr double kStartFloorN = 15.0;
-constexpr double kJointStop_Nm_per_rad = 500.0;  // all joints of a segment together; stiff against the cables' 1 to 100 N.m/rad
-
-}  // namespace
-
 ArmPhysics::ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const TrueParameters& truth, const Theta& start_rad)
     : robot_(robot),
       scene_(scene),

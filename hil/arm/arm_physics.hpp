@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "hil/arm/arm.hpp"
 #include "hil/arm/cable_geometry.hpp"
 #include "hil/arm/cable_line.hpp"
 #include "hil/arm/chain.hpp"
@@ -12,35 +13,27 @@
 
 namespace liana::bench {
 
-// Extremes since the last reset.
-struct LoadRecord {
-  double contact_N = 0.0;
-  double rod_N = 0.0;
-  double least_tension_N = 1e9;
-  double least_motor_tension_N = 1e9;
-  double most_motor_tension_N = 0.0;
-};
-
-class ArmPhysics {
+class ArmPhysics final : public Arm {
  public:
   // Arm at rest at `start_rad`, tensions balanced around 30 N with none below 15 N, nothing held by friction. Throws std::runtime_error.
   ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const TrueParameters& truth, const Theta& start_rad);
 
   // Unstretched cable between drum and anchor, as the drums now hold it [m].
-  CableValues payouts_m() const;
+  CableValues payouts_m() const override;
   // One step of `step_s` (1 ms; stable up to 4 ms without contact) with the drums at `payout_m`.
-  void step(double step_s, const CableValues& payout_m);
+  void step(double step_s, const CableValues& payout_m) override;
+  double longest_step_s() const override { return 0.001; }
   // Call before a run of steps that together last `duration_s`: decides whether anything can touch in them.
-  void begin_slot(double duration_s);
+  void begin_slot(double duration_s) override;
 
-  const Theta& theta_rad() const { return theta_; }
-  const Theta& rate_rad_s() const { return rate_; }
-  double motor_tension_N(std::size_t cable) const { return lines_[cable].motor_tension_N(); }
+  const Theta& theta_rad() const override { return theta_; }
+  const Theta& rate_rad_s() const override { return rate_; }
+  double motor_tension_N(std::size_t cable) const override { return lines_[cable].motor_tension_N(); }
   double least_tension_N(std::size_t cable) const { return lines_[cable].least_tension_N(); }
-  Pose tip() const { return chain_.tip(); }
-  Clearance clearance() const { return clearance_of(chain_, scene_, robot_.module_radius_m); }
+  Pose tip() const override { return chain_.tip(); }
+  Clearance clearance() const override { return clearance_of(chain_, scene_, robot_.module_radius_m); }
   // Extremes since the last take_record().
-  LoadRecord take_record();
+  LoadRecord take_record() override;
   // Kinetic plus elastic energy [J]; for checks.
   double energy_J();
 
@@ -50,10 +43,7 @@ class ArmPhysics {
 
   Chain& chain() { return chain_; }
   const CablePaths& paths() const { return paths_; }
-  std::uint64_t mujoco_warnings() const { return chain_.warnings(); }
-  // Slots in which collision detection ran.
-  std::uint64_t contact_slots() const { return contact_slots_; }
-  int most_sweeps() const { return most_sweeps_; }
+  ArmCounts counts() const override { return {chain_.warnings(), contact_slots_, most_sweeps_}; }
 
  private:
   void settle_cables(const CableValues& payout_m);

@@ -8,8 +8,6 @@ namespace liana::bench {
 
 namespace {
 
-constexpr double kFarAway_m = 1000.0;
-
 // Squared distance from a + t d to the box [-h, h], and its slope in t. Convex and piecewise quadratic in t.
 struct Squared {
   double value;

@@ -11,6 +11,8 @@ double segment_box_distance_m(const Vec3& a, const Vec3& b, const BoxConfig& box
 // Smallest distance between the segment from `a` to `b` and a point.
 double segment_point_distance_m(const Vec3& a, const Vec3& b, const Vec3& point);
 
+constexpr double kFarAway_m = 1000.0;
+
 // Surface to surface; negative means overlap (to boxes down to minus the capsule radius).
 struct Clearance {
   double slit_m = 0.0;    // any link to any box

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "hil/arm/arm_physics.hpp"
+#include "hil/arm/light_arm.hpp"
 #include "hil/bus/wall_clock.hpp"
 
 namespace liana::bench {
@@ -14,11 +16,19 @@ namespace {
 
 constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
 constexpr double kStartSpread_rad = 0.5 / kDegPerRad;
-constexpr double kLongestStep_s = 0.001;
 
 TrueParameters parameters_of(const BenchOptions& options) {
   return options.spread ? spread_parameters(options.robot, options.physics, options.seed)
                         : table_parameters(options.robot, options.physics);
+}
+
+std::unique_ptr<Arm> make_arm(const BenchOptions& options, const TrueParameters& truth) {
+  const Theta start = start_pose(options.robot, options.start_pose, options.spread ? kStartSpread_rad : 0.0, options.seed);
+  if (options.arm == "light") return std::make_unique<LightArm>(options.robot, truth, start);
+  if (options.arm != "full") throw std::runtime_error("--arm: \"" + options.arm + "\" is no arm model; allowed are full, light");
+  auto arm = std::make_unique<ArmPhysics>(options.robot, options.scene, truth, start);
+  arm->set_state(start, Theta{});  // the extremes of slot 0 are those of the laid-out cables
+  return arm;
 }
 
 }  // namespace
@@ -26,9 +36,8 @@ TrueParameters parameters_of(const BenchOptions& options) {
 Bench::Bench(const BenchOptions& options)
     : options_(options),
       truth_(parameters_of(options)),
-      arm_(options.robot, options.scene, truth_,
-           start_pose(options.robot, options.start_pose, options.spread ? kStartSpread_rad : 0.0, options.seed)),
-      drives_(options.robot, options.buses, truth_, arm_.payouts_m(), options.spread, options.seed),
+      arm_(make_arm(options, truth_)),
+      drives_(options.robot, options.buses, truth_, arm_->payouts_m(), options.spread, options.seed),
       injector_(options.faults),
       camera_(options.scene.camera, options.scene.slit_frame, options.scene.rod.pose, options.seed),
       link_(options.api_socket),
@@ -37,31 +46,29 @@ Bench::Bench(const BenchOptions& options)
       received_(options.buses.names.size(), 0),
       sent_(options.buses.names.size(), 0) {
   drives_.measure(motor_tensions_N());
-  // The extremes of slot 0 are those of the laid-out cables.
-  arm_.set_state(arm_.theta_rad(), arm_.rate_rad_s());
 }
 
 CableValues Bench::motor_tensions_N() const {
   CableValues tension{};
-  for (std::size_t c = 0; c < drives_.size(); ++c) tension[c] = arm_.motor_tension_N(c);
+  for (std::size_t c = 0; c < drives_.size(); ++c) tension[c] = arm_->motor_tension_N(c);
   return tension;
 }
 
 // State at the start of a slot goes to truth and camera before anything in the slot happens.
 void Bench::begin_slot(std::uint32_t slot, double now_s) {
-  injector_.step(slot, arm_.theta_rad(), arm_.rate_rad_s(), drives_);
+  injector_.step(slot, arm_->theta_rad(), arm_->rate_rad_s(), drives_);
   record(slot);
-  camera_.look(now_s, arm_.tip());
+  camera_.look(now_s, arm_->tip());
   while (const auto view = camera_.deliver(now_s)) link_.send(camera_message(*view));
   begun_ = slot + 1;
 }
 
 void Bench::record(std::uint32_t slot) {
-  const LoadRecord loads = arm_.take_record();
-  const Clearance gap = arm_.clearance();
-  const Pose tip = arm_.tip();
+  const LoadRecord loads = arm_->take_record();
+  const Clearance gap = arm_->clearance();
+  const Pose tip = arm_->tip();
   std::vector<double> row{static_cast<double>(slot)};
-  for (std::size_t i = 0; i < options_.robot.theta_count(); ++i) row.push_back(kDegPerRad * arm_.theta_rad()[i]);
+  for (std::size_t i = 0; i < options_.robot.theta_count(); ++i) row.push_back(kDegPerRad * arm_->theta_rad()[i]);
   const Vec3& p = tip.position_m;
   const Quat& q = tip.attitude;
   for (const double value :
@@ -72,13 +79,13 @@ void Bench::record(std::uint32_t slot) {
 }
 
 void Bench::integrate_slot(double period_s) {
-  const auto steps = static_cast<int>(std::ceil(period_s / kLongestStep_s - 1e-9));
+  const auto steps = static_cast<int>(std::ceil(period_s / arm_->longest_step_s() - 1e-9));
   const double step_s = period_s / steps;
   const std::uint64_t start_us = wall_clock_us();
-  arm_.begin_slot(period_s);
+  arm_->begin_slot(period_s);
   for (int i = 0; i < steps; ++i) {
     drives_.move(step_s, motor_tensions_N());
-    arm_.step(step_s, drives_.payouts_m());
+    arm_->step(step_s, drives_.payouts_m());
   }
   drives_.measure(motor_tensions_N());
   ++integrated_;
@@ -168,17 +175,19 @@ void Bench::write_summary(const Bus& bus) const {
     if (begun) faults.back()["begun_slot"] = *begun;
     if (ended) faults.back()["ended_slot"] = *ended;
   }
+  const ArmCounts counts = arm_->counts();
   const nlohmann::json summary{
       {"slots", integrated_},
       {"seed", options_.seed},
+      {"arm", options_.arm},
       {"physics", options_.physics},
       {"drives", drives},
       {"faults", faults},
       {"buses", buses},
       {"frames_refused", bus.refused()},
-      {"mujoco_warnings", arm_.mujoco_warnings()},
-      {"slots_near_contact", arm_.contact_slots()},
-      {"friction_sweeps_max", arm_.most_sweeps()},
+      {"mujoco_warnings", counts.mujoco_warnings},
+      {"slots_near_contact", counts.contact_slots},
+      {"friction_sweeps_max", counts.most_sweeps},
       {"camera_sent", link_.sent()},
       {"camera_lost", link_.lost()},
       {"true_parameters", {{"EA_N", truth_.EA_N}, {"mu", truth_.mu}, {"hole_radius_m", truth_.hole_radius_m}}},

@@ -2,10 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "hil/arm/arm_physics.hpp"
+#include "hil/arm/arm.hpp"
 #include "hil/arm/tip_camera.hpp"
 #include "hil/bench/drive_bank.hpp"
 #include "hil/bench/fault_injector.hpp"
@@ -21,6 +22,7 @@ struct BenchOptions {
   SceneConfig scene;
   BusesConfig buses;
   std::vector<FaultConfig> faults;
+  std::string arm = "full";  // or light: no inertia, contact or cable friction
   std::string physics = "nominal";
   std::uint64_t seed = 1;
   bool spread = true;  // parameters, start pose and noise by seed; false: the table exactly, noise only from the camera
@@ -51,7 +53,7 @@ class Bench {
 
   BenchOptions options_;
   TrueParameters truth_;
-  ArmPhysics arm_;
+  std::unique_ptr<Arm> arm_;
   DriveBank drives_;
   FaultInjector injector_;
   TipCamera camera_;

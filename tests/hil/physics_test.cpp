@@ -208,7 +208,7 @@ TEST(BenchPhysics, AContactPushesTheArmOutAndStaysStable) {
   EXPECT_GT(arm.clearance().slit_m, -0.0005);
   EXPECT_LT(arm.take_record().contact_N, 100.0);
   for (std::size_t i = 0; i < 10; ++i) EXPECT_LT(std::fabs(arm.rate_rad_s()[i]), 0.5);
-  EXPECT_EQ(arm.mujoco_warnings(), 0U);
+  EXPECT_EQ(arm.counts().mujoco_warnings, 0U);
 }
 
 TEST(BenchPhysics, MujocoFindsTheDepthThatOurClearanceFinds) {

@@ -1,0 +1,57 @@
+// What the bench needs of an arm, whichever model plays it.
+#pragma once
+
+#include <cstdint>
+
+#include "hil/arm/clearance.hpp"
+#include "hil/math/reduced.hpp"
+#include "hil/math/vec3.hpp"
+
+namespace liana::bench {
+
+constexpr double kJointStop_Nm_per_rad = 500.0;  // all joints of a segment together; stiff against the cables' 1 to 100 N.m/rad
+
+// Extremes since the last take_record().
+struct LoadRecord {
+  double contact_N = 0.0;
+  double rod_N = 0.0;
+  double least_tension_N = 1e9;
+  double least_motor_tension_N = 1e9;
+  double most_motor_tension_N = 0.0;
+};
+
+// How hard a model had to work, since its construction; zeros where a model has no such thing.
+struct ArmCounts {
+  std::uint64_t mujoco_warnings = 0;
+  std::uint64_t contact_slots = 0;  // slots in which collision detection ran
+  int most_sweeps = 0;              // of the friction solver, in one step
+};
+
+class Arm {
+ public:
+  Arm() = default;
+  Arm(const Arm&) = delete;
+  Arm& operator=(const Arm&) = delete;
+  Arm(Arm&&) = default;
+  Arm& operator=(Arm&&) = default;
+  virtual ~Arm() = default;
+
+  // Unstretched cable between drum and anchor, as the drums now hold it [m].
+  virtual CableValues payouts_m() const = 0;
+  // Call before a run of steps that together last `duration_s`.
+  virtual void begin_slot(double duration_s) = 0;
+  // One step of at most longest_step_s() with the drums at `payout_m`.
+  virtual void step(double step_s, const CableValues& payout_m) = 0;
+  virtual double longest_step_s() const = 0;
+
+  virtual const Theta& theta_rad() const = 0;
+  virtual const Theta& rate_rad_s() const = 0;
+  virtual double motor_tension_N(std::size_t cable) const = 0;
+  virtual Pose tip() const = 0;
+  // 1000 m where the model knows no scene.
+  virtual Clearance clearance() const = 0;
+  virtual LoadRecord take_record() = 0;
+  virtual ArmCounts counts() const = 0;
+};
+
+}  // namespace liana::bench
