@@ -70,8 +70,9 @@ struct RunOptions {
   std::string bus = "embedded";
   std::string time;  // empty: fast, or real on SocketCAN
   std::string physics = "nominal";
-  std::string record_dir;   // empty: nothing is kept
-  std::string report_file;  // empty: a summary on standard output; "-": JSON on standard output
+  std::string arm = "full";  // or light, which needs physics ideal
+  std::string record_dir;    // empty: nothing is kept
+  std::string report_file;   // empty: a summary on standard output; "-": JSON on standard output
   std::uint64_t seed = 1;
 };
 // Starts the whole system, runs one mission, reports; exit code 0 only on success.
@@ -80,7 +81,8 @@ int run_command(const RunOptions& options);
 struct LatencyOptions {
   std::string rate_hz;  // empty: that of the bus table, 250 where none is given
   double seconds = 10.0;
-  std::string buses;  // empty: the embedded table of the rate
+  std::string buses;         // empty: the embedded table of the rate
+  std::string arm = "full";  // or light, for slow machines
   bool json = false;
 };
 // Measures lianad's real-time thread with the arm enabled and at rest; exit code 1 when a deadline was missed or the arm did not stay

@@ -23,7 +23,7 @@ constexpr const char* kBash = R"bash(_liana() {
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
       run) words="--robot --scene --bus --time --physics --record --json --seed" ;;
-      latency) words="--rate --seconds --buses --json" ;;
+      latency) words="--rate --seconds --buses --arm --json" ;;
       pose) words="--robot --theta-deg --scene --json" ;;
       ik) words="--robot --from-deg --tip --hold --control-point --json" ;;
       reach) words="--robot --scene --hold --from-deg --to-deg --path --node --samples --seed --svg --json" ;;

@@ -51,10 +51,13 @@ int latency_command(const LatencyOptions& options) {
   RunOptions run;
   run.bus = table_of(options);
   run.time = "real";
+  run.arm = options.arm;
+  if (options.arm == "light") run.physics = "ideal";
   const RunPlan plan = make_plan(run);
   try {
     check_rate(options, plan.buses);
-    const json report = latency_report(measured(plan, options.seconds), plan.buses, options.seconds, examine_realtime());
+    json report = latency_report(measured(plan, options.seconds), plan.buses, options.seconds, examine_realtime());
+    report["arm"] = options.arm;
     clean_up(plan, true);
     std::fputs((options.json ? report.dump() + "\n" : latency_text(report)).c_str(), stdout);
     return report.value("overruns", 1) == 0 && report.value("enabled", false) ? kExitOk : kExitFailure;

@@ -127,6 +127,9 @@ void add_latency(CLI::App& app, Action& action, liana::LatencyOptions& latency) 
          "how long to measure; 0.1 to 86400")
       ->default_str("10");
   sub->add_option("--buses", latency.buses, "bus table, in place of the embedded one of the rate: vcan, or a table of your interfaces");
+  sub->add_option("--arm", latency.arm, "the bench's arm model: full, or light (no inertia, contact or cable friction) for slow machines")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"full", "light"}));
   sub->add_flag("--json", latency.json, "print JSON");
 }
 

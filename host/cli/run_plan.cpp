@@ -93,7 +93,7 @@ ProgramCall archive_call(const RunPlan& plan) {
 ProgramCall bench_call(const RunPlan& plan, const RunOptions& options, bool embedded) {
   ProgramCall call{"liana-bench",
                    {sibling_program("liana-bench"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"), "--buses",
-                    plan.file("buses.json"), "--api", plan.api_socket(), "--physics", options.physics, "--seed",
+                    plan.file("buses.json"), "--api", plan.api_socket(), "--arm", options.arm, "--physics", options.physics, "--seed",
                     std::to_string(options.seed), "--truth", plan.file("truth.bin"), "--summary", plan.file("bench_summary.json")}};
   if (embedded) {
     append(call.argv, {"--bus-socket", plan.bus_socket()});

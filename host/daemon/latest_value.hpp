@@ -19,9 +19,13 @@ class LatestValue {
 
   // Writer: makes `value` the newest.
   void publish(const T& value) {
-    slots_[writing_] = value;
-    writing_ = middle_.exchange(writing_ | kFresh, std::memory_order_acq_rel) & kIndex;
+    draft() = value;
+    publish();
   }
+  // Writer: its own slot, with what an older value left there; to be filled whole, then published.
+  T& draft() { return slots_[writing_]; }
+  // Writer: makes the draft the newest.
+  void publish() { writing_ = middle_.exchange(writing_ | kFresh, std::memory_order_acq_rel) & kIndex; }
   // Reader: true when refresh() would bring a new value.
   bool has_new() const { return (middle_.load(std::memory_order_relaxed) & kFresh) != 0; }
   // Reader: takes over the newest value; true when there was a new one since the last call.

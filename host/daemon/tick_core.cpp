@@ -33,8 +33,13 @@ void TickCore::publish(CycleReport& report) {
   const std::uint64_t interval = report.next_tick / static_cast<std::uint64_t>(controller_.table().interval_ticks);
   if (interval == imaged_interval_) return;
   imaged_interval_ = interval;
-  image_ = {report.next_tick, fresh_, controller_, record_.inputs, record_.outputs};
-  link_.image.publish(image_);
+  TwinImage& image = link_.image.draft();  // filled in place: it is large
+  image.next_tick = report.next_tick;
+  image.fresh = fresh_;
+  image.controller = controller_;
+  image.last_inputs = record_.inputs;
+  image.last_outputs = record_.outputs;
+  link_.image.publish();
 }
 
 }  // namespace liana

@@ -21,7 +21,6 @@ class TickCore {
   Controller controller_;
   Link& link_;
   TickRecord record_{};
-  TwinImage image_{0, true, controller_, {}, {}};
   std::uint64_t imaged_interval_ = 0;
   std::uint64_t records_lost_ = 0;
   bool fresh_ = true;
