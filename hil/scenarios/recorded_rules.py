@@ -20,7 +20,9 @@ kLatchedLast = (1001, 6001)  # found after the reaction of their tick was decide
 kQuickStop, kDisableVoltage, kFaultReset = 0x02, 0x00, 0x80
 kClearTicks = 260  # from a clear to its verdict
 kPersistTicks = 1250  # a hold that stays so long is a stop
+kQuickStopTicks = 120  # a quick stop that takes longer is ended
 kPathStopTicks = 500  # twice what rest from full speed takes
+kStill_rad_s = 1e-6
 kTellTicks = 10  # two command intervals: the next state tells
 kSettleTicks = 5  # from the state on: drives have heard the last command, their brakes are closed
 
@@ -53,6 +55,10 @@ def is_enabling(word):
 
 def is_enabled(statusword):
     return statusword & 0x6F == 0x27
+
+
+def has_torque(statusword):
+    return is_enabled(statusword) or statusword & 0x6F == 0x07 or statusword & 0x4F == 0x0F
 
 
 def is_in_fault(statusword):
@@ -109,7 +115,7 @@ def commands_while_latched(ticks):
         held = acting(now)
         if held and now.active_sequence != 0:
             complaints.append(f"tick {now.tick}: telecommand {now.active_sequence} is in force while {held[0].number} is latched")
-        if held and now.tick > held[0].tick + kPathStopTicks and any(now.theta_rate):
+        if held and now.tick > held[0].tick + kPathStopTicks and max(map(abs, now.theta_rate)) > kStill_rad_s:
             complaints.append(f"tick {now.tick}: the commanded arm still moves, {held[0].number} was latched in tick {held[0].tick}")
     return complaints
 
@@ -240,6 +246,34 @@ def faults_not_latched(ticks, limits):
     return complaints
 
 
+def quick_stops_cut_short(ticks, reactions):
+    """A drive that was told to quick stop keeps its torque until it stands: until it is off, its time is up, or a fault asks for off."""
+    told_since, complaints = {}, []
+    for now in ticks:
+        off = any(reactions.get(fault.number, kOff) == kOff for fault in acting(now)) or now.dropped
+        for drive, (word, status) in enumerate(zip(now.controlword, now.statusword)):
+            if word == kQuickStop and has_torque(status):
+                told_since.setdefault(drive, now.tick)
+                continue
+            since = told_since.pop(drive, None)
+            if since is not None and has_torque(status) and now.age[drive] == 0 and not off and now.tick < since + kQuickStopTicks:
+                complaints.append(f"tick {now.tick}: drive {drive} is told 0x{word:02X} while its quick stop is under way")
+    return complaints
+
+
+def stops_not_confirmed(ticks):
+    """FAULT is reached with every drive shown to be without torque, or with 3008 for those that are not."""
+    complaints = []
+    for before, now in neighbours(ticks):
+        if before.state != "STOPPING" or now.state not in ("FAULT", "DISABLED") or now.dropped:
+            continue
+        for drive, status in enumerate(now.statusword):
+            shown = now.age[drive] <= kSilentTicks and not has_torque(status)
+            if not shown and (3008, drive) not in names(now):
+                complaints.append(f"tick {now.tick}: {now.state} is reached, but drive {drive} is not shown to be without torque, nor is 3008 latched")
+    return complaints
+
+
 def faults_not_told(ticks, told):
     """Every fault that a client was told of is in the recording, and every recorded one was told; `told`: (number, index, tick)."""
     recorded = {(fault.number, fault.index, fault.tick) for now in ticks for fault in now.faults}
@@ -272,8 +306,9 @@ def drums_moving_while_off(ticks, left_out):
     complaints, index = [], {now.tick: i for i, now in enumerate(ticks)}
     for first, end in standing_ranges(ticks):
         rows = ticks[index.get(first, len(ticks)):index.get(end, len(ticks))]
-        for drive, places in enumerate(zip(*(row.position for row in rows))):
-            if drive not in left_out and max(places) - min(places) > 1:
+        for drive in range(len(ticks[0].position)):
+            places = [row.position[drive] for row in rows if row.age[drive] == 0]
+            if drive not in left_out and places and max(places) - min(places) > 1:
                 complaints.append(f"ticks {first} to {end}: the drum of drive {drive} moves by {max(places) - min(places)} counts while the arm is off")
     return complaints
 
@@ -289,5 +324,6 @@ def all_complaints(recording, enabled, told, left_out=()):
     limits, reactions = limits_of(recording.robot(), float(recording.metadata["run"]["period_s"])), documented_reactions()
     found = (missing_ticks(ticks), target_steps(ticks, limits), commands_out_of_time(ticks), commands_while_latched(ticks),
              states_not_documented(ticks, reactions), enabling_unasked(ticks), faults_gone_unasked(ticks), weak_reactions(ticks, reactions),
-             faults_not_latched(ticks, limits), faults_not_told(ticks, told), torque_while_off(ticks, enabled), drums_moving_while_off(ticks, left_out))
+             quick_stops_cut_short(ticks, reactions), stops_not_confirmed(ticks), faults_not_latched(ticks, limits), faults_not_told(ticks, told),
+             torque_while_off(ticks, enabled), drums_moving_while_off(ticks, left_out))
     return [complaint for complaints in found for complaint in complaints[:3]]

@@ -9,6 +9,7 @@ import pathlib
 import sys
 import time
 
+import campaign
 import pairs
 import scenario
 
@@ -26,12 +27,12 @@ def arguments():
 
 
 def chosen(options):
-    everything = scenario.all_scenarios() + pairs.all_pairs()
+    everything = scenario.all_scenarios() + pairs.all_pairs() + campaign.short_campaign()
     wanted = [one for one in everything if one.reduced or not options.reduced]
     if options.only:
         wanted = [one for one in wanted if options.only in one.name or fnmatch.fnmatch(one.name, options.only)]
     if not wanted:
-        raise scenario.BadScenario(f"--only: {options.only} names no scenario; they are {', '.join(one.name for one in everything)}")
+        raise scenario.BadScenario(f"--only: {options.only} names no scenario; they are in {', '.join(sorted({one.name.split('/')[0] for one in everything}))}")
     return wanted
 
 

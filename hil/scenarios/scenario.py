@@ -7,13 +7,13 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "tests" / "system"))
 
 import predicates  # noqa: E402
+import trial  # noqa: E402
 from liana_system import System, brief, must  # noqa: E402
 
 kMoveDeg = 6.0
 kPathStop = 500  # ticks; twice what rest from full speed takes
 kTravelDeg = 1.0  # of any angle from the fault to the end, where a scenario says nothing else
 kRested = 250  # ticks looked at after the end state, and after a clear
-kSelfReports = ("noisy", "encoder_jump", "late", "stuck")  # what these drives report is not where their drums are
 
 kFields = {"about": str, "during": str, "faults": list, "bus_script": list, "expect": dict, "reduced": bool}
 kExpected = {"fault": (int, type(None)), "index": int, "detail": int, "within_ticks": int, "state": str, "stopped_within_ticks": int, "travel_deg": (int, float),
@@ -88,7 +88,8 @@ class Run:
         self.notes, self.violations = [], []
 
     def go(self):
-        with System(faults=self.scenario.faults, bus_script=self.scenario.bus_script) as system:
+        with System(expect="client,archive", faults=self.scenario.faults, bus_script=self.scenario.bus_script) as system:
+            trial.start_archive(system)
             client = system.client()
             self.bring_up(client)
             self.watch(client)
@@ -99,6 +100,9 @@ class Run:
             codes = system.shut_down(client)
             expect_that(set(codes.values()) == {0}, f"a program did not end well: {codes}")
             self.judge(system, end)
+            recorded = trial.Trial(self.scenario.faults or [])
+            recorded.judge(system, client.faults_told)
+            self.violations += recorded.complaints
         expect_that(not self.violations, "; ".join(self.violations))
 
     def bring_up(self, client):
@@ -178,7 +182,6 @@ class Run:
         period_s = 1.0 / system.json("buses.json")["rate_hz"]
         traffic = predicates.Traffic([path.read_text() for path in sorted(system.directory.glob("can*.log"))], period_s)
         expect_that(self.scenario.during == "boot" or traffic.commands, "no command on the wire: the rules had nothing to look at")
-        self.violations += predicates.numbers_that_are_none(truth.rows)
         self.violations += predicates.target_steps(traffic, predicates.step_limit_counts(system.json("robot.json"), period_s))
         if self.latched is None:
             return
@@ -197,14 +200,7 @@ class Run:
         enabled = truth.column("enabled")
         last = max((slot for slot in range(self.latched, end) if enabled[slot] > 0), default=self.latched)
         self.notes.append(f"without torque after {last - self.latched} ticks")
-        nodes = [1 + drive for course in self.self_reporting() for drive in course]
+        nodes = [1 + drive for drive in trial.self_reporting(self.scenario.faults or [], 15)]
         self.violations += predicates.drives_with_torque(enabled, stopped, end)
         self.violations += predicates.enabling_without_clear(traffic, stopped, end)
         self.violations += predicates.drums_that_move(traffic, stopped, end, nodes)
-
-    def self_reporting(self):
-        """Drives whose faults are in what they report."""
-        for fault in self.scenario.faults or []:
-            if fault["kind"] in kSelfReports:
-                drives = fault["drive"]
-                yield range(15) if drives == "all" else drives if isinstance(drives, list) else [drives]

@@ -19,6 +19,16 @@ def drives_of(fault, count):
     return range(count) if drives == "all" else drives if isinstance(drives, list) else [drives]
 
 
+def self_reporting(faults, count):
+    """Drives whose faults are in what they report."""
+    return {drive for fault in faults if fault["kind"] in kSelfReports for drive in drives_of(fault, count)}
+
+
+def start_archive(system):
+    """Records the whole run; the system has to expect client and archive."""
+    system.start("liana-archive", "--api", system.api, "--record", system.directory)
+
+
 class Trial:
     """`complaints` says which rules were broken, `recording` what happened."""
 
@@ -29,11 +39,10 @@ class Trial:
     def go(self, act, replay=False):
         """Runs it: `act(client)` is the operator. With `replay` the recording must replay bit for bit."""
         with System(expect="client,archive", faults=self.faults, bus_script=self.bus_script, seed=self.seed) as system:
-            system.start("liana-archive", "--api", system.api, "--record", system.directory)
+            start_archive(system)
             client = system.client()
             act(client)
             codes = system.shut_down(client)
-            codes["liana-archive"] = system.ended("liana-archive")
             self.complaints += [f"{name} ended with {code}" for name, code in codes.items() if code != 0]
             self.judge(system, client.faults_told)
             if replay:
@@ -41,19 +50,23 @@ class Trial:
         return self
 
     def judge(self, system, told):
+        """Over what a system that has ended left behind; `told`: the faults that its client was told of."""
+        code = system.ended("liana-archive")
+        if code != 0:
+            self.complaints.append(f"liana-archive ended with {code}")
         self.truth, self.recording = system.truth(), Recording(system.directory / "ticks.mcap")
-        self.courses = system.json("bench_summary.json")["faults"]
-        enabled = self.truth.column("enabled")
-        left_out = {drive for fault in self.faults if fault["kind"] in kSelfReports for drive in drives_of(fault, len(system.json("bench_summary.json")["drives"]))}
+        summary = system.json("bench_summary.json")
+        self.courses = summary["faults"]
+        left_out = self_reporting(self.faults, len(summary["drives"]))
         self.complaints += predicates.numbers_that_are_none(self.truth.rows)
-        self.complaints += recorded_rules.all_complaints(self.recording, enabled, told, left_out)
+        self.complaints += recorded_rules.all_complaints(self.recording, self.truth.column("enabled"), told, left_out)
 
     def latched(self):
         """Every fault of the recording, in the order in which they were latched."""
-        found = []
+        found = {}
         for tick in self.recording.ticks:
-            found += [fault[:2] + (fault.tick,) for fault in tick.faults if fault[:2] + (fault.tick,) not in found]
-        return found
+            found.update(((fault.number, fault.index, fault.tick), None) for fault in tick.faults)
+        return list(found)
 
 
 def replay_complaints(directory):

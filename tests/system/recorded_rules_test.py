@@ -93,6 +93,21 @@ class Rules(unittest.TestCase):
         self.assertEqual(rules.weak_reactions(changed(5, faults=(fault(5001),), stop_category=1), kReactions), [])
         self.broken(rules.weak_reactions(changed(5, **{**kStopped, "faults": (fault(5001),)}), kReactions), "a hold keeps the drives enabled")
 
+    def test_a_quick_stop_that_is_cut_short_is_found(self):
+        stopping = [*ticks(5), *(kGood._replace(tick=i, **kStopped) for i in range(5, 9))]
+        cut = kGood._replace(tick=9, **{**kStopped, "controlword": (0x00, 0x00)})
+        self.broken(rules.quick_stops_cut_short([*stopping, cut], kReactions), "drive 0", "0x00")
+        self.assertEqual(rules.quick_stops_cut_short([*stopping, cut._replace(statusword=(kSwitchOnDisabled, kInFault))], kReactions), [])
+        self.assertEqual(rules.quick_stops_cut_short([*stopping, cut._replace(faults=(fault(5002),))], kReactions), [])
+
+    def test_a_stop_that_no_drive_confirmed_is_found(self):
+        stopping = kGood._replace(tick=4, **kStopped)
+        ended = kGood._replace(tick=5, **{**kStopped, "state": "FAULT", "statusword": (kSwitchOnDisabled, kInFault)})
+        self.assertEqual(rules.stops_not_confirmed([stopping, ended]), [])
+        self.broken(rules.stops_not_confirmed([stopping, ended._replace(age=(3, 0))]), "drive 0", "3008")
+        self.broken(rules.stops_not_confirmed([stopping, ended._replace(statusword=(kEnabled, kInFault))]), "drive 0")
+        self.assertEqual(rules.stops_not_confirmed([stopping, ended._replace(age=(3, 0), faults=(fault(3003), fault(3008, 0)))]), [])
+
     def test_everything_that_reports_show_wrong_has_to_be_latched(self):
         for number, wrong in ((3002, {"age": (0, 3)}), (3001, {"heartbeat_age": (0, 76)}), (3007, {"operational": (1, 0)}), (3003, {"statusword": (kEnabled, kInFault)}),
                               (3004, {"statusword": (kEnabled, kSwitchOnDisabled)}), (5001, {"torque": (70, 1)}), (5002, {"torque": (70, 1001)}),

@@ -1,0 +1,222 @@
+#!/usr/bin/env python3
+"""Random sequences of faults and of what an operator does about them, each from its seed, in lockstep; judged tick by tick (recorded_rules.py).
+
+`./dev numbers faults` runs 500; `campaign.py --seed N` repeats one and tells what happened in it.
+"""
+import argparse
+import collections
+import concurrent.futures
+import json
+import os
+import random
+import sys
+
+import trial
+from scenario import Failed, expect_that
+
+kDrives, kThetas = 15, 10
+kBootTicks, kEnabledTick = 130, 1000
+kTicks = (2000, 4500)  # from the first slot to the operator's last action
+kAction_ticks = (10, 300)  # from one action of the operator to the next
+kSettle_s = 75  # arm time; the longest budget, that of the pretension ramp, is 60 s
+kReplayEvery = 5
+kShort = 5  # sequences in ./dev hil
+
+# What a kind is told: field -> values to choose from; and whether it may end.
+kBenchKinds = {
+    "missing": ({}, True), "reboot": ({}, False), "silent": ({}, True), "late": ({"cycles": (1, 2, 3, 10)}, True), "stuck": ({}, True),
+    "noisy": ({"counts": (3, 300, 3000), "permille": (0, 20, 400)}, True), "wrong_pdo_length": ({"bytes": (0, 4, 6, 7)}, True),
+    "emcy": ({"code": (0x1000, 0x4210, 0x8110)}, False), "fault": ({"code": (0x2310, 0x3210, 0x7305)}, False), "sto": ({}, False),
+    "encoder_jump": ({"counts": (-60000, -5000, -300, 36, 700, 5000, 60000)}, False), "motor_saturation": ({"tension_N": (0, 5, 30, 200)}, True),
+    "slack": ({}, True), "cable_slip": ({"length_m": (0.0002, 0.002, 0.02)}, False), "cable_break": ({}, False),
+    "wrong_identity_after_reboot": ({}, False)}
+kLostIds = (None, 0x080, 0x77F, 0x180, 0x200, 0x700, 0x080)  # whole bus, SYNC, master heartbeat; of one drive: TPDO, RPDO, heartbeat, EMCY
+kOfOneDrive = (0x180, 0x200, 0x700)
+kSpans = (1, 2, 3, 4, 10, 30, 100, 500, None)
+
+# What the operator does, by state, with weights: mostly what a person would, sometimes what must be refused.
+kActions = {
+    "BOOTING": {"enable": 1, "wait": 3},
+    "DISABLED": {"enable": 12, "clear": 3, "move_jp": 1, "stop": 1, "acquire": 2, "wait": 1},
+    "ENABLING": {"wait": 30, "disable": 1, "stop": 1, "enable": 1, "clear": 1},
+    "ENABLED": {"move_jp": 12, "move_cp": 8, "servo_cp": 3, "hold_theta": 1, "hold": 4, "retract": 1, "stop": 1, "disable": 1, "clear": 2, "enable": 1},
+    "STOPPING": {"wait": 4, "enable": 2, "clear": 2, "move_jp": 2},
+    "FAULT": {"clear": 8, "enable": 3, "move_jp": 1, "acquire": 1, "wait": 3}}
+
+
+class Sequence:
+    """Faults of one seed, and the operator's choices, which depend on the states he sees."""
+
+    def __init__(self, seed):
+        self.seed, self.draw = seed, random.Random(seed)
+        self.name, self.reduced = f"70_campaign/seed_{seed}", seed == 1
+        self.last_tick = self.draw.randint(*kTicks)
+        self.bench_faults, self.bus_script = [], []
+        for _ in range(self.draw.randint(1, 4)):
+            if self.draw.random() < 0.2:
+                self.bus_script.append(self.lost_frames())
+            else:
+                self.bench_faults.append(self.bench_fault())
+
+    def begin(self):
+        """A slot: mostly with the arm enabled, sometimes while it boots or is enabled."""
+        low, high = self.draw.choice(((0, kBootTicks), (kBootTicks, kEnabledTick)) + 8 * ((kEnabledTick, self.last_tick - 200),))
+        return self.draw.randrange(low, high)
+
+    def bench_fault(self):
+        kind = self.draw.choice(sorted(kBenchKinds))
+        values, may_end = kBenchKinds[kind]
+        fault = {"kind": kind, "drive": self.draw.choice([self.draw.randrange(kDrives)] * 4 + [sorted(self.draw.sample(range(kDrives), 2))]),
+                 "at_slot": self.begin(), **{name: self.draw.choice(of) for name, of in values.items()}}
+        span = self.draw.choice(kSpans)
+        return {**fault, "for_slots": span} if may_end and span is not None else fault
+
+    def lost_frames(self):
+        base, node, begin = self.draw.choice(kLostIds), self.draw.randrange(1, kDrives + 1), self.begin()
+        span = self.draw.choice(kSpans)
+        rule = {"bus": 0 if node <= 8 else 1, "from_slot": begin, "to_slot": begin + span - 1 if span else 1000000, "action": "drop"}
+        return rule if base is None else {**rule, "id": hex(base + node if base in kOfOneDrive else base)}
+
+    def fault_count(self):
+        return len(self.bench_faults) + len(self.bus_script)
+
+    def action(self, state):
+        """(op, fields) of the operator's next request; None: he waits."""
+        able = kActions[state["state"]]
+        name = self.draw.choices(list(able), list(able.values()))[0]
+        if name in ("enable", "disable", "clear"):
+            return "state_command", {"command": name}
+        if name == "move_jp":
+            return name, {"goal_deg": self.goal_deg(state)}
+        if name in ("move_cp", "servo_cp"):
+            pose = state.get("setpoint_cp", [0, 0, 4, 1, 0, 0, 0])
+            return name, {"goal": [value + self.draw.uniform(-0.02, 0.02) if i < 3 else value for i, value in enumerate(pose)]}
+        if name == "hold_theta":
+            return name, {"held": self.draw.choice(([], [{"theta": self.draw.randint(1, kThetas), "target_deg": 0}]))}
+        return None if name == "wait" else (name, {})
+
+    def goal_deg(self, state):
+        goal = list(state.get("setpoint_js_deg", [0.0] * kThetas))
+        for theta in self.draw.sample(range(kThetas), self.draw.randint(1, 3)):
+            goal[theta] = max(-19.0, min(19.0, goal[theta] + self.draw.uniform(-6, 6)))
+        return goal
+
+    def run(self):
+        return SequenceRun(self)
+
+
+class SequenceRun:
+    """A sequence under way; the fields are those of scenario.Run, and what is counted."""
+
+    def __init__(self, sequence):
+        self.sequence, self.notes, self.violations = sequence, [], []
+        self.counts, self.told = collections.Counter(), []
+
+    def go(self):
+        replay = self.sequence.seed % kReplayEvery == 0
+        done = trial.Trial(self.sequence.bench_faults, self.sequence.bus_script, self.sequence.seed).go(self.operate, replay)
+        self.violations += done.complaints
+        self.count(done, replay)
+        expect_that(not self.violations, "; ".join(self.violations) + f"; again: {again(self.sequence.seed)}")
+
+    def operate(self, client):
+        self.ask(client, "acquire", {})
+        while client.state["tick"] < self.sequence.last_tick and not self.is_over(client.state):
+            action = self.sequence.action(client.state)
+            if action:
+                self.ask(client, *action)
+            end = client.state["tick"] + self.sequence.draw.randint(*kAction_ticks)
+            client.until(lambda state: state["tick"] >= end)
+        try:
+            client.until(lambda state: state["state"] in ("DISABLED", "FAULT", "ENABLED"), kSettle_s)
+        except AssertionError as error:
+            raise Failed(f"seed {self.sequence.seed}: it hangs: {error}; again: {again(self.sequence.seed)}") from None
+
+    @staticmethod
+    def is_over(state):
+        """A boot that failed stays so."""
+        return state["state"] == "FAULT" and any("booting failed" in event["text"] for event in state["events"])
+
+    def ask(self, client, op, fields):
+        answer = client.ask(op, **fields)
+        self.counts["requests"] += 1
+        self.counts["refused requests"] += answer["op"] == "error"
+        self.told.append(f"tick {client.state['tick']}: {op} {fields.get('command', '')} -> {answer.get('code', 'ok')}; {client.state['state']}")
+
+    def count(self, done, replay):
+        self.counts["ticks"] += len(done.recording.ticks)
+        self.counts["replayed"] += replay
+        self.counts["boots that failed"] += not done.recording.ticks
+        self.counts["enabled"] += sum(now.state == "ENABLED" != before.state for before, now in zip(done.recording.ticks, done.recording.ticks[1:]))
+        self.counts["latched"] += len(done.latched())
+        for course in done.courses:
+            self.counts[f"begun: {course['kind']}"] += course["begun_slot"] is not None
+        for rule in self.sequence.bus_script:
+            self.counts["begun: lost frames"] += rule["from_slot"] < len(done.truth.rows)
+        for number in {fault[0] for fault in done.latched()}:
+            self.counts[f"latched: {number}"] += 1
+        self.notes.append(f"{self.sequence.fault_count()} faults, latched {sorted({fault[0] for fault in done.latched()})}, {len(done.recording.ticks)} ticks")
+        self.told += [f"tick {fault[2]}: {fault[0]} of {fault[1]} is latched" for fault in done.latched()]
+
+
+def again(seed):
+    return f"python3 hil/scenarios/campaign.py --seed {seed}"
+
+
+def run_seed(seed):
+    """Seed, counts and why it failed ("": it did not)."""
+    run = Sequence(seed).run()
+    try:
+        run.go()
+    except (Failed, AssertionError, OSError, ValueError, KeyError) as error:
+        return seed, run.counts, f"{type(error).__name__}: {error}"
+    return seed, run.counts, ""
+
+
+def campaign(seeds, say=lambda text: print(text, file=sys.stderr, flush=True)):
+    """Counts over all seeds, and {seed: why} of those that failed."""
+    counts, failed = collections.Counter(), {}
+    with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
+        for seed, found, why in pool.map(run_seed, seeds):
+            counts.update(found)
+            counts["sequences"] += 1
+            if why:
+                failed[seed] = why
+                say(f"seed {seed} failed: {why}; again: {again(seed)}")
+    return counts, failed
+
+
+def short_campaign():
+    return [Sequence(seed) for seed in range(1, kShort + 1)]
+
+
+def tell(seed):
+    """Runs one, and tells its faults, requests and what was latched."""
+    sequence = Sequence(seed)
+    run = sequence.run()
+    print("\n".join(json.dumps(fault) for fault in sequence.bench_faults + sequence.bus_script))
+    try:
+        run.go()
+        why = ""
+    except (Failed, AssertionError) as error:
+        why = str(error)
+    print("\n".join(sorted(run.told, key=lambda line: int(line.split()[1].rstrip(":")))))
+    print(f"failed: {why}" if why else "no rule was broken")
+    return 1 if why else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seed", type=int, help="run only this one, and tell what happens")
+    parser.add_argument("--first", type=int, default=1, help="the first seed (1)")
+    parser.add_argument("--count", type=int, default=500, help="so many seeds (500)")
+    options = parser.parse_args()
+    if options.seed is not None:
+        return tell(options.seed)
+    counts, failed = campaign(range(options.first, options.first + options.count))
+    print(json.dumps({**counts, "failed": failed}, indent=1, sort_keys=True))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
