@@ -11,6 +11,7 @@ import trial  # noqa: E402
 from liana_system import System, brief, must  # noqa: E402
 
 kMoveDeg = 6.0
+kEnabling_s = 75  # arm time; the pretension ramp has 60 s
 kPathStop = 500  # ticks; twice what rest from full speed takes
 kTravelDeg = 1.0  # of any angle from the fault to the end, where a scenario says nothing else
 kRested = 250  # ticks looked at after the end state, and after a clear
@@ -112,7 +113,7 @@ class Run:
             return
         expect_that(not client.state["faults"], f"a fault before the arm was enabled: {brief(client.state)}")
         must(client.ask("state_command", command="enable"))
-        client.until(lambda state: state["faults"] or (state["state"] == "ENABLED" and state["at_rest"]))
+        client.until(lambda state: state["faults"] or (state["state"] == "ENABLED" and state["at_rest"]), kEnabling_s)
         if self.scenario.during == "move" and not client.state["faults"]:
             goal = list(client.state["setpoint_js_deg"])
             goal[8] -= kMoveDeg
