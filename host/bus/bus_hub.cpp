@@ -70,7 +70,7 @@ void BusHub::queue_yield(std::size_t index) {
                          " bytes; allowed are buses 0 to " + std::to_string(sim_.wires().size() - 1) + " and 0 to 8 bytes");
       return end(participant.name() + " sent a malformed frame");
     }
-    if (sim_.queue(static_cast<int>(index), frame.bus, wire::to_can_frame(frame))) continue;
+    if (sim_.queue(static_cast<int>(index), frame.bus, wire::to_can_frame(frame), now_ns)) continue;
     frame.time_us = now_ns / 1000;
     frame.flags = wire::kFrameRefused;
     participant.keep(frame);
@@ -88,15 +88,37 @@ void BusHub::end(const std::string& reason) {
   for (Participant& each : participants_) each.wake(wire::kWakeShutdown, slot(), now_ns / 1000, false);
 }
 
+// Who stands still hears no more than fits the buffer of its socket.
 void BusHub::frame_ended(const EndedFrame& ended) {
   if (ended.dropped) return;
-  const auto bus = static_cast<std::size_t>(ended.bus);
-  if (!logs_.empty()) logs_[bus].write(ended.frame);
+  if (!logs_.empty()) logs_[static_cast<std::size_t>(ended.bus)].write(ended.frame);
   for (std::size_t i = 0; i < participants_.size(); ++i) {
-    if (static_cast<int>(i) == ended.sender) continue;
-    participants_[i].keep(wire::to_wire_frame(ended.bus, ended.frame));
-    if (ended.frame.id == kSyncId) participants_[i].note_sync();
+    const bool is_controller = i == kController;
+    if (static_cast<int>(i) == ended.sender || (is_controller && !ended.heard_by_controller)) continue;
+    if (awake_from_ns(i) > now_ns && participants_[i].frames() >= wire::kMaxPacketFrames) continue;
+    participants_[i].keep(wire::to_wire_frame(is_controller ? ended.controller_bus : ended.bus, ended.frame));
+    if (ended.frame.id == kSyncId) participants_[i].note_sync(now_ns);
   }
+}
+
+void BusHub::error_state_changed(int bus, const CanFrame& error_frame) {
+  if (!logs_.empty()) logs_[static_cast<std::size_t>(bus)].write(error_frame);
+  participants_[kController].keep(wire::to_wire_frame(bus, error_frame));
+}
+
+void BusHub::link_changed(int bus, bool is_up) {
+  wire::Frame told;
+  told.time_us = now_ns / 1000;
+  told.bus = static_cast<std::uint8_t>(bus);
+  told.length = 1;
+  told.flags = wire::kFrameLink;
+  told.data[0] = is_up ? 1 : 0;
+  participants_[kController].keep(told);
+}
+
+std::uint64_t BusHub::awake_from_ns(std::size_t index) const {
+  const std::uint64_t from_slot = index == kController ? sim_.script().awake_from(slot()) : slot();
+  return from_slot == slot() ? now_ns : from_slot * period_us_ * 1000;
 }
 
 }  // namespace liana

@@ -42,6 +42,8 @@ class BusHub final : private FrameSink {
   bool read_yield(std::size_t index);
   // Puts the frames of the YIELD just read into the queues; those that do not fit go back to their sender with its next WAKE.
   void queue_yield(std::size_t index);
+  // When participant `index` may run at the earliest: later than now while a script pauses it.
+  std::uint64_t awake_from_ns(std::size_t index) const;
   // Sends WAKE; without `block`, a full socket keeps the frames for later. Ends the bus when the participant has gone.
   void wake(std::size_t index, std::uint8_t flags, bool block);
 
@@ -51,6 +53,8 @@ class BusHub final : private FrameSink {
 
  private:
   void frame_ended(const EndedFrame& ended) override;
+  void error_state_changed(int bus, const CanFrame& error_frame) override;
+  void link_changed(int bus, bool is_up) override;
 
   std::vector<Participant> participants_;
   BusSim sim_;

@@ -56,7 +56,8 @@ void write_bus_stats(const std::string& path, const BusHub& hub) {
                      {"bits", stats.bits},
                      {"load", load},
                      {"refused", stats.refused},
-                     {"dropped", stats.dropped}});
+                     {"dropped", stats.dropped},
+                     {"disturbed", stats.disturbed}});
   }
   std::ofstream file(path);
   file << nlohmann::json{{"time_s", elapsed_s}, {"slots", hub.slot()}, {"ended", hub.end_reason()}, {"buses", buses}}.dump(1) << '\n';

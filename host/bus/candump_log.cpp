@@ -33,8 +33,10 @@ std::size_t format_candump(const std::string& interface, const CanFrame& frame, 
   *to++ = ' ';
   to = std::copy_n(interface.begin(), std::min<std::size_t>(interface.size(), 15), to);
   *to++ = ' ';
+  const bool is_error = (frame.id & kCanErrorFlag) != 0;
   const bool extended = (frame.id & kCanExtendedFlag) != 0;
-  to = put_hex(to, frame.id & (extended ? kCanExtendedMask : kCanStandardMask), extended ? 8 : 3);
+  const std::uint32_t mask = is_error ? kCanErrorFlag | kCanExtendedMask : extended ? kCanExtendedMask : kCanStandardMask;
+  to = put_hex(to, frame.id & mask, extended || is_error ? 8 : 3);
   *to++ = '#';
   const bool remote = (frame.id & kCanRemoteFlag) != 0;
   if (remote) *to++ = 'R';

@@ -10,7 +10,7 @@ EmbeddedRealtimeBus::EmbeddedRealtimeBus(std::unique_ptr<EmbeddedLink> link)
 }
 
 SendResult EmbeddedRealtimeBus::send(int bus, const CanFrame& frame) noexcept {
-  if (ended_) return SendResult::kDown;
+  if (stats(bus).state == BusState::kDown) return SendResult::kDown;
   if (yield_.frame_count == wire::kMaxPacketFrames) {
     book().count_refused(bus, frame, false);
     return SendResult::kQueueFull;
@@ -33,13 +33,7 @@ void EmbeddedRealtimeBus::drain() noexcept {
   EmbeddedLink::Received got = EmbeddedLink::Received::kNothing;
   while ((got = link_->receive(wake_, false)) == EmbeddedLink::Received::kWake) {
     for (std::size_t i = 0; i < wake_.frame_count; ++i) {
-      const wire::Frame& frame = wake_.frame[i];
-      if (frame.bus >= bus_count()) continue;
-      if ((frame.flags & wire::kFrameRefused) != 0) {
-        book().count_refused(frame.bus, wire::to_can_frame(frame), true);
-      } else {
-        book().store(frame.bus, wire::to_can_frame(frame));
-      }
+      if (wake_.frame[i].bus < bus_count()) book().take_record(wake_.frame[i]);
     }
     if ((wake_.flags & wire::kWakeShutdown) != 0) return end();
   }

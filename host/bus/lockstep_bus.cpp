@@ -24,11 +24,23 @@ TickStart LockstepBus::begin_tick(std::uint64_t tick) noexcept {
     yield_until(tick * period_us_);
     wait_wake();
   }
-  return {tick, 0, 0, ended_};
+  return skip_passed(tick);
+}
+
+// A controller that a script has paused goes on at the next deadline, as in real time.
+TickStart LockstepBus::skip_passed(std::uint64_t tick) noexcept {
+  const std::uint64_t late_us = now_us_ - tick * period_us_;
+  if (ended_ || late_us == 0) return {tick, 0, 0, ended_};
+  tick_ = (now_us_ + period_us_ - 1) / period_us_;
+  while (!ended_ && now_us_ < tick_ * period_us_) {
+    yield_until(tick_ * period_us_);
+    wait_wake();
+  }
+  return {tick_, 0, static_cast<std::uint32_t>(tick_ - tick), ended_};
 }
 
 SendResult LockstepBus::send(int bus, const CanFrame& frame) noexcept {
-  if (ended_) return SendResult::kDown;
+  if (stats(bus).state == BusState::kDown) return SendResult::kDown;
   int& queued = queued_[static_cast<std::size_t>(bus)];
   if (queued == kTransmitQueue || yield_.frame_count == wire::kMaxPacketFrames) {
     book_.count_refused(bus, frame, false);
@@ -65,14 +77,10 @@ void LockstepBus::wait_wake() noexcept {
   if (link_->receive(wake_, true) != EmbeddedLink::Received::kWake) return end();
   awake_ = true;
   now_us_ = wake_.now_us;
-  for (std::size_t i = 0; i < wake_.frame_count; ++i) store(wake_.frame[i]);
+  for (std::size_t i = 0; i < wake_.frame_count; ++i) {
+    if (wake_.frame[i].bus < bus_count()) book_.take_record(wake_.frame[i]);
+  }
   if ((wake_.flags & wire::kWakeShutdown) != 0) end();
-}
-
-void LockstepBus::store(const wire::Frame& frame) noexcept {
-  if (frame.bus >= bus_count()) return;
-  if ((frame.flags & wire::kFrameRefused) != 0) return book_.count_refused(frame.bus, wire::to_can_frame(frame), true);
-  book_.store(frame.bus, wire::to_can_frame(frame));
 }
 
 void LockstepBus::end() noexcept {

@@ -25,9 +25,9 @@ class LockstepBus final : public DriveBus {
   std::uint64_t now_us() const noexcept override { return now_us_; }
 
  private:
+  TickStart skip_passed(std::uint64_t tick) noexcept;
   void yield_until(std::uint64_t until_us) noexcept;
   void wait_wake() noexcept;
-  void store(const wire::Frame& frame) noexcept;
   void end() noexcept;
 
   std::unique_ptr<EmbeddedLink> link_;

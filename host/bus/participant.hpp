@@ -20,10 +20,15 @@ class Participant {
 
   // Keeps a frame for the next WAKE.
   void keep(const wire::Frame& frame) { inbox_.push_back(frame); }
-  bool has_frames() const { return !inbox_.empty(); }
-  // A SYNC has ended that this participant received.
-  void note_sync() { sync_seen_ = true; }
+  std::size_t frames() const { return inbox_.size(); }
+  // A SYNC has ended that this participant received, at `now_ns`.
+  void note_sync(std::uint64_t now_ns) {
+    if (!sync_seen_) sync_ns_ = now_ns;
+    sync_seen_ = true;
+  }
   bool sync_seen() const { return sync_seen_; }
+  // The first one since the last WAKE.
+  std::uint64_t sync_ns() const { return sync_ns_; }
   // Sends WAKE with the kept frames (at most 256); false when the participant has gone. Without `block`, a full socket keeps them.
   bool wake(std::uint8_t flags, std::uint32_t slot, std::uint64_t now_us, bool block);
 
@@ -44,6 +49,7 @@ class Participant {
   wire::Role role_;
   std::vector<wire::Frame> inbox_;
   bool sync_seen_ = false;
+  std::uint64_t sync_ns_ = 0;
   std::unique_ptr<wire::Wake> wake_ = std::make_unique<wire::Wake>();
   std::unique_ptr<wire::Yield> yield_ = std::make_unique<wire::Yield>();
 };

@@ -74,9 +74,21 @@ void collect(BusHub& hub) {
   }
 }
 
-bool due(const BusHub& hub, const Participant& participant, bool syncs_under_way) {
-  if (participant.until_ns <= hub.now_ns) return true;
-  return participant.wake_on_sync && participant.sync_seen() && !syncs_under_way;
+// A SYNC that cannot reach its bus holds up the answer on the other buses by no more than this share of a slot.
+std::uint64_t sync_patience_ns(const BusHub& hub) { return std::uint64_t{hub.period_us()} * 1000 / 8; }
+
+// When the participant wants to run if nothing more happens on the wires.
+std::uint64_t wanted_ns(BusHub& hub, std::size_t index) {
+  const Participant& participant = hub.participants()[index];
+  std::uint64_t wanted = participant.until_ns;
+  if (participant.wake_on_sync && participant.sync_seen()) wanted = std::min(wanted, participant.sync_ns() + sync_patience_ns(hub));
+  return std::max(wanted, hub.awake_from_ns(index));
+}
+
+bool due(BusHub& hub, std::size_t index) {
+  const Participant& participant = hub.participants()[index];
+  if (wanted_ns(hub, index) <= hub.now_ns) return true;
+  return participant.wake_on_sync && participant.sync_seen() && !hub.sim().is_sync_under_way();
 }
 
 // Moves virtual time on to the next moment at which somebody has to run.
@@ -84,22 +96,20 @@ void advance(BusHub& hub) {
   for (;;) {
     hub.sim().arbitrate(hub.now_ns);
     std::uint64_t next_ns = hub.sim().next_end_ns();
-    for (const Participant& each : hub.participants()) next_ns = std::min(next_ns, each.until_ns);
+    for (std::size_t i = 0; i < hub.participants().size(); ++i) next_ns = std::min(next_ns, wanted_ns(hub, i));
     if (next_ns == kForeverNs) return hub.end("nobody wants to run any more");
     hub.now_ns = next_ns;
     hub.sim().finish(next_ns);
-    const bool syncs_under_way = hub.sim().syncs_under_way() > 0;
-    for (const Participant& each : hub.participants()) {
-      if (due(hub, each, syncs_under_way)) return;
+    for (std::size_t i = 0; i < hub.participants().size(); ++i) {
+      if (due(hub, i)) return;
     }
   }
 }
 
 void wake_due(BusHub& hub) {
-  const bool syncs_under_way = hub.sim().syncs_under_way() > 0;
   const std::uint8_t flags = hub.at_slot_start() ? wire::kWakeSlotStart : 0;
   for (std::size_t i = 0; i < hub.participants().size() && !hub.ended(); ++i) {
-    if (due(hub, hub.participants()[i], syncs_under_way)) hub.wake(i, flags, true);
+    if (due(hub, i)) hub.wake(i, flags, true);
   }
 }
 

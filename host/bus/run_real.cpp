@@ -30,7 +30,7 @@ void take_frames(BusHub& hub) {
 
 void hand_over(BusHub& hub) {
   for (std::size_t i = 0; i < hub.participants().size() && !hub.ended(); ++i) {
-    if (hub.participants()[i].has_frames()) hub.wake(i, 0, false);
+    if (hub.participants()[i].frames() > 0) hub.wake(i, 0, false);
   }
 }
 

@@ -1,7 +1,6 @@
 #include "host/bus/socketcan_bus.hpp"
 
 #include <linux/can.h>
-#include <linux/can/error.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -73,26 +72,7 @@ void SocketCanBus::drain_bus(int bus) noexcept {
     if (size < 0 && errno == EINTR) continue;
     if (size < 0 && errno != EAGAIN) book().stats(bus).state = BusState::kDown;
     if (size != static_cast<ssize_t>(sizeof raw)) return;
-    const CanFrame frame = from_kernel(raw, now_us());
-    if ((raw.can_id & CAN_ERR_FLAG) != 0) {
-      note_error_frame(bus, frame);
-      continue;
-    }
-    if (book().stats(bus).state == BusState::kDown) book().stats(bus).state = BusState::kActive;
-    book().store(bus, frame);
-  }
-}
-
-void SocketCanBus::note_error_frame(int bus, const CanFrame& frame) noexcept {
-  DriveBusStats& stats = book().stats(bus);
-  ++stats.errors;
-  constexpr std::uint8_t kPassive = CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE;
-  if ((frame.id & CAN_ERR_BUSOFF) != 0) {
-    stats.state = BusState::kBusOff;
-  } else if ((frame.id & CAN_ERR_RESTARTED) != 0 || ((frame.id & CAN_ERR_CRTL) != 0 && (frame.data[1] & CAN_ERR_CRTL_ACTIVE) != 0)) {
-    stats.state = BusState::kActive;
-  } else if ((frame.id & CAN_ERR_CRTL) != 0 && (frame.data[1] & kPassive) != 0) {
-    stats.state = BusState::kErrorPassive;
+    book().store(bus, from_kernel(raw, now_us()));
   }
 }
 

@@ -19,7 +19,6 @@ class SocketCanBus final : public RealtimeBus {
   void flush() noexcept override {}
   bool ended() const noexcept override { return false; }  // an interface may come back
   void drain_bus(int bus) noexcept;
-  void note_error_frame(int bus, const CanFrame& frame) noexcept;
 
   std::array<int, kMaxDriveBuses> descriptor_{};
   int bus_count_ = 0;

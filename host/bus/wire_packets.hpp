@@ -26,6 +26,7 @@ constexpr std::uint8_t kWakeSyncSeen = 4;
 constexpr std::uint8_t kYieldWakeOnSync = 1;
 constexpr std::uint8_t kYieldLeave = 2;
 constexpr std::uint8_t kFrameRefused = 1;
+constexpr std::uint8_t kFrameLink = 2;
 
 struct Hello {
   Type type = Type::kHello;

@@ -50,7 +50,7 @@ void wait_for_dismissal(Service& service) {
 }
 
 // Fast and paced: one thread alternates service and real-time side, so that runs repeat bit for bit. False when the bus has ended.
-bool run_lockstep(Service& service, RtCycle& cycle, int interval_ticks) {
+bool run_lockstep(Service& service, RtCycle& cycle) {
   for (;;) {
     if (g_signal != 0) service.begin_shutdown("signal");
     service.cycle();
@@ -58,9 +58,9 @@ bool run_lockstep(Service& service, RtCycle& cycle, int interval_ticks) {
       wait_for_dismissal(service);
       return true;
     }
-    for (int i = 0; i < interval_ticks; ++i) {
+    do {
       if (!cycle.run_tick()) return false;
-    }
+    } while (!service.interval_began());
   }
 }
 
@@ -112,7 +112,7 @@ int run(const Options& options) {
   cycle = std::make_unique<RtCycle>(robot, buses, *bus, *link);
   handle_signals();
   if (*mode != TimeMode::kReal) service.wait_for(expected, kExpectTimeout_s);
-  const bool finished = *mode == TimeMode::kReal ? run_real(service, *cycle) : run_lockstep(service, *cycle, robot.table.interval_ticks);
+  const bool finished = *mode == TimeMode::kReal ? run_real(service, *cycle) : run_lockstep(service, *cycle);
   service.take_leave();
   if (!finished) throw std::runtime_error("the bus has ended: liana-bus or the bench left");
   return 0;

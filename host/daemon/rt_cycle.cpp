@@ -4,6 +4,7 @@
 
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/convert.hpp"
+#include "firmware_like/safety/watchdogs.hpp"
 #include "host/canopen/cob_id.hpp"
 #include "host/daemon/tick_guard.hpp"
 
@@ -17,9 +18,13 @@ std::vector<std::string> names_of(const BusesConfig& buses) {
   return names;
 }
 
+// How long a bus on which nobody is heard still gets its commands: long enough for a quick stop to arrive. Then silence makes drives that
+// hear us but act on nothing (without SYNC they do not) stop by themselves, and no old command waits in a queue for the bus to come back.
+constexpr std::uint16_t kFarewellTicks = 25;
+
 std::uint16_t older(std::uint16_t age) { return narrow<std::uint16_t>(static_cast<std::uint32_t>(age) + 1); }
 
-bool is_lost(BusState state) { return state == BusState::kDown || state == BusState::kBusOff; }
+bool is_out(BusState state) { return state == BusState::kDown || state == BusState::kBusOff; }
 
 }  // namespace
 
@@ -36,6 +41,7 @@ RtCycle::RtCycle(const RobotConfig& robot, const BusesConfig& buses, DriveBus& b
   for (auto& nodes : drive_of_node_) nodes.fill(-1);
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     drive_of_node_[static_cast<std::size_t>(drives_[i].bus)][drives_[i].node] = static_cast<std::int8_t>(i);
+    has_drives_[static_cast<std::size_t>(drives_[i].bus)] = true;
   }
 }
 
@@ -61,6 +67,7 @@ void RtCycle::collect(const TickStart& start) noexcept {
   inputs_.lost_ticks = start.lost_ticks;
   inputs_.request = Request::kNone;
   for (std::size_t i = 0; i < drives_.size(); ++i) inputs_.drive[i].feedback_age_ticks = older(inputs_.drive[i].feedback_age_ticks);
+  for (std::uint16_t& ticks : silent_ticks_) ticks = older(ticks);
   ReceivedFrame received;
   while (bus_.receive(received)) {
     if (master_.on_frame(received.bus, received.frame, start.tick)) continue;
@@ -74,14 +81,25 @@ void RtCycle::collect(const TickStart& start) noexcept {
     feedback.position_counts = report.position_counts;
     feedback.torque_permille = report.torque_permille;
     feedback.feedback_age_ticks = 0;
+    silent_ticks_[static_cast<std::size_t>(received.bus)] = 0;
   }
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     inputs_.drive[i].heartbeat_age_ticks = narrow<std::uint16_t>(master_.heartbeats().age_ticks(drives_[i].node));
     inputs_.drive[i].operational = master_.heartbeats().state(drives_[i].node) == canopen::kStateOperational ? 1 : 0;
   }
   take_emergencies();
-  inputs_.lost_bus_mask = 0;
-  for (int b = 0; b < bus_.bus_count(); ++b) inputs_.lost_bus_mask |= is_lost(bus_.stats(b).state) ? 1u << b : 0u;
+  inputs_.lost_bus_mask = lost_buses();
+}
+
+// An interface that is up proves nothing: with its cable off it goes on sending to nobody. A bus is also lost when none of its drives is
+// heard any more, as soon as one of them would be silent.
+std::uint32_t RtCycle::lost_buses() const noexcept {
+  std::uint32_t mask = 0;
+  for (int b = 0; b < bus_.bus_count(); ++b) {
+    const bool is_silent = has_drives_[static_cast<std::size_t>(b)] && silent_ticks_[static_cast<std::size_t>(b)] > kFeedbackAgeTicks;
+    if (is_silent || is_out(bus_.stats(b).state)) mask |= 1u << b;
+  }
+  return mask;
 }
 
 void RtCycle::take_emergencies() noexcept {
@@ -95,6 +113,7 @@ void RtCycle::take_emergencies() noexcept {
 
 void RtCycle::command_drives(const Outputs& outputs) noexcept {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
+    if (silent_ticks_[static_cast<std::size_t>(drives_[i].bus)] > kFarewellTicks) continue;
     CanFrame frame;
     frame.id = rpdo1_cob_id(drives_[i].node);
     frame.length = kRpdo1Bytes;

@@ -102,6 +102,7 @@ void Service::watch_slit() {
 // What changes by itself: the end of booting, the end of the run after the mission.
 void Service::watch_arm() {
   note_clear();
+  for (const std::string& change : trouble_.changes(config_.buses, link_.report.value())) note(change);
   if (mission_end_tick_) {
     const double since_s = static_cast<double>(tick() - *mission_end_tick_) * config_.robot.table.tick_s;
     if (since_s > kAfterMission_s) begin_shutdown("the mission has ended");

@@ -16,6 +16,7 @@
 #include "host/config/slit_mouth.hpp"
 #include "host/daemon/arbiter.hpp"
 #include "host/daemon/boot_problem.hpp"
+#include "host/daemon/host_trouble.hpp"
 #include "host/daemon/link.hpp"
 #include "host/daemon/owner.hpp"
 #include "host/daemon/release.hpp"
@@ -114,6 +115,7 @@ class Service : private ApiHandler {
   Twin twin_;
   std::vector<Telecommand> released_;  // not yet due at the newest image
   Notes notes_;
+  HostTrouble trouble_;
   BootPhase boot_seen_ = BootPhase::kBooting;
   bool image_sent_ = false;
   std::string published_;  // operating state of the last state message

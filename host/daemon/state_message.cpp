@@ -5,6 +5,7 @@
 #include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/safety/faults.hpp"
 #include "host/config/theta_numbers.hpp"
+#include "host/daemon/host_trouble.hpp"
 
 namespace liana {
 
@@ -90,7 +91,8 @@ json buses_json(const BusesConfig& buses, const CycleReport& report) {
                     {"frames", bus.sent + bus.received},
                     {"refused", bus.refused},
                     {"errors", bus.errors},
-                    {"down", bus.state == BusState::kDown || bus.state == BusState::kBusOff},
+                    {"state", bus_state_name(bus.state)},
+                    {"lost", (report.inputs.lost_bus_mask >> b & 1u) != 0},
                     {"worst_load", worst_case_load(buses, b)},
                     {"measured_load", time_s > 0.0 ? static_cast<double>(bus.bits) / (time_s * buses.buses[b].bitrate) : 0.0}});
   }

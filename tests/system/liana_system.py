@@ -66,7 +66,7 @@ class Client:
     """One connection to the API. Answers are kept by id, everything else that is no state in `complaints`."""
 
     def __init__(self, path, name, role, lockstep=False, subscribe=("state",)):
-        self.lockstep, self.state, self.answers, self.complaints = lockstep, None, {}, []
+        self.lockstep, self.state, self.answers, self.complaints, self.events = lockstep, None, {}, [], []
         self.last_id, self.faults_told = 0, set()
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.socket.settimeout(PATIENCE_S)
@@ -92,6 +92,7 @@ class Client:
             if message["op"] == "state":
                 self.state = message
                 self.faults_told.update((fault["number"], fault["index"], fault["tick"]) for fault in message["faults"])
+                self.events += [event for event in message["events"] if event not in self.events]
                 return message
             if "id" in message:
                 self.answers[message["id"]] = message

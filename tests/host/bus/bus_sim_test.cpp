@@ -10,7 +10,11 @@ namespace {
 
 struct Recorder : FrameSink {
   std::vector<EndedFrame> ended;
+  std::vector<CanFrame> errors;
+  std::vector<bool> links;
   void frame_ended(const EndedFrame& frame) override { ended.push_back(frame); }
+  void error_state_changed(int, const CanFrame& frame) override { errors.push_back(frame); }
+  void link_changed(int, bool is_up) override { links.push_back(is_up); }
 };
 
 CanFrame frame_of(std::uint32_t id, std::uint8_t length = 0) {
@@ -33,6 +37,8 @@ struct Bench {
     }
   }
 
+  bool queue(int participant, int bus, const CanFrame& frame) { return sim.queue(participant, bus, frame, now_ns); }
+
   Recorder recorder;
   BusSim sim;
   std::uint64_t now_ns = 0;
@@ -40,7 +46,7 @@ struct Bench {
 
 TEST(BusSim, AFrameOccupiesTheWireForExactlyItsBits) {
   Bench bench({}, 500000);
-  bench.sim.queue(0, 0, frame_of(0x201, 6));
+  bench.queue(0, 0, frame_of(0x201, 6));
   bench.run_until_idle();
   ASSERT_EQ(bench.recorder.ended.size(), 1U);
   EXPECT_EQ(bench.recorder.ended[0].frame.time_us, 2U * frame_bits(frame_of(0x201, 6)));
@@ -49,8 +55,8 @@ TEST(BusSim, AFrameOccupiesTheWireForExactlyItsBits) {
 
 TEST(BusSim, PendingFramesGoInTheOrderOfTheirIdentifiersWhoeverSendsThem) {
   Bench bench;
-  for (const std::uint32_t id : {0x603U, 0x201U, 0x080U}) bench.sim.queue(0, 0, frame_of(id));
-  for (const std::uint32_t id : {0x182U, 0x081U, 0x701U}) bench.sim.queue(1, 0, frame_of(id));
+  for (const std::uint32_t id : {0x603U, 0x201U, 0x080U}) bench.queue(0, 0, frame_of(id));
+  for (const std::uint32_t id : {0x182U, 0x081U, 0x701U}) bench.queue(1, 0, frame_of(id));
   bench.run_until_idle();
   std::vector<std::uint32_t> order;
   for (const EndedFrame& each : bench.recorder.ended) order.push_back(each.frame.id);
@@ -59,9 +65,9 @@ TEST(BusSim, PendingFramesGoInTheOrderOfTheirIdentifiersWhoeverSendsThem) {
 
 TEST(BusSim, AFrameOnTheWireIsNotInterruptedByAHigherPriority) {
   Bench bench;
-  bench.sim.queue(0, 0, frame_of(0x700));
+  bench.queue(0, 0, frame_of(0x700));
   bench.sim.arbitrate(0);
-  bench.sim.queue(1, 0, frame_of(0x080));
+  bench.queue(1, 0, frame_of(0x080));
   bench.run_until_idle();
   EXPECT_EQ(bench.recorder.ended[0].frame.id, 0x700U);
   EXPECT_EQ(bench.recorder.ended[1].frame.id, 0x080U);
@@ -72,7 +78,7 @@ TEST(BusSim, FramesWithEqualIdentifiersKeepTheirOrder) {
   for (std::uint8_t i = 0; i < 5; ++i) {
     CanFrame frame = frame_of(0x601, 1);
     frame.data[0] = i;
-    bench.sim.queue(0, 0, frame);
+    bench.queue(0, 0, frame);
   }
   bench.run_until_idle();
   for (std::uint8_t i = 0; i < 5; ++i) EXPECT_EQ(bench.recorder.ended[i].frame.data[0], i);
@@ -80,36 +86,36 @@ TEST(BusSim, FramesWithEqualIdentifiersKeepTheirOrder) {
 
 TEST(BusSim, TheWiresDoNotDisturbEachOther) {
   Bench bench;
-  bench.sim.queue(0, 0, frame_of(0x080));
-  bench.sim.queue(0, 1, frame_of(0x080));
-  EXPECT_EQ(bench.sim.syncs_under_way(), 2);
+  bench.queue(0, 0, frame_of(0x080));
+  bench.queue(0, 1, frame_of(0x080));
+  EXPECT_TRUE(bench.sim.is_sync_under_way());
   bench.run_until_idle();
   EXPECT_EQ(bench.recorder.ended[0].frame.time_us, bench.recorder.ended[1].frame.time_us);
-  EXPECT_EQ(bench.sim.syncs_under_way(), 0);
+  EXPECT_FALSE(bench.sim.is_sync_under_way());
 }
 
 TEST(BusSim, The65thFrameIsRefusedAndOneOnTheWireNoLongerCounts) {
   Bench bench;
-  for (int i = 0; i < 64; ++i) EXPECT_TRUE(bench.sim.queue(0, 0, frame_of(0x601)));
-  EXPECT_FALSE(bench.sim.queue(0, 0, frame_of(0x601)));
-  EXPECT_TRUE(bench.sim.queue(1, 0, frame_of(0x581))) << "the other participant has a queue of its own";
-  EXPECT_TRUE(bench.sim.queue(0, 1, frame_of(0x601))) << "and so has the other bus";
+  for (int i = 0; i < 64; ++i) EXPECT_TRUE(bench.queue(0, 0, frame_of(0x601)));
+  EXPECT_FALSE(bench.queue(0, 0, frame_of(0x601)));
+  EXPECT_TRUE(bench.queue(1, 0, frame_of(0x581))) << "the other participant has a queue of its own";
+  EXPECT_TRUE(bench.queue(0, 1, frame_of(0x601))) << "and so has the other bus";
   EXPECT_EQ(bench.sim.stats(0).refused, 1U);
   bench.sim.arbitrate(0);  // 0x581 wins
-  EXPECT_FALSE(bench.sim.queue(0, 0, frame_of(0x601)));
+  EXPECT_FALSE(bench.queue(0, 0, frame_of(0x601)));
   bench.now_ns = bench.sim.next_end_ns();
   bench.sim.finish(bench.now_ns);
   bench.sim.arbitrate(bench.now_ns);
-  EXPECT_TRUE(bench.sim.queue(0, 0, frame_of(0x601)));
+  EXPECT_TRUE(bench.queue(0, 0, frame_of(0x601)));
 }
 
 TEST(FaultScript, FramesOfTheNamedSlotsOccupyTheWireButGetLost) {
-  Bench bench(FaultScript({{0, 0x181, 1, 2}}));
+  Bench bench(FaultScript({{BusAction::kDrop, 0, 1, 2, 0x181}}));
   for (std::uint64_t slot = 0; slot < 5; ++slot) {
     bench.now_ns = slot * 4'000'000;
     for (const int bus : {0, 1}) {
-      bench.sim.queue(1, bus, frame_of(0x181, 8));
-      bench.sim.queue(1, bus, frame_of(0x182, 8));
+      bench.queue(1, bus, frame_of(0x181, 8));
+      bench.queue(1, bus, frame_of(0x182, 8));
     }
     bench.run_until_idle();
   }
@@ -137,14 +143,22 @@ std::string message_for(const std::string& text) {
 TEST(FaultScript, ReadsIdentifiersAndWholeBuses) {
   const std::string path = testing::TempDir() + "/good_script.json";
   std::ofstream(path) << R"([{"bus":0,"id":"0x181","from_slot":100,"to_slot":102,"action":"drop"},
-                             {"bus":1,"from_slot":5,"to_slot":5,"action":"drop"}])";
-  const FaultScript script = load_fault_script(path, 2);
-  EXPECT_FALSE(script.drops(0, 0x181, 99));
-  EXPECT_TRUE(script.drops(0, 0x181, 100));
-  EXPECT_TRUE(script.drops(0, 0x181, 102));
-  EXPECT_FALSE(script.drops(0, 0x181, 103));
-  EXPECT_FALSE(script.drops(0, 0x182, 100));
-  EXPECT_TRUE(script.drops(1, 0x7FF, 5));
+                             {"bus":1,"from_slot":5,"to_slot":5,"count":2,"action":"duplicate"},
+                             {"bus":1,"id":"0x000","data":"8104","from_slot":7,"load_percent":30,"action":"send"}])";
+  FaultScript script = load_fault_script(path, 2);
+  EXPECT_FALSE(script.takes(BusAction::kDrop, 0, 0x181, 99));
+  EXPECT_TRUE(script.takes(BusAction::kDrop, 0, 0x181, 100));
+  EXPECT_TRUE(script.takes(BusAction::kDrop, 0, 0x181, 102));
+  EXPECT_FALSE(script.takes(BusAction::kDrop, 0, 0x181, 103));
+  EXPECT_FALSE(script.takes(BusAction::kDrop, 0, 0x182, 100));
+  EXPECT_TRUE(script.takes(BusAction::kDuplicate, 1, 0x7FF, 5));
+  EXPECT_TRUE(script.takes(BusAction::kDuplicate, 1, 0x080, 5));
+  EXPECT_FALSE(script.takes(BusAction::kDuplicate, 1, 0x080, 5)) << "two frames were to be taken";
+  const BusFault& stranger = script.faults()[2];
+  EXPECT_EQ(stranger.to_slot, kLastSlot);
+  EXPECT_EQ(stranger.load_percent, 30);
+  EXPECT_EQ(stranger.frame.length, 2);
+  EXPECT_EQ(stranger.frame.data[0], 0x81);
 }
 
 TEST(FaultScript, RefusesWhatItDoesNotUnderstandAndNamesIt) {
@@ -153,6 +167,11 @@ TEST(FaultScript, RefusesWhatItDoesNotUnderstandAndNamesIt) {
   EXPECT_NE(message_for(R"([{"bus":0,"from_slot":3,"to_slot":2,"action":"drop"}])").find("to_slot: 2"), std::string::npos);
   EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"to_slot":2,"action":"burn"}])").find("action"), std::string::npos);
   EXPECT_NE(message_for(R"([{"bus":0,"id":"zz","from_slot":1,"to_slot":2,"action":"drop"}])").find("id: \"zz\""), std::string::npos);
+  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"cut","count":3}])").find("count: 3"), std::string::npos);
+  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"swap","with_bus":0}])").find("with_bus: 0"), std::string::npos);
+  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"send","data":"00"}])").find("id: missing"), std::string::npos);
+  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"send","id":"0x1","data":"0"}])").find("data: \"0\""), std::string::npos);
+  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"drop","count":0}])").find("count: 0"), std::string::npos);
   EXPECT_NE(message_for(R"([{"bus":0,"slot":1,"from_slot":1,"to_slot":2,"action":"drop"}])").find("slot: 1"), std::string::npos);
 }
 

@@ -132,8 +132,47 @@ TEST(Lockstep, BothEndsCountTheSameFramesAndBits) {
   EXPECT_EQ(bus_thread.outcome().end_reason, "lianad left");
 }
 
+TEST(Lockstep, AScriptedPauseCostsTheControllerItsDeadlinesAndTheBusGoesOn) {
+  BusThread bus_thread(small_table(), TimeMode::kFast, "", FaultScript({{BusAction::kPause, 0, 3, 5}}));
+  PlantThread plant(bus_thread.socket_path(), tpdos_for);
+  auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
+  for (std::uint64_t tick = 0; tick < 10; ++tick) {
+    const TickStart start = bus->begin_tick(tick);
+    EXPECT_EQ(start.lost_ticks, tick == 3 ? 3U : 0U);
+    EXPECT_EQ(start.tick, tick + start.lost_ticks);
+    EXPECT_EQ(bus->now_us(), start.tick * 4000);
+    tick = start.tick;
+    bus->write_sync();
+    bus->wait_feedback(2);
+    bus->end_tick();
+  }
+}
+
+TEST(Lockstep, TheControllersInterfaceSaysWhatSocketCanWouldSay) {
+  BusThread bus_thread(small_table(), TimeMode::kFast, "",
+                       FaultScript({{BusAction::kDown, 0, 2, 3}, {BusAction::kDisturb, 1, 2, 3}, {BusAction::kRestart, 1, 6, 6}}));
+  PlantThread plant(bus_thread.socket_path(), tpdos_for);
+  auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
+  std::vector<BusState> down, off;
+  for (std::uint64_t tick = 0; tick < 9; ++tick) {
+    bus->begin_tick(tick);
+    const SendResult sent = bus->write_sync();
+    EXPECT_EQ(sent == SendResult::kDown, !down.empty() && down.back() == BusState::kDown) << tick;
+    bus->wait_feedback(2);
+    down.push_back(bus->stats(0).state);
+    off.push_back(bus->stats(1).state);
+    bus->end_tick();
+  }
+  using enum BusState;
+  EXPECT_EQ(down, (std::vector<BusState>{kActive, kActive, kDown, kDown, kActive, kActive, kActive, kActive, kActive}));
+  EXPECT_EQ(off[1], kActive);
+  EXPECT_EQ(off[5], kBusOff);
+  EXPECT_EQ(off[7], kActive);
+  EXPECT_EQ(bus->stats(1).errors, 4U) << "warning, passive, bus-off, restarted";
+}
+
 TEST(Lockstep, AScriptedLossReachesTheControllerAsAMissingTpdo) {
-  BusThread bus_thread(small_table(), TimeMode::kFast, "", FaultScript({{0, 0x181, 3, 4}}));
+  BusThread bus_thread(small_table(), TimeMode::kFast, "", FaultScript({{BusAction::kDrop, 0, 3, 4, 0x181}}));
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
   auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
   for (std::uint64_t tick = 0; tick < 8; ++tick) {
@@ -168,7 +207,7 @@ TEST(Lockstep, ThePlantStillRunsWhenNoSyncComes) {
 }
 
 TEST(Lockstep, TheSyncFrameThatGetsLostOnOneBusStillLetsTheOtherRun) {
-  BusThread bus_thread(small_table(), TimeMode::kFast, "", FaultScript({{1, 0x080, 0, 100}}));
+  BusThread bus_thread(small_table(), TimeMode::kFast, "", FaultScript({{BusAction::kDrop, 1, 0, 100, 0x080}}));
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
   auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
   for (std::uint64_t tick = 0; tick < 5; ++tick) {

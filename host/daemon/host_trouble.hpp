@@ -1,0 +1,33 @@
+// What interfaces and clock report beside the faults: no trouble of the host comes or goes without an event.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/daemon/link.hpp"
+
+namespace liana {
+
+// "active", "error_passive", "bus_off" or "down", as the API names the state of a bus.
+const char* bus_state_name(BusState state);
+
+// Compares each report with the one before.
+class HostTrouble {
+ public:
+  // What has changed since the last call, one sentence each: state of an interface, error frames, frames it refuses, frames lost in the
+  // receive buffer, lost control deadlines.
+  std::vector<std::string> changes(const BusesConfig& buses, const CycleReport& report);
+
+ private:
+  struct Seen {
+    DriveBusStats stats;
+    std::uint64_t refused_before = 0;  // when it began to refuse
+    bool refuses = false;
+  };
+  void look_at(const std::string& name, const DriveBusStats& now, Seen& seen, std::vector<std::string>& out) const;
+
+  std::array<Seen, kMaxDriveBuses> seen_{};
+  std::uint64_t lost_ticks_ = 0;
+};
+
+}  // namespace liana
