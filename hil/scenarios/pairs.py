@@ -37,7 +37,7 @@ kMembers = (
     Member("stuck", bench(13, "stuck"), None, 3006, 13, 60, 800),
     Member("slack", bench(4, "slack"), None, 5001, 4, 24, 60, 13.0),
     Member("cable_break", bench(9, "cable_break"), None, 5001, 9, 24, 60, 16.0),
-    Member("bus_lost", None, drop(1), 3002, 8, 2, 2),
+    Member("bus_lost", None, drop(1), 4001, 1, 2, 2),
     Member("no_master", None, drop(0, id="0x77F"), 3004, 0, 45, 80),
     Member("no_targets", None, drop(1, id="0x20C"), 3004, 11, 4, 4),
     Member("operator_stop", None, None, None, None, 0, 0),
