@@ -30,8 +30,15 @@ kBenchKinds = {
     "encoder_jump": ({"counts": (-60000, -5000, -300, 36, 700, 5000, 60000)}, False), "motor_saturation": ({"tension_N": (0, 5, 30, 200)}, True),
     "slack": ({}, True), "cable_slip": ({"length_m": (0.0002, 0.002, 0.02)}, False), "cable_break": ({}, False),
     "wrong_identity_after_reboot": ({}, False)}
-kLostIds = (None, 0x080, 0x77F, 0x180, 0x200, 0x700, 0x080)  # whole bus, SYNC, master heartbeat; of one drive: TPDO, RPDO, heartbeat, EMCY
+# Action of the bus script: ids it takes (None: the whole bus); for "send" the stranger's id. Ids of one drive (+ node): TPDO, RPDO, heartbeat.
+kSync, kMaster, kBabble = 0x080, 0x77F, 0x001
 kOfOneDrive = (0x180, 0x200, 0x700)
+kAnyFrame = (None, kSync, kMaster, *kOfOneDrive)
+kBusActions = {"drop": kAnyFrame, "duplicate": kAnyFrame, "reorder": kAnyFrame, "disturb": kAnyFrame, "refuse": (None, kSync, kMaster, 0x200), "send": (kBabble,),
+               "cut": (), "down": (), "swap": (), "pause": ()}
+kLoads_percent = (10, 60, 100)
+kShareOfBus = 0.4
+kForever, kLongestPause = 1000000, 300  # slots
 kSpans = (1, 2, 3, 4, 10, 30, 100, 500, None)
 
 # What the operator does, by state, with weights: mostly what a person would, sometimes what must be refused.
@@ -53,8 +60,8 @@ class Sequence:
         self.last_tick = self.draw.randint(*kTicks)
         self.bench_faults, self.bus_script = [], []
         for _ in range(self.draw.randint(1, 4)):
-            if self.draw.random() < 0.2:
-                self.bus_script.append(self.lost_frames())
+            if self.draw.random() < kShareOfBus:
+                self.bus_script.append(self.bus_fault())
             else:
                 self.bench_faults.append(self.bench_fault())
 
@@ -71,11 +78,21 @@ class Sequence:
         span = self.draw.choice(kSpans)
         return {**fault, "for_slots": span} if may_end and span is not None else fault
 
-    def lost_frames(self):
-        base, node, begin = self.draw.choice(kLostIds), self.draw.randrange(1, kDrives + 1), self.begin()
-        span = self.draw.choice(kSpans)
-        rule = {"bus": 0 if node <= 8 else 1, "from_slot": begin, "to_slot": begin + span - 1 if span else 1000000, "action": "drop"}
-        return rule if base is None else {**rule, "id": hex(base + node if base in kOfOneDrive else base)}
+    def bus_fault(self):
+        action = self.draw.choice(sorted(kBusActions))
+        ids, node, begin, span = kBusActions[action], self.draw.randrange(1, kDrives + 1), self.begin(), self.draw.choice(kSpans)
+        bus = 0 if node <= 8 else 1
+        rule = {"action": action, "from_slot": begin, "to_slot": begin + (span or kForever) - 1}
+        if action != "pause":
+            rule["bus"] = bus
+        if action == "pause":
+            rule["to_slot"] = begin + min(span or 1, kLongestPause) - 1
+        if action == "swap":
+            rule["with_bus"] = 1 - bus
+        if action == "send":
+            rule.update(data="0102030405060708", load_percent=self.draw.choice(kLoads_percent))
+        base = self.draw.choice(ids or (None,))
+        return rule if base is None else {**rule, "id": f"0x{base + node if base in kOfOneDrive else base:03X}"}
 
     def fault_count(self):
         return len(self.bench_faults) + len(self.bus_script)
@@ -152,7 +169,7 @@ class SequenceRun:
         for course in done.courses:
             self.counts[f"begun: {course['kind']}"] += course["begun_slot"] is not None
         for rule in self.sequence.bus_script:
-            self.counts["begun: lost frames"] += rule["from_slot"] < len(done.truth.rows)
+            self.counts[f"begun: bus {rule['action']}"] += rule["from_slot"] < len(done.truth.rows)
         for number in {fault[0] for fault in done.latched()}:
             self.counts[f"latched: {number}"] += 1
         self.notes.append(f"{self.sequence.fault_count()} faults, latched {sorted({fault[0] for fault in done.latched()})}, {len(done.recording.ticks)} ticks")

@@ -69,12 +69,12 @@ class Pair:
         return next((begin for member, begin in zip(self.members, self.begins()) if member.number is None), None)
 
     def expected_first(self):
-        """(number, index) of those that may be latched first: both, where either could be. In one tick the lower index comes first."""
+        """(number, index) of those that may be latched first: both, where either could be. In one tick buses come first, then the lower index."""
         faults = [(begin + member.earliest, begin + member.latest, member) for member, begin in zip(self.members, self.begins()) if member.number]
         soonest = min(latest for _, latest, _ in faults)
         able = [(earliest, latest, member) for earliest, latest, member in faults if earliest <= soonest]
         if len({(earliest, latest) for earliest, latest, _ in able}) == 1 and able[0][0] == able[0][1]:
-            able = [min(able, key=lambda one: one[2].index)]
+            able = [min(able, key=lambda one: (one[2].number != 4001, one[2].index))]
         return [(member.number, member.index) for _, _, member in able]
 
     def run(self):

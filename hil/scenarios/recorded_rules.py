@@ -153,6 +153,11 @@ def faults_gone_unasked(ticks):
     return complaints
 
 
+def had_torque(tick):
+    """The drives hold the arm: in ENABLED, and in ENABLING from the pretension ramp on."""
+    return tick.state == "ENABLED" or (tick.state == "ENABLING" and all(map(is_enabled, tick.statusword)))
+
+
 def weakest_reaction_broken(before, now, highest, was, persisted):
     """Why this tick does less than the highest latched reaction asks for; None when it does enough."""
     if now.state in ("DISABLED", "ENABLING") or (now.state == "ENABLED" and highest > kHold):
@@ -163,7 +168,7 @@ def weakest_reaction_broken(before, now, highest, was, persisted):
         return "a drive is not told to disable voltage"
     if highest >= kAtOnce and any(map(is_enabling, now.controlword)):
         return "a drive is told to enable operation"
-    if highest == kAtOnce > was and before.state == "ENABLED":
+    if highest == kAtOnce > was and had_torque(before):
         if any(is_enabled(status) and word != kQuickStop for status, word in zip(now.statusword, now.controlword)):
             return "a drive with torque is not told to quick stop"
     if highest == kHold and before.state == "ENABLED" != now.state and now.request not in ("stop", "disable") and not persisted:

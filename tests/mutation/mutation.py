@@ -5,6 +5,7 @@
 """
 import argparse
 import collections
+import concurrent.futures
 import contextlib
 import io
 import json
@@ -121,19 +122,14 @@ def why_it_fails(scenario_object):
     return ""
 
 
-def must_pass(names, by_name, what):
-    for name in names:
-        why = why_it_fails(by_name[name])
-        if why:
-            raise BadMutation(f"{name} fails {what}, so it proves nothing: {why}")
-
-
-def controls(wanted, workshop, by_name):
+def controls(wanted, workshop, by_name, pool):
     """Without the mutation every scenario passes: plain, and where the gate has to stop a planted bug."""
     for planted in sorted({one.planted for one in wanted}):
         names = sorted({name for one in wanted if one.planted == planted for name in one.caught_by})
         with workshop.with_edits(planted):
-            must_pass(names, by_name, "without the mutation")
+            for name, why in zip(names, pool.map(why_it_fails, [by_name[name] for name in names])):
+                if why:
+                    raise BadMutation(f"{name} fails without the mutation, so it proves nothing: {why}")
 
 
 def run(wanted, binaries, directory):
@@ -145,17 +141,14 @@ def run(wanted, binaries, directory):
     by_name = scenarios()
     check(wanted, by_name)
     workshop, outcomes = Workshop(directory, binaries), {}
-    controls(wanted, workshop, by_name)
-    for one in wanted:
-        outcomes[one.name] = (None, "")
-        with workshop.with_edits(one.planted + one.edits):
-            for name in one.caught_by:
-                why = why_it_fails(by_name[name])
-                if why:
-                    outcomes[one.name] = (name, why)
-                    break
-        killer, why = outcomes[one.name]
-        print(f"{'caught' if killer else 'SURVIVED'}  {one.name}  {killer or ''}  {why[:120]}", file=sys.stderr, flush=True)
+    with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
+        controls(wanted, workshop, by_name, pool)
+        for one in wanted:
+            with workshop.with_edits(one.planted + one.edits):
+                complaints = zip(one.caught_by, pool.map(why_it_fails, [by_name[name] for name in one.caught_by]))
+                killer, why = next(((name, why) for name, why in complaints if why), (None, ""))
+            outcomes[one.name] = (killer, why)
+            print(f"{'caught' if killer else 'SURVIVED'}  {one.name}  {killer or ''}  {why[:120]}", file=sys.stderr, flush=True)
     return outcomes
 
 

@@ -90,6 +90,8 @@ class Rules(unittest.TestCase):
         for weaker, said in (({"state": "ENABLED"}, "ENABLED"), ({"controlword": (0x0F, 0x00)}, "enable operation"), ({"controlword": (0x07, 0x00)}, "quick stop"),
                              ({"stop_category": 1}, "category"), ({"faults": (fault(5001), fault(5002)), "stop_category": 3}, "disable voltage")):
             self.broken(rules.weak_reactions(changed(5, **{**kStopped, **weaker}), kReactions), said)
+        ramp = [tick._replace(state="ENABLING") for tick in ticks(5)] + [kGood._replace(tick=5, **{**kStopped, "controlword": (0x07, 0x00)})]
+        self.broken(rules.weak_reactions(ramp, kReactions), "quick stop")
         self.assertEqual(rules.weak_reactions(changed(5, faults=(fault(5001),), stop_category=1), kReactions), [])
         self.broken(rules.weak_reactions(changed(5, **{**kStopped, "faults": (fault(5001),)}), kReactions), "a hold keeps the drives enabled")
 
