@@ -95,6 +95,25 @@ TEST(Replay, ARecordingThatStartsInMidRunGoesOnFromItsImage) {
   EXPECT_EQ(result.differing_ticks, 0u);
 }
 
+TEST(Replay, DeadlinesThatWereLostAreNoGapInARecording) {
+  const std::string folder = fresh_folder("lost");
+  Recording recording(folder, {"hash", "{}", "{}", "{}", "real", 0.004});
+  Controller controller(zhu2022::table());
+  recording.take(image_packet(kFirstTick, true, zhu2022::table(), {}));
+  std::uint64_t tick = kFirstTick;
+  for (const std::uint32_t lost : {0u, 0u, 4u, 0u, 1u, 0u}) {
+    Inputs inputs = inputs_of(tick += lost);
+    inputs.lost_ticks = lost;
+    recording.take(tick_packet({inputs, controller.tick(inputs)}, 0));
+    ++tick;
+  }
+  recording.finish();
+  const ReplayResult result = replay(folder);
+  EXPECT_EQ(result.ticks, 6u);
+  EXPECT_EQ(result.missing_ticks, 0u);
+  EXPECT_EQ(result.differing_ticks, 0u);
+}
+
 std::string bytes_of(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
