@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "tests/firmware_like/safety_bench.hpp"
@@ -64,6 +65,29 @@ TEST_F(Watchdogs, ADriveThatLeavesNmtOperationalIsReported) {
   inputs_.drive[0].operational = 0;
   run(kUnpowered);
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveNotOperational, 0));
+}
+
+TEST_F(Watchdogs, FaultsOfOneTickAreLatchedBusesFirstThenDriveByDriveAsThePageOfPrioritiesSays) {
+  inputs_.lost_bus_mask = 2;
+  inputs_.lost_ticks = kToleratedLostTicks + 1;
+  inputs_.drive[1] = {kStatusFault, 0, 1000000, kFeedbackAgeTicks + 1, 0xFFFF, 0, 0};
+  inputs_.drive[2].statusword = kStatusDisabled;
+  inputs_.drive[2].position_counts += 1000000;
+  tension_N_[2] = 0.0;
+  tension_N_[3] = 700.0;
+  state_.slack_ticks[2] = state_.alarm_ticks[3] = kSlackDebounceTicks;
+  state_.overload_ticks[3] = state_.following_ticks[2] = kFollowingDebounceTicks;
+  run(kRunning);
+  using enum FaultNumber;
+  const std::vector<std::pair<FaultNumber, int>> order{
+      {kBusLost, 1},      {kTicksLost, -1},         {kDriveSilent, 1}, {kDriveMissing, 1},   {kDriveNotOperational, 1},
+      {kDriveFault, 1},   {kDriveLeftOperation, 2}, {kCableSlack, 2},  {kFollowingError, 2}, {kTensionAlarm, 3},
+      {kCableOverload, 3}};
+  ASSERT_EQ(faults_.count, static_cast<std::int32_t>(order.size()));
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    EXPECT_EQ(faults_.fault[i].number, order[i].first) << i;
+    EXPECT_EQ(faults_.fault[i].index, order[i].second) << i;
+  }
 }
 
 TEST_F(Watchdogs, ADriveThatWasNeverAliveIsNoFault) {
