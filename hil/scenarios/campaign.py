@@ -9,6 +9,7 @@ import concurrent.futures
 import json
 import os
 import random
+import subprocess
 import sys
 
 import trial
@@ -133,7 +134,7 @@ class SequenceRun:
         """Failed says how to repeat it, whatever went wrong."""
         try:
             self.go_once()
-        except (Failed, AssertionError, OSError, ValueError, KeyError) as error:
+        except (Failed, AssertionError, OSError, ValueError, KeyError, subprocess.SubprocessError) as error:
             raise Failed(f"{error or type(error).__name__}; again: {again(self.sequence.seed)}") from error
 
     def go_once(self):

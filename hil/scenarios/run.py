@@ -6,6 +6,7 @@ import fnmatch
 import json
 import os
 import pathlib
+import subprocess
 import sys
 import time
 
@@ -40,7 +41,7 @@ def run_one(one):
     run, start, why = one.run(), time.monotonic(), ""
     try:
         run.go()
-    except (scenario.Failed, AssertionError, OSError, ValueError, KeyError) as error:
+    except (scenario.Failed, AssertionError, OSError, ValueError, KeyError, subprocess.SubprocessError) as error:
         why = f"{type(error).__name__}: {error}"
     seconds = time.monotonic() - start
     row = {"name": one.name, "where": kWhere, "outcome": "failed" if why else "passed", "seconds": round(seconds, 2), "why": why, "notes": run.notes}
