@@ -1,13 +1,16 @@
 """One scenario: read it, run it on the embedded bus in lockstep, judge it (hil/scenarios/README.md)."""
+import contextlib
 import json
 import pathlib
 import sys
+import threading
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parents[1] / "tests" / "system"))
 
 import predicates  # noqa: E402
 import trial  # noqa: E402
+import wire_checks  # noqa: E402
 from liana_system import System, brief, must  # noqa: E402
 
 kMoveDeg = 6.0
@@ -16,10 +19,14 @@ kPathStop = 500  # ticks; twice what rest from full speed takes
 kTravelDeg = 1.0  # of any angle from the fault to the end, where a scenario says nothing else
 kRested = 250  # ticks looked at after the end state, and after a clear
 
-kFields = {"about": str, "during": str, "faults": list, "bus_script": list, "expect": dict, "reduced": bool}
+kFields = {"about": str, "during": str, "faults": list, "bus_script": list, "expect": dict, "reduced": bool,
+           "host": dict, "time_limit_s": (int, float)}
 kExpected = {"fault": (int, type(None)), "index": int, "detail": int, "within_ticks": int, "state": str, "stopped_within_ticks": int, "travel_deg": (int, float),
-             "after_clear": str, "events": list, "late_commands": bool}
+             "after_clear": str, "events": list, "late_commands": bool, "boot_order": bool, "also": list}
+kHost = {"action": str, "program": str, "bytes": int}
+kHostExpected = {"outcome": str, "says": list}
 kDuring = ("boot", "rest", "move")
+kTimeLimit_s = 300  # wall clock
 
 
 class BadScenario(Exception):
@@ -52,26 +59,35 @@ class Scenario:
             raise BadScenario(f"{self.name}: must be a JSON object")
         check_fields(self.name, content, kFields, ("about", "during", "expect"))
         expect = content["expect"]
-        check_fields(f"{self.name}: expect", expect, kExpected, ("fault", "state"))
+        self.host, self.time_limit_s = content.get("host"), content.get("time_limit_s", kTimeLimit_s)
+        if self.host is None:
+            check_fields(f"{self.name}: expect", expect, kExpected, ("fault", "state"))
+            self.check_fault(expect, content["during"])
+        else:
+            check_fields(f"{self.name}: host", self.host, kHost, ("action", "program"))
+            check_fields(f"{self.name}: expect", expect, kHostExpected, ("outcome",))
         if content["during"] not in kDuring:
             raise BadScenario(f"{self.name}: during is {content['during']}; allowed are {', '.join(kDuring)}")
-        if expect["fault"] is not None and not {"index", "within_ticks"} <= expect.keys():
-            raise BadScenario(f"{self.name}: expect: a fault needs index and within_ticks")
-        if expect["fault"] is not None and content["during"] != "boot" and "stopped_within_ticks" not in expect:
-            raise BadScenario(f"{self.name}: expect: a fault of an enabled arm needs stopped_within_ticks")
         self.during, self.expect = content["during"], expect
         self.faults, self.bus_script = content.get("faults"), content.get("bus_script")
         self.about, self.reduced = content["about"], content.get("reduced", False)
 
+    def check_fault(self, expect, during):
+        if expect["fault"] is not None and not {"index", "within_ticks"} <= expect.keys():
+            raise BadScenario(f"{self.name}: expect: a fault needs index and within_ticks")
+        if expect["fault"] is not None and during != "boot" and "stopped_within_ticks" not in expect:
+            raise BadScenario(f"{self.name}: expect: a fault of an enabled arm needs stopped_within_ticks")
+
     def run(self):
-        return Run(self)
+        import host_run  # it builds on this file
+        return Run(self) if self.host is None else host_run.HostRun(self)
 
     def strangers_nodes(self):
         """Nodes in whose name a scripted stranger speaks: what the log says of them is not what controller and drive said."""
         return [int(rule["id"], 16) & 0x7F for rule in self.bus_script or [] if rule["action"] == "send"]
 
     def fault_count(self):
-        return len(self.faults or []) + len(self.bus_script or [])
+        return len(self.faults or []) + len(self.bus_script or []) + (self.host is not None)
 
 
 def all_scenarios(folder=HERE):
@@ -90,26 +106,50 @@ class Run:
     def __init__(self, scenario):
         self.scenario, self.expect = scenario, scenario.expect
         self.latched = self.enabled_again = None  # ticks
-        self.notes, self.violations = [], []
+        self.notes, self.violations, self.over_time = [], [], False
 
     def go(self):
+        """Runs it; past its time limit the programs are killed, which ends whatever waits for them."""
+        try:
+            self.act()
+        except Exception:
+            expect_that(not self.over_time, f"over its time limit of {self.scenario.time_limit_s} s: the programs were killed")
+            raise
+        expect_that(not self.violations, "; ".join(self.violations))
+
+    def kill_all(self, system):
+        self.over_time = True
+        for child in list(system.children.values()):
+            child.kill()
+
+    @contextlib.contextmanager
+    def limited(self, system):
+        limit = threading.Timer(self.scenario.time_limit_s, self.kill_all, [system])
+        limit.start()
+        try:
+            yield
+        finally:
+            limit.cancel()
+
+    def act(self):
         with System(expect="client,archive", faults=self.scenario.faults, bus_script=self.scenario.bus_script) as system:
-            trial.start_archive(system)
-            client = system.client()
-            self.bring_up(client)
-            self.watch(client)
-            self.stay(client)
-            if "after_clear" in self.expect:
-                self.clear(client)
-            end = client.state["tick"]
-            self.judge_events(client)
-            codes = system.shut_down(client)
+            with self.limited(system):
+                trial.start_archive(system)
+                client = system.client()
+                self.bring_up(client)
+                self.watch(client)
+                self.stay(client)
+                if "after_clear" in self.expect:
+                    self.clear(client)
+                end = client.state["tick"]
+                self.judge_events(client)
+                codes = system.shut_down(client)
             expect_that(set(codes.values()) == {0}, f"a program did not end well: {codes}")
             self.judge(system, end)
+            self.judge_wire(system)
             recorded = trial.Trial(self.scenario.faults or [])
             recorded.judge(system, client.faults_told)
             self.violations += recorded.complaints
-        expect_that(not self.violations, "; ".join(self.violations))
 
     def bring_up(self, client):
         must(client.ask("acquire"))
@@ -176,7 +216,10 @@ class Run:
         expect_that(client.state["state"] == wanted, f"after the clear {wanted} was expected, but: {brief(client.state)}")
 
     def judge_events(self, client):
-        """What the arm got over has been said, too."""
+        """What came besides, and what the arm got over, has been said."""
+        told = {number for number, _, _ in client.faults_told}
+        for wanted in self.expect.get("also", []):
+            expect_that(wanted in told, f"{wanted} was expected besides, but there were {sorted(told)}")
         for wanted in self.expect.get("events", []):
             expect_that(any(wanted in event["text"] for event in client.events), f"no event says '{wanted}'; there were {[event['text'] for event in client.events]}")
 
@@ -207,6 +250,15 @@ class Run:
         travel, allowed = truth.travel_deg(begun, self.enabled_again or end), self.expect.get("travel_deg", kTravelDeg)
         self.notes.append(f"travel {travel:.3f} deg")
         expect_that(travel <= allowed, f"the arm travelled {travel:.2f} deg, allowed are {allowed}")
+
+    def judge_wire(self, system):
+        """As another decoder reads it."""
+        logs = sorted(system.directory.glob("can*.log"))
+        self.violations += wire_checks.malformed(logs)
+        if self.expect.get("boot_order"):
+            for bus, log in zip(system.json("buses.json")["buses"], logs):
+                frames = wire_checks.decoded(log)
+                self.violations += [complaint for node in bus["nodes"] for complaint in wire_checks.boot_order(frames, node)]
 
     def judge_stop(self, truth, traffic, end):
         stopped = self.latched + self.expect.get("stopped_within_ticks", 0)

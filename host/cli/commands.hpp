@@ -102,6 +102,14 @@ int estop_command(const ClientOptions& options);
 // somebody else owns motion, the arm is not at rest yet, or a fault is still there.
 int clear_command(const ClientOptions& options);
 
+struct FaultsOptions {
+  std::string robot = "zhu2022";
+  bool markdown = false;  // the table of docs/faults.md
+  bool json = false;
+};
+// Every fault number: how it is detected, what it stops, what to do.
+int faults_command(const FaultsOptions& options);
+
 struct ReplayOptions {
   std::string directory;
   bool json = false;

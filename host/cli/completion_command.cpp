@@ -19,7 +19,7 @@ constexpr const char* kBash = R"bash(_liana() {
     --record | --json | --svg | --path | --api | --out | replay) COMPREPLY=($(compgen -f -- "$word")); return ;;
   esac
   if [[ $COMP_CWORD == 1 ]]; then
-    words="run pose ik reach plan status estop clear latency replay robot doctor completion help"
+    words="run pose ik reach plan status estop clear faults latency replay robot doctor completion help"
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
       run) words="--robot --scene --bus --time --physics --record --json --seed" ;;
@@ -28,6 +28,7 @@ constexpr const char* kBash = R"bash(_liana() {
       ik) words="--robot --from-deg --tip --hold --control-point --json" ;;
       reach) words="--robot --scene --hold --from-deg --to-deg --path --node --samples --seed --svg --json" ;;
       plan) words="--robot --scene --from-deg --to-deg --tip --hold --planar --control-point --follow --waypoints --margin --max-step-deg --iterations --out --json" ;;
+      faults) words="--robot --markdown --json" ;;
       status | estop | clear) words="--api --json" ;;
       robot) words="--robot --out --json" ;;
       replay | doctor) words="--json" ;;

@@ -133,6 +133,14 @@ void add_latency(CLI::App& app, Action& action, liana::LatencyOptions& latency) 
   sub->add_flag("--json", latency.json, "print JSON");
 }
 
+void add_faults(CLI::App& app, Action& action, liana::FaultsOptions& faults) {
+  CLI::App* sub =
+      add(app, action, "faults", "every fault number: how it is detected, what it stops, what to do", faults, liana::faults_command);
+  sub->add_option("--robot", faults.robot, "robot table whose tick counts")->capture_default_str();
+  sub->add_flag("--markdown", faults.markdown, "print the table of docs/faults.md");
+  sub->add_flag("--json", faults.json, "print JSON");
+}
+
 void add_client(CLI::App& app, Action& action, const char* name, const char* text, liana::ClientOptions& client,
                 int (*command)(const liana::ClientOptions&)) {
   CLI::App* sub = add(app, action, name, text, client, command);
@@ -233,6 +241,7 @@ int run(int argc, char** argv) {
   liana::RunOptions run;
   liana::LatencyOptions latency;
   liana::ClientOptions client;
+  liana::FaultsOptions faults;
   liana::ReplayOptions replay;
   liana::ExportOptions exported;
   bool doctor_json = false;
@@ -246,6 +255,7 @@ int run(int argc, char** argv) {
   add_client(app, action, "clear", "clear an emergency stop and the latched faults of one running system; enables nothing", client,
              liana::clear_command);
   add_latency(app, action, latency);
+  add_faults(app, action, faults);
   add_tools(app, action, replay, exported, doctor_json, shell);
   try {
     app.parse(arguments_of(app, argc, argv));

@@ -12,8 +12,11 @@ from liana_system import SOURCE
 FOLDER = SOURCE / "hil" / "scenarios"
 sys.path.insert(0, str(FOLDER))
 
+import coverage  # noqa: E402
 import predicates  # noqa: E402
+import recorded_rules  # noqa: E402
 import scenario  # noqa: E402
+import wire_checks  # noqa: E402
 
 kPeriod_s = 0.004
 
@@ -67,6 +70,41 @@ class Rules(unittest.TestCase):
         self.assertEqual(len(predicates.numbers_that_are_none([(1.0, 2.0), (float("nan"), 2.0)])), 1)
 
 
+def frames(*steps):
+    """Of node 4: reset, boot-up, SDO objects, start, operational, PDO."""
+    of = {"reset": (0, 130, 4, None, None), "start": (0, 1, 0, None, None), "boot-up": (0x704, None, None, 0, None), "operational": (0x704, None, None, 5, None),
+          "PDO": (0x184, None, None, None, None)}
+    return [wire_checks.Frame(line, *of.get(step, (0x604, None, None, None, step))) for line, step in enumerate(steps)]
+
+
+class BootOrder(unittest.TestCase):
+    def test_the_order_of_cia_301_is_accepted_after_the_last_reset(self):
+        self.assertEqual(wire_checks.boot_order(frames("boot-up", "reset", "reset", "boot-up", 0x1000, 0x1018, 0x1400, "start", "operational", "PDO"), 4), [])
+
+    def test_each_step_out_of_order_is_found(self):
+        for wrong, words in ((("boot-up", 0x1018, "start", "operational"), "no reset"), (("reset", 0x1018, "boot-up", "start", "PDO"), "boot-up, SDO"),
+                             (("reset", "boot-up", "PDO", 0x1018, "start"), "boot-up, SDO"), (("reset", "boot-up", 0x1018, "PDO", "start"), "boot-up, SDO"),
+                             (("reset", "boot-up", "start", 0x1018, "PDO"), "boot-up, SDO"), (("reset", "boot-up", 0x1400, 0x1018, "start", "PDO"), "0x1400"),
+                             (("reset", "boot-up", 0x1400, "start", "PDO"), "never read")):
+            found = wire_checks.boot_order(frames(*wrong), 4)
+            self.assertEqual(len(found), 1, wrong)
+            self.assertIn(words, found[0])
+
+
+class Wire(unittest.TestCase):
+    def log(self, text):
+        path = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "can0.log"
+        path.write_text(text)
+        return path
+
+    def test_a_malformed_frame_is_found_and_what_is_no_log_refused(self):
+        good = "(0000000001.000000) can0 080#\n(0000000001.001000) can0 704#05\n(0000000001.002000) can0 20000004#0008000000008000\n"
+        self.assertEqual(wire_checks.malformed([self.log(good)]), [])
+        self.assertIn("line 4", wire_checks.malformed([self.log(good + "(0000000001.003000) can0 604#4018\n")])[0])
+        with self.assertRaises(ValueError):
+            wire_checks.malformed([self.log("nothing of the kind")])
+
+
 class Files(unittest.TestCase):
     GOOD = {"about": "x", "during": "move", "faults": [], "expect": {"fault": 3002, "index": 3, "within_ticks": 5, "state": "FAULT", "stopped_within_ticks": 9}}
 
@@ -92,6 +130,35 @@ class Files(unittest.TestCase):
         self.refused("fault is missing", expect={"state": "FAULT"})
         self.refused("within_ticks", expect={"fault": 3002, "state": "FAULT"})
         self.refused("stopped_within_ticks", expect={"fault": 3002, "state": "FAULT", "index": 3, "within_ticks": 5})
+
+    def test_a_fault_of_the_host_has_fields_of_its_own(self):
+        read = self.read(host={"action": "kill", "program": "lianad"}, expect={"outcome": "drives_stop"})
+        self.assertEqual((read.host["program"], read.fault_count()), ("lianad", 1))
+        self.refused("expect", "fault", host={"action": "kill", "program": "lianad"})
+        self.refused("program is missing", host={"action": "kill"}, expect={"outcome": "drives_stop"})
+
+    def test_past_its_time_limit_a_scenario_has_failed_and_its_programs_are_dead(self):
+        class Endless(scenario.Run):
+            def act(self):
+                with scenario.System() as system, self.limited(system):
+                    self.system = system
+                    system.client().until(lambda state: False, 1e9)
+
+        run = Endless(self.read(time_limit_s=0.5))
+        with self.assertRaises(scenario.Failed) as caught:
+            run.go()
+        self.assertIn("over its time limit of 0.5 s", str(caught.exception))
+        self.assertTrue(all(child.returncode is not None for child in run.system.children.values()))
+
+    def test_every_fault_number_is_shown_by_a_scenario_or_a_test_as_the_page_says(self):
+        numbers = sorted(recorded_rules.documented_reactions())
+        shown = coverage.shown_by()
+        self.assertGreater(len(numbers), 15)
+        for number in numbers:
+            self.assertTrue(shown[number] or number in coverage.kTests, f"fault {number}: no scenario expects it; add one")
+        for name, file in coverage.kTests.values():
+            self.assertIn(f"{name.replace('.', ', ')})", (SOURCE / file).read_text())
+        self.assertIn(coverage.table(numbers, {}), (SOURCE / "docs" / "faults.md").read_text(), "put there what python3 hil/scenarios/coverage.py prints")
 
     def test_every_folder_of_scenarios_says_what_it_is(self):
         folders = {FOLDER / one.name.split("/")[0] for one in scenario.all_scenarios()}

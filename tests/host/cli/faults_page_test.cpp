@@ -1,28 +1,28 @@
-// docs/faults.md is for operators; it must say what the core says.
+// docs/faults.md is for operators; its table is what `liana faults --markdown` prints.
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>
 
-#include "firmware_like/safety/faults.hpp"
+#include "host/cli/fault_table.hpp"
+#include "host/cli/tables.hpp"
 
 namespace liana {
 namespace {
 
-const char* category_name(StopCategory category) {
-  constexpr const char* kNames[] = {"none", "hold", "stop", "off"};
-  return kNames[static_cast<std::size_t>(category)];
-}
-
-TEST(FaultsPage, HasARowWithMeaningAndRemedyForEveryFault) {
+TEST(FaultsPage, HoldsTheTableThatTheCodePrints) {
   std::ifstream file(LIANA_DOCS_DIR "/faults.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
-  ASSERT_GT(all_faults().size(), 1u);
-  for (const FaultInfo& fault : all_faults().subspan(1)) {
-    const std::string row = "| " + std::to_string(static_cast<int>(fault.number)) + " | " + fault.name + " | " +
-                            category_name(fault.category) + (fault.immediate ? " at once" : "") + " | " + fault.text + " | " +
-                            fault.remedy + " |\n";
-    EXPECT_NE(page.find(row), std::string::npos) << "docs/faults.md lacks: " << row;
+  const std::string table = markdown_of(fault_rows(robot_for_kinematics("zhu2022").table));
+  EXPECT_NE(page.find("\n\n" + table + "\n"), std::string::npos) << "put this into docs/faults.md:\n" << table;
+}
+
+TEST(FaultsPage, EveryNumberSaysHowItIsDetectedAndWhatItStops) {
+  const std::vector<FaultRow> rows = fault_rows(robot_for_kinematics("zhu2022").table);
+  ASSERT_EQ(rows.size(), all_faults().size() - 1);
+  for (const FaultRow& row : rows) {
+    EXPECT_STRNE(row.detector, "") << row.info.name;
+    EXPECT_NE(row.stops_by, "none") << row.info.name;
   }
 }
 

@@ -1,0 +1,48 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "host/cli/commands.hpp"
+#include "host/cli/errors.hpp"
+#include "host/cli/fault_table.hpp"
+#include "host/cli/tables.hpp"
+
+namespace liana {
+namespace {
+
+nlohmann::json json_of(const std::vector<FaultRow>& rows) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const FaultRow& row : rows) {
+    list.push_back({{"number", static_cast<int>(row.info.number)},
+                    {"name", row.info.name},
+                    {"detected_by", row.detector},
+                    {"within_ticks", row.within_ticks < 0 ? nlohmann::json() : nlohmann::json(row.within_ticks)},
+                    {"stops_by", row.stops_by},
+                    {"text", row.info.text},
+                    {"remedy", row.info.remedy}});
+  }
+  return list;
+}
+
+void print_text(const std::vector<FaultRow>& rows) {
+  for (const FaultRow& row : rows) {
+    std::printf("%d %s (%s): %s\n     %s\n", static_cast<int>(row.info.number), row.info.name, row.stops_by.c_str(), row.info.text,
+                row.info.remedy);
+  }
+}
+
+}  // namespace
+
+int faults_command(const FaultsOptions& options) {
+  if (options.json && options.markdown) throw BadInput("--json, --markdown: give one of them");
+  const std::vector<FaultRow> rows = fault_rows(robot_for_kinematics(options.robot).table);
+  if (options.json) {
+    std::puts(json_of(rows).dump(1).c_str());
+  } else if (options.markdown) {
+    std::fputs(markdown_of(rows).c_str(), stdout);
+  } else {
+    print_text(rows);
+  }
+  return kExitOk;
+}
+
+}  // namespace liana
