@@ -18,6 +18,7 @@ def rows(counts, failed):
     begun = sum(count for name, count in counts.items() if name.startswith("begun: "))
     return [["sequences", counts["sequences"]],
             ["sequences that broke a rule", len(failed)],
+            ["sequences that failed once and not again (the machine stalled)", counts["failed once, not again"]],
             ["ticks judged", counts["ticks"]],
             ["faults begun", f"{begun}: {listed(counts, 'begun: ')}"],
             ["sequences in which a fault was latched", listed(counts, "latched: ")],

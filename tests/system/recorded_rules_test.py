@@ -6,6 +6,7 @@ from liana_system import SOURCE
 
 sys.path.insert(0, str(SOURCE / "hil" / "scenarios"))
 
+import campaign  # noqa: E402
 import pairs  # noqa: E402
 import recorded_rules as rules  # noqa: E402
 from recording import Fault, Tick, offsets  # noqa: E402
@@ -168,6 +169,28 @@ class Pairs(unittest.TestCase):
         self.assertEqual(pairs.Pair(member["missing"], member["silent"], 0).expected_first(), [(3002, 3)])
         self.assertEqual(pairs.Pair(member["slack"], member["cable_break"], 5).expected_first(), [(5001, 4), (5001, 9)])
         self.assertEqual(pairs.Pair(member["operator_stop"], member["sto"], 5).expected_first(), [(3004, 1)])
+
+
+class Campaign(unittest.TestCase):
+    def test_a_seed_always_gives_the_same_one_to_four_faults_and_another_seed_others(self):
+        def faults(seed):
+            sequence = campaign.Sequence(seed)
+            return sequence.bench_faults + sequence.bus_script
+
+        found = [faults(seed) for seed in range(1, 201)]
+        self.assertEqual(found, [faults(seed) for seed in range(1, 201)])
+        self.assertEqual({len(one) for one in found}, {1, 2, 3, 4})
+        self.assertEqual({fault["kind"] for one in found for fault in one if "kind" in fault}, set(campaign.kBenchKinds))
+        self.assertEqual({fault["action"] for one in found for fault in one if "action" in fault}, set(campaign.kBusActions))
+        self.assertGreater(len({str(one) for one in found}), 190)
+
+    def test_what_the_operator_does_depends_on_the_seed_and_the_state(self):
+        state = {"state": "ENABLED", "setpoint_js_deg": [18.0] * 10, "setpoint_cp": [0, 0, 4, 1, 0, 0, 0]}
+        actions = [campaign.Sequence(seed).action(state) for seed in range(1, 101)]
+        self.assertEqual(actions, [campaign.Sequence(seed).action(state) for seed in range(1, 101)])
+        moves = [fields["goal_deg"] for op, fields in filter(None, actions) if op == "move_jp"]
+        self.assertGreater(len(moves), 10)
+        self.assertLessEqual(max(abs(theta) for goal in moves for theta in goal), 19.0)
 
 
 if __name__ == "__main__":
