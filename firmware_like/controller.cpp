@@ -41,6 +41,7 @@ Controller::Controller(const RobotTable& table) noexcept : table_(table), layout
   for (Index c = 0; c < as_index(table.cable_count()); ++c) zero_payout_m_[c] = layout_.zero_length_m[c] + table.lead_m;
   gate_limits_ = make_gate_limits(table, zero_payout_m_);
   watchdog_limits_ = make_watchdog_limits(table);
+  cable_watch_limits_ = make_cable_watch_limits(table, zero_payout_m_);
   reset_motion(table_, ThetaVector{}, motion_);
   take_geometry();
   update_tension_ratio(table_, layout_, motion_.trig, slip_, ratio_);
@@ -49,7 +50,7 @@ Controller::Controller(const RobotTable& table) noexcept : table_(table), layout
 Outputs Controller::tick(const Inputs& inputs) noexcept {
   limits_ = 0;
   read_drives(inputs);  // lengths, tensions, measured angles
-  const std::int32_t wrong = watch(watchdog_limits_, watch_scope(supervisor_), inputs, sent_, tension_measured_N_, watchdogs_, faults_);
+  const std::int32_t wrong = watch_all(inputs);
   const bool stop = active_.setpoint().kind == CommandKind::kStop;
   const MotionStatus status{stop, homed(), at_rest_, ramp_ >= 1.0 && cables_taut()};
   const Orders orders = supervise(watchdog_limits_, inputs, status, wrong, supervisor_, faults_);
@@ -61,15 +62,15 @@ Outputs Controller::tick(const Inputs& inputs) noexcept {
 }
 
 void Controller::read_drives(const Inputs& inputs) noexcept {
-  bool all_heard = true, all_fresh = true;
+  feedback_age_ticks_ = 0;
   for (Index c = 0; c < cables(); ++c) {
     const DriveFeedback& drive = inputs.drive[c];
-    all_heard = all_heard && drive.feedback_age_ticks != 0xFFFF;
-    all_fresh = all_fresh && drive.feedback_age_ticks <= kFeedbackAgeTicks;
+    if (drive.feedback_age_ticks > feedback_age_ticks_) feedback_age_ticks_ = drive.feedback_age_ticks;
     payout_measured_m_[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], drive.position_counts);
     tension_measured_N_[c] = table_.drive[c].newtons_per_permille * drive.torque_permille;
   }
-  if (!all_heard) return;
+  if (feedback_age_ticks_ == 0xFFFF) return;  // a drive was never heard
+  const bool all_fresh = feedback_age_ticks_ <= kFeedbackAgeTicks;
   estimate(table_, layout_, model_, ratio_, payout_measured_m_, tension_measured_N_, estimator_);
   double residual_m = 0.0;
   for (Index c = 0; c < cables(); ++c) residual_m = larger(residual_m, std::fabs(estimator_.residual_m[c]));
@@ -78,6 +79,16 @@ void Controller::read_drives(const Inputs& inputs) noexcept {
   if (plausible && homing_ticks_ < kHomingTicks) ++homing_ticks_;
   if (!plausible && !homed()) homing_ticks_ = 0;
   if (!all_fresh || residual_m > 4.0 * kHomingResidual_m) homing_ticks_ = 0;
+}
+
+// What is wrong with drives, buses, clock and cables; returns how many of it are wrong now.
+std::int32_t Controller::watch_all(const Inputs& inputs) noexcept {
+  const WatchScope scope = watch_scope(supervisor_);
+  const std::int32_t wrong = watch(watchdog_limits_, scope, inputs, sent_, tension_measured_N_, estimator_.tension_N, watchdogs_, faults_);
+  const CableReadings cables{payout_measured_m_, tension_measured_N_, model_.geometry.length_m, estimator_.residual_m};
+  const bool usable = scope.tensioned && feedback_age_ticks_ == 0 && faults_.count == 0;
+  watch_cables(table_, cable_watch_limits_, cables, usable, inputs.tick, cable_watch_, faults_);
+  return wrong;
 }
 
 bool Controller::cables_taut() const noexcept {

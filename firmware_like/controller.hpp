@@ -8,6 +8,7 @@
 #include "firmware_like/controller_io.hpp"
 #include "firmware_like/motion/damping.hpp"
 #include "firmware_like/motion/motion.hpp"
+#include "firmware_like/safety/cable_watch.hpp"
 #include "firmware_like/safety/gate.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 #include "firmware_like/safety/watchdogs.hpp"
@@ -39,6 +40,7 @@ class Controller {
   using Index = std::size_t;
 
   void read_drives(const Inputs& inputs) noexcept;
+  std::int32_t watch_all(const Inputs& inputs) noexcept;
   void take_telecommand(const Inputs& inputs) noexcept;
   void move(const Inputs& inputs, const Orders& orders) noexcept;
   void take_geometry() noexcept;
@@ -59,14 +61,17 @@ class Controller {
   CableLayout layout_{};
   GateLimits gate_limits_{};
   WatchdogLimits watchdog_limits_{};
+  CableWatchLimits cable_watch_limits_{};
 
   CableVector zero_payout_m_{};
   CableVector payout_measured_m_{};
   CableVector tension_measured_N_{};
   EstimatorState estimator_{};
   std::uint32_t homing_ticks_ = 0;
+  std::uint16_t feedback_age_ticks_ = 0xFFFF;  // of the drive that was heard longest ago
 
   WatchdogState watchdogs_{};
+  CableWatchState cable_watch_{};
   FaultList faults_{};
   SupervisorState supervisor_{};
 

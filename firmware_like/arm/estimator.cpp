@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "firmware_like/arm/tension.hpp"
+#include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
 
 namespace liana {
@@ -13,11 +14,14 @@ void estimate(const RobotTable& table, const CableLayout& layout, const CableMod
               const CableVector& payout_m, const CableVector& tension_N, EstimatorState& state) noexcept {
   const Index cables = static_cast<Index>(layout.cable_count);
   const double blend = state.primed ? table.tick_s / (kTensionFilter_s + table.tick_s) : 1.0;
-  for (Index c = 0; c < cables; ++c) state.tension_N[c] += blend * (tension_N[c] - state.tension_N[c]);
+  for (Index c = 0; c < cables; c += 2) {
+    const Pair before_N = load_pair(&state.tension_N[c]);
+    store_pair(before_N + blend * (load_pair(&tension_N[c]) - before_N), &state.tension_N[c]);
+  }
   state.primed = true;
 
   CableVector change_m = payout_for(table, layout, model.geometry.part_m, ratio, state.tension_N);
-  for (Index c = 0; c < cables; ++c) change_m[c] = payout_m[c] - change_m[c];
+  for (Index c = 0; c < cables; c += 2) store_pair(load_pair(&payout_m[c]) - load_pair(&change_m[c]), &change_m[c]);
   const CableSolution found = solve_cables(table, model.geometry, model.solver, change_m);
   state.residual_m = found.left_m;
   state.largest_step_rad = 0.0;

@@ -38,6 +38,12 @@ struct TensionLimits {
   double hard_limit_N = 0.0;
 };
 
+// How well cables have to agree with what is known about them (docs/cables.md). The defaults fit readings of 0.6 N and 0.3 %.
+struct CableWatchTable {
+  double jump_N = 7.0;              // most that tension may change in a tick without length or planned pose to explain it
+  double contradiction_m = 100e-6;  // most that a segment's lengths may come to contradict each other, without friction
+};
+
 // Motion limits; the gate and verification enforce them, the filter and limiter plan with them.
 struct MotionLimits {
   double theta_rate_rad_s = 0.0;
@@ -73,6 +79,7 @@ struct RobotTable {
   double tick_s = 0.0;              // control period
   std::int32_t interval_ticks = 0;  // T_c in ticks
   TensionLimits tension{};
+  CableWatchTable cable_watch{};
   MotionLimits limits{};
   std::array<DriveTable, kMaxCables> drive{};
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
 
 namespace liana {
@@ -133,9 +134,11 @@ CableVector payout_for(const RobotTable& table, const CableLayout& layout, const
   CableVector payout{};
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     const double strain = motor_N[c] / table.cable_EA_N;
-    double sum_m = table.lead_m / (1.0 + strain);
-    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) sum_m += part_m[c][j] / (1.0 + strain * ratio[c][j]);
-    payout[c] = sum_m;
+    Pair sum_m{table.lead_m / (1.0 + strain), 0.0};
+    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); j += 2) {  // two segments at a time; beyond the cable's own there is no part
+      sum_m += load_pair(&part_m[c][j]) / (both(1.0) + strain * load_pair(&ratio[c][j]));
+    }
+    payout[c] = sum(sum_m);
   }
   return payout;
 }

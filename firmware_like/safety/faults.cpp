@@ -44,8 +44,14 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
       return 14;
     case kHomingImplausible:
       return 15;
-    case kGateRefused:
+    case kCableSlip:
       return 16;
+    case kCableBreak:
+      return 17;
+    case kTensionScatters:
+      return 18;
+    case kGateRefused:
+      return 19;
   }
   return 0;
 }
@@ -53,7 +59,7 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
 constexpr StopCategory kHold = StopCategory::kHold;
 constexpr StopCategory kStop = StopCategory::kStop;
 
-constexpr std::array<FaultInfo, 17> kFaultTable{{
+constexpr std::array<FaultInfo, 20> kFaultTable{{
     {kNone, "none", StopCategory::kNone, false, "No fault.", "Nothing to do."},
     {kCommandInvalid, "command_invalid", kHold, false, "A released command held a value that is not finite or out of range.",
      "Look at the verdict log for the command's sequence number; correct the client that sent it, then clear."},
@@ -84,8 +90,18 @@ constexpr std::array<FaultInfo, 17> kFaultTable{{
      "Free the arm by hand with the brakes' release procedure, inspect the cable, then clear."},
     {kTensionAlarm, "tension_alarm", kHold, false, "A cable's tension stayed over the alarm limit.",
      "Look for contact; move back along the path, then clear."},
-    {kHomingImplausible, "homing_implausible", kHold, false, "The lengths of one segment's cables contradict each other.",
-     "Compare the stored zeros of the segment's drives with the robot table; home again, then clear."},
+    {kHomingImplausible, "homing_implausible", kHold, false,
+     "The lengths of one segment's cables came to contradict each other; the detail is by how many micrometres.",
+     "Look for a cable that creeps on its drum, and compare the stored zeros of the segment's drives with the robot table; home again, "
+     "then "
+     "clear."},
+    {kCableSlip, "cable_slip", kHold, false,
+     "A cable slipped on its drum, or its encoder jumped: length and tension do not agree since; the detail is micrometres of cable.",
+     "Look at the clamp on the drum and at the encoder; the cable's zero is wrong now: home again, then clear."},
+    {kCableBreak, "cable_break", kStop, true, "A cable's tension was gone from one moment to the next: it broke, or its reading is lost.",
+     "Stay away from the arm; look at the cable, then at the drive's torque reading; then clear."},
+    {kTensionScatters, "tension_scatters", kHold, false, "Readings of a cable jump to and fro.",
+     "Check the drive's torque and position measurement and its cable; move back along the path, then clear."},
     {kGateRefused, "gate_refused", kStop, true, "The gate saw a command that must not reach a drive; the detail names the check.",
      "This is a defect: keep the recording and report it; the arm stands at its last good target, then clear."},
 }};

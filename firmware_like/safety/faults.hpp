@@ -28,6 +28,9 @@ enum class FaultNumber : std::uint16_t {
   kCableOverload = 5002,      // tension over the hard limit
   kTensionAlarm = 5003,       // tension over the alarm limit
   kHomingImplausible = 5004,  // lengths of one segment's cables contradict each other
+  kCableSlip = 5005,          // length and tension of a cable stopped agreeing: it slipped, or its encoder jumped
+  kCableBreak = 5006,         // a cable's tension was gone from one moment to the next
+  kTensionScatters = 5007,    // a cable's readings jump to and fro
   kGateRefused = 6001,        // the gate saw a command that must not reach a drive
 };
 

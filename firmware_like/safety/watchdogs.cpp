@@ -69,8 +69,8 @@ void watch_state(WatchScope scope, const DriveFeedback& drive, std::int32_t i, W
   }
 }
 
-void watch_cable(const WatchdogLimits& limits, WatchScope scope, double tension_N, std::int32_t drive, WatchdogState& state,
-                 Watch& out) noexcept {
+void watch_cable(const WatchdogLimits& limits, WatchScope scope, double tension_N, double lowpass_N, std::int32_t drive,
+                 WatchdogState& state, Watch& out) noexcept {
   const std::size_t i = as_index(drive);
   if (tension_N >= limits.slack_N && tension_N <= limits.alarm_N && tension_N <= limits.hard_limit_N) {
     state.slack_ticks[i] = state.alarm_ticks[i] = state.overload_ticks[i] = 0;
@@ -78,6 +78,7 @@ void watch_cable(const WatchdogLimits& limits, WatchScope scope, double tension_
   }
   const bool slack = scope.tensioned && !(tension_N >= limits.slack_N);  // so written, NaN is slack
   out.debounced(slack, kSlackDebounceTicks, state.slack_ticks[i], FaultNumber::kCableSlack, drive);
+  if (state.slack_ticks[i] == kBreakDebounceTicks && lowpass_N > limits.firm_N) out.wrong(FaultNumber::kCableBreak, drive, 0);
   out.debounced(scope.powered && tension_N > limits.alarm_N, kAlarmDebounceTicks, state.alarm_ticks[i], FaultNumber::kTensionAlarm, drive);
   out.debounced(scope.powered && tension_N > limits.hard_limit_N, kOverloadDebounceTicks, state.overload_ticks[i],
                 FaultNumber::kCableOverload, drive);
@@ -100,13 +101,15 @@ WatchdogLimits make_watchdog_limits(const RobotTable& table) noexcept {
     limits.following_counts[as_index(i)] = to_counts(window_m / table.drive[as_index(i)].metres_per_count).value;
   }
   limits.slack_N = table.tension.floor_anywhere_N;
+  limits.firm_N = kBreakShare * table.tension.floor_motor_N;
   limits.alarm_N = table.tension.alarm_N;
   limits.hard_limit_N = table.tension.hard_limit_N;
   return limits;
 }
 
 std::int32_t watch(const WatchdogLimits& limits, WatchScope scope, const Inputs& inputs, const std::array<DriveCommand, kMaxCables>& sent,
-                   const CableVector& tension_motor_N, WatchdogState& state, FaultList& faults) noexcept {
+                   const CableVector& tension_motor_N, const CableVector& tension_lowpass_N, WatchdogState& state,
+                   FaultList& faults) noexcept {
   Watch out(inputs.tick, faults);
   watch_buses(inputs.lost_bus_mask, out);
   if (scope.powered && inputs.lost_ticks > kToleratedLostTicks) {
@@ -116,7 +119,7 @@ std::int32_t watch(const WatchdogLimits& limits, WatchScope scope, const Inputs&
     const std::size_t i = as_index(drive);
     watch_link(limits, inputs.drive[i], drive, state, out);
     watch_state(scope, inputs.drive[i], drive, state, out);
-    watch_cable(limits, scope, tension_motor_N[i], drive, state, out);
+    watch_cable(limits, scope, tension_motor_N[i], tension_lowpass_N[i], drive, state, out);
     const bool late = scope.powered && lags(limits.following_counts[i], sent[i].target_counts, inputs.drive[i].position_counts);
     out.debounced(late, kFollowingDebounceTicks, state.following_ticks[i], FaultNumber::kFollowingError, drive);
   }

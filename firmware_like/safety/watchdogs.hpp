@@ -12,6 +12,8 @@ constexpr std::uint16_t kFeedbackAgeTicks = 2;     // a TPDO may be missing for 
 constexpr std::uint32_t kToleratedLostTicks = 3;   // drives quick-stop by themselves after three periods without RPDO
 constexpr double kHeartbeatTimeout_s = 0.3;        // drives produce one every 0.1 s
 constexpr std::uint16_t kSlackDebounceTicks = 25;  // far longer than a stick-slip dip, far shorter than a cable leaving its drum
+constexpr std::uint16_t kBreakDebounceTicks = 3;   // one wrong torque sample is not a break
+constexpr double kBreakShare = 0.5;  // of the tension floor: a cable that was so tight a moment ago does not come loose by itself
 constexpr std::uint16_t kAlarmDebounceTicks = 25;
 constexpr std::uint16_t kOverloadDebounceTicks = 3;  // one wrong torque sample is not an overload
 constexpr std::uint16_t kFollowingDebounceTicks = 5;
@@ -25,6 +27,7 @@ struct WatchdogLimits {
   std::uint16_t heartbeat_age_ticks = 0;
   std::array<std::int64_t, kMaxCables> following_counts{};  // largest |sent target - position|
   double slack_N = 0.0;
+  double firm_N = 0.0;  // of the low-passed tension: who falls from here to slack at once is broken
   double alarm_N = 0.0;
   double hard_limit_N = 0.0;
 };
@@ -49,9 +52,11 @@ struct WatchScope {
 };
 
 // Latches what went wrong in this tick. `sent` is what the previous tick sent, `tension_motor_N` comes from the drive torques of this tick
-// (a value that is not finite counts as slack). Returns how many conditions are wrong now, latched before or not: 0 means that the
-// causes are gone. A drive that was never alive is not a fault (it only blocks enabling).
+// (a value that is not finite counts as slack), `tension_lowpass_N` is the same over kTensionFilter_s. Returns how many conditions are
+// wrong now, latched before or not: 0 means that the causes are gone. A drive that was never alive is not a fault (it only blocks
+// enabling).
 std::int32_t watch(const WatchdogLimits& limits, WatchScope scope, const Inputs& inputs, const std::array<DriveCommand, kMaxCables>& sent,
-                   const CableVector& tension_motor_N, WatchdogState& state, FaultList& faults) noexcept;
+                   const CableVector& tension_motor_N, const CableVector& tension_lowpass_N, WatchdogState& state,
+                   FaultList& faults) noexcept;
 
 }  // namespace liana

@@ -29,6 +29,15 @@ void read_tension(const Field& field, TensionLimits& tension) {
   tension.hard_limit_N = field.at("hard_limit_N").number({tension.alarm_N, kMaxTension_N, true});
 }
 
+// Optional: a table without it gets the defaults.
+void read_watch(const Field& cables, CableWatchTable& watch) {
+  if (!cables.json().contains("watch")) return;
+  const Field field = cables.at("watch");
+  field.only({"jump_N", "contradiction_m"});
+  if (field.json().contains("jump_N")) watch.jump_N = field.at("jump_N").number({0, 1000, true});
+  if (field.json().contains("contradiction_m")) watch.contradiction_m = field.at("contradiction_m").number({0, 0.1, true});
+}
+
 DriveIdentity read_identity(const Field& field) {
   field.only({"vendor", "product", "revision"});
   constexpr std::int64_t kMaxU32 = 0xffffffff;
@@ -57,11 +66,12 @@ void read_drive_lists(const Field& drives, RobotConfig& out) {
 
 void read_cables(const Field& table, const std::string& physics, RobotConfig& out) {
   const Field cables = table.at("cables");
-  cables.only({"hole_radius_m", "face_offset_m", "phase_deg", "EA_N", "lead_m", "friction_mu"});
+  cables.only({"hole_radius_m", "face_offset_m", "phase_deg", "EA_N", "lead_m", "friction_mu", "watch"});
   out.table.cable_EA_N = cables.at("EA_N").number({1000, 1e8});
   out.table.lead_m = cables.at("lead_m").number({0, 20});
   out.table.friction_mu = read_friction(cables.at("friction_mu"), physics);
   read_tension(table.at("tension"), out.table.tension);
+  read_watch(cables, out.table.cable_watch);
 }
 
 void read_drives(const Field& table, RobotConfig& out) {

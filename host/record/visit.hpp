@@ -155,6 +155,12 @@ void visit(A& a, T& t) {
   a("hard_limit_N", t.hard_limit_N);
 }
 
+template <class A, Like<CableWatchTable> T>
+void visit(A& a, T& w) {
+  a("jump_N", w.jump_N);
+  a("contradiction_m", w.contradiction_m);
+}
+
 template <class A, Like<MotionLimits> T>
 void visit(A& a, T& m) {
   a("theta_rate_rad_s", m.theta_rate_rad_s);
@@ -190,6 +196,7 @@ void visit(A& a, T& r) {
   a("tick_s", r.tick_s);
   a("interval_ticks", r.interval_ticks);
   a("tension", r.tension);
+  a("cable_watch", r.cable_watch);
   a("limits", r.limits);
   a("drive", r.drive);
 }

@@ -22,9 +22,12 @@ struct Plant::Parts {
   bench::RobotConfig robot;
   bench::TrueParameters truth;
   bench::ArmPhysics arm;
-  CableVector drum_m;  // unstretched length that each drum holds
+  CableVector drum_m;     // unstretched length that each drum holds
+  CableVector loose_m{};  // off the drum, beside what it holds
+  CableVector scatter_N{};
   bool noisy;
   bench::Random noise;
+  bench::Random fault_noise;
 
   Parts(const bench::RobotConfig& table, const PlantSetup& setup)
       : robot(table),
@@ -33,7 +36,8 @@ struct Plant::Parts {
             bench::start_pose(table, setup.start_pose, setup.spread ? kStartSpread_rad : 0.0, setup.seed)),
         drum_m(arm.payouts_m()),
         noisy(setup.spread),
-        noise(setup.seed, "closed loop torque noise") {}
+        noise(setup.seed, "closed loop torque noise"),
+        fault_noise(setup.seed, "closed loop fault noise") {}
 };
 
 Plant::Plant(const PlantSetup& setup) : parts_(std::make_unique<Parts>(bench::load_robot(CLOSED_LOOP_DATA "/robot.json"), setup)) {}
@@ -50,6 +54,7 @@ CableVector Plant::measured_tension_N() {
   for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c) {
     const double noise = parts_->noisy ? parts_->noise.gaussian(kTorqueNoise) : 0.0;
     tension[c] = parts_->arm.motor_tension_N(c) * parts_->truth.torque_gain[c] * (1.0 + noise);
+    if (parts_->scatter_N[c] > 0.0) tension[c] += parts_->fault_noise.gaussian(parts_->scatter_N[c]);
   }
   return tension;
 }
@@ -63,7 +68,9 @@ void Plant::advance(double tick_s, const CableVector& target_m, bool powered) {
       const double target = target_m[c] + parts_->truth.zero_offset_m[c];
       parts_->drum_m[c] += share * (target - parts_->drum_m[c]);
     }
-    parts_->arm.step(kPhysicsStep_s, parts_->drum_m);
+    CableVector payout_m = parts_->drum_m;
+    for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c) payout_m[c] += parts_->loose_m[c];
+    parts_->arm.step(kPhysicsStep_s, payout_m);
   }
 }
 
@@ -92,6 +99,10 @@ Load Plant::take_load() {
   const bench::LoadRecord record = parts_->arm.take_record();
   return {record.contact_N, record.least_tension_N, record.least_motor_tension_N, record.most_motor_tension_N};
 }
+
+void Plant::loosen(std::size_t cable, double length_m) { parts_->loose_m[cable] += length_m; }
+void Plant::jump_encoder(std::size_t cable, double length_m) { parts_->truth.zero_offset_m[cable] -= length_m; }
+void Plant::scatter(std::size_t cable, double deviation_N) { parts_->scatter_N[cable] = deviation_N; }
 
 void Plant::kick(const ThetaVector& rate_rad_s) { parts_->arm.set_state(parts_->arm.theta_rad(), rate_rad_s); }
 void Plant::set_joint_damping(double viscous_Nms_per_rad) { parts_->arm.set_joint_damping(viscous_Nms_per_rad); }

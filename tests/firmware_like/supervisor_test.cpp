@@ -22,7 +22,7 @@ class Operation : public ::testing::Test {
   Orders tick(Request request = Request::kNone) {
     ++inputs_.tick;
     inputs_.request = request;
-    const std::int32_t active = watch(limits_, watch_scope(state_), inputs_, sent_, tension_N_, watchdogs_, faults_);
+    const std::int32_t active = watch(limits_, watch_scope(state_), inputs_, sent_, tension_N_, tension_N_, watchdogs_, faults_);
     orders_ = supervise(limits_, inputs_, motion_, active, state_, faults_);
     GateProposal proposal{orders_.goal, orders_.live_targets, zero_payout_m(), tension_N_};
     sent_ = gate(robot_, gate_limits_, proposal, sent_, inputs_.drive).command;

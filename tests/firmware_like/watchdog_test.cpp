@@ -29,7 +29,7 @@ class Watchdogs : public ::testing::Test {
     EXPECT_EQ(faults_.count, 0);
   }
 
-  std::int32_t run(WatchScope scope) { return watch(limits_, scope, inputs_, sent_, tension_N_, state_, faults_); }
+  std::int32_t run(WatchScope scope) { return watch(limits_, scope, inputs_, sent_, tension_N_, tension_N_, state_, faults_); }
 
   WatchdogLimits limits_ = make_watchdog_limits(table());
   Inputs inputs_ = healthy(kStatusEnabled);
