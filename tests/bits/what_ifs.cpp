@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::uint32_t kBrief = 60;  // longer than every debounce, and than the quick stop takes to begin
 constexpr std::uint32_t kLong = 400;  // until the drives are without power, or are asked too long for it; and a motion
+constexpr std::uint32_t kSlow = 150;  // until the tightest cable is slack, and its debounce
 constexpr std::uint64_t kUnusedSequence = 1u << 30;
 constexpr std::uint16_t kSwitchOnDisabled = 0x0250, kInFault = 0x0218;
 
@@ -32,6 +33,21 @@ void off(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive]
 void not_operational(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].operational = 0; }
 void jumped(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].position_counts += 200000; }
 void slack(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].torque_permille = 0; }
+// So slowly that it is no break.
+void loosening(Inputs& inputs, std::uint32_t age, std::size_t drive) {
+  const std::int32_t left = inputs.drive[drive].torque_permille - 2 * static_cast<std::int32_t>(age);
+  inputs.drive[drive].torque_permille = static_cast<std::int16_t>(left > 0 ? left : 0);
+}
+// 14 um a tick that its tension does not know of.
+void creeping(Inputs& inputs, std::uint32_t age, std::size_t drive) {
+  inputs.drive[drive].position_counts += 10 * static_cast<std::int32_t>(age);
+}
+void slipped(Inputs& inputs, std::uint32_t, std::size_t drive) {
+  inputs.drive[drive].torque_permille = static_cast<std::int16_t>(inputs.drive[drive].torque_permille - 20);
+}
+void scattering(Inputs& inputs, std::uint32_t age, std::size_t drive) {
+  if (age % 2 == 0) inputs.drive[drive].torque_permille = static_cast<std::int16_t>(inputs.drive[drive].torque_permille + 40);
+}
 void alarming(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].torque_permille = 800; }
 void overloaded(Inputs& inputs, std::uint32_t, std::size_t drive) {
   inputs.drive[drive].torque_permille = std::numeric_limits<std::int16_t>::max();
@@ -75,6 +91,10 @@ constexpr WhatIf kEnabled[] = {
     {kBrief, not_operational},
     {kBrief, jumped},
     {kBrief, slack},
+    {kSlow, loosening},
+    {kBrief, creeping},
+    {kBrief, slipped},
+    {kBrief, scattering},
     {kBrief, alarming},
     {kBrief, overloaded},
     {kBrief, bus_lost},

@@ -68,10 +68,9 @@ void ArmUnderControl::read_drives() {
   const CableVector tension = plant_.measured_tension_N();
   for (std::size_t c = 0; c < as_index(table_.cable_count()); ++c) {
     const DriveTable& drive = table_.drive[c];
-    const bool lost = std::cmp_equal(c, lost_reading_);
     answer(c, out_.drive[c].controlword);
     in_.drive[c].position_counts = counts_at_payout(drive, zero_payout_m_[c], payout[c]).value;
-    in_.drive[c].torque_permille = narrow<std::int16_t>(to_counts(lost ? 0.0 : tension[c] / drive.newtons_per_permille).value);
+    in_.drive[c].torque_permille = narrow<std::int16_t>(to_counts(tension[c] / drive.newtons_per_permille).value);
   }
 }
 

@@ -40,9 +40,6 @@ class ArmUnderControl {
   // Asks for where the arm is commanded to be, again and again.
   void hold(double seconds, const Observer& observer = {});
 
-  // From now on the torque reading of a drive is 0.
-  void lose_tension_reading(std::size_t drive) { lost_reading_ = static_cast<std::int32_t>(drive); }
-
   const Outputs& outputs() const { return out_; }
   Plant& plant() { return plant_; }
   const RobotTable& table() const { return table_; }
@@ -61,7 +58,6 @@ class ArmUnderControl {
   Inputs in_{};
   Outputs out_{};
   std::uint64_t sequence_ = 0;
-  std::int32_t lost_reading_ = -1;
 };
 
 }  // namespace liana::closed_loop

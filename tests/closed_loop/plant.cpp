@@ -25,6 +25,7 @@ struct Plant::Parts {
   CableVector drum_m;     // unstretched length that each drum holds
   CableVector loose_m{};  // off the drum, beside what it holds
   CableVector scatter_N{};
+  std::array<bool, kMaxCables> lost{};
   bool noisy;
   bench::Random noise;
   bench::Random fault_noise;
@@ -55,6 +56,7 @@ CableVector Plant::measured_tension_N() {
     const double noise = parts_->noisy ? parts_->noise.gaussian(kTorqueNoise) : 0.0;
     tension[c] = parts_->arm.motor_tension_N(c) * parts_->truth.torque_gain[c] * (1.0 + noise);
     if (parts_->scatter_N[c] > 0.0) tension[c] += parts_->fault_noise.gaussian(parts_->scatter_N[c]);
+    if (parts_->lost[c]) tension[c] = 0.0;
   }
   return tension;
 }
@@ -103,6 +105,8 @@ Load Plant::take_load() {
 void Plant::loosen(std::size_t cable, double length_m) { parts_->loose_m[cable] += length_m; }
 void Plant::jump_encoder(std::size_t cable, double length_m) { parts_->truth.zero_offset_m[cable] -= length_m; }
 void Plant::scatter(std::size_t cable, double deviation_N) { parts_->scatter_N[cable] = deviation_N; }
+
+void Plant::lose_reading(std::size_t cable) { parts_->lost[cable] = true; }
 
 void Plant::kick(const ThetaVector& rate_rad_s) { parts_->arm.set_state(parts_->arm.theta_rad(), rate_rad_s); }
 void Plant::set_joint_damping(double viscous_Nms_per_rad) { parts_->arm.set_joint_damping(viscous_Nms_per_rad); }

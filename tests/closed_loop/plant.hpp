@@ -50,10 +50,11 @@ class Plant {
   double sphere_clearance_m() const;
   Load take_load();
 
-  // Faults of a cable. So much of it comes off the drum; the encoder reads so much more; the tension reading scatters by so much.
+  // Faults of a cable. So much of it comes off the drum; the encoder reads so much more; the tension reading scatters by so much, is 0.
   void loosen(std::size_t cable, double length_m);
   void jump_encoder(std::size_t cable, double length_m);
   void scatter(std::size_t cable, double deviation_N);
+  void lose_reading(std::size_t cable);
 
   // Rates set from outside, angles and cables as they are: a kick.
   void kick(const ThetaVector& rate_rad_s);

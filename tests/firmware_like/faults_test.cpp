@@ -32,6 +32,9 @@ const std::vector<Published> kPublished{
     {FaultNumber::kCableOverload, 5002, "cable_overload"},
     {FaultNumber::kTensionAlarm, 5003, "tension_alarm"},
     {FaultNumber::kHomingImplausible, 5004, "homing_implausible"},
+    {FaultNumber::kCableSlip, 5005, "cable_slip"},
+    {FaultNumber::kCableBreak, 5006, "cable_break"},
+    {FaultNumber::kTensionScatters, 5007, "tension_scatters"},
     {FaultNumber::kGateRefused, 6001, "gate_refused"},
 };
 
