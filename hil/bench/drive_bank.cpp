@@ -28,6 +28,7 @@ DriveBank::DriveBank(const RobotConfig& robot, const BusesConfig& buses, const T
                      bool noisy, std::uint64_t seed)
     : robot_(robot),
       truth_(truth),
+      creep_(robot.cable_count()),
       noise_(robot.cable_count()),
       noisy_(noisy),
       torque_noise_(seed, "torque noise"),
@@ -55,7 +56,16 @@ double DriveBank::permille(double tension_N) const {
   return 1000.0 * tension_N * robot_.drum_radius_m / (robot_.gear * robot_.rated_torque_Nm);
 }
 
+void DriveBank::creep() {
+  for (std::size_t i = 0; i < creep_.size(); ++i) {
+    if (creep_[i].slots_left == 0) continue;
+    loose_m_[i] += creep_[i].per_slot_m;
+    --creep_[i].slots_left;
+  }
+}
+
 void DriveBank::exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) {
+  creep();
   for (const CanFrame& frame : frames)
     for (auto& drive : drives_)
       if (drive->bus() == frame.bus) drive->receive(frame, out);

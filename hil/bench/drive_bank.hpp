@@ -44,12 +44,20 @@ class DriveBank {
     double permille = 0.0;
   };
 
+  // A cable on its way off its drum.
+  struct Creep {
+    double per_slot_m = 0.0;
+    int slots_left = 0;
+  };
+
+  void creep();
   double permille(double tension_N) const;
 
   RobotConfig robot_;
   TrueParameters truth_;
   std::vector<std::unique_ptr<Drive>> drives_;
   std::vector<double> path_at_zero_m_;
+  std::vector<Creep> creep_;
   CableValues loose_m_{};  // cable that faults paid out beside the drum
   std::vector<SensorNoise> noise_;
   bool noisy_;

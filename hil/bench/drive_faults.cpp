@@ -7,8 +7,9 @@ namespace liana::bench {
 
 namespace {
 
-constexpr double kSlack_m = 0.02;  // a clamp slipped: no tension left at any pose of the mission's
-constexpr double kBroken_m = 1.0;  // more than a drum winds up in an hour of pretension attempts
+constexpr double kSlackPerSlot_m = 1e-5;  // a clamp slips, no faster than that its tension falls by noise
+constexpr int kSlackSlots = 2000;         // 20 mm: no tension left at any pose of the mission's
+constexpr double kBroken_m = 1.0;         // more than a drum winds up in an hour of pretension attempts
 
 }  // namespace
 
@@ -33,7 +34,7 @@ void DriveBank::begin(const FaultConfig& fault, std::size_t i) {
     case FaultKind::kSto:
       return drive.set_safe_torque_off();
     case FaultKind::kSlack:
-      loose_m_[i] += kSlack_m;
+      creep_[i] = {kSlackPerSlot_m, kSlackSlots};
       return;
     case FaultKind::kLate:
       drive.defects().late_cycles = static_cast<std::size_t>(with.cycles);
@@ -55,7 +56,7 @@ void DriveBank::begin(const FaultConfig& fault, std::size_t i) {
     case FaultKind::kEncoderJump:
       return drive.jump_encoder(with.counts);
     case FaultKind::kCableSlip:
-      loose_m_[i] += with.length_m;
+      creep_[i] = {with.length_m / with.slots, static_cast<int>(with.slots)};
       return;
     case FaultKind::kCableBreak:
       loose_m_[i] += kBroken_m;
@@ -75,7 +76,8 @@ void DriveBank::end(const FaultConfig& fault, std::size_t i) {
       defects.silent = none.silent;
       return;
     case FaultKind::kSlack:
-      loose_m_[i] -= kSlack_m;
+      loose_m_[i] -= kSlackPerSlot_m * (kSlackSlots - creep_[i].slots_left);
+      creep_[i].slots_left = 0;
       return;
     case FaultKind::kLate:
       defects.late_cycles = none.late_cycles;

@@ -44,7 +44,10 @@ const std::vector<Kind>& kinds() {
       {"reboot", FaultKind::kReboot, false, {}},
       {"wrong_identity_after_reboot", FaultKind::kWrongIdentityAfterReboot, false, {}},
       {"encoder_jump", FaultKind::kEncoderJump, false, {{"counts", &P::counts, -1e6, 1e6, true, true}}},
-      {"cable_slip", FaultKind::kCableSlip, false, {{"length_m", &P::length_m, 1e-6, 0.1, false, true}}},
+      {"cable_slip",
+       FaultKind::kCableSlip,
+       false,
+       {{"length_m", &P::length_m, -0.1, 0.1, false, true}, {"slots", &P::slots, 1, 100000, true, false}}},
       {"cable_break", FaultKind::kCableBreak, false, {}},
       {"motor_saturation", FaultKind::kMotorSaturation, true, {{"tension_N", &P::tension_N, 0, 1e4, false, true}}}};
   return all;
@@ -127,6 +130,7 @@ FaultParameters read_parameters(const JsonFile& file, const std::string& field, 
   }
   if (kind.kind == FaultKind::kNoisy && values.counts == 0.0 && values.permille == 0.0)
     file.fail(field, "is noisy by nothing; add counts or permille above 0");
+  if (kind.kind == FaultKind::kCableSlip && values.length_m == 0.0) file.fail(field + "/length_m", "is 0; allowed is -0.1 to 0.1 but 0");
   return values;
 }
 

@@ -37,6 +37,7 @@ struct FaultParameters {
   double bytes = 7.0;
   double code = 0x2310;  // emergency code; the default is continuous over-current
   double length_m = 0.0;
+  double slots = 1.0;      // SYNC periods that it takes
   double tension_N = 0.0;  // at the drum
 };
 

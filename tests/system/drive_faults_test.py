@@ -51,7 +51,7 @@ class DrivesThatFailInMotion(SystemTest):
         client.start_moving()
         self.assertLess(client.state["tick"], kFaultSlot - 5, "the move must be under way before the fault")
         client.until(lambda state: state["faults"])
-        self.assertLess(client.state["tick"], kFaultSlot + 100, "slack is debounced for 25 ticks, and the cable needs some to come loose")
+        self.assertLess(client.state["tick"], kFaultSlot + 250, "slack is debounced for 25 ticks, and the cable needs some to come loose")
         return system, client
 
     def ended(self, system, client, stop_deg=1.0):
