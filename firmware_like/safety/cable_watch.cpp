@@ -71,16 +71,18 @@ void judge_suspect(const CableWatchLimits& limits, const CableVector& level_N, s
   }
 }
 
-// One segment: its cables' lengths contradict each other by more or less than when the arm was enabled.
+// One segment: its cables' lengths contradict each other by more or less than when the arm was enabled. One that does is stayed with.
 void watch_contradiction(const RobotTable& table, const CableWatchLimits& limits, const CableVector& residual_m, std::uint64_t tick,
                          CableWatchState& state, FaultList& faults) noexcept {
   const std::int32_t first = state.cable, end = first + table.segment[as_index(state.segment)].cables;
   for (Index c = as_index(first); c < as_index(end); ++c) {
     const double change_m = residual_m[c] - state.residual_m[c];
     if (std::fabs(change_m) <= limits.contradiction_m[c]) continue;
+    if (++state.contradicts_ticks < kContradictionTicks) return;
     latch(faults, {FaultNumber::kHomingImplausible, narrow<std::int16_t>(first), micrometres(change_m), tick});
     return;
   }
+  state.contradicts_ticks = 0;
   const bool last = ++state.segment == table.segment_count;
   state.cable = last ? 0 : end;
   if (last) state.segment = 0;

@@ -11,6 +11,7 @@
 namespace liana {
 
 constexpr std::uint8_t kJumpConfirmTicks = 3;      // a jump has to stay this long, the tick it came in included
+constexpr std::uint8_t kContradictionTicks = 25;   // in a row: whatever is quick is named by what it does, not by what it contradicts
 constexpr std::uint8_t kScatterReversals = 3;      // a reading that jumped back so often scatters
 constexpr std::uint64_t kScatterForgetTicks = 64;  // one reversal is forgotten in so many ticks
 
@@ -31,6 +32,7 @@ struct CableWatchState {
   std::array<CableVector, 2> level_N{};  // measured tension less what the stretch at the planned pose explains: this tick's, the last one's
   CableVector residual_m{};              // the estimator's when watching began
   std::int32_t segment = 0, cable = 0;   // whose contradiction is looked at next, and its first cable
+  std::uint8_t contradicts_ticks = 0;    // of that segment, in a row
   std::int32_t suspect = -1;             // cable that jumped
   std::uint8_t suspect_ticks = 0;        // since its last jump
   bool suspect_rose = false;             // direction of that jump
