@@ -78,7 +78,9 @@ void watch_cable(const WatchdogLimits& limits, WatchScope scope, double tension_
   }
   const bool slack = scope.tensioned && !(tension_N >= limits.slack_N);  // so written, NaN is slack
   out.debounced(slack, kSlackDebounceTicks, state.slack_ticks[i], FaultNumber::kCableSlack, drive);
-  if (state.slack_ticks[i] == kBreakDebounceTicks && lowpass_N > limits.firm_N) out.wrong(FaultNumber::kCableBreak, drive, 0);
+  // A motor that is not where it was told to be may have let the cable go itself.
+  const bool broken = state.slack_ticks[i] == kBreakDebounceTicks && lowpass_N > limits.firm_N && state.following_ticks[i] == 0;
+  if (broken) out.wrong(FaultNumber::kCableBreak, drive, 0);
   out.debounced(scope.powered && tension_N > limits.alarm_N, kAlarmDebounceTicks, state.alarm_ticks[i], FaultNumber::kTensionAlarm, drive);
   out.debounced(scope.powered && tension_N > limits.hard_limit_N, kOverloadDebounceTicks, state.overload_ticks[i],
                 FaultNumber::kCableOverload, drive);

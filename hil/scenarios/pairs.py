@@ -35,7 +35,7 @@ kMembers = (
     Member("overload", bench(0, "encoder_jump", counts=60000), None, 5002, 0, 2, 8, 5.0),
     Member("motor_saturation", bench(12, "motor_saturation", tension_N=5), None, 3006, 12, 300, 4000, 6.0),
     Member("stuck", bench(13, "stuck"), None, 3006, 13, 60, 800),
-    Member("slack", bench(4, "slack"), None, 5001, 4, 30, 200, 13.0),
+    Member("slack", bench(4, "slack"), None, 5004, 3, 20, 150, 13.0),
     Member("cable_break", bench(9, "cable_break"), None, 5006, 9, 2, 4, 16.0),
     Member("bus_lost", None, drop(1), 4001, 1, 2, 2),
     Member("no_master", None, drop(0, id="0x77F"), 3004, 0, 45, 80),

@@ -29,12 +29,12 @@ class Watchdogs : public ::testing::Test {
     EXPECT_EQ(faults_.count, 0);
   }
 
-  std::int32_t run(WatchScope scope) { return watch(limits_, scope, inputs_, sent_, tension_N_, tension_N_, state_, faults_); }
+  std::int32_t run(WatchScope scope) { return watch(limits_, scope, inputs_, sent_, tension_N_, lowpass_N_, state_, faults_); }
 
   WatchdogLimits limits_ = make_watchdog_limits(table());
   Inputs inputs_ = healthy(kStatusEnabled);
   std::array<DriveCommand, kMaxCables> sent_{};
-  CableVector tension_N_{};
+  CableVector tension_N_{}, lowpass_N_{};
   WatchdogState state_{};
   FaultList faults_{};
 };
@@ -217,6 +217,32 @@ TEST_F(Watchdogs, OneGoodTickStartsTheDebounceAgain) {
     tension_N_[3] = tick % kSlackDebounceTicks == kSlackDebounceTicks - 1 ? 40.0 : 0.0;
     EXPECT_EQ(run(kRunning), 0);
   }
+}
+
+TEST_F(Watchdogs, TensionThatIsGoneWhileItsLowPassIsStillFirmIsABreak) {
+  tension_N_[3] = 0.0;
+  lowpass_N_[3] = 8.0;
+  for (int tick = 1; tick < kBreakDebounceTicks; ++tick) run(kRunning);
+  EXPECT_EQ(faults_.count, 0);
+  run(kRunning);
+  EXPECT_TRUE(has(faults_, FaultNumber::kCableBreak, 3));
+  EXPECT_EQ(faults_.immediate, 1);
+}
+
+TEST_F(Watchdogs, TensionThatFadedIsNoBreak) {
+  tension_N_[3] = 0.0;
+  lowpass_N_[3] = 7.0;
+  for (int tick = 0; tick < 100; ++tick) run(kRunning);
+  EXPECT_FALSE(has(faults_, FaultNumber::kCableBreak, 3));
+}
+
+TEST_F(Watchdogs, AMotorThatLetItsCableGoIsNoBreak) {
+  tension_N_[3] = 0.0;
+  lowpass_N_[3] = 40.0;
+  inputs_.drive[3].position_counts += 100000;
+  for (int tick = 0; tick < 100; ++tick) run(kRunning);
+  EXPECT_FALSE(has(faults_, FaultNumber::kCableBreak, 3));
+  EXPECT_TRUE(has(faults_, FaultNumber::kFollowingError, 3));
 }
 
 TEST_F(Watchdogs, EveryLostBusIsNamed) {
