@@ -14,7 +14,6 @@ kShown = 2  # scenarios named for each number, the first in bring-up order
 
 # What no scenario can bring about: the test that does, by the file that holds it.
 kTests = {1001: ("Controller.ATelecommandThatIsNotANumberIsFault1001AndNeverFollowed", "tests/firmware_like/controller_test.cpp"),
-          5004: ("Controller.ALengthThatContradictsTheOthersIsNotHomed", "tests/firmware_like/controller_test.cpp"),
           6001: ("Gate.ARefusalBecomesAFaultThatNamesDriveAndCheck", "tests/firmware_like/gate_test.cpp")}
 
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "firmware_like/safety/cable_watch.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 #include "firmware_like/safety/watchdogs.hpp"
 
@@ -51,7 +52,15 @@ Detection detection_of(FaultNumber number, const RobotTable& table) {
     case FaultNumber::kTensionAlarm:
       return {"watchdog: motor tension over the alarm limit, in a row", kAlarmDebounceTicks};
     case FaultNumber::kHomingImplausible:
-      return {"estimator: two angles from three lengths; the arm is not homed and cannot be enabled", -1};
+      return {
+          "cable watch: the part of a segment's lengths that no two angles explain, against its value when the arm was enabled, in a row",
+          kContradictionTicks + table.segment_count - 1};
+    case FaultNumber::kCableSlip:
+      return {"cable watch: tension and length of a cable against the tick before, over the limit, and still there", kJumpConfirmTicks};
+    case FaultNumber::kCableBreak:
+      return {"watchdog: motor tension under the floor while its 20 ms low-pass is not, in a row", kBreakDebounceTicks};
+    case FaultNumber::kTensionScatters:
+      return {"cable watch: the same as 5005, but back again, three times", -1};
     case FaultNumber::kGateRefused:
       return {"gate: every command before it is sent", 0};
   }
