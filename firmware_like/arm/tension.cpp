@@ -135,7 +135,8 @@ CableVector payout_for(const RobotTable& table, const CableLayout& layout, const
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     const double strain = motor_N[c] / table.cable_EA_N;
     Pair sum_m{table.lead_m / (1.0 + strain), 0.0};
-    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); j += 2) {  // two segments at a time; beyond the cable's own there is no part
+    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]);
+         j += 2) {  // two segments at a time; beyond the cable's own there is no part
       sum_m += load_pair(&part_m[c][j]) / (both(1.0) + strain * load_pair(&ratio[c][j]));
     }
     payout[c] = sum(sum_m);
