@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "firmware_like/controller_io.hpp"
+#include "firmware_like/math/scalar.hpp"
 #include "firmware_like/motion/shape.hpp"
 
 namespace liana {
@@ -98,12 +99,21 @@ void slow_down(const RobotTable& table, double share, const Pose& target_before,
   report_again(table, state);
 }
 
+// A shape that is fast already keeps the pace beside the tip until it has slowed down, or it would shoot past; so does one that has to
+// stop.
+const ShapePace& shape_pace(const RobotTable& table, bool braking, const MotionState& state) noexcept {
+  double fastest = 0.0;
+  for (const double rate : state.shape_rate_rad_s) fastest = larger(fastest, std::fabs(rate));
+  const bool slow = fastest <= 1.01 * kShapeAlone.rate_share * table.limits.theta_rate_rad_s;
+  return !braking && slow && state.held_at_target && at_rest(state.filter) ? kShapeAlone : kShapeBesideTip;
+}
+
 // Shape and servo IK: angles for the filtered target.
 void solve_tip(const RobotTable& table, bool braking, MotionState& state) noexcept {
   // The IK goes on from where the command stands, unless a limit or a held theta has come between.
   if (state.ik_rad != state.limiter.theta_rad) update_kinematics(table, arm_trig(table, state.ik_rad), state.arm);
-  const ThetaVector move =
-      shape_move(table, state.arm, state.to.node, state.to.clear, state.held_mask, braking, state.ik_rad, state.shape_rate_rad_s);
+  const ThetaVector move = shape_move(table, state.arm, state.to.node, state.to.clear, state.held_mask, braking,
+                                      shape_pace(table, braking, state), state.ik_rad, state.shape_rate_rad_s);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
   state.ik = servo_ik(table, {state.filter.pose, state.held_mask, kTipCurvature_m}, state.arm, state.ik_rad);
   if (state.ik.limit_mask != 0) state.limits |= kLimitTheta;

@@ -25,11 +25,11 @@ Index lead_pitch(const RobotTable& table, std::uint32_t held_mask) noexcept {
   return static_cast<Index>(planar ? 2 * m : table.theta_count());
 }
 
-// Change of theta that centring asks for within kShapeTime_s.
-ThetaVector centring(const RobotTable& table, std::uint32_t held_mask, const ThetaVector& theta) noexcept {
+// Change of theta that centring asks for within `time_s`.
+ThetaVector centring(const RobotTable& table, std::uint32_t held_mask, double time_s, const ThetaVector& theta) noexcept {
   const Index lead = lead_pitch(table, held_mask);
   ThetaVector pull{};
-  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) pull[k] = -kCentringRate_1_s * kShapeTime_s * theta[k];
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) pull[k] = -kCentringRate_1_s * time_s * theta[k];
   if (lead < static_cast<Index>(table.theta_count())) pull[lead] *= kLeadWeight;
   return pull;
 }
@@ -69,12 +69,12 @@ void bound_rate(const Stand& stand, const ShapeFactor& metric, double time_s, Nu
 
 // Velocity [rad/s] that the shape wants.
 ThetaVector wanted_rate(const Stand& stand, const ArmKinematics& arm, const NodeTargets& nodes, const KeepClearTargets& clear,
-                        std::uint32_t held_mask) noexcept {
+                        std::uint32_t held_mask, const ShapePace& pace) noexcept {
   const double clear_weight = largest_weight(clear);
   const Index n = static_cast<Index>(stand.space.theta_count);
-  const double limit = kShapeShare * stand.table.limits.theta_rate_rad_s;
+  const double limit = pace.rate_share * stand.table.limits.theta_rate_rad_s;
   ShapeModel model = resting_model(stand.space, centring_weight(larger(largest_weight(stand.table, nodes), clear_weight)),
-                                   centring(stand.table, held_mask, stand.theta_rad));
+                                   centring(stand.table, held_mask, pace.time_s, stand.theta_rad));
   add_nodes(stand.table, arm, nodes, stand.space, model);
   if (clear_weight > 0.0) add_clearance(stand.table, stand.theta_rad, arm, clear, stand.space, model);
   const ShapeFactor metric = factor(stand.space, model);
@@ -82,11 +82,11 @@ ThetaVector wanted_rate(const Stand& stand, const ArmKinematics& arm, const Node
   rate.z = minimum(stand.space, metric, model.pull);
   rate.theta_rad = combine(stand.space, rate.z);
   // The rate limit first: what is far out of bounds at full speed may be inside at this one.
-  const double largest = largest_entry(rate.theta_rad, n) / kShapeTime_s;
+  const double largest = largest_entry(rate.theta_rad, n) / pace.time_s;
   const double share = largest > limit ? limit / largest : 1.0;
-  scale_by(stand.space, share / kShapeTime_s, rate);
-  if (may_pass_limit(stand, kLimitApproach_s, share * largest)) {
-    bound_rate(stand, metric, kLimitApproach_s, rate);
+  scale_by(stand.space, share / pace.time_s, rate);
+  if (may_pass_limit(stand, pace.limit_approach_s, share * largest)) {
+    bound_rate(stand, metric, pace.limit_approach_s, rate);
     const double bounded = largest_entry(rate.theta_rad, n);
     if (bounded > limit) scale_by(stand.space, limit / bounded, rate);
   }
@@ -132,16 +132,17 @@ void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTarg
 }
 
 ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, const KeepClearTargets& clear,
-                       std::uint32_t held_mask, bool braking, const ThetaVector& theta_rad, ThetaVector& rate_rad_s) noexcept {
+                       std::uint32_t held_mask, bool braking, const ShapePace& pace, const ThetaVector& theta_rad,
+                       ThetaVector& rate_rad_s) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const NullSpace space = null_space(arm.tip_jacobian, table.theta_count(), held_mask);
   const Stand stand{table, theta_rad, space, least_room_rad(table, theta_rad)};
   ThetaVector change{};
-  if (!braking) change = wanted_rate(stand, arm, nodes, clear, held_mask);
+  if (!braking) change = wanted_rate(stand, arm, nodes, clear, held_mask, pace);
   // Braking has to end: straight down to zero, without the smoothing's tail.
-  const double share = braking ? 1.0 : smaller(1.0, table.tick_s / kShapeSmoothing_s);
+  const double share = braking ? 1.0 : smaller(1.0, table.tick_s / pace.smoothing_s);
   for (Index k = 0; k < n; ++k) change[k] = (change[k] - rate_rad_s[k]) * share;
-  const double accel = kShapeAccelShare * table.limits.theta_accel_rad_s2 * table.tick_s, largest = largest_entry(change, n);
+  const double accel = pace.accel_share * table.limits.theta_accel_rad_s2 * table.tick_s, largest = largest_entry(change, n);
   const double slower = largest > accel ? accel / largest : 1.0;  // one factor for all keeps it in the null space
   for (Index k = 0; k < n; ++k) change[k] = rate_rad_s[k] + slower * change[k];
   NullPoint rate;

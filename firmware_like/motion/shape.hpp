@@ -2,7 +2,7 @@
 // docs/shape.md.
 //
 // Each tick takes the step that would bring the nodes to their targets at once, or as near as a quadratic model says (shape_model.hpp), in
-// the null space of the tip, over kShapeTime_s. Its fixed point is a minimum of sum lambda_j d_j. What the nodes leave free is
+// the null space of the tip, over the pace's time. Its fixed point is a minimum of sum lambda_j d_j. What the nodes leave free is
 // drawn to the middle of the joints (centring), with kLeadWeight on the pitch of the segment next to enter a planar part (the first free
 // one before held pitches): it has to come into the plane before it reaches the slit. Joint limits are bounds of the same problem.
 #pragma once
@@ -15,14 +15,21 @@
 
 namespace liana {
 
-constexpr double kShapeTime_s = 1.0;       // in which distances would fall to 1 / e without rate limits
 constexpr double kCentringRate_1_s = 0.2;  // of every theta, where no node target is given
 constexpr double kCentringShare = 0.02;    // m2/rad2 times the largest node weight: centring beside node targets
 constexpr double kLeadWeight = 15.0;       // found good from 10 to 20 for the slit, for one and two planar segments
-constexpr double kShapeShare = 0.35;       // of the theta rate limit
-constexpr double kShapeAccelShare = 0.1;   // of the theta acceleration limit: the shape moves most of the arm's mass
-constexpr double kShapeSmoothing_s = 0.5;  // how the shape velocity follows what is wanted
-constexpr double kLimitApproach_s = 2.0;   // room to a limit over this bounds the wanted rate: 4 kShapeSmoothing_s, no overshoot
+
+struct ShapePace {
+  double time_s;            // in which distances would fall to 1 / e without rate limits
+  double rate_share;        // of the theta rate limit
+  double accel_share;       // of the theta acceleration limit
+  double smoothing_s;       // how the shape velocity follows what is wanted
+  double limit_approach_s;  // room to a limit over this bounds the wanted rate
+};
+constexpr ShapePace kShapeBesideTip{1.0, 0.35, 0.1, 0.5, 2.0};  // the shape has to keep up with the tip
+// The shape moves most of the arm's mass and the tension plan knows no inertia: 1 deg/s2 of all thetas takes some 100 N off a cable. With
+// the pace above, long ways of the shape let cables go slack (docs/shape.md).
+constexpr ShapePace kShapeAlone{0.75, 0.15, 0.025, 0.75, 6.0};
 
 // Sum over the nodes of lambda_j max(0, d_j - threshold_j) [m]: what add_nodes works on.
 double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept;
@@ -34,10 +41,11 @@ double largest_weight(const RobotTable& table, const NodeTargets& nodes) noexcep
 void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, const NullSpace& space,
                ShapeModel& model) noexcept;
 
-// Shape motion of one tick [rad] at theta, whose kinematics are `arm`: within joint limits, at most kShapeShare of the rate limit, held
-// thetas still, |J move| <= 1e-9 |move|. `rate_rad_s` is the shape velocity kept between ticks: it follows what is wanted (zero while
-// braking) smoothly, so that a new target never jerks the arm.
+// Shape motion of one tick [rad] at theta, whose kinematics are `arm`: within joint limits, at most the pace's share of the rate limit (1 %
+// more while the null space turns), held thetas still, |J move| <= 1e-9 |move|. `rate_rad_s` is the shape velocity kept between ticks: it
+// follows what is wanted (zero while braking) smoothly, so that a new target never jerks the arm.
 ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, const KeepClearTargets& clear,
-                       std::uint32_t held_mask, bool braking, const ThetaVector& theta_rad, ThetaVector& rate_rad_s) noexcept;
+                       std::uint32_t held_mask, bool braking, const ShapePace& pace, const ThetaVector& theta_rad,
+                       ThetaVector& rate_rad_s) noexcept;
 
 }  // namespace liana

@@ -98,13 +98,13 @@ TEST(KeepClear, TheTickPushesTheArmsMiddleAwayWithinItsRatesWhileTheTipStays) {
   double largest_rate = 0.0;
   for (std::int32_t tick = 0; tick < 60 * 250; ++tick) {
     const ArmKinematics arm = forward_kinematics(robot, theta);
-    theta = zhu2022::plus(theta, shape_move(robot, arm, {}, clear, 0, false, theta, rate));
+    theta = zhu2022::plus(theta, shape_move(robot, arm, {}, clear, 0, false, kShapeBesideTip, theta, rate));
     servo_ik(robot, goal, arm, theta);
     for (const double r : rate) largest_rate = std::max(largest_rate, std::fabs(r));
   }
   EXPECT_GT(missing_m, 0.1);
   EXPECT_LT(missing_from_points_m(robot, theta, clear[0]), 2e-3);
-  EXPECT_LE(largest_rate, kShapeShare * robot.limits.theta_rate_rad_s * (1.0 + 1e-12));
+  EXPECT_LE(largest_rate, kShapeBesideTip.rate_share * robot.limits.theta_rate_rad_s * (1.0 + 1e-12));
   EXPECT_LT(zhu2022::length(pose_error(start.tip_in_base, forward_kinematics(robot, theta).tip_in_base)), 1e-6);
 }
 

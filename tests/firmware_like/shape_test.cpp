@@ -41,7 +41,7 @@ void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, 
   ThetaVector rate{};
   for (std::int32_t i = 0; i < ticks; ++i) {
     const ArmKinematics arm = arm_at(robot, theta);
-    theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, held, false, theta, rate));
+    theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, held, false, kShapeBesideTip, theta, rate));
     servo_ik(robot, goal, arm, theta);
   }
 }
@@ -182,7 +182,7 @@ TEST(Shape, MovesStayWithinLimitsAndBelowTheirShareOfTheRate) {
     }
     const NodeTargets nodes = target_of(1 + i % 4, random.vector(3.0), 1.0);
     for (std::int32_t tick = 0; tick < 100; ++tick) {
-      const ThetaVector move = shape_move(robot, arm_at(robot, theta), nodes, {}, kX5, false, theta, rate);
+      const ThetaVector move = shape_move(robot, arm_at(robot, theta), nodes, {}, kX5, false, kShapeBesideTip, theta, rate);
       theta = zhu2022::plus(theta, move);
       for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
         ASSERT_LE(std::fabs(move[k]), robot.limits.theta_rate_rad_s * robot.tick_s * (1.0 + 1e-9)) << k;
@@ -198,10 +198,10 @@ TEST(Shape, BrakingEndsTheShapeMotionWithinABoundedNumberOfTicks) {
   ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg), rate{};
   const NodeTargets nodes = target_of(3, {0.0, 0.0, 0.0});
   for (std::int32_t i = 0; i < 250; ++i)
-    theta = zhu2022::plus(theta, shape_move(robot, arm_at(robot, theta), nodes, {}, 0, false, theta, rate));
+    theta = zhu2022::plus(theta, shape_move(robot, arm_at(robot, theta), nodes, {}, 0, false, kShapeBesideTip, theta, rate));
   ASSERT_GT(zhu2022::length(rate), 0.1 * kDegree);
   for (std::int32_t i = 0; i < 350; ++i)
-    theta = zhu2022::plus(theta, shape_move(robot, arm_at(robot, theta), nodes, {}, 0, true, theta, rate));
+    theta = zhu2022::plus(theta, shape_move(robot, arm_at(robot, theta), nodes, {}, 0, true, kShapeBesideTip, theta, rate));
   EXPECT_LT(zhu2022::length(rate), 1e-9);
 }
 
@@ -230,7 +230,7 @@ TEST(Shape, A43TheMoveOfATickDoesNotMoveTheTip) {
       NodeTargets nodes = target_of(3, random.vector(2.0));
       nodes[1] = {2, random.vector(2.0), 0.5, 0.01};
       const ArmKinematics arm = arm_at(robot, theta);
-      const ThetaVector move = shape_move(robot, arm, nodes, {}, held, i % 5 == 0, theta, rate);
+      const ThetaVector move = shape_move(robot, arm, nodes, {}, held, i % 5 == 0, kShapeBesideTip, theta, rate);
       ASSERT_LE(tip_rate(arm.tip_jacobian, move), 1e-9 * zhu2022::length(move)) << i;
     }
   }
@@ -302,7 +302,7 @@ TEST(Shape, A44TheTickEndsWhereTheOfflineSolveFromTheSameStartEnds) {
 TEST(Shape, MotionIsSmoothWhateverTheTargetsDo) {
   const RobotTable robot = zhu2022::table();
   Random random(8);
-  const double accel = kShapeAccelShare * robot.limits.theta_accel_rad_s2 * robot.tick_s;
+  const double accel = kShapeBesideTip.accel_share * robot.limits.theta_accel_rad_s2 * robot.tick_s;
   for (std::int32_t i = 0; i < 10; ++i) {
     ThetaVector theta = random.theta(robot, 18.0), rate{};
     const IkGoal goal{arm_at(robot, theta).tip_in_base, 0};
@@ -311,7 +311,7 @@ TEST(Shape, MotionIsSmoothWhateverTheTargetsDo) {
       if (tick % 700 == 0) nodes = target_of(2 + i % 3, random.vector(3.0));
       const ThetaVector before = rate;
       const ArmKinematics arm = arm_at(robot, theta);
-      theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, 0, false, theta, rate));
+      theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, 0, false, kShapeBesideTip, theta, rate));
       servo_ik(robot, goal, arm, theta);
       ASSERT_LE(zhu2022::largest_difference(rate, before), 2.0 * accel) << i << " " << tick;
     }
@@ -329,7 +329,7 @@ TEST(Shape, ArmsOfOtherSizesKeepTheirTipToo) {
     ThetaVector rate{};
     const ArmKinematics arm = arm_at(robot, theta);
     const NodeTargets nodes = target_of(2, add(arm.node_in_base[2].position_m, {0.0, 0.0, 0.2}));
-    const ThetaVector move = shape_move(robot, arm, nodes, {}, 0, false, theta, rate);
+    const ThetaVector move = shape_move(robot, arm, nodes, {}, 0, false, kShapeBesideTip, theta, rate);
     EXPECT_LE(tip_rate(arm.tip_jacobian, move), 1e-9 * zhu2022::length(move));
     EXPECT_EQ(zhu2022::length(move) > 0.0, robot.segment_count == 8);
     EXPECT_EQ(null_space(arm.tip_jacobian, robot.theta_count(), 0).dimension, robot.theta_count() - 6);

@@ -15,7 +15,7 @@ using zhu2022::Random;
 constexpr double kRadius_m = 0.3;      // node targets lie within this of the nodes
 constexpr std::int32_t kOffline = 50;  // solves, from random starts for the same tip pose
 constexpr std::int32_t kRun_s = 120;
-constexpr std::int32_t kGuide_s = 30;    // nodes to those of the goal IK's shape first
+constexpr std::int32_t kGuide_s = 60;    // nodes to those of the goal IK's shape first
 constexpr std::int32_t kHeavier_s = 60;  // one node with four times its weight
 constexpr double kWithin = 1.01;
 constexpr double kZero_m = 1e-4;  // what counts as zero in a sum
@@ -38,7 +38,7 @@ void run_ticks(const RobotTable& robot, const IkGoal& goal, const NodeTargets& n
   for (std::int32_t i = 0; i < ticks; ++i) {
     const ThetaVector before = arm.theta_rad, rate_before = arm.rate_rad_s;
     const ArmKinematics at = forward_kinematics(robot, before);
-    const ThetaVector move = shape_move(robot, at, nodes, {}, goal.held_mask, false, before, arm.shape_rate_rad_s);
+    const ThetaVector move = shape_move(robot, at, nodes, {}, goal.held_mask, false, kShapeAlone, before, arm.shape_rate_rad_s);
     arm.theta_rad = zhu2022::plus(before, move);
     servo_ik(robot, goal, at, arm.theta_rad);
     const Pose tip = tip_pose(robot, arm_trig(robot, arm.theta_rad));
