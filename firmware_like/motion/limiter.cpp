@@ -19,6 +19,7 @@ double braking_speed(double distance, double accel, double tick_s) noexcept {
 
 // Rate that closes the gap to the reference on top of the reference's own rate.
 double wanted_rate(double gap_rad, double reference_rate, double accel, double tick_s) noexcept {
+  if (gap_rad == 0.0) return reference_rate;
   const double distance = std::fabs(gap_rad);
   double close = braking_speed(distance, accel, tick_s);
   if (close > distance / tick_s) close = distance / tick_s;

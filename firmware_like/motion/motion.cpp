@@ -102,10 +102,10 @@ void slow_down(const RobotTable& table, double share, const Pose& target_before,
 // A shape that is fast already keeps the pace beside the tip until it has slowed down, or it would shoot past; so does one that has to
 // stop.
 const ShapePace& shape_pace(const RobotTable& table, bool braking, const MotionState& state) noexcept {
+  if (braking || !state.held_at_target || !at_rest(state.filter)) return kShapeBesideTip;
   double fastest = 0.0;
   for (const double rate : state.shape_rate_rad_s) fastest = larger(fastest, std::fabs(rate));
-  const bool slow = fastest <= 1.01 * kShapeAlone.rate_share * table.limits.theta_rate_rad_s;
-  return !braking && slow && state.held_at_target && at_rest(state.filter) ? kShapeAlone : kShapeBesideTip;
+  return fastest > 1.01 * kShapeAlone.rate_share * table.limits.theta_rate_rad_s ? kShapeBesideTip : kShapeAlone;
 }
 
 // Shape and servo IK: angles for the filtered target.

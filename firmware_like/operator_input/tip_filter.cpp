@@ -82,6 +82,8 @@ void brake_tip(const TipFilterConfig& config, TipFilterState& state) noexcept {
   move_pose(config.tick_s, state);
 }
 
-bool at_rest(const TipFilterState& state) noexcept { return norm(state.linear.velocity) < 1e-6 && norm(state.angular.velocity) < 1e-6; }
+bool at_rest(const TipFilterState& state) noexcept {
+  return dot(state.linear.velocity, state.linear.velocity) < 1e-12 && dot(state.angular.velocity, state.angular.velocity) < 1e-12;
+}
 
 }  // namespace liana
