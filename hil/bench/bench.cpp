@@ -99,10 +99,15 @@ void Bench::catch_up(std::uint32_t slots, double period_s) {
   }
 }
 
-// Real time: a SYNC on every bus ends a slot; one that is missing on a bus ends it with the next SYNC of the others.
-std::uint32_t Bench::count_syncs(const FrameList& frames) {
+// Real time: a SYNC on every bus ends a slot; one that is missing on a bus ends it with the next SYNC of the others. Without any SYNC
+// slots go on by the clock, one per wake-up: a bench that was stopped makes up for nothing.
+std::uint32_t Bench::count_syncs(const FrameList& frames, std::uint64_t now_us, std::uint32_t period_us) {
+  const std::vector<std::uint32_t> before = syncs_;
   for (const CanFrame& frame : frames)
     if (frame.id == 0x080) ++syncs_[frame.bus];
+  const bool silent = syncs_ == before && now_us > last_slot_us_ + period_us + period_us / 2;
+  if (silent && begun_ > 0) std::fill(syncs_.begin(), syncs_.end(), integrated_ + 1);
+  if (silent || syncs_ != before) last_slot_us_ = now_us;
   const std::uint32_t most = *std::max_element(syncs_.begin(), syncs_.end());
   const std::uint32_t least = *std::min_element(syncs_.begin(), syncs_.end());
   if (least == most) return most;
@@ -129,7 +134,7 @@ void Bench::run(Bus& bus) {
     drives_.exchange(wake.frames, wake.now_us, out);
     for (const CanFrame& frame : out) ++sent_[frame.bus];
     bus.send(out);
-    catch_up(bus.lockstep() ? slot + 1 : count_syncs(wake.frames), period_s);
+    catch_up(bus.lockstep() ? slot + 1 : count_syncs(wake.frames, wake.now_us, bus.period_us()), period_s);
   }
   run_on(wake.now_us, bus.period_us());
   log_.flush();

@@ -45,7 +45,7 @@ class Bench {
   void begin_slot(std::uint32_t slot, double now_s);
   void integrate_slot(double period_s);
   void record(std::uint32_t slot);
-  std::uint32_t count_syncs(const FrameList& frames);
+  std::uint32_t count_syncs(const FrameList& frames, std::uint64_t now_us, std::uint32_t period_us);
   void catch_up(std::uint32_t slots, double period_s);
   void run_on(std::uint64_t now_us, std::uint32_t period_us);
   CableValues motor_tensions_N() const;
@@ -60,6 +60,7 @@ class Bench {
   CameraLink link_;
   TruthLog log_;
   std::vector<std::uint32_t> syncs_;  // per bus, real time
+  std::uint64_t last_slot_us_ = 0;    // when the last slot ended, real time
   std::vector<std::uint64_t> received_;
   std::vector<std::uint64_t> sent_;
   std::uint32_t begun_ = 0;       // slots begun: truth written, camera looked

@@ -10,12 +10,16 @@ import subprocess
 import sys
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "can"))
+
 import campaign
+import can_scenario
+import machine
 import pairs
 import scenario
 
 kWhere = "embedded bus, lockstep"
-kNotThere = ("latency histograms", "the virtual machine: vcan, SJA1000")
+kParts = ("all", "embedded", "can")
 
 
 def arguments():
@@ -23,12 +27,14 @@ def arguments():
     parser.add_argument("--only", metavar="PATTERN", help="only scenarios whose name holds this text or matches it, e.g. 40_faults or '*/late*'")
     parser.add_argument("--json", metavar="FILE", type=pathlib.Path, help="write the results here")
     parser.add_argument("--reduced", action="store_true", help="only the scenarios marked reduced (what ./dev test runs)")
+    parser.add_argument("--part", choices=kParts, default="all", help="only what runs on the embedded bus, or only what needs a machine with CAN")
     parser.add_argument("--check", action="store_true", help="read the scenarios and these options, run nothing")
     return parser.parse_args()
 
 
 def chosen(options):
-    everything = scenario.all_scenarios() + pairs.all_pairs() + campaign.short_campaign()
+    everything = scenario.all_scenarios() + pairs.all_pairs() + campaign.short_campaign() if options.part != "can" else []
+    everything += machine.all_items() if options.part != "embedded" else []
     wanted = [one for one in everything if one.reduced or not options.reduced]
     if options.only:
         wanted = [one for one in wanted if options.only in one.name or fnmatch.fnmatch(one.name, options.only)]
@@ -48,15 +54,30 @@ def run_one(one):
     return row, [{"scenario": one.name, "rule": rule} for rule in run.violations]
 
 
-def run_all(wanted):
+def report(row):
+    print(f"{row['outcome'] if row['outcome'] == 'passed' else 'FAILED'}  {row['name']}  [{row['where']}]  {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}",
+          flush=True)
+
+
+def run_embedded(wanted):
     """Each in a system of its own, as many at a time as there are processors; rows and violations in bring-up order."""
     rows, violations = [], []
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
         for row, broken in pool.map(run_one, wanted):
-            print(f"{row['outcome'] if row['outcome'] == 'passed' else 'FAILED'}  {row['name']}  {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}", flush=True)
+            report(row)
             rows.append(row)
             violations += broken
     return rows, violations
+
+
+def run_all(wanted):
+    """Rows of scenarios, violations, rows of latency."""
+    on_can = [one for one in wanted if isinstance(one, machine.Item)]
+    rows, violations = run_embedded([one for one in wanted if one not in on_can])
+    if not on_can:
+        return rows, violations, []
+    can_rows, latency = machine.run_all(on_can, report)
+    return rows + can_rows, violations, latency
 
 
 def main():
@@ -65,7 +86,9 @@ def main():
         wanted = chosen(options)
         if options.json:
             options.json.open("a").close()
-    except scenario.BadScenario as error:
+        if any(isinstance(one, machine.Item) for one in wanted):
+            machine.check_packages()
+    except (scenario.BadScenario, can_scenario.BadScenario, machine.NoMachine) as error:
         print(f"dev hil: {error}", file=sys.stderr)
         return 2
     except OSError as error:
@@ -73,13 +96,13 @@ def main():
         return 2
     if options.check:
         return 0
-    rows, violations = run_all(wanted)
+    rows, violations, latency = run_all(wanted)
     failed = [row["name"] for row in rows if row["outcome"] != "passed"]
     faults, pair_count = sum(one.fault_count() for one in wanted), sum(isinstance(one, pairs.Pair) for one in wanted)
     if options.json:
-        options.json.write_text(json.dumps({"scenarios": rows, "faults": faults, "pairs": pair_count, "violations": violations}, indent=1) + "\n")
-    print(f"{len(rows) - len(failed)} passed, {len(failed)} failed; {faults} faults injected, {pair_count} pairs, {len(violations)} violations; where: {kWhere}")
-    print(f"not there yet, so not run: {'; '.join(kNotThere)}")
+        options.json.write_text(json.dumps({"scenarios": rows, "faults": faults, "pairs": pair_count, "latency": latency, "violations": violations}, indent=1) + "\n")
+    print(f"{len(rows) - len(failed)} passed, {len(failed)} failed; {faults} faults injected, {pair_count} pairs, {len(violations)} violations")
+    print(f"where: {'; '.join(sorted({row['where'] for row in rows}))}")
     return 1 if failed else 0
 
 

@@ -1,0 +1,228 @@
+"""One scenario on CAN interfaces of the kernel (README.md): read it, run it, judge it. Runs on the machine that has them."""
+import json
+import subprocess
+import sys
+import time
+
+from system import CanSystem, HERE, kInterfaces
+from liana_system import brief, must
+
+kFields = {"about": str, "on": list, "during": str, "do": list, "restart": str, "mend": list, "expect": dict, "reduced": bool}
+kExpected = {"fault": (int, list, type(None)), "state": str, "within_ticks": int, "after_clear": str, "travel_deg": (int, float)}
+kDuring = ("boot", "rest", "move")
+kMoveDeg = 6.0
+kTravelDeg = 1.0  # of any true angle in the last run without torque
+kRested_s = 0.6
+kReach_s = 20.0  # of arm time for every state that is waited for
+
+
+class BadScenario(Exception):
+    pass
+
+
+class Failed(Exception):
+    pass
+
+
+def check(name, found, allowed, required):
+    for key, value in found.items():
+        if key not in allowed:
+            raise BadScenario(f"{name}: {key} is not known; allowed are {', '.join(allowed)}")
+        if not isinstance(value, allowed[key]):
+            raise BadScenario(f"{name}: {key} is {json.dumps(value)}, of the wrong type; see hil/scenarios/can/README.md")
+    for key in required:
+        if key not in found:
+            raise BadScenario(f"{name}: {key} is missing; add it")
+
+
+class CanScenario:
+    def __init__(self, path):
+        self.name = f"can/{path.parent.name}/{path.stem}"
+        try:
+            content = json.loads(path.read_text())
+        except ValueError as error:
+            raise BadScenario(f"{path}: is not JSON: {error}") from None
+        check(self.name, content, kFields, ("about", "on", "during", "expect"))
+        check(f"{self.name}: expect", content["expect"], kExpected, ("fault", "state"))
+        if content["during"] not in kDuring:
+            raise BadScenario(f"{self.name}: during is {content['during']}; allowed are {', '.join(kDuring)}")
+        if not content["on"] or not set(content["on"]) <= set(kInterfaces):
+            raise BadScenario(f"{self.name}: on is {content['on']}; allowed are {', '.join(kInterfaces)}")
+        self.on, self.during, self.expect = content["on"], content["during"], content["expect"]
+        self.do, self.mend = content.get("do", []), content.get("mend", [])
+        self.restart, self.reduced = content.get("restart"), content.get("reduced", False)
+        number = self.expect["fault"]
+        self.numbers = [] if number is None else number if isinstance(number, list) else [number]
+
+    def fault_count(self):
+        return 1 if self.do else 0
+
+
+def all_scenarios(folder=HERE):
+    """In bring-up order."""
+    return [CanScenario(path) for path in sorted(folder.glob("[0-9]*/*.json"))]
+
+
+def expect_that(condition, message):
+    if not condition:
+        raise Failed(message)
+
+
+class Run:
+    """A scenario under way on one kind of bus. `notes` says what was measured."""
+
+    def __init__(self, scenario, kind):
+        self.scenario, self.kind, self.expect = scenario, kind, scenario.expect
+        self.notes, self.enables = [], 0
+
+    def go(self):
+        with CanSystem(self.kind) as system:
+            client = system.client()
+            self.bring_up(client)
+            begin = self.act(system, client)
+            if self.scenario.restart:
+                client = self.start_again(system)
+            self.watch(client, begin)
+            self.shell(system, self.scenario.mend)
+            if "after_clear" in self.expect:
+                self.clear(client)
+            self.end(system, client)
+            self.judge(system)
+
+    def bring_up(self, client):
+        must(client.ask("acquire"))
+        if self.scenario.during == "boot":
+            return
+        client.until(lambda state: state["faults"] or (state["state"] != "BOOTING" and state["is_homed"]), kReach_s)
+        self.enable(client)
+        if self.scenario.during == "move":
+            client.start_moving(kMoveDeg)
+
+    def enable(self, client):
+        self.enables += 1
+        must(client.ask("state_command", command="enable"))
+        client.until(lambda state: state["faults"] or (state["state"] == "ENABLED" and state["at_rest"]), kReach_s)
+        expect_that(not client.state["faults"], f"the arm could not be enabled: {brief(client.state)}")
+
+    def shell(self, system, lines):
+        for line in lines:
+            done = subprocess.run(["bash", "-ec", line], env=system.environment(), capture_output=True, text=True, check=False)
+            expect_that(done.returncode == 0, f"`{line}` failed: {done.stderr.strip()}")
+
+    def act(self, system, client):
+        """Runs what the scenario does; the tick before it."""
+        begin = client.state["tick"] if client.state else 0
+        self.shell(system, self.scenario.do)
+        return begin
+
+    def start_again(self, system):
+        """A program that was killed comes back, as an operator would start it."""
+        name = self.scenario.restart
+        system.ended(name)
+        system.start_lianad() if name == "lianad" else system.start_bench()
+        if name != "lianad":
+            return system.clients[-1]
+        client = system.client()
+        must(client.ask("acquire"))
+        return client
+
+    def watch(self, client, begin):
+        """The end state: reached, and kept for a while; in FAULT nothing enables or moves without a clear."""
+        wanted, numbers = self.expect["state"], self.scenario.numbers
+        client.step()
+        if numbers:
+            client.until(lambda state: state["faults"], kReach_s)
+            first = client.state["faults"][0]
+            found = [fault["number"] for fault in client.state["faults"]]
+            expect_that(first["number"] in numbers, f"fault {numbers} was expected first, but: {brief(client.state)}")
+            took = first["tick"] - begin
+            self.notes.append(f"{first['number']} after {took} ticks" if not self.scenario.restart else f"{found[0]}")
+            expect_that(took <= self.expect.get("within_ticks", took), f"{first['number']} after {took} ticks, allowed are {self.expect.get('within_ticks')}")
+        client.until(lambda state: state["state"] == wanted and (numbers or not state["is_busy"]), kReach_s)
+        client.go_on(kRested_s)
+        expect_that(client.state["state"] == wanted and bool(client.state["faults"]) == bool(numbers), f"{wanted} did not stay: {brief(client.state)}")
+        if wanted != "FAULT":
+            return
+        for op, words in (("state_command", {"command": "enable"}), ("move_jp", {"goal_deg": client.state["setpoint_js_deg"]})):
+            answer = client.ask(op, **words)
+            expect_that(answer["op"] == "error", f"{op} was accepted while a fault is latched: {answer}")
+
+    def clear(self, client):
+        wanted = self.expect["after_clear"]
+        if self.scenario.numbers:
+            client.go_on(kRested_s)  # what was mended shows itself
+            must(client.ask("state_command", command="clear"))
+            client.until(lambda state: any("cleared" in event["text"] for event in state["events"]), kReach_s)
+        if wanted == "FAULT":
+            client.go_on(kRested_s)
+            expect_that(client.state["state"] == "FAULT", f"the clear was expected to be refused, but: {brief(client.state)}")
+            return
+        client.until(lambda state: state["state"] == "DISABLED" and not state["faults"], kReach_s)
+        if wanted == "ENABLED":
+            self.enable(client)
+
+    def end(self, system, client):
+        client.request("shutdown")
+        deadline = time.monotonic() + kReach_s
+        try:
+            while time.monotonic() < deadline:
+                client.step()
+        except (ConnectionError, OSError):
+            pass
+        codes = {"lianad": system.ended("lianad"), "liana-bench": system.end_bench()}
+        expect_that(set(codes.values()) == {0}, f"a program did not end well: {codes}")
+
+    def judge(self, system):
+        """Drives had torque as often as the operator enabled them, never again by themselves, and none at the end."""
+        summary, truth = system.json("bench_summary.json"), system.truth()
+        expect_that(summary["arm"] == "light", f"the bench ran arm {summary['arm']}")
+        enabled = [count > 0 for count in truth.column("enabled")]
+        rises = [slot for slot in range(1, len(enabled)) if enabled[slot] and not enabled[slot - 1]]
+        allowed = self.enables if self.scenario.restart != "liana-bench" else 1
+        expect_that(len(rises) == allowed, f"the drives got torque {len(rises)} times (slots {rises}), the operator enabled {allowed} times")
+        expect_that(not enabled[-1], "drives still have torque at the end")
+        last = max((slot for slot, on in enumerate(enabled) if on), default=0)
+        travel = truth.travel_deg(last, None) if last else 0.0
+        expect_that(travel <= self.expect.get("travel_deg", kTravelDeg), f"the arm travelled {travel:.2f} deg without torque")
+
+
+def run(scenario, kind):
+    """A row of results: name, outcome, seconds of this machine's own clock, why, notes."""
+    one, start, why = Run(scenario, kind), time.monotonic(), ""
+    try:
+        one.go()
+    except (Failed, AssertionError, OSError, ValueError, KeyError, subprocess.SubprocessError) as error:
+        why = f"{type(error).__name__}: {error}"
+    return {"name": scenario.name, "on": kind, "outcome": "failed" if why else "passed", "seconds": round(time.monotonic() - start, 2), "why": why,
+            "notes": one.notes}
+
+
+def warm_up():
+    """Reads every program and table once. In a guest whose clock skips idle time, the clock runs away while the host's files are waited for."""
+    for _ in range(2):
+        try:
+            with CanSystem("vcan") as system:
+                client = system.client()
+                client.step()
+                client.go_on(0.3)
+                return
+        except (AssertionError, OSError, subprocess.SubprocessError):
+            continue
+
+
+def main():
+    names = set(sys.argv[2:])
+    warm_up()
+    with open(sys.argv[1], "w", encoding="utf-8") as results:
+        for scenario in all_scenarios():
+            for kind in scenario.on:
+                if f"{scenario.name}@{kind}" not in names:
+                    continue
+                row = run(scenario, kind)
+                print(f"{row['outcome']}  {row['name']} ({kind})  {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}", flush=True)
+                results.write(json.dumps(row) + "\n")
+                results.flush()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,69 @@
+"""lianad's real-time thread measured by `liana latency`, idle and under load; runs on the machine that is measured.
+
+    python3 latency.py RESULTS RATE:LOAD [RATE:LOAD ...]        RATE 250 or 500, LOAD idle or loaded; one JSON row each in RESULTS"""
+import json
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+
+from system import HERE, program
+
+kSeconds = 4
+# What runs beside, at normal priority, each without end.
+kDisk = "while :; do dd if=/dev/zero of=$LOAD_DIR/file bs=64k count=64 conv=fsync status=none; rm -f $LOAD_DIR/file; done"
+kForks = "while :; do /bin/true; done"
+kClients = "while :; do $LOAD_BIN/liana status --json > /dev/null 2>&1; done"
+kFlood = [sys.executable, str(HERE / "latency.py"), "flood"]
+kLoads = {"idle": [], "loaded": [["bash", "-c", kDisk], ["bash", "-c", kForks], ["bash", "-c", kClients], kFlood]}
+
+
+def flood():
+    """Datagrams to the machine itself, as fast as they go."""
+    end = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+    end.bind(("127.0.0.1", 0))
+    while True:
+        for _ in range(100):
+            end.sendto(bytes(1000), end.getsockname())
+        end.recv(2000)
+
+
+def activity():
+    """Processes started and share of idle time since the machine started, as (forks, idle, all)."""
+    lines = [line.split() for line in open("/proc/stat", encoding="ascii")]
+    cpu = [int(word) for word in lines[0][1:]]
+    return next(int(words[1]) for words in lines if words[0] == "processes"), cpu[3] + cpu[4], sum(cpu)
+
+
+def measure(rate, load):
+    with tempfile.TemporaryDirectory() as folder:
+        environment = {**os.environ, "LOAD_DIR": folder, "LOAD_BIN": os.path.dirname(program("liana"))}
+        beside = [subprocess.Popen(words, env=environment, stderr=subprocess.DEVNULL, start_new_session=True) for words in kLoads[load]]
+        before = activity()
+        try:
+            done = subprocess.run([program("liana"), "latency", "--arm", "light", "--rate", rate, "--seconds", str(kSeconds), "--json"],
+                                  capture_output=True, text=True, check=False)
+        finally:
+            after = activity()
+            for each in beside:
+                os.killpg(each.pid, 9)
+                each.wait()
+    forks, idle, all_time = (now - then for now, then in zip(after, before))
+    row = json.loads(done.stdout) if done.stdout.startswith("{") else {"error": done.stderr.strip() or "no report"}
+    row |= {"machine_idle": round(idle / max(1, all_time), 3), "programs_started": forks}
+    return {**row, "rate_hz": float(rate), "load": load}
+
+
+def main():
+    if sys.argv[1:] == ["flood"]:
+        flood()
+    subprocess.run([program("liana"), "latency", "--arm", "light", "--seconds", "0.1", "--json"], capture_output=True, check=False)  # reads everything once
+    with open(sys.argv[1], "w", encoding="utf-8") as results:
+        for word in sys.argv[2:]:
+            results.write(json.dumps(measure(*word.split(":"))) + "\n")
+            results.flush()
+
+
+if __name__ == "__main__":
+    main()
