@@ -105,9 +105,13 @@ std::uint32_t Bench::count_syncs(const FrameList& frames, std::uint64_t now_us, 
   const std::vector<std::uint32_t> before = syncs_;
   for (const CanFrame& frame : frames)
     if (frame.id == 0x080) ++syncs_[frame.bus];
-  const bool silent = syncs_ == before && now_us > last_slot_us_ + period_us + period_us / 2;
-  if (silent && begun_ > 0) std::fill(syncs_.begin(), syncs_.end(), integrated_ + 1);
-  if (silent || syncs_ != before) last_slot_us_ = now_us;
+  const std::uint64_t patience_us = period_us + period_us / 2;
+  if (syncs_ != before) {
+    last_slot_us_ = now_us;
+  } else if (now_us > last_slot_us_ + patience_us) {
+    std::fill(syncs_.begin(), syncs_.end(), integrated_ + 1);
+    last_slot_us_ = std::max(last_slot_us_ + period_us, now_us - patience_us);
+  }
   const std::uint32_t most = *std::max_element(syncs_.begin(), syncs_.end());
   const std::uint32_t least = *std::min_element(syncs_.begin(), syncs_.end());
   if (least == most) return most;
