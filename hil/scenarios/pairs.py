@@ -13,8 +13,9 @@ kEnd_s = 60  # arm time; the slowest detection takes a third of it
 kSwingDeg = 2.0  # in the last half second: brakes hold the drums, but on its elastic cables the arm swings on
 kReduced = ({"silent", "fault"}, {"slack", "overload"}, {"bus_lost", "operator_stop"})
 
-# Fault of the bench or the bus; number and index it latches alone, and from how many ticks after its begin until how many.
-Member = collections.namedtuple("Member", "name bench bus number index earliest latest travel_deg", defaults=(2.0,))
+# Fault of the bench or the bus; number and index it latches alone, and from how many ticks after its begin until how many. `or_else`: another number and index
+# that may be sooner, where two detectors see it nearly at once.
+Member = collections.namedtuple("Member", "name bench bus number index earliest latest travel_deg or_else", defaults=(2.0, None))
 
 
 def bench(drive, kind, **values):
@@ -31,11 +32,11 @@ kMembers = (
     Member("reboot", bench(8, "reboot"), None, 3007, 8, 0, 0),
     Member("fault", bench(10, "fault"), None, 3003, 10, 0, 0),
     Member("sto", bench(1, "sto"), None, 3004, 1, 0, 0),
-    Member("encoder_jump", bench(6, "encoder_jump", counts=5000), None, 3006, 6, 4, 10, 5.0),
+    Member("encoder_jump", bench(6, "encoder_jump", counts=5000), None, 5005, 6, 2, 10, 5.0, (3006, 6)),
     Member("overload", bench(0, "encoder_jump", counts=60000), None, 5002, 0, 2, 8, 5.0),
     Member("motor_saturation", bench(12, "motor_saturation", tension_N=5), None, 3006, 12, 300, 4000, 6.0),
     Member("stuck", bench(13, "stuck"), None, 3006, 13, 60, 800),
-    Member("slack", bench(4, "slack"), None, 5004, 3, 20, 150, 13.0),
+    Member("slack", bench(4, "slack"), None, 5004, 3, 20, 150, 13.0, (5001, 4)),
     Member("cable_break", bench(9, "cable_break"), None, 5006, 9, 2, 4, 16.0),
     Member("bus_lost", None, drop(1), 4001, 1, 2, 2),
     Member("no_master", None, drop(0, id="0x77F"), 3004, 0, 45, 80),
@@ -75,7 +76,7 @@ class Pair:
         able = [(earliest, latest, member) for earliest, latest, member in faults if earliest <= soonest]
         if len({(earliest, latest) for earliest, latest, _ in able}) == 1 and able[0][0] == able[0][1]:
             able = [min(able, key=lambda one: (one[2].number != 4001, one[2].index))]
-        return [(member.number, member.index) for _, _, member in able]
+        return [(member.number, member.index) for _, _, member in able] + [member.or_else for _, _, member in able if member.or_else]
 
     def run(self):
         return PairRun(self)
