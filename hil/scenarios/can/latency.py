@@ -10,7 +10,7 @@ import tempfile
 
 from system import HERE, program
 
-kSeconds = 4
+kSeconds = 3
 # What runs beside, at normal priority, each without end.
 kDisk = "while :; do dd if=/dev/zero of=$LOAD_DIR/file bs=64k count=64 conv=fsync status=none; rm -f $LOAD_DIR/file; done"
 kForks = "while :; do /bin/true; done"
