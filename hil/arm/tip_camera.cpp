@@ -17,7 +17,7 @@ nlohmann::json pose_json(const std::optional<Pose>& pose) {
 
 }  // namespace
 
-TipCamera::TipCamera(const CameraConfig& config, const Pose& slit, const Pose& rod, std::uint64_t seed)
+TipCamera::TipCamera(const CameraConfig& config, const std::optional<Pose>& slit, const Pose& rod, std::uint64_t seed)
     : config_(config), slit_(slit), rod_(rod), noise_(seed, "tip camera") {}
 
 std::optional<Pose> TipCamera::see(const Pose& tip, const Pose& target) {
@@ -36,7 +36,7 @@ void TipCamera::look(double now_s, const Pose& tip) {
   ++pictures_;
   CameraView view;
   view.capture_time_s = now_s;
-  view.slit = see(tip, slit_);
+  if (slit_) view.slit = see(tip, *slit_);
   view.rod = see(tip, rod_);
   pending_.push_back(view);
 }

@@ -19,7 +19,8 @@ struct CameraView {
 
 class TipCamera {
  public:
-  TipCamera(const CameraConfig& config, const Pose& slit, const Pose& rod, std::uint64_t seed);
+  // Without a slit only the rod is seen.
+  TipCamera(const CameraConfig& config, const std::optional<Pose>& slit, const Pose& rod, std::uint64_t seed);
 
   // Takes a picture when one is due at `now_s` (seconds from the start, not falling).
   void look(double now_s, const Pose& tip);
@@ -30,7 +31,7 @@ class TipCamera {
   std::optional<Pose> see(const Pose& tip, const Pose& target);
 
   CameraConfig config_;
-  Pose slit_;
+  std::optional<Pose> slit_;
   Pose rod_;
   Random noise_;
   std::int64_t pictures_ = 0;

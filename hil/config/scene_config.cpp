@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
 
+const RodConfig kNoRod{{{-1000.0, 0.0, 0.0}, {}}, 1e-4, 0.0};  // nothing reaches it, and no camera sees it
+
 std::string at(const std::string& list, std::size_t i) { return list + "/" + std::to_string(i); }
 
 BoxConfig read_box(const JsonFile& file, const std::string& field) {
@@ -43,8 +45,10 @@ SceneConfig load_scene(const std::string& path) {
     const std::string field = at("/spheres", i);
     scene.spheres.push_back({file.text(field + "/name"), file.vector(field + "/center_m"), file.number(field + "/radius_m", 1e-4, 100.0)});
   }
-  scene.slit_frame = file.pose("/slit/frame");
-  scene.rod = {file.pose("/rod"), file.number("/rod/radius_m", 1e-4, 1.0), file.number("/rod/stiffness_N_per_m", 0.0, 1e5)};
+  if (file.has("/slit")) scene.slit_frame = file.pose("/slit/frame");
+  scene.rod = kNoRod;
+  if (file.has("/rod"))
+    scene.rod = {file.pose("/rod"), file.number("/rod/radius_m", 1e-4, 1.0), file.number("/rod/stiffness_N_per_m", 0.0, 1e5)};
   scene.camera = read_camera(file);
   scene.contact = {file.number("/contact/stiffness_N_per_m", 1.0, 1e5), file.number("/contact/damping_Ns_per_m", 0.0, 1e4),
                    file.number("/contact/friction", 0.0, 2.0)};

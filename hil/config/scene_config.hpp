@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,7 +48,7 @@ struct ContactConfig {
 struct SceneConfig {
   std::vector<BoxConfig> boxes;
   std::vector<SphereConfig> spheres;
-  Pose slit_frame;  // base frame
+  std::optional<Pose> slit_frame;  // base frame
   RodConfig rod;
   CameraConfig camera;
   ContactConfig contact;

@@ -13,21 +13,31 @@ namespace {
 
 std::string text_of(double value) { return json(value).dump(); }
 
+// The unit that a name ends in: " deg/s" of rate_deg_s, " m" of position_m[2]; empty without one.
+std::string unit_of(const std::string& name) {
+  const std::string stem = name.substr(0, name.find('['));
+  if (stem.ends_with("_deg_s")) return " deg/s";
+  if (stem.ends_with("_m_s")) return " m/s";
+  if (stem.ends_with("_deg")) return " deg";
+  return stem.ends_with("_m") ? " m" : "";
+}
+
 const json& field(const json& object, const std::string& key) {
   if (!object.is_object()) {
     throw RequestError("bad_request",
-                       "field '" + key + "' is missing: found " + object.dump() + " where an object with this field belongs");
+                       "field '" + key + "' is missing: found " + object.dump().substr(0, 60) + " where an object with this field belongs");
   }
   const auto found = object.find(key);
-  if (found == object.end()) throw RequestError("bad_request", "field '" + key + "' is missing");
+  if (found == object.end()) throw RequestError("bad_request", "field '" + key + "' is missing: add it");
   return *found;
 }
 
 double checked_number(const json& value, const std::string& name, double min, double max) {
-  if (!value.is_number()) throw RequestError("bad_request", "field '" + name + "': must be a number");
+  if (!value.is_number()) throw RequestError("bad_request", "field '" + name + "': " + value.dump().substr(0, 60) + ": must be a number");
   const double number = value.get<double>();
   if (!(number >= min && number <= max)) {
-    throw RequestError("out_of_range", name + " = " + text_of(number) + ": allowed " + text_of(min) + " to " + text_of(max));
+    throw RequestError("out_of_range",
+                       name + " = " + text_of(number) + ": allowed " + text_of(min) + " to " + text_of(max) + unit_of(name));
   }
   return number;
 }
@@ -40,7 +50,7 @@ void only_fields(const json& object, const std::vector<std::string>& allowed) {
     if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
     std::string names;
     for (const std::string& name : allowed) names += (names.empty() ? "" : ", ") + name;
-    throw RequestError("bad_request", "field '" + key + "' is not known: allowed " + names);
+    throw RequestError("bad_request", "field '" + key + "' is not known: allowed " + names + ": correct or remove it");
   }
 }
 
@@ -54,7 +64,8 @@ double number_field_or(const json& object, const std::string& key, double min, d
 
 std::int64_t integer_field(const json& object, const std::string& key, std::int64_t min, std::int64_t max) {
   const json& value = field(object, key);
-  if (!value.is_number_integer()) throw RequestError("bad_request", "field '" + key + "': must be a whole number");
+  if (!value.is_number_integer())
+    throw RequestError("bad_request", "field '" + key + "': " + value.dump().substr(0, 60) + ": must be a whole number");
   checked_number(value, key, static_cast<double>(min), static_cast<double>(max));
   return value.get<std::int64_t>();
 }
@@ -62,7 +73,8 @@ std::int64_t integer_field(const json& object, const std::string& key, std::int6
 std::vector<double> numbers_field(const json& object, const std::string& key, std::size_t count, double min, double max) {
   const json& value = field(object, key);
   if (!value.is_array() || value.size() != count) {
-    throw RequestError("bad_request", "field '" + key + "': must be an array of " + std::to_string(count) + " numbers");
+    const std::string found = value.is_array() ? std::to_string(value.size()) + " entries" : value.dump().substr(0, 60);
+    throw RequestError("bad_request", "field '" + key + "': " + found + ": must be an array of " + std::to_string(count) + " numbers");
   }
   std::vector<double> numbers;
   for (std::size_t i = 0; i < count; ++i) {
@@ -107,9 +119,23 @@ const json& array_field(const json& object, const std::string& key, std::size_t 
   const auto found = object.find(key);
   if (found == object.end()) return kEmpty;
   if (!found->is_array() || found->size() > max_items) {
-    throw RequestError("bad_request", "field '" + key + "': must be an array of at most " + std::to_string(max_items) + " items");
+    const std::string what = found->is_array() ? std::to_string(found->size()) + " entries" : found->dump().substr(0, 60);
+    throw RequestError("bad_request",
+                       "field '" + key + "': " + what + ": must be an array of at most " + std::to_string(max_items) + " entries");
   }
   return *found;
+}
+
+void read_entries(const json& object, const std::string& key, std::size_t max_items,
+                  const std::function<void(std::size_t, const json&)>& read) {
+  const json& entries = array_field(object, key, max_items);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    try {
+      read(i, entries[i]);
+    } catch (const RequestError& error) {
+      throw RequestError(error.code(), "entry " + std::to_string(i + 1) + " of " + key + ": " + error.what());
+    }
+  }
 }
 
 }  // namespace liana

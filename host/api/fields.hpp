@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -30,5 +31,8 @@ std::string text_field(const nlohmann::json& object, const std::string& key, std
 bool flag_field(const nlohmann::json& object, const std::string& key);
 // The array under `key`, at most `max_items` long; empty when the key is missing.
 const nlohmann::json& array_field(const nlohmann::json& object, const std::string& key, std::size_t max_items);
+// Gives every entry of that array, with its index from 0, to `read`; what it refuses names the entry: "entry 2 of nodes: ...".
+void read_entries(const nlohmann::json& object, const std::string& key, std::size_t max_items,
+                  const std::function<void(std::size_t, const nlohmann::json&)>& read);
 
 }  // namespace liana

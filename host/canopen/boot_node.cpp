@@ -112,18 +112,15 @@ void BootNode::next_object() noexcept {
   begin_object();
 }
 
-void BootNode::on_heartbeat(std::uint8_t state) noexcept {
+void BootNode::on_heartbeat(std::uint8_t state, bool all_were_operational) noexcept {
   last_state_ = state & 0x7F;
-  if (last_state_ == kStateOperational && phase_ == NodePhase::kWaitOperational) {
-    was_operational_ = true;
-    return enter(NodePhase::kOperational);
-  }
-  if (last_state_ == kStateBootUp) restart();
+  if (last_state_ == kStateOperational && phase_ == NodePhase::kWaitOperational) return enter(NodePhase::kOperational);
+  if (last_state_ == kStateBootUp) restart(all_were_operational);
 }
 
 // A boot-up message: the first one is what we wait for; after a later one everything we wrote is gone.
-void BootNode::restart() noexcept {
-  if (was_operational_ && (phase_ == NodePhase::kOperational || phase_ == NodePhase::kFailed)) {
+void BootNode::restart(bool all_were_operational) noexcept {
+  if (phase_ == NodePhase::kOperational || (all_were_operational && phase_ == NodePhase::kFailed)) {
     restarts_ = 0;
     mismatch_ = BootMismatch{};
     enter(NodePhase::kConfigured);

@@ -38,8 +38,9 @@ class BootNode {
   bool step(CanFrame& frame) noexcept;
   // The frame of the last step() has (or has not) been taken by the bus; if not, it comes again.
   void sent(bool accepted) noexcept;
-  // A boot-up message of a node that was operational, or failed after that, begins its plan again.
-  void on_heartbeat(std::uint8_t state) noexcept;
+  // A boot-up message of an operational node begins its plan again, and, when `all_were_operational`, that of a failed one, too: the drive
+  // has come back.
+  void on_heartbeat(std::uint8_t state, bool all_were_operational) noexcept;
   void on_sdo_response(const CanFrame& frame) noexcept;
 
  private:
@@ -49,7 +50,7 @@ class BootNode {
   void begin_read() noexcept;
   void finish_transfer() noexcept;
   void next_object() noexcept;
-  void restart() noexcept;
+  void restart(bool all_were_operational) noexcept;
   void fail(BootFailure failure, std::uint32_t found = 0) noexcept;
   const BootObject& object() const noexcept { return plan_.objects()[at_]; }
 
@@ -66,7 +67,6 @@ class BootNode {
   int attempts_ = 0;                   // at the present transfer
   int restarts_ = 0;
   bool reading_back_ = false;
-  bool was_operational_ = false;    // from then on a boot-up message means that the drive has come back
   std::uint8_t last_state_ = 0xFF;  // NMT state last heard, 0xFF = none
   CanFrame out_;
   bool out_waiting_ = false;

@@ -28,7 +28,7 @@ void BootSequence::on_frame(int bus, const CanFrame& frame) noexcept {
     if (from.kind == FrameKind::kSdoResponse) {
       node.on_sdo_response(frame);
     } else if (frame.length == 1) {
-      node.on_heartbeat(frame.data[0]);
+      node.on_heartbeat(frame.data[0], was_operational_);
       if (was_operational_ && node.phase() == NodePhase::kObjects) state_ = BootState::kRunning;
     }
   }

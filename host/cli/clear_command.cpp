@@ -68,20 +68,18 @@ std::string verdict_after(ApiClient& client, std::uint64_t tick) {
   throw std::runtime_error("lianad did not say within 15 s whether the faults are cleared; look with liana status");
 }
 
-Clearing clear(ApiClient& client) {
+void clear(ApiClient& client, Clearing& clearing) {
   say_hello(client, "liana clear", Observer::kClient);
   const json state = state_of(client);
-  Clearing clearing;
   clearing.stop = state.value("stop", json());
   clearing.faults = state.value("faults", json::array());
-  if (!clearing.is_needed()) return clearing;
+  if (!clearing.is_needed()) return;
   require_settled(clearing, state);
   ask(client, {{"op", "acquire"}}, 1);
   ask(client, {{"op", "state_command"}, {"command", "clear"}}, 2);
   if (!clearing.faults.empty()) clearing.said = verdict_after(client, state.value("tick", std::uint64_t{0}));
   clearing.good = !clearing.said.starts_with("faults not cleared");
   ask(client, {{"op", "release"}}, 3);
-  return clearing;
 }
 
 void print_text(const std::string& api, const Clearing& clearing) {
@@ -105,13 +103,20 @@ void print_text(const std::string& api, const Clearing& clearing) {
 
 int clear_command(const ClientOptions& options) {
   const std::string api = only_system(options.api);
-  ApiClient client = ApiClient::connect(api, kConnectTimeout_s);
-  const Clearing clearing = clear(client);
+  Clearing clearing;
+  std::string problem;  // that kept it from its end
+  try {
+    ApiClient client = ApiClient::connect(api, kConnectTimeout_s);
+    clear(client, clearing);
+  } catch (const std::exception& error) {
+    clearing.good = false;
+    clearing.said = problem = error.what();
+  }
   if (options.json) {
     std::puts(json{{"api", api}, {"cleared", clearing.good}, {"stop", clearing.stop}, {"faults", clearing.faults}, {"said", clearing.said}}
                   .dump()
                   .c_str());
-  } else {
+  } else if (problem.empty()) {
     print_text(api, clearing);
   }
   if (!clearing.good) std::fprintf(stderr, "liana: %s: %s\n", api.c_str(), clearing.said.c_str());

@@ -55,9 +55,9 @@ struct PlanOptions {
   std::vector<std::string> control_points;  // in order
   std::string waypoints;                    // empty: 20, or as many as following needs
   std::string margin_m = "0.005";
-  std::string max_step_deg;  // empty: the planner's default
-  std::string max_iterations = "300";
-  std::string out_file;  // empty: the plan is only printed
+  std::string max_step_deg;    // empty: the planner's default
+  std::string max_iterations;  // empty: the planner's default
+  std::string out_file;        // empty: the plan is only printed
   bool json = false;
 };
 // The offline planner; exit code 3 when there is no plan, 130 when it was interrupted.

@@ -6,14 +6,27 @@
 namespace liana {
 namespace {
 
-constexpr const char* kBash = R"bash(_liana() {
+// Names of tables and missions are looked up when they are asked for. A value that may be a file, too, is completed as both.
+constexpr const char* kBash = R"bash(_liana_names() {
+  local file
+  for file in "$_liana_lua/$1"/*.lua; do file=${file##*/}; echo "${file%.lua}"; done
+}
+_liana_names_or_files() {
+  COMPREPLY=($(compgen -W "$(_liana_names "$1")" -- "$2") $(compgen -f -- "$2"))
+}
+_liana() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words=""
+  [[ $word == = ]] && word=""
+  [[ $before == = ]] && before=${COMP_WORDS[COMP_CWORD-2]}
   case $before in
+    --robot | export) _liana_names_or_files robots "$word"; return ;;
+    --scene) _liana_names_or_files scenes "$word"; return ;;
+    --bus | --buses) _liana_names_or_files buses "$word"; return ;;
+    run) _liana_names_or_files missions "$word"; return ;;
+    --follow) COMPREPLY=($(compgen -W "slit" -- "$word") $(compgen -f -- "$word")); return ;;
     --time) words="fast paced real" ;;
     --physics) words="nominal ideal worn" ;;
-    --bus | --buses) words="embedded embedded_500 embedded_single vcan" ;;
     --rate) words="250 500" ;;
-    run) words="slit_crossing" ;;
     robot) words="export" ;;
     completion) words="bash" ;;
     --record | --json | --svg | --path | --api | --out | replay) COMPREPLY=($(compgen -f -- "$word")); return ;;
@@ -37,12 +50,31 @@ constexpr const char* kBash = R"bash(_liana() {
   COMPREPLY=($(compgen -W "$words" -- "$word"))
 }
 complete -F _liana liana
+
+_liana_mission() {
+  local word=${COMP_WORDS[COMP_CWORD]} words=""
+  if [[ $COMP_CWORD == 1 ]]; then
+    words="eval run bindings"
+  elif [[ ${COMP_WORDS[1]} == eval ]]; then
+    case $COMP_CWORD/${COMP_WORDS[2]} in
+      2/*) words="robot scene buses mission" ;;
+      3/robot | 3/scene | 3/mission) _liana_names_or_files "${COMP_WORDS[2]}s" "$word"; return ;;
+      3/buses) _liana_names_or_files buses "$word"; return ;;
+      *) words="--robot --lua-dir" ;;
+    esac
+  elif [[ ${COMP_WORDS[1]} == run ]]; then
+    words="--api --mission --lua-dir --report --lockstep --progress --json"
+  fi
+  COMPREPLY=($(compgen -W "$words" -- "$word"))
+}
+complete -F _liana_mission liana-mission
 )bash";
 
 }  // namespace
 
 int completion_command(const std::string& shell) {
   if (shell != "bash") throw BadInput("completion: '" + shell + "': allowed: bash");
+  std::printf("_liana_lua='%s'\n", LIANA_LUA_DIR);
   std::fputs(kBash, stdout);
   return kExitOk;
 }

@@ -96,17 +96,17 @@ void add_plan(CLI::App& app, Action& action, liana::PlanOptions& plan) {
   sub->add_option("--margin", plan.margin_m, "least clearance of every link from every obstacle, m")->capture_default_str();
   sub->add_option("--max-step-deg", plan.max_step_deg,
                   "most that an angle changes between waypoints; 80 / (waypoints - 1) where not given");
-  sub->add_option("--iterations", plan.max_iterations, "of the solver in each round")->capture_default_str();
+  sub->add_option("--iterations", plan.max_iterations, "of the solver in each round, 300 where not given; not with --follow");
   sub->add_option("--out", plan.out_file, "keep the plan with its inputs in this file, JSON");
   sub->add_flag("--json", plan.json, "print JSON");
 }
 
 void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
   CLI::App* sub = add(app, action, "run", "start the whole system and run a mission", run, liana::run_command);
-  sub->add_option("mission", run.mission, "a name under lua/missions or a file")->required();
-  sub->add_option("--robot", run.robot, "robot table")->capture_default_str();
-  sub->add_option("--scene", run.scene, "scene table")->capture_default_str();
-  sub->add_option("--bus", run.bus, "bus table")->capture_default_str();
+  sub->add_option("mission", run.mission, "a name under lua/missions, a file, or a plan (JSON of liana plan --out)")->required();
+  sub->add_option("--robot", run.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  sub->add_option("--scene", run.scene, "scene table: a name under lua/scenes or a file")->capture_default_str();
+  sub->add_option("--bus", run.bus, "bus table: a name under lua/buses or a file")->capture_default_str();
   sub->add_option("--time", run.time, "fast, paced or real; fast where nothing is said, real on SocketCAN")
       ->check(CLI::IsMember({"fast", "paced", "real"}));
   sub->add_option("--physics", run.physics, "nominal, ideal or worn")
@@ -142,10 +142,12 @@ void add_faults(CLI::App& app, Action& action, liana::FaultsOptions& faults) {
 }
 
 void add_client(CLI::App& app, Action& action, const char* name, const char* text, liana::ClientOptions& client,
-                int (*command)(const liana::ClientOptions&)) {
+                int (*command)(const liana::ClientOptions&), bool one = false) {
   CLI::App* sub = add(app, action, name, text, client, command);
-  sub->add_option("--api", client.api, "API socket of one lianad; where not given, all running systems of this user");
-  sub->add_flag("--json", client.json, "print JSON, one line for each system");
+  sub->add_option("--api", client.api,
+                  one ? "API socket of the lianad; where not given, that of the one running system of this user (several are refused)"
+                      : "API socket of one lianad; where not given, all running systems of this user");
+  sub->add_flag("--json", client.json, one ? "print JSON, also when nothing could be cleared" : "print JSON, one line for each system");
 }
 
 void add_tools(CLI::App& app, Action& action, liana::ReplayOptions& replay, liana::ExportOptions& exported, bool& doctor_json,
@@ -217,6 +219,18 @@ std::vector<std::string> arguments_of(const CLI::App& app, int argc, char** argv
   return words;
 }
 
+// A word that the command has no place for.
+std::string extra_word_text(const CLI::App& app) {
+  std::string command;
+  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
+    at = at->get_subcommands().front();
+    command += " " + at->get_name();
+  }
+  const std::vector<std::string> words = app.remaining(true);
+  return "'" + (words.empty() ? "" : words.front()) + "': liana" + command + " takes no such word; leave it out, or see liana" + command +
+         " --help";
+}
+
 int perform(const Action& action) {
   try {
     return action();
@@ -253,7 +267,7 @@ int run(int argc, char** argv) {
   add_client(app, action, "status", "state of every running system", client, liana::status_command);
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client, liana::estop_command);
   add_client(app, action, "clear", "clear an emergency stop and the latched faults of one running system; enables nothing", client,
-             liana::clear_command);
+             liana::clear_command, true);
   add_latency(app, action, latency);
   add_faults(app, action, faults);
   add_tools(app, action, replay, exported, doctor_json, shell);
@@ -261,6 +275,9 @@ int run(int argc, char** argv) {
     app.parse(arguments_of(app, argc, argv));
   } catch (const liana::BadInput& error) {
     std::fprintf(stderr, "liana: %s\n", error.what());
+    return ExitCode::kExitBadInput;
+  } catch (const CLI::ExtrasError&) {
+    std::fprintf(stderr, "liana: %s\n", extra_word_text(app).c_str());
     return ExitCode::kExitBadInput;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help

@@ -28,6 +28,7 @@ bool can_be_written(const std::string& path) {
 }  // namespace
 
 void check_output(const std::string& option, const std::string& path) {
+  if (path == "-") throw BadInput(option + ": '-': allowed: a file; standard output has the answer without this option");
   if (can_be_written(path)) return;
   const std::string reason = std::strerror(errno);
   throw BadInput(option + ": '" + path + "': cannot be written: " + reason + "; give a file in a directory that exists");

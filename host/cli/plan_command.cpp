@@ -2,14 +2,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/curve_file.hpp"
 #include "host/cli/errors.hpp"
 #include "host/cli/interrupt.hpp"
 #include "host/cli/output.hpp"
@@ -23,19 +21,6 @@ using nlohmann::json;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTransitionShare = 1.0 / 3.0;  // of the way, in which a held angle with another value than the start's gets there
-
-constexpr double kFarthest_m = 100.0;  // of a curve's coordinates
-constexpr double kLeastGap_m = 0.001;  // between a curve's points
-
-SceneConfig scene_of(const std::string& name) {
-  if (name == "none") {
-    SceneConfig scene;
-    scene.name = scene.canonical_json = "none";
-    return scene;
-  }
-  const std::string text = evaluate_table("scene", name);
-  return checked([&] { return parse_scene(text, name); });
-}
 
 void add_phase(const HeldPhase& phase, const PlanOptions& options, PlanRequest& request) {
   for (const HeldPhase& other : request.held) {
@@ -88,43 +73,20 @@ void check_held_goal(const PlanRequest& request) {
   }
 }
 
-std::vector<Vec3> read_curve(const std::string& path) {
-  const std::string name = "--follow: " + path;
-  std::error_code unreadable;
-  std::ifstream file;
-  if (std::filesystem::is_regular_file(path, unreadable)) file.open(path, std::ios::binary);
-  if (!file.is_open()) throw BadInput(name + ": cannot be read; give an existing JSON file with points_m, or slit");
-  const json document = json::parse(std::string{std::istreambuf_iterator<char>(file), {}}, nullptr, false);
-  const json rows = document.is_object() ? document.value("points_m", json()) : json();
-  if (!rows.is_array() || rows.size() < 2 || rows.size() > kMaxFollowPoints) {
-    throw BadInput(name + ": points_m: allowed: a JSON object with 2 to " + std::to_string(kMaxFollowPoints) + " points under this key");
-  }
-  std::vector<Vec3> points;
-  for (const json& row : rows) {
-    const std::string point = name + ": points_m row " + std::to_string(points.size() + 1);
-    const auto is_good = [](const json& value) { return value.is_number() && std::fabs(value.get<double>()) <= kFarthest_m; };
-    if (!row.is_array() || row.size() != 3 || !std::all_of(row.begin(), row.end(), is_good))
-      throw BadInput(point + ": allowed: three numbers [x, y, z] in metres, each from -100 to 100");
-    points.push_back(row.get<Vec3>());
-    if (points.size() > 1 && norm(subtract(points.back(), points[points.size() - 2])) < kLeastGap_m)
-      throw BadInput(point + ": is less than 1 mm from the one before; leave one of them out");
-  }
-  return points;
-}
-
 void read_follow(const PlanOptions& options, PlanRequest& request) {
   if (options.follow.empty()) return;
   const auto refuse = [](const std::string& option, const char* why) { throw BadInput(option + ": not with --follow: " + why); };
   if (!options.planar.empty()) refuse("--planar", "the curve says where the arm is; leave it out");
   if (!options.control_points.empty()) refuse("--control-point", "the curve says where the arm is; leave it out");
+  if (!options.max_iterations.empty()) refuse("--iterations", "nothing is solved by Ipopt there; leave it out");
   if (!options.waypoints.empty()) refuse("--waypoints", "as many as the tip needs come out; leave it out");
   if (options.hold.find('=') != std::string::npos) refuse("--hold with values", "name the angles alone, which keep what they have");
   request.follow.emplace();
   if (options.follow != "slit") {
     if (!options.to_deg.empty() || !options.tip.empty()) refuse("--to-deg, --tip", "the curve's end is the goal; leave them out");
     request.follow->points_m = read_curve(options.follow);
-  } else if (options.scene == "none") {
-    throw BadInput("--follow: slit: needs a scene with a slit; give --scene, or a curve's file");
+  } else if (!request.scene.slit) {
+    throw BadInput("--follow: slit: the scene '" + options.scene + "' has none; give a --scene with a slit, or a curve's file");
   }
 }
 
@@ -194,7 +156,7 @@ json to_json(const PlanRequest& request, const PlanResult& result, double time_s
   if (result.checked) {
     const PlanCheck& check = *result.checked;
     answer["checked"] = {{"min_clearance_m", check.min_clearance_m}, {"nearest", check.nearest},
-                         {"nearest_link", check.nearest_link},       {"max_joint_deg", check.max_joint_deg},
+                         {"nearest_link", check.nearest_link}, {"min_self_clearance_m", check.self.clearance_m}, {"self_links", check.self.link},       {"max_joint_deg", check.max_joint_deg},
                          {"max_step_deg", check.max_step_deg},       {"max_cable_step_m", check.max_cable_step_m},
                          {"tip_error_m", check.tip_error_m},         {"tip_attitude_error_rad", check.tip_attitude_error_rad},
                          {"min_tension_N", check.min_tension_N},     {"max_tension_N", check.max_tension_N},
@@ -219,7 +181,7 @@ json follow_json(const PlanRequest& request) {
 // What the plan was asked for, as it was given.
 json inputs(const PlanOptions& options, const PlanRequest& request) {
   return {{"robot", json::parse(request.robot.canonical_json)},
-          {"scene", options.scene == "none" ? json("none") : json::parse(request.scene.canonical_json)},
+          {"scene", json::parse(request.scene.canonical_json)},
           {"from_deg", options.from_deg},
           {"to_deg", options.to_deg},
           {"tip", options.tip},
@@ -270,7 +232,8 @@ int exit_code(PlanOutcome outcome) {
 int plan_command(const PlanOptions& options) {
   const InterruptGuard interrupt;
   PlanControl control;
-  control.max_iterations = static_cast<std::int32_t>(parse_whole("--iterations", options.max_iterations, 1, 100000));
+  if (!options.max_iterations.empty())
+    control.max_iterations = static_cast<std::int32_t>(parse_whole("--iterations", options.max_iterations, 1, 100000));
   if (!options.out_file.empty()) check_output("--out", options.out_file);
   const PlanRequest request = request_of(options);
   control.progress = [](const std::string& line) { std::fprintf(stderr, "plan: %s\n", line.c_str()); };

@@ -77,8 +77,9 @@ int pose_command(const PoseOptions& options) {
   const ThetaVector theta_rad = parse_theta_deg("--theta-deg", options.theta_deg, robot.table);
   json pose = pose_of(robot.table, theta_rad);
   if (!options.scene.empty()) {
-    const std::string scene = evaluate_table("scene", options.scene);
-    pose["slit"] = slit_part(robot, checked([&] { return parse_scene(scene, options.scene); }), theta_rad);
+    const SceneConfig scene = scene_of(options.scene);
+    if (!scene.slit) throw BadInput("--scene: '" + options.scene + "': has no slit; name a scene with one, or leave it out");
+    pose["slit"] = slit_part(robot, scene, theta_rad);
   }
   if (options.json) {
     std::puts(pose.dump().c_str());

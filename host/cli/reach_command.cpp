@@ -254,8 +254,7 @@ int reach_along_path(const ReachOptions& options, const RobotConfig& robot) {
 int reach_region(const ReachOptions& options, const RobotConfig& robot) {
   std::optional<SceneConfig> scene;
   if (!options.scene.empty()) {
-    const std::string text = evaluate_table("scene", options.scene);
-    scene = checked([&] { return parse_scene(text, options.scene); });
+    scene = scene_of(options.scene);
   }
   ThetaVector pose_rad{};
   if (!options.from_deg.empty()) pose_rad = parse_theta_deg("--from-deg", options.from_deg, robot.table);

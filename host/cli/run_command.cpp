@@ -28,7 +28,7 @@ json report_of(const RunOptions& options, const RunPlan& plan, const RunSession&
   sources.announced = session.announced();
   sources.welcome = &session.welcome();
   sources.last_state = &session.last_state();
-  sources.rod = plan.scene.rod.pose;
+  if (plan.scene.rod) sources.rod = plan.scene.rod->pose;
   return make_report(sources);
 }
 

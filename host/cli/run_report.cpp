@@ -87,10 +87,12 @@ void add_truth(json& report, const ReportSources& sources, const Window& window)
   if (truth.row_count() == 0) return;
   const std::size_t first = truth.row_of_slot(window.first_tick);
   const std::size_t last = truth.row_of_slot(window.last_tick);
-  const Pose rod{sources.rod.position_m, sources.rod.quaternion_wxyz};
   const Pose tip = truth.tip(last);
-  report["tip_error_m"] = distance_m(tip, rod);
-  report["tip_attitude_error_rad"] = angle_rad(tip, rod);
+  if (sources.rod) {
+    const Pose rod{sources.rod->position_m, sources.rod->quaternion_wxyz};
+    report["tip_error_m"] = distance_m(tip, rod);
+    report["tip_attitude_error_rad"] = angle_rad(tip, rod);
+  }
   if (const StateSample* state = sample_at(sources.states, window.last_tick)) {
     report["open_loop_tip_error_m"] = distance_m(tip, state->commanded_tip);
   }
@@ -128,6 +130,15 @@ std::string line(const char* format, double value) {
   char text[128];
   std::snprintf(text, sizeof text, format, value);
   return text;
+}
+
+std::string clearance_text(const json& report) {
+  constexpr double kNothing_m = 999.0;  // the bench says 1000 where there is nothing
+  const double slit_m = report["min_slit_clearance_m"], sphere_m = report["min_sphere_clearance_m"];
+  std::string text;
+  if (slit_m < kNothing_m) text += line(", slit %.1f mm", 1e3 * slit_m);
+  if (sphere_m < kNothing_m) text += line(", sphere %.0f mm", 1e3 * sphere_m);
+  return "clearance: " + (text.empty() ? "nothing in the scene" : text.substr(2)) + "\n";
 }
 
 }  // namespace
@@ -176,10 +187,10 @@ std::string report_text(const json& report) {
   if (report.contains("tip_error_m")) {
     text += line("tip error %.2f mm", 1e3 * report["tip_error_m"].get<double>()) +
             line(", %.3f deg", 57.29577951308232 * report["tip_attitude_error_rad"].get<double>()) +
-            line(" (open loop %.1f mm)\n", 1e3 * report.value("open_loop_tip_error_m", 0.0)) +
-            line("clearance: slit %.1f mm", 1e3 * report["min_slit_clearance_m"].get<double>()) +
-            line(", sphere %.0f mm\n", 1e3 * report["min_sphere_clearance_m"].get<double>()) +
-            line("contact force %.2f N", report["max_contact_force_N"].get<double>()) +
+            line(" (open loop %.1f mm)\n", 1e3 * report.value("open_loop_tip_error_m", 0.0));
+  }
+  if (report.contains("min_slit_clearance_m")) {
+    text += clearance_text(report) + line("contact force %.2f N", report["max_contact_force_N"].get<double>()) +
             line(", cable tension %.1f", report["cable_tension_N"]["min"].get<double>()) +
             line(" to %.1f N\n", report["cable_tension_N"]["max"].get<double>());
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ struct ReportSources {
   std::vector<AnnouncedStep> announced;        // stands in for the steps of a mission runner that left no report
   const nlohmann::json* welcome = nullptr;     // of lianad
   const nlohmann::json* last_state = nullptr;  // of lianad
-  ScenePose rod;
+  std::optional<ScenePose> rod;                // none: the scene has none
 };
 
 // The report with the keys of docs/command-line.md.

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "host/api/registry.hpp"
 #include "host/cli/observer.hpp"
 
 namespace liana {
@@ -177,6 +178,17 @@ void RunSession::request(const json& message) {
   }
 }
 
+// A lianad that had to be killed leaves its entry among the running systems; looking at them removes it.
+void RunSession::remove_stale_entry() const {
+  const auto killed = [](const auto& child) { return child->name() == "lianad" && child->poll() && child->poll()->signal != 0; };
+  if (std::none_of(children_.begin(), children_.end(), killed)) return;
+  try {
+    running_systems();
+  } catch (const std::exception&) {
+    // a folder that is not ours has no entry of ours
+  }
+}
+
 // lianad stops the arm and leaves the bus; bus and bench then end by themselves and write their summaries.
 void RunSession::shut_down() {
   request({{"op", "shutdown"}});
@@ -191,6 +203,7 @@ void RunSession::shut_down() {
     }
   }
   for (const auto& child : children_) child->end(1.0);
+  remove_stale_entry();
   while (take(0.0)) {  // what lianad said last may not have been read yet
   }
 }

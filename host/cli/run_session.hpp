@@ -52,6 +52,7 @@ class RunSession {
   bool is_stopped() const;
   std::string how_the_arm_was_left() const;
   void shut_down();
+  void remove_stale_entry() const;
 
   const RunPlan& plan_;
   InterruptGuard interrupts_;

@@ -50,6 +50,11 @@ void check_mission(const std::string& name, const std::string& robot) {
   evaluate({"--robot=" + robot, "--", "mission", name});
 }
 
+SceneConfig scene_of(const std::string& name) {
+  const std::string scene = evaluate_table("scene", name);
+  return checked([&] { return parse_scene(scene, name); });
+}
+
 RobotConfig robot_for_kinematics(const std::string& name) {
   const std::string robot = evaluate_table("robot", name);
   const std::string buses = evaluate_table("buses", "embedded");

@@ -26,6 +26,9 @@ auto checked(const Loader& loader) {
   }
 }
 
+// A scene, checked.
+SceneConfig scene_of(const std::string& name);
+
 // The robot as pose and ik need it, on the default buses.
 RobotConfig robot_for_kinematics(const std::string& name);
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -137,10 +138,10 @@ struct SceneConfig {
   std::string name;
   std::vector<SceneBox> boxes;
   std::vector<SceneSphere> spheres;
-  SceneSlit slit;
-  SceneRod rod;
-  SceneCamera camera;
-  SceneContact contact;
+  std::optional<SceneSlit> slit;      // none: nothing is asked to be planar, nowhere the tip has to be slow
+  std::optional<SceneRod> rod;        // none: nothing to press
+  std::optional<SceneCamera> camera;  // with contact what a bench needs to simulate the scene
+  std::optional<SceneContact> contact;
   std::string canonical_json;
 };
 

@@ -28,7 +28,8 @@ std::string Range::text() const {
 bool Range::contains(double value) const { return std::isfinite(value) && value <= high && (above ? value > low : value >= low); }
 
 void Field::refuse(const std::string& allowed, const std::string& what_to_do) const {
-  throw std::runtime_error(file_ + ": " + path_ + ": " + shown(*value_) + ": allowed " + allowed + ": " + what_to_do);
+  throw std::runtime_error(file_ + ": " + (path_.empty() ? "" : path_ + ": ") + shown(*value_) + ": allowed " + allowed + ": " +
+                           what_to_do);
 }
 
 Field Field::at(const std::string& key) const {
@@ -90,12 +91,24 @@ std::string Field::choice(const std::vector<std::string>& words) const {
   refuse(allowed, "use one of these words");
 }
 
-nlohmann::json parse_json(const std::string& text, const std::string& file) {
+nlohmann::json parse_json(const std::string& text, const std::string& file, const std::string& advice) {
+  std::vector<std::set<std::string>> keys;  // of the objects that are open
+  std::string twice;
+  const auto look = [&](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
+    using Event = nlohmann::json::parse_event_t;
+    if (event == Event::object_start) keys.emplace_back();
+    if (event == Event::object_end) keys.pop_back();
+    if (event == Event::key && !keys.back().insert(value.get<std::string>()).second) twice = value.get<std::string>();
+    return true;
+  };
+  nlohmann::json parsed;
   try {
-    return nlohmann::json::parse(text);
+    parsed = nlohmann::json::parse(text, look);
   } catch (const nlohmann::json::exception& error) {
-    throw std::runtime_error(file + ": not JSON: " + error.what() + ": export the Lua table again with liana-mission eval");
+    throw std::runtime_error(file + ": not JSON: " + error.what() + ": " + advice);
   }
+  if (!twice.empty()) throw std::runtime_error(file + ": " + twice + ": given twice: allowed once: remove one of them");
+  return parsed;
 }
 
 std::string read_text_file(const std::string& path) {

@@ -64,7 +64,8 @@ class Field {
 };
 
 // Parses `text`; a syntax error becomes a message that names the file and the place.
-nlohmann::json parse_json(const std::string& text, const std::string& file);
+nlohmann::json parse_json(const std::string& text, const std::string& file,
+                          const std::string& advice = "export the Lua table again with liana-mission eval");
 
 // The whole file as text; throws when it cannot be read.
 std::string read_text_file(const std::string& path);

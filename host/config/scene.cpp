@@ -124,11 +124,10 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
   for (std::size_t i = 0; i < box_count; ++i) out.boxes.push_back(read_box(boxes.element(i)));
   const std::size_t sphere_count = spheres.size(0, 64, "at most 64 spheres");
   for (std::size_t i = 0; i < sphere_count; ++i) out.spheres.push_back(read_sphere(spheres.element(i)));
-  out.slit = read_slit(table.at("slit"));
-  check_slit(table.at("slit"), out.slit);
-  out.rod = read_rod(table.at("rod"));
-  out.camera = read_camera(table.at("camera"));
-  out.contact = read_contact(table.at("contact"));
+  if (json.contains("slit")) check_slit(table.at("slit"), out.slit.emplace(read_slit(table.at("slit"))));
+  if (json.contains("rod")) out.rod = read_rod(table.at("rod"));
+  if (json.contains("camera")) out.camera = read_camera(table.at("camera"));
+  if (json.contains("contact")) out.contact = read_contact(table.at("contact"));
   out.canonical_json = canonical_json(json);
   return out;
 }

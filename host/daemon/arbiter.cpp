@@ -18,14 +18,14 @@ constexpr std::int32_t kSettledIntervals = 10;
 constexpr double kLed_m = 0.005;            // nodes nearer than this to the shape that was found are there
 constexpr std::int32_t kRestIntervals = 3;  // a command released before the stop may still be on its way
 
+}  // namespace
+
 bool has_nodes(const NodeTargets& nodes) {
   for (const NodeTarget& target : nodes) {
     if (target.node != 0) return true;
   }
   return false;
 }
-
-}  // namespace
 
 Arbiter::Arbiter(const RobotTable& table, const SpeedZone& zone)
     : table_(table), zone_(zone), interval_s_(table.tick_s * table.interval_ticks), tip_speed_m_s_(table.limits.tip_speed_m_s) {}
@@ -39,6 +39,7 @@ void Arbiter::require_ready(const Outputs& now) const {
 
 void Arbiter::require_free(const Outputs& now) const {
   require_ready(now);
+  if (is_searching()) throw RequestError("busy", "the shape that a search has found is gone to: wait until it has settled or send hold");
   if (is_busy()) throw RequestError("busy", "a planned move is under way: wait for it or send hold");
   if (device_.engaged()) throw RequestError("busy", "the operator steers: wait for the deadman to open");
 }
@@ -81,6 +82,7 @@ void Arbiter::hold_theta(const Outputs& now, std::uint32_t mask, const ThetaVect
 
 void Arbiter::shape(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear, bool search) {
   require_ready(now);
+  if (search && is_busy()) throw RequestError("busy", "search needs an arm at rest, a planned move is under way: wait for it or send hold");
   if (search && now.at_rest == 0) throw RequestError("busy", "search looks for a shape of the arm at rest: wait for it or send hold");
   nodes_ = nodes;
   clear_ = clear;
@@ -139,6 +141,7 @@ void Arbiter::retract(const Outputs& now, std::uint64_t until_tick) {
 
 void Arbiter::hold() {
   mode_ = Mode::kIdle;
+  lead_ = NodeTargets{};
   device_.let_go();
 }
 
@@ -154,7 +157,7 @@ Setpoint Arbiter::tip_setpoint(const Outputs& now) const {
   setpoint.tip_in_base = tip_goal_;
   setpoint.held_mask = held_mask_;
   setpoint.held_rad = held_rad_;
-  setpoint.node = has_nodes(lead_) ? lead_ : nodes_;
+  setpoint.node = is_searching() ? lead_ : nodes_;
   setpoint.clear = clear_;
   setpoint.tip_speed_m_s = zone_.advice_at(now.tip_command.position_m, zone_.advice_at(tip_goal_.position_m, tip_speed_m_s_));
   if (device_node_.node == 0) return setpoint;
@@ -182,7 +185,6 @@ std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const Outputs
     held_mask_ = 0;
     nodes_ = {};
     clear_ = {};
-    lead_ = {};
     return std::nullopt;
   }
   const bool going_back = mode_ == Mode::kRetract && rest_intervals_ >= kRestIntervals;
@@ -194,7 +196,7 @@ std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const Outputs
   if (steer) return steered_setpoint(now, *steer);
   if (was_engaged_) mode_ = Mode::kIdle;  // the operator let go: stop along the path
   was_engaged_ = false;
-  if (has_nodes(lead_)) end_lead(now);
+  if (is_searching()) end_lead(now);
   if (mode_ == Mode::kTip && has_arrived(now)) mode_ = Mode::kIdle;
   ++unchanged_intervals_;
   return mode_ == Mode::kTip ? std::optional(tip_setpoint(now)) : std::nullopt;

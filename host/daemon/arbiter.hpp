@@ -10,6 +10,9 @@
 
 namespace liana {
 
+// Whether any entry is used.
+bool has_nodes(const NodeTargets& nodes);
+
 class Arbiter {
  public:
   // In `zone` the tip is asked to go no faster than the zone says.
@@ -39,6 +42,11 @@ class Arbiter {
   bool is_busy() const { return mode_ == Mode::kLine || mode_ == Mode::kJoint || mode_ == Mode::kRetract; }
   // The last retract has gone back all the way.
   bool has_retracted() const { return has_retracted_; }
+  // The nodes are on their way to a shape that a search has found; their own targets come after it.
+  bool is_searching() const { return has_nodes(lead_); }
+  // What the shape was last asked for.
+  const NodeTargets& nodes() const { return nodes_; }
+  const KeepClearTargets& keep_clear() const { return clear_; }
   std::uint32_t held_mask() const { return held_mask_; }
   DeviceSteer& device() { return device_; }
   const DeviceSteer& device() const { return device_; }

@@ -8,6 +8,7 @@
 
 #include "host/api/request_error.hpp"
 #include "host/canopen/emergency.hpp"
+#include "host/config/slit_mouth.hpp"
 
 namespace liana {
 
@@ -32,8 +33,8 @@ Service::Service(const ServiceConfig& config, Link& link)
       link_(link),
       reach_m_(reach_of(config.robot.table)),
       zone_(config.scene.slit, config.robot.table.limits.tip_speed_slit_m_s),
-      mouth_(slit_mouth(config.scene.slit, config.robot.module_radius_m)),
       arbiter_(config.robot.table, zone_),
+      shape_progress_(config.robot.table),
       twin_(config.robot.table),
       server_(config.api_path, *this) {}
 
@@ -54,6 +55,7 @@ void Service::cycle() {
   link_.image.refresh();
   watch_arm();
   watch_slit();
+  watch_shape();
   forward_ticks();
   idle(0.0);  // what came from clients outside lockstep
   forward_camera();
@@ -66,6 +68,11 @@ void Service::cycle() {
 void Service::idle(double timeout_s) {
   server_.pump(timeout_s);
   server_.dispatch();
+}
+
+void Service::watch_shape() {
+  shape_progress_.note(now(), arbiter_.nodes(), arbiter_.keep_clear());
+  notes_.shape = {shape_progress_.missing_m(), shape_progress_.is_settled() && !arbiter_.is_searching(), arbiter_.is_searching()};
 }
 
 void Service::publish_state() {
@@ -94,9 +101,11 @@ void Service::note_clear() {
 
 // By the commanded angles: they have no noise.
 void Service::watch_slit() {
+  if (!config_.scene.slit) return;
   const RobotTable& table = config_.robot.table;
   const LinkPoints links = link_points(table, link_.report.value().outputs.theta_command_rad);
-  notes_.planar_segments = planar_segments(table, links, mouth_, PlanarSwitch{}, notes_.planar_segments);
+  const SlitMouth mouth = slit_mouth(*config_.scene.slit, config_.robot.module_radius_m);
+  notes_.planar_segments = planar_segments(table, links, mouth, PlanarSwitch{}, notes_.planar_segments);
 }
 
 // What changes by itself: the end of booting, the end of the run after the mission.

@@ -13,13 +13,13 @@
 #include "host/api/server.hpp"
 #include "host/bus/time_mode.hpp"
 #include "host/config/config.hpp"
-#include "host/config/slit_mouth.hpp"
 #include "host/daemon/arbiter.hpp"
 #include "host/daemon/boot_problem.hpp"
 #include "host/daemon/host_trouble.hpp"
 #include "host/daemon/link.hpp"
 #include "host/daemon/owner.hpp"
 #include "host/daemon/release.hpp"
+#include "host/daemon/shape_progress.hpp"
 #include "host/daemon/state_message.hpp"
 #include "host/daemon/twin.hpp"
 #include "host/daemon/verify.hpp"
@@ -96,6 +96,7 @@ class Service : private ApiHandler {
   void drop_motion(const std::string& why);
   void watch_arm();
   void watch_slit();
+  void watch_shape();
   void note_clear();
   void note_emergencies(const Inputs& inputs);
   void forward_ticks();
@@ -109,8 +110,8 @@ class Service : private ApiHandler {
   double reach_m_;
   Owner owner_;
   SpeedZone zone_;
-  SlitMouth mouth_;
   Arbiter arbiter_;
+  ShapeProgress shape_progress_;
   Release release_;
   Twin twin_;
   std::vector<Telecommand> released_;  // not yet due at the newest image

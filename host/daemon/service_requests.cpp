@@ -12,6 +12,11 @@ namespace liana {
 namespace {
 constexpr double kDegree = 0.017453292519943295;
 
+// Limit of a theta, free of what the way through radians left of it.
+double limit_deg(const RobotTable& table, std::size_t theta) {
+  return std::round(table.segment[theta / 2].theta_limit_rad / kDegree * 1e9) / 1e9;
+}
+
 std::string stop_text(const nlohmann::json& stop) {
   const std::string reason = stop["reason"];
   return "emergency stop by " + stop["by"].get<std::string>() + (reason.empty() ? "" : ": " + reason);
@@ -114,10 +119,11 @@ Service::Json Service::on_move_jp(const ClientInfo& client, const Json& request)
   const double rate_deg_s = number_field_or(request, "rate_deg_s", 0.01, most_deg_s, most_deg_s);
   ThetaVector goal_rad{};
   for (std::size_t i = 0; i < count; ++i) {
-    const double limit_deg = table.segment[i / 2].theta_limit_rad / kDegree;
-    if (std::fabs(goal_deg[i]) > limit_deg) {
-      throw RequestError("out_of_range", "goal_deg[" + std::to_string(i) + "] = " + std::to_string(goal_deg[i]) + ": allowed -" +
-                                             std::to_string(limit_deg) + " to " + std::to_string(limit_deg));
+    const double most_deg = limit_deg(table, i);
+    if (std::fabs(goal_deg[i]) > most_deg) {
+      const auto number = [](double value) { return Json(value).dump(); };
+      throw RequestError("out_of_range", "goal_deg, theta " + std::to_string(i + 1) + ": " + number(goal_deg[i]) + ": allowed -" +
+                                             number(most_deg) + " to " + number(most_deg) + " deg: choose another goal");
     }
     goal_rad[i] = goal_deg[i] * kDegree;
   }
@@ -144,13 +150,12 @@ Service::Json Service::on_hold_theta(const ClientInfo& client, const Json& reque
   const RobotTable& table = config_.robot.table;
   std::uint32_t mask = 0;
   ThetaVector held_rad{};
-  for (const Json& entry : array_field(request, "held", kMaxTheta)) {
+  read_entries(request, "held", kMaxTheta, [&](std::size_t, const Json& entry) {
     only_fields(entry, {"theta", "target_deg"});
     const auto i = static_cast<std::size_t>(integer_field(entry, "theta", 1, table.theta_count())) - 1;
-    const double limit_deg = table.segment[i / 2].theta_limit_rad / kDegree;
-    held_rad[i] = number_field(entry, "target_deg", -limit_deg, limit_deg) * kDegree;
+    held_rad[i] = number_field(entry, "target_deg", -limit_deg(table, i), limit_deg(table, i)) * kDegree;
     mask |= 1u << i;
-  }
+  });
   arbiter_.hold_theta(now(), mask, held_rad);
   return Json::object();
 }
@@ -158,22 +163,21 @@ Service::Json Service::on_hold_theta(const ClientInfo& client, const Json& reque
 Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   NodeTargets nodes{};
-  std::size_t used = 0;
-  for (const Json& entry : array_field(request, "nodes", nodes.size())) {
+  read_entries(request, "nodes", nodes.size(), [&](std::size_t i, const Json& entry) {
     only_fields(entry, {"node", "position_m", "weight", "threshold_m"});
     const auto node = static_cast<std::int32_t>(integer_field(entry, "node", 1, config_.robot.table.segment_count - 1));
-    nodes[used++] = {node, point_field(entry, "position_m", reach_m_),
-                     number_field_or(entry, "weight", 0.0, 1000.0, default_node_weight(config_.robot.table, node)),
-                     number_field_or(entry, "threshold_m", 0.0, reach_m_, kNodeThreshold_m)};
-  }
+    nodes[i] = {node, point_field(entry, "position_m", reach_m_),
+                number_field_or(entry, "weight", 0.0, 1000.0, default_node_weight(config_.robot.table, node)),
+                number_field_or(entry, "threshold_m", 0.0, reach_m_, kNodeThreshold_m)};
+  });
   KeepClearTargets clear{};
-  used = 0;
-  for (const Json& entry : array_field(request, "keep_clear", clear.size())) {
+  read_entries(request, "keep_clear", clear.size(), [&](std::size_t i, const Json& entry) {
     only_fields(entry, {"centre_m", "distance_m", "weight"});
-    clear[used++] = {point_field(entry, "centre_m", reach_m_), number_field(entry, "distance_m", 0.0, reach_m_),
-                     number_field_or(entry, "weight", 0.0, 1000.0, 1.0)};
-  }
+    clear[i] = {point_field(entry, "centre_m", reach_m_), number_field(entry, "distance_m", 0.0, reach_m_),
+                number_field_or(entry, "weight", 0.0, 1000.0, 1.0)};
+  });
   arbiter_.shape(now(), nodes, clear, request.contains("search") && flag_field(request, "search"));
+  shape_progress_.restart();
   return Json::object();
 }
 
@@ -258,7 +262,7 @@ Service::Json Service::on_camera(const ClientInfo& client, const Json& request) 
   CameraFrame frame{0, request.dump()};
   if (config_.time_mode != TimeMode::kReal) {
     // Sent in the slot after capture plus latency, it is certainly here two slots later; one more for rounding.
-    const double ready_s = capture_s + config_.scene.camera.latency_s;
+    const double ready_s = capture_s + config_.scene.camera.value_or(SceneCamera{}).latency_s;
     frame.due_tick = static_cast<std::uint64_t>(std::ceil(ready_s / config_.robot.table.tick_s - 1e-6)) + 3;
   }
   if (camera_.size() >= 64) throw RequestError("busy", "64 camera frames are waiting: their time stamps lie in the future");

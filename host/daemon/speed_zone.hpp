@@ -12,7 +12,7 @@ namespace liana {
 class SpeedZone {
  public:
   SpeedZone() = default;  // nowhere
-  SpeedZone(const SceneSlit& slit, double speed_m_s) : slit_(slit), speed_m_s_(speed_m_s) {}
+  SpeedZone(const std::optional<SceneSlit>& slit, double speed_m_s) : slit_(slit), speed_m_s_(speed_m_s) {}
 
   // Highest tip speed allowed at a point in the base frame [m/s]; `otherwise` outside the slit.
   double limit_at(const Vec3& tip_m, double otherwise) const {

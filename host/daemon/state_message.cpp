@@ -177,6 +177,7 @@ json state_message(const RobotTable& table, const BusesConfig& buses, const Cycl
              {"events", notes.events},
              {"stop", notes.stop},
              {"stopping", notes.stopping},
+             {"shape", {{"missing_m", notes.shape.missing_m}, {"settled", notes.shape.settled}, {"searching", notes.shape.searching}}},
              {"planar_segments", notes.planar_segments}};
   add_arm(state, table, report);
   add_boot_faults(state, notes.boot_problems);

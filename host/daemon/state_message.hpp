@@ -23,6 +23,13 @@ struct LastVerdict {
   ThetaVector twin_theta_rad{};  // predicted at the end of the candidate's interval
 };
 
+// Of what the shape was asked for last (shape_progress.hpp).
+struct ShapeNotes {
+  double missing_m = 0.0;
+  bool settled = true;
+  bool searching = false;
+};
+
 // What the service adds to the arm's own report.
 struct Notes {
   static constexpr std::size_t kKeptEvents = 10;
@@ -34,6 +41,7 @@ struct Notes {
   std::vector<BootProblem> boot_problems;  // faults of drives that did not boot
   nlohmann::json stop = nullptr;           // the emergency stop in force: by, reason (may be empty), tick
   bool stopping = false;
+  ShapeNotes shape{};
   std::int32_t planar_segments = 0;  // how many the slit asks for now (motion/dof_split.hpp)
 };
 

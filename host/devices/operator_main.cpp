@@ -27,7 +27,11 @@ struct OperatorOptions {
 
 Pose pose_of(const ScenePose& pose) { return {pose.position_m, pose.quaternion_wxyz}; }
 
-SlitDrawing drawing_of(const SceneConfig& scene) { return slit_drawing(pose_of(scene.slit.frame), pose_of(scene.rod.pose)); }
+// Without a slit or a rod there is nothing to steer into by hand: the camera never shows it, and the person waits.
+SlitDrawing drawing_of(const SceneConfig& scene) {
+  if (!scene.slit || !scene.rod) return {};
+  return slit_drawing(pose_of(scene.slit->frame), pose_of(scene.rod->pose));
+}
 
 json greet(ApiClient& client, const OperatorOptions& options) {
   client.send(

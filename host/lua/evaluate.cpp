@@ -5,6 +5,7 @@
 
 #include "host/config/canonical.hpp"
 #include "host/config/config.hpp"
+#include "host/config/field.hpp"
 #include "host/lua/json_bridge.hpp"
 
 namespace liana {
@@ -44,12 +45,30 @@ nlohmann::json describe(Script& script, const std::string& display) {
   return description;
 }
 
+// Leaves the mission of a script on the stack, or of a plan that `liana plan --out` has written.
+void push_mission(Script& script, const ScriptFile& file) {
+  if (!file.display.ends_with(".json")) return script.run(file);
+  const nlohmann::json plan = parse_json(file.text, file.display);
+  script.require("liana.plan_mission");
+  push_in_protection(script, plan);
+  script.call(1, 1);
+}
+
+// A plan is a way of the robot that it was made for, and of no other.
+void check_robot_of_plan(const ScriptFile& file, const nlohmann::json& robot) {
+  if (!file.display.ends_with(".json")) return;
+  const nlohmann::json plan = parse_json(file.text, file.display);
+  if (plan.value("/inputs/robot"_json_pointer, nlohmann::json()) == robot) return;
+  throw std::runtime_error("inputs.robot: another robot than " + robot.value("name", "") +
+                           ", or other tables of it: allowed the same: " + "name the robot with --robot, or plan again");
+}
+
 }  // namespace
 
 void load_mission(Script& script, const std::string& lua_dir, const std::string& name) {
   const ScriptFile file = find_script(lua_dir, "mission", name);
   naming_file(file.display, [&] {
-    script.run(file);
+    push_mission(script, file);
     describe(script, file.display);
   });
 }
@@ -68,8 +87,10 @@ std::string evaluate_mission(Script& script, const std::string& lua_dir, const s
   const ScriptFile file = find_script(lua_dir, "mission", name);
   nlohmann::json result;
   naming_file(file.display, [&] {
-    script.run(file);
-    check_against_robot(script, nlohmann::json::parse(robot_json));
+    const nlohmann::json robot = nlohmann::json::parse(robot_json);
+    push_mission(script, file);
+    check_robot_of_plan(file, robot);
+    check_against_robot(script, robot);
     result = describe(script, file.display);
   });
   return canonical_json(result);

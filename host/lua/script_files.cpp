@@ -44,7 +44,8 @@ ScriptFile find_script(const std::string& lua_dir, const std::string& kind, cons
   const auto folder = kFolders.find(kind);
   if (folder == kFolders.end())
     throw std::runtime_error("kind: " + kind + ": allowed robot, scene, buses, mission: use one of these words");
-  if (name.find('/') != std::string::npos || name.ends_with(".lua")) return read_script(name, name);
+  const bool is_file = name.find('/') != std::string::npos || name.ends_with(".lua") || (kind == "mission" && name.ends_with(".json"));
+  if (is_file) return read_script(name, name);
   const fs::path path = fs::path(lua_dir) / folder->second / (name + ".lua");
   if (!fs::exists(path)) {
     throw std::runtime_error(kind + ": " + name + ": allowed " + names_in(path.parent_path()) + ": give one of these names or a file");

@@ -211,7 +211,8 @@ FollowPath follow_path(const Room& room, const PlanRequest& request, const Curve
 }
 
 FollowCurve slit_curve(const Room& room, const ThetaVector& from_rad, const ThetaVector& goal_rad) {
-  const SceneSlit& slit = room.scene().slit;
+  if (!room.scene().slit) return {{}, text("the scene '%s' has no slit", room.scene().name.c_str())};
+  const SceneSlit& slit = *room.scene().slit;
   const auto depth_m = [&](const Vec3& p) { return dot(slit.u_axis, p) - slit.mouth_u_m; };
   const LinkPoints line = link_points(room.table(), goal_rad);
   Index first = Index(line.count) - 1;

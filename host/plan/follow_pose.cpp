@@ -115,7 +115,8 @@ Quadratic model(const Room& room, const FollowTrack& track, const FollowAim& aim
       std::array<Vec3, kMaxTheta> turning{};
       for (Index k = 0; k < n; ++k) turning[k] = scale(subtract(tip.by_theta[k], here.by_theta[k]), 1.0 / length_m);
       const Vec3 link = scale(subtract(tip.position_m, here.position_m), 1.0 / length_m);
-      q.add(turning, subtract(link, place.tangent), {}, aim.body * kDirection_m2 * std::min(1.0, aim.along_m / kRamp_m));
+      const double facing = std::max(0.0, dot(link, place.tangent));  // a tip that would have to turn round goes sideways or backwards
+      q.add(turning, subtract(link, place.tangent), {}, aim.body * kDirection_m2 * facing * std::min(1.0, aim.along_m / kRamp_m));
     }
     if (aim.body == 0.0) break;
     const CurvePlace on = body_place(track, aim.along_m, behind_m, here.position_m);

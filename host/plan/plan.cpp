@@ -49,9 +49,7 @@ void validate(const PlanRequest& request) {
 
 // Where the arm is nearest, as one clause.
 std::string nearest_text(const Room& room, double clearance_m, std::int32_t link, std::int32_t obstacle) {
-  const char* name = obstacle_name(room.scene(), obstacle).c_str();
-  if (clearance_m < 0.0) return text("link %d is %.1f mm inside '%s'", static_cast<int>(link) + 1, -1000.0 * clearance_m, name);
-  return text("link %d is %.1f mm from '%s'", static_cast<int>(link) + 1, 1000.0 * clearance_m, name);
+  return text("link %d ", static_cast<int>(link) + 1) + distance_text(clearance_m, "'" + obstacle_name(room.scene(), obstacle) + "'");
 }
 
 class Planner {
@@ -95,6 +93,13 @@ class Planner {
       return fail(PlanOutcome::infeasible, which,
                   text("at the %s %s; the margin is %.1f mm", which,
                        nearest_text(room_, here.nearest.distance_m, here.link, here.obstacle).c_str(), 1000.0 * request_.margin_m));
+    }
+    const SelfClearance self = self_clearance(request_.robot, theta);
+    if (self.clearance_m < request_.margin_m) {
+      return fail(PlanOutcome::infeasible, "self",
+                  text("at the %s link %d %s; the margin is %.1f mm", which, static_cast<int>(self.link[1]),
+                       distance_text(self.clearance_m, text("link %d of the arm itself", static_cast<int>(self.link[0]))).c_str(),
+                       1000.0 * request_.margin_m));
     }
     const double excess_N = PlannedTension(room_.table()).excess_N(theta);
     if (excess_N <= 0.0) return true;

@@ -84,8 +84,9 @@ struct PlanResult {
   std::int32_t rounds = 0;      // solves of Ipopt
   bool settled = false;         // the last solve gained less than 1 % of the objective: a local optimum, not only a valid path
   std::string start;            // which start path led here; follow when following
-  std::string constraint;  // what stands in the way when not solved: start, goal, tip, step, clearance, cable, tension, limits, path, curve
-  std::string reason;      // the same as one sentence with body, link and amount
+  std::string
+      constraint;  // what stands in the way when not solved: start, goal, tip, step, clearance, self, cable, tension, limits, path, curve
+  std::string reason;                   // the same as one sentence with body, link and amount
   std::optional<FollowFigures> follow;  // how well the body followed, when it did
   std::optional<PlanCheck> checked;     // of the path found, also when the check refused it; empty when no path was found
 };

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "firmware_like/arm/tension.hpp"
+#include "host/plan/path_search.hpp"
 
 namespace liana {
 namespace {
@@ -156,71 +157,21 @@ Nearest nearest_at(const RobotConfig& robot, const SceneConfig& scene, const The
   return nearest;
 }
 
-// No point of the arm moves more than this while the thetas change by `b - a`: every joint of a segment turns by the change, with at most
-// the length of the arm from the segment's root as lever.
-double largest_motion_m(const RobotTable& table, const ThetaVector& a, const ThetaVector& b) {
-  double lever_m = 0.0, motion_m = 0.0;
-  for (Index m = static_cast<Index>(table.segment_count); m-- > 0;) {
-    lever_m += table.segment[m].modules * table.segment[m].module_length_m;
-    const double turn = std::fabs(b[2 * m] - a[2 * m]) + std::fabs(b[2 * m + 1] - a[2 * m + 1]);
-    motion_m += table.segment[m].modules * turn * lever_m;
-  }
-  return motion_m;
-}
-
-// A piece of the path with the clearances of its ends.
-struct Piece {
-  ThetaVector from, to;
-  double from_m, to_m;
-};
-
-class ClearanceSearch {
- public:
-  ClearanceSearch(const RobotConfig& robot, const SceneConfig& scene) : robot_(robot), scene_(scene) {}
-
-  Nearest nearest;
-  std::int64_t poses = 0;
-
-  double look(const ThetaVector& theta_rad) {
-    ++poses;
-    const Nearest here = nearest_at(robot_, scene_, theta_rad);
-    if (here.clearance_m < nearest.clearance_m) nearest = here;
-    return here.clearance_m;
-  }
-
-  // Halves the piece until nothing below nearest - kUnseen_m can be hidden in it. From an end with clearance c the arm has to move c - d to
-  // come as near as d, so within a piece d >= (sum of both clearances - motion) / 2.
-  void search(const Piece& whole) {
-    std::vector<Piece> open{whole};
-    while (!open.empty()) {
-      const Piece piece = open.back();
-      open.pop_back();
-      const double motion_m = largest_motion_m(robot_.table, piece.from, piece.to);
-      if ((piece.from_m + piece.to_m - motion_m) / 2.0 >= nearest.clearance_m - kUnseen_m) continue;
-      ThetaVector middle{};
-      for (Index k = 0; k < middle.size(); ++k) middle[k] = 0.5 * (piece.from[k] + piece.to[k]);
-      const double middle_m = look(middle);
-      open.push_back({middle, piece.to, middle_m, piece.to_m});
-      open.push_back({piece.from, middle, piece.from_m, middle_m});
-    }
-  }
-
- private:
-  const RobotConfig& robot_;
-  const SceneConfig& scene_;
-};
-
 void check_clearance(const RobotConfig& robot, const SceneConfig& scene, const std::vector<ThetaVector>& path, PlanCheck& out) {
   out.min_clearance_m = kNothingNear_m;
   if (scene.spheres.empty() && scene.boxes.empty()) return;
-  ClearanceSearch search(robot, scene);
-  std::vector<double> at_waypoint_m;
-  for (const ThetaVector& theta : path) at_waypoint_m.push_back(search.look(theta));
-  for (Index w = 0; w + 1 < path.size(); ++w) search.search({path[w], path[w + 1], at_waypoint_m[w], at_waypoint_m[w + 1]});
-  out.min_clearance_m = search.nearest.clearance_m;
-  out.nearest = search.nearest.obstacle;
-  out.nearest_link = search.nearest.link;
-  out.poses = search.poses;
+  Nearest nearest;
+  const auto look = [&](const ThetaVector& theta_rad) {
+    const Nearest here = nearest_at(robot, scene, theta_rad);
+    if (here.clearance_m < nearest.clearance_m) nearest = here;
+    return here.clearance_m;
+  };
+  PathSearch search(robot.table, look, 1.0, kNothingNear_m);
+  search.along(path);
+  out.min_clearance_m = nearest.clearance_m;
+  out.nearest = nearest.obstacle;
+  out.nearest_link = nearest.link;
+  out.poses = search.poses();
 }
 
 void check_angles(const RobotTable& table, const std::vector<ThetaVector>& path, PlanCheck& out) {
@@ -282,6 +233,7 @@ PlanCheck check_plan(const RobotConfig& robot, const SceneConfig& scene, const s
                      const CheckedTip& goal) {
   PlanCheck out;
   check_clearance(robot, scene, waypoints_rad, out);
+  out.self = self_clearance_along(robot, waypoints_rad);
   check_angles(robot.table, waypoints_rad, out);
   check_cables(robot.table, waypoints_rad, out);
   check_tension(robot.table, waypoints_rad, out);

@@ -3,7 +3,7 @@
 // Shares no code with the planner, its derivatives or the core (but for the tension plan, about which the core is asked): the arm is the
 // product of its 80 joint rotations one by one, link distances come from a search along the link, cable lengths from hole to hole. Between
 // waypoints the path is halved until the arm cannot have come nearer unseen: no point of it moves more than kUnseen_m between two poses
-// looked at where it matters.
+// looked at where it matters (path_search.hpp).
 #pragma once
 
 #include <array>
@@ -13,15 +13,15 @@
 #include <vector>
 
 #include "host/config/config.hpp"
+#include "host/plan/self_check.hpp"
 
 namespace liana {
-
-constexpr double kUnseen_m = 0.0002;  // what the least clearance reported may be above the true one
 
 struct PlanCheck {
   double min_clearance_m = 0.0;   // over the whole path, every link and obstacle; without obstacles kNothingNear_m
   std::string nearest;            // obstacle where it is, empty without
   std::int32_t nearest_link = 0;  // from 1
+  SelfClearance self{};           // of the arm from itself, over the whole path
   double max_joint_deg = 0.0;     // largest |theta|
   double over_limit_deg = 0.0;    // largest excess of a theta over its own limit, 0 when within
   double max_step_deg = 0.0;      // largest change of a theta between waypoints

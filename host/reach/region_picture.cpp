@@ -42,7 +42,7 @@ Space shown_space(const RobotConfig& robot, const SceneConfig* scene, const Regi
     const Vec3 radius{sphere.radius_m, sphere.radius_m, sphere.radius_m};
     include(space, subtract(sphere.center_m, radius), add(sphere.center_m, radius));
   }
-  include(space, scene->rod.pose.position_m, scene->rod.pose.position_m);
+  if (scene->rod) include(space, scene->rod->pose.position_m, scene->rod->pose.position_m);
   return space;
 }
 
@@ -169,10 +169,10 @@ void describe_objects(Legend& legend, const SceneConfig* scene, const std::strin
   for (std::size_t i = 0; i < scene->boxes.size(); ++i) {
     const std::string_view colour = kBoxColours[std::min(i, kBoxColours.size() - 1)];
     legend.swatch({.fill = colour, .stroke = colour, .opacity = 0.5},
-                  scene->boxes[i].name + (i == 0 ? " (the slit is between the plates)" : ""));
+                  scene->boxes[i].name + (i == 0 && scene->slit ? " (the slit is between the plates)" : ""));
   }
   for (const SceneSphere& sphere : scene->spheres) legend.dot({.fill = kSphereColour, .opacity = 0.55}, 7.0, sphere.name);
-  legend.dot({.stroke = kRodColour, .width = 2.0}, 7.0, "press rod, inside the ring");
+  if (scene->rod) legend.dot({.stroke = kRodColour, .width = 2.0}, 7.0, "press rod, inside the ring");
 }
 
 void describe_region(Legend& legend, const RobotTable& table, const RegionRequest& request, const Region& region) {

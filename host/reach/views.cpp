@@ -134,8 +134,9 @@ void draw_scene(Svg& svg, const View& view, const SceneConfig& scene) {
   for (const SceneSphere& sphere : scene.spheres) {
     svg.circle(view.at(sphere.center_m), sphere.radius_m * pixels_per_m(view), {.fill = kSphereColour, .opacity = 0.55});
   }
-  const Pixel rod = view.at(scene.rod.pose.position_m);
-  svg.circle(rod, scene.rod.radius_m * pixels_per_m(view), {.fill = kRodColour});
+  if (!scene.rod) return;
+  const Pixel rod = view.at(scene.rod->pose.position_m);
+  svg.circle(rod, scene.rod->radius_m * pixels_per_m(view), {.fill = kRodColour});
   svg.circle(rod, kRing_px, {.stroke = kRodColour, .width = 2.0});
 }
 

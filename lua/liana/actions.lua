@@ -1,6 +1,6 @@
 -- Actions for `run` of a step and `finish` of a mission: functions of arm.
 local need = require "liana.need"
-local poses = require "liana.poses"
+local uses = require "liana.uses"
 
 local actions = {}
 
@@ -8,7 +8,9 @@ local actions = {}
 function actions.move_to(name, rate_deg_s)
   need("move_to", "name", name, "string")
   if rate_deg_s ~= nil then need("move_to", "rate_deg_s", rate_deg_s, "number") end
-  return poses.noted(function(arm) arm.move_jp { goal_deg = arm.named_pose(name), rate_deg_s = rate_deg_s } end, name)
+  local fields = { rate_deg_s = rate_deg_s }
+  return uses.noted(function(arm) arm.move_jp { goal_deg = arm.named_pose(name), rate_deg_s = rate_deg_s } end,
+    { action = "move_to", pose = name, command = "move_jp", fields = fields })
 end
 
 -- Steers nodes by null-space targets { { node = 3, position_m = {x, y, z}, weight = 1, threshold_m = 0.01 }, ... } and pushes
@@ -17,7 +19,9 @@ end
 function actions.shape(nodes, keep_clear, search)
   need("shape", "nodes", nodes, "table")
   if keep_clear ~= nil then need("shape", "keep_clear", keep_clear, "table") end
-  return function(arm) arm.shape { nodes = nodes, keep_clear = keep_clear, search = search } end
+  if search ~= nil then need("shape", "search", search, "boolean") end
+  local fields = { nodes = nodes, keep_clear = keep_clear, search = search }
+  return uses.noted(function(arm) arm.shape(fields) end, { action = "shape", command = "shape", fields = fields })
 end
 
 -- A command to the tool at the tip.

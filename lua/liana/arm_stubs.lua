@@ -19,6 +19,11 @@ local arm = {}
 ---@return number[]
 function arm.named_pose(name) end
 
+---The scene's slit or rod; raises when it has none.
+---@param name string
+---@return table
+function arm.part_of_scene(name) end
+
 ---Measured tip position in the base frame [m].
 ---@return number[]
 function arm.tip() end

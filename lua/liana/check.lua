@@ -1,5 +1,6 @@
 -- Checks a mission's structure before anything moves; every refusal says step, field, value, what is allowed and what to do.
-local poses = require "liana.poses"
+local check_command = require "liana.check_command"
+local uses = require "liana.uses"
 
 local check = {}
 
@@ -138,6 +139,12 @@ local function has_poses(where, field, names, robot)
   end
 end
 
+local function action_suits(where, field, action, robot)
+  local use = uses.of(action)
+  has_poses(where, field, { use.pose }, robot)
+  check_command(where .. ": " .. field, use, robot)
+end
+
 local function step_suits(where, step, robot)
   local of_robot = " (robot " .. robot.name .. ")"
   for theta, target_deg in pairs(step.hold) do
@@ -153,7 +160,7 @@ local function step_suits(where, step, robot)
     refuse(where, "steer.speed_m_s", speed_m_s, "up to " .. robot.limits.tip_speed_m_s .. of_robot, "correct the step")
   end
   has_poses(where, "enter", step.enter.poses or {}, robot)
-  has_poses(where, "run", poses.of(step.run), robot)
+  action_suits(where, "run", step.run, robot)
   has_poses(where, "exit", step.exit.poses or {}, robot)
 end
 
@@ -162,7 +169,7 @@ function check.against(mission, robot)
   require_mission(mission)
   local where = "mission " .. mission.name
   for i, step in ipairs(mission.steps) do step_suits(where .. ": step " .. i .. " \"" .. step.name .. "\"", step, robot) end
-  has_poses(where, "finish", poses.of(mission.finish), robot)
+  action_suits(where, "finish", mission.finish, robot)
 end
 
 local function sorted_held(hold)

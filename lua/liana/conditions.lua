@@ -94,7 +94,7 @@ end
 function conditions.tip_near_rod(distance_m)
   need("tip_near_rod", "distance_m", distance_m, "number")
   return condition(("tip within %g m of the rod"):format(distance_m), function(arm)
-    return geometry.distance(arm.tip(), arm.scene.rod.position_m) <= distance_m
+    return geometry.distance(arm.tip(), arm.part_of_scene("rod").position_m) <= distance_m
   end)
 end
 
@@ -121,6 +121,17 @@ end
 -- The variables this step holds are held and at their targets.
 function conditions.held()
   return condition("held variables at their targets", function(arm) return arm.holds_what_it_should() and arm.state.held_at_target end)
+end
+
+-- The shape asked for by `shape` has arrived: nothing of it is missing, or it has come no nearer for 4 s. At most missing_m [m] may be
+-- missing (any where not given).
+function conditions.shape_settled(missing_m)
+  if missing_m ~= nil then need("shape_settled", "missing_m", missing_m, "number") end
+  local text = missing_m and ("shape settled with at most %g m missing"):format(missing_m) or "shape settled"
+  return condition(text, function(arm)
+    local shape = arm.state.shape
+    return shape.settled and (missing_m == nil or shape.missing_m <= missing_m)
+  end)
 end
 
 -- The operator engaged the device in this step and has let go of it.

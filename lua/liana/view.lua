@@ -18,6 +18,11 @@ function view.new(commands, welcome)
     return arm.robot.named_poses_deg[name] or error("the robot " .. arm.robot.name .. " has no pose named " .. tostring(name), 0)
   end
 
+  -- The scene's "slit" or "rod"; raises when it has none.
+  function arm.part_of_scene(name)
+    return arm.scene[name] or error(("the scene %s has no %s"):format(arm.scene.name, name), 0)
+  end
+
   -- Measured tip position {x, y, z} in the base frame [m].
   function arm.tip()
     local pose = arm.state.measured_cp
@@ -25,10 +30,10 @@ function view.new(commands, welcome)
   end
 
   -- How far the tip is along the slit, measured from the base [m].
-  function arm.slit_u() return geometry.dot(arm.tip(), arm.scene.slit.u_axis) end
+  function arm.slit_u() return geometry.dot(arm.tip(), arm.part_of_scene("slit").u_axis) end
 
   -- Signed distance of the tip from the slit's middle plane [m].
-  function arm.slit_offset() return geometry.dot(arm.tip(), arm.scene.slit.normal) - arm.scene.slit.offset_m end
+  function arm.slit_offset() return geometry.dot(arm.tip(), arm.part_of_scene("slit").normal) - arm.scene.slit.offset_m end
 
   -- True when exactly the variables of this step are held.
   function arm.holds_what_it_should()

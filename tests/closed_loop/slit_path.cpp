@@ -17,12 +17,12 @@ constexpr std::uint32_t kHoldX4X5 = kHoldX5 | 1u << kX4;
 
 // In the slit plane, `u_m` along the arm's way and `w_m` across it, in the attitude of the rod.
 Pose in_slit(double u_m, double w_m) {
-  const SceneSlit& slit = scene().slit;
+  const SceneSlit& slit = *scene().slit;
   const Vec3 position = add(add(scale(slit.u_axis, u_m), scale(slit.w_axis, w_m)), scale(slit.normal, slit.offset_m));
-  return {position, scene().rod.pose.quaternion_wxyz};
+  return {position, scene().rod->pose.quaternion_wxyz};
 }
 
-Pose rod() { return {scene().rod.pose.position_m, scene().rod.pose.quaternion_wxyz}; }
+Pose rod() { return {scene().rod->pose.position_m, scene().rod->pose.quaternion_wxyz}; }
 
 void look(ArmUnderControl& arm, std::uint32_t at_zero, SlitRecord& record) {
   Plant& plant = arm.plant();
@@ -31,8 +31,8 @@ void look(ArmUnderControl& arm, std::uint32_t at_zero, SlitRecord& record) {
     record.slit_clearance_m = std::min(record.slit_clearance_m, plant.slit_clearance_m());
     record.sphere_clearance_m = std::min(record.sphere_clearance_m, plant.sphere_clearance_m());
   }
-  const double tip_u_m = dot(scene().slit.u_axis, plant.tip_in_base().position_m);
-  if ((at_zero & kHoldX5) != 0 && tip_u_m > scene().slit.mouth_u_m)
+  const double tip_u_m = dot(scene().slit->u_axis, plant.tip_in_base().position_m);
+  if ((at_zero & kHoldX5) != 0 && tip_u_m > scene().slit->mouth_u_m)
     record.x5_deg = std::max(record.x5_deg, std::fabs(plant.theta_rad()[kX5]) / kDegree);
   if ((at_zero & 1u << kX4) != 0) record.x4_deg = std::max(record.x4_deg, std::fabs(plant.theta_rad()[kX4]) / kDegree);
 }

@@ -209,6 +209,7 @@ json FakeLianad::state() const {
           {"refusals", refused_motion ? 1 : 0},
           {"verdict", {{"text", "joint rate 1.2 of the limit"}}},
           {"planar_segments", planar_segments()},
+          {"shape", {{"missing_m", 0.02}, {"settled", busy_intervals_ == 0}, {"searching", false}}},
           {"operator_says", said_}};
 }
 

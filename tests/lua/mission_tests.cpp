@@ -306,6 +306,34 @@ TEST(Mission, ABadMissionFileNeverReachesLianad) {
 }
 
 // The mission reads like the experiment: steps 2 and 3 change places by moving text, and what step 2 makes planar stays so.
+TEST(Mission, AShapeThatHasSettledEndsItsStepUnlessTooMuchIsMissing) {
+  const TemporaryFolder folder;
+  const std::string shape = "run = liana.shape { { node = 3, position_m = { 1, 0, 0 } } }, exit = liana.shape_settled";
+  EXPECT_EQ(run_mission_against({}, one_step(folder, shape + "(),")).report["outcome"], "success");
+  EXPECT_EQ(run_mission_against({}, one_step(folder, shape + "(0.02),")).report["outcome"], "success");
+  const MissionRun run = run_mission_against({}, one_step(folder, shape + "(0.01),"));
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_NE(run.ended.error.find("not met: shape settled with at most 0.01 m missing"), std::string::npos) << run.ended.error;
+}
+
+TEST(Mission, APlanIsCarriedOutWaypointByWaypoint) {
+  const TemporaryFolder folder;
+  const std::string start = "[-8.5,0,-12,0,8,-2,13,0,12,-2]", next = "[-7.5,0,-12,0,8,-2,13,0,12,-1]", far = "[0,0,0,0,0,0,0,0,0,0]";
+  const auto plan = [&](const std::string& waypoints) {
+    return folder.write("plan.json", R"({"outcome":"solved","waypoints_deg":[)" + waypoints + "]}");
+  };
+  const MissionRun run = run_mission_against({}, plan(start + "," + next));
+  EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
+  const auto moves = run.ops("move_jp");
+  ASSERT_EQ(moves.size(), 2u);
+  EXPECT_EQ(json::parse(moves[1])["goal_deg"], json::parse(next));
+  const MissionRun elsewhere = run_mission_against({}, plan(far + "," + start));
+  EXPECT_EQ(elsewhere.report["outcome"], "failed");
+  EXPECT_TRUE(elsewhere.ops("move_jp").empty());
+  EXPECT_NE(elsewhere.ended.error.find("cannot enter, not met: arm within 1 deg of the plan's start"), std::string::npos)
+      << elsewhere.ended.error;
+}
+
 TEST(Mission, StepsRunInTheOrderInWhichTheyAreWritten) {
   const TemporaryFolder folder;
   std::string text = read_file(LIANA_SOURCE_DIR "/lua/missions/slit_crossing.lua");

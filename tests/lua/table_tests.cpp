@@ -124,6 +124,20 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "exit: pose x: allowed panel_edge, prepare"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }, finish = liana.move_to 'home'",
        "finish: pose home: allowed panel_edge, prepare"},
+      {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 1, 0, 0 } }, { node = 5, position_m = { 1, 0, 0 } } }, "
+       "exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "step 1 \"a\": run: shape: nodes: entry 2: node: 5: allowed 1 to 4 (the tip, 5, has its own goal)"},
+      {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 9, 0, 0 } } }, exit = at_rest(), time_limit_s = 1, "
+       "on_fail = 'hold' }",
+       "nodes: entry 1: position_m[1]: 9: allowed -4 to 4 m"},
+      {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 1, 0, 0 }, wieght = 2 } }, exit = at_rest(), "
+       "time_limit_s = 1, on_fail = 'hold' }",
+       "nodes: entry 1: wieght: 2: allowed only node, position_m, weight, threshold_m"},
+      {"step 'a' { device = 'none', run = liana.shape({}, { { centre_m = { 1, 0, 0 } } }), exit = at_rest(), time_limit_s = 1, "
+       "on_fail = 'hold' }",
+       "keep_clear: entry 1: distance_m: nil: allowed 0 to 4 m"},
+      {"step 'a' { device = 'none', run = liana.move_to('prepare', 3), exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "run: move_to: rate_deg_s: 3: allowed 0.01 to 2 deg/s"},
       {"finish = 3", "finish: 3: allowed an action"}};
   const TemporaryFolder folder;
   for (const BadMission& mission : missions) {
@@ -135,6 +149,28 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
     EXPECT_NE(ended.error.find(mission.message), std::string::npos) << mission.steps << " -> " << ended.error;
     EXPECT_NE(ended.error.find("given.lua:"), std::string::npos) << ended.error;
   }
+}
+
+TEST(Eval, APlanIsAMissionWithAStepForEachWaypoint) {
+  const TemporaryFolder folder;
+  const std::string zero = "[0,0,0,0,0,0,0,0,0,0]";
+  const std::string robot = run_program("eval robot zhu2022").out;
+  const auto plan = [&](const std::string& outcome, const std::string& waypoints, const std::string& of) {
+    return "eval mission " + folder.write("plan.json", R"({"outcome":")" + outcome + R"(","waypoints_deg":[)" + waypoints +
+                                                           R"(],"inputs":{"robot":)" + of + "}}");
+  };
+  const Ended good = run_program(plan("solved", zero + ",[1,0,0,0,0,0,0,0,0,0]", robot));
+  ASSERT_EQ(good.code, 0) << good.error;
+  const auto mission = nlohmann::json::parse(good.out);
+  ASSERT_EQ(mission["steps"].size(), 2u);
+  EXPECT_EQ(mission["steps"][0]["enter"], "arm within 1 deg of the plan's start");
+  const Ended unsolved = run_program(plan("limit", zero + "," + zero, robot));
+  EXPECT_EQ(unsolved.code, 2);
+  EXPECT_NE(unsolved.error.find("plan: outcome: limit: allowed solved"), std::string::npos) << unsolved.error;
+  EXPECT_NE(run_program(plan("solved", zero, robot)).error.find("waypoints_deg: 1 waypoints: allowed 2 or more"), std::string::npos);
+  EXPECT_NE(run_program(plan("solved", zero + ",[1]", robot)).error.find("waypoint 2 of 2: goal_deg: angles: 1: allowed 10"),
+            std::string::npos);
+  EXPECT_NE(run_program(plan("solved", zero + "," + zero, "{}")).error.find("inputs.robot: another robot than zhu2022"), std::string::npos);
 }
 
 TEST(Eval, AMissionIsCheckedAgainstTheRobotThatIsNamed) {

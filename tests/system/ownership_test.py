@@ -231,9 +231,10 @@ class StopsFromTheCommandLine(SystemTest):
         self.assertRegex(error, "nothing was cleared|'test' owns motion")  # the arm may still be stopping
         client.until(lambda state: state["state"] == "FAULT")
         self.assertEqual(self.while_running("estop", [client])[0], 0)
-        code, _, error = self.while_running("clear", [client])
-        self.assertEqual(code, 1)
+        code, refused, error = self.while_running("clear", [client])
+        self.assertEqual((code, refused[0]["cleared"], refused[0]["stop"]["by"]), (1, False, "liana estop"))
         self.assertIn("'test' owns motion", error)
+        self.assertIn("'test' owns motion", refused[0]["said"])
         self.assertEqual((client.state["stop"]["by"], len(client.state["faults"])), ("liana estop", 1))
         must(client.ask("release"))
         code, cleared, error = self.while_running("clear", [client])

@@ -49,5 +49,17 @@ TEST(Fields, APoseNeedsAUnitQuaternionWithinReach) {
   EXPECT_EQ(pose("here"), "bad_request");
 }
 
+TEST(Fields, ARefusedEntryOfAListIsNamedWithItsNumberAndTheUnit) {
+  const json object{{"held", {{{"target_deg", 1}}, {{"target_deg", 30}}}}};
+  const auto read = [](std::size_t, const json& entry) { number_field(entry, "target_deg", -20, 20); };
+  try {
+    read_entries(object, "held", 10, read);
+    FAIL() << "accepted";
+  } catch (const RequestError& error) {
+    EXPECT_EQ(error.code(), "out_of_range");
+    EXPECT_STREQ(error.what(), "entry 2 of held: target_deg = 30.0: allowed -20.0 to 20.0 deg");
+  }
+}
+
 }  // namespace
 }  // namespace liana

@@ -65,8 +65,7 @@ class RunReport : public testing::Test {
     sources.mission_report_file = file("mission.json");
     sources.bus_stats_file = file("stats.json");
     sources.states = {{0, {}}, {5, {{0.49, 0.0, 0.0}, {1, 0, 0, 0}}}, {9, {{0.9, 0.0, 0.0}, {1, 0, 0, 0}}}};
-    sources.rod.position_m = {0.5, 0.003, 0.0};
-    sources.rod.quaternion_wxyz = {std::cos(0.001), std::sin(0.001), 0.0, 0.0};
+    sources.rod = {{0.5, 0.003, 0.0}, {std::cos(0.001), std::sin(0.001), 0.0, 0.0}};
     return sources;
   }
 

@@ -8,7 +8,7 @@ import sys
 import tempfile
 import unittest
 
-from programs import ROOT, liana, liana_json, liana_to_full_disk
+from programs import BIN, ROOT, liana, liana_json, liana_to_full_disk
 
 GOLDEN = json.loads((ROOT / "tests/golden/arm.json").read_text())["cases"]
 ZERO = ",".join(["0"] * 10)
@@ -198,7 +198,10 @@ class Dev(unittest.TestCase):
         for words, named in [(["build", "now"], "not now"), (["docs", "x"], "not x"), (["help", "x"], "not x"), (["test", ""], "is empty"),
                              (["test", "hil", "lua"], "hil lua"), (["test", "nosuch"], "tests/nosuch"), (["numbers", "ik", "nosuch"], "nosuch"),
                              (["bench", "--json", "/no/such/file"], "/no/such/file"), (["format", "--check", "x"], "x"),
-                             (["completion", "bash", "x"], "bash x"), (["nosuch"], "nosuch")]:
+                             (["completion", "bash", "x"], "bash x"), (["nosuch"], "nosuch"), (["test", "--jsn"], "--jsn: no such option"),
+                             (["numbers", "--jsn"], "--jsn: no such option"), (["mission", "x"], "mission: x: not known"),
+                             (["mission", "--sed=1"], "--sed: no such option"), (["mission", "--seed"], "--seed: its value"),
+                             (["bits", "--jsn"], "--json FILE")]:
             done = subprocess.run([str(ROOT / "dev"), *words], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), (words, done.stderr))
             self.assertIn(named, done.stderr)
@@ -246,6 +249,39 @@ class Help(unittest.TestCase):
             code, out, error = liana("latency", *words)
             self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
             self.assertIn(said, error)
+
+    def test_completion_knows_the_values_too(self):
+        for words, wanted in [("liana plan --scene pan", "panel_slit"), ("liana plan --scene no", "none"), ("liana pose --robot zh", "zhu2022"),
+                              ("liana run sli", "slit_crossing"), ("liana run --bus vc", "vcan"), ("liana plan --follow sl", "slit"),
+                              ("liana cl", "clear"), ("liana-mission eval sc", "scene"), ("liana-mission eval scene pa", "panel_slit")]:
+            program = words.split()[0]
+            function = "_liana_mission" if program == "liana-mission" else "_liana"
+            script = f"source <({BIN}/liana completion bash); COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); {function}; echo ${{COMPREPLY[@]}}"
+            done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=False, cwd="/")
+            self.assertEqual((done.stdout.strip(), done.stderr), (wanted, ""), words)
+
+    def test_a_word_too_many_is_named_with_its_command(self):
+        for words, command in ((["status", "x"], "liana status"), (["run", "slit_crossing", "x"], "liana run"), (["robot", "export", "a", "x"], "liana robot export")):
+            code, out, error = liana(*words)
+            self.assertEqual((code, out, error), (2, "", f"liana: 'x': {command} takes no such word; leave it out, or see {command} --help\n"), words)
+
+    def test_standard_output_is_no_file_to_write_to(self):
+        for words in (["plan", "--from-deg=0,0,0,0,0,0,0,0,0,0", "--to-deg=1,0,0,0,0,0,0,0,0,0", "--out", "-"], ["robot", "export", "--out=-"], ["reach", "--svg=-"]):
+            code, out, error = liana(*words)
+            self.assertEqual((code, out, error.count("\n")), (2, "", 1), words)
+            self.assertIn("'-': allowed: a file", error)
+
+    def test_a_scene_needs_a_slit_only_where_the_slit_is_used(self):
+        self.assertEqual(liana("plan", "--scene=none", "--from-deg=0,0,0,0,0,0,0,0,0,0", "--to-deg=1,0,0,0,0,0,0,0,0,0")[0], 0)
+        self.assertEqual(liana("reach", "--scene=none", "--samples=1000")[0], 0)
+        code, out, error = liana("pose", "--scene=none", "--theta-deg=0,0,0,0,0,0,0,0,0,0")
+        self.assertEqual((code, out, error), (2, "", "liana: --scene: 'none': has no slit; name a scene with one, or leave it out\n"))
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder) / "own.json"
+            scene.write_text('{"format":1,"kind":"scene","name":"own","boxes":[],"spheres":[]}', encoding="utf-8")
+            code, out, error = liana("run", "slit_crossing", f"--scene={scene}")
+            self.assertEqual((code, out, error.count("\n")), (2, "", 1))
+            self.assertIn("has no camera, which the bench needs", error)
 
     def test_status_without_a_running_system_says_so(self):
         code, _, error = liana("status", "--api", "/tmp/liana-no-such-socket")

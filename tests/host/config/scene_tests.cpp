@@ -12,35 +12,41 @@ double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[
 // A8 of the mission page.
 TEST(Scene, PanelSlitHasThePlaneOfThePressRodPose) {
   const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
-  EXPECT_NEAR(scene.slit.normal[0], 0.0036, 1e-4);
-  EXPECT_NEAR(scene.slit.normal[1], 0.9925, 1e-4);
-  EXPECT_NEAR(scene.slit.normal[2], -0.1219, 1e-4);
-  EXPECT_NEAR(scene.slit.offset_m, -0.78450, 1e-5);
-  EXPECT_NEAR(scene.rod.pose.position_m[0], 3.3922, 1e-4);
-  EXPECT_NEAR(dot(scene.rod.pose.position_m, scene.slit.normal), scene.slit.offset_m, 1e-12);
+  EXPECT_NEAR(scene.slit->normal[0], 0.0036, 1e-4);
+  EXPECT_NEAR(scene.slit->normal[1], 0.9925, 1e-4);
+  EXPECT_NEAR(scene.slit->normal[2], -0.1219, 1e-4);
+  EXPECT_NEAR(scene.slit->offset_m, -0.78450, 1e-5);
+  EXPECT_NEAR(scene.rod->pose.position_m[0], 3.3922, 1e-4);
+  EXPECT_NEAR(dot(scene.rod->pose.position_m, scene.slit->normal), scene.slit->offset_m, 1e-12);
 }
 
 TEST(Scene, PlatesLeaveAGapOf100MillimetresAroundThePlane) {
   const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
   for (const SceneBox& box : scene.boxes) {
-    const double distance_m = std::fabs(dot(box.center_m, scene.slit.normal) - scene.slit.offset_m) - box.half_extent_m[1];
+    const double distance_m = std::fabs(dot(box.center_m, scene.slit->normal) - scene.slit->offset_m) - box.half_extent_m[1];
     EXPECT_NEAR(distance_m, 0.05, 1e-12) << box.name;
-    const double along_m = dot(box.center_m, scene.slit.u_axis);
+    const double along_m = dot(box.center_m, scene.slit->u_axis);
     EXPECT_NEAR(along_m - box.half_extent_m[0], 1.75, 1e-12) << box.name;
     EXPECT_NEAR(along_m + box.half_extent_m[0], 3.70, 1e-12) << box.name;
   }
   EXPECT_EQ(scene.boxes[0].name, "panel");
-  EXPECT_GT(dot(scene.boxes[0].center_m, scene.slit.normal), scene.slit.offset_m);
+  EXPECT_GT(dot(scene.boxes[0].center_m, scene.slit->normal), scene.slit->offset_m);
 }
 
 TEST(Scene, TheSlitLeavesLinkAxesTheGapLessTheArm) {
   const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
-  const SlitMouth mouth = slit_mouth(scene.slit, 0.03);
+  const SlitMouth mouth = slit_mouth(*scene.slit, 0.03);
   EXPECT_NEAR(mouth.half_gap_m, 0.02, 1e-12);
   EXPECT_NEAR(mouth.depth_m, 1.95, 1e-12);
   const Vec3 along = rotate(mouth.frame_in_base.quaternion, {1.0, 0.0, 0.0});
-  EXPECT_NEAR(dot(along, scene.slit.u_axis), 1.0, 1e-9);
-  EXPECT_NEAR(dot(mouth.frame_in_base.position_m, scene.slit.u_axis), scene.slit.mouth_u_m, 1e-9);
+  EXPECT_NEAR(dot(along, scene.slit->u_axis), 1.0, 1e-9);
+  EXPECT_NEAR(dot(mouth.frame_in_base.position_m, scene.slit->u_axis), scene.slit->mouth_u_m, 1e-9);
+}
+
+TEST(Scene, MayBeWithoutAnythingButItsBodies) {
+  const SceneConfig scene = parse_scene(R"({"format":1,"kind":"scene","name":"own","boxes":[],"spheres":[]})", "s");
+  EXPECT_FALSE(scene.slit || scene.rod || scene.camera || scene.contact);
+  EXPECT_TRUE(parse_scene(good_table("scene", "none").dump(), "s").camera) << "what liana run needs";
 }
 
 TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {

@@ -159,6 +159,20 @@ TEST_F(Arbitration, ASearchIsRefusedWhileTheArmMoves) {
   EXPECT_EQ(code_of([&] { arbiter_.shape(now_, {}, {}, true); }), "busy");
 }
 
+TEST_F(Arbitration, ASearchAndAPlannedMoveExcludeEachOther) {
+  NodeTargets nodes{};
+  nodes[0] = {3, {0.7, 0.3, 0.3}, 1.0, 0.0};
+  ThetaVector goal = now_.theta_command_rad;
+  goal[0] += 0.1;
+  arbiter_.move_joints(now_, goal, 0.03);
+  EXPECT_EQ(code_of([&] { arbiter_.shape(now_, nodes, {}, true); }), "busy") << "the move has not begun to show in at_rest";
+  arbiter_.hold();
+  arbiter_.shape(now_, nodes, {}, true);
+  EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, goal, 0.03); }), "busy");
+  arbiter_.hold();
+  EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, goal, 0.03); }), "accepted");
+}
+
 TEST_F(Arbitration, TheOperatorSteersFromWhereTheTipIsWithTheSpeedOfTheDevice) {
   use_hand();
   const auto first = steered(0.2);

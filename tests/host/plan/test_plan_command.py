@@ -68,7 +68,7 @@ class PlanCommand(unittest.TestCase):
         ends = [f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}"]
         for bad in (ends[:1], [*ends, "--tip=1,0,0,1,0,0,0"], [*ends, "--waypoints=1"], [*ends, "--waypoints=101"], [*ends, "--margin=-1"],
                     [*ends, "--max-step-deg=0"], [*ends, "--max-step-deg=1e-300"], [*ends, "--margin=1e308"], [*ends, "--waypoints=1e3"], [*ends, "--iterations=0"], [*ends, "--hold=9"], [*ends, "--planar=6@0.5"], [*ends, "--planar=,"],
-                    [*ends, "--hold=9=1", "--planar=5@0.5"], [*ends, "--scene=nowhere"], [*ends, "--control-point=9:0,0,0"]):
+                    [*ends, "--hold=9=1", "--planar=5@0.5"], [*ends, "--scene=nowhere"], [*ends, "--out=-"], [*ends, "--control-point=9:0,0,0"]):
             done = call(*bad)
             self.assertEqual(done.returncode, 2, bad)
             self.assertEqual((done.stdout, done.stderr.count("\n")), ("", 1), bad)
@@ -89,12 +89,15 @@ class PlanCommand(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "curve.json"
             for text in ("", "[]", "{}", '{"points_m": 3}', '{"points_m": [[0, 0, 0]]}', '{"points_m": [[0, 0, 0], [1, 0]]}', '{"points_m": [[0, 0, 0], [1, 0, "a"]]}',
-                         '{"points_m": [[0, 0, 0], [1, 0, 1e9]]}', '{"points_m": [[0, 0, 0], [0, 0, 0]]}'):
+                         '{"points_m": [[0, 0, 0], [1, 0, 1e9]]}', '{"points_m": [[0, 0, 0], [0, 0, 0]]}',
+                         '{"points_m": [[0, 0, 0], [1, 0, 0]], "poins": 1}', '{"points_m": [[0, 0, 0], [1, 0, 0]], "points_m": [[0, 0, 0], [2, 0, 0]]}'):
                 path.write_text(text, encoding="utf-8")
                 done = call(f"--from-deg={PANEL_EDGE}", f"--follow={path}")
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), text)
+                self.assertIn(str(path), done.stderr)
         for bad in (["--follow=/nowhere"], ["--follow=/dev/zero"], ["--follow=slit"], ["--follow=slit", f"--to-deg={PREPARE}", "--scene=none"],
-                    ["--follow=slit", f"--to-deg={PREPARE}", "--waypoints=20"], ["--follow=slit", f"--to-deg={PREPARE}", "--hold=9=1"]):
+                    ["--follow=slit", f"--to-deg={PREPARE}", "--waypoints=20"], ["--follow=slit", f"--to-deg={PREPARE}", "--hold=9=1"],
+                    ["--follow=slit", f"--to-deg={PREPARE}", "--iterations=5"]):
             done = call(f"--from-deg={PANEL_EDGE}", *bad)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), bad)
 

@@ -1,0 +1,83 @@
+// The arm against itself: poses that curl it up, and paths that pass through such a pose.
+#include "host/plan/self_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "host/plan/plan_check.hpp"
+#include "host/plan/plan_refusal.hpp"
+#include "tests/host/plan/requests.hpp"
+
+namespace liana {
+namespace {
+
+RobotConfig robot() {
+  RobotConfig robot;
+  robot.table = zhu2022::table();
+  robot.module_radius_m = 0.03;
+  return robot;
+}
+
+// Every pitch and every yaw alike: a circle, or a helix.
+ThetaVector curled(double pitch_rad, double yaw_rad) {
+  ThetaVector theta{};
+  for (std::size_t m = 0; m < 5; ++m) theta[2 * m] = pitch_rad, theta[2 * m + 1] = yaw_rad;
+  return theta;
+}
+
+double sampled_m(const ThetaVector& theta) {
+  const auto end = plain_axis(zhu2022::table(), theta);
+  double least_m = 1e3;
+  const auto at = [&](std::size_t link, int i) {
+    Vec3 p{};
+    for (std::size_t x = 0; x < 3; ++x) p[x] = end[link - 1][x] + (end[link][x] - end[link - 1][x]) * i / 20.0;
+    return p;
+  };
+  for (std::size_t a = 1; a < end.size(); ++a) {
+    for (std::size_t b = a + 7; b < end.size(); ++b) {  // 7 joints of 20 deg in both directions: half a turn
+      for (int i = 0; i <= 20; ++i) {
+        for (int j = 0; j <= 20; ++j) least_m = std::min(least_m, norm(subtract(at(a, i), at(b, j))));
+      }
+    }
+  }
+  return least_m - 0.06;
+}
+
+TEST(SelfCheck, FindsWhatDenseSamplingFinds) {
+  zhu2022::Random random(5);
+  for (int i = 0; i < 20; ++i) {
+    const ThetaVector theta = i < 10 ? random.theta(zhu2022::table(), 19.0) : curled(random.uniform(0.2, 0.34), random.uniform(-0.1, 0.1));
+    const double found_m = self_clearance(robot(), theta).clearance_m;
+    EXPECT_LE(found_m, sampled_m(theta) + 1e-12);
+    EXPECT_GT(found_m, sampled_m(theta) - 0.006) << "samples are 5 mm apart";
+  }
+}
+
+TEST(SelfCheck, AnArmCurledIntoACircleLiesInItself) {
+  const SelfClearance self = self_clearance(robot(), curled(0.3, 0.0));  // 21 links make a turn
+  EXPECT_LT(self.clearance_m, -0.05);
+  EXPECT_GE(self.link[1] - self.link[0], 7);
+}
+
+TEST(SelfCheck, FindsACollisionBetweenWaypointsThatAreFree) {
+  const ThetaVector left = curled(0.3, 0.12), right = curled(0.3, -0.12);
+  ASSERT_GT(self_clearance(robot(), left).clearance_m, 0.05);
+  ASSERT_GT(self_clearance(robot(), right).clearance_m, 0.05);
+  EXPECT_LT(self_clearance_along(robot(), {left, right}).clearance_m, -0.05);
+}
+
+TEST(SelfCheck, APlanThroughTheArmItselfIsRefusedByName) {
+  PlanRequest request = request_between(zhu2022::kPrepare_deg, zhu2022::kPanelEdge_deg, {});
+  PlanCheck check;
+  check.min_clearance_m = kNothingNear_m;
+  check.min_tension_N = check.max_tension_N = request.robot.table.tension.plan_N;
+  check.self = {-0.012, {3, 24}};
+  const auto refused = refusal_of(request, check);
+  ASSERT_TRUE(refused);
+  EXPECT_STREQ(refused->constraint, "self");
+  EXPECT_EQ(refused->reason, "on the path found link 24 is 12.00 mm inside link 3 of the arm itself; the margin is 5.00 mm");
+}
+
+}  // namespace
+}  // namespace liana
