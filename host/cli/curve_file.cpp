@@ -11,7 +11,7 @@
 namespace liana {
 namespace {
 
-constexpr Range kPlace{-100, 100};     // m
+constexpr Range kPlace{-100, 100};                    // m
 constexpr double kLeastGap_m = 0.001 * (1.0 - 1e-9);  // between the curve's points: 1 mm in decimals counts as 1 mm
 
 std::vector<Vec3> points_of(const Field& curve) {

@@ -155,12 +155,20 @@ json to_json(const PlanRequest& request, const PlanResult& result, double time_s
               {"hash", plan_hash(request, result)}};
   if (result.checked) {
     const PlanCheck& check = *result.checked;
-    answer["checked"] = {{"min_clearance_m", check.min_clearance_m}, {"nearest", check.nearest},
-                         {"nearest_link", check.nearest_link}, {"min_self_clearance_m", check.self.clearance_m}, {"self_links", check.self.link},       {"max_joint_deg", check.max_joint_deg},
-                         {"max_step_deg", check.max_step_deg},       {"max_cable_step_m", check.max_cable_step_m},
-                         {"tip_error_m", check.tip_error_m},         {"tip_attitude_error_rad", check.tip_attitude_error_rad},
-                         {"min_tension_N", check.min_tension_N},     {"max_tension_N", check.max_tension_N},
-                         {"duration_s", check.duration_s},           {"poses", check.poses}};
+    answer["checked"] = {{"min_clearance_m", check.min_clearance_m},
+                         {"nearest", check.nearest},
+                         {"nearest_link", check.nearest_link},
+                         {"min_self_clearance_m", check.self.clearance_m},
+                         {"self_links", check.self.link},
+                         {"max_joint_deg", check.max_joint_deg},
+                         {"max_step_deg", check.max_step_deg},
+                         {"max_cable_step_m", check.max_cable_step_m},
+                         {"tip_error_m", check.tip_error_m},
+                         {"tip_attitude_error_rad", check.tip_attitude_error_rad},
+                         {"min_tension_N", check.min_tension_N},
+                         {"max_tension_N", check.max_tension_N},
+                         {"duration_s", check.duration_s},
+                         {"poses", check.poses}};
   }
   if (result.follow) {
     const FollowFigures& figures = *result.follow;
