@@ -21,7 +21,8 @@ ServiceConfig config_for(const SimArm& arm, TimeMode mode) {
   config.api_path = testing::TempDir() + "liana_service_" + std::to_string(::getpid());
   config.robot.table = arm.table();
   config.robot.canonical_json = config.scene.canonical_json = config.buses.canonical_json = "{}";
-  config.scene.camera.latency_s = 0.1;
+  config.scene.camera = SceneCamera{};
+  config.scene.camera->latency_s = 0.1;
   config.buses.rate_hz = 250.0;
   config.boot_problems = [] { return std::vector<BootProblem>{{3, FaultNumber::kDriveMissing, "node 4 on can0: silent"}}; };
   return config;
