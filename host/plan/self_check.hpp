@@ -16,6 +16,10 @@ struct SelfClearance {
   std::array<std::int32_t, 2> link;  // from 1; 0 where no two links count
 };
 
+// Least that a plan has to keep. The arm's own margin to obstacles is for their place in the base frame; its links' places to each other
+// are known better.
+constexpr double kSelfMargin_m = 0.001;
+
 // At one pose. Cost: about 500 pairs of links, 40 us.
 SelfClearance self_clearance(const RobotConfig& robot, const ThetaVector& theta_rad);
 

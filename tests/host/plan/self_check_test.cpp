@@ -60,11 +60,18 @@ TEST(SelfCheck, AnArmCurledIntoACircleLiesInItself) {
   EXPECT_GE(self.link[1] - self.link[0], 7);
 }
 
+// A circle whose end passes the beginning on one side.
+ThetaVector twisted(double pitch_rad, double yaw_rad) {
+  ThetaVector theta = curled(pitch_rad, 0.0);
+  for (std::size_t m = 0; m < 5; ++m) theta[2 * m + 1] = yaw_rad * (static_cast<double>(m) - 2.0);
+  return theta;
+}
+
 TEST(SelfCheck, FindsACollisionBetweenWaypointsThatAreFree) {
-  const ThetaVector left = curled(0.3, 0.12), right = curled(0.3, -0.12);
-  ASSERT_GT(self_clearance(robot(), left).clearance_m, 0.05);
-  ASSERT_GT(self_clearance(robot(), right).clearance_m, 0.05);
-  EXPECT_LT(self_clearance_along(robot(), {left, right}).clearance_m, -0.05);
+  const ThetaVector left = twisted(0.3, 0.08), right = twisted(0.3, -0.08);
+  ASSERT_GT(self_clearance(robot(), left).clearance_m, 0.02);
+  ASSERT_GT(self_clearance(robot(), right).clearance_m, 0.02);
+  EXPECT_LT(self_clearance_along(robot(), {left, right}).clearance_m, -0.04);
 }
 
 TEST(SelfCheck, APlanThroughTheArmItselfIsRefusedByName) {
@@ -76,7 +83,7 @@ TEST(SelfCheck, APlanThroughTheArmItselfIsRefusedByName) {
   const auto refused = refusal_of(request, check);
   ASSERT_TRUE(refused);
   EXPECT_STREQ(refused->constraint, "self");
-  EXPECT_EQ(refused->reason, "on the path found link 24 is 12.00 mm inside link 3 of the arm itself; the margin is 5.00 mm");
+  EXPECT_EQ(refused->reason, "on the path found link 24 is 12.00 mm inside link 3 of the arm itself; the margin is 1.00 mm");
 }
 
 }  // namespace
