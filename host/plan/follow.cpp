@@ -157,20 +157,25 @@ class Follower {
     return false;
   }
 
-  // Steps of the request and, between the two, the tip within kFollowTipOff_m of the curve.
-  bool suffices(const ThetaVector& a, const ThetaVector& b) const {
-    if (!steps_hold(request_, {a, b})) return false;
-    for (int i = 1; i < kLooks; ++i) {
-      const Vec3 tip = tip_of(room_, between(a, b, static_cast<double>(i) / kLooks));
-      if (norm(subtract(tip, curve_.nearest(tip, 0.0, curve_.length_m()).position_m)) > kFollowTipOff_m) return false;
+  // Steps of the request and, between the two, the tip within kFollowTipOff_m of their part of the curve and on a way as long: a part that
+  // turns back is not cut off.
+  bool suffices(const Stop& a, const Stop& b) const {
+    if (!steps_hold(request_, {a.theta_rad, b.theta_rad})) return false;
+    double way_m = 0.0;
+    Vec3 before = tip_of(room_, a.theta_rad);
+    for (int i = 1; i <= kLooks; ++i) {
+      const Vec3 tip = tip_of(room_, between(a.theta_rad, b.theta_rad, static_cast<double>(i) / kLooks));
+      way_m += norm(subtract(tip, before));
+      before = tip;
+      if (norm(subtract(tip, curve_.nearest(tip, a.along_m, b.along_m).position_m)) > kFollowTipOff_m) return false;
     }
-    return true;
+    return way_m + 2.0 * kFollowTipOff_m > b.along_m - a.along_m;
   }
 
   // Appends the way from the last pose to `to`, with poses between where the two alone do not suffice.
   void go_to(const Stop& to, int halvings, std::vector<Stop>& way) const {
     const Stop from = way.back();
-    if (halvings > 0 && !suffices(from.theta_rad, to.theta_rad)) {
+    if (halvings > 0 && !suffices(from, to)) {
       const ThetaVector half = between(from.theta_rad, to.theta_rad, 0.5);
       const double along_m = 0.5 * (from.along_m + to.along_m);
       go_to({follow_pose(room_, track_, aim(along_m, half, 0.0), half, 0), along_m}, halvings - 1, way);
@@ -189,8 +194,11 @@ class Follower {
   // As few of the poses as suffice.
   Path thinned(const std::vector<Stop>& way) const {
     Path out{way.front().theta_rad};
+    Index last = 0;
     for (Index i = 1; i < way.size(); ++i) {
-      if (i + 1 == way.size() || !suffices(out.back(), way[i + 1].theta_rad)) out.push_back(way[i].theta_rad);
+      if (i + 1 < way.size() && suffices(way[last], way[i + 1])) continue;
+      out.push_back(way[i].theta_rad);
+      last = i;
     }
     return out;
   }

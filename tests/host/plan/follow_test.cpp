@@ -72,6 +72,18 @@ PlanRequest request_straight_ahead(double length_m) {
   return request;
 }
 
+TEST(Follow, ACurveThatTurnsBackIsFollowedToItsTurningPoint) {
+  PlanRequest request = request_straight_ahead(0.08);
+  request.follow->points_m.push_back(
+      add(request.follow->points_m[0], scale(subtract(request.follow->points_m[1], request.follow->points_m[0]), 0.125)));
+  const PlanResult result = plan(request, {});
+  ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.constraint << ": " << result.reason;
+  double nearest_m = 1.0;
+  for (const ThetaVector& theta : result.waypoints_rad)
+    nearest_m = std::min(nearest_m, norm(subtract(plain_axis(request.robot.table, theta).back(), request.follow->points_m[1])));
+  EXPECT_LT(nearest_m, 2.0 * kFollowTipOff_m);
+}
+
 // Greatest distance of a link end from where it was at the start.
 double largest_motion_m(const RobotTable& table, const Path& path) {
   const auto start = plain_axis(table, path.front());
