@@ -97,9 +97,7 @@ class Planner {
     const SelfClearance self = self_clearance(request_.robot, theta);
     if (self.clearance_m < kSelfMargin_m) {
       return fail(PlanOutcome::infeasible, "self",
-                  text("at the %s link %d %s; the margin is %.1f mm", which, static_cast<int>(self.link[1]),
-                       distance_text(self.clearance_m, text("link %d of the arm itself", static_cast<int>(self.link[0]))).c_str(),
-                       1000.0 * kSelfMargin_m));
+                  text("at the %s %s; the margin is %.1f mm", which, nearest_text(self).c_str(), 1000.0 * kSelfMargin_m));
     }
     const double excess_N = PlannedTension(room_.table()).excess_N(theta);
     if (excess_N <= 0.0) return true;

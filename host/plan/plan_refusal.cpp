@@ -18,11 +18,8 @@ std::optional<Refusal> refusal_of(const PlanRequest& request, const PlanCheck& c
                         distance_text(check.min_clearance_m, "'" + check.nearest + "'").c_str(), 1000.0 * request.margin_m)};
   }
   if (check.self.clearance_m < kSelfMargin_m) {
-    return Refusal{
-        PlanOutcome::limit, "self",
-        text("on the path found link %d %s; the margin is %.2f mm", static_cast<int>(check.self.link[1]),
-             distance_text(check.self.clearance_m, text("link %d of the arm itself", static_cast<int>(check.self.link[0]))).c_str(),
-             1000.0 * kSelfMargin_m)};
+    return Refusal{PlanOutcome::limit, "self",
+                   text("on the path found %s; the margin is %.2f mm", nearest_text(check.self).c_str(), 1000.0 * kSelfMargin_m)};
   }
   if (check.over_limit_deg > 0.0)
     return Refusal{PlanOutcome::limit, "limits", text("a theta is %.2g deg over its limit", check.over_limit_deg)};

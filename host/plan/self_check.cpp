@@ -6,6 +6,7 @@
 
 #include "host/plan/path_search.hpp"
 #include "host/plan/plan_check.hpp"
+#include "host/plan/text.hpp"
 
 namespace liana {
 namespace {
@@ -54,6 +55,11 @@ SelfClearance self_clearance(const RobotConfig& robot, const ThetaVector& theta_
     }
   }
   return least;
+}
+
+std::string nearest_text(const SelfClearance& self) {
+  return text("link %d ", static_cast<int>(self.link[1])) +
+         distance_text(self.clearance_m, text("link %d of the arm itself", static_cast<int>(self.link[0])));
 }
 
 SelfClearance self_clearance_along(const RobotConfig& robot, const std::vector<ThetaVector>& path) {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "host/config/config.hpp"
@@ -15,6 +16,9 @@ struct SelfClearance {
   double clearance_m = 1e3;          // 1e3 where no two links count
   std::array<std::int32_t, 2> link;  // from 1; 0 where no two links count
 };
+
+// "link 24 is 12.00 mm from link 3 of the arm itself", for messages.
+std::string nearest_text(const SelfClearance& self);
 
 // Least that a plan has to keep. The arm's own margin to obstacles is for their place in the base frame; its links' places to each other
 // are known better.
