@@ -88,7 +88,7 @@ def main():
             options.json.open("a").close()
         if any(isinstance(one, machine.Item) for one in wanted):
             machine.check_packages()
-    except (scenario.BadScenario, can_scenario.BadScenario, machine.NoMachine) as error:
+    except (scenario.BadScenario, machine.NoMachine) as error:
         print(f"dev hil: {error}", file=sys.stderr)
         return 2
     except OSError as error:

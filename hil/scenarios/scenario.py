@@ -1,6 +1,5 @@
 """One scenario: read it, run it on the embedded bus in lockstep, judge it (hil/scenarios/README.md)."""
 import contextlib
-import json
 import pathlib
 import sys
 import threading
@@ -12,6 +11,7 @@ import predicates  # noqa: E402
 import trial  # noqa: E402
 import wire_checks  # noqa: E402
 from liana_system import System, brief, must  # noqa: E402
+from scenario_file import BadScenario, Failed, check_fields, expect_that, read  # noqa: E402
 
 kMoveDeg = 6.0
 kEnabling_s = 75  # arm time; the pretension ramp has 60 s
@@ -29,34 +29,10 @@ kDuring = ("boot", "rest", "move")
 kTimeLimit_s = 300  # wall clock
 
 
-class BadScenario(Exception):
-    pass
-
-
-class Failed(Exception):
-    pass
-
-
-def check_fields(name, found, allowed, required):
-    for key, value in found.items():
-        if key not in allowed:
-            raise BadScenario(f"{name}: {key} is not known; allowed are {', '.join(allowed)}")
-        if not isinstance(value, allowed[key]) or (allowed[key] is int and isinstance(value, bool)):
-            raise BadScenario(f"{name}: {key} is {json.dumps(value)}, of the wrong type; see hil/scenarios/README.md")
-    for key in required:
-        if key not in found:
-            raise BadScenario(f"{name}: {key} is missing; add it")
-
-
 class Scenario:
     def __init__(self, path):
         self.name = f"{path.parent.name}/{path.stem}"
-        try:
-            content = json.loads(path.read_text())
-        except ValueError as error:
-            raise BadScenario(f"{path}: is not JSON: {error}") from None
-        if not isinstance(content, dict):
-            raise BadScenario(f"{self.name}: must be a JSON object")
+        content = read(path)
         check_fields(self.name, content, kFields, ("about", "during", "expect"))
         expect = content["expect"]
         self.host, self.time_limit_s = content.get("host"), content.get("time_limit_s", kTimeLimit_s)
@@ -93,11 +69,6 @@ class Scenario:
 def all_scenarios(folder=HERE):
     """In bring-up order."""
     return [Scenario(path) for path in sorted(folder.glob("[0-9]*/*.json"))]
-
-
-def expect_that(condition, message):
-    if not condition:
-        raise Failed(message)
 
 
 class Run:

@@ -7,6 +7,10 @@ import time
 from system import CanSystem, HERE, kInterfaces
 from liana_system import brief, must
 
+sys.path.append(str(HERE.parent))
+from scenario_file import BadScenario, Failed, check_fields, expect_that, read  # noqa: E402
+
+kReadme = "hil/scenarios/can/README.md"
 kFields = {"about": str, "on": list, "during": str, "do": list, "restart": str, "mend": list, "expect": dict, "reduced": bool}
 kExpected = {"fault": (int, list, type(None)), "state": str, "within_ticks": int, "after_clear": str, "travel_deg": (int, float)}
 kDuring = ("boot", "rest", "move")
@@ -16,34 +20,12 @@ kRested_s = 0.6
 kReach_s = 20.0  # of arm time for every state that is waited for
 
 
-class BadScenario(Exception):
-    pass
-
-
-class Failed(Exception):
-    pass
-
-
-def check(name, found, allowed, required):
-    for key, value in found.items():
-        if key not in allowed:
-            raise BadScenario(f"{name}: {key} is not known; allowed are {', '.join(allowed)}")
-        if not isinstance(value, allowed[key]):
-            raise BadScenario(f"{name}: {key} is {json.dumps(value)}, of the wrong type; see hil/scenarios/can/README.md")
-    for key in required:
-        if key not in found:
-            raise BadScenario(f"{name}: {key} is missing; add it")
-
-
 class CanScenario:
     def __init__(self, path):
         self.name = f"can/{path.parent.name}/{path.stem}"
-        try:
-            content = json.loads(path.read_text())
-        except ValueError as error:
-            raise BadScenario(f"{path}: is not JSON: {error}") from None
-        check(self.name, content, kFields, ("about", "on", "during", "expect"))
-        check(f"{self.name}: expect", content["expect"], kExpected, ("fault", "state"))
+        content = read(path)
+        check_fields(self.name, content, kFields, ("about", "on", "during", "expect"), kReadme)
+        check_fields(f"{self.name}: expect", content["expect"], kExpected, ("fault", "state"), kReadme)
         if content["during"] not in kDuring:
             raise BadScenario(f"{self.name}: during is {content['during']}; allowed are {', '.join(kDuring)}")
         if not content["on"] or not set(content["on"]) <= set(kInterfaces):
@@ -61,11 +43,6 @@ class CanScenario:
 def all_scenarios(folder=HERE):
     """In bring-up order."""
     return [CanScenario(path) for path in sorted(folder.glob("[0-9]*/*.json"))]
-
-
-def expect_that(condition, message):
-    if not condition:
-        raise Failed(message)
 
 
 class Run:
