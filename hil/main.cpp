@@ -21,6 +21,7 @@ struct Paths {
   std::string faults;
   std::string bus_socket;
   std::string can;
+  std::string cross_wired;
 };
 
 void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, bool& no_spread) {
@@ -42,6 +43,8 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
   app.add_option("--run-on", options.run_on_s, "seconds that drives and arm go on after the bus has ended, in truth and summary")
       ->check(CLI::Range(0.0, 60.0))
       ->capture_default_str();
+  app.add_flag("--fixture", options.fixture, "the arm starts exactly in its start pose");
+  app.add_option("--cross-wired", paths.cross_wired, "two drives, e.g. 3,4, that have each other's cable");
   app.add_flag("--no-spread", no_spread, "the arm is exactly as the table says (for tests)");
 }
 
@@ -53,6 +56,17 @@ std::vector<std::string> split(const std::string& list) {
     from = comma + 1;
   }
   return parts;
+}
+
+std::vector<std::size_t> two_drives(const std::string& list, std::size_t count) {
+  std::vector<std::size_t> drives;
+  for (const std::string& part : split(list)) {
+    const bool number = !part.empty() && part.size() < 4 && part.find_first_not_of("0123456789") == std::string::npos;
+    if (number && std::stoul(part) < count) drives.push_back(std::stoul(part));
+  }
+  if (drives.size() == 2 && drives[0] != drives[1]) return drives;
+  throw std::runtime_error("--cross-wired: \"" + list + "\"; allowed are two different drives from 0 to " + std::to_string(count - 1) +
+                           ", e.g. 3,4");
 }
 
 std::unique_ptr<liana::bench::Bus> open_bus(const Paths& paths, const liana::bench::BusesConfig& buses) {
@@ -86,6 +100,7 @@ int main(int argc, char** argv) {
     if (!paths.faults.empty())
       options.faults = liana::bench::load_faults(paths.faults, options.robot.cable_count(), options.robot.theta_count());
     options.spread = !no_spread;
+    if (!paths.cross_wired.empty()) options.cross_wired = two_drives(paths.cross_wired, options.robot.cable_count());
     liana::bench::Bench bench(options);
     const auto bus = open_bus(paths, options.buses);
     bench.run(*bus);

@@ -23,7 +23,8 @@ TrueParameters parameters_of(const BenchOptions& options) {
 }
 
 std::unique_ptr<Arm> make_arm(const BenchOptions& options, const TrueParameters& truth) {
-  const Theta start = start_pose(options.robot, options.start_pose, options.spread ? kStartSpread_rad : 0.0, options.seed);
+  const Theta start =
+      start_pose(options.robot, options.start_pose, options.spread && !options.fixture ? kStartSpread_rad : 0.0, options.seed);
   if (options.arm == "light") return std::make_unique<LightArm>(options.robot, truth, start);
   if (options.arm != "full") throw std::runtime_error("--arm: \"" + options.arm + "\" is no arm model; allowed are full, light");
   auto arm = std::make_unique<ArmPhysics>(options.robot, options.scene, truth, start);
@@ -37,7 +38,7 @@ Bench::Bench(const BenchOptions& options)
     : options_(options),
       truth_(parameters_of(options)),
       arm_(make_arm(options, truth_)),
-      drives_(options.robot, options.buses, truth_, arm_->payouts_m(), options.spread, options.seed),
+      drives_(options.robot, options.buses, truth_, arm_->payouts_m(), options.spread, options.seed, options.cross_wired),
       injector_(options.faults),
       camera_(options.scene.camera, options.scene.slit_frame, options.scene.rod.pose, options.seed),
       link_(options.api_socket),

@@ -27,6 +27,8 @@ struct BenchOptions {
   std::uint64_t seed = 1;
   bool spread = true;  // parameters, start pose and noise by seed; false: the table exactly, noise only from the camera
   std::string start_pose = "prepare";
+  bool fixture = false;                  // the arm starts exactly in its start pose
+  std::vector<std::size_t> cross_wired;  // empty, or two drives that have each other's cable
   std::string api_socket;
   std::string truth_path;
   std::string summary_path;

@@ -1,6 +1,7 @@
 #include "hil/bench/drive_bank.hpp"
 
 #include <cmath>
+#include <utility>
 
 namespace liana::bench {
 
@@ -25,7 +26,7 @@ DriveSettings settings_of(const RobotConfig& robot, const BusesConfig& buses, st
 }  // namespace
 
 DriveBank::DriveBank(const RobotConfig& robot, const BusesConfig& buses, const TrueParameters& truth, const CableValues& payout_m,
-                     bool noisy, std::uint64_t seed)
+                     bool noisy, std::uint64_t seed, const std::vector<std::size_t>& cross_wired)
     : robot_(robot),
       truth_(truth),
       creep_(robot.cable_count()),
@@ -35,8 +36,11 @@ DriveBank::DriveBank(const RobotConfig& robot, const BusesConfig& buses, const T
       fault_noise_(seed, "fault noise") {
   for (std::size_t m = 0; m < robot.segments.size(); ++m)
     for (std::size_t c = 0; c < robot.segments[m].cable_phase_rad.size(); ++c) path_at_zero_m_.push_back(robot.path_at_zero_m(m));
+  for (std::size_t i = 0; i < robot.cable_count(); ++i) cable_of_.push_back(i);
+  if (cross_wired.size() == 2) std::swap(cable_of_[cross_wired[0]], cable_of_[cross_wired[1]]);
   for (std::size_t i = 0; i < robot.cable_count(); ++i) {
-    const double paid_out = payout_m[i] - path_at_zero_m_[i] - robot.lead_m - truth.zero_offset_m[i];
+    const std::size_t cable = cable_of_[i];
+    const double paid_out = payout_m[cable] - path_at_zero_m_[cable] - robot.lead_m - truth.zero_offset_m[cable];
     const double counts = robot.drives[i].zero_counts + robot.drives[i].direction * paid_out / robot.metres_per_count();
     drives_.push_back(std::make_unique<Drive>(settings_of(robot, buses, i), counts));
   }
@@ -46,8 +50,9 @@ CableValues DriveBank::payouts_m() const {
   CableValues payout{};
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     const double counts = drives_[i]->motor().position_counts() - robot_.drives[i].zero_counts;
-    payout[i] = path_at_zero_m_[i] + robot_.lead_m + truth_.zero_offset_m[i] + loose_m_[i] +
-                robot_.drives[i].direction * counts * robot_.metres_per_count();
+    const std::size_t cable = cable_of_[i];
+    payout[cable] = path_at_zero_m_[cable] + robot_.lead_m + truth_.zero_offset_m[cable] + loose_m_[i] +
+                    robot_.drives[i].direction * counts * robot_.metres_per_count();
   }
   return payout;
 }
@@ -73,13 +78,13 @@ void DriveBank::exchange(const FrameList& frames, std::uint64_t now_us, FrameLis
 }
 
 void DriveBank::move(double step_s, const CableValues& tension_N) {
-  for (std::size_t i = 0; i < drives_.size(); ++i) drives_[i]->move(step_s, permille(tension_N[i]));
+  for (std::size_t i = 0; i < drives_.size(); ++i) drives_[i]->move(step_s, permille(tension_N[cable_of_[i]]));
 }
 
 void DriveBank::measure(const CableValues& tension_N) {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     const double noise = noisy_ ? 1.0 + torque_noise_.gaussian(kTorqueNoise) : 1.0;
-    double reading = permille(tension_N[i]) * truth_.torque_gain[i] * noise;
+    double reading = permille(tension_N[cable_of_[i]]) * truth_.torque_gain[i] * noise;
     double error_counts = 0.0;
     if (noise_[i].permille > 0.0) reading += fault_noise_.gaussian(noise_[i].permille);
     if (noise_[i].counts > 0.0) error_counts = fault_noise_.gaussian(noise_[i].counts);

@@ -15,9 +15,9 @@ namespace liana::bench {
 
 class DriveBank {
  public:
-  // Drums hold `payout_m`; brakes on.
+  // Drums hold `payout_m`; brakes on. `cross_wired`: empty, or two drives that have each other's cable.
   DriveBank(const RobotConfig& robot, const BusesConfig& buses, const TrueParameters& truth, const CableValues& payout_m, bool noisy,
-            std::uint64_t seed);
+            std::uint64_t seed, const std::vector<std::size_t>& cross_wired = {});
 
   // Gives the frames to the drives on their buses, then runs all timers.
   void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out);
@@ -57,6 +57,7 @@ class DriveBank {
   TrueParameters truth_;
   std::vector<std::unique_ptr<Drive>> drives_;
   std::vector<double> path_at_zero_m_;
+  std::vector<std::size_t> cable_of_;  // on each drive's drum
   std::vector<Creep> creep_;
   CableValues loose_m_{};  // cable that faults paid out beside the drum
   std::vector<SensorNoise> noise_;

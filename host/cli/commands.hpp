@@ -71,12 +71,28 @@ struct RunOptions {
   std::string time;  // empty: fast, or real on SocketCAN
   std::string physics = "nominal";
   std::string arm = "full";  // or light, which needs physics ideal
+  std::string fixture;       // empty: the bench's start pose; a named pose: the arm lies exactly there
+  std::string cross_wired;   // empty, or two drives whose cables are exchanged, e.g. 3,4
+  std::string calibration;   // empty: as the robot table says
   std::string record_dir;    // empty: nothing is kept
   std::string report_file;   // empty: a summary on standard output; "-": JSON on standard output
   std::uint64_t seed = 1;
 };
 // Starts the whole system, runs one mission, reports; exit code 0 only on success.
 int run_command(const RunOptions& options);
+
+struct CalibrateOptions {
+  std::string robot = "zhu2022";
+  std::string bus = "embedded";
+  std::string poses = "zero,fixture,prepare";  // named poses of the fixtures
+  std::string physics = "nominal";
+  std::string cross_wired;  // empty, or two drives of the simulated arm whose cables are exchanged
+  std::string out_file;     // empty: the calibration is only printed
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+// Reads the drives with the arm in fixtures, writes a calibration; exit code 1 when something is wired or wound wrong, which it names.
+int calibrate_command(const CalibrateOptions& options);
 
 struct LatencyOptions {
   std::string rate_hz;  // empty: that of the bus table, 250 where none is given

@@ -112,9 +112,26 @@ void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
   sub->add_option("--physics", run.physics, "nominal, ideal or worn")
       ->capture_default_str()
       ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
+  sub->add_option("--calibration", run.calibration, "what liana calibrate wrote; the robot table's values where not given");
   sub->add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
   sub->add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
   add_seed(*sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
+}
+
+void add_calibrate(CLI::App& app, Action& action, liana::CalibrateOptions& calibrate) {
+  CLI::App* sub = add(app, action, "calibrate", "zeros, drums, directions and wiring of all drives, with the arm in fixtures", calibrate,
+                      liana::calibrate_command);
+  sub->add_option("--robot", calibrate.robot, "robot table")->capture_default_str();
+  sub->add_option("--bus", calibrate.bus, "bus table")->capture_default_str();
+  sub->add_option("--poses", calibrate.poses, "named poses of the robot for which there are fixtures, two or more")->capture_default_str();
+  sub->add_option("--physics", calibrate.physics, "nominal, ideal or worn")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
+  sub->add_option("--cross-wired", calibrate.cross_wired,
+                  "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
+  sub->add_option("--out", calibrate.out_file, "write the calibration to this file, for lianad --calibration and liana run --calibration");
+  add_seed(*sub, calibrate.seed, "of the simulated arm");
+  sub->add_flag("--json", calibrate.json, "print JSON");
 }
 
 void add_latency(CLI::App& app, Action& action, liana::LatencyOptions& latency) {
@@ -253,6 +270,7 @@ int run(int argc, char** argv) {
   liana::ReachOptions reach;
   liana::PlanOptions plan;
   liana::RunOptions run;
+  liana::CalibrateOptions calibrate;
   liana::LatencyOptions latency;
   liana::ClientOptions client;
   liana::FaultsOptions faults;
@@ -268,6 +286,7 @@ int run(int argc, char** argv) {
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client, liana::estop_command);
   add_client(app, action, "clear", "clear an emergency stop and the latched faults of one running system; enables nothing", client,
              liana::clear_command, true);
+  add_calibrate(app, action, calibrate);
   add_latency(app, action, latency);
   add_faults(app, action, faults);
   add_tools(app, action, replay, exported, doctor_json, shell);

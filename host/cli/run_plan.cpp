@@ -11,6 +11,7 @@
 #include "host/cli/output.hpp"
 #include "host/cli/process.hpp"
 #include "host/cli/tables.hpp"
+#include "host/config/calibration.hpp"
 #include "host/config/field.hpp"
 
 namespace liana {
@@ -87,11 +88,17 @@ ProgramCall bus_call(const RunPlan& plan) {
            "--log", plan.directory, "--stats", plan.file("bus_stats.json")}};
 }
 
+std::string expected_roles(const RunPlan& plan, const RunOptions& options) {
+  if (options.mission.empty()) return "client,camera";
+  return plan.keep_directory ? "mission,operator,camera,archive" : "mission,operator,camera";
+}
+
 ProgramCall daemon_call(const RunPlan& plan, const RunOptions& options, bool embedded) {
   ProgramCall call{"lianad",
                    {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"), "--buses",
                     plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode, "--physics", options.physics, "--expect",
-                    plan.keep_directory ? "mission,operator,camera,archive" : "mission,operator,camera"}};
+                    expected_roles(plan, options)}};
+  if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});
   if (embedded) append(call.argv, {"--bus-socket", plan.bus_socket()});
   return call;
 }
@@ -105,6 +112,8 @@ ProgramCall bench_call(const RunPlan& plan, const RunOptions& options, bool embe
                    {sibling_program("liana-bench"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"), "--buses",
                     plan.file("buses.json"), "--api", plan.api_socket(), "--arm", options.arm, "--physics", options.physics, "--seed",
                     std::to_string(options.seed), "--truth", plan.file("truth.bin"), "--summary", plan.file("bench_summary.json")}};
+  if (!options.fixture.empty()) append(call.argv, {"--start-pose", options.fixture, "--fixture"});
+  if (!options.cross_wired.empty()) append(call.argv, {"--cross-wired", options.cross_wired});
   if (embedded) {
     append(call.argv, {"--bus-socket", plan.bus_socket()});
   } else {
@@ -139,7 +148,8 @@ RunPlan make_plan(const RunOptions& options) {
   const std::string scene_text = evaluate_table("scene", options.scene);
   RunPlan plan;
   plan.buses = checked([&] { return parse_buses(buses_text, options.bus); });
-  checked([&] { return parse_robot(robot_text, options.robot, options.physics, plan.buses); });
+  const RobotConfig robot = checked([&] { return parse_robot(robot_text, options.robot, options.physics, plan.buses); });
+  if (!options.calibration.empty()) checked([&] { return load_calibration(options.calibration, robot, today_utc()); });
   const bool has_mission = !options.mission.empty();
   if (has_mission) check_mission(options.mission, options.robot);
   plan.scene = checked([&] { return parse_scene(scene_text, options.scene); });

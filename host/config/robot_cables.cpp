@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717958647692;
 constexpr double kMaxTension_N = 1e5;
+constexpr std::uint32_t kFirstSerial = 1001;  // of the drive of cable 0, where no calibration says otherwise (docs/drives.md)
 
 double read_friction(const Field& field, const std::string& physics) {
   field.only({"nominal", "ideal", "worn"});
@@ -58,6 +59,7 @@ void read_drive_lists(const Field& drives, RobotConfig& out) {
     out.table.drive[i].direction = static_cast<std::int32_t>(sign);
     out.table.drive[i].zero_counts = static_cast<std::int32_t>(zero.element(i).integer(-1000000000, 1000000000));
     out.table.drive[i].metres_per_count = kTwoPi * out.drum_radius_m / (out.counts_per_turn * out.gear);
+    out.drive_serials.push_back(kFirstSerial + static_cast<std::uint32_t>(i));
     out.table.drive[i].newtons_per_permille = out.rated_torque_Nm / out.drum_radius_m / 1000.0;
   }
 }
@@ -76,8 +78,8 @@ void read_cables(const Field& table, const std::string& physics, RobotConfig& ou
 
 void read_drives(const Field& table, RobotConfig& out) {
   const Field drives = table.at("drives");
-  drives.only(
-      {"drum_radius_m", "counts_per_turn", "gear", "servo_time_constant_s", "rated_torque_Nm", "identity", "direction", "zero_counts"});
+  drives.only({"drum_radius_m", "counts_per_turn", "gear", "servo_time_constant_s", "rated_torque_Nm", "identity", "direction",
+               "zero_counts", "calibration_days"});
   out.drum_radius_m = drives.at("drum_radius_m").number({0, 1, true});
   out.counts_per_turn = static_cast<std::uint32_t>(drives.at("counts_per_turn").integer(16, 16777216));
   out.gear = drives.at("gear").number({0, 10000, true});
@@ -90,6 +92,10 @@ void read_drives(const Field& table, RobotConfig& out) {
                 "choose a stronger drive or a lower limit");
   }
   out.identity = read_identity(drives.at("identity"));
+  constexpr std::int32_t kCalibrationDays = 365;
+  out.calibration_days = drives.json().contains("calibration_days")
+                             ? static_cast<std::int32_t>(drives.at("calibration_days").integer(1, 36500))
+                             : kCalibrationDays;
   read_drive_lists(drives, out);
 }
 

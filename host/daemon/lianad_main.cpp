@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "host/api/registry.hpp"
+#include "host/config/calibration.hpp"
 #include "host/daemon/realtime.hpp"
 #include "host/daemon/rt_cycle.hpp"
 #include "host/daemon/service.hpp"
@@ -32,7 +33,7 @@ void handle_signals() {
 }
 
 struct Options {
-  std::string robot, scene, buses, api, time = "fast", physics = "nominal", bus_socket, expect;
+  std::string robot, scene, buses, api, time = "fast", physics = "nominal", bus_socket, expect, calibration;
 };
 
 std::vector<Role> roles_in(const std::string& list) {
@@ -97,7 +98,8 @@ int run(const Options& options) {
   const std::optional<TimeMode> mode = time_mode_from(options.time);
   if (!mode) throw std::runtime_error("--time " + options.time + ": allowed fast, paced, real");
   const BusesConfig buses = load_buses(options.buses);
-  const RobotConfig robot = load_robot(options.robot, options.physics, buses);
+  RobotConfig robot = load_robot(options.robot, options.physics, buses);
+  if (!options.calibration.empty()) apply(load_calibration(options.calibration, robot, today_utc()), robot);
   const SceneConfig scene = load_scene(options.scene);
   const std::vector<Role> expected = roles_in(options.expect);
 
@@ -130,6 +132,8 @@ int main(int argc, char** argv) {
   app.add_option("--time", options.time, "fast, paced or real")->capture_default_str();
   app.add_option("--physics", options.physics, "friction the core is told: nominal, ideal or worn")->capture_default_str();
   app.add_option("--bus-socket", options.bus_socket, "socket of liana-bus (embedded back end)");
+  app.add_option("--calibration", options.calibration,
+                 "what liana calibrate measured of this arm's drives; the robot table's values without");
   app.add_option("--expect", options.expect, "roles that must have connected before virtual time starts, comma separated");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -1,0 +1,184 @@
+#include "host/cli/calibrate.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+#include "firmware_like/arm/tension.hpp"
+#include "firmware_like/math/convert.hpp"
+#include "host/config/sha256.hpp"
+
+namespace liana {
+namespace {
+
+using Index = std::size_t;
+using Changes = std::vector<double>;  // of one length, pose by pose, about their mean [m]
+
+constexpr double kLeastChange_m = 5e-3;  // between poses, to see a direction
+constexpr double kApart_m = 1e-3;        // between two cables, to tell them apart
+constexpr double kMisfit_m = 0.5e-3;     // of a fitted drum; elongation and hole radius bring a tenth of it
+constexpr double kDrumShare = 0.02;
+
+std::string text(const char* format, auto... values) {
+  char line[400];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+// Unstretched cable beyond the length at the zero pose, for every cable at one pose.
+CableVector beyond_zero_m(const RobotTable& table, const ThetaVector& theta_rad, const CableVector& tension_N) {
+  const CableLayout layout = cable_layout(table);
+  const ArmTrig trig = arm_trig(table, theta_rad);
+  const CableGeometry geometry = cable_geometry(table, layout, trig);
+  CableVector out = payout_for(table, layout, geometry.part_m, tension_ratio(table, layout, trig, SlipState{}), tension_N);
+  for (Index c = 0; c < as_index(table.cable_count()); ++c) out[c] -= layout.zero_length_m[c] + table.lead_m;
+  return out;
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+Changes about_mean(std::vector<double> values) {
+  const double middle = mean(values);
+  for (double& value : values) value -= middle;
+  return values;
+}
+
+double product(const Changes& a, const Changes& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
+
+// Largest |a scale - b| over the poses.
+double misfit_m(const Changes& a, double scale, const Changes& b) {
+  double largest = 0.0;
+  for (Index p = 0; p < a.size(); ++p) largest = std::fmax(largest, std::fabs(scale * a[p] - b[p]));
+  return largest;
+}
+
+// What the drives report and what the geometry says, as changes between poses.
+struct Lengths {
+  std::vector<Changes> reported, expected;  // by drive, by cable
+  std::vector<double> reported_mean_m, expected_mean_m;
+};
+
+Lengths lengths_of(const RobotConfig& robot, std::span<const CalibrationReading> readings) {
+  Lengths out;
+  std::vector<CableVector> expected;
+  for (const CalibrationReading& reading : readings) expected.push_back(beyond_zero_m(robot.table, reading.theta_rad, reading.tension_N));
+  for (Index c = 0; c < as_index(robot.table.cable_count()); ++c) {
+    std::vector<double> own, wanted;
+    for (Index p = 0; p < readings.size(); ++p) {
+      own.push_back(readings[p].position_m[c]);
+      wanted.push_back(expected[p][c]);
+    }
+    out.reported_mean_m.push_back(mean(own));
+    out.expected_mean_m.push_back(mean(wanted));
+    out.reported.push_back(about_mean(own));
+    out.expected.push_back(about_mean(wanted));
+  }
+  return out;
+}
+
+// How a drive's report follows a cable: the factor that fits best, and what is left over.
+struct Fit {
+  double scale = 0.0;
+  double misfit_m = 0.0;
+};
+
+Fit fit(const Changes& reported, const Changes& expected) {
+  const double squares = product(reported, reported);
+  const double scale = squares > 0.0 ? product(reported, expected) / squares : 0.0;
+  return {scale, misfit_m(reported, scale, expected)};
+}
+
+bool is_drum(const Fit& found) { return found.misfit_m <= kMisfit_m && std::fabs(std::fabs(found.scale) - 1.0) <= kDrumShare; }
+
+// The other cable that a drive follows as if it were its own.
+std::optional<Index> followed_by(const Lengths& lengths, Index drive) {
+  std::optional<Index> best;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (Index cable = 0; cable < lengths.expected.size(); ++cable) {
+    const Fit found = fit(lengths.reported[drive], lengths.expected[cable]);
+    if (!is_drum(found) || found.misfit_m >= least_m) continue;
+    best = cable;
+    least_m = found.misfit_m;
+  }
+  return best;
+}
+
+std::string problem_of(const RobotConfig& robot, const Lengths& lengths, Index drive, const Fit& own) {
+  const std::optional<Index> other = followed_by(lengths, drive);
+  const int node = static_cast<int>(drive) + 1;
+  if (other && *other != drive) {
+    return text(
+        "drive %d (node %d) moves as cable %d does, not as its own: their cables are exchanged: wind each cable on its own drum, or "
+        "exchange the drives' node ids, then calibrate again",
+        static_cast<int>(drive), node, static_cast<int>(*other));
+  }
+  if (own.misfit_m <= kMisfit_m) {
+    return text(
+        "drive %d (node %d): drum radius %.4f mm: allowed %.4f mm +- %.0f %%: look whether cable lies on cable, or correct "
+        "drives.drum_radius_m of robot %s",
+        static_cast<int>(drive), node, 1e3 * std::fabs(own.scale) * robot.drum_radius_m, 1e3 * robot.drum_radius_m, 100.0 * kDrumShare,
+        robot.name.c_str());
+  }
+  return text(
+      "drive %d (node %d): its position misses the fixtures' poses by %.1f mm: allowed %.1f mm: look whether the arm lies in every "
+      "fixture and the cable is on its drum",
+      static_cast<int>(drive), node, 1e3 * own.misfit_m, 1e3 * kMisfit_m);
+}
+
+CableCalibration cable_of(const RobotConfig& robot, const Lengths& lengths, Index c, double scale, double pretension_N) {
+  const DriveTable& table = robot.table.drive[c];
+  // expected = scale reported + zero; reported is what the table's drum and direction make of the counts.
+  const double zero_m = lengths.expected_mean_m[c] - scale * lengths.reported_mean_m[c];
+  CableCalibration out;
+  out.serial = robot.drive_serials[c];
+  out.direction = scale > 0.0 ? table.direction : -table.direction;
+  out.drum_radius_m = std::fabs(scale) * robot.drum_radius_m;
+  out.zero_counts = to_counts(table.zero_counts - zero_m / (scale * table.direction * table.metres_per_count)).value;
+  out.pretension_N = pretension_N;
+  out.offset_m = zero_m;
+  return out;
+}
+
+}  // namespace
+
+void check_poses(const RobotConfig& robot, std::span<const ThetaVector> poses_rad) {
+  if (poses_rad.size() < 2) throw std::runtime_error("one pose says nothing of drums and directions: give two or more");
+  CableVector tension_N;
+  tension_N.fill(robot.table.tension.plan_N);
+  std::vector<CalibrationReading> readings;
+  for (const ThetaVector& theta_rad : poses_rad) readings.push_back({theta_rad, {}, tension_N});
+  const std::vector<Changes> cables = lengths_of(robot, readings).expected;
+  for (Index a = 0; a < cables.size(); ++a) {
+    if (misfit_m(cables[a], 0.0, cables[a]) < kLeastChange_m)
+      throw std::runtime_error(text("cable %d changes by less than %.0f mm between these poses: add one that bends its segment more",
+                                    static_cast<int>(a), 1e3 * kLeastChange_m));
+    for (Index b = 0; b < cables.size(); ++b) {
+      const Fit alike = fit(cables[a], cables[b]);
+      if (a != b && alike.misfit_m < kApart_m && std::fabs(std::fabs(alike.scale) - 1.0) <= 2.0 * kDrumShare)
+        throw std::runtime_error(text("cables %d and %d change alike between these poses: add one that bends the arm another way",
+                                      static_cast<int>(a), static_cast<int>(b)));
+    }
+  }
+}
+
+CalibrationResult calibrate(const RobotConfig& robot, std::span<const CalibrationReading> readings, const std::string& date) {
+  const Lengths lengths = lengths_of(robot, readings);
+  CalibrationResult out;
+  out.calibration = {robot.name, sha256_hex(robot.canonical_json), date, {}};
+  for (Index c = 0; c < as_index(robot.table.cable_count()); ++c) {
+    const Fit own = fit(lengths.reported[c], lengths.expected[c]);
+    if (!is_drum(own)) {
+      out.problems.push_back(problem_of(robot, lengths, c, own));
+    } else {
+      out.calibration.cables.push_back(cable_of(robot, lengths, c, own.scale, readings.front().tension_N[c]));
+    }
+  }
+  return out;
+}
+
+}  // namespace liana

@@ -1,0 +1,107 @@
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "host/cli/arguments.hpp"
+#include "host/cli/calibrate.hpp"
+#include "host/cli/calibrate_session.hpp"
+#include "host/cli/commands.hpp"
+#include "host/cli/errors.hpp"
+#include "host/cli/output.hpp"
+#include "host/cli/run_plan.hpp"
+#include "host/cli/tables.hpp"
+
+namespace liana {
+namespace {
+
+using nlohmann::json;
+
+std::vector<std::string> names_in(const std::string& list) {
+  std::vector<std::string> names;
+  std::istringstream in(list);
+  for (std::string name; std::getline(in, name, ',');) names.push_back(name);
+  return names;
+}
+
+ThetaVector pose_of(const RobotConfig& robot, const std::string& name) {
+  const auto found = robot.named_poses_deg.find(name);
+  if (found == robot.named_poses_deg.end()) {
+    std::string known;
+    for (const auto& [pose, angles] : robot.named_poses_deg) known += (known.empty() ? "" : ", ") + pose;
+    throw BadInput("--poses: '" + name + "': allowed are the named poses of robot " + robot.name + ": " + known);
+  }
+  ThetaVector theta_rad{};
+  for (std::size_t i = 0; i < found->second.size(); ++i) theta_rad[i] = found->second[i] * 3.14159265358979323846 / 180.0;
+  return theta_rad;
+}
+
+// One fixture after the other; the drives are off all the time.
+std::vector<CalibrationReading> read_all(const CalibrateOptions& options, const std::vector<std::string>& poses,
+                                         const std::vector<ThetaVector>& thetas_rad) {
+  std::vector<CalibrationReading> readings;
+  for (std::size_t p = 0; p < poses.size(); ++p) {
+    std::fprintf(stderr, "pose %zu of %zu, %s: reading the drives\n", p + 1, poses.size(), poses[p].c_str());
+    RunOptions run;
+    run.robot = options.robot;
+    run.bus = options.bus;
+    run.physics = options.physics;
+    run.seed = options.seed;
+    run.time = "fast";
+    run.fixture = poses[p];
+    run.cross_wired = options.cross_wired;
+    const RunPlan plan = make_plan(run);
+    try {
+      readings.push_back(CalibrateSession(plan).read());
+    } catch (...) {
+      clean_up(plan, true);
+      throw;
+    }
+    clean_up(plan, true);
+    readings.back().theta_rad = thetas_rad[p];
+  }
+  return readings;
+}
+
+void show(const CalibrationResult& result, bool as_json) {
+  if (as_json) {
+    json report{{"problems", result.problems}, {"calibration", nullptr}};
+    if (result.problems.empty()) report["calibration"] = json::parse(calibration_json(result.calibration));
+    std::printf("%s\n", report.dump().c_str());
+    return;
+  }
+  for (const std::string& problem : result.problems) std::printf("%s\n", problem.c_str());
+  if (!result.problems.empty()) return;
+  std::printf("drive  serial  direction      zero  drum radius mm  offset mm  tension N\n");
+  for (std::size_t i = 0; i < result.calibration.cables.size(); ++i) {
+    const CableCalibration& cable = result.calibration.cables[i];
+    std::printf("%5zu  %6u  %9d  %8d  %14.4f  %9.3f  %9.1f\n", i, cable.serial, cable.direction, cable.zero_counts,
+                1e3 * cable.drum_radius_m, 1e3 * cable.offset_m, cable.pretension_N);
+  }
+}
+
+}  // namespace
+
+int calibrate_command(const CalibrateOptions& options) {
+  const std::string text = evaluate_table("robot", options.robot);
+  const BusesConfig buses = checked([&] { return parse_buses(evaluate_table("buses", options.bus), options.bus); });
+  if (buses.backend != "embedded")
+    throw BadInput("--bus: '" + options.bus + "': its back end is " + buses.backend +
+                   ": allowed embedded: calibration of real drives is not there yet");
+  const RobotConfig robot = checked([&] { return parse_robot(text, options.robot, options.physics, buses); });
+  if (!options.out_file.empty()) check_output("--out", options.out_file);
+  const std::vector<std::string> poses = names_in(options.poses);
+  std::vector<ThetaVector> thetas_rad;
+  for (const std::string& pose : poses) thetas_rad.push_back(pose_of(robot, pose));
+  try {
+    check_poses(robot, thetas_rad);
+  } catch (const std::runtime_error& error) {
+    throw BadInput("--poses: '" + options.poses + "': " + error.what());
+  }
+  const CalibrationResult result = calibrate(robot, read_all(options, poses, thetas_rad), today_utc());
+  show(result, options.json);
+  if (!result.problems.empty()) return kExitFailure;
+  if (!options.out_file.empty()) write_output(options.out_file, calibration_json(result.calibration));
+  return kExitOk;
+}
+
+}  // namespace liana

@@ -1,0 +1,41 @@
+// Bus, lianad and bench in virtual time with the drives off, read while the arm lies in a fixture.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/api/client.hpp"
+#include "host/cli/calibrate.hpp"
+#include "host/cli/interrupt.hpp"
+#include "host/cli/process.hpp"
+#include "host/cli/run_plan.hpp"
+
+namespace liana {
+
+class CalibrateSession {
+ public:
+  // `plan`: without a mission. It must outlive this.
+  explicit CalibrateSession(const RunPlan& plan);
+  // Ends the programs.
+  ~CalibrateSession();
+  CalibrateSession(const CalibrateSession&) = delete;
+  CalibrateSession& operator=(const CalibrateSession&) = delete;
+
+  // Boots the drives and averages what they report for a second; the pose of the result is left empty. Throws std::runtime_error when a
+  // drive does not boot, a program ends, or it was interrupted; BadInput when a program refused what it was given.
+  CalibrationReading read();
+
+ private:
+  void start();
+  nlohmann::json next_state();
+  [[noreturn]] void give_up(const std::string& why);
+
+  const RunPlan& plan_;
+  InterruptGuard interrupts_;
+  std::vector<std::unique_ptr<ChildProcess>> children_;
+  std::optional<ApiClient> api_;
+};
+
+}  // namespace liana

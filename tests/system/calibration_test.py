@@ -1,0 +1,87 @@
+"""Calibration as an operator does it: measured in fixtures, used by a run, and refused before motion when anything does not fit."""
+import hashlib
+import json
+import pathlib
+import tempfile
+import unittest
+
+from liana_system import run, start_run
+
+SHORT = pathlib.Path(__file__).resolve().parent / "missions" / "short.lua"
+
+
+def signed(content):
+    body = {key: value for key, value in content.items() if key != "sha256"}
+    canonical = json.dumps(body, sort_keys=True, separators=(",", ":"))
+    return {**body, "sha256": hashlib.sha256(canonical.encode()).hexdigest()}
+
+
+class Calibration(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.directory = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        cls.file = cls.directory / "arm.json"
+        cls.done = run("liana", "calibrate", "--out", cls.file)
+        assert cls.done.returncode == 0, cls.done.stdout + cls.done.stderr
+        cls.content = json.loads(cls.file.read_text())
+
+    def mission(self, content):
+        changed = self.directory / "changed.json"
+        changed.write_text(json.dumps(content))
+        process = start_run(self, SHORT, "--calibration", changed)
+        out, error = process.communicate(timeout=120)
+        return process, out, error
+
+    def refused(self, content, *words):
+        process, out, error = self.mission(content)
+        self.assertEqual((process.returncode, out), (2, ""), error)
+        for word in words:
+            self.assertIn(word, error)
+        self.assertEqual(list(process.home.iterdir()), [], "nothing may be left behind")
+
+    def test_the_file_is_signed_and_a_mission_runs_with_it(self):
+        self.assertEqual(signed(self.content), self.content)
+        process, out, error = self.mission(self.content)
+        self.assertEqual(process.returncode, 0, out + error)
+        self.assertIn("outcome success", out)
+
+    def test_the_drums_directions_and_zeros_of_the_simulated_arm_are_found(self):
+        self.assertEqual(len(self.content["cables"]), 15)
+        for number, cable in enumerate(self.content["cables"]):
+            self.assertEqual((cable["serial"], cable["direction"]), (1001 + number, (-1) ** number))
+            self.assertAlmostEqual(cable["drum_radius_m"], 0.015, delta=1e-4)
+            self.assertLess(abs(cable["offset_m"]), 0.5e-3)
+
+    def test_exchanged_cables_are_named_and_leave_no_file(self):
+        out_file = self.directory / "crossed.json"
+        crossed = run("liana", "calibrate", "--cross-wired", "3,4", "--out", out_file)
+        self.assertEqual(crossed.returncode, 1, crossed.stderr)
+        self.assertIn("drive 3 (node 4) moves as cable 4 does", crossed.stdout)
+        self.assertIn("drive 4 (node 5) moves as cable 3 does", crossed.stdout)
+        self.assertEqual(len(crossed.stdout.strip().splitlines()), 2, crossed.stdout)
+        self.assertFalse(out_file.exists())
+
+    def test_drives_to_exchange_that_do_not_exist_are_refused(self):
+        done = run("liana", "calibrate", "--cross-wired", "3,99")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("from 0 to 14", done.stderr)
+
+    def test_a_changed_foreign_or_stale_file_is_refused_before_anything_starts(self):
+        changed = json.loads(self.file.read_text())
+        changed["cables"][2]["zero_counts"] += 1000
+        self.refused(changed, "sha256", "changed or damaged", "liana calibrate")
+        self.refused(signed({**self.content, "robot": "other"}), 'robot: "other"', "another robot")
+        self.refused(signed({**self.content, "date": "2020-01-01"}), 'date: "2020-01-01"', "365 days", "liana calibrate")
+
+    def test_swapped_drives_are_named_and_the_arm_is_never_enabled(self):
+        content = json.loads(self.file.read_text())
+        a, b = content["cables"][2], content["cables"][5]
+        a["serial"], b["serial"] = b["serial"], a["serial"]
+        process, out, error = self.mission(signed(content))
+        self.assertEqual(process.returncode, 1, out + error)
+        self.assertIn("node 3 on can0: object 0x1018:4 (serial number): expected 1006", out)
+        self.assertNotIn("ENABL", out + error)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
