@@ -119,11 +119,11 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
       {"step 'a' { device = 'vr', steer = { speed_m_s = 0.5 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        "steer.speed_m_s: 0.5: allowed up to 0.1 (robot zhu2022)"},
       {"step 'a' { device = 'none', run = liana.move_to 'nowhere', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "run: pose nowhere: allowed panel_edge, prepare"},
+       "run: pose nowhere: allowed fixture, panel_edge, prepare"},
       {"step 'a' { device = 'none', exit = liana.any { at_rest(), liana.all { liana.at_pose 'x' } }, time_limit_s = 1, on_fail = 'hold' }",
-       "exit: pose x: allowed panel_edge, prepare"},
+       "exit: pose x: allowed fixture, panel_edge, prepare"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }, finish = liana.move_to 'home'",
-       "finish: pose home: allowed panel_edge, prepare"},
+       "finish: pose home: allowed fixture, panel_edge, prepare"},
       {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 1, 0, 0 } }, { node = 5, position_m = { 1, 0, 0 } } }, "
        "exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        "step 1 \"a\": run: shape: nodes: entry 2: node: 5: allowed 1 to 4 (the tip, 5, has its own goal)"},
@@ -180,7 +180,8 @@ TEST(Eval, AMissionIsCheckedAgainstTheRobotThatIsNamed) {
                                          "return t\n");
   const Ended ended = run_program("eval mission slit_crossing --robot " + robot);
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(ended.error.find("pose panel_edge: allowed prepare, press_rod, segment5_in_slit, zero (robot short)"), std::string::npos)
+  EXPECT_NE(ended.error.find("pose panel_edge: allowed fixture, prepare, press_rod, segment5_in_slit, zero (robot short)"),
+            std::string::npos)
       << ended.error;
 }
 

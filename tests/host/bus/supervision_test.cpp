@@ -153,6 +153,7 @@ RobotConfig robot_with_three_cables() {
   robot.rated_torque_Nm = 9;
   robot.counts_per_turn = 65536;
   robot.gear = 4.5;
+  robot.drive_serials = {1001, 1002, 1003};
   return robot;
 }
 
