@@ -9,7 +9,7 @@
 namespace liana {
 
 constexpr std::uint16_t kFeedbackAgeTicks = 2;     // a TPDO may be missing for two ticks
-constexpr std::uint32_t kToleratedLostTicks = 3;   // drives quick-stop by themselves after three periods without RPDO
+constexpr std::uint32_t kToleratedLostTicks = 2;   // drives quick-stop by themselves after three periods without RPDO
 constexpr double kHeartbeatTimeout_s = 0.3;        // drives produce one every 0.1 s
 constexpr std::uint16_t kSlackDebounceTicks = 25;  // far longer than a stick-slip dip, far shorter than a cable leaving its drum
 constexpr std::uint16_t kBreakDebounceTicks = 3;   // one wrong torque sample is not a break

@@ -27,7 +27,7 @@ kTellTicks = 10  # two command intervals: the next state tells
 kSettleTicks = 5  # from the state on: drives have heard the last command, their brakes are closed
 
 # Detection that is promised: wrong for more than so many ticks is a fault.
-kSilentTicks, kHeartbeat_s, kLostTicks = 2, 0.3, 3
+kSilentTicks, kHeartbeat_s, kLostTicks = 2, 0.3, 2
 kSlackTicks, kAlarmTicks, kOverloadTicks = 25, 25, 3
 kFollowing_m, kFollowingTicks = 1e-3, 6
 

@@ -25,7 +25,7 @@ Detection detection_of(FaultNumber number, const RobotTable& table) {
     case FaultNumber::kCommandInvalid:
       return {"controller: each value of a released command when it takes force", 0};
     case FaultNumber::kTicksLost:
-      return {"watchdog: deadlines lost in a row, more than 3", 1};
+      return {"watchdog: deadlines lost in a row, more than 2", 1};
     case FaultNumber::kDriveMissing:
       return {"watchdog: age of the drive's heartbeat, more than 0.3 s",
               make_watchdog_limits(table).heartbeat_age_ticks + heartbeat_period};
@@ -60,7 +60,7 @@ Detection detection_of(FaultNumber number, const RobotTable& table) {
     case FaultNumber::kCableBreak:
       return {"watchdog: motor tension under the floor while its 20 ms low-pass is not, in a row", kBreakDebounceTicks};
     case FaultNumber::kTensionScatters:
-      return {"cable watch: the same as 5005, but back again, three times", -1};
+      return {"cable watch: the same as 5005, but back again, three times (in a row: 4 ticks)", kScatterReversals + 1};
     case FaultNumber::kGateRefused:
       return {"gate: every command before it is sent", 0};
   }

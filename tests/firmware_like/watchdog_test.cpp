@@ -252,10 +252,10 @@ TEST_F(Watchdogs, EveryLostBusIsNamed) {
   EXPECT_TRUE(has(faults_, FaultNumber::kBusLost, 31));
 }
 
-TEST_F(Watchdogs, ThreeLostTicksInARowAreToleratedFourAreNot) {
-  inputs_.lost_ticks = 3;
+TEST_F(Watchdogs, TwoLostTicksInARowAreToleratedThreeAreNot) {
+  inputs_.lost_ticks = 2;
   EXPECT_EQ(run(kRunning), 0);
-  inputs_.lost_ticks = 4;
+  inputs_.lost_ticks = 3;
   EXPECT_EQ(run(kUnpowered), 0);
   EXPECT_EQ(run(kRunning), 1);
   EXPECT_TRUE(has(faults_, FaultNumber::kTicksLost, -1));

@@ -120,7 +120,7 @@ class Rules(unittest.TestCase):
             every = tuple(fault(known) for known in (3001, 3002, 3003, 3004, 3006, 3007, 5001, 5002, 5003))
             self.assertEqual(rules.faults_not_latched(changed(5, 60, **wrong, faults=every), kLimits), [])
         self.broken(rules.faults_not_latched(changed(5, lost_buses=2), kLimits), "(4001, 1)")
-        self.broken(rules.faults_not_latched(changed(5, lost_ticks=4), kLimits), "(2001, -1)")
+        self.broken(rules.faults_not_latched(changed(5, lost_ticks=3), kLimits), "(2001, -1)")
 
     def test_a_drive_that_was_never_there_is_no_fault(self):
         self.assertEqual(rules.faults_not_latched(ticks(10, age=(0, 3), heartbeat_age=(0, 99), operational=(1, 0)), kLimits), [])
