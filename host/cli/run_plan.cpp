@@ -9,6 +9,7 @@
 
 #include "host/cli/errors.hpp"
 #include "host/cli/output.hpp"
+#include "host/cli/plan_file.hpp"
 #include "host/cli/process.hpp"
 #include "host/cli/tables.hpp"
 #include "host/config/calibration.hpp"
@@ -69,15 +70,6 @@ std::string interface_names(const BusesConfig& buses) {
   std::string names;
   for (const BusConfig& bus : buses.buses) names += (names.empty() ? "" : ",") + bus.name;
   return names;
-}
-
-// A plan is a way past the scene that it was made for.
-void check_scene_of_plan(const std::string& plan, const std::string& name, const SceneConfig& scene) {
-  const auto of_plan =
-      checked([&] { return parse_json(read_text_file(plan), plan).value("/inputs/scene"_json_pointer, nlohmann::json()); });
-  if (of_plan == nlohmann::json::parse(scene.canonical_json)) return;
-  throw BadInput("--scene: '" + name + "': the plan " + plan + " was made for another scene" +
-                 (of_plan.is_object() ? ", '" + of_plan.value("name", "") + "'" : "") + "; run it in that one, or plan again");
 }
 
 void append(std::vector<std::string>& argv, const std::vector<std::string>& words) { argv.insert(argv.end(), words.begin(), words.end()); }
@@ -156,7 +148,7 @@ RunPlan make_plan(const RunOptions& options) {
   if (!plan.scene.camera || !plan.scene.contact)
     throw BadInput("--scene: '" + options.scene + "': has no " + (plan.scene.camera ? "contact" : "camera") +
                    ", which the bench needs; add it (docs/formats.md)");
-  if (options.mission.ends_with(".json")) check_scene_of_plan(options.mission, options.scene, plan.scene);
+  if (options.mission.ends_with(".json")) check_plan_file(options.mission, robot_for_kinematics(options.robot), plan.scene);
   check_interfaces(plan.buses);
   plan.time_mode = time_mode_of(options, plan.buses);
   plan.keep_directory = !options.record_dir.empty();

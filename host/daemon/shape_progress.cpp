@@ -4,21 +4,16 @@
 #include <cmath>
 
 #include "firmware_like/motion/keep_clear.hpp"
+#include "firmware_like/motion/shape.hpp"
 
 namespace liana {
 namespace {
 
-double missing_now_m(const RobotTable& table, const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear) {
-  double largest = largest_weight(clear);
-  double sum_m =
-      largest > 0.0 ? missing_clearance_m(table, now.theta_command_rad, forward_kinematics(table, now.theta_command_rad), clear) : 0.0;
-  for (const NodeTarget& target : nodes) {
-    if (target.node == 0) continue;
-    const Vec3& node_m = now.node_command_m[static_cast<std::size_t>(target.node - 1)];
-    sum_m += target.weight * std::max(0.0, norm(subtract(target.position_m, node_m)) - target.threshold_m);
-    largest = std::max(largest, target.weight);
-  }
-  return largest > 0.0 ? sum_m / largest : 0.0;
+double missing_now_m(const RobotTable& table, const ThetaVector& theta_rad, const NodeTargets& nodes, const KeepClearTargets& clear) {
+  const double largest = std::max(largest_weight(table, nodes), largest_weight(clear));
+  if (!(largest > 0.0)) return 0.0;
+  const ArmKinematics arm = forward_kinematics(table, theta_rad);
+  return (node_excess_m(table, arm, nodes) + missing_clearance_m(table, theta_rad, arm, clear)) / largest;
 }
 
 }  // namespace
@@ -27,7 +22,7 @@ ShapeProgress::ShapeProgress(const RobotTable& table)
     : table_(table), window_(static_cast<std::size_t>(std::ceil(kShapeSettled_s / (table.tick_s * table.interval_ticks)))) {}
 
 void ShapeProgress::note(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear) {
-  missing_m_ = missing_now_m(table_, now, nodes, clear);
+  missing_m_ = missing_now_m(table_, now.theta_command_rad, nodes, clear);
   if (recent_m_.size() < window_) {
     recent_m_.push_back(missing_m_);
     return;

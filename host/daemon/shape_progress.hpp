@@ -17,7 +17,7 @@ class ShapeProgress {
  public:
   explicit ShapeProgress(const RobotTable& table);
 
-  // One command interval of the arm and what its shape is asked for. Cost: one forward kinematics where points are kept clear.
+  // One command interval of the arm and what its shape is asked for. Cost: one forward kinematics where something is asked for.
   void note(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear);
   // New targets: what was missing of the old ones says nothing about them.
   void restart() { recent_m_.clear(), oldest_ = 0; }

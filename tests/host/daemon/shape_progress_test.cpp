@@ -11,20 +11,19 @@ namespace {
 
 class Progress : public testing::Test {
  protected:
-  Progress() { target_[0] = {3, {1.0, 0.0, 0.0}, 2.0, 0.01}; }
-
-  // Intervals with node 3 at `distance_m` from its target, falling by `per_interval_m`.
+  // Intervals with node 3 of the straight arm at `distance_m` from its target, falling by `per_interval_m`.
   void pass(std::int32_t intervals, double distance_m, double per_interval_m = 0.0) {
     for (std::int32_t i = 0; i < intervals; ++i) {
-      now_.node_command_m[2] = {1.0, distance_m - i * per_interval_m, 0.0};
-      progress_.note(now_, target_, {});
+      NodeTargets target{};
+      target[0] = {3, add(node_m_, {0.0, distance_m - i * per_interval_m, 0.0}), 2.0, 0.01};
+      progress_.note(now_, target, {});
     }
   }
 
   RobotTable table_ = zhu2022::table();
   std::int32_t window_ = static_cast<std::int32_t>(kShapeSettled_s / (table_.tick_s * table_.interval_ticks)) + 1;
   ShapeProgress progress_{table_};
-  NodeTargets target_{};
+  Vec3 node_m_ = forward_kinematics(table_, ThetaVector{}).node_in_base[3].position_m;
   Outputs now_{};
 };
 

@@ -135,6 +135,25 @@ class PlanCommand(unittest.TestCase):
         self.assertEqual(kept["inputs"]["scene"]["name"], "panel_slit")
         self.assertEqual(kept["inputs"]["robot"]["name"], "zhu2022")
 
+    def test_an_edited_plan_is_not_carried_out(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "plan.json"
+            self.assertEqual(call(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", "--waypoints=3", f"--out={path}").returncode, 0)
+            written = json.loads(path.read_text(encoding="utf-8"))
+
+            def edit(change):
+                plan = json.loads(json.dumps(written))
+                change(plan)
+                path.write_text(json.dumps(plan), encoding="utf-8")
+                done = subprocess.run([BIN / "liana", "run", path], capture_output=True, text=True, check=False, timeout=60)
+                self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+                return done.stderr
+
+            into_the_panel = [-2.641, -2.064, -1.81, -4.64, 4.777, 5.87, 4.0, 4.764, 5.0, -0.543]
+            self.assertIn("waypoints_deg: on the path found link", edit(lambda plan: plan["waypoints_deg"].__setitem__(1, into_the_panel)))
+            self.assertIn("waypoints_deg: a theta changes by", edit(lambda plan: plan["inputs"].__setitem__("max_step_deg", 1.0)))
+            self.assertIn("inputs.margin_m", edit(lambda plan: plan["inputs"].pop("margin_m")))
+
     def test_a_failed_plan_leaves_the_kept_file_as_it_was_and_says_so(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "plan.json"
