@@ -35,6 +35,8 @@ class Controller {
   const MotionState& motion() const noexcept { return motion_; }
   // What the last clear or enable looked at (bits of Condition).
   const SupervisorState& supervisor() const noexcept { return supervisor_; }
+  // Angles and contradictions that the drives' lengths show.
+  const EstimatorState& estimator() const noexcept { return estimator_; }
 
  private:
   using Index = std::size_t;

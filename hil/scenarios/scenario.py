@@ -17,12 +17,14 @@ kMoveDeg = 6.0
 kEnabling_s = 75  # arm time; the pretension ramp has 60 s
 kPathStop = 500  # ticks; twice what rest from full speed takes
 kTravelDeg = 1.0  # of any angle from the fault to the end, where a scenario says nothing else
+kRefusing_s = 2.0
 kRested = 250  # ticks looked at after the end state, and after a clear
 
 kFields = {"about": str, "during": str, "faults": list, "bus_script": list, "expect": dict, "reduced": bool,
-           "host": dict, "time_limit_s": (int, float)}
+           "host": dict, "start": dict, "time_limit_s": (int, float)}
+kStart = {"pose": str, "in_pose": str, "cross_wired": list}
 kExpected = {"fault": (int, type(None)), "index": int, "detail": int, "within_ticks": int, "state": str, "stopped_within_ticks": int, "travel_deg": (int, float),
-             "after_clear": str, "events": list, "late_commands": bool, "boot_order": bool, "also": list}
+             "after_clear": str, "events": list, "late_commands": bool, "boot_order": bool, "also": list, "refused": list}
 kHost = {"action": str, "program": str, "bytes": int}
 kHostExpected = {"outcome": str, "says": list}
 kDuring = ("boot", "rest", "move")
@@ -42,6 +44,10 @@ class Scenario:
         else:
             check_fields(f"{self.name}: host", self.host, kHost, ("action", "program"))
             check_fields(f"{self.name}: expect", expect, kHostExpected, ("outcome",))
+        self.start = content.get("start", {})
+        check_fields(f"{self.name}: start", self.start, kStart, ())
+        if "refused" in expect and content["during"] != "boot":
+            raise BadScenario(f"{self.name}: expect: refused is of an arm that is never enabled: during has to be boot")
         if content["during"] not in kDuring:
             raise BadScenario(f"{self.name}: during is {content['during']}; allowed are {', '.join(kDuring)}")
         self.during, self.expect = content["during"], expect
@@ -63,7 +69,14 @@ class Scenario:
         return [int(rule["id"], 16) & 0x7F for rule in self.bus_script or [] if rule["action"] == "send"]
 
     def fault_count(self):
-        return len(self.faults or []) + len(self.bus_script or []) + (self.host is not None)
+        return len(self.faults or []) + len(self.bus_script or []) + (self.host is not None) + ("cross_wired" in self.start)
+
+    def words(self):
+        """What lianad and the bench are told of the start."""
+        start = self.start
+        bench = (["--start-pose", start["pose"], "--fixture"] if "pose" in start else []) + \
+                (["--cross-wired", ",".join(map(str, start["cross_wired"]))] if "cross_wired" in start else [])
+        return {"lianad": ["--in-pose", start["in_pose"]] if "in_pose" in start else [], "bench": bench}
 
 
 def all_scenarios(folder=HERE):
@@ -103,13 +116,15 @@ class Run:
             limit.cancel()
 
     def act(self):
-        with System(expect="client,archive", faults=self.scenario.faults, bus_script=self.scenario.bus_script) as system:
+        with System(expect="client,archive", faults=self.scenario.faults, bus_script=self.scenario.bus_script, **self.scenario.words()) as system:
             with self.limited(system):
                 trial.start_archive(system)
                 client = system.client()
                 self.bring_up(client)
                 self.watch(client)
                 self.stay(client)
+                if "refused" in self.expect:
+                    self.judge_refusal(client)
                 if "after_clear" in self.expect:
                     self.clear(client)
                 end = client.state["tick"]
@@ -124,7 +139,8 @@ class Run:
 
     def bring_up(self, client):
         must(client.ask("acquire"))
-        client.until(lambda state: state["faults"] or (state["state"] != "BOOTING" and state["is_homed"]))
+        refused = "refused" in self.expect
+        client.until(lambda state: state["faults"] or (state["state"] != "BOOTING" and (state["is_homed"] or refused)))
         if self.scenario.during == "boot":
             return
         expect_that(not client.state["faults"], f"a fault before the arm was enabled: {brief(client.state)}")
@@ -172,6 +188,17 @@ class Run:
                 answer = client.ask(op, **words)
                 expect_that(answer["op"] == "error", f"{op} was accepted while a fault is latched: {answer}")
 
+    def judge_refusal(self, client):
+        """An arm that is not homed stays so and says why: to who wants to enable it, and to who only looks."""
+        client.go_on(kRefusing_s)
+        expect_that(not client.state["is_homed"], "the arm counts as homed")
+        answer = client.ask("state_command", command="enable")
+        expect_that(answer["op"] == "error", f"the arm was enabled: {answer}")
+        for text in [answer["message"], " ".join(event["text"] for event in client.events)]:
+            expect_that(all(words in text for words in self.expect["refused"]), f"{self.expect['refused']} is not in: {text}")
+        client.go_on(kRefusing_s)
+        expect_that(client.state["state"] == "DISABLED", f"DISABLED was expected, but: {brief(client.state)}")
+
     def clear(self, client):
         wanted = self.expect["after_clear"]
         must(client.ask("state_command", command="clear"))
@@ -210,6 +237,8 @@ class Run:
             traffic.commands.pop(node, None), traffic.reports.pop(node, None)
         expect_that(self.scenario.during == "boot" or traffic.commands, "no command on the wire: the rules had nothing to look at")
         self.violations += predicates.target_steps(traffic, predicates.step_limit_counts(system.json("robot.json"), period_s))
+        if "refused" in self.expect:
+            self.violations += predicates.drives_with_torque(truth.column("enabled"), 0, end)
         if self.latched is None:
             return
         took = self.latched - begun

@@ -7,9 +7,9 @@
 #include <optional>
 #include <stdexcept>
 
-#include "firmware_like/arm/tension.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "host/config/sha256.hpp"
+#include "host/fixture/fixture.hpp"
 
 namespace liana {
 namespace {
@@ -26,16 +26,6 @@ std::string text(const char* format, auto... values) {
   char line[400];
   std::snprintf(line, sizeof line, format, values...);
   return line;
-}
-
-// Unstretched cable beyond the length at the zero pose, for every cable at one pose.
-CableVector beyond_zero_m(const RobotTable& table, const ThetaVector& theta_rad, const CableVector& tension_N) {
-  const CableLayout layout = cable_layout(table);
-  const ArmTrig trig = arm_trig(table, theta_rad);
-  const CableGeometry geometry = cable_geometry(table, layout, trig);
-  CableVector out = payout_for(table, layout, geometry.part_m, tension_ratio(table, layout, trig, SlipState{}), tension_N);
-  for (Index c = 0; c < as_index(table.cable_count()); ++c) out[c] -= layout.zero_length_m[c] + table.lead_m;
-  return out;
 }
 
 double mean(const std::vector<double>& values) {

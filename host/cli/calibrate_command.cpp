@@ -10,6 +10,7 @@
 #include "host/cli/output.hpp"
 #include "host/cli/run_plan.hpp"
 #include "host/cli/tables.hpp"
+#include "host/fixture/fixture.hpp"
 
 namespace liana {
 namespace {
@@ -21,18 +22,6 @@ std::vector<std::string> names_in(const std::string& list) {
   std::istringstream in(list);
   for (std::string name; std::getline(in, name, ',');) names.push_back(name);
   return names;
-}
-
-ThetaVector pose_of(const RobotConfig& robot, const std::string& name) {
-  const auto found = robot.named_poses_deg.find(name);
-  if (found == robot.named_poses_deg.end()) {
-    std::string known;
-    for (const auto& [pose, angles] : robot.named_poses_deg) known += (known.empty() ? "" : ", ") + pose;
-    throw BadInput("--poses: '" + name + "': allowed are the named poses of robot " + robot.name + ": " + known);
-  }
-  ThetaVector theta_rad{};
-  for (std::size_t i = 0; i < found->second.size(); ++i) theta_rad[i] = found->second[i] * 3.14159265358979323846 / 180.0;
-  return theta_rad;
 }
 
 // One fixture after the other; the drives are off all the time.
@@ -91,8 +80,8 @@ int calibrate_command(const CalibrateOptions& options) {
   if (!options.out_file.empty()) check_output("--out", options.out_file);
   const std::vector<std::string> poses = names_in(options.poses);
   std::vector<ThetaVector> thetas_rad;
-  for (const std::string& pose : poses) thetas_rad.push_back(pose_of(robot, pose));
   try {
+    for (const std::string& pose : poses) thetas_rad.push_back(named_pose_rad(robot, pose));
     check_poses(robot, thetas_rad);
   } catch (const std::runtime_error& error) {
     throw BadInput("--poses: '" + options.poses + "': " + error.what());

@@ -35,7 +35,7 @@ _liana() {
     words="run calibrate pose ik reach plan status estop clear faults latency replay robot doctor completion help"
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
-      run) words="--robot --scene --bus --time --physics --calibration --record --json --seed" ;;
+      run) words="--robot --scene --bus --time --physics --calibration --in-pose --cross-wired --record --json --seed" ;;
       calibrate) words="--robot --bus --poses --physics --cross-wired --out --seed --json" ;;
       latency) words="--rate --seconds --buses --arm --json" ;;
       pose) words="--robot --theta-deg --scene --json" ;;

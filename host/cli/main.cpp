@@ -113,6 +113,9 @@ void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
       ->capture_default_str()
       ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
   sub->add_option("--calibration", run.calibration, "what liana calibrate wrote; the robot table's values where not given");
+  sub->add_option("--in-pose", run.in_pose,
+                  "named pose in which the arm lies in its fixture: unless every cable says so, it is not enabled");
+  sub->add_option("--cross-wired", run.cross_wired, "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
   sub->add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
   sub->add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
   add_seed(*sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");

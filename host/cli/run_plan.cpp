@@ -14,6 +14,7 @@
 #include "host/cli/tables.hpp"
 #include "host/config/calibration.hpp"
 #include "host/config/field.hpp"
+#include "host/fixture/fixture.hpp"
 
 namespace liana {
 namespace {
@@ -57,6 +58,14 @@ void check_interfaces(const BusesConfig& buses) {
   }
 }
 
+void check_in_pose(const RobotConfig& robot, const std::string& pose) {
+  try {
+    check_tells_apart(robot, pose);
+  } catch (const std::runtime_error& error) {
+    throw BadInput("--in-pose: " + std::string(error.what()));
+  }
+}
+
 std::string time_mode_of(const RunOptions& options, const BusesConfig& buses) {
   const bool wall_clock_only = buses.backend == "socketcan";
   if (options.time.empty()) return wall_clock_only ? "real" : "fast";
@@ -91,6 +100,7 @@ ProgramCall daemon_call(const RunPlan& plan, const RunOptions& options, bool emb
                     plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode, "--physics", options.physics, "--expect",
                     expected_roles(plan, options)}};
   if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});
+  if (!options.in_pose.empty()) append(call.argv, {"--in-pose", options.in_pose});
   if (embedded) append(call.argv, {"--bus-socket", plan.bus_socket()});
   return call;
 }
@@ -104,7 +114,8 @@ ProgramCall bench_call(const RunPlan& plan, const RunOptions& options, bool embe
                    {sibling_program("liana-bench"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"), "--buses",
                     plan.file("buses.json"), "--api", plan.api_socket(), "--arm", options.arm, "--physics", options.physics, "--seed",
                     std::to_string(options.seed), "--truth", plan.file("truth.bin"), "--summary", plan.file("bench_summary.json")}};
-  if (!options.fixture.empty()) append(call.argv, {"--start-pose", options.fixture, "--fixture"});
+  const std::string& fixture = options.in_pose.empty() ? options.fixture : options.in_pose;
+  if (!fixture.empty()) append(call.argv, {"--start-pose", fixture, "--fixture"});
   if (!options.cross_wired.empty()) append(call.argv, {"--cross-wired", options.cross_wired});
   if (embedded) {
     append(call.argv, {"--bus-socket", plan.bus_socket()});
@@ -142,6 +153,7 @@ RunPlan make_plan(const RunOptions& options) {
   plan.buses = checked([&] { return parse_buses(buses_text, options.bus); });
   const RobotConfig robot = checked([&] { return parse_robot(robot_text, options.robot, options.physics, plan.buses); });
   if (!options.calibration.empty()) checked([&] { return load_calibration(options.calibration, robot, today_utc()); });
+  if (!options.in_pose.empty()) check_in_pose(robot, options.in_pose);
   const bool has_mission = !options.mission.empty();
   if (has_mission) check_mission(options.mission, options.robot);
   plan.scene = checked([&] { return parse_scene(scene_text, options.scene); });

@@ -33,7 +33,7 @@ void handle_signals() {
 }
 
 struct Options {
-  std::string robot, scene, buses, api, time = "fast", physics = "nominal", bus_socket, expect, calibration;
+  std::string robot, scene, buses, api, time = "fast", physics = "nominal", bus_socket, expect, calibration, in_pose;
 };
 
 std::vector<Role> roles_in(const std::string& list) {
@@ -108,7 +108,8 @@ int run(const Options& options) {
   const auto link = std::make_unique<Link>(robot.table);
   std::unique_ptr<RtCycle> cycle;
   const bool ends_with_mission = *mode != TimeMode::kReal && std::find(expected.begin(), expected.end(), Role::kMission) != expected.end();
-  Service service({options.api, *mode, robot, scene, buses, ends_with_mission, [&] { return cycle->boot_problems(); }}, *link);
+  Service service({options.api, *mode, robot, scene, buses, options.in_pose, ends_with_mission, [&] { return cycle->boot_problems(); }},
+                  *link);
   const std::optional<Registration> registration = registered(options.api);
   const std::unique_ptr<DriveBus> bus = open_drive_bus(buses, *mode, options.bus_socket);
   cycle = std::make_unique<RtCycle>(robot, buses, *bus, *link);
@@ -134,6 +135,8 @@ int main(int argc, char** argv) {
   app.add_option("--bus-socket", options.bus_socket, "socket of liana-bus (embedded back end)");
   app.add_option("--calibration", options.calibration,
                  "what liana calibrate measured of this arm's drives; the robot table's values without");
+  app.add_option("--in-pose", options.in_pose,
+                 "named pose in which the arm lies in its fixture: unless every cable says so, the arm is not enabled");
   app.add_option("--expect", options.expect, "roles that must have connected before virtual time starts, comma separated");
   CLI11_PARSE(app, argc, argv);
   try {

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kLockstepPatience_s = 10.0;  // a client that stays silent longer is dead
 constexpr double kAfterMission_s = 1.0;       // of arm time: the hold at the end of the mission comes to rest
+constexpr double kHoming_s = 0.5;             // of arm time after booting: homing takes 0.1 s
 constexpr double kShutdownLimit_s = 10.0;     // of arm time, until the drives are off
 
 double reach_of(const RobotTable& table) {
@@ -32,6 +33,7 @@ Service::Service(const ServiceConfig& config, Link& link)
     : config_(config),
       link_(link),
       reach_m_(reach_of(config.robot.table)),
+      homing_(config_.robot, config.in_pose),
       zone_(config.scene.slit, config.robot.table.limits.tip_speed_slit_m_s),
       arbiter_(config.robot.table, zone_),
       shape_progress_(config.robot.table),
@@ -54,6 +56,7 @@ void Service::cycle() {
   link_.report.refresh();
   link_.image.refresh();
   watch_arm();
+  watch_homing();
   watch_slit();
   watch_shape();
   forward_ticks();
@@ -108,6 +111,16 @@ void Service::watch_slit() {
   notes_.planar_segments = planar_segments(table, links, mouth, PlanarSwitch{}, notes_.planar_segments);
 }
 
+// An arm that is not homed some time after booting says why, once; the refusal to enable it says how it stands.
+void Service::watch_homing() {
+  if (boot_seen_ != BootPhase::kDone) return;
+  homing_.look(link_.report.value(), link_.image.value().controller.estimator());
+  notes_.homed = homing_.is_homed();
+  if (!homing_due_tick_ || tick() < *homing_due_tick_) return;
+  homing_due_tick_.reset();
+  if (!homing_.is_homed()) note("not homed: " + homing_.why_not());
+}
+
 // What changes by itself: the end of booting, the end of the run after the mission.
 void Service::watch_arm() {
   note_clear();
@@ -121,7 +134,10 @@ void Service::watch_arm() {
   const BootPhase boot = link_.report.value().boot;
   if (boot == boot_seen_) return;
   boot_seen_ = boot;
-  if (boot == BootPhase::kDone) note("all drives are booted");
+  if (boot == BootPhase::kDone) {
+    note("all drives are booted");
+    homing_due_tick_ = tick() + static_cast<std::uint64_t>(std::lround(kHoming_s / config_.robot.table.tick_s));
+  }
   if (boot != BootPhase::kFailed) return;
   notes_.boot_problems = config_.boot_problems();
   note("booting failed: " + text_of(notes_.boot_problems));

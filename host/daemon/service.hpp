@@ -15,6 +15,7 @@
 #include "host/config/config.hpp"
 #include "host/daemon/arbiter.hpp"
 #include "host/daemon/boot_problem.hpp"
+#include "host/daemon/homing.hpp"
 #include "host/daemon/host_trouble.hpp"
 #include "host/daemon/link.hpp"
 #include "host/daemon/owner.hpp"
@@ -33,13 +34,14 @@ struct ServiceConfig {
   RobotConfig robot;
   SceneConfig scene;
   BusesConfig buses;
+  std::string in_pose;                                      // named pose in which the arm lies at the start; empty: nobody knows
   bool ends_with_mission = false;                           // stop the arm once the mission has come and gone
   std::function<std::vector<BootProblem>()> boot_problems;  // asked once, when booting has failed
 };
 
 class Service : private ApiHandler {
  public:
-  // Listens at config.api_path; throws std::runtime_error.
+  // Listens at config.api_path; throws std::runtime_error, also about config.in_pose (homing.hpp).
   Service(const ServiceConfig& config, Link& link);
 
   // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after `timeout_s`.
@@ -89,12 +91,14 @@ class Service : private ApiHandler {
   Json on_camera(const ClientInfo& client, const Json& request);
   Json on_timing(const ClientInfo& client, const Json& request);
 
+  void require_homed() const;
   const Outputs& now() const { return link_.report.value().outputs; }
   std::uint64_t tick() const { return link_.report.value().next_tick; }
   void note(const std::string& text);
   void request(Request what);
   void drop_motion(const std::string& why);
   void watch_arm();
+  void watch_homing();
   void watch_slit();
   void watch_shape();
   void note_clear();
@@ -109,6 +113,8 @@ class Service : private ApiHandler {
   Link& link_;
   double reach_m_;
   Owner owner_;
+  Homing homing_;
+  std::optional<std::uint64_t> homing_due_tick_;  // when an arm that is not homed says why
   SpeedZone zone_;
   Arbiter arbiter_;
   ShapeProgress shape_progress_;

@@ -95,6 +95,7 @@ Service::Json Service::on_state_command(const ClientInfo& client, const Json& re
     }
     if (now().faults.count > 0) throw RequestError("fault", "a fault is latched: clear it first");
     if (shutdown_tick_) throw RequestError("refused", "lianad is stopping");
+    require_homed();
     this->request(Request::kEnable);
   } else if (command == "disable") {
     this->request(Request::kDisable);
@@ -102,12 +103,15 @@ Service::Json Service::on_state_command(const ClientInfo& client, const Json& re
     notes_.stop = nullptr;
     this->request(Request::kClear);
   } else if (command == "home") {
-    // Encoders are absolute: homing is the comparison of stored zeros with the lengths found, which every tick repeats.
-    if (now().homed == 0) throw RequestError("refused", "the motor lengths contradict each other: check zero_counts and slack cables");
+    require_homed();  // encoders are absolute: nothing has to be done
   } else {
     throw RequestError("bad_request", "command '" + command + "': allowed enable, disable, clear, home");
   }
   return Json::object();
+}
+
+void Service::require_homed() const {
+  if (!homing_.is_homed()) throw RequestError("refused", "not homed: " + homing_.why_not());
 }
 
 Service::Json Service::on_move_jp(const ClientInfo& client, const Json& request) {

@@ -5,6 +5,7 @@
 #include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/safety/faults.hpp"
 #include "host/config/theta_numbers.hpp"
+#include "host/daemon/homing.hpp"
 #include "host/daemon/host_trouble.hpp"
 
 namespace liana {
@@ -69,15 +70,13 @@ json limits_json(std::uint32_t limits) {
 }
 
 json drives_json(const RobotTable& table, const CycleReport& report) {
+  const CableVector position_m = paid_out_m(table, report.inputs), tension_N = reported_tension_N(table, report.inputs);
   json drives = json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
-    const DriveFeedback& d = report.inputs.drive[i];
-    const double position_m =
-        table.drive[i].direction * (static_cast<double>(d.position_counts) - table.drive[i].zero_counts) * table.drive[i].metres_per_count;
     drives.push_back({{"node", i + 1},
-                      {"state", drive_state_name(decode(d.statusword))},
-                      {"position_m", position_m},
-                      {"tension_N", d.torque_permille * table.drive[i].newtons_per_permille}});
+                      {"state", drive_state_name(decode(report.inputs.drive[i].statusword))},
+                      {"position_m", position_m[i]},
+                      {"tension_N", tension_N[i]}});
   }
   return drives;
 }
@@ -116,7 +115,6 @@ json verdict_json(const RobotTable& table, const LastVerdict& v) {
 
 void add_arm(json& state, const RobotTable& table, const CycleReport& report) {
   const Outputs& o = report.outputs;
-  state["is_homed"] = o.homed != 0;
   state["measured_js_deg"] = degrees(table, o.theta_measured_rad);
   state["setpoint_js_deg"] = degrees(table, o.theta_command_rad);
   state["measured_cp"] = pose_json(tip_pose(table, arm_trig(table, o.theta_measured_rad)));
@@ -159,6 +157,7 @@ json state_message(const RobotTable& table, const BusesConfig& buses, const Cycl
              {"tick", report.next_tick},
              {"time_s", static_cast<double>(report.next_tick) * table.tick_s},
              {"state", state_name(report)},
+             {"is_homed", notes.homed},
              {"is_busy", arbiter.is_busy() || moving},
              {"retracted", arbiter.has_retracted()},
              {"owner", owner.name()},

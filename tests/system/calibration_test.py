@@ -7,7 +7,7 @@ import unittest
 
 from liana_system import run, start_run
 
-SHORT = pathlib.Path(__file__).resolve().parent / "missions" / "short.lua"
+MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
 
 
 def signed(content):
@@ -25,10 +25,10 @@ class Calibration(unittest.TestCase):
         assert cls.done.returncode == 0, cls.done.stdout + cls.done.stderr
         cls.content = json.loads(cls.file.read_text())
 
-    def mission(self, content):
+    def mission(self, content, name="short", *words):
         changed = self.directory / "changed.json"
         changed.write_text(json.dumps(content))
-        process = start_run(self, SHORT, "--calibration", changed)
+        process = start_run(self, MISSIONS / f"{name}.lua", "--calibration", changed, *words)
         out, error = process.communicate(timeout=120)
         return process, out, error
 
@@ -44,6 +44,16 @@ class Calibration(unittest.TestCase):
         process, out, error = self.mission(self.content)
         self.assertEqual(process.returncode, 0, out + error)
         self.assertIn("outcome success", out)
+
+    def test_an_arm_that_lies_in_the_fixture_it_is_said_to_lie_in_is_enabled(self):
+        process, out, error = self.mission(self.content, "out_of_fixture", "--in-pose", "fixture")
+        self.assertEqual(process.returncode, 0, out + error)
+        self.assertIn("outcome success", out)
+
+    def test_a_pose_that_would_hide_an_exchange_is_refused(self):
+        process, out, error = self.mission(self.content, "short", "--in-pose", "zero")
+        self.assertEqual((process.returncode, out), (2, ""), error)
+        self.assertIn("--in-pose: pose 'zero': cables 0 and 1 are only 0.0 mm apart", error)
 
     def test_the_drums_directions_and_zeros_of_the_simulated_arm_are_found(self):
         self.assertEqual(len(self.content["cables"]), 15)

@@ -189,11 +189,13 @@ class Truth:
 class System:
     """All programs of one run in a directory of their own; ends them when the `with` block ends."""
 
-    def __init__(self, expect="client", faults=None, bus_script=None, seed=1, bus="embedded"):
+    def __init__(self, expect="client", faults=None, bus_script=None, seed=1, bus="embedded", lianad=(), bench=()):
+        """`lianad`, `bench`: further words for these programs."""
         self.directory = pathlib.Path(tempfile.mkdtemp(prefix="liana-sys-"))
         self.api, self.bus_socket = self.directory / "api", self.directory / "bus"
         self.children, self.clients = {}, []
         self.expect, self.faults, self.script, self.seed, self.bus = expect, faults, bus_script, seed, bus
+        self.lianad_words, self.bench_words = lianad, bench
 
     def tables(self):
         return [word for kind in ("robot", "scene", "buses") for word in (f"--{kind}", self.directory / f"{kind}.json")]
@@ -217,11 +219,12 @@ class System:
             self.start("liana-bus", "--socket", self.bus_socket, "--buses", self.directory / "buses.json", "--time", "fast", "--log",
                        self.directory, "--stats", self.directory / "bus_stats.json", *script)
             wait_until(self.bus_socket.exists, "liana-bus to listen")
-            self.start("lianad", *self.tables(), "--api", self.api, "--bus-socket", self.bus_socket, "--time", "fast", "--expect", self.expect)
+            self.start("lianad", *self.tables(), "--api", self.api, "--bus-socket", self.bus_socket, "--time", "fast", "--expect", self.expect,
+                       *self.lianad_words)
             wait_until(self.api.exists, "lianad to listen")
             faults = ["--faults", self.directory / "faults.json"] if self.faults is not None else []
             self.start("liana-bench", *self.tables(), "--bus-socket", self.bus_socket, "--api", self.api, "--seed", self.seed, "--truth",
-                       self.directory / "truth.bin", "--summary", self.directory / "bench_summary.json", *faults)
+                       self.directory / "truth.bin", "--summary", self.directory / "bench_summary.json", *faults, *self.bench_words)
             return self
         except BaseException:
             self.__exit__(*sys.exc_info())

@@ -131,6 +131,14 @@ class Files(unittest.TestCase):
         self.refused("within_ticks", expect={"fault": 3002, "state": "FAULT"})
         self.refused("stopped_within_ticks", expect={"fault": 3002, "state": "FAULT", "index": 3, "within_ticks": 5})
 
+    def test_a_start_is_told_to_lianad_and_bench(self):
+        read = self.read(during="boot", start={"pose": "fixture", "in_pose": "fixture", "cross_wired": [3, 4]}, expect={"fault": None, "state": "DISABLED", "refused": ["x"]})
+        self.assertEqual(read.words(), {"lianad": ["--in-pose", "fixture"], "bench": ["--start-pose", "fixture", "--fixture", "--cross-wired", "3,4"]})
+        self.assertEqual(read.fault_count(), 1)
+        self.assertEqual(self.read().words(), {"lianad": [], "bench": []})
+        self.refused("start: place is not known", start={"place": "fixture"})
+        self.refused("refused", "boot", expect={"fault": None, "state": "DISABLED", "refused": ["x"]})
+
     def test_a_fault_of_the_host_has_fields_of_its_own(self):
         read = self.read(host={"action": "kill", "program": "lianad"}, expect={"outcome": "drives_stop"})
         self.assertEqual((read.host["program"], read.fault_count()), ("lianad", 1))

@@ -14,6 +14,7 @@
 #include "firmware_like/math/convert.hpp"
 #include "host/config/canonical.hpp"
 #include "host/config/sha256.hpp"
+#include "host/fixture/fixture.hpp"
 #include "tests/host/config/tables.hpp"
 
 namespace liana {
@@ -24,21 +25,6 @@ constexpr const char* kDay = "2026-06-15";
 RobotConfig robot() {
   const BusesConfig buses = parse_buses(good_table("buses", "embedded").dump(), "b");
   return parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
-}
-
-ThetaVector pose(const RobotConfig& arm, const std::string& name) {
-  ThetaVector theta{};
-  for (std::size_t i = 0; i < 10; ++i) theta[i] = arm.named_poses_deg.at(name)[i] * 3.14159265358979323846 / 180.0;
-  return theta;
-}
-
-CableVector beyond_zero_m(const RobotTable& table, const ThetaVector& theta_rad, const CableVector& tension_N) {
-  const CableLayout layout = cable_layout(table);
-  const ArmTrig trig = arm_trig(table, theta_rad);
-  CableVector out =
-      payout_for(table, layout, cable_geometry(table, layout, trig).part_m, tension_ratio(table, layout, trig, SlipState{}), tension_N);
-  for (std::size_t c = 0; c < 15; ++c) out[c] -= layout.zero_length_m[c] + table.lead_m;
-  return out;
 }
 
 // What the drives of an arm report that is as its table says, but for cables exchanged, drives that count backwards, and drums.
@@ -56,7 +42,7 @@ struct Workshop {
     std::vector<CalibrationReading> out;
     for (const std::string& name : poses) {
       CalibrationReading reading;
-      reading.theta_rad = pose(arm, name);
+      reading.theta_rad = named_pose_rad(arm, name);
       reading.tension_N.fill(30.0);
       const CableVector beyond_m = beyond_zero_m(arm.table, reading.theta_rad, reading.tension_N);
       for (std::size_t i = 0; i < 15; ++i) reading.position_m[i] = factor[i] * (beyond_m[cable_of[i]] + off_m[cable_of[i]]);
@@ -142,7 +128,7 @@ TEST(Calibrate, PosesThatDoNotTellEnoughAreRefused) {
   const RobotConfig arm = robot();
   const auto message = [&](const std::vector<std::string>& names) -> std::string {
     std::vector<ThetaVector> poses;
-    for (const std::string& name : names) poses.push_back(pose(arm, name));
+    for (const std::string& name : names) poses.push_back(named_pose_rad(arm, name));
     try {
       check_poses(arm, poses);
     } catch (const std::runtime_error& error) {
@@ -160,7 +146,7 @@ TEST(Calibrate, HomingAloneSeesExchangedCablesOfDifferentSegments) {
   const RobotConfig arm = robot();
   const RobotTable& table = arm.table;
   const CableLayout layout = cable_layout(table);
-  const ThetaVector truth = pose(arm, "prepare");
+  const ThetaVector truth = named_pose_rad(arm, "prepare");
   CableVector tension_N{};
   tension_N.fill(30.0);
   const CableVector beyond_m = beyond_zero_m(table, truth, tension_N);
