@@ -16,9 +16,12 @@ import campaign
 import can_scenario
 import machine
 import pairs
+import real_drives
 import scenario
 
 kWhere = "embedded bus, lockstep"
+kLatencyRuns = {"250": 3, "500": 1}  # `./dev numbers latency` measures each three times
+kReducedRuns = {"250": 1, "500": 1}
 kParts = ("all", "embedded", "can")
 
 
@@ -28,13 +31,20 @@ def arguments():
     parser.add_argument("--json", metavar="FILE", type=pathlib.Path, help="write the results here")
     parser.add_argument("--reduced", action="store_true", help="only the scenarios marked reduced (what ./dev test runs)")
     parser.add_argument("--part", choices=kParts, default="all", help="only what runs on the embedded bus, or only what needs a machine with CAN")
+    parser.add_argument("--drives", metavar="BUSES", help="run the scenarios on CAN against real drives on the interfaces of this table, by name or file; THE ARM MOVES")
+    parser.add_argument("--calibration", metavar="FILE", help="with --drives: what liana calibrate measured of this arm")
     parser.add_argument("--check", action="store_true", help="read the scenarios and these options, run nothing")
-    return parser.parse_args()
+    options = parser.parse_args()
+    if options.calibration and not options.drives:
+        parser.error("--calibration belongs to --drives; give both")
+    return options
 
 
 def chosen(options):
-    everything = scenario.all_scenarios() + pairs.all_pairs() + campaign.short_campaign() if options.part != "can" else []
-    everything += machine.all_items() if options.part != "embedded" else []
+    embedded, can = (options.part in ("all", part) and not options.drives for part in ("embedded", "can"))
+    everything = real_drives.all_items() if options.drives else []
+    everything += scenario.all_scenarios() + pairs.all_pairs() + campaign.short_campaign() if embedded else []
+    everything += machine.all_items() if can else []
     wanted = [one for one in everything if one.reduced or not options.reduced]
     if options.only:
         wanted = [one for one in wanted if options.only in one.name or fnmatch.fnmatch(one.name, options.only)]
@@ -55,7 +65,7 @@ def run_one(one):
 
 
 def report(row):
-    print(f"{row['outcome'] if row['outcome'] == 'passed' else 'FAILED'}  {row['name']}  [{row['where']}]  {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}",
+    print(f"{'FAILED' if row['outcome'] == 'failed' else row['outcome']}  {row['name']}  [{row['where']}]  {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}",
           flush=True)
 
 
@@ -70,13 +80,15 @@ def run_embedded(wanted):
     return rows, violations
 
 
-def run_all(wanted):
+def run_all(wanted, options):
     """Rows of scenarios, violations, rows of latency."""
+    if options.drives:
+        return real_drives.run_all(wanted, options.drives, options.calibration, report), [], []
     on_can = [one for one in wanted if isinstance(one, machine.Item)]
     rows, violations = run_embedded([one for one in wanted if one not in on_can])
     if not on_can:
         return rows, violations, []
-    can_rows, latency = machine.run_all(on_can, report)
+    can_rows, latency = machine.run_all(on_can, report, kReducedRuns if options.reduced else kLatencyRuns)
     return rows + can_rows, violations, latency
 
 
@@ -88,6 +100,8 @@ def main():
             options.json.open("a").close()
         if any(isinstance(one, machine.Item) for one in wanted):
             machine.check_packages()
+        if options.drives and not options.check:
+            real_drives.check_buses(options.drives)
     except (scenario.BadScenario, machine.NoMachine) as error:
         print(f"dev hil: {error}", file=sys.stderr)
         return 2
@@ -96,12 +110,12 @@ def main():
         return 2
     if options.check:
         return 0
-    rows, violations, latency = run_all(wanted)
-    failed = [row["name"] for row in rows if row["outcome"] != "passed"]
+    rows, violations, latency = run_all(wanted, options)
+    failed, skipped = ([row["name"] for row in rows if row["outcome"] == outcome] for outcome in ("failed", "skipped"))
     faults, pair_count = sum(one.fault_count() for one in wanted), sum(isinstance(one, pairs.Pair) for one in wanted)
     if options.json:
         options.json.write_text(json.dumps({"scenarios": rows, "faults": faults, "pairs": pair_count, "latency": latency, "violations": violations}, indent=1) + "\n")
-    print(f"{len(rows) - len(failed)} passed, {len(failed)} failed; {faults} faults injected, {pair_count} pairs, {len(violations)} violations")
+    print(f"{len(rows) - len(failed) - len(skipped)} passed, {len(failed)} failed, {len(skipped)} skipped; {faults} faults injected, {pair_count} pairs, {len(violations)} violations")
     print(f"where: {'; '.join(sorted({row['where'] for row in rows}))}")
     return 1 if failed else 0
 

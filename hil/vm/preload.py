@@ -1,5 +1,5 @@
 """Files of the host for the guest's memory. Over 9p every open is a question to the host, and a guest that skips idle time skips the answer's
-time as well: minutes pass in it while a busy host reads a file. What is preloaded is never asked for."""
+time as well: minutes pass in it while a busy host reads a file, or finds that there is none. A sealed guest has nothing else, and asks nothing."""
 
 import os
 import pathlib
@@ -40,7 +40,7 @@ def with_links(path):
 
 def collect(paths):
     """All files, links and their directories below the given paths."""
-    found = set()
+    found = {each for each in pathlib.Path("/").iterdir() if each.is_symlink()}  # /bin, /lib and the like
     for path in paths:
         links, real = with_links(path)
         found.update(links)

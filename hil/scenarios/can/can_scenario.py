@@ -1,20 +1,22 @@
 """One scenario on CAN interfaces of the kernel (README.md): read it, run it, judge it. Runs on the machine that has them."""
 import json
+import math
 import subprocess
 import sys
 import time
 
-from system import CanSystem, HERE, kInterfaces
+from system import BenchOnCan, HERE, kInterfaces
 from liana_system import brief, must
 
 sys.path.append(str(HERE.parent))
 from scenario_file import BadScenario, Failed, check_fields, expect_that, read  # noqa: E402
 
 kReadme = "hil/scenarios/can/README.md"
-kFields = {"about": str, "on": list, "during": str, "do": list, "restart": str, "mend": list, "expect": dict, "reduced": bool}
-kExpected = {"fault": (int, list, type(None)), "state": str, "within_ticks": int, "after_clear": str, "travel_deg": (int, float)}
+kFields = {"about": str, "on": list, "during": str, "do": list, "restart": str, "mend": list, "expect": dict, "reduced": bool, "only_in_vm": bool}
+kExpected = {"fault": (int, list, type(None)), "state": str, "within_ticks": int, "after_clear": str, "travel_deg": (int, float), "overruns": int}
+kKinds = (*kInterfaces, "drives")
 kDuring = ("boot", "rest", "move")
-kMoveDeg = 3.0
+kMoveDeg = 2.0
 kTravelDeg = 1.0  # of any true angle in the last run without torque
 kRested_s = 0.6
 kReach_s = 20.0  # of arm time for every state that is waited for
@@ -28,11 +30,12 @@ class CanScenario:
         check_fields(f"{self.name}: expect", content["expect"], kExpected, ("fault", "state"), kReadme)
         if content["during"] not in kDuring:
             raise BadScenario(f"{self.name}: during is {content['during']}; allowed are {', '.join(kDuring)}")
-        if not content["on"] or not set(content["on"]) <= set(kInterfaces):
-            raise BadScenario(f"{self.name}: on is {content['on']}; allowed are {', '.join(kInterfaces)}")
+        if not content["on"] or not set(content["on"]) <= set(kKinds):
+            raise BadScenario(f"{self.name}: on is {content['on']}; allowed are {', '.join(kKinds)}")
         self.on, self.during, self.expect = content["on"], content["during"], content["expect"]
         self.do, self.mend = content.get("do", []), content.get("mend", [])
         self.restart, self.reduced = content.get("restart"), content.get("reduced", False)
+        self.only_in_vm = content.get("only_in_vm", False)
         number = self.expect["fault"]
         self.numbers = [] if number is None else number if isinstance(number, list) else [number]
 
@@ -46,20 +49,23 @@ def all_scenarios(folder=HERE):
 
 
 class Run:
-    """A scenario under way on one kind of bus. `notes` says what was measured."""
+    """A scenario under way in the system that `make_system` gives. `notes` says what was measured."""
 
-    def __init__(self, scenario, kind):
-        self.scenario, self.kind, self.expect = scenario, kind, scenario.expect
+    def __init__(self, scenario, make_system):
+        self.scenario, self.make_system, self.expect = scenario, make_system, scenario.expect
         self.notes, self.enables = [], 0
 
     def go(self):
-        with CanSystem(self.kind) as system:
+        with self.make_system() as system:
             client = system.client()
             self.bring_up(client)
+            overruns = client.state["overruns"] if client.state else 0
             begin = self.act(system, client)
             if self.scenario.restart:
                 client = self.start_again(system)
             self.watch(client, begin)
+            if "overruns" in self.expect:
+                self.count_overruns(client.state["overruns"] - overruns)
             self.shell(system, self.scenario.mend)
             if "after_clear" in self.expect:
                 self.clear(client)
@@ -73,7 +79,7 @@ class Run:
         client.until(lambda state: state["faults"] or (state["state"] != "BOOTING" and state["is_homed"]), kReach_s)
         self.enable(client)
         if self.scenario.during == "move":
-            client.start_moving(kMoveDeg)
+            client.start_moving(math.copysign(kMoveDeg, client.state["setpoint_js_deg"][8]))  # to and fro where one follows the other
 
     def enable(self, client):
         self.enables += 1
@@ -124,6 +130,10 @@ class Run:
             answer = client.ask(op, **words)
             expect_that(answer["op"] == "error", f"{op} was accepted while a fault is latched: {answer}")
 
+    def count_overruns(self, found):
+        self.notes.append(f"{found} overruns")
+        expect_that(found <= self.expect["overruns"], f"{found} deadlines were missed, allowed are {self.expect['overruns']}")
+
     def clear(self, client):
         wanted = self.expect["after_clear"]
         if self.scenario.numbers:
@@ -146,26 +156,22 @@ class Run:
                 client.step()
         except (ConnectionError, OSError):
             pass
-        codes = {"lianad": system.ended("lianad"), "liana-bench": system.end_bench()}
+        codes = {"lianad": system.ended("lianad"), **system.end_drives()}
         expect_that(set(codes.values()) == {0}, f"a program did not end well: {codes}")
 
     def judge(self, system):
         """Drives had torque as often as the operator enabled them, never again by themselves, and none at the end."""
-        summary, truth = system.json("bench_summary.json"), system.truth()
-        expect_that(summary["arm"] == "light", f"the bench ran arm {summary['arm']}")
-        enabled = [count > 0 for count in truth.column("enabled")]
+        enabled, travel = system.torque()
         rises = [slot for slot in range(1, len(enabled)) if enabled[slot] and not enabled[slot - 1]]
         allowed = self.enables if self.scenario.restart != "liana-bench" else 1
-        expect_that(len(rises) == allowed, f"the drives got torque {len(rises)} times (slots {rises}), the operator enabled {allowed} times")
+        expect_that(len(rises) == allowed, f"the drives got torque {len(rises)} times ({rises}), the operator enabled {allowed} times")
         expect_that(not enabled[-1], "drives still have torque at the end")
-        last = max((slot for slot, on in enumerate(enabled) if on), default=0)
-        travel = truth.travel_deg(last, None) if last else 0.0
         expect_that(travel <= self.expect.get("travel_deg", kTravelDeg), f"the arm travelled {travel:.2f} deg without torque")
 
 
-def run(scenario, kind):
+def run(scenario, kind, make_system):
     """A row of results: name, outcome, seconds of this machine's own clock, why, notes."""
-    one, start, why = Run(scenario, kind), time.monotonic(), ""
+    one, start, why = Run(scenario, make_system), time.monotonic(), ""
     try:
         one.go()
     except (Failed, AssertionError, OSError, ValueError, KeyError, subprocess.SubprocessError) as error:
@@ -181,7 +187,7 @@ def main():
             for kind in scenario.on:
                 if f"{scenario.name}@{kind}" not in names:
                     continue
-                row = run(scenario, kind)
+                row = run(scenario, kind, lambda kind=kind: BenchOnCan(kind))
                 print(f"{row['outcome']}  {row['name']} ({kind})  {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}", flush=True)
                 results.write(json.dumps(row) + "\n")
                 results.flush()

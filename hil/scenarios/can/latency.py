@@ -12,10 +12,10 @@ from system import HERE, program
 
 kSeconds = 3
 # What runs beside, at normal priority, each without end.
-kDisk = "while :; do dd if=/dev/zero of=$LOAD_DIR/file bs=64k count=64 conv=fsync status=none; rm -f $LOAD_DIR/file; done"
-kForks = "while :; do /bin/true; done"
+kDisk = "while dd if=/dev/zero of=$LOAD_DIR/file bs=64k count=64 conv=fsync status=none; do rm -f $LOAD_DIR/file; done"
+kForks = "while /bin/true; do :; done"
 kClients = "while :; do $LOAD_BIN/liana status --json > /dev/null 2>&1; done"
-kFlood = [sys.executable, str(HERE / "latency.py"), "flood"]
+kFlood = [sys.executable, "-S", str(HERE / "latency.py"), "flood"]
 kLoads = {"idle": [], "loaded": [["bash", "-c", kDisk], ["bash", "-c", kForks], ["bash", "-c", kClients], kFlood]}
 
 
@@ -45,12 +45,14 @@ def measure(rate, load):
             done = subprocess.run([program("liana"), "latency", "--arm", "light", "--rate", rate, "--seconds", str(kSeconds), "--json"],
                                   capture_output=True, text=True, check=False)
         finally:
-            after = activity()
+            after, ended = activity(), [each.args for each in beside if each.poll() is not None]
             for each in beside:
                 os.killpg(each.pid, 9)
                 each.wait()
     forks, idle, all_time = (now - then for now, then in zip(after, before))
     row = json.loads(done.stdout) if done.stdout.startswith("{") else {"error": done.stderr.strip() or "no report"}
+    if ended:
+        row["error"] = f"the load ended by itself: {ended}"
     row |= {"machine_idle": round(idle / max(1, all_time), 3), "programs_started": forks}
     return {**row, "rate_hz": float(rate), "load": load}
 

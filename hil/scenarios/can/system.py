@@ -11,10 +11,11 @@ sys.path.insert(0, str(HERE.parents[2] / "tests" / "system"))
 from liana_system import BIN, SOURCE, System, program, table, wait_until  # noqa: E402
 
 kHardwarePriority = 70  # the bench stands for hardware, which is never late for want of a processor; under lianad's thread (80)
-# Kind of bus -> what lianad opens, what the bench opens: one virtual wire; two with a gateway between, which can lose and swap; or the two
-# controllers of one emulated bus.
+kLinePriority = 75  # of what stands for a wire
+# Kind of bus -> what lianad opens, what the bench opens: one virtual wire; two with a gateway between, which can lose and swap; the two
+# controllers of one emulated bus; or two adapters on a serial line.
 kInterfaces = {"vcan": (("vcan0", "vcan1"), ("vcan0", "vcan1")), "gateway": (("vcan0", "vcan1"), ("vcan2", "vcan3")),
-               "sja1000": (("can0", "can2"), ("can1", "can3"))}
+               "sja1000": (("can0", "can2"), ("can1", "can3")), "serial": (("serial0", "serial2"), ("serial1", "serial3"))}
 # The emulated controllers send in no time: the queue before them keeps the pace. The kernel counts 16 bytes for a frame, 128 us at this rate,
 # which is what one with 8 data bytes takes at 1 Mbit/s; there is room for 256.
 kWire = ("tbf", "rate", "1mbit", "burst", "32", "limit", "4096")
@@ -43,17 +44,9 @@ def reset_interfaces(kind):
 
 
 class CanSystem(System):
-    def __init__(self, kind):
-        super().__init__()
-        reset_interfaces(kind)
-        self.ours, self.theirs = kInterfaces[kind]
+    """lianad on the interfaces `ours`, whatever answers there; `options` are lianad's besides."""
 
-    def write_tables(self):
-        super().write_tables()
-        buses = json.loads(table("buses", "vcan"))
-        for bus, name in zip(buses["buses"], self.ours):
-            bus["name"] = name
-        (self.directory / "buses.json").write_text(json.dumps(buses))
+    options = ()
 
     def __enter__(self):
         try:
@@ -67,8 +60,46 @@ class CanSystem(System):
 
     def start_lianad(self):
         self.api.unlink(missing_ok=True)
-        self.start("lianad", *self.tables(), "--api", self.api, "--time", "real", "--physics", "ideal")
+        self.start("lianad", *self.tables(), "--api", self.api, "--time", "real", "--physics", "ideal", *self.options)
         wait_until(lambda: self.api.exists() or self.children["lianad"].poll() is not None, "lianad to listen")
+
+    def environment(self):
+        """What the commands of a scenario may use."""
+        names = {f"BUS{index}": name for index, name in enumerate(self.ours)}
+        return {**os.environ, **names, "LIANAD": str(self.children["lianad"].pid), "DIR": str(self.directory), "BIN": os.path.dirname(program("liana"))}
+
+
+class BenchOnCan(CanSystem):
+    """With the bench at the other end."""
+
+    def __init__(self, kind):
+        super().__init__()
+        self.ours, self.theirs, self.line = *kInterfaces[kind], None
+        if kind == "serial":
+            self.start_line()
+        else:
+            reset_interfaces(kind)
+
+    def start_line(self):
+        """serial_line.py, which makes the interfaces; `$DIR/line` takes its commands."""
+        commands = self.directory / "line"
+        names = [name for pair in zip(self.ours, self.theirs) for name in pair]
+        self.line = subprocess.Popen([sys.executable, "-S", HERE / "serial_line.py", commands, *names])
+        wait_until(lambda: commands.exists() or self.line.poll() is not None, "the interfaces on serial lines")
+        os.sched_setscheduler(self.line.pid, os.SCHED_FIFO, os.sched_param(kLinePriority))
+
+    def __exit__(self, *why):
+        super().__exit__(*why)
+        if self.line is not None:
+            self.line.kill()
+            self.line.wait()
+
+    def write_tables(self):
+        super().write_tables()
+        buses = json.loads(table("buses", "vcan"))
+        for bus, name in zip(buses["buses"], self.ours):
+            bus["name"] = name
+        (self.directory / "buses.json").write_text(json.dumps(buses))
 
     def start_bench(self):
         self.start("liana-bench", *self.tables(), "--can", ",".join(self.theirs), "--api", self.api, "--arm", "light", "--physics", "ideal",
@@ -79,12 +110,18 @@ class CanSystem(System):
         return super().client(lockstep=False, **options)
 
     def environment(self):
-        """What the commands of a scenario may use."""
-        pids = {"LIANAD": self.children["lianad"].pid, "BENCH": self.children["liana-bench"].pid}
-        names = {"BUS0": self.ours[0], "BUS1": self.ours[1], "BENCH0": self.theirs[0], "BENCH1": self.theirs[1]}
-        return {**os.environ, **names, **{name: str(pid) for name, pid in pids.items()}, "DIR": str(self.directory), "BIN": os.path.dirname(program("liana"))}
+        names = {f"BENCH{index}": name for index, name in enumerate(self.theirs)}
+        return {**super().environment(), **names, "BENCH": str(self.children["liana-bench"].pid)}
 
-    def end_bench(self):
-        """The bench goes on for half a second without a bus, then writes truth and summary."""
+    def end_drives(self):
+        """The bench goes on for half a second without a bus, then writes truth and summary; its exit code."""
         self.children["liana-bench"].terminate()
-        return self.ended("liana-bench")
+        return {"liana-bench": self.ended("liana-bench")}
+
+    def torque(self):
+        """(for each moment, whether some drive had torque; the largest change of any angle since the last of them, in degrees)."""
+        arm, truth = self.json("bench_summary.json")["arm"], self.truth()
+        assert arm == "light", f"the bench ran arm {arm}"
+        with_torque = [count > 0 for count in truth.column("enabled")]
+        last = max((slot for slot, torque in enumerate(with_torque) if torque), default=0)
+        return with_torque, truth.travel_deg(last, None) if last else 0.0
