@@ -2,6 +2,7 @@
 import json
 import os
 import pathlib
+import socket
 import subprocess
 import sys
 
@@ -31,7 +32,7 @@ def reset_interfaces(kind):
     """As they were at the start, whatever a scenario left behind."""
     subprocess.run(["cangw", "-F"], capture_output=True, check=False)  # complains when there is nothing to flush
     for name in sorted({name for end in kInterfaces[kind] for name in end}):
-        if not os.path.exists(f"/sys/class/net/{name}"):
+        if name not in (known for _, known in socket.if_nameindex()):  # /sys would show another network's
             command("ip", "link", "add", "dev", name, "type", "vcan")
         command("ip", "link", "set", name, "down")
         command("ip", "link", "set", name, "up")
