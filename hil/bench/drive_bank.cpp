@@ -16,6 +16,7 @@ DriveSettings settings_of(const RobotConfig& robot, const BusesConfig& buses, st
   settings.vendor = robot.vendor;
   settings.product = robot.product;
   settings.revision = robot.revision;
+  settings.serial = robot.drives[i].serial;
   settings.counts_per_turn = robot.counts_per_turn;
   settings.rated_torque_mNm = static_cast<std::uint32_t>(std::lround(1000.0 * robot.rated_torque_Nm));
   settings.servo_time_constant_s = robot.servo_time_constant_s;

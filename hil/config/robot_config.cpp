@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRadPerDeg = kPi / 180.0;
+constexpr std::size_t kFirstSerial = 1001;  // of simulated drives, where the table has none: 1000 + node id
 
 std::string at(const std::string& list, std::size_t i) { return list + "/" + std::to_string(i); }
 
@@ -54,7 +55,9 @@ void read_drives(const JsonFile& file, RobotConfig& robot) {
   const auto zero = file.numbers("/drives/zero_counts", cables, -1e9, 1e9);
   for (std::size_t i = 0; i < cables; ++i) {
     if (direction[i] == 0.0) file.fail(at("/drives/direction", i), "is 0; allowed is -1 or 1");
-    robot.drives.push_back({direction[i] > 0.0 ? 1 : -1, zero[i]});
+    robot.drives.push_back({direction[i] > 0.0 ? 1 : -1, zero[i], static_cast<std::uint32_t>(kFirstSerial + i)});
+    if (file.has("/drives/serials"))
+      robot.drives[i].serial = static_cast<std::uint32_t>(file.number(at("/drives/serials", i), 1.0, 4294967295.0));
   }
 }
 

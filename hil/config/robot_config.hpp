@@ -20,6 +20,7 @@ struct SegmentConfig {
 struct DriveConfig {
   int direction = 1;         // +1: counts grow while cable is paid out
   double zero_counts = 0.0;  // counts at payout = path at the zero pose + lead
+  std::uint32_t serial = 0;  // 1018:4
 };
 
 struct RobotConfig {

@@ -66,7 +66,7 @@ void add_pdo(std::vector<Object>& objects, std::uint16_t number, int node, bool 
 
 ObjectDictionary make_objects(const DriveSettings& settings) {
   std::vector<Object> objects(std::begin(kCommon), std::end(kCommon));
-  const std::int64_t identity[] = {settings.vendor, settings.product, settings.revision, 1000 + settings.node};
+  const std::int64_t identity[] = {settings.vendor, settings.product, settings.revision, settings.serial};
   for (std::uint8_t i = 0; i < 4; ++i)
     objects.push_back({0x1018, static_cast<std::uint8_t>(i + 1), kU32, kReadOnly, false, identity[i], 0, kU32Max});
   objects.push_back({0x1014, 0, kU32, kReadOnly, false, 0x80 + settings.node, 0, kU32Max});

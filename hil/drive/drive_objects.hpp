@@ -14,6 +14,7 @@ struct DriveSettings {
   std::uint32_t vendor = 0;
   std::uint32_t product = 0;
   std::uint32_t revision = 0;
+  std::uint32_t serial = 0;
   std::uint32_t counts_per_turn = 65536;
   std::uint32_t rated_torque_mNm = 9000;
   double servo_time_constant_s = 0.03;

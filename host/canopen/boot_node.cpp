@@ -104,6 +104,7 @@ void BootNode::finish_transfer() noexcept {
   }
   const std::uint32_t found = sdo_.value();
   if ((found & object().mask) != (object().value & object().mask)) return fail(BootFailure::kValue, found);
+  plan_.keep(at_, found);
   next_object();
 }
 

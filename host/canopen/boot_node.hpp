@@ -28,6 +28,8 @@ class BootNode {
   std::uint8_t node() const noexcept { return node_; }
   NodePhase phase() const noexcept { return phase_; }
   const BootMismatch& mismatch() const noexcept { return mismatch_; }
+  // After its first boot: what 0x1018:4 of the drive says, and must say when it comes back; 0 when it has none.
+  std::uint32_t serial() const noexcept { return plan_.serial(); }
   // Objects of the plan that are done, and how many there are.
   std::size_t objects_done() const noexcept { return at_; }
   std::size_t objects_total() const noexcept { return plan_.objects().size(); }

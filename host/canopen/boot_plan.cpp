@@ -51,7 +51,16 @@ void BootPlan::check_identity(const DriveExpectation& drive) {
   expect(0x1018, 1, drive.vendor, "vendor id");
   expect(0x1018, 2, drive.product, "product code");
   expect(0x1018, 3, drive.revision, "revision number");
-  expect(0x1018, 4, drive.serial, "serial number");
+  expect(0x1018, 4, drive.serial.value_or(0), "serial number", drive.serial ? 0xFFFFFFFF : 0);
+  serial_at_ = count_ - 1;
+  objects_[serial_at_].may_be_missing = !drive.serial;
+}
+
+void BootPlan::keep(std::size_t at, std::uint32_t found) noexcept {
+  if (at != serial_at_ || objects_[at].mask != 0) return;
+  objects_[at].value = found;
+  objects_[at].mask = 0xFFFFFFFF;
+  objects_[at].may_be_missing = false;
 }
 
 void BootPlan::check_mechanics(const DriveExpectation& drive) {

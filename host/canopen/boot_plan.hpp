@@ -25,6 +25,10 @@ class BootPlan {
  public:
   explicit BootPlan(const DriveExpectation& drive);
   std::span<const BootObject> objects() const noexcept { return {objects_.data(), count_}; }
+  // Object number `at` was read and is right: where any serial number was, it is expected from now on.
+  void keep(std::size_t at, std::uint32_t found) noexcept;
+  // 0x1018:4 that the drive has to say; 0: any, or it has none.
+  std::uint32_t serial() const noexcept { return objects_[serial_at_].value; }
 
  private:
   void expect(std::uint16_t index, std::uint8_t sub, std::uint32_t value, const char* name, std::uint32_t mask = 0xFFFFFFFF);
@@ -40,6 +44,7 @@ class BootPlan {
 
   std::array<BootObject, 64> objects_{};
   std::size_t count_ = 0;
+  std::size_t serial_at_ = 0;
 };
 
 }  // namespace liana::canopen

@@ -36,6 +36,7 @@ class BootSequence {
   // One entry per drive, in the order given; failure kNone = ok so far.
   std::size_t node_count() const noexcept { return nodes_.size(); }
   const BootMismatch& mismatch(std::size_t drive) const noexcept { return nodes_[drive].mismatch(); }
+  std::uint32_t serial(std::size_t drive) const noexcept { return nodes_[drive].serial(); }
   NodePhase phase(std::size_t drive) const noexcept { return nodes_[drive].phase(); }
 
  private:

@@ -47,7 +47,7 @@ std::vector<DriveExpectation> drive_expectations(const RobotConfig& robot, const
       throw std::runtime_error("bus table " + buses.name + ": buses: node " + std::to_string(i + 1) + " of robot " + robot.name +
                                " is on no bus; each drive must be on exactly one");
     }
-    drive.serial = robot.drive_serials[static_cast<std::size_t>(i)];
+    if (!robot.drive_serials.empty()) drive.serial = robot.drive_serials[static_cast<std::size_t>(i)];
     drive.following_window_counts = rounded(kFollowingWindow_m / robot.table.drive[static_cast<std::size_t>(i)].metres_per_count);
     drives.push_back(drive);
   }

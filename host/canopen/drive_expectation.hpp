@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "host/config/config.hpp"
@@ -12,14 +13,14 @@ struct DriveExpectation {
   int bus = 0;            // 0-based
   std::uint8_t node = 1;  // 1..126
   // Must be found.
-  std::uint32_t vendor = 0;            // 1018:1
-  std::uint32_t product = 0;           // 1018:2
-  std::uint32_t revision = 0;          // 1018:3
-  std::uint32_t serial = 0;            // 1018:4
-  std::uint32_t counts_per_turn = 0;   // 608F:1, per motor turn
-  std::uint32_t gear_motor_turns = 1;  // 6091:1
-  std::uint32_t gear_drum_turns = 1;   // 6091:2
-  std::uint32_t rated_torque_mNm = 0;  // 6076
+  std::uint32_t vendor = 0;             // 1018:1
+  std::uint32_t product = 0;            // 1018:2
+  std::uint32_t revision = 0;           // 1018:3
+  std::uint32_t counts_per_turn = 0;    // 608F:1, per motor turn
+  std::uint32_t gear_motor_turns = 1;   // 6091:1
+  std::uint32_t gear_drum_turns = 1;    // 6091:2
+  std::uint32_t rated_torque_mNm = 0;   // 6076
+  std::optional<std::uint32_t> serial;  // 1018:4; without it, any: but the one found first has to stay
   // Is written.
   InterpolationPeriod period{};               // 60C2, the SYNC period
   std::uint16_t rpdo_deadline_ms = 0;         // 1400:5

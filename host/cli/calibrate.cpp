@@ -120,16 +120,35 @@ std::string problem_of(const RobotConfig& robot, const Lengths& lengths, Index d
       static_cast<int>(drive), node, 1e3 * own.misfit_m, 1e3 * kMisfit_m);
 }
 
-CableCalibration cable_of(const RobotConfig& robot, const Lengths& lengths, Index c, double scale, double pretension_N) {
+// Without a number of its own a drive cannot be told from another one when it is swapped later. Empty: it has one.
+std::string serial_problem_of(const RobotConfig& robot, std::span<const CalibrationReading> readings, Index drive) {
+  const std::uint32_t serial = readings.front().serial[drive];
+  const int node = static_cast<int>(drive) + 1;
+  const std::string who = text("drive %d (node %d): serial number %u (object 0x1018:4)", static_cast<int>(drive), node, serial);
+  if (serial == 0)
+    return who + ": allowed 1 or more: a drive without a number of its own cannot be told from another: give it one, or take another";
+  for (const CalibrationReading& reading : readings) {
+    if (reading.serial[drive] != serial)
+      return who +
+             text(" in the first fixture, %u in another: leave the drives where they are, then calibrate again", reading.serial[drive]);
+  }
+  for (Index other = 0; other < as_index(robot.table.cable_count()); ++other) {
+    if (other != drive && readings.front().serial[other] == serial)
+      return who + text(": drive %d says it, too: give each a number of its own", static_cast<int>(other));
+  }
+  return "";
+}
+
+CableCalibration cable_of(const RobotConfig& robot, const Lengths& lengths, Index c, double scale, const CalibrationReading& first) {
   const DriveTable& table = robot.table.drive[c];
   // expected = scale reported + zero; reported is what the table's drum and direction make of the counts.
   const double zero_m = lengths.expected_mean_m[c] - scale * lengths.reported_mean_m[c];
   CableCalibration out;
-  out.serial = robot.drive_serials[c];
+  out.serial = first.serial[c];
   out.direction = scale > 0.0 ? table.direction : -table.direction;
   out.drum_radius_m = std::fabs(scale) * robot.drum_radius_m;
   out.zero_counts = to_counts(table.zero_counts - zero_m / (scale * table.direction * table.metres_per_count)).value;
-  out.pretension_N = pretension_N;
+  out.pretension_N = first.tension_N[c];
   out.offset_m = zero_m;
   return out;
 }
@@ -162,10 +181,12 @@ CalibrationResult calibrate(const RobotConfig& robot, std::span<const Calibratio
   out.calibration = {robot.name, sha256_hex(robot.canonical_json), date, {}};
   for (Index c = 0; c < as_index(robot.table.cable_count()); ++c) {
     const Fit own = fit(lengths.reported[c], lengths.expected[c]);
+    const std::string serial_problem = serial_problem_of(robot, readings, c);
+    if (!serial_problem.empty()) out.problems.push_back(serial_problem);
     if (!is_drum(own)) {
       out.problems.push_back(problem_of(robot, lengths, c, own));
     } else {
-      out.calibration.cables.push_back(cable_of(robot, lengths, c, own.scale, readings.front().tension_N[c]));
+      out.calibration.cables.push_back(cable_of(robot, lengths, c, own.scale, readings.front()));
     }
   }
   return out;

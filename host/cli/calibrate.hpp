@@ -1,6 +1,8 @@
 // From what the drives report at known poses to zeros, drums and directions, and to what is wired wrong (docs/calibration.md).
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +16,7 @@ struct CalibrationReading {
   ThetaVector theta_rad{};
   CableVector position_m{};  // paid out beyond the table's zero
   CableVector tension_N{};
+  std::array<std::uint32_t, kMaxCables> serial{};  // 0x1018:4
 };
 
 struct CalibrationResult {
@@ -26,7 +29,8 @@ struct CalibrationResult {
 void check_poses(const RobotConfig& robot, std::span<const ThetaVector> poses_rad);
 
 // Fits a drum radius and a zero to every drive. A drive that counts backwards gets the other direction and is a problem of nobody; cables
-// that are wound on each other's drums, a drum that is off by over 2 %, and readings that no drum explains are problems.
+// that are wound on each other's drums, a drum that is off by over 2 %, readings that no drum explains, and a drive without a serial number
+// of its own are problems.
 CalibrationResult calibrate(const RobotConfig& robot, std::span<const CalibrationReading> readings, const std::string& date);
 
 }  // namespace liana

@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -7,6 +8,7 @@
 #include "host/cli/calibrate_session.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/errors.hpp"
+#include "host/cli/fixture_prompt.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/run_plan.hpp"
 #include "host/cli/tables.hpp"
@@ -24,28 +26,40 @@ std::vector<std::string> names_in(const std::string& list) {
   return names;
 }
 
-// One fixture after the other; the drives are off all the time.
-std::vector<CalibrationReading> read_all(const CalibrateOptions& options, const std::vector<std::string>& poses,
+// What runs while the arm lies in a fixture.
+RunPlan plan_for(const CalibrateOptions& options, bool simulated, const std::string& pose) {
+  RunOptions run;
+  run.robot = options.robot;
+  run.bus = options.bus;
+  run.physics = options.physics;
+  run.simulated_arm = simulated;
+  run.seed = options.seed;
+  run.fixture = pose;
+  run.cross_wired = options.cross_wired;
+  return make_plan(run);
+}
+
+CalibrationReading read_in(const RunPlan& plan) {
+  try {
+    const CalibrationReading reading = CalibrateSession(plan).read();
+    clean_up(plan, true);
+    return reading;
+  } catch (...) {
+    clean_up(plan, true);
+    throw;
+  }
+}
+
+// One fixture after the other; the drives are off all the time. Between the fixtures nothing runs: whoever moves the arm has it for
+// himself.
+std::vector<CalibrationReading> read_all(const CalibrateOptions& options, bool simulated, const std::vector<std::string>& poses,
                                          const std::vector<ThetaVector>& thetas_rad) {
   std::vector<CalibrationReading> readings;
+  if (!simulated) clean_up(plan_for(options, simulated, poses.front()), true);  // what is missing is said before anybody lifts the arm
   for (std::size_t p = 0; p < poses.size(); ++p) {
+    if (!simulated) wait_for_fixture(std::cin, std::cerr, poses[p], p + 1, poses.size());
     std::fprintf(stderr, "pose %zu of %zu, %s: reading the drives\n", p + 1, poses.size(), poses[p].c_str());
-    RunOptions run;
-    run.robot = options.robot;
-    run.bus = options.bus;
-    run.physics = options.physics;
-    run.seed = options.seed;
-    run.time = "fast";
-    run.fixture = poses[p];
-    run.cross_wired = options.cross_wired;
-    const RunPlan plan = make_plan(run);
-    try {
-      readings.push_back(CalibrateSession(plan).read());
-    } catch (...) {
-      clean_up(plan, true);
-      throw;
-    }
-    clean_up(plan, true);
+    readings.push_back(read_in(plan_for(options, simulated, poses[p])));
     readings.back().theta_rad = thetas_rad[p];
   }
   return readings;
@@ -73,9 +87,10 @@ void show(const CalibrationResult& result, bool as_json) {
 int calibrate_command(const CalibrateOptions& options) {
   const std::string text = evaluate_table("robot", options.robot);
   const BusesConfig buses = checked([&] { return parse_buses(evaluate_table("buses", options.bus), options.bus); });
-  if (buses.backend != "embedded")
-    throw BadInput("--bus: '" + options.bus + "': its back end is " + buses.backend +
-                   ": allowed embedded: calibration of real drives is not there yet");
+  const bool simulated = buses.backend == "embedded";
+  if (!simulated && !options.cross_wired.empty())
+    throw BadInput("--cross-wired: '" + options.cross_wired + "': bus table " + options.bus +
+                   " has real drives: allowed with the simulated arm only, --bus=embedded: leave it out");
   const RobotConfig robot = checked([&] { return parse_robot(text, options.robot, options.physics, buses); });
   if (!options.out_file.empty()) check_output("--out", options.out_file);
   const std::vector<std::string> poses = names_in(options.poses);
@@ -86,7 +101,7 @@ int calibrate_command(const CalibrateOptions& options) {
   } catch (const std::runtime_error& error) {
     throw BadInput("--poses: '" + options.poses + "': " + error.what());
   }
-  const CalibrationResult result = calibrate(robot, read_all(options, poses, thetas_rad), today_utc());
+  const CalibrationResult result = calibrate(robot, read_all(options, simulated, poses, thetas_rad), today_utc());
   show(result, options.json);
   if (!result.problems.empty()) return kExitFailure;
   if (!options.out_file.empty()) write_output(options.out_file, calibration_json(result.calibration));

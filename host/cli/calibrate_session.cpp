@@ -21,6 +21,7 @@ void add(const json& state, CalibrationReading& sum) {
   for (const json& drive : state.at("drives")) {
     sum.position_m[i] += drive.at("position_m").get<double>() / kStates;
     sum.tension_N[i] += drive.at("tension_N").get<double>() / kStates;
+    sum.serial[i] = drive.at("serial").get<std::uint32_t>();
     ++i;
   }
 }

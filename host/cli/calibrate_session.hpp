@@ -1,4 +1,4 @@
-// Bus, lianad and bench in virtual time with the drives off, read while the arm lies in a fixture.
+// lianad, and with a simulated arm bus and bench, with the drives off, read while the arm lies in a fixture.
 #pragma once
 
 #include <memory>

@@ -68,7 +68,8 @@ struct RunOptions {
   std::string robot = "zhu2022";
   std::string scene = "panel_slit";
   std::string bus = "embedded";
-  std::string time;  // empty: fast, or real on SocketCAN
+  std::string time;           // empty: fast, or real on SocketCAN
+  bool simulated_arm = true;  // false: real drives are on the buses, there is no bench
   std::string physics = "nominal";
   std::string arm = "full";  // or light, which needs physics ideal
   std::string fixture;       // empty: the bench's start pose; a named pose: the simulated arm lies exactly there

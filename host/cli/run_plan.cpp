@@ -173,7 +173,7 @@ RunPlan make_plan(const RunOptions& options) {
   if (embedded) plan.programs.push_back(bus_call(plan));
   plan.programs.push_back(daemon_call(plan, options, embedded));
   if (plan.keep_directory) plan.programs.push_back(archive_call(plan));
-  plan.programs.push_back(bench_call(plan, options, embedded));
+  if (options.simulated_arm) plan.programs.push_back(bench_call(plan, options, embedded));
   if (!has_mission) return plan;
   plan.programs.push_back(operator_call(plan, options));
   plan.programs.push_back(mission_call(plan, options));

@@ -71,7 +71,7 @@ struct RobotConfig {
   std::uint32_t counts_per_turn = 0;
   double gear = 1.0;  // motor turns per drum turn
   double drum_radius_m = 0.0;
-  std::vector<std::uint32_t> drive_serials;                    // what 0x1018:4 of every drive must say
+  std::vector<std::uint32_t> drive_serials;                    // what 0x1018:4 of every drive must say; empty: anything
   std::int32_t calibration_days = 0;                           // how old a calibration may be
   double module_radius_m = 0.0;                                // of the capsules of every link
   double joint_viscous_Nms_per_rad = 0.0;                      // per theta

@@ -1,4 +1,5 @@
 // Cables and drives of a robot table.
+#include <algorithm>
 #include <cmath>
 
 #include "host/config/canonical.hpp"
@@ -9,7 +10,6 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717958647692;
 constexpr double kMaxTension_N = 1e5;
-constexpr std::uint32_t kFirstSerial = 1001;  // of the drive of cable 0, where no calibration says otherwise (docs/drives.md)
 
 double read_friction(const Field& field, const std::string& physics) {
   field.only({"nominal", "ideal", "worn"});
@@ -59,8 +59,20 @@ void read_drive_lists(const Field& drives, RobotConfig& out) {
     out.table.drive[i].direction = static_cast<std::int32_t>(sign);
     out.table.drive[i].zero_counts = static_cast<std::int32_t>(zero.element(i).integer(-1000000000, 1000000000));
     out.table.drive[i].metres_per_count = kTwoPi * out.drum_radius_m / (out.counts_per_turn * out.gear);
-    out.drive_serials.push_back(kFirstSerial + static_cast<std::uint32_t>(i));
     out.table.drive[i].newtons_per_permille = out.rated_torque_Nm / out.drum_radius_m / 1000.0;
+  }
+}
+
+// Optional: what is not known is not checked.
+void read_serials(const Field& drives, std::size_t count, RobotConfig& out) {
+  if (!drives.json().contains("serials")) return;
+  const Field serials = drives.at("serials");
+  serials.size(count, count, "one entry per cable, segment 1 cable 0 first");
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto serial = static_cast<std::uint32_t>(serials.element(i).integer(1, 0xffffffff));
+    if (std::find(out.drive_serials.begin(), out.drive_serials.end(), serial) != out.drive_serials.end())
+      serials.element(i).refuse("a number that no other drive has", "look at the drive's plate, or leave drives.serials out");
+    out.drive_serials.push_back(serial);
   }
 }
 
@@ -79,7 +91,7 @@ void read_cables(const Field& table, const std::string& physics, RobotConfig& ou
 void read_drives(const Field& table, RobotConfig& out) {
   const Field drives = table.at("drives");
   drives.only({"drum_radius_m", "counts_per_turn", "gear", "servo_time_constant_s", "rated_torque_Nm", "identity", "direction",
-               "zero_counts", "calibration_days"});
+               "zero_counts", "serials", "calibration_days"});
   out.drum_radius_m = drives.at("drum_radius_m").number({0, 1, true});
   out.counts_per_turn = static_cast<std::uint32_t>(drives.at("counts_per_turn").integer(16, 16777216));
   out.gear = drives.at("gear").number({0, 10000, true});
@@ -97,6 +109,7 @@ void read_drives(const Field& table, RobotConfig& out) {
                              ? static_cast<std::int32_t>(drives.at("calibration_days").integer(1, 36500))
                              : kCalibrationDays;
   read_drive_lists(drives, out);
+  read_serials(drives, static_cast<std::size_t>(out.table.cable_count()), out);
 }
 
 }  // namespace liana

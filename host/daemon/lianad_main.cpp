@@ -108,7 +108,8 @@ int run(const Options& options) {
   const auto link = std::make_unique<Link>(robot.table);
   std::unique_ptr<RtCycle> cycle;
   const bool ends_with_mission = *mode != TimeMode::kReal && std::find(expected.begin(), expected.end(), Role::kMission) != expected.end();
-  Service service({options.api, *mode, robot, scene, buses, options.in_pose, ends_with_mission, [&] { return cycle->boot_problems(); }},
+  Service service({options.api, *mode, robot, scene, buses, options.in_pose, ends_with_mission, [&] { return cycle->boot_problems(); },
+                   [&] { return cycle->serials(); }},
                   *link);
   const std::optional<Registration> registration = registered(options.api);
   const std::unique_ptr<DriveBus> bus = open_drive_bus(buses, *mode, options.bus_socket);

@@ -166,6 +166,12 @@ std::vector<BootProblem> RtCycle::boot_problems() const {
   return problems;
 }
 
+std::vector<std::uint32_t> RtCycle::serials() const {
+  std::vector<std::uint32_t> out;
+  for (std::size_t i = 0; i < master_.boot().node_count(); ++i) out.push_back(master_.boot().serial(i));
+  return out;
+}
+
 std::string text_of(const std::vector<BootProblem>& problems) {
   std::string text;
   for (const BootProblem& problem : problems) text += (text.empty() ? "" : "; ") + problem.text;

@@ -23,6 +23,8 @@ class RtCycle {
 
   // After booting has failed: every drive that is to blame. Not for the real-time thread.
   std::vector<BootProblem> boot_problems() const;
+  // After booting: serial number of every drive (0x1018:4), 0 where it has none. They do not change any more. Not for the real-time thread.
+  std::vector<std::uint32_t> serials() const;
 
  private:
   void collect(const TickStart& start) noexcept;

@@ -136,6 +136,7 @@ void Service::watch_arm() {
   boot_seen_ = boot;
   if (boot == BootPhase::kDone) {
     note("all drives are booted");
+    notes_.serials = config_.serials();
     homing_due_tick_ = tick() + static_cast<std::uint64_t>(std::lround(kHoming_s / config_.robot.table.tick_s));
   }
   if (boot != BootPhase::kFailed) return;

@@ -37,6 +37,7 @@ struct ServiceConfig {
   std::string in_pose;                                      // named pose in which the arm lies at the start; empty: nobody knows
   bool ends_with_mission = false;                           // stop the arm once the mission has come and gone
   std::function<std::vector<BootProblem>()> boot_problems;  // asked once, when booting has failed
+  std::function<std::vector<std::uint32_t>()> serials;      // of the drives; asked once, when they are booted
 };
 
 class Service : private ApiHandler {

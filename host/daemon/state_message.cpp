@@ -69,14 +69,15 @@ json limits_json(std::uint32_t limits) {
   return names;
 }
 
-json drives_json(const RobotTable& table, const CycleReport& report) {
+json drives_json(const RobotTable& table, const CycleReport& report, const std::vector<std::uint32_t>& serials) {
   const CableVector position_m = paid_out_m(table, report.inputs), tension_N = reported_tension_N(table, report.inputs);
   json drives = json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
     drives.push_back({{"node", i + 1},
                       {"state", drive_state_name(decode(report.inputs.drive[i].statusword))},
                       {"position_m", position_m[i]},
-                      {"tension_N", tension_N[i]}});
+                      {"tension_N", tension_N[i]},
+                      {"serial", serials.empty() ? json() : json(serials[i])}});
   }
   return drives;
 }
@@ -171,7 +172,7 @@ json state_message(const RobotTable& table, const BusesConfig& buses, const Cycl
              {"overruns", report.overruns.total()},
              {"refusals", notes.refusals},
              {"verdict", verdict_json(table, notes.verdict)},
-             {"drives", drives_json(table, report)},
+             {"drives", drives_json(table, report, notes.serials)},
              {"buses", buses_json(buses, report)},
              {"events", notes.events},
              {"stop", notes.stop},

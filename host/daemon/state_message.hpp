@@ -42,8 +42,9 @@ struct Notes {
   nlohmann::json stop = nullptr;           // the emergency stop in force: by, reason (may be empty), tick
   bool stopping = false;
   ShapeNotes shape{};
-  bool homed = false;                // homing.hpp
-  std::int32_t planar_segments = 0;  // how many the slit asks for now (motion/dof_split.hpp)
+  bool homed = false;                  // homing.hpp
+  std::vector<std::uint32_t> serials;  // of the drives, once they are booted
+  std::int32_t planar_segments = 0;    // how many the slit asks for now (motion/dof_split.hpp)
 };
 
 // Name of the operating state in the API.

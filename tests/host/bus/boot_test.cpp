@@ -322,6 +322,25 @@ TEST(Boot, ADriveThatComesBackAsAnotherIsNamedAndMayComeBackAsItself) {
   EXPECT_EQ(bench.mismatch(8).failure, BootFailure::kNone);
 }
 
+TEST(Boot, ASerialNumberThatNobodyExpectsIsKept) {
+  BootBench bench;
+  for (DriveExpectation& drive : bench.expected) drive.serial.reset();
+  bench.drive(8).objects[key(0x1018, 4)].value = 31415;
+  bench.drive(9).objects.erase(key(0x1018, 4));
+  bench.run();
+  ASSERT_EQ(bench.boot->state(), BootState::kOperational);
+  EXPECT_EQ(bench.boot->serial(6), 1007U);
+  EXPECT_EQ(bench.boot->serial(7), 31415U);
+  EXPECT_EQ(bench.boot->serial(8), 0U) << "it has none";
+  bench.drive(8).objects[key(0x1018, 4)].value = 27182;
+  come_back(bench, 8);
+  bench.go_on();
+  EXPECT_EQ(bench.boot->state(), BootState::kFailed) << "another drive has come back";
+  EXPECT_EQ(bench.mismatch(8).expected, 31415U);
+  EXPECT_EQ(bench.mismatch(8).found, 27182U);
+  EXPECT_EQ(AllocationCount::value(), 0);
+}
+
 TEST(Boot, ADriveThatDoesNotStartIsReportedWithItsState) {
   BootBench bench;
   bench.drive(11).never_operational = true;

@@ -41,7 +41,7 @@ FakeDrive::FakeDrive(const canopen::DriveExpectation& is) : node(is.node) {
   add(0x1018, 1, 4, is.vendor);
   add(0x1018, 2, 4, is.product);
   add(0x1018, 3, 4, is.revision);
-  add(0x1018, 4, 4, is.serial);
+  add(0x1018, 4, 4, is.serial.value_or(0));
   for (std::uint32_t pdo = 0; pdo < 4; ++pdo) {
     add(0x1400 + pdo, 1, 4, 0x40000200 + 0x100 * pdo + node);
     add(0x1800 + pdo, 1, 4, 0x40000180 + 0x100 * pdo + node);

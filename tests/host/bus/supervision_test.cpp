@@ -164,6 +164,9 @@ TEST(Expectations, FollowFromRobotAndBusTable) {
   EXPECT_EQ(drives[1].bus, 1);
   EXPECT_EQ(drives[2].bus, 0);
   EXPECT_EQ(drives[2].serial, 1003U);
+  RobotConfig unknown = robot_with_three_cables();
+  unknown.drive_serials.clear();
+  EXPECT_EQ(drive_expectations(unknown, buses_at(250))[2].serial, std::nullopt);
   EXPECT_EQ(drives[0].rated_torque_mNm, 9000U);
   EXPECT_EQ(drives[0].gear_motor_turns, 9U);
   EXPECT_EQ(drives[0].gear_drum_turns, 2U);

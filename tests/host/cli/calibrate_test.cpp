@@ -6,12 +6,14 @@
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <utility>
 
 #include "firmware_like/arm/estimator.hpp"
 #include "firmware_like/arm/tension.hpp"
 #include "firmware_like/controller.hpp"
 #include "firmware_like/math/convert.hpp"
+#include "host/cli/fixture_prompt.hpp"
 #include "host/config/canonical.hpp"
 #include "host/config/sha256.hpp"
 #include "host/fixture/fixture.hpp"
@@ -33,9 +35,13 @@ struct Workshop {
   std::vector<std::size_t> cable_of;  // on each drum
   CableVector factor{};               // of each report: -1 counts backwards, 1.01 a drum of 1 % less
   CableVector off_m{};                // of each zero
+  std::array<std::uint32_t, kMaxCables> serial{};
 
   Workshop() {
-    for (std::size_t i = 0; i < 15; ++i) cable_of.push_back(i);
+    for (std::size_t i = 0; i < 15; ++i) {
+      cable_of.push_back(i);
+      serial[i] = static_cast<std::uint32_t>(70400 + 3 * i);
+    }
     factor.fill(1.0);
   }
   std::vector<CalibrationReading> readings(const std::vector<std::string>& poses = {"zero", "fixture", "prepare"}) const {
@@ -44,6 +50,7 @@ struct Workshop {
       CalibrationReading reading;
       reading.theta_rad = named_pose_rad(arm, name);
       reading.tension_N.fill(30.0);
+      reading.serial = serial;
       const CableVector beyond_m = beyond_zero_m(arm.table, reading.theta_rad, reading.tension_N);
       for (std::size_t i = 0; i < 15; ++i) reading.position_m[i] = factor[i] * (beyond_m[cable_of[i]] + off_m[cable_of[i]]);
       out.push_back(reading);
@@ -60,7 +67,7 @@ TEST(Calibrate, AnArmAsItsTableSaysGetsItsTable) {
   for (std::size_t i = 0; i < 15; ++i) {
     EXPECT_EQ(found.calibration.cables[i].zero_counts, workshop.arm.table.drive[i].zero_counts);
     EXPECT_EQ(found.calibration.cables[i].direction, workshop.arm.table.drive[i].direction);
-    EXPECT_EQ(found.calibration.cables[i].serial, 1001 + i);
+    EXPECT_EQ(found.calibration.cables[i].serial, workshop.serial[i]);
     EXPECT_NEAR(found.calibration.cables[i].drum_radius_m, 0.015, 1e-9);
   }
 }
@@ -122,6 +129,43 @@ TEST(Calibrate, ADrumThatIsTooFarOffAndACableThatIsInNoFixtureAreNamed) {
   const std::vector<std::string> problems = calibrate(workshop.arm, readings, kDay).problems;
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_NE(problems[0].find("drive 6 (node 7)"), std::string::npos) << problems[0];
+}
+
+TEST(Calibrate, ADriveWithoutASerialNumberOfItsOwnIsNamed) {
+  Workshop none;
+  none.serial[2] = 0;
+  ASSERT_EQ(none.result().problems.size(), 1u);
+  EXPECT_NE(none.result().problems[0].find("drive 2 (node 3): serial number 0 (object 0x1018:4): allowed 1 or more"), std::string::npos);
+  Workshop twice;
+  twice.serial[9] = twice.serial[4];
+  const std::vector<std::string> problems = twice.result().problems;
+  ASSERT_EQ(problems.size(), 2u);
+  EXPECT_NE(problems[0].find("drive 4 (node 5): serial number 70412 (object 0x1018:4): drive 9 says it, too"), std::string::npos)
+      << problems[0];
+  const Workshop workshop;
+  std::vector<CalibrationReading> readings = workshop.readings();
+  readings[2].serial[7] = 99;
+  const std::vector<std::string> changed = calibrate(workshop.arm, readings, kDay).problems;
+  ASSERT_EQ(changed.size(), 1u);
+  EXPECT_NE(changed[0].find("70421 (object 0x1018:4) in the first fixture, 99 in another"), std::string::npos) << changed[0];
+}
+
+TEST(FixturePrompt, WaitsForEnterAtEachFixture) {
+  std::istringstream in("\nready\n");
+  std::ostringstream out;
+  wait_for_fixture(in, out, "zero", 1, 2);
+  wait_for_fixture(in, out, "prepare", 2, 2);
+  EXPECT_EQ(
+      out.str(),
+      "pose 1 of 2: put the arm into fixture zero, then press Enter\npose 2 of 2: put the arm into fixture prepare, then press Enter\n");
+}
+
+TEST(FixturePrompt, AnInputThatEndsIsNoConsent) {
+  for (const char* input : {"", "yes"}) {
+    std::istringstream in(input);
+    std::ostringstream out;
+    EXPECT_THROW(wait_for_fixture(in, out, "zero", 1, 2), std::runtime_error) << input;
+  }
 }
 
 TEST(Calibrate, PosesThatDoNotTellEnoughAreRefused) {
@@ -203,7 +247,7 @@ TEST_F(CalibrationFile, IsReadAsItWasWritten) {
   EXPECT_EQ(calibration_json(read), calibration_json(written));
   RobotConfig arm = robot();
   apply(read, arm);
-  EXPECT_EQ(arm.drive_serials, robot().drive_serials);
+  EXPECT_EQ(arm.drive_serials[3], Workshop().serial[3]);
   EXPECT_EQ(arm.table.drive[3].zero_counts, written.cables[3].zero_counts);
 }
 

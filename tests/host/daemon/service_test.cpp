@@ -24,6 +24,7 @@ ServiceConfig config_for(const SimArm& arm, TimeMode mode) {
   config.scene.camera = SceneCamera{};
   config.scene.camera->latency_s = 0.1;
   config.buses.rate_hz = 250.0;
+  config.serials = [] { return std::vector<std::uint32_t>(15, 7); };
   config.boot_problems = [] { return std::vector<BootProblem>{{3, FaultNumber::kDriveMissing, "node 4 on can0: silent"}}; };
   return config;
 }
