@@ -9,10 +9,11 @@ from system import BenchOnCan, HERE, kInterfaces
 from liana_system import brief, must
 
 sys.path.append(str(HERE.parent))
+import calibrate_run  # noqa: E402
 from scenario_file import BadScenario, Failed, check_fields, expect_that, read  # noqa: E402
 
 kReadme = "hil/scenarios/can/README.md"
-kFields = {"about": str, "on": list, "during": str, "do": list, "restart": str, "mend": list, "expect": dict, "reduced": bool, "only_in_vm": bool}
+kFields = {"about": str, "on": list, "during": str, "do": list, "restart": str, "mend": list, "calibrate": dict, "expect": dict, "reduced": bool, "only_in_vm": bool}
 kExpected = {"fault": (int, list, type(None)), "state": str, "within_ticks": int, "after_clear": str, "travel_deg": (int, float), "overruns": int}
 kKinds = (*kInterfaces, "drives")
 kDuring = ("boot", "rest", "move")
@@ -26,21 +27,26 @@ class CanScenario:
     def __init__(self, path):
         self.name = f"can/{path.parent.name}/{path.stem}"
         content = read(path)
-        check_fields(self.name, content, kFields, ("about", "on", "during", "expect"), kReadme)
-        check_fields(f"{self.name}: expect", content["expect"], kExpected, ("fault", "state"), kReadme)
-        if content["during"] not in kDuring:
-            raise BadScenario(f"{self.name}: during is {content['during']}; allowed are {', '.join(kDuring)}")
+        self.calibrate = content.get("calibrate")
+        check_fields(self.name, content, kFields, ("about", "on", "expect", *([] if self.calibrate else ["during"])), kReadme)
+        if self.calibrate:
+            check_fields(f"{self.name}: calibrate", self.calibrate, calibrate_run.kFields, ("poses",), kReadme)
+            check_fields(f"{self.name}: expect", content["expect"], calibrate_run.kExpected, ("code",), kReadme)
+        else:
+            check_fields(f"{self.name}: expect", content["expect"], kExpected, ("fault", "state"), kReadme)
+            if content["during"] not in kDuring:
+                raise BadScenario(f"{self.name}: during is {content['during']}; allowed are {', '.join(kDuring)}")
         if not content["on"] or not set(content["on"]) <= set(kKinds):
             raise BadScenario(f"{self.name}: on is {content['on']}; allowed are {', '.join(kKinds)}")
-        self.on, self.during, self.expect = content["on"], content["during"], content["expect"]
+        self.on, self.during, self.expect = content["on"], content.get("during"), content["expect"]
         self.do, self.mend = content.get("do", []), content.get("mend", [])
         self.restart, self.reduced = content.get("restart"), content.get("reduced", False)
         self.only_in_vm = content.get("only_in_vm", False)
-        number = self.expect["fault"]
+        number = self.expect.get("fault")
         self.numbers = [] if number is None else number if isinstance(number, list) else [number]
 
     def fault_count(self):
-        return 1 if self.do else 0
+        return 1 if self.do or (self.calibrate and "cross_wired" in self.calibrate) else 0
 
 
 def all_scenarios(folder=HERE):
@@ -171,7 +177,8 @@ class Run:
 
 def run(scenario, kind, make_system):
     """A row of results: name, outcome, seconds of this machine's own clock, why, notes."""
-    one, start, why = Run(scenario, make_system), time.monotonic(), ""
+    one = (calibrate_run.CalibrateRun if scenario.calibrate else Run)(scenario, make_system)
+    start, why = time.monotonic(), ""
     try:
         one.go()
     except (Failed, AssertionError, OSError, ValueError, KeyError, subprocess.SubprocessError) as error:

@@ -104,7 +104,7 @@ class BenchOnCan(CanSystem):
 
     def start_bench(self):
         self.start("liana-bench", *self.tables(), "--can", ",".join(self.theirs), "--api", self.api, "--arm", "light", "--physics", "ideal",
-                   "--truth", self.directory / "truth.bin", "--summary", self.directory / "bench_summary.json")
+                   "--truth", self.directory / "truth.bin", "--summary", self.directory / "bench_summary.json", *self.bench_words)
         os.sched_setscheduler(self.children["liana-bench"].pid, os.SCHED_FIFO, os.sched_param(kHardwarePriority))
 
     def client(self, **options):
