@@ -22,6 +22,7 @@ class DriveHarness : public ::testing::Test {
     settings.node = kNode;
     settings.vendor = 0x4C49;
     settings.product = 1;
+    settings.serial = 70412;
     settings.revision = 1;
     return settings;
   }

@@ -36,7 +36,7 @@ TEST_F(DriveNode, TellsItsIdentityAndScaling) {
   boot();
   EXPECT_EQ(read(0x1000, 0), 0x00020192U);
   EXPECT_EQ(read(0x1018, 1), 0x4C49U);
-  EXPECT_EQ(read(0x1018, 4), 1000U + kNode);
+  EXPECT_EQ(read(0x1018, 4), 70412U);
   EXPECT_EQ(read(0x608F, 1), 65536U);
   EXPECT_EQ(read(0x608F, 2), 1U);
   EXPECT_EQ(read(0x6076, 0), 9000U);
