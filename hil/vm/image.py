@@ -9,7 +9,7 @@ import subprocess
 
 KERNEL_PACKAGE = "linux-image-rt-amd64"
 # What the guest loads; what these need is found by modprobe.
-MODULES = ["virtio_pci", "9pnet_virtio", "9p", "overlay", "can-raw", "can-bcm", "can-gw", "vcan", "kvaser_pci", "slcan", "sch_tbf"]
+MODULES = ["virtio_pci", "9pnet_virtio", "9p", "overlay", "can-raw", "can-bcm", "can-gw", "vcan", "kvaser_pci", "slcan", "sch_tbf", "sch_netem"]
 # Program -> the Debian package it comes from.
 PROGRAMS = {
     "qemu-system-x86_64": "qemu-system-x86",
