@@ -31,8 +31,10 @@ ThetaVector model_step(const RobotTable& table, const ShapeProblem& problem, con
                        double stretch) noexcept {
   const NullSpace space = null_space(arm.tip_jacobian, table.theta_count(), problem.goal.held_mask);
   ShapeModel model = resting_model(space, kRestShare * largest_weight(table, problem), ThetaVector{});
-  add_nodes(table, arm, problem.node, space, model);
-  add_clearance(table, theta, arm, problem.clear, space, model);
+  PullSum pulls;
+  add_nodes(table, arm, problem.node, pulls);
+  add_clearance(table, theta, arm, problem.clear, pulls);
+  add_pulls(space, pulls, model);
   const ShapeFactor metric = factor(space, model);
   NullPoint step;
   step.z = minimum(space, metric, model.pull);
@@ -40,7 +42,8 @@ ThetaVector model_step(const RobotTable& table, const ShapeProblem& problem, con
   double largest = kImproveLargestStep_rad;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) largest = larger(largest, stretch * std::fabs(step.theta_rad[k]));
   scale_by(space, stretch * kImproveLargestStep_rad / largest, step);
-  restrict_to(space, metric, room_to_limits(table, theta, 1.0), step);
+  HeldBounds held;
+  restrict_to(space, metric, room_to_limits(table, theta, 1.0), kManyPasses, held, step);
   return step.theta_rad;
 }
 

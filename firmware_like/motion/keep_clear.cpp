@@ -61,8 +61,6 @@ Nearest nearest_on(const Segment& segment, const Vec3& point) noexcept {
   return nearest;
 }
 
-bool is_used(const KeepClear& target) noexcept { return target.distance_m > 0.0 && target.weight > 0.0; }
-
 Vec3 in_root_frame(const Pose& root, const Vec3& point) noexcept {
   return rotate(conjugate(root.quaternion), subtract(point, root.position_m));
 }
@@ -96,6 +94,8 @@ Pull push_of(const ArmKinematics& arm, const SegmentTrig& trig, Index m, const S
 
 }  // namespace
 
+bool is_used(const KeepClear& target) noexcept { return target.distance_m > 0.0 && target.weight > 0.0; }
+
 double largest_weight(const KeepClearTargets& targets) noexcept {
   double largest = 0.0;
   for (const KeepClear& target : targets) {
@@ -119,18 +119,22 @@ double missing_clearance_m(const RobotTable& table, const ThetaVector& theta_rad
   return sum_m;
 }
 
-void add_clearance(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm, const KeepClearTargets& targets,
-                   const NullSpace& space, ShapeModel& model) noexcept {
+void add_clearance(const RobotTable& table, const SegmentTrig& trig, const ArmKinematics& arm, const KeepClear& target,
+                   std::int32_t segment, PullSum& sum) noexcept {
   constexpr double kNoWay_m = 1e-9;  // nearer than this, no direction leads away
+  const Index m = static_cast<Index>(segment);
+  const Segment links = segment_of(table.segment[m], trig);
+  const Nearest nearest = nearest_on(links, in_root_frame(arm.node_in_base[m], target.centre_m));
+  if (nearest.distance_m >= target.distance_m || nearest.distance_m < kNoWay_m) return;
+  add_pull(push_of(arm, trig, m, links, nearest, target), sum);
+}
+
+void add_clearance(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm, const KeepClearTargets& targets,
+                   PullSum& sum) noexcept {
   const ArmTrig trig = arm_trig(table, theta_rad);
-  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
-    const Segment segment = segment_of(table.segment[m], trig[m]);
-    for (const KeepClear& target : targets) {
-      if (!is_used(target)) continue;
-      const Nearest nearest = nearest_on(segment, in_root_frame(arm.node_in_base[m], target.centre_m));
-      if (nearest.distance_m >= target.distance_m || nearest.distance_m < kNoWay_m) continue;
-      add_pull(space, push_of(arm, trig[m], m, segment, nearest, target), model);
-    }
+  for (const KeepClear& target : targets) {
+    if (!is_used(target)) continue;
+    for (std::int32_t m = 0; m < table.segment_count; ++m) add_clearance(table, trig[static_cast<Index>(m)], arm, target, m, sum);
   }
 }
 

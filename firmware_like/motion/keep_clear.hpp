@@ -13,8 +13,15 @@ double largest_weight(const KeepClearTargets& targets) noexcept;
 double missing_clearance_m(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
                            const KeepClearTargets& targets) noexcept;
 
-// Adds the push of every target on the nearest point of every segment. Cost: one pass over all links per target.
+// True when a target asks for anything.
+bool is_used(const KeepClear& target) noexcept;
+
+// Adds the push of a used target on the nearest point of one segment (from 0), whose trigonometry is `trig`. Cost: one pass over its links.
+void add_clearance(const RobotTable& table, const SegmentTrig& trig, const ArmKinematics& arm, const KeepClear& target,
+                   std::int32_t segment, PullSum& sum) noexcept;
+
+// The same of every target on every segment.
 void add_clearance(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm, const KeepClearTargets& targets,
-                   const NullSpace& space, ShapeModel& model) noexcept;
+                   PullSum& sum) noexcept;
 
 }  // namespace liana

@@ -90,7 +90,7 @@ void slow_down(const RobotTable& table, double share, const Pose& target_before,
   }
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     state.ik_rad[k] = ik_before[k] + share * (state.ik_rad[k] - ik_before[k]);
-    state.shape_rate_rad_s[k] *= share;
+    state.shape.rate_rad_s[k] *= share;
     if (((state.held_mask >> k) & 1u) == 0) continue;
     state.held[k].value_rad = state.ik_rad[k];
     slow_channel(share, state.held[k].channel);
@@ -104,7 +104,7 @@ void slow_down(const RobotTable& table, double share, const Pose& target_before,
 const ShapePace& shape_pace(const RobotTable& table, bool braking, const MotionState& state) noexcept {
   if (braking || !state.held_at_target || !at_rest(state.filter)) return kShapeBesideTip;
   double fastest = 0.0;
-  for (const double rate : state.shape_rate_rad_s) fastest = larger(fastest, std::fabs(rate));
+  for (const double rate : state.shape.rate_rad_s) fastest = larger(fastest, std::fabs(rate));
   return fastest > 1.01 * kShapeAlone.rate_share * table.limits.theta_rate_rad_s ? kShapeBesideTip : kShapeAlone;
 }
 
@@ -113,7 +113,7 @@ void solve_tip(const RobotTable& table, bool braking, MotionState& state) noexce
   // The IK goes on from where the command stands, unless a limit or a held theta has come between.
   if (state.ik_rad != state.limiter.theta_rad) update_kinematics(table, arm_trig(table, state.ik_rad), state.arm);
   const ThetaVector move = shape_move(table, state.arm, state.to.node, state.to.clear, state.held_mask, braking,
-                                      shape_pace(table, braking, state), state.ik_rad, state.shape_rate_rad_s);
+                                      shape_pace(table, braking, state), state.ik_rad, state.shape);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
   state.ik = servo_ik(table, {state.filter.pose, state.held_mask, kTipCurvature_m}, state.arm, state.ik_rad);
   if (state.ik.limit_mask != 0) state.limits |= kLimitTheta;
@@ -197,7 +197,7 @@ void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionSt
   if (is_tip(setpoint) && (!is_tip(state.to) || state.braking)) {
     if (!is_tip(state.to)) {  // from joint motion: take over pose and rates
       state.ik_rad = state.limiter.theta_rad;
-      state.shape_rate_rad_s = ThetaVector{};
+      state.shape = ShapeState{};
       const Twist tip = tip_twist(table, state);
       state.filter = TipFilterState{};
       state.filter.pose = state.arm.tip_in_base;
@@ -217,7 +217,7 @@ void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionSt
     if (newly_held) state.held[k] = HeldProfile{state.ik_rad[k], {{state.limiter.rate_rad_s[k], 0.0, 0.0}, {}}};
   }
   // A changed mask changes how thetas share the tip's motion. What they do now lives on as shape velocity, which goes over smoothly.
-  if (is_tip(setpoint) && held_mask != state.held_mask) state.shape_rate_rad_s = state.limiter.rate_rad_s;
+  if (is_tip(setpoint) && held_mask != state.held_mask) state.shape.rate_rad_s = state.limiter.rate_rad_s;
   state.held_mask = held_mask;
   state.to = setpoint;
   state.turn_rad = rotation_vector(multiply(state.to.tip_in_base.quaternion, conjugate(state.from.tip_in_base.quaternion)));

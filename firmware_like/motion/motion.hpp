@@ -6,6 +6,7 @@
 
 #include "firmware_like/motion/limiter.hpp"
 #include "firmware_like/motion/servo_ik.hpp"
+#include "firmware_like/motion/shape.hpp"
 #include "firmware_like/operator_input/tip_filter.hpp"
 #include "firmware_like/telecommand.hpp"
 
@@ -24,8 +25,8 @@ struct MotionState {
   std::int32_t interval_tick = 0;  // ticks since `to` came into force
   bool braking = true;             // no valid setpoint: stop along the path
   TipFilterState filter{};
-  ThetaVector ik_rad{};            // servo IK solution
-  ThetaVector shape_rate_rad_s{};  // null-space velocity
+  ThetaVector ik_rad{};  // servo IK solution
+  ShapeState shape{};
   std::array<HeldProfile, kMaxTheta> held{};
   std::uint32_t held_mask = 0;
   bool held_at_target = true;

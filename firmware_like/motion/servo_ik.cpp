@@ -54,16 +54,33 @@ void put_block(const Block& block, Index row, Index column, SquareMatrix<6>& A) 
   }
 }
 
-TaskSolver factor_task(const Jacobian& J, Index n, std::uint32_t fixed, double damping) noexcept {
-  TaskSolver solver;
+// J J^T over free thetas, lower triangle.
+using TaskSum = SquareMatrix<6>;
+
+void take_sum(const Jacobian& J, Index n, std::uint32_t fixed, TaskSum& sum) noexcept {
+  put_block(outer_sum(J.linear, J.linear, n, fixed), 0, 0, sum);
+  put_block(outer_sum(J.angular, J.linear, n, fixed), 3, 0, sum);
+  put_block(outer_sum(J.angular, J.angular, n, fixed), 3, 3, sum);
+}
+
+// Leaves out thetas that were among the free ones.
+void leave_out(const Jacobian& J, Index n, std::uint32_t thetas, TaskSum& sum) noexcept {
+  for (Index k = 0; k < n; ++k) {
+    if (!is_set(thetas, k)) continue;
+    const Vec3 &l = J.linear[k], &a = J.angular[k];
+    const Task column{l[0], l[1], l[2], a[0], a[1], a[2]};
+    for (Index r = 0; r < 6; ++r) {
+      for (Index c = 0; c <= r; ++c) sum[r][c] -= column[r] * column[c];
+    }
+  }
+}
+
+void factor_task(const TaskSum& sum, std::uint32_t fixed, double damping, TaskSolver& solver) noexcept {
   solver.fixed = fixed;
   solver.damping = damping;
-  put_block(outer_sum(J.linear, J.linear, n, fixed), 0, 0, solver.factor);
-  put_block(outer_sum(J.angular, J.linear, n, fixed), 3, 0, solver.factor);
-  put_block(outer_sum(J.angular, J.angular, n, fixed), 3, 3, solver.factor);
+  solver.factor = sum;
   for (Index r = 0; r < 6; ++r) solver.factor[r][r] += damping;
   solver.regular = cholesky_factor(solver.factor);
-  return solver;
 }
 
 // A step of the free thetas, and the part of the error that it will leave because of damping: e - J step = damping y.
@@ -123,8 +140,10 @@ DampedMove move_damped(const RobotTable& table, const Jacobian& J, std::uint32_t
                        ThetaVector& theta) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   DampedMove move;
+  TaskSum sum{};
+  take_sum(J, n, held_mask, sum);
   for (std::int32_t pass = 0; pass < kLimitPasses; ++pass) {
-    move.solver = factor_task(J, n, held_mask | move.limit_mask, damping);
+    factor_task(sum, held_mask | move.limit_mask, damping, move.solver);
     const Step step = solve_step(move.solver, J, n, e);
     move.left2 = step.left2;
     const std::uint32_t clipped = clip_to_limits(table, J, move.solver.fixed, step.theta_rad, theta, e);
@@ -132,6 +151,7 @@ DampedMove move_damped(const RobotTable& table, const Jacobian& J, std::uint32_t
       add_free(move.solver, n, step.theta_rad, theta);
       break;
     }
+    leave_out(J, n, clipped, sum);
     move.limit_mask |= clipped;  // too many at once: the rest waits for the next tick
   }
   return move;

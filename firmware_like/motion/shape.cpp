@@ -9,7 +9,8 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double kLastMoment_s = 0.1;  // room to a limit over this bounds the smoothed rate
+constexpr std::int32_t kBoundPasses = 1;  // changes of the active set in a tick; the next one goes on from there
+constexpr double kLastMoment_s = 0.1;     // room to a limit over this bounds the smoothed rate
 
 bool is_node(const RobotTable& table, const NodeTarget& target) noexcept { return target.node >= 1 && target.node <= table.segment_count; }
 
@@ -62,21 +63,60 @@ struct Stand {
 // True when a rate with this largest entry may pass a limit within `time_s`.
 bool may_pass_limit(const Stand& stand, double time_s, double largest) noexcept { return largest * time_s > stand.least_room_rad; }
 
-// Bounds a rate by the room to the limits over `time_s`.
-void bound_rate(const Stand& stand, const ShapeFactor& metric, double time_s, NullPoint& rate) noexcept {
-  restrict_to(stand.space, metric, room_to_limits(stand.table, stand.theta_rad, 1.0 / time_s), rate);
+// A node within its threshold wants nothing; one outside wants to come back within.
+void add_node(const ArmKinematics& arm, const NodeTarget& target, PullSum& sum) noexcept {
+  const Vec3 towards = towards_target(arm, target);
+  const double distance = std::sqrt(dot(towards, towards));
+  if (!(distance > target.threshold_m) || distance < 1e-9) return;
+  Pull pull;
+  pull.weight = target.weight;
+  pull.excess_m = distance - target.threshold_m;
+  pull.distance_m = distance;
+  pull.towards = scale(towards, 1.0 / distance);
+  pull.columns = 2 * target.node;
+  const Vec3 lever = subtract(arm.node_in_base[static_cast<Index>(target.node)].position_m, arm.tip_in_base.position_m);
+  for (Index k = 0; k < static_cast<Index>(pull.columns); ++k)
+    pull.column[k] = add(arm.tip_jacobian.linear[k], cross(arm.tip_jacobian.angular[k], lever));
+  add_pull(pull, sum);
 }
 
-// Velocity [rad/s] that the shape wants.
-ThetaVector wanted_rate(const Stand& stand, const ArmKinematics& arm, const NodeTargets& nodes, const KeepClearTargets& clear,
-                        std::uint32_t held_mask, const ShapePace& pace) noexcept {
-  const double clear_weight = largest_weight(clear);
+// Adds pull `index` of a round: nodes first, then every segment away from every target. False when there is no such pull.
+bool add_pull_of_round(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm, const NodeTargets& nodes,
+                       const KeepClearTargets& clear, Index index, PullSum& sum) noexcept {
+  if (index < nodes.size()) {
+    if (!is_node(table, nodes[index]) || !(nodes[index].weight > 0.0)) return false;
+    add_node(arm, nodes[index], sum);
+    return true;
+  }
+  const Index segments = static_cast<Index>(table.segment_count), pair = index - nodes.size(), m = pair % segments;
+  const KeepClear& target = clear[pair / segments];
+  if (!is_used(target)) return false;
+  add_clearance(table, arm_trig(table, theta_rad)[m], arm, target, static_cast<std::int32_t>(m), sum);
+  return true;
+}
+
+// Takes one more pull of the round; false when the round is complete. Other weights begin a new one.
+bool gather(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm, const NodeTargets& nodes,
+            const KeepClearTargets& clear, double weight, ShapeState& state) noexcept {
+  if (weight != state.weight) state.next_pull = 0;
+  state.weight = weight;
+  if (!(weight > 0.0)) return false;
+  if (state.next_pull == 0) reset_pulls(table.theta_count(), state.pulls);
+  const Index pulls = nodes.size() + clear.size() * static_cast<Index>(table.segment_count);
+  while (state.next_pull < pulls) {
+    if (add_pull_of_round(table, theta_rad, arm, nodes, clear, static_cast<Index>(state.next_pull++), state.pulls)) return true;
+  }
+  state.next_pull = 0;
+  return false;
+}
+
+// Velocity [rad/s] that the shape wants with the pulls of a round.
+ThetaVector wanted_rate(const Stand& stand, std::uint32_t held_mask, const ShapePace& pace, ShapeState& state) noexcept {
   const Index n = static_cast<Index>(stand.space.theta_count);
   const double limit = pace.rate_share * stand.table.limits.theta_rate_rad_s;
-  ShapeModel model = resting_model(stand.space, centring_weight(larger(largest_weight(stand.table, nodes), clear_weight)),
-                                   centring(stand.table, held_mask, pace.time_s, stand.theta_rad));
-  add_nodes(stand.table, arm, nodes, stand.space, model);
-  if (clear_weight > 0.0) add_clearance(stand.table, stand.theta_rad, arm, clear, stand.space, model);
+  ShapeModel model =
+      resting_model(stand.space, centring_weight(state.weight), centring(stand.table, held_mask, pace.time_s, stand.theta_rad));
+  if (state.weight > 0.0) add_pulls(stand.space, state.pulls, model);
   const ShapeFactor metric = factor(stand.space, model);
   NullPoint rate;
   rate.z = minimum(stand.space, metric, model.pull);
@@ -86,7 +126,8 @@ ThetaVector wanted_rate(const Stand& stand, const ArmKinematics& arm, const Node
   const double share = largest > limit ? limit / largest : 1.0;
   scale_by(stand.space, share / pace.time_s, rate);
   if (may_pass_limit(stand, pace.limit_approach_s, share * largest)) {
-    bound_rate(stand, metric, pace.limit_approach_s, rate);
+    restrict_to(stand.space, metric, room_to_limits(stand.table, stand.theta_rad, 1.0 / pace.limit_approach_s), kBoundPasses,
+                state.wanted_held, rate);
     const double bounded = largest_entry(rate.theta_rad, n);
     if (bounded > limit) scale_by(stand.space, limit / bounded, rate);
   }
@@ -111,47 +152,39 @@ double largest_weight(const RobotTable& table, const NodeTargets& nodes) noexcep
   return largest;
 }
 
-void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, const NullSpace& space,
-               ShapeModel& model) noexcept {
+void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, PullSum& sum) noexcept {
   for (const NodeTarget& target : nodes) {
-    if (!is_node(table, target) || !(target.weight > 0.0)) continue;
-    const Vec3 towards = towards_target(arm, target);
-    const double distance = std::sqrt(dot(towards, towards));
-    if (!(distance > target.threshold_m) || distance < 1e-9) continue;
-    Pull pull;
-    pull.weight = target.weight;
-    pull.excess_m = distance - target.threshold_m;
-    pull.distance_m = distance;
-    pull.towards = scale(towards, 1.0 / distance);
-    pull.columns = 2 * target.node;
-    const Vec3 lever = subtract(arm.node_in_base[static_cast<Index>(target.node)].position_m, arm.tip_in_base.position_m);
-    for (Index k = 0; k < static_cast<Index>(pull.columns); ++k)
-      pull.column[k] = add(arm.tip_jacobian.linear[k], cross(arm.tip_jacobian.angular[k], lever));
-    add_pull(space, pull, model);
+    if (is_node(table, target) && target.weight > 0.0) add_node(arm, target, sum);
   }
 }
 
 ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, const KeepClearTargets& clear,
                        std::uint32_t held_mask, bool braking, const ShapePace& pace, const ThetaVector& theta_rad,
-                       ThetaVector& rate_rad_s) noexcept {
+                       ShapeState& state) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const NullSpace space = null_space(arm.tip_jacobian, table.theta_count(), held_mask);
   const Stand stand{table, theta_rad, space, least_room_rad(table, theta_rad)};
-  ThetaVector change{};
-  if (!braking) change = wanted_rate(stand, arm, nodes, clear, held_mask, pace);
+  if (braking) {
+    state.wanted_rad_s = ThetaVector{};
+    state.next_pull = 0;
+  } else if (!gather(table, theta_rad, arm, nodes, clear, larger(largest_weight(table, nodes), largest_weight(clear)), state)) {
+    state.wanted_rad_s = wanted_rate(stand, held_mask, pace, state);
+  }
   // Braking has to end: straight down to zero, without the smoothing's tail.
   const double share = braking ? 1.0 : smaller(1.0, table.tick_s / pace.smoothing_s);
-  for (Index k = 0; k < n; ++k) change[k] = (change[k] - rate_rad_s[k]) * share;
+  ThetaVector change{};
+  for (Index k = 0; k < n; ++k) change[k] = (state.wanted_rad_s[k] - state.rate_rad_s[k]) * share;
   const double accel = pace.accel_share * table.limits.theta_accel_rad_s2 * table.tick_s, largest = largest_entry(change, n);
   const double slower = largest > accel ? accel / largest : 1.0;  // one factor for all keeps it in the null space
-  for (Index k = 0; k < n; ++k) change[k] = rate_rad_s[k] + slower * change[k];
+  for (Index k = 0; k < n; ++k) change[k] = state.rate_rad_s[k] + slower * change[k];
   NullPoint rate;
   rate.z = coordinates(space, change);
   rate.theta_rad = combine(space, rate.z);
-  if (may_pass_limit(stand, kLastMoment_s, largest_entry(rate.theta_rad, n))) bound_rate(stand, unit_factor(space), kLastMoment_s, rate);
+  if (may_pass_limit(stand, kLastMoment_s, largest_entry(rate.theta_rad, n)))
+    restrict_to(space, room_to_limits(table, theta_rad, 1.0 / kLastMoment_s), kBoundPasses, state.rate_held, rate);
   ThetaVector move{};
   for (Index k = 0; k < n; ++k) {
-    rate_rad_s[k] = rate.theta_rad[k];
+    state.rate_rad_s[k] = rate.theta_rad[k];
     move[k] = rate.theta_rad[k] * table.tick_s;
   }
   return move;

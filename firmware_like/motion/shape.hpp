@@ -37,15 +37,25 @@ double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const No
 // Largest weight of a node target; 0 when there is none.
 double largest_weight(const RobotTable& table, const NodeTargets& nodes) noexcept;
 
-// Adds what the nodes want at `arm` to a model. A node within its threshold wants nothing; one outside wants to come back within.
-void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, const NullSpace& space,
-               ShapeModel& model) noexcept;
+// Adds what the nodes want at `arm`. A node within its threshold wants nothing; one outside wants to come back within.
+void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, PullSum& sum) noexcept;
+
+// What the shape keeps between ticks. Pulls are gathered one a tick, all of them in a round; then the wanted velocity is solved for. The
+// most that a round can take is 25 ticks, four nodes and four points to keep clear of; without any targets it is one.
+struct ShapeState {
+  ThetaVector rate_rad_s{};    // null-space velocity
+  ThetaVector wanted_rad_s{};  // of the last round: what the velocity follows
+  PullSum pulls{};             // of this round so far
+  double weight = 0.0;         // largest of its targets
+  std::uint64_t next_pull = 0;
+  HeldBounds wanted_held{}, rate_held{};
+};
 
 // Shape motion of one tick [rad] at theta, whose kinematics are `arm`: within joint limits, at most the pace's share of the rate limit (1 %
-// more while the null space turns), held thetas still, |J move| <= 1e-9 |move|. `rate_rad_s` is the shape velocity kept between ticks: it
-// follows what is wanted (zero while braking) smoothly, so that a new target never jerks the arm.
+// more while the null space turns), held thetas still, |J move| <= 1e-9 |move|. The velocity in `state` follows what is wanted (zero while
+// braking) smoothly, so that a new target never jerks the arm.
 ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, const KeepClearTargets& clear,
                        std::uint32_t held_mask, bool braking, const ShapePace& pace, const ThetaVector& theta_rad,
-                       ThetaVector& rate_rad_s) noexcept;
+                       ShapeState& state) noexcept;
 
 }  // namespace liana

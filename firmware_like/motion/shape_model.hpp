@@ -31,10 +31,18 @@ struct Pull {
   double excess_m;
   double distance_m;  // from what pulls or pushes: curvature across `towards`; 0 = none
   Vec3 towards;
-  std::array<Vec3, kMaxTheta> column;  // of the point's Jacobian; the first `columns` are set, the others zero
+  std::array<Vec3, kMaxTheta> column;  // of the point's Jacobian; the first `columns` (an even number) are set, the others zero
   std::int32_t columns;
 };
-void add_pull(const NullSpace& space, const Pull& pull, ShapeModel& model) noexcept;
+
+// What pulls want together, by theta: it goes on to hold for a while when the arm moves on, and its null space turns.
+struct PullSum {
+  std::array<ThetaVector, kMaxTheta> curvature{};  // lower triangle
+  ThetaVector pull{};
+};
+void reset_pulls(std::int32_t theta_count, PullSum& sum) noexcept;
+void add_pull(const Pull& pull, PullSum& sum) noexcept;
+void add_pulls(const NullSpace& space, const PullSum& sum, ShapeModel& model) noexcept;
 
 struct ThetaBounds {
   ThetaVector low;   // <= 0
@@ -49,7 +57,6 @@ struct ShapeFactor {
   std::array<NullVector, kMaxTheta> row;
 };
 ShapeFactor factor(const NullSpace& space, const ShapeModel& model) noexcept;
-ShapeFactor unit_factor(const NullSpace& space) noexcept;
 
 // The model's minimum without bounds.
 NullVector minimum(const NullSpace& space, const ShapeFactor& factor, const NullVector& pull) noexcept;
@@ -62,9 +69,18 @@ struct NullPoint {
 
 void scale_by(const NullSpace& space, double factor, NullPoint& point) noexcept;
 
-// Moves `point` to where, within bounds, it is nearest in the metric of `factor`, which the curvature makes the minimum of the model. Exact
-// by the dual active-set method (D. Goldfarb, A. Idnani, Math. Program. 27, 1983); after 4 dimension passes without an end, the point is
-// scaled until it is inside.
-void restrict_to(const NullSpace& space, const ShapeFactor& factor, const ThetaBounds& bounds, NullPoint& point) noexcept;
+// Thetas that stand on a bound: what restrict_to begins with. Any will do; those of a problem like this one save passes.
+struct HeldBounds {
+  std::uint32_t low = 0, high = 0;  // bit k: theta k
+};
+
+// Moves `point` to where, within bounds, it is nearest in the metric of `factor`, which the curvature makes the minimum of the model;
+// without a factor, nearest in theta. Exact by the dual active-set method (D. Goldfarb, A. Idnani, Math. Program. 27, 1983). After `passes`
+// changes of the active set without an end, the point is scaled until it is inside, and `held` says where a problem like this one may go
+// on.
+constexpr std::int32_t kManyPasses = 64;  // enough for any problem of this size
+void restrict_to(const NullSpace& space, const ShapeFactor& factor, const ThetaBounds& bounds, std::int32_t passes, HeldBounds& held,
+                 NullPoint& point) noexcept;
+void restrict_to(const NullSpace& space, const ThetaBounds& bounds, std::int32_t passes, HeldBounds& held, NullPoint& point) noexcept;
 
 }  // namespace liana

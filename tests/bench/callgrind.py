@@ -19,17 +19,17 @@ def run(words):
     done = subprocess.run(words, capture_output=True, text=True, env={**os.environ, "LD_BIND_NOW": "1"}, check=False)
     if done.returncode != 0:
         print(done.stdout, done.stderr, sep="\n", file=sys.stderr)
-        raise Failed(f"{pathlib.Path(words[-1]).name} ended with exit code {done.returncode}")
+        raise Failed(f"{' '.join(words)} ended with exit code {done.returncode}")
     return done.stdout
 
 
-def instructions(program):
-    """Label -> instructions of each counted call, in order."""
+def instructions(*words):
+    """Label -> instructions of each counted call of a program with its arguments, in order."""
     counts = collections.defaultdict(list)
     with tempfile.TemporaryDirectory() as folder:
         dump = pathlib.Path(folder) / "dump"
         run(["valgrind", "--tool=callgrind", "--collect-atstart=no", "--combine-dumps=yes", "--dump-line=no",
-             f"--callgrind-out-file={dump}", str(program)])
+             f"--callgrind-out-file={dump}", *map(str, words)])
         label = None
         with dump.open(errors="replace") as lines:
             for line in lines:

@@ -58,6 +58,12 @@ int main(int argc, char** argv) {
   make->add_option("tape", first)->required();
   make->add_option("expected", second)->required();
   make->add_option("recordings", recordings)->required();
+  CLI::App* const cases =
+      app.add_subcommand("cases", "write a tape of costly cases (tests/bench/worst_cases.hpp) and the Outputs expected of it");
+  std::string case_file;
+  cases->add_option("tape", first)->required();
+  cases->add_option("expected", second)->required();
+  cases->add_option("cases", case_file)->required()->check(CLI::ExistingFile);
   CLI::App* const compare = app.add_subcommand("compare", "compare answered with expected Outputs");
   compare->add_option("expected", first)->required()->check(CLI::ExistingFile);
   compare->add_option("answered", second)->required()->check(CLI::ExistingFile);
@@ -71,6 +77,12 @@ int main(int argc, char** argv) {
       std::ofstream tape(first, std::ios::binary), expected(second, std::ios::binary);
       for (const std::string& directory : recordings) liana::bits::append_recording(directory, options, tape, expected, summary);
       std::cout << liana::bits::tape_json(summary) << "\n";
+      return 0;
+    }
+    if (cases->parsed()) {
+      std::ifstream lines(case_file);
+      std::ofstream tape(first, std::ios::binary), expected(second, std::ios::binary);
+      std::cout << nlohmann::json{{"ticks", liana::bits::append_cases(lines, tape, expected)}}.dump() << "\n";
       return 0;
     }
     std::ifstream one(first, std::ios::binary), other(second, std::ios::binary);

@@ -10,6 +10,7 @@
 #include "host/record/mcap.hpp"
 #include "host/record/recording.hpp"
 #include "host/record/serialise.hpp"
+#include "tests/bench/worst_cases.hpp"
 #include "tests/bits/tape.hpp"
 #include "tests/bits/what_ifs.hpp"
 
@@ -139,6 +140,28 @@ void append_recording(const std::string& directory, const TapeOptions& options, 
                       TapeSummary& summary) {
   Maker(options, tape, expected, summary).append(read(directory, options.limit));
   if (!tape || !expected) throw std::runtime_error("tape: could not be written; is the disk full?");
+}
+
+std::uint64_t append_cases(std::istream& lines, std::ostream& tape, std::ostream& expected) {
+  std::uint64_t ticks = 0;
+  const worst::Tick tick = [&](Controller& controller, const Inputs& inputs) {
+    std::string asked, answered;
+    append_serialised(asked, inputs);
+    const Outputs outputs = controller.tick(inputs);
+    append_serialised(answered, outputs);
+    tape.put(static_cast<char>(Mark::kTick)) << asked;
+    expected << answered;
+    ++ticks;
+    return outputs;
+  };
+  std::string table;
+  append_serialised(table, zhu2022::table());
+  for (const worst::Case& one : worst::read_cases(lines)) {
+    tape.put(static_cast<char>(Mark::kRobot)) << table;
+    worst::play(one, worst::started(one, tick), tick);
+  }
+  if (!tape || !expected) throw std::runtime_error("tape: could not be written; is the disk full?");
+  return ticks;
 }
 
 }  // namespace liana::bits

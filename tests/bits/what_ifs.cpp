@@ -2,22 +2,15 @@
 
 #include <limits>
 
-namespace liana {
+#include "tests/firmware_like/release.hpp"
 
-// Stand-in for the release step: a telecommand that no verifier has seen.
-class Release {
- public:
-  static Telecommand make(std::uint64_t sequence, std::uint64_t first_tick, const Setpoint& setpoint) {
-    return {sequence, first_tick, first_tick + 1000, 1, setpoint};
-  }
-};
-
-namespace bits {
+namespace liana::bits {
 namespace {
 
 constexpr std::uint32_t kBrief = 60;  // longer than every debounce, and than the quick stop takes to begin
 constexpr std::uint32_t kLong = 400;  // until the drives are without power, or are asked too long for it; and a motion
 constexpr std::uint32_t kSlow = 150;  // until the tightest cable is slack, and its debounce
+constexpr std::uint64_t kLife_ticks = 1000;
 constexpr std::uint64_t kUnusedSequence = 1u << 30;
 constexpr std::uint16_t kSwitchOnDisabled = 0x0250, kInFault = 0x0218;
 
@@ -58,7 +51,7 @@ void nonsense(Inputs& inputs, std::uint32_t age, std::size_t) {
   Setpoint setpoint;
   setpoint.kind = CommandKind::kJoint;
   setpoint.joint_rad[3] = std::numeric_limits<double>::quiet_NaN();
-  inputs.telecommand = Release::make(kUnusedSequence + age, inputs.tick, setpoint);
+  inputs.telecommand = Release::make(kUnusedSequence + age, inputs.tick, inputs.tick + kLife_ticks, setpoint);
 }
 // Every tip command asks for a shape as well: a node drawn aside, a point to keep away from.
 void shaped(Inputs& inputs, std::uint32_t, std::size_t) {
@@ -66,12 +59,13 @@ void shaped(Inputs& inputs, std::uint32_t, std::size_t) {
   if (setpoint.kind != CommandKind::kTip) return;
   setpoint.node[0] = {2, {1.2, 0.3, 0.2}, 1.0, 0.0};
   setpoint.clear[0] = {{0.8, 0.1, 0.1}, 0.3, 1.0};
-  inputs.telecommand = Release::make(inputs.telecommand.sequence(), inputs.telecommand.first_tick(), setpoint);
+  inputs.telecommand = Release::make(inputs.telecommand.sequence(), inputs.telecommand.first_tick(),
+                                     inputs.telecommand.first_tick() + kLife_ticks, setpoint);
 }
 void straightened(Inputs& inputs, std::uint32_t age, std::size_t) {
   Setpoint setpoint;
   setpoint.kind = age == 0 ? CommandKind::kJoint : CommandKind::kNone;
-  inputs.telecommand = Release::make(kUnusedSequence, inputs.tick, setpoint);
+  inputs.telecommand = Release::make(kUnusedSequence, inputs.tick, inputs.tick + kLife_ticks, setpoint);
 }
 void no_telecommands(Inputs& inputs, std::uint32_t, std::size_t) { inputs.telecommand = Telecommand{}; }
 void stop(Inputs& inputs, std::uint32_t age, std::size_t) { inputs.request = age == 0 ? Request::kStop : Request::kNone; }
@@ -115,5 +109,4 @@ constexpr WhatIf kEnabling[] = {
 std::span<const WhatIf> what_ifs_enabled() { return kEnabled; }
 std::span<const WhatIf> what_ifs_enabling() { return kEnabling; }
 
-}  // namespace bits
-}  // namespace liana
+}  // namespace liana::bits

@@ -10,17 +10,10 @@
 #include "firmware_like/arm/tension.hpp"
 #include "firmware_like/controller.hpp"
 #include "firmware_like/math/convert.hpp"
+#include "tests/firmware_like/release.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
-
-// Stand-in for the release step: tests may make telecommands without verification.
-class Release {
- public:
-  static Telecommand make(std::uint64_t sequence, std::uint64_t first_tick, std::uint64_t expiry_tick, const Setpoint& setpoint) {
-    return {sequence, first_tick, expiry_tick, 1, setpoint};
-  }
-};
 
 // CiA 402 drives without dynamics: targets of the tick before are positions of this one, torque is what the controller planned.
 class IdealDrives {

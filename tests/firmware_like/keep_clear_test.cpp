@@ -58,7 +58,9 @@ TEST(KeepClear, ThePullIsTheNegativeGradient) {
       const NullSpace space = null_space(arm.tip_jacobian, robot.theta_count(), 0);
       const KeepClearTargets targets = one(random.vector(1.5), 1.0);
       ShapeModel model = resting_model(space, 1.0, ThetaVector{});
-      add_clearance(robot, theta, arm, targets, space, model);
+      PullSum pulls;
+      add_clearance(robot, theta, arm, targets, pulls);
+      add_pulls(space, pulls, model);
       for (std::int32_t d = 0; d < space.dimension; ++d) {
         ThetaVector more = theta, less = theta;
         for (std::int32_t k = 0; k < robot.theta_count(); ++k) {
@@ -90,7 +92,8 @@ TEST(KeepClear, TheArmsMiddleMakesWayWhileTheTipStays) {
 
 TEST(KeepClear, TheTickPushesTheArmsMiddleAwayWithinItsRatesWhileTheTipStays) {
   const RobotTable robot = zhu2022::table();
-  ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg), rate{};
+  ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  ShapeState shape;
   const ArmKinematics start = forward_kinematics(robot, theta);
   const KeepClearTargets clear = one(add(start.node_in_base[3].position_m, {0.0, 0.0, 0.05}), 0.2);
   const IkGoal goal{start.tip_in_base, 0};
@@ -98,9 +101,9 @@ TEST(KeepClear, TheTickPushesTheArmsMiddleAwayWithinItsRatesWhileTheTipStays) {
   double largest_rate = 0.0;
   for (std::int32_t tick = 0; tick < 60 * 250; ++tick) {
     const ArmKinematics arm = forward_kinematics(robot, theta);
-    theta = zhu2022::plus(theta, shape_move(robot, arm, {}, clear, 0, false, kShapeBesideTip, theta, rate));
+    theta = zhu2022::plus(theta, shape_move(robot, arm, {}, clear, 0, false, kShapeBesideTip, theta, shape));
     servo_ik(robot, goal, arm, theta);
-    for (const double r : rate) largest_rate = std::max(largest_rate, std::fabs(r));
+    for (const double r : shape.rate_rad_s) largest_rate = std::max(largest_rate, std::fabs(r));
   }
   EXPECT_GT(missing_m, 0.1);
   EXPECT_LT(missing_from_points_m(robot, theta, clear[0]), 2e-3);
@@ -136,7 +139,9 @@ TEST(KeepClear, UnusedFarAndCoincidentTargetsPushNothing) {
     EXPECT_EQ(missing_clearance_m(robot, theta, arm, targets), 0.0);
   }
   ShapeModel model = resting_model(space, 1.0, ThetaVector{});
-  add_clearance(robot, theta, arm, one({1.25, 0.0, 0.0}, 0.1), space, model);  // on the axis: no direction leads away
+  PullSum pulls;
+  add_clearance(robot, theta, arm, one({1.25, 0.0, 0.0}, 0.1), pulls);  // on the axis: no direction leads away
+  add_pulls(space, pulls, model);
   for (std::int32_t d = 0; d < space.dimension; ++d) EXPECT_EQ(model.pull[static_cast<std::size_t>(d)], 0.0);
 }
 

@@ -38,10 +38,10 @@ double distance_m(const RobotTable& robot, const ThetaVector& theta, const NodeT
 // Shape motion for `ticks` with the tip brought back by the servo IK, as the tick does it.
 void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, std::int32_t ticks, ThetaVector& theta) {
   const IkGoal goal{arm_at(robot, theta).tip_in_base, held};
-  ThetaVector rate{};
+  ShapeState shape;
   for (std::int32_t i = 0; i < ticks; ++i) {
     const ArmKinematics arm = arm_at(robot, theta);
-    theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, held, false, kShapeBesideTip, theta, rate));
+    theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, held, false, kShapeBesideTip, theta, shape));
     servo_ik(robot, goal, arm, theta);
   }
 }
@@ -102,7 +102,9 @@ TEST(Shape, TheModelsPullIsDownhill) {
               2.0 * distance_m(robot, theta, nodes[0]) + 0.5 * (distance_m(robot, theta, nodes[1]) - 0.05), 1e-12);
   const NullSpace space = null_space(arm.tip_jacobian, robot.theta_count(), 0);
   ShapeModel model = resting_model(space, 1.0, ThetaVector{});
-  add_nodes(robot, arm, nodes, space, model);
+  PullSum pulls;
+  add_nodes(robot, arm, nodes, pulls);
+  add_pulls(space, pulls, model);
   constexpr double kStep = 1e-6;
   for (std::size_t d = 0; d < static_cast<std::size_t>(space.dimension); ++d) {
     NullVector unit{};
@@ -127,7 +129,9 @@ TEST(Shape, A43OnlyNodesBeyondTheirThresholdCount) {
        {target_of(3, near, 1.0, 0.06), target_of(3, at), target_of(0, near), target_of(6, near), target_of(3, near, 0.0)}) {
     EXPECT_EQ(node_excess_m(robot, arm, nodes), 0.0);
     ShapeModel model = resting_model(space, 1.0, ThetaVector{});
-    add_nodes(robot, arm, nodes, space, model);
+    PullSum pulls;
+    add_nodes(robot, arm, nodes, pulls);
+    add_pulls(space, pulls, model);
     for (std::size_t d = 0; d < static_cast<std::size_t>(space.dimension); ++d) EXPECT_EQ(model.pull[d], 0.0);
   }
 }
@@ -175,14 +179,15 @@ TEST(Shape, MovesStayWithinLimitsAndBelowTheirShareOfTheRate) {
   const RobotTable robot = zhu2022::table();
   Random random(4);
   for (std::int32_t i = 0; i < 100; ++i) {
-    ThetaVector theta = random.theta(robot, 20.0), rate{};
+    ThetaVector theta = random.theta(robot, 20.0);
+    ShapeState shape;
     for (std::size_t k = 0; k < 4; ++k) {
       const double limit = robot.segment[0].theta_limit_rad - (i % 2 == 0 ? 0.0 : 1e-4);
       theta[k] = k % 2 == 0 ? limit : -limit;
     }
     const NodeTargets nodes = target_of(1 + i % 4, random.vector(3.0), 1.0);
     for (std::int32_t tick = 0; tick < 100; ++tick) {
-      const ThetaVector move = shape_move(robot, arm_at(robot, theta), nodes, {}, kX5, false, kShapeBesideTip, theta, rate);
+      const ThetaVector move = shape_move(robot, arm_at(robot, theta), nodes, {}, kX5, false, kShapeBesideTip, theta, shape);
       theta = zhu2022::plus(theta, move);
       for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
         ASSERT_LE(std::fabs(move[k]), robot.limits.theta_rate_rad_s * robot.tick_s * (1.0 + 1e-9)) << k;
@@ -195,14 +200,15 @@ TEST(Shape, MovesStayWithinLimitsAndBelowTheirShareOfTheRate) {
 
 TEST(Shape, BrakingEndsTheShapeMotionWithinABoundedNumberOfTicks) {
   const RobotTable robot = zhu2022::table();
-  ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg), rate{};
+  ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  ShapeState shape;
   const NodeTargets nodes = target_of(3, {0.0, 0.0, 0.0});
   for (std::int32_t i = 0; i < 250; ++i)
-    theta = zhu2022::plus(theta, shape_move(robot, arm_at(robot, theta), nodes, {}, 0, false, kShapeBesideTip, theta, rate));
-  ASSERT_GT(zhu2022::length(rate), 0.1 * kDegree);
+    theta = zhu2022::plus(theta, shape_move(robot, arm_at(robot, theta), nodes, {}, 0, false, kShapeBesideTip, theta, shape));
+  ASSERT_GT(zhu2022::length(shape.rate_rad_s), 0.1 * kDegree);
   for (std::int32_t i = 0; i < 350; ++i)
-    theta = zhu2022::plus(theta, shape_move(robot, arm_at(robot, theta), nodes, {}, 0, true, kShapeBesideTip, theta, rate));
-  EXPECT_LT(zhu2022::length(rate), 1e-9);
+    theta = zhu2022::plus(theta, shape_move(robot, arm_at(robot, theta), nodes, {}, 0, true, kShapeBesideTip, theta, shape));
+  EXPECT_LT(zhu2022::length(shape.rate_rad_s), 1e-9);
 }
 
 // The pitch of the segment that enters the slit next is drawn to zero more than the others.
@@ -226,11 +232,12 @@ TEST(Shape, A43TheMoveOfATickDoesNotMoveTheTip) {
     for (std::int32_t i = 0; i < 200; ++i) {
       ThetaVector theta = random.theta(robot, i % 2 == 0 ? 20.0 : std::pow(10.0, random.uniform(-6.0, 0.0)));
       if (i % 4 == 0) theta[0] = theta[3] = 20.0 * kDegree;
-      ThetaVector rate = random.theta(robot, 0.5);
+      ShapeState shape;
+      shape.rate_rad_s = random.theta(robot, 0.5);
       NodeTargets nodes = target_of(3, random.vector(2.0));
       nodes[1] = {2, random.vector(2.0), 0.5, 0.01};
       const ArmKinematics arm = arm_at(robot, theta);
-      const ThetaVector move = shape_move(robot, arm, nodes, {}, held, i % 5 == 0, kShapeBesideTip, theta, rate);
+      const ThetaVector move = shape_move(robot, arm, nodes, {}, held, i % 5 == 0, kShapeBesideTip, theta, shape);
       ASSERT_LE(tip_rate(arm.tip_jacobian, move), 1e-9 * zhu2022::length(move)) << i;
     }
   }
@@ -249,12 +256,15 @@ TEST(Shape, LimitsAreBoundsOfTheSameProblem) {
     const ArmKinematics arm = arm_at(robot, theta);
     const NullSpace space = null_space(arm.tip_jacobian, robot.theta_count(), 0);
     ShapeModel model = resting_model(space, 0.01, random.theta(robot, 10.0));
-    add_nodes(robot, arm, target_of(3, random.vector(2.0)), space, model);
+    PullSum pulls;
+    add_nodes(robot, arm, target_of(3, random.vector(2.0)), pulls);
+    add_pulls(space, pulls, model);
     const ShapeFactor metric = factor(space, model);
     const ThetaBounds bounds = room_to_limits(robot, theta, 1.0);
     const NullVector free = minimum(space, metric, model.pull);
     NullPoint found{free, combine(space, free)};
-    restrict_to(space, metric, bounds, found);
+    HeldBounds held;
+    restrict_to(space, metric, bounds, kManyPasses, held, found);
     bounded += found.z == free ? 0 : 1;
     const std::size_t m = static_cast<std::size_t>(space.dimension);
     NullVector slope{};  // of the model at what was found
@@ -269,7 +279,8 @@ TEST(Shape, LimitsAreBoundsOfTheSameProblem) {
     for (std::int32_t trial = 0; trial < 50; ++trial) {
       NullPoint other{coordinates(space, zhu2022::plus(found.theta_rad, random.theta(robot, 3.0))), {}};
       other.theta_rad = combine(space, other.z);
-      restrict_to(space, unit_factor(space), bounds, other);
+      HeldBounds unknown;
+      restrict_to(space, bounds, kManyPasses, unknown, other);
       double gain = 0.0;
       for (std::size_t a = 0; a < m; ++a) gain += slope[a] * (other.z[a] - found.z[a]);
       ASSERT_GE(gain, -1e-7) << i;
@@ -304,16 +315,17 @@ TEST(Shape, MotionIsSmoothWhateverTheTargetsDo) {
   Random random(8);
   const double accel = kShapeBesideTip.accel_share * robot.limits.theta_accel_rad_s2 * robot.tick_s;
   for (std::int32_t i = 0; i < 10; ++i) {
-    ThetaVector theta = random.theta(robot, 18.0), rate{};
+    ThetaVector theta = random.theta(robot, 18.0);
+    ShapeState shape;
     const IkGoal goal{arm_at(robot, theta).tip_in_base, 0};
     NodeTargets nodes{};
     for (std::int32_t tick = 0; tick < 5000; ++tick) {
       if (tick % 700 == 0) nodes = target_of(2 + i % 3, random.vector(3.0));
-      const ThetaVector before = rate;
+      const ThetaVector before = shape.rate_rad_s;
       const ArmKinematics arm = arm_at(robot, theta);
-      theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, 0, false, kShapeBesideTip, theta, rate));
+      theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, 0, false, kShapeBesideTip, theta, shape));
       servo_ik(robot, goal, arm, theta);
-      ASSERT_LE(zhu2022::largest_difference(rate, before), 2.0 * accel) << i << " " << tick;
+      ASSERT_LE(zhu2022::largest_difference(shape.rate_rad_s, before), 2.0 * accel) << i << " " << tick;
     }
   }
 }
@@ -326,10 +338,11 @@ TEST(Shape, ArmsOfOtherSizesKeepTheirTipToo) {
   for (std::size_t m = 5; m < 8; ++m) eight.segment[m] = zhu2022::segment(8, 3, 24.0 * static_cast<double>(m));
   for (const RobotTable& robot : {zhu2022::uneven_table(), eight}) {
     const ThetaVector theta = random.theta(robot, 15.0);
-    ThetaVector rate{};
+    ShapeState shape;
     const ArmKinematics arm = arm_at(robot, theta);
     const NodeTargets nodes = target_of(2, add(arm.node_in_base[2].position_m, {0.0, 0.0, 0.2}));
-    const ThetaVector move = shape_move(robot, arm, nodes, {}, 0, false, kShapeBesideTip, theta, rate);
+    ThetaVector move{};
+    for (std::int32_t tick = 0; tick < 2; ++tick) move = shape_move(robot, arm, nodes, {}, 0, false, kShapeBesideTip, theta, shape);
     EXPECT_LE(tip_rate(arm.tip_jacobian, move), 1e-9 * zhu2022::length(move));
     EXPECT_EQ(zhu2022::length(move) > 0.0, robot.segment_count == 8);
     EXPECT_EQ(null_space(arm.tip_jacobian, robot.theta_count(), 0).dimension, robot.theta_count() - 6);

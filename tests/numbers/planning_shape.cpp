@@ -29,7 +29,7 @@ struct Worst {
 
 struct Arm {
   ThetaVector theta_rad{};
-  ThetaVector shape_rate_rad_s{};
+  ShapeState shape{};
   ThetaVector rate_rad_s{};
 };
 
@@ -38,7 +38,7 @@ void run_ticks(const RobotTable& robot, const IkGoal& goal, const NodeTargets& n
   for (std::int32_t i = 0; i < ticks; ++i) {
     const ThetaVector before = arm.theta_rad, rate_before = arm.rate_rad_s;
     const ArmKinematics at = forward_kinematics(robot, before);
-    const ThetaVector move = shape_move(robot, at, nodes, {}, goal.held_mask, false, kShapeAlone, before, arm.shape_rate_rad_s);
+    const ThetaVector move = shape_move(robot, at, nodes, {}, goal.held_mask, false, kShapeAlone, before, arm.shape);
     arm.theta_rad = zhu2022::plus(before, move);
     servo_ik(robot, goal, at, arm.theta_rad);
     const Pose tip = tip_pose(robot, arm_trig(robot, arm.theta_rad));
