@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/motion/bounds.hpp"
 #include "firmware_like/motion/keep_clear.hpp"
 #include "firmware_like/telecommand.hpp"
 

@@ -1,4 +1,4 @@
-// Quadratic model of what the shape wants, in null-space coordinates z, and its minimum within bounds on the thetas.
+// Quadratic model of what the shape wants, in null-space coordinates z, and its minimum; bounds.hpp brings that within joint limits.
 //
 //   minimise  z^T curvature z / 2 - pull^T z     subject to  low <= Z z <= high      (Z: basis of the null space)
 //
@@ -40,17 +40,11 @@ struct PullSum {
   std::array<ThetaVector, kMaxTheta> curvature{};  // lower triangle
   ThetaVector pull{};
 };
+
+// Nothing wanted yet of the first `theta_count` thetas; one more pull; and the whole sum as part of a model, in null-space coordinates.
 void reset_pulls(std::int32_t theta_count, PullSum& sum) noexcept;
 void add_pull(const Pull& pull, PullSum& sum) noexcept;
 void add_pulls(const NullSpace& space, const PullSum& sum, ShapeModel& model) noexcept;
-
-struct ThetaBounds {
-  ThetaVector low;   // <= 0
-  ThetaVector high;  // >= 0
-};
-
-// Room to the joint limits divided by `share`, as bounds on a change of theta (0 where theta is on or beyond its limit).
-ThetaBounds room_to_limits(const RobotTable& table, const ThetaVector& theta_rad, double share) noexcept;
 
 // Cholesky factor of a model's curvature; fails never, as a resting model is positive.
 struct ShapeFactor {
@@ -61,26 +55,7 @@ ShapeFactor factor(const NullSpace& space, const ShapeModel& model) noexcept;
 // The model's minimum without bounds.
 NullVector minimum(const NullSpace& space, const ShapeFactor& factor, const NullVector& pull) noexcept;
 
-// A point of the null space: coordinates and the thetas that they make.
-struct NullPoint {
-  NullVector z;
-  ThetaVector theta_rad;
-};
-
-void scale_by(const NullSpace& space, double factor, NullPoint& point) noexcept;
-
-// Thetas that stand on a bound: what restrict_to begins with. Any will do; those of a problem like this one save passes.
-struct HeldBounds {
-  std::uint32_t low = 0, high = 0;  // bit k: theta k
-};
-
-// Moves `point` to where, within bounds, it is nearest in the metric of `factor`, which the curvature makes the minimum of the model;
-// without a factor, nearest in theta. Exact by the dual active-set method (D. Goldfarb, A. Idnani, Math. Program. 27, 1983). After `passes`
-// changes of the active set without an end, the point is scaled until it is inside, and `held` says where a problem like this one may go
-// on.
-constexpr std::int32_t kManyPasses = 64;  // enough for any problem of this size
-void restrict_to(const NullSpace& space, const ShapeFactor& factor, const ThetaBounds& bounds, std::int32_t passes, HeldBounds& held,
-                 NullPoint& point) noexcept;
-void restrict_to(const NullSpace& space, const ThetaBounds& bounds, std::int32_t passes, HeldBounds& held, NullPoint& point) noexcept;
+// L^T x = b in place, L the factor.
+void solve_upper(const NullSpace& space, const ShapeFactor& factor, NullVector& b) noexcept;
 
 }  // namespace liana
