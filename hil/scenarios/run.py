@@ -6,6 +6,7 @@ import fnmatch
 import json
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import time
@@ -72,11 +73,14 @@ def report(row):
 def run_embedded(wanted):
     """Each in a system of its own, as many at a time as there are processors; rows and violations in bring-up order."""
     rows, violations = [], []
-    with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
+    pool = concurrent.futures.ProcessPoolExecutor(os.cpu_count(), initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN))
+    try:
         for row, broken in pool.map(run_one, wanted):
             report(row)
             rows.append(row)
             violations += broken
+    finally:
+        pool.shutdown(cancel_futures=True)  # those that run are ended by the same Ctrl-C, and tidy up
     return rows, violations
 
 
@@ -92,6 +96,15 @@ def run_all(wanted, options):
     return rows + can_rows, violations, latency
 
 
+def write_json(file, content):
+    try:
+        file.write_text(json.dumps(content, indent=1) + "\n")
+        return True
+    except OSError as error:
+        print(f"dev hil: --json: {file} cannot be written: {error.strerror}; make room or give another file", file=sys.stderr)
+        return False
+
+
 def main():
     options = arguments()
     try:
@@ -101,7 +114,7 @@ def main():
         if any(isinstance(one, machine.Item) for one in wanted):
             machine.check_packages()
         if options.drives and not options.check:
-            real_drives.check_buses(options.drives)
+            real_drives.check_buses(options.drives, options.calibration)
     except (scenario.BadScenario, machine.NoMachine) as error:
         print(f"dev hil: {error}", file=sys.stderr)
         return 2
@@ -110,14 +123,21 @@ def main():
         return 2
     if options.check:
         return 0
-    rows, violations, latency = run_all(wanted, options)
+    try:
+        rows, violations, latency = run_all(wanted, options)
+    except KeyboardInterrupt:
+        print("dev hil: interrupted: no verdict", file=sys.stderr)
+        if options.json and options.json.is_file() and options.json.stat().st_size == 0:
+            options.json.unlink()
+        return 130
     failed, skipped = ([row["name"] for row in rows if row["outcome"] == outcome] for outcome in ("failed", "skipped"))
-    faults, pair_count = sum(one.fault_count() for one in wanted), sum(isinstance(one, pairs.Pair) for one in wanted)
-    if options.json:
-        options.json.write_text(json.dumps({"scenarios": rows, "faults": faults, "pairs": pair_count, "latency": latency, "violations": violations}, indent=1) + "\n")
+    passed = {row["name"] for row in rows if row["outcome"] == "passed"}  # in one that failed, nobody knows
+    faults, pair_count = sum(one.fault_count() for one in wanted if one.name in passed), sum(isinstance(one, pairs.Pair) for one in wanted)
+    results = {"scenarios": rows, "faults": faults, "pairs": pair_count, "latency": latency, "violations": violations}
+    written = not options.json or write_json(options.json, results)
     print(f"{len(rows) - len(failed) - len(skipped)} passed, {len(failed)} failed, {len(skipped)} skipped; {faults} faults injected, {pair_count} pairs, {len(violations)} violations")
     print(f"where: {'; '.join(sorted({row['where'] for row in rows}))}")
-    return 1 if failed else 0
+    return 1 if failed or not written else 0
 
 
 if __name__ == "__main__":

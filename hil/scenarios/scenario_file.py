@@ -10,15 +10,39 @@ class Failed(Exception):
     pass
 
 
+def each_once(pairs):
+    for i, (key, _) in enumerate(pairs):
+        if key in [other for other, _ in pairs[:i]]:
+            raise ValueError(f"{key} is there twice; leave one")
+    return dict(pairs)
+
+
 def read(path):
     """The JSON object in a scenario's file."""
     try:
-        content = json.loads(path.read_text())
+        content = json.loads(path.read_text(), object_pairs_hook=each_once)
     except ValueError as error:
-        raise BadScenario(f"{path}: is not JSON: {error}") from None
+        raise BadScenario(f"{path}: is no good JSON: {error}") from None
     if not isinstance(content, dict):
         raise BadScenario(f"{path.parent.name}/{path.stem}: must be a JSON object")
     return content
+
+
+kStates = ("BOOTING", "DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT")
+# Numbers that mean something in a scenario of any kind: least and most.
+kRanges = {"within_ticks": (0, 1e6), "stopped_within_ticks": (0, 1e6), "travel_deg": (0.0, 360.0), "time_limit_s": (0.1, 86400), "index": (-1, 31), "fault": (1001, 6999), "overruns": (0, 1e6)}
+
+
+def check_values(name, found):
+    for key, value in found.items():
+        if key in ("state", "after_clear") and value not in kStates:
+            raise BadScenario(f"{name}: {key} is {value}; allowed are {', '.join(kStates)}")
+        if key not in kRanges or value is None:
+            continue
+        least, most = kRanges[key]
+        for number in value if isinstance(value, list) else [value]:
+            if not isinstance(number, (int, float)) or not least <= number <= most:
+                raise BadScenario(f"{name}: {key} is {json.dumps(number)}; allowed are {least:g} to {most:g}")
 
 
 def check_fields(name, found, allowed, required, readme="hil/scenarios/README.md"):
@@ -30,6 +54,7 @@ def check_fields(name, found, allowed, required, readme="hil/scenarios/README.md
     for key in required:
         if key not in found:
             raise BadScenario(f"{name}: {key} is missing; add it")
+    check_values(name, found)
 
 
 def expect_that(condition, message):

@@ -5,6 +5,7 @@ import json
 import math
 import os
 import pathlib
+import select
 import shutil
 import signal
 import socket
@@ -42,9 +43,17 @@ def start_run(test, *words):
     return process
 
 
-def wait_until(done, what):
+kBadInput = 2  # exit code of every program that refuses what it was given
+
+
+class Refused(AssertionError):
+    """A program ended because of what it was given; the text is what it said."""
+
+
+def wait_until(done, what, check=lambda: None):
     deadline = time.monotonic() + PATIENCE_S
     while not done():
+        check()
         if time.monotonic() > deadline:
             raise AssertionError(f"waited for {what} in vain")
         time.sleep(0.005)
@@ -65,12 +74,14 @@ def prepare_pose_deg():
 class Client:
     """One connection to the API. Answers are kept by id, everything else that is no state in `complaints`."""
 
-    def __init__(self, path, name, role, lockstep=False, subscribe=("state",)):
+    def __init__(self, path, name, role, lockstep=False, subscribe=("state",), check=lambda: None):
+        """`check` is called every second that nothing comes."""
+        self.check = check
         self.lockstep, self.state, self.answers, self.complaints, self.events = lockstep, None, {}, [], []
         self.last_id, self.faults_told = 0, set()
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.socket.settimeout(PATIENCE_S)
-        wait_until(lambda: self.socket.connect_ex(str(path)) == 0, f"{path} to listen")  # the path is there a moment before
+        wait_until(lambda: self.socket.connect_ex(str(path)) == 0, f"{path} to listen", check)  # the path is there a moment before
         if name is None:
             return
         self.send({"op": "hello", "name": name, "role": role, "lockstep": lockstep, "subscribe": list(subscribe)})
@@ -80,6 +91,9 @@ class Client:
         self.socket.send(message if isinstance(message, bytes) else json.dumps(message).encode())
 
     def receive(self):
+        deadline = time.monotonic() + PATIENCE_S
+        while not select.select([self.socket], [], [], 1.0)[0] and time.monotonic() < deadline:
+            self.check()
         packet = self.socket.recv(kPacketBytes)
         if not packet:
             raise ConnectionError("lianad closed the connection")
@@ -218,10 +232,10 @@ class System:
             script = ["--script", self.directory / "script.json"] if self.script is not None else []
             self.start("liana-bus", "--socket", self.bus_socket, "--buses", self.directory / "buses.json", "--time", "fast", "--log",
                        self.directory, "--stats", self.directory / "bus_stats.json", *script)
-            wait_until(self.bus_socket.exists, "liana-bus to listen")
+            wait_until(self.bus_socket.exists, "liana-bus to listen", self.check_refused)
             self.start("lianad", *self.tables(), "--api", self.api, "--bus-socket", self.bus_socket, "--time", "fast", "--expect", self.expect,
                        *self.lianad_words)
-            wait_until(self.api.exists, "lianad to listen")
+            wait_until(self.api.exists, "lianad to listen", self.check_refused)
             faults = ["--faults", self.directory / "faults.json"] if self.faults is not None else []
             self.start("liana-bench", *self.tables(), "--bus-socket", self.bus_socket, "--api", self.api, "--seed", self.seed, "--truth",
                        self.directory / "truth.bin", "--summary", self.directory / "bench_summary.json", *faults, *self.bench_words)
@@ -243,7 +257,7 @@ class System:
         shutil.rmtree(self.directory, ignore_errors=True)
 
     def client(self, name="test", role="client", lockstep=True, **options):
-        self.clients.append(Client(self.api, name, role, lockstep, **options))
+        self.clients.append(Client(self.api, name, role, lockstep, check=self.check_refused, **options))
         return self.clients[-1]
 
     def stranger(self):
@@ -257,6 +271,12 @@ class System:
     def start_mission(self, mission, lockstep=True):
         waits = ["--lockstep"] if lockstep else []
         self.start("liana-mission", "run", "--api", self.api, "--mission", mission, "--report", self.directory / "mission.json", *waits)
+
+    def check_refused(self):
+        """Nobody has to wait for a program that has refused its input."""
+        for name, child in self.children.items():
+            if child.poll() == kBadInput:
+                raise Refused(self.log(name).strip()[-600:])
 
     def kill(self, name):
         self.children[name].send_signal(signal.SIGKILL)

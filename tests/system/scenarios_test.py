@@ -7,7 +7,7 @@ import sys
 import tempfile
 import unittest
 
-from liana_system import SOURCE
+from liana_system import SOURCE, Refused
 
 FOLDER = SOURCE / "hil" / "scenarios"
 sys.path.insert(0, str(FOLDER))
@@ -130,6 +130,10 @@ class Files(unittest.TestCase):
         self.refused("fault is missing", expect={"state": "FAULT"})
         self.refused("within_ticks", expect={"fault": 3002, "state": "FAULT"})
         self.refused("stopped_within_ticks", expect={"fault": 3002, "state": "FAULT", "index": 3, "within_ticks": 5})
+        self.refused("within_ticks is -1", "0 to", expect={"fault": 3002, "state": "FAULT", "index": 3, "within_ticks": -1})
+        self.refused("fault is 9999", "1001 to", expect={"fault": 9999, "state": "FAULT", "index": 3, "within_ticks": 1})
+        self.refused("state is SLEEPING", "FAULT", expect={"fault": None, "state": "SLEEPING"})
+        self.refused("time_limit_s is -1", "86400", time_limit_s=-1)
 
     def test_a_start_is_told_to_lianad_and_bench(self):
         read = self.read(during="boot", start={"pose": "fixture", "in_pose": "fixture", "cross_wired": [3, 4]}, expect={"fault": None, "state": "DISABLED", "refused": ["x"]})
@@ -157,6 +161,12 @@ class Files(unittest.TestCase):
             run.go()
         self.assertIn("over its time limit of 0.5 s", str(caught.exception))
         self.assertTrue(all(child.returncode is not None for child in run.system.children.values()))
+
+    def test_what_the_bench_refuses_ends_a_scenario_with_its_words(self):
+        run = self.read(faults=[{"drive": 3, "kind": "silnt", "at_slot": 1}]).run()
+        with self.assertRaises(Refused) as caught:
+            run.go()
+        self.assertIn('kind: is "silnt"; allowed are', str(caught.exception))
 
     def test_every_fault_number_is_shown_by_a_scenario_or_a_test_as_the_page_says(self):
         numbers = sorted(recorded_rules.documented_reactions())

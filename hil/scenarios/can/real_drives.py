@@ -1,5 +1,7 @@
 """The same scenarios against real drives (`./dev hil --drives BUSES`): lianad alone on a lab's own interfaces, nothing stands in for the drives."""
 import json
+import pathlib
+import socket
 
 import can_scenario
 from liana_system import Client, run, table
@@ -67,14 +69,21 @@ def all_items():
     return [Item(one) for one in can_scenario.all_scenarios()]
 
 
-def check_buses(buses):
-    """Refuses a table that lianad could not use with SocketCAN."""
+def check_buses(buses, calibration):
+    """Refuses a table that lianad could not use with SocketCAN, interfaces that are not there, and a file that cannot be read."""
     done = run("liana-mission", "eval", "buses", buses)
     if done.returncode != 0:
         raise BadScenario(f"--drives: {done.stderr.strip()}")
     backend = json.loads(done.stdout)["backend"]
     if backend != "socketcan":
         raise BadScenario(f"--drives: {buses} has the back end {backend}; give a table with socketcan (copy lua/buses/vcan.lua)")
+    for bus in json.loads(done.stdout)["buses"]:
+        try:
+            socket.if_nametoindex(bus["name"])
+        except OSError:
+            raise BadScenario(f"--drives: {buses}: interface {bus['name']} does not exist here; see liana doctor") from None
+    if calibration and not pathlib.Path(calibration).is_file():
+        raise BadScenario(f"--calibration: {calibration}: there is no such file; give what liana calibrate --out has written")
 
 
 def run_all(items, buses, calibration, report):
