@@ -60,11 +60,12 @@ std::vector<std::string> split(const std::string& list) {
 
 std::vector<std::size_t> two_drives(const std::string& list, std::size_t count) {
   std::vector<std::size_t> drives;
-  for (const std::string& part : split(list)) {
+  const std::vector<std::string> parts = split(list);
+  for (const std::string& part : parts) {
     const bool number = !part.empty() && part.size() < 4 && part.find_first_not_of("0123456789") == std::string::npos;
     if (number && std::stoul(part) < count) drives.push_back(std::stoul(part));
   }
-  if (drives.size() == 2 && drives[0] != drives[1]) return drives;
+  if (parts.size() == 2 && drives.size() == 2 && drives[0] != drives[1]) return drives;
   throw std::runtime_error("--cross-wired: \"" + list + "\"; allowed are two different drives from 0 to " + std::to_string(count - 1) +
                            ", e.g. 3,4");
 }

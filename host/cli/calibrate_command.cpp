@@ -9,6 +9,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/errors.hpp"
 #include "host/cli/fixture_prompt.hpp"
+#include "host/cli/interrupt.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/run_plan.hpp"
 #include "host/cli/tables.hpp"
@@ -39,15 +40,28 @@ RunPlan plan_for(const CalibrateOptions& options, bool simulated, const std::str
   return make_plan(run);
 }
 
-CalibrationReading read_in(const RunPlan& plan) {
+CalibrationReading read_with(const RunPlan& plan, const InterruptGuard& interrupts) {
   try {
-    const CalibrationReading reading = CalibrateSession(plan).read();
+    const CalibrationReading reading = CalibrateSession(plan, interrupts).read();
     clean_up(plan, true);
     return reading;
   } catch (...) {
     clean_up(plan, true);
     throw;
   }
+}
+
+// Ctrl-C counts at any time, while the programs start and end, too; it is why they then fail.
+CalibrationReading read_in(const CalibrateOptions& options, bool simulated, const std::string& pose) {
+  const InterruptGuard interrupts;
+  CalibrationReading reading;
+  try {
+    reading = read_with(plan_for(options, simulated, pose), interrupts);
+  } catch (const std::runtime_error&) {
+    if (interrupts.count() == 0) throw;
+  }
+  if (interrupts.count() > 0) throw Interrupted("interrupted: nothing was calibrated");
+  return reading;
 }
 
 // One fixture after the other; the drives are off all the time. Between the fixtures nothing runs: whoever moves the arm has it for
@@ -59,7 +73,7 @@ std::vector<CalibrationReading> read_all(const CalibrateOptions& options, bool s
   for (std::size_t p = 0; p < poses.size(); ++p) {
     if (!simulated) wait_for_fixture(std::cin, std::cerr, poses[p], p + 1, poses.size());
     std::fprintf(stderr, "pose %zu of %zu, %s: reading the drives\n", p + 1, poses.size(), poses[p].c_str());
-    readings.push_back(read_in(plan_for(options, simulated, poses[p])));
+    readings.push_back(read_in(options, simulated, poses[p]));
     readings.back().theta_rad = thetas_rad[p];
   }
   return readings;
@@ -92,6 +106,7 @@ int calibrate_command(const CalibrateOptions& options) {
     throw BadInput("--cross-wired: '" + options.cross_wired + "': bus table " + options.bus +
                    " has real drives: allowed with the simulated arm only, --bus=embedded: leave it out");
   const RobotConfig robot = checked([&] { return parse_robot(text, options.robot, options.physics, buses); });
+  check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
   if (!options.out_file.empty()) check_output("--out", options.out_file);
   const std::vector<std::string> poses = names_in(options.poses);
   std::vector<ThetaVector> thetas_rad;

@@ -28,7 +28,7 @@ void add(const json& state, CalibrationReading& sum) {
 
 }  // namespace
 
-CalibrateSession::CalibrateSession(const RunPlan& plan) : plan_(plan) {}
+CalibrateSession::CalibrateSession(const RunPlan& plan, const InterruptGuard& interrupts) : plan_(plan), interrupts_(interrupts) {}
 
 CalibrateSession::~CalibrateSession() {
   try {
@@ -51,7 +51,7 @@ void CalibrateSession::start() {
 }
 
 void CalibrateSession::give_up(const std::string& why) {
-  if (interrupts_.count() > 0) throw std::runtime_error("interrupted: nothing was calibrated");
+  if (interrupts_.count() > 0) throw Interrupted("interrupted: nothing was calibrated");
   const auto worst = worst_end(children_, [](const ChildProcess&, const ChildEnd&) { return true; });
   if (worst && worst->end.code == kExitBadInput) throw BadInput(worst->text);
   throw std::runtime_error(worst ? worst->text : why);

@@ -16,15 +16,15 @@ namespace liana {
 
 class CalibrateSession {
  public:
-  // `plan`: without a mission. It must outlive this.
-  explicit CalibrateSession(const RunPlan& plan);
+  // `plan`: without a mission. Both must outlive this.
+  CalibrateSession(const RunPlan& plan, const InterruptGuard& interrupts);
   // Ends the programs.
   ~CalibrateSession();
   CalibrateSession(const CalibrateSession&) = delete;
   CalibrateSession& operator=(const CalibrateSession&) = delete;
 
   // Boots the drives and averages what they report for a second; the pose of the result is left empty. Throws std::runtime_error when a
-  // drive does not boot, a program ends, or it was interrupted; BadInput when a program refused what it was given.
+  // drive does not boot or a program ends; Interrupted at Ctrl-C; BadInput when a program refused what it was given.
   CalibrationReading read();
 
  private:
@@ -33,7 +33,7 @@ class CalibrateSession {
   [[noreturn]] void give_up(const std::string& why);
 
   const RunPlan& plan_;
-  InterruptGuard interrupts_;
+  const InterruptGuard& interrupts_;
   std::vector<std::unique_ptr<ChildProcess>> children_;
   std::optional<ApiClient> api_;
 };

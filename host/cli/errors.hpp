@@ -13,4 +13,9 @@ struct BadInput : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// Ctrl-C or SIGTERM ended the work before there was a result; the message says what was left undone. Ends with exit code 130.
+struct Interrupted : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 }  // namespace liana

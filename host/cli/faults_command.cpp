@@ -25,8 +25,10 @@ nlohmann::json json_of(const std::vector<FaultRow>& rows) {
 
 void print_text(const std::vector<FaultRow>& rows) {
   for (const FaultRow& row : rows) {
-    std::printf("%d %s (%s): %s\n     %s\n", static_cast<int>(row.info.number), row.info.name, row.stops_by.c_str(), row.info.text,
-                row.info.remedy);
+    std::printf("%d %s (%s): %s\n", static_cast<int>(row.info.number), row.info.name, row.stops_by.c_str(), row.info.text);
+    std::printf("     detected by %s\n", row.detector);
+    if (row.within_ticks >= 0) std::printf("     within ticks: %d\n", row.within_ticks);
+    std::printf("     %s\n", row.info.remedy);
   }
 }
 

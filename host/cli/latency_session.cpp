@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "host/cli/errors.hpp"
 #include "host/cli/observer.hpp"
 
 namespace liana {
@@ -114,7 +115,7 @@ json LatencySession::ask(json request) {
 }
 
 void LatencySession::require_alive() {
-  if (interrupts_.count() > 0) throw std::runtime_error("interrupted: the arm is stopped, nothing was measured");
+  if (interrupts_.count() > 0) throw Interrupted("interrupted: the arm is stopped, nothing was measured");
   const auto worst = worst_end(children_, [](const ChildProcess&, const ChildEnd&) { return true; });
   if (worst) throw std::runtime_error(worst->text);
 }

@@ -257,6 +257,9 @@ int perform(const Action& action) {
   } catch (const liana::BadInput& error) {
     std::fprintf(stderr, "liana: %s\n", error.what());
     return ExitCode::kExitBadInput;
+  } catch (const liana::Interrupted& error) {
+    std::fprintf(stderr, "liana: %s\n", error.what());
+    return ExitCode::kExitInterrupted;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "liana: %s\n", error.what());
     return ExitCode::kExitFailure;

@@ -90,6 +90,11 @@ int replay_command(const ReplayOptions& options) {
                  "the ticks that are there were compared\n",
                  file.c_str());
   }
+  if (result.complete && result.ticks + result.missing_ticks == 0) {
+    std::fprintf(stderr,
+                 "liana: %s: no tick was recorded: the core ticks only once all drives are booted; report.json beside it says why\n",
+                 file.c_str());
+  }
   if (!images.good()) {
     std::fprintf(stderr, "liana: %s/%s: %s; take a good copy of the file: a replay from mid-run needs it\n", options.directory.c_str(),
                  kImagesFile, images.state.c_str());

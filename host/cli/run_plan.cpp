@@ -5,7 +5,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <charconv>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 
 #include "host/cli/errors.hpp"
 #include "host/cli/output.hpp"
@@ -154,6 +158,7 @@ RunPlan make_plan(const RunOptions& options) {
   const RobotConfig robot = checked([&] { return parse_robot(robot_text, options.robot, options.physics, plan.buses); });
   if (!options.calibration.empty()) checked([&] { return load_calibration(options.calibration, robot, today_utc()); });
   if (!options.in_pose.empty()) check_in_pose(robot, options.in_pose);
+  check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
   const bool has_mission = !options.mission.empty();
   if (has_mission) check_mission(options.mission, options.robot);
   plan.scene = checked([&] { return parse_scene(scene_text, options.scene); });
@@ -178,6 +183,23 @@ RunPlan make_plan(const RunOptions& options) {
   plan.programs.push_back(operator_call(plan, options));
   plan.programs.push_back(mission_call(plan, options));
   return plan;
+}
+
+void check_cross_wired(const std::string& list, std::size_t drives) {
+  if (list.empty()) return;
+  const auto drive_of = [drives](std::string_view word) -> std::optional<std::size_t> {
+    std::size_t drive = 0;
+    const char* end = word.data() + word.size();
+    const auto [stopped, error] = std::from_chars(word.data(), end, drive);
+    if (error != std::errc() || stopped != end || drive >= drives) return std::nullopt;
+    return drive;
+  };
+  const std::string_view words = list;
+  const std::size_t comma = std::min(words.find(','), words.size());
+  const auto first = drive_of(words.substr(0, comma));
+  const auto second = drive_of(words.substr(std::min(comma + 1, words.size())));
+  if (first && second && first != second) return;
+  throw BadInput("--cross-wired: '" + list + "': allowed are two different drives from 0 to " + std::to_string(drives - 1) + ", e.g. 3,4");
 }
 
 void clean_up(const RunPlan& plan, bool success) {

@@ -34,6 +34,9 @@ struct RunPlan {
 // Throws BadInput.
 RunPlan make_plan(const RunOptions& options);
 
+// Refuses anything but empty text or two different drives from 0 to `drives` - 1, e.g. 3,4. Throws BadInput.
+void check_cross_wired(const std::string& list, std::size_t drives);
+
 // Removes what the run does not keep.
 void clean_up(const RunPlan& plan, bool success);
 

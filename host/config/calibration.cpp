@@ -93,6 +93,7 @@ std::string calibration_json(const Calibration& calibration) {
 Calibration parse_calibration(const std::string& text, const std::string& file, const RobotConfig& robot, const std::string& today) {
   const json content = parse_json(text, file, kAgain);
   const Field table(content, file, "");
+  if (!content.is_object()) table.refuse("a calibration file", "give a file that liana calibrate --out has written");
   check_kind(table, "calibration");
   const Field sum = table.at("sha256");
   if (sum.json() != checksum(content)) {

@@ -11,6 +11,8 @@
 namespace liana {
 namespace {
 
+constexpr const char* kPlanAdvice = "give a file that liana plan --out has written";
+
 // Adds the file to messages that do not begin with it, such as those of the mission checker.
 template <typename Action>
 void naming_file(const std::string& display, const Action& action) {
@@ -48,7 +50,7 @@ nlohmann::json describe(Script& script, const std::string& display) {
 // Leaves the mission of a script on the stack, or of a plan that `liana plan --out` has written.
 void push_mission(Script& script, const ScriptFile& file) {
   if (!file.display.ends_with(".json")) return script.run(file);
-  const nlohmann::json plan = parse_json(file.text, file.display);
+  const nlohmann::json plan = parse_json(file.text, file.display, kPlanAdvice);
   script.require("liana.plan_mission");
   push_in_protection(script, plan);
   script.call(1, 1);
@@ -57,7 +59,7 @@ void push_mission(Script& script, const ScriptFile& file) {
 // A plan is a way of the robot that it was made for, and of no other.
 void check_robot_of_plan(const ScriptFile& file, const nlohmann::json& robot) {
   if (!file.display.ends_with(".json")) return;
-  const nlohmann::json plan = parse_json(file.text, file.display);
+  const nlohmann::json plan = parse_json(file.text, file.display, kPlanAdvice);
   if (plan.value("/inputs/robot"_json_pointer, nlohmann::json()) == robot) return;
   throw std::runtime_error("inputs.robot: another robot than " + robot.value("name", "") +
                            ", or other tables of it: allowed the same: " + "name the robot with --robot, or plan again");

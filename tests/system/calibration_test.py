@@ -1,11 +1,14 @@
 """Calibration as an operator does it: measured in fixtures, used by a run, and refused before motion when anything does not fit."""
 import hashlib
 import json
+import os
 import pathlib
+import signal
+import subprocess
 import tempfile
 import unittest
 
-from liana_system import run, start_run
+from liana_system import BIN, run, start_run
 
 MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
 
@@ -71,10 +74,33 @@ class Calibration(unittest.TestCase):
         self.assertEqual(len(crossed.stdout.strip().splitlines()), 2, crossed.stdout)
         self.assertFalse(out_file.exists())
 
-    def test_drives_to_exchange_that_do_not_exist_are_refused(self):
-        done = run("liana", "calibrate", "--cross-wired", "3,99")
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("from 0 to 14", done.stderr)
+    def test_drives_to_exchange_that_are_not_two_of_the_robot_are_refused_before_anything_starts(self):
+        for words in (["calibrate"], ["run", MISSIONS / "short.lua"]):
+            for drives in ("3,99", "3,3", "3", "3,4,", "3,4,5"):
+                done = run("liana", *words, "--cross-wired", drives)
+                self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
+                self.assertIn(f"--cross-wired: '{drives}': allowed are two different drives from 0 to 14", done.stderr)
+
+    def test_an_interrupt_ends_with_130_whatever_is_under_way_and_leaves_nothing(self):
+        for says in ("pose 1", "pose 2"):
+            with tempfile.TemporaryDirectory() as home:
+                running = subprocess.Popen([BIN / "liana", "calibrate"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, "TMPDIR": home})
+                error = ""
+                while says not in error:
+                    error += running.stderr.readline()
+                running.send_signal(signal.SIGINT)
+                out, rest = running.communicate(timeout=60)
+                self.assertEqual((running.returncode, out), (130, ""), error + rest)
+                self.assertEqual(list(pathlib.Path(home).iterdir()), [])
+
+    def test_what_is_no_calibration_file_at_all_is_refused_with_what_makes_one(self):
+        for text in ("[]", "null", "{"):
+            file = self.directory / "none.json"
+            file.write_text(text)
+            done = run("liana", "run", MISSIONS / "short.lua", "--calibration", file)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("liana calibrate", done.stderr)
+            self.assertNotIn("{ format", done.stderr)
 
     def test_a_changed_foreign_or_stale_file_is_refused_before_anything_starts(self):
         changed = json.loads(self.file.read_text())
@@ -87,8 +113,12 @@ class Calibration(unittest.TestCase):
         content = json.loads(self.file.read_text())
         a, b = content["cables"][2], content["cables"][5]
         a["serial"], b["serial"] = b["serial"], a["serial"]
-        process, out, error = self.mission(signed(content))
+        recording = self.directory / "recording"
+        process, out, error = self.mission(signed(content), "short", "--record", recording)
         self.assertEqual(process.returncode, 1, out + error)
+        replayed = run("liana", "replay", recording)
+        self.assertEqual(replayed.returncode, 1)
+        self.assertIn("no tick was recorded", replayed.stderr)
         self.assertIn("node 3 on can0: object 0x1018:4 (serial number): expected 1006", out)
         self.assertNotIn("ENABL", out + error)
 

@@ -250,6 +250,12 @@ class Help(unittest.TestCase):
             self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
             self.assertIn(said, error)
 
+    def test_every_fault_is_told_with_its_detector_and_its_ticks(self):
+        plain = liana("faults")[1]
+        for fault in json.loads(liana("faults", "--json")[1]):
+            told = plain[plain.index(f"{fault['number']} {fault['name']} "):]
+            self.assertIn(f"\n     detected by {fault['detected_by']}\n     within ticks: {fault['within_ticks']}\n     {fault['remedy']}\n", told)
+
     def test_completion_knows_the_values_too(self):
         for words, wanted in [("liana plan --scene pan", "panel_slit"), ("liana plan --scene no", "none"), ("liana pose --robot zh", "zhu2022"),
                               ("liana run sli", "slit_crossing"), ("liana run --bus vc", "vcan"), ("liana plan --follow sl", "slit"),

@@ -153,6 +153,11 @@ class PlanCommand(unittest.TestCase):
             self.assertIn("waypoints_deg: on the path found link", edit(lambda plan: plan["waypoints_deg"].__setitem__(1, into_the_panel)))
             self.assertIn("waypoints_deg: a theta changes by", edit(lambda plan: plan["inputs"].__setitem__("max_step_deg", 1.0)))
             self.assertIn("inputs.margin_m", edit(lambda plan: plan["inputs"].pop("margin_m")))
+            path.write_text(json.dumps(written)[:500], encoding="utf-8")
+            cut = subprocess.run([BIN / "liana", "run", path], capture_output=True, text=True, check=False, timeout=60)
+            self.assertEqual((cut.returncode, cut.stdout), (2, ""), cut.stderr)
+            self.assertIn("not JSON", cut.stderr)
+            self.assertIn("give a file that liana plan --out has written", cut.stderr)
 
     def test_a_failed_plan_leaves_the_kept_file_as_it_was_and_says_so(self):
         with tempfile.TemporaryDirectory() as folder:
