@@ -11,7 +11,7 @@ def judge_run(run):
     if "error" in run:
         return run["error"]
     half_us = 5e5 / run["rate_hz"]
-    wrong = [] if run["enabled"] else ["the arm was not enabled all the time"]
+    wrong = [] if run["enabled"] else [f"the arm was not enabled all the time; faults: {run.get('faults', [])}"]
     for value, allowed, words in ((run["overruns"], 0, "overruns"), (run["wakeup_us"]["worst"], kWorstWakeup_us[run["load"]], "us worst wake-up"),
                                   (run["tick_us"]["worst"], half_us, "us longest tick")):
         if value > allowed:
