@@ -125,7 +125,7 @@ def main():
     report = {"commit": commit_of(ROOT), "operations": compared(measured) + tick_entries(measured), "ticks": phases(measured)}
     compiler = subprocess.run(["g++", "-dumpfullversion"], capture_output=True, text=True, check=False).stdout.strip()
     head = HEAD.format(date=datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"), commit=report["commit"],
-                       compiler=f"g++ {compiler}", machine=f"{os.cpu_count()} processors, {platform.machine()}, Linux {platform.release()}",
+                       compiler=f"g++ {compiler}", machine=f"{os.cpu_count()} processors, {platform.machine()}",
                        seconds=time.monotonic() - start)
     text = page_text(report)
     (ROOT / "docs/bench.md").write_text(f"{head}\n{text.rstrip()}\n")
