@@ -7,6 +7,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import time
 
 from system import HERE, program
 
@@ -36,21 +37,33 @@ def activity():
     return next(int(words[1]) for words in lines if words[0] == "processes"), cpu[3] + cpu[4], sum(cpu)
 
 
+def wait_until_enabled(measuring):
+    """The load is for an arm at work: it begins when the arm is enabled."""
+    while measuring.poll() is None:
+        told = subprocess.run([program("liana"), "status", "--json"], capture_output=True, text=True, check=False).stdout
+        if '"state":"ENABLED"' in told.replace(" ", ""):
+            return
+        time.sleep(0.05)
+
+
 def measure(rate, load):
     with tempfile.TemporaryDirectory() as folder:
         environment = {**os.environ, "LOAD_DIR": folder, "LOAD_BIN": os.path.dirname(program("liana"))}
+        measuring = subprocess.Popen([program("liana"), "latency", "--arm", "light", "--rate", rate, "--seconds", str(kSeconds), "--json"],
+                                     stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        if kLoads[load]:
+            wait_until_enabled(measuring)
         beside = [subprocess.Popen(words, env=environment, stderr=subprocess.DEVNULL, start_new_session=True) for words in kLoads[load]]
         before = activity()
         try:
-            done = subprocess.run([program("liana"), "latency", "--arm", "light", "--rate", rate, "--seconds", str(kSeconds), "--json"],
-                                  capture_output=True, text=True, check=False)
+            out, error = measuring.communicate()
         finally:
             after, ended = activity(), [each.args for each in beside if each.poll() is not None]
             for each in beside:
                 os.killpg(each.pid, 9)
                 each.wait()
     forks, idle, all_time = (now - then for now, then in zip(after, before))
-    row = json.loads(done.stdout) if done.stdout.startswith("{") else {"error": done.stderr.strip() or "no report"}
+    row = json.loads(out) if out.startswith("{") else {"error": error.strip() or "no report"}
     if ended:
         row["error"] = f"the load ended by itself: {ended}"
     row |= {"machine_idle": round(idle / max(1, all_time), 3), "programs_started": forks}
