@@ -16,7 +16,7 @@ constexpr int kMaxRestarts = 3;  // a slow drive may see two resets
 
 BootTiming boot_timing(double rate_hz) {
   const auto ticks = [rate_hz](double seconds) { return static_cast<std::uint32_t>(std::max(2.0, std::ceil(seconds * rate_hz))); };
-  return {ticks(0.5), ticks(10.0), ticks(0.3), ticks(1.0)};
+  return {ticks(0.5), ticks(10.0), ticks(0.3), ticks(0.25), ticks(1.0)};
 }
 
 BootNode::BootNode(const DriveExpectation& drive, const BootTiming& timing)
@@ -56,17 +56,22 @@ void BootNode::advance() noexcept {
       if (sdo_.status() != SdoStatus::kBusy) finish_transfer();
       return;
     case NodePhase::kStart:
-      out_ = nmt_frame(kNmtStart, node_);
-      out_waiting_ = true;
+      send_start();
       return enter(NodePhase::kWaitOperational);
-    case NodePhase::kWaitOperational:
-      if (waited_ticks_ >= timing_.operational_ticks) fail(BootFailure::kNotOperational, last_state_);
+    case NodePhase::kWaitOperational:  // nobody confirms a start: a lost one is sent again
+      if (waited_ticks_ >= timing_.operational_ticks) return fail(BootFailure::kNotOperational, last_state_);
+      if (waited_ticks_ % timing_.start_ticks == 0) send_start();
       return;
     case NodePhase::kConfigured:
     case NodePhase::kOperational:
     case NodePhase::kFailed:
       return;
   }
+}
+
+void BootNode::send_start() noexcept {
+  out_ = nmt_frame(kNmtStart, node_);
+  out_waiting_ = true;
 }
 
 void BootNode::begin_object() noexcept {

@@ -45,7 +45,7 @@ class MemoryBus final : public DriveBus {
   DriveBusStats stats_;
 };
 
-constexpr BootTiming kTiming{20, 60, 5, 40};
+constexpr BootTiming kTiming{20, 60, 5, 30, 80};
 
 struct BootBench {
   BootBench() {
@@ -81,6 +81,7 @@ struct BootBench {
       AllocationCount::stop();
       for (std::size_t i = 0; i < bus.count; ++i) {
         if (bus.sent[i].frame.id == 0 && bus.sent[i].frame.data[0] == kNmtResetCommunication) ++resets[bus.sent[i].frame.data[1]];
+        if (bus.sent[i].frame.id == 0 && bus.sent[i].frame.data[0] == kNmtStart && lost_starts > 0 && lost_starts-- > 0) continue;
         for (std::size_t d = 0; d < drives.size(); ++d) {
           if (expected[d].bus == bus.sent[i].bus) deliver(drives[d].receive(bus.sent[i].frame), d);
         }
@@ -98,6 +99,7 @@ struct BootBench {
   MemoryBus bus;
   std::function<void(int)> before_tick;
   std::map<int, int> resets;  // by node
+  int lost_starts = 0;        // NMT starts that no drive will hear
   std::unique_ptr<BootSequence> boot;
 };
 
@@ -348,6 +350,14 @@ TEST(Boot, ADriveThatDoesNotStartIsReportedWithItsState) {
   EXPECT_EQ(bench.boot->state(), BootState::kFailed);
   EXPECT_EQ(bench.mismatch(11).failure, BootFailure::kNotOperational);
   EXPECT_EQ(bench.mismatch(11).found, 0x7FU);
+}
+
+TEST(Boot, StartsThatWereLostAreSentAgain) {
+  BootBench bench;
+  bench.lost_starts = 20;  // the first of all 15 drives, the second of five
+  bench.run();
+  EXPECT_EQ(bench.boot->state(), BootState::kOperational);
+  EXPECT_EQ(bench.lost_starts, 0);
 }
 
 TEST(Boot, ADriveWithoutGearOrSparePdosIsRightIfNoGearIsExpected) {
