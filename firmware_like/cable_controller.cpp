@@ -2,6 +2,6 @@
 
 namespace liana {
 
-template class Controller<CableArm>;
+template class Controller<cable::CableArm>;
 
 }  // namespace liana

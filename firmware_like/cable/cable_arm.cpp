@@ -9,7 +9,7 @@
 #include "firmware_like/math/scalar.hpp"
 #include "firmware_like/safety/limits.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 double smooth_step(double x) noexcept { return x * x * (3.0 - 2.0 * x); }
@@ -193,8 +193,8 @@ void CableArm::propose_payouts(DriveProposals& out) const noexcept {
   }
 }
 
-CableReport CableArm::report() const noexcept {
-  CableReport out;
+Report CableArm::report() const noexcept {
+  Report out;
   out.held_mask = motion_.held_mask;
   out.held_at_target = motion_.held_at_target ? 1 : 0;
   out.theta_command_rad = motion_.limiter.theta_rad;
@@ -216,10 +216,10 @@ CableReport CableArm::report() const noexcept {
   return out;
 }
 
-std::int16_t CableArm::planned_permille(const RobotTable& table, const CableReport& report,
+std::int16_t CableArm::planned_permille(const RobotTable& table, const Report& report,
                                         std::int32_t drive) noexcept {
   const Index i = as_index(drive);
   return narrow<std::int16_t>(to_counts(report.tension_plan_N[i] / table.drive[i].newtons_per_permille).value);
 }
 
-}  // namespace liana
+}  // namespace liana::cable

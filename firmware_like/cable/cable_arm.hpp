@@ -17,7 +17,7 @@
 #include "firmware_like/safety/link_watch.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 constexpr double kPretensionRamp_s = 3.0;     // from the tensions found to the planned ones
 constexpr double kSlackCheckShare = 0.5;      // of the tension floor: every cable must reach it before the arm may move
@@ -28,8 +28,8 @@ constexpr double kHomingResidual_m = 1.5e-3;  // more is a wrong zero, a swapped
 class CableArm {
  public:
   using Table = RobotTable;
-  using Setpoint = liana::Setpoint;
-  using Report = CableReport;
+  using Setpoint = cable::Setpoint;
+  using Report = cable::Report;
   using Sensors = NoSensors;
 
   // The table must have passed the loader; no other checks are made here.
@@ -110,4 +110,4 @@ class CableArm {
 
 static_assert(std::is_trivially_copyable_v<CableArm>);
 
-}  // namespace liana
+}  // namespace liana::cable

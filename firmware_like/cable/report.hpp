@@ -8,9 +8,9 @@
 #include "firmware_like/cable/motion/servo_ik.hpp"
 #include "firmware_like/math/pose.hpp"
 
-namespace liana {
+namespace liana::cable {
 
-struct CableReport {
+struct Report {
   std::uint32_t held_mask = 0;
   std::uint8_t held_at_target = 0;   // every held variable stands exactly at its target
   ThetaVector theta_command_rad{};   // after the limiter
@@ -30,4 +30,4 @@ struct CableReport {
   std::array<double, 6> ik_residual{};  // filtered target less tip of the IK, base frame: position [m], rotation vector [rad]
 };
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -5,7 +5,7 @@
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 bool angles_in_limits(const RobotTable& table, const Setpoint& setpoint) noexcept {
@@ -43,4 +43,4 @@ bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept {
   return is_valid(setpoint.tip_in_base) && setpoint.tip_speed_m_s > 0.0;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

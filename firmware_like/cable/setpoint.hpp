@@ -8,7 +8,7 @@
 #include "firmware_like/command/telecommand.hpp"
 #include "firmware_like/math/pose.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 constexpr std::int32_t kMaxNodeTargets = 4;
 constexpr std::int32_t kMaxKeepClear = 4;
@@ -51,4 +51,4 @@ struct Setpoint {
 // lock). Hold and stop always are.
 bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -4,7 +4,7 @@
 
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::solve {
 namespace {
 
 using Index = std::size_t;
@@ -149,4 +149,4 @@ std::int32_t planar_segments(const RobotTable& table, const LinkPoints& links, c
   return before < at_least ? at_least : (before > at_most ? at_most : before);
 }
 
-}  // namespace liana
+}  // namespace liana::solve

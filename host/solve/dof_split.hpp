@@ -10,7 +10,7 @@
 
 #include "firmware_like/cable/arm/kinematics.hpp"
 
-namespace liana {
+namespace liana::solve {
 
 // S2: the last `segments` segments, with the pose of the tip that they end in.
 struct PlanarPart {
@@ -68,4 +68,4 @@ struct PlanarSwitch {
 std::int32_t planar_segments(const RobotTable& table, const LinkPoints& links, const SlitMouth& mouth, const PlanarSwitch& when,
                              std::int32_t before) noexcept;
 
-}  // namespace liana
+}  // namespace liana::solve

@@ -4,7 +4,7 @@
 
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::solve {
 namespace {
 
 using Index = std::size_t;
@@ -99,4 +99,4 @@ GoalIkResult solve_goal(const RobotTable& table, const GoalIkProblem& problem) n
   return result;
 }
 
-}  // namespace liana
+}  // namespace liana::solve

@@ -10,7 +10,7 @@
 
 #include "host/solve/improve_shape.hpp"
 
-namespace liana {
+namespace liana::solve {
 
 constexpr std::int32_t kGoalAttempts = 100;
 constexpr std::int32_t kGoalIterations = 10;      // per attempt, more only while the error halves with each
@@ -41,4 +41,4 @@ struct GoalIkResult {
 // At most kGoalAttempts * kGoalMostIterations iterations for the tip.
 GoalIkResult solve_goal(const RobotTable& table, const GoalIkProblem& problem) noexcept;
 
-}  // namespace liana
+}  // namespace liana::solve

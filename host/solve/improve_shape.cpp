@@ -4,7 +4,7 @@
 
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::solve {
 namespace {
 
 using Index = std::size_t;
@@ -114,4 +114,4 @@ NodeReach node_reach(const RobotTable& table, const IkGoal& goal, const ThetaVec
   return reach;
 }
 
-}  // namespace liana
+}  // namespace liana::solve

@@ -8,7 +8,7 @@
 #include "firmware_like/cable/motion/servo_ik.hpp"
 #include "firmware_like/cable/shape/shape.hpp"
 
-namespace liana {
+namespace liana::solve {
 
 constexpr double kTipTolerance = 1e-7;           // m and rad; half a decade inside what is promised (1e-6)
 constexpr std::int32_t kImproveSteps = 100;      // along the null space, at most
@@ -53,4 +53,4 @@ struct NodeReach {
 NodeReach node_reach(const RobotTable& table, const IkGoal& goal, const ThetaVector& theta_rad, std::int32_t node,
                      const Vec3& target_m) noexcept;
 
-}  // namespace liana
+}  // namespace liana::solve

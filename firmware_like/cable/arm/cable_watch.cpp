@@ -5,7 +5,7 @@
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/pair.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
@@ -128,4 +128,4 @@ void watch_cables(const RobotTable& table, const CableWatchLimits& limits, const
   watch_contradiction(table, limits, now.residual_m, tick, state, faults);
 }
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -8,7 +8,7 @@
 #include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/safety/faults.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 constexpr std::uint8_t kJumpConfirmTicks = 3;      // a jump has to stay this long, the tick it came in included
 constexpr std::uint8_t kContradictionTicks = 25;   // in a row: whatever is quick is named by what it does, not by what it contradicts
@@ -53,4 +53,4 @@ struct CableReadings {
 void watch_cables(const RobotTable& table, const CableWatchLimits& limits, const CableReadings& now, bool usable, std::uint64_t tick,
                   CableWatchState& state, FaultList& faults) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

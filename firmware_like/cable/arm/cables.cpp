@@ -5,7 +5,7 @@
 #include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/trig.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
@@ -147,4 +147,4 @@ CableGeometry cable_geometry(const RobotTable& table, const CableLayout& layout,
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

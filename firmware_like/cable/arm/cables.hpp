@@ -12,7 +12,7 @@
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "firmware_like/cable/arm/robot_table.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 // Path of each cable within each segment [m].
 using CableParts = std::array<std::array<double, kMaxSegments>, kMaxCables>;
@@ -64,4 +64,4 @@ CableSolution solve_cables(const RobotTable& table, const CableGeometry& geometr
 using SegmentVector = std::array<double, kMaxSegments>;
 SegmentVector cable_wraps(const RobotTable& table, const ArmTrig& trig) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -5,7 +5,7 @@
 #include "firmware_like/cable/arm/payout.hpp"
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 // Most that bending can change the path of a cable of segment `segment` (0-based): no hole turns about a joint with a larger arm than its
@@ -61,4 +61,4 @@ LinkLimits make_link_limits(const RobotTable& table) noexcept {
   return limits;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -5,7 +5,7 @@
 #include "firmware_like/safety/gate.hpp"
 #include "firmware_like/safety/link_watch.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 constexpr std::int64_t kGateRoundingCounts = 1;  // half a count of rounding at either end
 constexpr double kFollowingWindow_m = 0.2e-3;    // at rest: drive resolution, loop error and elasticity of the drum
@@ -17,4 +17,4 @@ GateLimits make_gate_limits(const RobotTable& table, const CableVector& zero_pay
 // For the watchdogs: drives lag by their time constant and the bus at full cable speed.
 LinkLimits make_link_limits(const RobotTable& table) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

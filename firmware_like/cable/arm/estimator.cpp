@@ -6,7 +6,7 @@
 #include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 using Index = std::size_t;
 
@@ -33,4 +33,4 @@ void estimate(const RobotTable& table, const CableLayout& layout, const CableMod
   }
 }
 
-}  // namespace liana
+}  // namespace liana::cable

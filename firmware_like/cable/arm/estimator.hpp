@@ -6,7 +6,7 @@
 #include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/cable/arm/friction.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 struct EstimatorState {
   ThetaVector theta_rad{};        // the estimate
@@ -32,4 +32,4 @@ struct CableModel {
 void estimate(const RobotTable& table, const CableLayout& layout, const CableModel& model, const TensionRatio& ratio,
               const CableVector& payout_m, const CableVector& tension_N, EstimatorState& state) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

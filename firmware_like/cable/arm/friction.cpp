@@ -5,7 +5,7 @@
 #include "firmware_like/math/scalar.hpp"
 #include "firmware_like/math/trig.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 using Index = std::size_t;
 
@@ -50,4 +50,4 @@ TensionRatio tension_ratio(const RobotTable& table, const CableLayout& layout, c
   return ratio;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

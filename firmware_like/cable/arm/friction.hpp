@@ -5,7 +5,7 @@
 
 #include "firmware_like/cable/arm/cables.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 // +1: the cable slides towards the motor (it is wound in), tension falls away from the motor; -1: the other way; between: presliding.
 // Dahl's model: d sigma = (u / delta) (1 - sigma sign u), u the slip towards the motor, delta the presliding distance.
@@ -30,4 +30,4 @@ void update_tension_ratio(const RobotTable& table, const CableLayout& layout, co
                           TensionRatio& ratio) noexcept;
 TensionRatio tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, const SlipState& slip) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -5,7 +5,7 @@
 #include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/trig.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
@@ -226,4 +226,4 @@ LinkPoints link_points(const RobotTable& table, const ThetaVector& theta_rad) no
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

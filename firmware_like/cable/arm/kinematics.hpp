@@ -10,7 +10,7 @@
 #include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 // Trigonometry of one segment's two angles, shared by kinematics and cables.
 struct SegmentTrig {
@@ -57,4 +57,4 @@ struct LinkPoints {
 };
 LinkPoints link_points(const RobotTable& table, const ThetaVector& theta_rad) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -6,7 +6,7 @@
 #include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/math/convert.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 // Unstretched cable length [m] between drum and anchor at a drive position. `zero_payout_m` is the length at `zero_counts`:
 // cable path at the zero pose plus lead (docs/drives.md, "Counts and lengths").
@@ -21,4 +21,4 @@ constexpr double counts_at_payout(const DriveTable& drive, double zero_payout_m,
   return static_cast<double>(drive.zero_counts) + static_cast<double>(drive.direction) * turned;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -8,7 +8,7 @@
 #include "firmware_like/drive/drive_io.hpp"
 #include "firmware_like/math/pose.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 // Compiled capacity. A robot within it needs a new table and no new code.
 constexpr std::int32_t kMaxSegments = 8;
@@ -99,4 +99,4 @@ struct RobotTable {
 
 static_assert(std::is_trivially_copyable_v<RobotTable>);
 
-}  // namespace liana
+}  // namespace liana::cable

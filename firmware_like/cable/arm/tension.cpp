@@ -5,7 +5,7 @@
 #include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
@@ -144,4 +144,4 @@ CableVector payout_for(const RobotTable& table, const CableLayout& layout, const
   return payout;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -10,7 +10,7 @@
 #include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/cable/arm/friction.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 // Planned tension stays this far above the floor: motion and unknown friction take up to 20 N off a cable (measured over whole missions).
 constexpr double kFloorMargin_N = 22.0;
@@ -45,4 +45,4 @@ void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVec
 CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m, const TensionRatio& ratio,
                        const CableVector& motor_N) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

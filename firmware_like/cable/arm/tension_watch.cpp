@@ -1,6 +1,6 @@
 #include "firmware_like/cable/arm/tension_watch.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 TensionWatchLimits make_tension_watch_limits(const RobotTable& table) noexcept {
   return {table.tension.floor_anywhere_N, kBreakShare * table.tension.floor_motor_N, table.tension.alarm_N,
@@ -25,4 +25,4 @@ void watch_tension(const TensionWatchLimits& limits, WatchScope scope, const Ten
   out.debounced(overload, kOverloadDebounceTicks, state.overload_ticks[i], FaultNumber::kCableOverload, index);
 }
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -7,7 +7,7 @@
 #include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/safety/link_watch.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 constexpr std::uint16_t kSlackDebounceTicks = 25;  // far longer than a stick-slip dip, far shorter than a cable leaving its drum
 constexpr std::uint16_t kBreakDebounceTicks = 3;   // one wrong torque sample is not a break
@@ -44,4 +44,4 @@ struct TensionReading {
 void watch_tension(const TensionWatchLimits& limits, WatchScope scope, const TensionReading& now, std::int32_t index,
                    TensionWatchState& state, Watch& out) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -2,7 +2,7 @@
 
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 using Index = std::size_t;
 
@@ -18,4 +18,4 @@ void damp(const RobotTable& table, const CableGeometry& geometry, const CableSol
   }
 }
 
-}  // namespace liana
+}  // namespace liana::cable

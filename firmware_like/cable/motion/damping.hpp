@@ -8,7 +8,7 @@
 
 #include "firmware_like/cable/arm/estimator.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 constexpr double kDampingRate_1_s = 1.0;     // c
 constexpr double kDampingHighPass_s = 4.0;   // standing deflection is forgotten
@@ -26,4 +26,4 @@ struct DampingState {
 void damp(const RobotTable& table, const CableGeometry& geometry, const CableSolver& solver, const CableVector& stretch_m,
           DampingState& state) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

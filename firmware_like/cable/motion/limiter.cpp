@@ -6,7 +6,7 @@
 #include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
@@ -121,4 +121,4 @@ double largest_rate(const RobotTable& table, const LimiterState& state) noexcept
   return largest;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

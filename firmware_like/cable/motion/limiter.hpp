@@ -6,7 +6,7 @@
 #include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/cable/arm/robot_table.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 struct LimiterState {
   ThetaVector theta_rad{};      // commanded
@@ -38,4 +38,4 @@ void limit_motion(const RobotTable& table, const CableGeometry& geometry, const 
 // Largest |rate| of the command [rad/s].
 double largest_rate(const RobotTable& table, const LimiterState& state) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -6,7 +6,7 @@
 #include "firmware_like/math/scalar.hpp"
 #include "firmware_like/cable/shape/shape.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
@@ -254,4 +254,4 @@ bool at_rest(const RobotTable& table, const MotionState& state) noexcept {
   return filter_rests && largest_rate(table, state.limiter) < 1e-6;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

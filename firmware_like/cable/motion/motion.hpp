@@ -10,7 +10,7 @@
 #include "firmware_like/operator_input/tip_filter.hpp"
 #include "firmware_like/cable/setpoint.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 // A held theta on its way to its target.
 struct HeldProfile {
@@ -59,4 +59,4 @@ Twist tip_twist(const RobotTable& table, const MotionState& state) noexcept;
 // True when nothing moves any more.
 bool at_rest(const RobotTable& table, const MotionState& state) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -5,7 +5,7 @@
 #include "firmware_like/math/cholesky.hpp"
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
@@ -227,4 +227,4 @@ IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinemati
   return report;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

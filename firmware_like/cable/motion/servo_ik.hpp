@@ -15,7 +15,7 @@
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "firmware_like/cable/setpoint.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 constexpr std::int32_t kLimitPasses = 3;   // re-solves per iteration, at most
 constexpr double kDamping = 1e-6;          // m2/rad2; singular directions slow down below |sigma| = 1e-3
@@ -57,4 +57,4 @@ IkReport ik_step(const RobotTable& table, const IkGoal& goal, double damping, Th
 // `arm` by a small null-space move. Reports the tip error before the correction. Cost: one factorisation per limit pass, one tip pose.
 IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, ThetaVector& theta_rad) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

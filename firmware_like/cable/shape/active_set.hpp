@@ -10,7 +10,7 @@
 #include "firmware_like/cable/shape/bounds.hpp"
 #include "firmware_like/cable/shape/lanes.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 // Coordinates in which the metric of a problem is the distance: theta k is axis[k] . y, within bounds.
 template <std::size_t B>
@@ -170,4 +170,4 @@ void begin_with(const Frame<B>& frame, const HeldBounds& held, ActiveSet<B>& act
   active.count = 0;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

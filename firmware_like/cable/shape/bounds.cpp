@@ -2,7 +2,7 @@
 
 #include "firmware_like/cable/shape/active_set.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
@@ -155,4 +155,4 @@ void restrict_to(const NullSpace& space, const ThetaBounds& bounds, std::int32_t
   restrict_point(space, nullptr, bounds, passes, held, point);
 }
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -5,7 +5,7 @@
 
 #include "firmware_like/cable/shape/shape_model.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 struct ThetaBounds {
   ThetaVector low;   // <= 0
@@ -37,4 +37,4 @@ void restrict_to(const NullSpace& space, const ShapeFactor& factor, const ThetaB
                  NullPoint& point) noexcept;
 void restrict_to(const NullSpace& space, const ThetaBounds& bounds, std::int32_t passes, HeldBounds& held, NullPoint& point) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -4,7 +4,7 @@
 
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
@@ -138,4 +138,4 @@ void add_clearance(const RobotTable& table, const ThetaVector& theta_rad, const 
   }
 }
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -4,7 +4,7 @@
 #include "firmware_like/cable/shape/shape_model.hpp"
 #include "firmware_like/cable/setpoint.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 // Largest weight of a target that is used; 0 when there is none.
 double largest_weight(const KeepClearTargets& targets) noexcept;
@@ -24,4 +24,4 @@ void add_clearance(const RobotTable& table, const SegmentTrig& trig, const ArmKi
 void add_clearance(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm, const KeepClearTargets& targets,
                    PullSum& sum) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -6,7 +6,7 @@
 
 #include "firmware_like/cable/shape/null_space.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 // Null-space coordinates, B lanes of four; those beyond the dimension are zero.
 template <std::size_t B>
@@ -53,4 +53,4 @@ inline NullVector numbers_of(const Lanes<B>& lanes) noexcept {
   return z;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

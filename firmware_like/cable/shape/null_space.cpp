@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
@@ -148,4 +148,4 @@ ThetaVector combine(const NullSpace& space, const NullVector& z) noexcept {
 
 ThetaVector project(const NullSpace& space, const ThetaVector& v) noexcept { return combine(space, coordinates(space, v)); }
 
-}  // namespace liana
+}  // namespace liana::cable

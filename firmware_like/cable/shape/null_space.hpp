@@ -10,7 +10,7 @@
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "firmware_like/math/pair.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 // Coordinates in the basis of a null space: `dimension` numbers, then zeros up to a multiple of four.
 using NullVector = std::array<double, kMaxTheta>;
@@ -41,4 +41,4 @@ NullVector coordinates(const NullSpace& space, const ThetaVector& v) noexcept;
 ThetaVector combine(const NullSpace& space, const NullVector& z) noexcept;
 ThetaVector project(const NullSpace& space, const ThetaVector& v) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -4,7 +4,7 @@
 
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
@@ -190,4 +190,4 @@ ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const 
   return move;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -14,7 +14,7 @@
 #include "firmware_like/cable/shape/keep_clear.hpp"
 #include "firmware_like/cable/setpoint.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 constexpr double kCentringRate_1_s = 0.2;  // of every theta, where no node target is given
 constexpr double kCentringShare = 0.02;    // m2/rad2 times the largest node weight: centring beside node targets
@@ -59,4 +59,4 @@ ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const 
                        std::uint32_t held_mask, bool braking, const ShapePace& pace, const ThetaVector& theta_rad,
                        ShapeState& state) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -4,7 +4,7 @@
 
 #include "firmware_like/math/scalar.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
@@ -124,4 +124,4 @@ NullVector minimum(const NullSpace& space, const ShapeFactor& factor, const Null
   return z;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -13,7 +13,7 @@
 
 #include "firmware_like/cable/shape/null_space.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 constexpr double kSharp_m = 0.001;  // excesses are rounded off within this
 
@@ -58,4 +58,4 @@ NullVector minimum(const NullSpace& space, const ShapeFactor& factor, const Null
 // L^T x = b in place, L the factor.
 void solve_upper(const NullSpace& space, const ShapeFactor& factor, NullVector& b) noexcept;
 
-}  // namespace liana
+}  // namespace liana::cable
