@@ -12,6 +12,8 @@
 
 namespace liana::solve {
 
+using namespace cable;  // this room serves the cable arm only
+
 // S2: the last `segments` segments, with the pose of the tip that they end in.
 struct PlanarPart {
   std::int32_t segments = 0;  // 0 (no S2) .. segment_count

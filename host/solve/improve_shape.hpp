@@ -10,6 +10,8 @@
 
 namespace liana::solve {
 
+using namespace cable;  // this room serves the cable arm only
+
 constexpr double kTipTolerance = 1e-7;           // m and rad; half a decade inside what is promised (1e-6)
 constexpr std::int32_t kImproveSteps = 100;      // along the null space, at most
 constexpr std::int32_t kImproveIterations = 8;   // for the tip after each step, at most

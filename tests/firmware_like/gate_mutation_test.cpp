@@ -8,7 +8,7 @@
 
 #include "firmware_like/safety/gate.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -160,4 +160,4 @@ TEST(GateMutation, TheFinitenessCheckFitsItsTableAndNoWrongVariantDoes) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

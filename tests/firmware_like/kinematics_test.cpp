@@ -1,5 +1,5 @@
 // Closed-form kinematics against golden values, the plain DH product, the chain of modules and the 80-joint Jacobian.
-#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "firmware_like/arm/cables.hpp"
+#include "firmware_like/cable/arm/cables.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using nlohmann::json;
@@ -246,4 +246,4 @@ TEST(Kinematics, LinkPointsAreTheModulesOfTheChain) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable
