@@ -7,7 +7,7 @@
 #include "host/system/calibrate_session.hpp"
 #include "host/cli/commands.hpp"
 #include "host/system/errors.hpp"
-#include "host/cli/fixture_prompt.hpp"
+#include "host/calibration/fixture_prompt.hpp"
 #include "host/system/interrupt.hpp"
 #include "host/system/output.hpp"
 #include "host/system/system_layout.hpp"

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "host/system/run_options.hpp"
+
 namespace liana {
 
 struct PoseOptions {
@@ -63,23 +65,6 @@ struct PlanOptions {
 // The offline planner; exit code 3 when there is no plan, 130 when it was interrupted.
 int plan_command(const PlanOptions& options);
 
-struct RunOptions {
-  std::string mission;  // empty: none (liana latency)
-  std::string robot = "zhu2022";
-  std::string scene = "panel_slit";
-  std::string bus = "embedded";
-  std::string time;           // empty: fast, or real on SocketCAN
-  bool simulated_arm = true;  // false: real drives are on the buses, there is no bench
-  std::string physics = "nominal";
-  std::string arm = "full";  // or light, which needs physics ideal
-  std::string fixture;       // empty: the bench's start pose; a named pose: the simulated arm lies exactly there
-  std::string in_pose;       // empty: nobody knows; a named pose: lianad enables only an arm that lies there, and the simulated one does
-  std::string cross_wired;   // empty, or two drives whose cables are exchanged, e.g. 3,4
-  std::string calibration;   // empty: as the robot table says
-  std::string record_dir;    // empty: nothing is kept
-  std::string report_file;   // empty: a summary on standard output; "-": JSON on standard output
-  std::uint64_t seed = 1;
-};
 // Starts the whole system, runs one mission, reports; exit code 0 only on success.
 int run_command(const RunOptions& options);
 

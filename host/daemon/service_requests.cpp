@@ -46,13 +46,13 @@ const std::map<std::string, Service::Handler>& Service::handlers() {
   return kHandlers;
 }
 
-Service::Json Service::handle(const ClientInfo& client, const Json& request) {
+Json Service::handle(const ClientInfo& client, const Json& request) {
   const auto found = handlers().find(text_field(request, "op", 32));
   if (found == handlers().end()) throw RequestError("bad_request", "unknown op " + request["op"].dump());
   return (this->*found->second)(client, request);
 }
 
-Service::Json Service::welcome(const ClientInfo&) {
+Json Service::welcome(const ClientInfo&) {
   return {{"op", "welcome"},
           {"time_mode", time_mode_name(config_.time_mode)},
           {"period_s", config_.robot.table.tick_s},
@@ -69,7 +69,7 @@ void Service::gone(const ClientInfo& client, const std::string& why) {
   if (config_.ends_with_mission && client.role == Role::kMission) mission_end_tick_ = tick();
 }
 
-Service::Json Service::on_acquire(const ClientInfo& client, const Json&) {
+Json Service::on_acquire(const ClientInfo& client, const Json&) {
   if (client.role != Role::kMission && client.role != Role::kClient) {
     throw RequestError("not_owner", "role '" + std::string(role_name(client.role)) + "' cannot own motion; mission and client can");
   }
@@ -78,13 +78,13 @@ Service::Json Service::on_acquire(const ClientInfo& client, const Json&) {
   return Json::object();
 }
 
-Service::Json Service::on_release(const ClientInfo& client, const Json&) {
+Json Service::on_release(const ClientInfo& client, const Json&) {
   owner_.release(client.id);
   drop_motion("'" + client.name + "' released motion");
   return Json::object();
 }
 
-Service::Json Service::on_state_command(const ClientInfo& client, const Json& request) {
+Json Service::on_state_command(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const std::string command = text_field(request, "command", 16);
   if (boot_seen_ == BootPhase::kFailed) throw RequestError("fault", "booting failed: " + text_of(notes_.boot_problems));
@@ -114,7 +114,7 @@ void Service::require_homed() const {
   if (!homing_.is_homed()) throw RequestError("refused", "not homed: " + homing_.why_not());
 }
 
-Service::Json Service::on_move_jp(const ClientInfo& client, const Json& request) {
+Json Service::on_move_jp(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const RobotTable& table = config_.robot.table;
   const auto count = static_cast<std::size_t>(table.theta_count());
@@ -135,7 +135,7 @@ Service::Json Service::on_move_jp(const ClientInfo& client, const Json& request)
   return Json::object();
 }
 
-Service::Json Service::on_move_cp(const ClientInfo& client, const Json& request) {
+Json Service::on_move_cp(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const Pose goal = pose_field(request, "goal", reach_m_);
   if (request.contains("hold")) on_hold_theta(client, {{"held", request["hold"]}});
@@ -143,13 +143,13 @@ Service::Json Service::on_move_cp(const ClientInfo& client, const Json& request)
   return Json::object();
 }
 
-Service::Json Service::on_servo_cp(const ClientInfo& client, const Json& request) {
+Json Service::on_servo_cp(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   arbiter_.servo_tip(now(), pose_field(request, "goal", reach_m_));
   return Json::object();
 }
 
-Service::Json Service::on_hold_theta(const ClientInfo& client, const Json& request) {
+Json Service::on_hold_theta(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const RobotTable& table = config_.robot.table;
   std::uint32_t mask = 0;
@@ -164,7 +164,7 @@ Service::Json Service::on_hold_theta(const ClientInfo& client, const Json& reque
   return Json::object();
 }
 
-Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
+Json Service::on_shape(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   NodeTargets nodes{};
   read_entries(request, "nodes", nodes.size(), [&](std::size_t i, const Json& entry) {
@@ -185,7 +185,7 @@ Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
   return Json::object();
 }
 
-Service::Json Service::on_use_device(const ClientInfo& client, const Json& request) {
+Json Service::on_use_device(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const RobotTable& table = config_.robot.table;
   DeviceUse use;
@@ -199,26 +199,26 @@ Service::Json Service::on_use_device(const ClientInfo& client, const Json& reque
   return Json::object();
 }
 
-Service::Json Service::on_retract(const ClientInfo& client, const Json& request) {
+Json Service::on_retract(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const std::int64_t until = request.contains("until_tick") ? integer_field(request, "until_tick", 0, 1LL << 53) : 0;
   arbiter_.retract(now(), static_cast<std::uint64_t>(until));
   return Json::object();
 }
 
-Service::Json Service::on_hold(const ClientInfo& client, const Json&) {
+Json Service::on_hold(const ClientInfo& client, const Json&) {
   owner_.require(client.id);
   arbiter_.hold();
   return Json::object();
 }
 
-Service::Json Service::on_tool(const ClientInfo& client, const Json& request) {
+Json Service::on_tool(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   note("tool: " + text_field(request, "command", 64));
   return {{"tick", tick()}};
 }
 
-Service::Json Service::on_stop(const ClientInfo& client, const Json& request) {
+Json Service::on_stop(const ClientInfo& client, const Json& request) {
   const Json stop{{"by", client.name}, {"reason", request.contains("reason") ? text_field(request, "reason", 200) : ""}, {"tick", tick()}};
   arbiter_.hold();
   this->request(Request::kStop);
@@ -229,13 +229,13 @@ Service::Json Service::on_stop(const ClientInfo& client, const Json& request) {
 }
 
 // Acted on at the next interval: where the end of the mission stops the arm, and the mission has just ended, its (repeatable) time counts.
-Service::Json Service::on_shutdown(const ClientInfo& client, const Json&) {
+Json Service::on_shutdown(const ClientInfo& client, const Json&) {
   dismissed_ = true;
   note("shutdown asked for by '" + client.name + "'");
   return Json::object();
 }
 
-Service::Json Service::on_announce(const ClientInfo& client, const Json& request) {
+Json Service::on_announce(const ClientInfo& client, const Json& request) {
   if (client.role != Role::kMission) throw RequestError("bad_request", "announce is for role mission");
   const Json step = request.value("step", Json());
   if (!step.is_null() && !step.is_object()) throw RequestError("bad_request", "field 'step': must be an object or null");
@@ -248,19 +248,19 @@ Service::Json Service::on_announce(const ClientInfo& client, const Json& request
   return {{"tick", tick()}};
 }
 
-Service::Json Service::on_operator_says(const ClientInfo& client, const Json& request) {
+Json Service::on_operator_says(const ClientInfo& client, const Json& request) {
   if (client.role != Role::kOperator) throw RequestError("bad_request", "operator_says is for role operator");
   notes_.operator_says = {{"what", text_field(request, "what", 40)}, {"tick", tick()}};
   return Json::object();
 }
 
-Service::Json Service::on_device(const ClientInfo& client, const Json& request) {
+Json Service::on_device(const ClientInfo& client, const Json& request) {
   if (client.role != Role::kOperator) throw RequestError("bad_request", "device samples are for role operator");
   add_samples(request, arbiter_.device());
   return Json::object();
 }
 
-Service::Json Service::on_camera(const ClientInfo& client, const Json& request) {
+Json Service::on_camera(const ClientInfo& client, const Json& request) {
   if (client.role != Role::kCamera) throw RequestError("bad_request", "camera frames are for role camera");
   const double capture_s = number_field(request, "capture_time_s", 0.0, 1e9);
   CameraFrame frame{0, request.dump()};
@@ -274,7 +274,7 @@ Service::Json Service::on_camera(const ClientInfo& client, const Json& request) 
   return Json::object();
 }
 
-Service::Json Service::on_timing(const ClientInfo&, const Json& request) {
+Json Service::on_timing(const ClientInfo&, const Json& request) {
   const bool reset = request.contains("reset") && flag_field(request, "reset");
   if (config_.time_mode != TimeMode::kReal) {
     throw RequestError("refused", "timing: time mode " + std::string(time_mode_name(config_.time_mode)) +

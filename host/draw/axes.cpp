@@ -9,7 +9,7 @@ namespace {
 constexpr Look kGrid{.stroke = "#dddddd", .width = 0.7};
 constexpr Look kFrame{.stroke = "#555555", .width = 1.0};
 
-double share(const Range& range, double value, bool logarithmic) {
+double share(const AxisRange& range, double value, bool logarithmic) {
   if (logarithmic) return std::log(value / range.low) / std::log(range.high / range.low);
   return (value - range.low) / (range.high - range.low);
 }
@@ -17,7 +17,7 @@ double share(const Range& range, double value, bool logarithmic) {
 // Decimals that a tick step needs.
 int decimals_for(double step) { return std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 9); }
 
-std::vector<double> powers_times(const Range& range, const std::vector<double>& factors) {
+std::vector<double> powers_times(const AxisRange& range, const std::vector<double>& factors) {
   std::vector<double> places;
   const int last = static_cast<int>(std::ceil(std::log10(range.high)));
   for (int exponent = static_cast<int>(std::floor(std::log10(range.low))); exponent <= last; ++exponent) {
@@ -35,7 +35,7 @@ Pixel Axes::at(double x_value, double y_value) const {
   return {corner.x + width * share(x, x_value, false), corner.y + height * (1.0 - share(y, y_value, log_y))};
 }
 
-std::vector<double> ticks(const Range& range, int count) {
+std::vector<double> ticks(const AxisRange& range, int count) {
   const double rough = (range.high - range.low) / count;
   const double power = std::pow(10.0, std::floor(std::log10(rough)));
   double step = 10.0 * power;
@@ -47,7 +47,7 @@ std::vector<double> ticks(const Range& range, int count) {
   return places;
 }
 
-std::vector<double> log_ticks(const Range& range) {
+std::vector<double> log_ticks(const AxisRange& range) {
   const auto powers = powers_times(range, {1.0});
   if (powers.size() >= 3) return powers;
   const auto more = powers_times(range, {1.0, 2.0, 5.0});

@@ -25,7 +25,7 @@ struct ReachSample {
 // What is searched: the point, and where rays start.
 struct RaySearch {
   const RobotTable& table;
-  ArmPoint point{};
+  PointOnArm point{};
   Vec3 origin_in_base_m{};
 };
 

@@ -22,7 +22,7 @@ constexpr std::size_t kMostWaypointLines = 25;
 constexpr std::string_view kLineColour = "#1f65a3";
 constexpr std::string_view kWorstColour = "#d62728";
 
-Axes plot(std::size_t index, const Range& y, bool log_y) {
+Axes plot(std::size_t index, const AxisRange& y, bool log_y) {
   return {{kLeft_px, kPlotTop_px[index]}, kPlotWidth_px, kPlotHeight_px, {0.0, 100.0}, y, log_y};
 }
 
@@ -85,7 +85,7 @@ void draw_condition(Svg& svg, const PathReport& report) {
     high = std::max(high, value);
   }
   const bool any = high > 0.0;
-  const Axes axes = plot(1, any ? Range{low / 1.3, high * 1.3} : Range{1.0, 10.0}, true);
+  const Axes axes = plot(1, any ? AxisRange{low / 1.3, high * 1.3} : AxisRange{1.0, 10.0}, true);
   draw_axes(svg, axes, "", "condition number");
   draw_waypoints(svg, axes, report);
   draw_curve(svg, axes, report, condition_number, {.stroke = kLineColour, .width = 2.0});

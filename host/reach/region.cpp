@@ -42,7 +42,7 @@ Samples draw_samples(const RaySearch& search, const RegionRequest& request) {
 }
 
 // Segments at the root whose thetas are all held.
-std::int32_t still_segments(const ArmPoint& point) {
+std::int32_t still_segments(const PointOnArm& point) {
   std::int32_t count = 0;
   while (count + 1 < point.node && !is_free(point, static_cast<std::size_t>(2 * count)) &&
          !is_free(point, static_cast<std::size_t>(2 * count + 1)))

@@ -22,7 +22,7 @@ constexpr std::int32_t kMinSamples = 1000;
 constexpr std::int32_t kMaxSamples = 1000000;
 
 struct RegionRequest {
-  ArmPoint point{};
+  PointOnArm point{};
   ThetaVector held_rad{};    // where held thetas are
   std::int32_t samples = 0;  // kMinSamples..kMaxSamples
   std::uint64_t seed = 1;

@@ -15,7 +15,7 @@ constexpr double kLeft_px = 70.0, kTop_px = 80.0, kGap_px = 80.0, kBottom_px = 6
 constexpr double kLegendWidth_px = 480.0, kLegendHeight_px = 470.0;
 constexpr double kRow_px = 21.0;
 
-using Space = std::array<Range, 3>;
+using Space = std::array<AxisRange, 3>;
 
 void include(Space& space, const Vec3& low_m, const Vec3& high_m) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -46,7 +46,7 @@ Space shown_space(const RobotConfig& robot, const SceneConfig* scene, const Regi
   return space;
 }
 
-double length(const Range& range) { return range.high - range.low; }
+double length(const AxisRange& range) { return range.high - range.low; }
 
 // Top view above the side view, front view right of it, as in a technical drawing.
 struct Layout {
@@ -70,7 +70,7 @@ Layout lay_out(const Space& space) {
   return layout;
 }
 
-std::string point_name(const RobotTable& table, const ArmPoint& point) {
+std::string point_name(const RobotTable& table, const PointOnArm& point) {
   return point.node == table.segment_count ? "the tip" : "node " + std::to_string(point.node);
 }
 

@@ -42,7 +42,7 @@ Json known_steps(const Json& mission, const ReportSources& sources) {
   if (mission.contains("steps")) return mission["steps"];
   Json steps = Json::array();
   for (std::size_t i = 0; i < sources.announced.size(); ++i) {
-    const AnnouncedStep& step = sources.announced[i];
+    const ReportedStep& step = sources.announced[i];
     const bool last = i + 1 == sources.announced.size();
     const std::uint64_t end = last ? step.last_tick : sources.announced[i + 1].start_tick;
     steps.push_back({{"name", step.name},

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "host/cli/commands.hpp"
 #include "host/config/config.hpp"
+#include "host/system/run_options.hpp"
 
 namespace liana {
 

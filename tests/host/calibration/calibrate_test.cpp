@@ -12,7 +12,7 @@
 #include "firmware_like/arm/tension.hpp"
 #include "firmware_like/controller.hpp"
 #include "firmware_like/math/convert.hpp"
-#include "host/cli/fixture_prompt.hpp"
+#include "host/calibration/fixture_prompt.hpp"
 #include "host/config/canonical.hpp"
 #include "host/config/sha256.hpp"
 #include "host/calibration/fixture.hpp"

@@ -1,4 +1,4 @@
-#include "host/cli/fixture_prompt.hpp"
+#include "host/calibration/fixture_prompt.hpp"
 
 #include <stdexcept>
 
