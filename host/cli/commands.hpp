@@ -78,7 +78,8 @@ struct CalibrateOptions {
   std::uint64_t seed = 1;
   bool json = false;
 };
-// Reads the drives with the arm in fixtures, writes a calibration; exit code 1 when something is wired or wound wrong, which it names.
+// Reads the drives with the arm in fixtures, writes a calibration; exit code 1 when something is wired or wound wrong,
+// which it names.
 int calibrate_command(const CalibrateOptions& options);
 
 struct LatencyOptions {
@@ -88,8 +89,8 @@ struct LatencyOptions {
   std::string arm = "full";  // or light, for slow machines
   bool json = false;
 };
-// Measures lianad's real-time thread with the arm enabled and at rest; exit code 1 when a deadline was missed or the arm did not stay
-// enabled.
+// Measures lianad's real-time thread with the arm enabled and at rest; exit code 1 when a deadline was missed or the
+// arm did not stay enabled.
 int latency_command(const LatencyOptions& options);
 
 struct ClientOptions {
@@ -98,11 +99,12 @@ struct ClientOptions {
 };
 // The state of every running system, each named by its socket; exit code 1 when one does not answer.
 int status_command(const ClientOptions& options);
-// Emergency stop of every running system (stop, brakes, disable), each named by its socket; exit code 1 when one does not confirm.
+// Emergency stop of every running system (stop, brakes, disable), each named by its socket; exit code 1 when one does
+// not confirm.
 int estop_command(const ClientOptions& options);
 
-// Clears the emergency stop in force and the latched faults of one running system, and names them; it enables nothing. Exit code 1 when
-// somebody else owns motion, the arm is not at rest yet, or a fault is still there.
+// Clears the emergency stop in force and the latched faults of one running system, and names them; it enables nothing.
+// Exit code 1 when somebody else owns motion, the arm is not at rest yet, or a fault is still there.
 int clear_command(const ClientOptions& options);
 
 struct FaultsOptions {

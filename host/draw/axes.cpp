@@ -43,7 +43,8 @@ std::vector<double> ticks(const AxisRange& range, int count) {
     if (factor * power >= rough * (1.0 - 1e-9)) step = factor * power;
   }
   std::vector<double> places;
-  for (double i = std::ceil(range.low / step - 1e-9); i * step <= range.high + 1e-9 * step; i += 1.0) places.push_back(i * step);
+  for (double i = std::ceil(range.low / step - 1e-9); i * step <= range.high + 1e-9 * step; i += 1.0)
+    places.push_back(i * step);
   return places;
 }
 
@@ -57,7 +58,8 @@ std::vector<double> log_ticks(const AxisRange& range) {
 void draw_axes(Svg& svg, const Axes& axes, std::string_view x_title, std::string_view y_title) {
   const double left = axes.corner.x, bottom = axes.corner.y + axes.height;
   const auto x_ticks = ticks(axes.x, std::max(2, static_cast<int>(axes.width / 60.0)));
-  const auto y_ticks = axes.log_y ? log_ticks(axes.y) : ticks(axes.y, std::max(2, static_cast<int>(axes.height / 45.0)));
+  const auto y_ticks =
+      axes.log_y ? log_ticks(axes.y) : ticks(axes.y, std::max(2, static_cast<int>(axes.height / 45.0)));
   for (const double x : x_ticks) {
     const Pixel foot = axes.at(x, axes.y.low);
     svg.line(foot, {foot.x, axes.corner.y}, kGrid);
@@ -72,7 +74,8 @@ void draw_axes(Svg& svg, const Axes& axes, std::string_view x_title, std::string
   }
   svg.rectangle(axes.corner, axes.width, axes.height, kFrame);
   svg.text({left + axes.width / 2.0, bottom + 34.0}, x_title, {.size = 12.0, .anchor = "middle"});
-  svg.text({left - 40.0, axes.corner.y + axes.height / 2.0}, y_title, {.size = 12.0, .anchor = "middle", .upwards = true});
+  svg.text({left - 40.0, axes.corner.y + axes.height / 2.0}, y_title,
+           {.size = 12.0, .anchor = "middle", .upwards = true});
 }
 
 }  // namespace liana

@@ -29,7 +29,8 @@ struct Axes {
 
 // Places for about `count` ticks at 1, 2 or 5 times a power of ten, inside the range, rising.
 std::vector<double> ticks(const AxisRange& range, int count);
-// Powers of ten inside a range of positive values; where there are fewer than three, 2 and 5 times them too, or evenly spaced places.
+// Powers of ten inside a range of positive values; where there are fewer than three, 2 and 5 times them too, or evenly
+// spaced places.
 std::vector<double> log_ticks(const AxisRange& range);
 
 // Grid lines, tick labels and titles at the left and lower edges.

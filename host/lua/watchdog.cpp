@@ -73,7 +73,8 @@ WatchedEnd end_of(int status) {
 
 Activity& shared_activity() {
   void* memory = mmap(nullptr, sizeof(Activity), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) throw std::runtime_error(std::string("shared memory for the script watchdog: ") + std::strerror(errno));
+  if (memory == MAP_FAILED)
+    throw std::runtime_error(std::string("shared memory for the script watchdog: ") + std::strerror(errno));
   return *new (memory) Activity;
 }
 

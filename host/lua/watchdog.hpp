@@ -1,4 +1,5 @@
-// Runs a function in a process of its own and kills it when it computes for too long: the bound no script can get around.
+// Runs a function in a process of its own and kills it when it computes for too long: the bound no script can get
+// around.
 #pragma once
 
 #include <functional>
@@ -25,7 +26,8 @@ struct WatchedEnd {
 // Memory for an Activity that parent and child share; lives as long as the process.
 Activity& shared_activity();
 
-// Forks, runs `body` in the child (its result is the exit code) and watches the beats of `activity`. The child dies with the parent.
+// Forks, runs `body` in the child (its result is the exit code) and watches the beats of `activity`. The child dies
+// with the parent.
 WatchedEnd run_watched(Activity& activity, const ScriptTimeLimits& limits, const std::function<int()>& body);
 
 // "file:line" where the script was last seen.

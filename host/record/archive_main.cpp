@@ -34,7 +34,11 @@ void record_until_end(liana::ApiClient& client, liana::Recording& recording) {
 
 int run(const std::string& api, const std::string& directory) {
   liana::ApiClient client = liana::ApiClient::connect(api, 10.0);
-  client.send({{"op", "hello"}, {"name", "archive"}, {"role", "archive"}, {"lockstep", true}, {"subscribe", {"tick", "state"}}});
+  client.send({{"op", "hello"},
+               {"name", "archive"},
+               {"role", "archive"},
+               {"lockstep", true},
+               {"subscribe", {"tick", "state"}}});
   const std::optional<Json> welcome = client.receive(30.0);
   if (!welcome) throw std::runtime_error("lianad did not answer the archive's hello within 30 s");
   liana::Recording recording(directory, info_from(*welcome));
@@ -44,8 +48,8 @@ int run(const std::string& api, const std::string& directory) {
     std::fprintf(stderr, "liana-archive: %s; finishing the recording\n", gone.what());
   }
   recording.finish();
-  std::printf("liana-archive: %llu ticks in %s/%s, %llu dropped\n", static_cast<unsigned long long>(recording.ticks()), directory.c_str(),
-              liana::kRecordingFile, static_cast<unsigned long long>(recording.dropped()));
+  std::printf("liana-archive: %llu ticks in %s/%s, %llu dropped\n", static_cast<unsigned long long>(recording.ticks()),
+              directory.c_str(), liana::kRecordingFile, static_cast<unsigned long long>(recording.dropped()));
   return 0;
 }
 

@@ -16,7 +16,8 @@ struct RunOptions {
   std::string physics = "nominal";
   std::string arm = "full";  // or light, which needs physics ideal
   std::string fixture;       // empty: the bench's start pose; a named pose: the simulated arm lies exactly there
-  std::string in_pose;       // empty: nobody knows; a named pose: lianad enables only an arm that lies there, and the simulated one does
+  std::string in_pose;       // empty: nobody knows; a named pose: lianad enables only an arm that lies there, and the
+                             // simulated one does
   std::string cross_wired;   // empty, or two drives whose cables are exchanged, e.g. 3,4
   std::string calibration;   // empty: as the robot table says
   std::string record_dir;    // empty: nothing is kept

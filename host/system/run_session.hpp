@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "host/api/client.hpp"
+#include "host/json/json.hpp"
+#include "host/report/run_report.hpp"
 #include "host/system/interrupt.hpp"
 #include "host/system/process.hpp"
 #include "host/system/progress.hpp"
 #include "host/system/system_layout.hpp"
-#include "host/report/run_report.hpp"
-#include "host/json/json.hpp"
 
 namespace liana {
 

@@ -11,8 +11,8 @@ FOLDERS = ("firmware_like", "host")
 
 TOKEN = re.compile(
     r"\bnamespace\b(?P<namespace>[\w\s:]*)\{"
-    r"|(?<![<,]\s)(?<![<,])\b(?P<kind>class|struct|union|enum\s+class|enum\s+struct|enum)\s+(?P<type>[A-Za-z_]\w*)"
-    r"\s*(?:final\b)?\s*(?::[^;{}()]*)?\{"
+    r"|(?<![<,]\s)(?<![<,])\b(?P<kind>class|struct|union|enum\s+class|enum\s+struct|enum)\s+(?P<type>[A-Za-z_]\w*(?:::\w+)*)"
+    r"\s*(?:final\b)?\s*(?::(?!:)[^;{}()]*)?\{"
     r"|(?P<open>\{)|(?P<close>\})"
 )
 

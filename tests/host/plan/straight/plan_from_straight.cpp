@@ -1,5 +1,6 @@
-// The planner started from the straight line in theta, for comparison with its own starts. Reads one problem as JSON from standard input:
-// robot, buses and scene tables, from_deg, to_deg or tip; prints outcome, constraint, iterations and time_s as JSON.
+// The planner started from the straight line in theta, for comparison with its own starts. Reads one problem as JSON
+// from standard input: robot, buses and scene tables, from_deg, to_deg or tip; prints outcome, constraint, iterations
+// and time_s as JSON.
 #include <chrono>
 #include <iostream>
 
