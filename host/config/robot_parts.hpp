@@ -18,7 +18,7 @@ void read_cables(const Field& table, const std::string& physics, RobotConfig& ou
 void read_drives(const Field& table, RobotConfig& out);
 
 // Motion limits.
-void read_limits(const Field& field, MotionLimits& limits);
+void read_limits(const Field& field, cable::MotionLimits& limits);
 
 // Named poses within the theta limits; "zero" must be there.
 void read_named_poses(const Field& field, RobotConfig& out);

@@ -1,27 +1,28 @@
-// Whether the arm is where its drives say, and why not: homing is the comparison of stored zeros with the lengths found.
+// Whether the arm is where its drives say, and why not: homing is the comparison of stored zeros with the lengths
+// found.
 #pragma once
 
 #include <string>
 
 #include "host/config/config.hpp"
-#include "host/daemon/link.hpp"
+#include "host/control/link.hpp"
 
 namespace liana {
 
 // Cable that every drive reports as paid out beyond its zero [m].
-CableVector paid_out_m(const RobotTable& table, const Inputs& inputs);
+cable::CableVector paid_out_m(const cable::RobotTable& table, const cable::Inputs& inputs);
 
 // Tension that every drive reports [N].
-CableVector reported_tension_N(const RobotTable& table, const Inputs& inputs);
+cable::CableVector reported_tension_N(const cable::RobotTable& table, const cable::Inputs& inputs);
 
 class Homing {
  public:
-  // `in_pose`: the named pose in which the arm lies in its fixture at the start; empty: nobody knows. Throws std::runtime_error when there
-  // is no such pose, or when it does not tell every two cables apart.
+  // `in_pose`: the named pose in which the arm lies in its fixture at the start; empty: nobody knows. Throws
+  // std::runtime_error when there is no such pose, or when it does not tell every two cables apart.
   Homing(const RobotConfig& robot, const std::string& in_pose);
 
   // Once per interval after booting. The pose is compared until it fits once: then the arm may leave it.
-  void look(const CycleReport& report, const EstimatorState& estimator);
+  void look(const CycleReport& report, const cable::EstimatorState& estimator);
 
   bool is_homed() const { return why_not_.empty(); }
   // What contradicts what and what to do; empty while homed.

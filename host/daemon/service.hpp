@@ -1,29 +1,30 @@
-// The service side of lianad: once per command interval it hears the clients, decides what to ask for, verifies and releases it.
+// The service side of lianad: once per command interval it hears the clients, decides what to ask for, verifies and
+// releases it.
 #pragma once
 
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "host/api/server.hpp"
-#include "host/bus/time_mode.hpp"
+#include "host/arbiter/arbiter.hpp"
+#include "host/arbiter/shape_progress.hpp"
 #include "host/config/config.hpp"
-#include "host/daemon/arbiter.hpp"
-#include "host/daemon/boot_problem.hpp"
+#include "host/control/boot_problem.hpp"
+#include "host/control/link.hpp"
 #include "host/daemon/homing.hpp"
 #include "host/daemon/host_trouble.hpp"
-#include "host/daemon/link.hpp"
 #include "host/daemon/owner.hpp"
-#include "host/daemon/release.hpp"
-#include "host/daemon/shape_progress.hpp"
 #include "host/daemon/state_message.hpp"
-#include "host/daemon/twin.hpp"
-#include "host/daemon/verify.hpp"
+#include "host/json/json.hpp"
+#include "host/time/time_mode.hpp"
+#include "host/verify/release.hpp"
+#include "host/verify/twin.hpp"
+#include "host/verify/verify.hpp"
 
 namespace liana {
 
@@ -34,8 +35,8 @@ struct ServiceConfig {
   RobotConfig robot;
   SceneConfig scene;
   BusesConfig buses;
-  std::string in_pose;                                      // named pose in which the arm lies at the start; empty: nobody knows
-  bool ends_with_mission = false;                           // stop the arm once the mission has come and gone
+  std::string in_pose;             // named pose in which the arm lies at the start; empty: nobody knows
+  bool ends_with_mission = false;  // stop the arm once the mission has come and gone
   std::function<std::vector<BootProblem>()> boot_problems;  // asked once, when booting has failed
   std::function<std::vector<std::uint32_t>()> serials;      // of the drives; asked once, when they are booted
 };
@@ -45,7 +46,8 @@ class Service : private ApiHandler {
   // Listens at config.api_path; throws std::runtime_error, also about config.in_pose (homing.hpp).
   Service(const ServiceConfig& config, Link& link);
 
-  // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after `timeout_s`.
+  // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after
+  // `timeout_s`.
   void wait_for(const std::vector<Role>& roles, double timeout_s);
   // One command interval. Lockstep time: returns after every lockstep client has answered.
   void cycle();
@@ -64,7 +66,6 @@ class Service : private ApiHandler {
   bool dismissed() const { return dismissed_; }
 
  private:
-  using Json = nlohmann::json;
   using Handler = Json (Service::*)(const ClientInfo&, const Json&);
 
   Json welcome(const ClientInfo& client) override;
@@ -93,7 +94,7 @@ class Service : private ApiHandler {
   Json on_timing(const ClientInfo& client, const Json& request);
 
   void require_homed() const;
-  const Outputs& now() const { return link_.report.value().outputs; }
+  const cable::Outputs& now() const { return link_.report.value().outputs; }
   std::uint64_t tick() const { return link_.report.value().next_tick; }
   void note(const std::string& text);
   void request(Request what);
@@ -103,12 +104,12 @@ class Service : private ApiHandler {
   void watch_slit();
   void watch_shape();
   void note_clear();
-  void note_emergencies(const Inputs& inputs);
+  void note_emergencies(const cable::Inputs& inputs);
   void forward_ticks();
   void forward_camera();
   void publish_state();
   void release_next();
-  void verify_and_release(const Setpoint& setpoint);
+  void verify_and_release(const cable::Setpoint& setpoint);
 
   ServiceConfig config_;
   Link& link_;
@@ -121,7 +122,7 @@ class Service : private ApiHandler {
   ShapeProgress shape_progress_;
   Release release_;
   Twin twin_;
-  std::vector<Telecommand> released_;  // not yet due at the newest image
+  std::vector<cable::Telecommand> released_;  // not yet due at the newest image
   Notes notes_;
   HostTrouble trouble_;
   BootPhase boot_seen_ = BootPhase::kBooting;

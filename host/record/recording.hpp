@@ -1,13 +1,13 @@
-// The recording of a run. DIR/ticks.mcap (channels start, inputs, outputs) holds all that a replay needs, and is the same byte for byte
-// when a run is repeated. DIR/images.mcap (channel controller_image), which makes it seekable, is so, too: a Controller has no byte left to
-// chance.
+// The recording of a run. DIR/ticks.mcap (channels start, inputs, outputs) holds all that a replay needs, and is the
+// same byte for byte when a run is repeated. DIR/images.mcap (channel controller_image), which makes it seekable, is
+// so, too: a Controller has no byte left to chance.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <string_view>
 
-#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_table.hpp"
 #include "host/record/mcap.hpp"
 
 namespace liana {
@@ -49,7 +49,7 @@ class Recording {
 struct ControllerImage {
   std::uint64_t next_tick = 0;
   bool fresh = false;  // the Controller has not ticked yet: the table says all
-  RobotTable table{};
+  cable::RobotTable table{};
   std::string_view controller_bytes;  // memory of the Controller, empty when fresh; only the same build can use it
 };
 ControllerImage parse_image(std::string_view data);

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "firmware_like/motion/goal_ik.hpp"
+#include "host/solve/goal_ik.hpp"
 #include "tests/bench/own_80.hpp"
 #include "tests/bench/problems.hpp"
 #include "tests/bench/textbook_cables.hpp"
@@ -15,33 +15,37 @@ constexpr std::int32_t kIterations = 50;  // for near goals, at most
 
 struct Bench {
   Meter meter;
-  RobotTable robot = zhu2022::table();
+  cable::RobotTable robot = zhu2022::table();
   HingeChain chain = hinge_chain(robot);
 };
 
 void forward(Bench& bench) {
-  const RobotTable& robot = bench.robot;
+  const cable::RobotTable& robot = bench.robot;
   const auto poses = random_poses(robot, kCalls);
-  for (const ThetaVector& theta : poses) {
-    const ArmKinematics ours = forward_kinematics(robot, theta), own_80 = hinge_kinematics_summed(robot, bench.chain, theta);
+  for (const cable::ThetaVector& theta : poses) {
+    const cable::ArmKinematics ours = forward_kinematics(robot, theta),
+                               own_80 = hinge_kinematics_summed(robot, bench.chain, theta);
     require_agreement("pose of the 80 hinges", tip_difference(ours.tip_in_base, own_80.tip_in_base));
     require_agreement("Jacobian of the 80 hinges", jacobian_difference(ours.tip_jacobian, own_80.tip_jacobian));
   }
   bench.meter.each("fk_jacobian", "ours", kCalls,
                    [&](std::size_t i) { return forward_kinematics(robot, poses[i]).tip_in_base.position_m[0]; });
-  bench.meter.each("fk_jacobian", "own_80", kCalls,
-                   [&](std::size_t i) { return hinge_kinematics_summed(robot, bench.chain, poses[i]).tip_in_base.position_m[0]; });
+  bench.meter.each("fk_jacobian", "own_80", kCalls, [&](std::size_t i) {
+    return hinge_kinematics_summed(robot, bench.chain, poses[i]).tip_in_base.position_m[0];
+  });
 }
 
 void cables(Bench& bench) {
-  const RobotTable& robot = bench.robot;
-  const CableLayout layout = cable_layout(robot);
+  const cable::RobotTable& robot = bench.robot;
+  const cable::CableLayout layout = cable_layout(robot);
   const auto poses = random_poses(robot, kCalls);
-  for (const ThetaVector& theta : poses) {
-    const CableGeometry ours = cable_geometry(robot, layout, arm_trig(robot, theta)), textbook = textbook_cables(robot, layout, theta);
+  for (const cable::ThetaVector& theta : poses) {
+    const cable::CableGeometry ours = cable_geometry(robot, layout, arm_trig(robot, theta)),
+                               textbook = textbook_cables(robot, layout, theta);
     require_agreement("cable length of the textbook", zhu2022::largest_difference(ours.length_m, textbook.length_m));
-    for (std::size_t c = 0; c < kMaxCables; ++c) {
-      require_agreement("cable Jacobian of the textbook", zhu2022::largest_difference(ours.jacobian_m_rad[c], textbook.jacobian_m_rad[c]));
+    for (std::size_t c = 0; c < cable::kMaxCables; ++c) {
+      require_agreement("cable Jacobian of the textbook",
+                        zhu2022::largest_difference(ours.jacobian_m_rad[c], textbook.jacobian_m_rad[c]));
     }
   }
   bench.meter.each("cable_jacobian", "ours", kCalls,
@@ -51,7 +55,7 @@ void cables(Bench& bench) {
 }
 
 // What a tick does, until the tip is there. Returns how often.
-std::int32_t solve_near(const RobotTable& robot, const IkProblem& problem, ThetaVector& theta) {
+std::int32_t solve_near(const cable::RobotTable& robot, const IkProblem& problem, cable::ThetaVector& theta) {
   theta = problem.from_rad;
   for (std::int32_t i = 1; i <= kIterations; ++i) {
     servo_ik(robot, {problem.tip_in_base, 0}, forward_kinematics(robot, theta), theta);
@@ -66,39 +70,43 @@ std::int32_t solve_near(const HingeChain& chain, const IkProblem& problem, Hinge
     const HingeKinematics arm = hinge_kinematics(chain, angle);
     const auto error = pose_error(problem.tip_in_base, arm.tip_in_base);
     if (zhu2022::length(error) < kSolved) return i;
-    hinge_ik_step(arm, error, kDamping, angle);
+    hinge_ik_step(arm, error, cable::kDamping, angle);
   }
   return kIterations;
 }
 
 void near(Bench& bench) {
-  const RobotTable& robot = bench.robot;
+  const cable::RobotTable& robot = bench.robot;
   const auto problems = near_problems(robot, kCalls);
-  ThetaVector theta{};
+  cable::ThetaVector theta{};
   HingeVector angle{};
   std::int32_t steps = 0, hinge_steps = 0;
   for (const IkProblem& problem : problems) {
     steps += solve_near(robot, problem, theta);
     hinge_steps += solve_near(bench.chain, problem, angle);
-    require_agreement("the near goal of ours", tip_difference(problem.tip_in_base, forward_kinematics(robot, theta).tip_in_base), kSolved);
+    require_agreement("the near goal of ours",
+                      tip_difference(problem.tip_in_base, forward_kinematics(robot, theta).tip_in_base), kSolved);
     require_agreement("the near goal of the 80 hinges",
                       tip_difference(problem.tip_in_base, hinge_kinematics(bench.chain, angle).tip_in_base), kSolved);
   }
   const double calls = static_cast<double>(kCalls);
-  bench.meter.note("ik_near", "ours", std::to_string(steps / calls).substr(0, 4) + " calls of servo_ik from fresh kinematics");
-  bench.meter.note("ik_near", "own_80", std::to_string(hinge_steps / calls).substr(0, 4) + " steps; 80 free hinges, no limits");
-  bench.meter.each("ik_near", "ours", kCalls, [&](std::size_t i) { return static_cast<double>(solve_near(robot, problems[i], theta)); });
+  bench.meter.note("ik_near", "ours",
+                   std::to_string(steps / calls).substr(0, 4) + " calls of servo_ik from fresh kinematics");
+  bench.meter.note("ik_near", "own_80",
+                   std::to_string(hinge_steps / calls).substr(0, 4) + " steps; 80 free hinges, no limits");
+  bench.meter.each("ik_near", "ours", kCalls,
+                   [&](std::size_t i) { return static_cast<double>(solve_near(robot, problems[i], theta)); });
   bench.meter.each("ik_near", "own_80", kCalls,
                    [&](std::size_t i) { return static_cast<double>(solve_near(bench.chain, problems[i], angle)); });
   bench.meter.each("ik_step", "ours", kCalls, [&](std::size_t i) {
     theta = problems[i].from_rad;
-    return ik_step(robot, {problems[i].tip_in_base, 0}, kDamping, theta).position_error_m;
+    return ik_step(robot, {problems[i].tip_in_base, 0}, cable::kDamping, theta).position_error_m;
   });
   const HingeVector from = hinge_angles(bench.chain, problems[0].from_rad);
   bench.meter.each("ik_step", "own_80", kCalls, [&](std::size_t i) {
     angle = from;
     const HingeKinematics arm = hinge_kinematics(bench.chain, angle);
-    hinge_ik_step(arm, pose_error(problems[i].tip_in_base, arm.tip_in_base), kDamping, angle);
+    hinge_ik_step(arm, pose_error(problems[i].tip_in_base, arm.tip_in_base), cable::kDamping, angle);
     return angle[0];
   });
 }
@@ -111,9 +119,11 @@ void random_goals(Bench& bench) {
     for (std::size_t i = 0; i < kTargets; ++i) {
       if (solve(i).converged) ++solved;
     }
-    bench.meter.note("ik_random", "ours", std::to_string(solved) + " of " + std::to_string(kTargets) + " solved, all within the limits");
+    bench.meter.note("ik_random", "ours",
+                     std::to_string(solved) + " of " + std::to_string(kTargets) + " solved, all within the limits");
   }
-  for (std::size_t i = 0; i < kCalls; ++i) bench.meter.once("ik_random", "ours", [&] { return solve(i).position_error_m; });
+  for (std::size_t i = 0; i < kCalls; ++i)
+    bench.meter.once("ik_random", "ours", [&] { return solve(i).position_error_m; });
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 // The hunt for the most expensive tick.
 //
-//   bench_worst search CASES SEED [FILE]    tries CASES cases, random ones and changed ones of the worst so far (at first those in a
+//   bench_worst search CASES SEED [FILE]    tries CASES cases, random ones and changed ones of the worst so far (at
+//   first those in a
 //                                           file), led by time; prints the worst
 //   bench_worst random CASES SEED    counts every tick of random cases
 //   bench_worst stored FILE          counts every tick of the cases in a file
 //
-// Time is only a guide: what a case costs is what callgrind counts of it (tests/bench/callgrind.py), each case under the operation "tick".
+// Time is only a guide: what a case costs is what callgrind counts of it (tests/bench/callgrind.py), each case under
+// the operation "tick".
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -28,20 +30,22 @@ constexpr std::size_t kPool = 40;     // worst cases that are changed further
 constexpr double kFresh = 0.15;       // share of cases that owe nothing to them
 constexpr std::int32_t kRepeats = 9;  // of a tick that may be among the worst: the least of its times counts
 
-Outputs plain_tick(Controller& controller, const Inputs& inputs) { return controller.tick(inputs); }
+cable::Outputs plain_tick(cable::Controller& controller, const cable::Inputs& inputs) {
+  return controller.tick(inputs);
+}
 
-double time_ns(Controller& controller, const Inputs& inputs, Outputs& outputs) {
+double time_ns(cable::Controller& controller, const cable::Inputs& inputs, cable::Outputs& outputs) {
   const auto start = std::chrono::steady_clock::now();
   outputs = controller.tick(inputs);
   return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
 }
 
 // Least time of a tick from a copy of the controller.
-double least_time_ns(const Controller& controller, const Inputs& inputs) {
+double least_time_ns(const cable::Controller& controller, const cable::Inputs& inputs) {
   double least_ns = 1e300;
   for (std::int32_t i = 0; i < kRepeats; ++i) {
-    Controller copy = controller;
-    Outputs outputs;
+    cable::Controller copy = controller;
+    cable::Outputs outputs;
     least_ns = std::min(least_ns, time_ns(copy, inputs, outputs));
   }
   return least_ns;
@@ -64,8 +68,8 @@ class Search {
       const bool fresh = pool_.size() < kPool || random_.uniform(0.0, 1.0) < kFresh;
       try_case(fresh ? random_case(random_) : mutated(any(), any(), random_));
       if ((i + 1) % 1000 == 0)
-        std::fprintf(stderr, "%lld cases, %lld ticks, worst %.0f ns\n", static_cast<long long>(i + 1), static_cast<long long>(ticks_),
-                     pool_[0].ns);
+        std::fprintf(stderr, "%lld cases, %lld ticks, worst %.0f ns\n", static_cast<long long>(i + 1),
+                     static_cast<long long>(ticks_), pool_[0].ns);
     }
   }
   void print() const {
@@ -74,17 +78,20 @@ class Search {
   }
 
  private:
-  const Case& any() { return pool_[static_cast<std::size_t>(random_.uniform(0.0, static_cast<double>(pool_.size())))].one; }
+  const Case& any() {
+    return pool_[static_cast<std::size_t>(random_.uniform(0.0, static_cast<double>(pool_.size())))].one;
+  }
 
   void try_case(const Case& one) {
     const double enough_ns = pool_.size() < kPool ? 0.0 : pool_.back().ns;
     double worst_ns = 0.0;
-    play(one, started(one, plain_tick), [&](Controller& controller, const Inputs& inputs) {
+    play(one, started(one, plain_tick), [&](cable::Controller& controller, const cable::Inputs& inputs) {
       ++ticks_;
-      const Controller before = controller;
-      Outputs outputs;
+      const cable::Controller before = controller;
+      cable::Outputs outputs;
       const double first_ns = time_ns(controller, inputs, outputs);
-      if (first_ns > worst_ns && first_ns > enough_ns) worst_ns = std::max(worst_ns, std::min(first_ns, least_time_ns(before, inputs)));
+      if (first_ns > worst_ns && first_ns > enough_ns)
+        worst_ns = std::max(worst_ns, std::min(first_ns, least_time_ns(before, inputs)));
       return outputs;
     });
     keep({one, worst_ns});
@@ -94,7 +101,9 @@ class Search {
   void keep(const Found& found) {
     if (pool_.size() == kPool && found.ns <= pool_.back().ns) return;
     if (std::any_of(pool_.begin(), pool_.end(), [&](const Found& other) { return other.one == found.one; })) return;
-    pool_.insert(std::upper_bound(pool_.begin(), pool_.end(), found, [](const Found& a, const Found& b) { return a.ns > b.ns; }), found);
+    pool_.insert(
+        std::upper_bound(pool_.begin(), pool_.end(), found, [](const Found& a, const Found& b) { return a.ns > b.ns; }),
+        found);
     if (pool_.size() > kPool) pool_.pop_back();
   }
 
@@ -107,8 +116,8 @@ void count(const std::vector<Case>& cases) {
   bench::Meter meter;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const std::string name = "case_" + std::to_string(i);
-    play(cases[i], started(cases[i], plain_tick), [&](Controller& controller, const Inputs& inputs) {
-      Outputs outputs;
+    play(cases[i], started(cases[i], plain_tick), [&](cable::Controller& controller, const cable::Inputs& inputs) {
+      cable::Outputs outputs;
       meter.once("tick", name, [&] {
         outputs = controller.tick(inputs);
         return outputs.tip_speed_m_s;

@@ -70,9 +70,9 @@ struct Act {
   std::uint32_t held_mask;
   double held_share, speed_share;
   std::uint64_t life_ticks;
-  ThetaVector joint_share{};
-  std::array<NodeGenes, kMaxNodeTargets> node{};
-  std::array<ClearGenes, kMaxKeepClear> clear{};
+  cable::ThetaVector joint_share{};
+  std::array<NodeGenes, cable::kMaxNodeTargets> node{};
+  std::array<ClearGenes, cable::kMaxKeepClear> clear{};
 };
 
 Act act_of(Genes& genes) {
@@ -123,8 +123,8 @@ CommandKind command_of(Kind kind) {
 }
 
 // What an act asks of an arm that stands as `rig` says.
-Setpoint setpoint_of(const Act& act, const Rig& rig) {
-  Setpoint setpoint = rig.tip_by(act.move_m);
+cable::Setpoint setpoint_of(const Act& act, const Rig& rig) {
+  cable::Setpoint setpoint = rig.tip_by(act.move_m);
   setpoint.kind = command_of(act.kind);
   setpoint.tip_in_base.quaternion = normalize(multiply(quaternion_of(act.turn_rad), setpoint.tip_in_base.quaternion));
   setpoint.tip_speed_m_s *= act.speed_share;
@@ -135,7 +135,9 @@ Setpoint setpoint_of(const Act& act, const Rig& rig) {
   }
   setpoint.held_mask = act.held_mask;
   if (!has_shape(act.kind)) return setpoint;
-  const auto node_m = [&](std::int32_t node) { return rig.out.node_command_m[static_cast<std::size_t>(std::max(node, 1) - 1)]; };
+  const auto node_m = [&](std::int32_t node) {
+    return rig.out.node_command_m[static_cast<std::size_t>(std::max(node, 1) - 1)];
+  };
   for (std::size_t i = 0; i < act.node.size(); ++i) {
     const NodeGenes& from = act.node[i];
     setpoint.node[i] = {from.node, add(node_m(from.node), from.off_m), from.weight, from.threshold_m};
@@ -161,7 +163,7 @@ struct RequestGenes {
 
 // Everything a case says.
 struct Story {
-  ThetaVector start_rad{};
+  cable::ThetaVector start_rad{};
   std::array<Act, kActs> act{};
   std::array<FaultGenes, kFaults> fault{};
   NoiseGenes noise{};
@@ -181,7 +183,7 @@ Story story_of(const Case& one) {
 }
 
 // Half of the kinds are no fault.
-void plant(const FaultGenes& fault, std::int32_t age, Inputs& inputs) {
+void plant(const FaultGenes& fault, std::int32_t age, cable::Inputs& inputs) {
   const auto all = bits::what_ifs_enabled();
   const std::size_t kind = fault.kind;
   if (kind >= all.size() || age < fault.at) return;
@@ -190,14 +192,15 @@ void plant(const FaultGenes& fault, std::int32_t age, Inputs& inputs) {
 }
 
 // The first kinds are none at all.
-void scatter(const NoiseGenes& noise, zhu2022::Random& random, Inputs& inputs) {
+void scatter(const NoiseGenes& noise, zhu2022::Random& random, cable::Inputs& inputs) {
   constexpr std::uint8_t kLeast = 128;
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
     DriveFeedback& drive = inputs.drive[c];
     if (noise.torque > kLeast)
-      drive.torque_permille =
-          narrow<std::int16_t>(to_counts(drive.torque_permille + random.uniform(-1.0, 1.0) * (noise.torque - kLeast)).value);
-    if (noise.position > kLeast) drive.position_counts += to_counts(random.uniform(-1.0, 1.0) * (noise.position - kLeast)).value;
+      drive.torque_permille = narrow<std::int16_t>(
+          to_counts(drive.torque_permille + random.uniform(-1.0, 1.0) * (noise.torque - kLeast)).value);
+    if (noise.position > kLeast)
+      drive.position_counts += to_counts(random.uniform(-1.0, 1.0) * (noise.position - kLeast)).value;
   }
 }
 
@@ -218,7 +221,8 @@ Case mutated(const Case& from, const Case& other, zhu2022::Random& random) {
   Case one = from;
   if (random.uniform(0.0, 1.0) < 0.2) {
     const std::size_t a = index(), b = index();
-    std::copy(other.begin() + static_cast<std::ptrdiff_t>(std::min(a, b)), other.begin() + static_cast<std::ptrdiff_t>(std::max(a, b)),
+    std::copy(other.begin() + static_cast<std::ptrdiff_t>(std::min(a, b)),
+              other.begin() + static_cast<std::ptrdiff_t>(std::max(a, b)),
               one.begin() + static_cast<std::ptrdiff_t>(std::min(a, b)));
   }
   const Case fresh = random_case(random);
@@ -245,10 +249,12 @@ std::vector<Case> read_cases(std::istream& lines) {
     ++number;
     if (line.empty() || line[0] == '#') continue;
     if (line.size() != 2 * kGenes || line.find_first_not_of("0123456789abcdef") != std::string::npos) {
-      throw std::runtime_error("cases: line " + std::to_string(number) + " is not " + std::to_string(2 * kGenes) + " hexadecimal digits");
+      throw std::runtime_error("cases: line " + std::to_string(number) + " is not " + std::to_string(2 * kGenes) +
+                               " hexadecimal digits");
     }
     Case one{};
-    for (std::size_t i = 0; i < kGenes; ++i) one[i] = static_cast<std::uint8_t>(std::stoul(line.substr(2 * i, 2), nullptr, 16));
+    for (std::size_t i = 0; i < kGenes; ++i)
+      one[i] = static_cast<std::uint8_t>(std::stoul(line.substr(2 * i, 2), nullptr, 16));
     cases.push_back(one);
   }
   return cases;
@@ -257,7 +263,7 @@ std::vector<Case> read_cases(std::istream& lines) {
 Rig started(const Case& one, const Tick& tick) {
   Rig rig(story_of(one).start_rad);
   for (std::int32_t i = 0; i < kEnablingTicks; ++i) {
-    Inputs inputs = rig.drives.inputs(rig.now++);
+    cable::Inputs inputs = rig.drives.inputs(rig.now++);
     if (i == kRequestAt) inputs.request = Request::kEnable;
     rig.out = tick(rig.controller, inputs);
     rig.drives.act(rig.out);
@@ -270,10 +276,10 @@ void play(const Case& one, Rig rig, const Tick& tick) {
   zhu2022::Random random(story.noise.seed);
   std::int32_t age = 0;
   for (const Act& act : story.act) {
-    Setpoint setpoint = setpoint_of(act, rig);
+    cable::Setpoint setpoint = setpoint_of(act, rig);
     const bool moves = act.kind == Kind::kMovingTip || act.kind == Kind::kMovingShape;
     for (std::int32_t i = 0; i < act.ticks; ++i, ++age) {
-      Inputs inputs = rig.drives.inputs(rig.now++);
+      cable::Inputs inputs = rig.drives.inputs(rig.now++);
       if (i % act.every == 0) inputs.telecommand = rig.release(setpoint, act.life_ticks);
       if (moves) setpoint.tip_in_base.position_m = add(setpoint.tip_in_base.position_m, scale(act.move_m, kFurther_m));
       if (age == story.request.at && story.request.kind < 5) inputs.request = static_cast<Request>(story.request.kind);

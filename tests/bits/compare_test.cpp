@@ -11,7 +11,7 @@ namespace liana::bits {
 namespace {
 
 std::string outputs_of(std::uint64_t tick) {
-  Outputs outputs;
+  cable::Outputs outputs;
   outputs.tick = tick;
   std::string bytes;
   append_serialised(bytes, outputs);
@@ -59,7 +59,9 @@ TEST(BitsCompare, AnAnswerThatEndsInTheMiddleOfATickDiffers) {
   EXPECT_EQ(compared(run, run.substr(0, run.size() - 1)).differing_ticks, 1u);
 }
 
-TEST(BitsCompare, AnAnswerTooManyDiffers) { EXPECT_EQ(compared(outputs_of(7), outputs_of(7) + outputs_of(8)).differing_ticks, 1u); }
+TEST(BitsCompare, AnAnswerTooManyDiffers) {
+  EXPECT_EQ(compared(outputs_of(7), outputs_of(7) + outputs_of(8)).differing_ticks, 1u);
+}
 
 }  // namespace
 }  // namespace liana::bits

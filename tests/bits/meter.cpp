@@ -33,8 +33,8 @@ const char* name_of(OperatingState state) {
   return kNames.at(static_cast<std::size_t>(state));
 }
 
-// Instructions per clock, from a loop of known length. Under -icount every instruction takes equally long, so this is the same on every
-// machine.
+// Instructions per clock, from a loop of known length. Under -icount every instruction takes equally long, so this is
+// the same on every machine.
 double instructions_per_clock(const std::string& bytes) {
   const std::uint32_t clocks = bytes.empty() ? 0 : count_from(bytes).clocks;
   const double ratio = clocks == 0 ? 0.0 : static_cast<double>(kCalibrationInstructions) / clocks;
@@ -54,7 +54,7 @@ MeterSummary summarise(std::istream& outputs, std::istream& meter) {
     const std::string answer = next_of(outputs, serialised_outputs_size()), counted = next_of(meter, sizeof(Count));
     if (answer.empty() != counted.empty()) throw std::runtime_error("meter: not one count for each tick");
     if (answer.empty()) break;
-    const Outputs out = outputs_from(answer);
+    const cable::Outputs out = outputs_from(answer);
     const Count count = count_from(counted);
     const double instructions = per_clock * count.clocks;
     ++result.ticks;

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <map>
 
-#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
 #include "firmware_like/math/trig.hpp"
 
 namespace liana::closed_loop {
@@ -23,22 +23,25 @@ const RobotConfig& robot(const std::string& physics) {
 
 }  // namespace
 
-const RobotTable& robot_table(const std::string& physics) { return robot(physics).table; }
+const cable::RobotTable& robot_table(const std::string& physics) { return robot(physics).table; }
 
-ThetaVector named_pose_rad(const std::string& name) {
-  ThetaVector theta{};
-  std::ranges::transform(robot("nominal").named_poses_deg.at(name), theta.begin(), [](double deg) { return deg * kDegree; });
+cable::ThetaVector named_pose_rad(const std::string& name) {
+  cable::ThetaVector theta{};
+  std::ranges::transform(robot("nominal").named_poses_deg.at(name), theta.begin(),
+                         [](double deg) { return deg * kDegree; });
   return theta;
 }
 
-Pose tip_at(const std::string& pose_name) { return forward_kinematics(robot_table(), named_pose_rad(pose_name)).tip_in_base; }
+Pose tip_at(const std::string& pose_name) {
+  return forward_kinematics(robot_table(), named_pose_rad(pose_name)).tip_in_base;
+}
 
 const SceneConfig& scene() {
   static const SceneConfig loaded = load_scene(CLOSED_LOOP_DATA "/scene.json");
   return loaded;
 }
 
-double largest_difference_deg(const ThetaVector& a_rad, const ThetaVector& b_rad) {
+double largest_difference_deg(const cable::ThetaVector& a_rad, const cable::ThetaVector& b_rad) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a_rad.size(); ++i) largest = std::max(largest, std::fabs(a_rad[i] - b_rad[i]) / kDegree);
   return largest;

@@ -1,4 +1,5 @@
-// The bench's arm behind servo motors, without bus and drive state machines. Hides the bench's headers: plant.cpp alone includes them.
+// The bench's arm behind servo motors, without bus and drive state machines. Hides the bench's headers: plant.cpp alone
+// includes them.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
 
 namespace liana::closed_loop {
@@ -15,7 +16,8 @@ namespace liana::closed_loop {
 struct PlantSetup {
   std::string physics = "nominal";  // friction: nominal, ideal or worn
   std::uint64_t seed = 1;           // of the spread and of the torque noise
-  bool spread = true;  // true parameters and start pose differ from the table (mission figure A9); false: exactly the table, no noise
+  bool spread = true;  // true parameters and start pose differ from the table (mission figure A9); false: exactly the
+                       // table, no noise
   std::string start_pose = "prepare";
 };
 
@@ -36,28 +38,30 @@ class Plant {
   Plant& operator=(const Plant&) = delete;
 
   // What the drives measure: unstretched length [m] by their stored zero, and tension [N] with gain error and noise.
-  CableVector measured_payout_m() const;
-  CableVector measured_tension_N();
-  // One control period. Motors follow `target_m` (in measured lengths) with the servo's lag, or stand when `powered` is false.
-  void advance(double tick_s, const CableVector& target_m, bool powered);
+  cable::CableVector measured_payout_m() const;
+  cable::CableVector measured_tension_N();
+  // One control period. Motors follow `target_m` (in measured lengths) with the servo's lag, or stand when `powered` is
+  // false.
+  void advance(double tick_s, const cable::CableVector& target_m, bool powered);
 
   // The truth, which the core never sees.
-  const ThetaVector& theta_rad() const;
-  const ThetaVector& rate_rad_s() const;
+  const cable::ThetaVector& theta_rad() const;
+  const cable::ThetaVector& rate_rad_s() const;
   Pose tip_in_base() const;
   double kinetic_energy_J();
   double slit_clearance_m() const;
   double sphere_clearance_m() const;
   Load take_load();
 
-  // Faults of a cable. So much of it comes off the drum; the encoder reads so much more; the tension reading scatters by so much, is 0.
+  // Faults of a cable. So much of it comes off the drum; the encoder reads so much more; the tension reading scatters
+  // by so much, is 0.
   void loosen(std::size_t cable, double length_m);
   void jump_encoder(std::size_t cable, double length_m);
   void scatter(std::size_t cable, double deviation_N);
   void lose_reading(std::size_t cable);
 
   // Rates set from outside, angles and cables as they are: a kick.
-  void kick(const ThetaVector& rate_rad_s);
+  void kick(const cable::ThetaVector& rate_rad_s);
   // Joint damping set from outside, to let an arm without friction come to rest.
   void set_joint_damping(double viscous_Nms_per_rad);
 

@@ -81,7 +81,8 @@ class Gate : public ::testing::Test {
 
 TEST_F(Gate, AProposalInsideEveryLimitReachesEveryDriveUnchanged) {
   expect_passed("standing");
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) proposal_[i].target_counts += static_cast<double>(i + 1);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i)
+    proposal_[i].target_counts += static_cast<double>(i + 1);
   expect_passed("each drive another target");
 }
 
@@ -196,8 +197,8 @@ TEST_F(Gate, TheFirstDriveThatFailsIsNamed) {
 }
 
 TEST_F(Gate, MotionWithOneDriveOutOfOperationIsRefusedForAll) {
-  for (const std::uint16_t status :
-       {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusQuickStop, kStatusFaultReaction, kStatusFault, std::uint16_t{0x0001}}) {
+  for (const std::uint16_t status : {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusQuickStop,
+                                     kStatusFaultReaction, kStatusFault, std::uint16_t{0x0001}}) {
     feedback_[3].statusword = status;
     const GateResult result = judge();
     EXPECT_EQ(result.check, GateCheck::kDriveNotEnabled);
@@ -208,7 +209,8 @@ TEST_F(Gate, MotionWithOneDriveOutOfOperationIsRefusedForAll) {
 
 TEST_F(Gate, ADriveWithoutTorqueGetsItsActualPosition) {
   live_ = false;
-  for (const std::uint16_t status : {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusFault, std::uint16_t{0x0001}}) {
+  for (const std::uint16_t status :
+       {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusFault, std::uint16_t{0x0001}}) {
     feedback_[3].statusword = status;
     feedback_[3].position_counts = kIntMax;
     const GateResult result = judge();
@@ -220,10 +222,12 @@ TEST_F(Gate, ADriveWithoutTorqueGetsItsActualPosition) {
 
 TEST_F(Gate, WhileTargetsAreNotLiveNothingOfTheProposalReachesADrive) {
   live_ = false;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) proposal_[i].target_counts = i % 2 == 0 ? kNan : 1e6 + 1e4;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i)
+    proposal_[i].target_counts = i % 2 == 0 ? kNan : 1e6 + 1e4;
   const GateResult result = judge();
   EXPECT_EQ(result.check, GateCheck::kPassed);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) EXPECT_EQ(result.command[i].target_counts, 1000000);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i)
+    EXPECT_EQ(result.command[i].target_counts, 1000000);
 }
 
 TEST_F(Gate, ATargetFromBeforeThePowerIsNeverHeld) {

@@ -13,7 +13,6 @@ namespace {
 
 namespace zhu2022 = cable::zhu2022;
 
-
 struct TrigError {
   double sin, cos;
 };

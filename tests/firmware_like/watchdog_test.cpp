@@ -141,7 +141,8 @@ TEST_F(WatchdogsOfAnArm, AnOldEmergencyCodeIsNotBlamedForALaterFault) {
 }
 
 TEST_F(WatchdogsOfAnArm, EveryStateButOperationEnabledIsLeavingOperationWhilePowered) {
-  for (const std::uint16_t status : {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusQuickStop, std::uint16_t{0x0001}}) {
+  for (const std::uint16_t status :
+       {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusQuickStop, std::uint16_t{0x0001}}) {
     faults_ = FaultList{};
     inputs_ = healthy(kStatusEnabled);
     inputs_.drive[4].statusword = status;

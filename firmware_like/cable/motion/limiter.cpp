@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "firmware_like/safety/limits.hpp"
 #include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
+#include "firmware_like/safety/limits.hpp"
 
 namespace liana::cable {
 namespace {
@@ -29,7 +29,8 @@ double wanted_rate(double gap_rad, double reference_rate, double accel, double t
 constexpr double kCableShare = 0.8;  // of the cable speed limit; the rest is for tension changes and damping
 
 // Factor <= 1 that brings the fastest cable under `share` of the cable speed limit.
-double cable_factor(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& rate, double share) noexcept {
+double cable_factor(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& rate,
+                    double share) noexcept {
   double fastest = 0.0;
   Index c = 0;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
@@ -41,8 +42,8 @@ double cable_factor(const RobotTable& table, const CableGeometry& geometry, cons
   return fastest > allowed ? allowed / fastest : 1.0;
 }
 
-// Fastest rate towards a joint limit from which the joint still stops before it: v^2 + 2 a h v = 2 a d, under which no later tick needs to
-// brake harder than `accel` or goes past. It may leave the limit at any rate.
+// Fastest rate towards a joint limit from which the joint still stops before it: v^2 + 2 a h v = 2 a d, under which no
+// later tick needs to brake harder than `accel` or goes past. It may leave the limit at any rate.
 double rate_before_limit(double rate, double theta_rad, double limit_rad, double accel, double tick_s) noexcept {
   const double room = larger(0.0, limit_rad - (rate < 0.0 ? -theta_rad : theta_rad));
   const double step = accel * tick_s, size = std::fabs(rate);
@@ -85,14 +86,15 @@ StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, 
   return out;
 }
 
-void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad, LimiterState& state,
-                  bool judged) noexcept {
+void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad,
+                  LimiterState& state, bool judged) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const double h = table.tick_s;
   const double accel = table.limits.theta_accel_rad_s2;
   ThetaVector wanted{};
   for (Index k = 0; k < n; ++k) {
-    wanted[k] = wanted_rate(state.reference_rad[k] - state.theta_rad[k], (reference_rad[k] - state.reference_rad[k]) / h, accel, h);
+    wanted[k] = wanted_rate(state.reference_rad[k] - state.theta_rad[k],
+                            (reference_rad[k] - state.reference_rad[k]) / h, accel, h);
   }
   const bool follows = judged && state.reference_rad == state.theta_rad;
   const double factor = follows ? 1.0 : cable_factor(table, geometry, wanted, kCableShare);
@@ -117,7 +119,8 @@ void limit_motion(const RobotTable& table, const CableGeometry& geometry, const 
 
 double largest_rate(const RobotTable& table, const LimiterState& state) noexcept {
   double largest = 0.0;
-  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) largest = larger(largest, std::fabs(state.rate_rad_s[k]));
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
+    largest = larger(largest, std::fabs(state.rate_rad_s[k]));
   return largest;
 }
 

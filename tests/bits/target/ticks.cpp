@@ -1,4 +1,5 @@
-// bits_ticks: runs the tape in the working directory through the core it is linked with, and writes the Outputs of every tick.
+// bits_ticks: runs the tape in the working directory through the core it is linked with, and writes the Outputs of
+// every tick.
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -15,12 +16,14 @@ constexpr std::size_t kFileBuffer = 1 << 16;
 
 std::string default_table() {
   std::string bytes;
-  append_serialised(bytes, RobotTable{});
+  append_serialised(bytes, cable::RobotTable{});
   return bytes;
 }
 
 // Reads all of `bytes`; false at the end of the file.
-bool read_all(std::FILE* file, std::string& bytes) { return std::fread(bytes.data(), 1, bytes.size(), file) == bytes.size(); }
+bool read_all(std::FILE* file, std::string& bytes) {
+  return std::fread(bytes.data(), 1, bytes.size(), file) == bytes.size();
+}
 
 // Plays a tape; false when it makes no sense or the disk refuses.
 class Player {
@@ -60,7 +63,7 @@ class Player {
   std::string table_ = default_table();
   std::string inputs_ = std::string(serialised_inputs_size(), '\0');
   std::string written_;
-  std::optional<Controller> controller_, kept_;
+  std::optional<cable::Controller> controller_, kept_;
 };
 
 int run() {
