@@ -16,10 +16,15 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 TARGETS = pathlib.Path(__file__).resolve().parent / "target"
 QEMU_M7 = ["qemu-system-arm", "-M", "mps2-an500", "-nographic", "-monitor", "none", "-serial", "none",
         "-semihosting-config", "enable=on,target=native", "-icount", "shift=5", "-kernel"]
-TOOLCHAINS = {"arm-none-eabi-g++": ("cortex_m7.cmake", "arm-none-eabi-"), "aarch64-linux-gnu-g++": ("aarch64.cmake", "aarch64-linux-gnu-")}
-# What rounds once where source rounds twice: FMA3, FMA4 and AVX-512 on x86, scalar, vector and complex ones on ARM, the library's function.
-# Not vmla and vmls of 32-bit ARM: they round the product.
-FUSED = re.compile(r":\s+(?:v4?fc?n?m(?:add|sub)|vfn?m[as]\b|vfm[as]l|fn?m(?:add?\b|sub\b|sb\b|l[as])|v?f?cmla)|\bR_\w+\s+fma[fl]?\b")
+TOOLCHAINS = {
+    "arm-none-eabi-g++": ("cortex_m7.cmake", "arm-none-eabi-"),
+    "aarch64-linux-gnu-g++": ("aarch64.cmake", "aarch64-linux-gnu-"),
+}
+# What rounds once where source rounds twice: FMA3, FMA4 and AVX-512 on x86, scalar, vector and complex ones on ARM,
+# the library's function. Not vmla and vmls of 32-bit ARM: they round the product.
+FUSED = re.compile(
+    r":\s+(?:v4?fc?n?m(?:add|sub)|vfn?m[as]\b|vfm[as]l|fn?m(?:add?\b|sub\b|sb\b|l[as])|v?f?cmla)|\bR_\w+\s+fma[fl]?\b"
+)
 # Options under which the core must not compile, and what the message must name (firmware_like/math/arithmetic.hpp).
 REFUSED = {"-ffast-math": "-ffast-math", "-mfma": "-mno-fma", "-mavx512f -mno-fma": "-mno-avx512f", "-mfpmath=387": "x87"}
 WORST_CASES = ROOT / "tests/bench/worst_cases.txt"
@@ -34,7 +39,7 @@ class Failed(Exception):
 
 
 class Target:
-    """One build of the core and its player. One with plays=False is only looked through: not every machine can run it."""
+    """One build of the core and its player; with plays=False only looked through: not every machine can run it."""
 
     def __init__(self, name, compiler, options, quick=False, emulator=(), plays=True):
         self.name, self.compiler, self.options, self.quick = name, compiler, options, quick
@@ -53,10 +58,10 @@ class Target:
         return folder
 
     def look_through(self, folder):
-        """Counts fused operations in the disassembly of the core, of what includes its headers, and of the planted file."""
+        """Counts fused operations in the disassembly of the core, of what includes its headers, of the planted file."""
         found = {}
         for what, places in {"core": ["firmware_like", "CMakeFiles/player.dir"], "planted": ["CMakeFiles/planted.dir"]}.items():
-            objects = [file for place in places for file in sorted((folder / place).rglob("*.o*")) if file.suffix in (".o", ".obj")]
+            objects = [file for place in places for file in sorted((folder / place).rglob("*.o*"))]
             text = run([self.objdump, "-dr", "--no-show-raw-insn", *objects], f"disassembling {self.name}")
             if not re.search(r":\s+ret|:\s+bx\s+lr|:\s+ldmia", text):
                 raise Failed(f"disassembling {self.name}: no code in {len(objects)} objects under {folder}")
