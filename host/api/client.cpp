@@ -6,10 +6,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "host/api/address.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 
@@ -35,7 +35,7 @@ ApiClient ApiClient::connect(const std::string& path, double timeout_s) {
   }
 }
 
-void ApiClient::send(const nlohmann::json& request) {
+void ApiClient::send(const Json& request) {
   const std::string packet = request.dump();
   if (packet.size() > kMaxPacketBytes)
     throw std::runtime_error("API request of " + std::to_string(packet.size()) + " bytes: at most 65536");
@@ -54,10 +54,10 @@ bool ApiClient::receive_bytes(std::string& packet, double timeout_s) {
   return result == SocketResult::kDone;
 }
 
-std::optional<nlohmann::json> ApiClient::receive(double timeout_s) {
+std::optional<Json> ApiClient::receive(double timeout_s) {
   std::string packet;
   if (!receive_bytes(packet, timeout_s)) return std::nullopt;
-  return nlohmann::json::parse(packet);
+  return Json::parse(packet);
 }
 
 }  // namespace liana

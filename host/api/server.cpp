@@ -7,15 +7,14 @@
 #include <array>
 #include <chrono>
 #include <deque>
-#include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "host/api/fields.hpp"
 #include "host/api/request_error.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 
-using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 namespace {
@@ -29,13 +28,13 @@ constexpr std::array<const char*, 3> kTopicNames{"state", "camera", "tick"};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::string error_packet(const json& request, const std::string& code, const std::string& message) {
-  json answer{{"op", "error"}, {"code", code}, {"message", message}};
+std::string error_packet(const Json& request, const std::string& code, const std::string& message) {
+  Json answer{{"op", "error"}, {"code", code}, {"message", message}};
   if (request.is_object() && request.contains("id")) answer["id"] = request["id"];
-  return answer.dump(-1, ' ', false, json::error_handler_t::replace);
+  return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string op_of(const json& request) {
+std::string op_of(const Json& request) {
   const auto op = request.find("op");
   return op != request.end() && op->is_string() ? op->get<std::string>() : std::string();
 }
@@ -65,7 +64,7 @@ struct ApiServer::Client {
   std::uint64_t done_tick = 0;
   bool has_done = false;
   bool awaited = false;  // was there when waiting began: who joins meanwhile cannot answer a state it never got
-  std::deque<json> inbox;
+  std::deque<Json> inbox;
   std::deque<Packet> outbox;
   std::array<std::size_t, kTopicNames.size()> waiting{};
 
@@ -104,7 +103,7 @@ void ApiServer::accept_new() {
   client->fd = UniqueFd(fd);
   client->info.id = next_id_++;
   if (clients_.size() >= kMaxClients) {
-    send_packet(fd, error_packet(json(), "busy", "32 clients are connected already; close one"));
+    send_packet(fd, error_packet(Json(), "busy", "32 clients are connected already; close one"));
     return;
   }
   clients_.push_back(std::move(client));
@@ -121,10 +120,10 @@ void ApiServer::read_from(Client& client) {
 }
 
 void ApiServer::take_packet(Client& client, const std::string& packet) {
-  json request;
+  Json request;
   try {
     if (packet.size() > kMaxPacketBytes) throw RequestError("bad_request", "packet over 65536 bytes");
-    request = json::parse(packet);
+    request = Json::parse(packet);
     if (!request.is_object()) throw RequestError("bad_request", "a request is one JSON object");
     if (request.contains("id") && !request["id"].is_number_integer()) {
       request.erase("id");
@@ -141,24 +140,24 @@ void ApiServer::take_packet(Client& client, const std::string& packet) {
     client.inbox.push_back(std::move(request));
   } catch (const RequestError& error) {
     enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
-  } catch (const json::exception& error) {
-    enqueue(client, Topic::kState, false, error_packet(json(), "bad_request", std::string("not JSON: ") + error.what()));
+  } catch (const Json::exception& error) {
+    enqueue(client, Topic::kState, false, error_packet(Json(), "bad_request", std::string("not JSON: ") + error.what()));
   }
 }
 
-void ApiServer::greet(Client& client, const json& request) {
+void ApiServer::greet(Client& client, const Json& request) {
   if (client.greeted) throw RequestError("bad_request", "hello was said already");
   client.info.name = text_field(request, "name", 64);
   client.info.role = role_of(text_field(request, "role", 32));
   client.info.lockstep = request.contains("lockstep") && flag_field(request, "lockstep");
-  for (const json& topic : array_field(request, "subscribe", 8)) {
+  for (const Json& topic : array_field(request, "subscribe", 8)) {
     const auto found = std::find(kTopicNames.begin(), kTopicNames.end(), topic.is_string() ? topic.get<std::string>() : std::string());
     if (found == kTopicNames.end()) throw RequestError("bad_request", "subscribe: allowed state, camera, tick");
     client.subscribed[static_cast<std::size_t>(found - kTopicNames.begin())] = true;
   }
   if (client.info.lockstep) client.subscribed[static_cast<std::size_t>(Topic::kState)] = true;
   client.greeted = true;
-  json welcome = handler_.welcome(client.info);
+  Json welcome = handler_.welcome(client.info);
   if (request.contains("id")) welcome["id"] = request["id"];
   enqueue(client, Topic::kState, false, welcome.dump());
 }
@@ -167,7 +166,7 @@ void ApiServer::dispatch() {
   std::sort(clients_.begin(), clients_.end(), [](const auto& a, const auto& b) { return a->order() < b->order(); });
   for (auto& client : clients_) {
     while (!client->inbox.empty()) {
-      const json request = std::move(client->inbox.front());
+      const Json request = std::move(client->inbox.front());
       client->inbox.pop_front();
       answer_one(*client, request);
     }
@@ -176,16 +175,16 @@ void ApiServer::dispatch() {
   bury();
 }
 
-void ApiServer::answer_one(Client& client, const json& request) {
+void ApiServer::answer_one(Client& client, const Json& request) {
   try {
-    json answer = handler_.handle(client.info, request);
+    Json answer = handler_.handle(client.info, request);
     if (!request.contains("id")) return;
     answer["op"] = "ok";
     answer["id"] = request["id"];
     enqueue(client, Topic::kState, false, answer.dump());
   } catch (const RequestError& error) {
     enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
-  } catch (const json::exception& error) {
+  } catch (const Json::exception& error) {
     enqueue(client, Topic::kState, false, error_packet(request, "bad_request", error.what()));
   }
 }

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "host/api/socket.hpp"
+#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -29,9 +29,9 @@ class ApiHandler {
  public:
   virtual ~ApiHandler() = default;
   // The welcome message for a new client.
-  virtual nlohmann::json welcome(const ClientInfo& client) = 0;
+  virtual Json welcome(const ClientInfo& client) = 0;
   // Acts on one request; the result's fields join the "ok" answer. Throws RequestError to refuse.
-  virtual nlohmann::json handle(const ClientInfo& client, const nlohmann::json& request) = 0;
+  virtual Json handle(const ClientInfo& client, const Json& request) = 0;
   // The client has died or left.
   virtual void gone(const ClientInfo& client, const std::string& why) = 0;
 };
@@ -70,8 +70,8 @@ class ApiServer {
   void accept_new();
   void read_from(Client& client);
   void take_packet(Client& client, const std::string& packet);
-  void greet(Client& client, const nlohmann::json& request);
-  void answer_one(Client& client, const nlohmann::json& request);
+  void greet(Client& client, const Json& request);
+  void answer_one(Client& client, const Json& request);
   void enqueue(Client& client, Topic topic, bool droppable, const std::string& packet);
   void flush(Client& client);
   void close(Client& client, const std::string& why);

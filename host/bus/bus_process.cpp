@@ -2,23 +2,23 @@
 
 #include <cmath>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "host/bus/wire_packets.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& field, const nlohmann::json& value, const std::string& allowed) {
+[[noreturn]] void refuse(const std::string& path, const std::string& field, const Json& value, const std::string& allowed) {
   throw std::runtime_error(path + ": " + field + ": " + (value.is_null() ? "missing" : value.dump()) + ": allowed " + allowed);
 }
 
-nlohmann::json field(const nlohmann::json& object, const char* name) {
-  return object.is_object() && object.contains(name) ? object.at(name) : nlohmann::json();
+Json field(const Json& object, const char* name) {
+  return object.is_object() && object.contains(name) ? object.at(name) : Json();
 }
 
-WireConfig read_wire(const std::string& path, const std::string& where, const nlohmann::json& bus) {
+WireConfig read_wire(const std::string& path, const std::string& where, const Json& bus) {
   const auto name = field(bus, "name");
   const auto bitrate = field(bus, "bitrate");
   if (!name.is_string() || name.get<std::string>().empty() || name.get<std::string>().size() > 11 ||
@@ -35,7 +35,7 @@ WireConfig read_wire(const std::string& path, const std::string& where, const nl
 void load_wires(const std::string& path, BusHubOptions& options) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read; give the bus table with --buses");
-  const nlohmann::json table = nlohmann::json::parse(file, nullptr, false);
+  const Json table = Json::parse(file, nullptr, false);
   const auto rate = field(table, "rate_hz");
   if (!rate.is_number() || rate < 1.0 || rate > 10000.0) refuse(path, "rate_hz", rate, "is 1 to 10000 Hz");
   options.period_us = static_cast<std::uint32_t>(std::lround(1e6 / rate.get<double>()));
@@ -46,7 +46,7 @@ void load_wires(const std::string& path, BusHubOptions& options) {
 
 void write_bus_stats(const std::string& path, const BusHub& hub) {
   const double elapsed_s = static_cast<double>(hub.now_ns) * 1e-9;
-  nlohmann::json buses = nlohmann::json::array();
+  Json buses = Json::array();
   for (std::size_t b = 0; b < hub.sim().wires().size(); ++b) {
     const WireConfig& wire = hub.sim().wires()[b];
     const WireStats& stats = hub.sim().stats(b);
@@ -60,7 +60,7 @@ void write_bus_stats(const std::string& path, const BusHub& hub) {
                      {"disturbed", stats.disturbed}});
   }
   std::ofstream file(path);
-  file << nlohmann::json{{"time_s", elapsed_s}, {"slots", hub.slot()}, {"ended", hub.end_reason()}, {"buses", buses}}.dump(1) << '\n';
+  file << Json{{"time_s", elapsed_s}, {"slots", hub.slot()}, {"ended", hub.end_reason()}, {"buses", buses}}.dump(1) << '\n';
   file.close();
   if (!file) throw std::runtime_error(path + ": cannot be written; give --stats a file in a directory you may write");
 }

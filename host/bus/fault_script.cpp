@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string_view>
+
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
@@ -38,7 +39,7 @@ bool holds(std::string_view words, std::string_view word) {
 
 // One entry of the script and how messages call it.
 struct Entry {
-  const nlohmann::json& json;
+  const Json& json;
   std::string where;
 
   bool has(const std::string& field) const { return json.contains(field); }
@@ -159,7 +160,7 @@ std::uint64_t FaultScript::awake_from(std::uint64_t slot) const {
 FaultScript load_fault_script(const std::string& path, int bus_count) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read; give the fault script of --script");
-  const nlohmann::json script = nlohmann::json::parse(file, nullptr, false);
+  const Json script = Json::parse(file, nullptr, false);
   if (!script.is_array()) throw std::runtime_error(path + ": is not a JSON array of faults (docs/bus-protocol.md)");
   std::vector<BusFault> faults;
   for (std::size_t i = 0; i < script.size(); ++i)

@@ -1,6 +1,5 @@
 #include <cstdio>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "host/cli/arguments.hpp"
@@ -14,11 +13,10 @@
 #include "host/cli/run_plan.hpp"
 #include "host/cli/tables.hpp"
 #include "host/fixture/fixture.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 std::vector<std::string> names_in(const std::string& list) {
   std::vector<std::string> names;
@@ -81,8 +79,8 @@ std::vector<CalibrationReading> read_all(const CalibrateOptions& options, bool s
 
 void show(const CalibrationResult& result, bool as_json) {
   if (as_json) {
-    json report{{"problems", result.problems}, {"calibration", nullptr}};
-    if (result.problems.empty()) report["calibration"] = json::parse(calibration_json(result.calibration));
+    Json report{{"problems", result.problems}, {"calibration", nullptr}};
+    if (result.problems.empty()) report["calibration"] = Json::parse(calibration_json(result.calibration));
     std::printf("%s\n", report.dump().c_str());
     return;
   }

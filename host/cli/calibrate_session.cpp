@@ -1,24 +1,22 @@
 #include "host/cli/calibrate_session.hpp"
 
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "host/cli/errors.hpp"
 #include "host/cli/observer.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 constexpr double kBoot_s = 20.0;  // of arm time; it takes about 1.5 s
 constexpr int kSilence_s = 30;
 constexpr double kEndGrace_s = 5.0;
 constexpr int kStates = 50;  // one each T_c: torque readings scatter by 0.3 %
 
-void add(const json& state, CalibrationReading& sum) {
+void add(const Json& state, CalibrationReading& sum) {
   std::size_t i = 0;
-  for (const json& drive : state.at("drives")) {
+  for (const Json& drive : state.at("drives")) {
     sum.position_m[i] += drive.at("position_m").get<double>() / kStates;
     sum.tension_N[i] += drive.at("tension_N").get<double>() / kStates;
     sum.serial[i] = drive.at("serial").get<std::uint32_t>();
@@ -57,10 +55,10 @@ void CalibrateSession::give_up(const std::string& why) {
   throw std::runtime_error(worst ? worst->text : why);
 }
 
-json CalibrateSession::next_state() {
+Json CalibrateSession::next_state() {
   for (;;) {
     if (interrupts_.count() > 0) give_up("");
-    std::optional<json> message;
+    std::optional<Json> message;
     try {
       for (int waited_s = 0; !message && waited_s < kSilence_s; ++waited_s) {
         message = api_->receive(1.0);
@@ -80,10 +78,10 @@ CalibrationReading CalibrateSession::read() {
   start();
   CalibrationReading sum;
   for (int taken = 0; taken < kStates;) {
-    const json state = next_state();
+    const Json state = next_state();
     const std::string name = state.value("state", "");
     if (name == "FAULT" || state.value("time_s", 0.0) > kBoot_s) {
-      const json faults = state.value("faults", json::array());
+      const Json faults = state.value("faults", Json::array());
       give_up("the drives did not boot: " + (faults.empty() ? "state " + name : faults[0].value("text", "")));
     }
     if (name == "DISABLED") {

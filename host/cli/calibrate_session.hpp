@@ -29,7 +29,7 @@ class CalibrateSession {
 
  private:
   void start();
-  nlohmann::json next_state();
+  Json next_state();
   [[noreturn]] void give_up(const std::string& why);
 
   const RunPlan& plan_;

@@ -37,7 +37,7 @@ std::vector<Vec3> read_curve(const std::string& path) {
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(path, unreadable)) throw BadInput(name + ": no such file; give a JSON file with points_m, or slit");
   return checked([&] {
-    const nlohmann::json json = parse_json(read_text_file(path), name, "write {\"points_m\": [[x, y, z], ...]}, metres in the base frame");
+    const Json json = parse_json(read_text_file(path), name, "write {\"points_m\": [[x, y, z], ...]}, metres in the base frame");
     return points_of(Field(json, name, ""));
   });
 }

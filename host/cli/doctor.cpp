@@ -11,8 +11,9 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <thread>
+
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
@@ -128,8 +129,8 @@ std::vector<Finding> examine_host() {
   return findings;
 }
 
-nlohmann::json findings_json(const std::vector<Finding>& findings) {
-  nlohmann::json list = nlohmann::json::array();
+Json findings_json(const std::vector<Finding>& findings) {
+  Json list = Json::array();
   for (const Finding& one : findings) {
     list.push_back({{"name", one.name}, {"good", one.good}, {"found", one.found}, {"meaning", one.meaning}, {"action", one.action}});
   }

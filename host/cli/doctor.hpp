@@ -1,9 +1,10 @@
 // What a host must offer to Liana, looked up one by one.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
+
+#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -23,6 +24,6 @@ std::vector<Finding> examine_realtime();
 std::vector<Finding> examine_host();
 
 // The findings as a JSON list of objects with the names above.
-nlohmann::json findings_json(const std::vector<Finding>& findings);
+Json findings_json(const std::vector<Finding>& findings);
 
 }  // namespace liana

@@ -1,6 +1,5 @@
 #include <array>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
@@ -8,11 +7,10 @@
 #include "host/cli/latency_report.hpp"
 #include "host/cli/latency_session.hpp"
 #include "host/cli/run_plan.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 // The project's embedded tables by rate: which rate a table can carry is a matter of its buses.
 struct RateTable {
@@ -56,7 +54,7 @@ int latency_command(const LatencyOptions& options) {
   const RunPlan plan = make_plan(run);
   try {
     check_rate(options, plan.buses);
-    json report = latency_report(measured(plan, options.seconds), plan.buses, options.seconds, examine_realtime());
+    Json report = latency_report(measured(plan, options.seconds), plan.buses, options.seconds, examine_realtime());
     report["arm"] = options.arm;
     clean_up(plan, true);
     std::fputs((options.json ? report.dump() + "\n" : latency_text(report)).c_str(), stdout);

@@ -6,12 +6,11 @@
 #include <cstdarg>
 #include <cstdio>
 #include <map>
-#include <nlohmann/json.hpp>
+
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 constexpr std::size_t kBins = 13;  // the last one: 2048 us or more, which lianad counts together
 constexpr double kBarLength = 50.0;
@@ -31,14 +30,14 @@ std::string range_of(std::size_t bin) {
   return std::to_string(1u << (bin - 1)) + " to " + std::to_string((1u << bin) - 1);
 }
 
-std::string row(const char* name, const json& times) {
+std::string row(const char* name, const Json& times) {
   return line("  %-10s %8u %8u %8u\n", name, times.value("median", 0u), times.value("p99", 0u), times.value("worst", 0u));
 }
 
 // Each kind of fault once: a starved machine loses all drives at a time.
-std::string faults_text(const json& faults) {
+std::string faults_text(const Json& faults) {
   std::map<int, std::pair<int, std::string>> kinds;
-  for (const json& fault : faults) {
+  for (const Json& fault : faults) {
     auto& [count, words] = kinds[fault.value("number", 0)];
     ++count;
     words = fault.value("name", "") + ": " + fault.value("text", "");
@@ -48,12 +47,12 @@ std::string faults_text(const json& faults) {
   return text;
 }
 
-std::string verdict(const json& report) {
+std::string verdict(const Json& report) {
   const double period_us = 1e6 / report.value("rate_hz", 0.0);
   const double wakeup = report["wakeup_us"].value("worst", 0.0), tick = report["tick_us"].value("worst", 0.0);
   std::string text = line("worst wake-up %.1f %% of the period of %.0f us, longest tick %.1f %%\n", 100.0 * wakeup / period_us, period_us,
                           100.0 * tick / period_us);
-  const json& causes = report["overrun_causes"];
+  const Json& causes = report["overrun_causes"];
   if (report.value("overruns", 0u) == 0) {
     text += "no deadline was missed\n";
   } else {
@@ -65,9 +64,9 @@ std::string verdict(const json& report) {
   return text + faults_text(report["faults"]);
 }
 
-std::string missing(const json& findings) {
+std::string missing(const Json& findings) {
   std::string text;
-  for (const json& finding : findings) {
+  for (const Json& finding : findings) {
     if (finding.value("good", false)) continue;
     text += "  " + finding.value("name", "") + ": " + finding.value("found", "") + "\n    to do: " + finding.value("action", "") + "\n";
   }
@@ -76,22 +75,22 @@ std::string missing(const json& findings) {
 
 }  // namespace
 
-json latency_report(const LatencyMeasurement& measured, const BusesConfig& buses, double seconds, const std::vector<Finding>& realtime) {
-  json report = measured.timing;
+Json latency_report(const LatencyMeasurement& measured, const BusesConfig& buses, double seconds, const std::vector<Finding>& realtime) {
+  Json report = measured.timing;
   report.erase("op");
   report.erase("id");
   report["rate_hz"] = buses.rate_hz;
   report["buses"] = buses.name;
   report["seconds"] = seconds;
   report["enabled"] = measured.enabled;
-  report["faults"] = measured.last_state.value("faults", json::array());
+  report["faults"] = measured.last_state.value("faults", Json::array());
   report["realtime"] = findings_json(realtime);
   return report;
 }
 
-std::string histogram_text(const json& buckets) {
+std::string histogram_text(const Json& buckets) {
   std::array<std::uint64_t, kBins> count{};
-  for (const json& bucket : buckets) {
+  for (const Json& bucket : buckets) {
     const auto bin = static_cast<std::size_t>(std::bit_width(bucket[0].get<std::uint64_t>()));
     count[std::min(bin, kBins - 1)] += bucket[1].get<std::uint64_t>();
   }
@@ -109,7 +108,7 @@ std::string histogram_text(const json& buckets) {
   return text;
 }
 
-std::string latency_text(const json& report) {
+std::string latency_text(const Json& report) {
   std::string text =
       line("%g Hz (buses %s), %g s, %llu ticks; times in us\n", report.value("rate_hz", 0.0), report.value("buses", "").c_str(),
            report.value("seconds", 0.0), static_cast<unsigned long long>(report.value("ticks", std::uint64_t{0})));

@@ -13,7 +13,6 @@
 namespace liana {
 namespace {
 
-using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kReadyTimeout_s = 20.0;  // boot and enabling, each; they take about 2 s
@@ -89,7 +88,7 @@ bool LatencySession::reaches(const std::string& state) {
 
 void LatencySession::look(double timeout_s) {
   require_alive();
-  std::optional<json> message;
+  std::optional<Json> message;
   try {
     message = api_->receive(timeout_s);
   } catch (const std::runtime_error&) {
@@ -103,7 +102,7 @@ void LatencySession::look(double timeout_s) {
   if (op == "ok" || op == "error") answer_ = *message;
 }
 
-json LatencySession::ask(json request) {
+Json LatencySession::ask(Json request) {
   request["id"] = ++last_id_;
   api_->send(request);
   const double deadline_s = now_s() + kAnswerTimeout_s;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,13 +10,14 @@
 #include "host/cli/interrupt.hpp"
 #include "host/cli/process.hpp"
 #include "host/cli/run_plan.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 
 // What lianad measured, and how it went meanwhile.
 struct LatencyMeasurement {
-  nlohmann::json timing;      // lianad's answer (docs/api.md, `timing`)
-  nlohmann::json last_state;  // at the end of the measurement
+  Json timing;      // lianad's answer (docs/api.md, `timing`)
+  Json last_state;  // at the end of the measurement
   bool enabled = false;       // from before its begin to its end
 };
 
@@ -43,7 +43,7 @@ class LatencySession {
   // Waits until the arm is in `state`, homed and at rest; false after a fault or too long a time.
   bool reaches(const std::string& state);
   // Sends a request and waits for its answer, ok or error.
-  nlohmann::json ask(nlohmann::json request);
+  Json ask(Json request);
   void require_alive();
   void shut_down();
 
@@ -51,7 +51,7 @@ class LatencySession {
   InterruptGuard interrupts_;
   std::vector<std::unique_ptr<ChildProcess>> children_;
   std::optional<ApiClient> api_;
-  nlohmann::json state_ = nlohmann::json::object(), answer_ = nlohmann::json::object();  // the last ones
+  Json state_ = Json::object(), answer_ = Json::object();  // the last ones
   int last_id_ = 0;
 };
 

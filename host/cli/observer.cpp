@@ -2,16 +2,14 @@
 
 #include <chrono>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "host/api/client.hpp"
 #include "host/api/registry.hpp"
 #include "host/cli/errors.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
-
-using nlohmann::json;
 
 std::vector<std::string> systems_to_ask(const std::string& given) {
   if (!given.empty()) {
@@ -30,7 +28,7 @@ std::vector<std::string> systems_to_ask(const std::string& given) {
   return systems;
 }
 
-std::optional<json> wait_for(ApiClient& client, const std::string& op, double timeout_s) {
+std::optional<Json> wait_for(ApiClient& client, const std::string& op, double timeout_s) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
   while (std::chrono::steady_clock::now() < deadline) {
     const auto left = std::chrono::duration<double>(deadline - std::chrono::steady_clock::now()).count();
@@ -43,12 +41,12 @@ std::optional<json> wait_for(ApiClient& client, const std::string& op, double ti
 }
 
 void say_hello(ApiClient& client, const std::string& name, Observer observer) {
-  const json subscriptions = observer == Observer::kBlind ? json::array() : json::array({"state"});
+  const Json subscriptions = observer == Observer::kBlind ? Json::array() : Json::array({"state"});
   const char* role = observer == Observer::kClient ? "client" : "observer";
   client.send({{"op", "hello"}, {"name", name}, {"role", role}, {"lockstep", false}, {"subscribe", subscriptions}});
 }
 
-json hello_as_observer(ApiClient& client, const std::string& name) {
+Json hello_as_observer(ApiClient& client, const std::string& name) {
   say_hello(client, name, Observer::kSeeing);
   const auto welcome = wait_for(client, "welcome", 5.0);
   if (!welcome) throw std::runtime_error("lianad does not answer on its API socket");

@@ -1,10 +1,11 @@
 // A client of lianad that looks, and may stop the arm or clear what stopped it.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -24,9 +25,9 @@ enum class Observer {
 void say_hello(ApiClient& client, const std::string& name, Observer observer);
 
 // Says hello, subscribes to states, returns the welcome. Throws std::runtime_error when lianad refuses or does not answer within 5 s.
-nlohmann::json hello_as_observer(ApiClient& client, const std::string& name);
+Json hello_as_observer(ApiClient& client, const std::string& name);
 
 // Waits for a message whose `op` is given, at most `timeout_s`; an error message of lianad throws std::runtime_error.
-std::optional<nlohmann::json> wait_for(ApiClient& client, const std::string& op, double timeout_s);
+std::optional<Json> wait_for(ApiClient& client, const std::string& op, double timeout_s);
 
 }  // namespace liana

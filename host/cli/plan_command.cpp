@@ -2,7 +2,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "host/cli/arguments.hpp"
@@ -12,12 +11,11 @@
 #include "host/cli/interrupt.hpp"
 #include "host/cli/output.hpp"
 #include "host/cli/tables.hpp"
+#include "host/json/json.hpp"
 #include "host/plan/plan.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTransitionShare = 1.0 / 3.0;  // of the way, in which a held angle with another value than the start's gets there
@@ -136,14 +134,14 @@ PlanRequest request_of(const PlanOptions& options) {
   return request;
 }
 
-json to_json(const PlanRequest& request, const PlanResult& result, double time_s) {
-  json waypoints = json::array();
+Json to_json(const PlanRequest& request, const PlanResult& result, double time_s) {
+  Json waypoints = Json::array();
   for (const ThetaVector& theta : result.waypoints_rad) {
-    json row = json::array();
+    Json row = Json::array();
     for (std::int32_t k = 0; k < request.robot.table.theta_count(); ++k) row.push_back(theta[static_cast<std::size_t>(k)] / kDegree);
     waypoints.push_back(row);
   }
-  json answer{{"outcome", name_of(result.outcome)},
+  Json answer{{"outcome", name_of(result.outcome)},
               {"waypoints_deg", waypoints},
               {"objective", result.objective},
               {"iterations", result.iterations},
@@ -181,15 +179,15 @@ json to_json(const PlanRequest& request, const PlanResult& result, double time_s
   return answer;
 }
 
-json follow_json(const PlanRequest& request) {
+Json follow_json(const PlanRequest& request) {
   if (!request.follow) return nullptr;
-  return request.follow->points_m.empty() ? json("slit") : json{{"points_m", request.follow->points_m}};
+  return request.follow->points_m.empty() ? Json("slit") : Json{{"points_m", request.follow->points_m}};
 }
 
 // What the plan was asked for, as it was given.
-json inputs(const PlanOptions& options, const PlanRequest& request) {
-  return {{"robot", json::parse(request.robot.canonical_json)},
-          {"scene", json::parse(request.scene.canonical_json)},
+Json inputs(const PlanOptions& options, const PlanRequest& request) {
+  return {{"robot", Json::parse(request.robot.canonical_json)},
+          {"scene", Json::parse(request.scene.canonical_json)},
           {"from_deg", options.from_deg},
           {"to_deg", options.to_deg},
           {"tip", options.tip},
@@ -202,17 +200,17 @@ json inputs(const PlanOptions& options, const PlanRequest& request) {
           {"max_step_deg", request.max_step_rad / kDegree}};
 }
 
-void print_text(const json& answer) {
+void print_text(const Json& answer) {
   std::printf("%s after %d iterations in %.2f s", answer["outcome"].get<std::string>().c_str(), answer["iterations"].get<int>(),
               answer["time_s"].get<double>());
   if (answer.contains("reason")) std::printf(": %s", answer["reason"].get<std::string>().c_str());
   std::printf("\n");
-  for (const json& row : answer["waypoints_deg"]) {
-    for (const json& angle : row) std::printf(" %9.4f", angle.get<double>());
+  for (const Json& row : answer["waypoints_deg"]) {
+    for (const Json& angle : row) std::printf(" %9.4f", angle.get<double>());
     std::printf("\n");
   }
   if (answer["outcome"] != "solved") return;
-  const json& check = answer["checked"];
+  const Json& check = answer["checked"];
   std::printf("checked: ");
   if (check["nearest"] == "") {
     std::printf("nothing in the scene");
@@ -222,7 +220,7 @@ void print_text(const json& answer) {
   std::printf(", joints up to %.2f deg, steps up to %.2f deg, tip error %.1e m\n", check["max_joint_deg"].get<double>(),
               check["max_step_deg"].get<double>(), check["tip_error_m"].get<double>());
   if (!answer.contains("follow")) return;
-  const json& follow = answer["follow"];
+  const Json& follow = answer["follow"];
   std::printf(
       "followed %.3f m: tip within %.1f mm of the curve, body within %.1f mm of its line at the start and the tip's path, %.1f mm on "
       "average\n",
@@ -249,7 +247,7 @@ int plan_command(const PlanOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const PlanResult result = plan(request, control);
   const double time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  json answer = to_json(request, result, time_s);
+  Json answer = to_json(request, result, time_s);
   if (options.json) {
     std::puts(answer.dump().c_str());
   } else {

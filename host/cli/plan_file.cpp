@@ -1,25 +1,22 @@
 #include "host/cli/plan_file.hpp"
 
-#include <nlohmann/json.hpp>
-
 #include "host/cli/errors.hpp"
 #include "host/cli/tables.hpp"
 #include "host/config/field.hpp"
+#include "host/json/json.hpp"
 #include "host/plan/plan_check.hpp"
 #include "host/plan/plan_refusal.hpp"
 
 namespace liana {
 namespace {
 
-using nlohmann::json;
-
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr std::size_t kMostWaypoints = 2000;  // a followed curve has as many as it needs
 constexpr double kRounding_m = 1e-9;          // of angles that became degrees in between
 
-void check_scene(const std::string& file, const json& plan, const SceneConfig& scene) {
-  const json of_plan = plan.value("/inputs/scene"_json_pointer, json());
-  if (of_plan == json::parse(scene.canonical_json)) return;
+void check_scene(const std::string& file, const Json& plan, const SceneConfig& scene) {
+  const Json of_plan = plan.value("/inputs/scene"_json_pointer, Json());
+  if (of_plan == Json::parse(scene.canonical_json)) return;
   throw BadInput("--scene: '" + scene.name + "': the plan " + file + " was made for another scene" +
                  (of_plan.is_object() ? ", '" + of_plan.value("name", "") + "'" : "") + "; run it in that one, or plan again");
 }
@@ -38,7 +35,7 @@ Path read_waypoints(const Field& plan, const RobotTable& table) {
 }  // namespace
 
 void check_plan_file(const std::string& file, const RobotConfig& robot, const SceneConfig& scene) {
-  const json content = checked([&] { return parse_json(read_text_file(file), file, "give a file that liana plan --out has written"); });
+  const Json content = checked([&] { return parse_json(read_text_file(file), file, "give a file that liana plan --out has written"); });
   check_scene(file, content, scene);
   const Field plan(content, file, "");
   PlanRequest limits;

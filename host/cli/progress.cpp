@@ -3,7 +3,8 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <nlohmann/json.hpp>
+
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
@@ -17,7 +18,7 @@ void Progress::say(const std::string& text) {
   std::fprintf(stderr, "%s\n", text.c_str());
 }
 
-void Progress::show(const nlohmann::json& state) {
+void Progress::show(const Json& state) {
   const double time_s = state.value("time_s", 0.0);
   char stamp[32];
   std::snprintf(stamp, sizeof stamp, "%7.1f s  ", time_s);
@@ -34,7 +35,7 @@ void Progress::show(const nlohmann::json& state) {
   if (terminal_ && time_s >= next_live_s_) show_live(state);
 }
 
-void Progress::show_live(const nlohmann::json& state) {
+void Progress::show_live(const Json& state) {
   next_live_s_ = state.value("time_s", 0.0) + kLivePeriod_s;
   const auto tip = state.find("measured_cp");
   if (tip == state.end() || tip->size() != 7) return;

@@ -1,8 +1,9 @@
 // Progress of a run on standard error: a line per step; on a terminal also a live line.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -10,12 +11,12 @@ class Progress {
  public:
   Progress();
   // Takes in one state message of lianad.
-  void show(const nlohmann::json& state);
+  void show(const Json& state);
   // A line of its own.
   void say(const std::string& text);
 
  private:
-  void show_live(const nlohmann::json& state);
+  void show_live(const Json& state);
   void clear_live();
 
   bool terminal_;

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
 
@@ -14,6 +13,7 @@
 #include "host/cli/output.hpp"
 #include "host/cli/tables.hpp"
 #include "host/config/theta_numbers.hpp"
+#include "host/json/json.hpp"
 #include "host/reach/path.hpp"
 #include "host/reach/picture.hpp"
 #include "host/reach/region.hpp"
@@ -21,15 +21,13 @@
 namespace liana {
 namespace {
 
-using nlohmann::json;
-
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 // --- what is asked ---
 
 std::string number_list(const std::vector<double>& numbers) {
   std::string text;
-  for (const double number : numbers) text += (text.empty() ? "" : ",") + json(number).dump();
+  for (const double number : numbers) text += (text.empty() ? "" : ",") + Json(number).dump();
   return text;
 }
 
@@ -39,16 +37,16 @@ std::vector<ThetaVector> read_waypoints(const std::string& path, const RobotTabl
   std::ifstream file;
   if (std::filesystem::is_regular_file(path, unreadable)) file.open(path, std::ios::binary);
   if (!file.is_open()) throw BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
-  const json document = json::parse(std::string{std::istreambuf_iterator<char>(file), {}}, nullptr, false);
-  const json rows = document.is_object() ? document.value("waypoints_deg", json()) : json();
+  const Json document = Json::parse(std::string{std::istreambuf_iterator<char>(file), {}}, nullptr, false);
+  const Json rows = document.is_object() ? document.value("waypoints_deg", Json()) : json();
   if (!rows.is_array() || rows.empty() || rows.size() > kMaxWaypoints) {
     throw BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " + std::to_string(kMaxWaypoints) +
                    " rows of joint angles under this key");
   }
   std::vector<ThetaVector> waypoints;
-  for (const json& row : rows) {
+  for (const Json& row : rows) {
     const std::string name = "--path: " + path + ": waypoints_deg row " + std::to_string(waypoints.size() + 1);
-    const auto is_number = [](const json& value) { return value.is_number(); };
+    const auto is_number = [](const Json& value) { return value.is_number(); };
     if (!row.is_array() || !std::all_of(row.begin(), row.end(), is_number)) throw BadInput(name + ": allowed: an array of numbers");
     waypoints.push_back(parse_theta_deg(name, number_list(row.get<std::vector<double>>()), robot));
   }
@@ -102,31 +100,31 @@ RegionRequest region_request(const ReachOptions& options, const RobotTable& robo
 
 // --- what is answered ---
 
-json degrees(const ThetaVector& theta_rad, const RobotTable& robot) {
-  json list = json::array();
+Json degrees(const ThetaVector& theta_rad, const RobotTable& robot) {
+  Json list = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) list.push_back(theta_rad[i] / kDegree);
   return list;
 }
 
-json held_json(const RegionRequest& request, const RobotTable& robot) {
-  json held = json::object();
+Json held_json(const RegionRequest& request, const RobotTable& robot) {
+  Json held = Json::object();
   for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) {
     if (request.point.held_mask >> i & 1u) held[std::to_string(i + 1)] = request.held_rad[i] / kDegree;
   }
   return held;
 }
 
-json end_json(const BoundaryPoint& end, const RobotTable& robot) {
+Json end_json(const BoundaryPoint& end, const RobotTable& robot) {
   return {{"distance_m", end.distance_m},
           {"point_m", end.point_in_base_m},
           {"theta_deg", degrees(end.theta_rad, robot)},
           {"binding_theta", theta_numbers(end.binding)}};
 }
 
-json bins_json(const Region& region, const RobotTable& robot) {
-  json bins = json::array();
+Json bins_json(const Region& region, const RobotTable& robot) {
+  Json bins = Json::array();
   for (const DirectionBin& bin : region.bins) {
-    json row = {{"polar_deg", bin.polar_rad / kDegree},
+    Json row = {{"polar_deg", bin.polar_rad / kDegree},
                 {"azimuth_deg", bin.azimuth_rad / kDegree},
                 {"polar_width_deg", bin.polar_width_rad / kDegree},
                 {"azimuth_width_deg", bin.azimuth_width_rad / kDegree},
@@ -142,8 +140,8 @@ json bins_json(const Region& region, const RobotTable& robot) {
   return bins;
 }
 
-json shells_json(const Region& region) {
-  json shells = json::array();
+Json shells_json(const Region& region) {
+  Json shells = Json::array();
   const double width_m = region.length_m / kRadialShells;
   for (std::size_t i = 0; i < kRadialShells; ++i) {
     const double from_m = static_cast<double>(i) * width_m;
@@ -152,14 +150,14 @@ json shells_json(const Region& region) {
   return shells;
 }
 
-json binding_json(const Region& region, const RobotTable& robot) {
-  json shares = json::array();
+Json binding_json(const Region& region, const RobotTable& robot) {
+  Json shares = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) shares.push_back(region.outer_binding_share[i]);
   return {{"theta_share", shares}, {"no_limit_share", region.outer_stretched_share}};
 }
 
-json region_json(const RegionRequest& request, const Region& region, const RobotConfig& robot) {
-  json extent = json::object();
+Json region_json(const RegionRequest& request, const Region& region, const RobotConfig& robot) {
+  Json extent = Json::object();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     extent[std::string(1, "xyz"[axis])] = {region.extent_m[0][axis], region.extent_m[1][axis]};
   }
@@ -179,19 +177,19 @@ json region_json(const RegionRequest& request, const Region& region, const Robot
           {"boundary", bins_json(region, robot.table)}};
 }
 
-json point_json(const PathPoint& point, const RobotTable& robot) {
+Json point_json(const PathPoint& point, const RobotTable& robot) {
   const double condition = condition_number(point);
   return {{"way", point.way},
           {"theta_deg", degrees(point.theta_rad, robot)},
           {"tip_m", point.tip_in_base_m},
           {"least_singular_value", point.least_singular_value},
-          {"condition", std::isfinite(condition) ? json(condition) : json()},
+          {"condition", std::isfinite(condition) ? Json(condition) : Json()},
           {"limit_margin_deg", point.limit_margin_rad / kDegree},
           {"nearest_theta", point.nearest_theta}};
 }
 
-json path_json(const PathReport& report, std::uint32_t held_mask, const RobotConfig& robot) {
-  json points = json::array();
+Json path_json(const PathReport& report, std::uint32_t held_mask, const RobotConfig& robot) {
+  Json points = Json::array();
   for (const PathPoint& point : report.points) points.push_back(point_json(point, robot.table));
   return {{"robot", robot.name},
           {"held_theta", theta_numbers(held_mask)},

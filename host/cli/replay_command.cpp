@@ -1,11 +1,11 @@
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/errors.hpp"
+#include "host/json/json.hpp"
 #include "host/record/mcap.hpp"
 #include "host/record/recording.hpp"
 #include "host/record/replay.hpp"
@@ -41,13 +41,13 @@ ImagesCheck check_images(const std::filesystem::path& file) {
 }
 
 void print_json(const ReplayResult& result, const ImagesCheck& images) {
-  std::puts(nlohmann::json{{"ticks", result.ticks},
+  std::puts(Json{{"ticks", result.ticks},
                            {"differing_ticks", result.differing_ticks},
                            {"missing_ticks", result.missing_ticks},
                            {"complete", result.complete},
                            {"same_build", result.same_build},
                            {"recorded_by", result.recorded_by},
-                           {"first_differing_tick", result.differing_ticks > 0 ? nlohmann::json(result.first_differing_tick) : nullptr},
+                           {"first_differing_tick", result.differing_ticks > 0 ? Json(result.first_differing_tick) : nullptr},
                            {"first_differing_field", result.first_differing_field},
                            {"compared", {kRecordingFile}},
                            {"images", {{"file", kImagesFile}, {"state", images.state}, {"count", images.count}}}}

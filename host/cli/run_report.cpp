@@ -4,23 +4,21 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "host/cli/truth.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
 
-using nlohmann::json;
-
-json read_json(const std::string& path) {
+Json read_json(const std::string& path) {
   std::ifstream file(path);
-  if (!file) return json::object();
-  json parsed = json::parse(file, nullptr, false);
-  return parsed.is_object() ? parsed : json::object();
+  if (!file) return Json::object();
+  Json parsed = Json::parse(file, nullptr, false);
+  return parsed.is_object() ? parsed : Json::object();
 }
 
-json object_of(const json* pointer) { return pointer != nullptr && pointer->is_object() ? *pointer : json::object(); }
+Json object_of(const Json* pointer) { return pointer != nullptr && pointer->is_object() ? *pointer : Json::object(); }
 
 // First and last tick of the experiment: entry of step 1, repair command (or the end, where it never came).
 struct Window {
@@ -28,7 +26,7 @@ struct Window {
   std::uint64_t last_tick = 0;
 };
 
-Window window_of(const json& mission, const json& steps, const std::vector<StateSample>& states) {
+Window window_of(const Json& mission, const Json& steps, const std::vector<StateSample>& states) {
   Window window;
   window.last_tick = states.empty() ? 0 : states.back().tick;
   if (!steps.empty()) {
@@ -40,9 +38,9 @@ Window window_of(const json& mission, const json& steps, const std::vector<State
 }
 
 // The steps the mission reported, or else announced: all but the last one made way for the next.
-json known_steps(const json& mission, const ReportSources& sources) {
+Json known_steps(const Json& mission, const ReportSources& sources) {
   if (mission.contains("steps")) return mission["steps"];
-  json steps = json::array();
+  Json steps = Json::array();
   for (std::size_t i = 0; i < sources.announced.size(); ++i) {
     const AnnouncedStep& step = sources.announced[i];
     const bool last = i + 1 == sources.announced.size();
@@ -58,10 +56,10 @@ json known_steps(const json& mission, const ReportSources& sources) {
   return steps;
 }
 
-json steps_of(const json& known) {
-  json steps = json::array();
-  for (const json& step : known) {
-    json kept = json::object();
+Json steps_of(const Json& known) {
+  Json steps = Json::array();
+  for (const Json& step : known) {
+    Json kept = Json::object();
     for (const char* key : {"name", "device", "held_theta", "duration_s", "outcome", "reason"}) {
       if (step.contains(key)) kept[key] = step[key];
     }
@@ -82,7 +80,7 @@ double distance_m(const Pose& a, const Pose& b) { return norm(subtract(a.positio
 
 double angle_rad(const Pose& a, const Pose& b) { return norm(rotation_vector(multiply(conjugate(a.quaternion), b.quaternion))); }
 
-void add_truth(json& report, const ReportSources& sources, const Window& window) {
+void add_truth(Json& report, const ReportSources& sources, const Window& window) {
   const TruthLog truth = TruthLog::load(sources.truth_file);
   if (truth.row_count() == 0) return;
   const std::size_t first = truth.row_of_slot(window.first_tick);
@@ -108,15 +106,15 @@ void add_truth(json& report, const ReportSources& sources, const Window& window)
 }
 
 // Per bus: loads and frames; the wire's own count (embedded bus) goes before lianad's.
-json buses_of(const json& state, const json& stats) {
-  json buses = json::array();
-  const json counted = stats.value("buses", json::array());
-  for (const json& bus : state.value("buses", json::array())) {
-    json entry = {{"name", bus.value("name", "")},
+Json buses_of(const Json& state, const Json& stats) {
+  Json buses = Json::array();
+  const Json counted = stats.value("buses", Json::array());
+  for (const Json& bus : state.value("buses", Json::array())) {
+    Json entry = {{"name", bus.value("name", "")},
                   {"worst_load", bus.value("worst_load", 0.0)},
                   {"measured_load", bus.value("measured_load", 0.0)},
                   {"frames", bus.value("frames", 0)}};
-    for (const json& wire : counted) {
+    for (const Json& wire : counted) {
       if (wire.value("name", "") != entry["name"]) continue;
       entry["frames"] = wire.value("frames", 0);
       entry["measured_load"] = wire.value("load", 0.0);
@@ -132,7 +130,7 @@ std::string line(const char* format, double value) {
   return text;
 }
 
-std::string clearance_text(const json& report) {
+std::string clearance_text(const Json& report) {
   constexpr double kNothing_m = 999.0;  // the bench says 1000 where there is nothing
   const double slit_m = report["min_slit_clearance_m"], sphere_m = report["min_sphere_clearance_m"];
   std::string text;
@@ -143,14 +141,14 @@ std::string clearance_text(const json& report) {
 
 }  // namespace
 
-json make_report(const ReportSources& sources) {
-  const json mission = read_json(sources.mission_report_file);
-  const json state = object_of(sources.last_state);
-  const json welcome = object_of(sources.welcome);
-  const json steps = known_steps(mission, sources);
+Json make_report(const ReportSources& sources) {
+  const Json mission = read_json(sources.mission_report_file);
+  const Json state = object_of(sources.last_state);
+  const Json welcome = object_of(sources.welcome);
+  const Json steps = known_steps(mission, sources);
   const Window window = window_of(mission, steps, sources.states);
   const std::uint64_t ticks = window.last_tick - window.first_tick;
-  json report = {{"outcome", sources.outcome.empty() ? mission.value("outcome", "failed") : sources.outcome},
+  Json report = {{"outcome", sources.outcome.empty() ? mission.value("outcome", "failed") : sources.outcome},
                  {"robot", sources.robot},
                  {"mission", sources.mission},
                  {"physics", sources.physics},
@@ -161,7 +159,7 @@ json make_report(const ReportSources& sources) {
                  {"steps", steps_of(steps)},
                  {"ticks", ticks},
                  {"overruns", state.value("overruns", 0)},
-                 {"faults", state.value("faults", json::array())},
+                 {"faults", state.value("faults", Json::array())},
                  {"buses", buses_of(state, read_json(sources.bus_stats_file))}};
   // The mission may have ended before the fault came; an arm that stands in a fault has not succeeded.
   if (report["outcome"] == "success" && !report["faults"].empty()) {
@@ -174,13 +172,13 @@ json make_report(const ReportSources& sources) {
   return report;
 }
 
-std::string report_text(const json& report) {
+std::string report_text(const Json& report) {
   std::string text = "outcome " + report.value("outcome", "") + line(", arm time %.1f s\n", report.value("duration_s", 0.0));
   if (!report.value("reason", "").empty()) text += "reason: " + report.value("reason", "") + "\n";
-  for (const json& fault : report.value("faults", json::array())) {
+  for (const Json& fault : report.value("faults", Json::array())) {
     text += "fault " + std::to_string(fault.value("number", 0)) + " " + fault.value("name", "") + ": " + fault.value("text", "") + "\n";
   }
-  for (const json& step : report.value("steps", json::array())) {
+  for (const Json& step : report.value("steps", Json::array())) {
     text += line("  %7.1f s  ", step.value("duration_s", 0.0)) + step.value("outcome", "") + "  " + step.value("name", "") + " (" +
             step.value("device", "none") + ")\n";
   }
@@ -194,7 +192,7 @@ std::string report_text(const json& report) {
             line(", cable tension %.1f", report["cable_tension_N"]["min"].get<double>()) +
             line(" to %.1f N\n", report["cable_tension_N"]["max"].get<double>());
   }
-  for (const json& bus : report.value("buses", json::array())) {
+  for (const Json& bus : report.value("buses", Json::array())) {
     text += "bus " + bus.value("name", "") + line(": %.0f frames", bus.value("frames", 0.0)) +
             line(", load %.1f %%", 100.0 * bus.value("measured_load", 0.0)) +
             line(" (worst case %.1f %%)\n", 100.0 * bus.value("worst_load", 0.0));

@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware_like/math/pose.hpp"
 #include "host/config/config.hpp"
+#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -38,15 +38,15 @@ struct ReportSources {
   std::string bus_stats_file;       // of liana-bus
   std::vector<StateSample> states;
   std::vector<AnnouncedStep> announced;        // stands in for the steps of a mission runner that left no report
-  const nlohmann::json* welcome = nullptr;     // of lianad
-  const nlohmann::json* last_state = nullptr;  // of lianad
+  const Json* welcome = nullptr;     // of lianad
+  const Json* last_state = nullptr;  // of lianad
   std::optional<ScenePose> rod;                // none: the scene has none
 };
 
 // The report with the keys of docs/command-line.md.
-nlohmann::json make_report(const ReportSources& sources);
+Json make_report(const ReportSources& sources);
 
 // A few lines for people.
-std::string report_text(const nlohmann::json& report);
+std::string report_text(const Json& report);
 
 }  // namespace liana

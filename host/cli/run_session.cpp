@@ -13,7 +13,6 @@
 namespace liana {
 namespace {
 
-using nlohmann::json;
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
@@ -28,7 +27,7 @@ Clock::time_point after(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-Pose pose_of(const json& numbers) {
+Pose pose_of(const Json& numbers) {
   Pose pose;
   if (!numbers.is_array() || numbers.size() != 7) return pose;
   for (std::size_t i = 0; i < 3; ++i) pose.position_m[i] = numbers[i].get<double>();
@@ -120,7 +119,7 @@ RunEnd RunSession::interrupted() {
 bool RunSession::is_stopped() const {
   if (!last_state_.is_object()) return false;
   const std::string state = last_state_.value("state", "");
-  return last_state_.value("stop", json()).is_object() && (state == "DISABLED" || state == "FAULT");
+  return last_state_.value("stop", Json()).is_object() && (state == "DISABLED" || state == "FAULT");
 }
 
 // What lianad has said, no more.
@@ -156,11 +155,11 @@ bool RunSession::take(double timeout_s) {
   }
 }
 
-void RunSession::keep(const json& state) {
+void RunSession::keep(const Json& state) {
   progress_.show(state);
-  states_.push_back({state.value("tick", std::uint64_t{0}), pose_of(state.value("setpoint_cp", json()))});
+  states_.push_back({state.value("tick", std::uint64_t{0}), pose_of(state.value("setpoint_cp", Json()))});
   last_state_ = state;
-  const json step = state.value("step", json());
+  const Json step = state.value("step", Json());
   const int index = step.is_object() ? step.value("index", 0) : 0;
   if (index == 0 || state.value("owner", "").empty()) return;
   const std::uint64_t tick = states_.back().tick;
@@ -170,7 +169,7 @@ void RunSession::keep(const json& state) {
   announced_.back().last_tick = tick;
 }
 
-void RunSession::request(const json& message) {
+void RunSession::request(const Json& message) {
   try {
     if (api_) api_->send(message);
   } catch (const std::runtime_error&) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "host/cli/progress.hpp"
 #include "host/cli/run_plan.hpp"
 #include "host/cli/run_report.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 
@@ -35,8 +35,8 @@ class RunSession {
 
   const std::vector<StateSample>& states() const { return states_; }
   const std::vector<AnnouncedStep>& announced() const { return announced_; }
-  const nlohmann::json& welcome() const { return welcome_; }
-  const nlohmann::json& last_state() const { return last_state_; }
+  const Json& welcome() const { return welcome_; }
+  const Json& last_state() const { return last_state_; }
 
  private:
   std::optional<RunEnd> start();
@@ -47,8 +47,8 @@ class RunSession {
   RunEnd interrupted();
   void look(double timeout_s);
   bool take(double timeout_s);
-  void keep(const nlohmann::json& state);
-  void request(const nlohmann::json& message);
+  void keep(const Json& state);
+  void request(const Json& message);
   bool is_stopped() const;
   std::string how_the_arm_was_left() const;
   void shut_down();
@@ -60,8 +60,8 @@ class RunSession {
   std::vector<std::unique_ptr<ChildProcess>> children_;
   ChildProcess* mission_ = nullptr;
   std::optional<ApiClient> api_;
-  nlohmann::json welcome_;
-  nlohmann::json last_state_;
+  Json welcome_;
+  Json last_state_;
   std::vector<StateSample> states_;
   std::vector<AnnouncedStep> announced_;
 };

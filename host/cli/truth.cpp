@@ -7,8 +7,9 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "host/json/json.hpp"
 
 namespace liana {
 
@@ -18,7 +19,7 @@ TruthLog TruthLog::load(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::string header;
   if (!std::getline(file, header)) throw std::runtime_error(path + ": no truth was written by the bench");
-  const auto parsed = nlohmann::json::parse(header, nullptr, false);
+  const auto parsed = Json::parse(header, nullptr, false);
   if (parsed.is_discarded() || !parsed.contains("columns")) throw std::runtime_error(path + ": the first line names no columns");
   TruthLog log;
   for (const auto& name : parsed["columns"]) log.columns_.emplace(name.get<std::string>(), log.columns_.size());

@@ -94,7 +94,7 @@ double worst_case_load(const BusesConfig& buses, std::size_t bus) {
 }
 
 BusesConfig parse_buses(const std::string& text, const std::string& file) {
-  const nlohmann::json json = parse_json(text, file);
+  const Json json = parse_json(text, file);
   const Field table(json, file, "");
   check_kind(table, "buses");
   table.only({"format", "kind", "name", "backend", "rate_hz", "command_interval_s", "buses", "heartbeat_ms", "max_load"});

@@ -10,20 +10,19 @@
 namespace liana {
 namespace {
 
-using nlohmann::json;
 using std::chrono::sys_days;
 
 constexpr double kTwoPi = 6.28318530717958647692;
 constexpr double kDrumShare = 0.05;  // a drum further from the table's radius is another drum
 constexpr const char* kAgain = "run liana calibrate again";
 
-std::string checksum(json content) {
+std::string checksum(Json content) {
   content.erase("sha256");
   return sha256_hex(canonical_json(content));
 }
 
-json content_of(const Calibration& calibration) {
-  json cables = json::array();
+Json content_of(const Calibration& calibration) {
+  Json cables = Json::array();
   for (const CableCalibration& cable : calibration.cables) {
     cables.push_back({{"serial", cable.serial},
                       {"direction", cable.direction},
@@ -53,7 +52,7 @@ sys_days read_date(const Field& field) {
 }
 
 void check_age(const Field& field, const RobotConfig& robot, const std::string& today) {
-  const json now = today;
+  const Json now = today;
   const auto days = (read_date(Field(now, "clock", "today")) - read_date(field)).count();
   const std::string allowed = "0 to " + std::to_string(robot.calibration_days) + " days before today, " + today;
   if (days < 0) field.refuse(allowed, "set the clock of this computer, or " + std::string(kAgain));
@@ -85,13 +84,13 @@ std::string today_utc() {
 }
 
 std::string calibration_json(const Calibration& calibration) {
-  json content = content_of(calibration);
+  Json content = content_of(calibration);
   content["sha256"] = checksum(content);
   return canonical_json(content) + "\n";
 }
 
 Calibration parse_calibration(const std::string& text, const std::string& file, const RobotConfig& robot, const std::string& today) {
-  const json content = parse_json(text, file, kAgain);
+  const Json content = parse_json(text, file, kAgain);
   const Field table(content, file, "");
   if (!content.is_object()) table.refuse("a calibration file", "give a file that liana calibrate --out has written");
   check_kind(table, "calibration");

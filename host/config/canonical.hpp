@@ -1,8 +1,9 @@
 // Canonical JSON: one text for one value, so that a hash over it means something.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
+
+#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -10,6 +11,6 @@ namespace liana {
 std::string canonical_number(double value);
 
 // `value` as one line: keys sorted, no blanks, numbers by canonical_number (1 and 1.0 are the same).
-std::string canonical_json(const nlohmann::json& value);
+std::string canonical_json(const Json& value);
 
 }  // namespace liana

@@ -5,12 +5,12 @@
 #include <array>
 #include <cstdint>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware_like/arm/robot_table.hpp"
+#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -163,7 +163,7 @@ RobotConfig parse_robot(const std::string& text, const std::string& file, const 
 SceneConfig parse_scene(const std::string& text, const std::string& file);
 
 // Checks one table of kind "robot", "scene" or "buses" by itself and returns its canonical JSON.
-std::string check_table(const std::string& kind, const nlohmann::json& table, const std::string& file);
+std::string check_table(const std::string& kind, const Json& table, const std::string& file);
 
 // SHA-256 (64 hex digits) over the canonical robot, scene and buses JSON, one line each.
 std::string config_hash(const RobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses);

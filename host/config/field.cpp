@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kLongestValueShown = 60;
 
-std::string shown(const nlohmann::json& value) {
+std::string shown(const Json& value) {
   const std::string text = canonical_json(value);
   return text.size() <= kLongestValueShown ? text : text.substr(0, kLongestValueShown) + "...";
 }
@@ -91,20 +91,20 @@ std::string Field::choice(const std::vector<std::string>& words) const {
   refuse(allowed, "use one of these words");
 }
 
-nlohmann::json parse_json(const std::string& text, const std::string& file, const std::string& advice) {
+Json parse_json(const std::string& text, const std::string& file, const std::string& advice) {
   std::vector<std::set<std::string>> keys;  // of the objects that are open
   std::string twice;
-  const auto look = [&](int, nlohmann::json::parse_event_t event, nlohmann::json& value) {
-    using Event = nlohmann::json::parse_event_t;
+  const auto look = [&](int, Json::parse_event_t event, Json& value) {
+    using Event = Json::parse_event_t;
     if (event == Event::object_start) keys.emplace_back();
     if (event == Event::object_end) keys.pop_back();
     if (event == Event::key && !keys.back().insert(value.get<std::string>()).second) twice = value.get<std::string>();
     return true;
   };
-  nlohmann::json parsed;
+  Json parsed;
   try {
-    parsed = nlohmann::json::parse(text, look);
-  } catch (const nlohmann::json::exception& error) {
+    parsed = Json::parse(text, look);
+  } catch (const Json::exception& error) {
     throw std::runtime_error(file + ": not JSON: " + error.what() + ": " + advice);
   }
   if (!twice.empty()) throw std::runtime_error(file + ": " + twice + ": given twice: allowed once: remove one of them");

@@ -6,7 +6,7 @@ namespace liana {
 namespace {
 
 // The robot without what the buses decide (tick, T_c).
-RobotConfig read_robot(const nlohmann::json& json, const std::string& file, const std::string& physics) {
+RobotConfig read_robot(const Json& json, const std::string& file, const std::string& physics) {
   const Field table(json, file, "");
   check_kind(table, "robot");
   table.only({"format", "kind", "name", "segments", "module", "joint", "cables", "tension", "drives", "limits", "named_poses_deg"});
@@ -54,7 +54,7 @@ RobotConfig load_robot(const std::string& path, const std::string& physics, cons
   return parse_robot(read_text_file(path), path, physics, buses);
 }
 
-std::string check_table(const std::string& kind, const nlohmann::json& table, const std::string& file) {
+std::string check_table(const std::string& kind, const Json& table, const std::string& file) {
   const std::string text = table.dump();
   if (kind == "robot") return read_robot(table, file, "nominal").canonical_json;
   if (kind == "scene") return parse_scene(text, file).canonical_json;

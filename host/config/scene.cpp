@@ -112,7 +112,7 @@ SceneContact read_contact(const Field& field) {
 }  // namespace
 
 SceneConfig parse_scene(const std::string& text, const std::string& file) {
-  const nlohmann::json json = parse_json(text, file);
+  const Json json = parse_json(text, file);
   const Field table(json, file, "");
   check_kind(table, "scene");
   table.only({"format", "kind", "name", "boxes", "spheres", "slit", "rod", "camera", "contact"});

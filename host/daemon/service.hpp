@@ -5,7 +5,6 @@
 #include <deque>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +23,7 @@
 #include "host/daemon/state_message.hpp"
 #include "host/daemon/twin.hpp"
 #include "host/daemon/verify.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 
@@ -64,7 +64,6 @@ class Service : private ApiHandler {
   bool dismissed() const { return dismissed_; }
 
  private:
-  using Json = nlohmann::json;
   using Handler = Json (Service::*)(const ClientInfo&, const Json&);
 
   Json welcome(const ClientInfo& client) override;

@@ -17,7 +17,7 @@ double limit_deg(const RobotTable& table, std::size_t theta) {
   return std::round(table.segment[theta / 2].theta_limit_rad / kDegree * 1e9) / 1e9;
 }
 
-std::string stop_text(const nlohmann::json& stop) {
+std::string stop_text(const Json& stop) {
   const std::string reason = stop["reason"];
   return "emergency stop by " + stop["by"].get<std::string>() + (reason.empty() ? "" : ": " + reason);
 }

@@ -2,16 +2,14 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "host/api/client.hpp"
 #include "host/config/config.hpp"
 #include "host/devices/operator_session.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 constexpr double kWelcomeTimeout_s = 30.0;
 constexpr double kPoll_s = 1.0;
@@ -33,7 +31,7 @@ SlitDrawing drawing_of(const SceneConfig& scene) {
   return slit_drawing(pose_of(scene.slit->frame), pose_of(scene.rod->pose));
 }
 
-json greet(ApiClient& client, const OperatorOptions& options) {
+Json greet(ApiClient& client, const OperatorOptions& options) {
   client.send(
       {{"op", "hello"}, {"name", "operator"}, {"role", "operator"}, {"lockstep", options.lockstep}, {"subscribe", {"state", "camera"}}});
   const auto welcome = client.receive(kWelcomeTimeout_s);
@@ -45,19 +43,19 @@ json greet(ApiClient& client, const OperatorOptions& options) {
 }
 
 // One message in, the answers out; false when lianad stops.
-bool answer(ApiClient& client, OperatorSession& session, const json& message, bool lockstep) {
+bool answer(ApiClient& client, OperatorSession& session, const Json& message, bool lockstep) {
   const std::string op = message.value("op", "");
   if (op == "camera") session.on_camera(message);
   if (op == "error") std::fprintf(stderr, "liana-operator: refused: %s\n", message.value("message", "").c_str());
   if (op != "state") return true;
-  for (const json& out : session.on_state(message)) client.send(out);
+  for (const Json& out : session.on_state(message)) client.send(out);
   if (lockstep) client.send({{"op", "done"}, {"tick", message.at("tick")}});
   return !message.value("stopping", false);
 }
 
 int operate(const OperatorOptions& options) {
   ApiClient client = ApiClient::connect(options.api, kWelcomeTimeout_s);
-  const json welcome = greet(client, options);
+  const Json welcome = greet(client, options);
   const SceneConfig scene =
       options.scene.empty() ? parse_scene(welcome.at("scene").dump(), "scene of " + options.api) : load_scene(options.scene);
   OperatorSession session(options.recordings, drawing_of(scene), HandGains{}, options.seed);

@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "host/devices/device_messages.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 constexpr double kSamplePeriod_s = 0.001;
 constexpr double kLongestGap_s = 0.1;     // after a pause the hand goes on, it does not catch up
@@ -22,13 +20,13 @@ HandTask hand_task(const AnnouncedStep& step) {
   return step.name.find("rod") != std::string::npos ? HandTask::kReachRod : HandTask::kEnterSlit;
 }
 
-std::string text(const json& object, const char* key) {
+std::string text(const Json& object, const char* key) {
   const auto found = object.find(key);
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 // A positive number, or `otherwise`.
-double positive(const json& object, const char* key, double otherwise) {
+double positive(const Json& object, const char* key, double otherwise) {
   const auto found = object.find(key);
   const double value = found != object.end() && found->is_number() ? found->get<double>() : otherwise;
   return value > 0.0 ? value : otherwise;
@@ -36,13 +34,13 @@ double positive(const json& object, const char* key, double otherwise) {
 
 }  // namespace
 
-AnnouncedStep announced_step(const json& state) {
+AnnouncedStep announced_step(const Json& state) {
   const auto found = state.find("step");
   if (found == state.end() || !found->is_object()) return {};
   return {found->value("index", std::int64_t{-1}), text(*found, "name"), text(*found, "device"), text(*found, "task")};
 }
 
-HandMapping announced_mapping(const json& state) {
+HandMapping announced_mapping(const Json& state) {
   const auto found = state.find("mapping");
   if (found == state.end() || !found->is_object()) return {};
   return {positive(*found, "scale", 1.0), positive(*found, "rotation_scale", 1.0), positive(*found, "speed_m_s", 0.0)};
@@ -51,7 +49,7 @@ HandMapping announced_mapping(const json& state) {
 OperatorSession::OperatorSession(std::string recordings, const SlitDrawing& drawing, const HandGains& gains, std::uint64_t seed)
     : recordings_(std::move(recordings)), person_(gains, drawing, seed), seed_(seed) {}
 
-void OperatorSession::begin_step(const AnnouncedStep& step, const json& state) {
+void OperatorSession::begin_step(const AnnouncedStep& step, const Json& state) {
   reported_ = false;
   finished_s_ = -1.0;
   vr_.reset();
@@ -63,7 +61,7 @@ void OperatorSession::begin_step(const AnnouncedStep& step, const json& state) {
   }
 }
 
-std::vector<json> OperatorSession::on_state(const json& state) {
+std::vector<Json> OperatorSession::on_state(const Json& state) {
   const double to_s = state.at("time_s").get<double>();
   const double from_s = now_s_ < 0.0 ? to_s : std::max(now_s_, to_s - kLongestGap_s);
   now_s_ = to_s;
@@ -78,33 +76,33 @@ std::vector<json> OperatorSession::on_state(const json& state) {
   return step.device == "vr" ? steer_vr(from_s, to_s, engaged) : steer_hand(from_s, to_s, engaged);
 }
 
-std::vector<json> OperatorSession::steer_vr(double from_s, double to_s, bool engaged) {
+std::vector<Json> OperatorSession::steer_vr(double from_s, double to_s, bool engaged) {
   vr_->feel(engaged, to_s);
   const auto samples = vr_->advance(from_s, to_s - from_s);
-  std::vector<json> messages;
+  std::vector<Json> messages;
   if (!samples.empty()) messages.push_back(device_message(samples));
   if (vr_->finished() && finished_s_ < 0.0) finished_s_ = to_s;
   report_arrival(messages, finished_s_ >= 0.0 && to_s - finished_s_ > kSettleAfterVr_s, to_s);
   return messages;
 }
 
-std::vector<json> OperatorSession::steer_hand(double from_s, double to_s, bool engaged) {
+std::vector<Json> OperatorSession::steer_hand(double from_s, double to_s, bool engaged) {
   person_.feel(engaged, to_s);
   std::vector<ControllerSample> samples;
   const auto count = std::lround((to_s - from_s) / kSamplePeriod_s);
   for (long i = 1; i <= count; ++i) samples.push_back(person_.sample(from_s + static_cast<double>(i) * kSamplePeriod_s));
-  std::vector<json> messages;
+  std::vector<Json> messages;
   if (!samples.empty()) messages.push_back(device_message(samples));
   report_arrival(messages, person_.arrived(), to_s);
   return messages;
 }
 
-void OperatorSession::report_arrival(std::vector<json>& messages, bool arrived, double now_s) {
+void OperatorSession::report_arrival(std::vector<Json>& messages, bool arrived, double now_s) {
   if (!arrived || reported_) return;
   reported_ = true;
   messages.push_back({{"op", "operator_says"}, {"what", "arrived"}, {"step", step_.index}, {"time_s", now_s}});
 }
 
-void OperatorSession::on_camera(const json& message) { person_.look(sighting_of(message), std::max(now_s_, 0.0)); }
+void OperatorSession::on_camera(const Json& message) { person_.look(sighting_of(message), std::max(now_s_, 0.0)); }
 
 }  // namespace liana

@@ -3,13 +3,13 @@
 
 #include <cstdint>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "host/devices/hand_person.hpp"
 #include "host/devices/recorded_vr.hpp"
+#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -29,15 +29,15 @@ class OperatorSession {
   OperatorSession(std::string recordings, const SlitDrawing& drawing, const HandGains& gains, std::uint64_t seed);
 
   // Messages to send in answer to one state. Throws std::runtime_error when a recording cannot be read.
-  std::vector<nlohmann::json> on_state(const nlohmann::json& state);
+  std::vector<Json> on_state(const Json& state);
   // One forwarded camera message. Throws std::runtime_error when it is malformed.
-  void on_camera(const nlohmann::json& message);
+  void on_camera(const Json& message);
 
  private:
-  void begin_step(const AnnouncedStep& step, const nlohmann::json& state);
-  std::vector<nlohmann::json> steer_vr(double from_s, double to_s, bool engaged);
-  std::vector<nlohmann::json> steer_hand(double from_s, double to_s, bool engaged);
-  void report_arrival(std::vector<nlohmann::json>& messages, bool arrived, double now_s);
+  void begin_step(const AnnouncedStep& step, const Json& state);
+  std::vector<Json> steer_vr(double from_s, double to_s, bool engaged);
+  std::vector<Json> steer_hand(double from_s, double to_s, bool engaged);
+  void report_arrival(std::vector<Json>& messages, bool arrived, double now_s);
 
   std::string recordings_;
   HandPerson person_;
@@ -51,8 +51,8 @@ class OperatorSession {
 };
 
 // The step in a state message; index -1 when there is none.
-AnnouncedStep announced_step(const nlohmann::json& state);
+AnnouncedStep announced_step(const Json& state);
 // Mapping of the device in use; 1:1 where the state does not say.
-HandMapping announced_mapping(const nlohmann::json& state);
+HandMapping announced_mapping(const Json& state);
 
 }  // namespace liana

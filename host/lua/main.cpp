@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "host/config/field.hpp"
+#include "host/json/json.hpp"
 #include "host/lua/bindings.hpp"
 #include "host/lua/evaluate.hpp"
 #include "host/lua/mission_run.hpp"
@@ -78,9 +78,9 @@ int run_command(const liana::MissionOptions& options) {
 }
 
 int bindings_command() {
-  nlohmann::json list = nlohmann::json::array();
+  Json list = Json::array();
   for (const liana::Binding& binding : liana::bindings()) {
-    nlohmann::json fields = nlohmann::json::array();
+    Json fields = Json::array();
     for (const auto& field : binding.fields) fields.push_back({{"name", field.name}, {"type", field.type}, {"required", field.required}});
     list.push_back({{"name", binding.name}, {"fields", fields}});
   }

@@ -9,7 +9,7 @@ namespace {
 constexpr double kWelcome_s = 30.0;
 constexpr double kWait_s = 0.5;
 
-std::string progress_line(const nlohmann::json& event) {
+std::string progress_line(const Json& event) {
   char line[300];
   const std::string name = event.value("name", "");
   const int index = event.value("index", 0);
@@ -43,7 +43,7 @@ MissionSession::MissionSession(const MissionOptions& options, Activity& activity
   throw std::runtime_error(options.api + ": lianad does not answer: is it running?");
 }
 
-nlohmann::json MissionSession::next() {
+Json MissionSession::next() {
   activity_.beat();
   auto message = client_.receive(kWait_s);
   activity_.beat();
@@ -64,7 +64,7 @@ void MissionSession::hold_quietly() {
   }
 }
 
-std::int64_t MissionSession::request(const Binding& binding, nlohmann::json fields) {
+std::int64_t MissionSession::request(const Binding& binding, Json fields) {
   fields["op"] = binding.name;
   fields["id"] = ++last_id_;
   if (std::string(binding.name) == "announce" && !fields.contains("step")) fields["step"] = nullptr;
@@ -72,13 +72,13 @@ std::int64_t MissionSession::request(const Binding& binding, nlohmann::json fiel
   return last_id_;
 }
 
-void MissionSession::progress(const nlohmann::json& event) {
+void MissionSession::progress(const Json& event) {
   if (options_.json) std::printf("%s\n", event.dump().c_str());
   if (options_.progress && !options_.json) std::printf("%s\n", progress_line(event).c_str());
   std::fflush(stdout);
 }
 
-void MissionSession::report(const nlohmann::json& report) {
+void MissionSession::report(const Json& report) {
   report_ = report;
   const std::string text = report.dump();
   if (text.size() < activity_.report.size()) put_text(activity_.report, text);

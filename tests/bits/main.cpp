@@ -2,8 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 
+#include "host/json/json.hpp"
 #include "tests/bits/compare.hpp"
 #include "tests/bits/make_tape.hpp"
 #include "tests/bits/meter.hpp"
@@ -12,11 +12,11 @@ namespace liana::bits {
 namespace {
 
 std::string tape_json(const TapeSummary& summary) {
-  nlohmann::json faults = nlohmann::json::array(), missing = nlohmann::json::array();
+  Json faults = Json::array(), missing = Json::array();
   for (const FaultInfo& info : all_faults()) {
     if (info.number != FaultNumber::kNone) (summary.faults.contains(info.number) ? faults : missing).push_back(info.number);
   }
-  return nlohmann::json{{"mission_ticks", summary.mission_ticks},
+  return Json{{"mission_ticks", summary.mission_ticks},
                         {"what_if_ticks", summary.what_if_ticks},
                         {"what_ifs", summary.what_ifs},
                         {"faults", faults},
@@ -25,7 +25,7 @@ std::string tape_json(const TapeSummary& summary) {
 }
 
 std::string comparison_json(const Comparison& result) {
-  nlohmann::json json{{"ticks", result.ticks}, {"differing_ticks", result.differing_ticks}};
+  Json json{{"ticks", result.ticks}, {"differing_ticks", result.differing_ticks}};
   if (result.differing_ticks > 0) {
     json["first"] = {{"place", result.first_place}, {"tick", result.first_tick}, {"field", result.first_field}};
   }
@@ -33,7 +33,7 @@ std::string comparison_json(const Comparison& result) {
 }
 
 std::string meter_json(const MeterSummary& meter) {
-  return nlohmann::json{{"ticks", meter.ticks},
+  return Json{{"ticks", meter.ticks},
                         {"median_instructions", meter.median_instructions},
                         {"worst_instructions", meter.worst_instructions},
                         {"worst_tick", meter.worst_tick},
@@ -82,7 +82,7 @@ int main(int argc, char** argv) {
     if (cases->parsed()) {
       std::ifstream lines(case_file);
       std::ofstream tape(first, std::ios::binary), expected(second, std::ios::binary);
-      std::cout << nlohmann::json{{"ticks", liana::bits::append_cases(lines, tape, expected)}}.dump() << "\n";
+      std::cout << Json{{"ticks", liana::bits::append_cases(lines, tape, expected)}}.dump() << "\n";
       return 0;
     }
     std::ifstream one(first, std::ios::binary), other(second, std::ios::binary);

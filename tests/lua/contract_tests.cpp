@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "host/json/json.hpp"
 #include "host/lua/bindings.hpp"
 #include "tests/lua/program.hpp"
 
@@ -46,7 +46,7 @@ TEST(Stubs, DescribeExactlyTheRegisteredCommands) {
 TEST(Bindings, PrintAsJsonForTools) {
   const Ended ended = run_program("bindings");
   ASSERT_EQ(ended.code, 0);
-  EXPECT_EQ(nlohmann::json::parse(ended.out).size(), bindings().size());
+  EXPECT_EQ(Json::parse(ended.out).size(), bindings().size());
 }
 
 TEST(Bindings, EveryCommandIsOnTheApiPage) {
@@ -63,7 +63,7 @@ TEST(Bindings, RefuseFieldsOfOtherTypesAndNames) {
     for (const Binding& binding : bindings()) {
       if (std::string(binding.name) != command) continue;
       try {
-        check_fields(binding, nlohmann::json::parse(fields));
+        check_fields(binding, Json::parse(fields));
       } catch (const std::runtime_error& error) {
         return error.what();
       }

@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "host/json/json.hpp"
 #include "host/lua/json_bridge.hpp"
 #include "host/lua/script.hpp"
 #include "tests/lua/program.hpp"
@@ -13,7 +13,7 @@ namespace {
 constexpr double kTolerance = 1e-9;
 
 // Evaluates a Lua expression with geometry, robot and theta_deg in reach.
-nlohmann::json evaluate_lua(const nlohmann::json& theta_deg, const std::string& expression) {
+Json evaluate_lua(const Json& theta_deg, const std::string& expression) {
   Activity activity;
   Script script(ScriptLimits{}, LIANA_SOURCE_DIR "/lua", activity);
   std::string list;
@@ -23,7 +23,7 @@ nlohmann::json evaluate_lua(const nlohmann::json& theta_deg, const std::string& 
   return to_json(script.state(), -1, "geometry_test.lua");
 }
 
-nlohmann::json golden_cases() { return nlohmann::json::parse(read_file(LIANA_SOURCE_DIR "/tests/golden/arm.json"))["cases"]; }
+Json golden_cases() { return Json::parse(read_file(LIANA_SOURCE_DIR "/tests/golden/arm.json"))["cases"]; }
 
 // A2, A51: golden forward kinematics.
 TEST(LuaGeometry, TipAndSegmentEndsAgreeWithTheGoldenValues) {

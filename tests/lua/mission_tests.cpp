@@ -1,20 +1,17 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "host/json/json.hpp"
 #include "tests/lua/fake_lianad.hpp"
 #include "tests/lua/program.hpp"
 
 namespace liana {
 namespace {
 
-using nlohmann::json;
-
 // How one mission against the fake ended.
 struct MissionRun {
   Ended ended;
-  json report;
-  std::vector<json> requests;
+  Json report;
+  std::vector<Json> requests;
 
   std::vector<std::string> ops(const std::string& op) const {
     std::vector<std::string> found;
@@ -39,7 +36,7 @@ MissionRun run_mission_against(const FakeBehaviour& behaviour, const std::string
   run.ended = run_program("run --lockstep --api " + folder.file("api") + " --mission " + mission + " --report " +
                           folder.file("report.json") + flags);
   run.requests = lianad.requests();
-  run.report = json::parse(read_file(folder.file("report.json")), nullptr, false);
+  run.report = Json::parse(read_file(folder.file("report.json")), nullptr, false);
   return run;
 }
 
@@ -58,9 +55,9 @@ TEST(Mission, CrossesTheSlitInSixSteps) {
   const std::vector<std::vector<int>> held = {{}, {}, {9}, {9}, {7, 9}, {7, 9}};
   ASSERT_EQ(run.report["steps"].size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) {
-    const json& step = run.report["steps"][i];
+    const Json& step = run.report["steps"][i];
     EXPECT_EQ(step["device"], devices[i]);
-    EXPECT_EQ(step["held_theta"], json(held[i]));
+    EXPECT_EQ(step["held_theta"], Json(held[i]));
     EXPECT_EQ(step["outcome"], "success");
     EXPECT_GT(step["end_tick"].get<int>(), step["start_tick"].get<int>());
     EXPECT_NEAR(step["duration_s"], (step["end_tick"].get<int>() - step["start_tick"].get<int>()) * 0.004, 1e-12);
@@ -78,11 +75,11 @@ TEST(Mission, SendsWhatTheApiPageSays) {
   EXPECT_EQ(run.requests[1]["op"], "acquire");
   const auto holds = run.ops("hold_theta");
   ASSERT_EQ(holds.size(), 2u);
-  EXPECT_EQ(json::parse(holds[1])["held"], json::parse(R"([{"theta":7,"target_deg":0},{"theta":9,"target_deg":0}])"));
-  EXPECT_EQ(json::parse(run.ops("use_device")[0])["node"], 3);
-  EXPECT_EQ(json::parse(run.ops("use_device")[1])["device"], "none");  // nobody steers between the steps
-  EXPECT_EQ(json::parse(run.ops("announce")[1])["step"]["device"], "vr");
-  EXPECT_TRUE(json::parse(run.ops("announce").back())["step"].is_null());
+  EXPECT_EQ(Json::parse(holds[1])["held"], Json::parse(R"([{"theta":7,"target_deg":0},{"theta":9,"target_deg":0}])"));
+  EXPECT_EQ(Json::parse(run.ops("use_device")[0])["node"], 3);
+  EXPECT_EQ(Json::parse(run.ops("use_device")[1])["device"], "none");  // nobody steers between the steps
+  EXPECT_EQ(Json::parse(run.ops("announce")[1])["step"]["device"], "vr");
+  EXPECT_TRUE(Json::parse(run.ops("announce").back())["step"].is_null());
   EXPECT_EQ(run.requests.back()["op"], "release");
 }
 
@@ -92,8 +89,8 @@ TEST(Mission, PrintsJsonLinesForPrograms) {
   const MissionRun run = run_mission_against({}, "slit_crossing", " --json");
   std::istringstream lines(run.ended.out);
   int count = 0;
-  json last;
-  for (std::string line; std::getline(lines, line); ++count) last = json::parse(line);
+  Json last;
+  for (std::string line; std::getline(lines, line); ++count) last = Json::parse(line);
   EXPECT_EQ(count, 13);  // begin and end of six steps, the report
   EXPECT_EQ(last["outcome"], "success");
 }
@@ -121,7 +118,7 @@ TEST(Mission, RetractsOutOfTheSlitToWhereItEntered) {
   EXPECT_EQ(run.ended.code, 1);
   EXPECT_EQ(run.report["outcome"], "aborted");
   ASSERT_EQ(run.ops("retract").size(), 1u);
-  EXPECT_EQ(json::parse(run.ops("retract")[0])["until_tick"], run.report["steps"][3]["start_tick"]);
+  EXPECT_EQ(Json::parse(run.ops("retract")[0])["until_tick"], run.report["steps"][3]["start_tick"]);
   EXPECT_EQ(run.report["steps"][3]["outcome"], "failed");
 }
 
@@ -326,7 +323,7 @@ TEST(Mission, APlanIsCarriedOutWaypointByWaypoint) {
   EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
   const auto moves = run.ops("move_jp");
   ASSERT_EQ(moves.size(), 2u);
-  EXPECT_EQ(json::parse(moves[1])["goal_deg"], json::parse(next));
+  EXPECT_EQ(Json::parse(moves[1])["goal_deg"], Json::parse(next));
   const MissionRun elsewhere = run_mission_against({}, plan(far + "," + start));
   EXPECT_EQ(elsewhere.report["outcome"], "failed");
   EXPECT_TRUE(elsewhere.ops("move_jp").empty());
@@ -346,7 +343,7 @@ TEST(Mission, StepsRunInTheOrderInWhichTheyAreWritten) {
   EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
   EXPECT_EQ(run.report["steps"][1]["name"], "segment 5 goes planar");
   EXPECT_EQ(run.report["steps"][2]["device"], "vr");
-  EXPECT_EQ(run.report["steps"][2]["held_theta"], json({9}));
+  EXPECT_EQ(run.report["steps"][2]["held_theta"], Json({9}));
 }
 
 }  // namespace

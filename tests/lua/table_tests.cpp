@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
+#include "host/json/json.hpp"
 
 #include "tests/lua/program.hpp"
 
@@ -68,11 +68,11 @@ TEST(Eval, NamesWhatThereIsWhenANameIsUnknown) {
 TEST(Eval, DescribesTheSlitCrossing) {
   const Ended ended = run_program("eval mission slit_crossing");
   ASSERT_EQ(ended.code, 0) << ended.error;
-  const auto mission = nlohmann::json::parse(ended.out);
+  const auto mission = Json::parse(ended.out);
   ASSERT_EQ(mission["steps"].size(), 6u);  // A50: six steps
   EXPECT_EQ(mission["steps"][1]["device"], "vr");
-  EXPECT_EQ(mission["steps"][4]["held_theta"], nlohmann::json({7, 9}));  // A52: X5 first, then X4
-  EXPECT_EQ(mission["steps"][3]["held_theta"], nlohmann::json({9}));
+  EXPECT_EQ(mission["steps"][4]["held_theta"], Json({7, 9}));  // A52: X5 first, then X4
+  EXPECT_EQ(mission["steps"][3]["held_theta"], Json({9}));
 }
 
 struct BadMission {
@@ -161,7 +161,7 @@ TEST(Eval, APlanIsAMissionWithAStepForEachWaypoint) {
   };
   const Ended good = run_program(plan("solved", zero + ",[1,0,0,0,0,0,0,0,0,0]", robot));
   ASSERT_EQ(good.code, 0) << good.error;
-  const auto mission = nlohmann::json::parse(good.out);
+  const auto mission = Json::parse(good.out);
   ASSERT_EQ(mission["steps"].size(), 2u);
   EXPECT_EQ(mission["steps"][0]["enter"], "arm within 1 deg of the plan's start");
   const Ended unsolved = run_program(plan("limit", zero + "," + zero, robot));

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <utility>
 
@@ -17,6 +16,7 @@
 #include "host/config/canonical.hpp"
 #include "host/config/sha256.hpp"
 #include "host/fixture/fixture.hpp"
+#include "host/json/json.hpp"
 #include "tests/host/config/tables.hpp"
 
 namespace liana {
@@ -224,8 +224,8 @@ TEST(Calibrate, HomingAloneSeesExchangedCablesOfDifferentSegments) {
 // A good file, spoiled.
 class CalibrationFile : public ::testing::Test {
  protected:
-  std::string message(const std::function<void(nlohmann::json&)>& spoil, bool sign = true, const std::string& today = kDay) const {
-    nlohmann::json content = nlohmann::json::parse(calibration_json(Workshop().result().calibration));
+  std::string message(const std::function<void(Json&)>& spoil, bool sign = true, const std::string& today = kDay) const {
+    Json content = Json::parse(calibration_json(Workshop().result().calibration));
     spoil(content);
     try {
       parse_calibration(sign ? signed_again(content) : content.dump(), "arm.json", robot(), today);
@@ -234,7 +234,7 @@ class CalibrationFile : public ::testing::Test {
     }
     return "";
   }
-  static std::string signed_again(nlohmann::json content) {
+  static std::string signed_again(Json content) {
     content.erase("sha256");
     content["sha256"] = sha256_hex(canonical_json(content));
     return content.dump();
@@ -252,22 +252,22 @@ TEST_F(CalibrationFile, IsReadAsItWasWritten) {
 }
 
 TEST_F(CalibrationFile, IsRefusedWithFieldValueAllowedAndAdvice) {
-  const auto nothing = [](nlohmann::json&) {};
+  const auto nothing = [](Json&) {};
   EXPECT_EQ(message(nothing), "");
   const auto has = [](const std::string& text, const std::vector<std::string>& parts) {
     for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
   };
-  has(message([](nlohmann::json& c) { c["cables"][2]["zero_counts"] = 5; }, false), {"arm.json: sha256: ", "changed or damaged"});
-  has(message([](nlohmann::json& c) { c["robot"] = "other"; }), {"arm.json: robot: \"other\": allowed \"zhu2022\"", "another robot"});
-  has(message([](nlohmann::json& c) { c["robot_sha256"] = std::string(64, '0'); }), {"robot_sha256", "the robot table was changed"});
-  has(message([](nlohmann::json& c) { c["date"] = "2025-06-14"; }),
+  has(message([](Json& c) { c["cables"][2]["zero_counts"] = 5; }, false), {"arm.json: sha256: ", "changed or damaged"});
+  has(message([](Json& c) { c["robot"] = "other"; }), {"arm.json: robot: \"other\": allowed \"zhu2022\"", "another robot"});
+  has(message([](Json& c) { c["robot_sha256"] = std::string(64, '0'); }), {"robot_sha256", "the robot table was changed"});
+  has(message([](Json& c) { c["date"] = "2025-06-14"; }),
       {"date: \"2025-06-14\": allowed 0 to 365 days before today, 2026-06-15", "calibrate again"});
-  EXPECT_EQ(message([](nlohmann::json& c) { c["date"] = "2025-06-15"; }), "");
-  has(message([](nlohmann::json& c) { c["date"] = "2026-06-16"; }), {"date", "clock"});
-  has(message([](nlohmann::json& c) { c["date"] = "2026-02-30"; }), {"date", "a date such as"});
-  has(message([](nlohmann::json& c) { c["cables"][2]["direction"] = 0; }), {"cables[3].direction: 0: allowed 1 or -1"});
-  has(message([](nlohmann::json& c) { c["cables"][2]["drum_radius_m"] = 0.02; }), {"cables[3].drum_radius_m: 0.02"});
-  has(message([](nlohmann::json& c) { c["cables"].erase(0); }), {"cables: 14 entries"});
+  EXPECT_EQ(message([](Json& c) { c["date"] = "2025-06-15"; }), "");
+  has(message([](Json& c) { c["date"] = "2026-06-16"; }), {"date", "clock"});
+  has(message([](Json& c) { c["date"] = "2026-02-30"; }), {"date", "a date such as"});
+  has(message([](Json& c) { c["cables"][2]["direction"] = 0; }), {"cables[3].direction: 0: allowed 1 or -1"});
+  has(message([](Json& c) { c["cables"][2]["drum_radius_m"] = 0.02; }), {"cables[3].drum_radius_m: 0.02"});
+  has(message([](Json& c) { c["cables"].erase(0); }), {"cables: 14 entries"});
 }
 
 }  // namespace

@@ -3,24 +3,22 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
 
-using nlohmann::json;
-
 LatencyMeasurement measurement(unsigned overruns) {
   LatencyMeasurement measured;
   measured.enabled = true;
-  measured.last_state = {{"faults", json::array()}};
-  measured.timing = json::parse(R"({"op":"ok","id":5,"ticks":4,"wakeup_us":{"median":3,"p99":100,"worst":100,"buckets":[[3,3],[100,1]]},
+  measured.last_state = {{"faults", Json::array()}};
+  measured.timing = Json::parse(R"({"op":"ok","id":5,"ticks":4,"wakeup_us":{"median":3,"p99":100,"worst":100,"buckets":[[3,3],[100,1]]},
     "tick_us":{"median":40,"p99":50,"worst":50,"buckets":[[40,4]]},"overrun_causes":{"late_wake":0,"long_tick":0,"bus_wait":0,"lost_ticks":0}})");
   measured.timing["overruns"] = measured.timing["overrun_causes"]["late_wake"] = overruns;
   return measured;
 }
 
-json report_of(const LatencyMeasurement& measured) {
+Json report_of(const LatencyMeasurement& measured) {
   BusesConfig buses;
   buses.name = "embedded";
   buses.rate_hz = 250.0;
@@ -29,7 +27,7 @@ json report_of(const LatencyMeasurement& measured) {
 }
 
 TEST(LatencyReport, HasWhatWasMeasuredAndHow) {
-  const json report = report_of(measurement(0));
+  const Json report = report_of(measurement(0));
   for (const char* key :
        {"rate_hz", "seconds", "buses", "enabled", "faults", "ticks", "wakeup_us", "tick_us", "overruns", "overrun_causes", "realtime"}) {
     EXPECT_TRUE(report.contains(key)) << key;
@@ -50,7 +48,7 @@ TEST(LatencyReport, ComparesTheWorstWithThePeriodAndNamesWhatTheMachineLacks) {
 TEST(LatencyReport, SaysLoudlyWhenDeadlinesWereMissedOrTheArmWasOff) {
   LatencyMeasurement measured = measurement(2);
   measured.enabled = false;
-  const json silent{{"number", 3002}, {"name", "drive_silent"}, {"text", "A drive sent nothing."}};
+  const Json silent{{"number", 3002}, {"name", "drive_silent"}, {"text", "A drive sent nothing."}};
   measured.last_state["faults"] = {silent, silent};
   const std::string text = latency_text(report_of(measured));
   EXPECT_NE(text.find("DEADLINES MISSED: 2 (woke up late 2,"), std::string::npos) << text;
@@ -59,13 +57,13 @@ TEST(LatencyReport, SaysLoudlyWhenDeadlinesWereMissedOrTheArmWasOff) {
 }
 
 TEST(LatencyReport, BinsDoubleAndTheLargestHasTheLongestBar) {
-  const std::string text = histogram_text(json::parse("[[1,1000],[2,1],[3,1],[8,1],[2048,1],[1023,0]]"));
+  const std::string text = histogram_text(Json::parse("[[1,1000],[2,1],[3,1],[8,1],[2048,1],[1023,0]]"));
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 12) << text;
   EXPECT_NE(text.find("             1      1000 " + std::string(50, '#') + "\n"), std::string::npos) << text;
   EXPECT_NE(text.find("        2 to 3         2 ########\n"), std::string::npos) << text;
   EXPECT_NE(text.find("        4 to 7         0 \n"), std::string::npos) << text;
   EXPECT_NE(text.find("  2048 or more         1 #####\n"), std::string::npos) << text;
-  EXPECT_EQ(histogram_text(json::array()), "");
+  EXPECT_EQ(histogram_text(Json::array()), "");
 }
 
 }  // namespace

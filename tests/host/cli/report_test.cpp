@@ -4,15 +4,13 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "host/cli/run_report.hpp"
 #include "host/cli/truth.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 // A directory that goes away with the test.
 class RunReport : public testing::Test {
@@ -30,7 +28,7 @@ class RunReport : public testing::Test {
   // One row per slot 0..9; the tip moves along x, clearance falls by 1 mm a slot.
   void write_truth() const {
     std::ofstream out(file("truth.bin"), std::ios::binary);
-    const json columns = {"slot",
+    const Json columns = {"slot",
                           "theta_deg_1",
                           "theta_deg_2",
                           "tip_x_m",
@@ -48,7 +46,7 @@ class RunReport : public testing::Test {
                           "tension_min_N",
                           "tension_motor_min_N",
                           "tension_motor_max_N"};
-    out << json{{"columns", columns}}.dump() << '\n';
+    out << Json{{"columns", columns}}.dump() << '\n';
     for (int slot = 0; slot < 10; ++slot) {
       const double s = slot;
       const double row[] = {s,   1 + s, 2 + s, 0.1 * s, 0,      0,     1, 0, 0, 0, 0.02 - 0.001 * s, 0.03 - 0.001 * s,
@@ -80,10 +78,10 @@ constexpr const char* kMission = R"({"outcome":"success","repair_tick":5,"steps"
 TEST_F(RunReport, TruthIsTakenFromStepOneToTheRepairCommand) {
   write_truth();
   write("mission.json", kMission);
-  const json welcome = {{"config_hash", "abc"}, {"period_s", 0.004}};
+  const Json welcome = {{"config_hash", "abc"}, {"period_s", 0.004}};
   ReportSources all = sources();
   all.welcome = &welcome;
-  const json report = make_report(all);
+  const Json report = make_report(all);
   EXPECT_EQ(report["outcome"], "success");
   EXPECT_EQ(report["ticks"], 3);
   EXPECT_DOUBLE_EQ(report["duration_s"], 0.012);
@@ -93,14 +91,14 @@ TEST_F(RunReport, TruthIsTakenFromStepOneToTheRepairCommand) {
   EXPECT_DOUBLE_EQ(report["cable_tension_N"]["min"], 15.0);
   EXPECT_DOUBLE_EQ(report["cable_tension_N"]["min_motor"], 25.0);
   EXPECT_DOUBLE_EQ(report["cable_tension_N"]["max"], 45.0);
-  EXPECT_EQ(report["final_theta_deg"], json({6.0, 7.0}));
-  EXPECT_EQ(report["steps"][1]["held_theta"], json({9}));
+  EXPECT_EQ(report["final_theta_deg"], Json({6.0, 7.0}));
+  EXPECT_EQ(report["steps"][1]["held_theta"], Json({9}));
 }
 
 TEST_F(RunReport, ErrorsCompareTheTrueTipWithTheRodAndWithWhatWasCommanded) {
   write_truth();
   write("mission.json", kMission);
-  const json report = make_report(sources());
+  const Json report = make_report(sources());
   EXPECT_NEAR(report["tip_error_m"], 0.003, 1e-12);
   EXPECT_NEAR(report["tip_attitude_error_rad"], 0.002, 1e-12);
   EXPECT_NEAR(report["open_loop_tip_error_m"], 0.01, 1e-12);
@@ -120,7 +118,7 @@ TEST_F(RunReport, SaysWhatRan) {
   all.mission = "my.lua";
   all.physics = "worn";
   all.seed = 9007199254740991;
-  const json report = make_report(all);
+  const Json report = make_report(all);
   EXPECT_EQ(report["robot"], "zhu2022");
   EXPECT_EQ(report["mission"], "my.lua");
   EXPECT_EQ(report["physics"], "worn");
@@ -128,11 +126,11 @@ TEST_F(RunReport, SaysWhatRan) {
 }
 
 TEST_F(RunReport, StepsOfAMissionRunnerThatLeftNoReportLastAsLongAsTheyWereSeen) {
-  const json welcome = {{"period_s", 0.004}};
+  const Json welcome = {{"period_s", 0.004}};
   ReportSources all = sources();
   all.welcome = &welcome;
   all.announced = {{1, "prepare", "none", 2, 5}, {2, "go", "hand", 5, 8}};
-  const json report = make_report(all);
+  const Json report = make_report(all);
   ASSERT_EQ(report["steps"].size(), 2u);
   EXPECT_EQ(report["steps"][0]["outcome"], "success");
   EXPECT_DOUBLE_EQ(report["steps"][0]["duration_s"], 0.012);
@@ -143,17 +141,17 @@ TEST_F(RunReport, StepsOfAMissionRunnerThatLeftNoReportLastAsLongAsTheyWereSeen)
 }
 
 TEST_F(RunReport, WithoutAMissionReportTheOutcomeIsFailed) {
-  const json report = make_report(sources());
+  const Json report = make_report(sources());
   EXPECT_EQ(report["outcome"], "failed");
   EXPECT_FALSE(report.contains("tip_error_m"));
 }
 
 TEST_F(RunReport, TheWiresOwnCountsGoBeforeTheDaemons) {
-  const json state = json::parse(R"({"buses":[{"name":"can0","frames":1,"worst_load":0.5,"measured_load":0.1}]})");
+  const Json state = Json::parse(R"({"buses":[{"name":"can0","frames":1,"worst_load":0.5,"measured_load":0.1}]})");
   write("stats.json", R"({"buses":[{"name":"can0","frames":77,"load":0.4}]})");
   ReportSources all = sources();
   all.last_state = &state;
-  const json bus = make_report(all)["buses"][0];
+  const Json bus = make_report(all)["buses"][0];
   EXPECT_EQ(bus["frames"], 77);
   EXPECT_EQ(bus["worst_load"], 0.5);
   EXPECT_EQ(bus["measured_load"], 0.4);

@@ -6,16 +6,14 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "host/api/socket.hpp"
 #include "host/cli/run_session.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 // Answers as lianad does: welcome, states, and after a stop DISABLED.
 class FakeDaemon {
@@ -37,12 +35,12 @@ class FakeDaemon {
     const UniqueFd client(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
     for (int tick = 0; !quit_ && !shut_down_; ++tick) {
       if (stopped_ && deaf_) return;
-      json state{{"op", "state"}, {"tick", tick}, {"time_s", 0.5}, {"state", stopped_ ? "DISABLED" : "ENABLED"}, {"stop", nullptr}};
+      Json state{{"op", "state"}, {"tick", tick}, {"time_s", 0.5}, {"state", stopped_ ? "DISABLED" : "ENABLED"}, {"stop", nullptr}};
       if (stopped_) state["stop"] = {{"by", "liana run"}, {"reason", "interrupted"}, {"tick", tick}};
       send_packet(client.get(), state.dump());
       std::string packet;
       if (!wait_readable(client.get(), 0.01) || receive_packet(client.get(), packet) != SocketResult::kDone) continue;
-      const std::string op = json::parse(packet)["op"];
+      const std::string op = Json::parse(packet)["op"];
       if (op == "hello") send_packet(client.get(), R"({"op":"welcome","config_hash":"abc","period_s":0.004})");
       if (op == "stop") stopped_ = true;
       if (op == "shutdown") shut_down_ = true;
@@ -53,7 +51,7 @@ class FakeDaemon {
   // The last states, faster than they are read; lianad's stand-in ends at once after them.
   void say_farewell(const UniqueFd& client) {
     for (int i = 0; i < 60; ++i) {
-      const json state{
+      const Json state{
           {"op", "state"}, {"tick", 1000 + i}, {"time_s", 9.5}, {"state", i < 59 ? "STOPPING" : "DISABLED"}, {"stop", nullptr}};
       send_packet(client.get(), state.dump());
     }

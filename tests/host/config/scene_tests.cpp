@@ -50,7 +50,7 @@ TEST(Scene, MayBeWithoutAnythingButItsBodies) {
 }
 
 TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {
-  const nlohmann::json good = good_table("scene", "panel_slit");
+  const Json good = good_table("scene", "panel_slit");
   const std::vector<Spoiled> cases = {
       {"/format", "1", "format", "a number"},
       {"/sphere", 1, "sphere", "no such field"},

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
 #include "host/daemon/timing_message.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
@@ -87,13 +87,13 @@ TEST(TimingMessage, ListsOnlyBucketsThatHoldSomething) {
   LatencyHistogram wakeup, tick;
   for (const std::uint32_t time_us : {3u, 3u, 8u}) wakeup.record(time_us);
   for (const std::uint32_t time_us : {40u, 41u, 5000u}) tick.record(time_us);
-  const nlohmann::json message = timing_message(wakeup.counts(), tick.counts(), Overruns{1, 2, 3, 9});
+  const Json message = timing_message(wakeup.counts(), tick.counts(), Overruns{1, 2, 3, 9});
   EXPECT_EQ(message["ticks"], 3);
-  EXPECT_EQ(message["wakeup_us"], nlohmann::json::parse(R"({"median":3,"p99":8,"worst":8,"buckets":[[3,2],[8,1]]})"));
-  EXPECT_EQ(message["tick_us"]["buckets"], nlohmann::json::parse("[[40,1],[41,1],[2048,1]]"));
+  EXPECT_EQ(message["wakeup_us"], Json::parse(R"({"median":3,"p99":8,"worst":8,"buckets":[[3,2],[8,1]]})"));
+  EXPECT_EQ(message["tick_us"]["buckets"], Json::parse("[[40,1],[41,1],[2048,1]]"));
   EXPECT_EQ(message["tick_us"]["worst"], 5000);
   EXPECT_EQ(message["overruns"], 6);
-  EXPECT_EQ(message["overrun_causes"], nlohmann::json::parse(R"({"late_wake":1,"long_tick":2,"bus_wait":3,"lost_ticks":9})"));
+  EXPECT_EQ(message["overrun_causes"], Json::parse(R"({"late_wake":1,"long_tick":2,"bus_wait":3,"lost_ticks":9})"));
 }
 
 TEST(TimingMessage, FitsIntoAPacketAfterADayInEveryBucket) {

@@ -13,8 +13,6 @@
 namespace liana {
 namespace {
 
-using Json = nlohmann::json;
-
 ServiceConfig config_for(const SimArm& arm, TimeMode mode) {
   ServiceConfig config;
   config.time_mode = mode;

@@ -3,16 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "host/json/json.hpp"
 #include "tests/host/devices/scene.hpp"
 
 namespace liana::test {
 namespace {
 
-using nlohmann::json;
-
-json state(double time_s, int step, const std::string& device, const std::string& in_use, bool engaged = true) {
+Json state(double time_s, int step, const std::string& device, const std::string& in_use, bool engaged = true) {
   return {{"op", "state"},
           {"tick", 0},
           {"time_s", time_s},
@@ -37,7 +34,7 @@ TEST(OperatorSession, PlaysTheRecordingInAVrStepThenSaysArrivedOnceWithTriggersR
   std::size_t samples = 0;
   double trigger = 0.0, highest_trigger = 0.0;
   for (int k = 1; k < 2200; ++k) {
-    for (const json& message : operator_session.on_state(state(0.02 * k, 2, "vr", "vr"))) {
+    for (const Json& message : operator_session.on_state(state(0.02 * k, 2, "vr", "vr"))) {
       if (message["op"] == "operator_says") {
         ++says;
         EXPECT_EQ(message["what"], "arrived");
@@ -72,7 +69,7 @@ TEST(OperatorSession, GripsOnlyAfterPicturesHaveArrived) {
     if (k > 200 && k % 2 == 0) {
       operator_session.on_camera({{"op", "camera"}, {"capture_time_s", 0.0}, {"slit", {1.6, -0.3, -0.5, 1, 0, 0, 0}}, {"rod", nullptr}});
     }
-    for (const json& message : operator_session.on_state(state(0.02 * k, 4, "hand", "hand"))) {
+    for (const Json& message : operator_session.on_state(state(0.02 * k, 4, "hand", "hand"))) {
       if (message["op"] != "device") continue;
       const bool button = message["samples"].back()["button"] == 1;
       (k <= 200 ? gripped_blind : gripped) |= button;
@@ -85,10 +82,10 @@ TEST(OperatorSession, GripsOnlyAfterPicturesHaveArrived) {
 TEST(OperatorSession, IgnoresThePoseInTheState) {  // it must see the arm through the camera only
   OperatorSession with = session(), without = session();
   for (int k = 1; k < 200; ++k) {
-    const json camera{{"op", "camera"}, {"capture_time_s", 0.0}, {"slit", {1.6, -0.3, -0.5, 1, 0, 0, 0}}, {"rod", nullptr}};
+    const Json camera{{"op", "camera"}, {"capture_time_s", 0.0}, {"slit", {1.6, -0.3, -0.5, 1, 0, 0, 0}}, {"rod", nullptr}};
     with.on_camera(camera);
     without.on_camera(camera);
-    json rich = state(0.02 * k, 4, "hand", "hand");
+    Json rich = state(0.02 * k, 4, "hand", "hand");
     rich["measured_cp"] = {k, k, k, 1, 0, 0, 0};
     rich["measured_js_deg"] = {k, k, k, k, k, k, k, k, k, k};
     EXPECT_EQ(with.on_state(rich), without.on_state(state(0.02 * k, 4, "hand", "hand")));
