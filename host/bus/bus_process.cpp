@@ -35,9 +35,10 @@ WireConfig read_wire(const std::string& path, const std::string& where, const Js
 void load_wires(const std::string& path, BusHubOptions& options) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read; give the bus table with --buses");
-  const Json table = Json::parse(file, nullptr, false);
+  const Json table = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
   const auto rate = field(table, "rate_hz");
-  if (!rate.is_number() || rate < 1.0 || rate > 10000.0) refuse(path, "rate_hz", rate, "is 1 to 10000 Hz");
+  if (!rate.is_number() || rate.get<double>() < 1.0 || rate.get<double>() > 10000.0)
+    refuse(path, "rate_hz", rate, "is 1 to 10000 Hz");
   options.period_us = static_cast<std::uint32_t>(std::lround(1e6 / rate.get<double>()));
   const auto buses = field(table, "buses");
   if (!buses.is_array() || buses.empty() || buses.size() > wire::kMaxBuses) refuse(path, "buses", buses, "are 1 to 8 buses");

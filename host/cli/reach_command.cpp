@@ -37,8 +37,8 @@ std::vector<ThetaVector> read_waypoints(const std::string& path, const RobotTabl
   std::ifstream file;
   if (std::filesystem::is_regular_file(path, unreadable)) file.open(path, std::ios::binary);
   if (!file.is_open()) throw BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
-  const Json document = Json::parse(std::string{std::istreambuf_iterator<char>(file), {}}, nullptr, false);
-  const Json rows = document.is_object() ? document.value("waypoints_deg", Json()) : json();
+  const Json document = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
+  const Json rows = document.is_object() ? document.value("waypoints_deg", Json()) : Json();
   if (!rows.is_array() || rows.empty() || rows.size() > kMaxWaypoints) {
     throw BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " + std::to_string(kMaxWaypoints) +
                    " rows of joint angles under this key");

@@ -18,7 +18,8 @@ using zhu2022::Random;
 using Matrix4 = std::array<std::array<double, 4>, 4>;
 
 const Json& golden() {
-  static const Json data = Json::parse(std::ifstream(LIANA_GOLDEN_DIR "/arm.json"));
+  std::ifstream file(LIANA_GOLDEN_DIR "/arm.json");
+  static const Json data = Json::parse(std::string{std::istreambuf_iterator<char>(file), {}});
   return data;
 }
 

@@ -33,7 +33,7 @@ liana::PlanRequest request_of(const Json& problem) {
 }  // namespace
 
 int main() {
-  const liana::PlanRequest request = request_of(Json::parse(std::cin));
+  const liana::PlanRequest request = request_of(Json::parse(std::string{std::istreambuf_iterator<char>(std::cin), {}}));
   liana::PlanControl control;
   control.straight_start_only = true;
   const auto begin = std::chrono::steady_clock::now();
