@@ -12,7 +12,8 @@
 #include <string>
 
 #include "host/bus/can_frame.hpp"
-#include "host/bus/time_mode.hpp"
+#include "host/time/tick_start.hpp"
+#include "host/time/time_mode.hpp"
 #include "host/config/config.hpp"
 
 namespace liana {
@@ -28,14 +29,6 @@ enum class SendResult : std::uint8_t {
 
 // The state of one bus as its controller sees it.
 enum class BusState : std::uint8_t { kActive, kErrorPassive, kBusOff, kDown };
-
-// How a tick began.
-struct TickStart {
-  std::uint64_t tick = 0;         // the tick that begins now: the one asked for, or a later one after an overrun
-  std::uint32_t lateness_us = 0;  // wake-up after the deadline; 0 in virtual time
-  std::uint32_t lost_ticks = 0;   // deadlines that had passed already; in virtual time only after a scripted pause
-  bool ended = false;             // the other side has left; there will be no further tick
-};
 
 // A received frame and its bus.
 struct ReceivedFrame {

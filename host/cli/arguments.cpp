@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "firmware_like/telecommand.hpp"
-#include "host/cli/errors.hpp"
+#include "host/system/errors.hpp"
 
 namespace liana {
 namespace {

@@ -3,16 +3,16 @@
 #include <sstream>
 
 #include "host/cli/arguments.hpp"
-#include "host/cli/calibrate.hpp"
-#include "host/cli/calibrate_session.hpp"
+#include "host/calibration/calibrate.hpp"
+#include "host/system/calibrate_session.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
+#include "host/system/errors.hpp"
 #include "host/cli/fixture_prompt.hpp"
-#include "host/cli/interrupt.hpp"
-#include "host/cli/output.hpp"
-#include "host/cli/run_plan.hpp"
-#include "host/cli/tables.hpp"
-#include "host/fixture/fixture.hpp"
+#include "host/system/interrupt.hpp"
+#include "host/system/output.hpp"
+#include "host/system/system_layout.hpp"
+#include "host/system/tables.hpp"
+#include "host/calibration/fixture.hpp"
 #include "host/json/json.hpp"
 
 namespace liana {
@@ -26,7 +26,7 @@ std::vector<std::string> names_in(const std::string& list) {
 }
 
 // What runs while the arm lies in a fixture.
-RunPlan plan_for(const CalibrateOptions& options, bool simulated, const std::string& pose) {
+SystemLayout plan_for(const CalibrateOptions& options, bool simulated, const std::string& pose) {
   RunOptions run;
   run.robot = options.robot;
   run.bus = options.bus;
@@ -35,10 +35,10 @@ RunPlan plan_for(const CalibrateOptions& options, bool simulated, const std::str
   run.seed = options.seed;
   run.fixture = pose;
   run.cross_wired = options.cross_wired;
-  return make_plan(run);
+  return make_layout(run);
 }
 
-CalibrationReading read_with(const RunPlan& plan, const InterruptGuard& interrupts) {
+CalibrationReading read_with(const SystemLayout& plan, const InterruptGuard& interrupts) {
   try {
     const CalibrationReading reading = CalibrateSession(plan, interrupts).read();
     clean_up(plan, true);

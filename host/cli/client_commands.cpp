@@ -4,8 +4,8 @@
 
 #include "host/api/client.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/observer.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/observer.hpp"
 #include "host/json/json.hpp"
 
 namespace liana {

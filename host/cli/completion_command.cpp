@@ -1,7 +1,7 @@
 #include <cstdio>
 
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
+#include "host/system/errors.hpp"
 
 namespace liana {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
-#include "host/cli/errors.hpp"
-#include "host/cli/tables.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/tables.hpp"
 #include "host/config/field.hpp"
 #include "host/plan/plan.hpp"
 #include "host/plan/text.hpp"

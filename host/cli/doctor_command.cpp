@@ -1,7 +1,7 @@
 #include <cstdio>
 
 #include "host/cli/commands.hpp"
-#include "host/cli/doctor.hpp"
+#include "host/report/doctor.hpp"
 #include "host/json/json.hpp"
 
 namespace liana {

@@ -1,9 +1,9 @@
 #include <cstdio>
 
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/fault_table.hpp"
-#include "host/cli/tables.hpp"
+#include "host/system/errors.hpp"
+#include "host/report/fault_table.hpp"
+#include "host/system/tables.hpp"
 #include "host/json/json.hpp"
 
 namespace liana {

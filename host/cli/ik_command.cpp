@@ -4,8 +4,8 @@
 #include "firmware_like/motion/goal_ik.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/tables.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/tables.hpp"
 #include "host/json/json.hpp"
 
 namespace liana {

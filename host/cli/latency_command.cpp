@@ -3,10 +3,10 @@
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/latency_report.hpp"
-#include "host/cli/latency_session.hpp"
-#include "host/cli/run_plan.hpp"
+#include "host/system/errors.hpp"
+#include "host/report/latency_report.hpp"
+#include "host/system/latency_session.hpp"
+#include "host/system/system_layout.hpp"
 #include "host/json/json.hpp"
 
 namespace liana {
@@ -38,7 +38,7 @@ void check_rate(const LatencyOptions& options, const BusesConfig& buses) {
                  "; leave --rate out or take another table");
 }
 
-LatencyMeasurement measured(const RunPlan& plan, double seconds) {
+LatencyMeasurement measured(const SystemLayout& plan, double seconds) {
   LatencySession session(plan);
   return session.measure(seconds);
 }
@@ -51,7 +51,7 @@ int latency_command(const LatencyOptions& options) {
   run.time = "real";
   run.arm = options.arm;
   if (options.arm == "light") run.physics = "ideal";
-  const RunPlan plan = make_plan(run);
+  const SystemLayout plan = make_layout(run);
   try {
     check_rate(options, plan.buses);
     Json report = latency_report(measured(plan, options.seconds), plan.buses, options.seconds, examine_realtime());

@@ -7,9 +7,9 @@
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/interrupt.hpp"
-#include "host/cli/output.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/interrupt.hpp"
+#include "host/system/output.hpp"
 
 namespace {
 

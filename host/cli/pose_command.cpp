@@ -5,7 +5,7 @@
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/slit_part.hpp"
-#include "host/cli/tables.hpp"
+#include "host/system/tables.hpp"
 #include "host/json/json.hpp"
 
 namespace liana {

@@ -9,9 +9,9 @@
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/output.hpp"
-#include "host/cli/tables.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/output.hpp"
+#include "host/system/tables.hpp"
 #include "host/config/theta_numbers.hpp"
 #include "host/json/json.hpp"
 #include "host/reach/path.hpp"

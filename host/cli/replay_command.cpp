@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
+#include "host/system/errors.hpp"
 #include "host/json/json.hpp"
 #include "host/record/mcap.hpp"
 #include "host/record/recording.hpp"

@@ -1,16 +1,16 @@
 #include <cstdio>
 
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/output.hpp"
-#include "host/cli/run_plan.hpp"
-#include "host/cli/run_report.hpp"
-#include "host/cli/run_session.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/output.hpp"
+#include "host/system/system_layout.hpp"
+#include "host/report/run_report.hpp"
+#include "host/system/run_session.hpp"
 
 namespace liana {
 namespace {
 
-Json report_of(const RunOptions& options, const RunPlan& plan, const RunSession& session, const RunEnd& end) {
+Json report_of(const RunOptions& options, const SystemLayout& plan, const RunSession& session, const RunEnd& end) {
   ReportSources sources;
   sources.robot = options.robot;
   sources.mission = options.mission;
@@ -41,7 +41,7 @@ bool write_report(const std::string& path, const Json& report) {
   }
 }
 
-bool publish_report(const RunOptions& options, const RunPlan& plan, const Json& report) {
+bool publish_report(const RunOptions& options, const SystemLayout& plan, const Json& report) {
   bool written = !plan.keep_directory || write_report(plan.file("report.json"), report);
   if (options.report_file == "-") {
     std::puts(report.dump().c_str());
@@ -55,7 +55,7 @@ bool publish_report(const RunOptions& options, const RunPlan& plan, const Json& 
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  const RunPlan plan = make_plan(options);
+  const SystemLayout plan = make_layout(options);
   RunSession session(plan);
   const RunEnd end = session.run();
   if (end.bad_input) {

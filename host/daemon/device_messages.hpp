@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "host/daemon/device_steer.hpp"
+#include "host/arbiter/device_steer.hpp"
 #include "host/json/json_fwd.hpp"
 
 namespace liana {

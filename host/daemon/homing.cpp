@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "host/fixture/fixture.hpp"
+#include "host/calibration/fixture.hpp"
 
 namespace liana {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "host/config/config.hpp"
-#include "host/daemon/link.hpp"
+#include "host/control/link.hpp"
 
 namespace liana {
 

@@ -9,9 +9,9 @@
 #include <sstream>
 
 #include "host/api/registry.hpp"
-#include "host/config/calibration.hpp"
-#include "host/daemon/realtime.hpp"
-#include "host/daemon/rt_cycle.hpp"
+#include "host/calibration/calibration.hpp"
+#include "host/control/realtime.hpp"
+#include "host/control/rt_cycle.hpp"
 #include "host/daemon/service.hpp"
 
 namespace {

@@ -10,19 +10,19 @@
 #include <vector>
 
 #include "host/api/server.hpp"
-#include "host/bus/time_mode.hpp"
+#include "host/time/time_mode.hpp"
 #include "host/config/config.hpp"
-#include "host/daemon/arbiter.hpp"
-#include "host/daemon/boot_problem.hpp"
+#include "host/arbiter/arbiter.hpp"
+#include "host/control/boot_problem.hpp"
 #include "host/daemon/homing.hpp"
 #include "host/daemon/host_trouble.hpp"
-#include "host/daemon/link.hpp"
+#include "host/control/link.hpp"
 #include "host/daemon/owner.hpp"
-#include "host/daemon/release.hpp"
-#include "host/daemon/shape_progress.hpp"
+#include "host/verify/release.hpp"
+#include "host/arbiter/shape_progress.hpp"
 #include "host/daemon/state_message.hpp"
-#include "host/daemon/twin.hpp"
-#include "host/daemon/verify.hpp"
+#include "host/verify/twin.hpp"
+#include "host/verify/verify.hpp"
 #include "host/json/json.hpp"
 
 namespace liana {

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "host/config/config.hpp"
-#include "host/daemon/arbiter.hpp"
-#include "host/daemon/boot_problem.hpp"
-#include "host/daemon/link.hpp"
+#include "host/arbiter/arbiter.hpp"
+#include "host/control/boot_problem.hpp"
+#include "host/control/link.hpp"
 #include "host/daemon/owner.hpp"
-#include "host/daemon/verdict.hpp"
+#include "host/verify/verdict.hpp"
 #include "host/json/json.hpp"
 
 namespace liana {

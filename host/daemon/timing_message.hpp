@@ -1,8 +1,8 @@
 // The answer to a `timing` request (docs/api.md).
 #pragma once
 
-#include "host/daemon/latency_histogram.hpp"
-#include "host/daemon/link.hpp"
+#include "host/control/latency_histogram.hpp"
+#include "host/control/link.hpp"
 #include "host/json/json_fwd.hpp"
 
 namespace liana {

@@ -5,13 +5,13 @@
 #include <stdexcept>
 
 #include "firmware_like/math/trig.hpp"
-#include "host/plan/follow.hpp"
-#include "host/plan/goal_poses.hpp"
-#include "host/plan/ipopt_solver.hpp"
+#include "host/plan/follow/follow.hpp"
+#include "host/plan/start/goal_poses.hpp"
+#include "host/plan/problem/ipopt_solver.hpp"
 #include "host/plan/plan_refusal.hpp"
-#include "host/plan/plan_rows.hpp"
-#include "host/plan/relax.hpp"
-#include "host/plan/start_path.hpp"
+#include "host/plan/problem/plan_rows.hpp"
+#include "host/plan/start/relax.hpp"
+#include "host/plan/start/start_path.hpp"
 #include "host/plan/text.hpp"
 
 namespace liana {

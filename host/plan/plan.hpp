@@ -15,8 +15,8 @@
 #include "firmware_like/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "host/config/config.hpp"
-#include "host/plan/follow_figures.hpp"
-#include "host/plan/plan_check.hpp"
+#include "host/plan/follow/follow_figures.hpp"
+#include "host/plan/check/plan_check.hpp"
 
 namespace liana {
 

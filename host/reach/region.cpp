@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "host/devices/random.hpp"
+#include "host/operator/random.hpp"
 #include "host/reach/spectrum.hpp"
 
 namespace liana {

@@ -9,6 +9,8 @@
 
 namespace {
 
+using liana::Json;
+
 volatile std::sig_atomic_t g_stop = 0;
 void on_signal(int) { g_stop = 1; }
 

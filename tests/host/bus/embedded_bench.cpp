@@ -10,7 +10,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "host/bus/bus_listener.hpp"
+#include "host/bus_sim/bus_listener.hpp"
 
 namespace liana::test {
 

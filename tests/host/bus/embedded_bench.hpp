@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-#include "host/bus/bus_hub.hpp"
+#include "host/bus_sim/bus_hub.hpp"
 #include "host/bus/drive_bus.hpp"
 
 namespace liana::test {

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "host/cli/errors.hpp"
+#include "host/system/errors.hpp"
 
 namespace liana {
 namespace {

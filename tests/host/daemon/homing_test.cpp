@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "host/fixture/fixture.hpp"
-#include "tests/host/daemon/sim_arm.hpp"
+#include "host/calibration/fixture.hpp"
+#include "tests/host/verify/sim_arm.hpp"
 
 namespace liana {
 namespace {

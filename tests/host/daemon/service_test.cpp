@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "host/api/client.hpp"
-#include "tests/host/daemon/sim_arm.hpp"
+#include "tests/host/verify/sim_arm.hpp"
 
 namespace liana {
 namespace {

@@ -1,5 +1,5 @@
 // First and second derivatives of the planner's arm against central differences and against the control core.
-#include "host/plan/arm_derivatives.hpp"
+#include "host/plan/problem/arm_derivatives.hpp"
 
 #include <gtest/gtest.h>
 

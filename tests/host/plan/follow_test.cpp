@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "firmware_like/math/trig.hpp"
-#include "host/plan/follow.hpp"
-#include "host/plan/path_search.hpp"
+#include "host/plan/follow/follow.hpp"
+#include "host/plan/check/path_search.hpp"
 #include "host/plan/plan.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/plan/requests.hpp"

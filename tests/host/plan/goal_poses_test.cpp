@@ -1,5 +1,5 @@
 // Joint angles for the end of a plan whose goal is a tip pose.
-#include "host/plan/goal_poses.hpp"
+#include "host/plan/start/goal_poses.hpp"
 
 #include <gtest/gtest.h>
 

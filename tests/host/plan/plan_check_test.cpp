@@ -1,6 +1,6 @@
 // The independent check against the core's kinematics, dense sampling, and paths that are wrong on purpose.
-#include "host/plan/plan_check.hpp"
-#include "host/plan/path_search.hpp"
+#include "host/plan/check/plan_check.hpp"
+#include "host/plan/check/path_search.hpp"
 
 #include <gtest/gtest.h>
 

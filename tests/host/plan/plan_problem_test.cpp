@@ -1,5 +1,5 @@
 // The planner's problem without a solver: structure, first and second derivatives against central differences.
-#include "host/plan/plan_problem.hpp"
+#include "host/plan/problem/plan_problem.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // The arm against itself: poses that curl it up, and paths that pass through such a pose.
-#include "host/plan/self_check.hpp"
+#include "host/plan/check/self_check.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "host/plan/plan_check.hpp"
+#include "host/plan/check/plan_check.hpp"
 #include "host/plan/plan_refusal.hpp"
 #include "tests/host/plan/requests.hpp"
 
