@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/operator/device_messages.hpp"
 #include "host/json/json.hpp"
+#include "host/operator/device_messages.hpp"
 
 namespace liana {
 namespace {
@@ -22,13 +22,13 @@ HandTask hand_task(const AnnouncedStep& step) {
 
 std::string text(const Json& object, const char* key) {
   const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+  return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 // A positive number, or `otherwise`.
 double positive(const Json& object, const char* key, double otherwise) {
   const auto found = object.find(key);
-  const double value = found != object.end() && found->is_number() ? found->get<double>() : otherwise;
+  const double value = found != nullptr && found->is_number() ? found->get<double>() : otherwise;
   return value > 0.0 ? value : otherwise;
 }
 
@@ -36,17 +36,18 @@ double positive(const Json& object, const char* key, double otherwise) {
 
 AnnouncedStep announced_step(const Json& state) {
   const auto found = state.find("step");
-  if (found == state.end() || !found->is_object()) return {};
+  if (found == nullptr || !found->is_object()) return {};
   return {found->value("index", std::int64_t{-1}), text(*found, "name"), text(*found, "device"), text(*found, "task")};
 }
 
 HandMapping announced_mapping(const Json& state) {
   const auto found = state.find("mapping");
-  if (found == state.end() || !found->is_object()) return {};
+  if (found == nullptr || !found->is_object()) return {};
   return {positive(*found, "scale", 1.0), positive(*found, "rotation_scale", 1.0), positive(*found, "speed_m_s", 0.0)};
 }
 
-OperatorSession::OperatorSession(std::string recordings, const SlitDrawing& drawing, const HandGains& gains, std::uint64_t seed)
+OperatorSession::OperatorSession(std::string recordings, const SlitDrawing& drawing, const HandGains& gains,
+                                 std::uint64_t seed)
     : recordings_(std::move(recordings)), person_(gains, drawing, seed), seed_(seed) {}
 
 void OperatorSession::begin_step(const AnnouncedStep& step, const Json& state) {
@@ -90,7 +91,8 @@ std::vector<Json> OperatorSession::steer_hand(double from_s, double to_s, bool e
   person_.feel(engaged, to_s);
   std::vector<ControllerSample> samples;
   const auto count = std::lround((to_s - from_s) / kSamplePeriod_s);
-  for (long i = 1; i <= count; ++i) samples.push_back(person_.sample(from_s + static_cast<double>(i) * kSamplePeriod_s));
+  for (long i = 1; i <= count; ++i)
+    samples.push_back(person_.sample(from_s + static_cast<double>(i) * kSamplePeriod_s));
   std::vector<Json> messages;
   if (!samples.empty()) messages.push_back(device_message(samples));
   report_arrival(messages, person_.arrived(), to_s);

@@ -13,7 +13,8 @@ struct PoseModel {
   ThetaHessian hessian{};  // lower triangle
 };
 
-// Cost [m^2]: sum over links and obstacles of (wanted - distance)^2 where positive. The derivatives only when asked for.
+// Cost [m^2]: sum over links and obstacles of (wanted - distance)^2 where positive. The derivatives only when asked
+// for.
 PoseModel push_model(const Room& room, const ThetaVector& theta_rad, double wanted_m, bool derivatives);
 
 }  // namespace liana

@@ -35,7 +35,8 @@ class Relaxation {
 
   // The samples of an interval: how many depends on how far the arm moves there.
   std::int32_t samples(const Path& path, Index w) const {
-    return std::clamp(static_cast<std::int32_t>(std::ceil(room_.motion_m(path[w], path[w + 1]) / kSampleSpacing_m)), 1, kMaxSamples);
+    return std::clamp(static_cast<std::int32_t>(std::ceil(room_.motion_m(path[w], path[w + 1]) / kSampleSpacing_m)), 1,
+                      kMaxSamples);
   }
 
   double cost(const Path& path) const {
@@ -80,7 +81,8 @@ class Relaxation {
  private:
   bool is_free(Index w, Index k) const { return ((free_[w] >> k) & 1u) != 0; }
 
-  // Weighted distances of nodes from their targets at one pose; each as the parabola that touches it here and has its value at the target.
+  // Weighted distances of nodes from their targets at one pose; each as the parabola that touches it here and has its
+  // value at the target.
   PoseModel node_model(const ThetaVector& theta) const {
     PoseModel model;
     const ArmDerivatives arm(room_.table(), theta);
@@ -167,7 +169,8 @@ Path relax(const Room& room, const PlanRequest& request, Path path) {
 PathLook look_along(const Room& room, const Path& path, double spacing_m) {
   PathLook worst;
   for (Index w = 0; w + 1 < path.size(); ++w) {
-    const std::int32_t count = static_cast<std::int32_t>(std::ceil(room.motion_m(path[w], path[w + 1]) / spacing_m)) + 1;
+    const std::int32_t count =
+        static_cast<std::int32_t>(std::ceil(room.motion_m(path[w], path[w + 1]) / spacing_m)) + 1;
     for (std::int32_t s = 0; s <= count; ++s) {
       const double share = static_cast<double>(s) / count;
       const ArmClearance here = room.look(between(path[w], path[w + 1], share));
@@ -234,11 +237,12 @@ SettledPose settle(const Room& room, const PoseAim& aim, ThetaVector theta, std:
         const Vec3& w = arm.tip_jacobian.angular[c];
         return aim.direction_only ? subtract(w, scale(x_axis, dot(w, x_axis))) : w;
       };
-      b[k] = kTipWeight * dot(arm.tip_jacobian.linear[k], {error[0], error[1], error[2]}) + kTurnWeight * dot(turning(k), turn) -
-             kPenalty * model.gradient[k] + kNearWeight * (aim.near_rad[k] - theta[k]);
+      b[k] = kTipWeight * dot(arm.tip_jacobian.linear[k], {error[0], error[1], error[2]}) +
+             kTurnWeight * dot(turning(k), turn) - kPenalty * model.gradient[k] +
+             kNearWeight * (aim.near_rad[k] - theta[k]);
       for (Index j = 0; j <= k; ++j) {
-        A[k][j] = kTipWeight * dot(arm.tip_jacobian.linear[k], arm.tip_jacobian.linear[j]) + kTurnWeight * dot(turning(k), turning(j)) +
-                  kPenalty * model.hessian[k][j];
+        A[k][j] = kTipWeight * dot(arm.tip_jacobian.linear[k], arm.tip_jacobian.linear[j]) +
+                  kTurnWeight * dot(turning(k), turning(j)) + kPenalty * model.hessian[k][j];
       }
       A[k][k] += kNearWeight + kDamping;
     }
