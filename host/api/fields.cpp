@@ -104,8 +104,7 @@ Pose pose_field(const Json& object, const std::string& key, double reach_m) {
 
 std::string text_field(const Json& object, const std::string& key, std::size_t max_bytes) {
   const Json& value = field(object, key);
-  const bool good = value.is_string() && !value.text().empty() &&
-                    value.text().size() <= max_bytes;
+  const bool good = value.is_string() && !value.text().empty() && value.text().size() <= max_bytes;
   if (!good)
     throw RequestError("bad_request",
                        "field '" + key + "': must be a text of 1 to " + std::to_string(max_bytes) + " bytes");
