@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "firmware_like/cable/arm/cable_watch.hpp"
+#include "firmware_like/cable/arm/tension_watch.hpp"
 #include "firmware_like/safety/link_watch.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 
@@ -28,7 +29,7 @@ Detection detection_of(FaultNumber number, const cable::RobotTable& table) {
       return {"watchdog: deadlines lost in a row, more than 2", 1};
     case FaultNumber::kDriveMissing:
       return {"watchdog: age of the drive's heartbeat, more than 0.3 s",
-              make_watchdog_limits(table).heartbeat_age_ticks + heartbeat_period};
+              heartbeat_age_ticks(table.tick_s) + heartbeat_period};
     case FaultNumber::kDriveSilent:
       return {"watchdog: age of the drive's report, more than 2 ticks", kFeedbackAgeTicks + 1};
     case FaultNumber::kDriveFault:
