@@ -4,7 +4,7 @@
 
 #include "firmware_like/controller_io.hpp"
 #include "firmware_like/math/scalar.hpp"
-#include "firmware_like/motion/braking.hpp"
+#include "firmware_like/math/braking.hpp"
 
 namespace liana::serial {
 namespace {

@@ -16,7 +16,7 @@
 
 namespace liana::serial {
 
-constexpr std::int32_t kIkIterations = 2;   // per tick
+constexpr std::int32_t kIkIterations = 3;   // per tick
 constexpr std::int32_t kRangePasses = 3;    // solutions per iteration, each with the joints left out that the last one met the range of
 constexpr double kIkDamping = 1e-6;         // m2/rad2; directions with a singular value below 1e-3 slow down
 constexpr double kIkConvergedError = 1e-6;  // m and rad

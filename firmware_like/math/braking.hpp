@@ -1,4 +1,4 @@
-// Rates in steps of one tick that can still brake: what the limiters of all arms are made of.
+// Rates in steps of one tick that can still brake: what the limiters of all kinds of arm are made of.
 #pragma once
 
 #include <cmath>
