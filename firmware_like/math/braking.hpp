@@ -22,8 +22,8 @@ inline double wanted_rate(double gap_rad, double reference_rate, double accel, d
   return reference_rate + (gap_rad < 0.0 ? -close : close);
 }
 
-// Fastest rate towards a joint limit `room_rad` ahead from which the joint still stops before it: v^2 + 2 a h v = 2 a d, under which no later
-// tick needs to brake harder than `accel` or goes past. A joint beyond its limit has no room.
+// Fastest rate towards a joint limit `room_rad` ahead from which the joint still stops before it: v^2 + 2 a h v = 2 a
+// d, under which no later tick needs to brake harder than `accel` or goes past. A joint beyond its limit has no room.
 inline double rate_before_limit(double rate, double room_rad, double accel, double tick_s) noexcept {
   const double room = larger(0.0, room_rad);
   const double step = accel * tick_s, size = std::fabs(rate);

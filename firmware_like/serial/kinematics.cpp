@@ -22,7 +22,8 @@ Quat turn_about_x(double angle_rad) noexcept {
 // The link of `row` behind a joint at `joint_rad`: from the frame before the joint to the frame at the link's end.
 Pose behind_joint(const DhRow& row, double joint_rad, const Pose& before) noexcept {
   const Quat turned = multiply(before.quaternion, turn_about_z(joint_rad + row.offset_rad));
-  return {add(before.position_m, rotate(turned, {row.a_m, 0.0, row.d_m})), multiply(turned, turn_about_x(row.alpha_rad))};
+  return {add(before.position_m, rotate(turned, {row.a_m, 0.0, row.d_m})),
+          multiply(turned, turn_about_x(row.alpha_rad))};
 }
 
 }  // namespace
@@ -36,7 +37,8 @@ ArmKinematics forward_kinematics(const RobotTable& table, const JointVector& joi
     frame = behind_joint(table.joint[i].dh, joint_rad[i], frame);
     arm.point_in_base[i + 1] = frame.position_m;
   }
-  for (Index i = 0; i < table.joints(); ++i) J.linear[i] = cross(J.angular[i], subtract(frame.position_m, arm.point_in_base[i]));
+  for (Index i = 0; i < table.joints(); ++i)
+    J.linear[i] = cross(J.angular[i], subtract(frame.position_m, arm.point_in_base[i]));
   arm.tip_in_base = {frame.position_m, normalize(frame.quaternion)};
   return arm;
 }

@@ -20,7 +20,8 @@ struct ArmKinematics {
   Jacobian tip_jacobian{};
 };
 
-// Points, tip and Jacobian at the joint angles [rad], |.| <= 1000. Cost: one pass over the joints, about 150 operations each.
+// Points, tip and Jacobian at the joint angles [rad], |.| <= 1000. Cost: one pass over the joints, about 150 operations
+// each.
 ArmKinematics forward_kinematics(const RobotTable& table, const JointVector& joint_rad) noexcept;
 
 // Velocity of the tip in the base frame.

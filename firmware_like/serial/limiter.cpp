@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "firmware_like/controller_io.hpp"
-#include "firmware_like/math/scalar.hpp"
 #include "firmware_like/math/braking.hpp"
+#include "firmware_like/math/scalar.hpp"
 
 namespace liana::serial {
 namespace {
@@ -34,7 +34,7 @@ void reset_limiter(const JointVector& joint_rad, LimiterState& state) noexcept {
 }
 
 StepShare allowed_share(const RobotTable& table, const JointVector& step_rad, const LimiterState& state) noexcept {
-  constexpr double kPathShare = 0.95;                // of rates; the rest is for making up a lag
+  constexpr double kPathShare = 0.95;             // of rates; the rest is for making up a lag
   double by_rate = 1.0, most = 1.0, least = 0.0;  // acceleration: least <= share <= most
   for (Index i = 0; i < table.joints(); ++i) {
     const JointTable& joint = table.joint[i];

@@ -8,7 +8,8 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double kBehind = 1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
+constexpr double kBehind =
+    1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
 
 bool is_tip(const Setpoint& setpoint) noexcept { return setpoint.kind == CommandKind::kTip; }
 
@@ -21,7 +22,8 @@ TipFilterConfig filter_config(const RobotTable& table, double tip_speed_m_s) noe
 
 // Share of the way from `from` to `to` that is over.
 double interval_share(const RobotTable& table, const MotionState& state) noexcept {
-  return state.interval_tick >= table.interval_ticks ? 1.0 : static_cast<double>(state.interval_tick) / table.interval_ticks;
+  return state.interval_tick >= table.interval_ticks ? 1.0
+                                                     : static_cast<double>(state.interval_tick) / table.interval_ticks;
 }
 
 Pose interpolated_target(const RobotTable& table, const MotionState& state) noexcept {
@@ -43,7 +45,8 @@ void slow_channel(double share, ChannelState& channel) noexcept {
   channel.acceleration = scale(channel.acceleration, share);
 }
 
-// Takes only a share of this tick's motion, of the target as of the joints: the arm slows down on its path and does not leave it.
+// Takes only a share of this tick's motion, of the target as of the joints: the arm slows down on its path and does not
+// leave it.
 void slow_down(const RobotTable& table, double share, const Pose& target_before, const JointVector& ik_before,
                MotionState& state) noexcept {
   if (state.ik.position_error_m + state.ik.attitude_error_rad < kBehind) {
@@ -60,10 +63,11 @@ void slow_down(const RobotTable& table, double share, const Pose& target_before,
   if (before == IkOutcome::kConverged) state.ik.outcome = now.outcome;
 }
 
-// The wish of joints that the tip leaves free to choose among: towards the middle of their ranges, as fast as the tip moves.
+// The wish of joints that the tip leaves free to choose among: towards the middle of their ranges, as fast as the tip
+// moves.
 JointVector centring_wish(const RobotTable& table, const MotionState& state) noexcept {
-  const double moving =
-      smaller(1.0, norm(state.filter.linear.velocity) / table.tip.speed_m_s + norm(state.filter.angular.velocity) / table.tip.rate_rad_s);
+  const double moving = smaller(1.0, norm(state.filter.linear.velocity) / table.tip.speed_m_s +
+                                         norm(state.filter.angular.velocity) / table.tip.rate_rad_s);
   JointVector wish{};
   for (Index i = 0; i < table.joints(); ++i) {
     const JointTable& joint = table.joint[i];
@@ -138,7 +142,8 @@ void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionSt
   }
   if (!is_tip(setpoint) && !same_kind) state.from.joint_rad = state.limiter.joint_rad;
   state.to = setpoint;
-  state.turn_rad = rotation_vector(multiply(state.to.tip_in_base.quaternion, conjugate(state.from.tip_in_base.quaternion)));
+  state.turn_rad =
+      rotation_vector(multiply(state.to.tip_in_base.quaternion, conjugate(state.from.tip_in_base.quaternion)));
   state.interval_tick = 0;
   state.braking = false;
 }

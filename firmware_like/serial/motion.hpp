@@ -11,7 +11,8 @@
 
 namespace liana::serial {
 
-constexpr double kCentringShare = 0.25;  // of a joint's rate, towards the middle of its range, at the ends of it and at full tip speed
+constexpr double kCentringShare =
+    0.25;  // of a joint's rate, towards the middle of its range, at the ends of it and at full tip speed
 
 struct MotionState {
   Setpoint from{};                 // where interpolation over the command interval started
@@ -33,8 +34,8 @@ void reset_motion(const RobotTable& table, const JointVector& joint_rad, MotionS
 // Takes a usable setpoint into force (kTip or kJoint); the motion goes on from where it is.
 void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionState& state) noexcept;
 
-// One tick. With `allowed` false or braking, everything comes to rest along its path. The arm turns about the line that the tip leaves free
-// only while the tip moves: a tip that rests means an arm that rests.
+// One tick. With `allowed` false or braking, everything comes to rest along its path. The arm turns about the line that
+// the tip leaves free only while the tip moves: a tip that rests means an arm that rests.
 void advance_motion(const RobotTable& table, bool allowed, MotionState& state) noexcept;
 
 // True when nothing moves any more.

@@ -11,8 +11,8 @@ constexpr std::int32_t kMaxJoints = 8;  // compiled capacity; a robot within it 
 
 using JointVector = std::array<double, kMaxJoints>;  // from the base to the tip [rad], [rad/s] ...
 
-// One row of the standard Denavit-Hartenberg table: turn by theta + offset about z, shift d along z, shift a along the new x, turn by alpha
-// about the new x.
+// One row of the standard Denavit-Hartenberg table: turn by theta + offset about z, shift d along z, shift a along the
+// new x, turn by alpha about the new x.
 struct DhRow {
   double alpha_rad = 0.0;
   double a_m = 0.0;

@@ -28,7 +28,8 @@ void take_motion(const Task& column, double moved_rad, Task& e) noexcept {
 }
 
 // J J^T + damping I over the joints that are not fixed, factored; false when it cannot be.
-bool factor_task(const Jacobian& J, Index joints, std::uint32_t fixed, double damping, SquareMatrix<6>& factor) noexcept {
+bool factor_task(const Jacobian& J, Index joints, std::uint32_t fixed, double damping,
+                 SquareMatrix<6>& factor) noexcept {
   factor = {};
   for (Index i = 0; i < joints; ++i) {
     if (is_set(fixed, i)) continue;
@@ -42,7 +43,8 @@ bool factor_task(const Jacobian& J, Index joints, std::uint32_t fixed, double da
 }
 
 // z + J^T (J J^T + mu I)^-1 (e - J z) of the joints that are not fixed.
-JointVector damped_step(const Jacobian& J, Index joints, std::uint32_t fixed, double damping, const JointVector& wish_rad, Task e) noexcept {
+JointVector damped_step(const Jacobian& J, Index joints, std::uint32_t fixed, double damping,
+                        const JointVector& wish_rad, Task e) noexcept {
   JointVector step{};
   SquareMatrix<6> factor;
   if (!factor_task(J, joints, fixed, damping, factor)) return step;
@@ -59,7 +61,8 @@ JointVector damped_step(const Jacobian& J, Index joints, std::uint32_t fixed, do
 }
 
 // Sets joints that the step would carry out of their range onto its end and takes their motion from e; returns which.
-std::uint32_t stop_at_ranges(const RobotTable& table, const Jacobian& J, const JointVector& step, JointVector& joint_rad, Task& e) noexcept {
+std::uint32_t stop_at_ranges(const RobotTable& table, const Jacobian& J, const JointVector& step,
+                             JointVector& joint_rad, Task& e) noexcept {
   std::uint32_t stopped = 0;
   for (Index i = 0; i < table.joints(); ++i) {
     const double wanted = joint_rad[i] + step[i];
@@ -72,11 +75,9 @@ std::uint32_t stop_at_ranges(const RobotTable& table, const Jacobian& J, const J
   return stopped;
 }
 
-// One damped step from `arm`; returns the joints that were stopped at their ranges.
-std::uint32_t iterate(const RobotTable& table, const ArmKinematics& arm, const JointVector& wish_rad, Task e,
+// One damped step; returns the joints that were stopped at their ranges.
+std::uint32_t iterate(const RobotTable& table, const Jacobian& J, double damping, const JointVector& wish_rad, Task e,
                       JointVector& joint_rad) noexcept {
-  const Jacobian& J = arm.tip_jacobian;
-  const double damping = kIkDamping + chain_length_m(table) * size(e);
   std::uint32_t fixed = 0;
   for (std::int32_t pass = 0; pass < kRangePasses; ++pass) {
     const JointVector step = damped_step(J, table.joints(), fixed, damping, wish_rad, e);
@@ -91,13 +92,15 @@ std::uint32_t iterate(const RobotTable& table, const ArmKinematics& arm, const J
 }
 
 IkOutcome outcome_of(const RobotTable& table, const Pose& goal, const IkReport& report, double asked) noexcept {
-  if (report.position_error_m <= kIkConvergedError && report.attitude_error_rad <= kIkConvergedError) return IkOutcome::kConverged;
+  if (report.position_error_m <= kIkConvergedError && report.attitude_error_rad <= kIkConvergedError)
+    return IkOutcome::kConverged;
   if (norm(goal.position_m) > chain_length_m(table)) return IkOutcome::kUnreachable;
   if (size(report.residual) <= kBlockedShare * asked) return IkOutcome::kApproaching;
   return report.limit_mask != 0 ? IkOutcome::kLimited : IkOutcome::kSingular;
 }
 
-IkReport report_of(const RobotTable& table, const Pose& goal, const Pose& tip, double asked, std::uint32_t limit_mask) noexcept {
+IkReport report_of(const RobotTable& table, const Pose& goal, const Pose& tip, double asked,
+                   std::uint32_t limit_mask) noexcept {
   IkReport report;
   report.residual = pose_error(goal, tip);
   const Task& e = report.residual;
@@ -110,17 +113,28 @@ IkReport report_of(const RobotTable& table, const Pose& goal, const Pose& tip, d
 
 }  // namespace
 
-IkReport servo_ik(const RobotTable& table, const Pose& goal, const JointVector& wish_rad, JointVector& joint_rad) noexcept {
+IkReport servo_ik(const RobotTable& table, const Pose& goal, const JointVector& wish_rad,
+                  JointVector& joint_rad) noexcept {
   JointVector wish = wish_rad;
   std::uint32_t limit_mask = 0;
   ArmKinematics arm = forward_kinematics(table, joint_rad);
-  const double asked = size(pose_error(goal, arm.tip_in_base));
+  Task e = pose_error(goal, arm.tip_in_base);
+  const double asked = size(e);
   for (std::int32_t i = 0; i < kIkIterations; ++i) {
-    limit_mask |= iterate(table, arm, wish, pose_error(goal, arm.tip_in_base), joint_rad);
+    const double damping = kIkDamping + chain_length_m(table) * size(e);
+    limit_mask |= iterate(table, arm.tip_jacobian, damping, wish, e, joint_rad);
     arm = forward_kinematics(table, joint_rad);
+    e = pose_error(goal, arm.tip_in_base);
     wish = {};  // granted once; the other iterations only bring the tip to its goal
   }
   return report_of(table, goal, arm.tip_in_base, asked, limit_mask);
+}
+
+double far_step(const RobotTable& table, const Pose& goal, JointVector& joint_rad) noexcept {
+  const ArmKinematics arm = forward_kinematics(table, joint_rad);
+  const Task e = pose_error(goal, arm.tip_in_base);
+  iterate(table, arm.tip_jacobian, kIkDamping + size(e) * size(e), {}, e, joint_rad);
+  return size(e);
 }
 
 IkReport report_ik(const RobotTable& table, const Pose& goal, const Pose& tip) noexcept {

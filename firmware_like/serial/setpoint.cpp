@@ -7,7 +7,8 @@ namespace {
 
 bool inside_ranges(const RobotTable& table, const JointVector& joint_rad) noexcept {
   for (std::size_t i = 0; i < table.joints(); ++i) {
-    if (!(joint_rad[i] >= table.joint[i].low_rad && joint_rad[i] <= table.joint[i].high_rad)) return false;  // NaN is outside
+    if (!(joint_rad[i] >= table.joint[i].low_rad && joint_rad[i] <= table.joint[i].high_rad))
+      return false;  // NaN is outside
   }
   return true;
 }

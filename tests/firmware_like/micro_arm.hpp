@@ -75,7 +75,8 @@ inline JointVector random_joints(const RobotTable& robot, Random& random, double
 inline JointVector near(const RobotTable& robot, const JointVector& joint_rad, Random& random, double most_rad) {
   JointVector joint = joint_rad;
   for (std::size_t i = 0; i < robot.joints(); ++i) {
-    joint[i] = std::clamp(joint[i] + random.uniform(-most_rad, most_rad), robot.joint[i].low_rad, robot.joint[i].high_rad);
+    joint[i] =
+        std::clamp(joint[i] + random.uniform(-most_rad, most_rad), robot.joint[i].low_rad, robot.joint[i].high_rad);
   }
   return joint;
 }

@@ -36,7 +36,8 @@ TEST(SerialKinematics, TipAgreesWithTheProductOfExponentials) {
     const json& expected = entry.at("tip_pose");
     for (std::size_t r = 0; r < 3; ++r) {
       EXPECT_NEAR(tip.position_m[r], expected[r][3].get<double>(), 1e-9) << entry.at("name");
-      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(axis_of(tip.quaternion, k)[r], expected[r][k].get<double>(), 1e-9) << entry.at("name");
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(axis_of(tip.quaternion, k)[r], expected[r][k].get<double>(), 1e-9) << entry.at("name");
     }
   }
 }
@@ -73,7 +74,8 @@ void expect_jacobian_is_the_derivative(const RobotTable& robot, const JointVecto
 TEST(SerialKinematics, JacobianIsTheDerivativeOfTheTip) {
   Random random(1);
   for (const RobotTable& robot : {micro::table(), micro::six_joint_table()}) {
-    for (std::int32_t i = 0; i < 500; ++i) expect_jacobian_is_the_derivative(robot, micro::random_joints(robot, random));
+    for (std::int32_t i = 0; i < 500; ++i)
+      expect_jacobian_is_the_derivative(robot, micro::random_joints(robot, random));
   }
 }
 
@@ -97,7 +99,8 @@ TEST(SerialKinematics, NoTipIsFartherAwayThanTheChainIsLong) {
   Random random(3);
   double farthest_m = 0.0;
   for (std::int32_t i = 0; i < 20000; ++i) {
-    farthest_m = std::max(farthest_m, norm(forward_kinematics(robot, micro::random_joints(robot, random)).tip_in_base.position_m));
+    farthest_m = std::max(farthest_m,
+                          norm(forward_kinematics(robot, micro::random_joints(robot, random)).tip_in_base.position_m));
   }
   EXPECT_LE(farthest_m, 4.94);
   EXPECT_GE(farthest_m, 4.7);

@@ -28,7 +28,8 @@ void step(const RobotTable& robot, const JointVector& reference, LimiterState& s
     const double rate = (state.joint_rad[i] - before.joint_rad[i]) / robot.tick_s;
     ASSERT_NEAR(rate, state.rate_rad_s[i], 1e-9);
     ASSERT_LE(std::fabs(state.rate_rad_s[i]), robot.joint[i].rate_rad_s + kRounding);
-    ASSERT_LE(std::fabs(state.rate_rad_s[i] - before.rate_rad_s[i]), robot.joint[i].accel_rad_s2 * robot.tick_s + kRounding);
+    ASSERT_LE(std::fabs(state.rate_rad_s[i] - before.rate_rad_s[i]),
+              robot.joint[i].accel_rad_s2 * robot.tick_s + kRounding);
   }
 }
 
@@ -43,7 +44,8 @@ RobotTable uneven_robot() {
 }
 
 // Steps, ramps and noise in turn, some far faster than any limit.
-JointVector next_reference(const RobotTable& robot, Random& random, std::int32_t tick, std::int32_t kind, const JointVector& before) {
+JointVector next_reference(const RobotTable& robot, Random& random, std::int32_t tick, std::int32_t kind,
+                           const JointVector& before) {
   if (kind % 3 == 0) return tick % 50 == 0 ? micro::random_joints(robot, random) : before;
   if (kind % 3 == 1) return micro::near(robot, before, random, 0.02 * kDegree);
   return micro::random_joints(robot, random);
@@ -96,7 +98,8 @@ TEST(SerialLimiter, EveryLimitThatActsNamesItself) {
 
 LimiterState moving(const RobotTable& robot, Random& random) {
   LimiterState state = at_rest_at(micro::random_joints(robot, random, 0.5));
-  for (std::size_t i = 0; i < robot.joints(); ++i) state.rate_rad_s[i] = robot.joint[i].rate_rad_s * random.uniform(-1.0, 1.0);
+  for (std::size_t i = 0; i < robot.joints(); ++i)
+    state.rate_rad_s[i] = robot.joint[i].rate_rad_s * random.uniform(-1.0, 1.0);
   return state;
 }
 
@@ -114,7 +117,8 @@ TEST(SerialLimiter, BrakingJointsKeepTheirProportionAndComeToRestTogether) {
       step(robot, next, state);
       if (HasFatalFailure()) return;
       const double part = state.rate_rad_s[0] / start.rate_rad_s[0];
-      for (std::size_t k = 0; k < robot.joints(); ++k) ASSERT_NEAR(state.rate_rad_s[k], part * start.rate_rad_s[k], 1e-9);
+      for (std::size_t k = 0; k < robot.joints(); ++k)
+        ASSERT_NEAR(state.rate_rad_s[k], part * start.rate_rad_s[k], 1e-9);
     }
     ASSERT_LT(tick, 1000);
   }
@@ -127,7 +131,8 @@ TEST(SerialLimiter, TheAllowedShareOfAStepPassesUnchanged) {
   for (std::int32_t i = 0; i < 2000; ++i) {
     LimiterState state = at_rest_at({});
     JointVector asked{};
-    for (std::size_t k = 0; k < robot.joints(); ++k) asked[k] = random.uniform(-3.0, 3.0) * robot.joint[k].rate_rad_s * robot.tick_s;
+    for (std::size_t k = 0; k < robot.joints(); ++k)
+      asked[k] = random.uniform(-3.0, 3.0) * robot.joint[k].rate_rad_s * robot.tick_s;
     const StepShare allowed = allowed_share(robot, asked, state);
     cut += allowed.share < 1.0 ? 1 : 0;
     ASSERT_EQ(allowed.share < 1.0, allowed.limits != 0);

@@ -52,7 +52,8 @@ void run(const RobotTable& robot, std::int32_t ticks, MotionState& state, bool a
 }
 
 // As the arbiter does it: a setpoint per interval, on the way.
-void lead_joints(const RobotTable& robot, const JointVector& from, const JointVector& to, double duration_s, MotionState& state) {
+void lead_joints(const RobotTable& robot, const JointVector& from, const JointVector& to, double duration_s,
+                 MotionState& state) {
   const auto intervals = static_cast<std::int32_t>(duration_s / (robot.tick_s * robot.interval_ticks));
   for (std::int32_t i = 1; i <= intervals; ++i) {
     const double x = static_cast<double>(i) / intervals, share = x * x * (3.0 - 2.0 * x);
@@ -139,7 +140,8 @@ TEST(SerialMotion, StopsWhenItIsNoLongerAllowed) {
       }
     } else {
       Pose goal = state.arm.tip_in_base;
-      goal.position_m = add(goal.position_m, {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)});
+      goal.position_m =
+          add(goal.position_m, {random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5)});
       accept_setpoint(robot, tip_setpoint(goal), state);
       run(robot, 500, state);
     }

@@ -1,5 +1,5 @@
-// Servo IK of the serial arm: it converges, keeps ranges exactly, leaves the tip alone while it uses what the tip leaves free, and says how far
-// it got.
+// Servo IK of the serial arm: it converges, keeps ranges exactly, leaves the tip alone while it uses what the tip
+// leaves free, and says how far it got.
 #include "firmware_like/serial/servo_ik.hpp"
 
 #include <gtest/gtest.h>
