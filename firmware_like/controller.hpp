@@ -1,103 +1,154 @@
-// The control core: one door, `tick`. A trivially copyable value, so that the twin is a copy of it.
+// The control core: one door, `tick`. What is true of every robot is here; what is true of its arm is the arm's (arm.hpp). A trivially
+// copyable value, so that the twin is a copy of it.
 #pragma once
 
+#include <cstdint>
 #include <type_traits>
 
-#include "firmware_like/arm/estimator.hpp"
-#include "firmware_like/arm/tension.hpp"
+#include "firmware_like/arm.hpp"
 #include "firmware_like/controller_io.hpp"
-#include "firmware_like/motion/damping.hpp"
-#include "firmware_like/motion/motion.hpp"
-#include "firmware_like/safety/cable_watch.hpp"
-#include "firmware_like/safety/gate.hpp"
-#include "firmware_like/safety/supervisor.hpp"
-#include "firmware_like/safety/watchdogs.hpp"
 
 namespace liana {
 
-constexpr double kPretensionRamp_s = 3.0;     // from the tensions found to the planned ones
-constexpr double kSlackCheckShare = 0.5;      // of the tension floor: every cable must reach it before the arm may move
-constexpr std::uint32_t kHomingTicks = 25;    // the estimate has to stand still this long
-constexpr double kHomingStep_rad = 2e-4;      // largest Gauss-Newton step of a converged estimate
-constexpr double kHomingResidual_m = 1.5e-3;  // more is a wrong zero, a swapped cable or a slack one
-
 // Everything the core remembers between ticks.
+template <Arm A>
 class Controller {
  public:
+  using Table = typename A::Table;
+
   // The table must have passed the loader; no other checks are made here.
-  explicit Controller(const RobotTable& table) noexcept;
+  explicit Controller(const Table& table) noexcept
+      : arm_(table), gate_limits_(arm_.gate_limits()), link_limits_(arm_.link_limits()) {}
 
   // One control cycle. Never fails: what is wrong is in the faults and limits of the result. Inputs must come one per tick, in order.
-  Outputs tick(const Inputs& inputs) noexcept;
+  Outputs<A> tick(const Inputs<A>& inputs) noexcept {
+    limits_ = 0;
+    arm_.read(inputs.drive, inputs.sensors);
+    const std::int32_t wrong = watch(inputs);
+    const Orders orders =
+        supervise(link_limits_, inputs, arm_.status(), is_stop(active_), wrong, supervisor_, faults_);
+    take_telecommand(inputs);        // what is in force now
+    move(orders);                    // filter, IK, limiter: where the arm should be
+    command_drives(inputs, orders);  // what each drive should do, the gate, CiA 402
+    return report(inputs, orders);
+  }
 
-  const RobotTable& table() const noexcept { return table_; }
-  // Motion stage, for the verifier's predictions and for tests.
-  const MotionState& motion() const noexcept { return motion_; }
+  const Table& table() const noexcept { return arm_.table(); }
+  const A& arm() const noexcept { return arm_; }
   // What the last clear or enable looked at (bits of Condition).
   const SupervisorState& supervisor() const noexcept { return supervisor_; }
-  // Angles and contradictions that the drives' lengths show.
-  const EstimatorState& estimator() const noexcept { return estimator_; }
 
  private:
-  using Index = std::size_t;
+  using Command = Telecommand<typename A::Setpoint>;
 
-  void read_drives(const Inputs& inputs) noexcept;
-  std::int32_t watch_all(const Inputs& inputs) noexcept;
-  void take_telecommand(const Inputs& inputs) noexcept;
-  void move(const Inputs& inputs, const Orders& orders) noexcept;
-  void take_geometry() noexcept;
-  void plan_payouts(const Orders& orders) noexcept;
-  void command_drives(const Inputs& inputs, const Orders& orders) noexcept;
-  Outputs report(const Inputs& inputs, const Orders& orders) const noexcept;
+  static bool is_stop(const Command& command) noexcept { return command.kind() == CommandKind::kStop; }
 
-  bool homed() const noexcept { return homing_ticks_ >= kHomingTicks; }
-  bool cables_taut() const noexcept;
-  void reject_telecommand(const Inputs& inputs) noexcept;
-  void ramp_payouts(CableVector& wanted_m) const noexcept;
-  void damp_payouts(CableVector& wanted_m) noexcept;
-  void limit_payout_speed(CableVector& wanted_m) noexcept;
-  Index cables() const noexcept { return static_cast<Index>(layout_.cable_count); }
-  Index thetas() const noexcept { return static_cast<Index>(table_.theta_count()); }
+  std::int32_t watch(const Inputs<A>& inputs) noexcept;
+  void offer(const Command& offered, std::uint64_t tick) noexcept;
+  void take_telecommand(const Inputs<A>& inputs) noexcept;
+  void move(const Orders& orders) noexcept;
+  void command_drives(const Inputs<A>& inputs, const Orders& orders) noexcept;
+  Outputs<A> report(const Inputs<A>& inputs, const Orders& orders) const noexcept;
 
-  RobotTable table_{};
-  CableLayout layout_{};
-  GateLimits gate_limits_{};
-  WatchdogLimits watchdog_limits_{};
-  CableWatchLimits cable_watch_limits_{};
+  A arm_;
+  GateLimits gate_limits_;
+  LinkLimits link_limits_;
 
-  CableVector zero_payout_m_{};
-  CableVector payout_measured_m_{};
-  CableVector tension_measured_N_{};
-  EstimatorState estimator_{};
-  std::uint32_t homing_ticks_ = 0;
-  std::uint16_t feedback_age_ticks_ = 0xFFFF;  // of the drive that was heard longest ago
-
-  WatchdogState watchdogs_{};
-  CableWatchState cable_watch_{};
+  LinkWatchState link_{};
   FaultList faults_{};
   SupervisorState supervisor_{};
 
-  Telecommand active_{};
-  Telecommand pending_{};
+  Command active_{};
+  Command pending_{};
   std::uint64_t last_sequence_ = 0;
-  MotionState motion_{};
-  std::uint32_t limits_ = 0;
-  bool at_rest_ = true;  // nothing moves by command
+  std::uint32_t limits_ = 0;  // LimitBit of this tick
 
-  SlipState slip_{};
-  CableModel model_{};    // at the commanded angles
-  TensionRatio ratio_{};  // planned friction
-  DampingState damping_{};
-  SegmentVector lift_N_{};  // pulled tighter than planned
-  TensionPlan tension_{};
-  CableVector payout_command_m_{};
-  CableVector ramp_start_m_{};
-  double ramp_ = 0.0;  // 0..1 share of the planned pretension
-  bool live_ = false;  // targets were live in the last tick
-
-  std::array<DriveCommand, kMaxCables> sent_{};
+  DriveCommands sent_{};
 };
 
-static_assert(std::is_trivially_copyable_v<Controller>);
+// What is wrong with drives, buses, clock and arm; returns how many of it are wrong now.
+template <Arm A>
+std::int32_t Controller<A>::watch(const Inputs<A>& inputs) noexcept {
+  const WatchScope scope = watch_scope(supervisor_);
+  Watch out(inputs.tick, faults_);
+  watch_cycle(scope, inputs, out);
+  for (std::int32_t drive = 0; drive < link_limits_.drive_count; ++drive) {
+    const std::size_t i = as_index(drive);
+    watch_drive(link_limits_, scope, inputs.drive[i], drive, link_, out);
+    arm_.watch_drive(scope, link_.following_ticks[i] == 0, drive, out);
+    watch_following(link_limits_, scope, inputs.drive[i], sent_[i], drive, link_, out);
+  }
+  arm_.watch(scope, inputs.tick, faults_);
+  return out.active();
+}
+
+// A command with a new sequence waits for its first tick, or is a fault when the arm cannot use it.
+template <Arm A>
+void Controller<A>::offer(const Command& offered, std::uint64_t tick) noexcept {
+  if (offered.kind() == CommandKind::kNone || offered.sequence() <= last_sequence_) return;
+  last_sequence_ = offered.sequence();
+  if (arm_.accepts(offered.setpoint())) {
+    pending_ = offered;
+  } else {
+    latch(faults_, {FaultNumber::kCommandInvalid, -1, narrow<std::uint16_t>(offered.sequence() & 0xFFFFu), tick});
+  }
+}
+
+template <Arm A>
+void Controller<A>::take_telecommand(const Inputs<A>& inputs) noexcept {
+  offer(inputs.telecommand, inputs.tick);
+  if (pending_.kind() != CommandKind::kNone && pending_.first_tick() <= inputs.tick) {
+    active_ = pending_;
+    pending_ = Command{};
+    if (is_motion(active_.kind())) {
+      arm_.take(active_.setpoint());
+    } else {
+      arm_.brake();  // hold or stop
+    }
+  }
+  if (active_.sequence() != 0 && active_.expiry_tick() <= inputs.tick) {
+    if (!arm_.is_braking()) limits_ |= kLimitExpired;
+    arm_.brake();
+  }
+}
+
+template <Arm A>
+void Controller<A>::move(const Orders& orders) noexcept {
+  if (!orders.live_targets) {
+    arm_.stand();
+    active_ = Command{};
+    return;
+  }
+  if (!orders.motion_allowed) arm_.brake();
+  limits_ |= arm_.advance(orders.motion_allowed);
+}
+
+template <Arm A>
+void Controller<A>::command_drives(const Inputs<A>& inputs, const Orders& orders) noexcept {
+  DriveProposals proposals{};
+  limits_ |= arm_.propose(orders, sent_, faults_.count == 0, proposals);
+  const GateResult result = gate(gate_limits_, orders.goal, orders.live_targets, proposals, sent_, inputs.drive);
+  if (result.check != GateCheck::kPassed) {
+    limits_ |= kLimitGate;
+    latch(faults_, gate_fault(result, inputs.tick));
+  }
+  sent_ = result.command;
+}
+
+template <Arm A>
+Outputs<A> Controller<A>::report(const Inputs<A>& inputs, const Orders& orders) const noexcept {
+  const ArmStatus arm = arm_.status();
+  Outputs<A> out{{}, arm_.report()};
+  out.tick = inputs.tick;
+  out.state = orders.state;
+  out.stop_category = orders.stop_category;
+  out.limits = limits_;
+  out.at_rest = arm.at_rest ? 1 : 0;
+  out.homed = arm.homed ? 1 : 0;
+  out.active_sequence = arm_.is_braking() ? 0 : active_.sequence();
+  out.faults = faults_;
+  out.drive = sent_;
+  return out;
+}
 
 }  // namespace liana

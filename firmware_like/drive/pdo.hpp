@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_like/controller_io.hpp"
+#include "firmware_like/drive/drive_io.hpp"
 
 namespace liana {
 

@@ -1,4 +1,4 @@
-// The only places where numbers change type: integers between widths, metres and counts, floating point to integer.
+// The only places where numbers change type: integers between widths, floating point to integer.
 #pragma once
 
 #include <concepts>
@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <limits>
 #include <utility>
-
-#include "firmware_like/arm/robot_table.hpp"
 
 namespace liana {
 
@@ -42,19 +40,6 @@ constexpr Counts to_counts(double value) noexcept {
   if (rest >= 0.5) return {truncated + 1, CountStatus::kExact};
   if (rest <= -0.5) return {truncated - 1, CountStatus::kExact};
   return {truncated, CountStatus::kExact};
-}
-
-// Unstretched cable length [m] between drum and anchor at a drive position. `zero_payout_m` is the length at `zero_counts`:
-// cable path at the zero pose plus lead (docs/drives.md, "Counts and lengths").
-constexpr double payout_at_counts(const DriveTable& drive, double zero_payout_m, std::int32_t counts) noexcept {
-  const double turned = static_cast<double>(counts) - static_cast<double>(drive.zero_counts);
-  return zero_payout_m + static_cast<double>(drive.direction) * turned * drive.metres_per_count;
-}
-
-// Drive position that gives an unstretched cable length of `payout_m`; inverse of payout_at_counts to half a count.
-constexpr Counts counts_at_payout(const DriveTable& drive, double zero_payout_m, double payout_m) noexcept {
-  const double turned = (payout_m - zero_payout_m) / drive.metres_per_count;
-  return to_counts(static_cast<double>(drive.zero_counts) + static_cast<double>(drive.direction) * turned);
 }
 
 }  // namespace liana

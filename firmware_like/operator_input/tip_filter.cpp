@@ -46,14 +46,6 @@ ChannelLimits follow_channel(const FilterBounds& bounds, double tick_s, const Ve
   return {wanted.acted, follow_velocity(bounds, tick_s, wanted.value, state)};
 }
 
-TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s) noexcept {
-  const MotionLimits& limits = table.limits;
-  const bool lowered = tip_speed_m_s > 0.0 && tip_speed_m_s < limits.tip_speed_m_s;
-  return {{lowered ? tip_speed_m_s : limits.tip_speed_m_s, limits.tip_accel_m_s2, limits.tip_jerk_m_s3},
-          {limits.tip_rate_rad_s, limits.tip_angular_accel_rad_s2, limits.tip_angular_jerk_rad_s3},
-          table.tick_s};
-}
-
 double lag_s(const FilterBounds& bounds) noexcept { return bounds.speed / bounds.accel; }
 
 void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterState& state) noexcept {

@@ -9,7 +9,6 @@
 
 #include <cstdint>
 
-#include "firmware_like/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
 
 namespace liana {
@@ -50,9 +49,6 @@ struct ChannelLimits {
 // One tick of one channel: velocity (and acceleration) change so as to bring `error` = target - state to zero; the caller integrates
 // velocity.
 ChannelLimits follow_channel(const FilterBounds& bounds, double tick_s, const Vec3& error, ChannelState& state) noexcept;
-
-// Bounds from the robot table; `tip_speed_m_s` may lower the linear speed (0 = the robot's).
-TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s) noexcept;
 
 // Lag [s] behind a target that moves with constant velocity below the limits.
 double lag_s(const FilterBounds& bounds) noexcept;

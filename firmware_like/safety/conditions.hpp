@@ -3,8 +3,7 @@
 
 #include <cstdint>
 
-#include "firmware_like/controller_io.hpp"
-#include "firmware_like/safety/watchdogs.hpp"
+#include "firmware_like/safety/link_watch.hpp"
 
 namespace liana {
 
@@ -22,7 +21,7 @@ enum Condition : std::uint32_t {
   kAllOff = 1u << 8,         // every drive known to be without power
   // Motion.
   kAtRest = 1u << 9,  // commanded motion has ended, for kRestTicks in a row
-  kTensioned = 1u << 10,
+  kPrepared = 1u << 10,
   // What is asked.
   kAskEnable = 1u << 11,
   kAskStop = 1u << 12,  // stop, disable or a stop telecommand
@@ -47,10 +46,10 @@ constexpr std::uint32_t kReady = kBusesUp | kDrivesFresh | kDrivesOperational | 
 constexpr std::uint32_t kClearable = kBusesUp | kDrivesFresh | kDrivesOperational | kNoDriveInFault | kHomed | kAtRest | kCausesGone;
 
 // The conditions on all drives that this one drive meets.
-std::uint32_t drive_conditions_of(const WatchdogLimits& limits, const DriveFeedback& drive) noexcept;
+std::uint32_t drive_conditions_of(const LinkLimits& limits, const DriveFeedback& drive) noexcept;
 
 // The conditions that buses and drives show in this tick.
-std::uint32_t drive_conditions(const WatchdogLimits& limits, const Inputs& inputs) noexcept;
+std::uint32_t drive_conditions(const LinkLimits& limits, const CycleInputs& inputs) noexcept;
 
 // The conditions that the latched faults show.
 std::uint32_t fault_conditions(const FaultList& faults) noexcept;

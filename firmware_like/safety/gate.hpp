@@ -1,66 +1,59 @@
 // The gate: last, pure step of a tick. Nothing reaches a drive that it has not judged; a proposal that fails becomes the safe command.
+// It speaks drive units only (counts, permille of rated torque, modes) and knows nothing of arms.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
-#include "firmware_like/controller_io.hpp"
 #include "firmware_like/drive/cia402.hpp"
+#include "firmware_like/drive/drive_io.hpp"
+#include "firmware_like/safety/faults.hpp"
 
 namespace liana {
-
-// Over the cable speed limit per tick: room for elongation that the pretension ramp and the tension plan add to the motion, and for the
-// servo's mode damping. Half a count of rounding at either end comes on top.
-constexpr double kGateSpeedMargin = 1.25;
-constexpr std::int64_t kGateRoundingCounts = 1;
 
 // Which check refused; the numbers are the detail of kGateRefused and never change meaning.
 enum class GateCheck : std::uint8_t {
   kPassed = 0,
-  kPayoutNotFinite = 1,
-  kPayoutOutOfRange = 2,  // a length the arm cannot have, or counts beyond 32 bits
-  kStepTooLarge = 3,      // target changes faster than the cable speed limit with margin
-  kTensionNotFinite = 4,
-  kTensionOutOfRange = 5,  // planned tension negative or over the ceiling
-  kDriveNotEnabled = 6,    // motion was proposed while this drive is not in Operation enabled
+  kTargetNotFinite = 1,
+  kTargetOutOfRange = 2,  // a position the drive must never have, or counts beyond 32 bits
+  kStepTooLarge = 3,      // the target changes faster than the drive may turn
+  kTorqueNotFinite = 4,
+  kTorqueOutOfRange = 5,
+  kDriveNotEnabled = 6,  // motion was proposed while this drive is not in Operation enabled
+  kModeNotAllowed = 7,   // a mode of operation that the drive was not configured for
 };
 
-// Limits derived once from the robot table.
+// What one drive may be told.
+struct DriveLimits {
+  DriveMode mode = DriveMode::kCyclicPosition;
+  double least_counts = 0.0;
+  double most_counts = 0.0;
+  std::int64_t step_counts = 0;  // largest target change in one tick
+  double least_permille = 0.0;
+  double most_permille = 0.0;
+};
+
+// Limits of all drives, derived once from the robot table.
 struct GateLimits {
   std::int32_t drive_count = 0;
-  CableVector zero_payout_m{};  // length at zero_counts
-  CableVector least_payout_m{};
-  CableVector most_payout_m{};
-  std::array<std::int64_t, kMaxCables> step_counts{};  // largest target change in one tick
-  double tension_ceiling_N = 0.0;
-};
-
-// Limits of a checked table. `zero_payout_m` per cable: path at the zero pose plus lead. The range is what bending every joint fully can
-// add or take, plus the elongation at the hard limit.
-GateLimits make_gate_limits(const RobotTable& table, const CableVector& zero_payout_m) noexcept;
-
-// What the motion stages propose for one tick.
-struct GateProposal {
-  DriveGoal goal = DriveGoal::kDisabled;  // from the supervisor's orders
-  bool live_targets = false;              // from the supervisor's orders; false: payouts are not looked at
-  CableVector payout_m{};                 // unstretched length
-  CableVector tension_plan_N{};           // at the motor
+  std::array<DriveLimits, kMaxDrives> drive{};
 };
 
 // What goes to the drives, and why it is not the proposal.
 struct GateResult {
-  std::array<DriveCommand, kMaxCables> command{};
+  DriveCommands command{};
   GateCheck check = GateCheck::kPassed;
   std::int16_t drive = -1;  // first drive that failed, 0-based
 };
 
-// Judges a proposal against what was sent in the previous tick and what the drives report. All drives pass, or none: after a refusal
-// every drive gets its safe target. The safe target, also sent while targets are not live, is the previous one for a drive that has
-// torque and was told to have it, and the actual position for every other drive.
-GateResult gate(const RobotTable& table, const GateLimits& limits, const GateProposal& proposal,
-                const std::array<DriveCommand, kMaxCables>& previous, const std::array<DriveFeedback, kMaxCables>& feedback) noexcept;
+// Judges the proposals for a tick against what was sent in the previous tick and what the drives report. `goal` and `live_targets` are the
+// supervisor's orders; while targets are not live, proposals are not looked at. All drives pass, or none: after a refusal every drive gets
+// its safe target, as it does while targets are not live: the previous one for a drive that has torque and was told to have it, and the
+// actual position for every other drive.
+GateResult gate(const GateLimits& limits, DriveGoal goal, bool live_targets, const DriveProposals& proposal,
+                const DriveCommands& previous, const DriveFeedbacks& feedback) noexcept;
 
-// Fault of a refusal: kGateRefused with the drive and the check; number kNone when the gate passed the proposal.
+// The fault of a refusal; number kNone when everything passed.
 Fault gate_fault(const GateResult& result, std::uint64_t tick) noexcept;
 
 // Name of a check as logs print it, e.g. "step_too_large"; never null.

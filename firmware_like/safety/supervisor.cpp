@@ -24,7 +24,7 @@ constexpr std::array<PhaseTraits, kPhaseCount> kPhaseTable{{
     {OperatingState::kDisabled, DriveGoal::kDisabled, StopCategory::kNone, false, 0, kForever},
     {OperatingState::kEnabling, DriveGoal::kSwitchedOn, StopCategory::kNone, false, 0, kPoweringBudgetTicks},
     {OperatingState::kEnabling, DriveGoal::kOperationEnabled, StopCategory::kNone, false, 0, kPoweringBudgetTicks},
-    {OperatingState::kEnabling, DriveGoal::kOperationEnabled, StopCategory::kNone, true, 0, kTensioningBudgetTicks},
+    {OperatingState::kEnabling, DriveGoal::kOperationEnabled, StopCategory::kNone, true, 0, kPreparingBudgetTicks},
     {OperatingState::kEnabled, DriveGoal::kOperationEnabled, StopCategory::kNone, true, 0, kForever},
     {OperatingState::kStopping, DriveGoal::kOperationEnabled, StopCategory::kStop, true, 0, kPathStopBudgetTicks},
     {OperatingState::kStopping, DriveGoal::kSwitchedOn, StopCategory::kStop, false, kBrakingTicks, kBrakingTicks},
@@ -52,13 +52,13 @@ constexpr std::array kTransitions{
 
     Transition{Phase::kPowering, kFaultHold, 0, Phase::kPowerDown},
     Transition{Phase::kPowering, kAskStop, 0, Phase::kPowerDown},
-    Transition{Phase::kPowering, kAllEnabled, 0, Phase::kTensioning},
+    Transition{Phase::kPowering, kAllEnabled, 0, Phase::kPreparing},
 
-    Transition{Phase::kTensioning, kFaultOff, 0, Phase::kPowerDown},
-    Transition{Phase::kTensioning, kFaultImmediate, 0, Phase::kQuickStop},
-    Transition{Phase::kTensioning, kFaultHold, 0, Phase::kBraking},  // no motion yet: nothing to decelerate but the ramp
-    Transition{Phase::kTensioning, kAskStop, 0, Phase::kBraking},
-    Transition{Phase::kTensioning, kTensioned, 0, Phase::kEnabled},
+    Transition{Phase::kPreparing, kFaultOff, 0, Phase::kPowerDown},
+    Transition{Phase::kPreparing, kFaultImmediate, 0, Phase::kQuickStop},
+    Transition{Phase::kPreparing, kFaultHold, 0, Phase::kBraking},  // no motion yet: nothing to decelerate but the ramp
+    Transition{Phase::kPreparing, kAskStop, 0, Phase::kBraking},
+    Transition{Phase::kPreparing, kPrepared, 0, Phase::kEnabled},
 
     Transition{Phase::kEnabled, kFaultOff, 0, Phase::kPowerDown},
     Transition{Phase::kEnabled, kFaultImmediate, 0, Phase::kQuickStop},
@@ -97,12 +97,12 @@ std::uint32_t request_conditions(Request request, bool stop_commanded) noexcept 
   return request == Request::kClear ? static_cast<std::uint32_t>(kAskClear) : 0;
 }
 
-std::uint32_t conditions_now(const WatchdogLimits& limits, const Inputs& inputs, const MotionStatus& motion, std::int32_t active_faults,
-                             const SupervisorState& state) noexcept {
+std::uint32_t conditions_now(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm,
+                             bool stop_commanded, std::int32_t active_faults, const SupervisorState& state) noexcept {
   const PhaseTraits& traits = traits_of(state.phase);
-  std::uint32_t set = drive_conditions(limits, inputs) | request_conditions(inputs.request, motion.stop_commanded);
-  if (motion.homed) set |= kHomed;
-  if (motion.pretension_done) set |= kTensioned;
+  std::uint32_t set = drive_conditions(limits, inputs) | request_conditions(inputs.request, stop_commanded);
+  if (arm.homed) set |= kHomed;
+  if (arm.prepared) set |= kPrepared;
   if (state.rest_ticks >= kRestTicks || !traits.live_targets) set |= kAtRest;  // without live targets nothing commands motion
   if (active_faults == 0) set |= kCausesGone;
   if (state.wrong_ticks >= kPersistTicks) set |= kFaultPersists;
@@ -112,7 +112,7 @@ std::uint32_t conditions_now(const WatchdogLimits& limits, const Inputs& inputs,
 }
 
 // Latches a timeout for every drive that is not where the phase wants it.
-void name_late_drives(const WatchdogLimits& limits, const Inputs& inputs, FaultNumber number, std::uint32_t wanted,
+void name_late_drives(const LinkLimits& limits, const CycleInputs& inputs, FaultNumber number, std::uint32_t wanted,
                       FaultList& faults) noexcept {
   for (std::int32_t i = 0; i < limits.drive_count; ++i) {
     const DriveFeedback& drive = inputs.drive[as_index(i)];
@@ -121,12 +121,12 @@ void name_late_drives(const WatchdogLimits& limits, const Inputs& inputs, FaultN
   }
 }
 
-void latch_timeouts(const WatchdogLimits& limits, const Inputs& inputs, Phase phase, std::uint32_t now, FaultList& faults) noexcept {
+void latch_timeouts(const LinkLimits& limits, const CycleInputs& inputs, Phase phase, std::uint32_t now, FaultList& faults) noexcept {
   if ((now & kBudgetSpent) == 0) return;
   if (phase == Phase::kSwitchingOn) name_late_drives(limits, inputs, FaultNumber::kDriveEnableTimeout, kAllSwitchedOn, faults);
   if (phase == Phase::kPowering) name_late_drives(limits, inputs, FaultNumber::kDriveEnableTimeout, kAllEnabled, faults);
   if (phase == Phase::kPowerDown) name_late_drives(limits, inputs, FaultNumber::kDriveStopTimeout, kAllOff, faults);
-  if (phase == Phase::kTensioning && (now & kTensioned) == 0) {
+  if (phase == Phase::kPreparing && (now & kPrepared) == 0) {
     latch(faults, {FaultNumber::kDriveEnableTimeout, -1, 0, inputs.tick});
   }
 }
@@ -181,7 +181,7 @@ Orders orders_of(const SupervisorState& state, std::uint32_t now, const FaultLis
   orders.stop_category = higher(traits.stop, state.stopped);
   orders.live_targets = traits.live_targets;
   orders.motion_allowed = phase == Phase::kEnabled && faults.category == StopCategory::kNone;
-  orders.ramp_active = phase == Phase::kTensioning;
+  orders.preparing = phase == Phase::kPreparing;
   orders.enable_missing = kReady & ~now;
   return orders;
 }
@@ -190,14 +190,14 @@ Orders orders_of(const SupervisorState& state, std::uint32_t now, const FaultLis
 
 WatchScope watch_scope(const SupervisorState& state) noexcept {
   const bool powered = traits_of(state.phase).live_targets;
-  return {powered, powered && state.phase != Phase::kTensioning};
+  return {powered, powered && state.phase != Phase::kPreparing};
 }
 
-Orders supervise(const WatchdogLimits& limits, const Inputs& inputs, const MotionStatus& motion, std::int32_t active_faults,
-                 SupervisorState& state, FaultList& faults) noexcept {
-  count(motion.at_rest, kRestTicks, state.rest_ticks);
+Orders supervise(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm, bool stop_commanded,
+                 std::int32_t active_faults, SupervisorState& state, FaultList& faults) noexcept {
+  count(arm.at_rest, kRestTicks, state.rest_ticks);
   count(active_faults != 0, kPersistTicks, state.wrong_ticks);
-  std::uint32_t now = conditions_now(limits, inputs, motion, active_faults, state);
+  std::uint32_t now = conditions_now(limits, inputs, arm, stop_commanded, active_faults, state);
   latch_timeouts(limits, inputs, state.phase, now, faults);
   if (is_clear_due(state.phase, now)) judge_clear(inputs.tick, now, state, faults);
   now |= fault_conditions(faults);

@@ -4,16 +4,15 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "firmware_like/controller_io.hpp"
 #include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/safety/conditions.hpp"
-#include "firmware_like/safety/watchdogs.hpp"
+#include "firmware_like/safety/link_watch.hpp"
 
 namespace liana {
 
 // Counted cycles: how long a phase lasts at least, and at most before the supervisor goes on without waiting.
 constexpr std::uint32_t kPoweringBudgetTicks = 250;      // CiA 402 transitions and brakes take well under 0.5 s (500 Hz)
-constexpr std::uint32_t kTensioningBudgetTicks = 15000;  // 60 s at 250 Hz; the ramp takes a few seconds
+constexpr std::uint32_t kPreparingBudgetTicks = 15000;  // 60 s at 250 Hz; the ramp takes a few seconds
 constexpr std::uint32_t kRestTicks = 25;                 // standing still this long before the brakes close
 constexpr std::uint32_t kPersistTicks = 1250;            // a cause that stays this long turns a hold into a stop (5 s at 250 Hz)
 constexpr std::uint32_t kPathStopBudgetTicks = 1000;     // full speed to rest takes about 1 s
@@ -25,12 +24,15 @@ constexpr std::uint32_t kResetTicks = 10;  // fault reset edges, and time for th
 constexpr std::uint32_t kResetBudgetTicks = 250;
 static_assert(kRestTicks < kPathStopBudgetTicks && kOffTicks < kOffBudgetTicks && kResetTicks < kResetBudgetTicks);
 
+// CRTK-like operating states.
+enum class OperatingState : std::uint8_t { kDisabled = 0, kEnabling = 1, kEnabled = 2, kStopping = 3, kFault = 4 };
+
 // The operating states, split where the drives are told different things.
 enum class Phase : std::uint8_t {
   kDisabled = 0,
   kSwitchingOn = 1,  // all drives to Switched on: no brake opens before every drive is there
   kPowering = 2,     // all drives to Operation enabled, target = actual
-  kTensioning = 3,   // pretension ramp and slack check
+  kPreparing = 3,    // the arm makes itself ready: a cable arm pretensions and looks for slack
   kEnabled = 4,
   kPathStop = 5,   // decelerate along the path
   kBraking = 6,    // at rest: brakes close, power stays
@@ -58,12 +60,11 @@ struct SupervisorState {
 };
 static_assert(std::is_trivially_copyable_v<SupervisorState>);
 
-// What the motion stages tell the supervisor.
-struct MotionStatus {
-  bool stop_commanded = false;   // a stop telecommand is in force
-  bool homed = false;            // measured lengths are plausible
-  bool at_rest = false;          // commanded motion has ended in this tick
-  bool pretension_done = false;  // ramp at its end and no cable slack
+// What the arm tells the supervisor.
+struct ArmStatus {
+  bool homed = false;     // the measured pose is trusted
+  bool at_rest = false;   // commanded motion has ended in this tick
+  bool prepared = false;  // ready for motion: a cable arm has its ramp at its end and no cable slack
 };
 
 // What the supervisor orders for this tick.
@@ -72,17 +73,18 @@ struct Orders {
   StopCategory stop_category = StopCategory::kNone;  // in Fault: of the stop that led there
   DriveGoal goal = DriveGoal::kDisabled;             // of every drive
   bool motion_allowed = false;       // telecommands may move the arm; false while live_targets: decelerate along the path and hold
-  bool ramp_active = false;          // run the pretension ramp; it starts at the targets sent last
-  bool live_targets = false;         // proposed payouts go to the drives; otherwise the gate freezes targets or follows actual positions
+  bool preparing = false;            // the arm makes itself ready, starting at the targets sent last
+  bool live_targets = false;         // proposals go to the drives; otherwise the gate freezes targets or follows actual positions
   std::uint32_t enable_missing = 0;  // bits of kReady that keep the drives from being enabled
 };
 
 // What the watchdogs have to look at while in the phase that the last tick ended in.
 WatchScope watch_scope(const SupervisorState& state) noexcept;
 
-// One step of the state machine, after `watch` and before the gate; `active_faults` is what watch returned. Latches enable and stop
+// One step of the state machine, after the watchdogs and before the gate. `stop_commanded`: a stop telecommand is in force;
+// `active_faults`: how many conditions the watchdogs find wrong now. Latches enable and stop
 // timeouts, clears `faults` when asked and all of kClearable holds. Acts on this tick's inputs in this tick.
-Orders supervise(const WatchdogLimits& limits, const Inputs& inputs, const MotionStatus& motion, std::int32_t active_faults,
-                 SupervisorState& state, FaultList& faults) noexcept;
+Orders supervise(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm, bool stop_commanded,
+                 std::int32_t active_faults, SupervisorState& state, FaultList& faults) noexcept;
 
 }  // namespace liana

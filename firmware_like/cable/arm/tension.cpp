@@ -1,0 +1,147 @@
+#include "firmware_like/cable/arm/tension.hpp"
+
+#include <cmath>
+
+#include "firmware_like/math/pair.hpp"
+#include "firmware_like/math/scalar.hpp"
+
+namespace liana::cable {
+namespace {
+
+using Index = std::size_t;
+using AnchoredVector = std::array<double, kMaxSegmentCables>;  // one number per cable of a segment
+
+// Smooth maximum of two numbers: exact far apart, rounded over `width` [N] near equality.
+double smooth_maximum(double a, double b, double width) noexcept {
+  const double d = a - b;
+  return 0.5 * (a + b + std::sqrt(d * d + width * width));
+}
+
+// The two equations of one segment, [p; q] x = rhs, over its own cables.
+struct SegmentBalance {
+  AnchoredVector p{}, q{};
+  double pp = 0.0, pq = 0.0, qq = 0.0, det = 0.0;
+};
+
+void complete(Index n, SegmentBalance& b) noexcept {
+  for (Index i = 0; i < n; ++i) {
+    b.pp += b.p[i] * b.p[i];
+    b.pq += b.p[i] * b.q[i];
+    b.qq += b.q[i] * b.q[i];
+  }
+  b.det = b.pp * b.qq - b.pq * b.pq;
+}
+
+bool is_solvable(const SegmentBalance& b) noexcept { return b.det > 1e-12 * b.pp * b.qq; }
+
+// Least-norm solution.
+AnchoredVector solve(const SegmentBalance& b, Index n, double rhs_p, double rhs_q) noexcept {
+  const double u = (rhs_p * b.qq - rhs_q * b.pq) / b.det;
+  const double w = (rhs_q * b.pp - rhs_p * b.pq) / b.det;
+  AnchoredVector x{};
+  for (Index i = 0; i < n; ++i) x[i] = b.p[i] * u + b.q[i] * w;
+  return x;
+}
+
+// Projection of (1, ..., 1) on the null space: pulling all cables of the segment harder without turning it.
+AnchoredVector pull_together(const SegmentBalance& b, Index n) noexcept {
+  double sum_p = 0.0, sum_q = 0.0;
+  for (Index i = 0; i < n; ++i) sum_p += b.p[i], sum_q += b.q[i];
+  AnchoredVector x = solve(b, n, sum_p, sum_q);
+  for (Index i = 0; i < n; ++i) x[i] = 1.0 - x[i];
+  return x;
+}
+
+// Shifts s such that t + s null keeps every cable of a segment on the right side, smooth.
+struct Shifts {
+  double wanted = 0.0;  // least s >= 0 over the floor and its margin
+  double least = 0.0;   // least s >= 0 over the floor
+  double most = 1e3;    // largest s under the ceiling
+};
+
+Shifts shifts_for(const AnchoredVector& t, const AnchoredVector& null, Index n, const TensionLimits& limits, double margin_N) noexcept {
+  constexpr double kWidth_N = 2.0;
+  Shifts s;
+  for (Index i = 0; i < n; ++i) {
+    if (!(null[i] > 0.05)) continue;
+    const double per_N = 1.0 / null[i], to_floor = (limits.floor_motor_N + kWidth_N - t[i]) * per_N;
+    s.wanted = smooth_maximum(s.wanted, to_floor + margin_N * per_N, kWidth_N);
+    s.least = smooth_maximum(s.least, to_floor, kWidth_N);
+    s.most = -smooth_maximum(-s.most, (t[i] - kCeilingShare * limits.ceiling_free_N) * per_N, kWidth_N);
+  }
+  return s;
+}
+
+}  // namespace
+
+TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
+                         const SegmentVector& lift_N) noexcept {
+  TensionPlan plan;
+  const Index cables = static_cast<Index>(table.cable_count());
+  Index first = cables;
+  const double margin_N = table.friction_mu > kMarginFriction ? kFloorMargin_N * kMarginFriction / table.friction_mu : kFloorMargin_N;
+  for (std::int32_t m = table.segment_count - 1; m >= 0; --m) {
+    const Index j = static_cast<Index>(m);
+    const Index n = static_cast<Index>(table.segment[j].cables);
+    first -= n;
+    double rhs_pitch = 0.0, rhs_yaw = 0.0;  // torque of the cables that go on to later segments
+    for (Index c = first + n; c < cables; ++c) {
+      const double t = ratio[c][j] * plan.motor_N[c];
+      rhs_pitch -= geometry.jacobian_m_rad[c][2 * j] * t;
+      rhs_yaw -= geometry.jacobian_m_rad[c][2 * j + 1] * t;
+    }
+    SegmentBalance balance;
+    for (Index i = 0; i < n; ++i) {
+      balance.p[i] = geometry.jacobian_m_rad[first + i][2 * j] * ratio[first + i][j];
+      balance.q[i] = geometry.jacobian_m_rad[first + i][2 * j + 1] * ratio[first + i][j];
+    }
+    complete(n, balance);
+    AnchoredVector t{}, null{};
+    if (is_solvable(balance)) {
+      t = solve(balance, n, rhs_pitch, rhs_yaw);
+      null = pull_together(balance, n);
+      for (Index i = 0; i < n; ++i) t[i] += table.tension.plan_N * null[i];
+    } else {
+      plan.balanced = false;
+      t.fill(table.tension.plan_N);
+    }
+    // The margin over the floor gives way to the ceiling, the floor itself does not.
+    const Shifts s = shifts_for(t, null, n, table.tension, margin_N + lift_N[j]);
+    const double shift = smooth_maximum(s.least, -smooth_maximum(-s.wanted, -s.most, 2.0), 2.0);
+    for (Index i = 0; i < n; ++i) {
+      plan.motor_N[first + i] = t[i] + shift * null[i];
+      plan.ceiling_exceeded = plan.ceiling_exceeded || plan.motor_N[first + i] > table.tension.ceiling_free_N;
+    }
+    plan.floor_acted = plan.floor_acted || s.least > 2.0;  // the floor itself, not the margin over it
+  }
+  return plan;
+}
+
+void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVector& lift_N) noexcept {
+  const double limit_N = kLiftLimit_N * larger(0.0, 1.0 - table.friction_mu / kMarginFriction);
+  const double enough_N = table.tension.floor_motor_N + kLiftBelow_N;
+  Index c = 0;
+  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
+    double missing_N = 0.0;
+    for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c) missing_N = larger(missing_N, enough_N - tension_N[c]);
+    const double rate_N_s = kLiftRate_1_s * missing_N - lift_N[j] / kLiftLeak_s;
+    lift_N[j] = smaller(lift_N[j] + rate_N_s * table.tick_s, limit_N);
+  }
+}
+
+CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m, const TensionRatio& ratio,
+                       const CableVector& motor_N) noexcept {
+  CableVector payout{};
+  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
+    const double strain = motor_N[c] / table.cable_EA_N;
+    Pair sum_m{table.lead_m / (1.0 + strain), 0.0};
+    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]);
+         j += 2) {  // two segments at a time; beyond the cable's own there is no part
+      sum_m += load_pair(&part_m[c][j]) / (both(1.0) + strain * load_pair(&ratio[c][j]));
+    }
+    payout[c] = sum(sum_m);
+  }
+  return payout;
+}
+
+}  // namespace liana::cable

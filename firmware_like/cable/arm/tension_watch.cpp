@@ -1,0 +1,28 @@
+#include "firmware_like/cable/arm/tension_watch.hpp"
+
+namespace liana::cable {
+
+TensionWatchLimits make_tension_watch_limits(const RobotTable& table) noexcept {
+  return {table.tension.floor_anywhere_N, kBreakShare * table.tension.floor_motor_N, table.tension.alarm_N,
+          table.tension.hard_limit_N};
+}
+
+void watch_tension(const TensionWatchLimits& limits, WatchScope scope, const TensionReading& now, std::int32_t index,
+                   TensionWatchState& state, Watch& out) noexcept {
+  const std::size_t i = as_index(index);
+  if (now.tension_N >= limits.slack_N && now.tension_N <= limits.alarm_N && now.tension_N <= limits.hard_limit_N) {
+    state.slack_ticks[i] = state.alarm_ticks[i] = state.overload_ticks[i] = 0;
+    return;
+  }
+  const bool slack = scope.prepared && !(now.tension_N >= limits.slack_N);  // so written, NaN is slack
+  out.debounced(slack, kSlackDebounceTicks, state.slack_ticks[i], FaultNumber::kCableSlack, index);
+  // A motor that is not where it was told to be may have let the cable go itself.
+  const bool broken = state.slack_ticks[i] == kBreakDebounceTicks && now.lowpass_N > limits.firm_N && now.follows;
+  if (broken) out.wrong(FaultNumber::kCableBreak, index, 0);
+  const bool alarm = scope.powered && now.tension_N > limits.alarm_N;
+  out.debounced(alarm, kAlarmDebounceTicks, state.alarm_ticks[i], FaultNumber::kTensionAlarm, index);
+  const bool overload = scope.powered && now.tension_N > limits.hard_limit_N;
+  out.debounced(overload, kOverloadDebounceTicks, state.overload_ticks[i], FaultNumber::kCableOverload, index);
+}
+
+}  // namespace liana::cable

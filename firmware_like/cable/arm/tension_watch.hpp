@@ -1,0 +1,47 @@
+// Watchdogs of measured cable tension: slack, broken and overloaded cables.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/safety/link_watch.hpp"
+
+namespace liana::cable {
+
+constexpr std::uint16_t kSlackDebounceTicks = 25;  // far longer than a stick-slip dip, far shorter than a cable leaving its drum
+constexpr std::uint16_t kBreakDebounceTicks = 3;   // one wrong torque sample is not a break
+constexpr double kBreakShare = 0.5;  // of the tension floor: a cable that was so tight a moment ago does not come loose by itself
+constexpr std::uint16_t kAlarmDebounceTicks = 25;
+constexpr std::uint16_t kOverloadDebounceTicks = 3;  // one wrong torque sample is not an overload
+
+// Limits derived once from the robot table.
+struct TensionWatchLimits {
+  double slack_N = 0.0;
+  double firm_N = 0.0;  // of the low-passed tension: who falls from here to slack at once is broken
+  double alarm_N = 0.0;
+  double hard_limit_N = 0.0;
+};
+
+// Limits of a checked table.
+TensionWatchLimits make_tension_watch_limits(const RobotTable& table) noexcept;
+
+// Ticks in a row in which a condition was seen.
+struct TensionWatchState {
+  std::array<std::uint16_t, kMaxCables> slack_ticks{};
+  std::array<std::uint16_t, kMaxCables> alarm_ticks{};
+  std::array<std::uint16_t, kMaxCables> overload_ticks{};
+};
+
+// What is known about one cable in this tick.
+struct TensionReading {
+  double tension_N = 0.0;  // from the drive's torque; a value that is not finite counts as slack
+  double lowpass_N = 0.0;  // the same over kTensionFilter_s
+  bool follows = true;     // its motor is where it was told to be
+};
+
+// Latches what is wrong with cable `index` in this tick. Slack is looked for once the arm is prepared, overload while drives are powered.
+void watch_tension(const TensionWatchLimits& limits, WatchScope scope, const TensionReading& now, std::int32_t index,
+                   TensionWatchState& state, Watch& out) noexcept;
+
+}  // namespace liana::cable

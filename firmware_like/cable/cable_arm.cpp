@@ -1,0 +1,225 @@
+#include "firmware_like/cable/cable_arm.hpp"
+
+#include <cmath>
+
+#include "firmware_like/cable/arm/drive_limits.hpp"
+#include "firmware_like/cable/arm/payout.hpp"
+#include "firmware_like/math/convert.hpp"
+#include "firmware_like/math/pair.hpp"
+#include "firmware_like/math/scalar.hpp"
+#include "firmware_like/safety/limits.hpp"
+
+namespace liana::cable {
+namespace {
+
+double smooth_step(double x) noexcept { return x * x * (3.0 - 2.0 * x); }
+
+}  // namespace
+
+CableArm::CableArm(const RobotTable& table) noexcept
+    : table_(table),
+      layout_(cable_layout(table)),
+      tension_watch_limits_(make_tension_watch_limits(table)) {
+  for (Index c = 0; c < cables(); ++c) zero_payout_m_[c] = layout_.zero_length_m[c] + table.lead_m;
+  cable_watch_limits_ = make_cable_watch_limits(table, zero_payout_m_);
+  reset_motion(table_, ThetaVector{}, motion_);
+  take_geometry();
+  update_tension_ratio(table_, layout_, motion_.trig, slip_, ratio_);
+}
+
+GateLimits CableArm::gate_limits() const noexcept { return make_gate_limits(table_, zero_payout_m_); }
+
+LinkLimits CableArm::link_limits() const noexcept { return make_link_limits(table_); }
+
+// --- from the drives ---
+
+void CableArm::read(const DriveFeedbacks& drives, const NoSensors&) noexcept {
+  feedback_age_ticks_ = 0;
+  for (Index c = 0; c < cables(); ++c) {
+    const DriveFeedback& drive = drives[c];
+    if (drive.feedback_age_ticks > feedback_age_ticks_) feedback_age_ticks_ = drive.feedback_age_ticks;
+    payout_measured_m_[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], drive.position_counts);
+    tension_measured_N_[c] = table_.drive[c].newtons_per_permille * drive.torque_permille;
+  }
+  if (feedback_age_ticks_ == 0xFFFF) return;  // a drive was never heard
+  estimate(table_, layout_, model_, ratio_, payout_measured_m_, tension_measured_N_, estimator_);
+  count_homing();
+}
+
+void CableArm::count_homing() noexcept {
+  const bool all_fresh = feedback_age_ticks_ <= kFeedbackAgeTicks;
+  double residual_m = 0.0;
+  for (Index c = 0; c < cables(); ++c) residual_m = larger(residual_m, std::fabs(estimator_.residual_m[c]));
+  const bool plausible = all_fresh && estimator_.largest_step_rad < kHomingStep_rad && residual_m < kHomingResidual_m;
+  // Once homed, a moving arm may well step further; only before that does the estimate have to settle.
+  if (plausible && homing_ticks_ < kHomingTicks) ++homing_ticks_;
+  if (!plausible && !is_homed()) homing_ticks_ = 0;
+  if (!all_fresh || residual_m > 4.0 * kHomingResidual_m) homing_ticks_ = 0;
+}
+
+void CableArm::watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept {
+  const Index c = as_index(drive);
+  const TensionReading now{tension_measured_N_[c], estimator_.tension_N[c], follows};
+  watch_tension(tension_watch_limits_, scope, now, drive, tension_watch_, out);
+}
+
+void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept {
+  const CableReadings cables{payout_measured_m_, tension_measured_N_, model_.geometry.length_m, estimator_.residual_m};
+  const bool usable = scope.prepared && feedback_age_ticks_ == 0 && faults.count == 0;
+  watch_cables(table_, cable_watch_limits_, cables, usable, tick, cable_watch_, faults);
+}
+
+bool CableArm::are_cables_taut() const noexcept {
+  for (Index c = 0; c < cables(); ++c) {
+    if (!(estimator_.tension_N[c] >= kSlackCheckShare * table_.tension.floor_motor_N)) return false;
+  }
+  return true;
+}
+
+ArmStatus CableArm::status() const noexcept {
+  return {is_homed(), at_rest(table_, motion_), ramp_ >= 1.0 && are_cables_taut()};
+}
+
+// --- to commanded angles ---
+
+// The arm stands where its brakes hold it: motion starts from there.
+void CableArm::stand() noexcept { reset_motion(table_, estimator_.theta_rad, motion_); }
+
+std::uint32_t CableArm::advance(bool allowed) noexcept {
+  advance_motion(table_, model_.geometry, allowed, motion_);
+  return motion_.limits;
+}
+
+void CableArm::take_geometry() noexcept {
+  model_.theta_rad = motion_.limiter.theta_rad;
+  update_cable_geometry(table_, layout_, motion_.trig, model_.geometry);
+  update_cable_solver(table_, model_.geometry, model_.solver);
+}
+
+// --- to the drives ---
+
+// Targets are not live: lengths follow the drives, and the next enabling starts anew.
+void CableArm::stop_planning() noexcept {
+  live_ = false;
+  ramp_ = 0.0;
+  damping_ = DampingState{};
+  lift_N_ = SegmentVector{};
+  payout_command_m_ = payout_measured_m_;
+}
+
+void CableArm::start_ramp(const DriveCommands& sent) noexcept {
+  for (Index c = 0; c < cables(); ++c) {
+    ramp_start_m_[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], sent[c].target_counts);
+  }
+  payout_command_m_ = ramp_start_m_;
+  live_ = true;
+}
+
+std::uint32_t CableArm::plan_tensions(bool is_sound) noexcept {
+  if (ramp_ >= 1.0 && is_sound) keep_taut(table_, estimator_.tension_N, lift_N_);
+  tension_ = plan_tension(table_, model_.geometry, ratio_, lift_N_);
+  const std::uint32_t floor = tension_.floor_acted ? kLimitTensionFloor : 0u;
+  const std::uint32_t ceiling = tension_.ceiling_exceeded ? kLimitTensionCeiling : 0u;
+  return floor | ceiling;
+}
+
+// Damping, tension plan, cable map: commanded lengths. `is_sound`: no fault is latched.
+std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent, bool is_sound,
+                                DriveProposals& out) noexcept {
+  take_geometry();
+  if (!orders.live_targets || !live_) reset_slip(model_.geometry, slip_);
+  advance_slip(layout_, model_.geometry, slip_);
+  update_tension_ratio(table_, layout_, motion_.trig, slip_, ratio_);
+  if (!orders.live_targets) {
+    stop_planning();
+    return 0;
+  }
+  if (!live_) start_ramp(sent);
+  if (orders.preparing) ramp_ = smaller(1.0, ramp_ + table_.tick_s / kPretensionRamp_s);
+
+  std::uint32_t limits = plan_tensions(is_sound);
+  CableVector wanted_m = payout_for(table_, layout_, model_.geometry.part_m, ratio_, tension_.motor_N);
+  if (ramp_ < 1.0) {
+    ramp_payouts(wanted_m);
+  } else {
+    damp_payouts(is_sound, wanted_m);
+  }
+  limits |= limit_payout_speed(wanted_m);
+  payout_command_m_ = wanted_m;
+  propose_payouts(out);
+  return limits;
+}
+
+std::uint32_t CableArm::limit_payout_speed(CableVector& wanted_m) const noexcept {
+  const double step_m = table_.limits.cable_speed_m_s * table_.tick_s;
+  std::uint32_t limits = 0;
+  for (Index c = 0; c < cables(); ++c) {
+    const double change = wanted_m[c] - payout_command_m_[c];
+    if (std::fabs(change) <= step_m) continue;
+    wanted_m[c] = payout_command_m_[c] + (change > 0.0 ? step_m : -step_m);
+    limits = kLimitCableSpeed;
+  }
+  return limits;
+}
+
+void CableArm::ramp_payouts(CableVector& wanted_m) const noexcept {
+  const double share = smooth_step(ramp_);
+  for (Index c = 0; c < cables(); ++c) wanted_m[c] = ramp_start_m_[c] + share * (wanted_m[c] - ramp_start_m_[c]);
+}
+
+// Moves the motors after the swing that the measured tensions show; while a fault makes tensions doubtful the last shift stays.
+void CableArm::damp_payouts(bool is_sound, CableVector& wanted_m) noexcept {
+  if (is_sound) {
+    // A cable stretches in proportion to its tension (to 0.3 %); as planned it is stretched by the path less the unstretched length.
+    CableVector stretch_m;
+    for (Index c = 0; c < cables(); ++c) {
+      const double planned_N = larger(tension_.motor_N[c], table_.tension.floor_anywhere_N);
+      const double planned_m = model_.geometry.length_m[c] + table_.lead_m - wanted_m[c];
+      stretch_m[c] = (estimator_.tension_N[c] / planned_N - 1.0) * planned_m;
+    }
+    damp(table_, model_.geometry, model_.solver, stretch_m, damping_);
+  }
+  // The shift is small (kDampingLimit_rad): what its square adds to a length is below 20 um.
+  for (Index c = 0; c < cables(); ++c) {
+    const double* const row = model_.geometry.jacobian_m_rad[c].data();
+    wanted_m[c] += dot_pairs(row, damping_.output_rad.data(), as_index(layout_.segment[c]) + 1);
+  }
+}
+
+void CableArm::propose_payouts(DriveProposals& out) const noexcept {
+  for (Index c = 0; c < cables(); ++c) {
+    out[c].target_counts = counts_at_payout(table_.drive[c], zero_payout_m_[c], payout_command_m_[c]);
+    out[c].torque_permille = tension_.motor_N[c] / table_.drive[c].newtons_per_permille;
+  }
+}
+
+Report CableArm::report() const noexcept {
+  Report out;
+  out.held_mask = motion_.held_mask;
+  out.held_at_target = motion_.held_at_target ? 1 : 0;
+  out.theta_command_rad = motion_.limiter.theta_rad;
+  out.theta_rate_rad_s = motion_.limiter.rate_rad_s;
+  out.theta_measured_rad = estimator_.theta_rad;
+  out.tip_goal = motion_.filter.pose;
+  out.tip_command = motion_.arm.tip_in_base;
+  const Twist tip = tip_twist(table_, motion_);
+  out.tip_speed_m_s = norm(tip.linear_m_s);
+  out.tip_rate_rad_s = norm(tip.angular_rad_s);
+  for (Index m = 0; m < as_index(table_.segment_count); ++m) out.node_command_m[m] = motion_.arm.node_in_base[m + 1].position_m;
+  out.tension_plan_N = tension_.motor_N;
+  out.tension_measured_N = tension_measured_N_;
+  out.payout_command_m = payout_command_m_;
+  out.ik_position_error_m = motion_.ik.position_error_m;
+  out.ik_attitude_error_rad = motion_.ik.attitude_error_rad;
+  out.ik_outcome = motion_.ik.outcome;
+  out.ik_residual = motion_.ik.residual;
+  return out;
+}
+
+std::int16_t CableArm::planned_permille(const RobotTable& table, const Report& report,
+                                        std::int32_t drive) noexcept {
+  const Index i = as_index(drive);
+  return narrow<std::int16_t>(to_counts(report.tension_plan_N[i] / table.drive[i].newtons_per_permille).value);
+}
+
+}  // namespace liana::cable

@@ -1,0 +1,113 @@
+// A cable-driven arm as the Controller sees it (arm.hpp): from drive lengths and tensions to angles, and from a setpoint back to drive targets.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "firmware_like/cable/arm/cable_watch.hpp"
+#include "firmware_like/cable/arm/estimator.hpp"
+#include "firmware_like/cable/arm/tension.hpp"
+#include "firmware_like/cable/arm/tension_watch.hpp"
+#include "firmware_like/cable/motion/damping.hpp"
+#include "firmware_like/cable/motion/motion.hpp"
+#include "firmware_like/cable/report.hpp"
+#include "firmware_like/cable/setpoint.hpp"
+#include "firmware_like/drive/drive_io.hpp"
+#include "firmware_like/safety/gate.hpp"
+#include "firmware_like/safety/link_watch.hpp"
+#include "firmware_like/safety/supervisor.hpp"
+
+namespace liana::cable {
+
+constexpr double kPretensionRamp_s = 3.0;     // from the tensions found to the planned ones
+constexpr double kSlackCheckShare = 0.5;      // of the tension floor: every cable must reach it before the arm may move
+constexpr std::uint32_t kHomingTicks = 25;    // the estimate has to stand still this long
+constexpr double kHomingStep_rad = 2e-4;      // largest Gauss-Newton step of a converged estimate
+constexpr double kHomingResidual_m = 1.5e-3;  // more is a wrong zero, a swapped cable or a slack one
+
+class CableArm {
+ public:
+  using Table = RobotTable;
+  using Setpoint = cable::Setpoint;
+  using Report = cable::Report;
+  using Sensors = NoSensors;
+
+  // The table must have passed the loader; no other checks are made here.
+  explicit CableArm(const RobotTable& table) noexcept;
+
+  const RobotTable& table() const noexcept { return table_; }
+  GateLimits gate_limits() const noexcept;
+  LinkLimits link_limits() const noexcept;
+
+  // One tick, in the order of these functions; arm.hpp says what each has to do.
+  void read(const DriveFeedbacks& drives, const NoSensors&) noexcept;
+  void watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept;
+  void watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept;
+  ArmStatus status() const noexcept;
+  bool accepts(const Setpoint& setpoint) const noexcept { return is_usable(table_, setpoint); }
+  void take(const Setpoint& setpoint) noexcept { accept_setpoint(table_, setpoint, motion_); }
+  void brake() noexcept { motion_.braking = true; }
+  bool is_braking() const noexcept { return motion_.braking; }
+  void stand() noexcept;
+  std::uint32_t advance(bool allowed) noexcept;
+  std::uint32_t propose(const Orders& orders, const DriveCommands& sent, bool is_sound, DriveProposals& out) noexcept;
+  Report report() const noexcept;
+
+  // What the twin's drives show beside what they are told: the planned tension.
+  static std::int16_t planned_permille(const RobotTable& table, const Report& report, std::int32_t drive) noexcept;
+
+  // Motion stage, for the verifier's predictions and for tests.
+  const MotionState& motion() const noexcept { return motion_; }
+  // Angles and contradictions that the drives' lengths show.
+  const EstimatorState& estimator() const noexcept { return estimator_; }
+
+ private:
+  using Index = std::size_t;
+
+  bool is_homed() const noexcept { return homing_ticks_ >= kHomingTicks; }
+  bool are_cables_taut() const noexcept;
+  void count_homing() noexcept;
+  void take_geometry() noexcept;
+  void stop_planning() noexcept;
+  void start_ramp(const DriveCommands& sent) noexcept;
+  std::uint32_t plan_tensions(bool is_sound) noexcept;
+  void ramp_payouts(CableVector& wanted_m) const noexcept;
+  void damp_payouts(bool is_sound, CableVector& wanted_m) noexcept;
+  std::uint32_t limit_payout_speed(CableVector& wanted_m) const noexcept;
+  void propose_payouts(DriveProposals& out) const noexcept;
+  Index cables() const noexcept { return static_cast<Index>(layout_.cable_count); }
+
+  RobotTable table_{};
+  CableLayout layout_{};
+  TensionWatchLimits tension_watch_limits_{};
+  CableWatchLimits cable_watch_limits_{};
+  CableVector zero_payout_m_{};
+
+  // What the drives say.
+  CableVector payout_measured_m_{};
+  CableVector tension_measured_N_{};
+  EstimatorState estimator_{};
+  std::uint32_t homing_ticks_ = 0;
+  std::uint16_t feedback_age_ticks_ = 0xFFFF;  // of the drive that was heard longest ago
+  TensionWatchState tension_watch_{};
+  CableWatchState cable_watch_{};
+
+  // Where the arm is told to go.
+  MotionState motion_{};
+
+  // How the cables take it there.
+  SlipState slip_{};
+  CableModel model_{};    // at the commanded angles
+  TensionRatio ratio_{};  // planned friction
+  DampingState damping_{};
+  SegmentVector lift_N_{};  // pulled tighter than planned
+  TensionPlan tension_{};
+  CableVector payout_command_m_{};
+  CableVector ramp_start_m_{};
+  double ramp_ = 0.0;  // 0..1 share of the planned pretension
+  bool live_ = false;  // targets were live in the last tick
+};
+
+static_assert(std::is_trivially_copyable_v<CableArm>);
+
+}  // namespace liana::cable

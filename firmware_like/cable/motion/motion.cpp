@@ -1,0 +1,257 @@
+#include "firmware_like/cable/motion/motion.hpp"
+
+#include <cmath>
+
+#include "firmware_like/safety/limits.hpp"
+#include "firmware_like/math/scalar.hpp"
+#include "firmware_like/cable/shape/shape.hpp"
+
+namespace liana::cable {
+namespace {
+
+using Index = std::size_t;
+
+constexpr double kHeldShare = 0.4;           // of the theta limits that held variables use on their way
+constexpr double kBehind = 1e-4;             // m and rad: from here the target does not wait, or a blocked arm could not be led away
+constexpr double kHeldNear_rad = 2e-6;       // from here a held variable that has slowed down
+constexpr double kHeldSlow_rad_s = 2e-5;     // to this rate
+constexpr double kHeldArrival_rad_s = 7e-5;  // goes the rest straight: others make up for its steps many times magnified
+
+bool is_tip(const Setpoint& setpoint) noexcept { return setpoint.kind == CommandKind::kTip; }
+
+FilterBounds held_bounds(const RobotTable& table) noexcept {
+  const double rate = kHeldShare * table.limits.theta_rate_rad_s;
+  const double accel = 0.25 * table.limits.theta_accel_rad_s2;
+  return {rate, accel, 5.0 * accel};
+}
+
+// Brings held thetas to their targets and keeps them there to the last bit.
+void advance_held(const RobotTable& table, MotionState& state) noexcept {
+  const FilterBounds bounds = held_bounds(table);
+  state.held_at_target = true;
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    if (((state.held_mask >> k) & 1u) == 0) continue;
+    HeldProfile& held = state.held[k];
+    const double error = state.to.held_rad[k] - held.value_rad;
+    if (std::fabs(error) < kHeldNear_rad && std::fabs(held.channel.velocity[0]) < kHeldSlow_rad_s) {
+      const double step = kHeldArrival_rad_s * table.tick_s;
+      held.value_rad = std::fabs(error) <= step ? state.to.held_rad[k] : held.value_rad + (error < 0.0 ? -step : step);
+      held.channel = ChannelState{};
+    } else {
+      follow_channel(bounds, table.tick_s, {error, 0.0, 0.0}, held.channel);
+      held.value_rad += held.channel.velocity[0] * table.tick_s;
+    }
+    if (held.value_rad != state.to.held_rad[k]) state.held_at_target = false;
+    state.ik_rad[k] = held.value_rad;
+  }
+}
+
+// Share of the way from `from` to `to` that is over.
+double interval_share(const RobotTable& table, const MotionState& state) noexcept {
+  return state.interval_tick >= table.interval_ticks ? 1.0 : static_cast<double>(state.interval_tick) / table.interval_ticks;
+}
+
+Pose interpolated_target(const RobotTable& table, const MotionState& state) noexcept {
+  const double share = interval_share(table, state);
+  const Pose& a = state.from.tip_in_base;
+  return {add(a.position_m, scale(subtract(state.to.tip_in_base.position_m, a.position_m), share)),
+          normalize(multiply(quaternion_of(scale(state.turn_rad, share)), a.quaternion))};
+}
+
+// Between two poses that are one tick apart.
+Pose pose_between(const Pose& a, const Pose& b, double share) noexcept {
+  Quat q{};
+  for (Index i = 0; i < 4; ++i) q[i] = a.quaternion[i] + share * (b.quaternion[i] - a.quaternion[i]);
+  return {add(a.position_m, scale(subtract(b.position_m, a.position_m), share)), normalize(q)};
+}
+
+void slow_channel(double share, ChannelState& channel) noexcept {
+  channel.velocity = scale(channel.velocity, share);
+  channel.acceleration = scale(channel.acceleration, share);
+}
+
+// What servo IK reported, for the pose and angles now.
+void report_again(const RobotTable& table, MotionState& state) noexcept {
+  IkReport& ik = state.ik;
+  ik.residual = pose_error(state.filter.pose, tip_pose(table, arm_trig(table, state.ik_rad)));
+  ik.position_error_m = norm({ik.residual[0], ik.residual[1], ik.residual[2]});
+  ik.attitude_error_rad = norm({ik.residual[3], ik.residual[4], ik.residual[5]});
+  const bool converged = ik.position_error_m <= kIkConverged && ik.attitude_error_rad <= kIkConverged;
+  if (ik.outcome == IkOutcome::kConverged && !converged) ik.outcome = IkOutcome::kApproaching;
+}
+
+// Takes only a share of this tick's motion, of the target as of the joints: the arm slows down on its path and does not leave it.
+void slow_down(const RobotTable& table, double share, const Pose& target_before, const ThetaVector& ik_before,
+               MotionState& state) noexcept {
+  if (state.ik.position_error_m + state.ik.attitude_error_rad < kBehind) {
+    state.filter.pose = pose_between(target_before, state.filter.pose, share);
+    slow_channel(share, state.filter.linear);
+    slow_channel(share, state.filter.angular);
+  }
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    state.ik_rad[k] = ik_before[k] + share * (state.ik_rad[k] - ik_before[k]);
+    state.shape.rate_rad_s[k] *= share;
+    if (((state.held_mask >> k) & 1u) == 0) continue;
+    state.held[k].value_rad = state.ik_rad[k];
+    slow_channel(share, state.held[k].channel);
+    if (state.ik_rad[k] != state.to.held_rad[k]) state.held_at_target = false;
+  }
+  report_again(table, state);
+}
+
+// A shape that is fast already keeps the pace beside the tip until it has slowed down, or it would shoot past; so does one that has to
+// stop.
+const ShapePace& shape_pace(const RobotTable& table, bool braking, const MotionState& state) noexcept {
+  if (braking || !state.held_at_target || !at_rest(state.filter)) return kShapeBesideTip;
+  double fastest = 0.0;
+  for (const double rate : state.shape.rate_rad_s) fastest = larger(fastest, std::fabs(rate));
+  return fastest > 1.01 * kShapeAlone.rate_share * table.limits.theta_rate_rad_s ? kShapeBesideTip : kShapeAlone;
+}
+
+// Shape and servo IK: angles for the filtered target.
+void solve_tip(const RobotTable& table, bool braking, MotionState& state) noexcept {
+  // The IK goes on from where the command stands, unless a limit or a held theta has come between.
+  if (state.ik_rad != state.limiter.theta_rad) update_kinematics(table, arm_trig(table, state.ik_rad), state.arm);
+  const ThetaVector move = shape_move(table, state.arm, state.to.node, state.to.clear, state.held_mask, braking,
+                                      shape_pace(table, braking, state), state.ik_rad, state.shape);
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
+  state.ik = servo_ik(table, {state.filter.pose, state.held_mask, kTipCurvature_m}, state.arm, state.ik_rad);
+  if (state.ik.limit_mask != 0) state.limits |= kLimitTheta;
+  if (state.ik.outcome == IkOutcome::kSingular) state.limits |= kLimitSingular;
+  if (state.ik.outcome == IkOutcome::kUnreachable) state.limits |= kLimitReach;
+}
+
+void follow_tip(const RobotTable& table, const CableGeometry& geometry, bool braking, MotionState& state) noexcept {
+  const Pose target_before = state.filter.pose;
+  const ThetaVector ik_before = state.ik_rad;
+  const TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s);
+  if (braking) {
+    brake_tip(config, state.filter);
+  } else {
+    filter_tip(config, interpolated_target(table, state), state.filter);
+    advance_held(table, state);
+  }
+  if (state.filter.speed_limited) state.limits |= kLimitTipSpeed;
+  if (state.filter.accel_limited) state.limits |= kLimitTipAccel;
+  solve_tip(table, braking, state);
+
+  ThetaVector step{};
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) step[k] = state.ik_rad[k] - ik_before[k];
+  const StepShare allowed = allowed_share(table, geometry, step, state.limiter);
+  state.limits |= allowed.limits;
+  if (allowed.share < 1.0) slow_down(table, allowed.share, target_before, ik_before, state);
+}
+
+// Joint reference: linear over the command interval; the limiter does the rest.
+void follow_joints(const RobotTable& table, bool braking, MotionState& state) noexcept {
+  if (braking) return;
+  const double share = interval_share(table, state);
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    const double limit = table.segment[k / 2].theta_limit_rad;
+    const double wanted = state.from.joint_rad[k] + share * (state.to.joint_rad[k] - state.from.joint_rad[k]);
+    const double bounded = wanted > limit ? limit : (wanted < -limit ? -limit : wanted);
+    if (bounded != wanted) state.limits |= kLimitTheta;
+    state.ik_rad[k] = bounded;
+  }
+}
+
+// Braking of joint motion: the fastest joint as hard as it may, the others in proportion. All come to rest together and the arm stays on
+// its path; joints that stop one by one would no longer cancel at the tip, and the tip would move faster for a while.
+void brake_joints(const RobotTable& table, MotionState& state) noexcept {
+  const double fastest = largest_rate(table, state.limiter);
+  const double change = table.limits.theta_accel_rad_s2 * table.tick_s;
+  const double share = fastest > change ? 1.0 - change / fastest : 0.0;
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    state.ik_rad[k] = state.limiter.theta_rad[k] + share * state.limiter.rate_rad_s[k] * table.tick_s;
+    state.limiter.reference_rad[k] = state.limiter.theta_rad[k];
+  }
+}
+
+void take_kinematics(const RobotTable& table, MotionState& state) noexcept {
+  update_trig(table, state.limiter.theta_rad, state.trig);
+  update_kinematics(table, state.trig, state.arm);
+}
+
+}  // namespace
+
+TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s) noexcept {
+  const MotionLimits& limits = table.limits;
+  const bool lowered = tip_speed_m_s > 0.0 && tip_speed_m_s < limits.tip_speed_m_s;
+  return {{lowered ? tip_speed_m_s : limits.tip_speed_m_s, limits.tip_accel_m_s2, limits.tip_jerk_m_s3},
+          {limits.tip_rate_rad_s, limits.tip_angular_accel_rad_s2, limits.tip_angular_jerk_rad_s3},
+          table.tick_s};
+}
+
+Twist tip_twist(const RobotTable& table, const MotionState& state) noexcept {
+  Twist twist;
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    const double rate = state.limiter.rate_rad_s[k];
+    twist.linear_m_s = add(twist.linear_m_s, scale(state.arm.tip_jacobian.linear[k], rate));
+    twist.angular_rad_s = add(twist.angular_rad_s, scale(state.arm.tip_jacobian.angular[k], rate));
+  }
+  return twist;
+}
+
+void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionState& state) noexcept {
+  state = MotionState{};
+  state.ik_rad = theta_rad;
+  reset_limiter(theta_rad, state.limiter);
+  take_kinematics(table, state);
+  state.filter.pose = state.arm.tip_in_base;
+}
+
+void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionState& state) noexcept {
+  state.from = state.to;
+  if (is_tip(setpoint) && (!is_tip(state.to) || state.braking)) {
+    if (!is_tip(state.to)) {  // from joint motion: take over pose and rates
+      state.ik_rad = state.limiter.theta_rad;
+      state.shape = ShapeState{};
+      const Twist tip = tip_twist(table, state);
+      state.filter = TipFilterState{};
+      state.filter.pose = state.arm.tip_in_base;
+      state.filter.linear.velocity = tip.linear_m_s;
+      state.filter.angular.velocity = tip.angular_rad_s;
+    }
+    state.from = setpoint;
+    state.from.tip_in_base = state.filter.pose;
+  }
+  if (setpoint.kind == CommandKind::kJoint && (state.to.kind != CommandKind::kJoint || state.braking)) {
+    state.from = setpoint;
+    state.from.joint_rad = state.limiter.theta_rad;
+  }
+  const std::uint32_t held_mask = is_tip(setpoint) ? setpoint.held_mask : 0u;
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    const bool newly_held = ((held_mask >> k) & 1u) != 0 && ((state.held_mask >> k) & 1u) == 0;
+    if (newly_held) state.held[k] = HeldProfile{state.ik_rad[k], {{state.limiter.rate_rad_s[k], 0.0, 0.0}, {}}};
+  }
+  // A changed mask changes how thetas share the tip's motion. What they do now lives on as shape velocity, which goes over smoothly.
+  if (is_tip(setpoint) && held_mask != state.held_mask) state.shape.rate_rad_s = state.limiter.rate_rad_s;
+  state.held_mask = held_mask;
+  state.to = setpoint;
+  state.turn_rad = rotation_vector(multiply(state.to.tip_in_base.quaternion, conjugate(state.from.tip_in_base.quaternion)));
+  state.interval_tick = 0;
+  state.braking = false;
+}
+
+void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool allowed, MotionState& state) noexcept {
+  state.limits = 0;
+  const bool braking = state.braking || !allowed;
+  if (state.interval_tick < table.interval_ticks) ++state.interval_tick;
+  if (is_tip(state.to)) {
+    follow_tip(table, geometry, braking, state);
+  } else if (braking) {
+    brake_joints(table, state);
+  } else {
+    follow_joints(table, braking, state);
+  }
+  limit_motion(table, geometry, state.ik_rad, state.limiter, is_tip(state.to));
+  state.limits |= state.limiter.limits;
+  take_kinematics(table, state);
+}
+
+bool at_rest(const RobotTable& table, const MotionState& state) noexcept {
+  const bool filter_rests = !is_tip(state.to) || at_rest(state.filter);
+  return filter_rests && largest_rate(table, state.limiter) < 1e-6;
+}
+
+}  // namespace liana::cable

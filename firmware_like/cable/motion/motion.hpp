@@ -1,0 +1,62 @@
+// Motion stage: from the telecommand in force to commanded joint angles, once per tick.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "firmware_like/cable/motion/limiter.hpp"
+#include "firmware_like/cable/motion/servo_ik.hpp"
+#include "firmware_like/cable/shape/shape.hpp"
+#include "firmware_like/operator_input/tip_filter.hpp"
+#include "firmware_like/cable/setpoint.hpp"
+
+namespace liana::cable {
+
+// A held theta on its way to its target.
+struct HeldProfile {
+  double value_rad = 0.0;
+  ChannelState channel{};  // [0] only
+};
+
+struct MotionState {
+  Setpoint from{};                 // where interpolation over the command interval started
+  Setpoint to{};                   // the setpoint in force
+  Vec3 turn_rad{};                 // rotation of the tip from `from` to `to`, base frame
+  std::int32_t interval_tick = 0;  // ticks since `to` came into force
+  bool braking = true;             // no valid setpoint: stop along the path
+  TipFilterState filter{};
+  ThetaVector ik_rad{};  // servo IK solution
+  ShapeState shape{};
+  std::array<HeldProfile, kMaxTheta> held{};
+  std::uint32_t held_mask = 0;
+  bool held_at_target = true;
+  LimiterState limiter{};
+  ArmTrig trig{};       // of the commanded angles (limiter.theta_rad)
+  ArmKinematics arm{};  // at the commanded angles
+  IkReport ik{};
+  std::uint32_t limits = 0;  // LimitBit of this tick
+};
+
+// Bounds of the tip filter from the robot table; `tip_speed_m_s` may lower the linear speed (0 = the robot's).
+TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s) noexcept;
+
+// Stands still at theta.
+void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionState& state) noexcept;
+
+// Takes a new setpoint into force (kTip or kJoint); the motion goes on from where it is.
+void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionState& state) noexcept;
+
+// One tick. With `allowed` false or braking, everything comes to rest along its path.
+void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool allowed, MotionState& state) noexcept;
+
+// Velocity of the commanded tip in the base frame.
+struct Twist {
+  Vec3 linear_m_s{};
+  Vec3 angular_rad_s{};
+};
+Twist tip_twist(const RobotTable& table, const MotionState& state) noexcept;
+
+// True when nothing moves any more.
+bool at_rest(const RobotTable& table, const MotionState& state) noexcept;
+
+}  // namespace liana::cable

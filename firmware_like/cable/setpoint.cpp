@@ -1,0 +1,46 @@
+#include "firmware_like/cable/setpoint.hpp"
+
+#include <cmath>
+
+#include "firmware_like/math/convert.hpp"
+#include "firmware_like/math/scalar.hpp"
+
+namespace liana::cable {
+namespace {
+
+bool angles_in_limits(const RobotTable& table, const Setpoint& setpoint) noexcept {
+  for (std::int32_t i = 0; i < table.theta_count(); ++i) {
+    const double limit = table.segment[as_index(i / 2)].theta_limit_rad;
+    if (!(std::fabs(setpoint.joint_rad[as_index(i)]) <= limit)) return false;
+    if (!(std::fabs(setpoint.held_rad[as_index(i)]) <= limit)) return false;
+  }
+  return true;
+}
+
+bool is_usable(const RobotTable& table, const NodeTarget& target) noexcept {
+  if (target.node < 0 || target.node > table.segment_count) return false;
+  if (!is_finite(dot(target.position_m, target.position_m))) return false;
+  return target.weight >= 0.0 && is_finite(target.weight) && target.threshold_m >= 0.0;
+}
+
+bool is_usable(const KeepClear& target) noexcept {
+  if (!is_finite(dot(target.centre_m, target.centre_m))) return false;
+  return target.weight >= 0.0 && is_finite(target.weight) && target.distance_m >= 0.0 && is_finite(target.distance_m);
+}
+
+}  // namespace
+
+bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept {
+  if (!is_motion(setpoint.kind)) return true;
+  if (!angles_in_limits(table, setpoint)) return false;
+  if (setpoint.kind == CommandKind::kJoint) return true;
+  for (const NodeTarget& target : setpoint.node) {
+    if (!is_usable(table, target)) return false;
+  }
+  for (const KeepClear& target : setpoint.clear) {
+    if (!is_usable(target)) return false;
+  }
+  return is_valid(setpoint.tip_in_base) && setpoint.tip_speed_m_s > 0.0;
+}
+
+}  // namespace liana::cable
