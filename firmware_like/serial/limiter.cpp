@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "firmware_like/controller_io.hpp"
 #include "firmware_like/math/braking.hpp"
 #include "firmware_like/math/scalar.hpp"
+#include "firmware_like/safety/limits.hpp"
 
 namespace liana::serial {
 namespace {

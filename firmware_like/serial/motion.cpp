@@ -1,7 +1,7 @@
 #include "firmware_like/serial/motion.hpp"
 
-#include "firmware_like/controller_io.hpp"
 #include "firmware_like/math/scalar.hpp"
+#include "firmware_like/safety/limits.hpp"
 
 namespace liana::serial {
 namespace {

@@ -11,7 +11,7 @@
 #include <array>
 #include <cstdint>
 
-#include "firmware_like/motion/servo_ik.hpp"
+#include "firmware_like/math/ik_outcome.hpp"
 #include "firmware_like/serial/kinematics.hpp"
 
 namespace liana::serial {

@@ -5,7 +5,7 @@
 
 #include "firmware_like/math/pose.hpp"
 #include "firmware_like/serial/robot_table.hpp"
-#include "firmware_like/telecommand.hpp"
+#include "firmware_like/command/telecommand.hpp"
 
 namespace liana::serial {
 

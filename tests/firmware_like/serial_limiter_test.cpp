@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware_like/controller_io.hpp"
+#include "firmware_like/safety/limits.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 
 namespace liana::serial {

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "firmware_like/safety/limits.hpp"
+#include "firmware_like/math/braking.hpp"
 #include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
-#include "firmware_like/math/braking.hpp"
+#include "firmware_like/safety/limits.hpp"
 
 namespace liana::cable {
 namespace {
