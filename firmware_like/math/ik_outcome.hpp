@@ -8,7 +8,8 @@
 
 namespace liana {
 
-// What became of the goal. The way out of the last three is a goal back along minus the residual; the arm follows it at once.
+// What became of the goal. The way out of the last three is a goal back along minus the residual; the arm follows it at
+// once.
 enum class IkOutcome : std::uint8_t {
   kConverged = 0,    // position and attitude within the IK's tolerance
   kApproaching = 1,  // not there yet, the error more than halves per tick

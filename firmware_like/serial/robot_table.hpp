@@ -53,8 +53,9 @@ struct RobotTable {
   std::array<JointTable, kMaxJoints> joint{};
   std::array<DriveTable, kMaxJoints> drive{};
   TipLimits tip{};
-  double tick_s = 0.0;              // control period
-  std::int32_t interval_ticks = 0;  // T_c in ticks
+  double servo_time_constant_s = 0.0;  // of the drives' position servos
+  double tick_s = 0.0;                 // control period
+  std::int32_t interval_ticks = 0;     // T_c in ticks
 
   constexpr std::int32_t drive_count() const { return joint_count; }
   constexpr std::size_t joints() const { return static_cast<std::size_t>(joint_count); }

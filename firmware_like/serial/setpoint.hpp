@@ -3,9 +3,9 @@
 
 #include <type_traits>
 
+#include "firmware_like/command/telecommand.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "firmware_like/serial/robot_table.hpp"
-#include "firmware_like/command/telecommand.hpp"
 
 namespace liana::serial {
 

@@ -5,14 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <random>
 
 #include "firmware_like/math/trig.hpp"
 #include "firmware_like/serial/kinematics.hpp"
-#include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::serial::micro {
-
-using zhu2022::Random;
 
 constexpr std::size_t kJoints = 7;
 constexpr double kRange_deg = 270.0;
@@ -39,6 +38,7 @@ inline RobotTable table() {
     robot.drive[i] = {2.0 * kPi / 1048576.0, i % 2 == 0 ? 1 : -1, 1000000, 0.15};
   }
   robot.tip = {0.10, 0.10, 0.4, 3.0 * kDegree, 3.0 * kDegree, 12.0 * kDegree};
+  robot.servo_time_constant_s = 0.03;
   robot.tick_s = 0.004;
   robot.interval_ticks = 5;
   return robot;
@@ -60,6 +60,19 @@ inline JointVector radians(const Degrees& joint_deg) {
   for (std::size_t i = 0; i < kJoints; ++i) joint[i] = joint_deg[i] * kDegree;
   return joint;
 }
+
+// Repeatable random numbers; the same on every machine.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  // Evenly spread in [low, high).
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) / 9007199254740992.0;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
 
 // Joints anywhere in `share` of their ranges.
 inline JointVector random_joints(const RobotTable& robot, Random& random, double share = 1.0) {
