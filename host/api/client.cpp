@@ -6,10 +6,10 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "host/api/address.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 
@@ -17,7 +17,9 @@ namespace {
 constexpr double kSendTimeout_s = 10.0;
 constexpr useconds_t kRetry_us = 20000;
 
-[[noreturn]] void throw_gone() { throw std::runtime_error("lianad is gone: the API socket was closed by the other end"); }
+[[noreturn]] void throw_gone() {
+  throw std::runtime_error("lianad is gone: the API socket was closed by the other end");
+}
 }  // namespace
 
 ApiClient ApiClient::connect(const std::string& path, double timeout_s) {
@@ -29,18 +31,20 @@ ApiClient ApiClient::connect(const std::string& path, double timeout_s) {
       return ApiClient(std::move(fd));
     }
     if (std::chrono::steady_clock::now() >= deadline) {
-      throw std::runtime_error("cannot reach lianad at " + path + ": " + std::strerror(errno) + "; is it running with --api " + path + "?");
+      throw std::runtime_error("cannot reach lianad at " + path + ": " + std::strerror(errno) +
+                               "; is it running with --api " + path + "?");
     }
     ::usleep(kRetry_us);
   }
 }
 
-void ApiClient::send(const nlohmann::json& request) {
+void ApiClient::send(const Json& request) {
   const std::string packet = request.dump();
   if (packet.size() > kMaxPacketBytes)
     throw std::runtime_error("API request of " + std::to_string(packet.size()) + " bytes: at most 65536");
   SocketResult result = send_packet(fd_.get(), packet);
-  if (result == SocketResult::kWouldBlock && wait_writable(fd_.get(), kSendTimeout_s)) result = send_packet(fd_.get(), packet);
+  if (result == SocketResult::kWouldBlock && wait_writable(fd_.get(), kSendTimeout_s))
+    result = send_packet(fd_.get(), packet);
   if (result == SocketResult::kClosed) throw_gone();
   if (result == SocketResult::kWouldBlock) throw std::runtime_error("lianad does not read its API socket");
 }
@@ -54,10 +58,10 @@ bool ApiClient::receive_bytes(std::string& packet, double timeout_s) {
   return result == SocketResult::kDone;
 }
 
-std::optional<nlohmann::json> ApiClient::receive(double timeout_s) {
+std::optional<Json> ApiClient::receive(double timeout_s) {
   std::string packet;
   if (!receive_bytes(packet, timeout_s)) return std::nullopt;
-  return nlohmann::json::parse(packet);
+  return Json::parse(packet);
 }
 
 }  // namespace liana

@@ -1,11 +1,11 @@
 // The client end of the API socket (docs/api.md): JSON packets out and in.
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 
 #include "host/api/socket.hpp"
+#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -15,10 +15,10 @@ class ApiClient {
   static ApiClient connect(const std::string& path, double timeout_s = 5.0);
 
   // Sends one request; waits while the daemon is busy, at most 10 s. Throws std::runtime_error when the peer is gone.
-  void send(const nlohmann::json& request);
+  void send(const Json& request);
 
   // Next message, or nothing within `timeout_s`. Throws std::runtime_error when the peer is gone.
-  std::optional<nlohmann::json> receive(double timeout_s);
+  std::optional<Json> receive(double timeout_s);
 
   // Next packet as bytes (subscribers of `tick` get binary packets); false when nothing came within `timeout_s`.
   bool receive_bytes(std::string& packet, double timeout_s);

@@ -7,20 +7,19 @@
 #include <array>
 #include <chrono>
 #include <deque>
-#include <nlohmann/json.hpp>
 #include <tuple>
 
 #include "host/api/fields.hpp"
 #include "host/api/request_error.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 
-using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr std::size_t kMaxInbox = 512;    // requests waiting for the next interval; beyond it the client's own sends wait
+constexpr std::size_t kMaxInbox = 512;  // requests waiting for the next interval; beyond it the client's own sends wait
 constexpr std::size_t kMaxDroppable = 8;  // state or camera messages waiting for a slow subscriber
 constexpr std::size_t kMaxOutbox = 8192;  // packets of any kind waiting
 constexpr std::size_t kMaxClients = 32;
@@ -29,13 +28,13 @@ constexpr std::array<const char*, 3> kTopicNames{"state", "camera", "tick"};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::string error_packet(const json& request, const std::string& code, const std::string& message) {
-  json answer{{"op", "error"}, {"code", code}, {"message", message}};
+std::string error_packet(const Json& request, const std::string& code, const std::string& message) {
+  Json answer{{"op", "error"}, {"code", code}, {"message", message}};
   if (request.is_object() && request.contains("id")) answer["id"] = request["id"];
-  return answer.dump(-1, ' ', false, json::error_handler_t::replace);
+  return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-std::string op_of(const json& request) {
+std::string op_of(const Json& request) {
   const auto op = request.find("op");
   return op != request.end() && op->is_string() ? op->get<std::string>() : std::string();
 }
@@ -46,7 +45,8 @@ Role role_of(const std::string& name) {
   for (std::size_t i = 0; i < kRoleNames.size(); ++i) {
     if (name == kRoleNames[i]) return static_cast<Role>(i);
   }
-  throw RequestError("bad_request", "role '" + name + "': allowed mission, operator, camera, archive, client, observer");
+  throw RequestError("bad_request",
+                     "role '" + name + "': allowed mission, operator, camera, archive, client, observer");
 }
 
 const char* role_name(Role role) { return kRoleNames[static_cast<std::size_t>(role)]; }
@@ -65,7 +65,7 @@ struct ApiServer::Client {
   std::uint64_t done_tick = 0;
   bool has_done = false;
   bool awaited = false;  // was there when waiting began: who joins meanwhile cannot answer a state it never got
-  std::deque<json> inbox;
+  std::deque<Json> inbox;
   std::deque<Packet> outbox;
   std::array<std::size_t, kTopicNames.size()> waiting{};
 
@@ -77,7 +77,8 @@ struct ApiServer::Client {
   bool readable(std::uint64_t tick) const { return inbox.size() < kMaxInbox && !(in_lockstep() && is_done(tick)); }
 };
 
-ApiServer::ApiServer(const std::string& path, ApiHandler& handler) : listener_(listen_at("--api", path)), handler_(handler) {}
+ApiServer::ApiServer(const std::string& path, ApiHandler& handler)
+    : listener_(listen_at("--api", path)), handler_(handler) {}
 ApiServer::~ApiServer() = default;
 
 void ApiServer::pump(double timeout_s) {
@@ -104,7 +105,7 @@ void ApiServer::accept_new() {
   client->fd = UniqueFd(fd);
   client->info.id = next_id_++;
   if (clients_.size() >= kMaxClients) {
-    send_packet(fd, error_packet(json(), "busy", "32 clients are connected already; close one"));
+    send_packet(fd, error_packet(Json(), "busy", "32 clients are connected already; close one"));
     return;
   }
   clients_.push_back(std::move(client));
@@ -121,10 +122,10 @@ void ApiServer::read_from(Client& client) {
 }
 
 void ApiServer::take_packet(Client& client, const std::string& packet) {
-  json request;
+  Json request;
   try {
     if (packet.size() > kMaxPacketBytes) throw RequestError("bad_request", "packet over 65536 bytes");
-    request = json::parse(packet);
+    request = Json::parse(packet);
     if (!request.is_object()) throw RequestError("bad_request", "a request is one JSON object");
     if (request.contains("id") && !request["id"].is_number_integer()) {
       request.erase("id");
@@ -132,7 +133,8 @@ void ApiServer::take_packet(Client& client, const std::string& packet) {
     }
     const std::string op = op_of(request);
     if (op == "hello") return greet(client, request);
-    if (!client.greeted) throw RequestError("bad_request", "say hello first: {\"op\":\"hello\",\"name\":...,\"role\":...}");
+    if (!client.greeted)
+      throw RequestError("bad_request", "say hello first: {\"op\":\"hello\",\"name\":...,\"role\":...}");
     if (op == "done") {
       client.done_tick = static_cast<std::uint64_t>(integer_field(request, "tick", 0, 1LL << 53));
       client.has_done = true;
@@ -141,24 +143,26 @@ void ApiServer::take_packet(Client& client, const std::string& packet) {
     client.inbox.push_back(std::move(request));
   } catch (const RequestError& error) {
     enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
-  } catch (const json::exception& error) {
-    enqueue(client, Topic::kState, false, error_packet(json(), "bad_request", std::string("not JSON: ") + error.what()));
+  } catch (const Json::exception& error) {
+    enqueue(client, Topic::kState, false,
+            error_packet(Json(), "bad_request", std::string("not JSON: ") + error.what()));
   }
 }
 
-void ApiServer::greet(Client& client, const json& request) {
+void ApiServer::greet(Client& client, const Json& request) {
   if (client.greeted) throw RequestError("bad_request", "hello was said already");
   client.info.name = text_field(request, "name", 64);
   client.info.role = role_of(text_field(request, "role", 32));
   client.info.lockstep = request.contains("lockstep") && flag_field(request, "lockstep");
-  for (const json& topic : array_field(request, "subscribe", 8)) {
-    const auto found = std::find(kTopicNames.begin(), kTopicNames.end(), topic.is_string() ? topic.get<std::string>() : std::string());
+  for (const Json& topic : array_field(request, "subscribe", 8)) {
+    const auto found =
+        std::find(kTopicNames.begin(), kTopicNames.end(), topic.is_string() ? topic.get<std::string>() : std::string());
     if (found == kTopicNames.end()) throw RequestError("bad_request", "subscribe: allowed state, camera, tick");
     client.subscribed[static_cast<std::size_t>(found - kTopicNames.begin())] = true;
   }
   if (client.info.lockstep) client.subscribed[static_cast<std::size_t>(Topic::kState)] = true;
   client.greeted = true;
-  json welcome = handler_.welcome(client.info);
+  Json welcome = handler_.welcome(client.info);
   if (request.contains("id")) welcome["id"] = request["id"];
   enqueue(client, Topic::kState, false, welcome.dump());
 }
@@ -167,7 +171,7 @@ void ApiServer::dispatch() {
   std::sort(clients_.begin(), clients_.end(), [](const auto& a, const auto& b) { return a->order() < b->order(); });
   for (auto& client : clients_) {
     while (!client->inbox.empty()) {
-      const json request = std::move(client->inbox.front());
+      const Json request = std::move(client->inbox.front());
       client->inbox.pop_front();
       answer_one(*client, request);
     }
@@ -176,16 +180,16 @@ void ApiServer::dispatch() {
   bury();
 }
 
-void ApiServer::answer_one(Client& client, const json& request) {
+void ApiServer::answer_one(Client& client, const Json& request) {
   try {
-    json answer = handler_.handle(client.info, request);
+    Json answer = handler_.handle(client.info, request);
     if (!request.contains("id")) return;
     answer["op"] = "ok";
     answer["id"] = request["id"];
     enqueue(client, Topic::kState, false, answer.dump());
   } catch (const RequestError& error) {
     enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
-  } catch (const json::exception& error) {
+  } catch (const Json::exception& error) {
     enqueue(client, Topic::kState, false, error_packet(request, "bad_request", error.what()));
   }
 }
@@ -193,8 +197,8 @@ void ApiServer::answer_one(Client& client, const json& request) {
 void ApiServer::enqueue(Client& client, Topic topic, bool droppable, const std::string& packet) {
   const auto t = static_cast<std::size_t>(topic);
   if (droppable && !client.info.lockstep && client.waiting[t] >= kMaxDroppable) {
-    const auto oldest =
-        std::find_if(client.outbox.begin(), client.outbox.end(), [&](const Client::Packet& p) { return p.droppable && p.topic == topic; });
+    const auto oldest = std::find_if(client.outbox.begin(), client.outbox.end(),
+                                     [&](const Client::Packet& p) { return p.droppable && p.topic == topic; });
     client.outbox.erase(oldest);
     --client.waiting[t];
     ++dropped_;
@@ -209,8 +213,8 @@ void ApiServer::enqueue(Client& client, Topic topic, bool droppable, const std::
   client.outbox.push_back({topic, droppable, packet});
 }
 
-// That a client has left is found by reading alone: its last requests come before its end, and in lockstep time both wait for the next
-// interval, whatever the moment at which a packet to it fails.
+// That a client has left is found by reading alone: its last requests come before its end, and in lockstep time both
+// wait for the next interval, whatever the moment at which a packet to it fails.
 void ApiServer::flush(Client& client) {
   while (!client.outbox.empty() && client.why_closed.empty()) {
     const SocketResult result = send_packet(client.fd.get(), client.outbox.front().bytes);
@@ -257,7 +261,8 @@ void ApiServer::wait_done(std::uint64_t tick, double timeout_s) {
 }
 
 bool ApiServer::has_role(Role role) const {
-  return std::any_of(clients_.begin(), clients_.end(), [role](const auto& c) { return c->greeted && c->info.role == role; });
+  return std::any_of(clients_.begin(), clients_.end(),
+                     [role](const auto& c) { return c->greeted && c->info.role == role; });
 }
 
 bool ApiServer::has_subscriber(Topic topic) const {

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "host/api/socket.hpp"
+#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -29,9 +29,9 @@ class ApiHandler {
  public:
   virtual ~ApiHandler() = default;
   // The welcome message for a new client.
-  virtual nlohmann::json welcome(const ClientInfo& client) = 0;
+  virtual Json welcome(const ClientInfo& client) = 0;
   // Acts on one request; the result's fields join the "ok" answer. Throws RequestError to refuse.
-  virtual nlohmann::json handle(const ClientInfo& client, const nlohmann::json& request) = 0;
+  virtual Json handle(const ClientInfo& client, const Json& request) = 0;
   // The client has died or left.
   virtual void gone(const ClientInfo& client, const std::string& why) = 0;
 };
@@ -46,13 +46,13 @@ class ApiServer {
   void pump(double timeout_s);
   // Hands every queued request to the handler: clients by role, then name, each in its own order.
   void dispatch();
-  // Sends to every subscriber of the topic. Slow subscribers lose their oldest state and camera messages, and newest ticks (counted), but
-  // no message that was published as one to `keep`.
+  // Sends to every subscriber of the topic. Slow subscribers lose their oldest state and camera messages, and newest
+  // ticks (counted), but no message that was published as one to `keep`.
   void publish(Topic topic, const std::string& packet, bool keep = false);
   // Sends what waits for slow readers, at most for `timeout_s`; for the end.
   void deliver(double timeout_s);
-  // Pumps until every lockstep client has answered the state of `tick` with done; drops those silent for `timeout_s`. What a lockstep
-  // client sends after its done, its end included, is read in the next call, so that runs repeat.
+  // Pumps until every lockstep client has answered the state of `tick` with done; drops those silent for `timeout_s`.
+  // What a lockstep client sends after its done, its end included, is read in the next call, so that runs repeat.
   void wait_done(std::uint64_t tick, double timeout_s);
   // From now on lockstep clients are read like all others.
   void end_lockstep() { lockstep_tick_ = UINT64_MAX; }
@@ -70,8 +70,8 @@ class ApiServer {
   void accept_new();
   void read_from(Client& client);
   void take_packet(Client& client, const std::string& packet);
-  void greet(Client& client, const nlohmann::json& request);
-  void answer_one(Client& client, const nlohmann::json& request);
+  void greet(Client& client, const Json& request);
+  void answer_one(Client& client, const Json& request);
   void enqueue(Client& client, Topic topic, bool droppable, const std::string& packet);
   void flush(Client& client);
   void close(Client& client, const std::string& why);

@@ -4,7 +4,7 @@
 #include <poll.h>
 
 #include "host/bus/bus_book.hpp"
-#include "host/bus/tick_clock.hpp"
+#include "host/time/tick_clock.hpp"
 
 namespace liana {
 

@@ -1,24 +1,22 @@
 #include <cstdio>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "host/calibration/calibrate.hpp"
+#include "host/calibration/fixture.hpp"
+#include "host/calibration/fixture_prompt.hpp"
 #include "host/cli/arguments.hpp"
-#include "host/cli/calibrate.hpp"
-#include "host/cli/calibrate_session.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/fixture_prompt.hpp"
-#include "host/cli/interrupt.hpp"
-#include "host/cli/output.hpp"
-#include "host/cli/run_plan.hpp"
-#include "host/cli/tables.hpp"
-#include "host/fixture/fixture.hpp"
+#include "host/json/json.hpp"
+#include "host/system/calibrate_session.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/interrupt.hpp"
+#include "host/system/output.hpp"
+#include "host/system/system_layout.hpp"
+#include "host/system/tables.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 std::vector<std::string> names_in(const std::string& list) {
   std::vector<std::string> names;
@@ -28,7 +26,7 @@ std::vector<std::string> names_in(const std::string& list) {
 }
 
 // What runs while the arm lies in a fixture.
-RunPlan plan_for(const CalibrateOptions& options, bool simulated, const std::string& pose) {
+SystemLayout plan_for(const CalibrateOptions& options, bool simulated, const std::string& pose) {
   RunOptions run;
   run.robot = options.robot;
   run.bus = options.bus;
@@ -37,10 +35,10 @@ RunPlan plan_for(const CalibrateOptions& options, bool simulated, const std::str
   run.seed = options.seed;
   run.fixture = pose;
   run.cross_wired = options.cross_wired;
-  return make_plan(run);
+  return make_layout(run);
 }
 
-CalibrationReading read_with(const RunPlan& plan, const InterruptGuard& interrupts) {
+CalibrationReading read_with(const SystemLayout& plan, const InterruptGuard& interrupts) {
   try {
     const CalibrationReading reading = CalibrateSession(plan, interrupts).read();
     clean_up(plan, true);
@@ -64,12 +62,15 @@ CalibrationReading read_in(const CalibrateOptions& options, bool simulated, cons
   return reading;
 }
 
-// One fixture after the other; the drives are off all the time. Between the fixtures nothing runs: whoever moves the arm has it for
-// himself.
-std::vector<CalibrationReading> read_all(const CalibrateOptions& options, bool simulated, const std::vector<std::string>& poses,
+// One fixture after the other; the drives are off all the time. Between the fixtures nothing runs: whoever moves the
+// arm has it for himself.
+std::vector<CalibrationReading> read_all(const CalibrateOptions& options, bool simulated,
+                                         const std::vector<std::string>& poses,
                                          const std::vector<ThetaVector>& thetas_rad) {
   std::vector<CalibrationReading> readings;
-  if (!simulated) clean_up(plan_for(options, simulated, poses.front()), true);  // what is missing is said before anybody lifts the arm
+  if (!simulated)
+    clean_up(plan_for(options, simulated, poses.front()),
+             true);  // what is missing is said before anybody lifts the arm
   for (std::size_t p = 0; p < poses.size(); ++p) {
     if (!simulated) wait_for_fixture(std::cin, std::cerr, poses[p], p + 1, poses.size());
     std::fprintf(stderr, "pose %zu of %zu, %s: reading the drives\n", p + 1, poses.size(), poses[p].c_str());
@@ -81,8 +82,8 @@ std::vector<CalibrationReading> read_all(const CalibrateOptions& options, bool s
 
 void show(const CalibrationResult& result, bool as_json) {
   if (as_json) {
-    json report{{"problems", result.problems}, {"calibration", nullptr}};
-    if (result.problems.empty()) report["calibration"] = json::parse(calibration_json(result.calibration));
+    Json report{{"problems", result.problems}, {"calibration", nullptr}};
+    if (result.problems.empty()) report["calibration"] = Json::parse(calibration_json(result.calibration));
     std::printf("%s\n", report.dump().c_str());
     return;
   }

@@ -1,18 +1,17 @@
 #include <chrono>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 
 #include "host/api/client.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/observer.hpp"
+#include "host/json/json.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/observer.hpp"
 
 namespace liana {
 namespace {
 
-using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kConnectTimeout_s = 1.0;
@@ -21,8 +20,8 @@ constexpr double kVerdictTimeout_s = 15.0;  // the drives get their reset first
 
 // What a clear is for, as it was before and as lianad judged it.
 struct Clearing {
-  json stop;         // as in the state; null: no emergency stop was in force
-  json faults;       // as in the state
+  Json stop;         // as in the state; null: no emergency stop was in force
+  Json faults;       // as in the state
   std::string said;  // of the faults; empty when there were none
   bool good = true;
   bool is_needed() const { return !stop.is_null() || !faults.empty(); }
@@ -36,20 +35,22 @@ std::string only_system(const std::string& given) {
   throw BadInput("clear: several systems run: " + names + "; name the one you have looked at with --api");
 }
 
-json state_of(ApiClient& client) {
+Json state_of(ApiClient& client) {
   auto state = wait_for(client, "state", kAnswerTimeout_s);
   if (!state) throw std::runtime_error("lianad runs but sent no state within 5 s");
   return *state;
 }
 
 // An arm that is still on its way to standing still is left alone.
-void require_settled(const Clearing& before, const json& state) {
+void require_settled(const Clearing& before, const Json& state) {
   const std::string name = state.value("state", "");
   const bool settled = name == "DISABLED" || name == "FAULT" || (before.stop.is_null() && name == "ENABLED");
-  if (!settled) throw std::runtime_error("nothing was cleared: the arm is " + name + "; wait until liana status says DISABLED or FAULT");
+  if (!settled)
+    throw std::runtime_error("nothing was cleared: the arm is " + name +
+                             "; wait until liana status says DISABLED or FAULT");
 }
 
-void ask(ApiClient& client, json request, int id) {
+void ask(ApiClient& client, Json request, int id) {
   request["id"] = id;
   client.send(request);
   if (!wait_for(client, "ok", kAnswerTimeout_s))
@@ -60,7 +61,7 @@ void ask(ApiClient& client, json request, int id) {
 std::string verdict_after(ApiClient& client, std::uint64_t tick) {
   const auto deadline = Clock::now() + std::chrono::duration<double>(kVerdictTimeout_s);
   while (Clock::now() < deadline) {
-    for (const json& event : state_of(client).value("events", json::array())) {
+    for (const Json& event : state_of(client).value("events", Json::array())) {
       const std::string text = event.value("text", "");
       if (event.value("tick", std::uint64_t{0}) >= tick && text.starts_with("faults ")) return text;
     }
@@ -70,9 +71,9 @@ std::string verdict_after(ApiClient& client, std::uint64_t tick) {
 
 void clear(ApiClient& client, Clearing& clearing) {
   say_hello(client, "liana clear", Observer::kClient);
-  const json state = state_of(client);
-  clearing.stop = state.value("stop", json());
-  clearing.faults = state.value("faults", json::array());
+  const Json state = state_of(client);
+  clearing.stop = state.value("stop", Json());
+  clearing.faults = state.value("faults", Json::array());
   if (!clearing.is_needed()) return;
   require_settled(clearing, state);
   ask(client, {{"op", "acquire"}}, 1);
@@ -92,9 +93,9 @@ void print_text(const std::string& api, const Clearing& clearing) {
     std::printf("%s: cleared: emergency stop by %s%s\n", api.c_str(), clearing.stop.value("by", "").c_str(),
                 (reason.empty() ? "" : ": " + reason).c_str());
   }
-  for (const json& fault : clearing.faults) {
-    std::printf("%s: %s: fault %d %s (index %d)\n", api.c_str(), clearing.good ? "cleared" : "not cleared", fault.value("number", 0),
-                fault.value("name", "").c_str(), fault.value("index", -1));
+  for (const Json& fault : clearing.faults) {
+    std::printf("%s: %s: fault %d %s (index %d)\n", api.c_str(), clearing.good ? "cleared" : "not cleared",
+                fault.value("number", 0), fault.value("name", "").c_str(), fault.value("index", -1));
   }
   if (!clearing.said.empty()) std::printf("%s: %s\n", api.c_str(), clearing.said.c_str());
 }
@@ -113,7 +114,11 @@ int clear_command(const ClientOptions& options) {
     clearing.said = problem = error.what();
   }
   if (options.json) {
-    std::puts(json{{"api", api}, {"cleared", clearing.good}, {"stop", clearing.stop}, {"faults", clearing.faults}, {"said", clearing.said}}
+    std::puts(Json{{"api", api},
+                   {"cleared", clearing.good},
+                   {"stop", clearing.stop},
+                   {"faults", clearing.faults},
+                   {"said", clearing.said}}
                   .dump()
                   .c_str());
   } else if (problem.empty()) {

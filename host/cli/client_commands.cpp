@@ -1,17 +1,15 @@
 #include <algorithm>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "host/api/client.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/observer.hpp"
+#include "host/json/json.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/observer.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 constexpr double kConnectTimeout_s = 1.0;
 constexpr double kAnswerTimeout_s = 5.0;
@@ -23,7 +21,8 @@ struct Talk {
   std::string problem;  // empty: none so far
 };
 
-// Does `action` with a system, unless something went wrong with it before; what goes wrong is kept, so that others get their turn.
+// Does `action` with a system, unless something went wrong with it before; what goes wrong is kept, so that others get
+// their turn.
 template <typename Action>
 void attempt(Talk& talk, const Action& action) {
   if (!talk.problem.empty()) return;
@@ -51,8 +50,8 @@ std::vector<Talk> begin_talks(const ClientOptions& options, const char* name, Ob
 }
 
 // The answer whose `op` is given; what is missing without one is the problem's text.
-json answer_of(Talk& talk, const char* op, const char* missing) {
-  json answer;
+Json answer_of(Talk& talk, const char* op, const char* missing) {
+  Json answer;
   attempt(talk, [&] {
     auto message = wait_for(*talk.client, op, kAnswerTimeout_s);
     if (!message) throw std::runtime_error(missing);
@@ -65,21 +64,23 @@ int exit_code_of(const std::vector<Talk>& talks) {
   for (const Talk& talk : talks) {
     if (!talk.problem.empty()) std::fprintf(stderr, "liana: %s: %s\n", talk.api.c_str(), talk.problem.c_str());
   }
-  return std::all_of(talks.begin(), talks.end(), [](const Talk& talk) { return talk.problem.empty(); }) ? kExitOk : kExitFailure;
+  return std::all_of(talks.begin(), talks.end(), [](const Talk& talk) { return talk.problem.empty(); }) ? kExitOk
+                                                                                                        : kExitFailure;
 }
 
-void print_state(const std::string& api, const json& state) {
+void print_state(const std::string& api, const Json& state) {
   const std::string owner = state.value("owner", "");
-  std::printf("%s: %s, t = %.2f s, owner %s\n", api.c_str(), state.value("state", "?").c_str(), state.value("time_s", 0.0),
-              owner.empty() ? "nobody" : owner.c_str());
-  const json stop = state.value("stop", json());
-  if (stop.is_object()) std::printf("emergency stop by %s %s\n", stop.value("by", "").c_str(), stop.value("reason", "").c_str());
-  for (const json& fault : state.value("faults", json::array())) {
-    std::printf("fault %d %s (index %d): %s\n", fault.value("number", 0), fault.value("name", "").c_str(), fault.value("index", -1),
-                fault.value("text", "").c_str());
+  std::printf("%s: %s, t = %.2f s, owner %s\n", api.c_str(), state.value("state", "?").c_str(),
+              state.value("time_s", 0.0), owner.empty() ? "nobody" : owner.c_str());
+  const Json stop = state.value("stop", Json());
+  if (stop.is_object())
+    std::printf("emergency stop by %s %s\n", stop.value("by", "").c_str(), stop.value("reason", "").c_str());
+  for (const Json& fault : state.value("faults", Json::array())) {
+    std::printf("fault %d %s (index %d): %s\n", fault.value("number", 0), fault.value("name", "").c_str(),
+                fault.value("index", -1), fault.value("text", "").c_str());
   }
   std::printf("theta (deg):");
-  for (const json& angle : state.value("measured_js_deg", json::array())) std::printf(" %.3f", angle.get<double>());
+  for (const Json& angle : state.value("measured_js_deg", Json::array())) std::printf(" %.3f", angle.get<double>());
   std::printf("\n");
 }
 
@@ -88,7 +89,7 @@ void print_state(const std::string& api, const json& state) {
 int status_command(const ClientOptions& options) {
   std::vector<Talk> talks = begin_talks(options, "liana status", Observer::kSeeing, [](ApiClient&) {});
   for (Talk& talk : talks) {
-    json state = answer_of(talk, "state", "lianad runs but sent no state within 5 s");
+    Json state = answer_of(talk, "state", "lianad runs but sent no state within 5 s");
     if (!talk.problem.empty()) continue;
     if (options.json) {
       state["api"] = talk.api;
@@ -107,7 +108,7 @@ int estop_command(const ClientOptions& options) {
     answer_of(talk, "ok", "lianad did not confirm the stop within 5 s; cut the power");
     const bool stopped = talk.problem.empty();
     if (options.json) {
-      std::puts(json{{"api", talk.api}, {"stopped", stopped}}.dump().c_str());
+      std::puts(Json{{"api", talk.api}, {"stopped", stopped}}.dump().c_str());
     } else if (stopped) {
       std::printf("%s: stop, brakes, then disabled\n", talk.api.c_str());
     }

@@ -1,8 +1,8 @@
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
-#include "host/cli/doctor.hpp"
+#include "host/json/json.hpp"
+#include "host/report/doctor.hpp"
 
 namespace liana {
 namespace {
@@ -21,7 +21,7 @@ void print_text(const std::vector<Finding>& findings) {
 int doctor_command(bool json) {
   const auto findings = examine_host();
   if (json) {
-    std::puts(nlohmann::json{{"findings", findings_json(findings)}}.dump().c_str());
+    std::puts(Json{{"findings", findings_json(findings)}}.dump().c_str());
   } else {
     print_text(findings);
   }

@@ -1,8 +1,8 @@
 #include <cstdio>
 
 #include "host/cli/commands.hpp"
-#include "host/cli/output.hpp"
-#include "host/cli/tables.hpp"
+#include "host/system/output.hpp"
+#include "host/system/tables.hpp"
 
 namespace liana {
 

@@ -1,21 +1,21 @@
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/fault_table.hpp"
-#include "host/cli/tables.hpp"
+#include "host/json/json.hpp"
+#include "host/report/fault_table.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/tables.hpp"
 
 namespace liana {
 namespace {
 
-nlohmann::json json_of(const std::vector<FaultRow>& rows) {
-  nlohmann::json list = nlohmann::json::array();
+Json json_of(const std::vector<FaultRow>& rows) {
+  Json list = Json::array();
   for (const FaultRow& row : rows) {
     list.push_back({{"number", static_cast<int>(row.info.number)},
                     {"name", row.info.name},
                     {"detected_by", row.detector},
-                    {"within_ticks", row.within_ticks < 0 ? nlohmann::json() : nlohmann::json(row.within_ticks)},
+                    {"within_ticks", row.within_ticks < 0 ? Json() : Json(row.within_ticks)},
                     {"stops_by", row.stops_by},
                     {"text", row.info.text},
                     {"remedy", row.info.remedy}});
@@ -25,7 +25,8 @@ nlohmann::json json_of(const std::vector<FaultRow>& rows) {
 
 void print_text(const std::vector<FaultRow>& rows) {
   for (const FaultRow& row : rows) {
-    std::printf("%d %s (%s): %s\n", static_cast<int>(row.info.number), row.info.name, row.stops_by.c_str(), row.info.text);
+    std::printf("%d %s (%s): %s\n", static_cast<int>(row.info.number), row.info.name, row.stops_by.c_str(),
+                row.info.text);
     std::printf("     detected by %s\n", row.detector);
     if (row.within_ticks >= 0) std::printf("     within ticks: %d\n", row.within_ticks);
     std::printf("     %s\n", row.info.remedy);

@@ -1,17 +1,15 @@
 #include <cstdio>
-#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "firmware_like/motion/goal_ik.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/tables.hpp"
+#include "host/json/json.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/tables.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -28,7 +26,8 @@ void hold(const std::string& text, const RobotTable& robot, GoalIkProblem& probl
 
 void aim_nodes(const std::vector<std::string>& texts, const RobotTable& robot, GoalIkProblem& problem) {
   if (texts.size() > problem.node.size()) {
-    throw BadInput("--control-point: " + std::to_string(texts.size()) + " given: allowed: at most " + std::to_string(problem.node.size()));
+    throw BadInput("--control-point: " + std::to_string(texts.size()) + " given: allowed: at most " +
+                   std::to_string(problem.node.size()));
   }
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const ControlPointArgument point = parse_control_point(texts[i], robot);
@@ -36,10 +35,10 @@ void aim_nodes(const std::vector<std::string>& texts, const RobotTable& robot, G
   }
 }
 
-json to_json(const GoalIkResult& result, std::size_t theta_count, std::size_t node_count) {
-  json theta = json::array();
+Json to_json(const GoalIkResult& result, std::size_t theta_count, std::size_t node_count) {
+  Json theta = Json::array();
   for (std::size_t i = 0; i < theta_count; ++i) theta.push_back(result.theta_rad[i] / kDegree);
-  json distances = json::array(), reaches = json::array();
+  Json distances = Json::array(), reaches = Json::array();
   for (std::size_t i = 0; i < node_count; ++i) {
     distances.push_back(result.node_distance_m[i]);
     reaches.push_back({{"now", result.node_reach[i].now_m}, {"least", result.node_reach[i].least_m}});
@@ -53,11 +52,11 @@ json to_json(const GoalIkResult& result, std::size_t theta_count, std::size_t no
           {"node_reach_m", reaches}};
 }
 
-void print_text(const json& answer) {
-  std::printf(
-      "%s after %d iterations, error %.2e m, %.2e rad\ntheta (deg):", answer["converged"].get<bool>() ? "converged" : "not converged",
-      answer["iterations"].get<int>(), answer["position_error_m"].get<double>(), answer["attitude_error_rad"].get<double>());
-  for (const json& angle : answer["theta_deg"]) std::printf(" %.6f", angle.get<double>());
+void print_text(const Json& answer) {
+  std::printf("%s after %d iterations, error %.2e m, %.2e rad\ntheta (deg):",
+              answer["converged"].get<bool>() ? "converged" : "not converged", answer["iterations"].get<int>(),
+              answer["position_error_m"].get<double>(), answer["attitude_error_rad"].get<double>());
+  for (const Json& angle : answer["theta_deg"]) std::printf(" %.6f", angle.get<double>());
   std::printf("\n");
 }
 
@@ -71,7 +70,7 @@ int ik_command(const IkOptions& options) {
   hold(options.hold, robot, problem);
   aim_nodes(options.control_points, robot, problem);
   const GoalIkResult result = solve_goal(robot, problem);
-  const json answer = to_json(result, static_cast<std::size_t>(robot.theta_count()), options.control_points.size());
+  const Json answer = to_json(result, static_cast<std::size_t>(robot.theta_count()), options.control_points.size());
   if (options.json) {
     std::puts(answer.dump().c_str());
   } else {

@@ -1,18 +1,16 @@
 #include <array>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/latency_report.hpp"
-#include "host/cli/latency_session.hpp"
-#include "host/cli/run_plan.hpp"
+#include "host/json/json.hpp"
+#include "host/report/latency_report.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/latency_session.hpp"
+#include "host/system/system_layout.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 // The project's embedded tables by rate: which rate a table can carry is a matter of its buses.
 struct RateTable {
@@ -27,9 +25,9 @@ std::string table_of(const LatencyOptions& options) {
   for (const RateTable& table : kTables) {
     if (parse_number("--rate", options.rate_hz) == parse_number("--rate", table.rate_hz)) return table.name;
   }
-  throw BadInput(
-      "--rate: " + options.rate_hz +
-      " Hz: allowed 250 (buses embedded) or 500 (buses embedded_500); for another rate name a table that carries it with --buses");
+  throw BadInput("--rate: " + options.rate_hz +
+                 " Hz: allowed 250 (buses embedded) or 500 (buses embedded_500); for another rate name a table that "
+                 "carries it with --buses");
 }
 
 void check_rate(const LatencyOptions& options, const BusesConfig& buses) {
@@ -40,7 +38,7 @@ void check_rate(const LatencyOptions& options, const BusesConfig& buses) {
                  "; leave --rate out or take another table");
 }
 
-LatencyMeasurement measured(const RunPlan& plan, double seconds) {
+LatencyMeasurement measured(const SystemLayout& plan, double seconds) {
   LatencySession session(plan);
   return session.measure(seconds);
 }
@@ -53,10 +51,10 @@ int latency_command(const LatencyOptions& options) {
   run.time = "real";
   run.arm = options.arm;
   if (options.arm == "light") run.physics = "ideal";
-  const RunPlan plan = make_plan(run);
+  const SystemLayout plan = make_layout(run);
   try {
     check_rate(options, plan.buses);
-    json report = latency_report(measured(plan, options.seconds), plan.buses, options.seconds, examine_realtime());
+    Json report = latency_report(measured(plan, options.seconds), plan.buses, options.seconds, examine_realtime());
     report["arm"] = options.arm;
     clean_up(plan, true);
     std::fputs((options.json ? report.dump() + "\n" : latency_text(report)).c_str(), stdout);

@@ -1,22 +1,20 @@
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "firmware_like/arm/cables.hpp"
 #include "firmware_like/arm/kinematics.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/slit_part.hpp"
-#include "host/cli/tables.hpp"
+#include "host/json/json.hpp"
+#include "host/system/tables.hpp"
 
 namespace liana {
 namespace {
 
-using nlohmann::json;
-
-json homogeneous(const Pose& pose) {
-  json rows = json::array();
+Json homogeneous(const Pose& pose) {
+  Json rows = Json::array();
   for (std::size_t row = 0; row < 3; ++row) {
-    json values = json::array();
+    Json values = Json::array();
     for (std::size_t column = 0; column < 3; ++column) {
       Vec3 axis{};
       axis[column] = 1.0;
@@ -29,25 +27,27 @@ json homogeneous(const Pose& pose) {
   return rows;
 }
 
-json jacobian_rows(const Jacobian& jacobian, std::size_t theta_count) {
-  json rows = json::array();
+Json jacobian_rows(const Jacobian& jacobian, std::size_t theta_count) {
+  Json rows = Json::array();
   for (std::size_t row = 0; row < 6; ++row) {
-    json values = json::array();
-    for (std::size_t i = 0; i < theta_count; ++i) values.push_back(row < 3 ? jacobian.linear[i][row] : jacobian.angular[i][row - 3]);
+    Json values = Json::array();
+    for (std::size_t i = 0; i < theta_count; ++i)
+      values.push_back(row < 3 ? jacobian.linear[i][row] : jacobian.angular[i][row - 3]);
     rows.push_back(values);
   }
   return rows;
 }
 
-json pose_of(const RobotTable& table, const ThetaVector& theta_rad) {
+Json pose_of(const RobotTable& table, const ThetaVector& theta_rad) {
   const ArmTrig trig = arm_trig(table, theta_rad);
   const ArmKinematics arm = forward_kinematics(table, trig);
   const CableLayout layout = cable_layout(table);
   const CableGeometry cables = cable_geometry(table, layout, trig);
-  json ends = json::array();
-  for (std::size_t m = 1; m <= static_cast<std::size_t>(table.segment_count); ++m) ends.push_back(arm.node_in_base[m].position_m);
-  json length = json::array();
-  json change = json::array();
+  Json ends = Json::array();
+  for (std::size_t m = 1; m <= static_cast<std::size_t>(table.segment_count); ++m)
+    ends.push_back(arm.node_in_base[m].position_m);
+  Json length = Json::array();
+  Json change = Json::array();
   for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
     length.push_back(cables.length_m[c]);
     change.push_back(cables.length_m[c] - layout.zero_length_m[c]);
@@ -59,13 +59,15 @@ json pose_of(const RobotTable& table, const ThetaVector& theta_rad) {
           {"cable_length_change_m", change}};
 }
 
-void print_summary(const json& pose) {
-  for (const json& row : pose["tip_pose"]) {
-    std::printf("%10.6f %10.6f %10.6f %11.6f m\n", row[0].get<double>(), row[1].get<double>(), row[2].get<double>(), row[3].get<double>());
+void print_summary(const Json& pose) {
+  for (const Json& row : pose["tip_pose"]) {
+    std::printf("%10.6f %10.6f %10.6f %11.6f m\n", row[0].get<double>(), row[1].get<double>(), row[2].get<double>(),
+                row[3].get<double>());
   }
-  const json& change = pose["cable_length_change_m"];
+  const Json& change = pose["cable_length_change_m"];
   for (std::size_t c = 0; c < change.size(); ++c) {
-    std::printf("cable %2zu: %10.6f m, %+9.3f mm\n", c, pose["cable_length_m"][c].get<double>(), 1000.0 * change[c].get<double>());
+    std::printf("cable %2zu: %10.6f m, %+9.3f mm\n", c, pose["cable_length_m"][c].get<double>(),
+                1000.0 * change[c].get<double>());
   }
   if (pose.contains("slit")) std::printf("slit: %s\n", pose["slit"].dump().c_str());
 }
@@ -75,10 +77,11 @@ void print_summary(const json& pose) {
 int pose_command(const PoseOptions& options) {
   const RobotConfig robot = robot_for_kinematics(options.robot);
   const ThetaVector theta_rad = parse_theta_deg("--theta-deg", options.theta_deg, robot.table);
-  json pose = pose_of(robot.table, theta_rad);
+  Json pose = pose_of(robot.table, theta_rad);
   if (!options.scene.empty()) {
     const SceneConfig scene = scene_of(options.scene);
-    if (!scene.slit) throw BadInput("--scene: '" + options.scene + "': has no slit; name a scene with one, or leave it out");
+    if (!scene.slit)
+      throw BadInput("--scene: '" + options.scene + "': has no slit; name a scene with one, or leave it out");
     pose["slit"] = slit_part(robot, scene, theta_rad);
   }
   if (options.json) {

@@ -1,18 +1,16 @@
 #include <cstdio>
 
 #include "host/cli/commands.hpp"
-#include "host/cli/errors.hpp"
-#include "host/cli/output.hpp"
-#include "host/cli/run_plan.hpp"
-#include "host/cli/run_report.hpp"
-#include "host/cli/run_session.hpp"
+#include "host/report/run_report.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/output.hpp"
+#include "host/system/run_session.hpp"
+#include "host/system/system_layout.hpp"
 
 namespace liana {
 namespace {
 
-using nlohmann::json;
-
-json report_of(const RunOptions& options, const RunPlan& plan, const RunSession& session, const RunEnd& end) {
+Json report_of(const RunOptions& options, const SystemLayout& plan, const RunSession& session, const RunEnd& end) {
   ReportSources sources;
   sources.robot = options.robot;
   sources.mission = options.mission;
@@ -33,7 +31,7 @@ json report_of(const RunOptions& options, const RunPlan& plan, const RunSession&
 }
 
 // The place was writable when the run began; what happened to it since must not lose the rest of the report.
-bool write_report(const std::string& path, const json& report) {
+bool write_report(const std::string& path, const Json& report) {
   try {
     write_output(path, report.dump(1) + "\n");
     return true;
@@ -43,7 +41,7 @@ bool write_report(const std::string& path, const json& report) {
   }
 }
 
-bool publish_report(const RunOptions& options, const RunPlan& plan, const json& report) {
+bool publish_report(const RunOptions& options, const SystemLayout& plan, const Json& report) {
   bool written = !plan.keep_directory || write_report(plan.file("report.json"), report);
   if (options.report_file == "-") {
     std::puts(report.dump().c_str());
@@ -57,14 +55,14 @@ bool publish_report(const RunOptions& options, const RunPlan& plan, const json& 
 }  // namespace
 
 int run_command(const RunOptions& options) {
-  const RunPlan plan = make_plan(options);
+  const SystemLayout plan = make_layout(options);
   RunSession session(plan);
   const RunEnd end = session.run();
   if (end.bad_input) {
     clean_up(plan, true);
     throw BadInput(end.message);
   }
-  const json report = report_of(options, plan, session, end);
+  const Json report = report_of(options, plan, session, end);
   const bool written = publish_report(options, plan, report);
   const bool success = report.value("outcome", "") == "success";
   if (!end.message.empty()) std::fprintf(stderr, "liana: %s\n", end.message.c_str());

@@ -8,9 +8,7 @@
 namespace liana {
 namespace {
 
-using nlohmann::json;
-
-json range_deg(const YawInterval& interval) {
+Json range_deg(const YawInterval& interval) {
   if (interval.empty) return nullptr;
   constexpr double kDegrees = 180.0 / std::numbers::pi;
   return {interval.lowest_rad * kDegrees, interval.highest_rad * kDegrees};
@@ -18,15 +16,15 @@ json range_deg(const YawInterval& interval) {
 
 }  // namespace
 
-json slit_part(const RobotConfig& robot, const SceneConfig& scene, const ThetaVector& theta_rad) {
+Json slit_part(const RobotConfig& robot, const SceneConfig& scene, const ThetaVector& theta_rad) {
   const RobotTable& table = robot.table;
   const SlitMouth mouth = slit_mouth(*scene.slit, robot.module_radius_m);
   const std::int32_t segments = planar_segments(table, link_points(table, theta_rad), mouth, PlanarSwitch{}, 0);
   const PlanarPart part{segments, forward_kinematics(table, theta_rad).tip_in_base, theta_rad};
-  json out{{"planar_segments", segments},
+  Json out{{"planar_segments", segments},
            {"held_theta", theta_numbers(planar_pitches(table, segments))},
            {"root", nullptr},
-           {"yaw_range_deg", json::array()}};
+           {"yaw_range_deg", Json::array()}};
   if (segments == 0) return out;
   const Pose root = root_of(table, part);
   const Vec3& p = root.position_m;

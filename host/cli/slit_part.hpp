@@ -1,14 +1,14 @@
 // What `liana pose --scene` adds: which part of the arm has to be planar in the scene's slit, and what its yaws may be.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "host/config/config.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 
-// The scene has to have a slit. `planar_segments`, `held_theta`, `root` (x,y,z,qw,qx,qy,qz of the planar part, base frame; null without
-// one) and `yaw_range_deg` (per segment of it: [lowest, highest], or null where it fits nowhere); see motion/dof_split.hpp.
-nlohmann::json slit_part(const RobotConfig& robot, const SceneConfig& scene, const ThetaVector& theta_rad);
+// The scene has to have a slit. `planar_segments`, `held_theta`, `root` (x,y,z,qw,qx,qy,qz of the planar part, base
+// frame; null without one) and `yaw_range_deg` (per segment of it: [lowest, highest], or null where it fits nowhere);
+// see motion/dof_split.hpp.
+Json slit_part(const RobotConfig& robot, const SceneConfig& scene, const ThetaVector& theta_rad);
 
 }  // namespace liana

@@ -4,18 +4,19 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <nlohmann/json.hpp>
+
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
 
-void write(const nlohmann::json& value, std::string& out);
+void write(const Json& value, std::string& out);
 
-void write_object(const nlohmann::json& object, std::string& out) {
+void write_object(const Json& object, std::string& out) {
   char separator = '{';
-  for (const auto& [key, item] : object.items()) {  // nlohmann::json keeps keys in byte order
+  for (const auto& [key, item] : object.items()) {  // Json keeps keys in byte order
     out += separator;
-    out += nlohmann::json(key).dump();
+    out += Json(key).dump();
     out += ':';
     write(item, out);
     separator = ',';
@@ -23,7 +24,7 @@ void write_object(const nlohmann::json& object, std::string& out) {
   out += object.empty() ? "{}" : "}";
 }
 
-void write_array(const nlohmann::json& array, std::string& out) {
+void write_array(const Json& array, std::string& out) {
   char separator = '[';
   for (const auto& item : array) {
     out += separator;
@@ -33,7 +34,7 @@ void write_array(const nlohmann::json& array, std::string& out) {
   out += array.empty() ? "[]" : "]";
 }
 
-void write(const nlohmann::json& value, std::string& out) {
+void write(const Json& value, std::string& out) {
   if (value.is_object()) return write_object(value, out);
   if (value.is_array()) return write_array(value, out);
   out += value.is_number() ? canonical_number(value.get<double>()) : value.dump();
@@ -43,13 +44,14 @@ void write(const nlohmann::json& value, std::string& out) {
 
 std::string canonical_number(double value) {
   constexpr double kExactInteger = 9007199254740992.0;  // 2^53
-  if (std::fabs(value) < kExactInteger && value == std::trunc(value)) return std::to_string(static_cast<std::int64_t>(value));
+  if (std::fabs(value) < kExactInteger && value == std::trunc(value))
+    return std::to_string(static_cast<std::int64_t>(value));
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return std::string(text.data(), end);
 }
 
-std::string canonical_json(const nlohmann::json& value) {
+std::string canonical_json(const Json& value) {
   std::string out;
   write(value, out);
   return out;

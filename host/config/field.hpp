@@ -3,10 +3,11 @@
 
 #include <array>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "host/json/json.hpp"
 
 namespace liana {
 
@@ -22,10 +23,12 @@ struct Range {
   bool contains(double value) const;
 };
 
-// A place in a JSON table; knows its file and path for messages. Cheap to copy; refers to the JSON, which must outlive it.
+// A place in a JSON table; knows its file and path for messages. Cheap to copy; refers to the JSON, which must outlive
+// it.
 class Field {
  public:
-  Field(const nlohmann::json& value, std::string file, std::string path) : value_(&value), file_(std::move(file)), path_(std::move(path)) {}
+  Field(const Json& value, std::string file, std::string path)
+      : value_(&value), file_(std::move(file)), path_(std::move(path)) {}
 
   // Throws std::runtime_error "file: path: value: allowed ...: what to do".
   [[noreturn]] void refuse(const std::string& allowed, const std::string& what_to_do) const;
@@ -54,18 +57,18 @@ class Field {
     return out;
   }
 
-  const nlohmann::json& json() const { return *value_; }
+  const Json& json() const { return *value_; }
   const std::string& file() const { return file_; }
 
  private:
-  const nlohmann::json* value_;
+  const Json* value_;
   std::string file_;
   std::string path_;
 };
 
 // Parses `text`; a syntax error becomes a message that names the file and the place.
-nlohmann::json parse_json(const std::string& text, const std::string& file,
-                          const std::string& advice = "export the Lua table again with liana-mission eval");
+Json parse_json(const std::string& text, const std::string& file,
+                const std::string& advice = "export the Lua table again with liana-mission eval");
 
 // The whole file as text; throws when it cannot be read.
 std::string read_text_file(const std::string& path);

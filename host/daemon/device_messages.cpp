@@ -1,10 +1,10 @@
 #include "host/daemon/device_messages.hpp"
 
-#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "host/api/fields.hpp"
 #include "host/api/request_error.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 
@@ -14,7 +14,7 @@ constexpr std::size_t kMaxSamples = 256;  // of one message: a quarter second at
 constexpr double kWorkspace_m = 10.0;     // a device frame's size
 constexpr double kPressed = 0.5;          // of trigger or button
 
-HandSample hand_sample(const nlohmann::json& object, const std::string& deadman, std::int64_t t_us) {
+HandSample hand_sample(const Json& object, const std::string& deadman, std::int64_t t_us) {
   HandSample sample;
   sample.t_us = t_us;
   sample.valid = flag_field(object, "valid");
@@ -32,10 +32,10 @@ DeviceKind device_kind(const std::string& name) {
   throw RequestError("bad_request", "device '" + name + "': allowed vr, hand, none");
 }
 
-void add_samples(const nlohmann::json& message, DeviceSteer& steer) {
+void add_samples(const Json& message, DeviceSteer& steer) {
   const DeviceKind kind = device_kind(text_field(message, "device", 16));
   std::vector<HandSample> tip, left;
-  for (const nlohmann::json& entry : array_field(message, "samples", kMaxSamples)) {
+  for (const Json& entry : array_field(message, "samples", kMaxSamples)) {
     const std::int64_t t_us = integer_field(entry, "t_us", 0, 1LL << 53);
     if (kind == DeviceKind::kVr) {
       tip.push_back(hand_sample(entry.at("right"), "trigger", t_us));

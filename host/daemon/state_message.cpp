@@ -10,26 +10,28 @@
 
 namespace liana {
 
-using nlohmann::json;
-
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
 
-json pose_json(const Pose& p) {
-  return {p.position_m[0], p.position_m[1], p.position_m[2], p.quaternion[0], p.quaternion[1], p.quaternion[2], p.quaternion[3]};
+Json pose_json(const Pose& p) {
+  return {p.position_m[0], p.position_m[1], p.position_m[2], p.quaternion[0],
+          p.quaternion[1], p.quaternion[2], p.quaternion[3]};
 }
 
-json first(const CableVector& values, std::int32_t count) { return json(std::vector<double>(values.begin(), values.begin() + count)); }
+Json first(const CableVector& values, std::int32_t count) {
+  return Json(std::vector<double>(values.begin(), values.begin() + count));
+}
 
-json nodes_json(const RobotTable& table, const Outputs& outputs) {
-  json nodes = json::array();
-  for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m) nodes.push_back(outputs.node_command_m[m]);
+Json nodes_json(const RobotTable& table, const Outputs& outputs) {
+  Json nodes = Json::array();
+  for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m)
+    nodes.push_back(outputs.node_command_m[m]);
   return nodes;
 }
 
-json faults_json(const FaultList& list) {
-  json faults = json::array();
+Json faults_json(const FaultList& list) {
+  Json faults = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(list.count); ++i) {
     const Fault& f = list.fault[i];
     const FaultInfo& info = fault_info(f.number);
@@ -45,7 +47,7 @@ json faults_json(const FaultList& list) {
 }
 
 // Of drives that did not boot: the core has not run, and knows nothing of them. The text is about this drive.
-void add_boot_faults(json& state, const std::vector<BootProblem>& problems) {
+void add_boot_faults(Json& state, const std::vector<BootProblem>& problems) {
   for (const BootProblem& problem : problems) {
     const FaultInfo& info = fault_info(problem.number);
     state["faults"].push_back({{"number", static_cast<int>(problem.number)},
@@ -58,43 +60,44 @@ void add_boot_faults(json& state, const std::vector<BootProblem>& problems) {
   }
 }
 
-json limits_json(std::uint32_t limits) {
+Json limits_json(std::uint32_t limits) {
   static constexpr std::array<const char*, 12> kNames{"tip_speed",   "tip_accel",   "theta",         "theta_rate",
                                                       "theta_accel", "cable_speed", "tension_floor", "tension_ceiling",
                                                       "singular",    "gate",        "expired",       "reach"};
-  json names = json::array();
+  Json names = Json::array();
   for (std::size_t i = 0; i < kNames.size(); ++i) {
     if (((limits >> i) & 1u) != 0) names.push_back(kNames[i]);
   }
   return names;
 }
 
-json drives_json(const RobotTable& table, const CycleReport& report, const std::vector<std::uint32_t>& serials) {
+Json drives_json(const RobotTable& table, const CycleReport& report, const std::vector<std::uint32_t>& serials) {
   const CableVector position_m = paid_out_m(table, report.inputs), tension_N = reported_tension_N(table, report.inputs);
-  json drives = json::array();
+  Json drives = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
     drives.push_back({{"node", i + 1},
                       {"state", drive_state_name(decode(report.inputs.drive[i].statusword))},
                       {"position_m", position_m[i]},
                       {"tension_N", tension_N[i]},
-                      {"serial", serials.empty() ? json() : json(serials[i])}});
+                      {"serial", serials.empty() ? Json() : Json(serials[i])}});
   }
   return drives;
 }
 
-json buses_json(const BusesConfig& buses, const CycleReport& report) {
+Json buses_json(const BusesConfig& buses, const CycleReport& report) {
   const double time_s = static_cast<double>(report.next_tick) * buses.tick_s();
-  json list = json::array();
+  Json list = Json::array();
   for (std::size_t b = 0; b < buses.buses.size(); ++b) {
     const DriveBusStats& bus = report.bus[b];
-    list.push_back({{"name", buses.buses[b].name},
-                    {"frames", bus.sent + bus.received},
-                    {"refused", bus.refused},
-                    {"errors", bus.errors},
-                    {"state", bus_state_name(bus.state)},
-                    {"lost", (report.inputs.lost_bus_mask >> b & 1u) != 0},
-                    {"worst_load", worst_case_load(buses, b)},
-                    {"measured_load", time_s > 0.0 ? static_cast<double>(bus.bits) / (time_s * buses.buses[b].bitrate) : 0.0}});
+    list.push_back(
+        {{"name", buses.buses[b].name},
+         {"frames", bus.sent + bus.received},
+         {"refused", bus.refused},
+         {"errors", bus.errors},
+         {"state", bus_state_name(bus.state)},
+         {"lost", (report.inputs.lost_bus_mask >> b & 1u) != 0},
+         {"worst_load", worst_case_load(buses, b)},
+         {"measured_load", time_s > 0.0 ? static_cast<double>(bus.bits) / (time_s * buses.buses[b].bitrate) : 0.0}});
   }
   return list;
 }
@@ -109,12 +112,12 @@ const char* device_name(DeviceKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-json verdict_json(const RobotTable& table, const LastVerdict& v) {
+Json verdict_json(const RobotTable& table, const LastVerdict& v) {
   return {{"sequence", v.sequence}, {"released", v.released},   {"code", static_cast<int>(v.worst.code)},
           {"text", v.worst.text},   {"margin", v.worst.margin}, {"twin_js_deg", degrees(table, v.twin_theta_rad)}};
 }
 
-void add_arm(json& state, const RobotTable& table, const CycleReport& report) {
+void add_arm(Json& state, const RobotTable& table, const CycleReport& report) {
   const Outputs& o = report.outputs;
   state["measured_js_deg"] = degrees(table, o.theta_measured_rad);
   state["setpoint_js_deg"] = degrees(table, o.theta_command_rad);
@@ -136,9 +139,10 @@ void add_arm(json& state, const RobotTable& table, const CycleReport& report) {
 
 }  // namespace
 
-json degrees(const RobotTable& table, const ThetaVector& theta_rad) {
-  json list = json::array();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) list.push_back(theta_rad[i] * kDegrees);
+Json degrees(const RobotTable& table, const ThetaVector& theta_rad) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i)
+    list.push_back(theta_rad[i] * kDegrees);
   return list;
 }
 
@@ -149,36 +153,38 @@ const char* state_name(const CycleReport& report) {
   return kNames[static_cast<std::size_t>(report.outputs.state)];
 }
 
-json state_message(const RobotTable& table, const BusesConfig& buses, const CycleReport& report, const Arbiter& arbiter, const Owner& owner,
-                   const Notes& notes) {
+Json state_message(const RobotTable& table, const BusesConfig& buses, const CycleReport& report, const Arbiter& arbiter,
+                   const Owner& owner, const Notes& notes) {
   const Outputs& o = report.outputs;
   const DeviceUse& device = arbiter.device().in_use();
   const bool moving = o.state == OperatingState::kEnabled && (o.at_rest == 0 || o.held_at_target == 0);
-  json state{{"op", "state"},
-             {"tick", report.next_tick},
-             {"time_s", static_cast<double>(report.next_tick) * table.tick_s},
-             {"state", state_name(report)},
-             {"is_homed", notes.homed},
-             {"is_busy", arbiter.is_busy() || moving},
-             {"retracted", arbiter.has_retracted()},
-             {"owner", owner.name()},
-             {"device", device_name(device.kind)},
-             {"device_engaged", arbiter.device().engaged()},
-             {"device_reason", arbiter.device().reason()},
-             {"device_samples", arbiter.device().samples()},
-             {"mapping", {{"scale", device.mapping.scale}, {"rotation_scale", device.mapping.rotation_scale}}},
-             {"step", notes.step},
-             {"operator_says", notes.operator_says},
-             {"overruns", report.overruns.total()},
-             {"refusals", notes.refusals},
-             {"verdict", verdict_json(table, notes.verdict)},
-             {"drives", drives_json(table, report, notes.serials)},
-             {"buses", buses_json(buses, report)},
-             {"events", notes.events},
-             {"stop", notes.stop},
-             {"stopping", notes.stopping},
-             {"shape", {{"missing_m", notes.shape.missing_m}, {"settled", notes.shape.settled}, {"searching", notes.shape.searching}}},
-             {"planar_segments", notes.planar_segments}};
+  Json state{
+      {"op", "state"},
+      {"tick", report.next_tick},
+      {"time_s", static_cast<double>(report.next_tick) * table.tick_s},
+      {"state", state_name(report)},
+      {"is_homed", notes.homed},
+      {"is_busy", arbiter.is_busy() || moving},
+      {"retracted", arbiter.has_retracted()},
+      {"owner", owner.name()},
+      {"device", device_name(device.kind)},
+      {"device_engaged", arbiter.device().engaged()},
+      {"device_reason", arbiter.device().reason()},
+      {"device_samples", arbiter.device().samples()},
+      {"mapping", {{"scale", device.mapping.scale}, {"rotation_scale", device.mapping.rotation_scale}}},
+      {"step", notes.step},
+      {"operator_says", notes.operator_says},
+      {"overruns", report.overruns.total()},
+      {"refusals", notes.refusals},
+      {"verdict", verdict_json(table, notes.verdict)},
+      {"drives", drives_json(table, report, notes.serials)},
+      {"buses", buses_json(buses, report)},
+      {"events", notes.events},
+      {"stop", notes.stop},
+      {"stopping", notes.stopping},
+      {"shape",
+       {{"missing_m", notes.shape.missing_m}, {"settled", notes.shape.settled}, {"searching", notes.shape.searching}}},
+      {"planar_segments", notes.planar_segments}};
   add_arm(state, table, report);
   add_boot_faults(state, notes.boot_problems);
   return state;

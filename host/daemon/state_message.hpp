@@ -2,16 +2,16 @@
 #pragma once
 
 #include <deque>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "host/arbiter/arbiter.hpp"
 #include "host/config/config.hpp"
-#include "host/daemon/arbiter.hpp"
-#include "host/daemon/boot_problem.hpp"
-#include "host/daemon/link.hpp"
+#include "host/control/boot_problem.hpp"
+#include "host/control/link.hpp"
 #include "host/daemon/owner.hpp"
-#include "host/daemon/verdict.hpp"
+#include "host/json/json.hpp"
+#include "host/verify/verdict.hpp"
 
 namespace liana {
 
@@ -33,13 +33,13 @@ struct ShapeNotes {
 // What the service adds to the arm's own report.
 struct Notes {
   static constexpr std::size_t kKeptEvents = 10;
-  nlohmann::json step = nullptr;           // announced by the mission
-  nlohmann::json operator_says = nullptr;  // with the tick
-  std::deque<nlohmann::json> events;       // newest last, at most kKeptEvents
+  Json step = nullptr;           // announced by the mission
+  Json operator_says = nullptr;  // with the tick
+  std::deque<Json> events;       // newest last, at most kKeptEvents
   LastVerdict verdict{};
   std::uint64_t refusals = 0;
   std::vector<BootProblem> boot_problems;  // faults of drives that did not boot
-  nlohmann::json stop = nullptr;           // the emergency stop in force: by, reason (may be empty), tick
+  Json stop = nullptr;                     // the emergency stop in force: by, reason (may be empty), tick
   bool stopping = false;
   ShapeNotes shape{};
   bool homed = false;                  // homing.hpp
@@ -51,10 +51,10 @@ struct Notes {
 const char* state_name(const CycleReport& report);
 
 // Angles as degrees, the first theta_count of them.
-nlohmann::json degrees(const RobotTable& table, const ThetaVector& theta_rad);
+Json degrees(const RobotTable& table, const ThetaVector& theta_rad);
 
 // The whole message.
-nlohmann::json state_message(const RobotTable& table, const BusesConfig& buses, const CycleReport& report, const Arbiter& arbiter,
-                             const Owner& owner, const Notes& notes);
+Json state_message(const RobotTable& table, const BusesConfig& buses, const CycleReport& report, const Arbiter& arbiter,
+                   const Owner& owner, const Notes& notes);
 
 }  // namespace liana

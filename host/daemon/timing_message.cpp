@@ -1,24 +1,25 @@
 #include "host/daemon/timing_message.hpp"
 
-#include <nlohmann/json.hpp>
+#include "host/json/json.hpp"
 
 namespace liana {
 
-using nlohmann::json;
-
 namespace {
 
-json times_json(const LatencyCounts& counts) {
-  json buckets = json::array();
+Json times_json(const LatencyCounts& counts) {
+  Json buckets = Json::array();
   for (std::size_t i = 0; i < counts.count.size(); ++i) {
     if (counts.count[i] > 0) buckets.push_back({i, counts.count[i]});
   }
-  return {{"median", counts.percentile_us(0.5)}, {"p99", counts.percentile_us(0.99)}, {"worst", counts.worst_us}, {"buckets", buckets}};
+  return {{"median", counts.percentile_us(0.5)},
+          {"p99", counts.percentile_us(0.99)},
+          {"worst", counts.worst_us},
+          {"buckets", buckets}};
 }
 
 }  // namespace
 
-json timing_message(const LatencyCounts& wakeup, const LatencyCounts& tick, const Overruns& overruns) {
+Json timing_message(const LatencyCounts& wakeup, const LatencyCounts& tick, const Overruns& overruns) {
   return {{"ticks", tick.total()},
           {"wakeup_us", times_json(wakeup)},
           {"tick_us", times_json(tick)},

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <exception>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "host/json/json.hpp"
 #include "host/lua/activity.hpp"
 #include "host/lua/json_bridge.hpp"
 
@@ -43,7 +43,7 @@ constexpr std::array<Binding, 14> kBindings = {{{"acquire", {}},
                                                 {"stop", kStop},
                                                 {"announce", kAnnounce}}};
 
-bool has_type(const nlohmann::json& value, const std::string& type) {
+bool has_type(const Json& value, const std::string& type) {
   if (type == "number") return value.is_number();
   if (type == "integer") return value.is_number_integer();
   if (type == "boolean") return value.is_boolean();
@@ -72,13 +72,15 @@ int guarded(lua_State* state, const Body& body) {
   return lua_error(state);
 }
 
-RequestSink& sink_of(lua_State* state) { return *static_cast<RequestSink*>(lua_touserdata(state, lua_upvalueindex(1))); }
+RequestSink& sink_of(lua_State* state) {
+  return *static_cast<RequestSink*>(lua_touserdata(state, lua_upvalueindex(1)));
+}
 
 int send_command(lua_State* state) {
   const auto& binding = *static_cast<const Binding*>(lua_touserdata(state, lua_upvalueindex(2)));
   return guarded(state, [&] {
-    nlohmann::json fields = lua_isnoneornil(state, 1) ? nlohmann::json::object() : to_json(state, 1, binding.name);
-    if (fields.is_array() && fields.empty()) fields = nlohmann::json::object();
+    Json fields = lua_isnoneornil(state, 1) ? Json::object() : to_json(state, 1, binding.name);
+    if (fields.is_array() && fields.empty()) fields = Json::object();
     check_fields(binding, fields);
     lua_pushinteger(state, sink_of(state).request(binding, std::move(fields)));
     return 1;
@@ -109,9 +111,10 @@ void add_native(lua_State* state, RequestSink& sink, const char* name, lua_CFunc
 
 std::span<const Binding> bindings() { return kBindings; }
 
-void check_fields(const Binding& binding, const nlohmann::json& fields) {
+void check_fields(const Binding& binding, const Json& fields) {
   const std::string where = std::string(binding.name) + ": ";
-  if (!fields.is_object()) throw std::runtime_error(where + "allowed a table with named fields: write arm." + binding.name + " { ... }");
+  if (!fields.is_object())
+    throw std::runtime_error(where + "allowed a table with named fields: write arm." + binding.name + " { ... }");
   std::string known;
   for (const BindingField& field : binding.fields) {
     known += (known.empty() ? "" : ", ") + std::string(field.name);
@@ -119,7 +122,8 @@ void check_fields(const Binding& binding, const nlohmann::json& fields) {
     if (value == fields.end() && field.required)
       throw std::runtime_error(where + field.name + ": missing: allowed " + field.type + ": add it");
     if (value != fields.end() && !has_type(*value, field.type)) {
-      throw std::runtime_error(where + field.name + ": " + value->dump().substr(0, 60) + ": allowed " + field.type + ": correct it");
+      throw std::runtime_error(where + field.name + ": " + value->dump().substr(0, 60) + ": allowed " + field.type +
+                               ": correct it");
     }
   }
   std::size_t found = 0;

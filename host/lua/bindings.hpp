@@ -2,9 +2,10 @@
 #pragma once
 
 #include <lua.hpp>
-#include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
+
+#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -25,18 +26,18 @@ struct Binding {
 std::span<const Binding> bindings();
 
 // Checks the names and types of a command's fields (ranges are lianad's business). Throws std::runtime_error.
-void check_fields(const Binding& binding, const nlohmann::json& fields);
+void check_fields(const Binding& binding, const Json& fields);
 
 // Where commands go.
 class RequestSink {
  public:
   virtual ~RequestSink() = default;
   // Sends a request and returns its id.
-  virtual std::int64_t request(const Binding& binding, nlohmann::json fields) = 0;
+  virtual std::int64_t request(const Binding& binding, Json fields) = 0;
   // Progress of the mission, see lua/liana/engine.lua.
-  virtual void progress(const nlohmann::json& event) = 0;
+  virtual void progress(const Json& event) = 0;
   // The report as far as it is known.
-  virtual void report(const nlohmann::json& report) = 0;
+  virtual void report(const Json& report) = 0;
 };
 
 // Pushes { commands = { name = function }, progress = function, report = function }; `sink` must outlive the state.

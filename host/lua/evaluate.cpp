@@ -1,11 +1,11 @@
 #include "host/lua/evaluate.hpp"
 
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "host/config/canonical.hpp"
 #include "host/config/config.hpp"
 #include "host/config/field.hpp"
+#include "host/json/json.hpp"
 #include "host/lua/json_bridge.hpp"
 
 namespace liana {
@@ -26,7 +26,7 @@ void naming_file(const std::string& display, const Action& action) {
 }
 
 // Refuses the mission on the stack, which stays there, when the robot cannot do it.
-void check_against_robot(Script& script, const nlohmann::json& robot) {
+void check_against_robot(Script& script, const Json& robot) {
   lua_State* state = script.state();
   script.require("liana.check");
   lua_getfield(state, -1, "against");
@@ -37,12 +37,12 @@ void check_against_robot(Script& script, const nlohmann::json& robot) {
 }
 
 // Replaces the mission on the stack by its description; refuses anything that is no mission.
-nlohmann::json describe(Script& script, const std::string& display) {
+Json describe(Script& script, const std::string& display) {
   script.require("liana.check");
   lua_getfield(script.state(), -1, "describe");
   lua_pushvalue(script.state(), -3);
   script.call(1, 1);
-  nlohmann::json description = to_json(script.state(), -1, display);
+  Json description = to_json(script.state(), -1, display);
   lua_pop(script.state(), 2);
   return description;
 }
@@ -50,19 +50,20 @@ nlohmann::json describe(Script& script, const std::string& display) {
 // Leaves the mission of a script on the stack, or of a plan that `liana plan --out` has written.
 void push_mission(Script& script, const ScriptFile& file) {
   if (!file.display.ends_with(".json")) return script.run(file);
-  const nlohmann::json plan = parse_json(file.text, file.display, kPlanAdvice);
+  const Json plan = parse_json(file.text, file.display, kPlanAdvice);
   script.require("liana.plan_mission");
   push_in_protection(script, plan);
   script.call(1, 1);
 }
 
 // A plan is a way of the robot that it was made for, and of no other.
-void check_robot_of_plan(const ScriptFile& file, const nlohmann::json& robot) {
+void check_robot_of_plan(const ScriptFile& file, const Json& robot) {
   if (!file.display.ends_with(".json")) return;
-  const nlohmann::json plan = parse_json(file.text, file.display, kPlanAdvice);
-  if (plan.value("/inputs/robot"_json_pointer, nlohmann::json()) == robot) return;
-  throw std::runtime_error("inputs.robot: another robot than " + robot.value("name", "") +
-                           ", or other tables of it: allowed the same: " + "name the robot with --robot, or plan again");
+  const Json plan = parse_json(file.text, file.display, kPlanAdvice);
+  if (plan.value("/inputs/robot"_json_pointer, Json()) == robot) return;
+  throw std::runtime_error(
+      "inputs.robot: another robot than " + robot.value("name", "") +
+      ", or other tables of it: allowed the same: " + "name the robot with --robot, or plan again");
 }
 
 }  // namespace
@@ -77,7 +78,7 @@ void load_mission(Script& script, const std::string& lua_dir, const std::string&
 
 std::string evaluate(Script& script, const std::string& lua_dir, const std::string& kind, const std::string& name) {
   const ScriptFile file = find_script(lua_dir, kind, name);
-  nlohmann::json result;
+  Json result;
   naming_file(file.display, [&] {
     script.run(file);
     result = to_json(script.state(), -1, file.display);
@@ -85,11 +86,12 @@ std::string evaluate(Script& script, const std::string& lua_dir, const std::stri
   return check_table(kind, result, file.display);
 }
 
-std::string evaluate_mission(Script& script, const std::string& lua_dir, const std::string& name, const std::string& robot_json) {
+std::string evaluate_mission(Script& script, const std::string& lua_dir, const std::string& name,
+                             const std::string& robot_json) {
   const ScriptFile file = find_script(lua_dir, "mission", name);
-  nlohmann::json result;
+  Json result;
   naming_file(file.display, [&] {
-    const nlohmann::json robot = nlohmann::json::parse(robot_json);
+    const Json robot = Json::parse(robot_json);
     push_mission(script, file);
     check_robot_of_plan(file, robot);
     check_against_robot(script, robot);

@@ -1,9 +1,9 @@
 #include "host/lua/json_bridge.hpp"
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "host/json/json.hpp"
 #include "host/lua/script.hpp"
 
 namespace liana {
@@ -16,7 +16,7 @@ class Reader {
  public:
   Reader(lua_State* state, const std::string& file) : state_(state), file_(file) {}
 
-  nlohmann::json read(int index, const std::string& path, int depth) const {
+  Json read(int index, const std::string& path, int depth) const {
     switch (lua_type(state_, index)) {
       case LUA_TNIL:
         return nullptr;
@@ -34,18 +34,21 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& path, const std::string& value, const std::string& allowed, const std::string& advice) const {
-    throw std::runtime_error(file_ + ": " + (path.empty() ? "result" : path) + ": " + value + ": allowed " + allowed + ": " + advice);
+  [[noreturn]] void refuse(const std::string& path, const std::string& value, const std::string& allowed,
+                           const std::string& advice) const {
+    throw std::runtime_error(file_ + ": " + (path.empty() ? "result" : path) + ": " + value + ": allowed " + allowed +
+                             ": " + advice);
   }
 
-  nlohmann::json number(int index, const std::string& path) const {
+  Json number(int index, const std::string& path) const {
     if (lua_isinteger(state_, index) != 0) return static_cast<std::int64_t>(lua_tointeger(state_, index));
     const double value = lua_tonumber(state_, index);
-    if (!std::isfinite(value)) refuse(path, std::isnan(value) ? "nan" : "inf", "finite numbers", "correct the computation");
+    if (!std::isfinite(value))
+      refuse(path, std::isnan(value) ? "nan" : "inf", "finite numbers", "correct the computation");
     return value;
   }
 
-  nlohmann::json text(int index, const std::string& path) const {
+  Json text(int index, const std::string& path) const {
     std::size_t length = 0;
     const char* bytes = lua_tolstring(state_, index, &length);
     const std::string value(bytes, length);
@@ -56,7 +59,7 @@ class Reader {
     return value;
   }
 
-  nlohmann::json table(int index, const std::string& path, int depth) const {
+  Json table(int index, const std::string& path, int depth) const {
     if (depth > kDeepest || lua_checkstack(state_, 4) == 0)
       refuse(path, "a table", "at most 24 levels", "look for a table that contains itself");
     const auto length = static_cast<std::size_t>(lua_rawlen(state_, index));
@@ -71,8 +74,8 @@ class Reader {
     refuse(path, "a table", "lists 1..n without gaps, or named fields only", "do not mix them");
   }
 
-  nlohmann::json array(int index, std::size_t length, const std::string& path, int depth) const {
-    nlohmann::json out = nlohmann::json::array();
+  Json array(int index, std::size_t length, const std::string& path, int depth) const {
+    Json out = Json::array();
     for (std::size_t i = 1; i <= length; ++i) {
       lua_rawgeti(state_, index, static_cast<lua_Integer>(i));
       out.push_back(read(-1, path + "[" + std::to_string(i) + "]", depth + 1));
@@ -81,8 +84,8 @@ class Reader {
     return out;
   }
 
-  nlohmann::json object(int index, const std::string& path, int depth) const {
-    nlohmann::json out = nlohmann::json::object();
+  Json object(int index, const std::string& path, int depth) const {
+    Json out = Json::object();
     for (lua_pushnil(state_); lua_next(state_, index) != 0; lua_pop(state_, 1)) {
       const std::string key = lua_tostring(state_, -2);  // a text already: no conversion in place
       out[key] = read(-1, path.empty() ? key : path + "." + key, depth + 1);
@@ -94,7 +97,7 @@ class Reader {
   const std::string& file_;
 };
 
-void push_list(lua_State* state, const nlohmann::json& list) {
+void push_list(lua_State* state, const Json& list) {
   lua_createtable(state, static_cast<int>(list.size()), 0);
   for (std::size_t i = 0; i < list.size(); ++i) {
     push_json(state, list[i]);
@@ -102,7 +105,7 @@ void push_list(lua_State* state, const nlohmann::json& list) {
   }
 }
 
-void push_table(lua_State* state, const nlohmann::json& table) {
+void push_table(lua_State* state, const Json& table) {
   lua_createtable(state, 0, static_cast<int>(table.size()));
   for (auto it = table.begin(); it != table.end(); ++it) {
     push_json(state, it.value());
@@ -112,7 +115,7 @@ void push_table(lua_State* state, const nlohmann::json& table) {
 
 }  // namespace
 
-nlohmann::json to_json(lua_State* state, int index, const std::string& file) {
+Json to_json(lua_State* state, int index, const std::string& file) {
   const int top = lua_gettop(state);
   try {
     return Reader(state, file).read(index, "", 0);
@@ -122,7 +125,7 @@ nlohmann::json to_json(lua_State* state, int index, const std::string& file) {
   }
 }
 
-void push_json(lua_State* state, const nlohmann::json& value) {
+void push_json(lua_State* state, const Json& value) {
   luaL_checkstack(state, 4, "JSON too deep");
   if (value.is_array()) return push_list(state, value);
   if (value.is_object()) return push_table(state, value);
@@ -134,12 +137,12 @@ void push_json(lua_State* state, const nlohmann::json& value) {
   lua_pushlstring(state, text.data(), text.size());
 }
 
-void push_in_protection(Script& script, const nlohmann::json& value) {
+void push_in_protection(Script& script, const Json& value) {
   lua_pushcfunction(script.state(), [](lua_State* state) {
-    push_json(state, *static_cast<const nlohmann::json*>(lua_touserdata(state, 1)));
+    push_json(state, *static_cast<const Json*>(lua_touserdata(state, 1)));
     return 1;
   });
-  lua_pushlightuserdata(script.state(), const_cast<nlohmann::json*>(&value));
+  lua_pushlightuserdata(script.state(), const_cast<Json*>(&value));
   script.call(1, 1);
 }
 

@@ -1,8 +1,9 @@
 // Reports of missions, also of those that died.
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <stdexcept>
+
+#include "host/json/json.hpp"
 
 #include "host/lua/mission_run.hpp"
 
@@ -10,13 +11,13 @@ namespace liana {
 
 namespace {
 
-double seconds_since(const nlohmann::json& step, std::uint64_t tick, double period_s) {
+double seconds_since(const Json& step, std::uint64_t tick, double period_s) {
   const std::uint64_t start = step.value("start_tick", std::uint64_t{0});
   return tick > start ? static_cast<double>(tick - start) * period_s : 0.0;
 }
 
 // The step lasted at least until the last state that was seen.
-void close_step(nlohmann::json& step, std::uint64_t last_tick, double period_s, const std::string& reason) {
+void close_step(Json& step, std::uint64_t last_tick, double period_s, const std::string& reason) {
   step["outcome"] = "failed";
   step["reason"] = reason;
   step["duration_s"] = seconds_since(step, last_tick, period_s);
@@ -28,12 +29,13 @@ void close_step(nlohmann::json& step, std::uint64_t last_tick, double period_s, 
 void write_report(const std::string& path, const std::string& report_json) {
   std::ofstream out(path, std::ios::trunc);
   out << report_json << "\n";
-  if (!out.flush()) throw std::runtime_error(path + ": cannot be written: allowed a writable place: choose another --report");
+  if (!out.flush())
+    throw std::runtime_error(path + ": cannot be written: allowed a writable place: choose another --report");
 }
 
 std::string failed_report(const Activity& activity, const std::string& mission, const std::string& reason) {
-  nlohmann::json report = nlohmann::json::parse(activity.report.data(), nullptr, false);
-  if (!report.is_object()) report = {{"mission", mission}, {"steps", nlohmann::json::array()}, {"duration_s", 0}};
+  Json report = Json::parse(activity.report.data(), nullptr, false);
+  if (!report.is_object()) report = {{"mission", mission}, {"steps", Json::array()}, {"duration_s", 0}};
   report["outcome"] = "failed";
   report["reason"] = reason;
   const std::uint64_t last_tick = activity.tick.load(std::memory_order_relaxed);

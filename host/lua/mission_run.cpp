@@ -2,8 +2,8 @@
 
 #include <cstdio>
 #include <exception>
-#include <nlohmann/json.hpp>
 
+#include "host/json/json.hpp"
 #include "host/lua/evaluate.hpp"
 #include "host/lua/json_bridge.hpp"
 #include "host/lua/session.hpp"
@@ -34,7 +34,7 @@ void start_engine(Script& script, MissionSession& session) {
 }
 
 // runner:method(message); true when it returns true. The runner is on top.
-bool tell_engine(Script& script, const char* method, const nlohmann::json& message) {
+bool tell_engine(Script& script, const char* method, const Json& message) {
   lua_State* state = script.state();
   lua_getfield(state, -1, method);
   lua_pushvalue(state, -2);
@@ -49,7 +49,7 @@ bool tell_engine(Script& script, const char* method, const nlohmann::json& messa
 void converse(Script& script, MissionSession& session) {
   bool over = false;
   while (!over) {
-    const nlohmann::json message = session.next();
+    const Json message = session.next();
     if (!message.is_object()) continue;
     const std::string op = message.value("op", "");
     if (op == "ok" || op == "error") tell_engine(script, "on_answer", message);
@@ -59,12 +59,12 @@ void converse(Script& script, MissionSession& session) {
   }
 }
 
-// The socket stays open until the answers to the last commands are through. In lockstep time lianad would otherwise notice this end in
-// the present interval or in the next one, as it happens, and runs would not repeat.
+// The socket stays open until the answers to the last commands are through. In lockstep time lianad would otherwise
+// notice this end in the present interval or in the next one, as it happens, and runs would not repeat.
 void await_next_state(MissionSession& session) {
   try {
     for (int i = 0; i < kLastMessages; ++i) {
-      const nlohmann::json message = session.next();
+      const Json message = session.next();
       if (message.is_object() && message.value("op", "") == "state") return;
     }
   } catch (const std::exception&) {
@@ -89,7 +89,7 @@ int run_connected(const MissionOptions& options, Activity& activity, Script& scr
     finish(options, failed_report(activity, options.mission, error.what()));
     return kExitNotSuccess;
   }
-  const nlohmann::json& report = session.last_report();
+  const Json& report = session.last_report();
   finish(options, report.dump());
   if (report.value("outcome", "") == "success") return kExitSuccess;
   std::fprintf(stderr, "liana-mission: %s: %s: %s\n", options.mission.c_str(), report.value("outcome", "").c_str(),

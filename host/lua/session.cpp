@@ -9,17 +9,17 @@ namespace {
 constexpr double kWelcome_s = 30.0;
 constexpr double kWait_s = 0.5;
 
-std::string progress_line(const nlohmann::json& event) {
+std::string progress_line(const Json& event) {
   char line[300];
   const std::string name = event.value("name", "");
   const int index = event.value("index", 0);
   const int count = event.value("count", 0);
   if (event.value("event", "") == "begin") {
-    std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  device %s", event.value("time_s", 0.0), index, count, name.c_str(),
-                  event.value("device", "").c_str());
+    std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  device %s", event.value("time_s", 0.0), index, count,
+                  name.c_str(), event.value("device", "").c_str());
   } else {
-    std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  %s after %.2f s%s%s", event.value("time_s", 0.0), index, count,
-                  name.c_str(), event.value("outcome", "").c_str(), event.value("duration_s", 0.0),
+    std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  %s after %.2f s%s%s", event.value("time_s", 0.0),
+                  index, count, name.c_str(), event.value("outcome", "").c_str(), event.value("duration_s", 0.0),
                   event.value("reason", "").empty() ? "" : ": ", event.value("reason", "").c_str());
   }
   return line;
@@ -29,7 +29,11 @@ std::string progress_line(const nlohmann::json& event) {
 
 MissionSession::MissionSession(const MissionOptions& options, Activity& activity)
     : options_(options), activity_(activity), client_(ApiClient::connect(options.api, kWelcome_s)) {
-  client_.send({{"op", "hello"}, {"name", "mission"}, {"role", "mission"}, {"lockstep", options.lockstep}, {"subscribe", {"state"}}});
+  client_.send({{"op", "hello"},
+                {"name", "mission"},
+                {"role", "mission"},
+                {"lockstep", options.lockstep},
+                {"subscribe", {"state"}}});
   for (double waited_s = 0.0; waited_s < kWelcome_s; waited_s += kWait_s) {
     const auto message = client_.receive(kWait_s);
     activity_.beat();
@@ -43,12 +47,13 @@ MissionSession::MissionSession(const MissionOptions& options, Activity& activity
   throw std::runtime_error(options.api + ": lianad does not answer: is it running?");
 }
 
-nlohmann::json MissionSession::next() {
+Json MissionSession::next() {
   activity_.beat();
   auto message = client_.receive(kWait_s);
   activity_.beat();
   if (!message) return {};
-  if (message->value("op", "") == "state") activity_.tick.store(message->value("tick", std::uint64_t{0}), std::memory_order_relaxed);
+  if (message->value("op", "") == "state")
+    activity_.tick.store(message->value("tick", std::uint64_t{0}), std::memory_order_relaxed);
   return std::move(*message);
 }
 
@@ -64,7 +69,7 @@ void MissionSession::hold_quietly() {
   }
 }
 
-std::int64_t MissionSession::request(const Binding& binding, nlohmann::json fields) {
+std::int64_t MissionSession::request(const Binding& binding, Json fields) {
   fields["op"] = binding.name;
   fields["id"] = ++last_id_;
   if (std::string(binding.name) == "announce" && !fields.contains("step")) fields["step"] = nullptr;
@@ -72,13 +77,13 @@ std::int64_t MissionSession::request(const Binding& binding, nlohmann::json fiel
   return last_id_;
 }
 
-void MissionSession::progress(const nlohmann::json& event) {
+void MissionSession::progress(const Json& event) {
   if (options_.json) std::printf("%s\n", event.dump().c_str());
   if (options_.progress && !options_.json) std::printf("%s\n", progress_line(event).c_str());
   std::fflush(stdout);
 }
 
-void MissionSession::report(const nlohmann::json& report) {
+void MissionSession::report(const Json& report) {
   report_ = report;
   const std::string text = report.dump();
   if (text.size() < activity_.report.size()) put_text(activity_.report, text);

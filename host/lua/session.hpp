@@ -1,10 +1,10 @@
 // The mission runner's side of the API socket.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "host/api/client.hpp"
+#include "host/json/json.hpp"
 #include "host/lua/bindings.hpp"
 #include "host/lua/mission_run.hpp"
 
@@ -16,26 +16,26 @@ class MissionSession : public RequestSink {
   // Connects and says hello; throws std::runtime_error when lianad is not there or refuses.
   MissionSession(const MissionOptions& options, Activity& activity);
 
-  const nlohmann::json& welcome() const { return welcome_; }
-  const nlohmann::json& last_report() const { return report_; }
+  const Json& welcome() const { return welcome_; }
+  const Json& last_report() const { return report_; }
 
   // Next message within half a second, or null.
-  nlohmann::json next();
+  Json next();
   // Tells lianad that the state of `tick` is dealt with.
   void done(std::int64_t tick);
   // Asks for a hold; says nothing when lianad is gone.
   void hold_quietly();
 
-  std::int64_t request(const Binding& binding, nlohmann::json fields) override;
-  void progress(const nlohmann::json& event) override;
-  void report(const nlohmann::json& report) override;
+  std::int64_t request(const Binding& binding, Json fields) override;
+  void progress(const Json& event) override;
+  void report(const Json& report) override;
 
  private:
   const MissionOptions& options_;
   Activity& activity_;
   ApiClient client_;
-  nlohmann::json welcome_;
-  nlohmann::json report_;
+  Json welcome_;
+  Json report_;
   std::int64_t last_id_ = 0;
 };
 

@@ -1,22 +1,23 @@
-#include <nlohmann/json.hpp>
 
 #include "host/config/canonical.hpp"
 #include "host/config/sha256.hpp"
+#include "host/json/json.hpp"
 #include "host/plan/plan.hpp"
 
 namespace liana {
 namespace {
 
-using nlohmann::json;
+Json angles(const ThetaVector& theta_rad, std::int32_t count) {
+  return std::vector<double>(theta_rad.begin(), theta_rad.begin() + count);
+}
 
-json angles(const ThetaVector& theta_rad, std::int32_t count) { return std::vector<double>(theta_rad.begin(), theta_rad.begin() + count); }
-
-json inputs(const PlanRequest& request) {
+Json inputs(const PlanRequest& request) {
   const std::int32_t count = request.robot.table.theta_count();
-  json held = json::array(), points = json::array();
+  Json held = Json::array(), points = Json::array();
   for (const HeldPhase& phase : request.held) held.push_back({phase.theta, phase.value_rad, phase.from_share});
-  for (const ControlPoint& point : request.control_points) points.push_back({point.node, point.position_m, point.weight});
-  json out{{"from_rad", angles(request.from_rad, count)},
+  for (const ControlPoint& point : request.control_points)
+    points.push_back({point.node, point.position_m, point.weight});
+  Json out{{"from_rad", angles(request.from_rad, count)},
            {"held", held},
            {"control_points", points},
            {"waypoints", request.waypoints},
@@ -31,11 +32,12 @@ json inputs(const PlanRequest& request) {
 }  // namespace
 
 std::string plan_hash(const PlanRequest& request, const PlanResult& result) {
-  json waypoints = json::array();
-  for (const ThetaVector& theta : result.waypoints_rad) waypoints.push_back(angles(theta, request.robot.table.theta_count()));
-  const json outcome{{"outcome", name_of(result.outcome)}, {"waypoints_rad", waypoints}};
-  return sha256_hex(request.robot.canonical_json + "\n" + request.scene.canonical_json + "\n" + canonical_json(inputs(request)) + "\n" +
-                    canonical_json(outcome) + "\n");
+  Json waypoints = Json::array();
+  for (const ThetaVector& theta : result.waypoints_rad)
+    waypoints.push_back(angles(theta, request.robot.table.theta_count()));
+  const Json outcome{{"outcome", name_of(result.outcome)}, {"waypoints_rad", waypoints}};
+  return sha256_hex(request.robot.canonical_json + "\n" + request.scene.canonical_json + "\n" +
+                    canonical_json(inputs(request)) + "\n" + canonical_json(outcome) + "\n");
 }
 
 }  // namespace liana

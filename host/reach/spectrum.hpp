@@ -1,5 +1,6 @@
-// Singular values of a few rows by as many columns, by one-sided Jacobi rotations (Hestenes 1958): rows are turned in pairs until all are
-// orthogonal; their lengths are the singular values. Small values come out as exactly as large ones.
+// Singular values of a few rows by as many columns, by one-sided Jacobi rotations (Hestenes 1958): rows are turned in
+// pairs until all are orthogonal; their lengths are the singular values. Small values come out as exactly as large
+// ones.
 #pragma once
 
 #include <array>
@@ -16,8 +17,9 @@ using ThetaRows = std::array<std::array<double, kMaxTheta>, Rows>;
 
 template <std::size_t Rows>
 struct Spectrum {
-  std::array<double, Rows> value{};                   // falling
-  std::array<std::array<double, Rows>, Rows> axis{};  // axis[i]: unit vector in the space of the rows that value[i] belongs to
+  std::array<double, Rows> value{};  // falling
+  std::array<std::array<double, Rows>, Rows>
+      axis{};  // axis[i]: unit vector in the space of the rows that value[i] belongs to
 };
 
 // Turns rows a and b by the angle (c, s).
@@ -37,7 +39,8 @@ double inner_product(const std::array<double, Size>& a, const std::array<double,
   return sum;
 }
 
-// Singular values and left singular vectors; relative error about 1e-14 of each value over 1e-150. At most 30 sweeps; 6 are usual.
+// Singular values and left singular vectors; relative error about 1e-14 of each value over 1e-150. At most 30 sweeps; 6
+// are usual.
 template <std::size_t Rows>
 Spectrum<Rows> spectrum(ThetaRows<Rows> rows) {
   Spectrum<Rows> out;
@@ -47,7 +50,8 @@ Spectrum<Rows> spectrum(ThetaRows<Rows> rows) {
     turned = false;
     for (std::size_t p = 0; p + 1 < Rows; ++p) {
       for (std::size_t q = p + 1; q < Rows; ++q) {
-        const double pp = inner_product(rows[p], rows[p]), qq = inner_product(rows[q], rows[q]), pq = inner_product(rows[p], rows[q]);
+        const double pp = inner_product(rows[p], rows[p]), qq = inner_product(rows[q], rows[q]),
+                     pq = inner_product(rows[p], rows[q]);
         if (std::fabs(pq) <= 1e-14 * std::sqrt(pp * qq)) continue;
         const double zeta = (qq - pp) / (2.0 * pq);
         const double t = std::copysign(1.0, zeta) / (std::fabs(zeta) + std::sqrt(1.0 + zeta * zeta));

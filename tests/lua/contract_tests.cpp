@@ -1,16 +1,17 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "host/json/json.hpp"
 #include "host/lua/bindings.hpp"
 #include "tests/lua/program.hpp"
 
 namespace liana {
 namespace {
 
-// Stub lines "function arm.NAME(fields) end" under "---@param fields { a: number, b?: string }", as "NAME a:number b?:string".
+// Stub lines "function arm.NAME(fields) end" under "---@param fields { a: number, b?: string }", as "NAME a:number
+// b?:string".
 std::set<std::string> stubs() {
   std::istringstream in(read_file(LIANA_SOURCE_DIR "/lua/liana/arm_stubs.lua"));
   std::set<std::string> found;
@@ -37,7 +38,8 @@ TEST(Stubs, DescribeExactlyTheRegisteredCommands) {
   std::set<std::string> registered;
   for (const Binding& binding : bindings()) {
     std::string entry = binding.name;
-    for (const BindingField& field : binding.fields) entry += std::string(" ") + field.name + (field.required ? ":" : "?:") + field.type;
+    for (const BindingField& field : binding.fields)
+      entry += std::string(" ") + field.name + (field.required ? ":" : "?:") + field.type;
     registered.insert(entry);
   }
   EXPECT_EQ(stubs(), registered);
@@ -46,14 +48,15 @@ TEST(Stubs, DescribeExactlyTheRegisteredCommands) {
 TEST(Bindings, PrintAsJsonForTools) {
   const Ended ended = run_program("bindings");
   ASSERT_EQ(ended.code, 0);
-  EXPECT_EQ(nlohmann::json::parse(ended.out).size(), bindings().size());
+  EXPECT_EQ(Json::parse(ended.out).size(), bindings().size());
 }
 
 TEST(Bindings, EveryCommandIsOnTheApiPage) {
   const std::string page = read_file(LIANA_SOURCE_DIR "/docs/api.md");
   for (const Binding& binding : bindings()) {
     const std::string name = binding.name;
-    const bool there = page.find("`" + name + "`") != std::string::npos || page.find("\"op\":\"" + name + "\"") != std::string::npos;
+    const bool there =
+        page.find("`" + name + "`") != std::string::npos || page.find("\"op\":\"" + name + "\"") != std::string::npos;
     EXPECT_TRUE(there) << name;
   }
 }
@@ -63,7 +66,7 @@ TEST(Bindings, RefuseFieldsOfOtherTypesAndNames) {
     for (const Binding& binding : bindings()) {
       if (std::string(binding.name) != command) continue;
       try {
-        check_fields(binding, nlohmann::json::parse(fields));
+        check_fields(binding, Json::parse(fields));
       } catch (const std::runtime_error& error) {
         return error.what();
       }

@@ -15,25 +15,23 @@
 namespace liana {
 namespace {
 
-using nlohmann::json;
-
 constexpr int kTicksPerInterval = 5;
 constexpr int kMostIntervals = 40000;
 constexpr int kMotionIntervals = 20;
 
-json table(const std::string& kind, const std::string& name) {
+Json table(const std::string& kind, const std::string& name) {
   Activity activity;
   Script script(ScriptLimits{}, LIANA_SOURCE_DIR "/lua", activity);
-  return json::parse(evaluate(script, LIANA_SOURCE_DIR "/lua", kind, name));
+  return Json::parse(evaluate(script, LIANA_SOURCE_DIR "/lua", kind, name));
 }
 
-json tip_of(const json& theta_deg) {
+Json tip_of(const Json& theta_deg) {
   Activity activity;
   Script script(ScriptLimits{}, LIANA_SOURCE_DIR "/lua", activity);
   std::string list;
   for (const auto& angle : theta_deg) list += angle.dump() + ",";
   script.run({"tip.lua", "return require('liana.geometry').tip(require 'robots.zhu2022', {" + list + "}).position"});
-  json pose = to_json(script.state(), -1, "tip.lua");
+  Json pose = to_json(script.state(), -1, "tip.lua");
   for (const int q : {1, 0, 0, 0}) pose.push_back(q);
   return pose;
 }
@@ -61,7 +59,7 @@ FakeLianad::~FakeLianad() {
   close(listener_);
 }
 
-const std::vector<json>& FakeLianad::requests() {
+const std::vector<Json>& FakeLianad::requests() {
   if (thread_.joinable()) {
     shutdown(listener_, SHUT_RDWR);  // in case nobody ever connected
     thread_.join();
@@ -82,8 +80,13 @@ void FakeLianad::converse() {
   char packet[65536];
   const auto hello = recv(client_, packet, sizeof packet, 0);
   if (hello <= 0) return;
-  requests_.push_back(json::parse(packet, packet + hello));
-  send({{"op", "welcome"}, {"time_mode", "fast"}, {"period_s", 0.004}, {"interval_ticks", 5}, {"robot", robot_}, {"scene", scene_}});
+  requests_.push_back(Json::parse(packet, packet + hello));
+  send({{"op", "welcome"},
+        {"time_mode", "fast"},
+        {"period_s", 0.004},
+        {"interval_ticks", 5},
+        {"robot", robot_},
+        {"scene", scene_}});
   for (int interval = 0; interval < kMostIntervals; ++interval) {
     if (behaviour_.vanish_in_step != 0 && step_ >= behaviour_.vanish_in_step) return;
     if (behaviour_.silent_in_step != 0 && step_ >= behaviour_.silent_in_step) {
@@ -103,7 +106,7 @@ void FakeLianad::converse() {
   }
 }
 
-void FakeLianad::send(const json& message) const {
+void FakeLianad::send(const Json& message) const {
   const std::string text = message.dump();
   (void)!::send(client_, text.data(), text.size(), MSG_NOSIGNAL);
 }
@@ -113,17 +116,17 @@ bool FakeLianad::handle_until_done() {
   while (true) {
     const auto length = recv(client_, packet, sizeof packet, 0);
     if (length <= 0) return false;
-    const json request = json::parse(packet, packet + length);
+    const Json request = Json::parse(packet, packet + length);
     if (request["op"] == "done") return request["tick"] == tick_;
     requests_.push_back(request);
     answer(request);
   }
 }
 
-void FakeLianad::answer(const json& request) {
+void FakeLianad::answer(const Json& request) {
   const std::string op = request["op"];
   const auto refusal = behaviour_.refuse.find(op);
-  const json id = request.value("id", json());
+  const Json id = request.value("id", Json());
   if (refusal != behaviour_.refuse.end() && step_ >= behaviour_.refuse_in_step) {
     return send({{"op", "error"}, {"id", id}, {"code", refusal->second}, {"message", "scripted refusal"}});
   }
@@ -131,7 +134,7 @@ void FakeLianad::answer(const json& request) {
   send({{"op", "ok"}, {"id", id}});
 }
 
-void FakeLianad::obey(const json& request) {
+void FakeLianad::obey(const Json& request) {
   const std::string op = request["op"];
   if (op == "acquire") owner_ = "mission";
   if (op == "release") owner_ = "";
@@ -141,7 +144,7 @@ void FakeLianad::obey(const json& request) {
   if (op == "announce" && request["step"].is_object()) step_ = request["step"]["index"];
   if (op == "stop") state_ = "STOPPING";
   if (op == "hold_theta") {
-    held_ = json::array();
+    held_ = Json::array();
     for (const auto& each : request["held"]) held_.push_back(each["theta"]);
   }
   if (op == "use_device") {
@@ -169,7 +172,8 @@ void FakeLianad::advance() {
   if (intervals_with_device_ < 60 || !behaviour_.operator_arrives) return;
   if (device_ == "vr") tip_ = tip_of(named_pose("panel_edge"));
   if (device_ == "hand" && held_.size() == 1) {
-    for (std::size_t k = 0; k < 3; ++k) tip_[k] = scene_["slit"]["u_axis"][k].get<double>() * behaviour_.tip_in_slit_u_m;
+    for (std::size_t k = 0; k < 3; ++k)
+      tip_[k] = scene_["slit"]["u_axis"][k].get<double>() * behaviour_.tip_in_slit_u_m;
   }
   if (device_ == "hand" && held_.size() == 2) tip_ = tip_of(named_pose("press_rod"));
   if (intervals_with_device_ < 80) return;
@@ -177,13 +181,13 @@ void FakeLianad::advance() {
   if (!behaviour_.operator_speaks_too_early) said_ = {{"what", "arrived"}, {"tick", tick_}};
 }
 
-json FakeLianad::state() const {
+Json FakeLianad::state() const {
   const bool fault = behaviour_.fault_in_step != 0 && step_ >= behaviour_.fault_in_step;
   const bool stopped = behaviour_.stop_in_step != 0 && step_ >= behaviour_.stop_in_step;
   const bool stolen = behaviour_.steal_in_step != 0 && step_ >= behaviour_.steal_in_step;
   const bool held = behaviour_.hold_fault_in_step != 0 && step_ >= behaviour_.hold_fault_in_step;
   const bool refused_motion = behaviour_.refuse_motion_in_step != 0 && step_ >= behaviour_.refuse_motion_in_step;
-  json faults = json::array();
+  Json faults = Json::array();
   if (held) faults.push_back({{"number", 5001}, {"name", "cable_slack"}, {"index", 2}});
   if (fault) faults.push_back({{"number", 3101}, {"name", "drive_silent"}, {"index", 3}});
   return {{"op", "state"},
@@ -220,6 +224,6 @@ int FakeLianad::planar_segments() const {
   return depth_m > 1.35 ? 2 : (depth_m > 0.65 ? 1 : 0);
 }
 
-json FakeLianad::named_pose(const char* name) const { return robot_["named_poses_deg"][name]; }
+Json FakeLianad::named_pose(const char* name) const { return robot_["named_poses_deg"][name]; }
 
 }  // namespace liana

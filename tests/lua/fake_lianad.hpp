@@ -4,10 +4,11 @@
 #include <atomic>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "host/json/json.hpp"
 
 namespace liana {
 
@@ -38,7 +39,7 @@ class FakeLianad {
   FakeLianad& operator=(const FakeLianad&) = delete;
 
   // Waits for the end of the session and returns the requests (without done).
-  const std::vector<nlohmann::json>& requests();
+  const std::vector<Json>& requests();
   // True when the silent fake saw the runner's socket close.
   bool runner_left() {
     requests();
@@ -48,23 +49,23 @@ class FakeLianad {
  private:
   void serve();
   void converse();
-  void send(const nlohmann::json& message) const;
+  void send(const Json& message) const;
   bool handle_until_done();
-  void answer(const nlohmann::json& request);
-  void obey(const nlohmann::json& request);
+  void answer(const Json& request);
+  void obey(const Json& request);
   void advance();
-  nlohmann::json state() const;
+  Json state() const;
   int planar_segments() const;
-  nlohmann::json named_pose(const char* name) const;
+  Json named_pose(const char* name) const;
 
   FakeBehaviour behaviour_;
   bool retracted_ = false;
-  nlohmann::json robot_;
-  nlohmann::json scene_;
+  Json robot_;
+  Json scene_;
   int listener_ = -1;
   int client_ = -1;
   std::thread thread_;
-  std::vector<nlohmann::json> requests_;
+  std::vector<Json> requests_;
   bool runner_left_ = false;
 
   // The arm.
@@ -77,11 +78,11 @@ class FakeLianad {
   int intervals_with_device_ = 0;
   int busy_intervals_ = 0;
   int step_ = 0;
-  nlohmann::json goal_deg_;
-  nlohmann::json js_deg_;
-  nlohmann::json tip_;
-  nlohmann::json held_ = nlohmann::json::array();
-  nlohmann::json said_;
+  Json goal_deg_;
+  Json js_deg_;
+  Json tip_;
+  Json held_ = Json::array();
+  Json said_;
 };
 
 }  // namespace liana

@@ -1,20 +1,17 @@
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
+#include "host/json/json.hpp"
 #include "tests/lua/fake_lianad.hpp"
 #include "tests/lua/program.hpp"
 
 namespace liana {
 namespace {
 
-using nlohmann::json;
-
 // How one mission against the fake ended.
 struct MissionRun {
   Ended ended;
-  json report;
-  std::vector<json> requests;
+  Json report;
+  std::vector<Json> requests;
 
   std::vector<std::string> ops(const std::string& op) const {
     std::vector<std::string> found;
@@ -39,14 +36,15 @@ MissionRun run_mission_against(const FakeBehaviour& behaviour, const std::string
   run.ended = run_program("run --lockstep --api " + folder.file("api") + " --mission " + mission + " --report " +
                           folder.file("report.json") + flags);
   run.requests = lianad.requests();
-  run.report = json::parse(read_file(folder.file("report.json")), nullptr, false);
+  run.report = Json::parse(read_file(folder.file("report.json")), nullptr, false);
   return run;
 }
 
 // A mission file of one step whose run and exit are given.
 std::string one_step(const TemporaryFolder& folder, const std::string& body) {
-  return folder.write("given.lua", "local liana = require 'liana'\nreturn liana.mission 'given' { liana.step 'only' {\n" + body +
-                                       "\n device = 'none', time_limit_s = 5, on_fail = 'hold' } }\n");
+  return folder.write("given.lua",
+                      "local liana = require 'liana'\nreturn liana.mission 'given' { liana.step 'only' {\n" + body +
+                          "\n device = 'none', time_limit_s = 5, on_fail = 'hold' } }\n");
 }
 
 // A50, A40: six steps, 10+0, 9+1, 8+2, then the repair command.
@@ -58,9 +56,9 @@ TEST(Mission, CrossesTheSlitInSixSteps) {
   const std::vector<std::vector<int>> held = {{}, {}, {9}, {9}, {7, 9}, {7, 9}};
   ASSERT_EQ(run.report["steps"].size(), 6u);
   for (std::size_t i = 0; i < 6; ++i) {
-    const json& step = run.report["steps"][i];
+    const Json& step = run.report["steps"][i];
     EXPECT_EQ(step["device"], devices[i]);
-    EXPECT_EQ(step["held_theta"], json(held[i]));
+    EXPECT_EQ(step["held_theta"], Json(held[i]));
     EXPECT_EQ(step["outcome"], "success");
     EXPECT_GT(step["end_tick"].get<int>(), step["start_tick"].get<int>());
     EXPECT_NEAR(step["duration_s"], (step["end_tick"].get<int>() - step["start_tick"].get<int>()) * 0.004, 1e-12);
@@ -78,22 +76,24 @@ TEST(Mission, SendsWhatTheApiPageSays) {
   EXPECT_EQ(run.requests[1]["op"], "acquire");
   const auto holds = run.ops("hold_theta");
   ASSERT_EQ(holds.size(), 2u);
-  EXPECT_EQ(json::parse(holds[1])["held"], json::parse(R"([{"theta":7,"target_deg":0},{"theta":9,"target_deg":0}])"));
-  EXPECT_EQ(json::parse(run.ops("use_device")[0])["node"], 3);
-  EXPECT_EQ(json::parse(run.ops("use_device")[1])["device"], "none");  // nobody steers between the steps
-  EXPECT_EQ(json::parse(run.ops("announce")[1])["step"]["device"], "vr");
-  EXPECT_TRUE(json::parse(run.ops("announce").back())["step"].is_null());
+  EXPECT_EQ(Json::parse(holds[1])["held"], Json::parse(R"([{"theta":7,"target_deg":0},{"theta":9,"target_deg":0}])"));
+  EXPECT_EQ(Json::parse(run.ops("use_device")[0])["node"], 3);
+  EXPECT_EQ(Json::parse(run.ops("use_device")[1])["device"], "none");  // nobody steers between the steps
+  EXPECT_EQ(Json::parse(run.ops("announce")[1])["step"]["device"], "vr");
+  EXPECT_TRUE(Json::parse(run.ops("announce").back())["step"].is_null());
   EXPECT_EQ(run.requests.back()["op"], "release");
 }
 
-TEST(Mission, TwoRunsSendIdenticalRequests) { EXPECT_EQ(run_mission_against({}).requests, run_mission_against({}).requests); }
+TEST(Mission, TwoRunsSendIdenticalRequests) {
+  EXPECT_EQ(run_mission_against({}).requests, run_mission_against({}).requests);
+}
 
 TEST(Mission, PrintsJsonLinesForPrograms) {
   const MissionRun run = run_mission_against({}, "slit_crossing", " --json");
   std::istringstream lines(run.ended.out);
   int count = 0;
-  json last;
-  for (std::string line; std::getline(lines, line); ++count) last = json::parse(line);
+  Json last;
+  for (std::string line; std::getline(lines, line); ++count) last = Json::parse(line);
   EXPECT_EQ(count, 13);  // begin and end of six steps, the report
   EXPECT_EQ(last["outcome"], "success");
 }
@@ -104,7 +104,8 @@ TEST(Mission, HoldsWhenTheOperatorDoesNotArriveInTime) {
   EXPECT_EQ(run.report["outcome"], "failed");
   EXPECT_EQ(run.last_command(), "hold");
   ASSERT_EQ(run.report["steps"].size(), 2u);
-  EXPECT_NE(run.ended.error.find("time limit of 120 s passed, not met: device released by the operator and operator says arrived"),
+  EXPECT_NE(run.ended.error.find(
+                "time limit of 120 s passed, not met: device released by the operator and operator says arrived"),
             std::string::npos)
       << run.ended.error;
 }
@@ -121,7 +122,7 @@ TEST(Mission, RetractsOutOfTheSlitToWhereItEntered) {
   EXPECT_EQ(run.ended.code, 1);
   EXPECT_EQ(run.report["outcome"], "aborted");
   ASSERT_EQ(run.ops("retract").size(), 1u);
-  EXPECT_EQ(json::parse(run.ops("retract")[0])["until_tick"], run.report["steps"][3]["start_tick"]);
+  EXPECT_EQ(Json::parse(run.ops("retract")[0])["until_tick"], run.report["steps"][3]["start_tick"]);
   EXPECT_EQ(run.report["steps"][3]["outcome"], "failed");
 }
 
@@ -140,7 +141,8 @@ TEST(Mission, ARefusalInTheSlitRetracts) {
 }
 
 TEST(Mission, ARefusedRetractionHoldsAndSaysSo) {
-  const MissionRun run = run_mission_against({.refuse = {{"use_device", "no_device"}, {"retract", "refused"}}, .refuse_in_step = 6});
+  const MissionRun run =
+      run_mission_against({.refuse = {{"use_device", "no_device"}, {"retract", "refused"}}, .refuse_in_step = 6});
   EXPECT_EQ(run.report["outcome"], "refused");
   EXPECT_NE(run.report["reason"].get<std::string>().find("retract refused"), std::string::npos);
 }
@@ -148,7 +150,8 @@ TEST(Mission, ARefusedRetractionHoldsAndSaysSo) {
 TEST(Mission, AWayBackThatEndsEarlyIsAFailureAndSaysSo) {
   const MissionRun run = run_mission_against({.way_back_ends_early = true, .tip_in_slit_u_m = 2.5});
   EXPECT_EQ(run.report["outcome"], "failed");
-  EXPECT_NE(run.report["reason"].get<std::string>().find("the way back was refused before its end"), std::string::npos) << run.report;
+  EXPECT_NE(run.report["reason"].get<std::string>().find("the way back was refused before its end"), std::string::npos)
+      << run.report;
 }
 
 TEST(Mission, IsPatientWhileDrivesBootAndThenSaysWhy) {
@@ -156,7 +159,8 @@ TEST(Mission, IsPatientWhileDrivesBootAndThenSaysWhy) {
   EXPECT_EQ(run.report["outcome"], "failed");
   EXPECT_GT(run.ops("state_command").size(), 10u);
   EXPECT_LT(run.ops("state_command").size(), 60u);
-  EXPECT_NE(run.report["reason"].get<std::string>().find("not enabled after 60 s, state_command refused: busy"), std::string::npos)
+  EXPECT_NE(run.report["reason"].get<std::string>().find("not enabled after 60 s, state_command refused: busy"),
+            std::string::npos)
       << run.report;
 }
 
@@ -197,8 +201,10 @@ TEST(Mission, TheEndOfLianadIsReported) {
 
 TEST(Mission, AStepThatWasCutOffLastedUntilTheLastState) {
   const TemporaryFolder folder;
-  const MissionRun run = run_mission_against(
-      {}, one_step(folder, "exit = liana.condition('never', function(arm) if arm.elapsed_s(arm.begin_tick) > 1 then error 'x' end end),"));
+  const MissionRun run =
+      run_mission_against({}, one_step(folder,
+                                       "exit = liana.condition('never', function(arm) if arm.elapsed_s(arm.begin_tick) "
+                                       "> 1 then error 'x' end end),"));
   EXPECT_EQ(run.report["outcome"], "failed");
   EXPECT_GT(run.report["steps"][0]["duration_s"], 1.0);
   EXPECT_EQ(run.report["duration_s"], run.report["steps"][0]["duration_s"]);
@@ -216,7 +222,8 @@ TEST(Mission, AMotionOfTheScriptThatVerificationRefusesFailsItsStepWithTheReason
   const MissionRun run = run_mission_against({.refuse_motion_in_step = 3});
   EXPECT_EQ(run.report["outcome"], "refused");
   EXPECT_EQ(run.report["steps"][2]["outcome"], "refused");
-  EXPECT_NE(run.report["reason"].get<std::string>().find("refused the motion: joint rate 1.2 of the limit"), std::string::npos)
+  EXPECT_NE(run.report["reason"].get<std::string>().find("refused the motion: joint rate 1.2 of the limit"),
+            std::string::npos)
       << run.report;
 }
 
@@ -228,33 +235,38 @@ TEST(Mission, ARefusalWhileTheOperatorSteersIsPartOfSteering) {
 TEST(Mission, ATimeLimitThatPassesDuringAMoveSaysSo) {
   const TemporaryFolder folder;
   const MissionRun run = run_mission_against(
-      {}, one_step(folder, "exit = liana.condition('never', function(arm) arm.move_jp { goal_deg = arm.named_pose 'zero' } end),"));
-  EXPECT_NE(run.ended.error.find("time limit of 5 s passed while the arm was still moving, not met: never"), std::string::npos)
+      {},
+      one_step(folder,
+               "exit = liana.condition('never', function(arm) arm.move_jp { goal_deg = arm.named_pose 'zero' } end),"));
+  EXPECT_NE(run.ended.error.find("time limit of 5 s passed while the arm was still moving, not met: never"),
+            std::string::npos)
       << run.ended.error;
 }
 
 TEST(Mission, AnErrorInAStepNamesFileAndLineAndHolds) {
   const TemporaryFolder folder;
-  const MissionRun run =
-      run_mission_against({}, one_step(folder, "run = function(arm) local x = arm.nothing.at_all end, exit = liana.at_rest(),"));
+  const MissionRun run = run_mission_against(
+      {}, one_step(folder, "run = function(arm) local x = arm.nothing.at_all end, exit = liana.at_rest(),"));
   EXPECT_EQ(run.ended.code, 1);
   EXPECT_EQ(run.last_command(), "hold");
   EXPECT_EQ(run.report["outcome"], "failed");
   EXPECT_EQ(run.report["steps"][0]["outcome"], "failed");
-  EXPECT_NE(run.ended.error.find("given.lua:3: attempt to index a nil value (field 'nothing')"), std::string::npos) << run.ended.error;
+  EXPECT_NE(run.ended.error.find("given.lua:3: attempt to index a nil value (field 'nothing')"), std::string::npos)
+      << run.ended.error;
 }
 
 TEST(Mission, AWrongCommandNamesItsField) {
   const TemporaryFolder folder;
-  const MissionRun run =
-      run_mission_against({}, one_step(folder, "run = function(arm) arm.move_jp { goal = 1 } end, exit = liana.at_rest(),"));
+  const MissionRun run = run_mission_against(
+      {}, one_step(folder, "run = function(arm) arm.move_jp { goal = 1 } end, exit = liana.at_rest(),"));
   EXPECT_NE(run.ended.error.find("move_jp: goal_deg: missing: allowed number[]"), std::string::npos) << run.ended.error;
   EXPECT_EQ(run.last_command(), "hold");
 }
 
 TEST(Mission, AnEndlessConditionIsStoppedByTheBudget) {
   const TemporaryFolder folder;
-  const MissionRun run = run_mission_against({}, one_step(folder, "exit = liana.condition('never', function() while true do end end),"));
+  const MissionRun run =
+      run_mission_against({}, one_step(folder, "exit = liana.condition('never', function() while true do end end),"));
   EXPECT_EQ(run.ended.code, 1);
   EXPECT_EQ(run.last_command(), "hold");
   EXPECT_NE(run.ended.error.find("computes too long"), std::string::npos) << run.ended.error;
@@ -264,7 +276,8 @@ TEST(Mission, AnEndlessConditionIsStoppedByTheBudget) {
 TEST(Mission, TheWatchdogKillsWhatTheBudgetCannotStop) {
   const TemporaryFolder folder;
   const MissionRun run = run_mission_against(
-      {}, one_step(folder, "exit = liana.condition('never', function() xpcall(error, function() while true do end end) end),"));
+      {}, one_step(folder,
+                   "exit = liana.condition('never', function() xpcall(error, function() while true do end end) end),"));
   EXPECT_EQ(run.ended.code, 4);
   EXPECT_NE(run.ended.error.find("given.lua: computed for more than 2 s"), std::string::npos) << run.ended.error;
   EXPECT_NE(run.ended.error.find("given.lua:3"), std::string::npos) << run.ended.error;
@@ -276,8 +289,8 @@ TEST(Mission, TheWatchdogKillsWhatTheBudgetCannotStop) {
 TEST(Mission, KilledWithSignal9LeavesNoProcessThatOwnsMotion) {
   const TemporaryFolder folder;
   FakeLianad lianad(folder.file("api"), {.silent_in_step = 2});
-  const std::string command =
-      std::string(LIANA_MISSION) + " run --lockstep --api " + folder.file("api") + " --mission slit_crossing & sleep 2; kill -9 $!";
+  const std::string command = std::string(LIANA_MISSION) + " run --lockstep --api " + folder.file("api") +
+                              " --mission slit_crossing & sleep 2; kill -9 $!";
   EXPECT_EQ(std::system(command.c_str()), 0);
   EXPECT_TRUE(lianad.runner_left());
   EXPECT_EQ(lianad.requests().back()["op"], "announce");
@@ -291,7 +304,8 @@ TEST(Mission, WaitingForLianadIsNotComputing) {
 TEST(Mission, AMemoryBombInAStepHolds) {
   const TemporaryFolder folder;
   const MissionRun run = run_mission_against(
-      {}, one_step(folder, "run = function() local t = {} for i = 1, 1e9 do t[i] = {i} end end, exit = liana.at_rest(),"));
+      {},
+      one_step(folder, "run = function() local t = {} for i = 1, 1e9 do t[i] = {i} end end, exit = liana.at_rest(),"));
   EXPECT_EQ(run.ended.code, 1);
   EXPECT_NE(run.ended.error.find("too much memory"), std::string::npos) << run.ended.error;
   EXPECT_EQ(run.last_command(), "hold");
@@ -305,7 +319,8 @@ TEST(Mission, ABadMissionFileNeverReachesLianad) {
   EXPECT_NE(run.ended.error.find("given.lua:1:"), std::string::npos) << run.ended.error;
 }
 
-// The mission reads like the experiment: steps 2 and 3 change places by moving text, and what step 2 makes planar stays so.
+// The mission reads like the experiment: steps 2 and 3 change places by moving text, and what step 2 makes planar stays
+// so.
 TEST(Mission, AShapeThatHasSettledEndsItsStepUnlessTooMuchIsMissing) {
   const TemporaryFolder folder;
   const std::string shape = "run = liana.shape { { node = 3, position_m = { 1, 0, 0 } } }, exit = liana.shape_settled";
@@ -313,12 +328,14 @@ TEST(Mission, AShapeThatHasSettledEndsItsStepUnlessTooMuchIsMissing) {
   EXPECT_EQ(run_mission_against({}, one_step(folder, shape + "(0.02),")).report["outcome"], "success");
   const MissionRun run = run_mission_against({}, one_step(folder, shape + "(0.01),"));
   EXPECT_EQ(run.report["outcome"], "failed");
-  EXPECT_NE(run.ended.error.find("not met: shape settled with at most 0.01 m missing"), std::string::npos) << run.ended.error;
+  EXPECT_NE(run.ended.error.find("not met: shape settled with at most 0.01 m missing"), std::string::npos)
+      << run.ended.error;
 }
 
 TEST(Mission, APlanIsCarriedOutWaypointByWaypoint) {
   const TemporaryFolder folder;
-  const std::string start = "[-8.5,0,-12,0,8,-2,13,0,12,-2]", next = "[-7.5,0,-12,0,8,-2,13,0,12,-1]", far = "[0,0,0,0,0,0,0,0,0,0]";
+  const std::string start = "[-8.5,0,-12,0,8,-2,13,0,12,-2]", next = "[-7.5,0,-12,0,8,-2,13,0,12,-1]",
+                    far = "[0,0,0,0,0,0,0,0,0,0]";
   const auto plan = [&](const std::string& waypoints) {
     return folder.write("plan.json", R"({"outcome":"solved","waypoints_deg":[)" + waypoints + "]}");
   };
@@ -326,11 +343,12 @@ TEST(Mission, APlanIsCarriedOutWaypointByWaypoint) {
   EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
   const auto moves = run.ops("move_jp");
   ASSERT_EQ(moves.size(), 2u);
-  EXPECT_EQ(json::parse(moves[1])["goal_deg"], json::parse(next));
+  EXPECT_EQ(Json::parse(moves[1])["goal_deg"], Json::parse(next));
   const MissionRun elsewhere = run_mission_against({}, plan(far + "," + start));
   EXPECT_EQ(elsewhere.report["outcome"], "failed");
   EXPECT_TRUE(elsewhere.ops("move_jp").empty());
-  EXPECT_NE(elsewhere.ended.error.find("cannot enter, not met: arm within 1 deg of the plan's start"), std::string::npos)
+  EXPECT_NE(elsewhere.ended.error.find("cannot enter, not met: arm within 1 deg of the plan's start"),
+            std::string::npos)
       << elsewhere.ended.error;
 }
 
@@ -341,12 +359,13 @@ TEST(Mission, StepsRunInTheOrderInWhichTheyAreWritten) {
   const auto second = text.find("  step \"around the obstacle");
   const auto fourth = text.find("  step \"segment 5 into the slit\"");
   ASSERT_LT(second, third);
-  text = text.substr(0, second) + text.substr(third, fourth - third) + text.substr(second, third - second) + text.substr(fourth);
+  text = text.substr(0, second) + text.substr(third, fourth - third) + text.substr(second, third - second) +
+         text.substr(fourth);
   const MissionRun run = run_mission_against({}, folder.write("swapped.lua", text));
   EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
   EXPECT_EQ(run.report["steps"][1]["name"], "segment 5 goes planar");
   EXPECT_EQ(run.report["steps"][2]["device"], "vr");
-  EXPECT_EQ(run.report["steps"][2]["held_theta"], json({9}));
+  EXPECT_EQ(run.report["steps"][2]["held_theta"], Json({9}));
 }
 
 }  // namespace

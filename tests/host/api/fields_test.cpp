@@ -5,14 +5,12 @@
 
 #include <cmath>
 #include <functional>
-#include <nlohmann/json.hpp>
 
 #include "host/api/request_error.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
-
-using nlohmann::json;
 
 std::string code_of(const std::function<void()>& read) {
   try {
@@ -25,7 +23,7 @@ std::string code_of(const std::function<void()>& read) {
 }
 
 TEST(Fields, NumbersOutsideTheirRangeAreNamed) {
-  const json object{{"a", 1.5}, {"b", "text"}, {"c", nullptr}};
+  const Json object{{"a", 1.5}, {"b", "text"}, {"c", nullptr}};
   EXPECT_EQ(code_of([&] { number_field(object, "a", 0, 2); }), "accepted");
   EXPECT_EQ(code_of([&] { number_field(object, "a", 0, 1); }), "out_of_range");
   EXPECT_EQ(code_of([&] { number_field(object, "b", 0, 1); }), "bad_request");
@@ -34,13 +32,13 @@ TEST(Fields, NumbersOutsideTheirRangeAreNamed) {
 }
 
 TEST(Fields, NotANumberAndInfinityNeverPass) {
-  const json object{{"nan", std::nan("")}, {"inf", HUGE_VAL}};
+  const Json object{{"nan", std::nan("")}, {"inf", HUGE_VAL}};
   EXPECT_EQ(code_of([&] { number_field(object, "nan", -1e300, 1e300); }), "out_of_range");
   EXPECT_EQ(code_of([&] { number_field(object, "inf", -1e300, 1e300); }), "out_of_range");
 }
 
 TEST(Fields, APoseNeedsAUnitQuaternionWithinReach) {
-  const auto pose = [](json list) { return code_of([&] { pose_field({{"p", list}}, "p", 4.0); }); };
+  const auto pose = [](Json list) { return code_of([&] { pose_field({{"p", list}}, "p", 4.0); }); };
   EXPECT_EQ(pose({1, 0, 0, 1, 0, 0, 0}), "accepted");
   EXPECT_EQ(pose({1, 0, 0, 0.9, 0, 0, 0}), "out_of_range");
   EXPECT_EQ(pose({1, 0, 0, 1 + 2e-6, 0, 0, 0}), "out_of_range");
@@ -50,8 +48,8 @@ TEST(Fields, APoseNeedsAUnitQuaternionWithinReach) {
 }
 
 TEST(Fields, ARefusedEntryOfAListIsNamedWithItsNumberAndTheUnit) {
-  const json object{{"held", {{{"target_deg", 1}}, {{"target_deg", 30}}}}};
-  const auto read = [](std::size_t, const json& entry) { number_field(entry, "target_deg", -20, 20); };
+  const Json object{{"held", {{{"target_deg", 1}}, {{"target_deg", 30}}}}};
+  const auto read = [](std::size_t, const Json& entry) { number_field(entry, "target_deg", -20, 20); };
   try {
     read_entries(object, "held", 10, read);
     FAIL() << "accepted";

@@ -9,21 +9,19 @@
 #include <fstream>
 #include <functional>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "host/api/client.hpp"
 #include "host/api/request_error.hpp"
+#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
 
-using nlohmann::json;
-
 class Recorder : public ApiHandler {
  public:
-  json welcome(const ClientInfo&) override { return {{"op", "welcome"}}; }
-  json handle(const ClientInfo& client, const json& request) override {
+  Json welcome(const ClientInfo&) override { return {{"op", "welcome"}}; }
+  Json handle(const ClientInfo& client, const Json& request) override {
     log.push_back(client.name + ":" + request.at("op").get<std::string>());
     if (request["op"] == "refuse") throw RequestError("refused", "because");
     return {{"extra", 1}};
@@ -37,22 +35,22 @@ class Api : public testing::Test {
   Api() : path_(testing::TempDir() + "liana_api_" + std::to_string(::getpid())), server_(path_, recorder_) {}
   ~Api() override { ::unlink(path_.c_str()); }
 
-  ApiClient join(const std::string& name, const std::string& role, bool lockstep = false, json topics = json::array()) {
+  ApiClient join(const std::string& name, const std::string& role, bool lockstep = false, Json topics = Json::array()) {
     ApiClient client = ApiClient::connect(path_);
     client.send({{"op", "hello"}, {"name", name}, {"role", role}, {"lockstep", lockstep}, {"subscribe", topics}});
     EXPECT_EQ(answer(client).value("op", ""), "welcome");
     return client;
   }
   // What the client hears next.
-  json answer(ApiClient& client) {
+  Json answer(ApiClient& client) {
     for (int i = 0; i < 50; ++i) {
       server_.pump(0.001);
       server_.dispatch();
       if (auto message = client.receive(0.0)) return *message;
     }
-    return json::object();
+    return Json::object();
   }
-  json raw(ApiClient& client, const std::string& bytes) {
+  Json raw(ApiClient& client, const std::string& bytes) {
     EXPECT_EQ(send_packet(client.fd(), bytes), SocketResult::kDone);
     return answer(client);
   }
@@ -78,12 +76,12 @@ TEST_F(Api, MalformedInputIsAnsweredWithAnErrorAndTheClientStays) {
                                            std::string(60000, '['),
                                            std::string(70000, 'x')};
   for (const std::string& bytes : malformed) {
-    const json error = raw(client, bytes);
+    const Json error = raw(client, bytes);
     EXPECT_EQ(error.value("op", ""), "error") << bytes.substr(0, 40);
     EXPECT_EQ(error.value("code", ""), "bad_request") << bytes.substr(0, 40);
     EXPECT_NE(error.value("message", ""), "");
   }
-  EXPECT_EQ(raw(client, R"({"op":"fine","id":3})"), json({{"op", "ok"}, {"id", 3}, {"extra", 1}}));
+  EXPECT_EQ(raw(client, R"({"op":"fine","id":3})"), Json({{"op", "ok"}, {"id", 3}, {"extra", 1}}));
 }
 
 TEST_F(Api, NothingIsDoneBeforeHello) {
@@ -91,14 +89,15 @@ TEST_F(Api, NothingIsDoneBeforeHello) {
   EXPECT_EQ(raw(client, R"({"op":"stop"})").value("code", ""), "bad_request");
   EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"king"})").value("code", ""), "bad_request");
   EXPECT_EQ(raw(client, R"({"op":"hello","role":"client"})").value("code", ""), "bad_request");
-  EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"client","subscribe":["weather"]})").value("code", ""), "bad_request");
+  EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"client","subscribe":["weather"]})").value("code", ""),
+            "bad_request");
   EXPECT_TRUE(recorder_.log.empty());
 }
 
 TEST_F(Api, ARefusalCarriesCodeAndId) {
   ApiClient client = join("c", "client");
-  const json error = raw(client, R"({"op":"refuse","id":9})");
-  EXPECT_EQ(error, json({{"op", "error"}, {"id", 9}, {"code", "refused"}, {"message", "because"}}));
+  const Json error = raw(client, R"({"op":"refuse","id":9})");
+  EXPECT_EQ(error, Json({{"op", "error"}, {"id", 9}, {"code", "refused"}, {"message", "because"}}));
 }
 
 TEST_F(Api, ClientsAreServedByRoleWhateverOrderTheyCameIn) {
@@ -125,7 +124,8 @@ TEST_F(Api, ASlowObserverLosesOldStatesAndHoldsNobodyUp) {
   ApiClient slow = join("slow", "observer", false, {"state"});
   const std::string filler(4000, ' ');
   const auto is_change = [](int i) { return i == 500 || i == 501; };
-  for (int i = 0; i < 1000; ++i) server_.publish(Topic::kState, json({{"op", "state"}, {"tick", i}}).dump() + filler, is_change(i));
+  for (int i = 0; i < 1000; ++i)
+    server_.publish(Topic::kState, Json({{"op", "state"}, {"tick", i}}).dump() + filler, is_change(i));
   EXPECT_GT(server_.dropped(), 0u);
   std::vector<int> ticks;
   std::thread reader([&] {
@@ -175,7 +175,8 @@ TEST_F(Api, ALockstepClientThatLeavesWithoutItsAnswerBelongsToTheNextIntervalToo
   client.reset();
   server_.dispatch();
   server_.publish(Topic::kState, R"({"op":"state","tick":10})");
-  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m:move"})) << "its answer and the next state meet a closed socket";
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m:move"}))
+      << "its answer and the next state meet a closed socket";
   server_.wait_done(10, 10.0);
   server_.dispatch();
   EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m:move", "m gone"}));
@@ -214,7 +215,9 @@ TEST_F(Api, AFileThatIsNoSocketStays) {
   std::filesystem::remove(file);
 }
 
-TEST_F(Api, AClientWithoutAServerIsToldSo) { EXPECT_THROW(ApiClient::connect(path_ + "_none", 0.05), std::runtime_error); }
+TEST_F(Api, AClientWithoutAServerIsToldSo) {
+  EXPECT_THROW(ApiClient::connect(path_ + "_none", 0.05), std::runtime_error);
+}
 
 }  // namespace
 }  // namespace liana

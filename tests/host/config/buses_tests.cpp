@@ -40,7 +40,7 @@ TEST(Buses, PeriodIsWhatObject60C2Holds) {
 }
 
 TEST(Buses, AreRefusedWithFileFieldValueRangeAndAdvice) {
-  const nlohmann::json good = good_table("buses", "embedded");
+  const Json good = good_table("buses", "embedded");
   const std::vector<Spoiled> cases = {{"/kind", "bus", "kind", "allowed buses"},
                                       {"/backend", "serial", "backend", "embedded, socketcan"},
                                       {"/rate_hz", 150, "rate_hz", "60C2"},
@@ -48,7 +48,7 @@ TEST(Buses, AreRefusedWithFileFieldValueRangeAndAdvice) {
                                       {"/rate_hz", 500, "buses[1].nodes", "use more buses"},
                                       {"/command_interval_s", 0.018, "command_interval_s", "whole multiples"},
                                       {"/command_interval_s", 0.001, "command_interval_s", "whole multiples"},
-                                      {"/buses", nlohmann::json::array(), "buses", "1 to 8 entries"},
+                                      {"/buses", Json::array(), "buses", "1 to 8 entries"},
                                       {"/buses/0/bitrate", 2000000, "buses[1].bitrate", "10000 to 1000000"},
                                       {"/buses/0/bitrate", 250000, "buses[1].nodes", "worst-case load"},
                                       {"/buses/0/name", "a-very-long-interface", "buses[1].name", "1 to 11 letters"},

@@ -14,7 +14,8 @@ TEST(CanonicalJson, WritesEveryNumberInOneWay) {
   EXPECT_EQ(canonical_number(20.0), "20");
   EXPECT_EQ(canonical_number(1000000.0), "1000000");
   EXPECT_EQ(canonical_number(0.1), "0.1");
-  EXPECT_EQ(canonical_json(nlohmann::json::parse(R"({"b":1.0,"a":[1,2.5,{"d":[],"c":{}}]})")), R"({"a":[1,2.5,{"c":{},"d":[]}],"b":1})");
+  EXPECT_EQ(canonical_json(Json::parse(R"({"b":1.0,"a":[1,2.5,{"d":[],"c":{}}]})")),
+            R"({"a":[1,2.5,{"c":{},"d":[]}],"b":1})");
 }
 
 TEST(CanonicalJson, NumbersReadBackExactly) {
@@ -23,16 +24,17 @@ TEST(CanonicalJson, NumbersReadBackExactly) {
   for (int i = 0; i < 10000; ++i) {
     const double value = std::pow(10.0, exponent(random)) * (i % 2 == 0 ? 1.0 : -1.0);
     EXPECT_EQ(std::strtod(canonical_number(value).c_str(), nullptr), value);
-    EXPECT_EQ(nlohmann::json::parse(canonical_number(value)).get<double>(), value);
+    EXPECT_EQ(Json::parse(canonical_number(value)).get<double>(), value);
   }
 }
 
 TEST(ConfigHash, IsTheSameForTheSameTablesAndChangesWithAnyOfThem) {
   const auto hash = [](const std::string& buses_name, const std::string& radius) {
     const BusesConfig buses = parse_buses(good_table("buses", buses_name).dump(), "b");
-    nlohmann::json scene = good_table("scene", "panel_slit");
+    Json scene = good_table("scene", "panel_slit");
     scene["spheres"][0]["radius_m"] = std::stod(radius);
-    return config_hash(parse_robot(good_table("robot", "zhu2022").dump(2), "r", "nominal", buses), parse_scene(scene.dump(), "s"), buses);
+    return config_hash(parse_robot(good_table("robot", "zhu2022").dump(2), "r", "nominal", buses),
+                       parse_scene(scene.dump(), "s"), buses);
   };
   EXPECT_EQ(hash("embedded", "0.25"), hash("embedded", "0.250"));
   EXPECT_NE(hash("embedded", "0.25"), hash("embedded", "0.26"));

@@ -35,8 +35,8 @@ TEST(Robot, PhysicsNameChoosesTheFrictionTheCoreIsTold) {
 }
 
 TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
-  const nlohmann::json good = good_table("robot", "zhu2022");
-  const auto nine = nlohmann::json(std::vector<nlohmann::json>(9, good["segments"][0]));
+  const Json good = good_table("robot", "zhu2022");
+  const auto nine = Json(std::vector<Json>(9, good["segments"][0]));
   const std::vector<Spoiled> cases = {
       {"/format", 2, "format", "1 to 1"},
       {"/kind", "scene", "kind", "allowed robot"},
@@ -75,7 +75,7 @@ TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
 }
 
 TEST(Robot, NeedsEveryDriveOnABusAndNoOther) {
-  nlohmann::json table = good_table("buses", "embedded");
+  Json table = good_table("buses", "embedded");
   table["buses"][1]["nodes"] = {9, 10, 11, 12, 13, 14};
   const std::string robot = good_table("robot", "zhu2022").dump();
   EXPECT_THROW(parse_robot(robot, "r", "nominal", parse_buses(table.dump(), "b")), std::runtime_error);
@@ -92,7 +92,9 @@ TEST(Robot, TextThatIsNoJsonIsRefusedWithItsFile) {
   }
 }
 
-TEST(Robot, AMissingFileIsNamed) { EXPECT_THROW(load_robot("/nonexistent/robot.json", "nominal", buses()), std::runtime_error); }
+TEST(Robot, AMissingFileIsNamed) {
+  EXPECT_THROW(load_robot("/nonexistent/robot.json", "nominal", buses()), std::runtime_error);
+}
 
 }  // namespace
 }  // namespace liana

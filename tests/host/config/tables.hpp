@@ -4,32 +4,32 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "host/config/config.hpp"
+#include "host/json/json.hpp"
 #include "host/lua/evaluate.hpp"
 
 namespace liana {
 
 // The project's own table, evaluated.
-inline nlohmann::json good_table(const std::string& kind, const std::string& name) {
+inline Json good_table(const std::string& kind, const std::string& name) {
   Activity activity;
   Script script(ScriptLimits{}, LIANA_LUA_DIR, activity);
-  return nlohmann::json::parse(evaluate(script, LIANA_LUA_DIR, kind, name));
+  return Json::parse(evaluate(script, LIANA_LUA_DIR, kind, name));
 }
 
 // One way to spoil a table and what the message must contain.
 struct Spoiled {
   const char* pointer;          // JSON pointer of the field
-  nlohmann::json value;         // its new value; null removes the field
+  Json value;                   // its new value; null removes the field
   const char* expected_path;    // "file: " + this begins the message
   const char* expected_advice;  // and this is in it
 };
 
 // The message with which `read` refuses the spoiled table; empty when it does not.
-inline std::string message_of(nlohmann::json table, const Spoiled& spoiled, const std::function<void(const std::string&)>& read) {
-  const nlohmann::json::json_pointer pointer(spoiled.pointer);
+inline std::string message_of(Json table, const Spoiled& spoiled, const std::function<void(const std::string&)>& read) {
+  const Json::json_pointer pointer(spoiled.pointer);
   if (spoiled.value.is_null()) {
     table.at(pointer.parent_pointer()).erase(pointer.back());
   } else {
@@ -44,9 +44,11 @@ inline std::string message_of(nlohmann::json table, const Spoiled& spoiled, cons
 }
 
 // Expects "given.json: path: ...: allowed ...: advice".
-inline void expect_refused(const nlohmann::json& table, const Spoiled& spoiled, const std::function<void(const std::string&)>& read) {
+inline void expect_refused(const Json& table, const Spoiled& spoiled,
+                           const std::function<void(const std::string&)>& read) {
   const std::string message = message_of(table, spoiled, read);
-  EXPECT_TRUE(message.starts_with("given.json: " + std::string(spoiled.expected_path) + ": ")) << spoiled.pointer << " -> " << message;
+  EXPECT_TRUE(message.starts_with("given.json: " + std::string(spoiled.expected_path) + ": "))
+      << spoiled.pointer << " -> " << message;
   EXPECT_NE(message.find(": allowed "), std::string::npos) << message;
   EXPECT_NE(message.find(spoiled.expected_advice), std::string::npos) << message;
 }

@@ -2,7 +2,7 @@
 #include "host/plan/plan_refusal.hpp"
 
 #include "firmware_like/math/trig.hpp"
-#include "host/plan/ipopt_solver.hpp"
+#include "host/plan/problem/ipopt_solver.hpp"
 #include "tests/host/plan/requests.hpp"
 
 namespace liana {

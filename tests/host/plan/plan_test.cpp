@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "host/clearance/clearance.hpp"
-#include "host/plan/plan_problem.hpp"
+#include "host/plan/problem/plan_problem.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/plan/requests.hpp"
 

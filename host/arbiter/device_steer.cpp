@@ -1,0 +1,63 @@
+#include "host/arbiter/device_steer.hpp"
+
+namespace liana {
+
+void DeviceSteer::use(const DeviceUse& use) {
+  use_ = use;
+  tip_ = HandTrack{};
+  node_ = HandTrack{};
+  engaged_ = node_engaged_ = must_let_go_ = false;
+  silent_s_ = 0.0;
+  node_target_ = NodeTarget{};
+  reason_ = "";
+}
+
+void DeviceSteer::disengage(const char* reason) {
+  if (engaged_) reason_ = reason;
+  engaged_ = false;
+  must_let_go_ = true;
+}
+
+// The node target follows the left hand while its trigger is closed, and stays where it was put when it is let go.
+void DeviceSteer::steer_node(const HandReading& left, const Outputs& now) {
+  const bool held = use_.node > 0 && left.pressed && !left.let_go && !left.lost;
+  if (!held || !left.has_mean) {
+    node_engaged_ = node_engaged_ && held;
+    return;
+  }
+  if (!node_engaged_) {
+    node_engaged_ = true;
+    node_hand_anchor_m_ = left.mean.position_m;
+    node_anchor_m_ = node_target_.node == use_.node ? node_target_.position_m
+                                                    : now.node_command_m[static_cast<std::size_t>(use_.node - 1)];
+  }
+  node_target_ = {use_.node,
+                  clutch_point(use_.mapping.scale, node_hand_anchor_m_, node_anchor_m_, left.mean.position_m), 1.0,
+                  kNodeThreshold_m};
+}
+
+std::optional<SteerGoal> DeviceSteer::finish_interval(const Outputs& now, double interval_s) {
+  const HandReading tip = tip_.finish_interval();
+  const HandReading left = node_.finish_interval();
+  if (use_.kind == DeviceKind::kNone) return std::nullopt;
+  samples_ += tip.samples;
+  silent_s_ = tip.samples > 0 ? 0.0 : silent_s_ + interval_s;
+
+  if (tip.let_go) {
+    engaged_ = must_let_go_ = false;
+    reason_ = "";
+  }
+  if (tip.lost) disengage("tracking lost");
+  if (silent_s_ > kDeviceSilent_s) disengage("device silent");
+  steer_node(left, now);
+  if (!tip.pressed || must_let_go_) return std::nullopt;
+  if (tip.has_mean) {
+    hand_ = tip.mean;
+    if (!engaged_) anchor_ = {hand_, now.tip_command};
+    engaged_ = true;
+  }
+  if (!engaged_) return std::nullopt;
+  return SteerGoal{clutch_goal(use_.mapping, anchor_, hand_), node_target_};
+}
+
+}  // namespace liana

@@ -1,0 +1,74 @@
+// Who steers by hand: deadman, clutch and tracking state of the device in use; yields a tip goal per command interval
+// while engaged.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "firmware_like/controller_io.hpp"
+#include "host/arbiter/clutch.hpp"
+#include "host/arbiter/hand_track.hpp"
+
+namespace liana {
+
+enum class DeviceKind : std::uint8_t { kNone = 0, kVr = 1, kHand = 2 };
+
+// What use_device sets.
+struct DeviceUse {
+  DeviceKind kind = DeviceKind::kNone;
+  ClutchMapping mapping{};
+  std::int32_t node = 0;   // vr: node that the left hand moves; 0 = none
+  double speed_m_s = 0.0;  // tip speed limit while steering
+};
+
+constexpr double kDeviceSilent_s = 0.1;    // no sample for longer: disengage
+constexpr double kNodeThreshold_m = 0.01;  // a node target acts beyond this distance
+
+// One interval's wish of the operator.
+struct SteerGoal {
+  Pose tip_in_base{};
+  NodeTarget node{};  // node = 0: none
+};
+
+class DeviceSteer {
+ public:
+  // Another device or mapping; disengages, and the operator has to close the deadman again if it was closed.
+  void use(const DeviceUse& use);
+  const DeviceUse& in_use() const { return use_; }
+  bool engaged() const { return engaged_; }
+  // Why the operator was disengaged last, empty when by letting go.
+  const char* reason() const { return reason_; }
+  // Samples counted since the start.
+  std::uint64_t samples() const { return samples_; }
+
+  // Samples of the tip hand (vr right hand, hand controller) and of the vr left hand. Others than the device in use are
+  // ignored.
+  void add_tip_sample(const HandSample& sample) { tip_.add_sample(sample); }
+  void add_node_sample(const HandSample& sample) { node_.add_sample(sample); }
+
+  // Ends the interval; a goal while engaged. `now` gives the anchors on engaging, `interval_s` the time since the last
+  // call.
+  std::optional<SteerGoal> finish_interval(const Outputs& now, double interval_s);
+  // A refused command: engages again at once, with new anchors.
+  void drop_anchor() { engaged_ = false; }
+  // A hold asked for by others: engages again after the deadman was open.
+  void let_go() { disengage("held"); }
+
+ private:
+  void disengage(const char* reason);
+  void steer_node(const HandReading& left, const Outputs& now);
+
+  DeviceUse use_{};
+  HandTrack tip_{}, node_{};
+  bool engaged_ = false, node_engaged_ = false;
+  bool must_let_go_ = false;  // after a loss: nothing before the deadman was open once
+  const char* reason_ = "";
+  double silent_s_ = 0.0;
+  std::uint64_t samples_ = 0;
+  ClutchAnchor anchor_{};
+  Pose hand_{};  // newest averaged pose
+  Vec3 node_hand_anchor_m_{}, node_anchor_m_{};
+  NodeTarget node_target_{};
+};
+
+}  // namespace liana

@@ -1,0 +1,208 @@
+#include "host/calibration/calibrate.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <stdexcept>
+
+#include "firmware_like/math/convert.hpp"
+#include "host/calibration/fixture.hpp"
+#include "host/config/sha256.hpp"
+
+namespace liana {
+namespace {
+
+using Index = std::size_t;
+using Changes = std::vector<double>;  // of one length, pose by pose, about their mean [m]
+
+constexpr double kLeastChange_m = 5e-3;  // between poses, to see a direction
+constexpr double kApart_m = 1e-3;        // between two cables, to tell them apart
+constexpr double kMisfit_m = 0.5e-3;     // of a fitted drum; elongation and hole radius bring a tenth of it
+constexpr double kDrumShare = 0.02;
+
+std::string text(const char* format, auto... values) {
+  char line[400];
+  std::snprintf(line, sizeof line, format, values...);
+  return line;
+}
+
+double mean(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+Changes about_mean(std::vector<double> values) {
+  const double middle = mean(values);
+  for (double& value : values) value -= middle;
+  return values;
+}
+
+double product(const Changes& a, const Changes& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
+
+// Largest |a scale - b| over the poses.
+double misfit_m(const Changes& a, double scale, const Changes& b) {
+  double largest = 0.0;
+  for (Index p = 0; p < a.size(); ++p) largest = std::fmax(largest, std::fabs(scale * a[p] - b[p]));
+  return largest;
+}
+
+// What the drives report and what the geometry says, as changes between poses.
+struct Lengths {
+  std::vector<Changes> reported, expected;  // by drive, by cable
+  std::vector<double> reported_mean_m, expected_mean_m;
+};
+
+Lengths lengths_of(const RobotConfig& robot, std::span<const CalibrationReading> readings) {
+  Lengths out;
+  std::vector<CableVector> expected;
+  for (const CalibrationReading& reading : readings)
+    expected.push_back(beyond_zero_m(robot.table, reading.theta_rad, reading.tension_N));
+  for (Index c = 0; c < as_index(robot.table.cable_count()); ++c) {
+    std::vector<double> own, wanted;
+    for (Index p = 0; p < readings.size(); ++p) {
+      own.push_back(readings[p].position_m[c]);
+      wanted.push_back(expected[p][c]);
+    }
+    out.reported_mean_m.push_back(mean(own));
+    out.expected_mean_m.push_back(mean(wanted));
+    out.reported.push_back(about_mean(own));
+    out.expected.push_back(about_mean(wanted));
+  }
+  return out;
+}
+
+// How a drive's report follows a cable: the factor that fits best, and what is left over.
+struct Fit {
+  double scale = 0.0;
+  double misfit_m = 0.0;
+};
+
+Fit fit(const Changes& reported, const Changes& expected) {
+  const double squares = product(reported, reported);
+  const double scale = squares > 0.0 ? product(reported, expected) / squares : 0.0;
+  return {scale, misfit_m(reported, scale, expected)};
+}
+
+bool is_drum(const Fit& found) {
+  return found.misfit_m <= kMisfit_m && std::fabs(std::fabs(found.scale) - 1.0) <= kDrumShare;
+}
+
+// The other cable that a drive follows as if it were its own.
+std::optional<Index> followed_by(const Lengths& lengths, Index drive) {
+  std::optional<Index> best;
+  double least_m = std::numeric_limits<double>::infinity();
+  for (Index cable = 0; cable < lengths.expected.size(); ++cable) {
+    const Fit found = fit(lengths.reported[drive], lengths.expected[cable]);
+    if (!is_drum(found) || found.misfit_m >= least_m) continue;
+    best = cable;
+    least_m = found.misfit_m;
+  }
+  return best;
+}
+
+std::string problem_of(const RobotConfig& robot, const Lengths& lengths, Index drive, const Fit& own) {
+  const std::optional<Index> other = followed_by(lengths, drive);
+  const int node = static_cast<int>(drive) + 1;
+  if (other && *other != drive) {
+    return text(
+        "drive %d (node %d) moves as cable %d does, not as its own: their cables are exchanged: wind each cable on its "
+        "own drum, or "
+        "exchange the drives' node ids, then calibrate again",
+        static_cast<int>(drive), node, static_cast<int>(*other));
+  }
+  if (own.misfit_m <= kMisfit_m) {
+    return text(
+        "drive %d (node %d): drum radius %.4f mm: allowed %.4f mm +- %.0f %%: look whether cable lies on cable, or "
+        "correct "
+        "drives.drum_radius_m of robot %s",
+        static_cast<int>(drive), node, 1e3 * std::fabs(own.scale) * robot.drum_radius_m, 1e3 * robot.drum_radius_m,
+        100.0 * kDrumShare, robot.name.c_str());
+  }
+  return text(
+      "drive %d (node %d): its position misses the fixtures' poses by %.1f mm: allowed %.1f mm: look whether the arm "
+      "lies in every "
+      "fixture and the cable is on its drum",
+      static_cast<int>(drive), node, 1e3 * own.misfit_m, 1e3 * kMisfit_m);
+}
+
+// Without a number of its own a drive cannot be told from another one when it is swapped later. Empty: it has one.
+std::string serial_problem_of(const RobotConfig& robot, std::span<const CalibrationReading> readings, Index drive) {
+  const std::uint32_t serial = readings.front().serial[drive];
+  const int node = static_cast<int>(drive) + 1;
+  const std::string who =
+      text("drive %d (node %d): serial number %u (object 0x1018:4)", static_cast<int>(drive), node, serial);
+  if (serial == 0)
+    return who +
+           ": allowed 1 or more: a drive without a number of its own cannot be told from another: give it one, or take "
+           "another";
+  for (const CalibrationReading& reading : readings) {
+    if (reading.serial[drive] != serial)
+      return who + text(" in the first fixture, %u in another: leave the drives where they are, then calibrate again",
+                        reading.serial[drive]);
+  }
+  for (Index other = 0; other < as_index(robot.table.cable_count()); ++other) {
+    if (other != drive && readings.front().serial[other] == serial)
+      return who + text(": drive %d says it, too: give each a number of its own", static_cast<int>(other));
+  }
+  return "";
+}
+
+CableCalibration cable_of(const RobotConfig& robot, const Lengths& lengths, Index c, double scale,
+                          const CalibrationReading& first) {
+  const DriveTable& table = robot.table.drive[c];
+  // expected = scale reported + zero; reported is what the table's drum and direction make of the counts.
+  const double zero_m = lengths.expected_mean_m[c] - scale * lengths.reported_mean_m[c];
+  CableCalibration out;
+  out.serial = first.serial[c];
+  out.direction = scale > 0.0 ? table.direction : -table.direction;
+  out.drum_radius_m = std::fabs(scale) * robot.drum_radius_m;
+  out.zero_counts = to_counts(table.zero_counts - zero_m / (scale * table.direction * table.metres_per_count)).value;
+  out.pretension_N = first.tension_N[c];
+  out.offset_m = zero_m;
+  return out;
+}
+
+}  // namespace
+
+void check_poses(const RobotConfig& robot, std::span<const ThetaVector> poses_rad) {
+  if (poses_rad.size() < 2) throw std::runtime_error("one pose says nothing of drums and directions: give two or more");
+  CableVector tension_N;
+  tension_N.fill(robot.table.tension.plan_N);
+  std::vector<CalibrationReading> readings;
+  for (const ThetaVector& theta_rad : poses_rad) readings.push_back({theta_rad, {}, tension_N});
+  const std::vector<Changes> cables = lengths_of(robot, readings).expected;
+  for (Index a = 0; a < cables.size(); ++a) {
+    if (misfit_m(cables[a], 0.0, cables[a]) < kLeastChange_m)
+      throw std::runtime_error(
+          text("cable %d changes by less than %.0f mm between these poses: add one that bends its segment more",
+               static_cast<int>(a), 1e3 * kLeastChange_m));
+    for (Index b = 0; b < cables.size(); ++b) {
+      const Fit alike = fit(cables[a], cables[b]);
+      if (a != b && alike.misfit_m < kApart_m && std::fabs(std::fabs(alike.scale) - 1.0) <= 2.0 * kDrumShare)
+        throw std::runtime_error(
+            text("cables %d and %d change alike between these poses: add one that bends the arm another way",
+                 static_cast<int>(a), static_cast<int>(b)));
+    }
+  }
+}
+
+CalibrationResult calibrate(const RobotConfig& robot, std::span<const CalibrationReading> readings,
+                            const std::string& date) {
+  const Lengths lengths = lengths_of(robot, readings);
+  CalibrationResult out;
+  out.calibration = {robot.name, sha256_hex(robot.canonical_json), date, {}};
+  for (Index c = 0; c < as_index(robot.table.cable_count()); ++c) {
+    const Fit own = fit(lengths.reported[c], lengths.expected[c]);
+    const std::string serial_problem = serial_problem_of(robot, readings, c);
+    if (!serial_problem.empty()) out.problems.push_back(serial_problem);
+    if (!is_drum(own)) {
+      out.problems.push_back(problem_of(robot, lengths, c, own));
+    } else {
+      out.calibration.cables.push_back(cable_of(robot, lengths, c, own.scale, readings.front()));
+    }
+  }
+  return out;
+}
+
+}  // namespace liana

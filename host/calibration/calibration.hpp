@@ -1,0 +1,46 @@
+// The calibration of one arm: what `liana calibrate` measured of every drive and cable, and when it may be used
+// (docs/calibration.md).
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "host/config/config.hpp"
+
+namespace liana {
+
+// One drive with its cable.
+struct CableCalibration {
+  std::uint32_t serial = 0;      // 0x1018:4 of the drive
+  std::int32_t direction = 1;    // +1: counts grow while cable is paid out
+  std::int32_t zero_counts = 0;  // at payout = path at the zero pose + lead
+  double drum_radius_m = 0.0;
+  double pretension_N = 0.0;  // found at the first pose
+  double offset_m = 0.0;      // of the zero against the robot table's; for people
+};
+
+struct Calibration {
+  std::string robot;         // name
+  std::string robot_sha256;  // of the robot's canonical JSON
+  std::string date;          // YYYY-MM-DD, UTC
+  std::vector<CableCalibration> cables;
+};
+
+// Today in UTC as YYYY-MM-DD.
+std::string today_utc();
+
+// The file's text: canonical JSON with a checksum over everything else in it.
+std::string calibration_json(const Calibration& calibration);
+
+// Reads a calibration for `robot` as of `today`. Throws std::runtime_error "file: field: value: allowed ...: what to
+// do" when the checksum is wrong, it is for another robot or table, older than drives.calibration_days of the robot
+// table, from the future, or holds a value out of range.
+Calibration parse_calibration(const std::string& text, const std::string& file, const RobotConfig& robot,
+                              const std::string& today);
+Calibration load_calibration(const std::string& path, const RobotConfig& robot, const std::string& today);
+
+// The robot with the calibration's drums, directions, zeros and drive serial numbers in place of its table's.
+void apply(const Calibration& calibration, RobotConfig& robot);
+
+}  // namespace liana

@@ -1,0 +1,66 @@
+#include "host/control/realtime.hpp"
+
+#include <pthread.h>
+#include <sys/mman.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <future>
+#include <stdexcept>
+#include <string>
+
+namespace liana {
+
+namespace {
+
+// Touches the pages that the thread's ticks will use.
+void touch_stack() {
+  std::array<volatile char, 256 * 1024> stack;
+  for (std::size_t i = 0; i < stack.size(); i += 4096) stack[i] = 0;
+}
+
+// With a small limit mlockall itself may succeed, and the first allocation after it fail.
+bool room_is_left() {
+  constexpr std::size_t kNeeded = 64u << 20;
+  void* const trial = ::mmap(nullptr, kNeeded, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (trial == MAP_FAILED) return false;
+  ::munmap(trial, kNeeded);
+  return true;
+}
+
+int become_realtime() {
+  sched_param parameters{};
+  parameters.sched_priority = kRealtimePriority;
+  return ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameters);
+}
+
+}  // namespace
+
+void lock_memory() {
+  if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0 && room_is_left()) return;
+  const int error = errno;
+  ::munlockall();
+  throw std::runtime_error(
+      std::string("time mode real: memory cannot be locked (") + std::strerror(error) +
+      "): needs CAP_IPC_LOCK or an unlimited memlock limit; see `liana doctor`, or use --time fast or paced");
+}
+
+std::thread start_realtime(std::function<void()> body) {
+  std::promise<int> started;
+  std::future<int> result = started.get_future();
+  std::thread thread([started = std::move(started), body = std::move(body)]() mutable {
+    const int error = become_realtime();
+    touch_stack();
+    started.set_value(error);
+    if (error == 0) body();
+  });
+  const int error = result.get();
+  if (error == 0) return thread;
+  thread.join();
+  throw std::runtime_error(std::string("time mode real: no real-time priority (") + std::strerror(error) +
+                           "): needs CAP_SYS_NICE or an rtprio limit of " + std::to_string(kRealtimePriority) +
+                           "; see `liana doctor`, or use --time fast or paced");
+}
+
+}  // namespace liana

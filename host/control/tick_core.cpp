@@ -1,0 +1,45 @@
+#include "host/control/tick_core.hpp"
+
+namespace liana {
+
+// The newest telecommand whose time has come; one that is overdue after lost ticks is still taken until it expires.
+Telecommand TickCore::due_telecommand(std::uint64_t tick) {
+  Telecommand due;
+  while (const Telecommand* next = link_.released.front()) {
+    if (next->first_tick() > tick) break;
+    if (next->expiry_tick() > tick) due = *next;
+    link_.released.pop();
+  }
+  return due;
+}
+
+const Outputs& TickCore::step(Inputs& inputs) {
+  inputs.telecommand = due_telecommand(inputs.tick);
+  if (const Request* request = link_.requests.front()) {
+    inputs.request = *request;
+    link_.requests.pop();
+  }
+  record_.inputs = inputs;
+  record_.outputs = controller_.tick(inputs);
+  fresh_ = false;
+  if (!link_.ticks.push(record_)) ++records_lost_;
+  return record_.outputs;
+}
+
+void TickCore::publish(CycleReport& report) {
+  report.outputs = record_.outputs;
+  report.records_lost = records_lost_;
+  link_.report.publish(report);
+  const std::uint64_t interval = report.next_tick / static_cast<std::uint64_t>(controller_.table().interval_ticks);
+  if (interval == imaged_interval_) return;
+  imaged_interval_ = interval;
+  TwinImage& image = link_.image.draft();  // filled in place: it is large
+  image.next_tick = report.next_tick;
+  image.fresh = fresh_;
+  image.controller = controller_;
+  image.last_inputs = record_.inputs;
+  image.last_outputs = record_.outputs;
+  link_.image.publish();
+}
+
+}  // namespace liana

@@ -1,0 +1,23 @@
+// Recorded hand motion: the reader of `.hand` files (docs/formats.md).
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "host/operator/samples.hpp"
+
+namespace liana {
+
+using VrRecording = std::vector<VrSample>;
+using HandRecording = std::vector<ControllerSample>;
+
+// Reads a `.hand` file of either kind; at least one sample, times from 0 and strictly increasing, unit quaternions.
+// Throws std::runtime_error naming file, line, column, value, what is allowed and what to do.
+std::variant<VrRecording, HandRecording> read_hand_recording(const std::string& path);
+
+// The same for a file that must hold VR handles, or a hand controller.
+VrRecording read_vr_recording(const std::string& path);
+HandRecording read_hand_controller_recording(const std::string& path);
+
+}  // namespace liana

@@ -1,0 +1,90 @@
+// liana-operator: the recorded and simulated person at the input devices, over the interface that live devices use.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+
+#include "host/api/client.hpp"
+#include "host/config/config.hpp"
+#include "host/json/json.hpp"
+#include "host/operator/operator_session.hpp"
+
+namespace liana {
+namespace {
+
+constexpr double kWelcomeTimeout_s = 30.0;
+constexpr double kPoll_s = 1.0;
+
+// Command line of liana-operator.
+struct OperatorOptions {
+  std::string api;
+  std::string recordings;
+  std::string scene;  // empty: the scene lianad runs with
+  std::uint64_t seed = 1;
+  bool lockstep = false;
+};
+
+Pose pose_of(const ScenePose& pose) { return {pose.position_m, pose.quaternion_wxyz}; }
+
+// Without a slit or a rod there is nothing to steer into by hand: the camera never shows it, and the person waits.
+SlitDrawing drawing_of(const SceneConfig& scene) {
+  if (!scene.slit || !scene.rod) return {};
+  return slit_drawing(pose_of(scene.slit->frame), pose_of(scene.rod->pose));
+}
+
+Json greet(ApiClient& client, const OperatorOptions& options) {
+  client.send({{"op", "hello"},
+               {"name", "operator"},
+               {"role", "operator"},
+               {"lockstep", options.lockstep},
+               {"subscribe", {"state", "camera"}}});
+  const auto welcome = client.receive(kWelcomeTimeout_s);
+  if (!welcome || welcome->value("op", "") != "welcome") {
+    throw std::runtime_error("lianad at " + options.api + " did not welcome the operator" +
+                             (welcome ? ": " + welcome->dump().substr(0, 200) : ""));
+  }
+  return *welcome;
+}
+
+// One message in, the answers out; false when lianad stops.
+bool answer(ApiClient& client, OperatorSession& session, const Json& message, bool lockstep) {
+  const std::string op = message.value("op", "");
+  if (op == "camera") session.on_camera(message);
+  if (op == "error") std::fprintf(stderr, "liana-operator: refused: %s\n", message.value("message", "").c_str());
+  if (op != "state") return true;
+  for (const Json& out : session.on_state(message)) client.send(out);
+  if (lockstep) client.send({{"op", "done"}, {"tick", message.at("tick")}});
+  return !message.value("stopping", false);
+}
+
+int operate(const OperatorOptions& options) {
+  ApiClient client = ApiClient::connect(options.api, kWelcomeTimeout_s);
+  const Json welcome = greet(client, options);
+  const SceneConfig scene = options.scene.empty() ? parse_scene(welcome.at("scene").dump(), "scene of " + options.api)
+                                                  : load_scene(options.scene);
+  OperatorSession session(options.recordings, drawing_of(scene), HandGains{}, options.seed);
+  for (bool running = true; running;) {
+    const auto message = client.receive(kPoll_s);
+    if (message) running = answer(client, session, *message, options.lockstep);
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace liana
+
+int main(int argc, char** argv) {
+  liana::OperatorOptions options;
+  CLI::App app{"The operator as data and as a model that looks: recorded VR handles, simulated hand controller"};
+  app.add_option("--api", options.api, "API socket of lianad")->required();
+  app.add_option("--recordings", options.recordings, "folder of the .hand files")->required();
+  app.add_option("--scene", options.scene, "scene JSON the person has as a drawing; default: the one lianad runs with");
+  app.add_option("--seed", options.seed, "seed of tremor, glitches and dropouts");
+  app.add_flag("--lockstep", options.lockstep, "answer every state, so that fast runs repeat");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    return liana::operate(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "liana-operator: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,110 @@
+#include "host/operator/operator_session.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/json/json.hpp"
+#include "host/operator/device_messages.hpp"
+
+namespace liana {
+namespace {
+
+constexpr double kSamplePeriod_s = 0.001;
+constexpr double kLongestGap_s = 0.1;     // after a pause the hand goes on, it does not catch up
+constexpr double kSettleAfterVr_s = 1.0;  // the person watches the arm come to rest before saying so
+constexpr const char* kDefaultRecording = "panel_edge_vr";
+
+HandTask hand_task(const AnnouncedStep& step) {
+  if (step.task == "rod") return HandTask::kReachRod;
+  if (step.task == "slit") return HandTask::kEnterSlit;
+  return step.name.find("rod") != std::string::npos ? HandTask::kReachRod : HandTask::kEnterSlit;
+}
+
+std::string text(const Json& object, const char* key) {
+  const auto found = object.find(key);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+// A positive number, or `otherwise`.
+double positive(const Json& object, const char* key, double otherwise) {
+  const auto found = object.find(key);
+  const double value = found != object.end() && found->is_number() ? found->get<double>() : otherwise;
+  return value > 0.0 ? value : otherwise;
+}
+
+}  // namespace
+
+AnnouncedStep announced_step(const Json& state) {
+  const auto found = state.find("step");
+  if (found == state.end() || !found->is_object()) return {};
+  return {found->value("index", std::int64_t{-1}), text(*found, "name"), text(*found, "device"), text(*found, "task")};
+}
+
+HandMapping announced_mapping(const Json& state) {
+  const auto found = state.find("mapping");
+  if (found == state.end() || !found->is_object()) return {};
+  return {positive(*found, "scale", 1.0), positive(*found, "rotation_scale", 1.0), positive(*found, "speed_m_s", 0.0)};
+}
+
+OperatorSession::OperatorSession(std::string recordings, const SlitDrawing& drawing, const HandGains& gains,
+                                 std::uint64_t seed)
+    : recordings_(std::move(recordings)), person_(gains, drawing, seed), seed_(seed) {}
+
+void OperatorSession::begin_step(const AnnouncedStep& step, const Json& state) {
+  reported_ = false;
+  finished_s_ = -1.0;
+  vr_.reset();
+  if (step.device == "vr") {
+    const std::string name = step.task.empty() ? kDefaultRecording : step.task;
+    vr_.emplace(read_vr_recording(recordings_ + "/" + name + ".hand"), VrDisturbance{}, seed_);
+  } else {
+    person_.begin(hand_task(step), announced_mapping(state), now_s_);
+  }
+}
+
+std::vector<Json> OperatorSession::on_state(const Json& state) {
+  const double to_s = state.at("time_s").get<double>();
+  const double from_s = now_s_ < 0.0 ? to_s : std::max(now_s_, to_s - kLongestGap_s);
+  now_s_ = to_s;
+  const AnnouncedStep step = announced_step(state);
+  if (step.index != step_.index || step.device != step_.device) steering_ = false;
+  step_ = step;
+  const bool ours = (step.device == "vr" || step.device == "hand") && text(state, "device") == step.device;
+  if (ours && !steering_) begin_step(step, state);
+  steering_ = steering_ || ours;
+  if (!steering_) return {};
+  const bool engaged = state.value("device_engaged", false);
+  return step.device == "vr" ? steer_vr(from_s, to_s, engaged) : steer_hand(from_s, to_s, engaged);
+}
+
+std::vector<Json> OperatorSession::steer_vr(double from_s, double to_s, bool engaged) {
+  vr_->feel(engaged, to_s);
+  const auto samples = vr_->advance(from_s, to_s - from_s);
+  std::vector<Json> messages;
+  if (!samples.empty()) messages.push_back(device_message(samples));
+  if (vr_->finished() && finished_s_ < 0.0) finished_s_ = to_s;
+  report_arrival(messages, finished_s_ >= 0.0 && to_s - finished_s_ > kSettleAfterVr_s, to_s);
+  return messages;
+}
+
+std::vector<Json> OperatorSession::steer_hand(double from_s, double to_s, bool engaged) {
+  person_.feel(engaged, to_s);
+  std::vector<ControllerSample> samples;
+  const auto count = std::lround((to_s - from_s) / kSamplePeriod_s);
+  for (long i = 1; i <= count; ++i)
+    samples.push_back(person_.sample(from_s + static_cast<double>(i) * kSamplePeriod_s));
+  std::vector<Json> messages;
+  if (!samples.empty()) messages.push_back(device_message(samples));
+  report_arrival(messages, person_.arrived(), to_s);
+  return messages;
+}
+
+void OperatorSession::report_arrival(std::vector<Json>& messages, bool arrived, double now_s) {
+  if (!arrived || reported_) return;
+  reported_ = true;
+  messages.push_back({{"op", "operator_says"}, {"what", "arrived"}, {"step", step_.index}, {"time_s", now_s}});
+}
+
+void OperatorSession::on_camera(const Json& message) { person_.look(sighting_of(message), std::max(now_s_, 0.0)); }
+
+}  // namespace liana

@@ -1,0 +1,58 @@
+// The operator's side of the API: what arrives from lianad, and what the person's devices send back.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/json/json_fwd.hpp"
+#include "host/operator/hand_person.hpp"
+#include "host/operator/recorded_vr.hpp"
+
+namespace liana {
+
+// The step the mission has announced, as far as the person is concerned.
+struct AnnouncedStep {
+  std::int64_t index = -1;
+  std::string name;
+  std::string device;  // vr, hand or none
+  std::string task;    // vr: name of the recording; hand: "slit" or "rod"; empty: told by the step's name
+};
+
+// Turns state and camera messages into device samples. Reads of the state only the step, the device, its mapping,
+// whether it is engaged, and the time.
+class OperatorSession {
+ public:
+  // `recordings` is the folder of the `.hand` files.
+  OperatorSession(std::string recordings, const SlitDrawing& drawing, const HandGains& gains, std::uint64_t seed);
+
+  // Messages to send in answer to one state. Throws std::runtime_error when a recording cannot be read.
+  std::vector<Json> on_state(const Json& state);
+  // One forwarded camera message. Throws std::runtime_error when it is malformed.
+  void on_camera(const Json& message);
+
+ private:
+  void begin_step(const AnnouncedStep& step, const Json& state);
+  std::vector<Json> steer_vr(double from_s, double to_s, bool engaged);
+  std::vector<Json> steer_hand(double from_s, double to_s, bool engaged);
+  void report_arrival(std::vector<Json>& messages, bool arrived, double now_s);
+
+  std::string recordings_;
+  HandPerson person_;
+  std::uint64_t seed_;
+  std::optional<RecordedVr> vr_;
+  AnnouncedStep step_{};
+  bool steering_ = false;  // the announced device is ours to move
+  bool reported_ = false;
+  double now_s_ = -1.0;       // time of the last state
+  double finished_s_ = -1.0;  // when the recording ended, or -1
+};
+
+// The step in a state message; index -1 when there is none.
+AnnouncedStep announced_step(const Json& state);
+// Mapping of the device in use; 1:1 where the state does not say.
+HandMapping announced_mapping(const Json& state);
+
+}  // namespace liana

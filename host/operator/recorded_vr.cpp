@@ -1,0 +1,78 @@
+#include "host/operator/recorded_vr.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "host/operator/random.hpp"
+
+namespace liana {
+
+namespace {
+constexpr std::uint64_t kRightPurpose = 11;
+constexpr std::uint64_t kLeftPurpose = 12;
+constexpr std::uint64_t kGlitchPurpose = 13;
+
+std::int64_t microseconds(double time_s) { return std::llround(time_s * 1e6); }
+}  // namespace
+
+RecordedVr::RecordedVr(VrRecording recording, const VrDisturbance& disturbance, std::uint64_t seed)
+    : recording_(std::move(recording)),
+      disturbance_(disturbance),
+      right_tremor_(disturbance.tremor_m, disturbance.tremor_rad, seed, kRightPurpose),
+      left_tremor_(disturbance.tremor_m, disturbance.tremor_rad, seed, kLeftPurpose) {
+  if (recording_.empty())
+    throw std::runtime_error("VR recording: no samples: allowed at least one; give another recording");
+  RandomStream random(seed, kGlitchPurpose);
+  const double end_s = static_cast<double>(recording_.back().t_us) * 1e-6;
+  jump_index_ = static_cast<std::size_t>(random.uniform(0.1, 0.45) * static_cast<double>(recording_.size()));
+  dropout_from_s_ = random.uniform(0.5, 0.9) * end_s;
+  dropout_to_s_ = dropout_from_s_ + random.uniform(disturbance.dropout_least_s, disturbance.dropout_most_s);
+}
+
+void RecordedVr::disturb_handle(VrHandle& handle, const Tremor& tremor, double now_s) const {
+  if (handle.valid) handle.pose = tremor.apply(handle.pose, now_s);
+}
+
+VrSample RecordedVr::disturbed(const VrSample& recorded, double now_s) {
+  VrSample sample = recorded;
+  sample.t_us = microseconds(now_s);
+  disturb_handle(sample.right, right_tremor_, now_s);
+  disturb_handle(sample.left, left_tremor_, now_s);
+  if (next_ == jump_index_) sample.right.pose.position_m[1] += disturbance_.jump_m;
+  if (played_s_ >= dropout_from_s_ && played_s_ < dropout_to_s_) {
+    sample.right.valid = false;
+    sample.right.pose = last_right_;
+  }
+  last_right_ = sample.right.pose;
+  return sample;
+}
+
+std::vector<VrSample> RecordedVr::advance(double now_s, double duration_s) {
+  std::vector<VrSample> samples;
+  const bool paused = finished() || now_s < release_until_s_;
+  if (paused) {
+    VrSample still = disturbed(recording_[std::min(next_, recording_.size() - 1)], now_s);
+    still.right.trigger = still.left.trigger = 0.0;
+    gripping_ = false;
+    return {still};
+  }
+  const double start_s = played_s_;
+  while (!finished() && static_cast<double>(recording_[next_].t_us) * 1e-6 < start_s + duration_s) {
+    played_s_ = static_cast<double>(recording_[next_].t_us) * 1e-6;
+    samples.push_back(disturbed(recording_[next_], now_s + (played_s_ - start_s)));
+    gripping_ = samples.back().right.trigger > 0.5;
+    ++next_;
+  }
+  played_s_ = start_s + duration_s;
+  return samples;
+}
+
+void RecordedVr::feel(bool engaged, double now_s) {
+  if (engaged || !gripping_) followed_s_ = now_s;
+  if (now_s - followed_s_ > disturbance_.patience_s) {
+    release_until_s_ = now_s + disturbance_.release_s;
+    followed_s_ = release_until_s_;
+  }
+}
+
+}  // namespace liana

@@ -1,0 +1,55 @@
+// A person with two VR handles, as a recording: played back with seeded tremor, glitches and tracking dropouts on top.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "host/operator/hand_recording.hpp"
+#include "host/operator/tremor.hpp"
+
+namespace liana {
+
+// What the seed adds to a recording.
+struct VrDisturbance {
+  double tremor_m = 0.0002;       // RMS of each axis, of either hand
+  double tremor_rad = 0.0005;     // RMS of each axis
+  double jump_m = 0.25;           // one sample of the right hand this far away
+  double dropout_least_s = 0.06;  // one loss of tracking of the right hand
+  double dropout_most_s = 0.16;   // shorter than the 0.25 s after which the arbiter lets go
+  double release_s = 0.4;         // lets go this long when the arm has stopped following, then grips again
+  double patience_s = 0.6;        // trigger held without the arm following
+};
+
+// Plays one recording once; time stands still while the person re-grips.
+class RecordedVr {
+ public:
+  // The recording must not be empty.
+  RecordedVr(VrRecording recording, const VrDisturbance& disturbance, std::uint64_t seed);
+
+  // Samples of the next `duration_s`, stamped from `now_s` on.
+  std::vector<VrSample> advance(double now_s, double duration_s);
+  // Whether the arm follows, as the person sees it.
+  void feel(bool engaged, double now_s);
+  // True when the last sample has been played; the triggers are released from then on.
+  bool finished() const { return next_ >= recording_.size(); }
+
+ private:
+  VrSample disturbed(const VrSample& recorded, double now_s);
+  void disturb_handle(VrHandle& handle, const Tremor& tremor, double now_s) const;
+
+  VrRecording recording_;
+  VrDisturbance disturbance_;
+  Tremor right_tremor_;
+  Tremor left_tremor_;
+  std::size_t next_ = 0;
+  double played_s_ = 0.0;  // position in the recording
+  std::size_t jump_index_ = 0;
+  double dropout_from_s_ = 0.0;
+  double dropout_to_s_ = 0.0;
+  Pose last_right_{};
+  double followed_s_ = 0.0;        // when the arm last followed, or nothing was asked of it
+  double release_until_s_ = -1.0;  // re-gripping until then
+  bool gripping_ = false;
+};
+
+}  // namespace liana

@@ -1,0 +1,20 @@
+// The push of obstacles on one pose, as start paths and single poses feel it.
+#pragma once
+
+#include "host/plan/problem/arm_derivatives.hpp"
+#include "host/plan/start/room.hpp"
+
+namespace liana {
+
+// Gauss-Newton model of a cost at one pose.
+struct PoseModel {
+  double cost = 0.0;
+  ThetaVector gradient{};
+  ThetaHessian hessian{};  // lower triangle
+};
+
+// Cost [m^2]: sum over links and obstacles of (wanted - distance)^2 where positive. The derivatives only when asked
+// for.
+PoseModel push_model(const Room& room, const ThetaVector& theta_rad, double wanted_m, bool derivatives);
+
+}  // namespace liana

@@ -1,0 +1,41 @@
+// The arm among the obstacles: clearance of a pose and of a straight piece in theta. What start paths are made with.
+#pragma once
+
+#include <cstdint>
+
+#include "host/clearance/clearance.hpp"
+#include "host/plan/plan.hpp"
+
+namespace liana {
+
+class Room {
+ public:
+  // Both must outlive the room.
+  Room(const RobotConfig& robot, const SceneConfig& scene) : robot_(robot), scene_(scene) {}
+
+  const RobotTable& table() const { return robot_.table; }
+  const SceneConfig& scene() const { return scene_; }
+  double link_radius_m() const { return robot_.module_radius_m; }
+
+  // Least clearance of one pose.
+  ArmClearance look(const ThetaVector& theta_rad) const;
+
+  // Bound on how far any point of the arm moves when the thetas change from a to b [m].
+  double motion_m(const ThetaVector& a, const ThetaVector& b) const;
+
+  // True when the arm keeps `margin_m` all the way from a to b, but for dips of less than 2 mm between the poses looked
+  // at.
+  bool is_free(const ThetaVector& a, const ThetaVector& b, double margin_m) const;
+
+ private:
+  const RobotConfig& robot_;
+  const SceneConfig& scene_;
+};
+
+// From the base to the tip of the straight arm [m].
+double arm_length_m(const RobotTable& table);
+
+// Pose at `share` (0..1) between a and b.
+ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share);
+
+}  // namespace liana

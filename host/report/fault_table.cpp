@@ -1,0 +1,101 @@
+#include "host/report/fault_table.hpp"
+
+#include <cmath>
+
+#include "firmware_like/safety/cable_watch.hpp"
+#include "firmware_like/safety/supervisor.hpp"
+#include "firmware_like/safety/watchdogs.hpp"
+
+namespace liana {
+namespace {
+
+constexpr double kHeartbeatPeriod_s = 0.1;  // of every drive (docs/drives.md)
+
+struct Detection {
+  const char* detector;
+  int within_ticks;
+};
+
+// No default: a number without a detection does not compile.
+Detection detection_of(FaultNumber number, const RobotTable& table) {
+  const int heartbeat_period = static_cast<int>(std::ceil(kHeartbeatPeriod_s / table.tick_s));
+  switch (number) {
+    case FaultNumber::kNone:
+      break;
+    case FaultNumber::kCommandInvalid:
+      return {"controller: each value of a released command when it takes force", 0};
+    case FaultNumber::kTicksLost:
+      return {"watchdog: deadlines lost in a row, more than 2", 1};
+    case FaultNumber::kDriveMissing:
+      return {"watchdog: age of the drive's heartbeat, more than 0.3 s",
+              make_watchdog_limits(table).heartbeat_age_ticks + heartbeat_period};
+    case FaultNumber::kDriveSilent:
+      return {"watchdog: age of the drive's report, more than 2 ticks", kFeedbackAgeTicks + 1};
+    case FaultNumber::kDriveFault:
+      return {"watchdog: statusword says fault", 1};
+    case FaultNumber::kDriveLeftOperation:
+      return {"watchdog: statusword of a drive that should be in Operation enabled", 1};
+    case FaultNumber::kDriveEnableTimeout:
+      return {"supervisor: time in a step of enabling (a ramp of tension has 15000 ticks)",
+              static_cast<int>(kPoweringBudgetTicks) + 1};
+    case FaultNumber::kFollowingError:
+      return {"watchdog: sent target less reported place, over the window, in a row", kFollowingDebounceTicks};
+    case FaultNumber::kDriveNotOperational:
+      return {"watchdog: NMT state in the drive's heartbeat or boot-up", heartbeat_period};
+    case FaultNumber::kDriveStopTimeout:
+      return {"supervisor: time until every drive confirms that it is off", static_cast<int>(kOffBudgetTicks) + 1};
+    case FaultNumber::kBusLost:
+      return {"interface down or in bus-off (1 tick), or no drive of the bus is heard", kFeedbackAgeTicks + 1};
+    case FaultNumber::kCableSlack:
+      return {"watchdog: motor tension under the floor, in a row", kSlackDebounceTicks};
+    case FaultNumber::kCableOverload:
+      return {"watchdog: motor tension over the hard limit, in a row", kOverloadDebounceTicks};
+    case FaultNumber::kTensionAlarm:
+      return {"watchdog: motor tension over the alarm limit, in a row", kAlarmDebounceTicks};
+    case FaultNumber::kHomingImplausible:
+      return {
+          "cable watch: the part of a segment's lengths that no two angles explain, against its value when the arm was "
+          "enabled, in a row",
+          kContradictionTicks + table.segment_count - 1};
+    case FaultNumber::kCableSlip:
+      return {"cable watch: tension and length of a cable against the tick before, over the limit, and still there",
+              kJumpConfirmTicks};
+    case FaultNumber::kCableBreak:
+      return {"watchdog: motor tension under the floor while its 20 ms low-pass is not, in a row", kBreakDebounceTicks};
+    case FaultNumber::kTensionScatters:
+      return {"cable watch: the same as 5005, but back again, three times (in a row: 4 ticks)", kScatterReversals + 1};
+    case FaultNumber::kGateRefused:
+      return {"gate: every command before it is sent", 0};
+  }
+  return {"", -1};
+}
+
+std::string stops_by(const FaultInfo& info) {
+  constexpr const char* kNames[] = {"none", "hold", "stop", "off"};
+  return std::string(kNames[static_cast<std::size_t>(info.category)]) + (info.immediate ? " at once" : "");
+}
+
+}  // namespace
+
+std::vector<FaultRow> fault_rows(const RobotTable& table) {
+  std::vector<FaultRow> rows;
+  for (const FaultInfo& info : all_faults().subspan(1)) {
+    const Detection detection = detection_of(info.number, table);
+    rows.push_back({info, detection.detector, detection.within_ticks, stops_by(info)});
+  }
+  return rows;
+}
+
+std::string markdown_of(const std::vector<FaultRow>& rows) {
+  std::string text =
+      "| number | name | detected by | within ticks | stops by | what it means | what to do |\n"
+      "|---|---|---|---|---|---|---|\n";
+  for (const FaultRow& row : rows) {
+    text += "| " + std::to_string(static_cast<int>(row.info.number)) + " | " + row.info.name + " | " + row.detector +
+            " | " + (row.within_ticks < 0 ? "" : std::to_string(row.within_ticks)) + " | " + row.stops_by + " | " +
+            row.info.text + " | " + row.info.remedy + " |\n";
+  }
+  return text;
+}
+
+}  // namespace liana

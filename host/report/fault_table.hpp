@@ -1,0 +1,26 @@
+// Every fault number with how it is detected, for `liana faults` and docs/faults.md. Numbers, names, reactions and
+// remedies are the core's own; times come from its constants and from the robot table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/safety/faults.hpp"
+
+namespace liana {
+
+struct FaultRow {
+  FaultInfo info;
+  const char* detector = "";  // what looks, and at what
+  int within_ticks = 0;       // from the cause on, at most; -1: whenever it happens to be looked at
+  std::string stops_by;       // "hold", "stop", "stop at once", "off at once"
+};
+
+// All numbers but none, ascending, for this robot at its tick.
+std::vector<FaultRow> fault_rows(const RobotTable& table);
+
+// The table as it stands in docs/faults.md.
+std::string markdown_of(const std::vector<FaultRow>& rows);
+
+}  // namespace liana

@@ -1,0 +1,15 @@
+// A measurement of the real-time thread, as `liana latency` makes it.
+#pragma once
+
+#include "host/json/json.hpp"
+
+namespace liana {
+
+// What lianad measured, and how it went meanwhile.
+struct LatencyMeasurement {
+  Json timing;           // lianad's answer (docs/api.md, `timing`)
+  Json last_state;       // at the end of the measurement
+  bool enabled = false;  // from before its begin to its end
+};
+
+}  // namespace liana

@@ -1,0 +1,209 @@
+#include "host/report/run_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "host/json/json.hpp"
+#include "host/report/truth.hpp"
+
+namespace liana {
+namespace {
+
+Json read_json(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) return Json::object();
+  Json parsed = Json::parse(file, nullptr, false);
+  return parsed.is_object() ? parsed : Json::object();
+}
+
+Json object_of(const Json* pointer) { return pointer != nullptr && pointer->is_object() ? *pointer : Json::object(); }
+
+// First and last tick of the experiment: entry of step 1, repair command (or the end, where it never came).
+struct Window {
+  std::uint64_t first_tick = 0;
+  std::uint64_t last_tick = 0;
+};
+
+Window window_of(const Json& mission, const Json& steps, const std::vector<StateSample>& states) {
+  Window window;
+  window.last_tick = states.empty() ? 0 : states.back().tick;
+  if (!steps.empty()) {
+    window.first_tick = steps.front().value("start_tick", std::uint64_t{0});
+    window.last_tick = std::max(window.first_tick, steps.back().value("end_tick", window.last_tick));
+  }
+  if (mission.contains("repair_tick") && mission["repair_tick"].is_number_unsigned())
+    window.last_tick = mission["repair_tick"];
+  return window;
+}
+
+// The steps the mission reported, or else announced: all but the last one made way for the next.
+Json known_steps(const Json& mission, const ReportSources& sources) {
+  if (mission.contains("steps")) return mission["steps"];
+  Json steps = Json::array();
+  for (std::size_t i = 0; i < sources.announced.size(); ++i) {
+    const ReportedStep& step = sources.announced[i];
+    const bool last = i + 1 == sources.announced.size();
+    const std::uint64_t end = last ? step.last_tick : sources.announced[i + 1].start_tick;
+    steps.push_back({{"name", step.name},
+                     {"device", step.device},
+                     {"outcome", last ? "failed" : "success"},
+                     {"start_tick", step.start_tick},
+                     {"end_tick", end},
+                     {"duration_s",
+                      static_cast<double>(end - step.start_tick) * object_of(sources.welcome).value("period_s", 0.0)}});
+    if (last) steps.back()["reason"] = "the mission runner left no report";
+  }
+  return steps;
+}
+
+Json steps_of(const Json& known) {
+  Json steps = Json::array();
+  for (const Json& step : known) {
+    Json kept = Json::object();
+    for (const char* key : {"name", "device", "held_theta", "duration_s", "outcome", "reason"}) {
+      if (step.contains(key)) kept[key] = step[key];
+    }
+    steps.push_back(kept);
+  }
+  return steps;
+}
+
+const StateSample* sample_at(const std::vector<StateSample>& states, std::uint64_t tick) {
+  const StateSample* best = nullptr;
+  for (const StateSample& sample : states) {
+    if (sample.tick <= tick) best = &sample;
+  }
+  return best;
+}
+
+double distance_m(const Pose& a, const Pose& b) { return norm(subtract(a.position_m, b.position_m)); }
+
+double angle_rad(const Pose& a, const Pose& b) {
+  return norm(rotation_vector(multiply(conjugate(a.quaternion), b.quaternion)));
+}
+
+void add_truth(Json& report, const ReportSources& sources, const Window& window) {
+  const TruthLog truth = TruthLog::load(sources.truth_file);
+  if (truth.row_count() == 0) return;
+  const std::size_t first = truth.row_of_slot(window.first_tick);
+  const std::size_t last = truth.row_of_slot(window.last_tick);
+  const Pose tip = truth.tip(last);
+  if (sources.rod) {
+    const Pose rod{sources.rod->position_m, sources.rod->quaternion_wxyz};
+    report["tip_error_m"] = distance_m(tip, rod);
+    report["tip_attitude_error_rad"] = angle_rad(tip, rod);
+  }
+  if (const StateSample* state = sample_at(sources.states, window.last_tick)) {
+    report["open_loop_tip_error_m"] = distance_m(tip, state->commanded_tip);
+  }
+  report["final_theta_deg"] = truth.theta_deg(last);
+  report["min_clearance_m"] = truth.smallest("clearance_m", first, last);
+  report["min_slit_clearance_m"] = truth.smallest("slit_clearance_m", first, last);
+  report["min_sphere_clearance_m"] = truth.smallest("sphere_clearance_m", first, last);
+  report["max_contact_force_N"] = truth.largest("contact_force_N", first, last);
+  report["rod_force_N"] = truth.at(last, "rod_force_N");
+  report["cable_tension_N"] = {{"min", truth.smallest("tension_min_N", first, last)},
+                               {"min_motor", truth.smallest("tension_motor_min_N", first, last)},
+                               {"max", truth.largest("tension_motor_max_N", first, last)}};
+}
+
+// Per bus: loads and frames; the wire's own count (embedded bus) goes before lianad's.
+Json buses_of(const Json& state, const Json& stats) {
+  Json buses = Json::array();
+  const Json counted = stats.value("buses", Json::array());
+  for (const Json& bus : state.value("buses", Json::array())) {
+    Json entry = {{"name", bus.value("name", "")},
+                  {"worst_load", bus.value("worst_load", 0.0)},
+                  {"measured_load", bus.value("measured_load", 0.0)},
+                  {"frames", bus.value("frames", 0)}};
+    for (const Json& wire : counted) {
+      if (wire.value("name", "") != entry["name"]) continue;
+      entry["frames"] = wire.value("frames", 0);
+      entry["measured_load"] = wire.value("load", 0.0);
+    }
+    buses.push_back(entry);
+  }
+  return buses;
+}
+
+std::string line(const char* format, double value) {
+  char text[128];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string clearance_text(const Json& report) {
+  constexpr double kNothing_m = 999.0;  // the bench says 1000 where there is nothing
+  const double slit_m = report["min_slit_clearance_m"], sphere_m = report["min_sphere_clearance_m"];
+  std::string text;
+  if (slit_m < kNothing_m) text += line(", slit %.1f mm", 1e3 * slit_m);
+  if (sphere_m < kNothing_m) text += line(", sphere %.0f mm", 1e3 * sphere_m);
+  return "clearance: " + (text.empty() ? "nothing in the scene" : text.substr(2)) + "\n";
+}
+
+}  // namespace
+
+Json make_report(const ReportSources& sources) {
+  const Json mission = read_json(sources.mission_report_file);
+  const Json state = object_of(sources.last_state);
+  const Json welcome = object_of(sources.welcome);
+  const Json steps = known_steps(mission, sources);
+  const Window window = window_of(mission, steps, sources.states);
+  const std::uint64_t ticks = window.last_tick - window.first_tick;
+  Json report = {{"outcome", sources.outcome.empty() ? mission.value("outcome", "failed") : sources.outcome},
+                 {"robot", sources.robot},
+                 {"mission", sources.mission},
+                 {"physics", sources.physics},
+                 {"seed", sources.seed},
+                 {"time_mode", sources.time_mode},
+                 {"config_hash", welcome.value("config_hash", "")},
+                 {"duration_s", static_cast<double>(ticks) * welcome.value("period_s", 0.0)},
+                 {"steps", steps_of(steps)},
+                 {"ticks", ticks},
+                 {"overruns", state.value("overruns", 0)},
+                 {"faults", state.value("faults", Json::array())},
+                 {"buses", buses_of(state, read_json(sources.bus_stats_file))}};
+  // The mission may have ended before the fault came; an arm that stands in a fault has not succeeded.
+  if (report["outcome"] == "success" && !report["faults"].empty()) {
+    report["outcome"] = "failed";
+    report["reason"] = "a fault is latched at the end";
+  } else if (report["outcome"] != "success") {
+    report["reason"] = sources.reason.empty() ? mission.value("reason", "") : sources.reason;
+  }
+  if (std::filesystem::exists(sources.truth_file)) add_truth(report, sources, window);
+  return report;
+}
+
+std::string report_text(const Json& report) {
+  std::string text =
+      "outcome " + report.value("outcome", "") + line(", arm time %.1f s\n", report.value("duration_s", 0.0));
+  if (!report.value("reason", "").empty()) text += "reason: " + report.value("reason", "") + "\n";
+  for (const Json& fault : report.value("faults", Json::array())) {
+    text += "fault " + std::to_string(fault.value("number", 0)) + " " + fault.value("name", "") + ": " +
+            fault.value("text", "") + "\n";
+  }
+  for (const Json& step : report.value("steps", Json::array())) {
+    text += line("  %7.1f s  ", step.value("duration_s", 0.0)) + step.value("outcome", "") + "  " +
+            step.value("name", "") + " (" + step.value("device", "none") + ")\n";
+  }
+  if (report.contains("tip_error_m")) {
+    text += line("tip error %.2f mm", 1e3 * report["tip_error_m"].get<double>()) +
+            line(", %.3f deg", 57.29577951308232 * report["tip_attitude_error_rad"].get<double>()) +
+            line(" (open loop %.1f mm)\n", 1e3 * report.value("open_loop_tip_error_m", 0.0));
+  }
+  if (report.contains("min_slit_clearance_m")) {
+    text += clearance_text(report) + line("contact force %.2f N", report["max_contact_force_N"].get<double>()) +
+            line(", cable tension %.1f", report["cable_tension_N"]["min"].get<double>()) +
+            line(" to %.1f N\n", report["cable_tension_N"]["max"].get<double>());
+  }
+  for (const Json& bus : report.value("buses", Json::array())) {
+    text += "bus " + bus.value("name", "") + line(": %.0f frames", bus.value("frames", 0.0)) +
+            line(", load %.1f %%", 100.0 * bus.value("measured_load", 0.0)) +
+            line(" (worst case %.1f %%)\n", 100.0 * bus.value("worst_load", 0.0));
+  }
+  return text;
+}
+
+}  // namespace liana

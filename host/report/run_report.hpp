@@ -1,0 +1,52 @@
+// The report of `liana run`: what the mission says, what lianad counted, what the physics did.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware_like/math/pose.hpp"
+#include "host/config/config.hpp"
+#include "host/json/json_fwd.hpp"
+
+namespace liana {
+
+// What is kept of every state message.
+struct StateSample {
+  std::uint64_t tick = 0;
+  Pose commanded_tip{};  // kinematics of the commanded joint angles
+};
+
+// A step as the mission announced it.
+struct ReportedStep {
+  int index = 0;
+  std::string name, device;
+  std::uint64_t start_tick = 0;
+  std::uint64_t last_tick = 0;  // the last at which the mission was seen to own motion in this step
+};
+
+// Everything a report is made of. Files that do not exist leave their keys out.
+struct ReportSources {
+  std::string outcome;                  // overrides the mission's when not empty
+  std::string reason;                   // beside an outcome that is not success; the mission's own where empty
+  std::string robot, mission, physics;  // as they were given
+  std::uint64_t seed = 0;
+  std::string time_mode;
+  std::string truth_file;           // of the bench
+  std::string mission_report_file;  // of liana-mission
+  std::string bus_stats_file;       // of liana-bus
+  std::vector<StateSample> states;
+  std::vector<ReportedStep> announced;  // stands in for the steps of a mission runner that left no report
+  const Json* welcome = nullptr;        // of lianad
+  const Json* last_state = nullptr;     // of lianad
+  std::optional<ScenePose> rod;         // none: the scene has none
+};
+
+// The report with the keys of docs/command-line.md.
+Json make_report(const ReportSources& sources);
+
+// A few lines for people.
+std::string report_text(const Json& report);
+
+}  // namespace liana

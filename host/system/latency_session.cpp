@@ -1,0 +1,141 @@
+#include "host/system/latency_session.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <stdexcept>
+
+#include "host/system/errors.hpp"
+#include "host/system/observer.hpp"
+
+namespace liana {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kReadyTimeout_s = 20.0;  // boot and enabling, each; they take about 2 s
+constexpr double kAnswerTimeout_s = 10.0;
+constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
+constexpr double kLook_s = 0.05;
+// Bus and bench stand for hardware, which is never late for want of a processor; under lianad's real-time thread (80).
+constexpr int kHardwarePriority = 70;
+
+double now_s() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
+
+void show_progress(double passed_s, double seconds) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  std::fprintf(stderr, passed_s < seconds ? "\r\x1b[Kmeasuring: %.0f of %.0f s" : "\r\x1b[K", passed_s, seconds);
+  std::fflush(stderr);
+}
+
+}  // namespace
+
+LatencySession::LatencySession(const SystemLayout& plan) : plan_(plan) {}
+
+LatencySession::~LatencySession() { shut_down(); }
+
+LatencyMeasurement LatencySession::measure(double seconds) {
+  start();
+  LatencyMeasurement measured;
+  measured.enabled = enable();
+  ask({{"op", "timing"}, {"reset", true}});
+  const double begin_s = now_s();
+  for (double passed_s = 0.0; passed_s < seconds; passed_s = now_s() - begin_s) {
+    show_progress(passed_s, seconds);
+    look(std::min(kLook_s, seconds - passed_s));
+    measured.enabled = measured.enabled && state_.value("state", "") == "ENABLED";
+  }
+  show_progress(seconds, seconds);
+  measured.timing = ask({{"op", "timing"}});
+  if (measured.timing.value("op", "") != "ok")
+    throw std::runtime_error("lianad: " + measured.timing.value("message", ""));
+  measured.last_state = state_;
+  return measured;
+}
+
+void LatencySession::start() {
+  for (const ProgramCall& call : plan_.programs) {
+    children_.push_back(std::make_unique<ChildProcess>(call.name, call.argv, plan_.file(call.name + ".log"),
+                                                       call.name == "lianad" ? 0 : kHardwarePriority));
+    if (call.name == "liana-bench") continue;
+    const std::string socket = call.name == "lianad" ? plan_.api_socket() : plan_.bus_socket();
+    if (!wait_for_socket(socket, *children_.back(), interrupts_.any())) {
+      require_alive();
+      throw std::runtime_error(call.name + " did not open its socket within 30 s");
+    }
+    if (call.name == "lianad") {
+      api_ = ApiClient::connect(plan_.api_socket());
+      say_hello(*api_, "liana latency", Observer::kClient);
+    }
+  }
+}
+
+bool LatencySession::enable() {
+  if (!reaches("DISABLED")) return false;
+  ask({{"op", "acquire"}});
+  return ask({{"op", "state_command"}, {"command", "enable"}}).value("op", "") == "ok" && reaches("ENABLED");
+}
+
+bool LatencySession::reaches(const std::string& state) {
+  const double deadline_s = now_s() + kReadyTimeout_s;
+  while (now_s() < deadline_s && state_.value("state", "") != "FAULT") {
+    look(kLook_s);
+    if (state_.value("state", "") == state && state_.value("is_homed", false) && state_.value("at_rest", false))
+      return true;
+  }
+  return false;
+}
+
+void LatencySession::look(double timeout_s) {
+  require_alive();
+  std::optional<Json> message;
+  try {
+    message = api_->receive(timeout_s);
+  } catch (const std::runtime_error&) {
+    for (const auto& child : children_) child->wait(0.5);  // whoever ended first pulled lianad along
+    require_alive();
+    throw;
+  }
+  if (!message) return;
+  const std::string op = message->value("op", "");
+  if (op == "state") state_ = *message;
+  if (op == "ok" || op == "error") answer_ = *message;
+}
+
+Json LatencySession::ask(Json request) {
+  request["id"] = ++last_id_;
+  api_->send(request);
+  const double deadline_s = now_s() + kAnswerTimeout_s;
+  while (answer_.value("id", 0) != last_id_) {
+    if (now_s() > deadline_s)
+      throw std::runtime_error("lianad did not answer " + request.value("op", "") + " within 10 s");
+    look(kLook_s);
+  }
+  return answer_;
+}
+
+void LatencySession::require_alive() {
+  if (interrupts_.count() > 0) throw Interrupted("interrupted: the arm is stopped, nothing was measured");
+  const auto worst = worst_end(children_, [](const ChildProcess&, const ChildEnd&) { return true; });
+  if (worst) throw std::runtime_error(worst->text);
+}
+
+// lianad stops the arm and leaves the bus; bus and bench then end by themselves.
+void LatencySession::shut_down() {
+  try {
+    if (api_) api_->send({{"op", "shutdown"}});
+    const double deadline_s = now_s() + kEndGrace_s;
+    const auto running = [](const auto& child) { return !child->poll(); };
+    while (now_s() < deadline_s && std::any_of(children_.begin(), children_.end(), running)) {
+      if (!api_) break;
+      api_->receive(kLook_s);
+    }
+  } catch (const std::runtime_error&) {  // lianad has left
+    for (const auto& child : children_) child->wait(kEndGrace_s / 2);
+  }
+  for (const auto& child : children_) child->end(1.0);
+}
+
+}  // namespace liana

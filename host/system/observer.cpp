@@ -1,0 +1,58 @@
+#include "host/system/observer.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <stdexcept>
+
+#include "host/api/client.hpp"
+#include "host/api/registry.hpp"
+#include "host/json/json.hpp"
+#include "host/system/errors.hpp"
+
+namespace liana {
+
+std::vector<std::string> systems_to_ask(const std::string& given) {
+  if (!given.empty()) {
+    std::error_code error;
+    const auto kind = std::filesystem::status(given, error).type();
+    if (kind == std::filesystem::file_type::not_found || error)
+      throw BadInput("--api: '" + given + "': no such socket; is lianad running there?");
+    if (kind != std::filesystem::file_type::socket)
+      throw BadInput("--api: '" + given + "': is no socket; give the API socket of a lianad");
+    return {given};
+  }
+  std::vector<std::string> systems = running_systems();
+  if (systems.empty()) {
+    throw BadInput("no system of this user is running (looked in " + registry_folder() +
+                   "); start one with liana run, or name its socket with --api");
+  }
+  return systems;
+}
+
+std::optional<Json> wait_for(ApiClient& client, const std::string& op, double timeout_s) {
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
+  while (std::chrono::steady_clock::now() < deadline) {
+    const auto left = std::chrono::duration<double>(deadline - std::chrono::steady_clock::now()).count();
+    auto message = client.receive(left);
+    if (!message) return std::nullopt;
+    if (message->value("op", "") == op) return message;
+    if (message->value("op", "") == "error")
+      throw std::runtime_error("lianad: " + message->value("message", message->dump()));
+  }
+  return std::nullopt;
+}
+
+void say_hello(ApiClient& client, const std::string& name, Observer observer) {
+  const Json subscriptions = observer == Observer::kBlind ? Json::array() : Json::array({"state"});
+  const char* role = observer == Observer::kClient ? "client" : "observer";
+  client.send({{"op", "hello"}, {"name", name}, {"role", role}, {"lockstep", false}, {"subscribe", subscriptions}});
+}
+
+Json hello_as_observer(ApiClient& client, const std::string& name) {
+  say_hello(client, name, Observer::kSeeing);
+  const auto welcome = wait_for(client, "welcome", 5.0);
+  if (!welcome) throw std::runtime_error("lianad does not answer on its API socket");
+  return *welcome;
+}
+
+}  // namespace liana

@@ -1,0 +1,60 @@
+#include "host/system/plan_file.hpp"
+
+#include "host/config/field.hpp"
+#include "host/json/json.hpp"
+#include "host/plan/check/plan_check.hpp"
+#include "host/plan/plan_refusal.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/tables.hpp"
+
+namespace liana {
+namespace {
+
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr std::size_t kMostWaypoints = 2000;  // a followed curve has as many as it needs
+constexpr double kRounding_m = 1e-9;          // of angles that became degrees in between
+
+void check_scene(const std::string& file, const Json& plan, const SceneConfig& scene) {
+  const Json of_plan = plan.value("/inputs/scene"_json_pointer, Json());
+  if (of_plan == Json::parse(scene.canonical_json)) return;
+  throw BadInput("--scene: '" + scene.name + "': the plan " + file + " was made for another scene" +
+                 (of_plan.is_object() ? ", '" + of_plan.value("name", "") + "'" : "") +
+                 "; run it in that one, or plan again");
+}
+
+Path read_waypoints(const Field& plan, const RobotTable& table) {
+  const auto count = static_cast<std::size_t>(table.theta_count());
+  const Field rows = plan.at("waypoints_deg");
+  Path path(rows.size(2, kMostWaypoints, "plan a way, not only its end (--waypoints)"));
+  for (std::size_t w = 0; w < path.size(); ++w) {
+    rows.element(w).size(count, count, "give an angle for every theta of the robot");
+    for (std::size_t k = 0; k < count; ++k) path[w][k] = kDegree * rows.element(w).element(k).number({-180, 180});
+  }
+  return path;
+}
+
+}  // namespace
+
+void check_plan_file(const std::string& file, const RobotConfig& robot, const SceneConfig& scene) {
+  const Json content =
+      checked([&] { return parse_json(read_text_file(file), file, "give a file that liana plan --out has written"); });
+  check_scene(file, content, scene);
+  const Field plan(content, file, "");
+  PlanRequest limits;
+  limits.robot = robot;
+  limits.scene = scene;
+  Path path;
+  checked([&] {
+    const Field inputs = plan.at("inputs");
+    limits.margin_m = inputs.at("margin_m").number({0, 0.5}) - kRounding_m;
+    limits.max_step_rad = kDegree * inputs.at("max_step_deg").number({0, 180, true});
+    path = read_waypoints(plan, robot.table);
+    return 0;
+  });
+  const auto refused = refusal_of(limits, check_plan(robot, scene, path, plain_tip(robot.table, path.back())));
+  if (refused)
+    throw BadInput(file + ": waypoints_deg: " + refused->reason +
+                   ": the file is not what liana plan wrote: plan again");
+}
+
+}  // namespace liana

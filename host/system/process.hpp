@@ -1,0 +1,81 @@
+// Child processes of `liana run`: started, watched, ended.
+#pragma once
+
+#include <sys/types.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace liana {
+
+// How a child ended: its exit code, or 128 + the signal that killed it.
+struct ChildEnd {
+  int code = 0;
+  int signal = 0;  // 0 = it exited by itself
+};
+
+// "ended with code 1", "was killed by signal 9".
+std::string how(const ChildEnd& end);
+
+// Of a program's log, in what is said about its end.
+constexpr int kShownLines = 5;
+
+// One running program; its standard output and error go to a log file. It is told to end when its parent dies.
+class ChildProcess {
+ public:
+  // Starts argv[0] (a path) with its output appended to `log_path`; throws std::runtime_error when it cannot be
+  // started. `realtime_priority` over 0: with SCHED_FIFO at that priority, where the machine grants it.
+  ChildProcess(std::string name, const std::vector<std::string>& argv, std::string log_path, int realtime_priority = 0);
+  ~ChildProcess();
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  const std::string& name() const { return name_; }
+  // How it ended, or nothing while it runs.
+  std::optional<ChildEnd> poll();
+  // Waits at most `timeout_s` for its end.
+  std::optional<ChildEnd> wait(double timeout_s);
+  // SIGTERM, and SIGKILL when it is still there after `grace_s`.
+  void end(double grace_s);
+  // The last `count` lines of its log.
+  std::string last_lines(int count) const;
+
+ private:
+  std::string name_;
+  std::string log_path_;
+  pid_t pid_ = -1;
+  std::optional<ChildEnd> end_;
+};
+
+// Waits until `path` is there; false when `maker` has ended without it, `stop` became true, or after 30 s.
+bool wait_for_socket(const std::string& path, ChildProcess& maker, const std::atomic<bool>& stop);
+
+// How one of several programs ended, and in words: its name, its end, the last lines of its log.
+struct NamedEnd {
+  ChildEnd end;
+  std::string text;
+};
+
+// Of the programs that have ended and whose end `counts`, the one that ended worst: killed, failed, then in order.
+// Nothing without any.
+std::optional<NamedEnd> worst_end(const std::vector<std::unique_ptr<ChildProcess>>& children,
+                                  const std::function<bool(const ChildProcess&, const ChildEnd&)>& counts);
+
+// What a short helper program printed.
+struct Captured {
+  int code = 0;
+  std::string out;
+  std::string error;
+};
+
+// Runs argv to its end and captures what it prints; throws std::runtime_error when it cannot be started.
+Captured run_and_capture(const std::vector<std::string>& argv);
+
+// Path of a program that lies beside the running one; throws std::runtime_error when it is not there.
+std::string sibling_program(const std::string& name);
+
+}  // namespace liana

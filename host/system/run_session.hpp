@@ -1,0 +1,69 @@
+// The processes of one run: started in order, watched, ended together.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/api/client.hpp"
+#include "host/json/json.hpp"
+#include "host/report/run_report.hpp"
+#include "host/system/interrupt.hpp"
+#include "host/system/process.hpp"
+#include "host/system/progress.hpp"
+#include "host/system/system_layout.hpp"
+
+namespace liana {
+
+// How a run ended, as far as the processes tell.
+struct RunEnd {
+  std::string outcome;     // empty: the mission's own report says it
+  std::string message;     // why, when something went wrong outside the mission
+  bool bad_input = false;  // a program refused what it was given before anything moved
+};
+
+class RunSession {
+ public:
+  explicit RunSession(const SystemLayout& plan);
+  ~RunSession();
+  RunSession(const RunSession&) = delete;
+  RunSession& operator=(const RunSession&) = delete;
+
+  // Starts everything, waits until the mission has ended, ends everything. Ctrl-C is a stop; a second one ends at once.
+  RunEnd run();
+
+  const std::vector<StateSample>& states() const { return states_; }
+  const std::vector<ReportedStep>& announced() const { return announced_; }
+  const Json& welcome() const { return welcome_; }
+  const Json& last_state() const { return last_state_; }
+
+ private:
+  std::optional<RunEnd> start();
+  RunEnd watch();
+  RunEnd conclusion();
+  std::optional<RunEnd> dead_child(bool failed_only);
+  RunEnd end_of_mission(const ChildEnd& end);
+  RunEnd interrupted();
+  void look(double timeout_s);
+  bool take(double timeout_s);
+  void keep(const Json& state);
+  void request(const Json& message);
+  bool is_stopped() const;
+  std::string how_the_arm_was_left() const;
+  void shut_down();
+  void remove_stale_entry() const;
+
+  const SystemLayout& plan_;
+  InterruptGuard interrupts_;
+  Progress progress_;
+  std::vector<std::unique_ptr<ChildProcess>> children_;
+  ChildProcess* mission_ = nullptr;
+  std::optional<ApiClient> api_;
+  Json welcome_;
+  Json last_state_;
+  std::vector<StateSample> states_;
+  std::vector<ReportedStep> announced_;
+};
+
+}  // namespace liana

@@ -1,0 +1,43 @@
+// What one `liana run` starts: where its files are and how every program is called.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/config/config.hpp"
+#include "host/system/run_options.hpp"
+
+namespace liana {
+
+// One program to start.
+struct ProgramCall {
+  std::string name;
+  std::vector<std::string> argv;
+};
+
+// The files, sockets and programs of one run, all inputs checked.
+struct SystemLayout {
+  std::string directory;   // everything that is written; the user's with --record
+  std::string socket_dir;  // short temporary path: socket names are limited to 107 bytes
+  bool keep_directory = false;
+  std::string time_mode;
+  BusesConfig buses;
+  SceneConfig scene;
+  std::vector<ProgramCall> programs;  // in the order in which they start
+
+  std::string file(const std::string& name) const { return directory + "/" + name; }
+  std::string api_socket() const { return socket_dir + "/api"; }
+  std::string bus_socket() const { return socket_dir + "/bus"; }
+};
+
+// Evaluates and checks tables and mission, makes the directories, writes the tables there. Without a mission there is
+// no operator either. Throws BadInput.
+SystemLayout make_layout(const RunOptions& options);
+
+// Refuses anything but empty text or two different drives from 0 to `drives` - 1, e.g. 3,4. Throws BadInput.
+void check_cross_wired(const std::string& list, std::size_t drives);
+
+// Removes what the run does not keep.
+void clean_up(const SystemLayout& plan, bool success);
+
+}  // namespace liana

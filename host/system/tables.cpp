@@ -1,0 +1,65 @@
+#include "host/system/tables.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "host/system/process.hpp"
+
+namespace liana {
+namespace {
+
+// The evaluator's first line, without its program name: one message for the user.
+std::string first_message(const Captured& captured) {
+  std::string line = captured.error.substr(0, captured.error.find('\n'));
+  const std::string prefix = "liana-mission: ";
+  if (line.starts_with(prefix)) line.erase(0, prefix.size());
+  return line.empty() ? "liana-mission eval ended with code " + std::to_string(captured.code) + " and no message"
+                      : line;
+}
+
+std::string evaluate(std::vector<std::string> words) {
+  words.insert(words.begin(), {sibling_program("liana-mission"), "eval"});
+  const Captured captured = run_and_capture(words);
+  if (captured.code != 0) throw BadInput(first_message(captured));
+  return captured.out;
+}
+
+std::string read_file(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw BadInput(path + ": cannot be read; give a table's name or an existing file");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void refuse_directory(const std::string& kind, const std::string& name) {
+  std::error_code unreadable;
+  const bool is_file = name.find('/') != std::string::npos || name.ends_with(".json");
+  if (is_file && std::filesystem::is_directory(name, unreadable)) {
+    throw BadInput(kind + ": '" + name + "': is a directory; give a name or an existing file");
+  }
+}
+
+}  // namespace
+
+std::string evaluate_table(const std::string& kind, const std::string& name) {
+  refuse_directory(kind, name);
+  return name.ends_with(".json") ? read_file(name) : evaluate({"--", kind, name});
+}
+
+void check_mission(const std::string& name, const std::string& robot) {
+  refuse_directory("mission", name);
+  evaluate({"--robot=" + robot, "--", "mission", name});
+}
+
+SceneConfig scene_of(const std::string& name) {
+  const std::string scene = evaluate_table("scene", name);
+  return checked([&] { return parse_scene(scene, name); });
+}
+
+RobotConfig robot_for_kinematics(const std::string& name) {
+  const std::string robot = evaluate_table("robot", name);
+  const std::string buses = evaluate_table("buses", "embedded");
+  return checked([&] { return parse_robot(robot, name, "nominal", parse_buses(buses, "embedded")); });
+}
+
+}  // namespace liana

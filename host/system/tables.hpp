@@ -1,0 +1,36 @@
+// Robot, scene and bus tables by name: evaluated by `liana-mission eval`, the only place where Lua tables are read.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+#include "host/config/config.hpp"
+#include "host/system/errors.hpp"
+
+namespace liana {
+
+// Canonical JSON of a table; kind is robot, scene or buses, `name` a name under lua/ or a file (.lua, or .json as
+// exported). Throws BadInput with the evaluator's one message.
+std::string evaluate_table(const std::string& kind, const std::string& name);
+
+// Checks a mission script against a robot (a name, or exported JSON) without running it; throws BadInput with the
+// evaluator's one message.
+void check_mission(const std::string& name, const std::string& robot);
+
+// Runs a loader of host/config and turns its refusal into BadInput.
+template <typename Loader>
+auto checked(const Loader& loader) {
+  try {
+    return loader();
+  } catch (const std::runtime_error& error) {
+    throw BadInput(error.what());
+  }
+}
+
+// A scene, checked.
+SceneConfig scene_of(const std::string& name);
+
+// The robot as pose and ik need it, on the default buses.
+RobotConfig robot_for_kinematics(const std::string& name);
+
+}  // namespace liana

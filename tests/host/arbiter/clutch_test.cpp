@@ -1,0 +1,56 @@
+// Clutch: P_r = a P_m from the anchors, and never a jump on engaging (A27).
+#include "host/arbiter/clutch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace liana {
+namespace {
+
+const Pose kTip{{1.0, -0.5, 0.3}, normalize({0.9, 0.1, -0.3, 0.2})};
+const Pose kHand{{0.02, 0.03, -0.01}, normalize({0.8, -0.2, 0.5, 0.1})};
+
+double turn_between(const Quat& a, const Quat& b) { return norm(rotation_vector(multiply(a, conjugate(b)))); }
+
+TEST(Clutch, EngagingNeverMovesTheGoal) {
+  for (const double scale : {0.2, 1.0, 4.0}) {
+    const Pose goal = clutch_goal({scale, 0.7}, {kHand, kTip}, kHand);
+    EXPECT_EQ(goal.position_m, kTip.position_m);
+    EXPECT_NEAR(turn_between(goal.quaternion, kTip.quaternion), 0.0, 1e-15);
+  }
+}
+
+TEST(Clutch, TranslationIsScaledAndParallel) {
+  Pose hand = kHand;
+  hand.position_m = add(hand.position_m, {0.01, -0.02, 0.03});
+  const Pose goal = clutch_goal({4.0, 1.0}, {kHand, kTip}, hand);
+  EXPECT_NEAR(goal.position_m[0] - kTip.position_m[0], 0.04, 1e-15);
+  EXPECT_NEAR(goal.position_m[1] - kTip.position_m[1], -0.08, 1e-15);
+  EXPECT_NEAR(goal.position_m[2] - kTip.position_m[2], 0.12, 1e-15);
+}
+
+TEST(Clutch, RotationIsScaledAboutTheSameAxis) {
+  Pose hand = kHand;
+  hand.quaternion = multiply(quaternion_of({0.0, 0.2, 0.0}), kHand.quaternion);
+  const Pose goal = clutch_goal({1.0, 0.5}, {kHand, kTip}, hand);
+  const Vec3 turn = rotation_vector(multiply(goal.quaternion, conjugate(kTip.quaternion)));
+  EXPECT_NEAR(turn[0], 0.0, 1e-12);
+  EXPECT_NEAR(turn[1], 0.1, 1e-12);
+  EXPECT_NEAR(turn[2], 0.0, 1e-12);
+  EXPECT_NEAR(turn_between(clutch_goal({1.0, 0.0}, {kHand, kTip}, hand).quaternion, kTip.quaternion), 0.0, 1e-12)
+      << "scale 0 locks attitude";
+}
+
+TEST(Clutch, ReindexingAddsUpWhatTheHandDidWhileEngaged) {
+  Pose tip = kTip;
+  for (int stroke = 0; stroke < 3; ++stroke) {
+    Pose end = kHand;
+    end.position_m[0] += 0.05;
+    tip = clutch_goal({2.0, 1.0}, {kHand, tip}, end);
+  }
+  EXPECT_NEAR(tip.position_m[0], kTip.position_m[0] + 0.30, 1e-12);
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,117 @@
+// Deadman, clutch and tracking state of the device in use.
+#include "host/arbiter/device_steer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace liana {
+namespace {
+
+constexpr double kInterval_s = 0.02;
+
+class Steering : public testing::Test {
+ protected:
+  Steering() {
+    now_.tip_command = {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+    now_.node_command_m[2] = {0.5, 0.5, 0.0};
+    use_.kind = DeviceKind::kVr;
+    use_.mapping.scale = 2.0;
+    use_.node = 3;
+    steer_.use(use_);
+  }
+  std::optional<SteerGoal> interval(double x, bool pressed = true, bool valid = true) {
+    for (int i = 0; i < 2; ++i) {
+      t_us_ += 10000;
+      steer_.add_tip_sample({t_us_, valid, pressed, Pose{{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}});
+    }
+    return steer_.finish_interval(now_, kInterval_s);
+  }
+  Outputs now_{};
+  DeviceUse use_{};
+  DeviceSteer steer_;
+  std::int64_t t_us_ = 0;
+};
+
+TEST_F(Steering, TheFirstGoalIsWhereTheTipIs) {
+  const auto goal = interval(0.3);
+  ASSERT_TRUE(goal);
+  EXPECT_EQ(goal->tip_in_base.position_m, now_.tip_command.position_m);
+}
+
+TEST_F(Steering, MovesAreCountedFromTheAnchor) {
+  interval(0.3);
+  EXPECT_NEAR(interval(0.31)->tip_in_base.position_m[0], 1.02, 1e-12);
+}
+
+TEST_F(Steering, AnOpenDeadmanMovesNothingAndReindexes) {
+  interval(0.3);
+  EXPECT_FALSE(interval(0.32, false));
+  EXPECT_FALSE(steer_.engaged());
+  const auto goal = interval(0.36);
+  ASSERT_TRUE(goal);
+  EXPECT_EQ(goal->tip_in_base.position_m, now_.tip_command.position_m) << "A27: no jump on engaging again";
+}
+
+TEST_F(Steering, AfterALossTheOperatorHasToLetGoFirst) {
+  interval(0.3);
+  for (int i = 0; i < 20; ++i) interval(0.3, true, false);
+  EXPECT_FALSE(steer_.engaged());
+  EXPECT_STREQ(steer_.reason(), "tracking lost");
+  EXPECT_FALSE(interval(0.3)) << "tracking is back, but the deadman was never opened";
+  EXPECT_FALSE(interval(0.3, false));
+  EXPECT_TRUE(interval(0.3));
+}
+
+TEST_F(Steering, AShortDropoutKeepsTheGoal) {
+  interval(0.3);
+  const Pose before = interval(0.32)->tip_in_base;
+  for (int i = 0; i < 7; ++i) {  // 140 ms
+    const auto goal = interval(0.32, true, false);
+    ASSERT_TRUE(goal);
+    EXPECT_EQ(goal->tip_in_base.position_m, before.position_m);
+  }
+}
+
+TEST_F(Steering, ASilentDeviceDisengages) {
+  interval(0.3);
+  for (int i = 0; i < 5; ++i) EXPECT_TRUE(steer_.finish_interval(now_, kInterval_s)) << i;
+  EXPECT_FALSE(steer_.finish_interval(now_, kInterval_s));
+  EXPECT_STREQ(steer_.reason(), "device silent");
+}
+
+TEST_F(Steering, ADroppedAnchorStartsAgainFromTheTip) {
+  interval(0.3);
+  interval(0.4);
+  now_.tip_command.position_m = {1.05, 0.0, 0.0};
+  steer_.drop_anchor();
+  EXPECT_EQ(interval(0.4)->tip_in_base.position_m, now_.tip_command.position_m);
+}
+
+TEST_F(Steering, AHoldByOthersNeedsAFreshGrip) {
+  interval(0.3);
+  steer_.let_go();
+  EXPECT_FALSE(interval(0.3));
+  interval(0.3, false);
+  EXPECT_TRUE(interval(0.3));
+}
+
+TEST_F(Steering, TheLeftHandMovesTheNodeAndLeavesItThere) {
+  const auto left = [&](double x, bool pressed) {
+    steer_.add_node_sample({t_us_ + 1, true, pressed, Pose{{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}});
+    return interval(0.3)->node;
+  };
+  EXPECT_EQ(left(0.0, false).node, 0) << "no node target before the left hand engages";
+  EXPECT_EQ(left(0.0, true).position_m, now_.node_command_m[2]);
+  EXPECT_NEAR(left(0.05, true).position_m[0], 0.6, 1e-12);
+  EXPECT_NEAR(left(0.08, false).position_m[0], 0.6, 1e-12) << "let go: stays";
+  EXPECT_EQ(left(0.08, false).node, 3);
+}
+
+TEST_F(Steering, EverySampleIsCounted) {
+  for (int i = 0; i < 10; ++i) interval(0.3);
+  EXPECT_EQ(steer_.samples(), 20u);
+}
+
+}  // namespace
+}  // namespace liana

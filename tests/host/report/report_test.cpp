@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "host/json/json.hpp"
+#include "host/report/run_report.hpp"
+#include "host/report/truth.hpp"
+
+namespace liana {
+namespace {
+
+// A directory that goes away with the test.
+class RunReport : public testing::Test {
+ protected:
+  RunReport() {
+    directory_ = testing::TempDir() + "liana-report-" +
+                 std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
+                 testing::UnitTest::GetInstance()->current_test_info()->name();
+    std::filesystem::create_directories(directory_);
+  }
+  ~RunReport() override { std::filesystem::remove_all(directory_); }
+
+  std::string file(const std::string& name) const { return directory_ + "/" + name; }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(file(name)) << text; }
+
+  // One row per slot 0..9; the tip moves along x, clearance falls by 1 mm a slot.
+  void write_truth() const {
+    std::ofstream out(file("truth.bin"), std::ios::binary);
+    const Json columns = {"slot",
+                          "theta_deg_1",
+                          "theta_deg_2",
+                          "tip_x_m",
+                          "tip_y_m",
+                          "tip_z_m",
+                          "tip_qw",
+                          "tip_qx",
+                          "tip_qy",
+                          "tip_qz",
+                          "clearance_m",
+                          "slit_clearance_m",
+                          "sphere_clearance_m",
+                          "contact_force_N",
+                          "rod_force_N",
+                          "tension_min_N",
+                          "tension_motor_min_N",
+                          "tension_motor_max_N"};
+    out << Json{{"columns", columns}}.dump() << '\n';
+    for (int slot = 0; slot < 10; ++slot) {
+      const double s = slot;
+      const double row[] = {s,   1 + s, 2 + s, 0.1 * s, 0,      0,     1, 0, 0, 0, 0.02 - 0.001 * s, 0.03 - 0.001 * s,
+                            0.5, s,     0.5,   20 - s,  30 - s, 40 + s};
+      out.write(reinterpret_cast<const char*>(row), sizeof row);
+    }
+    out.write("cut", 3);
+  }
+
+  ReportSources sources() const {
+    ReportSources sources;
+    sources.time_mode = "fast";
+    sources.truth_file = file("truth.bin");
+    sources.mission_report_file = file("mission.json");
+    sources.bus_stats_file = file("stats.json");
+    sources.states = {{0, {}}, {5, {{0.49, 0.0, 0.0}, {1, 0, 0, 0}}}, {9, {{0.9, 0.0, 0.0}, {1, 0, 0, 0}}}};
+    sources.rod = {{0.5, 0.003, 0.0}, {std::cos(0.001), std::sin(0.001), 0.0, 0.0}};
+    return sources;
+  }
+
+ private:
+  std::string directory_;
+};
+
+constexpr const char* kMission = R"({"outcome":"success","repair_tick":5,"steps":[
+  {"name":"prepare","device":"none","held_theta":[],"duration_s":0.008,"outcome":"done","start_tick":2,"end_tick":4},
+  {"name":"go","device":"hand","held_theta":[9],"duration_s":0.004,"outcome":"done","start_tick":4,"end_tick":5}]})";
+
+TEST_F(RunReport, TruthIsTakenFromStepOneToTheRepairCommand) {
+  write_truth();
+  write("mission.json", kMission);
+  const Json welcome = {{"config_hash", "abc"}, {"period_s", 0.004}};
+  ReportSources all = sources();
+  all.welcome = &welcome;
+  const Json report = make_report(all);
+  EXPECT_EQ(report["outcome"], "success");
+  EXPECT_EQ(report["ticks"], 3);
+  EXPECT_DOUBLE_EQ(report["duration_s"], 0.012);
+  EXPECT_DOUBLE_EQ(report["min_clearance_m"], 0.015);
+  EXPECT_DOUBLE_EQ(report["min_slit_clearance_m"], 0.025);
+  EXPECT_DOUBLE_EQ(report["max_contact_force_N"], 5.0);
+  EXPECT_DOUBLE_EQ(report["cable_tension_N"]["min"], 15.0);
+  EXPECT_DOUBLE_EQ(report["cable_tension_N"]["min_motor"], 25.0);
+  EXPECT_DOUBLE_EQ(report["cable_tension_N"]["max"], 45.0);
+  EXPECT_EQ(report["final_theta_deg"], Json({6.0, 7.0}));
+  EXPECT_EQ(report["steps"][1]["held_theta"], Json({9}));
+}
+
+TEST_F(RunReport, ErrorsCompareTheTrueTipWithTheRodAndWithWhatWasCommanded) {
+  write_truth();
+  write("mission.json", kMission);
+  const Json report = make_report(sources());
+  EXPECT_NEAR(report["tip_error_m"], 0.003, 1e-12);
+  EXPECT_NEAR(report["tip_attitude_error_rad"], 0.002, 1e-12);
+  EXPECT_NEAR(report["open_loop_tip_error_m"], 0.01, 1e-12);
+}
+
+TEST_F(RunReport, AnOutcomeOfTheRunGoesBeforeTheMissions) {
+  write_truth();
+  write("mission.json", kMission);
+  ReportSources all = sources();
+  all.outcome = "aborted";
+  EXPECT_EQ(make_report(all)["outcome"], "aborted");
+}
+
+TEST_F(RunReport, SaysWhatRan) {
+  ReportSources all = sources();
+  all.robot = "zhu2022";
+  all.mission = "my.lua";
+  all.physics = "worn";
+  all.seed = 9007199254740991;
+  const Json report = make_report(all);
+  EXPECT_EQ(report["robot"], "zhu2022");
+  EXPECT_EQ(report["mission"], "my.lua");
+  EXPECT_EQ(report["physics"], "worn");
+  EXPECT_EQ(report["seed"], 9007199254740991u);
+}
+
+TEST_F(RunReport, StepsOfAMissionRunnerThatLeftNoReportLastAsLongAsTheyWereSeen) {
+  const Json welcome = {{"period_s", 0.004}};
+  ReportSources all = sources();
+  all.welcome = &welcome;
+  all.announced = {{1, "prepare", "none", 2, 5}, {2, "go", "hand", 5, 8}};
+  const Json report = make_report(all);
+  ASSERT_EQ(report["steps"].size(), 2u);
+  EXPECT_EQ(report["steps"][0]["outcome"], "success");
+  EXPECT_DOUBLE_EQ(report["steps"][0]["duration_s"], 0.012);
+  EXPECT_EQ(report["steps"][1]["outcome"], "failed");
+  EXPECT_EQ(report["steps"][1]["name"], "go");
+  EXPECT_DOUBLE_EQ(report["steps"][1]["duration_s"], 0.012);
+  EXPECT_DOUBLE_EQ(report["duration_s"], 0.024);
+}
+
+TEST_F(RunReport, WithoutAMissionReportTheOutcomeIsFailed) {
+  const Json report = make_report(sources());
+  EXPECT_EQ(report["outcome"], "failed");
+  EXPECT_FALSE(report.contains("tip_error_m"));
+}
+
+TEST_F(RunReport, TheWiresOwnCountsGoBeforeTheDaemons) {
+  const Json state = Json::parse(R"({"buses":[{"name":"can0","frames":1,"worst_load":0.5,"measured_load":0.1}]})");
+  write("stats.json", R"({"buses":[{"name":"can0","frames":77,"load":0.4}]})");
+  ReportSources all = sources();
+  all.last_state = &state;
+  const Json bus = make_report(all)["buses"][0];
+  EXPECT_EQ(bus["frames"], 77);
+  EXPECT_EQ(bus["worst_load"], 0.5);
+  EXPECT_EQ(bus["measured_load"], 0.4);
+}
+
+TEST_F(RunReport, ATruthLogFindsTheRowOfASlotAndDropsACutRow) {
+  write_truth();
+  const TruthLog truth = TruthLog::load(file("truth.bin"));
+  EXPECT_EQ(truth.row_count(), 10u);
+  EXPECT_EQ(truth.row_of_slot(7), 7u);
+  EXPECT_EQ(truth.row_of_slot(99), 9u);
+  EXPECT_THROW(truth.at(0, "no_such_column"), std::runtime_error);
+  EXPECT_THROW(TruthLog::load(file("nothing")), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace liana

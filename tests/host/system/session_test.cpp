@@ -1,0 +1,165 @@
+// The processes of a run, with shell scripts in place of the programs and a thread in place of lianad's API.
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "host/api/socket.hpp"
+#include "host/json/json.hpp"
+#include "host/system/run_session.hpp"
+
+namespace liana {
+namespace {
+
+// Answers as lianad does: welcome, states, and after a stop DISABLED.
+class FakeDaemon {
+ public:
+  // `deaf`: leaves when it hears a stop, without having stopped anything.
+  explicit FakeDaemon(const std::string& path, bool deaf = false)
+      : deaf_(deaf), farewell_(path + ".farewell"), listener_(listen_at("--api", path)), thread_([this] { serve(); }) {}
+  ~FakeDaemon() {
+    quit_ = true;
+    thread_.join();
+  }
+  bool saw(const std::string& op) const { return op == "stop" ? stopped_.load() : shut_down_.load(); }
+
+ private:
+  void serve() {
+    while (!quit_ && !wait_readable(listener_.get(), 0.01)) {
+    }
+    if (quit_) return;
+    const UniqueFd client(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+    for (int tick = 0; !quit_ && !shut_down_; ++tick) {
+      if (stopped_ && deaf_) return;
+      Json state{{"op", "state"},
+                 {"tick", tick},
+                 {"time_s", 0.5},
+                 {"state", stopped_ ? "DISABLED" : "ENABLED"},
+                 {"stop", nullptr}};
+      if (stopped_) state["stop"] = {{"by", "liana run"}, {"reason", "interrupted"}, {"tick", tick}};
+      send_packet(client.get(), state.dump());
+      std::string packet;
+      if (!wait_readable(client.get(), 0.01) || receive_packet(client.get(), packet) != SocketResult::kDone) continue;
+      const std::string op = Json::parse(packet)["op"];
+      if (op == "hello") send_packet(client.get(), R"({"op":"welcome","config_hash":"abc","period_s":0.004})");
+      if (op == "stop") stopped_ = true;
+      if (op == "shutdown") shut_down_ = true;
+    }
+    say_farewell(client);
+  }
+
+  // The last states, faster than they are read; lianad's stand-in ends at once after them.
+  void say_farewell(const UniqueFd& client) {
+    for (int i = 0; i < 60; ++i) {
+      const Json state{{"op", "state"},
+                       {"tick", 1000 + i},
+                       {"time_s", 9.5},
+                       {"state", i < 59 ? "STOPPING" : "DISABLED"},
+                       {"stop", nullptr}};
+      send_packet(client.get(), state.dump());
+    }
+    std::ofstream(farewell_) << "said";
+  }
+
+  bool deaf_;
+  std::string farewell_;
+  UniqueFd listener_;
+  std::atomic<bool> quit_ = false, stopped_ = false, shut_down_ = false;
+  std::thread thread_;
+};
+
+class Session : public testing::Test {
+ protected:
+  Session() {
+    plan_.directory = testing::TempDir() + "liana-session-" + std::to_string(getpid());
+    std::filesystem::create_directories(plan_.directory);
+    plan_.socket_dir = plan_.directory;
+  }
+  ~Session() override { std::filesystem::remove_all(plan_.directory); }
+
+  void add(const std::string& name, const std::string& script) {
+    plan_.programs.push_back({name, {"/bin/sh", "-c", script}});
+  }
+  // A program that lives until it is told to end, as bus, bench and operator do.
+  void add_living(const std::string& name) { add(name, "exec sleep 60"); }
+
+  SystemLayout plan_;
+};
+
+TEST_F(Session, AMissionThatEndsByItselfLeavesTheOutcomeToItsReport) {
+  const FakeDaemon daemon(plan_.api_socket());
+  add("lianad", "exec sleep 0.5");
+  add("liana-mission", "echo '{}' > " + plan_.file("mission.json"));
+  RunSession session(plan_);
+  const RunEnd end = session.run();
+  EXPECT_EQ(end.outcome, "");
+  EXPECT_TRUE(daemon.saw("shutdown"));
+  EXPECT_EQ(session.welcome()["config_hash"], "abc");
+  EXPECT_FALSE(session.states().empty());
+}
+
+TEST_F(Session, EveryChangeOfStateIsShownOnceAndInOrderUpToTheEnd) {
+  const FakeDaemon daemon(plan_.api_socket());
+  add("lianad", "while [ ! -e " + plan_.api_socket() + ".farewell ]; do :; done");
+  add("liana-mission", "echo '{}' > " + plan_.file("mission.json"));
+  RunSession session(plan_);
+  testing::internal::CaptureStderr();
+  session.run();
+  const std::string shown = testing::internal::GetCapturedStderr();
+  EXPECT_NE(shown.find("ENABLED\n    9.5 s  STOPPING\n    9.5 s  DISABLED\n"), std::string::npos) << shown;
+}
+
+TEST_F(Session, ADyingBenchEndsTheRunWithItsNameAndLastLines) {
+  const FakeDaemon daemon(plan_.api_socket());
+  add("lianad", "exec sleep 0.5");
+  add("liana-bench", "sleep 0.2; echo first; echo cable 7 tore >&2; exit 3");
+  add_living("liana-mission");
+  const RunEnd end = RunSession(plan_).run();
+  EXPECT_EQ(end.outcome, "failed");
+  EXPECT_NE(end.message.find("liana-bench ended with code 3"), std::string::npos) << end.message;
+  EXPECT_NE(end.message.find("cable 7 tore"), std::string::npos) << end.message;
+}
+
+TEST_F(Session, AKilledMissionRunnerFailsTheRun) {
+  const FakeDaemon daemon(plan_.api_socket());
+  add("lianad", "exec sleep 0.5");
+  add("liana-mission", "kill -9 $$");
+  const RunEnd end = RunSession(plan_).run();
+  EXPECT_EQ(end.outcome, "failed");
+  EXPECT_NE(end.message.find("killed by signal 9"), std::string::npos) << end.message;
+}
+
+TEST_F(Session, AProgramThatRefusesItsInputAtTheStartIsBadInput) {
+  add("liana-bus", "echo buses.json: rate_hz: 0 >&2; exit 2");
+  const RunEnd end = RunSession(plan_).run();
+  EXPECT_TRUE(end.bad_input);
+  EXPECT_NE(end.message.find("rate_hz"), std::string::npos) << end.message;
+}
+
+TEST_F(Session, AnInterruptedRunSaysOnlyWhatIsKnownOfTheArm) {
+  const FakeDaemon daemon(plan_.api_socket(), true);
+  add("lianad", "exec sleep 0.5");
+  add("liana-mission", "kill -TERM " + std::to_string(getpid()) + "; exec sleep 60");
+  const RunEnd end = RunSession(plan_).run();
+  EXPECT_EQ(end.outcome, "aborted");
+  EXPECT_NE(end.message.find("lianad was gone before it confirmed the stop; the arm was last seen ENABLED, at 0.50 s"),
+            std::string::npos)
+      << end.message;
+}
+
+TEST_F(Session, CtrlCBecomesAStopOfTheArm) {
+  const FakeDaemon daemon(plan_.api_socket());
+  add("lianad", "exec sleep 0.5");
+  add("liana-mission", "kill -INT " + std::to_string(getpid()) + "; exec sleep 60");
+  const RunEnd end = RunSession(plan_).run();
+  EXPECT_EQ(end.outcome, "aborted");
+  EXPECT_TRUE(daemon.saw("stop"));
+  EXPECT_EQ(end.message, "interrupted: the arm was stopped and is DISABLED");
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,79 @@
+// Only the release step makes telecommands, and only with both verdicts.
+#include "host/verify/release.hpp"
+
+#include <gtest/gtest.h>
+
+#include <type_traits>
+
+namespace liana {
+namespace {
+
+static_assert(
+    !std::is_constructible_v<Telecommand, std::uint64_t, std::uint64_t, std::uint64_t, std::uint32_t, const Setpoint&>,
+    "nobody but Release and RecordingDecoder can make a telecommand");
+static_assert(!std::is_constructible_v<Candidate, const Telecommand&>, "nobody but Release can make a candidate");
+static_assert(!std::is_constructible_v<Candidate>);
+static_assert(!std::is_constructible_v<Telecommand, const Candidate&>);
+static_assert(std::is_default_constructible_v<Telecommand>, "an empty one, which commands nothing");
+
+ExecutionVerdict execution(std::uint64_t sequence, Refusal code = Refusal::kNone) {
+  ExecutionVerdict verdict;
+  verdict.sequence = sequence;
+  verdict.code = code;
+  return verdict;
+}
+SimulationVerdict simulation(std::uint64_t sequence, Refusal code = Refusal::kNone) {
+  SimulationVerdict verdict;
+  verdict.sequence = sequence;
+  verdict.code = code;
+  return verdict;
+}
+Setpoint hold() {
+  Setpoint setpoint;
+  setpoint.kind = CommandKind::kHold;
+  return setpoint;
+}
+
+TEST(Release, BothVerdictsReleaseWhatWasJudged) {
+  Release release;
+  const Candidate candidate = release.candidate(hold(), 7, 100, 5);
+  const auto telecommand = release.release(candidate, execution(1), simulation(1));
+  ASSERT_TRUE(telecommand);
+  EXPECT_EQ(telecommand->sequence(), 1u);
+  EXPECT_EQ(telecommand->first_tick(), 100u);
+  EXPECT_EQ(telecommand->expiry_tick(), 105u);
+  EXPECT_EQ(telecommand->owner(), 7u);
+  EXPECT_EQ(telecommand->setpoint().kind, CommandKind::kHold);
+}
+
+TEST(Release, OneRefusalIsEnough) {
+  Release release;
+  const Candidate candidate = release.candidate(hold(), 7, 100, 5);
+  EXPECT_FALSE(release.release(candidate, execution(1, Refusal::kGate), simulation(1)));
+  EXPECT_FALSE(release.release(candidate, execution(1), simulation(1, Refusal::kTipSpeed)));
+}
+
+TEST(Release, VerdictsOnOtherCandidatesDoNotCount) {
+  Release release;
+  const Candidate old = release.candidate(hold(), 7, 100, 5);
+  const Candidate candidate = release.candidate(hold(), 7, 105, 5);
+  EXPECT_FALSE(release.release(candidate, execution(1), simulation(2)));
+  EXPECT_FALSE(release.release(candidate, execution(2), simulation(1)));
+  EXPECT_FALSE(release.release(old, execution(1), simulation(1))) << "a newer candidate exists";
+}
+
+TEST(Release, NothingIsReleasedTwice) {
+  Release release;
+  const Candidate candidate = release.candidate(hold(), 7, 100, 5);
+  EXPECT_TRUE(release.release(candidate, execution(1), simulation(1)));
+  EXPECT_FALSE(release.release(candidate, execution(1), simulation(1)));
+}
+
+TEST(Release, AnEmptyVerdictIsNoVerdict) {
+  Release release;
+  const Candidate candidate = release.candidate(hold(), 7, 100, 5);
+  EXPECT_FALSE(release.release(candidate, ExecutionVerdict{}, SimulationVerdict{}));
+}
+
+}  // namespace
+}  // namespace liana

@@ -1,0 +1,82 @@
+// The twin: what it predicts is what the Controller then does, and the stop after a command is part of it.
+#include "host/verify/twin.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "host/verify/verify.hpp"
+#include "tests/host/verify/sim_arm.hpp"
+
+namespace liana {
+namespace {
+
+class TwinOfAnArm : public testing::Test {
+ protected:
+  TwinOfAnArm() : arm_(std::make_unique<SimArm>()), twin_(arm_->table()) {}
+  void SetUp() override { ASSERT_TRUE(arm_->enable()) << "faults: " << arm_->now().faults.count; }
+
+  Setpoint shifted_tip(double way_m, double speed_m_s = 0.1) const {
+    Setpoint setpoint;
+    setpoint.kind = CommandKind::kTip;
+    setpoint.tip_in_base = arm_->now().tip_command;
+    setpoint.tip_in_base.position_m[1] += way_m;
+    setpoint.tip_speed_m_s = speed_m_s;
+    return setpoint;
+  }
+  Candidate candidate(const Setpoint& setpoint) {
+    const auto interval = static_cast<std::uint64_t>(arm_->table().interval_ticks);
+    return release_.candidate(setpoint, 1, arm_->link.image.value().next_tick + interval, interval);
+  }
+  Prediction predict(const Candidate& candidate) {
+    return twin_.run(arm_->link.image.value(), released_, candidate, max_stop_ticks(arm_->table()));
+  }
+  std::optional<Telecommand> release(const Candidate& candidate, const Prediction& prediction) {
+    return release_.release(candidate, judge_execution(arm_->table(), candidate, prediction),
+                            judge_motion(arm_->table(), candidate, prediction));
+  }
+
+  std::unique_ptr<SimArm> arm_;
+  Twin twin_;
+  Release release_;
+  std::vector<Telecommand> released_;
+};
+
+TEST_F(TwinOfAnArm, PredictsTheNextTicksExactlyWhenTheDrivesAreIdeal) {
+  const Candidate wanted = candidate(shifted_tip(0.01));
+  const Prediction prediction = predict(wanted);
+  const auto telecommand = release(wanted, prediction);
+  ASSERT_TRUE(telecommand) << judge_execution(arm_->table(), wanted, prediction).text
+                           << judge_motion(arm_->table(), wanted, prediction).text;
+  arm_->link.released.push(*telecommand);
+  while (arm_->ticks_done() < wanted.first_tick()) arm_->tick();
+  double moved = 0.0;
+  for (const Outputs& predicted : prediction.ticks) {
+    arm_->tick();
+    EXPECT_EQ(predicted.theta_command_rad, arm_->now().theta_command_rad) << "tick " << predicted.tick;
+    EXPECT_EQ(predicted.payout_command_m, arm_->now().payout_command_m);
+    moved = std::max(moved, arm_->now().tip_speed_m_s);
+  }
+  EXPECT_GT(moved, 1e-4) << "the command did move the arm";
+  EXPECT_TRUE(arm_->now().at_rest) << "and the stop after it is part of the prediction";
+}
+
+TEST_F(TwinOfAnArm, GoesThroughWhatIsAlreadyReleased) {
+  const Candidate first = candidate(shifted_tip(0.01));
+  const auto telecommand = release(first, predict(first));
+  ASSERT_TRUE(telecommand);
+  released_.push_back(*telecommand);
+  const auto interval = static_cast<std::uint64_t>(arm_->table().interval_ticks);
+  const Candidate second = release_.candidate(shifted_tip(0.01), 1, first.expiry_tick(), interval);
+  EXPECT_GT(predict(second).ticks.front().tip_speed_m_s, 0.0) << "moving already because of the first";
+}
+
+TEST_F(TwinOfAnArm, TheArmItselfIsNotTouched) {
+  const ThetaVector before = arm_->now().theta_command_rad;
+  predict(candidate(shifted_tip(0.05)));
+  arm_->interval();
+  EXPECT_EQ(arm_->now().theta_command_rad, before);
+}
+
+}  // namespace
+}  // namespace liana
