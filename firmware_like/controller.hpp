@@ -1,5 +1,5 @@
-// The control core: one door, `tick`. What is true of every robot is here; what is true of its arm is the arm's (arm.hpp). A trivially
-// copyable value, so that the twin is a copy of it.
+// The control core: one door, `tick`. What is true of every robot is here; what is true of its arm is the arm's
+// (arm.hpp). A trivially copyable value, so that the twin is a copy of it.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,13 @@ class Controller {
   explicit Controller(const Table& table) noexcept
       : arm_(table), gate_limits_(arm_.gate_limits()), link_limits_(arm_.link_limits()) {}
 
-  // One control cycle. Never fails: what is wrong is in the faults and limits of the result. Inputs must come one per tick, in order.
+  // One control cycle. Never fails: what is wrong is in the faults and limits of the result. Inputs must come one per
+  // tick, in order.
   Outputs<A> tick(const Inputs<A>& inputs) noexcept {
     limits_ = 0;
     arm_.read(inputs.drive, inputs.sensors);
     const std::int32_t wrong = watch(inputs);
-    const Orders orders =
-        supervise(link_limits_, inputs, arm_.status(), is_stop(active_), wrong, supervisor_, faults_);
+    const Orders orders = supervise(link_limits_, inputs, arm_.status(), is_stop(active_), wrong, supervisor_, faults_);
     take_telecommand(inputs);        // what is in force now
     move(orders);                    // filter, IK, limiter: where the arm should be
     command_drives(inputs, orders);  // what each drive should do, the gate, CiA 402

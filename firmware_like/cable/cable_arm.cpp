@@ -17,9 +17,7 @@ double smooth_step(double x) noexcept { return x * x * (3.0 - 2.0 * x); }
 }  // namespace
 
 CableArm::CableArm(const RobotTable& table) noexcept
-    : table_(table),
-      layout_(cable_layout(table)),
-      tension_watch_limits_(make_tension_watch_limits(table)) {
+    : table_(table), layout_(cable_layout(table)), tension_watch_limits_(make_tension_watch_limits(table)) {
   for (Index c = 0; c < cables(); ++c) zero_payout_m_[c] = layout_.zero_length_m[c] + table.lead_m;
   cable_watch_limits_ = make_cable_watch_limits(table, zero_payout_m_);
   reset_motion(table_, ThetaVector{}, motion_);
@@ -167,10 +165,12 @@ void CableArm::ramp_payouts(CableVector& wanted_m) const noexcept {
   for (Index c = 0; c < cables(); ++c) wanted_m[c] = ramp_start_m_[c] + share * (wanted_m[c] - ramp_start_m_[c]);
 }
 
-// Moves the motors after the swing that the measured tensions show; while a fault makes tensions doubtful the last shift stays.
+// Moves the motors after the swing that the measured tensions show; while a fault makes tensions doubtful the last
+// shift stays.
 void CableArm::damp_payouts(bool is_sound, CableVector& wanted_m) noexcept {
   if (is_sound) {
-    // A cable stretches in proportion to its tension (to 0.3 %); as planned it is stretched by the path less the unstretched length.
+    // A cable stretches in proportion to its tension (to 0.3 %); as planned it is stretched by the path less the
+    // unstretched length.
     CableVector stretch_m;
     for (Index c = 0; c < cables(); ++c) {
       const double planned_N = larger(tension_.motor_N[c], table_.tension.floor_anywhere_N);
@@ -205,7 +205,8 @@ Report CableArm::report() const noexcept {
   const Twist tip = tip_twist(table_, motion_);
   out.tip_speed_m_s = norm(tip.linear_m_s);
   out.tip_rate_rad_s = norm(tip.angular_rad_s);
-  for (Index m = 0; m < as_index(table_.segment_count); ++m) out.node_command_m[m] = motion_.arm.node_in_base[m + 1].position_m;
+  for (Index m = 0; m < as_index(table_.segment_count); ++m)
+    out.node_command_m[m] = motion_.arm.node_in_base[m + 1].position_m;
   out.tension_plan_N = tension_.motor_N;
   out.tension_measured_N = tension_measured_N_;
   out.payout_command_m = payout_command_m_;
@@ -216,8 +217,7 @@ Report CableArm::report() const noexcept {
   return out;
 }
 
-std::int16_t CableArm::planned_permille(const RobotTable& table, const Report& report,
-                                        std::int32_t drive) noexcept {
+std::int16_t CableArm::planned_permille(const RobotTable& table, const Report& report, std::int32_t drive) noexcept {
   const Index i = as_index(drive);
   return narrow<std::int16_t>(to_counts(report.tension_plan_N[i] / table.drive[i].newtons_per_permille).value);
 }

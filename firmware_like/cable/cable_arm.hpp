@@ -1,4 +1,5 @@
-// A cable-driven arm as the Controller sees it (arm.hpp): from drive lengths and tensions to angles, and from a setpoint back to drive targets.
+// A cable-driven arm as the Controller sees it (arm.hpp): from drive lengths and tensions to angles, and from a
+// setpoint back to drive targets.
 #pragma once
 
 #include <cstdint>

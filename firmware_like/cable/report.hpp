@@ -12,8 +12,8 @@ namespace liana::cable {
 
 struct Report {
   std::uint32_t held_mask = 0;
-  std::uint8_t held_at_target = 0;   // every held variable stands exactly at its target
-  ThetaVector theta_command_rad{};   // after the limiter
+  std::uint8_t held_at_target = 0;  // every held variable stands exactly at its target
+  ThetaVector theta_command_rad{};  // after the limiter
   ThetaVector theta_rate_rad_s{};
   ThetaVector theta_measured_rad{};  // estimate from motor lengths with elongation removed
   Pose tip_goal{};                   // filtered operator target
@@ -27,7 +27,8 @@ struct Report {
   double ik_position_error_m = 0.0;
   double ik_attitude_error_rad = 0.0;
   IkOutcome ik_outcome = IkOutcome::kConverged;
-  std::array<double, 6> ik_residual{};  // filtered target less tip of the IK, base frame: position [m], rotation vector [rad]
+  std::array<double, 6>
+      ik_residual{};  // filtered target less tip of the IK, base frame: position [m], rotation vector [rad]
 };
 
 }  // namespace liana::cable

@@ -47,8 +47,8 @@ struct Setpoint {
   double tip_speed_m_s = 0.0;   // kTip: limit for this motion, > 0, at most the robot's
 };
 
-// A setpoint the arm can use: finite, poses valid, angles inside the limits (the release step has checked the same; this is the second
-// lock). Hold and stop always are.
+// A setpoint the arm can use: finite, poses valid, angles inside the limits (the release step has checked the same;
+// this is the second lock). Hold and stop always are.
 bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept;
 
 }  // namespace liana::cable

@@ -17,7 +17,8 @@ enum class CommandKind : std::uint8_t {
 // True for the kinds that carry a goal, which the arm judges and follows.
 constexpr bool is_motion(CommandKind kind) noexcept { return kind == CommandKind::kTip || kind == CommandKind::kJoint; }
 
-// A verified setpoint with identity and life time. `Setpoint` is the arm's own type; it has a CommandKind `kind`. Only Release makes one.
+// A verified setpoint with identity and life time. `Setpoint` is the arm's own type; it has a CommandKind `kind`. Only
+// Release makes one.
 template <class Setpoint>
 class Telecommand {
  public:
@@ -32,8 +33,8 @@ class Telecommand {
 
  private:
   friend class Release;
-  constexpr Telecommand(std::uint64_t sequence, std::uint64_t first_tick, std::uint64_t expiry_tick, std::uint32_t owner,
-                        const Setpoint& setpoint)
+  constexpr Telecommand(std::uint64_t sequence, std::uint64_t first_tick, std::uint64_t expiry_tick,
+                        std::uint32_t owner, const Setpoint& setpoint)
       : sequence_(sequence), first_tick_(first_tick), expiry_tick_(expiry_tick), owner_(owner), setpoint_(setpoint) {}
 
   std::uint64_t sequence_ = 0;

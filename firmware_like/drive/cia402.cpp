@@ -24,7 +24,8 @@ constexpr std::array<StatusRow, 8> kStatusTable{{
     {0x004F, 0x0008, DriveState::kFault},                // x0xx 1000
 }};
 
-// The table looked up once for every value of the bits that it reads: decoding is asked several times per drive and tick.
+// The table looked up once for every value of the bits that it reads: decoding is asked several times per drive and
+// tick.
 constexpr std::array<DriveState, 128> kStateOfBits = [] {
   std::array<DriveState, 128> states{};
   for (std::size_t bits = 0; bits < states.size(); ++bits) {
@@ -39,8 +40,8 @@ constexpr std::array<DriveState, 128> kStateOfBits = [] {
 using GoalRow = std::array<std::uint16_t, kDriveGoalCount>;
 
 // Rows as in the figure of CiA 402, one column per goal; (n) is the transition the command asks for, (-) none.
-// Quick stop active is left by the drive itself (12); transition 16 is optional and never used: a motion that a drive broke off is not
-// resumed behind the supervisor's back.
+// Quick stop active is left by the drive itself (12); transition 16 is optional and never used: a motion that a drive
+// broke off is not resumed behind the supervisor's back.
 // clang-format off
 constexpr std::array<GoalRow, kDriveStateCount> kControlTable{{
     // disabled                switched on          operation enabled        quick stop                  fault reset

@@ -40,19 +40,21 @@ constexpr std::uint16_t kFaultResetBit = 0x0080;
 // State that a statusword (6041) shows; exactly one for each of the 65 536 values, kUnknown where CiA 402 defines none.
 DriveState decode(std::uint16_t statusword) noexcept;
 
-// Controlword that takes a drive in `state` one transition towards `goal`. Fault reset acts on the rising edge of bit 7, so while the
-// drive stays in Fault the bit alternates with what was sent before: `previous_controlword`.
+// Controlword that takes a drive in `state` one transition towards `goal`. Fault reset acts on the rising edge of bit
+// 7, so while the drive stays in Fault the bit alternates with what was sent before: `previous_controlword`.
 std::uint16_t controlword_for(DriveState state, DriveGoal goal, std::uint16_t previous_controlword) noexcept;
 
-// True when the drive produces torque with its brake open (Operation enabled, Quick stop active, Fault reaction active).
+// True when the drive produces torque with its brake open (Operation enabled, Quick stop active, Fault reaction
+// active).
 constexpr bool has_torque(DriveState state) noexcept {
-  return state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive || state == DriveState::kFaultReactionActive;
+  return state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive ||
+         state == DriveState::kFaultReactionActive;
 }
 
 // True when the drive is known to be without power: Not ready, Switch on disabled, Ready to switch on or Fault.
 constexpr bool is_off(DriveState state) noexcept {
-  return state == DriveState::kNotReadyToSwitchOn || state == DriveState::kSwitchOnDisabled || state == DriveState::kReadyToSwitchOn ||
-         state == DriveState::kFault;
+  return state == DriveState::kNotReadyToSwitchOn || state == DriveState::kSwitchOnDisabled ||
+         state == DriveState::kReadyToSwitchOn || state == DriveState::kFault;
 }
 
 // Name as the API prints it, e.g. "operation_enabled"; never null.

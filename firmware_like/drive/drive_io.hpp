@@ -33,7 +33,8 @@ enum class DriveMode : std::int8_t {
   kCyclicTorque = 10,   // cst: follows torque_permille
 };
 
-// What an arm proposes to one drive for this tick; the gate judges it. Not rounded and perhaps not finite: that is the gate's business.
+// What an arm proposes to one drive for this tick; the gate judges it. Not rounded and perhaps not finite: that is the
+// gate's business.
 struct DriveProposal {
   DriveMode mode = DriveMode::kCyclicPosition;
   double target_counts = 0.0;
@@ -41,7 +42,8 @@ struct DriveProposal {
 };
 using DriveProposals = std::array<DriveProposal, kMaxDrives>;
 
-// Sensors of an arm that has nothing but its drives. An arm with more (wrist force, joint torque) names a type of its own.
+// Sensors of an arm that has nothing but its drives. An arm with more (wrist force, joint torque) names a type of its
+// own.
 struct NoSensors {};
 
 }  // namespace liana

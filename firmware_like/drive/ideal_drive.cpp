@@ -30,7 +30,8 @@ std::uint16_t statusword_for(std::uint16_t controlword, std::uint16_t reported) 
 
 }  // namespace
 
-DriveFeedback ideal_feedback(const DriveFeedback& last, const DriveCommand& told, std::int16_t torque_permille) noexcept {
+DriveFeedback ideal_feedback(const DriveFeedback& last, const DriveCommand& told,
+                             std::int16_t torque_permille) noexcept {
   DriveFeedback feedback = last;
   feedback.statusword = statusword_for(told.controlword, feedback.statusword);
   if (decode(feedback.statusword) == DriveState::kOperationEnabled) {

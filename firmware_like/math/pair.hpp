@@ -1,5 +1,5 @@
-// Two doubles computed together, lane by lane: a segment's pitch and yaw. The bits are those of two scalars on every target; processors
-// with two lanes need half the instructions.
+// Two doubles computed together, lane by lane: a segment's pitch and yaw. The bits are those of two scalars on every
+// target; processors with two lanes need half the instructions.
 #pragma once
 
 #include <cmath>
@@ -31,6 +31,8 @@ inline void add_scaled_pairs(double s, const double* x, double* y, std::size_t c
 }
 
 // True when both lanes lie in [-limit, limit]; false for NaN.
-inline bool within(const Pair& x, double limit) noexcept { return std::fabs(x[0]) <= limit && std::fabs(x[1]) <= limit; }
+inline bool within(const Pair& x, double limit) noexcept {
+  return std::fabs(x[0]) <= limit && std::fabs(x[1]) <= limit;
+}
 
 }  // namespace liana

@@ -5,14 +5,24 @@
 
 namespace liana {
 
-constinit const Series<7> kSineSeries{both(-1.0 / 1307674368000.0), both(1.0 / 6227020800.0), both(-1.0 / 39916800.0), both(1.0 / 362880.0),
-                                      both(-1.0 / 5040.0),          both(1.0 / 120.0),        both(-1.0 / 6.0)};
+constinit const Series<7> kSineSeries{
+    both(-1.0 / 1307674368000.0), both(1.0 / 6227020800.0), both(-1.0 / 39916800.0), both(1.0 / 362880.0),
+    both(-1.0 / 5040.0),          both(1.0 / 120.0),        both(-1.0 / 6.0)};
 constinit const Series<7> kCosineSeries{
     both(1.0 / 20922789888000.0), both(-1.0 / 87178291200.0), both(1.0 / 479001600.0), both(-1.0 / 3628800.0),
     both(1.0 / 40320.0),          both(-1.0 / 720.0),         both(1.0 / 24.0)};
-constinit const Series<12> kExponentialSeries{
-    both(1.0 / 39916800.0), both(1.0 / 3628800.0), both(1.0 / 362880.0), both(1.0 / 40320.0), both(1.0 / 5040.0), both(1.0 / 720.0),
-    both(1.0 / 120.0),      both(1.0 / 24.0),      both(1.0 / 6.0),      both(0.5),           both(1.0),          both(1.0)};
+constinit const Series<12> kExponentialSeries{both(1.0 / 39916800.0),
+                                              both(1.0 / 3628800.0),
+                                              both(1.0 / 362880.0),
+                                              both(1.0 / 40320.0),
+                                              both(1.0 / 5040.0),
+                                              both(1.0 / 720.0),
+                                              both(1.0 / 120.0),
+                                              both(1.0 / 24.0),
+                                              both(1.0 / 6.0),
+                                              both(0.5),
+                                              both(1.0),
+                                              both(1.0)};
 namespace {
 
 // Arc tangent of t in [0, 1]: two half-angle steps bring it under 0.2, where the series ends at 1e-17.

@@ -21,8 +21,8 @@ struct SinCosOf {
 };
 using SinCos = SinCosOf<double>;
 
-// Coefficients of a power series, highest power first, each twice: read from memory they cost nothing, while compilers build a Pair of
-// equal constants with two instructions more.
+// Coefficients of a power series, highest power first, each twice: read from memory they cost nothing, while compilers
+// build a Pair of equal constants with two instructions more.
 template <std::size_t N>
 using Series = std::array<Pair, N>;
 extern const Series<7> kSineSeries;          // (sin x / x - 1) / x^2 in x^2: -1/15! ... -1/3!
@@ -47,8 +47,8 @@ Number evaluate(const Series<N>& series, const Number& x) noexcept {
   (std::make_index_sequence<N - 1>{});
 }
 
-// Sine and cosine of x [rad], |x| <= pi/4, for a double or a Pair: absolute error <= 3e-16. Taylor series; the first term left out is
-// below 1e-17.
+// Sine and cosine of x [rad], |x| <= pi/4, for a double or a Pair: absolute error <= 3e-16. Taylor series; the first
+// term left out is below 1e-17.
 template <class Number>
 SinCosOf<Number> small_sin_cos(const Number& x_rad) noexcept {
   const Number x = x_rad * x_rad;
@@ -80,7 +80,9 @@ Number small_exponential(const Number& x) noexcept {
 
 // e^x for |x| <= 4: relative error <= 1e-14; outside, x is taken at the nearer end.
 double wide_exponential(double x) noexcept;
-inline double exponential(double x) noexcept { return std::fabs(x) <= 0.25 ? small_exponential(x) : wide_exponential(x); }
+inline double exponential(double x) noexcept {
+  return std::fabs(x) <= 0.25 ? small_exponential(x) : wide_exponential(x);
+}
 inline Pair exponential(const Pair& x) noexcept {
   return within(x, 0.25) ? small_exponential(x) : Pair{wide_exponential(x[0]), wide_exponential(x[1])};
 }

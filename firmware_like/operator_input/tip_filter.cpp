@@ -36,12 +36,14 @@ bool follow_velocity(const FilterBounds& bounds, double tick_s, const Vec3& want
 // Integrates both channels into the pose.
 void move_pose(double tick_s, TipFilterState& state) noexcept {
   state.pose.position_m = add(state.pose.position_m, scale(state.linear.velocity, tick_s));
-  state.pose.quaternion = normalize(multiply(quaternion_of(scale(state.angular.velocity, tick_s)), state.pose.quaternion));
+  state.pose.quaternion =
+      normalize(multiply(quaternion_of(scale(state.angular.velocity, tick_s)), state.pose.quaternion));
 }
 
 }  // namespace
 
-ChannelLimits follow_channel(const FilterBounds& bounds, double tick_s, const Vec3& error, ChannelState& state) noexcept {
+ChannelLimits follow_channel(const FilterBounds& bounds, double tick_s, const Vec3& error,
+                             ChannelState& state) noexcept {
   const Saturated wanted = saturate(scale(error, bounds.accel / bounds.speed), bounds.speed);
   return {wanted.acted, follow_velocity(bounds, tick_s, wanted.value, state)};
 }
@@ -75,7 +77,8 @@ void brake_tip(const TipFilterConfig& config, TipFilterState& state) noexcept {
 }
 
 bool at_rest(const TipFilterState& state) noexcept {
-  return dot(state.linear.velocity, state.linear.velocity) < 1e-12 && dot(state.angular.velocity, state.angular.velocity) < 1e-12;
+  return dot(state.linear.velocity, state.linear.velocity) < 1e-12 &&
+         dot(state.angular.velocity, state.angular.velocity) < 1e-12;
 }
 
 }  // namespace liana

@@ -2,9 +2,9 @@
 //
 // Nested saturation, position and attitude alike (e = target - state):
 //   v* = sat(k1 e, v_max),  a* = sat(k2 (v* - v), a_max),  j = sat(k3 (a* - a), j_max)
-// with k1 = a_max / v_max, k2 = j_max / a_max, k3 = 4 k2, so that each stage can brake what the stage before asks. Below the limits it is a
-// linear third-order filter without overshoot; its lag behind a target at constant velocity is 1/k1 (lag_s()): the inner stages
-// follow a constant velocity without error.
+// with k1 = a_max / v_max, k2 = j_max / a_max, k3 = 4 k2, so that each stage can brake what the stage before asks.
+// Below the limits it is a linear third-order filter without overshoot; its lag behind a target at constant velocity is
+// 1/k1 (lag_s()): the inner stages follow a constant velocity without error.
 #pragma once
 
 #include <cstdint>
@@ -46,9 +46,10 @@ struct ChannelLimits {
   bool accel = false;
 };
 
-// One tick of one channel: velocity (and acceleration) change so as to bring `error` = target - state to zero; the caller integrates
-// velocity.
-ChannelLimits follow_channel(const FilterBounds& bounds, double tick_s, const Vec3& error, ChannelState& state) noexcept;
+// One tick of one channel: velocity (and acceleration) change so as to bring `error` = target - state to zero; the
+// caller integrates velocity.
+ChannelLimits follow_channel(const FilterBounds& bounds, double tick_s, const Vec3& error,
+                             ChannelState& state) noexcept;
 
 // Lag [s] behind a target that moves with constant velocity below the limits.
 double lag_s(const FilterBounds& bounds) noexcept;

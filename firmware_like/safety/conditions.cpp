@@ -9,7 +9,7 @@ namespace {
 constexpr std::array<const char*, 22> kConditionNames{
     "buses_up",    "drives_fresh",    "drives_operational", "no_drive_in_fault", "homed",
     "no_fault",    "all_switched_on", "all_enabled",        "all_off",           "at_rest",
-    "prepared",   "ask_enable",      "ask_stop",           "ask_clear",         "fault_hold",
+    "prepared",    "ask_enable",      "ask_stop",           "ask_clear",         "fault_hold",
     "fault_stop",  "fault_immediate", "fault_off",          "counted",           "budget_spent",
     "causes_gone", "fault_persists",
 };
@@ -35,9 +35,11 @@ constexpr std::array<std::uint32_t, kDriveStateCount> kConditionsOfState = [] {
 }  // namespace
 
 std::uint32_t drive_conditions_of(const LinkLimits& limits, const DriveFeedback& drive) noexcept {
-  const bool fresh = drive.feedback_age_ticks <= kFeedbackAgeTicks && drive.heartbeat_age_ticks <= limits.heartbeat_age_ticks;
+  const bool fresh =
+      drive.feedback_age_ticks <= kFeedbackAgeTicks && drive.heartbeat_age_ticks <= limits.heartbeat_age_ticks;
   const std::uint32_t of_state = kConditionsOfState[as_index(static_cast<std::int32_t>(decode(drive.statusword)))];
-  const std::uint32_t kept = fresh ? of_state | kDrivesFresh : of_state & kNoDriveInFault;  // an old statusword proves only a fault
+  const std::uint32_t kept =
+      fresh ? of_state | kDrivesFresh : of_state & kNoDriveInFault;  // an old statusword proves only a fault
   return drive.operational != 0 ? kept | kDrivesOperational : kept;
 }
 

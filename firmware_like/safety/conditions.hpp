@@ -43,7 +43,8 @@ enum Condition : std::uint32_t {
 constexpr std::uint32_t kReady = kBusesUp | kDrivesFresh | kDrivesOperational | kNoDriveInFault | kHomed | kNoFault;
 
 // All that clearing a fault checks.
-constexpr std::uint32_t kClearable = kBusesUp | kDrivesFresh | kDrivesOperational | kNoDriveInFault | kHomed | kAtRest | kCausesGone;
+constexpr std::uint32_t kClearable =
+    kBusesUp | kDrivesFresh | kDrivesOperational | kNoDriveInFault | kHomed | kAtRest | kCausesGone;
 
 // The conditions on all drives that this one drive meets.
 std::uint32_t drive_conditions_of(const LinkLimits& limits, const DriveFeedback& drive) noexcept;

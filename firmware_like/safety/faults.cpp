@@ -65,7 +65,8 @@ constexpr StopCategory kStop = StopCategory::kStop;
 
 constexpr std::array<FaultInfo, 22> kFaultTable{{
     {kNone, "none", StopCategory::kNone, false, "No fault.", "Nothing to do."},
-    {kCommandInvalid, "command_invalid", kHold, false, "A released command held a value that is not finite or out of range.",
+    {kCommandInvalid, "command_invalid", kHold, false,
+     "A released command held a value that is not finite or out of range.",
      "Look at the verdict log for the command's sequence number; correct the client that sent it, then clear."},
     {kTicksLost, "ticks_lost", kStop, true, "More control deadlines in a row were lost than the drives tolerate.",
      "Run liana doctor, free the computer's cores from other work, then clear and enable again."},
@@ -80,14 +81,17 @@ constexpr std::array<FaultInfo, 22> kFaultTable{{
      "Check the bus for errors and load, and the drive's supply, then clear."},
     {kDriveFault, "drive_fault", kStop, true, "A drive reports a fault; the detail is its emergency code.",
      "Look the emergency code up in the drive's manual and remove the cause; clear resets the drive."},
-    {kDriveLeftOperation, "drive_left_operation", kStop, true, "A drive left Operation enabled by itself; the detail is its statusword.",
+    {kDriveLeftOperation, "drive_left_operation", kStop, true,
+     "A drive left Operation enabled by itself; the detail is its statusword.",
      "Check STO line, supply and the drive's log, then clear and enable again."},
-    {kDriveEnableTimeout, "drive_enable_timeout", kStop, true, "A drive or the pretension ramp did not finish the enable sequence in time.",
+    {kDriveEnableTimeout, "drive_enable_timeout", kStop, true,
+     "A drive or the pretension ramp did not finish the enable sequence in time.",
      "Look at the drive's state (detail is its statusword), supply and STO line, then clear and enable again."},
     {kFollowingError, "following_error", kStop, true, "A motor does not follow its target within the allowed lag.",
      "Check brake, drum and cable for blockage; compare the servo time constant with the robot table, then clear."},
     {kDriveNotOperational, "drive_not_operational", kStop, true, "A drive left the NMT state operational.",
-     "The drive restarted or was stopped by another master; a restarted drive is booted by itself, a stopped one needs a reset: then "
+     "The drive restarted or was stopped by another master; a restarted drive is booted by itself, a stopped one needs "
+     "a reset: then "
      "clear."},
     {kDriveStopTimeout, "drive_stop_timeout", kStop, true, "A drive did not confirm that it is without power.",
      "Use the STO switch; do not approach the arm before the drive shows Switch on disabled, then clear."},
@@ -101,26 +105,32 @@ constexpr std::array<FaultInfo, 22> kFaultTable{{
      "Look for contact; move back along the path, then clear."},
     {kHomingImplausible, "homing_implausible", kHold, false,
      "The lengths of one segment's cables came to contradict each other; the detail is by how many micrometres.",
-     "Look for a cable that creeps on its drum, and compare the stored zeros of the segment's drives with the robot table; home again, "
+     "Look for a cable that creeps on its drum, and compare the stored zeros of the segment's drives with the robot "
+     "table; home again, "
      "then "
      "clear."},
     {kCableSlip, "cable_slip", kHold, false,
-     "A cable slipped on its drum, or its encoder jumped: length and tension do not agree since; the detail is micrometres of cable.",
+     "A cable slipped on its drum, or its encoder jumped: length and tension do not agree since; the detail is "
+     "micrometres of cable.",
      "Look at the clamp on the drum and at the encoder; the cable's zero is wrong now: home again, then clear."},
     {kCableBreak, "cable_break", kStop, true,
      "A cable's tension was gone from one moment to the next: it broke or came off its drum, or its reading is lost.",
-     "Stay away from the arm; look at the cable and its clamp on the drum, then at the drive's torque reading; then clear."},
+     "Stay away from the arm; look at the cable and its clamp on the drum, then at the drive's torque reading; then "
+     "clear."},
     {kTensionScatters, "tension_scatters", kHold, false, "Readings of a cable jump to and fro.",
      "Check the drive's torque and position measurement and its cable; move back along the path, then clear."},
-    {kGateRefused, "gate_refused", kStop, true, "The gate saw a command that must not reach a drive; the detail names the check.",
+    {kGateRefused, "gate_refused", kStop, true,
+     "The gate saw a command that must not reach a drive; the detail names the check.",
      "This is a defect: keep the recording and report it; the arm stands at its last good target, then clear."},
 }};
 
 constexpr bool is_complete() noexcept {
   for (std::int32_t row = 0; row < static_cast<std::int32_t>(kFaultTable.size()); ++row) {
     const FaultInfo& info = kFaultTable[as_index(row)];
-    if (row_of(info.number) != row || info.name[0] == '\0' || info.text[0] == '\0' || info.remedy[0] == '\0') return false;
-    if (row > 0 && (info.number <= kFaultTable[as_index(row - 1)].number || info.category == StopCategory::kNone)) return false;
+    if (row_of(info.number) != row || info.name[0] == '\0' || info.text[0] == '\0' || info.remedy[0] == '\0')
+      return false;
+    if (row > 0 && (info.number <= kFaultTable[as_index(row - 1)].number || info.category == StopCategory::kNone))
+      return false;
     if (info.immediate && info.category < kStop) return false;  // a hold keeps the drives on the path
   }
   return true;

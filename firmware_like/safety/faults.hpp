@@ -69,8 +69,8 @@ std::span<const FaultInfo> all_faults() noexcept;
 // Entry of a fault number; the entry of kNone for a number that does not exist.
 const FaultInfo& fault_info(FaultNumber number) noexcept;
 
-// Latches a fault; true when it is new. The same number and index is kept once (a detail that was 0 is filled in); what finds no room
-// is counted in `dropped`.
+// Latches a fault; true when it is new. The same number and index is kept once (a detail that was 0 is filled in); what
+// finds no room is counted in `dropped`.
 bool latch(FaultList& list, const Fault& fault) noexcept;
 
 }  // namespace liana

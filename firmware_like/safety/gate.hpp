@@ -1,5 +1,5 @@
-// The gate: last, pure step of a tick. Nothing reaches a drive that it has not judged; a proposal that fails becomes the safe command.
-// It speaks drive units only (counts, permille of rated torque, modes) and knows nothing of arms.
+// The gate: last, pure step of a tick. Nothing reaches a drive that it has not judged; a proposal that fails becomes
+// the safe command. It speaks drive units only (counts, permille of rated torque, modes) and knows nothing of arms.
 #pragma once
 
 #include <array>
@@ -46,10 +46,10 @@ struct GateResult {
   std::int16_t drive = -1;  // first drive that failed, 0-based
 };
 
-// Judges the proposals for a tick against what was sent in the previous tick and what the drives report. `goal` and `live_targets` are the
-// supervisor's orders; while targets are not live, proposals are not looked at. All drives pass, or none: after a refusal every drive gets
-// its safe target, as it does while targets are not live: the previous one for a drive that has torque and was told to have it, and the
-// actual position for every other drive.
+// Judges the proposals for a tick against what was sent in the previous tick and what the drives report. `goal` and
+// `live_targets` are the supervisor's orders; while targets are not live, proposals are not looked at. All drives pass,
+// or none: after a refusal every drive gets its safe target, as it does while targets are not live: the previous one
+// for a drive that has torque and was told to have it, and the actual position for every other drive.
 GateResult gate(const GateLimits& limits, DriveGoal goal, bool live_targets, const DriveProposals& proposal,
                 const DriveCommands& previous, const DriveFeedbacks& feedback) noexcept;
 

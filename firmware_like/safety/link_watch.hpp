@@ -17,8 +17,8 @@ constexpr double kHeartbeatTimeout_s = 0.3;       // drives produce one every 0.
 constexpr std::uint16_t kFollowingDebounceTicks = 5;
 constexpr double kFollowingDeadTicks = 4.0;  // target to sample two ticks, feedback up to two ticks old
 
-// How much faster than the arm's own limit a target may move, for the gate and for the following error: room for what an arm adds to its
-// planned motion (elongation of cables, damping).
+// How much faster than the arm's own limit a target may move, for the gate and for the following error: room for what
+// an arm adds to its planned motion (elongation of cables, damping).
 constexpr double kTargetSpeedMargin = 1.25;
 
 // Limits derived once from the robot table, in drive units.
@@ -68,8 +68,8 @@ class Watch {
 // Lost buses and deadlines.
 void watch_cycle(WatchScope scope, const CycleInputs& inputs, Watch& out) noexcept;
 
-// Heartbeat, NMT state, age of feedback, fault and operation state of one drive. A drive that was never alive is not a fault (it only
-// blocks enabling).
+// Heartbeat, NMT state, age of feedback, fault and operation state of one drive. A drive that was never alive is not a
+// fault (it only blocks enabling).
 void watch_drive(const LinkLimits& limits, WatchScope scope, const DriveFeedback& drive, std::int32_t index,
                  LinkWatchState& state, Watch& out) noexcept;
 

@@ -103,7 +103,8 @@ std::uint32_t conditions_now(const LinkLimits& limits, const CycleInputs& inputs
   std::uint32_t set = drive_conditions(limits, inputs) | request_conditions(inputs.request, stop_commanded);
   if (arm.homed) set |= kHomed;
   if (arm.prepared) set |= kPrepared;
-  if (state.rest_ticks >= kRestTicks || !traits.live_targets) set |= kAtRest;  // without live targets nothing commands motion
+  if (state.rest_ticks >= kRestTicks || !traits.live_targets)
+    set |= kAtRest;  // without live targets nothing commands motion
   if (active_faults == 0) set |= kCausesGone;
   if (state.wrong_ticks >= kPersistTicks) set |= kFaultPersists;
   if (state.phase_ticks >= traits.least_ticks) set |= kCounted;
@@ -121,20 +122,25 @@ void name_late_drives(const LinkLimits& limits, const CycleInputs& inputs, Fault
   }
 }
 
-void latch_timeouts(const LinkLimits& limits, const CycleInputs& inputs, Phase phase, std::uint32_t now, FaultList& faults) noexcept {
+void latch_timeouts(const LinkLimits& limits, const CycleInputs& inputs, Phase phase, std::uint32_t now,
+                    FaultList& faults) noexcept {
   if ((now & kBudgetSpent) == 0) return;
-  if (phase == Phase::kSwitchingOn) name_late_drives(limits, inputs, FaultNumber::kDriveEnableTimeout, kAllSwitchedOn, faults);
-  if (phase == Phase::kPowering) name_late_drives(limits, inputs, FaultNumber::kDriveEnableTimeout, kAllEnabled, faults);
+  if (phase == Phase::kSwitchingOn)
+    name_late_drives(limits, inputs, FaultNumber::kDriveEnableTimeout, kAllSwitchedOn, faults);
+  if (phase == Phase::kPowering)
+    name_late_drives(limits, inputs, FaultNumber::kDriveEnableTimeout, kAllEnabled, faults);
   if (phase == Phase::kPowerDown) name_late_drives(limits, inputs, FaultNumber::kDriveStopTimeout, kAllOff, faults);
   if (phase == Phase::kPreparing && (now & kPrepared) == 0) {
     latch(faults, {FaultNumber::kDriveEnableTimeout, -1, 0, inputs.tick});
   }
 }
 
-// A clear is judged at once while enabled (only holds are latched there), and in Fault after the drives had their reset.
+// A clear is judged at once while enabled (only holds are latched there), and in Fault after the drives had their
+// reset.
 bool is_clear_due(Phase phase, std::uint32_t now) noexcept {
   if (phase == Phase::kEnabled) return (now & kAskClear) != 0;
-  return phase == Phase::kResetting && (((now & kCounted) != 0 && (now & kNoDriveInFault) != 0) || (now & kBudgetSpent) != 0);
+  return phase == Phase::kResetting &&
+         (((now & kCounted) != 0 && (now & kNoDriveInFault) != 0) || (now & kBudgetSpent) != 0);
 }
 
 void judge_clear(std::uint64_t tick, std::uint32_t now, SupervisorState& state, FaultList& faults) noexcept {
@@ -165,9 +171,11 @@ void enter(Phase next, SupervisorState& state) noexcept {
 
 StopCategory higher(StopCategory a, StopCategory b) noexcept { return a > b ? a : b; }
 
-// A hold that persisted became a stop, and stays one in Fault. Taking the power away ends every stop and does not count.
+// A hold that persisted became a stop, and stays one in Fault. Taking the power away ends every stop and does not
+// count.
 void remember_stop(const FaultList& faults, SupervisorState& state) noexcept {
-  const bool after = state.phase == Phase::kPowerDown || state.phase == Phase::kFault || state.phase == Phase::kResetting;
+  const bool after =
+      state.phase == Phase::kPowerDown || state.phase == Phase::kFault || state.phase == Phase::kResetting;
   const StopCategory before = after ? state.stopped : traits_of(state.phase).stop;
   state.stopped = higher(before, faults.category);
 }

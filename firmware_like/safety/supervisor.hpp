@@ -11,12 +11,12 @@
 namespace liana {
 
 // Counted cycles: how long a phase lasts at least, and at most before the supervisor goes on without waiting.
-constexpr std::uint32_t kPoweringBudgetTicks = 250;      // CiA 402 transitions and brakes take well under 0.5 s (500 Hz)
+constexpr std::uint32_t kPoweringBudgetTicks = 250;     // CiA 402 transitions and brakes take well under 0.5 s (500 Hz)
 constexpr std::uint32_t kPreparingBudgetTicks = 15000;  // 60 s at 250 Hz; the ramp takes a few seconds
-constexpr std::uint32_t kRestTicks = 25;                 // standing still this long before the brakes close
-constexpr std::uint32_t kPersistTicks = 1250;            // a cause that stays this long turns a hold into a stop (5 s at 250 Hz)
-constexpr std::uint32_t kPathStopBudgetTicks = 1000;     // full speed to rest takes about 1 s
-constexpr std::uint32_t kBrakingTicks = 25;              // brakes closed this long before power goes
+constexpr std::uint32_t kRestTicks = 25;                // standing still this long before the brakes close
+constexpr std::uint32_t kPersistTicks = 1250;  // a cause that stays this long turns a hold into a stop (5 s at 250 Hz)
+constexpr std::uint32_t kPathStopBudgetTicks = 1000;  // full speed to rest takes about 1 s
+constexpr std::uint32_t kBrakingTicks = 25;           // brakes closed this long before power goes
 constexpr std::uint32_t kQuickStopBudgetTicks = 125;
 constexpr std::uint32_t kOffTicks = 3;  // disable voltage is sent at least this often
 constexpr std::uint32_t kOffBudgetTicks = 250;
@@ -52,10 +52,11 @@ struct ClearReport {
 
 struct SupervisorState {
   Phase phase = Phase::kDisabled;
-  std::uint32_t phase_ticks = 0;               // ticks spent in it, saturating
-  std::uint32_t rest_ticks = 0;                // in a row at rest, up to kRestTicks
-  std::uint32_t wrong_ticks = 0;               // in a row with something wrong, up to kPersistTicks
-  StopCategory stopped = StopCategory::kNone;  // highest category of the stop that led into Fault; kept until the faults are cleared
+  std::uint32_t phase_ticks = 0;  // ticks spent in it, saturating
+  std::uint32_t rest_ticks = 0;   // in a row at rest, up to kRestTicks
+  std::uint32_t wrong_ticks = 0;  // in a row with something wrong, up to kPersistTicks
+  StopCategory stopped =
+      StopCategory::kNone;  // highest category of the stop that led into Fault; kept until the faults are cleared
   ClearReport clear{};
 };
 static_assert(std::is_trivially_copyable_v<SupervisorState>);
@@ -72,18 +73,20 @@ struct Orders {
   OperatingState state = OperatingState::kDisabled;
   StopCategory stop_category = StopCategory::kNone;  // in Fault: of the stop that led there
   DriveGoal goal = DriveGoal::kDisabled;             // of every drive
-  bool motion_allowed = false;       // telecommands may move the arm; false while live_targets: decelerate along the path and hold
-  bool preparing = false;            // the arm makes itself ready, starting at the targets sent last
-  bool live_targets = false;         // proposals go to the drives; otherwise the gate freezes targets or follows actual positions
+  bool motion_allowed =
+      false;  // telecommands may move the arm; false while live_targets: decelerate along the path and hold
+  bool preparing = false;  // the arm makes itself ready, starting at the targets sent last
+  bool live_targets =
+      false;  // proposals go to the drives; otherwise the gate freezes targets or follows actual positions
   std::uint32_t enable_missing = 0;  // bits of kReady that keep the drives from being enabled
 };
 
 // What the watchdogs have to look at while in the phase that the last tick ended in.
 WatchScope watch_scope(const SupervisorState& state) noexcept;
 
-// One step of the state machine, after the watchdogs and before the gate. `stop_commanded`: a stop telecommand is in force;
-// `active_faults`: how many conditions the watchdogs find wrong now. Latches enable and stop
-// timeouts, clears `faults` when asked and all of kClearable holds. Acts on this tick's inputs in this tick.
+// One step of the state machine, after the watchdogs and before the gate. `stop_commanded`: a stop telecommand is in
+// force; `active_faults`: how many conditions the watchdogs find wrong now. Latches enable and stop timeouts, clears
+// `faults` when asked and all of kClearable holds. Acts on this tick's inputs in this tick.
 Orders supervise(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm, bool stop_commanded,
                  std::int32_t active_faults, SupervisorState& state, FaultList& faults) noexcept;
 

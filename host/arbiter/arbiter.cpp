@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <string>
 
-#include "firmware_like/motion/goal_ik.hpp"
 #include "firmware_like/safety/faults.hpp"
 #include "host/api/request_error.hpp"
+#include "host/solve/goal_ik.hpp"
 
 namespace liana {
 
@@ -34,7 +34,7 @@ Arbiter::Arbiter(const RobotTable& table, const SpeedZone& zone)
       interval_s_(table.tick_s * table.interval_ticks),
       tip_speed_m_s_(table.limits.tip_speed_m_s) {}
 
-void Arbiter::require_ready(const Outputs& now) const {
+void Arbiter::require_ready(const cable::Outputs& now) const {
   if (now.faults.count > 0) {
     throw RequestError(
         "fault", std::string("fault ") + fault_info(now.faults.fault[0].number).name + " is latched: clear it first");
@@ -42,7 +42,7 @@ void Arbiter::require_ready(const Outputs& now) const {
   if (now.state != OperatingState::kEnabled) throw RequestError("not_enabled", "the arm is not enabled");
 }
 
-void Arbiter::require_free(const Outputs& now) const {
+void Arbiter::require_free(const cable::Outputs& now) const {
   require_ready(now);
   if (is_searching())
     throw RequestError("busy", "the shape that a search has found is gone to: wait until it has settled or send hold");
@@ -51,34 +51,34 @@ void Arbiter::require_free(const Outputs& now) const {
 }
 
 // The tip stays where the command stands now.
-void Arbiter::stay_here(const Outputs& now) {
+void Arbiter::stay_here(const cable::Outputs& now) {
   tip_goal_ = now.tip_command;
   mode_ = Mode::kTip;
   unchanged_intervals_ = 0;
 }
 
-void Arbiter::move_joints(const Outputs& now, const ThetaVector& goal_rad, double rate_rad_s) {
+void Arbiter::move_joints(const cable::Outputs& now, const ThetaVector& goal_rad, double rate_rad_s) {
   require_free(now);
   joint_move_.emplace(table_, now.theta_command_rad, goal_rad, rate_rad_s);
   move_time_s_ = 0.0;
   mode_ = Mode::kJoint;
 }
 
-void Arbiter::move_line(const Outputs& now, const Pose& goal) {
+void Arbiter::move_line(const cable::Outputs& now, const Pose& goal) {
   require_free(now);
   line_.emplace(table_, mode_ == Mode::kTip ? tip_goal_ : now.tip_command, goal, tip_speed_m_s_);
   move_time_s_ = 0.0;
   mode_ = Mode::kLine;
 }
 
-void Arbiter::servo_tip(const Outputs& now, const Pose& goal) {
+void Arbiter::servo_tip(const cable::Outputs& now, const Pose& goal) {
   require_free(now);
   tip_goal_ = goal;
   mode_ = Mode::kTip;
   unchanged_intervals_ = 0;
 }
 
-void Arbiter::hold_theta(const Outputs& now, std::uint32_t mask, const ThetaVector& held_rad) {
+void Arbiter::hold_theta(const cable::Outputs& now, std::uint32_t mask, const ThetaVector& held_rad) {
   require_ready(now);
   held_mask_ = mask;
   held_rad_ = held_rad;
@@ -86,7 +86,7 @@ void Arbiter::hold_theta(const Outputs& now, std::uint32_t mask, const ThetaVect
   if (mode_ == Mode::kIdle && !device_.engaged()) stay_here(now);
 }
 
-void Arbiter::shape(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear, bool search) {
+void Arbiter::shape(const cable::Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear, bool search) {
   require_ready(now);
   if (search && is_busy())
     throw RequestError("busy", "search needs an arm at rest, a planned move is under way: wait for it or send hold");
@@ -100,7 +100,7 @@ void Arbiter::shape(const Outputs& now, const NodeTargets& nodes, const KeepClea
 }
 
 // Nodes of the best shape for the tip as it stands; none when no solution was found.
-NodeTargets Arbiter::nodes_of_best(const Outputs& now) const {
+NodeTargets Arbiter::nodes_of_best(const cable::Outputs& now) const {
   const GoalIkResult best =
       solve_goal(table_, {now.tip_command, now.theta_command_rad, held_mask_, held_rad_, nodes_, clear_});
   NodeTargets out{};
@@ -114,7 +114,7 @@ NodeTargets Arbiter::nodes_of_best(const Outputs& now) const {
 }
 
 // The lead is over when the nodes are there, or come no nearer.
-void Arbiter::end_lead(const Outputs& now) {
+void Arbiter::end_lead(const cable::Outputs& now) {
   bool there = true;
   for (const NodeTarget& target : lead_) {
     if (target.node == 0) continue;
@@ -141,7 +141,7 @@ void Arbiter::take_device_away() {
 
 // The way out takes over from whatever is under way. An operator who could grip again would steer back in as soon as it
 // ends.
-void Arbiter::retract(const Outputs& now, std::uint64_t until_tick) {
+void Arbiter::retract(const cable::Outputs& now, std::uint64_t until_tick) {
   require_ready(now);
   if (path_.empty()) throw RequestError("refused", "there is no stored path to go back along");
   take_device_away();
@@ -163,7 +163,7 @@ void Arbiter::refused() {
   device_.drop_anchor();
 }
 
-Setpoint Arbiter::tip_setpoint(const Outputs& now) const {
+Setpoint Arbiter::tip_setpoint(const cable::Outputs& now) const {
   Setpoint setpoint;
   setpoint.kind = CommandKind::kTip;
   setpoint.tip_in_base = tip_goal_;
@@ -190,7 +190,7 @@ Setpoint Arbiter::joint_setpoint(const ThetaVector& theta_rad) const {
   return setpoint;
 }
 
-std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const Outputs& now) {
+std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const cable::Outputs& now) {
   const std::optional<SteerGoal> steer = device_.finish_interval(now, interval_s_);
   if (now.state != OperatingState::kEnabled) {
     hold();
@@ -217,7 +217,7 @@ std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const Outputs
 
 // Tip and held variables stand where they should; nothing more is asked for, and the null space comes to rest. Node
 // targets are in force until they stand, too.
-bool Arbiter::has_arrived(const Outputs& now) const {
+bool Arbiter::has_arrived(const cable::Outputs& now) const {
   if (unchanged_intervals_ < kSettledIntervals || now.held_at_target == 0) return false;
   const bool shape_wanted = has_nodes(tip_setpoint(now).node) || largest_weight(clear_) > 0.0;
   if (shape_wanted) return now.at_rest != 0;
@@ -225,7 +225,7 @@ bool Arbiter::has_arrived(const Outputs& now) const {
   return norm(subtract(tip_goal_.position_m, now.tip_command.position_m)) < kArrived_m && norm(turn) < kArrived_rad;
 }
 
-std::optional<Setpoint> Arbiter::steered_setpoint(const Outputs& now, const SteerGoal& goal) {
+std::optional<Setpoint> Arbiter::steered_setpoint(const cable::Outputs& now, const SteerGoal& goal) {
   was_engaged_ = true;
   unchanged_intervals_ = 0;
   mode_ = Mode::kTip;
@@ -234,7 +234,7 @@ std::optional<Setpoint> Arbiter::steered_setpoint(const Outputs& now, const Stee
   return tip_setpoint(now);
 }
 
-std::optional<Setpoint> Arbiter::planned_setpoint(const Outputs& now) {
+std::optional<Setpoint> Arbiter::planned_setpoint(const cable::Outputs& now) {
   move_time_s_ += interval_s_;
   if (mode_ == Mode::kLine) {
     tip_goal_ = line_->at(move_time_s_);
@@ -251,7 +251,7 @@ std::optional<Setpoint> Arbiter::planned_setpoint(const Outputs& now) {
 }
 
 // Nothing is asked for until the arm has come to rest; then the way back begins where it stands.
-std::optional<Setpoint> Arbiter::way_back_setpoint(const Outputs& now) {
+std::optional<Setpoint> Arbiter::way_back_setpoint(const cable::Outputs& now) {
   if (rest_intervals_ < kRestIntervals) {
     rest_intervals_ = now.at_rest != 0 ? rest_intervals_ + 1 : 0;
     return std::nullopt;

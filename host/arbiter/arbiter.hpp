@@ -21,24 +21,24 @@ class Arbiter {
 
   // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused). `now` is the newest tick of the
   // arm.
-  void move_joints(const Outputs& now, const ThetaVector& goal_rad, double rate_rad_s);
-  void move_line(const Outputs& now, const Pose& goal);
-  void servo_tip(const Outputs& now, const Pose& goal);
+  void move_joints(const cable::Outputs& now, const ThetaVector& goal_rad, double rate_rad_s);
+  void move_line(const cable::Outputs& now, const Pose& goal);
+  void servo_tip(const cable::Outputs& now, const Pose& goal);
   // Held variables: bit i of mask holds theta i at held_rad[i]; mask 0 releases all.
-  void hold_theta(const Outputs& now, std::uint32_t mask, const ThetaVector& held_rad);
+  void hold_theta(const cable::Outputs& now, std::uint32_t mask, const ThetaVector& held_rad);
   // Null-space targets; unused entries have node = 0. The core goes downhill from where it stands; with `search` (arm
   // at rest) the goal IK looks for the best shape of all first, and the nodes are led there before the targets
   // themselves are given.
-  void shape(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear, bool search);
+  void shape(const cable::Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear, bool search);
   void use_device(const DeviceUse& use);
   // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until
   // use_device is asked for.
-  void retract(const Outputs& now, std::uint64_t until_tick);
+  void retract(const cable::Outputs& now, std::uint64_t until_tick);
   // Stop along the path: nothing is asked for any more. The operator has to let go and engage again.
   void hold();
 
   // Ends the interval: what to verify for the next one; nothing = the arm holds. `tick` counts the ticks done.
-  std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Outputs& now);
+  std::optional<Setpoint> next_setpoint(std::uint64_t tick, const cable::Outputs& now);
   // The setpoint was refused: planned moves end, the operator's clutch takes new anchors. The way back stops and starts
   // again, some times.
   void refused();
@@ -59,18 +59,18 @@ class Arbiter {
  private:
   enum class Mode { kIdle, kTip, kLine, kJoint, kRetract };
 
-  void require_ready(const Outputs& now) const;
-  void require_free(const Outputs& now) const;
-  void stay_here(const Outputs& now);
+  void require_ready(const cable::Outputs& now) const;
+  void require_free(const cable::Outputs& now) const;
+  void stay_here(const cable::Outputs& now);
   void take_device_away();
-  Setpoint tip_setpoint(const Outputs& now) const;
+  Setpoint tip_setpoint(const cable::Outputs& now) const;
   Setpoint joint_setpoint(const ThetaVector& theta_rad) const;
-  bool has_arrived(const Outputs& now) const;
-  NodeTargets nodes_of_best(const Outputs& now) const;
-  void end_lead(const Outputs& now);
-  std::optional<Setpoint> planned_setpoint(const Outputs& now);
-  std::optional<Setpoint> way_back_setpoint(const Outputs& now);
-  std::optional<Setpoint> steered_setpoint(const Outputs& now, const SteerGoal& goal);
+  bool has_arrived(const cable::Outputs& now) const;
+  NodeTargets nodes_of_best(const cable::Outputs& now) const;
+  void end_lead(const cable::Outputs& now);
+  std::optional<Setpoint> planned_setpoint(const cable::Outputs& now);
+  std::optional<Setpoint> way_back_setpoint(const cable::Outputs& now);
+  std::optional<Setpoint> steered_setpoint(const cable::Outputs& now, const SteerGoal& goal);
 
   RobotTable table_;
   SpeedZone zone_;

@@ -19,7 +19,7 @@ void DeviceSteer::disengage(const char* reason) {
 }
 
 // The node target follows the left hand while its trigger is closed, and stays where it was put when it is let go.
-void DeviceSteer::steer_node(const HandReading& left, const Outputs& now) {
+void DeviceSteer::steer_node(const HandReading& left, const cable::Outputs& now) {
   const bool held = use_.node > 0 && left.pressed && !left.let_go && !left.lost;
   if (!held || !left.has_mean) {
     node_engaged_ = node_engaged_ && held;
@@ -36,7 +36,7 @@ void DeviceSteer::steer_node(const HandReading& left, const Outputs& now) {
                   kNodeThreshold_m};
 }
 
-std::optional<SteerGoal> DeviceSteer::finish_interval(const Outputs& now, double interval_s) {
+std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now, double interval_s) {
   const HandReading tip = tip_.finish_interval();
   const HandReading left = node_.finish_interval();
   if (use_.kind == DeviceKind::kNone) return std::nullopt;

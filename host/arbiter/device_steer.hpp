@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "firmware_like/controller_io.hpp"
+#include "firmware_like/cable_controller.hpp"
 #include "host/arbiter/clutch.hpp"
 #include "host/arbiter/hand_track.hpp"
 
@@ -48,7 +48,7 @@ class DeviceSteer {
 
   // Ends the interval; a goal while engaged. `now` gives the anchors on engaging, `interval_s` the time since the last
   // call.
-  std::optional<SteerGoal> finish_interval(const Outputs& now, double interval_s);
+  std::optional<SteerGoal> finish_interval(const cable::Outputs& now, double interval_s);
   // A refused command: engages again at once, with new anchors.
   void drop_anchor() { engaged_ = false; }
   // A hold asked for by others: engages again after the deadman was open.
@@ -56,7 +56,7 @@ class DeviceSteer {
 
  private:
   void disengage(const char* reason);
-  void steer_node(const HandReading& left, const Outputs& now);
+  void steer_node(const HandReading& left, const cable::Outputs& now);
 
   DeviceUse use_{};
   HandTrack tip_{}, node_{};

@@ -6,7 +6,7 @@
 #include <deque>
 #include <optional>
 
-#include "firmware_like/controller_io.hpp"
+#include "firmware_like/cable_controller.hpp"
 
 namespace liana {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware_like/motion/keep_clear.hpp"
-#include "firmware_like/motion/shape.hpp"
+#include "firmware_like/cable/shape/keep_clear.hpp"
+#include "firmware_like/cable/shape/shape.hpp"
 
 namespace liana {
 namespace {
@@ -23,7 +23,7 @@ ShapeProgress::ShapeProgress(const RobotTable& table)
     : table_(table),
       window_(static_cast<std::size_t>(std::ceil(kShapeSettled_s / (table.tick_s * table.interval_ticks)))) {}
 
-void ShapeProgress::note(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear) {
+void ShapeProgress::note(const cable::Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear) {
   missing_m_ = missing_now_m(table_, now.theta_command_rad, nodes, clear);
   if (recent_m_.size() < window_) {
     recent_m_.push_back(missing_m_);

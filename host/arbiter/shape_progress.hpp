@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "firmware_like/controller_io.hpp"
+#include "firmware_like/cable_controller.hpp"
 
 namespace liana {
 
@@ -19,7 +19,7 @@ class ShapeProgress {
 
   // One command interval of the arm and what its shape is asked for. Cost: one forward kinematics where something is
   // asked for.
-  void note(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear);
+  void note(const cable::Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear);
   // New targets: what was missing of the old ones says nothing about them.
   void restart() { recent_m_.clear(), oldest_ = 0; }
 

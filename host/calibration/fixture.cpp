@@ -6,7 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "firmware_like/arm/tension.hpp"
+#include "firmware_like/cable/arm/tension.hpp"
 
 namespace liana {
 namespace {

@@ -10,7 +10,7 @@
 
 #include <cstdint>
 
-#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
 #include "host/config/config.hpp"
 
 namespace liana {

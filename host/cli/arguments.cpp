@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "firmware_like/telecommand.hpp"
+#include "firmware_like/cable/setpoint.hpp"
 #include "host/system/errors.hpp"
 
 namespace liana {
@@ -42,9 +42,12 @@ Vec3 checked_position(std::string_view option, std::string_view text, const std:
   return {v[0], v[1], v[2]};
 }
 
-double theta_limit_rad(const RobotTable& robot, std::size_t theta) { return robot.segment[theta / 2].theta_limit_rad; }
+double theta_limit_rad(const cable::RobotTable& robot, std::size_t theta) {
+  return robot.segment[theta / 2].theta_limit_rad;
+}
 
-double checked_angle_deg(std::string_view option, std::string_view text, const RobotTable& robot, std::size_t theta) {
+double checked_angle_deg(std::string_view option, std::string_view text, const cable::RobotTable& robot,
+                         std::size_t theta) {
   const double angle_deg = parse_number(option, text);
   const double limit_deg = theta_limit_rad(robot, theta) / kDegree;
   // The limit itself is allowed; its degrees went through radians and back.
@@ -86,7 +89,7 @@ std::int64_t parse_whole(std::string_view option, std::string_view text, std::in
   return value;
 }
 
-std::int32_t parse_node(std::string_view option, std::string_view text, const RobotTable& robot) {
+std::int32_t parse_node(std::string_view option, std::string_view text, const cable::RobotTable& robot) {
   return static_cast<std::int32_t>(
       parse_whole(option, text, 1, robot.segment_count, ": a node (the end of a segment)"));
 }
@@ -107,11 +110,11 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
   return values;
 }
 
-ThetaVector parse_theta_deg(std::string_view option, std::string_view text, const RobotTable& robot) {
+cable::ThetaVector parse_theta_deg(std::string_view option, std::string_view text, const cable::RobotTable& robot) {
   const auto count = static_cast<std::size_t>(robot.theta_count());
   const auto parts = split(text, ',');
   parse_numbers(option, text, count);
-  ThetaVector theta_rad{};
+  cable::ThetaVector theta_rad{};
   for (std::size_t i = 0; i < count; ++i) theta_rad[i] = checked_angle_deg(option, parts[i], robot, i) * kDegree;
   return theta_rad;
 }
@@ -128,7 +131,7 @@ Pose parse_pose(std::string_view option, std::string_view text) {
   return pose;
 }
 
-std::vector<HoldArgument> parse_hold(std::string_view text, const RobotTable& robot) {
+std::vector<HoldArgument> parse_hold(std::string_view text, const cable::RobotTable& robot) {
   std::vector<HoldArgument> holds;
   for (const std::string_view part : split(text, ',')) {
     const std::size_t equals = part.find('=');
@@ -148,7 +151,7 @@ std::vector<HoldArgument> parse_hold(std::string_view text, const RobotTable& ro
   return holds;
 }
 
-ControlPointArgument parse_control_point(std::string_view text, const RobotTable& robot) {
+ControlPointArgument parse_control_point(std::string_view text, const cable::RobotTable& robot) {
   const auto parts = split(text, ':');
   if (parts.size() != 2 && parts.size() != 3) refuse("--control-point", text, "NODE:x,y,z or NODE:x,y,z:WEIGHT");
   ControlPointArgument point;

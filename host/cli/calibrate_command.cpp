@@ -66,7 +66,7 @@ CalibrationReading read_in(const CalibrateOptions& options, bool simulated, cons
 // arm has it for himself.
 std::vector<CalibrationReading> read_all(const CalibrateOptions& options, bool simulated,
                                          const std::vector<std::string>& poses,
-                                         const std::vector<ThetaVector>& thetas_rad) {
+                                         const std::vector<cable::ThetaVector>& thetas_rad) {
   std::vector<CalibrationReading> readings;
   if (!simulated)
     clean_up(plan_for(options, simulated, poses.front()),
@@ -110,7 +110,7 @@ int calibrate_command(const CalibrateOptions& options) {
   check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
   if (!options.out_file.empty()) check_output("--out", options.out_file);
   const std::vector<std::string> poses = names_in(options.poses);
-  std::vector<ThetaVector> thetas_rad;
+  std::vector<cable::ThetaVector> thetas_rad;
   try {
     for (const std::string& pose : poses) thetas_rad.push_back(named_pose_rad(robot, pose));
     check_poses(robot, thetas_rad);

@@ -1,10 +1,10 @@
 #include <cstdio>
 #include <numbers>
 
-#include "firmware_like/motion/goal_ik.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/json/json.hpp"
+#include "host/solve/goal_ik.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/tables.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Fixes the held angles, at their own value where one was given.
-void hold(const std::string& text, const RobotTable& robot, GoalIkProblem& problem) {
+void hold(const std::string& text, const cable::RobotTable& robot, GoalIkProblem& problem) {
   problem.held_rad = problem.from_rad;
   if (text.empty()) return;
   for (const HoldArgument& held : parse_hold(text, robot)) {
@@ -24,7 +24,7 @@ void hold(const std::string& text, const RobotTable& robot, GoalIkProblem& probl
   }
 }
 
-void aim_nodes(const std::vector<std::string>& texts, const RobotTable& robot, GoalIkProblem& problem) {
+void aim_nodes(const std::vector<std::string>& texts, const cable::RobotTable& robot, GoalIkProblem& problem) {
   if (texts.size() > problem.node.size()) {
     throw BadInput("--control-point: " + std::to_string(texts.size()) + " given: allowed: at most " +
                    std::to_string(problem.node.size()));
@@ -63,7 +63,7 @@ void print_text(const Json& answer) {
 }  // namespace
 
 int ik_command(const IkOptions& options) {
-  const RobotTable robot = robot_for_kinematics(options.robot).table;
+  const cable::RobotTable robot = robot_for_kinematics(options.robot).table;
   GoalIkProblem problem;
   problem.from_rad = parse_theta_deg("--from-deg", options.from_deg, robot);
   problem.tip_in_base = parse_pose("--tip", options.tip);

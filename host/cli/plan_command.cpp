@@ -145,7 +145,7 @@ PlanRequest request_of(const PlanOptions& options) {
 
 Json to_json(const PlanRequest& request, const PlanResult& result, double time_s) {
   Json waypoints = Json::array();
-  for (const ThetaVector& theta : result.waypoints_rad) {
+  for (const cable::ThetaVector& theta : result.waypoints_rad) {
     Json row = Json::array();
     for (std::int32_t k = 0; k < request.robot.table.theta_count(); ++k)
       row.push_back(theta[static_cast<std::size_t>(k)] / kDegree);

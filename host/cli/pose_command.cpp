@@ -1,7 +1,7 @@
 #include <cstdio>
 
-#include "firmware_like/arm/cables.hpp"
-#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/cables.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/slit_part.hpp"
@@ -27,7 +27,7 @@ Json homogeneous(const Pose& pose) {
   return rows;
 }
 
-Json jacobian_rows(const Jacobian& jacobian, std::size_t theta_count) {
+Json jacobian_rows(const cable::Jacobian& jacobian, std::size_t theta_count) {
   Json rows = Json::array();
   for (std::size_t row = 0; row < 6; ++row) {
     Json values = Json::array();
@@ -38,11 +38,11 @@ Json jacobian_rows(const Jacobian& jacobian, std::size_t theta_count) {
   return rows;
 }
 
-Json pose_of(const RobotTable& table, const ThetaVector& theta_rad) {
-  const ArmTrig trig = arm_trig(table, theta_rad);
-  const ArmKinematics arm = forward_kinematics(table, trig);
-  const CableLayout layout = cable_layout(table);
-  const CableGeometry cables = cable_geometry(table, layout, trig);
+Json pose_of(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
+  const cable::ArmTrig trig = arm_trig(table, theta_rad);
+  const cable::ArmKinematics arm = forward_kinematics(table, trig);
+  const cable::CableLayout layout = cable_layout(table);
+  const cable::CableGeometry cables = cable_geometry(table, layout, trig);
   Json ends = Json::array();
   for (std::size_t m = 1; m <= static_cast<std::size_t>(table.segment_count); ++m)
     ends.push_back(arm.node_in_base[m].position_m);
@@ -76,7 +76,7 @@ void print_summary(const Json& pose) {
 
 int pose_command(const PoseOptions& options) {
   const RobotConfig robot = robot_for_kinematics(options.robot);
-  const ThetaVector theta_rad = parse_theta_deg("--theta-deg", options.theta_deg, robot.table);
+  const cable::ThetaVector theta_rad = parse_theta_deg("--theta-deg", options.theta_deg, robot.table);
   Json pose = pose_of(robot.table, theta_rad);
   if (!options.scene.empty()) {
     const SceneConfig scene = scene_of(options.scene);

@@ -33,7 +33,7 @@ std::string number_list(const std::vector<double>& numbers) {
 
 // The waypoints of a file: what `liana plan --json` prints, or a JSON object with waypoints_deg (rows of joint angles,
 // degrees).
-std::vector<ThetaVector> read_waypoints(const std::string& path, const RobotTable& robot) {
+std::vector<cable::ThetaVector> read_waypoints(const std::string& path, const cable::RobotTable& robot) {
   std::error_code unreadable;
   std::ifstream file;
   if (std::filesystem::is_regular_file(path, unreadable)) file.open(path, std::ios::binary);
@@ -45,7 +45,7 @@ std::vector<ThetaVector> read_waypoints(const std::string& path, const RobotTabl
     throw BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " +
                    std::to_string(kMaxWaypoints) + " rows of joint angles under this key");
   }
-  std::vector<ThetaVector> waypoints;
+  std::vector<cable::ThetaVector> waypoints;
   for (const Json& row : rows) {
     const std::string name = "--path: " + path + ": waypoints_deg row " + std::to_string(waypoints.size() + 1);
     const auto is_number = [](const Json& value) { return value.is_number(); };
@@ -76,7 +76,7 @@ std::uint32_t mask_of(const std::vector<HoldArgument>& holds) {
   return mask;
 }
 
-std::vector<HoldArgument> holds_of(const ReachOptions& options, const RobotTable& robot) {
+std::vector<HoldArgument> holds_of(const ReachOptions& options, const cable::RobotTable& robot) {
   return options.hold.empty() ? std::vector<HoldArgument>{} : parse_hold(options.hold, robot);
 }
 
@@ -87,7 +87,8 @@ void require_free(std::uint32_t held_mask, std::int32_t theta_count, const std::
                    std::to_string(theta_count));
 }
 
-RegionRequest region_request(const ReachOptions& options, const RobotTable& robot, const ThetaVector& pose_rad) {
+RegionRequest region_request(const ReachOptions& options, const cable::RobotTable& robot,
+                             const cable::ThetaVector& pose_rad) {
   RegionRequest request;
   request.point.node = options.node.empty() ? robot.segment_count : parse_node("--node", options.node, robot);
   request.samples = static_cast<std::int32_t>(parse_whole("--samples", options.samples, kMinSamples, kMaxSamples));
@@ -104,14 +105,14 @@ RegionRequest region_request(const ReachOptions& options, const RobotTable& robo
 
 // --- what is answered ---
 
-Json degrees(const ThetaVector& theta_rad, const RobotTable& robot) {
+Json degrees(const cable::ThetaVector& theta_rad, const cable::RobotTable& robot) {
   Json list = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i)
     list.push_back(theta_rad[i] / kDegree);
   return list;
 }
 
-Json held_json(const RegionRequest& request, const RobotTable& robot) {
+Json held_json(const RegionRequest& request, const cable::RobotTable& robot) {
   Json held = Json::object();
   for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) {
     if (request.point.held_mask >> i & 1u) held[std::to_string(i + 1)] = request.held_rad[i] / kDegree;
@@ -119,14 +120,14 @@ Json held_json(const RegionRequest& request, const RobotTable& robot) {
   return held;
 }
 
-Json end_json(const BoundaryPoint& end, const RobotTable& robot) {
+Json end_json(const BoundaryPoint& end, const cable::RobotTable& robot) {
   return {{"distance_m", end.distance_m},
           {"point_m", end.point_in_base_m},
           {"theta_deg", degrees(end.theta_rad, robot)},
           {"binding_theta", theta_numbers(end.binding)}};
 }
 
-Json bins_json(const Region& region, const RobotTable& robot) {
+Json bins_json(const Region& region, const cable::RobotTable& robot) {
   Json bins = Json::array();
   for (const DirectionBin& bin : region.bins) {
     Json row = {{"polar_deg", bin.polar_rad / kDegree},
@@ -155,7 +156,7 @@ Json shells_json(const Region& region) {
   return shells;
 }
 
-Json binding_json(const Region& region, const RobotTable& robot) {
+Json binding_json(const Region& region, const cable::RobotTable& robot) {
   Json shares = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i)
     shares.push_back(region.outer_binding_share[i]);
@@ -183,7 +184,7 @@ Json region_json(const RegionRequest& request, const Region& region, const Robot
           {"boundary", bins_json(region, robot.table)}};
 }
 
-Json point_json(const PathPoint& point, const RobotTable& robot) {
+Json point_json(const PathPoint& point, const cable::RobotTable& robot) {
   const double condition = condition_number(point);
   return {{"way", point.way},
           {"theta_deg", degrees(point.theta_rad, robot)},
@@ -206,7 +207,7 @@ Json path_json(const PathReport& report, std::uint32_t held_mask, const RobotCon
           {"points", points}};
 }
 
-void print_region(const RegionRequest& request, const Region& region, const RobotTable& robot) {
+void print_region(const RegionRequest& request, const Region& region, const cable::RobotTable& robot) {
   std::printf("node %d, held: %s\n", request.point.node,
               held_text(robot, request.point.held_mask, request.held_rad).c_str());
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -234,7 +235,7 @@ void print_path(const PathReport& report) {
 }
 
 int reach_along_path(const ReachOptions& options, const RobotConfig& robot) {
-  std::vector<ThetaVector> waypoints_rad;
+  std::vector<cable::ThetaVector> waypoints_rad;
   if (options.path.empty()) {
     waypoints_rad = {parse_theta_deg("--from-deg", options.from_deg, robot.table),
                      parse_theta_deg("--to-deg", options.to_deg, robot.table)};
@@ -263,10 +264,10 @@ int reach_region(const ReachOptions& options, const RobotConfig& robot) {
   if (!options.scene.empty()) {
     scene = scene_of(options.scene);
   }
-  ThetaVector pose_rad{};
+  cable::ThetaVector pose_rad{};
   if (!options.from_deg.empty()) pose_rad = parse_theta_deg("--from-deg", options.from_deg, robot.table);
   const RegionRequest request = region_request(options, robot.table, pose_rad);
-  for (std::size_t i = 0; i < kMaxTheta; ++i) {
+  for (std::size_t i = 0; i < cable::kMaxTheta; ++i) {
     if (request.point.held_mask >> i & 1u) pose_rad[i] = request.held_rad[i];
   }
   const Region region = explore_region(robot.table, request);

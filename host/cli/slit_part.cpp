@@ -16,8 +16,8 @@ Json range_deg(const YawInterval& interval) {
 
 }  // namespace
 
-Json slit_part(const RobotConfig& robot, const SceneConfig& scene, const ThetaVector& theta_rad) {
-  const RobotTable& table = robot.table;
+Json slit_part(const RobotConfig& robot, const SceneConfig& scene, const cable::ThetaVector& theta_rad) {
+  const cable::RobotTable& table = robot.table;
   const SlitMouth mouth = slit_mouth(*scene.slit, robot.module_radius_m);
   const std::int32_t segments = planar_segments(table, link_points(table, theta_rad), mouth, PlanarSwitch{}, 0);
   const PlanarPart part{segments, forward_kinematics(table, theta_rad).tip_in_base, theta_rad};

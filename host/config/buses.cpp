@@ -20,7 +20,7 @@ BusConfig read_bus(const Field& field, std::map<std::int32_t, std::string>& owne
   bus.name = field.at("name").name(11);  // 12 bytes with the final zero, docs/bus-protocol.md
   bus.bitrate = static_cast<std::int32_t>(field.at("bitrate").integer(10000, 1000000));
   const Field nodes = field.at("nodes");
-  const std::size_t count = nodes.size(1, kMaxCables, "list the node ids of the drives on this bus");
+  const std::size_t count = nodes.size(1, cable::kMaxCables, "list the node ids of the drives on this bus");
   for (std::size_t i = 0; i < count; ++i) {
     const auto node = static_cast<std::int32_t>(nodes.element(i).integer(1, kMasterNode - 1));
     if (!owner.emplace(node, bus.name).second)

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_table.hpp"
 #include "host/json/json_fwd.hpp"
 
 namespace liana {
@@ -66,7 +66,7 @@ struct DriveIdentity {
 // The robot: what the core needs (table) and what only the host needs.
 struct RobotConfig {
   std::string name;
-  RobotTable table{};  // mu, tick and T_c included
+  cable::RobotTable table{};  // mu, tick and T_c included
   DriveIdentity identity{};
   double rated_torque_Nm = 0.0;  // 6076, at the drum
   std::uint32_t counts_per_turn = 0;

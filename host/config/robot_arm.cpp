@@ -7,9 +7,9 @@
 namespace liana {
 namespace {
 
-void read_segment(const Field& field, double mass_kg, SegmentTable& segment) {
+void read_segment(const Field& field, double mass_kg, cable::SegmentTable& segment) {
   field.only({"modules", "module_length_m", "theta_limit_deg"});
-  segment.modules = static_cast<std::int32_t>(field.at("modules").integer(1, kMaxModules));
+  segment.modules = static_cast<std::int32_t>(field.at("modules").integer(1, cable::kMaxModules));
   segment.module_length_m = field.at("module_length_m").number({0, 2, true});
   segment.theta_limit_rad = field.at("theta_limit_deg").number({0, 60, true}) * kRadPerDeg;
   segment.module_mass_kg = mass_kg;
@@ -24,8 +24,8 @@ bool surround(std::vector<double> phases_deg) {
   return widest < 179.0;
 }
 
-void read_phases(const Field& field, SegmentTable& segment) {
-  const std::size_t count = field.size(3, kMaxSegmentCables, "a segment needs 3 or 4 cables");
+void read_phases(const Field& field, cable::SegmentTable& segment) {
+  const std::size_t count = field.size(3, cable::kMaxSegmentCables, "a segment needs 3 or 4 cables");
   std::vector<double> phases_deg;
   for (std::size_t c = 0; c < count; ++c) {
     phases_deg.push_back(field.element(c).number({-360, 720}));
@@ -40,7 +40,7 @@ void read_phases(const Field& field, SegmentTable& segment) {
 }  // namespace
 
 void read_arm(const Field& table, RobotConfig& out) {
-  RobotTable& robot = out.table;
+  cable::RobotTable& robot = out.table;
   const Field module = table.at("module");
   module.only({"mass_kg", "radius_m"});
   const double mass_kg = module.at("mass_kg").number({0, 100, true});
@@ -49,7 +49,7 @@ void read_arm(const Field& table, RobotConfig& out) {
   out.joint_viscous_Nms_per_rad = table.at("joint").at("viscous_Nms_per_rad").number({0, 1000});
 
   const Field segments = table.at("segments");
-  const std::size_t count = segments.size(1, kMaxSegments, "this build holds at most 8 segments (kMaxSegments)");
+  const std::size_t count = segments.size(1, cable::kMaxSegments, "this build holds at most 8 segments (kMaxSegments)");
   robot.segment_count = static_cast<std::int32_t>(count);
   const Field phases = table.at("cables").at("phase_deg");
   phases.size(count, count, "give one list of phases per segment");
@@ -59,13 +59,13 @@ void read_arm(const Field& table, RobotConfig& out) {
     read_phases(phases.element(m), robot.segment[m]);
     shortest_m = std::min(shortest_m, robot.segment[m].module_length_m);
   }
-  if (robot.cable_count() > kMaxCables)
+  if (robot.cable_count() > cable::kMaxCables)
     phases.refuse("at most 32 cables", "this build holds at most 32 drives (kMaxCables)");
   robot.hole_radius_m = table.at("cables").at("hole_radius_m").number({0, out.module_radius_m, true});
   robot.face_offset_m = table.at("cables").at("face_offset_m").number({0, 0.49 * shortest_m, true});
 }
 
-void read_limits(const Field& field, MotionLimits& limits) {
+void read_limits(const Field& field, cable::MotionLimits& limits) {
   field.only({"theta_rate_deg_s", "theta_accel_deg_s2", "tip_speed_m_s", "tip_speed_slit_m_s", "tip_accel_m_s2",
               "tip_jerk_m_s3", "tip_rate_deg_s", "tip_angular_accel_deg_s2", "tip_angular_jerk_deg_s3",
               "cable_speed_m_s"});

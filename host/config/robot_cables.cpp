@@ -21,7 +21,7 @@ double read_friction(const Field& field, const std::string& physics) {
   return field.at(physics).number({0, 0.5});
 }
 
-void read_tension(const Field& field, TensionLimits& tension) {
+void read_tension(const Field& field, cable::TensionLimits& tension) {
   field.only({"plan_N", "floor_motor_N", "floor_anywhere_N", "ceiling_free_N", "alarm_N", "hard_limit_N"});
   tension.floor_anywhere_N = field.at("floor_anywhere_N").number({0, kMaxTension_N, true});
   tension.floor_motor_N = field.at("floor_motor_N").number({tension.floor_anywhere_N, kMaxTension_N});
@@ -32,7 +32,7 @@ void read_tension(const Field& field, TensionLimits& tension) {
 }
 
 // Optional: a table without it gets the defaults.
-void read_watch(const Field& cables, CableWatchTable& watch) {
+void read_watch(const Field& cables, cable::CableWatchTable& watch) {
   if (!cables.json().contains("watch")) return;
   const Field field = cables.at("watch");
   field.only({"jump_N", "contradiction_m"});

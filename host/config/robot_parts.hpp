@@ -31,7 +31,7 @@ std::int32_t read_calibration_days(const Field& drives);
 void check_nodes(const std::string& robot, std::int32_t drives, const std::string& file, const BusesConfig& buses);
 
 // Motion limits.
-void read_limits(const Field& field, MotionLimits& limits);
+void read_limits(const Field& field, cable::MotionLimits& limits);
 
 // Named poses within the theta limits; "zero" must be there.
 void read_named_poses(const Field& field, RobotConfig& out);

@@ -1,8 +1,8 @@
 // The scene's slit as the core's DOF split wants it.
 #pragma once
 
-#include "firmware_like/motion/dof_split.hpp"
 #include "host/config/config.hpp"
+#include "host/solve/dof_split.hpp"
 
 namespace liana {
 

@@ -34,19 +34,19 @@ struct Overruns {
 struct CycleReport {
   std::uint64_t next_tick = 0;  // ticks done so far
   BootPhase boot = BootPhase::kBooting;
-  Inputs inputs{};
-  Outputs outputs{};
+  cable::Inputs inputs{};
+  cable::Outputs outputs{};
   Overruns overruns{};
   std::array<DriveBusStats, kMaxDriveBuses> bus{};
   std::uint64_t records_lost = 0;  // tick records that found the ring full
 };
 
 struct Link {
-  explicit Link(const RobotTable& table)
-      : image(TwinImage{0, true, Controller(table), {}, {}}), report(CycleReport{}) {}
+  explicit Link(const cable::RobotTable& table)
+      : image(TwinImage{0, true, cable::Controller(table), {}, {}}), report(CycleReport{}) {}
 
   // Service to real time.
-  SpscRing<Telecommand, 16> released;
+  SpscRing<cable::Telecommand, 16> released;
   SpscRing<Request, 16> requests;
   // Real time to service.
   SpscRing<TickRecord, 512> ticks;

@@ -4,7 +4,7 @@
 
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/convert.hpp"
-#include "firmware_like/safety/watchdogs.hpp"
+#include "firmware_like/safety/link_watch.hpp"
 #include "host/canopen/cob_id.hpp"
 #include "host/control/tick_guard.hpp"
 
@@ -114,7 +114,7 @@ void RtCycle::take_emergencies() noexcept {
   }
 }
 
-void RtCycle::command_drives(const Outputs& outputs) noexcept {
+void RtCycle::command_drives(const cable::Outputs& outputs) noexcept {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     if (silent_ticks_[static_cast<std::size_t>(drives_[i].bus)] > kFarewellTicks) continue;
     CanFrame frame;

@@ -31,11 +31,11 @@ class RtCycle {
   void collect(const TickStart& start) noexcept;
   void take_emergencies() noexcept;
   std::uint32_t lost_buses() const noexcept;
-  void command_drives(const Outputs& outputs) noexcept;
+  void command_drives(const cable::Outputs& outputs) noexcept;
   void count_overrun(const TickStart& start) noexcept;
   void finish_tick(const TickStart& start) noexcept;
 
-  RobotTable table_;
+  cable::RobotTable table_;
   DriveBus& bus_;
   std::vector<canopen::DriveExpectation> drives_;  // bus and node of every drive, in the order of the cables
   std::vector<std::string> bus_names_;
@@ -46,7 +46,7 @@ class RtCycle {
   std::array<std::array<std::int8_t, 128>, kMaxDriveBuses> drive_of_node_{};  // -1: not ours
   std::array<bool, kMaxDriveBuses> has_drives_{};
   std::array<std::uint16_t, kMaxDriveBuses> silent_ticks_{};  // in a row without a report of any drive of the bus
-  Inputs inputs_{};
+  cable::Inputs inputs_{};
   CycleReport report_{};
   std::uint64_t began_us_ = 0, heard_us_ = 0,
                 ended_us_ = 0;  // of the last tick, on the bus's clock; heard: the wait for feedback is over

@@ -3,9 +3,9 @@
 namespace liana {
 
 // The newest telecommand whose time has come; one that is overdue after lost ticks is still taken until it expires.
-Telecommand TickCore::due_telecommand(std::uint64_t tick) {
-  Telecommand due;
-  while (const Telecommand* next = link_.released.front()) {
+cable::Telecommand TickCore::due_telecommand(std::uint64_t tick) {
+  cable::Telecommand due;
+  while (const cable::Telecommand* next = link_.released.front()) {
     if (next->first_tick() > tick) break;
     if (next->expiry_tick() > tick) due = *next;
     link_.released.pop();
@@ -13,7 +13,7 @@ Telecommand TickCore::due_telecommand(std::uint64_t tick) {
   return due;
 }
 
-const Outputs& TickCore::step(Inputs& inputs) {
+const cable::Outputs& TickCore::step(cable::Inputs& inputs) {
   inputs.telecommand = due_telecommand(inputs.tick);
   if (const Request* request = link_.requests.front()) {
     inputs.request = *request;

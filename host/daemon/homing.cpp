@@ -19,7 +19,7 @@ struct Contradiction {
   double largest_m = 0.0;
 };
 
-std::vector<Contradiction> contradictions(const RobotTable& table, const EstimatorState& estimator) {
+std::vector<Contradiction> contradictions(const cable::RobotTable& table, const cable::EstimatorState& estimator) {
   std::vector<Contradiction> out;
   Index first = 0;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
@@ -27,7 +27,7 @@ std::vector<Contradiction> contradictions(const RobotTable& table, const Estimat
     for (Index c = first; c < first + of.cables; ++c)
       of.largest_m = std::fmax(of.largest_m, std::fabs(estimator.residual_m[c]));
     first += of.cables;
-    if (!(of.largest_m < kHomingResidual_m)) out.push_back(of);
+    if (!(of.largest_m < cable::kHomingResidual_m)) out.push_back(of);
   }
   std::stable_sort(out.begin(), out.end(),
                    [](const Contradiction& a, const Contradiction& b) { return a.largest_m > b.largest_m; });
@@ -41,31 +41,31 @@ std::string text_of(const Contradiction& found) {
   return text;
 }
 
-std::string why_lengths_do_not_fit(const RobotTable& table, const EstimatorState& estimator) {
+std::string why_lengths_do_not_fit(const cable::RobotTable& table, const cable::EstimatorState& estimator) {
   std::string out;
   for (const Contradiction& found : contradictions(table, estimator))
     out += (out.empty() ? "cables " : ", cables ") + text_of(found);
   if (out.empty())
     return "the angles that the cables' lengths say have not settled: wait, or look for a drum that turns";
   char allowed[40];
-  std::snprintf(allowed, sizeof allowed, "; allowed %.1f mm: ", 1e3 * kHomingResidual_m);
+  std::snprintf(allowed, sizeof allowed, "; allowed %.1f mm: ", 1e3 * cable::kHomingResidual_m);
   return out + allowed + "look for cables on each other's drums, slack ones and wrong zeros, then run liana calibrate";
 }
 
 }  // namespace
 
-CableVector paid_out_m(const RobotTable& table, const Inputs& inputs) {
-  CableVector out{};
+cable::CableVector paid_out_m(const cable::RobotTable& table, const cable::Inputs& inputs) {
+  cable::CableVector out{};
   for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i) {
-    const DriveTable& drive = table.drive[i];
+    const cable::DriveTable& drive = table.drive[i];
     out[i] = drive.direction * (static_cast<double>(inputs.drive[i].position_counts) - drive.zero_counts) *
              drive.metres_per_count;
   }
   return out;
 }
 
-CableVector reported_tension_N(const RobotTable& table, const Inputs& inputs) {
-  CableVector out{};
+cable::CableVector reported_tension_N(const cable::RobotTable& table, const cable::Inputs& inputs) {
+  cable::CableVector out{};
   for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i)
     out[i] = inputs.drive[i].torque_permille * table.drive[i].newtons_per_permille;
   return out;
@@ -75,8 +75,8 @@ Homing::Homing(const RobotConfig& robot, const std::string& in_pose) : robot_(ro
   if (!in_pose.empty()) check_tells_apart(robot, in_pose);
 }
 
-void Homing::look(const CycleReport& report, const EstimatorState& estimator) {
-  const RobotTable& table = robot_.table;
+void Homing::look(const CycleReport& report, const cable::EstimatorState& estimator) {
+  const cable::RobotTable& table = robot_.table;
   for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i) {
     if (report.inputs.drive[i].feedback_age_ticks == 0xFFFF) return;
   }

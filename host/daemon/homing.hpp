@@ -10,10 +10,10 @@
 namespace liana {
 
 // Cable that every drive reports as paid out beyond its zero [m].
-CableVector paid_out_m(const RobotTable& table, const Inputs& inputs);
+cable::CableVector paid_out_m(const cable::RobotTable& table, const cable::Inputs& inputs);
 
 // Tension that every drive reports [N].
-CableVector reported_tension_N(const RobotTable& table, const Inputs& inputs);
+cable::CableVector reported_tension_N(const cable::RobotTable& table, const cable::Inputs& inputs);
 
 class Homing {
  public:
@@ -22,7 +22,7 @@ class Homing {
   Homing(const RobotConfig& robot, const std::string& in_pose);
 
   // Once per interval after booting. The pose is compared until it fits once: then the arm may leave it.
-  void look(const CycleReport& report, const EstimatorState& estimator);
+  void look(const CycleReport& report, const cable::EstimatorState& estimator);
 
   bool is_homed() const { return why_not_.empty(); }
   // What contradicts what and what to do; empty while homed.

@@ -19,7 +19,7 @@ constexpr double kAfterMission_s = 1.0;       // of arm time: the hold at the en
 constexpr double kHoming_s = 0.5;             // of arm time after booting: homing takes 0.1 s
 constexpr double kShutdownLimit_s = 10.0;     // of arm time, until the drives are off
 
-double reach_of(const RobotTable& table) {
+double reach_of(const cable::RobotTable& table) {
   double reach_m = 0.0;
   for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m) {
     reach_m += table.segment[m].modules * table.segment[m].module_length_m;
@@ -108,8 +108,8 @@ void Service::note_clear() {
 // By the commanded angles: they have no noise.
 void Service::watch_slit() {
   if (!config_.scene.slit) return;
-  const RobotTable& table = config_.robot.table;
-  const LinkPoints links = link_points(table, link_.report.value().outputs.theta_command_rad);
+  const cable::RobotTable& table = config_.robot.table;
+  const cable::LinkPoints links = link_points(table, link_.report.value().outputs.theta_command_rad);
   const SlitMouth mouth = slit_mouth(*config_.scene.slit, config_.robot.module_radius_m);
   notes_.planar_segments = planar_segments(table, links, mouth, PlanarSwitch{}, notes_.planar_segments);
 }
@@ -148,7 +148,7 @@ void Service::watch_arm() {
 }
 
 // What a drive reports beside its statusword; whether it is a fault, its statusword says.
-void Service::note_emergencies(const Inputs& inputs) {
+void Service::note_emergencies(const cable::Inputs& inputs) {
   for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
     const std::uint16_t code = inputs.drive[i].emergency_code;
     if (code == 0) continue;
@@ -186,14 +186,14 @@ void Service::forward_camera() {
 }
 
 void Service::release_next() {
-  const std::optional<Setpoint> setpoint = arbiter_.next_setpoint(tick(), now());
+  const std::optional<cable::Setpoint> setpoint = arbiter_.next_setpoint(tick(), now());
   const std::uint64_t next_tick = link_.image.value().next_tick;
-  std::erase_if(released_, [next_tick](const Telecommand& t) { return t.first_tick() < next_tick; });
+  std::erase_if(released_, [next_tick](const cable::Telecommand& t) { return t.first_tick() < next_tick; });
   if (setpoint && owner_.client() != 0) verify_and_release(*setpoint);
 }
 
-void Service::verify_and_release(const Setpoint& setpoint) {
-  const RobotTable& table = config_.robot.table;
+void Service::verify_and_release(const cable::Setpoint& setpoint) {
+  const cable::RobotTable& table = config_.robot.table;
   const TwinImage& image = link_.image.value();
   const auto interval = static_cast<std::uint64_t>(table.interval_ticks);
   const Candidate candidate = release_.candidate(setpoint, owner_.role_number(), image.next_tick + interval, interval);
@@ -205,7 +205,7 @@ void Service::verify_and_release(const Setpoint& setpoint) {
     judge_time(candidate, tick(), execution);
   }
 
-  const std::optional<Telecommand> telecommand = release_.release(candidate, execution, simulation);
+  const std::optional<cable::Telecommand> telecommand = release_.release(candidate, execution, simulation);
   const Verdict& worst = execution.passed() ? static_cast<const Verdict&>(simulation) : execution;
   notes_.verdict = {candidate.sequence(), telecommand.has_value(), worst,
                     prediction.ticks[prediction.command_ticks - 1].theta_command_rad};

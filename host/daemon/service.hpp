@@ -94,7 +94,7 @@ class Service : private ApiHandler {
   Json on_timing(const ClientInfo& client, const Json& request);
 
   void require_homed() const;
-  const Outputs& now() const { return link_.report.value().outputs; }
+  const cable::Outputs& now() const { return link_.report.value().outputs; }
   std::uint64_t tick() const { return link_.report.value().next_tick; }
   void note(const std::string& text);
   void request(Request what);
@@ -104,12 +104,12 @@ class Service : private ApiHandler {
   void watch_slit();
   void watch_shape();
   void note_clear();
-  void note_emergencies(const Inputs& inputs);
+  void note_emergencies(const cable::Inputs& inputs);
   void forward_ticks();
   void forward_camera();
   void publish_state();
   void release_next();
-  void verify_and_release(const Setpoint& setpoint);
+  void verify_and_release(const cable::Setpoint& setpoint);
 
   ServiceConfig config_;
   Link& link_;
@@ -122,7 +122,7 @@ class Service : private ApiHandler {
   ShapeProgress shape_progress_;
   Release release_;
   Twin twin_;
-  std::vector<Telecommand> released_;  // not yet due at the newest image
+  std::vector<cable::Telecommand> released_;  // not yet due at the newest image
   Notes notes_;
   HostTrouble trouble_;
   BootPhase boot_seen_ = BootPhase::kBooting;

@@ -13,7 +13,7 @@ namespace {
 constexpr double kDegree = 0.017453292519943295;
 
 // Limit of a theta, free of what the way through radians left of it.
-double limit_deg(const RobotTable& table, std::size_t theta) {
+double limit_deg(const cable::RobotTable& table, std::size_t theta) {
   return std::round(table.segment[theta / 2].theta_limit_rad / kDegree * 1e9) / 1e9;
 }
 
@@ -118,12 +118,12 @@ void Service::require_homed() const {
 
 Json Service::on_move_jp(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
-  const RobotTable& table = config_.robot.table;
+  const cable::RobotTable& table = config_.robot.table;
   const auto count = static_cast<std::size_t>(table.theta_count());
   const std::vector<double> goal_deg = numbers_field(request, "goal_deg", count, -180.0, 180.0);
   const double most_deg_s = table.limits.theta_rate_rad_s / kDegree;
   const double rate_deg_s = number_field_or(request, "rate_deg_s", 0.01, most_deg_s, most_deg_s);
-  ThetaVector goal_rad{};
+  cable::ThetaVector goal_rad{};
   for (std::size_t i = 0; i < count; ++i) {
     const double most_deg = limit_deg(table, i);
     if (std::fabs(goal_deg[i]) > most_deg) {
@@ -154,10 +154,10 @@ Json Service::on_servo_cp(const ClientInfo& client, const Json& request) {
 
 Json Service::on_hold_theta(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
-  const RobotTable& table = config_.robot.table;
+  const cable::RobotTable& table = config_.robot.table;
   std::uint32_t mask = 0;
-  ThetaVector held_rad{};
-  read_entries(request, "held", kMaxTheta, [&](std::size_t, const Json& entry) {
+  cable::ThetaVector held_rad{};
+  read_entries(request, "held", cable::kMaxTheta, [&](std::size_t, const Json& entry) {
     only_fields(entry, {"theta", "target_deg"});
     const auto i = static_cast<std::size_t>(integer_field(entry, "theta", 1, table.theta_count())) - 1;
     held_rad[i] = number_field(entry, "target_deg", -limit_deg(table, i), limit_deg(table, i)) * kDegree;
@@ -169,7 +169,7 @@ Json Service::on_hold_theta(const ClientInfo& client, const Json& request) {
 
 Json Service::on_shape(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
-  NodeTargets nodes{};
+  cable::NodeTargets nodes{};
   read_entries(request, "nodes", nodes.size(), [&](std::size_t i, const Json& entry) {
     only_fields(entry, {"node", "position_m", "weight", "threshold_m"});
     const auto node = static_cast<std::int32_t>(integer_field(entry, "node", 1, config_.robot.table.segment_count - 1));
@@ -177,7 +177,7 @@ Json Service::on_shape(const ClientInfo& client, const Json& request) {
                 number_field_or(entry, "weight", 0.0, 1000.0, default_node_weight(config_.robot.table, node)),
                 number_field_or(entry, "threshold_m", 0.0, reach_m_, kNodeThreshold_m)};
   });
-  KeepClearTargets clear{};
+  cable::KeepClearTargets clear{};
   read_entries(request, "keep_clear", clear.size(), [&](std::size_t i, const Json& entry) {
     only_fields(entry, {"centre_m", "distance_m", "weight"});
     clear[i] = {point_field(entry, "centre_m", reach_m_), number_field(entry, "distance_m", 0.0, reach_m_),
@@ -190,7 +190,7 @@ Json Service::on_shape(const ClientInfo& client, const Json& request) {
 
 Json Service::on_use_device(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
-  const RobotTable& table = config_.robot.table;
+  const cable::RobotTable& table = config_.robot.table;
   DeviceUse use;
   use.kind = device_kind(text_field(request, "device", 16));
   use.mapping.scale = number_field_or(request, "scale", 0.01, 100.0, 1.0);

@@ -19,11 +19,11 @@ Json pose_json(const Pose& p) {
           p.quaternion[1], p.quaternion[2], p.quaternion[3]};
 }
 
-Json first(const CableVector& values, std::int32_t count) {
+Json first(const cable::CableVector& values, std::int32_t count) {
   return Json(std::vector<double>(values.begin(), values.begin() + count));
 }
 
-Json nodes_json(const RobotTable& table, const Outputs& outputs) {
+Json nodes_json(const cable::RobotTable& table, const cable::Outputs& outputs) {
   Json nodes = Json::array();
   for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m)
     nodes.push_back(outputs.node_command_m[m]);
@@ -71,8 +71,9 @@ Json limits_json(std::uint32_t limits) {
   return names;
 }
 
-Json drives_json(const RobotTable& table, const CycleReport& report, const std::vector<std::uint32_t>& serials) {
-  const CableVector position_m = paid_out_m(table, report.inputs), tension_N = reported_tension_N(table, report.inputs);
+Json drives_json(const cable::RobotTable& table, const CycleReport& report, const std::vector<std::uint32_t>& serials) {
+  const cable::CableVector position_m = paid_out_m(table, report.inputs),
+                           tension_N = reported_tension_N(table, report.inputs);
   Json drives = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
     drives.push_back({{"node", i + 1},
@@ -112,13 +113,13 @@ const char* device_name(DeviceKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-Json verdict_json(const RobotTable& table, const LastVerdict& v) {
+Json verdict_json(const cable::RobotTable& table, const LastVerdict& v) {
   return {{"sequence", v.sequence}, {"released", v.released},   {"code", static_cast<int>(v.worst.code)},
           {"text", v.worst.text},   {"margin", v.worst.margin}, {"twin_js_deg", degrees(table, v.twin_theta_rad)}};
 }
 
-void add_arm(Json& state, const RobotTable& table, const CycleReport& report) {
-  const Outputs& o = report.outputs;
+void add_arm(Json& state, const cable::RobotTable& table, const CycleReport& report) {
+  const cable::Outputs& o = report.outputs;
   state["measured_js_deg"] = degrees(table, o.theta_measured_rad);
   state["setpoint_js_deg"] = degrees(table, o.theta_command_rad);
   state["measured_cp"] = pose_json(tip_pose(table, arm_trig(table, o.theta_measured_rad)));
@@ -139,7 +140,7 @@ void add_arm(Json& state, const RobotTable& table, const CycleReport& report) {
 
 }  // namespace
 
-Json degrees(const RobotTable& table, const ThetaVector& theta_rad) {
+Json degrees(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
   Json list = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i)
     list.push_back(theta_rad[i] * kDegrees);
@@ -153,9 +154,9 @@ const char* state_name(const CycleReport& report) {
   return kNames[static_cast<std::size_t>(report.outputs.state)];
 }
 
-Json state_message(const RobotTable& table, const BusesConfig& buses, const CycleReport& report, const Arbiter& arbiter,
-                   const Owner& owner, const Notes& notes) {
-  const Outputs& o = report.outputs;
+Json state_message(const cable::RobotTable& table, const BusesConfig& buses, const CycleReport& report,
+                   const Arbiter& arbiter, const Owner& owner, const Notes& notes) {
+  const cable::Outputs& o = report.outputs;
   const DeviceUse& device = arbiter.device().in_use();
   const bool moving = o.state == OperatingState::kEnabled && (o.at_rest == 0 || o.held_at_target == 0);
   Json state{

@@ -19,8 +19,8 @@ namespace liana {
 struct LastVerdict {
   std::uint64_t sequence = 0;
   bool released = false;
-  Verdict worst{};               // the refusing end, or the tighter margin
-  ThetaVector twin_theta_rad{};  // predicted at the end of the candidate's interval
+  Verdict worst{};                      // the refusing end, or the tighter margin
+  cable::ThetaVector twin_theta_rad{};  // predicted at the end of the candidate's interval
 };
 
 // Of what the shape was asked for last (shape_progress.hpp).
@@ -51,10 +51,10 @@ struct Notes {
 const char* state_name(const CycleReport& report);
 
 // Angles as degrees, the first theta_count of them.
-Json degrees(const RobotTable& table, const ThetaVector& theta_rad);
+Json degrees(const cable::RobotTable& table, const cable::ThetaVector& theta_rad);
 
 // The whole message.
-Json state_message(const RobotTable& table, const BusesConfig& buses, const CycleReport& report, const Arbiter& arbiter,
-                   const Owner& owner, const Notes& notes);
+Json state_message(const cable::RobotTable& table, const BusesConfig& buses, const CycleReport& report,
+                   const Arbiter& arbiter, const Owner& owner, const Notes& notes);
 
 }  // namespace liana

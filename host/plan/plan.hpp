@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "host/config/config.hpp"
 #include "host/plan/check/plan_check.hpp"

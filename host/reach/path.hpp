@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
 
 namespace liana {
 

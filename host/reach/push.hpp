@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
 
 namespace liana {
 

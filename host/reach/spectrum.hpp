@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_table.hpp"
 
 namespace liana {
 

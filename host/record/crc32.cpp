@@ -9,11 +9,11 @@ namespace {
 constexpr std::uint32_t kReflectedPolynomial = 0xEDB88320u;
 constexpr std::size_t kLanes = 8;  // bytes taken at once
 
-using Lanes = std::array<std::array<std::uint32_t, 256>, kLanes>;
+using cable::Lanes = std::array<std::array<std::uint32_t, 256>, kLanes>;
 
 // Table k holds what a byte does to the checksum when k more bytes follow it.
-constexpr Lanes make_lanes() {
-  Lanes lanes{};
+constexpr cable::Lanes make_lanes() {
+  cable::Lanes lanes{};
   for (std::uint32_t byte = 0; byte < 256; ++byte) {
     std::uint32_t crc = byte;
     for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ ((crc & 1u) != 0 ? kReflectedPolynomial : 0u);
@@ -28,7 +28,7 @@ constexpr Lanes make_lanes() {
   return lanes;
 }
 
-constexpr Lanes kByteEffect = make_lanes();
+constexpr cable::Lanes kByteEffect = make_lanes();
 
 std::uint32_t byte_at(std::string_view bytes, std::size_t i) { return static_cast<std::uint8_t>(bytes[i]); }
 

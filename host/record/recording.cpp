@@ -39,7 +39,7 @@ class FieldLister {
 
 std::string inputs_schema() {
   FieldLister lister;
-  const Inputs inputs;
+  const cable::Inputs inputs;
   visit(lister, inputs);
   lister("telecommand", TelecommandFields{});
   return lister.text();
@@ -47,7 +47,7 @@ std::string inputs_schema() {
 
 std::string outputs_schema() {
   FieldLister lister;
-  const Outputs outputs;
+  const cable::Outputs outputs;
   visit(lister, outputs);
   return lister.text();
 }

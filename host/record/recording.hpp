@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_table.hpp"
 #include "host/record/mcap.hpp"
 
 namespace liana {
@@ -49,7 +49,7 @@ class Recording {
 struct ControllerImage {
   std::uint64_t next_tick = 0;
   bool fresh = false;  // the Controller has not ticked yet: the table says all
-  RobotTable table{};
+  cable::RobotTable table{};
   std::string_view controller_bytes;  // memory of the Controller, empty when fresh; only the same build can use it
 };
 ControllerImage parse_image(std::string_view data);

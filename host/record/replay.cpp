@@ -6,7 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "firmware_like/controller.hpp"
+#include "firmware_like/cable_controller.hpp"
 #include "host/record/build_id.hpp"
 #include "host/record/codec.hpp"
 #include "host/record/mcap.hpp"
@@ -20,14 +20,14 @@ namespace {
 using Images = std::map<std::uint64_t, std::string>;  // controller_image messages by next tick
 
 // No checksum vouches for a file that was cut short: what sizes the core's loops is looked at before the core sees it.
-void require_plausible(const RobotTable& table, const std::string& directory) {
+void require_plausible(const cable::RobotTable& table, const std::string& directory) {
   const auto within = [](std::int32_t value, std::int32_t least, std::int32_t most) {
     return value >= least && value <= most;
   };
-  bool plausible = within(table.segment_count, 1, kMaxSegments) && table.interval_ticks > 0;
+  bool plausible = within(table.segment_count, 1, cable::kMaxSegments) && table.interval_ticks > 0;
   for (std::size_t m = 0; plausible && m < static_cast<std::size_t>(table.segment_count); ++m) {
-    plausible =
-        within(table.segment[m].modules, 1, kMaxModules) && within(table.segment[m].cables, 3, kMaxSegmentCables);
+    plausible = within(table.segment[m].modules, 1, cable::kMaxModules) &&
+                within(table.segment[m].cables, 3, cable::kMaxSegmentCables);
   }
   if (!plausible)
     throw std::runtime_error("recording " + directory +
@@ -67,10 +67,11 @@ class Replayer {
   bool start_from(std::string_view data) {
     const ControllerImage image = parse_image(data);
     require_plausible(image.table, directory_);
-    const bool usable = result_.same_build && image.controller_bytes.size() == sizeof(Controller);
+    const bool usable = result_.same_build && image.controller_bytes.size() == sizeof(cable::Controller);
     if (!image.fresh && !usable) return false;
     controller_.emplace(image.table);
-    if (!image.fresh) std::memcpy(static_cast<void*>(&*controller_), image.controller_bytes.data(), sizeof(Controller));
+    if (!image.fresh)
+      std::memcpy(static_cast<void*>(&*controller_), image.controller_bytes.data(), sizeof(cable::Controller));
     next_tick_ = image.next_tick;
     return true;
   }
@@ -95,7 +96,7 @@ class Replayer {
 
   void inputs(std::string_view data) {
     expected_.clear();
-    const Inputs in = RecordingDecoder::inputs(data);
+    const cable::Inputs in = RecordingDecoder::inputs(data);
     const bool follows =
         controller_ &&
         in.tick == next_tick_ + in.lost_ticks;  // deadlines that were lost are no gap: the core had no tick
@@ -121,7 +122,7 @@ class Replayer {
   ReplayResult& result_;
   std::string directory_;
   std::optional<Images> images_;
-  std::optional<Controller> controller_;
+  std::optional<cable::Controller> controller_;
   std::uint64_t next_tick_ = 0;
   std::string expected_;
 };

@@ -30,52 +30,52 @@ std::size_t size_of() {
 
 }  // namespace
 
-Inputs RecordingDecoder::inputs(std::string_view bytes) {
-  Inputs inputs;
+cable::Inputs RecordingDecoder::inputs(std::string_view bytes) {
+  cable::Inputs inputs;
   TelecommandFields fields;
   Reader reader(bytes);
   visit(reader, inputs);
   visit(reader, fields);
   check_length(reader.position(), bytes.size(), "inputs");
   inputs.telecommand =
-      Telecommand(fields.sequence, fields.first_tick, fields.expiry_tick, fields.owner, fields.setpoint);
+      cable::Telecommand(fields.sequence, fields.first_tick, fields.expiry_tick, fields.owner, fields.setpoint);
   return inputs;
 }
 
-void append_serialised(std::string& out, const Inputs& inputs) {
-  const Telecommand& t = inputs.telecommand;
+void append_serialised(std::string& out, const cable::Inputs& inputs) {
+  const cable::Telecommand& t = inputs.telecommand;
   const TelecommandFields fields{t.sequence(), t.first_tick(), t.expiry_tick(), t.owner(), t.setpoint()};
   Writer writer(out);
   visit(writer, inputs);
   visit(writer, fields);
 }
 
-void append_serialised(std::string& out, const Outputs& outputs) {
+void append_serialised(std::string& out, const cable::Outputs& outputs) {
   Writer writer(out);
   visit(writer, outputs);
 }
 
-void append_serialised(std::string& out, const RobotTable& table) {
+void append_serialised(std::string& out, const cable::RobotTable& table) {
   Writer writer(out);
   visit(writer, table);
 }
 
-Outputs outputs_from(std::string_view bytes) { return read_all<Outputs>(bytes, "outputs"); }
-RobotTable robot_table_from(std::string_view bytes) { return read_all<RobotTable>(bytes, "robot_table"); }
+cable::Outputs outputs_from(std::string_view bytes) { return read_all<cable::Outputs>(bytes, "outputs"); }
+cable::RobotTable robot_table_from(std::string_view bytes) { return read_all<cable::RobotTable>(bytes, "robot_table"); }
 
 std::size_t serialised_inputs_size() {
-  static const std::size_t kSize = size_of<Inputs>();
+  static const std::size_t kSize = size_of<cable::Inputs>();
   return kSize;
 }
 
 std::size_t serialised_outputs_size() {
-  static const std::size_t kSize = size_of<Outputs>();
+  static const std::size_t kSize = size_of<cable::Outputs>();
   return kSize;
 }
 
 std::string outputs_field_at(std::size_t offset) {
   FieldNamer namer(offset);
-  const Outputs outputs;
+  const cable::Outputs outputs;
   visit(namer, outputs);
   return namer.found();
 }

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "firmware_like/controller_io.hpp"
+#include "firmware_like/cable_controller.hpp"
 
 namespace liana {
 
@@ -12,17 +12,17 @@ namespace liana {
 class RecordingDecoder {
  public:
   // Inputs from their recorded bytes; throws std::runtime_error when the length is wrong.
-  static Inputs inputs(std::string_view bytes);
+  static cable::Inputs inputs(std::string_view bytes);
 };
 
 // Appends the recorded form: every field, little-endian, in the order of visit.hpp.
-void append_serialised(std::string& out, const Inputs& inputs);
-void append_serialised(std::string& out, const Outputs& outputs);
-void append_serialised(std::string& out, const RobotTable& table);
+void append_serialised(std::string& out, const cable::Inputs& inputs);
+void append_serialised(std::string& out, const cable::Outputs& outputs);
+void append_serialised(std::string& out, const cable::RobotTable& table);
 
 // Back again; throw std::runtime_error when the length is wrong.
-Outputs outputs_from(std::string_view bytes);
-RobotTable robot_table_from(std::string_view bytes);
+cable::Outputs outputs_from(std::string_view bytes);
+cable::RobotTable robot_table_from(std::string_view bytes);
 
 // Length of the recorded form in bytes.
 std::size_t serialised_inputs_size();

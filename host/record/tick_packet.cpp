@@ -18,7 +18,7 @@ std::string tick_packet(const TickRecord& record, std::uint64_t dropped) {
   return out;
 }
 
-std::string image_packet(std::uint64_t next_tick, bool fresh, const RobotTable& table,
+std::string image_packet(std::uint64_t next_tick, bool fresh, const cable::RobotTable& table,
                          std::string_view controller_bytes) {
   std::string out;
   Writer writer(out);

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "firmware_like/controller_io.hpp"
+#include "firmware_like/cable_controller.hpp"
 
 namespace liana {
 
@@ -17,8 +17,8 @@ enum class TickPacket : std::uint8_t {
 };
 
 struct TickRecord {
-  Inputs inputs{};
-  Outputs outputs{};
+  cable::Inputs inputs{};
+  cable::Outputs outputs{};
 };
 
 // One packet per tick; `dropped` counts ticks that were lost on the way so far.
@@ -26,7 +26,7 @@ std::string tick_packet(const TickRecord& record, std::uint64_t dropped);
 
 // One packet before the first tick (fresh, `controller_bytes` empty) and every kImageEveryTicks.
 constexpr std::uint64_t kImageEveryTicks = 1000;
-std::string image_packet(std::uint64_t next_tick, bool fresh, const RobotTable& table,
+std::string image_packet(std::uint64_t next_tick, bool fresh, const cable::RobotTable& table,
                          std::string_view controller_bytes);
 
 // Splits a kTick packet into serialised inputs and outputs; throws std::runtime_error when its length is wrong.

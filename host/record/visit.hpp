@@ -4,7 +4,7 @@
 #include <concepts>
 #include <type_traits>
 
-#include "firmware_like/controller_io.hpp"
+#include "firmware_like/cable_controller.hpp"
 
 namespace liana {
 
@@ -16,7 +16,7 @@ concept Like = std::same_as<std::remove_const_t<T>, Plain>;
 struct TelecommandFields {
   std::uint64_t sequence = 0, first_tick = 0, expiry_tick = 0;
   std::uint32_t owner = 0;
-  Setpoint setpoint{};
+  cable::Setpoint setpoint{};
 };
 
 template <class A, Like<Pose> T>
@@ -25,7 +25,7 @@ void visit(A& a, T& p) {
   a("quaternion", p.quaternion);
 }
 
-template <class A, Like<NodeTarget> T>
+template <class A, Like<cable::NodeTarget> T>
 void visit(A& a, T& n) {
   a("node", n.node);
   a("position_m", n.position_m);
@@ -33,14 +33,14 @@ void visit(A& a, T& n) {
   a("threshold_m", n.threshold_m);
 }
 
-template <class A, Like<KeepClear> T>
+template <class A, Like<cable::KeepClear> T>
 void visit(A& a, T& k) {
   a("centre_m", k.centre_m);
   a("distance_m", k.distance_m);
   a("weight", k.weight);
 }
 
-template <class A, Like<Setpoint> T>
+template <class A, Like<cable::Setpoint> T>
 void visit(A& a, T& s) {
   a("kind", s.kind);
   a("tip_in_base", s.tip_in_base);
@@ -73,7 +73,7 @@ void visit(A& a, T& d) {
 }
 
 // All of Inputs but the telecommand, which follows as TelecommandFields.
-template <class A, Like<Inputs> T>
+template <class A, Like<cable::Inputs> T>
 void visit(A& a, T& i) {
   a("tick", i.tick);
   a("lost_ticks", i.lost_ticks);
@@ -105,7 +105,7 @@ void visit(A& a, T& d) {
   a("target_counts", d.target_counts);
 }
 
-template <class A, Like<Outputs> T>
+template <class A, Like<cable::Outputs> T>
 void visit(A& a, T& o) {
   a("tick", o.tick);
   a("state", o.state);
@@ -135,7 +135,7 @@ void visit(A& a, T& o) {
   a("ik_residual", o.ik_residual);
 }
 
-template <class A, Like<SegmentTable> T>
+template <class A, Like<cable::SegmentTable> T>
 void visit(A& a, T& s) {
   a("modules", s.modules);
   a("cables", s.cables);
@@ -145,7 +145,7 @@ void visit(A& a, T& s) {
   a("cable_phase_rad", s.cable_phase_rad);
 }
 
-template <class A, Like<TensionLimits> T>
+template <class A, Like<cable::TensionLimits> T>
 void visit(A& a, T& t) {
   a("plan_N", t.plan_N);
   a("floor_motor_N", t.floor_motor_N);
@@ -155,13 +155,13 @@ void visit(A& a, T& t) {
   a("hard_limit_N", t.hard_limit_N);
 }
 
-template <class A, Like<CableWatchTable> T>
+template <class A, Like<cable::CableWatchTable> T>
 void visit(A& a, T& w) {
   a("jump_N", w.jump_N);
   a("contradiction_m", w.contradiction_m);
 }
 
-template <class A, Like<MotionLimits> T>
+template <class A, Like<cable::MotionLimits> T>
 void visit(A& a, T& m) {
   a("theta_rate_rad_s", m.theta_rate_rad_s);
   a("theta_accel_rad_s2", m.theta_accel_rad_s2);
@@ -175,7 +175,7 @@ void visit(A& a, T& m) {
   a("cable_speed_m_s", m.cable_speed_m_s);
 }
 
-template <class A, Like<DriveTable> T>
+template <class A, Like<cable::DriveTable> T>
 void visit(A& a, T& d) {
   a("metres_per_count", d.metres_per_count);
   a("direction", d.direction);
@@ -183,7 +183,7 @@ void visit(A& a, T& d) {
   a("newtons_per_permille", d.newtons_per_permille);
 }
 
-template <class A, Like<RobotTable> T>
+template <class A, Like<cable::RobotTable> T>
 void visit(A& a, T& r) {
   a("segment_count", r.segment_count);
   a("segment", r.segment);

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "firmware_like/safety/cable_watch.hpp"
+#include "firmware_like/cable/arm/cable_watch.hpp"
+#include "firmware_like/safety/link_watch.hpp"
 #include "firmware_like/safety/supervisor.hpp"
-#include "firmware_like/safety/watchdogs.hpp"
 
 namespace liana {
 namespace {
@@ -17,7 +17,7 @@ struct Detection {
 };
 
 // No default: a number without a detection does not compile.
-Detection detection_of(FaultNumber number, const RobotTable& table) {
+Detection detection_of(FaultNumber number, const cable::RobotTable& table) {
   const int heartbeat_period = static_cast<int>(std::ceil(kHeartbeatPeriod_s / table.tick_s));
   switch (number) {
     case FaultNumber::kNone:
@@ -47,23 +47,25 @@ Detection detection_of(FaultNumber number, const RobotTable& table) {
     case FaultNumber::kBusLost:
       return {"interface down or in bus-off (1 tick), or no drive of the bus is heard", kFeedbackAgeTicks + 1};
     case FaultNumber::kCableSlack:
-      return {"watchdog: motor tension under the floor, in a row", kSlackDebounceTicks};
+      return {"watchdog: motor tension under the floor, in a row", cable::kSlackDebounceTicks};
     case FaultNumber::kCableOverload:
-      return {"watchdog: motor tension over the hard limit, in a row", kOverloadDebounceTicks};
+      return {"watchdog: motor tension over the hard limit, in a row", cable::kOverloadDebounceTicks};
     case FaultNumber::kTensionAlarm:
-      return {"watchdog: motor tension over the alarm limit, in a row", kAlarmDebounceTicks};
+      return {"watchdog: motor tension over the alarm limit, in a row", cable::kAlarmDebounceTicks};
     case FaultNumber::kHomingImplausible:
       return {
           "cable watch: the part of a segment's lengths that no two angles explain, against its value when the arm was "
           "enabled, in a row",
-          kContradictionTicks + table.segment_count - 1};
+          cable::kContradictionTicks + table.segment_count - 1};
     case FaultNumber::kCableSlip:
       return {"cable watch: tension and length of a cable against the tick before, over the limit, and still there",
-              kJumpConfirmTicks};
+              cable::kJumpConfirmTicks};
     case FaultNumber::kCableBreak:
-      return {"watchdog: motor tension under the floor while its 20 ms low-pass is not, in a row", kBreakDebounceTicks};
+      return {"watchdog: motor tension under the floor while its 20 ms low-pass is not, in a row",
+              cable::kBreakDebounceTicks};
     case FaultNumber::kTensionScatters:
-      return {"cable watch: the same as 5005, but back again, three times (in a row: 4 ticks)", kScatterReversals + 1};
+      return {"cable watch: the same as 5005, but back again, three times (in a row: 4 ticks)",
+              cable::kScatterReversals + 1};
     case FaultNumber::kGateRefused:
       return {"gate: every command before it is sent", 0};
   }
@@ -77,7 +79,7 @@ std::string stops_by(const FaultInfo& info) {
 
 }  // namespace
 
-std::vector<FaultRow> fault_rows(const RobotTable& table) {
+std::vector<FaultRow> fault_rows(const cable::RobotTable& table) {
   std::vector<FaultRow> rows;
   for (const FaultInfo& info : all_faults().subspan(1)) {
     const Detection detection = detection_of(info.number, table);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/safety/faults.hpp"
 
 namespace liana {
@@ -18,7 +18,7 @@ struct FaultRow {
 };
 
 // All numbers but none, ascending, for this robot at its tick.
-std::vector<FaultRow> fault_rows(const RobotTable& table);
+std::vector<FaultRow> fault_rows(const cable::RobotTable& table);
 
 // The table as it stands in docs/faults.md.
 std::string markdown_of(const std::vector<FaultRow>& rows);

@@ -12,10 +12,14 @@ using Index = std::size_t;
 constexpr std::int32_t kYawSteps = 64;  // from 0 to the joint limit
 constexpr std::int32_t kHalvings = 24;  // of a step: 20 deg / 64 / 2^24 = 3e-10 rad
 
-Vec3 place(const Pose& frame, const Vec3& point) noexcept { return add(frame.position_m, rotate(frame.quaternion, point)); }
+Vec3 place(const Pose& frame, const Vec3& point) noexcept {
+  return add(frame.position_m, rotate(frame.quaternion, point));
+}
 
 // Segments before S2.
-std::int32_t segments_before(const RobotTable& table, std::int32_t planar) noexcept { return table.segment_count - planar; }
+std::int32_t segments_before(const RobotTable& table, std::int32_t planar) noexcept {
+  return table.segment_count - planar;
+}
 
 std::int32_t joints_before(const RobotTable& table, std::int32_t segments) noexcept {
   std::int32_t joints = 0;
@@ -35,7 +39,8 @@ bool in_opening(const SlitMouth& mouth, const Vec3& p) noexcept {
   return std::fabs(p[1]) <= mouth.half_gap_m && std::fabs(p[2]) <= mouth.half_width_m;
 }
 
-// A link from a to b in the mouth's frame. Its piece between the planes x = 0 and x = depth is straight, so the ends of the piece decide.
+// A link from a to b in the mouth's frame. Its piece between the planes x = 0 and x = depth is straight, so the ends of
+// the piece decide.
 bool link_passes(const SlitMouth& mouth, const Vec3& a, const Vec3& b) noexcept {
   double from = 0.0, to = 1.0;
   const double run = b[0] - a[0];
@@ -59,7 +64,8 @@ bool is_near(const SlitMouth& mouth, const Vec3& p, double look_ahead_m) noexcep
 }
 
 // Segments from the first with a link that ends near the slit to the last.
-std::int32_t segments_near(const RobotTable& table, const LinkPoints& links, const SlitMouth& mouth, double look_ahead_m) noexcept {
+std::int32_t segments_near(const RobotTable& table, const LinkPoints& links, const SlitMouth& mouth,
+                           double look_ahead_m) noexcept {
   const Pose base_in_mouth = inverse(mouth.frame_in_base);
   std::int32_t point = 1;
   for (std::int32_t m = 0; m < table.segment_count; ++m) {
@@ -127,7 +133,8 @@ bool fits(const RobotTable& table, const PlanarPart& part, const SlitMouth& mout
   return true;
 }
 
-YawInterval feasible_yaw(const RobotTable& table, const PlanarPart& part, const SlitMouth& mouth, std::int32_t segment) noexcept {
+YawInterval feasible_yaw(const RobotTable& table, const PlanarPart& part, const SlitMouth& mouth,
+                         std::int32_t segment) noexcept {
   if (segment <= segments_before(table, part.segments) || segment > table.segment_count) return {};
   YawTrial trial{table, mouth, part, static_cast<Index>(2 * segment - 1)};
   const double limit = table.segment[static_cast<Index>(segment - 1)].theta_limit_rad;
@@ -142,8 +149,8 @@ YawInterval feasible_yaw(const RobotTable& table, const PlanarPart& part, const 
   return {};
 }
 
-std::int32_t planar_segments(const RobotTable& table, const LinkPoints& links, const SlitMouth& mouth, const PlanarSwitch& when,
-                             std::int32_t before) noexcept {
+std::int32_t planar_segments(const RobotTable& table, const LinkPoints& links, const SlitMouth& mouth,
+                             const PlanarSwitch& when, std::int32_t before) noexcept {
   const std::int32_t at_least = segments_near(table, links, mouth, when.look_ahead_m);
   const std::int32_t at_most = segments_near(table, links, mouth, when.look_ahead_m + when.hysteresis_m);
   return before < at_least ? at_least : (before > at_most ? at_most : before);

@@ -32,7 +32,8 @@ ThetaVector first_start(const RobotTable& table, const GoalIkProblem& problem) n
 ThetaVector random_pose(const RobotTable& table, const GoalIkProblem& problem, std::uint64_t& random) noexcept {
   ThetaVector theta{};
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
-    theta[k] = is_held(problem, k) ? problem.held_rad[k] : 0.9 * table.segment[k / 2].theta_limit_rad * next_random(random);
+    theta[k] =
+        is_held(problem, k) ? problem.held_rad[k] : 0.9 * table.segment[k / 2].theta_limit_rad * next_random(random);
   return theta;
 }
 
@@ -50,7 +51,9 @@ ThetaVector next_start(const RobotTable& table, const GoalIkProblem& problem, st
   return best;
 }
 
-bool is_node(const RobotTable& table, const NodeTarget& target) noexcept { return target.node >= 1 && target.node <= table.segment_count; }
+bool is_node(const RobotTable& table, const NodeTarget& target) noexcept {
+  return target.node >= 1 && target.node <= table.segment_count;
+}
 
 // How far each node alone could go from the first solution.
 void find_reach(const RobotTable& table, const GoalIkProblem& problem, const IkGoal& goal, const ThetaVector& theta,
@@ -70,7 +73,8 @@ void report_pose(const RobotTable& table, const GoalIkProblem& problem, GoalIkRe
   for (Index i = 0; i < kMaxNodeTargets; ++i) {
     const NodeTarget& target = problem.node[i];
     if (!is_node(table, target)) continue;
-    result.node_distance_m[i] = norm(subtract(target.position_m, arm.node_in_base[static_cast<Index>(target.node)].position_m));
+    result.node_distance_m[i] =
+        norm(subtract(target.position_m, arm.node_in_base[static_cast<Index>(target.node)].position_m));
     result.node_reach[i].least_m = smaller(result.node_reach[i].least_m, result.node_distance_m[i]);
   }
 }
@@ -86,9 +90,11 @@ GoalIkResult solve_goal(const RobotTable& table, const GoalIkProblem& problem) n
   std::int32_t found = 0;
   for (std::int32_t attempt = 0; attempt < kGoalAttempts && found < wanted; ++attempt) {
     ThetaVector theta = attempt == 0 ? first_start(table, problem) : next_start(table, problem, random);
-    const TipError error = approach_tip(table, shape.goal, kGoalIterations, kGoalMostIterations, theta, result.iterations);
+    const TipError error =
+        approach_tip(table, shape.goal, kGoalIterations, kGoalMostIterations, theta, result.iterations);
     if (!error.converged()) {
-      if (found == 0 && (attempt == 0 || error.size2() < least_error2)) least_error2 = error.size2(), result.theta_rad = theta;
+      if (found == 0 && (attempt == 0 || error.size2() < least_error2))
+        least_error2 = error.size2(), result.theta_rad = theta;
       continue;
     }
     if (++found == 1) find_reach(table, problem, shape.goal, theta, result);

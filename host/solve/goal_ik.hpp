@@ -1,8 +1,10 @@
-// Goal IK: joint angles for a tip pose from anywhere, with restarts in a fixed order. For goals and plans, outside the tick.
+// Goal IK: joint angles for a tip pose from anywhere, with restarts in a fixed order. For goals and plans, outside the
+// tick.
 //
-// An attempt iterates servo_ik, whose damping is proportional to the squared error (performance study: that and restarts are what helps).
-// Attempt 0 starts at `from`; each later one at the best of kGoalSeeds pseudo-random poses of a fixed sequence: same input, same result.
-// When something is wanted of the shape, it is improved from kGoalShapeStarts solutions and the best is taken. Figures: docs/shape.md.
+// An attempt iterates servo_ik, whose damping is proportional to the squared error (performance study: that and
+// restarts are what helps). Attempt 0 starts at `from`; each later one at the best of kGoalSeeds pseudo-random poses of
+// a fixed sequence: same input, same result. When something is wanted of the shape, it is improved from
+// kGoalShapeStarts solutions and the best is taken. Figures: docs/shape.md.
 #pragma once
 
 #include <array>
@@ -34,7 +36,8 @@ struct GoalIkResult {
   double position_error_m = 0.0;
   double attitude_error_rad = 0.0;
   std::array<double, kMaxNodeTargets> node_distance_m{};  // in the order of the problem's targets
-  std::array<NodeReach, kMaxNodeTargets> node_reach{};    // of each alone, from the first solution found; zero when not converged
+  std::array<NodeReach, kMaxNodeTargets>
+      node_reach{};  // of each alone, from the first solution found; zero when not converged
 };
 
 // Solves; when no attempt converges, the result holds the best one. Angles respect the limits, held ones are exact.

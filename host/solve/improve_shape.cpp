@@ -9,12 +9,14 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double kRestShare = 1e-4;      // m2/rad2 times the largest weight: what keeps undecided directions still
-constexpr double kDone = 1e-5;           // of the sum: a smaller gain counts as none
-constexpr std::int32_t kPatience = 3;    // steps without gain
-constexpr double kLongestStretch = 4.0;  // of the model's step: its curvature is too large where targets are out of reach
+constexpr double kRestShare = 1e-4;    // m2/rad2 times the largest weight: what keeps undecided directions still
+constexpr double kDone = 1e-5;         // of the sum: a smaller gain counts as none
+constexpr std::int32_t kPatience = 3;  // steps without gain
+constexpr double kLongestStretch =
+    4.0;  // of the model's step: its curvature is too large where targets are out of reach
 
-double sum_m(const RobotTable& table, const ShapeProblem& problem, const ThetaVector& theta, const ArmKinematics& arm) noexcept {
+double sum_m(const RobotTable& table, const ShapeProblem& problem, const ThetaVector& theta,
+             const ArmKinematics& arm) noexcept {
   return node_excess_m(table, arm, problem.node) + missing_clearance_m(table, theta, arm, problem.clear);
 }
 
@@ -27,8 +29,8 @@ double largest_weight(const RobotTable& table, const ShapeProblem& problem) noex
 }
 
 // `stretch` times the step to the minimum of the shape's model at theta, within the joint limits.
-ThetaVector model_step(const RobotTable& table, const ShapeProblem& problem, const ArmKinematics& arm, const ThetaVector& theta,
-                       double stretch) noexcept {
+ThetaVector model_step(const RobotTable& table, const ShapeProblem& problem, const ArmKinematics& arm,
+                       const ThetaVector& theta, double stretch) noexcept {
   const NullSpace space = null_space(arm.tip_jacobian, table.theta_count(), problem.goal.held_mask);
   ShapeModel model = resting_model(space, kRestShare * largest_weight(table, problem), ThetaVector{});
   PullSum pulls;
@@ -40,7 +42,8 @@ ThetaVector model_step(const RobotTable& table, const ShapeProblem& problem, con
   step.z = minimum(space, metric, model.pull);
   step.theta_rad = combine(space, step.z);
   double largest = kImproveLargestStep_rad;
-  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) largest = larger(largest, stretch * std::fabs(step.theta_rad[k]));
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
+    largest = larger(largest, stretch * std::fabs(step.theta_rad[k]));
   scale_by(space, stretch * kImproveLargestStep_rad / largest, step);
   HeldBounds held;
   restrict_to(space, metric, room_to_limits(table, theta, 1.0), kManyPasses, held, step);
@@ -63,8 +66,8 @@ TipError tip_error(const Pose& goal, const Pose& tip) noexcept {
   return {norm({e[0], e[1], e[2]}), norm({e[3], e[4], e[5]})};
 }
 
-TipError approach_tip(const RobotTable& table, const IkGoal& goal, std::int32_t patience, std::int32_t most, ThetaVector& theta_rad,
-                      std::int32_t& iterations) noexcept {
+TipError approach_tip(const RobotTable& table, const IkGoal& goal, std::int32_t patience, std::int32_t most,
+                      ThetaVector& theta_rad, std::int32_t& iterations) noexcept {
   double before2 = 1e300;
   for (std::int32_t i = 0;; ++i, ++iterations) {
     const ArmKinematics arm = forward_kinematics(table, theta_rad);
@@ -76,19 +79,23 @@ TipError approach_tip(const RobotTable& table, const IkGoal& goal, std::int32_t 
   }
 }
 
-bool wants_shape(const RobotTable& table, const ShapeProblem& problem) noexcept { return largest_weight(table, problem) > 0.0; }
+bool wants_shape(const RobotTable& table, const ShapeProblem& problem) noexcept {
+  return largest_weight(table, problem) > 0.0;
+}
 
 double shape_sum_m(const RobotTable& table, const ShapeProblem& problem, const ThetaVector& theta_rad) noexcept {
   return sum_m(table, problem, theta_rad, forward_kinematics(table, theta_rad));
 }
 
-double improve_shape(const RobotTable& table, const ShapeProblem& problem, ThetaVector& theta_rad, std::int32_t& iterations) noexcept {
+double improve_shape(const RobotTable& table, const ShapeProblem& problem, ThetaVector& theta_rad,
+                     std::int32_t& iterations) noexcept {
   ArmKinematics arm = forward_kinematics(table, theta_rad);
   double sum = sum_m(table, problem, theta_rad, arm), stretch = 1.0;
   std::int32_t standing = 0;
   for (std::int32_t i = 0; i < kImproveSteps && stretch > 1e-3 && standing < kPatience && sum > 1e-9; ++i) {
     ThetaVector candidate = moved(table, theta_rad, model_step(table, problem, arm, theta_rad, stretch));
-    const TipError error = approach_tip(table, problem.goal, kImproveIterations, kImproveIterations, candidate, iterations);
+    const TipError error =
+        approach_tip(table, problem.goal, kImproveIterations, kImproveIterations, candidate, iterations);
     const ArmKinematics there = forward_kinematics(table, candidate);
     const double less = sum_m(table, problem, candidate, there);
     if (!error.converged() || !(less < sum)) {

@@ -1,14 +1,16 @@
-// The offline side of the shape: to the nearest minimum of what is wanted, along the null space of a given tip pose. For goals and plans,
-// outside the tick.
+// The offline side of the shape: to the nearest minimum of what is wanted, along the null space of a given tip pose.
+// For goals and plans, outside the tick.
 #pragma once
 
 #include <cstdint>
 
-#include "firmware_like/cable/shape/keep_clear.hpp"
 #include "firmware_like/cable/motion/servo_ik.hpp"
+#include "firmware_like/cable/shape/keep_clear.hpp"
 #include "firmware_like/cable/shape/shape.hpp"
 
 namespace liana::solve {
+
+using namespace cable;  // this room serves the cable arm only
 
 constexpr double kTipTolerance = 1e-7;           // m and rad; half a decade inside what is promised (1e-6)
 constexpr std::int32_t kImproveSteps = 100;      // along the null space, at most
@@ -29,10 +31,10 @@ struct TipError {
 };
 TipError tip_error(const Pose& goal, const Pose& tip) noexcept;
 
-// Iterates the servo IK until the tip is there, `most` iterations are done, or the error no longer halves with each after `patience` of
-// them. Returns the error reached; adds to `iterations`.
-TipError approach_tip(const RobotTable& table, const IkGoal& goal, std::int32_t patience, std::int32_t most, ThetaVector& theta_rad,
-                      std::int32_t& iterations) noexcept;
+// Iterates the servo IK until the tip is there, `most` iterations are done, or the error no longer halves with each
+// after `patience` of them. Returns the error reached; adds to `iterations`.
+TipError approach_tip(const RobotTable& table, const IkGoal& goal, std::int32_t patience, std::int32_t most,
+                      ThetaVector& theta_rad, std::int32_t& iterations) noexcept;
 
 // True when something is wanted of the shape.
 bool wants_shape(const RobotTable& table, const ShapeProblem& problem) noexcept;
@@ -40,12 +42,14 @@ bool wants_shape(const RobotTable& table, const ShapeProblem& problem) noexcept;
 // Sum [m] of weighted excesses of nodes and missing clearances.
 double shape_sum_m(const RobotTable& table, const ShapeProblem& problem, const ThetaVector& theta_rad) noexcept;
 
-// Steps of the shape model, each corrected to the tip pose, kept when the sum falls and halved when it does not. `theta_rad` has to be at
-// the goal already and stays there; limits and held thetas are respected. Returns the sum reached; adds to `iterations`.
-double improve_shape(const RobotTable& table, const ShapeProblem& problem, ThetaVector& theta_rad, std::int32_t& iterations) noexcept;
+// Steps of the shape model, each corrected to the tip pose, kept when the sum falls and halved when it does not.
+// `theta_rad` has to be at the goal already and stays there; limits and held thetas are respected. Returns the sum
+// reached; adds to `iterations`.
+double improve_shape(const RobotTable& table, const ShapeProblem& problem, ThetaVector& theta_rad,
+                     std::int32_t& iterations) noexcept;
 
-// How far a node can go for the current tip: its distance to `target_m` now, and the least one along the null space from here.
-// For the way in a direction, give a point some arm lengths out: now_m - least_m.
+// How far a node can go for the current tip: its distance to `target_m` now, and the least one along the null space
+// from here. For the way in a direction, give a point some arm lengths out: now_m - least_m.
 struct NodeReach {
   double now_m = 0.0;
   double least_m = 0.0;

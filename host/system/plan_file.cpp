@@ -22,7 +22,7 @@ void check_scene(const std::string& file, const Json& plan, const SceneConfig& s
                  "; run it in that one, or plan again");
 }
 
-Path read_waypoints(const Field& plan, const RobotTable& table) {
+Path read_waypoints(const Field& plan, const cable::RobotTable& table) {
   const auto count = static_cast<std::size_t>(table.theta_count());
   const Field rows = plan.at("waypoints_deg");
   Path path(rows.size(2, kMostWaypoints, "plan a way, not only its end (--waypoints)"));

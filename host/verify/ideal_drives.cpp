@@ -29,7 +29,8 @@ std::uint16_t statusword_for(std::uint16_t controlword, std::uint16_t reported) 
 
 }  // namespace
 
-IdealDrives::IdealDrives(const RobotTable& table, const Inputs& last_inputs, const Outputs& last_outputs)
+IdealDrives::IdealDrives(const cable::RobotTable& table, const cable::Inputs& last_inputs,
+                         const cable::Outputs& last_outputs)
     : table_(table), last_(last_inputs), told_(last_outputs) {}
 
 DriveFeedback IdealDrives::feedback_of(std::size_t drive) const {
@@ -46,8 +47,8 @@ DriveFeedback IdealDrives::feedback_of(std::size_t drive) const {
   return feedback;
 }
 
-Inputs IdealDrives::next_inputs(std::uint64_t tick) const {
-  Inputs inputs;
+cable::Inputs IdealDrives::next_inputs(std::uint64_t tick) const {
+  cable::Inputs inputs;
   inputs.tick = tick;
   const auto drives = static_cast<std::size_t>(table_.cable_count());
   for (std::size_t i = 0; i < drives; ++i) inputs.drive[i] = feedback_of(i);

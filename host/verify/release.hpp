@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "firmware_like/telecommand.hpp"
+#include "firmware_like/cable/setpoint.hpp"
 #include "host/verify/verdict.hpp"
 
 namespace liana {
@@ -15,24 +15,24 @@ class Candidate {
   std::uint64_t sequence() const { return telecommand_.sequence(); }
   std::uint64_t first_tick() const { return telecommand_.first_tick(); }
   std::uint64_t expiry_tick() const { return telecommand_.expiry_tick(); }
-  const Setpoint& setpoint() const { return telecommand_.setpoint(); }
+  const cable::Setpoint& setpoint() const { return telecommand_.setpoint(); }
 
  private:
   friend class Release;
   friend class Twin;
-  explicit Candidate(const Telecommand& telecommand) : telecommand_(telecommand) {}
-  Telecommand telecommand_;
+  explicit Candidate(const cable::Telecommand& telecommand) : telecommand_(telecommand) {}
+  cable::Telecommand telecommand_;
 };
 
 class Release {
  public:
   // A candidate with a sequence of its own for the interval [first_tick, first_tick + interval_ticks).
-  Candidate candidate(const Setpoint& setpoint, std::uint32_t owner, std::uint64_t first_tick,
+  Candidate candidate(const cable::Setpoint& setpoint, std::uint32_t owner, std::uint64_t first_tick,
                       std::uint64_t interval_ticks);
   // The telecommand; nothing unless both ends passed exactly this candidate, the newest one, and it was not released
   // before.
-  std::optional<Telecommand> release(const Candidate& candidate, const ExecutionVerdict& execution,
-                                     const SimulationVerdict& simulation);
+  std::optional<cable::Telecommand> release(const Candidate& candidate, const ExecutionVerdict& execution,
+                                            const SimulationVerdict& simulation);
 
  private:
   std::uint64_t last_sequence_ = 0;

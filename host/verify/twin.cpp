@@ -7,16 +7,17 @@ namespace liana {
 namespace {
 
 // One tick of the copy with ideal feedback.
-Outputs step(Controller& copy, IdealDrives& drives, std::uint64_t tick, const Telecommand& command) {
-  Inputs inputs = drives.next_inputs(tick);
+cable::Outputs step(cable::Controller& copy, IdealDrives& drives, std::uint64_t tick,
+                    const cable::Telecommand& command) {
+  cable::Inputs inputs = drives.next_inputs(tick);
   inputs.telecommand = command;
-  const Outputs outputs = copy.tick(inputs);
+  const cable::Outputs outputs = copy.tick(inputs);
   drives.command(outputs);
   return outputs;
 }
 
-Telecommand command_at(std::span<const Telecommand> released, std::uint64_t tick) {
-  for (const Telecommand& command : released) {
+cable::Telecommand command_at(std::span<const cable::Telecommand> released, std::uint64_t tick) {
+  for (const cable::Telecommand& command : released) {
     if (command.first_tick() == tick) return command;
   }
   return {};
@@ -24,22 +25,22 @@ Telecommand command_at(std::span<const Telecommand> released, std::uint64_t tick
 
 }  // namespace
 
-Prediction Twin::run(const TwinImage& start, std::span<const Telecommand> released, const Candidate& candidate,
+Prediction Twin::run(const TwinImage& start, std::span<const cable::Telecommand> released, const Candidate& candidate,
                      std::size_t max_stop_ticks) const {
   Prediction prediction;
   prediction.faults_before =
       static_cast<std::uint64_t>(start.last_outputs.faults.count) + start.last_outputs.faults.dropped;
-  Controller copy = start.controller;
+  cable::Controller copy = start.controller;
   IdealDrives drives(table_, start.last_inputs, start.last_outputs);
   std::uint64_t tick = start.next_tick;
   for (; tick < candidate.first_tick(); ++tick) step(copy, drives, tick, command_at(released, tick));
   for (; tick < candidate.expiry_tick(); ++tick) {
     prediction.ticks.push_back(
-        step(copy, drives, tick, tick == candidate.first_tick() ? candidate.telecommand_ : Telecommand{}));
+        step(copy, drives, tick, tick == candidate.first_tick() ? candidate.telecommand_ : cable::Telecommand{}));
   }
   prediction.command_ticks = prediction.ticks.size();
   for (std::size_t i = 0; i < max_stop_ticks && !prediction.comes_to_rest; ++i, ++tick) {
-    prediction.ticks.push_back(step(copy, drives, tick, Telecommand{}));
+    prediction.ticks.push_back(step(copy, drives, tick, cable::Telecommand{}));
     prediction.comes_to_rest = prediction.ticks.back().at_rest != 0;
   }
   return prediction;

@@ -61,7 +61,7 @@ class Judge {
   double tightest_ = 0.0;
 };
 
-void judge_tension(const RobotTable& table, const Outputs& outputs, Judge& judge) {
+void judge_tension(const cable::RobotTable& table, const cable::Outputs& outputs, Judge& judge) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
     const double tension_N = outputs.tension_plan_N[i];
     judge.check(Refusal::kTension, "planned tension [N] of cable", static_cast<int>(i), tension_N,
@@ -71,7 +71,8 @@ void judge_tension(const RobotTable& table, const Outputs& outputs, Judge& judge
   }
 }
 
-void judge_cables(const RobotTable& table, const Outputs& before, const Outputs& after, Judge& judge) {
+void judge_cables(const cable::RobotTable& table, const cable::Outputs& before, const cable::Outputs& after,
+                  Judge& judge) {
   const double way_m = kCableSpeedMargin * table.limits.cable_speed_m_s * table.tick_s;
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
     judge.check(Refusal::kCableSpeed, "travel per tick [m] of cable", static_cast<int>(i),
@@ -81,14 +82,17 @@ void judge_cables(const RobotTable& table, const Outputs& before, const Outputs&
 
 }  // namespace
 
-std::size_t max_stop_ticks(const RobotTable& table) { return static_cast<std::size_t>(kMaxStop_s / table.tick_s); }
+std::size_t max_stop_ticks(const cable::RobotTable& table) {
+  return static_cast<std::size_t>(kMaxStop_s / table.tick_s);
+}
 
-ExecutionVerdict judge_execution(const RobotTable& table, const Candidate& candidate, const Prediction& prediction) {
+ExecutionVerdict judge_execution(const cable::RobotTable& table, const Candidate& candidate,
+                                 const Prediction& prediction) {
   ExecutionVerdict verdict;
   verdict.sequence = candidate.sequence();
   Judge judge(verdict);
   for (std::size_t i = 0; i < prediction.ticks.size(); ++i) {
-    const Outputs& outputs = prediction.ticks[i];
+    const cable::Outputs& outputs = prediction.ticks[i];
     const auto faults = static_cast<std::uint64_t>(outputs.faults.count) + outputs.faults.dropped;
     const bool accepted = i >= prediction.command_ticks || outputs.active_sequence == candidate.sequence();
     judge.require(faults <= prediction.faults_before, Refusal::kTwinFault, "the controller would latch a fault");
@@ -107,12 +111,12 @@ void judge_time(const Candidate& candidate, std::uint64_t ticks_done, ExecutionV
   verdict.text = "verification took longer than the command interval";
 }
 
-SimulationVerdict judge_motion(const RobotTable& table, const Candidate& candidate, const Prediction& prediction,
+SimulationVerdict judge_motion(const cable::RobotTable& table, const Candidate& candidate, const Prediction& prediction,
                                const SpeedZone& zone) {
   SimulationVerdict verdict;
   verdict.sequence = candidate.sequence();
   Judge judge(verdict);
-  for (const Outputs& outputs : prediction.ticks) {
+  for (const cable::Outputs& outputs : prediction.ticks) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
       judge.check(Refusal::kJointAngle, "theta [rad]", static_cast<int>(i), outputs.theta_command_rad[i],
                   table.segment[i / 2].theta_limit_rad);

@@ -12,13 +12,14 @@ namespace liana {
 constexpr double kMaxStop_s = 3.0;
 
 // Ticks of kMaxStop_s.
-std::size_t max_stop_ticks(const RobotTable& table);
+std::size_t max_stop_ticks(const cable::RobotTable& table);
 
 // The twin's outputs: accepted, no new fault, gate silent, tension plan and cable speed within limits.
-ExecutionVerdict judge_execution(const RobotTable& table, const Candidate& candidate, const Prediction& prediction);
+ExecutionVerdict judge_execution(const cable::RobotTable& table, const Candidate& candidate,
+                                 const Prediction& prediction);
 
 // The motion: joint angles and rates, tip speed (in `zone` the zone's), and rest after the command.
-SimulationVerdict judge_motion(const RobotTable& table, const Candidate& candidate, const Prediction& prediction,
+SimulationVerdict judge_motion(const cable::RobotTable& table, const Candidate& candidate, const Prediction& prediction,
                                const SpeedZone& zone = {});
 
 // Real time only: refuses when the candidate's interval has begun already (`ticks_done` is what the arm has reached).

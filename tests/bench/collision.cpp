@@ -25,9 +25,9 @@ struct Scenario {
 };
 
 // An arm at a random pose among boxes of 0.1 to 0.6 m.
-Scenario scenario(const RobotTable& robot, const ThetaVector& theta, zhu2022::Random& random) {
+Scenario scenario(const cable::RobotTable& robot, const cable::ThetaVector& theta, zhu2022::Random& random) {
   Scenario out;
-  const LinkPoints points = link_points(robot, theta);
+  const cable::LinkPoints points = link_points(robot, theta);
   for (std::int32_t link = 0; link + 1 < points.count; ++link)
     out.links.push_back(link_capsule(points, link, kLinkRadius_m));
   while (out.boxes.size() < kBoxes) {
@@ -159,12 +159,12 @@ void compare(const Scenario& ours, const FclScenario& fcl, const ccd_t& ccd) {
   }
 }
 
-void measure(Meter& meter, const RobotTable& robot) {
+void measure(Meter& meter, const cable::RobotTable& robot) {
   zhu2022::Random random(4);
   const ccd_t ccd = ccd_settings();
   std::vector<Scenario> ours;
   std::vector<FclScenario> fcl;
-  for (const ThetaVector& theta : random_poses(robot, kSlowCalls)) {
+  for (const cable::ThetaVector& theta : random_poses(robot, kSlowCalls)) {
     ours.push_back(scenario(robot, theta, random));
     fcl.push_back(fcl_scenario(ours.back()));
     compare(ours.back(), fcl.back(), ccd);

@@ -2,7 +2,7 @@
 #include <cstdio>
 #include <exception>
 
-#include "firmware_like/motion/goal_ik.hpp"
+#include "host/solve/goal_ik.hpp"
 #include "tests/bench/own_80.hpp"
 #include "tests/bench/problems.hpp"
 #include "tests/bench/textbook_cables.hpp"
@@ -15,16 +15,16 @@ constexpr std::int32_t kIterations = 50;  // for near goals, at most
 
 struct Bench {
   Meter meter;
-  RobotTable robot = zhu2022::table();
+  cable::RobotTable robot = zhu2022::table();
   HingeChain chain = hinge_chain(robot);
 };
 
 void forward(Bench& bench) {
-  const RobotTable& robot = bench.robot;
+  const cable::RobotTable& robot = bench.robot;
   const auto poses = random_poses(robot, kCalls);
-  for (const ThetaVector& theta : poses) {
-    const ArmKinematics ours = forward_kinematics(robot, theta),
-                        own_80 = hinge_kinematics_summed(robot, bench.chain, theta);
+  for (const cable::ThetaVector& theta : poses) {
+    const cable::ArmKinematics ours = forward_kinematics(robot, theta),
+                               own_80 = hinge_kinematics_summed(robot, bench.chain, theta);
     require_agreement("pose of the 80 hinges", tip_difference(ours.tip_in_base, own_80.tip_in_base));
     require_agreement("Jacobian of the 80 hinges", jacobian_difference(ours.tip_jacobian, own_80.tip_jacobian));
   }
@@ -36,14 +36,14 @@ void forward(Bench& bench) {
 }
 
 void cables(Bench& bench) {
-  const RobotTable& robot = bench.robot;
-  const CableLayout layout = cable_layout(robot);
+  const cable::RobotTable& robot = bench.robot;
+  const cable::CableLayout layout = cable_layout(robot);
   const auto poses = random_poses(robot, kCalls);
-  for (const ThetaVector& theta : poses) {
-    const CableGeometry ours = cable_geometry(robot, layout, arm_trig(robot, theta)),
-                        textbook = textbook_cables(robot, layout, theta);
+  for (const cable::ThetaVector& theta : poses) {
+    const cable::CableGeometry ours = cable_geometry(robot, layout, arm_trig(robot, theta)),
+                               textbook = textbook_cables(robot, layout, theta);
     require_agreement("cable length of the textbook", zhu2022::largest_difference(ours.length_m, textbook.length_m));
-    for (std::size_t c = 0; c < kMaxCables; ++c) {
+    for (std::size_t c = 0; c < cable::kMaxCables; ++c) {
       require_agreement("cable Jacobian of the textbook",
                         zhu2022::largest_difference(ours.jacobian_m_rad[c], textbook.jacobian_m_rad[c]));
     }
@@ -55,7 +55,7 @@ void cables(Bench& bench) {
 }
 
 // What a tick does, until the tip is there. Returns how often.
-std::int32_t solve_near(const RobotTable& robot, const IkProblem& problem, ThetaVector& theta) {
+std::int32_t solve_near(const cable::RobotTable& robot, const IkProblem& problem, cable::ThetaVector& theta) {
   theta = problem.from_rad;
   for (std::int32_t i = 1; i <= kIterations; ++i) {
     servo_ik(robot, {problem.tip_in_base, 0}, forward_kinematics(robot, theta), theta);
@@ -70,15 +70,15 @@ std::int32_t solve_near(const HingeChain& chain, const IkProblem& problem, Hinge
     const HingeKinematics arm = hinge_kinematics(chain, angle);
     const auto error = pose_error(problem.tip_in_base, arm.tip_in_base);
     if (zhu2022::length(error) < kSolved) return i;
-    hinge_ik_step(arm, error, kDamping, angle);
+    hinge_ik_step(arm, error, cable::kDamping, angle);
   }
   return kIterations;
 }
 
 void near(Bench& bench) {
-  const RobotTable& robot = bench.robot;
+  const cable::RobotTable& robot = bench.robot;
   const auto problems = near_problems(robot, kCalls);
-  ThetaVector theta{};
+  cable::ThetaVector theta{};
   HingeVector angle{};
   std::int32_t steps = 0, hinge_steps = 0;
   for (const IkProblem& problem : problems) {
@@ -100,13 +100,13 @@ void near(Bench& bench) {
                    [&](std::size_t i) { return static_cast<double>(solve_near(bench.chain, problems[i], angle)); });
   bench.meter.each("ik_step", "ours", kCalls, [&](std::size_t i) {
     theta = problems[i].from_rad;
-    return ik_step(robot, {problems[i].tip_in_base, 0}, kDamping, theta).position_error_m;
+    return ik_step(robot, {problems[i].tip_in_base, 0}, cable::kDamping, theta).position_error_m;
   });
   const HingeVector from = hinge_angles(bench.chain, problems[0].from_rad);
   bench.meter.each("ik_step", "own_80", kCalls, [&](std::size_t i) {
     angle = from;
     const HingeKinematics arm = hinge_kinematics(bench.chain, angle);
-    hinge_ik_step(arm, pose_error(problems[i].tip_in_base, arm.tip_in_base), kDamping, angle);
+    hinge_ik_step(arm, pose_error(problems[i].tip_in_base, arm.tip_in_base), cable::kDamping, angle);
     return angle[0];
   });
 }

@@ -22,7 +22,7 @@ constexpr double kLambda = 0.01;                              // damping of the 
 constexpr std::array<std::size_t, 4> kTurnOfRow{0, 1, 1, 0};  // odd, even, even, odd: pitch, yaw, yaw, pitch
 
 // (0,-90,odd) (l,0,even) (0,90,even) (l,0,odd), four times a segment.
-KDL::Chain dh_chain(const RobotTable& robot) {
+KDL::Chain dh_chain(const cable::RobotTable& robot) {
   KDL::Chain chain;
   for (std::size_t m = 0; m < 5; ++m) {
     const double l = robot.segment[m].module_length_m;
@@ -37,7 +37,7 @@ KDL::Chain dh_chain(const RobotTable& robot) {
 
 std::size_t theta_of(unsigned joint) { return 2 * (joint / 16) + kTurnOfRow[joint % 4]; }
 
-KDL::JntArray joints_of(const ThetaVector& theta) {
+KDL::JntArray joints_of(const cable::ThetaVector& theta) {
   KDL::JntArray q(kJoints);
   for (unsigned i = 0; i < kJoints; ++i) q(i) = theta[theta_of(i)];
   return q;
@@ -62,14 +62,14 @@ KDL::JntArray all_joints(double angle_rad) {
 }
 
 struct Solvers {
-  explicit Solvers(const RobotTable& robot) : chain(dh_chain(robot)) { wdls.setLambda(kLambda); }
+  explicit Solvers(const cable::RobotTable& robot) : chain(dh_chain(robot)) { wdls.setLambda(kLambda); }
 
   // Pose and Jacobian of the reduced angles: the columns of each theta summed.
-  ArmKinematics forward(const KDL::JntArray& q) {
+  cable::ArmKinematics forward(const KDL::JntArray& q) {
     KDL::Frame frame;
     fk.JntToCart(q, frame);
     jac.JntToJac(q, jacobian);
-    ArmKinematics out;
+    cable::ArmKinematics out;
     out.tip_in_base = pose_of(frame);
     for (unsigned i = 0; i < kJoints; ++i) {
       const std::size_t k = theta_of(i);
@@ -95,12 +95,12 @@ struct Solvers {
   KDL::Jacobian jacobian{kJoints};
 };
 
-void forward(Meter& meter, const RobotTable& robot, Solvers& solvers) {
+void forward(Meter& meter, const cable::RobotTable& robot, Solvers& solvers) {
   const auto poses = random_poses(robot, kCalls);
   std::vector<KDL::JntArray> joints;
-  for (const ThetaVector& theta : poses) {
+  for (const cable::ThetaVector& theta : poses) {
     joints.push_back(joints_of(theta));
-    const ArmKinematics ours = forward_kinematics(robot, theta), kdl = solvers.forward(joints.back());
+    const cable::ArmKinematics ours = forward_kinematics(robot, theta), kdl = solvers.forward(joints.back());
     require_agreement("pose of KDL", tip_difference(ours.tip_in_base, kdl.tip_in_base));
     require_agreement("Jacobian of KDL", jacobian_difference(ours.tip_jacobian, kdl.tip_jacobian));
   }
@@ -108,7 +108,7 @@ void forward(Meter& meter, const RobotTable& robot, Solvers& solvers) {
              [&](std::size_t i) { return solvers.forward(joints[i]).tip_in_base.position_m[0]; });
 }
 
-void near(Meter& meter, const RobotTable& robot, Solvers& solvers) {
+void near(Meter& meter, const cable::RobotTable& robot, Solvers& solvers) {
   const auto problems = near_problems(robot, kCalls);
   const KDL::JntArray from = joints_of(problems[0].from_rad);
   KDL::JntArray q(kJoints);
@@ -134,14 +134,14 @@ void near(Meter& meter, const RobotTable& robot, Solvers& solvers) {
   });
 }
 
-bool within_limits(const RobotTable& robot, const KDL::JntArray& q) {
+bool within_limits(const cable::RobotTable& robot, const KDL::JntArray& q) {
   for (unsigned i = 0; i < kJoints; ++i) {
     if (std::fabs(q(i)) > robot.segment[i / 16].theta_limit_rad) return false;
   }
   return true;
 }
 
-void random_goals(Meter& meter, const RobotTable& robot, Solvers& solvers) {
+void random_goals(Meter& meter, const cable::RobotTable& robot, Solvers& solvers) {
   const auto problems = random_problems(robot, kTargets);
   const KDL::JntArray from(kJoints);
   KDL::JntArray q(kJoints);

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
 
 namespace liana::bench {
 
@@ -20,7 +20,7 @@ struct Hinge {
 using HingeChain = std::array<Hinge, kHinges>;
 
 // The hinges of a table of five segments with eight modules each; throws std::runtime_error on any other.
-HingeChain hinge_chain(const RobotTable& table);
+HingeChain hinge_chain(const cable::RobotTable& table);
 
 struct HingeKinematics {
   Pose tip_in_base{};
@@ -29,14 +29,15 @@ struct HingeKinematics {
 };
 
 // Every hinge at the angle of its theta.
-HingeVector hinge_angles(const HingeChain& chain, const ThetaVector& theta_rad);
+HingeVector hinge_angles(const HingeChain& chain, const cable::ThetaVector& theta_rad);
 
 // Pose and 6x80 Jacobian; the angles of the hinges are independent.
 HingeKinematics hinge_kinematics(const HingeChain& chain, const HingeVector& angle_rad);
 
 // The same with each theta's sine and cosine taken once, and the columns of each theta summed to 6x10 (eq. 3-12 of the
 // source).
-ArmKinematics hinge_kinematics_summed(const RobotTable& table, const HingeChain& chain, const ThetaVector& theta_rad);
+cable::ArmKinematics hinge_kinematics_summed(const cable::RobotTable& table, const HingeChain& chain,
+                                             const cable::ThetaVector& theta_rad);
 
 // One step of damped least squares over 80 hinges: angle += J^T (J J^T + damping I)^-1 e, from their kinematics and the
 // tip error e.

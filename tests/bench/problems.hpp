@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_like/motion/servo_ik.hpp"
+#include "firmware_like/cable/motion/servo_ik.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::bench {
@@ -19,9 +19,10 @@ constexpr std::size_t kSlowCalls = 16;  // the same where one call takes million
 constexpr std::size_t kTargets = 1000;  // random goals for success rates
 
 // Random poses, every theta within +-15 deg.
-inline std::vector<ThetaVector> random_poses(const RobotTable& robot, std::size_t count, std::uint64_t seed = 1) {
+inline std::vector<cable::ThetaVector> random_poses(const cable::RobotTable& robot, std::size_t count,
+                                                    std::uint64_t seed = 1) {
   zhu2022::Random random(seed);
-  std::vector<ThetaVector> poses;
+  std::vector<cable::ThetaVector> poses;
   for (std::size_t i = 0; i < count; ++i) poses.push_back(random.theta(robot, 15.0));
   return poses;
 }
@@ -29,11 +30,11 @@ inline std::vector<ThetaVector> random_poses(const RobotTable& robot, std::size_
 // A tip pose to solve for and the angles to start from.
 struct IkProblem {
   Pose tip_in_base{};
-  ThetaVector from_rad{};
+  cable::ThetaVector from_rad{};
 };
 
 // Targets 10 mm away in random directions, attitude unchanged.
-inline std::vector<IkProblem> near_problems(const RobotTable& robot, std::size_t count) {
+inline std::vector<IkProblem> near_problems(const cable::RobotTable& robot, std::size_t count) {
   zhu2022::Random random(2);
   std::vector<IkProblem> problems;
   while (problems.size() < count) {
@@ -49,9 +50,9 @@ inline std::vector<IkProblem> near_problems(const RobotTable& robot, std::size_t
 }
 
 // Tips of random poses, from the straight arm.
-inline std::vector<IkProblem> random_problems(const RobotTable& robot, std::size_t count) {
+inline std::vector<IkProblem> random_problems(const cable::RobotTable& robot, std::size_t count) {
   std::vector<IkProblem> problems;
-  for (const ThetaVector& theta : random_poses(robot, count, 3))
+  for (const cable::ThetaVector& theta : random_poses(robot, count, 3))
     problems.push_back({forward_kinematics(robot, theta).tip_in_base, {}});
   return problems;
 }
@@ -67,9 +68,9 @@ inline void require_agreement(const std::string& what, double difference, double
 inline double tip_difference(const Pose& a, const Pose& b) { return zhu2022::length(pose_error(a, b)); }
 
 // Largest difference of any entry.
-inline double jacobian_difference(const Jacobian& a, const Jacobian& b) {
+inline double jacobian_difference(const cable::Jacobian& a, const cable::Jacobian& b) {
   double largest = 0.0;
-  for (std::size_t k = 0; k < kMaxTheta; ++k) {
+  for (std::size_t k = 0; k < cable::kMaxTheta; ++k) {
     largest = std::max({largest, zhu2022::largest_difference(a.linear[k], b.linear[k]),
                         zhu2022::largest_difference(a.angular[k], b.angular[k])});
   }

@@ -29,11 +29,12 @@ Matrix3 about_y(double angle) {
 
 }  // namespace
 
-CableVector textbook_lengths(const RobotTable& table, const CableLayout& layout, const ThetaVector& theta_rad) {
+cable::CableVector textbook_lengths(const cable::RobotTable& table, const cable::CableLayout& layout,
+                                    const cable::ThetaVector& theta_rad) {
   const double g = table.face_offset_m;
-  CableVector length_m{};
+  cable::CableVector length_m{};
   for (std::size_t j = 0; j < static_cast<std::size_t>(table.segment_count); ++j) {
-    const SegmentTable& passed = table.segment[j];
+    const cable::SegmentTable& passed = table.segment[j];
     const Matrix3 pitch = about_z(theta_rad[2 * j]), yaw = about_y(theta_rad[2 * j + 1]);
     for (std::int32_t k = 0; k < passed.modules; ++k) {
       const Matrix3 turn = k % 2 == 0 ? product(pitch, yaw) : product(yaw, pitch);
@@ -51,14 +52,16 @@ CableVector textbook_lengths(const RobotTable& table, const CableLayout& layout,
   return length_m;
 }
 
-CableGeometry textbook_cables(const RobotTable& table, const CableLayout& layout, const ThetaVector& theta_rad) {
-  CableGeometry out;
+cable::CableGeometry textbook_cables(const cable::RobotTable& table, const cable::CableLayout& layout,
+                                     const cable::ThetaVector& theta_rad) {
+  cable::CableGeometry out;
   out.length_m = textbook_lengths(table, layout, theta_rad);
   for (std::size_t k = 0; k < static_cast<std::size_t>(table.theta_count()); ++k) {
-    ThetaVector more = theta_rad, less = theta_rad;
+    cable::ThetaVector more = theta_rad, less = theta_rad;
     more[k] += kStep_rad;
     less[k] -= kStep_rad;
-    const CableVector longer = textbook_lengths(table, layout, more), shorter = textbook_lengths(table, layout, less);
+    const cable::CableVector longer = textbook_lengths(table, layout, more),
+                             shorter = textbook_lengths(table, layout, less);
     for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
       out.jacobian_m_rad[c][k] = (longer[c] - shorter[c]) / (2.0 * kStep_rad);
     }

@@ -2,14 +2,16 @@
 // central differences.
 #pragma once
 
-#include "firmware_like/arm/cables.hpp"
+#include "firmware_like/cable/arm/cables.hpp"
 
 namespace liana::bench {
 
 // Path of every cable from the first disc to its anchor [m]; of the layout only where the holes are.
-CableVector textbook_lengths(const RobotTable& table, const CableLayout& layout, const ThetaVector& theta_rad);
+cable::CableVector textbook_lengths(const cable::RobotTable& table, const cable::CableLayout& layout,
+                                    const cable::ThetaVector& theta_rad);
 
 // The same with d length / d theta, step 1e-5 rad: exact to about 1e-10 m/rad.
-CableGeometry textbook_cables(const RobotTable& table, const CableLayout& layout, const ThetaVector& theta_rad);
+cable::CableGeometry textbook_cables(const cable::RobotTable& table, const cable::CableLayout& layout,
+                                     const cable::ThetaVector& theta_rad);
 
 }  // namespace liana::bench

@@ -20,8 +20,8 @@ class Phase {
  public:
   Phase(Meter& meter, std::string name, const Rig& start) : rig(start), meter_(meter), name_(std::move(name)) {}
 
-  void tick(const Telecommand& telecommand = {}) {
-    Inputs inputs = rig.drives.inputs(rig.now++);
+  void tick(const cable::Telecommand& telecommand = {}) {
+    cable::Inputs inputs = rig.drives.inputs(rig.now++);
     inputs.telecommand = telecommand;
     meter_.once("tick", name_, [&] {
       rig.out = rig.controller.tick(inputs);
@@ -34,7 +34,7 @@ class Phase {
     for (std::int32_t i = 0; i < count; ++i) tick();
   }
   // Carries out a setpoint, every tick counted.
-  void follow(const Setpoint& setpoint) {
+  void follow(const cable::Setpoint& setpoint) {
     tick(rig.release(setpoint));
     ticks(kPhaseTicks - 1);
   }
@@ -48,7 +48,7 @@ class Phase {
   std::string name_;
 };
 
-Rig enabled_at(const ThetaVector& theta) {
+Rig enabled_at(const cable::ThetaVector& theta) {
   Rig rig(theta);
   rig.run(60);
   rig.tick(Request::kEnable);
@@ -60,11 +60,11 @@ Rig enabled_at(const ThetaVector& theta) {
 // The operator's hand moves on with every command interval.
 void moving_tip(Meter& meter, const Rig& enabled) {
   Phase phase(meter, "moving_tip", enabled);
-  Setpoint setpoint = phase.rig.tip_by({0.0, 0.0, 0.0});
+  cable::Setpoint setpoint = phase.rig.tip_by({0.0, 0.0, 0.0});
   for (std::int32_t i = 0; i < kPhaseTicks; ++i) {
     Vec3& position = setpoint.tip_in_base.position_m;
     position = add(position, {0.0001, 0.00006, -0.00004});
-    phase.tick(i % phase.rig.robot.interval_ticks == 0 ? phase.rig.release(setpoint) : Telecommand{});
+    phase.tick(i % phase.rig.robot.interval_ticks == 0 ? phase.rig.release(setpoint) : cable::Telecommand{});
   }
   phase.expect(phase.rig.out.tip_speed_m_s > 0.01);
 }
@@ -72,7 +72,7 @@ void moving_tip(Meter& meter, const Rig& enabled) {
 // Tip and shape: the end of segment 3 is drawn aside, the middle keeps clear of two points, the last segment is held.
 void moving_shape(Meter& meter, const Rig& enabled) {
   Phase phase(meter, "moving_shape", enabled);
-  Setpoint setpoint = phase.rig.tip_by({0.02, 0.0, 0.01});
+  cable::Setpoint setpoint = phase.rig.tip_by({0.02, 0.0, 0.01});
   setpoint.node[0] = {3, add(phase.rig.out.node_command_m[2], {0.0, 0.03, 0.03}), 1.0, 0.001};
   for (const std::size_t i : {0u, 1u})
     setpoint.clear[i] = {add(phase.rig.out.node_command_m[i + 1], {0.0, 0.0, 0.1}), 0.3, 1.0};
@@ -90,23 +90,23 @@ void holding(Meter& meter, const Rig& enabled) {
 
 void joint_motion(Meter& meter, const Rig& enabled) {
   Phase phase(meter, "joint_motion", enabled);
-  phase.follow(phase.rig.joints(ThetaVector{}));
+  phase.follow(phase.rig.joints(cable::ThetaVector{}));
   phase.expect(phase.rig.out.tip_speed_m_s > 0.01);
 }
 
 // From the straight pose outwards, where no theta moves the tip along the arm.
 void straight_arm(Meter& meter) {
-  Phase phase(meter, "straight_arm", enabled_at(ThetaVector{}));
+  Phase phase(meter, "straight_arm", enabled_at(cable::ThetaVector{}));
   phase.follow(phase.rig.tip_by({0.05, 0.0, 0.0}));
   phase.expect(phase.rig.out.ik_position_error_m > 1e-3);  // it cannot follow
 }
 
 // Rolled up as far as two segments allow, and asked for more.
 void at_limits(Meter& meter) {
-  ThetaVector rolled = zhu2022::radians(zhu2022::kPrepare_deg);
+  cable::ThetaVector rolled = zhu2022::radians(zhu2022::kPrepare_deg);
   for (const std::size_t k : {6u, 8u}) rolled[k] = zhu2022::table().segment[k / 2].theta_limit_rad;
   Phase phase(meter, "at_limits", enabled_at(rolled));
-  Setpoint setpoint = phase.rig.tip_by({0.0, 0.0, 0.0});
+  cable::Setpoint setpoint = phase.rig.tip_by({0.0, 0.0, 0.0});
   setpoint.tip_in_base.quaternion = multiply(setpoint.tip_in_base.quaternion, quaternion_of({0.0, 0.0, 1.0}));
   phase.follow(setpoint);
   phase.expect((phase.limits_seen & kLimitTheta) != 0);

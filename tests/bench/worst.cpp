@@ -30,20 +30,22 @@ constexpr std::size_t kPool = 40;     // worst cases that are changed further
 constexpr double kFresh = 0.15;       // share of cases that owe nothing to them
 constexpr std::int32_t kRepeats = 9;  // of a tick that may be among the worst: the least of its times counts
 
-Outputs plain_tick(Controller& controller, const Inputs& inputs) { return controller.tick(inputs); }
+cable::Outputs plain_tick(cable::Controller& controller, const cable::Inputs& inputs) {
+  return controller.tick(inputs);
+}
 
-double time_ns(Controller& controller, const Inputs& inputs, Outputs& outputs) {
+double time_ns(cable::Controller& controller, const cable::Inputs& inputs, cable::Outputs& outputs) {
   const auto start = std::chrono::steady_clock::now();
   outputs = controller.tick(inputs);
   return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - start).count();
 }
 
 // Least time of a tick from a copy of the controller.
-double least_time_ns(const Controller& controller, const Inputs& inputs) {
+double least_time_ns(const cable::Controller& controller, const cable::Inputs& inputs) {
   double least_ns = 1e300;
   for (std::int32_t i = 0; i < kRepeats; ++i) {
-    Controller copy = controller;
-    Outputs outputs;
+    cable::Controller copy = controller;
+    cable::Outputs outputs;
     least_ns = std::min(least_ns, time_ns(copy, inputs, outputs));
   }
   return least_ns;
@@ -83,10 +85,10 @@ class Search {
   void try_case(const Case& one) {
     const double enough_ns = pool_.size() < kPool ? 0.0 : pool_.back().ns;
     double worst_ns = 0.0;
-    play(one, started(one, plain_tick), [&](Controller& controller, const Inputs& inputs) {
+    play(one, started(one, plain_tick), [&](cable::Controller& controller, const cable::Inputs& inputs) {
       ++ticks_;
-      const Controller before = controller;
-      Outputs outputs;
+      const cable::Controller before = controller;
+      cable::Outputs outputs;
       const double first_ns = time_ns(controller, inputs, outputs);
       if (first_ns > worst_ns && first_ns > enough_ns)
         worst_ns = std::max(worst_ns, std::min(first_ns, least_time_ns(before, inputs)));
@@ -114,8 +116,8 @@ void count(const std::vector<Case>& cases) {
   bench::Meter meter;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const std::string name = "case_" + std::to_string(i);
-    play(cases[i], started(cases[i], plain_tick), [&](Controller& controller, const Inputs& inputs) {
-      Outputs outputs;
+    play(cases[i], started(cases[i], plain_tick), [&](cable::Controller& controller, const cable::Inputs& inputs) {
+      cable::Outputs outputs;
       meter.once("tick", name, [&] {
         outputs = controller.tick(inputs);
         return outputs.tip_speed_m_s;

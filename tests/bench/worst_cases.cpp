@@ -70,9 +70,9 @@ struct Act {
   std::uint32_t held_mask;
   double held_share, speed_share;
   std::uint64_t life_ticks;
-  ThetaVector joint_share{};
-  std::array<NodeGenes, kMaxNodeTargets> node{};
-  std::array<ClearGenes, kMaxKeepClear> clear{};
+  cable::ThetaVector joint_share{};
+  std::array<NodeGenes, cable::kMaxNodeTargets> node{};
+  std::array<ClearGenes, cable::kMaxKeepClear> clear{};
 };
 
 Act act_of(Genes& genes) {
@@ -123,8 +123,8 @@ CommandKind command_of(Kind kind) {
 }
 
 // What an act asks of an arm that stands as `rig` says.
-Setpoint setpoint_of(const Act& act, const Rig& rig) {
-  Setpoint setpoint = rig.tip_by(act.move_m);
+cable::Setpoint setpoint_of(const Act& act, const Rig& rig) {
+  cable::Setpoint setpoint = rig.tip_by(act.move_m);
   setpoint.kind = command_of(act.kind);
   setpoint.tip_in_base.quaternion = normalize(multiply(quaternion_of(act.turn_rad), setpoint.tip_in_base.quaternion));
   setpoint.tip_speed_m_s *= act.speed_share;
@@ -163,7 +163,7 @@ struct RequestGenes {
 
 // Everything a case says.
 struct Story {
-  ThetaVector start_rad{};
+  cable::ThetaVector start_rad{};
   std::array<Act, kActs> act{};
   std::array<FaultGenes, kFaults> fault{};
   NoiseGenes noise{};
@@ -183,7 +183,7 @@ Story story_of(const Case& one) {
 }
 
 // Half of the kinds are no fault.
-void plant(const FaultGenes& fault, std::int32_t age, Inputs& inputs) {
+void plant(const FaultGenes& fault, std::int32_t age, cable::Inputs& inputs) {
   const auto all = bits::what_ifs_enabled();
   const std::size_t kind = fault.kind;
   if (kind >= all.size() || age < fault.at) return;
@@ -192,7 +192,7 @@ void plant(const FaultGenes& fault, std::int32_t age, Inputs& inputs) {
 }
 
 // The first kinds are none at all.
-void scatter(const NoiseGenes& noise, zhu2022::Random& random, Inputs& inputs) {
+void scatter(const NoiseGenes& noise, zhu2022::Random& random, cable::Inputs& inputs) {
   constexpr std::uint8_t kLeast = 128;
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
     DriveFeedback& drive = inputs.drive[c];
@@ -263,7 +263,7 @@ std::vector<Case> read_cases(std::istream& lines) {
 Rig started(const Case& one, const Tick& tick) {
   Rig rig(story_of(one).start_rad);
   for (std::int32_t i = 0; i < kEnablingTicks; ++i) {
-    Inputs inputs = rig.drives.inputs(rig.now++);
+    cable::Inputs inputs = rig.drives.inputs(rig.now++);
     if (i == kRequestAt) inputs.request = Request::kEnable;
     rig.out = tick(rig.controller, inputs);
     rig.drives.act(rig.out);
@@ -276,10 +276,10 @@ void play(const Case& one, Rig rig, const Tick& tick) {
   zhu2022::Random random(story.noise.seed);
   std::int32_t age = 0;
   for (const Act& act : story.act) {
-    Setpoint setpoint = setpoint_of(act, rig);
+    cable::Setpoint setpoint = setpoint_of(act, rig);
     const bool moves = act.kind == Kind::kMovingTip || act.kind == Kind::kMovingShape;
     for (std::int32_t i = 0; i < act.ticks; ++i, ++age) {
-      Inputs inputs = rig.drives.inputs(rig.now++);
+      cable::Inputs inputs = rig.drives.inputs(rig.now++);
       if (i % act.every == 0) inputs.telecommand = rig.release(setpoint, act.life_ticks);
       if (moves) setpoint.tip_in_base.position_m = add(setpoint.tip_in_base.position_m, scale(act.move_m, kFurther_m));
       if (age == story.request.at && story.request.kind < 5) inputs.request = static_cast<Request>(story.request.kind);

@@ -34,7 +34,7 @@ std::string text_of(const Case& one);
 std::vector<Case> read_cases(std::istream& lines);
 
 // Carries out one tick of a case: controller.tick(inputs), and whatever is to be counted of it.
-using Tick = std::function<Outputs(Controller& controller, const Inputs& inputs)>;
+using Tick = std::function<cable::Outputs(cable::Controller& controller, const cable::Inputs& inputs)>;
 
 // From power-up to an enabled arm at the case's start pose: about 1060 ticks. At some poses the arm cannot be enabled:
 // that is no error.

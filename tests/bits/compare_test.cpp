@@ -11,7 +11,7 @@ namespace liana::bits {
 namespace {
 
 std::string outputs_of(std::uint64_t tick) {
-  Outputs outputs;
+  cable::Outputs outputs;
   outputs.tick = tick;
   std::string bytes;
   append_serialised(bytes, outputs);

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "firmware_like/controller.hpp"
+#include "firmware_like/cable_controller.hpp"
 #include "host/record/mcap.hpp"
 #include "host/record/recording.hpp"
 #include "host/record/serialise.hpp"
@@ -26,7 +26,7 @@ struct RecordedTick {
 };
 
 struct RecordedRun {
-  std::optional<RobotTable> robot;
+  std::optional<cable::RobotTable> robot;
   std::vector<RecordedTick> ticks;
 };
 
@@ -49,7 +49,7 @@ RecordedRun read(const std::string& directory, std::uint64_t limit) {
 
 // The same Inputs, but for the last bit of one motor position.
 std::string one_bit_off(const std::string& recorded) {
-  Inputs inputs = RecordingDecoder::inputs(recorded);
+  cable::Inputs inputs = RecordingDecoder::inputs(recorded);
   inputs.drive[0].position_counts ^= 1;
   std::string bytes;
   append_serialised(bytes, inputs);
@@ -98,7 +98,7 @@ class Maker {
   // What could have happened from recorded tick `next` on, as one branch each.
   void branch(const RecordedRun& run, std::size_t next) {
     mark(Mark::kKeep);
-    const Controller kept = *controller_;
+    const cable::Controller kept = *controller_;
     for (const WhatIf& what_if : out_.state == OperatingState::kEnabled ? what_ifs_enabled() : what_ifs_enabling()) {
       const std::size_t drive = summary_.what_ifs++ % static_cast<std::size_t>(run.robot->cable_count());
       follow(run, next, what_if, drive);
@@ -109,9 +109,9 @@ class Maker {
 
   void follow(const RecordedRun& run, std::size_t next, const WhatIf& what_if, std::size_t drive) {
     for (std::uint32_t age = 0; age < what_if.ticks && next + age < run.ticks.size(); ++age) {
-      Inputs inputs = RecordingDecoder::inputs(run.ticks[next + age].inputs);
+      cable::Inputs inputs = RecordingDecoder::inputs(run.ticks[next + age].inputs);
       what_if.change(inputs, age, drive);
-      const Outputs outputs = controller_->tick(inputs);
+      const cable::Outputs outputs = controller_->tick(inputs);
       note_faults(outputs);
       std::string asked, answered;
       append_serialised(asked, inputs);
@@ -123,7 +123,7 @@ class Maker {
     }
   }
 
-  void note_faults(const Outputs& outputs) {
+  void note_faults(const cable::Outputs& outputs) {
     for (std::int32_t i = 0; i < outputs.faults.count; ++i)
       summary_.faults.insert(outputs.faults.fault[static_cast<std::size_t>(i)].number);
   }
@@ -132,8 +132,8 @@ class Maker {
   std::ostream& tape_;
   std::ostream& expected_;
   TapeSummary& summary_;
-  std::optional<Controller> controller_;
-  Outputs out_{};  // of the last recorded tick
+  std::optional<cable::Controller> controller_;
+  cable::Outputs out_{};  // of the last recorded tick
   OperatingState state_ = OperatingState::kDisabled;
   std::uint32_t held_mask_ = 0;
   std::uint64_t since_change_ = 0;
@@ -149,10 +149,10 @@ void append_recording(const std::string& directory, const TapeOptions& options, 
 
 std::uint64_t append_cases(std::istream& lines, std::ostream& tape, std::ostream& expected) {
   std::uint64_t ticks = 0;
-  const worst::Tick tick = [&](Controller& controller, const Inputs& inputs) {
+  const worst::Tick tick = [&](cable::Controller& controller, const cable::Inputs& inputs) {
     std::string asked, answered;
     append_serialised(asked, inputs);
-    const Outputs outputs = controller.tick(inputs);
+    const cable::Outputs outputs = controller.tick(inputs);
     append_serialised(answered, outputs);
     tape.put(static_cast<char>(Mark::kTick)) << asked;
     expected << answered;

@@ -29,7 +29,7 @@ std::string bytes_of(const std::vector<Count>& counts) {
 
 std::string ticks_in(const std::vector<OperatingState>& states) {
   std::string bytes;
-  Outputs outputs;
+  cable::Outputs outputs;
   for (const OperatingState state : states) {
     ++outputs.tick;
     outputs.state = state;

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "tests/firmware_like/release.hpp"
+#include "firmware_like/command/release.hpp"
 
 namespace liana::bits {
 namespace {
@@ -14,65 +14,69 @@ constexpr std::uint64_t kLife_ticks = 1000;
 constexpr std::uint64_t kUnusedSequence = 1u << 30;
 constexpr std::uint16_t kSwitchOnDisabled = 0x0250, kInFault = 0x0218;
 
-void silent(Inputs& inputs, std::uint32_t age, std::size_t drive) {
+void silent(cable::Inputs& inputs, std::uint32_t age, std::size_t drive) {
   inputs.drive[drive].feedback_age_ticks = static_cast<std::uint16_t>(age + 1);
 }
-void missing(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].heartbeat_age_ticks = 1000; }
-void in_fault(Inputs& inputs, std::uint32_t age, std::size_t drive) {
+void missing(cable::Inputs& inputs, std::uint32_t, std::size_t drive) {
+  inputs.drive[drive].heartbeat_age_ticks = 1000;
+}
+void in_fault(cable::Inputs& inputs, std::uint32_t age, std::size_t drive) {
   inputs.drive[drive].statusword = kInFault;
   inputs.drive[drive].emergency_code = age == 1 ? 0x2310 : 0;
 }
-void off(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].statusword = kSwitchOnDisabled; }
-void not_operational(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].operational = 0; }
-void jumped(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].position_counts += 200000; }
-void slack(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].torque_permille = 0; }
+void off(cable::Inputs& inputs, std::uint32_t, std::size_t drive) {
+  inputs.drive[drive].statusword = kSwitchOnDisabled;
+}
+void not_operational(cable::Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].operational = 0; }
+void jumped(cable::Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].position_counts += 200000; }
+void slack(cable::Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].torque_permille = 0; }
 // So slowly that it is no break.
-void loosening(Inputs& inputs, std::uint32_t age, std::size_t drive) {
+void loosening(cable::Inputs& inputs, std::uint32_t age, std::size_t drive) {
   const std::int32_t left = inputs.drive[drive].torque_permille - 2 * static_cast<std::int32_t>(age);
   inputs.drive[drive].torque_permille = static_cast<std::int16_t>(left > 0 ? left : 0);
 }
 // 14 um a tick that its tension does not know of.
-void creeping(Inputs& inputs, std::uint32_t age, std::size_t drive) {
+void creeping(cable::Inputs& inputs, std::uint32_t age, std::size_t drive) {
   inputs.drive[drive].position_counts += 10 * static_cast<std::int32_t>(age);
 }
-void slipped(Inputs& inputs, std::uint32_t, std::size_t drive) {
+void slipped(cable::Inputs& inputs, std::uint32_t, std::size_t drive) {
   inputs.drive[drive].torque_permille = static_cast<std::int16_t>(inputs.drive[drive].torque_permille - 20);
 }
-void scattering(Inputs& inputs, std::uint32_t age, std::size_t drive) {
+void scattering(cable::Inputs& inputs, std::uint32_t age, std::size_t drive) {
   if (age % 2 == 0)
     inputs.drive[drive].torque_permille = static_cast<std::int16_t>(inputs.drive[drive].torque_permille + 40);
 }
-void alarming(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].torque_permille = 800; }
-void overloaded(Inputs& inputs, std::uint32_t, std::size_t drive) {
+void alarming(cable::Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].torque_permille = 800; }
+void overloaded(cable::Inputs& inputs, std::uint32_t, std::size_t drive) {
   inputs.drive[drive].torque_permille = std::numeric_limits<std::int16_t>::max();
 }
-void bus_lost(Inputs& inputs, std::uint32_t, std::size_t) { inputs.lost_bus_mask = 2; }
-void late(Inputs& inputs, std::uint32_t age, std::size_t) { inputs.lost_ticks = age == 0 ? 10 : 0; }
-void nonsense(Inputs& inputs, std::uint32_t age, std::size_t) {
-  Setpoint setpoint;
+void bus_lost(cable::Inputs& inputs, std::uint32_t, std::size_t) { inputs.lost_bus_mask = 2; }
+void late(cable::Inputs& inputs, std::uint32_t age, std::size_t) { inputs.lost_ticks = age == 0 ? 10 : 0; }
+void nonsense(cable::Inputs& inputs, std::uint32_t age, std::size_t) {
+  cable::Setpoint setpoint;
   setpoint.kind = CommandKind::kJoint;
   setpoint.joint_rad[3] = std::numeric_limits<double>::quiet_NaN();
   inputs.telecommand = Release::make(kUnusedSequence + age, inputs.tick, inputs.tick + kLife_ticks, setpoint);
 }
 // Every tip command asks for a shape as well: a node drawn aside, a point to keep away from.
-void shaped(Inputs& inputs, std::uint32_t, std::size_t) {
-  Setpoint setpoint = inputs.telecommand.setpoint();
+void shaped(cable::Inputs& inputs, std::uint32_t, std::size_t) {
+  cable::Setpoint setpoint = inputs.telecommand.setpoint();
   if (setpoint.kind != CommandKind::kTip) return;
   setpoint.node[0] = {2, {1.2, 0.3, 0.2}, 1.0, 0.0};
   setpoint.clear[0] = {{0.8, 0.1, 0.1}, 0.3, 1.0};
   inputs.telecommand = Release::make(inputs.telecommand.sequence(), inputs.telecommand.first_tick(),
                                      inputs.telecommand.first_tick() + kLife_ticks, setpoint);
 }
-void straightened(Inputs& inputs, std::uint32_t age, std::size_t) {
-  Setpoint setpoint;
+void straightened(cable::Inputs& inputs, std::uint32_t age, std::size_t) {
+  cable::Setpoint setpoint;
   setpoint.kind = age == 0 ? CommandKind::kJoint : CommandKind::kNone;
   inputs.telecommand = Release::make(kUnusedSequence, inputs.tick, inputs.tick + kLife_ticks, setpoint);
 }
-void no_telecommands(Inputs& inputs, std::uint32_t, std::size_t) { inputs.telecommand = Telecommand{}; }
-void stop(Inputs& inputs, std::uint32_t age, std::size_t) {
+void no_telecommands(cable::Inputs& inputs, std::uint32_t, std::size_t) { inputs.telecommand = cable::Telecommand{}; }
+void stop(cable::Inputs& inputs, std::uint32_t age, std::size_t) {
   inputs.request = age == 0 ? Request::kStop : Request::kNone;
 }
-void silent_then_cleared(Inputs& inputs, std::uint32_t age, std::size_t drive) {
+void silent_then_cleared(cable::Inputs& inputs, std::uint32_t age, std::size_t drive) {
   if (age < 10) silent(inputs, age, drive);
   if (age > 150) {
     for (DriveFeedback& each : inputs.drive) each.statusword = kSwitchOnDisabled;

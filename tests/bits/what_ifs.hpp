@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_like/controller_io.hpp"
+#include "firmware_like/cable_controller.hpp"
 
 namespace liana::bits {
 
 struct WhatIf {
   std::uint32_t ticks;  // how long it is followed
   // Changes the Inputs of tick `age` (0 = the first) with drive `drive`.
-  void (*change)(Inputs& inputs, std::uint32_t age, std::size_t drive);
+  void (*change)(cable::Inputs& inputs, std::uint32_t age, std::size_t drive);
 };
 
 // For an arm that stands or moves with its drives enabled.

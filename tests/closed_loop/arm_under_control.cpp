@@ -4,10 +4,10 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "firmware_like/cable/motion/servo_ik.hpp"
 #include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/trig.hpp"
-#include "firmware_like/motion/servo_ik.hpp"
 #include "fixture.hpp"
 
 namespace liana {
@@ -15,9 +15,9 @@ namespace liana {
 // The release step of these tests: there is no verifier here, only the core and the arm.
 class Release {
  public:
-  static Telecommand make(std::uint64_t sequence, std::uint64_t first_tick, std::uint64_t expiry_tick,
-                          const Setpoint& setpoint) {
-    return Telecommand(sequence, first_tick, expiry_tick, 1, setpoint);
+  static cable::Telecommand make(std::uint64_t sequence, std::uint64_t first_tick, std::uint64_t expiry_tick,
+                                 const cable::Setpoint& setpoint) {
+    return cable::Telecommand(sequence, first_tick, expiry_tick, 1, setpoint);
   }
 };
 
@@ -41,15 +41,15 @@ std::uint16_t status_after(std::uint16_t controlword) {
 
 ArmUnderControl::ArmUnderControl(const PlantSetup& setup, const std::string& told)
     : table_(robot_table(told.empty() ? setup.physics : told)), plant_(setup), controller_(table_) {
-  const CableLayout layout = cable_layout(table_);
+  const cable::CableLayout layout = cable_layout(table_);
   for (std::size_t c = 0; c < as_index(table_.cable_count()); ++c) {
     zero_payout_m_[c] = layout.zero_length_m[c] + table_.lead_m;
     in_.drive[c].statusword = kStatusDisabled;
   }
 }
 
-CableVector ArmUnderControl::targets_m() const {
-  CableVector target{};
+cable::CableVector ArmUnderControl::targets_m() const {
+  cable::CableVector target{};
   for (std::size_t c = 0; c < as_index(table_.cable_count()); ++c) {
     target[c] = payout_at_counts(table_.drive[c], zero_payout_m_[c], out_.drive[c].target_counts);
   }
@@ -65,10 +65,10 @@ void ArmUnderControl::answer(std::size_t drive, std::uint16_t controlword) {
 }
 
 void ArmUnderControl::read_drives() {
-  const CableVector payout = plant_.measured_payout_m();
-  const CableVector tension = plant_.measured_tension_N();
+  const cable::CableVector payout = plant_.measured_payout_m();
+  const cable::CableVector tension = plant_.measured_tension_N();
   for (std::size_t c = 0; c < as_index(table_.cable_count()); ++c) {
-    const DriveTable& drive = table_.drive[c];
+    const cable::DriveTable& drive = table_.drive[c];
     answer(c, out_.drive[c].controlword);
     in_.drive[c].position_counts = counts_at_payout(drive, zero_payout_m_[c], payout[c]).value;
     in_.drive[c].torque_permille = narrow<std::int16_t>(to_counts(tension[c] / drive.newtons_per_permille).value);
@@ -78,13 +78,13 @@ void ArmUnderControl::read_drives() {
 void ArmUnderControl::step() {
   // SYNC: drives act on what the last tick sent, and sample; the new targets wait for the next SYNC.
   read_drives();
-  const CableVector acted_on_m = targets_m();
+  const cable::CableVector acted_on_m = targets_m();
   const bool powered =
       std::ranges::any_of(in_.drive, [](const DriveFeedback& drive) { return drive.statusword == kStatusEnabled; });
   ++in_.tick;
   out_ = controller_.tick(in_);
   in_.request = Request::kNone;
-  in_.telecommand = Telecommand{};
+  in_.telecommand = cable::Telecommand{};
   plant_.advance(table_.tick_s, acted_on_m, powered);
 }
 
@@ -115,10 +115,10 @@ void ArmUnderControl::follow(double seconds, const Path& path, const Observer& o
   }
 }
 
-void ArmUnderControl::move_joints(const ThetaVector& goal_rad, double seconds) {
-  const ThetaVector from = out_.theta_command_rad;
+void ArmUnderControl::move_joints(const cable::ThetaVector& goal_rad, double seconds) {
+  const cable::ThetaVector from = out_.theta_command_rad;
   follow(seconds, [&](double share) {
-    Setpoint setpoint;
+    cable::Setpoint setpoint;
     setpoint.kind = CommandKind::kJoint;
     const double done = minimum_jerk(share);
     for (std::size_t i = 0; i < from.size(); ++i) setpoint.joint_rad[i] = from[i] + done * (goal_rad[i] - from[i]);
@@ -127,14 +127,14 @@ void ArmUnderControl::move_joints(const ThetaVector& goal_rad, double seconds) {
 }
 
 void ArmUnderControl::hold(double seconds, const Observer& observer) {
-  Setpoint setpoint;
+  cable::Setpoint setpoint;
   setpoint.kind = CommandKind::kJoint;
   setpoint.joint_rad = out_.theta_command_rad;
   follow(
       seconds, [&](double) { return setpoint; }, observer);
 }
 
-TruthError ArmUnderControl::error_against(const ThetaVector& theta_rad) const {
+TruthError ArmUnderControl::error_against(const cable::ThetaVector& theta_rad) const {
   const Pose wanted = forward_kinematics(table_, theta_rad).tip_in_base;
   const std::array<double, 6> error = pose_error(wanted, plant_.tip_in_base());
   return {largest_difference_deg(plant_.theta_rad(), theta_rad), 1000.0 * norm({error[0], error[1], error[2]}),

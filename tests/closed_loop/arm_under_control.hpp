@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "firmware_like/controller.hpp"
+#include "firmware_like/cable_controller.hpp"
 #include "plant.hpp"
 
 namespace liana::closed_loop {
@@ -20,7 +20,7 @@ struct TruthError {
 class ArmUnderControl {
  public:
   // A path: what to ask for at `share` (0..1) of the time.
-  using Path = std::function<Setpoint(double share)>;
+  using Path = std::function<cable::Setpoint(double share)>;
   // Called after every tick.
   using Observer = std::function<void(ArmUnderControl&)>;
 
@@ -37,27 +37,27 @@ class ArmUnderControl {
   // One telecommand every T_c along `path`.
   void follow(double seconds, const Path& path, const Observer& observer = {});
   // Minimum jerk in joint space to `goal_rad`.
-  void move_joints(const ThetaVector& goal_rad, double seconds);
+  void move_joints(const cable::ThetaVector& goal_rad, double seconds);
   // Asks for where the arm is commanded to be, again and again.
   void hold(double seconds, const Observer& observer = {});
 
-  const Outputs& outputs() const { return out_; }
+  const cable::Outputs& outputs() const { return out_; }
   Plant& plant() { return plant_; }
-  const RobotTable& table() const { return table_; }
-  TruthError error_against(const ThetaVector& theta_rad) const;
+  const cable::RobotTable& table() const { return table_; }
+  TruthError error_against(const cable::ThetaVector& theta_rad) const;
   TruthError error_against_command() const { return error_against(out_.theta_command_rad); }
 
  private:
   void read_drives();
   void answer(std::size_t drive, std::uint16_t controlword);
-  CableVector targets_m() const;
+  cable::CableVector targets_m() const;
 
-  RobotTable table_;
-  CableVector zero_payout_m_{};
+  cable::RobotTable table_;
+  cable::CableVector zero_payout_m_{};
   Plant plant_;
-  Controller controller_;
-  Inputs in_{};
-  Outputs out_{};
+  cable::Controller controller_;
+  cable::Inputs in_{};
+  cable::Outputs out_{};
   std::uint64_t sequence_ = 0;
 };
 

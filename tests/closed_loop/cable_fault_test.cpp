@@ -5,10 +5,10 @@
 #include <functional>
 
 #include "arm_under_control.hpp"
+#include "firmware_like/cable/arm/cable_watch.hpp"
 #include "firmware_like/math/trig.hpp"
-#include "firmware_like/safety/cable_watch.hpp"
 #include "firmware_like/safety/faults.hpp"
-#include "firmware_like/safety/watchdogs.hpp"
+#include "firmware_like/safety/link_watch.hpp"
 #include "fixture.hpp"
 
 namespace liana::closed_loop {
@@ -19,10 +19,10 @@ constexpr std::size_t kCable = 7;
 // Under way from prepare to panel edge, at about the highest speed.
 void get_under_way(ArmUnderControl& arm) {
   arm.boot();
-  const ThetaVector from = arm.outputs().theta_command_rad;
-  const ThetaVector to = named_pose_rad("panel_edge");
+  const cable::ThetaVector from = arm.outputs().theta_command_rad;
+  const cable::ThetaVector to = named_pose_rad("panel_edge");
   arm.follow(12.0, [&](double share) {
-    Setpoint setpoint;
+    cable::Setpoint setpoint;
     setpoint.kind = CommandKind::kJoint;
     for (std::size_t i = 0; i < 10; ++i)
       setpoint.joint_rad[i] = from[i] + minimum_jerk(0.5 * share) * (to[i] - from[i]);
@@ -42,15 +42,15 @@ Course under_way(const std::function<void(Plant&)>& begin) {
   constexpr int kBegin = 3000, kEnd = 5500;  // ticks
   ArmUnderControl arm({"nominal", 1, true, "prepare"});
   arm.boot();
-  const ThetaVector from = arm.outputs().theta_command_rad;
-  const ThetaVector to = named_pose_rad("panel_edge");
+  const cable::ThetaVector from = arm.outputs().theta_command_rad;
+  const cable::ThetaVector to = named_pose_rad("panel_edge");
   Course course;
-  ThetaVector before{};
+  cable::ThetaVector before{};
   int tick = 0;
   arm.follow(
       22.0,
       [&](double share) {
-        Setpoint setpoint;
+        cable::Setpoint setpoint;
         setpoint.kind = CommandKind::kJoint;
         for (std::size_t i = 0; i < 10; ++i)
           setpoint.joint_rad[i] = from[i] + minimum_jerk(0.55 * share) * (to[i] - from[i]);
@@ -87,13 +87,13 @@ TEST(CableFault, ALostTensionReadingIsABreakWithinItsDebounceAndTheArmStops) {
   measured("ticks from the lost reading to the fault", ticks, "");
   EXPECT_EQ(arm.outputs().faults.fault[0].number, FaultNumber::kCableBreak);
   EXPECT_EQ(arm.outputs().faults.fault[0].index, static_cast<std::int16_t>(kCable));
-  EXPECT_GE(ticks, kBreakDebounceTicks) << "one wrong sample must not stop the arm";
-  EXPECT_LE(ticks, kBreakDebounceTicks + 1);
+  EXPECT_GE(ticks, cable::kBreakDebounceTicks) << "one wrong sample must not stop the arm";
+  EXPECT_LE(ticks, cable::kBreakDebounceTicks + 1);
 
   arm.wait(2.0);
   EXPECT_EQ(arm.outputs().state, OperatingState::kFault) << "brakes hold what is left of the arm";
   EXPECT_EQ(arm.outputs().stop_category, StopCategory::kStop);
-  const ThetaVector held = arm.plant().theta_rad();
+  const cable::ThetaVector held = arm.plant().theta_rad();
   arm.hold(2.0);
   EXPECT_LT(largest_difference_deg(arm.plant().theta_rad(), held), 0.1) << "no telecommand moves an arm in fault";
 }
@@ -102,7 +102,7 @@ TEST(CableFault, ACableThatBreaksIsFoundBeforeTheArmHasMoved) {
   const Course course = under_way([](Plant& plant) { plant.loosen(kCable, 1.0); });
   EXPECT_EQ(course.first.number, FaultNumber::kCableBreak);
   EXPECT_EQ(course.first.index, static_cast<std::int16_t>(kCable));
-  EXPECT_LE(course.ticks, kBreakDebounceTicks + 1);
+  EXPECT_LE(course.ticks, cable::kBreakDebounceTicks + 1);
   EXPECT_EQ(course.state, OperatingState::kFault);
   measured("break: travel", course.travel_deg, "deg");
 }
@@ -111,7 +111,7 @@ TEST(CableFault, ASlipOfTwoTenthsOfAMillimetreIsFoundAndTheArmHolds) {
   const Course course = under_way([](Plant& plant) { plant.loosen(kCable, 200e-6); });
   EXPECT_EQ(course.first.number, FaultNumber::kCableSlip);
   EXPECT_EQ(course.first.index, static_cast<std::int16_t>(kCable));
-  EXPECT_LE(course.ticks, kJumpConfirmTicks + 1);
+  EXPECT_LE(course.ticks, cable::kJumpConfirmTicks + 1);
   EXPECT_GE(course.first.detail, 100) << "micrometres";
   EXPECT_LE(course.first.detail, 400);
   EXPECT_EQ(course.state, OperatingState::kEnabled) << "a hold: the arm can be taken back along its path";
@@ -136,7 +136,7 @@ TEST(CableFault, ALostTensionReadingOfAnArmAtRestHardlyMovesIt) {
   ArmUnderControl arm({"nominal", 1, true, "prepare"});
   arm.boot();
   arm.hold(5.0);
-  const ThetaVector before = arm.plant().theta_rad();
+  const cable::ThetaVector before = arm.plant().theta_rad();
   const Vec3 tip_before_m = arm.plant().tip_in_base().position_m;
   arm.plant().lose_reading(kCable);
   double largest_deg = 0.0, largest_mm = 0.0;
@@ -146,7 +146,7 @@ TEST(CableFault, ALostTensionReadingOfAnArmAtRestHardlyMovesIt) {
   });
   measured("lost reading at rest: largest joint motion in 20 s", largest_deg, "deg");
   measured("lost reading at rest: largest tip motion in 20 s", largest_mm, "mm");
-  EXPECT_LT(largest_deg, kDampingLimit_rad / kDegree);
+  EXPECT_LT(largest_deg, cable::kDampingLimit_rad / kDegree);
   EXPECT_NE(arm.outputs().state, OperatingState::kEnabled) << "a fault that persists ends in brakes";
 }
 

@@ -13,8 +13,8 @@ namespace {
 constexpr double kWindow_s = 3.0;  // longer than the slowest period, 2 s
 
 // A kick that reaches every mode.
-ThetaVector kick() {
-  ThetaVector rate{};
+cable::ThetaVector kick() {
+  cable::ThetaVector rate{};
   for (std::size_t i = 0; i < 10; ++i) rate[i] = (i % 3 == 0 ? 0.3 : -0.15) * kDegree;
   return rate;
 }

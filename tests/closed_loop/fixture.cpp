@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <map>
 
-#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
 #include "firmware_like/math/trig.hpp"
 
 namespace liana::closed_loop {
@@ -23,10 +23,10 @@ const RobotConfig& robot(const std::string& physics) {
 
 }  // namespace
 
-const RobotTable& robot_table(const std::string& physics) { return robot(physics).table; }
+const cable::RobotTable& robot_table(const std::string& physics) { return robot(physics).table; }
 
-ThetaVector named_pose_rad(const std::string& name) {
-  ThetaVector theta{};
+cable::ThetaVector named_pose_rad(const std::string& name) {
+  cable::ThetaVector theta{};
   std::ranges::transform(robot("nominal").named_poses_deg.at(name), theta.begin(),
                          [](double deg) { return deg * kDegree; });
   return theta;
@@ -41,7 +41,7 @@ const SceneConfig& scene() {
   return loaded;
 }
 
-double largest_difference_deg(const ThetaVector& a_rad, const ThetaVector& b_rad) {
+double largest_difference_deg(const cable::ThetaVector& a_rad, const cable::ThetaVector& b_rad) {
   double largest = 0.0;
   for (std::size_t i = 0; i < a_rad.size(); ++i) largest = std::max(largest, std::fabs(a_rad[i] - b_rad[i]) / kDegree);
   return largest;

@@ -3,23 +3,23 @@
 
 #include <string>
 
-#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "host/config/config.hpp"
 
 namespace liana::closed_loop {
 
 // The core's table; `physics` chooses the friction that the core is told. Read once per process.
-const RobotTable& robot_table(const std::string& physics = "nominal");
+const cable::RobotTable& robot_table(const std::string& physics = "nominal");
 // Angles of a named pose of the robot [rad]; throws std::out_of_range for an unknown name.
-ThetaVector named_pose_rad(const std::string& name);
+cable::ThetaVector named_pose_rad(const std::string& name);
 // Tip pose at a named pose, by the core's kinematics.
 Pose tip_at(const std::string& pose_name);
 // The scene, read once per process.
 const SceneConfig& scene();
 
 // Largest |a - b| over all angles [deg].
-double largest_difference_deg(const ThetaVector& a_rad, const ThetaVector& b_rad);
+double largest_difference_deg(const cable::ThetaVector& a_rad, const cable::ThetaVector& b_rad);
 // Distance between two positions [mm].
 double distance_mm(const Vec3& a_m, const Vec3& b_m);
 // The minimum-jerk share of the way at share `x` of the time, 0..1.

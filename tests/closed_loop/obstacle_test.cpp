@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "firmware_like/motion/motion.hpp"
-#include "firmware_like/motion/servo_ik.hpp"
+#include "firmware_like/cable/motion/motion.hpp"
+#include "firmware_like/cable/motion/servo_ik.hpp"
 #include "fixture.hpp"
 #include "slit_path.hpp"
 
@@ -19,8 +19,8 @@ double segment_point_distance_m(const Vec3& a, const Vec3& b, const Vec3& point)
 }
 
 // Least distance of any link's axis to the centre of the obstacle.
-double distance_to_centre_m(const ThetaVector& theta_rad) {
-  const LinkPoints links = link_points(robot_table(), theta_rad);
+double distance_to_centre_m(const cable::ThetaVector& theta_rad) {
+  const cable::LinkPoints links = link_points(robot_table(), theta_rad);
   double least_m = 1e3;
   for (std::size_t i = 1; i < static_cast<std::size_t>(links.count); ++i) {
     const double distance_m =
@@ -42,11 +42,11 @@ Leg first_leg(bool steers_shape) {
 TEST(Obstacle, TheTipAloneOnAStraightWayLeadsTheArmThroughTheSphere) {
   const Leg leg = first_leg(false);
   const Pose from = tip_at("prepare");
-  ThetaVector theta = named_pose_rad("prepare");
+  cable::ThetaVector theta = named_pose_rad("prepare");
   double least_m = 1e3;
   double lag_m = 0.0;
   for (int k = 1; k <= 2000; ++k) {
-    const IkGoal goal{leg_setpoint(leg, from, {}, k / 2000.0).tip_in_base, 0};
+    const cable::IkGoal goal{leg_setpoint(leg, from, {}, k / 2000.0).tip_in_base, 0};
     lag_m = std::max(lag_m,
                      servo_ik(robot_table(), goal, forward_kinematics(robot_table(), theta), theta).position_error_m);
     least_m = std::min(least_m, distance_to_centre_m(theta));
@@ -59,11 +59,11 @@ TEST(Obstacle, TheTipAloneOnAStraightWayLeadsTheArmThroughTheSphere) {
 }
 
 TEST(Obstacle, SteeringNodeThreeKeepsTheArmTenCentimetresOffTheSphere) {
-  const RobotTable& table = robot_table();
+  const cable::RobotTable& table = robot_table();
   const Leg leg = first_leg(true);
   const Pose from = tip_at("prepare");
-  const CableLayout layout = cable_layout(table);
-  MotionState motion;
+  const cable::CableLayout layout = cable_layout(table);
+  cable::MotionState motion;
   reset_motion(table, named_pose_rad("prepare"), motion);
   const Vec3 node_from_m = forward_kinematics(table, named_pose_rad("prepare")).node_in_base[3].position_m;
   double least_m = 1e3;

@@ -23,10 +23,10 @@ struct Plant::Parts {
   bench::RobotConfig robot;
   bench::TrueParameters truth;
   bench::ArmPhysics arm;
-  CableVector drum_m;     // unstretched length that each drum holds
-  CableVector loose_m{};  // off the drum, beside what it holds
-  CableVector scatter_N{};
-  std::array<bool, kMaxCables> lost{};
+  cable::CableVector drum_m;     // unstretched length that each drum holds
+  cable::CableVector loose_m{};  // off the drum, beside what it holds
+  cable::CableVector scatter_N{};
+  std::array<bool, cable::kMaxCables> lost{};
   bool noisy;
   bench::Random noise;
   bench::Random fault_noise;
@@ -46,15 +46,15 @@ Plant::Plant(const PlantSetup& setup)
     : parts_(std::make_unique<Parts>(bench::load_robot(CLOSED_LOOP_DATA "/robot.json"), setup)) {}
 Plant::~Plant() = default;
 
-CableVector Plant::measured_payout_m() const {
-  CableVector payout{};
+cable::CableVector Plant::measured_payout_m() const {
+  cable::CableVector payout{};
   for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c)
     payout[c] = parts_->drum_m[c] - parts_->truth.zero_offset_m[c];
   return payout;
 }
 
-CableVector Plant::measured_tension_N() {
-  CableVector tension{};
+cable::CableVector Plant::measured_tension_N() {
+  cable::CableVector tension{};
   for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c) {
     const double noise = parts_->noisy ? parts_->noise.gaussian(kTorqueNoise) : 0.0;
     tension[c] = parts_->arm.motor_tension_N(c) * parts_->truth.torque_gain[c] * (1.0 + noise);
@@ -64,7 +64,7 @@ CableVector Plant::measured_tension_N() {
   return tension;
 }
 
-void Plant::advance(double tick_s, const CableVector& target_m, bool powered) {
+void Plant::advance(double tick_s, const cable::CableVector& target_m, bool powered) {
   const double share = powered ? -std::expm1(-kPhysicsStep_s / parts_->robot.servo_time_constant_s) : 0.0;
   parts_->arm.begin_slot(tick_s);
   const long steps = std::lround(tick_s / kPhysicsStep_s);
@@ -73,14 +73,14 @@ void Plant::advance(double tick_s, const CableVector& target_m, bool powered) {
       const double target = target_m[c] + parts_->truth.zero_offset_m[c];
       parts_->drum_m[c] += share * (target - parts_->drum_m[c]);
     }
-    CableVector payout_m = parts_->drum_m;
+    cable::CableVector payout_m = parts_->drum_m;
     for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c) payout_m[c] += parts_->loose_m[c];
     parts_->arm.step(kPhysicsStep_s, payout_m);
   }
 }
 
-const ThetaVector& Plant::theta_rad() const { return parts_->arm.theta_rad(); }
-const ThetaVector& Plant::rate_rad_s() const { return parts_->arm.rate_rad_s(); }
+const cable::ThetaVector& Plant::theta_rad() const { return parts_->arm.theta_rad(); }
+const cable::ThetaVector& Plant::rate_rad_s() const { return parts_->arm.rate_rad_s(); }
 
 Pose Plant::tip_in_base() const {
   const bench::Pose tip = parts_->arm.tip();
@@ -91,7 +91,7 @@ Pose Plant::tip_in_base() const {
 double Plant::kinetic_energy_J() {
   bench::ThetaMatrix mass;
   parts_->arm.chain().inertia(mass);
-  const ThetaVector& rate = rate_rad_s();
+  const cable::ThetaVector& rate = rate_rad_s();
   double energy = 0.0;
   for (std::size_t a = 0; a < parts_->robot.theta_count(); ++a)
     for (std::size_t b = 0; b < parts_->robot.theta_count(); ++b) energy += 0.5 * mass[a][b] * rate[a] * rate[b];
@@ -112,7 +112,7 @@ void Plant::scatter(std::size_t cable, double deviation_N) { parts_->scatter_N[c
 
 void Plant::lose_reading(std::size_t cable) { parts_->lost[cable] = true; }
 
-void Plant::kick(const ThetaVector& rate_rad_s) { parts_->arm.set_state(parts_->arm.theta_rad(), rate_rad_s); }
+void Plant::kick(const cable::ThetaVector& rate_rad_s) { parts_->arm.set_state(parts_->arm.theta_rad(), rate_rad_s); }
 void Plant::set_joint_damping(double viscous_Nms_per_rad) { parts_->arm.set_joint_damping(viscous_Nms_per_rad); }
 
 }  // namespace liana::closed_loop

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
 
 namespace liana::closed_loop {
@@ -38,15 +38,15 @@ class Plant {
   Plant& operator=(const Plant&) = delete;
 
   // What the drives measure: unstretched length [m] by their stored zero, and tension [N] with gain error and noise.
-  CableVector measured_payout_m() const;
-  CableVector measured_tension_N();
+  cable::CableVector measured_payout_m() const;
+  cable::CableVector measured_tension_N();
   // One control period. Motors follow `target_m` (in measured lengths) with the servo's lag, or stand when `powered` is
   // false.
-  void advance(double tick_s, const CableVector& target_m, bool powered);
+  void advance(double tick_s, const cable::CableVector& target_m, bool powered);
 
   // The truth, which the core never sees.
-  const ThetaVector& theta_rad() const;
-  const ThetaVector& rate_rad_s() const;
+  const cable::ThetaVector& theta_rad() const;
+  const cable::ThetaVector& rate_rad_s() const;
   Pose tip_in_base() const;
   double kinetic_energy_J();
   double slit_clearance_m() const;
@@ -61,7 +61,7 @@ class Plant {
   void lose_reading(std::size_t cable);
 
   // Rates set from outside, angles and cables as they are: a kick.
-  void kick(const ThetaVector& rate_rad_s);
+  void kick(const cable::ThetaVector& rate_rad_s);
   // Joint damping set from outside, to let an arm without friction come to rest.
   void set_joint_damping(double viscous_Nms_per_rad);
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "firmware_like/cable/motion/servo_ik.hpp"
 #include "firmware_like/math/trig.hpp"
-#include "firmware_like/motion/servo_ik.hpp"
 #include "fixture.hpp"
 
 namespace liana::closed_loop {
@@ -62,7 +62,7 @@ SlitRecord run(const std::string& physics, std::uint64_t seed) {
     arm.follow(
         leg.seconds, [&](double share) { return leg_setpoint(leg, from, node_from_m, share); },
         [&](ArmUnderControl& now) { look(now, at_zero, record); });
-    const Outputs& out = arm.outputs();
+    const cable::Outputs& out = arm.outputs();
     record.estimate_deg =
         std::max(record.estimate_deg, largest_difference_deg(out.theta_measured_rad, arm.plant().theta_rad()));
     if (out.held_at_target != 0) at_zero = leg.held_mask;
@@ -92,10 +92,10 @@ Vec3 node_3_at_panel_edge_m() {
   return forward_kinematics(robot_table(), named_pose_rad("panel_edge")).node_in_base[3].position_m;
 }
 
-Setpoint leg_setpoint(const Leg& leg, const Pose& from, const Vec3& node_from_m, double share) {
+cable::Setpoint leg_setpoint(const Leg& leg, const Pose& from, const Vec3& node_from_m, double share) {
   const double done = minimum_jerk(share);
   const Vec3 turn = rotation_vector(multiply(leg.goal_in_base.quaternion, conjugate(from.quaternion)));
-  Setpoint setpoint;
+  cable::Setpoint setpoint;
   setpoint.kind = CommandKind::kTip;
   setpoint.tip_in_base.position_m =
       add(from.position_m, scale(subtract(leg.goal_in_base.position_m, from.position_m), done));

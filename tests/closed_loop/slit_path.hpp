@@ -26,7 +26,7 @@ std::vector<Leg> slit_legs();
 Vec3 node_3_at_panel_edge_m();
 
 // Setpoint at `share` of the time of a leg that started at tip pose `from` with node 3 at `node_from_m`.
-Setpoint leg_setpoint(const Leg& leg, const Pose& from, const Vec3& node_from_m, double share);
+cable::Setpoint leg_setpoint(const Leg& leg, const Pose& from, const Vec3& node_from_m, double share);
 
 // What the truth showed on the way.
 struct SlitRecord {

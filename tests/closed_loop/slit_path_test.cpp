@@ -54,7 +54,7 @@ TEST_P(SlitPath, StaysThreeMillimetresOffPanelAndWallAndFiveCentimetresOffTheSph
 
 // A9
 TEST_P(SlitPath, KeepsEveryCableBetweenFloorAndCeiling) {
-  const TensionLimits& limits = robot_table().tension;
+  const cable::TensionLimits& limits = robot_table().tension;
   measured("least tension at a motor", record().least_motor_N, "N");
   measured("least tension anywhere", record().least_N, "N");
   measured("largest tension", record().most_motor_N, "N");

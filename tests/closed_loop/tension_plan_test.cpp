@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "arm_under_control.hpp"
-#include "firmware_like/arm/cables.hpp"
+#include "firmware_like/cable/arm/cables.hpp"
 #include "fixture.hpp"
 
 namespace liana::closed_loop {
@@ -15,27 +15,27 @@ PlantSetup exact_plant(const std::string& pose) { return {"ideal", 1, false, pos
 
 // Path and lead, shortened by the elongation of one constant tension: what a controller without a tension plan would
 // send.
-CableVector geometric_payout_m(const RobotTable& table, const ThetaVector& theta_rad) {
-  const CableLayout layout = cable_layout(table);
-  const CableGeometry geometry = cable_geometry(table, layout, arm_trig(table, theta_rad));
-  CableVector payout{};
+cable::CableVector geometric_payout_m(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
+  const cable::CableLayout layout = cable_layout(table);
+  const cable::CableGeometry geometry = cable_geometry(table, layout, arm_trig(table, theta_rad));
+  cable::CableVector payout{};
   for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
     payout[c] = (geometry.length_m[c] + table.lead_m) * (1.0 - kLevel_N / table.cable_EA_N);
   }
   return payout;
 }
 
-class TensionPlan : public ::testing::TestWithParam<const char*> {
+class cable::TensionPlan : public ::testing::TestWithParam<const char*> {
  protected:
   std::string pose() const { return GetParam(); }
 };
 
 // Half of what the study's table gives at 40 N, for its cable is half as stiff: 7 mm at prepare, 10 mm at panel edge.
-TEST_P(TensionPlan, WithoutItAFrictionlessArmStandsMillimetresBesideItsPose) {
-  const RobotTable& table = robot_table("ideal");
+TEST_P(cable::TensionPlan, WithoutItAFrictionlessArmStandsMillimetresBesideItsPose) {
+  const cable::RobotTable& table = robot_table("ideal");
   Plant plant(exact_plant(pose()));
   plant.set_joint_damping(15.0);  // only to come to rest sooner
-  const CableVector payout = geometric_payout_m(table, named_pose_rad(pose()));
+  const cable::CableVector payout = geometric_payout_m(table, named_pose_rad(pose()));
   for (int i = 0; i < 7500; ++i) plant.advance(table.tick_s, payout, true);
   const double miss_mm = distance_mm(plant.tip_in_base().position_m, tip_at(pose()).position_m);
   measured(pose() + ", geometric command: tip error", miss_mm, "mm");
@@ -45,7 +45,7 @@ TEST_P(TensionPlan, WithoutItAFrictionlessArmStandsMillimetresBesideItsPose) {
   EXPECT_LT(miss_mm, 22.0);
 }
 
-TEST_P(TensionPlan, WithItTheArmStandsWithinAMillimetre) {
+TEST_P(cable::TensionPlan, WithItTheArmStandsWithinAMillimetre) {
   ArmUnderControl arm(exact_plant(pose()));
   arm.boot();
   arm.move_joints(named_pose_rad(pose()), 1.0);
@@ -57,7 +57,7 @@ TEST_P(TensionPlan, WithItTheArmStandsWithinAMillimetre) {
 }
 
 // The published poses at which nothing touches the arm.
-INSTANTIATE_TEST_SUITE_P(AtPose, TensionPlan, ::testing::Values("prepare", "panel_edge"));
+INSTANTIATE_TEST_SUITE_P(AtPose, cable::TensionPlan, ::testing::Values("prepare", "panel_edge"));
 
 // The same after a whole motion in between, from prepare to panel edge.
 TEST(TensionPlanInMotion, AFrictionlessArmArrivesWithinAMillimetre) {

@@ -1,14 +1,14 @@
-#include "firmware_like/safety/cable_watch.hpp"
+#include "firmware_like/cable/arm/cable_watch.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "firmware_like/arm/cables.hpp"
+#include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 // Fifteen cables with steady readings until a test says otherwise.
@@ -191,4 +191,4 @@ TEST(CableWatchLimits, FourCablesInASegmentAreWatchedToo) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

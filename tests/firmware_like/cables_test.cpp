@@ -1,12 +1,12 @@
 // Cable map: path lengths from plain geometry, derivatives, wrap angles.
-#include "firmware_like/arm/cables.hpp"
+#include "firmware_like/cable/arm/cables.hpp"
 
 #include <gtest/gtest.h>
 
 #include "firmware_like/math/pose.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using zhu2022::Random;
@@ -135,4 +135,4 @@ TEST(Cables, WrapIsTheBendOfAllJointsOfTheSegment) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

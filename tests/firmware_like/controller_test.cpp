@@ -1,5 +1,5 @@
 // The whole core behind its one door, on ideal drives.
-#include "firmware_like/controller.hpp"
+#include "firmware_like/cable_controller.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "tests/firmware_like/ideal_drives.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 TEST(Controller, HomesFromTheStoredZerosWithoutMoving) {
@@ -36,7 +36,7 @@ TEST(Controller, EnablingIsBumpless) {
   Rig rig;
   rig.run(60);
   const double step_counts =
-      rig.robot.limits.cable_speed_m_s * rig.robot.tick_s * kGateSpeedMargin / rig.robot.drive[0].metres_per_count +
+      rig.robot.limits.cable_speed_m_s * rig.robot.tick_s * kTargetSpeedMargin / rig.robot.drive[0].metres_per_count +
       1.0;
   const ThetaVector before = rig.out.theta_measured_rad;
   rig.tick(Request::kEnable);
@@ -155,9 +155,9 @@ TEST(Controller, AnOldSequenceIsIgnored) {
   Rig rig;
   rig.enable();
   const ThetaVector stay = rig.out.theta_command_rad;
-  rig.tick(Request::kNone, Release::make(10, rig.now, kForever, rig.joints(stay)));
+  rig.tick(Request::kNone, Release::make(10, rig.now, kForever, 1, rig.joints(stay)));
   for (const std::uint64_t old : {std::uint64_t{9}, std::uint64_t{10}}) {
-    rig.tick(Request::kNone, Release::make(old, rig.now, kForever, rig.joints(ThetaVector{})));
+    rig.tick(Request::kNone, Release::make(old, rig.now, kForever, 1, rig.joints(ThetaVector{})));
     rig.run(100);
     EXPECT_EQ(rig.out.active_sequence, 10u);
     EXPECT_EQ(rig.out.theta_command_rad, stay);
@@ -167,7 +167,7 @@ TEST(Controller, AnOldSequenceIsIgnored) {
 TEST(Controller, ATelecommandWaitsForItsFirstTick) {
   Rig rig;
   rig.enable();
-  rig.tick(Request::kNone, Release::make(1, rig.now + 50, kForever, rig.joints(ThetaVector{})));
+  rig.tick(Request::kNone, Release::make(1, rig.now + 50, kForever, 1, rig.joints(ThetaVector{})));
   rig.run(49);
   EXPECT_EQ(rig.out.active_sequence, 0u);
   rig.tick();
@@ -234,4 +234,4 @@ TEST(Controller, AStopWhileMovingEndsAlongThePathWithoutAQuickStop) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

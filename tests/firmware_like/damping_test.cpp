@@ -1,13 +1,13 @@
 // Damping of the arm's slow modes.
-#include "firmware_like/motion/damping.hpp"
+#include "firmware_like/cable/motion/damping.hpp"
 
 #include <gtest/gtest.h>
 
-#include "firmware_like/arm/estimator.hpp"
-#include "firmware_like/arm/tension.hpp"
+#include "firmware_like/cable/arm/estimator.hpp"
+#include "firmware_like/cable/arm/tension.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 struct Bench {
@@ -128,4 +128,4 @@ TEST(Damping, EveryModeOfTheArmDecaysAndNoneWithoutIt) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

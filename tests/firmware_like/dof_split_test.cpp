@@ -1,16 +1,18 @@
 // Dynamic combination of degrees of freedom: equation 13, and the switch point.
-#include "firmware_like/motion/dof_split.hpp"
+#include "host/solve/dof_split.hpp"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "firmware_like/motion/goal_ik.hpp"
+#include "host/solve/goal_ik.hpp"
 #include "tests/firmware_like/panel_slit.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
+
+using namespace solve;
 
 using zhu2022::Random;
 
@@ -118,4 +120,4 @@ TEST(DofSplit, A40ThePublishedPosesGetTheirCombinations) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

@@ -1,12 +1,12 @@
 // Joint angles back from motor lengths and tensions.
-#include "firmware_like/arm/estimator.hpp"
+#include "firmware_like/cable/arm/estimator.hpp"
 
 #include <gtest/gtest.h>
 
-#include "firmware_like/arm/tension.hpp"
+#include "firmware_like/cable/arm/tension.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using zhu2022::Random;
@@ -180,4 +180,4 @@ TEST(CableSolver, GivesZeroWhenNoCableTurnsAnAngle) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

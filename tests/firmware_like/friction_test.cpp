@@ -1,11 +1,11 @@
 // Planned slip and capstan friction.
-#include "firmware_like/arm/friction.hpp"
+#include "firmware_like/cable/arm/friction.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using zhu2022::Random;
@@ -129,4 +129,4 @@ TEST(Friction, RatioIsTheCapstanLawUpToTheMiddleOfEachSegment) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

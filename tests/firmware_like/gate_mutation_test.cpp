@@ -9,7 +9,7 @@
 
 #include "firmware_like/safety/gate.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -169,4 +169,4 @@ TEST(GateMutation, TheFinitenessCheckFitsItsTableAndNoWrongVariantDoes) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "firmware_like/math/convert.hpp"
 #include "tests/firmware_like/safety_bench.hpp"
 
 namespace liana {
 namespace {
 
-using namespace safety_bench;
+using namespace cable::safety_bench;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -23,30 +22,41 @@ constexpr std::int32_t kIntMax = std::numeric_limits<std::int32_t>::max();
 constexpr std::int32_t kIntMin = std::numeric_limits<std::int32_t>::min();
 constexpr std::int64_t kStep = 51;  // 10 mm/s * 4 ms * 1.25 = 50 counts of 1 um, and one of rounding
 
+constexpr std::int32_t kZeroCounts = 1000000;
+constexpr double kLeast_counts = 400000.0;
+constexpr double kMost_counts = 1700000.0;
+constexpr double kMost_permille = 250.0;
+
+// Six drives that may turn by kStep counts a tick within a range, and pull but not push.
+GateLimits six_drives() {
+  GateLimits limits{};
+  limits.drive_count = kDrives;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
+    limits.drive[i] = {DriveMode::kCyclicPosition, kLeast_counts, kMost_counts, kStep, 0.0, kMost_permille};
+  }
+  return limits;
+}
+
 // A gate in the middle of a motion: every drive enabled, standing at its last target.
 class Gate : public ::testing::Test {
  protected:
   Gate() {
-    proposal_.goal = DriveGoal::kOperationEnabled;
-    proposal_.live_targets = true;
-    proposal_.payout_m = zero_payout_m();
     for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
-      proposal_.tension_plan_N[i] = 40.0;
-      previous_[i] = {kEnableOperation, 1000000};
+      proposal_[i] = {DriveMode::kCyclicPosition, kZeroCounts, 66.7};
+      previous_[i] = {kEnableOperation, kZeroCounts};
       feedback_[i].position_counts = 999990;  // lags a little behind the target
     }
   }
 
-  GateResult judge() const { return gate(robot_, limits_, proposal_, previous_, feedback_); }
+  GateResult judge() const { return gate(limits_, goal_, live_, proposal_, previous_, feedback_); }
 
-  // Expects the proposal unchanged at the drives.
+  // Expects the proposal, rounded, at the drives.
   void expect_passed(const std::string& why) const {
     const GateResult result = judge();
     EXPECT_EQ(result.check, GateCheck::kPassed) << why;
     EXPECT_EQ(result.drive, -1) << why;
     for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
-      const Counts wanted = counts_at_payout(robot_.drive[i], kZeroPayout_m, proposal_.payout_m[i]);
-      EXPECT_EQ(result.command[i].target_counts, wanted.value) << why << ", drive " << i;
+      EXPECT_EQ(result.command[i].target_counts, std::lround(proposal_[i].target_counts)) << why << ", drive " << i;
       EXPECT_EQ(result.command[i].controlword, kEnableOperation) << why;
     }
   }
@@ -61,30 +71,18 @@ class Gate : public ::testing::Test {
     }
   }
 
-  RobotTable robot_ = table();
-  GateLimits limits_ = make_gate_limits(robot_, zero_payout_m());
-  GateProposal proposal_{};
-  std::array<DriveCommand, kMaxCables> previous_{};
-  std::array<DriveFeedback, kMaxCables> feedback_ = healthy(kStatusEnabled).drive;
+  GateLimits limits_ = six_drives();
+  DriveGoal goal_ = DriveGoal::kOperationEnabled;
+  bool live_ = true;
+  DriveProposals proposal_{};
+  DriveCommands previous_{};
+  DriveFeedbacks feedback_ = healthy(kStatusEnabled).drive;
 };
-
-TEST_F(Gate, LimitsAreThoseOfTheTable) {
-  EXPECT_EQ(limits_.drive_count, kDrives);
-  EXPECT_EQ(limits_.tension_ceiling_N, 150.0);
-  const double arm_m = std::sqrt(0.025 * 0.025 + 0.010 * 0.010);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
-    const double bend_m = arm_m * 2.0 * 0.35 * (i < 3 ? 8.0 : 16.0);
-    const double elongation_m = (1.3 + bend_m) * 600.0 / 240000.0;
-    EXPECT_NEAR(limits_.least_payout_m[i], 1.3 - bend_m - elongation_m, 1e-15);
-    EXPECT_NEAR(limits_.most_payout_m[i], 1.3 + bend_m + elongation_m, 1e-15);
-    EXPECT_EQ(limits_.step_counts[i], kStep);
-  }
-}
 
 TEST_F(Gate, AProposalInsideEveryLimitReachesEveryDriveUnchanged) {
   expect_passed("standing");
   for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i)
-    proposal_.payout_m[i] += 1e-6 * static_cast<double>(i + 1);
+    proposal_[i].target_counts += static_cast<double>(i + 1);
   expect_passed("each drive another target");
 }
 
@@ -92,11 +90,11 @@ TEST_F(Gate, TheLargestStepPassesAndOneCountMoreIsRefusedForEveryDriveInBothDire
   for (std::int16_t drive = 0; drive < kDrives; ++drive) {
     for (const double sign : {1.0, -1.0}) {
       const auto i = static_cast<std::size_t>(drive);
-      proposal_.payout_m = zero_payout_m();
-      proposal_.payout_m[i] += sign * static_cast<double>(kStep) * kMetresPerCount;
+      proposal_[i].target_counts = kZeroCounts + sign * static_cast<double>(kStep);
       expect_passed("largest step");
-      proposal_.payout_m[i] += sign * kMetresPerCount;
+      proposal_[i].target_counts += sign;
       expect_refused(GateCheck::kStepTooLarge, drive, "one count more");
+      proposal_[i].target_counts = kZeroCounts;
     }
   }
 }
@@ -108,74 +106,74 @@ TEST_F(Gate, TheStepIsMeasuredFromTheTargetSentLastNotFromThePosition) {
   expect_refused(GateCheck::kStepTooLarge, 2, "last target far away");
 }
 
-TEST_F(Gate, PayoutsUpToTheRangeAreAllowedAndTheNextNumberIsNot) {
+TEST_F(Gate, TargetsUpToTheRangeAreAllowedAndTheNextNumberIsNot) {
   for (std::int16_t drive = 0; drive < kDrives; ++drive) {
     const auto i = static_cast<std::size_t>(drive);
-    for (const double edge_m : {limits_.least_payout_m[i], limits_.most_payout_m[i]}) {
-      proposal_.payout_m = zero_payout_m();
-      proposal_.payout_m[i] = edge_m;
-      previous_[i].target_counts = counts_at_payout(robot_.drive[i], kZeroPayout_m, edge_m).value;
+    for (const double edge : {kLeast_counts, kMost_counts}) {
+      proposal_[i].target_counts = edge;
+      previous_[i].target_counts = static_cast<std::int32_t>(edge);
       expect_passed("at the edge");
-      proposal_.payout_m[i] = std::nextafter(edge_m, edge_m < 1.3 ? -kInf : kInf);
-      expect_refused(GateCheck::kPayoutOutOfRange, drive, "next number outside");
-      previous_[i].target_counts = 1000000;
+      proposal_[i].target_counts = std::nextafter(edge, edge < kZeroCounts ? -kInf : kInf);
+      expect_refused(GateCheck::kTargetOutOfRange, drive, "next number outside");
+      previous_[i].target_counts = kZeroCounts;
+      proposal_[i].target_counts = kZeroCounts;
     }
   }
 }
 
 struct BadNumber {
   double value;
-  GateCheck as_payout;
-  GateCheck as_tension;
+  GateCheck as_target;
+  GateCheck as_torque;
   const char* why;
 };
 
-TEST_F(Gate, NumbersThatAreNoLengthOrTensionAreRefusedWhereverTheyStand) {
+TEST_F(Gate, NumbersThatAreNoTargetOrTorqueAreRefusedWhereverTheyStand) {
   const std::vector<BadNumber> bad{
-      {kNan, GateCheck::kPayoutNotFinite, GateCheck::kTensionNotFinite, "NaN"},
-      {-kNan, GateCheck::kPayoutNotFinite, GateCheck::kTensionNotFinite, "-NaN"},
-      {kInf, GateCheck::kPayoutNotFinite, GateCheck::kTensionNotFinite, "infinity"},
-      {-kInf, GateCheck::kPayoutNotFinite, GateCheck::kTensionNotFinite, "-infinity"},
-      {1.7e308, GateCheck::kPayoutOutOfRange, GateCheck::kTensionOutOfRange, "largest numbers"},
-      {-1.7e308, GateCheck::kPayoutOutOfRange, GateCheck::kTensionOutOfRange, "largest negative numbers"},
-      {-kDenormal, GateCheck::kPayoutOutOfRange, GateCheck::kTensionOutOfRange, "a cable cannot push"},
-      {kDenormal, GateCheck::kPayoutOutOfRange, GateCheck::kPassed, "a denormal is a tension but no length"},
-      {0.0, GateCheck::kPayoutOutOfRange, GateCheck::kPassed, "zero is a tension but no length"},
-      {-0.0, GateCheck::kPayoutOutOfRange, GateCheck::kPassed, "so is minus zero"},
-      {2147483648.0, GateCheck::kPayoutOutOfRange, GateCheck::kTensionOutOfRange, "one over INT_MAX"},
+      {kNan, GateCheck::kTargetNotFinite, GateCheck::kTorqueNotFinite, "NaN"},
+      {-kNan, GateCheck::kTargetNotFinite, GateCheck::kTorqueNotFinite, "-NaN"},
+      {kInf, GateCheck::kTargetNotFinite, GateCheck::kTorqueNotFinite, "infinity"},
+      {-kInf, GateCheck::kTargetNotFinite, GateCheck::kTorqueNotFinite, "-infinity"},
+      {1.7e308, GateCheck::kTargetOutOfRange, GateCheck::kTorqueOutOfRange, "largest numbers"},
+      {-1.7e308, GateCheck::kTargetOutOfRange, GateCheck::kTorqueOutOfRange, "largest negative numbers"},
+      {-kDenormal, GateCheck::kTargetOutOfRange, GateCheck::kTorqueOutOfRange, "a cable drive cannot push"},
+      {kDenormal, GateCheck::kTargetOutOfRange, GateCheck::kPassed, "a denormal is a torque but no target here"},
+      {0.0, GateCheck::kTargetOutOfRange, GateCheck::kPassed, "zero is a torque but no target here"},
+      {-0.0, GateCheck::kTargetOutOfRange, GateCheck::kPassed, "so is minus zero"},
+      {2147483648.0, GateCheck::kTargetOutOfRange, GateCheck::kTorqueOutOfRange, "one over INT_MAX"},
   };
-  const GateProposal good = proposal_;
+  const DriveProposals good = proposal_;
   for (const BadNumber& one : bad) {
     for (std::int16_t drive = 0; drive < kDrives; ++drive) {
       const auto i = static_cast<std::size_t>(drive);
       proposal_ = good;
-      proposal_.payout_m[i] = one.value;
-      expect_refused(one.as_payout, drive, std::string("payout ") + one.why);
+      proposal_[i].target_counts = one.value;
+      expect_refused(one.as_target, drive, std::string("target ") + one.why);
       proposal_ = good;
-      proposal_.tension_plan_N[i] = one.value;
-      if (one.as_tension == GateCheck::kPassed) {
-        expect_passed(std::string("tension ") + one.why);
+      proposal_[i].torque_permille = one.value;
+      if (one.as_torque == GateCheck::kPassed) {
+        expect_passed(std::string("torque ") + one.why);
       } else {
-        expect_refused(one.as_tension, drive, std::string("tension ") + one.why);
+        expect_refused(one.as_torque, drive, std::string("torque ") + one.why);
       }
     }
   }
 }
 
-TEST_F(Gate, PlannedTensionMayReachTheCeilingAndNotMore) {
-  proposal_.tension_plan_N[5] = 150.0;
+TEST_F(Gate, TorqueMayReachItsLimitAndNotMore) {
+  proposal_[5].torque_permille = kMost_permille;
   expect_passed("at the ceiling");
-  proposal_.tension_plan_N[5] = std::nextafter(150.0, kInf);
-  expect_refused(GateCheck::kTensionOutOfRange, 5, "next number");
+  proposal_[5].torque_permille = std::nextafter(kMost_permille, kInf);
+  expect_refused(GateCheck::kTorqueOutOfRange, 5, "next number");
 }
 
 TEST_F(Gate, CountsThatDoNotFitInto32BitsAreRefusedNotWrapped) {
-  robot_.drive[1].zero_counts = kIntMin;  // direction -1: the target is what the payout is short of the zero's
+  limits_.drive[1].least_counts = -1e12;
   previous_[1].target_counts = kIntMin;
-  proposal_.payout_m[1] = kZeroPayout_m - 10e-6;
+  proposal_[1].target_counts = static_cast<double>(kIntMin) + 10.0;
   expect_passed("just inside 32 bits");
-  proposal_.payout_m[1] = kZeroPayout_m + 10e-6;
-  expect_refused(GateCheck::kPayoutOutOfRange, 1, "just outside");
+  proposal_[1].target_counts = static_cast<double>(kIntMin) - 10.0;
+  expect_refused(GateCheck::kTargetOutOfRange, 1, "just outside");
 }
 
 TEST_F(Gate, AStepAcrossTheWholeIntegerRangeDoesNotOverflow) {
@@ -185,10 +183,17 @@ TEST_F(Gate, AStepAcrossTheWholeIntegerRangeDoesNotOverflow) {
   expect_refused(GateCheck::kStepTooLarge, 0, "from INT_MAX");
 }
 
+TEST_F(Gate, AModeThatTheDriveWasNotConfiguredForIsRefused) {
+  proposal_[3].mode = DriveMode::kCyclicTorque;
+  expect_refused(GateCheck::kModeNotAllowed, 3, "torque to a drive in cyclic position");
+  limits_.drive[3].mode = DriveMode::kCyclicTorque;
+  expect_passed("torque to a drive in cyclic torque");
+}
+
 TEST_F(Gate, TheFirstDriveThatFailsIsNamed) {
-  proposal_.payout_m[4] = kNan;
-  proposal_.tension_plan_N[2] = 1000.0;
-  expect_refused(GateCheck::kTensionOutOfRange, 2, "two drives fail");
+  proposal_[4].target_counts = kNan;
+  proposal_[2].torque_permille = 1700.0;
+  expect_refused(GateCheck::kTorqueOutOfRange, 2, "two drives fail");
 }
 
 TEST_F(Gate, MotionWithOneDriveOutOfOperationIsRefusedForAll) {
@@ -203,7 +208,7 @@ TEST_F(Gate, MotionWithOneDriveOutOfOperationIsRefusedForAll) {
 }
 
 TEST_F(Gate, ADriveWithoutTorqueGetsItsActualPosition) {
-  proposal_.live_targets = false;
+  live_ = false;
   for (const std::uint16_t status :
        {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusFault, std::uint16_t{0x0001}}) {
     feedback_[3].statusword = status;
@@ -216,8 +221,9 @@ TEST_F(Gate, ADriveWithoutTorqueGetsItsActualPosition) {
 }
 
 TEST_F(Gate, WhileTargetsAreNotLiveNothingOfTheProposalReachesADrive) {
-  proposal_.live_targets = false;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) proposal_.payout_m[i] = i % 2 == 0 ? kNan : 1.31;
+  live_ = false;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i)
+    proposal_[i].target_counts = i % 2 == 0 ? kNan : 1e6 + 1e4;
   const GateResult result = judge();
   EXPECT_EQ(result.check, GateCheck::kPassed);
   for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i)
@@ -225,14 +231,14 @@ TEST_F(Gate, WhileTargetsAreNotLiveNothingOfTheProposalReachesADrive) {
 }
 
 TEST_F(Gate, ATargetFromBeforeThePowerIsNeverHeld) {
-  proposal_.live_targets = false;
+  live_ = false;
   previous_[0] = {kDisableVoltage, 123};  // as after start, with a drive that somebody else had enabled
   EXPECT_EQ(judge().command[0].target_counts, feedback_[0].position_counts);
 }
 
 TEST_F(Gate, EnablingIsBumpless) {
   // Tick by tick as a drive goes from Switched on to Operation enabled while its motor creeps by a few counts.
-  proposal_.live_targets = false;
+  live_ = false;
   previous_[0] = {kSwitchOn, 500};
   feedback_[0] = {kStatusSwitchedOn, 0, 503, 0, 0, 0, 1};
   GateResult result = judge();
@@ -245,8 +251,8 @@ TEST_F(Gate, EnablingIsBumpless) {
 }
 
 TEST_F(Gate, ControlwordsFollowTheGoalAndTheDrivesState) {
-  proposal_.live_targets = false;
-  proposal_.goal = DriveGoal::kQuickStop;
+  live_ = false;
+  goal_ = DriveGoal::kQuickStop;
   feedback_[1].statusword = kStatusFault;
   feedback_[2].statusword = kStatusQuickStop;
   const GateResult result = judge();
@@ -257,21 +263,21 @@ TEST_F(Gate, ControlwordsFollowTheGoalAndTheDrivesState) {
 
 TEST_F(Gate, ARefusalBecomesAFaultThatNamesDriveAndCheck) {
   EXPECT_EQ(gate_fault(judge(), 9).number, FaultNumber::kNone);
-  proposal_.payout_m[2] = kNan;
+  proposal_[2].target_counts = kNan;
   const Fault fault = gate_fault(judge(), 9);
   EXPECT_EQ(fault.number, FaultNumber::kGateRefused);
   EXPECT_EQ(fault.index, 2);
-  EXPECT_EQ(fault.detail, static_cast<std::uint16_t>(GateCheck::kPayoutNotFinite));
+  EXPECT_EQ(fault.detail, static_cast<std::uint16_t>(GateCheck::kTargetNotFinite));
   EXPECT_EQ(fault.tick, 9U);
-  EXPECT_STREQ(gate_check_name(GateCheck::kPayoutNotFinite), "payout_not_finite");
-  EXPECT_STREQ(gate_check_name(static_cast<GateCheck>(7)), "unknown");
+  EXPECT_STREQ(gate_check_name(GateCheck::kTargetNotFinite), "target_not_finite");
+  EXPECT_STREQ(gate_check_name(static_cast<GateCheck>(8)), "unknown");
 }
 
 TEST_F(Gate, TheGateIsPure) {
-  proposal_.payout_m[0] += 20e-6;
+  proposal_[0].target_counts += 20.0;
   const GateResult first = judge();
   const GateResult second = judge();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kMaxCables); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kMaxDrives); ++i) {
     EXPECT_EQ(first.command[i].target_counts, second.command[i].target_counts);
     EXPECT_EQ(first.command[i].controlword, second.command[i].controlword);
   }

@@ -1,5 +1,5 @@
 // Goal IK: success rate, honesty, held variables, nodes, repeatability.
-#include "firmware_like/motion/goal_ik.hpp"
+#include "host/solve/goal_ik.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,10 @@
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
+
+using namespace solve;
 
 using zhu2022::Random;
 
@@ -214,4 +216,4 @@ TEST(GoalIk, AGoalThatIsAlreadyMetTakesNoIteration) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

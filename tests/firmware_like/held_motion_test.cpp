@@ -6,12 +6,14 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_like/motion/goal_ik.hpp"
-#include "firmware_like/motion/motion.hpp"
+#include "firmware_like/cable/motion/motion.hpp"
+#include "host/solve/goal_ik.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
+
+using namespace solve;
 
 using zhu2022::Random;
 
@@ -174,4 +176,4 @@ TEST_F(HeldMotion, A41ASegmentComesIntoThePlaneWhileTheTipStaysOrFollows) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

@@ -8,13 +8,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "firmware_like/arm/tension.hpp"
-#include "firmware_like/controller.hpp"
-#include "firmware_like/math/convert.hpp"
-#include "tests/firmware_like/release.hpp"
+#include "firmware_like/cable/arm/payout.hpp"
+#include "firmware_like/cable/arm/tension.hpp"
+#include "firmware_like/cable_controller.hpp"
+#include "firmware_like/command/release.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 
 // CiA 402 drives without dynamics: targets of the tick before are positions of this one, torque is what the controller
 // planned.
@@ -30,7 +30,7 @@ class IdealDrives {
     const CableVector payout_m = payout_for(robot, layout, geometry.part_m, ratio, motor_N);
     for (std::size_t c = 0; c < count(); ++c) {
       const double zero_m = layout.zero_length_m[c] + robot.lead_m;
-      drive_[c].position_counts = counts_at_payout(robot.drive[c], zero_m, payout_m[c]).value;
+      drive_[c].position_counts = to_counts(counts_at_payout(robot.drive[c], zero_m, payout_m[c])).value;
       drive_[c].statusword = 0x0250;  // switch on disabled
       drive_[c].feedback_age_ticks = drive_[c].heartbeat_age_ticks = 0;
       drive_[c].operational = 1;
@@ -82,7 +82,7 @@ class IdealDrives {
   }
 
   RobotTable robot_;
-  std::array<DriveFeedback, kMaxCables> drive_{};
+  DriveFeedbacks drive_{};
 };
 
 constexpr std::uint64_t kForever = 1000000;  // a tick after the end of every test
@@ -111,7 +111,7 @@ struct Rig {
     ASSERT_EQ(out.faults.count, 0);
   }
   Telecommand release(const Setpoint& setpoint, std::uint64_t life_ticks = kForever) {
-    return Release::make(++sequence, now, now + life_ticks, setpoint);
+    return Release::make(++sequence, now, now + life_ticks, 1, setpoint);
   }
   Setpoint tip_by(const Vec3& move_m) const {
     Setpoint setpoint;
@@ -173,4 +173,4 @@ inline std::vector<double> numbers(const Outputs& out) {
   return all;
 }
 
-}  // namespace liana
+}  // namespace liana::cable

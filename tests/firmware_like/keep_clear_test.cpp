@@ -1,13 +1,15 @@
 // Clearance as an aim of the shape.
-#include "firmware_like/motion/keep_clear.hpp"
+#include "firmware_like/cable/shape/keep_clear.hpp"
 
 #include <gtest/gtest.h>
 
-#include "firmware_like/motion/goal_ik.hpp"
+#include "host/solve/goal_ik.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
+
+using namespace solve;
 
 using zhu2022::Random;
 
@@ -147,4 +149,4 @@ TEST(KeepClear, UnusedFarAndCoincidentTargetsPushNothing) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

@@ -1,12 +1,12 @@
 // Rate and acceleration limiter.
-#include "firmware_like/motion/limiter.hpp"
+#include "firmware_like/cable/motion/limiter.hpp"
 
 #include <gtest/gtest.h>
 
 #include "firmware_like/controller_io.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using zhu2022::Random;
@@ -183,4 +183,4 @@ TEST(Limiter, ResetStandsStillWhereItIsTold) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

@@ -1,12 +1,12 @@
 // Motion stage: setpoints, interpolation, held variables, switching, braking.
-#include "firmware_like/motion/motion.hpp"
+#include "firmware_like/cable/motion/motion.hpp"
 
 #include <gtest/gtest.h>
 
 #include "firmware_like/controller_io.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 constexpr std::uint32_t kX5 = 1u << 8;
@@ -221,4 +221,4 @@ TEST_F(Motion, LimitsNameThemselves) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

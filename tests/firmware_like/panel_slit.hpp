@@ -1,10 +1,12 @@
 // The slit of the scene panel_slit, for tests.
 #pragma once
 
-#include "firmware_like/motion/dof_split.hpp"
+#include "host/solve/dof_split.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
+
+using namespace solve;
 
 // Its plane is that of the press rod's pose, its room the half gap of 50 mm less 30 mm of arm.
 inline SlitMouth panel_slit() {
@@ -20,4 +22,4 @@ inline SlitMouth panel_slit() {
   return {{add(scale(u, 1.75), scale(n, dot(n, rod.position_m))), frame}, 1.95, 0.02, 1.97};
 }
 
-}  // namespace liana
+}  // namespace liana::cable

@@ -11,6 +11,8 @@
 namespace liana {
 namespace {
 
+namespace zhu2022 = cable::zhu2022;
+
 using zhu2022::largest_difference;
 using zhu2022::Random;
 

@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware_like/controller_io.hpp"
+#include "firmware_like/cable/arm/drive_limits.hpp"
+#include "firmware_like/cable/arm/tension_watch.hpp"
+#include "firmware_like/safety/link_watch.hpp"
 
-namespace liana::safety_bench {
+namespace liana::cable::safety_bench {
 
 // Statuswords as a drive sends them: voltage (bit 4) and remote (bit 9) set beside the state bits.
 constexpr std::uint16_t kStatusDisabled = 0x0250;
@@ -54,8 +56,8 @@ inline CableVector zero_payout_m() {
 }
 
 // Inputs of a tick in which every drive is alive, operational and shows `statusword`, standing at its zero.
-inline Inputs healthy(std::uint16_t statusword, std::uint64_t tick = 1) {
-  Inputs inputs{};
+inline CycleInputs healthy(std::uint16_t statusword, std::uint64_t tick = 1) {
+  CycleInputs inputs{};
   inputs.tick = tick;
   for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
     inputs.drive[i].statusword = statusword;
@@ -67,6 +69,29 @@ inline Inputs healthy(std::uint16_t statusword, std::uint64_t tick = 1) {
   return inputs;
 }
 
+// The watchdogs of a cable arm with the states they keep, run as in a tick.
+struct Watchdogs {
+  LinkLimits link_limits = make_link_limits(table());
+  TensionWatchLimits tension_limits = make_tension_watch_limits(table());
+  LinkWatchState link{};
+  TensionWatchState tension{};
+
+  // How many conditions are wrong now.
+  std::int32_t run(WatchScope scope, const CycleInputs& inputs, const DriveCommands& sent, const CableVector& tension_N,
+                   const CableVector& lowpass_N, FaultList& faults) {
+    Watch out(inputs.tick, faults);
+    watch_cycle(scope, inputs, out);
+    for (std::int32_t drive = 0; drive < link_limits.drive_count; ++drive) {
+      const std::size_t i = as_index(drive);
+      watch_drive(link_limits, scope, inputs.drive[i], drive, link, out);
+      const TensionReading now{tension_N[i], lowpass_N[i], link.following_ticks[i] == 0};
+      watch_tension(tension_limits, scope, now, drive, tension, out);
+      watch_following(link_limits, scope, inputs.drive[i], sent[i], drive, link, out);
+    }
+    return out.active();
+  }
+};
+
 // True when `faults` holds this number for this drive or bus.
 inline bool has(const FaultList& faults, FaultNumber number, std::int16_t index) {
   for (std::int32_t i = 0; i < faults.count; ++i) {
@@ -76,4 +101,4 @@ inline bool has(const FaultList& faults, FaultNumber number, std::int16_t index)
   return false;
 }
 
-}  // namespace liana::safety_bench
+}  // namespace liana::cable::safety_bench

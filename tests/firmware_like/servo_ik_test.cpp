@@ -1,11 +1,11 @@
 // Servo IK: convergence, exact limits, variables held to the last bit, calm at singular poses.
-#include "firmware_like/motion/servo_ik.hpp"
+#include "firmware_like/cable/motion/servo_ik.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using zhu2022::Random;
@@ -220,4 +220,4 @@ TEST(ServoIk, FollowsATipAtFullSpeedToMicrometres) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

@@ -1,13 +1,15 @@
 // Shape control in the null space of the tip (A42-A45).
-#include "firmware_like/motion/shape.hpp"
+#include "firmware_like/cable/shape/shape.hpp"
 
 #include <gtest/gtest.h>
 
-#include "firmware_like/motion/improve_shape.hpp"
+#include "host/solve/improve_shape.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
+
+using namespace solve;
 
 using zhu2022::Random;
 
@@ -364,4 +366,4 @@ TEST(Shape, ArmsOfOtherSizesKeepTheirTipToo) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

@@ -12,12 +12,12 @@
 #include "firmware_like/safety/supervisor.hpp"
 #include "tests/firmware_like/safety_bench.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using namespace safety_bench;
 
-const WatchdogLimits kLimits = make_watchdog_limits(table());
+const LinkLimits kLimits = make_link_limits(table());
 
 struct Severity {
   StopCategory category;
@@ -64,7 +64,7 @@ TEST(SupervisorTable, EveryPhaseAnswersEverySeverityInTheSameTickAsThePageSays) 
       FaultList faults{};
       faults.category = kSeverities[s].category;
       faults.immediate = kSeverities[s].immediate;
-      supervise(kLimits, healthy(kStatusEnabled), {false, true, false, true}, 0, state, faults);
+      supervise(kLimits, healthy(kStatusEnabled), {true, false, true}, false, 0, state, faults);
       EXPECT_EQ(state.phase, row[s + 1]) << kPhaseNames[static_cast<std::size_t>(row[0])] << ", severity " << s
                                          << " leads to " << kPhaseNames[static_cast<std::size_t>(state.phase)];
     }
@@ -77,7 +77,7 @@ TEST(SupervisorTable, AFaultIsNeverShownAsDisabledNotEvenForOneTick) {
     SupervisorState state{from, 100, 0, 0, {}};
     FaultList faults{};
     latch(faults, {FaultNumber::kDriveMissing, 1, 0, 1});
-    EXPECT_EQ(supervise(kLimits, healthy(kStatusDisabled), {false, true, true, true}, 1, state, faults).state,
+    EXPECT_EQ(supervise(kLimits, healthy(kStatusDisabled), {true, true, true}, false, 1, state, faults).state,
               OperatingState::kFault);
   }
 }
@@ -88,14 +88,14 @@ TEST(SupervisorTable, NoStateIsLeftWithoutEndWhateverTheDrivesDo) {
   for (std::int32_t phase = 0; phase < kPhaseCount; ++phase) {
     SupervisorState state{static_cast<Phase>(phase), 0, 0, 0, {}};
     FaultList faults{};
-    Inputs inputs = healthy(kStatusEnabled, 0);
-    const MotionStatus motion{false, true, false, false};
+    CycleInputs inputs = healthy(kStatusEnabled, 0);
+    const ArmStatus arm{true, false, false};
     std::uint32_t ticks = 0;
     const std::uint32_t bound = kPathStopBudgetTicks + kQuickStopBudgetTicks + kOffBudgetTicks + kResetBudgetTicks + 10;
     bool ended = false;
     for (; ticks < bound && !ended; ++ticks) {
       inputs.request = Request::kStop;
-      const Orders orders = supervise(kLimits, inputs, motion, 0, state, faults);
+      const Orders orders = supervise(kLimits, inputs, arm, false, 0, state, faults);
       ended = orders.goal == DriveGoal::kDisabled &&
               (orders.state == OperatingState::kDisabled || orders.state == OperatingState::kFault);
     }
@@ -109,7 +109,7 @@ TEST(SupervisorTable, MotionIsAllowedInNoPhaseButEnabledAndNeverWithAFault) {
       SupervisorState state{static_cast<Phase>(phase), 0, 0, 0, {}};
       FaultList faults{};
       if (with_fault) latch(faults, {FaultNumber::kCommandInvalid, -1, 0, 1});
-      const Orders orders = supervise(kLimits, healthy(kStatusReady), {false, true, true, false}, 0, state, faults);
+      const Orders orders = supervise(kLimits, healthy(kStatusReady), {true, true, false}, false, 0, state, faults);
       EXPECT_EQ(orders.motion_allowed, static_cast<Phase>(phase) == Phase::kEnabled && !with_fault) << phase;
     }
   }
@@ -125,4 +125,4 @@ TEST(Conditions, EveryBitHasItsOwnName) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

@@ -8,7 +8,7 @@
 #include "firmware_like/safety/gate.hpp"
 #include "tests/firmware_like/safety_bench.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using namespace safety_bench;
@@ -22,11 +22,9 @@ class Operation : public ::testing::Test {
   Orders tick(Request request = Request::kNone) {
     ++inputs_.tick;
     inputs_.request = request;
-    const std::int32_t active =
-        watch(limits_, watch_scope(state_), inputs_, sent_, tension_N_, tension_N_, watchdogs_, faults_);
-    orders_ = supervise(limits_, inputs_, motion_, active, state_, faults_);
-    GateProposal proposal{orders_.goal, orders_.live_targets, zero_payout_m(), tension_N_};
-    sent_ = gate(robot_, gate_limits_, proposal, sent_, inputs_.drive).command;
+    const std::int32_t active = watchdogs_.run(watch_scope(state_), inputs_, sent_, tension_N_, tension_N_, faults_);
+    orders_ = supervise(limits_, inputs_, arm_, stop_commanded_, active, state_, faults_);
+    sent_ = gate(gate_limits_, orders_.goal, orders_.live_targets, proposal_, sent_, inputs_.drive).command;
     for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
       if (i != stuck_drive_) inputs_.drive[i].statusword = answer(inputs_.drive[i].statusword, sent_[i].controlword);
     }
@@ -65,38 +63,44 @@ class Operation : public ::testing::Test {
   }
 
   RobotTable robot_ = table();
-  WatchdogLimits limits_ = make_watchdog_limits(robot_);
+  LinkLimits limits_ = make_link_limits(robot_);
   GateLimits gate_limits_ = make_gate_limits(robot_, zero_payout_m());
-  WatchdogState watchdogs_{};
+  Watchdogs watchdogs_{};
   SupervisorState state_{};
   FaultList faults_{};
-  Inputs inputs_ = healthy(kStatusDisabled, 0);
-  MotionStatus motion_{false, true, true, true};
+  CycleInputs inputs_ = healthy(kStatusDisabled, 0);
+  ArmStatus arm_{true, true, true};
+  bool stop_commanded_ = false;
   CableVector tension_N_ = [] {
     CableVector tension{};
     tension.fill(40.0);
     return tension;
   }();
-  std::array<DriveCommand, kMaxCables> sent_{};
+  DriveProposals proposal_ = [] {
+    DriveProposals standing{};
+    standing.fill({DriveMode::kCyclicPosition, 1000000.0, 66.7});
+    return standing;
+  }();
+  DriveCommands sent_{};
   std::size_t stuck_drive_ = kNoDrive;
   Orders orders_{};
 };
 
 TEST_F(Operation, EnablingGoesThroughSwitchedOnAndTheRampBeforeMotionIsAllowed) {
-  motion_.pretension_done = false;
+  arm_.prepared = false;
   EXPECT_EQ(tick().state, OperatingState::kDisabled);
   EXPECT_EQ(tick(Request::kEnable).state, OperatingState::kEnabling);
   EXPECT_EQ(orders_.goal, DriveGoal::kSwitchedOn);
   EXPECT_FALSE(orders_.live_targets);
   for (int i = 0; i < 20; ++i) tick();
-  EXPECT_TRUE(orders_.ramp_active);
+  EXPECT_TRUE(orders_.preparing);
   EXPECT_TRUE(orders_.live_targets);
   EXPECT_FALSE(orders_.motion_allowed);
   EXPECT_EQ(orders_.state, OperatingState::kEnabling);
-  motion_.pretension_done = true;
+  arm_.prepared = true;
   EXPECT_EQ(tick().state, OperatingState::kEnabled);
   EXPECT_TRUE(orders_.motion_allowed);
-  EXPECT_FALSE(orders_.ramp_active);
+  EXPECT_FALSE(orders_.preparing);
   EXPECT_EQ(faults_.count, 0);
 }
 
@@ -130,39 +134,39 @@ TEST_F(Operation, OneDriveThatDoesNotEnableAbortsAllWithinTheBudgetAndIsNamed) {
 }
 
 TEST_F(Operation, APretensionRampThatNeverEndsIsATimeout) {
-  motion_.pretension_done = false;
+  arm_.prepared = false;
   tick(Request::kEnable);
-  const int limit = static_cast<int>(kTensioningBudgetTicks) + 100;
+  const int limit = static_cast<int>(kPreparingBudgetTicks) + 100;
   EXPECT_LE(ticks_until(OperatingState::kFault, limit), limit);
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveEnableTimeout, -1));
 }
 
 struct Blocker {
   std::uint32_t missing;
-  void (*apply)(Inputs&, MotionStatus&, FaultList&);
+  void (*apply)(CycleInputs&, ArmStatus&, FaultList&);
 };
 
 TEST_F(Operation, EnablingIsRefusedAndSaysWhyWhenAnyConditionIsMissing) {
   const std::vector<Blocker> blockers{
-      {kBusesUp, [](Inputs& in, MotionStatus&, FaultList&) { in.lost_bus_mask = 1; }},
-      {kDrivesFresh, [](Inputs& in, MotionStatus&, FaultList&) { in.drive[5].feedback_age_ticks = 3; }},
-      {kDrivesFresh, [](Inputs& in, MotionStatus&, FaultList&) { in.drive[5].heartbeat_age_ticks = 76; }},
-      {kDrivesOperational, [](Inputs& in, MotionStatus&, FaultList&) { in.drive[0].operational = 0; }},
-      {kNoDriveInFault, [](Inputs& in, MotionStatus&, FaultList&) { in.drive[2].statusword = kStatusFault; }},
-      {kHomed, [](Inputs&, MotionStatus& motion, FaultList&) { motion.homed = false; }},
+      {kBusesUp, [](CycleInputs& in, ArmStatus&, FaultList&) { in.lost_bus_mask = 1; }},
+      {kDrivesFresh, [](CycleInputs& in, ArmStatus&, FaultList&) { in.drive[5].feedback_age_ticks = 3; }},
+      {kDrivesFresh, [](CycleInputs& in, ArmStatus&, FaultList&) { in.drive[5].heartbeat_age_ticks = 76; }},
+      {kDrivesOperational, [](CycleInputs& in, ArmStatus&, FaultList&) { in.drive[0].operational = 0; }},
+      {kNoDriveInFault, [](CycleInputs& in, ArmStatus&, FaultList&) { in.drive[2].statusword = kStatusFault; }},
+      {kHomed, [](CycleInputs&, ArmStatus& motion, FaultList&) { motion.homed = false; }},
       {kNoFault,
-       [](Inputs&, MotionStatus&, FaultList& faults) {
+       [](CycleInputs&, ArmStatus&, FaultList& faults) {
          latch(faults, {FaultNumber::kCommandInvalid, -1, 0, 0});
        }},
   };
   for (const Blocker& blocker : blockers) {
-    Inputs inputs = healthy(kStatusDisabled);
-    MotionStatus motion = motion_;
+    CycleInputs inputs = healthy(kStatusDisabled);
+    ArmStatus motion = arm_;
     SupervisorState state{};
     FaultList faults{};
     blocker.apply(inputs, motion, faults);
     inputs.request = Request::kEnable;
-    const Orders orders = supervise(limits_, inputs, motion, 0, state, faults);
+    const Orders orders = supervise(limits_, inputs, motion, false, 0, state, faults);
     EXPECT_NE(orders.state, OperatingState::kEnabling) << condition_name(blocker.missing);
     EXPECT_EQ(orders.goal, DriveGoal::kDisabled);
     EXPECT_EQ(orders.enable_missing, blocker.missing) << condition_name(blocker.missing);
@@ -171,14 +175,14 @@ TEST_F(Operation, EnablingIsRefusedAndSaysWhyWhenAnyConditionIsMissing) {
 
 TEST_F(Operation, DisableStopsAlongThePathThenBrakesThenPowersDown) {
   enable();
-  motion_.at_rest = false;
+  arm_.at_rest = false;
   EXPECT_EQ(tick(Request::kDisable).state, OperatingState::kStopping);
   EXPECT_TRUE(orders_.live_targets);
   EXPECT_FALSE(orders_.motion_allowed);
   EXPECT_EQ(orders_.stop_category, StopCategory::kStop);
   for (int i = 0; i < 100; ++i) tick();
   EXPECT_EQ(orders_.goal, DriveGoal::kOperationEnabled) << "still decelerating";
-  motion_.at_rest = true;
+  arm_.at_rest = true;
   for (std::uint32_t i = 1; i < kRestTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
   for (std::uint32_t i = 0; i < kBrakingTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kSwitchedOn);
   for (std::uint32_t i = 0; i < kOffTicks; ++i) {
@@ -192,20 +196,20 @@ TEST_F(Operation, DisableStopsAlongThePathThenBrakesThenPowersDown) {
 
 TEST_F(Operation, RestThatIsInterruptedIsCountedAgain) {
   enable();
-  motion_.at_rest = false;
+  arm_.at_rest = false;
   tick(Request::kStop);
-  motion_.at_rest = true;
+  arm_.at_rest = true;
   for (std::uint32_t i = 1; i < kRestTicks; ++i) tick();
-  motion_.at_rest = false;
+  arm_.at_rest = false;
   tick();
-  motion_.at_rest = true;
+  arm_.at_rest = true;
   for (std::uint32_t i = 1; i < kRestTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
   EXPECT_EQ(tick().goal, DriveGoal::kSwitchedOn);
 }
 
 TEST_F(Operation, AStopThatNeverComesToRestEndsInAQuickStop) {
   enable();
-  motion_.at_rest = false;
+  arm_.at_rest = false;
   tick(Request::kStop);
   for (std::uint32_t i = 1; i < kPathStopBudgetTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
   EXPECT_EQ(tick().goal, DriveGoal::kQuickStop);
@@ -214,9 +218,9 @@ TEST_F(Operation, AStopThatNeverComesToRestEndsInAQuickStop) {
 
 TEST_F(Operation, AStopTelecommandStopsLikeTheRequest) {
   enable();
-  motion_.stop_commanded = true;
+  stop_commanded_ = true;
   EXPECT_EQ(tick().state, OperatingState::kStopping);
-  motion_.stop_commanded = false;
+  stop_commanded_ = false;
   EXPECT_LE(ticks_until(OperatingState::kDisabled, 100), 100);
 }
 
@@ -224,7 +228,7 @@ TEST_F(Operation, AStopWhileEnablingDisablesAll) {
   for (int ticks_before = 0; ticks_before < 6; ++ticks_before) {
     state_ = SupervisorState{};
     inputs_ = healthy(kStatusDisabled, 0);
-    motion_.pretension_done = false;
+    arm_.prepared = false;
     tick(Request::kEnable);
     for (int i = 0; i < ticks_before; ++i) tick();
     EXPECT_EQ(tick(Request::kStop).state, OperatingState::kStopping) << ticks_before;
@@ -258,7 +262,7 @@ TEST_F(Operation, AHoldFaultKeepsTheDrivesEnabledAndBlocksMotionUntilCleared) {
 TEST_F(Operation, AHoldFaultIsNotClearedWhileTheArmStillMoves) {
   enable();
   latch(faults_, {FaultNumber::kCommandInvalid, -1, 0, 1});
-  motion_.at_rest = false;
+  arm_.at_rest = false;
   tick(Request::kClear);
   EXPECT_EQ(state_.clear.missing, static_cast<std::uint32_t>(kAtRest));
   EXPECT_EQ(faults_.count, 1);
@@ -281,7 +285,7 @@ TEST_F(Operation, ACauseThatPersistsTurnsAHoldIntoAStop) {
 
 TEST_F(Operation, ADriveThatGoesSilentQuickStopsTheOthersInTheSameTick) {
   enable();
-  motion_.at_rest = false;
+  arm_.at_rest = false;
   inputs_.drive[3].feedback_age_ticks = 3;
   EXPECT_EQ(tick().goal, DriveGoal::kQuickStop);
   EXPECT_FALSE(orders_.live_targets);
@@ -343,16 +347,16 @@ TEST_F(Operation, AClearWhoseCauseIsStillThereReportsItAndStaysInFault) {
 
 TEST_F(Operation, ClearingChecksHomingAgain) {
   latch(faults_, {FaultNumber::kHomingImplausible, 0, 0, 1});
-  motion_.homed = false;
+  arm_.homed = false;
   EXPECT_EQ(tick().state, OperatingState::kFault);
   tick(Request::kClear);
   for (std::uint32_t i = 0; i <= kResetTicks; ++i) tick();
   EXPECT_EQ(state_.clear.missing, static_cast<std::uint32_t>(kHomed));
   EXPECT_EQ(orders_.state, OperatingState::kFault);
-  motion_.homed = true;
+  arm_.homed = true;
   tick(Request::kClear);
   EXPECT_LE(ticks_until(OperatingState::kDisabled, 20), 20);
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

@@ -1,13 +1,13 @@
 // Tension plan: balance, floor, ceiling, smoothness; and what a purely geometric command leaves undone (mission A9,
 // physics section 1).
-#include "firmware_like/arm/tension.hpp"
+#include "firmware_like/cable/arm/tension.hpp"
 
 #include <gtest/gtest.h>
 
 #include "firmware_like/math/cholesky.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using zhu2022::Random;
@@ -289,4 +289,4 @@ TEST(Tension, WithMuchFrictionNothingIsLifted) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

@@ -1,6 +1,6 @@
 // Operator filter (A16): whatever comes in, velocity, acceleration and jerk stay bounded, and the lag is the stated
 // one.
-#include "firmware_like/operator_input/tip_filter.hpp"
+#include "firmware_like/cable/motion/motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using zhu2022::Random;
@@ -166,4 +166,4 @@ TEST(TipFilter, LimitsThatActAreNamed) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

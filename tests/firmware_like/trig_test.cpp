@@ -11,6 +11,8 @@
 namespace liana {
 namespace {
 
+namespace zhu2022 = cable::zhu2022;
+
 struct TrigError {
   double sin, cos;
 };

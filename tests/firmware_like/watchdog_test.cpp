@@ -1,4 +1,4 @@
-#include "firmware_like/safety/watchdogs.hpp"
+#include "firmware_like/safety/link_watch.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "tests/firmware_like/safety_bench.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
 
 using namespace safety_bench;
@@ -18,9 +18,9 @@ constexpr WatchScope kRamp{true, false};
 constexpr WatchScope kRunning{true, true};
 
 // Watchdogs fed tick by tick with drives that are healthy until a test says otherwise.
-class Watchdogs : public ::testing::Test {
+class WatchdogsOfAnArm : public ::testing::Test {
  protected:
-  Watchdogs() {
+  WatchdogsOfAnArm() {
     for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
       sent_[i] = {0x000F, 1000000};
       tension_N_[i] = 40.0;
@@ -29,24 +29,21 @@ class Watchdogs : public ::testing::Test {
     EXPECT_EQ(faults_.count, 0);
   }
 
-  std::int32_t run(WatchScope scope) {
-    return watch(limits_, scope, inputs_, sent_, tension_N_, lowpass_N_, state_, faults_);
-  }
+  std::int32_t run(WatchScope scope) { return watchdogs_.run(scope, inputs_, sent_, tension_N_, lowpass_N_, faults_); }
 
-  WatchdogLimits limits_ = make_watchdog_limits(table());
-  Inputs inputs_ = healthy(kStatusEnabled);
-  std::array<DriveCommand, kMaxCables> sent_{};
+  Watchdogs watchdogs_{};
+  CycleInputs inputs_ = healthy(kStatusEnabled);
+  DriveCommands sent_{};
   CableVector tension_N_{}, lowpass_N_{};
-  WatchdogState state_{};
   FaultList faults_{};
 };
 
-TEST_F(Watchdogs, HealthyDrivesRaiseNothing) {
+TEST_F(WatchdogsOfAnArm, HealthyDrivesRaiseNothing) {
   for (int tick = 0; tick < 1000; ++tick) EXPECT_EQ(run(kRunning), 0);
   EXPECT_EQ(faults_.count, 0);
 }
 
-TEST_F(Watchdogs, ATpdoMayBeMissingForTwoTicksAndThenTheDriveIsSilent) {
+TEST_F(WatchdogsOfAnArm, ATpdoMayBeMissingForTwoTicksAndThenTheDriveIsSilent) {
   inputs_.drive[3].feedback_age_ticks = 2;
   EXPECT_EQ(run(kRunning), 0);
   inputs_.drive[3].feedback_age_ticks = 3;
@@ -55,7 +52,7 @@ TEST_F(Watchdogs, ATpdoMayBeMissingForTwoTicksAndThenTheDriveIsSilent) {
   EXPECT_EQ(faults_.fault[0].detail, 3);
 }
 
-TEST_F(Watchdogs, AHeartbeatMayBe300MillisecondsOld) {
+TEST_F(WatchdogsOfAnArm, AHeartbeatMayBe300MillisecondsOld) {
   inputs_.drive[5].heartbeat_age_ticks = 75;
   EXPECT_EQ(run(kRunning), 0);
   inputs_.drive[5].heartbeat_age_ticks = 76;
@@ -63,13 +60,13 @@ TEST_F(Watchdogs, AHeartbeatMayBe300MillisecondsOld) {
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveMissing, 5));
 }
 
-TEST_F(Watchdogs, ADriveThatLeavesNmtOperationalIsReported) {
+TEST_F(WatchdogsOfAnArm, ADriveThatLeavesNmtOperationalIsReported) {
   inputs_.drive[0].operational = 0;
   run(kUnpowered);
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveNotOperational, 0));
 }
 
-TEST_F(Watchdogs, FaultsOfOneTickAreLatchedBusesFirstThenDriveByDriveAsThePageOfPrioritiesSays) {
+TEST_F(WatchdogsOfAnArm, FaultsOfOneTickAreLatchedBusesFirstThenDriveByDriveAsThePageOfPrioritiesSays) {
   inputs_.lost_bus_mask = 2;
   inputs_.lost_ticks = kToleratedLostTicks + 1;
   inputs_.drive[1] = {kStatusFault, 0, 1000000, kFeedbackAgeTicks + 1, 0xFFFF, 0, 0};
@@ -77,8 +74,8 @@ TEST_F(Watchdogs, FaultsOfOneTickAreLatchedBusesFirstThenDriveByDriveAsThePageOf
   inputs_.drive[2].position_counts += 1000000;
   tension_N_[2] = 0.0;
   tension_N_[3] = 700.0;
-  state_.slack_ticks[2] = state_.alarm_ticks[3] = kSlackDebounceTicks;
-  state_.overload_ticks[3] = state_.following_ticks[2] = kFollowingDebounceTicks;
+  watchdogs_.tension.slack_ticks[2] = watchdogs_.tension.alarm_ticks[3] = kSlackDebounceTicks;
+  watchdogs_.tension.overload_ticks[3] = watchdogs_.link.following_ticks[2] = kFollowingDebounceTicks;
   run(kRunning);
   using enum FaultNumber;
   const std::vector<std::pair<FaultNumber, int>> order{
@@ -92,21 +89,21 @@ TEST_F(Watchdogs, FaultsOfOneTickAreLatchedBusesFirstThenDriveByDriveAsThePageOf
   }
 }
 
-TEST_F(Watchdogs, ADriveThatWasNeverAliveIsNoFault) {
-  state_ = WatchdogState{};
+TEST_F(WatchdogsOfAnArm, ADriveThatWasNeverAliveIsNoFault) {
+  watchdogs_ = Watchdogs{};
   inputs_.drive[2] = DriveFeedback{};
   EXPECT_EQ(run(kUnpowered), 0);
   EXPECT_EQ(faults_.count, 0);
 }
 
-TEST_F(Watchdogs, ADriveThatStillBootsIsNoFaultUntilAllOfItWasAliveOnce) {
+TEST_F(WatchdogsOfAnArm, ADriveThatStillBootsIsNoFaultUntilAllOfItWasAliveOnce) {
   const std::vector<void (*)(DriveFeedback&)> halves{
       [](DriveFeedback& drive) { drive.operational = 0; },
       [](DriveFeedback& drive) { drive.feedback_age_ticks = 0xFFFF; },
       [](DriveFeedback& drive) { drive.heartbeat_age_ticks = 0xFFFF; },
   };
   for (const auto& break_half : halves) {
-    state_ = WatchdogState{};
+    watchdogs_ = Watchdogs{};
     faults_ = FaultList{};
     inputs_ = healthy(kStatusDisabled);
     break_half(inputs_.drive[2]);
@@ -118,7 +115,7 @@ TEST_F(Watchdogs, ADriveThatStillBootsIsNoFaultUntilAllOfItWasAliveOnce) {
   }
 }
 
-TEST_F(Watchdogs, ADriveInFaultIsReportedWithItsEmergencyCodeWhicheverComesFirst) {
+TEST_F(WatchdogsOfAnArm, ADriveInFaultIsReportedWithItsEmergencyCodeWhicheverComesFirst) {
   inputs_.drive[1].emergency_code = 0x8130;  // one tick before the statusword
   EXPECT_EQ(run(kUnpowered), 0);
   inputs_.drive[1].emergency_code = 0;
@@ -133,7 +130,7 @@ TEST_F(Watchdogs, ADriveInFaultIsReportedWithItsEmergencyCodeWhicheverComesFirst
   EXPECT_EQ(faults_.fault[1].detail, 0x8250);
 }
 
-TEST_F(Watchdogs, AnOldEmergencyCodeIsNotBlamedForALaterFault) {
+TEST_F(WatchdogsOfAnArm, AnOldEmergencyCodeIsNotBlamedForALaterFault) {
   inputs_.drive[1].emergency_code = 0x8130;
   run(kRunning);
   inputs_.drive[1].emergency_code = 0;
@@ -143,7 +140,7 @@ TEST_F(Watchdogs, AnOldEmergencyCodeIsNotBlamedForALaterFault) {
   EXPECT_EQ(faults_.fault[0].detail, 0);
 }
 
-TEST_F(Watchdogs, EveryStateButOperationEnabledIsLeavingOperationWhilePowered) {
+TEST_F(WatchdogsOfAnArm, EveryStateButOperationEnabledIsLeavingOperationWhilePowered) {
   for (const std::uint16_t status :
        {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusQuickStop, std::uint16_t{0x0001}}) {
     faults_ = FaultList{};
@@ -156,9 +153,9 @@ TEST_F(Watchdogs, EveryStateButOperationEnabledIsLeavingOperationWhilePowered) {
   }
 }
 
-TEST_F(Watchdogs, TheFollowingWindowAllowsTheServosLagAtFullCableSpeed) {
+TEST_F(WatchdogsOfAnArm, TheFollowingWindowAllowsTheServosLagAtFullCableSpeed) {
   // 0.2 mm + 1.25 * 10 mm/s * (30 ms + 4 * 4 ms) = 0.775 mm
-  EXPECT_EQ(limits_.following_counts[0], 775);
+  EXPECT_EQ(watchdogs_.link_limits.following_counts[0], 775);
   for (const std::int32_t sign : {1, -1}) {
     faults_ = FaultList{};
     inputs_.drive[2].position_counts = 1000000 + sign * 775;
@@ -172,7 +169,7 @@ TEST_F(Watchdogs, TheFollowingWindowAllowsTheServosLagAtFullCableSpeed) {
   }
 }
 
-TEST_F(Watchdogs, ExtremePositionsDoNotOverflowTheFollowingError) {
+TEST_F(WatchdogsOfAnArm, ExtremePositionsDoNotOverflowTheFollowingError) {
   sent_[0].target_counts = std::numeric_limits<std::int32_t>::max();
   inputs_.drive[0].position_counts = std::numeric_limits<std::int32_t>::min();
   for (int tick = 0; tick < kFollowingDebounceTicks; ++tick) run(kRunning);
@@ -187,7 +184,7 @@ struct TensionCase {
   const char* why;
 };
 
-TEST_F(Watchdogs, TensionIsHeldBetweenFloorAlarmAndHardLimit) {
+TEST_F(WatchdogsOfAnArm, TensionIsHeldBetweenFloorAlarmAndHardLimit) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   const std::vector<TensionCase> cases{
       {1.0, kRunning, 0, FaultNumber::kCableSlack, "exactly at the floor"},
@@ -204,7 +201,7 @@ TEST_F(Watchdogs, TensionIsHeldBetweenFloorAlarmAndHardLimit) {
   };
   for (const TensionCase& one : cases) {
     faults_ = FaultList{};
-    state_ = WatchdogState{};
+    watchdogs_ = Watchdogs{};
     tension_N_[3] = one.tension_N;
     int first = 0;
     for (int tick = 1; tick <= 100; ++tick) {
@@ -215,14 +212,14 @@ TEST_F(Watchdogs, TensionIsHeldBetweenFloorAlarmAndHardLimit) {
   }
 }
 
-TEST_F(Watchdogs, OneGoodTickStartsTheDebounceAgain) {
+TEST_F(WatchdogsOfAnArm, OneGoodTickStartsTheDebounceAgain) {
   for (int tick = 0; tick < 200; ++tick) {
     tension_N_[3] = tick % kSlackDebounceTicks == kSlackDebounceTicks - 1 ? 40.0 : 0.0;
     EXPECT_EQ(run(kRunning), 0);
   }
 }
 
-TEST_F(Watchdogs, TensionThatIsGoneWhileItsLowPassIsStillFirmIsABreak) {
+TEST_F(WatchdogsOfAnArm, TensionThatIsGoneWhileItsLowPassIsStillFirmIsABreak) {
   tension_N_[3] = 0.0;
   lowpass_N_[3] = 8.0;
   for (int tick = 1; tick < kBreakDebounceTicks; ++tick) run(kRunning);
@@ -232,14 +229,14 @@ TEST_F(Watchdogs, TensionThatIsGoneWhileItsLowPassIsStillFirmIsABreak) {
   EXPECT_EQ(faults_.immediate, 1);
 }
 
-TEST_F(Watchdogs, TensionThatFadedIsNoBreak) {
+TEST_F(WatchdogsOfAnArm, TensionThatFadedIsNoBreak) {
   tension_N_[3] = 0.0;
   lowpass_N_[3] = 7.0;
   for (int tick = 0; tick < 100; ++tick) run(kRunning);
   EXPECT_FALSE(has(faults_, FaultNumber::kCableBreak, 3));
 }
 
-TEST_F(Watchdogs, AMotorThatLetItsCableGoIsNoBreak) {
+TEST_F(WatchdogsOfAnArm, AMotorThatLetItsCableGoIsNoBreak) {
   tension_N_[3] = 0.0;
   lowpass_N_[3] = 40.0;
   inputs_.drive[3].position_counts += 100000;
@@ -248,14 +245,14 @@ TEST_F(Watchdogs, AMotorThatLetItsCableGoIsNoBreak) {
   EXPECT_TRUE(has(faults_, FaultNumber::kFollowingError, 3));
 }
 
-TEST_F(Watchdogs, EveryLostBusIsNamed) {
+TEST_F(WatchdogsOfAnArm, EveryLostBusIsNamed) {
   inputs_.lost_bus_mask = 0x80000002U;
   EXPECT_EQ(run(kUnpowered), 2);
   EXPECT_TRUE(has(faults_, FaultNumber::kBusLost, 1));
   EXPECT_TRUE(has(faults_, FaultNumber::kBusLost, 31));
 }
 
-TEST_F(Watchdogs, TwoLostTicksInARowAreToleratedThreeAreNot) {
+TEST_F(WatchdogsOfAnArm, TwoLostTicksInARowAreToleratedThreeAreNot) {
   inputs_.lost_ticks = 2;
   EXPECT_EQ(run(kRunning), 0);
   inputs_.lost_ticks = 3;
@@ -264,7 +261,7 @@ TEST_F(Watchdogs, TwoLostTicksInARowAreToleratedThreeAreNot) {
   EXPECT_TRUE(has(faults_, FaultNumber::kTicksLost, -1));
 }
 
-TEST_F(Watchdogs, ACauseThatIsGoneIsNoLongerActiveButStaysLatched) {
+TEST_F(WatchdogsOfAnArm, ACauseThatIsGoneIsNoLongerActiveButStaysLatched) {
   inputs_.drive[3].feedback_age_ticks = 3;
   run(kRunning);
   inputs_.drive[3].feedback_age_ticks = 0;
@@ -272,10 +269,10 @@ TEST_F(Watchdogs, ACauseThatIsGoneIsNoLongerActiveButStaysLatched) {
   EXPECT_EQ(faults_.count, 1);
 }
 
-TEST_F(Watchdogs, DrivesBeyondTheTableAreNotLookedAt) {
+TEST_F(WatchdogsOfAnArm, DrivesBeyondTheTableAreNotLookedAt) {
   inputs_.drive[static_cast<std::size_t>(kDrives)].statusword = kStatusFault;
   EXPECT_EQ(run(kRunning), 0);
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

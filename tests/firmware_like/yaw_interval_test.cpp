@@ -4,12 +4,14 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_like/motion/dof_split.hpp"
+#include "host/solve/dof_split.hpp"
 #include "tests/firmware_like/panel_slit.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::cable {
 namespace {
+
+using namespace solve;
 
 using zhu2022::Random;
 
@@ -141,4 +143,4 @@ TEST(DofSplit, TheYawIntervalIsEmptyWhereNoYawFitsAndForOtherSegments) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cable

@@ -9,11 +9,11 @@
 #include <cstdint>
 #include <random>
 
-#include "firmware_like/arm/kinematics.hpp"
-#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/math/trig.hpp"
 
-namespace liana::zhu2022 {
+namespace liana::cable::zhu2022 {
 
 constexpr std::size_t kThetas = 10;
 constexpr std::size_t kCables = 15;
@@ -122,4 +122,4 @@ std::array<double, N> plus(const std::array<double, N>& a, const std::array<doub
   return sum;
 }
 
-}  // namespace liana::zhu2022
+}  // namespace liana::cable::zhu2022

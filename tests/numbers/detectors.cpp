@@ -81,12 +81,12 @@ class Trial {
 
   Found run() {
     arm_.boot();
-    const ThetaVector from = arm_.outputs().theta_command_rad, to = closed_loop::named_pose_rad("panel_edge");
+    const cable::ThetaVector from = arm_.outputs().theta_command_rad, to = closed_loop::named_pose_rad("panel_edge");
     try {
       arm_.follow(
           kWay_s,
           [&](double share) {
-            Setpoint setpoint;
+            cable::Setpoint setpoint;
             setpoint.kind = CommandKind::kJoint;
             const double done = closed_loop::minimum_jerk(share);
             for (std::size_t i = 0; i < from.size(); ++i) setpoint.joint_rad[i] = from[i] + done * (to[i] - from[i]);
@@ -131,7 +131,7 @@ class Trial {
   std::size_t cable_;
   ArmUnderControl arm_;
   Found found_;
-  ThetaVector before_{};
+  cable::ThetaVector before_{};
   int tick_ = 0, since_ = 0, step_ = 0;
   double size_ = kind_.first_size;
 };

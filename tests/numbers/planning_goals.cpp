@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_like/motion/goal_ik.hpp"
+#include "host/solve/goal_ik.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/numbers/options.hpp"
 
@@ -26,7 +26,7 @@ struct Outcome {
   std::vector<std::int32_t> iterations;
 };
 
-bool is_right(const RobotTable& robot, const GoalIkProblem& problem, const ThetaVector& theta) {
+bool is_right(const cable::RobotTable& robot, const GoalIkProblem& problem, const cable::ThetaVector& theta) {
   const auto e = pose_error(problem.tip_in_base, forward_kinematics(robot, theta).tip_in_base);
   bool right = norm({e[0], e[1], e[2]}) <= 1e-6 && norm({e[3], e[4], e[5]}) <= 1e-6;
   for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
@@ -36,11 +36,11 @@ bool is_right(const RobotTable& robot, const GoalIkProblem& problem, const Theta
   return right;
 }
 
-Outcome measure(const RobotTable& robot, const Kind& kind, std::int32_t count, std::uint64_t seed) {
+Outcome measure(const cable::RobotTable& robot, const Kind& kind, std::int32_t count, std::uint64_t seed) {
   zhu2022::Random random(seed);
   Outcome outcome;
   for (std::int32_t i = 0; i < count; ++i) {
-    ThetaVector theta = random.theta(robot, kind.range_deg);
+    cable::ThetaVector theta = random.theta(robot, kind.range_deg);
     for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
       if (((kind.held_mask >> k) & 1u) != 0) theta[k] = 0.0;
     }
@@ -68,7 +68,7 @@ void print(const Kind& kind, const Outcome& o, bool json, bool first) {
 }
 
 void run(const Options& options) {
-  const RobotTable robot = zhu2022::table();
+  const cable::RobotTable robot = zhu2022::table();
   std::uint64_t seed = 20260;
   for (const Kind& kind : kKinds) {
     print(kind, measure(robot, kind, options.count, seed), options.json, seed == 20260);

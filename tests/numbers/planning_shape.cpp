@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "firmware_like/motion/goal_ik.hpp"
+#include "host/solve/goal_ik.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/numbers/options.hpp"
 
@@ -29,18 +29,19 @@ struct Worst {
 };
 
 struct Arm {
-  ThetaVector theta_rad{};
-  ShapeState shape{};
-  ThetaVector rate_rad_s{};
+  cable::ThetaVector theta_rad{};
+  cable::ShapeState shape{};
+  cable::ThetaVector rate_rad_s{};
 };
 
-void run_ticks(const RobotTable& robot, const IkGoal& goal, const NodeTargets& nodes, std::int32_t seconds, Arm& arm,
-               Worst& worst) {
+void run_ticks(const cable::RobotTable& robot, const cable::IkGoal& goal, const cable::NodeTargets& nodes,
+               std::int32_t seconds, Arm& arm, Worst& worst) {
   const std::int32_t ticks = static_cast<std::int32_t>(seconds / robot.tick_s);
   for (std::int32_t i = 0; i < ticks; ++i) {
-    const ThetaVector before = arm.theta_rad, rate_before = arm.rate_rad_s;
-    const ArmKinematics at = forward_kinematics(robot, before);
-    const ThetaVector move = shape_move(robot, at, nodes, {}, goal.held_mask, false, kShapeAlone, before, arm.shape);
+    const cable::ThetaVector before = arm.theta_rad, rate_before = arm.rate_rad_s;
+    const cable::ArmKinematics at = forward_kinematics(robot, before);
+    const cable::ThetaVector move =
+        shape_move(robot, at, nodes, {}, goal.held_mask, false, cable::kShapeAlone, before, arm.shape);
     arm.theta_rad = zhu2022::plus(before, move);
     servo_ik(robot, goal, at, arm.theta_rad);
     const Pose tip = tip_pose(robot, arm_trig(robot, arm.theta_rad));
@@ -54,20 +55,20 @@ void run_ticks(const RobotTable& robot, const IkGoal& goal, const NodeTargets& n
 }
 
 struct Case {
-  ThetaVector start_rad{};
+  cable::ThetaVector start_rad{};
   ShapeProblem problem{};
   std::int32_t nodes = 0;
   bool thresholds = false;
 };
 
 // One to three nodes, node 3 first; weights 0.2 to 2; every fourth case has thresholds up to 50 mm.
-Case random_case(const RobotTable& robot, std::int32_t index, Random& random) {
+Case random_case(const cable::RobotTable& robot, std::int32_t index, Random& random) {
   constexpr std::int32_t kOrder[] = {3, 2, 4};
   Case out;
   out.start_rad = random.theta(robot, 15.0);
   out.nodes = 1 + index % 3;
   out.thresholds = index % 4 == 3;
-  const ArmKinematics arm = forward_kinematics(robot, out.start_rad);
+  const cable::ArmKinematics arm = forward_kinematics(robot, out.start_rad);
   out.problem.goal = {arm.tip_in_base, 0};
   for (std::int32_t i = 0; i < out.nodes; ++i) {
     Vec3 offset = random.vector(kRadius_m);
@@ -81,7 +82,7 @@ Case random_case(const RobotTable& robot, std::int32_t index, Random& random) {
 }
 
 // Least sum of `kOffline` solutions from random starts and of the one from the case's own start.
-double best_offline_m(const RobotTable& robot, const Case& c, double from_start_m, Random& random) {
+double best_offline_m(const cable::RobotTable& robot, const Case& c, double from_start_m, Random& random) {
   double best_m = from_start_m;
   std::int32_t iterations = 0;
   for (std::int32_t found = 0, tries = 0; found < kOffline && tries < 10 * kOffline; ++tries) {
@@ -96,9 +97,9 @@ double best_offline_m(const RobotTable& robot, const Case& c, double from_start_
   return best_m;
 }
 
-NodeTargets nodes_of(const RobotTable& robot, const ThetaVector& theta) {
-  const ArmKinematics arm = forward_kinematics(robot, theta);
-  NodeTargets nodes{};
+cable::NodeTargets nodes_of(const cable::RobotTable& robot, const cable::ThetaVector& theta) {
+  const cable::ArmKinematics arm = forward_kinematics(robot, theta);
+  cable::NodeTargets nodes{};
   for (std::size_t i = 0; i < nodes.size(); ++i)
     nodes[i] = {static_cast<std::int32_t>(i) + 1, arm.node_in_base[i + 1].position_m, 1.0, 0.0};
   return nodes;
@@ -118,24 +119,24 @@ struct Tally {
 };
 
 // Four times the weight of node 3 does not let it move away.
-void try_heavier(const RobotTable& robot, const Case& c, Arm arm, Tally& tally) {
+void try_heavier(const cable::RobotTable& robot, const Case& c, Arm arm, Tally& tally) {
   ++tally.with_rivals;
   const auto distance_m = [&] {
-    const ArmKinematics at = forward_kinematics(robot, arm.theta_rad);
+    const cable::ArmKinematics at = forward_kinematics(robot, arm.theta_rad);
     return norm(subtract(c.problem.node[0].position_m, at.node_in_base[3].position_m));
   };
   const double before_m = std::max(distance_m(), c.problem.node[0].threshold_m);
-  NodeTargets heavier = c.problem.node;
+  cable::NodeTargets heavier = c.problem.node;
   heavier[0].weight *= 4.0;
   run_ticks(robot, c.problem.goal, heavier, kHeavier_s, arm, tally.worst);
   tally.heavier_closer += distance_m() <= before_m + 1e-3 ? 1 : 0;
 }
 
-void study(const RobotTable& robot, std::int32_t index, Tally& tally) {
+void study(const cable::RobotTable& robot, std::int32_t index, Tally& tally) {
   Random random(1000 + static_cast<std::uint64_t>(index));
   const Case c = random_case(robot, index, random);
   std::int32_t iterations = 0;
-  ThetaVector nearest = c.start_rad;
+  cable::ThetaVector nearest = c.start_rad;
   const double branch_m = improve_shape(robot, c.problem, nearest, iterations);
   const double best_m = best_offline_m(robot, c, branch_m, random);
   const GoalIkResult goal = solve_goal(robot, {c.problem.goal.tip_in_base, c.start_rad, 0, {}, c.problem.node, {}});
@@ -176,7 +177,7 @@ void print(const Tally& t, bool json) {
 }
 
 void run(const Options& options) {
-  const RobotTable robot = zhu2022::table();
+  const cable::RobotTable robot = zhu2022::table();
   Tally tally;
   for (std::int32_t i = 0; i < options.count; ++i) study(robot, i, tally);
   print(tally, options.json);

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_like/motion/motion.hpp"
+#include "firmware_like/cable/motion/motion.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
@@ -128,9 +128,9 @@ struct Figures {
   double back_s = kReturn_s;  // after the hand
 };
 
-ThetaVector start_theta(Kind kind, const RobotTable& robot, Random& random) {
+cable::ThetaVector start_theta(Kind kind, const cable::RobotTable& robot, Random& random) {
   if (kind == kFromStraight) return {};
-  ThetaVector theta = random.theta(robot, kind == kThroughStraight ? 1.5 : 12.0);
+  cable::ThetaVector theta = random.theta(robot, kind == kThroughStraight ? 1.5 : 12.0);
   for (std::size_t k = 0; k < kThetas && kind == kAtLimits; ++k) {
     if (random.uniform(0.0, 1.0) < 0.3) theta[k] = (theta[k] < 0.0 ? -1.0 : 1.0) * random.uniform(19.0, 20.0) * kDegree;
   }
@@ -147,7 +147,7 @@ class Trial {
   Figures run(bool trace) {
     const Pose start = tip_of(theta_);
     const Hand hand(kind_, start, random_);
-    Setpoint setpoint;
+    cable::Setpoint setpoint;
     setpoint.kind = CommandKind::kTip;
     setpoint.tip_speed_m_s = robot_.limits.tip_speed_m_s;
     figures_.broken[kStuck] = true;
@@ -171,10 +171,10 @@ class Trial {
   }
 
  private:
-  Pose tip_of(const ThetaVector& theta) const { return forward_kinematics(robot_, theta).tip_in_base; }
+  Pose tip_of(const cable::ThetaVector& theta) const { return forward_kinematics(robot_, theta).tip_in_base; }
 
   // Some at random; none once the hand is back, so that the start pose can be reached again.
-  void hold(Setpoint& setpoint, bool none) {
+  void hold(cable::Setpoint& setpoint, bool none) {
     setpoint.held_mask = 0;
     for (std::size_t k = 0; k < kThetas && !none; ++k) {
       if (random_.uniform(0.0, 1.0) < 0.2) setpoint.held_mask |= 1u << k;
@@ -183,7 +183,7 @@ class Trial {
   }
 
   void tick() {
-    const MotionState before = state_;
+    const cable::MotionState before = state_;
     advance_motion(robot_, cable_geometry(robot_, layout_, arm_trig(robot_, before.limiter.theta_rad)), true, state_);
     judge_command(before.limiter);
     judge_ik(before);
@@ -191,7 +191,7 @@ class Trial {
   }
 
   // Rates and accelerations are taken from the angles, not from what the limiter says about them.
-  void judge_command(const LimiterState& before) {
+  void judge_command(const cable::LimiterState& before) {
     for (std::size_t k = 0; k < kThetas; ++k) {
       const double theta = state_.limiter.theta_rad[k];
       const double rate = (theta - before.theta_rad[k]) / robot_.tick_s;
@@ -206,7 +206,7 @@ class Trial {
   }
 
   // A continuous target and no jump: in a tick the IK never asks for more than a joint can do.
-  void judge_ik(const MotionState& before) {
+  void judge_ik(const cable::MotionState& before) {
     const double step_rad = zhu2022::largest_difference(state_.ik_rad, before.ik_rad);
     const double target_m = norm(subtract(state_.filter.pose.position_m, before.filter.pose.position_m));
     keep(figures_.step_deg, step_rad / kDegree);
@@ -226,7 +226,8 @@ class Trial {
     if (dot(residual, reported) < kSameDirection * norm(residual) * norm(reported))
       figures_.broken[kResidualDirection] = true;
     const bool too_far = norm(state_.filter.pose.position_m) > 4.0 + kResidual;
-    if (state_.ik.outcome == IkOutcome::kConverged || (too_far && state_.ik.outcome != IkOutcome::kUnreachable)) {
+    if (state_.ik.outcome == cable::IkOutcome::kConverged ||
+        (too_far && state_.ik.outcome != cable::IkOutcome::kUnreachable)) {
       figures_.broken[kUnnamed] = true;
     }
   }
@@ -234,7 +235,7 @@ class Trial {
   void print(double time_s) const {
     std::printf("%7.3f s %-11s %.2e m %.2e rad limits %03x", time_s, ik_outcome_name(state_.ik.outcome),
                 state_.ik.position_error_m, state_.ik.attitude_error_rad, state_.limits);
-    for (const ThetaVector& theta : {state_.ik_rad, state_.limiter.theta_rad}) {
+    for (const cable::ThetaVector& theta : {state_.ik_rad, state_.limiter.theta_rad}) {
       std::printf(" |");
       for (std::size_t k = 0; k < kThetas; ++k) std::printf(" %6.2f", theta[k] / kDegree);
     }
@@ -245,11 +246,11 @@ class Trial {
 
   Kind kind_;
   Random random_;
-  RobotTable robot_ = zhu2022::table();
-  CableLayout layout_ = cable_layout(robot_);
-  ThetaVector theta_{};
-  MotionState state_{};
-  ThetaVector rate_{};
+  cable::RobotTable robot_ = zhu2022::table();
+  cable::CableLayout layout_ = cable_layout(robot_);
+  cable::ThetaVector theta_{};
+  cable::MotionState state_{};
+  cable::ThetaVector rate_{};
   Figures figures_{};
 };
 

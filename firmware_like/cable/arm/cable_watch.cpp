@@ -11,10 +11,13 @@ namespace {
 using Index = std::size_t;
 
 // Detail of a fault: a length in micrometres.
-std::uint16_t micrometres(double length_m) noexcept { return narrow<std::uint16_t>(to_counts(1e6 * std::fabs(length_m)).value); }
+std::uint16_t micrometres(double length_m) noexcept {
+  return narrow<std::uint16_t>(to_counts(1e6 * std::fabs(length_m)).value);
+}
 
 // The level of every cable, from the readings. Returns the sum of the squares of its changes since `before_N`.
-double take_levels(const CableWatchLimits& limits, const CableReadings& now, const CableVector& before_N, CableVector& level_N) noexcept {
+double take_levels(const CableWatchLimits& limits, const CableReadings& now, const CableVector& before_N,
+                   CableVector& level_N) noexcept {
   Pair squares{};
   for (Index c = 0; c < static_cast<Index>(limits.cable_count); c += 2) {
     const Pair beyond_m = load_pair(&now.payout_m[c]) - load_pair(&now.path_m[c]);
@@ -26,7 +29,8 @@ double take_levels(const CableWatchLimits& limits, const CableReadings& now, con
   return sum(squares);
 }
 
-std::int32_t most_changed(const CableWatchLimits& limits, const CableVector& before_N, const CableVector& level_N) noexcept {
+std::int32_t most_changed(const CableWatchLimits& limits, const CableVector& before_N,
+                          const CableVector& level_N) noexcept {
   std::int32_t most = 0;
   double largest_N = 0.0;
   for (std::int32_t c = 0; c < limits.cable_count; ++c) {
@@ -39,7 +43,8 @@ std::int32_t most_changed(const CableWatchLimits& limits, const CableVector& bef
 }
 
 // A jump of more than the limit makes its cable the suspect, or is one more of the suspect's.
-void note_jump(const CableWatchLimits& limits, const CableVector& before_N, const CableVector& level_N, CableWatchState& state) noexcept {
+void note_jump(const CableWatchLimits& limits, const CableVector& before_N, const CableVector& level_N,
+               CableWatchState& state) noexcept {
   const std::int32_t cable = most_changed(limits, before_N, level_N);
   const double change_N = level_N[as_index(cable)] - before_N[as_index(cable)];
   if (!(std::fabs(change_N) > limits.jump_N)) return;
@@ -55,8 +60,8 @@ void note_jump(const CableWatchLimits& limits, const CableVector& before_N, cons
 }
 
 // A suspect scatters, or stays where it jumped to, or is none.
-void judge_suspect(const CableWatchLimits& limits, const CableVector& level_N, std::uint64_t tick, CableWatchState& state,
-                   FaultList& faults) noexcept {
+void judge_suspect(const CableWatchLimits& limits, const CableVector& level_N, std::uint64_t tick,
+                   CableWatchState& state, FaultList& faults) noexcept {
   const Index c = as_index(state.suspect);
   const std::int16_t drive = narrow<std::int16_t>(state.suspect);
   const double moved_N = level_N[c] - state.suspect_from_N;
@@ -71,9 +76,10 @@ void judge_suspect(const CableWatchLimits& limits, const CableVector& level_N, s
   }
 }
 
-// One segment: its cables' lengths contradict each other by more or less than when the arm was enabled. One that does is stayed with.
-void watch_contradiction(const RobotTable& table, const CableWatchLimits& limits, const CableVector& residual_m, std::uint64_t tick,
-                         CableWatchState& state, FaultList& faults) noexcept {
+// One segment: its cables' lengths contradict each other by more or less than when the arm was enabled. One that does
+// is stayed with.
+void watch_contradiction(const RobotTable& table, const CableWatchLimits& limits, const CableVector& residual_m,
+                         std::uint64_t tick, CableWatchState& state, FaultList& faults) noexcept {
   const std::int32_t first = state.cable, end = first + table.segment[as_index(state.segment)].cables;
   for (Index c = as_index(first); c < as_index(end); ++c) {
     const double change_m = residual_m[c] - state.residual_m[c];
@@ -101,15 +107,15 @@ CableWatchLimits make_cable_watch_limits(const RobotTable& table, const CableVec
     for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c) {
       limits.stiffness_N_m[c] = table.cable_EA_N / zero_payout_m[c];
       // Friction that the core is told wrong, at most by itself, hides so much of the planned stretch.
-      limits.contradiction_m[c] =
-          table.cable_watch.contradiction_m + table.tension.plan_N / limits.stiffness_N_m[c] * table.friction_mu * wrap_rad;
+      limits.contradiction_m[c] = table.cable_watch.contradiction_m +
+                                  table.tension.plan_N / limits.stiffness_N_m[c] * table.friction_mu * wrap_rad;
     }
   }
   return limits;
 }
 
-void watch_cables(const RobotTable& table, const CableWatchLimits& limits, const CableReadings& now, bool usable, std::uint64_t tick,
-                  CableWatchState& state, FaultList& faults) noexcept {
+void watch_cables(const RobotTable& table, const CableWatchLimits& limits, const CableReadings& now, bool usable,
+                  std::uint64_t tick, CableWatchState& state, FaultList& faults) noexcept {
   if (!usable) {
     state.watching = false;
     return;
@@ -119,7 +125,8 @@ void watch_cables(const RobotTable& table, const CableWatchLimits& limits, const
   CableVector& level_N = state.level_N[state.newest];
   const double squares = take_levels(limits, now, before_N, level_N);
   if (!state.watching) {
-    state = CableWatchState{.watching = true, .newest = state.newest, .level_N = state.level_N, .residual_m = now.residual_m};
+    state = CableWatchState{
+        .watching = true, .newest = state.newest, .level_N = state.level_N, .residual_m = now.residual_m};
     return;
   }
   if (!(squares <= limits.jump_N * limits.jump_N)) note_jump(limits, before_N, level_N, state);

@@ -10,8 +10,8 @@ namespace {
 
 using Index = std::size_t;
 
-// Squared hole-to-hole distance of one universal joint: a quadratic form of the hole (y, z) whose coefficients all cables share (formula
-// in cables.hpp).
+// Squared hole-to-hole distance of one universal joint: a quadratic form of the hole (y, z) whose coefficients all
+// cables share (formula in cables.hpp).
 struct PathForm {
   double one, y, z, yy, yz, zz;
 };
@@ -38,8 +38,8 @@ struct SlopeForm {
 
 inline SlopeForm slope_form(const SegmentTrig& t, double g) noexcept {
   const double sa = t.sin_pitch, ca = t.cos_pitch, sb = t.sin_yaw, cb = t.cos_yaw, g2 = g * g;
-  return {Pair{-g2 * sa * cb, -g2 * ca * sb}, Pair{-g * ca * (1.0 + cb), g * sa * sb}, Pair{-g * sb * sa, g * cb * (1.0 + ca)},
-          Pair{-ca * sb, -sa * cb}, Pair{sa, sb}};
+  return {Pair{-g2 * sa * cb, -g2 * ca * sb}, Pair{-g * ca * (1.0 + cb), g * sa * sb},
+          Pair{-g * sb * sa, g * cb * (1.0 + ca)}, Pair{-ca * sb, -sa * cb}, Pair{sa, sb}};
 }
 
 // A planar bend turns every cable by the bend angle psi of the joint, cos psi = cos a cos b.
@@ -66,14 +66,16 @@ CableLayout cable_layout(const RobotTable& table) noexcept {
         // The anchor is the last disc, so the last link of the own segment carries no cable.
         const std::int32_t links = j == m ? passed.modules - 1 : passed.modules;
         layout.straight_m[cable][static_cast<Index>(j)] = links * (passed.module_length_m - 2.0 * table.face_offset_m);
-        layout.zero_length_m[cable] += layout.straight_m[cable][static_cast<Index>(j)] + passed.modules * 2.0 * table.face_offset_m;
+        layout.zero_length_m[cable] +=
+            layout.straight_m[cable][static_cast<Index>(j)] + passed.modules * 2.0 * table.face_offset_m;
       }
     }
   }
   return layout;
 }
 
-void update_cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, CableGeometry& out) noexcept {
+void update_cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig,
+                           CableGeometry& out) noexcept {
   const Index segments = static_cast<Index>(table.segment_count);
   std::array<PathForm, kMaxSegments> path;
   std::array<SlopeForm, kMaxSegments> slope;
@@ -130,14 +132,16 @@ CableSolution solve_cables(const RobotTable& table, const CableGeometry& geometr
     const CableSolver::Segment& n = solver.segment[j];
     theta[2 * j] = (n.qq * by_pitch - n.pq * by_yaw) * n.inverse_det;
     theta[2 * j + 1] = (n.pp * by_yaw - n.pq * by_pitch) * n.inverse_det;
-    for (; first < end; ++first) out.left_m[first] -= dot_pairs(&geometry.jacobian_m_rad[first][2 * j], &theta[2 * j], 1);
+    for (; first < end; ++first)
+      out.left_m[first] -= dot_pairs(&geometry.jacobian_m_rad[first][2 * j], &theta[2 * j], 1);
   }
   return out;
 }
 
 SegmentVector cable_wraps(const RobotTable& table, const ArmTrig& trig) noexcept {
   SegmentVector wrap_rad{};
-  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) wrap_rad[j] = table.segment[j].modules * bend_angle(trig[j]);
+  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j)
+    wrap_rad[j] = table.segment[j].modules * bend_angle(trig[j]);
   return wrap_rad;
 }
 

@@ -1,9 +1,10 @@
 // Cable map: joint angles to cable path lengths and back (mission figure A3).
 //
-// Cable c of segment m is anchored at the last disc of segment m and passes every disc of segments 1..m. Odd (Rz Ry) and even (Ry Rz)
-// joints give the same hole-to-hole distance d, so the path is sum over segments j <= m of modules_j d_j(c) plus the straight parts:
-//   d^2 = 2 (g^2 + r^2) - 2 [-g^2 ca cb + g y sa (1 + cb) - g z sb (1 + ca) + y^2 ca + y z sa sb + z^2 cb],  y = r cos phase, z = r sin
-//   phase.
+// Cable c of segment m is anchored at the last disc of segment m and passes every disc of segments 1..m. Odd (Rz Ry)
+// and even (Ry Rz) joints give the same hole-to-hole distance d, so the path is sum over segments j <= m of modules_j
+// d_j(c) plus the straight parts:
+//   d^2 = 2 (g^2 + r^2) - 2 [-g^2 ca cb + g y sa (1 + cb) - g z sb (1 + ca) + y^2 ca + y z sa sb + z^2 cb],  y = r cos
+//   phase, z = r sin phase.
 #pragma once
 
 #include <array>
@@ -17,7 +18,8 @@ namespace liana::cable {
 // Path of each cable within each segment [m].
 using CableParts = std::array<std::array<double, kMaxSegments>, kMaxCables>;
 
-// Geometry of all cables at one pose. Row c is a cable, [m] a segment it passes; entries beyond its own segment are zero.
+// Geometry of all cables at one pose. Row c is a cable, [m] a segment it passes; entries beyond its own segment are
+// zero.
 struct CableGeometry {
   CableVector length_m{};                                                  // path from the first disc to the anchor
   CableParts part_m{};                                                     // path within one segment
@@ -37,22 +39,26 @@ struct CableLayout {
 CableLayout cable_layout(const RobotTable& table) noexcept;
 
 // Lengths, parts and Jacobian at one pose. `out` must have been zero or a geometry of the same table: entries beyond a
-// cable's own segment are not written. Cost: one square root per cable and segment passed (45 for five segments of three cables).
-void update_cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, CableGeometry& out) noexcept;
+// cable's own segment are not written. Cost: one square root per cable and segment passed (45 for five segments of
+// three cables).
+void update_cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig,
+                           CableGeometry& out) noexcept;
 CableGeometry cable_geometry(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig) noexcept;
 
-// Two angles from three lengths, segment by segment from the base: each segment's angles are the least squares of its own cables, whose
-// paths are first freed from what the segments before them do. What is left over is each segment's own contradiction.
+// Two angles from three lengths, segment by segment from the base: each segment's angles are the least squares of its
+// own cables, whose paths are first freed from what the segments before them do. What is left over is each segment's
+// own contradiction.
 struct CableSolver {
   struct Segment {
-    double pp = 0.0, pq = 0.0, qq = 0.0, inverse_det = 0.0;  // 2 x 2 normal matrix; inverse_det 0 = these cables cannot turn both angles
+    double pp = 0.0, pq = 0.0, qq = 0.0,
+           inverse_det = 0.0;  // 2 x 2 normal matrix; inverse_det 0 = these cables cannot turn both angles
   };
   std::array<Segment, kMaxSegments> segment{};
 };
 void update_cable_solver(const RobotTable& table, const CableGeometry& geometry, CableSolver& solver) noexcept;
 
-// Angles by which a change of cable paths moves the arm, with the geometry that `solver` belongs to; zero where a segment is singular.
-// Cost: one multiplication per entry of the Jacobian.
+// Angles by which a change of cable paths moves the arm, with the geometry that `solver` belongs to; zero where a
+// segment is singular. Cost: one multiplication per entry of the Jacobian.
 struct CableSolution {
   ThetaVector theta_rad{};
   CableVector left_m{};  // of the change, not explained by any angles: cables of a segment that contradict each other

@@ -8,8 +8,8 @@
 namespace liana::cable {
 namespace {
 
-// Most that bending can change the path of a cable of segment `segment` (0-based): no hole turns about a joint with a larger arm than its
-// distance from the joint centre, and a joint turns about two axes.
+// Most that bending can change the path of a cable of segment `segment` (0-based): no hole turns about a joint with a
+// larger arm than its distance from the joint centre, and a joint turns about two axes.
 double most_bend_m(const RobotTable& table, std::int32_t segment) noexcept {
   const double arm_m = std::sqrt(table.hole_radius_m * table.hole_radius_m + table.face_offset_m * table.face_offset_m);
   double turn_rad = 0.0;
@@ -28,7 +28,8 @@ DriveLimits limits_of(const RobotTable& table, const DriveTable& drive, double z
   DriveLimits limits{};
   limits.least_counts = smaller(in_counts, out_counts);  // counts may grow or fall while cable is paid out
   limits.most_counts = larger(in_counts, out_counts);
-  limits.step_counts = static_cast<std::int64_t>(to_counts(step_m / drive.metres_per_count).value) + kGateRoundingCounts;
+  limits.step_counts =
+      static_cast<std::int64_t>(to_counts(step_m / drive.metres_per_count).value) + kGateRoundingCounts;
   limits.most_permille = table.tension.ceiling_free_N / drive.newtons_per_permille;
   return limits;
 }

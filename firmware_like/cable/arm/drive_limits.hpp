@@ -10,8 +10,9 @@ namespace liana::cable {
 constexpr std::int64_t kGateRoundingCounts = 1;  // half a count of rounding at either end
 constexpr double kFollowingWindow_m = 0.2e-3;    // at rest: drive resolution, loop error and elasticity of the drum
 
-// For the gate. `zero_payout_m` per cable: path at the zero pose plus lead. The range is what bending every joint fully can add or take,
-// plus the elongation at the hard limit; torque is the planned tension, from none to the ceiling of free motion.
+// For the gate. `zero_payout_m` per cable: path at the zero pose plus lead. The range is what bending every joint fully
+// can add or take, plus the elongation at the hard limit; torque is the planned tension, from none to the ceiling of
+// free motion.
 GateLimits make_gate_limits(const RobotTable& table, const CableVector& zero_payout_m) noexcept;
 
 // For the watchdogs: drives lag by their time constant and the bus at full cable speed.

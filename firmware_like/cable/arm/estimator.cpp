@@ -27,7 +27,8 @@ void estimate(const RobotTable& table, const CableLayout& layout, const CableMod
   state.largest_step_rad = 0.0;
   for (Index i = 0; i < static_cast<Index>(table.theta_count()); ++i) {
     constexpr double kLargestStep_rad = 0.1;  // keeps the first steps from far away inside the geometry's range
-    const double step = clamp(model.theta_rad[i] + found.theta_rad[i] - state.theta_rad[i], -kLargestStep_rad, kLargestStep_rad);
+    const double step =
+        clamp(model.theta_rad[i] + found.theta_rad[i] - state.theta_rad[i], -kLargestStep_rad, kLargestStep_rad);
     state.theta_rad[i] += step;
     state.largest_step_rad = larger(state.largest_step_rad, std::fabs(step));
   }

@@ -19,16 +19,16 @@ struct EstimatorState {
 // Time constant of the tension low-pass: drive torque is quantised to 0.6 N.
 constexpr double kTensionFilter_s = 0.02;
 
-// Where the cables are linearised: a pose near the arm's, the commanded one. An estimate delta away from it is off by about delta^2 / 2
-// (1e-5 rad for a deflection of 0.3 deg).
+// Where the cables are linearised: a pose near the arm's, the commanded one. An estimate delta away from it is off by
+// about delta^2 / 2 (1e-5 rad for a deflection of 0.3 deg).
 struct CableModel {
   ThetaVector theta_rad{};
   CableGeometry geometry{};
   CableSolver solver{};
 };
 
-// Angles that explain `payout_m` (unstretched lengths) pulled with `tension_N`, both measured, with friction as planned (`ratio`). Moves by
-// 0.1 rad a tick at most; a model that follows the estimate makes this Gauss-Newton's method.
+// Angles that explain `payout_m` (unstretched lengths) pulled with `tension_N`, both measured, with friction as planned
+// (`ratio`). Moves by 0.1 rad a tick at most; a model that follows the estimate makes this Gauss-Newton's method.
 void estimate(const RobotTable& table, const CableLayout& layout, const CableModel& model, const TensionRatio& ratio,
               const CableVector& payout_m, const CableVector& tension_N, EstimatorState& state) noexcept;
 

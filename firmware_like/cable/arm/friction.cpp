@@ -20,7 +20,8 @@ void advance_slip(const CableLayout& layout, const CableGeometry& geometry, Slip
     double beyond_m = 0.0;  // change of path from the middle of segment j to the anchor
     for (Index j = static_cast<Index>(layout.segment[c]) + 1; j-- > 0;) {
       const double change_m = geometry.part_m[c][j] - slip.part_m[c][j];
-      const double slide = -(beyond_m + 0.5 * change_m) * kPerMetre;  // a shrinking path pulls the cable towards the motor
+      const double slide =
+          -(beyond_m + 0.5 * change_m) * kPerMetre;  // a shrinking path pulls the cable towards the motor
       beyond_m += change_m;
       slip.part_m[c][j] = geometry.part_m[c][j];
       const double sigma = slip.sigma[c][j];
@@ -29,13 +30,14 @@ void advance_slip(const CableLayout& layout, const CableGeometry& geometry, Slip
   }
 }
 
-void update_tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, const SlipState& slip,
-                          TensionRatio& ratio) noexcept {
+void update_tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig,
+                          const SlipState& slip, TensionRatio& ratio) noexcept {
   SegmentVector half_rate = cable_wraps(table, trig);
   for (double& rate : half_rate) rate *= -0.5 * table.friction_mu;
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     double at_entry = 1.0;
-    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); j += 2) {  // two segments at a time; nothing slips beyond the cable's own
+    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]);
+         j += 2) {  // two segments at a time; nothing slips beyond the cable's own
       const Pair half = exponential(load_pair(&half_rate[j]) * load_pair(&slip.sigma[c][j]));
       const double at_next = at_entry * (half[0] * half[0]);
       store_pair(Pair{at_entry, at_next} * half, &ratio[c][j]);
@@ -44,7 +46,8 @@ void update_tension_ratio(const RobotTable& table, const CableLayout& layout, co
   }
 }
 
-TensionRatio tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig, const SlipState& slip) noexcept {
+TensionRatio tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig,
+                           const SlipState& slip) noexcept {
   TensionRatio ratio{};
   update_tension_ratio(table, layout, trig, slip, ratio);
   return ratio;

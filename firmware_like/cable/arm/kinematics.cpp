@@ -14,10 +14,12 @@ using Index = std::size_t;
 struct Bend {
   double w, y, z;
 };
-inline Bend bend_of(const SegmentTrig& t) noexcept { return {t.cos_pitch * t.cos_yaw, t.sin_yaw, t.sin_pitch * t.cos_yaw}; }
+inline Bend bend_of(const SegmentTrig& t) noexcept {
+  return {t.cos_pitch * t.cos_yaw, t.sin_yaw, t.sin_pitch * t.cos_yaw};
+}
 
-// Chebyshev sums of a segment of n modules: C = sum T_k, S = sum U_(k-1), k = 1..n, and T = T_h, U = U_(h-1) at h = floor(n / 2). All
-// follow from U_(h-1) and U_h:
+// Chebyshev sums of a segment of n modules: C = sum T_k, S = sum U_(k-1), k = 1..n, and T = T_h, U = U_(h-1) at h =
+// floor(n / 2). All follow from U_(h-1) and U_h:
 //   T_h = U_h - w U_(h-1),  T_(h+1) = w U_h - U_(h-1),
 //   n = 2 h:      C = U_(h-1) (T_h + T_(h+1)),  S = U_(h-1) (U_(h-1) + U_h),
 //   n = 2 h + 1:  C + T_n,  S + U_(n-1)  with T_n = 2 T_h T_(h+1) - w,  U_(n-1) = U_h^2 - U_(h-1)^2.
@@ -78,7 +80,8 @@ inline Vec3 apply(const Rotation& r, const Vec3& v) noexcept { return {dot(r.x, 
 
 // q (w, 0, y, z): the rotation of a segment has no x component.
 inline Quat times_planar(const Quat& q, double w, double y, double z) noexcept {
-  return {q[0] * w - q[2] * y - q[3] * z, q[1] * w + q[2] * z - q[3] * y, q[0] * y + q[2] * w - q[1] * z, q[0] * z + q[1] * y + q[3] * w};
+  return {q[0] * w - q[2] * y - q[3] * z, q[1] * w + q[2] * z - q[3] * y, q[0] * y + q[2] * w - q[1] * z,
+          q[0] * z + q[1] * y + q[3] * w};
 }
 
 // An odd number of modules ends with one Rz(pitch) Ry(yaw) more than the planar rotation has: its half angles.
@@ -91,8 +94,8 @@ Quat odd_module(const SegmentTrig& t) noexcept {
 bool is_odd(const SegmentTable& segment) noexcept { return segment.modules % 2 == 1; }
 
 // Pose of the end of a segment that starts at `root`, whose matrix is `frame`.
-inline Pose segment_end(const SegmentTable& segment, const SegmentTrig& t, const Bend& bend, const ChebyshevSums& c, const Pose& root,
-                        const Rotation& frame) noexcept {
+inline Pose segment_end(const SegmentTable& segment, const SegmentTrig& t, const Bend& bend, const ChebyshevSums& c,
+                        const Pose& root, const Rotation& frame) noexcept {
   const double l = segment.module_length_m;
   const Vec3 along{l * c.C, l * c.S * bend.z, -l * c.S * bend.y};
   Pose end{add(root.position_m, apply(frame, along)), times_planar(root.quaternion, c.T, c.U * bend.y, c.U * bend.z)};
@@ -109,15 +112,18 @@ struct EndRates {
 };
 
 PairVec apply(const Rotation& r, const PairVec& v) noexcept {
-  return {both(r.x[0]) * v.x + both(r.x[1]) * v.y + both(r.x[2]) * v.z, both(r.y[0]) * v.x + both(r.y[1]) * v.y + both(r.y[2]) * v.z,
+  return {both(r.x[0]) * v.x + both(r.x[1]) * v.y + both(r.x[2]) * v.z,
+          both(r.y[0]) * v.x + both(r.y[1]) * v.y + both(r.y[2]) * v.z,
           both(r.z[0]) * v.x + both(r.z[1]) * v.y + both(r.z[2]) * v.z};
 }
 
 // In the frame of the segment's root.
-inline EndRates end_rates(const SegmentTable& segment, const SegmentTrig& t, const Bend& bend, const ChebyshevSums& c) noexcept {
+inline EndRates end_rates(const SegmentTable& segment, const SegmentTrig& t, const Bend& bend,
+                          const ChebyshevSums& c) noexcept {
   const ChebyshevSlopes d = chebyshev_slopes(bend.w, segment.modules, c);
   const Pair dw{-bend.z, -t.cos_pitch * t.sin_yaw}, dy{0.0, t.cos_yaw}, dz{bend.w, -t.sin_pitch * t.sin_yaw};
-  const double l = segment.module_length_m, y = c.U * bend.y, z = c.U * bend.z;  // y, z of the segment's quaternion (T, 0, y, z)
+  const double l = segment.module_length_m, y = c.U * bend.y,
+               z = c.U * bend.z;  // y, z of the segment's quaternion (T, 0, y, z)
   const Pair dS = d.dS * dw, dT = d.dT * dw, dU = d.dU * dw;
   const Pair qy = dU * bend.y + c.U * dy, qz = dU * bend.z + c.U * dz;  // their derivatives
   EndRates rates{{l * d.dC * dw, l * (dS * bend.z + c.S * dz), -l * (dS * bend.y + c.S * dy)},
@@ -172,7 +178,8 @@ void update_kinematics(const RobotTable& table, const ArmTrig& trig, ArmKinemati
   }
   out.tip_in_base = out.node_in_base[segments];
   for (Index i = 0; i < segments; ++i) {
-    put_columns(end[i], subtract(out.tip_in_base.position_m, out.node_in_base[i + 1].position_m), 2 * i, out.tip_jacobian);
+    put_columns(end[i], subtract(out.tip_in_base.position_m, out.node_in_base[i + 1].position_m), 2 * i,
+                out.tip_jacobian);
   }
 }
 
@@ -187,7 +194,8 @@ Pose tip_pose(const RobotTable& table, const ArmTrig& trig) noexcept {
   for (Index i = 0; i < static_cast<Index>(table.segment_count); ++i) {
     const SegmentTable& segment = table.segment[i];
     const Bend bend = bend_of(trig[i]);
-    tip = segment_end(segment, trig[i], bend, chebyshev_sums(bend.w, segment.modules), tip, rotation_of(tip.quaternion));
+    tip =
+        segment_end(segment, trig[i], bend, chebyshev_sums(bend.w, segment.modules), tip, rotation_of(tip.quaternion));
   }
   return tip;
 }
@@ -198,7 +206,8 @@ ArmKinematics forward_kinematics(const RobotTable& table, const ThetaVector& the
 
 Vec3 node_jacobian_column(const ArmKinematics& kinematics, std::int32_t node, std::int32_t column) noexcept {
   if (column >= 2 * node) return {0.0, 0.0, 0.0};
-  const Vec3 lever = subtract(kinematics.node_in_base[static_cast<Index>(node)].position_m, kinematics.tip_in_base.position_m);
+  const Vec3 lever =
+      subtract(kinematics.node_in_base[static_cast<Index>(node)].position_m, kinematics.tip_in_base.position_m);
   const Index k = static_cast<Index>(column);
   return add(kinematics.tip_jacobian.linear[k], cross(kinematics.tip_jacobian.angular[k], lever));
 }

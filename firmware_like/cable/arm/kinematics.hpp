@@ -1,7 +1,8 @@
 // Forward kinematics and reduced Jacobian of the equal-angle arm, in closed form (mission figures A1, A2).
 //
-// A segment of n modules bent by (pitch a, yaw b) is planar: with w = cos a cos b = cos psi, y = sin b, z = sin a cos b,
-// link k points along T_k(w) e_x + U_(k-1)(w) (0, z, -y) (Chebyshev polynomials), in the frame of the segment's root.
+// A segment of n modules bent by (pitch a, yaw b) is planar: with w = cos a cos b = cos psi, y = sin b, z = sin a cos
+// b, link k points along T_k(w) e_x + U_(k-1)(w) (0, z, -y) (Chebyshev polynomials), in the frame of the segment's
+// root.
 #pragma once
 
 #include <array>
@@ -20,7 +21,8 @@ struct SegmentTrig {
 using ArmTrig = std::array<SegmentTrig, kMaxSegments>;
 
 // Sine and cosine of all angles; theta in radians, any size within 1000.
-void update_trig(const RobotTable& table, const ThetaVector& theta_rad, ArmTrig& trig) noexcept;  // all that the table uses is written
+void update_trig(const RobotTable& table, const ThetaVector& theta_rad,
+                 ArmTrig& trig) noexcept;  // all that the table uses is written
 ArmTrig arm_trig(const RobotTable& table, const ThetaVector& theta_rad) noexcept;
 
 // Columns are thetas; linear m/rad, angular rad/rad, of one point in the base frame.
@@ -38,9 +40,10 @@ struct ArmKinematics {
   Jacobian tip_jacobian{};  // 6 x theta_count
 };
 
-// Pose of every node and the 6x10 Jacobian of the tip. Cost: one closed form per segment, no loop over modules beyond the Chebyshev sums;
-// derived in docs/kinematics.md.
-void update_kinematics(const RobotTable& table, const ArmTrig& trig, ArmKinematics& out) noexcept;  // all that the table uses is written
+// Pose of every node and the 6x10 Jacobian of the tip. Cost: one closed form per segment, no loop over modules beyond
+// the Chebyshev sums; derived in docs/kinematics.md.
+void update_kinematics(const RobotTable& table, const ArmTrig& trig,
+                       ArmKinematics& out) noexcept;  // all that the table uses is written
 ArmKinematics forward_kinematics(const RobotTable& table, const ArmTrig& trig) noexcept;
 ArmKinematics forward_kinematics(const RobotTable& table, const ThetaVector& theta_rad) noexcept;
 

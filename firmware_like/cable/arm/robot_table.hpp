@@ -40,9 +40,10 @@ struct TensionLimits {
   double hard_limit_N = 0.0;
 };
 
-// How well cables have to agree with what is known about them (docs/cables.md). The defaults fit readings of 0.6 N and 0.3 %.
+// How well cables have to agree with what is known about them (docs/cables.md). The defaults fit readings of 0.6 N and
+// 0.3 %.
 struct CableWatchTable {
-  double jump_N = 7.0;              // most that tension may change in a tick without length or planned pose to explain it
+  double jump_N = 7.0;  // most that tension may change in a tick without length or planned pose to explain it
   double contradiction_m = 100e-6;  // most that a segment's lengths may come to contradict each other, without friction
 };
 

@@ -59,7 +59,8 @@ struct Shifts {
   double most = 1e3;    // largest s under the ceiling
 };
 
-Shifts shifts_for(const AnchoredVector& t, const AnchoredVector& null, Index n, const TensionLimits& limits, double margin_N) noexcept {
+Shifts shifts_for(const AnchoredVector& t, const AnchoredVector& null, Index n, const TensionLimits& limits,
+                  double margin_N) noexcept {
   constexpr double kWidth_N = 2.0;
   Shifts s;
   for (Index i = 0; i < n; ++i) {
@@ -79,7 +80,8 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
   TensionPlan plan;
   const Index cables = static_cast<Index>(table.cable_count());
   Index first = cables;
-  const double margin_N = table.friction_mu > kMarginFriction ? kFloorMargin_N * kMarginFriction / table.friction_mu : kFloorMargin_N;
+  const double margin_N =
+      table.friction_mu > kMarginFriction ? kFloorMargin_N * kMarginFriction / table.friction_mu : kFloorMargin_N;
   for (std::int32_t m = table.segment_count - 1; m >= 0; --m) {
     const Index j = static_cast<Index>(m);
     const Index n = static_cast<Index>(table.segment[j].cables);
@@ -123,14 +125,15 @@ void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVec
   Index c = 0;
   for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
     double missing_N = 0.0;
-    for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c) missing_N = larger(missing_N, enough_N - tension_N[c]);
+    for (std::int32_t i = 0; i < table.segment[j].cables; ++i, ++c)
+      missing_N = larger(missing_N, enough_N - tension_N[c]);
     const double rate_N_s = kLiftRate_1_s * missing_N - lift_N[j] / kLiftLeak_s;
     lift_N[j] = smaller(lift_N[j] + rate_N_s * table.tick_s, limit_N);
   }
 }
 
-CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m, const TensionRatio& ratio,
-                       const CableVector& motor_N) noexcept {
+CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m,
+                       const TensionRatio& ratio, const CableVector& motor_N) noexcept {
   CableVector payout{};
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     const double strain = motor_N[c] / table.cable_EA_N;

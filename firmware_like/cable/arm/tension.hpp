@@ -1,8 +1,9 @@
 // Tension plan and elongation: what the motors must pull so that the arm stands where the kinematics says.
 //
-// Balance B^T t = 0 with B = dL/dtheta weighted by friction (physics study, section 2). Segments are swept from the tip to the root: the
-// cables of a segment are the only ones left that turn its two angles, so each sweep solves two equations for its cables and has freedom
-// left to bring them near the planned tension and above the floor. All formulas are smooth, so that tensions never jump.
+// Balance B^T t = 0 with B = dL/dtheta weighted by friction (physics study, section 2). Segments are swept from the tip
+// to the root: the cables of a segment are the only ones left that turn its two angles, so each sweep solves two
+// equations for its cables and has freedom left to bring them near the planned tension and above the floor. All
+// formulas are smooth, so that tensions never jump.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,8 @@
 
 namespace liana::cable {
 
-// Planned tension stays this far above the floor: motion and unknown friction take up to 20 N off a cable (measured over whole missions).
+// Planned tension stays this far above the floor: motion and unknown friction take up to 20 N off a cable (measured
+// over whole missions).
 constexpr double kFloorMargin_N = 22.0;
 constexpr double kMarginFriction =
     0.08;  // above this mu the margin shrinks with 1 / mu: friction spreads tensions, and less fits under the ceiling
@@ -25,14 +27,15 @@ struct TensionPlan {
   bool balanced = true;           // false: a segment's cables cannot turn both angles (degenerate table)
 };
 
-// Plan at one pose around the table's level at the motor, every segment `lift_N` further above the floor (zero: as planned without
-// measurements). Residual torque is below 1e-9 N m when balanced.
+// Plan at one pose around the table's level at the motor, every segment `lift_N` further above the floor (zero: as
+// planned without measurements). Residual torque is below 1e-9 N m when balanced.
 TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
                          const SegmentVector& lift_N) noexcept;
 
-// Friction that the plan does not know can take a cable further down than the margin. A segment whose lowest measured tension nears the
-// floor is pulled tighter, which turns no joint. First order, slower than the arm's modes. The more friction, the less lift, and none above
-// kMarginFriction: there more tension brings more friction than it repairs (with mu 0.1 it let cables go slack in whole missions).
+// Friction that the plan does not know can take a cable further down than the margin. A segment whose lowest measured
+// tension nears the floor is pulled tighter, which turns no joint. First order, slower than the arm's modes. The more
+// friction, the less lift, and none above kMarginFriction: there more tension brings more friction than it repairs
+// (with mu 0.1 it let cables go slack in whole missions).
 constexpr double kLiftBelow_N = 9.0;   // over the floor: under it the lift rises
 constexpr double kLiftRate_1_s = 3.0;  // share of what is missing, per second
 constexpr double kLiftLeak_s = 5.0;    // time constant of letting go
@@ -41,8 +44,9 @@ constexpr double kLiftLimit_N = 20.0;  // without friction
 // One tick of that lift from measured tensions at the motor, low-passed.
 void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVector& lift_N) noexcept;
 
-// Unstretched length from drum to anchor when the cables are pulled with motor_N: the elastic part is taken off piece by piece.
-CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m, const TensionRatio& ratio,
-                       const CableVector& motor_N) noexcept;
+// Unstretched length from drum to anchor when the cables are pulled with motor_N: the elastic part is taken off piece
+// by piece.
+CableVector payout_for(const RobotTable& table, const CableLayout& layout, const CableParts& part_m,
+                       const TensionRatio& ratio, const CableVector& motor_N) noexcept;
 
 }  // namespace liana::cable

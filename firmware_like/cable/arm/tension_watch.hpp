@@ -9,9 +9,11 @@
 
 namespace liana::cable {
 
-constexpr std::uint16_t kSlackDebounceTicks = 25;  // far longer than a stick-slip dip, far shorter than a cable leaving its drum
-constexpr std::uint16_t kBreakDebounceTicks = 3;   // one wrong torque sample is not a break
-constexpr double kBreakShare = 0.5;  // of the tension floor: a cable that was so tight a moment ago does not come loose by itself
+constexpr std::uint16_t kSlackDebounceTicks =
+    25;  // far longer than a stick-slip dip, far shorter than a cable leaving its drum
+constexpr std::uint16_t kBreakDebounceTicks = 3;  // one wrong torque sample is not a break
+constexpr double kBreakShare =
+    0.5;  // of the tension floor: a cable that was so tight a moment ago does not come loose by itself
 constexpr std::uint16_t kAlarmDebounceTicks = 25;
 constexpr std::uint16_t kOverloadDebounceTicks = 3;  // one wrong torque sample is not an overload
 
@@ -40,7 +42,8 @@ struct TensionReading {
   bool follows = true;     // its motor is where it was told to be
 };
 
-// Latches what is wrong with cable `index` in this tick. Slack is looked for once the arm is prepared, overload while drives are powered.
+// Latches what is wrong with cable `index` in this tick. Slack is looked for once the arm is prepared, overload while
+// drives are powered.
 void watch_tension(const TensionWatchLimits& limits, WatchScope scope, const TensionReading& now, std::int32_t index,
                    TensionWatchState& state, Watch& out) noexcept;
 

@@ -15,7 +15,8 @@ using Index = std::size_t;
 constexpr double kCableShare = 0.8;  // of the cable speed limit; the rest is for tension changes and damping
 
 // Factor <= 1 that brings the fastest cable under `share` of the cable speed limit.
-double cable_factor(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& rate, double share) noexcept {
+double cable_factor(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& rate,
+                    double share) noexcept {
   double fastest = 0.0;
   Index c = 0;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
@@ -61,14 +62,15 @@ StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, 
   return out;
 }
 
-void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad, LimiterState& state,
-                  bool judged) noexcept {
+void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad,
+                  LimiterState& state, bool judged) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const double h = table.tick_s;
   const double accel = table.limits.theta_accel_rad_s2;
   ThetaVector wanted{};
   for (Index k = 0; k < n; ++k) {
-    wanted[k] = wanted_rate(state.reference_rad[k] - state.theta_rad[k], (reference_rad[k] - state.reference_rad[k]) / h, accel, h);
+    wanted[k] = wanted_rate(state.reference_rad[k] - state.theta_rad[k],
+                            (reference_rad[k] - state.reference_rad[k]) / h, accel, h);
   }
   const bool follows = judged && state.reference_rad == state.theta_rad;
   const double factor = follows ? 1.0 : cable_factor(table, geometry, wanted, kCableShare);
@@ -94,7 +96,8 @@ void limit_motion(const RobotTable& table, const CableGeometry& geometry, const 
 
 double largest_rate(const RobotTable& table, const LimiterState& state) noexcept {
   double largest = 0.0;
-  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) largest = larger(largest, std::fabs(state.rate_rad_s[k]));
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
+    largest = larger(largest, std::fabs(state.rate_rad_s[k]));
   return largest;
 }
 

@@ -18,9 +18,9 @@ struct LimiterState {
 // Starts at rest at theta.
 void reset_limiter(const ThetaVector& theta_rad, LimiterState& state) noexcept;
 
-// Share (0..1) of a step of one tick [rad] that rate, cable speed and acceleration allow, and the LimitBits that keep it below 1. Whoever
-// takes only this share of his motion slows down on his path instead of being left behind by the limiter. Joints that would have to brake
-// harder than they can come before joints that would have to speed up faster.
+// Share (0..1) of a step of one tick [rad] that rate, cable speed and acceleration allow, and the LimitBits that keep
+// it below 1. Whoever takes only this share of his motion slows down on his path instead of being left behind by the
+// limiter. Joints that would have to brake harder than they can come before joints that would have to speed up faster.
 struct StepShare {
   double share = 1.0;
   std::uint32_t limits = 0;
@@ -28,12 +28,12 @@ struct StepShare {
 StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& step_rad,
                         const LimiterState& state) noexcept;
 
-// One tick towards `reference` (which may move). Follows exactly while its rate and acceleration are inside the limits; otherwise it lags
-// and comes back along a braking parabola, past a standing reference by accel tick^2 / 8 at most (8e-6 deg), and never past a joint limit.
-// `geometry` is the cable Jacobian for the cable speed limit, which is not looked at again while a reference that was `judged` by
-// allowed_share is followed exactly.
-void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad, LimiterState& state,
-                  bool judged = false) noexcept;
+// One tick towards `reference` (which may move). Follows exactly while its rate and acceleration are inside the limits;
+// otherwise it lags and comes back along a braking parabola, past a standing reference by accel tick^2 / 8 at most
+// (8e-6 deg), and never past a joint limit. `geometry` is the cable Jacobian for the cable speed limit, which is not
+// looked at again while a reference that was `judged` by allowed_share is followed exactly.
+void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad,
+                  LimiterState& state, bool judged = false) noexcept;
 
 // Largest |rate| of the command [rad/s].
 double largest_rate(const RobotTable& table, const LimiterState& state) noexcept;

@@ -2,20 +2,22 @@
 
 #include <cmath>
 
-#include "firmware_like/safety/limits.hpp"
-#include "firmware_like/math/scalar.hpp"
 #include "firmware_like/cable/shape/shape.hpp"
+#include "firmware_like/math/scalar.hpp"
+#include "firmware_like/safety/limits.hpp"
 
 namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
 
-constexpr double kHeldShare = 0.4;           // of the theta limits that held variables use on their way
-constexpr double kBehind = 1e-4;             // m and rad: from here the target does not wait, or a blocked arm could not be led away
-constexpr double kHeldNear_rad = 2e-6;       // from here a held variable that has slowed down
-constexpr double kHeldSlow_rad_s = 2e-5;     // to this rate
-constexpr double kHeldArrival_rad_s = 7e-5;  // goes the rest straight: others make up for its steps many times magnified
+constexpr double kHeldShare = 0.4;  // of the theta limits that held variables use on their way
+constexpr double kBehind =
+    1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
+constexpr double kHeldNear_rad = 2e-6;    // from here a held variable that has slowed down
+constexpr double kHeldSlow_rad_s = 2e-5;  // to this rate
+constexpr double kHeldArrival_rad_s =
+    7e-5;  // goes the rest straight: others make up for its steps many times magnified
 
 bool is_tip(const Setpoint& setpoint) noexcept { return setpoint.kind == CommandKind::kTip; }
 
@@ -48,7 +50,8 @@ void advance_held(const RobotTable& table, MotionState& state) noexcept {
 
 // Share of the way from `from` to `to` that is over.
 double interval_share(const RobotTable& table, const MotionState& state) noexcept {
-  return state.interval_tick >= table.interval_ticks ? 1.0 : static_cast<double>(state.interval_tick) / table.interval_ticks;
+  return state.interval_tick >= table.interval_ticks ? 1.0
+                                                     : static_cast<double>(state.interval_tick) / table.interval_ticks;
 }
 
 Pose interpolated_target(const RobotTable& table, const MotionState& state) noexcept {
@@ -80,7 +83,8 @@ void report_again(const RobotTable& table, MotionState& state) noexcept {
   if (ik.outcome == IkOutcome::kConverged && !converged) ik.outcome = IkOutcome::kApproaching;
 }
 
-// Takes only a share of this tick's motion, of the target as of the joints: the arm slows down on its path and does not leave it.
+// Takes only a share of this tick's motion, of the target as of the joints: the arm slows down on its path and does not
+// leave it.
 void slow_down(const RobotTable& table, double share, const Pose& target_before, const ThetaVector& ik_before,
                MotionState& state) noexcept {
   if (state.ik.position_error_m + state.ik.attitude_error_rad < kBehind) {
@@ -99,8 +103,8 @@ void slow_down(const RobotTable& table, double share, const Pose& target_before,
   report_again(table, state);
 }
 
-// A shape that is fast already keeps the pace beside the tip until it has slowed down, or it would shoot past; so does one that has to
-// stop.
+// A shape that is fast already keeps the pace beside the tip until it has slowed down, or it would shoot past; so does
+// one that has to stop.
 const ShapePace& shape_pace(const RobotTable& table, bool braking, const MotionState& state) noexcept {
   if (braking || !state.held_at_target || !at_rest(state.filter)) return kShapeBesideTip;
   double fastest = 0.0;
@@ -155,8 +159,9 @@ void follow_joints(const RobotTable& table, bool braking, MotionState& state) no
   }
 }
 
-// Braking of joint motion: the fastest joint as hard as it may, the others in proportion. All come to rest together and the arm stays on
-// its path; joints that stop one by one would no longer cancel at the tip, and the tip would move faster for a while.
+// Braking of joint motion: the fastest joint as hard as it may, the others in proportion. All come to rest together and
+// the arm stays on its path; joints that stop one by one would no longer cancel at the tip, and the tip would move
+// faster for a while.
 void brake_joints(const RobotTable& table, MotionState& state) noexcept {
   const double fastest = largest_rate(table, state.limiter);
   const double change = table.limits.theta_accel_rad_s2 * table.tick_s;
@@ -224,11 +229,13 @@ void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionSt
     const bool newly_held = ((held_mask >> k) & 1u) != 0 && ((state.held_mask >> k) & 1u) == 0;
     if (newly_held) state.held[k] = HeldProfile{state.ik_rad[k], {{state.limiter.rate_rad_s[k], 0.0, 0.0}, {}}};
   }
-  // A changed mask changes how thetas share the tip's motion. What they do now lives on as shape velocity, which goes over smoothly.
+  // A changed mask changes how thetas share the tip's motion. What they do now lives on as shape velocity, which goes
+  // over smoothly.
   if (is_tip(setpoint) && held_mask != state.held_mask) state.shape.rate_rad_s = state.limiter.rate_rad_s;
   state.held_mask = held_mask;
   state.to = setpoint;
-  state.turn_rad = rotation_vector(multiply(state.to.tip_in_base.quaternion, conjugate(state.from.tip_in_base.quaternion)));
+  state.turn_rad =
+      rotation_vector(multiply(state.to.tip_in_base.quaternion, conjugate(state.from.tip_in_base.quaternion)));
   state.interval_tick = 0;
   state.braking = false;
 }

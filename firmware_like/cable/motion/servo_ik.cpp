@@ -15,7 +15,9 @@ bool is_set(std::uint32_t mask, Index i) noexcept { return ((mask >> i) & 1u) !=
 
 double limit_of(const RobotTable& table, Index theta) noexcept { return table.segment[theta / 2].theta_limit_rad; }
 
-double size2(const Task& e) noexcept { return e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3] + e[4] * e[4] + e[5] * e[5]; }
+double size2(const Task& e) noexcept {
+  return e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3] + e[4] * e[4] + e[5] * e[5];
+}
 
 // J J^T + damping I over the thetas that `fixed` leaves free, factored.
 struct TaskSolver {
@@ -104,9 +106,10 @@ Step solve_step(const TaskSolver& solver, const Jacobian& J, Index n, const Task
   return step;
 }
 
-// Sets thetas that the step would carry over their limit onto it; returns those newly fixed and takes their share from e.
-std::uint32_t clip_to_limits(const RobotTable& table, const Jacobian& J, std::uint32_t fixed, const ThetaVector& step, ThetaVector& theta,
-                             Task& e) noexcept {
+// Sets thetas that the step would carry over their limit onto it; returns those newly fixed and takes their share from
+// e.
+std::uint32_t clip_to_limits(const RobotTable& table, const Jacobian& J, std::uint32_t fixed, const ThetaVector& step,
+                             ThetaVector& theta, Task& e) noexcept {
   std::uint32_t clipped = 0;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double limit = limit_of(table, k), wanted = theta[k] + step[k];
@@ -177,8 +180,10 @@ double damping_for(const IkGoal& goal, const Task& e) noexcept {
   return goal.curvature_m > 0.0 ? kDamping + goal.curvature_m * std::sqrt(e2) : kDamping + e2;
 }
 
-IkOutcome outcome_of(const RobotTable& table, const IkGoal& goal, const IkReport& report, double asked2, double left2) noexcept {
-  if (report.position_error_m <= kIkConverged && report.attitude_error_rad <= kIkConverged) return IkOutcome::kConverged;
+IkOutcome outcome_of(const RobotTable& table, const IkGoal& goal, const IkReport& report, double asked2,
+                     double left2) noexcept {
+  if (report.position_error_m <= kIkConverged && report.attitude_error_rad <= kIkConverged)
+    return IkOutcome::kConverged;
   if (norm(goal.tip_in_base.position_m) > arm_length_m(table)) return IkOutcome::kUnreachable;
   if (left2 <= kIkBlockedShare * kIkBlockedShare * asked2) return IkOutcome::kApproaching;
   return report.limit_mask != 0 ? IkOutcome::kLimited : IkOutcome::kSingular;
@@ -196,10 +201,12 @@ IkReport ik_step(const RobotTable& table, const IkGoal& goal, double damping, Th
   return report;
 }
 
-IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, ThetaVector& theta_rad) noexcept {
+IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm,
+                  ThetaVector& theta_rad) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const Task asked = pose_error(goal.tip_in_base, arm.tip_in_base);
-  const DampedMove move = move_damped(table, arm.tip_jacobian, goal.held_mask, damping_for(goal, asked), asked, theta_rad);
+  const DampedMove move =
+      move_damped(table, arm.tip_jacobian, goal.held_mask, damping_for(goal, asked), asked, theta_rad);
   ArmTrig trig;  // only what the table uses is written, and read
   update_trig(table, theta_rad, trig);
   const Task rest = pose_error(goal.tip_in_base, tip_pose(table, trig));

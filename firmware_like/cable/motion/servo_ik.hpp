@@ -1,11 +1,14 @@
-// Servo IK: joint angles that follow a moving tip pose, a constant number of iterations per tick (mission figures A2, A5, A6).
+// Servo IK: joint angles that follow a moving tip pose, a constant number of iterations per tick (mission figures A2,
+// A5, A6).
 //
-// Damped least squares on the free thetas: dtheta = J^T (J J^T + mu I)^-1 e. Held thetas are removed from the iteration and moved only by
-// their own profile. A free theta that would pass its limit is set onto it and removed, and the rest is solved again. What the tip leaves
-// free is moved by motion/shape.hpp. Outcomes and ways out: docs/follow-a-command.md.
+// Damped least squares on the free thetas: dtheta = J^T (J J^T + mu I)^-1 e. Held thetas are removed from the iteration
+// and moved only by their own profile. A free theta that would pass its limit is set onto it and removed, and the rest
+// is solved again. What the tip leaves free is moved by motion/shape.hpp. Outcomes and ways out:
+// docs/follow-a-command.md.
 //
-// mu = kDamping + c |e| for a target that is followed. The tip's path bends by c = kTipCurvature_m per rad2; where an error e cannot be
-// taken away, as just beyond the stretched arm, a step with less damping than c |e| overshoots, and the next one jumps back. mu = kDamping
+// mu = kDamping + c |e| for a target that is followed. The tip's path bends by c = kTipCurvature_m per rad2; where an
+// error e cannot be taken away, as just beyond the stretched arm, a step with less damping than c |e| overshoots, and
+// the next one jumps back. mu = kDamping
 // + e.e for goals, where far jumps are what helps.
 #pragma once
 
@@ -18,11 +21,12 @@
 
 namespace liana::cable {
 
-constexpr std::int32_t kLimitPasses = 3;   // re-solves per iteration, at most
-constexpr double kDamping = 1e-6;          // m2/rad2; singular directions slow down below |sigma| = 1e-3
-constexpr double kTipCurvature_m = 200.0;  // per rad2: eight joints turn by one theta, 64 times the length behind them; less at the tip
-constexpr double kIkConverged = 1e-6;      // m and rad
-constexpr double kIkBlockedShare = 0.5;    // of the error that a step leaves: more is not on its way any more
+constexpr std::int32_t kLimitPasses = 3;  // re-solves per iteration, at most
+constexpr double kDamping = 1e-6;         // m2/rad2; singular directions slow down below |sigma| = 1e-3
+constexpr double kTipCurvature_m =
+    200.0;  // per rad2: eight joints turn by one theta, 64 times the length behind them; less at the tip
+constexpr double kIkConverged = 1e-6;    // m and rad
+constexpr double kIkBlockedShare = 0.5;  // of the error that a step leaves: more is not on its way any more
 
 struct IkGoal {
   Pose tip_in_base{};
@@ -41,8 +45,10 @@ struct IkReport {
 // One damped step of the free thetas towards the goal; limits respected exactly. Reports the tip error before the step.
 IkReport ik_step(const RobotTable& table, const IkGoal& goal, double damping, ThetaVector& theta_rad) noexcept;
 
-// What a tick does: a damped step from `arm`, then a correction with the same factors for what curvature left. `theta_rad` may be off
-// `arm` by a small null-space move. Reports the tip error before the correction. Cost: one factorisation per limit pass, one tip pose.
-IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, ThetaVector& theta_rad) noexcept;
+// What a tick does: a damped step from `arm`, then a correction with the same factors for what curvature left.
+// `theta_rad` may be off `arm` by a small null-space move. Reports the tip error before the correction. Cost: one
+// factorisation per limit pass, one tip pose.
+IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm,
+                  ThetaVector& theta_rad) noexcept;
 
 }  // namespace liana::cable

@@ -1,14 +1,14 @@
-// The dual active-set method of Goldfarb and Idnani (Math. Program. 27, 1983) for a point and bounds on the thetas, in B lanes of four
-// coordinates: which bounds hold the point back, and with what force. For bounds.cpp alone.
+// The dual active-set method of Goldfarb and Idnani (Math. Program. 27, 1983) for a point and bounds on the thetas, in
+// B lanes of four coordinates: which bounds hold the point back, and with what force. For bounds.cpp alone.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstdint>
 
-#include "firmware_like/math/scalar.hpp"
 #include "firmware_like/cable/shape/bounds.hpp"
 #include "firmware_like/cable/shape/lanes.hpp"
+#include "firmware_like/math/scalar.hpp"
 
 namespace liana::cable {
 
@@ -19,7 +19,9 @@ struct Frame {
   std::size_t thetas;
   const ThetaBounds* bounds;
 
-  double bound(std::size_t theta, double side) const noexcept { return side > 0.0 ? bounds->high[theta] : -bounds->low[theta]; }
+  double bound(std::size_t theta, double side) const noexcept {
+    return side > 0.0 ? bounds->high[theta] : -bounds->low[theta];
+  }
 };
 
 // One bound that holds y back, and its force.
@@ -28,12 +30,14 @@ struct Active {
   double side, force;
 };
 
-// All of them in the order in which they came, at most one per dimension: normals q r with orthonormal q and triangular r.
+// All of them in the order in which they came, at most one per dimension: normals q r with orthonormal q and triangular
+// r.
 template <std::size_t B>
 struct ActiveSet {
   std::array<Active, 4 * B> bound;
   std::array<Lanes<B>, 4 * B> q;
-  std::array<std::array<double, 4 * B>, 4 * B + 1> r;  // r[i]: column of bound i; the last one is of a bound that is yet to come
+  std::array<std::array<double, 4 * B>, 4 * B + 1>
+      r;  // r[i]: column of bound i; the last one is of a bound that is yet to come
   std::size_t count = 0;
 };
 
@@ -97,7 +101,8 @@ Pressed press(const Frame<B>& frame, Active& added, ActiveSet<B>& active, Lanes<
     double left = active.r[count][i];
     for (std::size_t j = i + 1; j < count; ++j) left -= active.r[j][i] * yield[j];
     yield[i] = left / active.r[i][i];
-    if (yield[i] > 0.0 && active.bound[i].force < more * yield[i]) more = active.bound[i].force / yield[i], released = i;
+    if (yield[i] > 0.0 && active.bound[i].force < more * yield[i])
+      more = active.bound[i].force / yield[i], released = i;
   }
   if (!moves && released == count) return Pressed::kContradicted;
   for (std::size_t i = 0; i < count; ++i) active.bound[i].force -= more * yield[i];

@@ -70,7 +70,8 @@ void take_axes(const NullSpace& space, const ShapeFactor* factor, Frame<B>& fram
 
 // Moves y to the nearest point within bounds; false when that takes more passes.
 template <Index B>
-bool restrict_in(const NullSpace& space, const Frame<B>& frame, std::int32_t passes, HeldBounds& held, Lanes<B>& y) noexcept {
+bool restrict_in(const NullSpace& space, const Frame<B>& frame, std::int32_t passes, HeldBounds& held,
+                 Lanes<B>& y) noexcept {
   ActiveSet<B> active;
   if ((held.low | held.high) != 0) begin_with(frame, held, active, y);
   Active added{};
@@ -93,8 +94,8 @@ bool restrict_in(const NullSpace& space, const Frame<B>& frame, std::int32_t pas
 
 // The same from z to z, in a metric or (nullptr) without.
 template <Index B>
-bool restrict_coordinates(const NullSpace& space, const ShapeFactor* factor, const ThetaBounds& bounds, std::int32_t passes,
-                          HeldBounds& held, NullVector& z) noexcept {
+bool restrict_coordinates(const NullSpace& space, const ShapeFactor* factor, const ThetaBounds& bounds,
+                          std::int32_t passes, HeldBounds& held, NullVector& z) noexcept {
   Frame<B> frame;
   frame.thetas = static_cast<Index>(space.theta_count);
   frame.bounds = &bounds;
@@ -115,8 +116,8 @@ bool restrict_coordinates(const NullSpace& space, const ShapeFactor* factor, con
   return inside;
 }
 
-void restrict_point(const NullSpace& space, const ShapeFactor* factor, const ThetaBounds& bounds, std::int32_t passes, HeldBounds& held,
-                    NullPoint& point) noexcept {
+void restrict_point(const NullSpace& space, const ShapeFactor* factor, const ThetaBounds& bounds, std::int32_t passes,
+                    HeldBounds& held, NullPoint& point) noexcept {
   if (worst_violation(space, bounds, point.theta_rad).side == 0.0) {
     held = HeldBounds{};
     return;
@@ -146,12 +147,13 @@ void scale_by(const NullSpace& space, double factor, NullPoint& point) noexcept 
   for (Index k = 0; k < static_cast<Index>(space.theta_count); ++k) point.theta_rad[k] *= factor;
 }
 
-void restrict_to(const NullSpace& space, const ShapeFactor& factor, const ThetaBounds& bounds, std::int32_t passes, HeldBounds& held,
-                 NullPoint& point) noexcept {
+void restrict_to(const NullSpace& space, const ShapeFactor& factor, const ThetaBounds& bounds, std::int32_t passes,
+                 HeldBounds& held, NullPoint& point) noexcept {
   restrict_point(space, &factor, bounds, passes, held, point);
 }
 
-void restrict_to(const NullSpace& space, const ThetaBounds& bounds, std::int32_t passes, HeldBounds& held, NullPoint& point) noexcept {
+void restrict_to(const NullSpace& space, const ThetaBounds& bounds, std::int32_t passes, HeldBounds& held,
+                 NullPoint& point) noexcept {
   restrict_point(space, nullptr, bounds, passes, held, point);
 }
 

@@ -9,13 +9,15 @@ namespace {
 
 using Index = std::size_t;
 
-// Link ends of a segment (kinematics.hpp): end k lies at l (C, S z, -S y) in the frame of the root, C and S sums of Chebyshev polynomials.
+// Link ends of a segment (kinematics.hpp): end k lies at l (C, S z, -S y) in the frame of the root, C and S sums of
+// Chebyshev polynomials.
 struct LinkEnd {
   double C, S, dC, dS;  // derivatives by w
 };
 
 LinkEnd between(const LinkEnd& a, const LinkEnd& b, double share) noexcept {
-  return {a.C + share * (b.C - a.C), a.S + share * (b.S - a.S), a.dC + share * (b.dC - a.dC), a.dS + share * (b.dS - a.dS)};
+  return {a.C + share * (b.C - a.C), a.S + share * (b.S - a.S), a.dC + share * (b.dC - a.dC),
+          a.dS + share * (b.dS - a.dS)};
 }
 
 struct Segment {
@@ -86,7 +88,8 @@ Pull push_of(const ArmKinematics& arm, const SegmentTrig& trig, Index m, const S
   push.towards = scale(subtract(point, target.centre_m), 1.0 / nearest.distance_m);
   push.columns = static_cast<std::int32_t>(2 * m + 2);
   const Vec3 lever = subtract(point, arm.tip_in_base.position_m);
-  for (Index k = 0; k < 2 * m; ++k) push.column[k] = add(arm.tip_jacobian.linear[k], cross(arm.tip_jacobian.angular[k], lever));
+  for (Index k = 0; k < 2 * m; ++k)
+    push.column[k] = add(arm.tip_jacobian.linear[k], cross(arm.tip_jacobian.angular[k], lever));
   for (Index axis = 0; axis < 2; ++axis)
     push.column[2 * m + axis] = rotate(root.quaternion, own_column(segment, nearest.on_axis, trig, axis == 1));
   return push;
@@ -129,12 +132,13 @@ void add_clearance(const RobotTable& table, const SegmentTrig& trig, const ArmKi
   add_pull(push_of(arm, trig, m, links, nearest, target), sum);
 }
 
-void add_clearance(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm, const KeepClearTargets& targets,
-                   PullSum& sum) noexcept {
+void add_clearance(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
+                   const KeepClearTargets& targets, PullSum& sum) noexcept {
   const ArmTrig trig = arm_trig(table, theta_rad);
   for (const KeepClear& target : targets) {
     if (!is_used(target)) continue;
-    for (std::int32_t m = 0; m < table.segment_count; ++m) add_clearance(table, trig[static_cast<Index>(m)], arm, target, m, sum);
+    for (std::int32_t m = 0; m < table.segment_count; ++m)
+      add_clearance(table, trig[static_cast<Index>(m)], arm, target, m, sum);
   }
 }
 

@@ -1,8 +1,8 @@
 // Clearance as an aim of the shape: the arm's middle is pushed away from given points while the tip stays.
 #pragma once
 
-#include "firmware_like/cable/shape/shape_model.hpp"
 #include "firmware_like/cable/setpoint.hpp"
+#include "firmware_like/cable/shape/shape_model.hpp"
 
 namespace liana::cable {
 
@@ -16,12 +16,13 @@ double missing_clearance_m(const RobotTable& table, const ThetaVector& theta_rad
 // True when a target asks for anything.
 bool is_used(const KeepClear& target) noexcept;
 
-// Adds the push of a used target on the nearest point of one segment (from 0), whose trigonometry is `trig`. Cost: one pass over its links.
+// Adds the push of a used target on the nearest point of one segment (from 0), whose trigonometry is `trig`. Cost: one
+// pass over its links.
 void add_clearance(const RobotTable& table, const SegmentTrig& trig, const ArmKinematics& arm, const KeepClear& target,
                    std::int32_t segment, PullSum& sum) noexcept;
 
 // The same of every target on every segment.
-void add_clearance(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm, const KeepClearTargets& targets,
-                   PullSum& sum) noexcept;
+void add_clearance(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
+                   const KeepClearTargets& targets, PullSum& sum) noexcept;
 
 }  // namespace liana::cable

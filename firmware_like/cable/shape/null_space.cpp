@@ -146,6 +146,8 @@ ThetaVector combine(const NullSpace& space, const NullVector& z) noexcept {
   return v;
 }
 
-ThetaVector project(const NullSpace& space, const ThetaVector& v) noexcept { return combine(space, coordinates(space, v)); }
+ThetaVector project(const NullSpace& space, const ThetaVector& v) noexcept {
+  return combine(space, coordinates(space, v));
+}
 
 }  // namespace liana::cable

@@ -12,7 +12,9 @@ using Index = std::size_t;
 constexpr std::int32_t kBoundPasses = 1;  // changes of the active set in a tick; the next one goes on from there
 constexpr double kLastMoment_s = 0.1;     // room to a limit over this bounds the smoothed rate
 
-bool is_node(const RobotTable& table, const NodeTarget& target) noexcept { return target.node >= 1 && target.node <= table.segment_count; }
+bool is_node(const RobotTable& table, const NodeTarget& target) noexcept {
+  return target.node >= 1 && target.node <= table.segment_count;
+}
 
 Vec3 towards_target(const ArmKinematics& arm, const NodeTarget& target) noexcept {
   return subtract(target.position_m, arm.node_in_base[static_cast<Index>(target.node)].position_m);
@@ -27,7 +29,8 @@ Index lead_pitch(const RobotTable& table, std::uint32_t held_mask) noexcept {
 }
 
 // Change of theta that centring asks for within `time_s`.
-ThetaVector centring(const RobotTable& table, std::uint32_t held_mask, double time_s, const ThetaVector& theta) noexcept {
+ThetaVector centring(const RobotTable& table, std::uint32_t held_mask, double time_s,
+                     const ThetaVector& theta) noexcept {
   const Index lead = lead_pitch(table, held_mask);
   ThetaVector pull{};
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) pull[k] = -kCentringRate_1_s * time_s * theta[k];
@@ -48,7 +51,8 @@ double largest_entry(const ThetaVector& v, Index n) noexcept {
 double least_room_rad(const RobotTable& table, const ThetaVector& theta) noexcept {
   double least = 1e300;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
-    least = smaller(least, table.segment[m].theta_limit_rad - larger(std::fabs(theta[2 * m]), std::fabs(theta[2 * m + 1])));
+    least =
+        smaller(least, table.segment[m].theta_limit_rad - larger(std::fabs(theta[2 * m]), std::fabs(theta[2 * m + 1])));
   return least;
 }
 
@@ -61,7 +65,9 @@ struct Stand {
 };
 
 // True when a rate with this largest entry may pass a limit within `time_s`.
-bool may_pass_limit(const Stand& stand, double time_s, double largest) noexcept { return largest * time_s > stand.least_room_rad; }
+bool may_pass_limit(const Stand& stand, double time_s, double largest) noexcept {
+  return largest * time_s > stand.least_room_rad;
+}
 
 // A node within its threshold wants nothing; one outside wants to come back within.
 void add_node(const ArmKinematics& arm, const NodeTarget& target, PullSum& sum) noexcept {
@@ -80,9 +86,10 @@ void add_node(const ArmKinematics& arm, const NodeTarget& target, PullSum& sum) 
   add_pull(pull, sum);
 }
 
-// Adds pull `index` of a round: nodes first, then every segment away from every target. False when there is no such pull.
-bool add_pull_of_round(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm, const NodeTargets& nodes,
-                       const KeepClearTargets& clear, Index index, PullSum& sum) noexcept {
+// Adds pull `index` of a round: nodes first, then every segment away from every target. False when there is no such
+// pull.
+bool add_pull_of_round(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
+                       const NodeTargets& nodes, const KeepClearTargets& clear, Index index, PullSum& sum) noexcept {
   if (index < nodes.size()) {
     if (!is_node(table, nodes[index]) || !(nodes[index].weight > 0.0)) return false;
     add_node(arm, nodes[index], sum);
@@ -104,18 +111,20 @@ bool gather(const RobotTable& table, const ThetaVector& theta_rad, const ArmKine
   if (state.next_pull == 0) reset_pulls(table.theta_count(), state.pulls);
   const Index pulls = nodes.size() + clear.size() * static_cast<Index>(table.segment_count);
   while (state.next_pull < pulls) {
-    if (add_pull_of_round(table, theta_rad, arm, nodes, clear, static_cast<Index>(state.next_pull++), state.pulls)) return true;
+    if (add_pull_of_round(table, theta_rad, arm, nodes, clear, static_cast<Index>(state.next_pull++), state.pulls))
+      return true;
   }
   state.next_pull = 0;
   return false;
 }
 
 // Velocity [rad/s] that the shape wants with the pulls of a round.
-ThetaVector wanted_rate(const Stand& stand, std::uint32_t held_mask, const ShapePace& pace, ShapeState& state) noexcept {
+ThetaVector wanted_rate(const Stand& stand, std::uint32_t held_mask, const ShapePace& pace,
+                        ShapeState& state) noexcept {
   const Index n = static_cast<Index>(stand.space.theta_count);
   const double limit = pace.rate_share * stand.table.limits.theta_rate_rad_s;
-  ShapeModel model =
-      resting_model(stand.space, centring_weight(state.weight), centring(stand.table, held_mask, pace.time_s, stand.theta_rad));
+  ShapeModel model = resting_model(stand.space, centring_weight(state.weight),
+                                   centring(stand.table, held_mask, pace.time_s, stand.theta_rad));
   if (state.weight > 0.0) add_pulls(stand.space, state.pulls, model);
   const ShapeFactor metric = factor(stand.space, model);
   NullPoint rate;
@@ -126,8 +135,8 @@ ThetaVector wanted_rate(const Stand& stand, std::uint32_t held_mask, const Shape
   const double share = largest > limit ? limit / largest : 1.0;
   scale_by(stand.space, share / pace.time_s, rate);
   if (may_pass_limit(stand, pace.limit_approach_s, share * largest)) {
-    restrict_to(stand.space, metric, room_to_limits(stand.table, stand.theta_rad, 1.0 / pace.limit_approach_s), kBoundPasses,
-                state.wanted_held, rate);
+    restrict_to(stand.space, metric, room_to_limits(stand.table, stand.theta_rad, 1.0 / pace.limit_approach_s),
+                kBoundPasses, state.wanted_held, rate);
     const double bounded = largest_entry(rate.theta_rad, n);
     if (bounded > limit) scale_by(stand.space, limit / bounded, rate);
   }
@@ -139,7 +148,8 @@ ThetaVector wanted_rate(const Stand& stand, std::uint32_t held_mask, const Shape
 double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept {
   double sum_m = 0.0;
   for (const NodeTarget& target : nodes) {
-    if (is_node(table, target)) sum_m += target.weight * larger(0.0, norm(towards_target(arm, target)) - target.threshold_m);
+    if (is_node(table, target))
+      sum_m += target.weight * larger(0.0, norm(towards_target(arm, target)) - target.threshold_m);
   }
   return sum_m;
 }
@@ -158,23 +168,25 @@ void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTarg
   }
 }
 
-ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, const KeepClearTargets& clear,
-                       std::uint32_t held_mask, bool braking, const ShapePace& pace, const ThetaVector& theta_rad,
-                       ShapeState& state) noexcept {
+ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes,
+                       const KeepClearTargets& clear, std::uint32_t held_mask, bool braking, const ShapePace& pace,
+                       const ThetaVector& theta_rad, ShapeState& state) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const NullSpace space = null_space(arm.tip_jacobian, table.theta_count(), held_mask);
   const Stand stand{table, theta_rad, space, least_room_rad(table, theta_rad)};
   if (braking) {
     state.wanted_rad_s = ThetaVector{};
     state.next_pull = 0;
-  } else if (!gather(table, theta_rad, arm, nodes, clear, larger(largest_weight(table, nodes), largest_weight(clear)), state)) {
+  } else if (!gather(table, theta_rad, arm, nodes, clear, larger(largest_weight(table, nodes), largest_weight(clear)),
+                     state)) {
     state.wanted_rad_s = wanted_rate(stand, held_mask, pace, state);
   }
   // Braking has to end: straight down to zero, without the smoothing's tail.
   const double share = braking ? 1.0 : smaller(1.0, table.tick_s / pace.smoothing_s);
   ThetaVector change{};
   for (Index k = 0; k < n; ++k) change[k] = (state.wanted_rad_s[k] - state.rate_rad_s[k]) * share;
-  const double accel = pace.accel_share * table.limits.theta_accel_rad_s2 * table.tick_s, largest = largest_entry(change, n);
+  const double accel = pace.accel_share * table.limits.theta_accel_rad_s2 * table.tick_s,
+               largest = largest_entry(change, n);
   const double slower = largest > accel ? accel / largest : 1.0;  // one factor for all keeps it in the null space
   for (Index k = 0; k < n; ++k) change[k] = state.rate_rad_s[k] + slower * change[k];
   NullPoint rate;

@@ -10,7 +10,8 @@ namespace {
 using Index = std::size_t;
 using Rows = std::array<NullVector, kMaxTheta>;
 
-// Cholesky for sizes known at run time only: the leading n x n block, the diagonal then holds 1 / L_jj. False when not positive.
+// Cholesky for sizes known at run time only: the leading n x n block, the diagonal then holds 1 / L_jj. False when not
+// positive.
 bool factor_in_place(Rows& A, Index n) noexcept {
   for (Index j = 0; j < n; ++j) {
     double diagonal = A[j][j];
@@ -60,8 +61,8 @@ void add_pull(const Pull& pull, PullSum& sum) noexcept {
                z = both(across * move[2][k]);
     for (Index j = 0; j <= k; j += 2) {
       double* const entry = &sum.curvature[k][j];
-      store_pair(load_pair(entry) + x * load_pair(&move[0][j]) + y * load_pair(&move[1][j]) + z * load_pair(&move[2][j]) +
-                     more * load_pair(&move[3][j]),
+      store_pair(load_pair(entry) + x * load_pair(&move[0][j]) + y * load_pair(&move[1][j]) +
+                     z * load_pair(&move[2][j]) + more * load_pair(&move[3][j]),
                  entry);
     }
   }
@@ -69,7 +70,8 @@ void add_pull(const Pull& pull, PullSum& sum) noexcept {
 
 void add_pulls(const NullSpace& space, const PullSum& sum, ShapeModel& model) noexcept {
   const Index m = static_cast<Index>(space.dimension), n = static_cast<Index>(space.theta_count);
-  std::array<NullVector, kMaxTheta> half;  // lower triangle times the basis, the diagonal halved: the product is symmetric
+  std::array<NullVector, kMaxTheta>
+      half;  // lower triangle times the basis, the diagonal halved: the product is symmetric
   for (Index b = 0; b < static_cast<Index>(space.blocks()); ++b) {
     for (Index k = 0; k < n; ++k) {
       Quad row{};

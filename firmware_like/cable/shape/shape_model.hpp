@@ -1,11 +1,12 @@
-// Quadratic model of what the shape wants, in null-space coordinates z, and its minimum; bounds.hpp brings that within joint limits.
+// Quadratic model of what the shape wants, in null-space coordinates z, and its minimum; bounds.hpp brings that within
+// joint limits.
 //
 //   minimise  z^T curvature z / 2 - pull^T z     subject to  low <= Z z <= high      (Z: basis of the null space)
 //
-// An excess x >= 0 (a distance beyond what is allowed) with weight w and direction u is a pull of constant strength w along u that fades
-// out within kSharp_m of zero; its curvature is that of weighted least squares, w / x along u. The minimum of the model is then the step
-// that brings the excess to zero where it can, and a fixed point of stepping minimises the sum of w x (iteratively reweighted least
-// squares: E. Weiszfeld, 1937).
+// An excess x >= 0 (a distance beyond what is allowed) with weight w and direction u is a pull of constant strength w
+// along u that fades out within kSharp_m of zero; its curvature is that of weighted least squares, w / x along u. The
+// minimum of the model is then the step that brings the excess to zero where it can, and a fixed point of stepping
+// minimises the sum of w x (iteratively reweighted least squares: E. Weiszfeld, 1937).
 #pragma once
 
 #include <array>
@@ -31,7 +32,8 @@ struct Pull {
   double excess_m;
   double distance_m;  // from what pulls or pushes: curvature across `towards`; 0 = none
   Vec3 towards;
-  std::array<Vec3, kMaxTheta> column;  // of the point's Jacobian; the first `columns` (an even number) are set, the others zero
+  std::array<Vec3, kMaxTheta>
+      column;  // of the point's Jacobian; the first `columns` (an even number) are set, the others zero
   std::int32_t columns;
 };
 
@@ -41,7 +43,8 @@ struct PullSum {
   ThetaVector pull{};
 };
 
-// Nothing wanted yet of the first `theta_count` thetas; one more pull; and the whole sum as part of a model, in null-space coordinates.
+// Nothing wanted yet of the first `theta_count` thetas; one more pull; and the whole sum as part of a model, in
+// null-space coordinates.
 void reset_pulls(std::int32_t theta_count, PullSum& sum) noexcept;
 void add_pull(const Pull& pull, PullSum& sum) noexcept;
 void add_pulls(const NullSpace& space, const PullSum& sum, ShapeModel& model) noexcept;

@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_table.hpp"
 
 namespace liana {
 

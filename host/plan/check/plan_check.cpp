@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "firmware_like/arm/tension.hpp"
+#include "firmware_like/cable/arm/tension.hpp"
 #include "host/plan/check/path_search.hpp"
 
 namespace liana {

@@ -1,17 +1,17 @@
 // The arm with first and second derivatives: points of links, tip attitude, cable lengths. Exact, for the planner's
 // Hessians.
 //
-// A segment's own derivatives come from jets over the closed form (firmware_like/arm/kinematics.hpp). Between segments
-// rotations multiply: with w_i the angular velocity that theta i gives everything behind its segment, d2 p / di dj =
-// w_i x dp/dj when segment(i) < segment(j), and within one segment R d2 s / di dj + dw_j/di x r + w_j x (w_i x r), r
-// from the segment's end to p.
+// A segment's own derivatives come from jets over the closed form (firmware_like/cable/arm/kinematics.hpp). Between
+// segments rotations multiply: with w_i the angular velocity that theta i gives everything behind its segment, d2 p /
+// di dj = w_i x dp/dj when segment(i) < segment(j), and within one segment R d2 s / di dj + dw_j/di x r + w_j x (w_i x
+// r), r from the segment's end to p.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
-#include "firmware_like/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "host/plan/problem/jet.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware_like/motion/goal_ik.hpp"
 #include "host/plan/start/relax.hpp"
+#include "host/solve/goal_ik.hpp"
 
 namespace liana {
 namespace {

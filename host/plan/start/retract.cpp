@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware_like/motion/servo_ik.hpp"
+#include "firmware_like/cable/motion/servo_ik.hpp"
 #include "host/plan/start/relax.hpp"
 
 namespace liana {

@@ -49,13 +49,14 @@ struct Start {
 
 }  // namespace
 
-__attribute__((noinline)) Outputs metered_tick(Controller& controller, const Inputs& inputs) noexcept {
+__attribute__((noinline)) cable::Outputs metered_tick(cable::Controller& controller,
+                                                      const cable::Inputs& inputs) noexcept {
   volatile std::uint32_t* stack_pointer = nullptr;
   asm volatile("mov %0, sp" : "=r"(stack_pointer));
   volatile std::uint32_t* lowest = stack_pointer - kWatchedWords;
   for (volatile std::uint32_t* word = lowest; word != stack_pointer; ++word) *word = kPaint;
   const std::uint32_t before = sys_tick->value;
-  const Outputs outputs = controller.tick(inputs);
+  const cable::Outputs outputs = controller.tick(inputs);
   const std::uint32_t clocks = clocks_since(before);
   while (*lowest == kPaint) ++lowest;
   write({clocks, static_cast<std::uint32_t>(stack_pointer - lowest) * sizeof(std::uint32_t)});

@@ -1,6 +1,6 @@
 // The least program with the core in it, for its size: one Controller, Inputs and Outputs in memory, nothing else. It
 // is never run.
-#include "firmware_like/controller.hpp"
+#include "firmware_like/cable_controller.hpp"
 
 namespace {
 liana::RobotTable table;

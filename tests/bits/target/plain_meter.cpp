@@ -3,7 +3,9 @@
 
 namespace liana::bits {
 
-Outputs metered_tick(Controller& controller, const Inputs& inputs) noexcept { return controller.tick(inputs); }
+cable::Outputs metered_tick(cable::Controller& controller, const cable::Inputs& inputs) noexcept {
+  return controller.tick(inputs);
+}
 
 bool close_meter() { return true; }
 

@@ -16,7 +16,7 @@ constexpr std::size_t kFileBuffer = 1 << 16;
 
 std::string default_table() {
   std::string bytes;
-  append_serialised(bytes, RobotTable{});
+  append_serialised(bytes, cable::RobotTable{});
   return bytes;
 }
 
@@ -63,7 +63,7 @@ class Player {
   std::string table_ = default_table();
   std::string inputs_ = std::string(serialised_inputs_size(), '\0');
   std::string written_;
-  std::optional<Controller> controller_, kept_;
+  std::optional<cable::Controller> controller_, kept_;
 };
 
 int run() {

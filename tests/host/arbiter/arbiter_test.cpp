@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "firmware_like/arm/kinematics.hpp"
-#include "firmware_like/motion/goal_ik.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
 #include "host/api/request_error.hpp"
+#include "host/solve/goal_ik.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
@@ -49,7 +49,7 @@ class Arbitration : public testing::Test {
 
   RobotTable table_;
   Arbiter arbiter_;
-  Outputs now_{};
+  cable::Outputs now_{};
   std::uint64_t tick_ = 0;
 };
 

@@ -27,7 +27,7 @@ class Steering : public testing::Test {
     }
     return steer_.finish_interval(now_, kInterval_s);
   }
-  Outputs now_{};
+  cable::Outputs now_{};
   DeviceUse use_{};
   DeviceSteer steer_;
   std::int64_t t_us_ = 0;

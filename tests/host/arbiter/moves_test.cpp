@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
@@ -24,7 +24,7 @@ class Progress : public testing::Test {
   std::int32_t window_ = static_cast<std::int32_t>(kShapeSettled_s / (table_.tick_s * table_.interval_ticks)) + 1;
   ShapeProgress progress_{table_};
   Vec3 node_m_ = forward_kinematics(table_, ThetaVector{}).node_in_base[3].position_m;
-  Outputs now_{};
+  cable::Outputs now_{};
 };
 
 TEST_F(Progress, NothingAskedForIsSettled) {

@@ -8,9 +8,9 @@
 #include <sstream>
 #include <utility>
 
-#include "firmware_like/arm/estimator.hpp"
-#include "firmware_like/arm/tension.hpp"
-#include "firmware_like/controller.hpp"
+#include "firmware_like/cable/arm/estimator.hpp"
+#include "firmware_like/cable/arm/tension.hpp"
+#include "firmware_like/cable_controller.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "host/calibration/fixture.hpp"
 #include "host/calibration/fixture_prompt.hpp"

@@ -9,10 +9,10 @@
 namespace liana {
 namespace {
 
-RobotTable two_segments() {
-  RobotTable robot;
+cable::RobotTable two_segments() {
+  cable::RobotTable robot;
   robot.segment_count = 2;
-  for (SegmentTable& segment : robot.segment) segment.theta_limit_rad = 20.0 * std::numbers::pi / 180.0;
+  for (cable::SegmentTable& segment : robot.segment) segment.theta_limit_rad = 20.0 * std::numbers::pi / 180.0;
   return robot;
 }
 
@@ -34,13 +34,13 @@ TEST(Arguments, ReadFiniteNumbersOnly) {
 }
 
 TEST(Arguments, AnglesAreConvertedToRadiansAndMayStandOnTheLimit) {
-  const ThetaVector theta = parse_theta_deg("--theta-deg", "20,-20,0,10", two_segments());
+  const cable::ThetaVector theta = parse_theta_deg("--theta-deg", "20,-20,0,10", two_segments());
   EXPECT_DOUBLE_EQ(theta[0], 20.0 * std::numbers::pi / 180.0);
   EXPECT_DOUBLE_EQ(theta[3], 10.0 * std::numbers::pi / 180.0);
 }
 
 TEST(Arguments, AnglesOverTheLimitOrOfTheWrongNumberAreRefusedByName) {
-  const RobotTable robot = two_segments();
+  const cable::RobotTable robot = two_segments();
   EXPECT_NE(refusal([&] { parse_theta_deg("--theta-deg", "0,0,20.001,0", robot); }).find("theta 3 within +-20 deg"),
             std::string::npos);
   EXPECT_NE(refusal([&] { parse_theta_deg("--theta-deg", "0,0,0", robot); }).find("4 numbers"), std::string::npos);
@@ -63,13 +63,13 @@ TEST(Arguments, HeldAnglesAreCountedFromOneAndMayCarryAValue) {
 }
 
 TEST(Arguments, HoldsOutsideTheRobotAreRefused) {
-  const RobotTable robot = two_segments();
+  const cable::RobotTable robot = two_segments();
   for (const char* text : {"0", "5", "1,1", "1=21", "x", "1=", ""})
     EXPECT_NE(refusal([&] { parse_hold(text, robot); }), "") << text;
 }
 
 TEST(Arguments, AControlPointHasANodeAPlaceAndAPositiveWeight) {
-  const RobotTable robot = two_segments();
+  const cable::RobotTable robot = two_segments();
   const ControlPointArgument point = parse_control_point("2:1,2,3:0.5", robot);
   EXPECT_EQ(point.node, 2);
   EXPECT_EQ(point.position_m[1], 2.0);

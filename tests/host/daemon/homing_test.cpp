@@ -14,11 +14,11 @@ class HomingOfAnArm : public ::testing::Test {
   HomingOfAnArm() {
     robot_.table = SimArm().table();
     robot_.named_poses_deg["fixture"] = {12, -9, 7, -8, 12, -3, 12, -10, -12, -2};
-    CableVector tension_N{};
+    cable::CableVector tension_N{};
     tension_N.fill(30.0);
-    const CableVector out_m = beyond_zero_m(robot_.table, named_pose_rad(robot_, "fixture"), tension_N);
+    const cable::CableVector out_m = beyond_zero_m(robot_.table, named_pose_rad(robot_, "fixture"), tension_N);
     for (std::size_t i = 0; i < 15; ++i) {
-      const DriveTable& drive = robot_.table.drive[i];
+      const cable::DriveTable& drive = robot_.table.drive[i];
       DriveFeedback& report = report_.inputs.drive[i];
       report.feedback_age_ticks = 0;
       report.position_counts =
@@ -29,14 +29,14 @@ class HomingOfAnArm : public ::testing::Test {
   }
   // Drive 4 reports so much more.
   void turn(double change_m) {
-    const DriveTable& drive = robot_.table.drive[4];
+    const cable::DriveTable& drive = robot_.table.drive[4];
     report_.inputs.drive[4].position_counts +=
         static_cast<std::int32_t>(change_m / (drive.direction * drive.metres_per_count));
   }
 
   RobotConfig robot_;
   CycleReport report_;
-  EstimatorState estimator_;
+  cable::EstimatorState estimator_;
 };
 
 TEST_F(HomingOfAnArm, NeedsEveryDriveToHaveBeenHeard) {

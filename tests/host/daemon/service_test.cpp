@@ -137,7 +137,7 @@ TEST_F(ServiceOverSocket, TheDeathOfTheMissionIsAHold) {
   EXPECT_EQ(after["state"], "ENABLED") << "a hold keeps the drives enabled";
   EXPECT_TRUE(after["at_rest"]);
   EXPECT_EQ(after["owner"], "");
-  const ThetaVector stopped = arm_->now().theta_command_rad;
+  const cable::ThetaVector stopped = arm_->now().theta_command_rad;
   intervals(20);
   EXPECT_EQ(arm_->now().theta_command_rad, stopped);
 }

@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "firmware_like/arm/cables.hpp"
-#include "firmware_like/arm/kinematics.hpp"
+#include "firmware_like/cable/arm/cables.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
 #include "host/clearance/clearance.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <random>
 
-#include "firmware_like/controller.hpp"
+#include "firmware_like/cable_controller.hpp"
 #include "host/record/build_id.hpp"
 #include "host/record/recording.hpp"
 #include "host/record/tick_packet.hpp"
@@ -21,8 +21,8 @@ namespace {
 constexpr std::uint64_t kFirstTick = 40;
 
 // Inputs of a run in which drives report slowly changing positions, one falls silent, and somebody asks for a clear.
-Inputs inputs_of(std::uint64_t tick) {
-  Inputs inputs;
+cable::Inputs inputs_of(std::uint64_t tick) {
+  cable::Inputs inputs;
   inputs.tick = tick;
   for (std::size_t i = 0; i < zhu2022::kCables; ++i) {
     DriveFeedback& drive = inputs.drive[i];
@@ -48,7 +48,7 @@ template <class Change>
 std::string record_run(const std::string& folder, std::uint64_t ticks, Change change,
                        std::uint64_t image_at = kFirstTick) {
   Recording recording(folder, {"hash", "{}", "{}", "{}", "fast", 0.004});
-  Controller controller(zhu2022::table());
+  cable::Controller controller(zhu2022::table());
   for (std::uint64_t tick = kFirstTick; tick < kFirstTick + ticks; ++tick) {
     if (tick == image_at) {
       const std::string_view memory(reinterpret_cast<const char*>(&controller), sizeof controller);
@@ -99,11 +99,11 @@ TEST(Replay, ARecordingThatStartsInMidRunGoesOnFromItsImage) {
 TEST(Replay, DeadlinesThatWereLostAreNoGapInARecording) {
   const std::string folder = fresh_folder("lost");
   Recording recording(folder, {"hash", "{}", "{}", "{}", "real", 0.004});
-  Controller controller(zhu2022::table());
+  cable::Controller controller(zhu2022::table());
   recording.take(image_packet(kFirstTick, true, zhu2022::table(), {}));
   std::uint64_t tick = kFirstTick;
   for (const std::uint32_t lost : {0u, 0u, 4u, 0u, 1u, 0u}) {
-    Inputs inputs = inputs_of(tick += lost);
+    cable::Inputs inputs = inputs_of(tick += lost);
     inputs.lost_ticks = lost;
     recording.take(tick_packet({inputs, controller.tick(inputs)}, 0));
     ++tick;

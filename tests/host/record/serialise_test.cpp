@@ -30,13 +30,13 @@ std::string serialised(const T& value) {
 }
 
 TEST(Serialise, OutputsComeBackBitForBit) {
-  const std::string bytes = serialised(patterned<Outputs>());
+  const std::string bytes = serialised(patterned<cable::Outputs>());
   EXPECT_EQ(serialised(outputs_from(bytes)), bytes);
 }
 
 TEST(Serialise, InputsComeBackBitForBitWithTheirTelecommand) {
-  const Inputs inputs = patterned<Inputs>();
-  const Inputs back = RecordingDecoder::inputs(serialised(inputs));
+  const cable::Inputs inputs = patterned<cable::Inputs>();
+  const cable::Inputs back = RecordingDecoder::inputs(serialised(inputs));
   EXPECT_EQ(serialised(back), serialised(inputs));
   EXPECT_EQ(back.telecommand.sequence(), inputs.telecommand.sequence());
   EXPECT_EQ(back.telecommand.expiry_tick(), inputs.telecommand.expiry_tick());
@@ -48,13 +48,13 @@ TEST(Serialise, TheRobotTableComesBack) {
 }
 
 TEST(Serialise, NumbersAreLittleEndian) {
-  Outputs outputs;
+  cable::Outputs outputs;
   outputs.tick = 0x0102030405060708u;
   EXPECT_EQ(serialised(outputs).substr(0, 8), std::string("\x08\x07\x06\x05\x04\x03\x02\x01"));
 }
 
 TEST(Serialise, ShortOrLongDataIsRefused) {
-  const std::string bytes = serialised(Outputs{});
+  const std::string bytes = serialised(cable::Outputs{});
   EXPECT_THROW(outputs_from(bytes.substr(1)), std::runtime_error);
   EXPECT_THROW(outputs_from(bytes + "x"), std::runtime_error);
 }
@@ -62,7 +62,7 @@ TEST(Serialise, ShortOrLongDataIsRefused) {
 TEST(Serialise, AByteOffsetNamesItsField) {
   EXPECT_EQ(outputs_field_at(0), "tick");
   EXPECT_EQ(outputs_field_at(8), "state");
-  Outputs a, b;
+  cable::Outputs a, b;
   b.drive[3].target_counts = 7;
   const std::string x = serialised(a), y = serialised(b);
   std::size_t at = 0;
@@ -102,20 +102,21 @@ std::size_t visited_fields() {
 }
 
 TEST(Serialise, NoFieldIsForgotten) {
-  EXPECT_EQ(visited_fields<Inputs>() + 1, field_count<Inputs>()) << "the telecommand is visited by itself";
-  EXPECT_EQ(visited_fields<Outputs>(), field_count<Outputs>());
+  EXPECT_EQ(visited_fields<cable::Inputs>() + 1, field_count<cable::Inputs>())
+      << "the telecommand is visited by itself";
+  EXPECT_EQ(visited_fields<cable::Outputs>(), field_count<cable::Outputs>());
   EXPECT_EQ(visited_fields<FaultList>(), field_count<FaultList>());
   EXPECT_EQ(visited_fields<Fault>(), field_count<Fault>());
   EXPECT_EQ(visited_fields<DriveFeedback>(), field_count<DriveFeedback>());
   EXPECT_EQ(visited_fields<DriveCommand>(), field_count<DriveCommand>());
   EXPECT_EQ(visited_fields<Pose>(), field_count<Pose>());
-  EXPECT_EQ(visited_fields<Setpoint>(), field_count<Setpoint>());
-  EXPECT_EQ(visited_fields<NodeTarget>(), field_count<NodeTarget>());
-  EXPECT_EQ(visited_fields<RobotTable>(), field_count<RobotTable>());
-  EXPECT_EQ(visited_fields<SegmentTable>(), field_count<SegmentTable>());
-  EXPECT_EQ(visited_fields<TensionLimits>(), field_count<TensionLimits>());
-  EXPECT_EQ(visited_fields<MotionLimits>(), field_count<MotionLimits>());
-  EXPECT_EQ(visited_fields<DriveTable>(), field_count<DriveTable>());
+  EXPECT_EQ(visited_fields<cable::Setpoint>(), field_count<cable::Setpoint>());
+  EXPECT_EQ(visited_fields<cable::NodeTarget>(), field_count<cable::NodeTarget>());
+  EXPECT_EQ(visited_fields<cable::RobotTable>(), field_count<cable::RobotTable>());
+  EXPECT_EQ(visited_fields<cable::SegmentTable>(), field_count<cable::SegmentTable>());
+  EXPECT_EQ(visited_fields<cable::TensionLimits>(), field_count<cable::TensionLimits>());
+  EXPECT_EQ(visited_fields<cable::MotionLimits>(), field_count<cable::MotionLimits>());
+  EXPECT_EQ(visited_fields<cable::DriveTable>(), field_count<cable::DriveTable>());
 }
 
 }  // namespace

@@ -8,13 +8,14 @@
 namespace liana {
 namespace {
 
-static_assert(
-    !std::is_constructible_v<Telecommand, std::uint64_t, std::uint64_t, std::uint64_t, std::uint32_t, const Setpoint&>,
-    "nobody but Release and RecordingDecoder can make a telecommand");
-static_assert(!std::is_constructible_v<Candidate, const Telecommand&>, "nobody but Release can make a candidate");
+static_assert(!std::is_constructible_v<cable::Telecommand, std::uint64_t, std::uint64_t, std::uint64_t, std::uint32_t,
+                                       const cable::Setpoint&>,
+              "nobody but Release and RecordingDecoder can make a telecommand");
+static_assert(!std::is_constructible_v<Candidate, const cable::Telecommand&>,
+              "nobody but Release can make a candidate");
 static_assert(!std::is_constructible_v<Candidate>);
-static_assert(!std::is_constructible_v<Telecommand, const Candidate&>);
-static_assert(std::is_default_constructible_v<Telecommand>, "an empty one, which commands nothing");
+static_assert(!std::is_constructible_v<cable::Telecommand, const Candidate&>);
+static_assert(std::is_default_constructible_v<cable::Telecommand>, "an empty one, which commands nothing");
 
 ExecutionVerdict execution(std::uint64_t sequence, Refusal code = Refusal::kNone) {
   ExecutionVerdict verdict;
@@ -28,8 +29,8 @@ SimulationVerdict simulation(std::uint64_t sequence, Refusal code = Refusal::kNo
   verdict.code = code;
   return verdict;
 }
-Setpoint hold() {
-  Setpoint setpoint;
+cable::Setpoint hold() {
+  cable::Setpoint setpoint;
   setpoint.kind = CommandKind::kHold;
   return setpoint;
 }

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "firmware_like/arm/cables.hpp"
+#include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "host/control/tick_core.hpp"
 #include "host/verify/ideal_drives.hpp"
@@ -13,19 +13,20 @@ namespace liana {
 
 class SimArm {
  public:
-  SimArm() : table_(zhu2022::table()), link(table_), core_(table_, link), drives_(table_, start_inputs(), Outputs{}) {
+  SimArm()
+      : table_(zhu2022::table()), link(table_), core_(table_, link), drives_(table_, start_inputs(), cable::Outputs{}) {
     report_.boot = BootPhase::kDone;
     link.report.publish(report_);
     link.report.refresh();
     link.image.refresh();
   }
 
-  const RobotTable& table() const { return table_; }
-  const Outputs& now() const { return outputs_; }
+  const cable::RobotTable& table() const { return table_; }
+  const cable::Outputs& now() const { return outputs_; }
   std::uint64_t ticks_done() const { return report_.next_tick; }
 
   void tick() {
-    Inputs inputs = drives_.next_inputs(report_.next_tick);
+    cable::Inputs inputs = drives_.next_inputs(report_.next_tick);
     outputs_ = core_.step(inputs);
     report_.inputs = inputs;
     drives_.command(outputs_);
@@ -46,10 +47,10 @@ class SimArm {
   }
 
  private:
-  Inputs start_inputs() const {
-    Inputs inputs;
-    const CableLayout layout = cable_layout(table_);
-    const CableGeometry geometry =
+  cable::Inputs start_inputs() const {
+    cable::Inputs inputs;
+    const cable::CableLayout layout = cable_layout(table_);
+    const cable::CableGeometry geometry =
         cable_geometry(table_, layout, arm_trig(table_, zhu2022::radians(zhu2022::kPrepare_deg)));
     for (std::size_t i = 0; i < zhu2022::kCables; ++i) {
       const double zero_payout_m = layout.zero_length_m[i] + table_.lead_m;
@@ -62,7 +63,7 @@ class SimArm {
     return inputs;
   }
 
-  RobotTable table_;
+  cable::RobotTable table_;
 
  public:
   Link link;
@@ -71,7 +72,7 @@ class SimArm {
   TickCore core_;
   IdealDrives drives_;
   CycleReport report_{};
-  Outputs outputs_{};
+  cable::Outputs outputs_{};
 };
 
 }  // namespace liana

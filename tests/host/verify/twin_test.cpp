@@ -16,22 +16,22 @@ class TwinOfAnArm : public testing::Test {
   TwinOfAnArm() : arm_(std::make_unique<SimArm>()), twin_(arm_->table()) {}
   void SetUp() override { ASSERT_TRUE(arm_->enable()) << "faults: " << arm_->now().faults.count; }
 
-  Setpoint shifted_tip(double way_m, double speed_m_s = 0.1) const {
-    Setpoint setpoint;
+  cable::Setpoint shifted_tip(double way_m, double speed_m_s = 0.1) const {
+    cable::Setpoint setpoint;
     setpoint.kind = CommandKind::kTip;
     setpoint.tip_in_base = arm_->now().tip_command;
     setpoint.tip_in_base.position_m[1] += way_m;
     setpoint.tip_speed_m_s = speed_m_s;
     return setpoint;
   }
-  Candidate candidate(const Setpoint& setpoint) {
+  Candidate candidate(const cable::Setpoint& setpoint) {
     const auto interval = static_cast<std::uint64_t>(arm_->table().interval_ticks);
     return release_.candidate(setpoint, 1, arm_->link.image.value().next_tick + interval, interval);
   }
   Prediction predict(const Candidate& candidate) {
     return twin_.run(arm_->link.image.value(), released_, candidate, max_stop_ticks(arm_->table()));
   }
-  std::optional<Telecommand> release(const Candidate& candidate, const Prediction& prediction) {
+  std::optional<cable::Telecommand> release(const Candidate& candidate, const Prediction& prediction) {
     return release_.release(candidate, judge_execution(arm_->table(), candidate, prediction),
                             judge_motion(arm_->table(), candidate, prediction));
   }
@@ -39,7 +39,7 @@ class TwinOfAnArm : public testing::Test {
   std::unique_ptr<SimArm> arm_;
   Twin twin_;
   Release release_;
-  std::vector<Telecommand> released_;
+  std::vector<cable::Telecommand> released_;
 };
 
 TEST_F(TwinOfAnArm, PredictsTheNextTicksExactlyWhenTheDrivesAreIdeal) {
@@ -51,7 +51,7 @@ TEST_F(TwinOfAnArm, PredictsTheNextTicksExactlyWhenTheDrivesAreIdeal) {
   arm_->link.released.push(*telecommand);
   while (arm_->ticks_done() < wanted.first_tick()) arm_->tick();
   double moved = 0.0;
-  for (const Outputs& predicted : prediction.ticks) {
+  for (const cable::Outputs& predicted : prediction.ticks) {
     arm_->tick();
     EXPECT_EQ(predicted.theta_command_rad, arm_->now().theta_command_rad) << "tick " << predicted.tick;
     EXPECT_EQ(predicted.payout_command_m, arm_->now().payout_command_m);
@@ -72,7 +72,7 @@ TEST_F(TwinOfAnArm, GoesThroughWhatIsAlreadyReleased) {
 }
 
 TEST_F(TwinOfAnArm, TheArmItselfIsNotTouched) {
-  const ThetaVector before = arm_->now().theta_command_rad;
+  const cable::ThetaVector before = arm_->now().theta_command_rad;
   predict(candidate(shifted_tip(0.05)));
   arm_->interval();
   EXPECT_EQ(arm_->now().theta_command_rad, before);

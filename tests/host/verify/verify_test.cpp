@@ -11,7 +11,7 @@
 namespace liana {
 namespace {
 
-const RobotTable kTable = zhu2022::table();
+const cable::RobotTable kTable = zhu2022::table();
 
 struct Judged {
   Refusal execution, simulation;
@@ -20,16 +20,16 @@ struct Judged {
 
 // A prediction of five quiet ticks and a stop, with `change` applied to one tick of the command (2) and one of the stop
 // (6).
-Judged judge(const std::function<void(Outputs&)>& change, std::size_t at = 2, bool comes_to_rest = true) {
+Judged judge(const std::function<void(cable::Outputs&)>& change, std::size_t at = 2, bool comes_to_rest = true) {
   Release release;
-  Setpoint setpoint;
+  cable::Setpoint setpoint;
   setpoint.kind = CommandKind::kTip;
   const Candidate candidate = release.candidate(setpoint, 1, 100, 5);
   Prediction prediction;
   prediction.command_ticks = 5;
   prediction.comes_to_rest = comes_to_rest;
   prediction.ticks.resize(8);
-  for (Outputs& outputs : prediction.ticks) {
+  for (cable::Outputs& outputs : prediction.ticks) {
     outputs.active_sequence = candidate.sequence();
     outputs.tension_plan_N.fill(40.0);
   }
@@ -40,73 +40,76 @@ Judged judge(const std::function<void(Outputs&)>& change, std::size_t at = 2, bo
 }
 
 TEST(Verify, AQuietMotionPasses) {
-  const Judged judged = judge([](Outputs&) {});
+  const Judged judged = judge([](cable::Outputs&) {});
   EXPECT_EQ(judged.execution, Refusal::kNone);
   EXPECT_EQ(judged.simulation, Refusal::kNone);
 }
 
 TEST(Verify, ASpeedJustOverTheLimitIsRefusedAndJustUnderPasses) {
   const double rate = kTable.limits.theta_rate_rad_s;
-  EXPECT_EQ(judge([&](Outputs& o) { o.theta_rate_rad_s[4] = rate * 1.00001; }).simulation, Refusal::kJointRate);
-  EXPECT_EQ(judge([&](Outputs& o) { o.theta_rate_rad_s[4] = -rate * 1.00001; }).simulation, Refusal::kJointRate);
-  EXPECT_EQ(judge([&](Outputs& o) { o.theta_rate_rad_s[4] = rate; }).simulation, Refusal::kNone);
-  EXPECT_EQ(judge([&](Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s * 1.06; }).simulation,
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = rate * 1.00001; }).simulation, Refusal::kJointRate);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = -rate * 1.00001; }).simulation, Refusal::kJointRate);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = rate; }).simulation, Refusal::kNone);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s * 1.06; }).simulation,
             Refusal::kTipSpeed);
-  EXPECT_EQ(judge([&](Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s; }).simulation, Refusal::kNone);
-  EXPECT_EQ(judge([&](Outputs& o) { o.tip_rate_rad_s = kTable.limits.tip_rate_rad_s * 1.06; }).simulation,
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s; }).simulation,
+            Refusal::kNone);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_rate_rad_s = kTable.limits.tip_rate_rad_s * 1.06; }).simulation,
             Refusal::kTipSpeed);
 }
 
 TEST(Verify, TheStopAfterTheCommandIsJudgedToo) {
-  EXPECT_EQ(judge([&](Outputs& o) { o.tip_speed_m_s = 1.0; }, 7).simulation, Refusal::kTipSpeed);
-  EXPECT_EQ(judge([](Outputs& o) { o.limits = kLimitGate; }, 7).execution, Refusal::kGate);
-  EXPECT_EQ(judge([](Outputs&) {}, 2, false).simulation, Refusal::kNoRest);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = 1.0; }, 7).simulation, Refusal::kTipSpeed);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.limits = kLimitGate; }, 7).execution, Refusal::kGate);
+  EXPECT_EQ(judge([](cable::Outputs&) {}, 2, false).simulation, Refusal::kNoRest);
 }
 
 TEST(Verify, JointAnglesAreBounded) {
   const double limit = kTable.segment[4].theta_limit_rad;
-  EXPECT_EQ(judge([&](Outputs& o) { o.theta_command_rad[9] = limit + 1e-4; }).simulation, Refusal::kJointAngle);
-  EXPECT_EQ(judge([&](Outputs& o) { o.theta_command_rad[9] = -limit; }).simulation, Refusal::kNone);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_command_rad[9] = limit + 1e-4; }).simulation, Refusal::kJointAngle);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_command_rad[9] = -limit; }).simulation, Refusal::kNone);
 }
 
 TEST(Verify, WhatTheControllerWouldNotDoIsRefused) {
-  EXPECT_EQ(judge([](Outputs& o) { o.faults.count = 1; }).execution, Refusal::kTwinFault);
-  EXPECT_EQ(judge([](Outputs& o) { o.faults.dropped = 1; }).execution, Refusal::kTwinFault);
-  EXPECT_EQ(judge([](Outputs& o) { o.limits = kLimitGate; }).execution, Refusal::kGate);
-  EXPECT_EQ(judge([](Outputs& o) { o.active_sequence = 0; }).execution, Refusal::kNotAccepted);
-  EXPECT_EQ(judge([](Outputs& o) { o.active_sequence = 0; }, 6).execution, Refusal::kNone)
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.faults.count = 1; }).execution, Refusal::kTwinFault);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.faults.dropped = 1; }).execution, Refusal::kTwinFault);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.limits = kLimitGate; }).execution, Refusal::kGate);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.active_sequence = 0; }).execution, Refusal::kNotAccepted);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.active_sequence = 0; }, 6).execution, Refusal::kNone)
       << "after its expiry nothing need be in force";
-  EXPECT_EQ(judge([](Outputs& o) { o.limits = kLimitTipSpeed; }).execution, Refusal::kNone)
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.limits = kLimitTipSpeed; }).execution, Refusal::kNone)
       << "limits that act are no refusal";
 }
 
 TEST(Verify, TensionAndCableSpeedStayWithinTheirLimits) {
-  EXPECT_EQ(judge([](Outputs& o) { o.tension_plan_N[7] = kTable.tension.ceiling_free_N + 0.1; }).execution,
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[7] = kTable.tension.ceiling_free_N + 0.1; }).execution,
             Refusal::kTension);
-  EXPECT_EQ(judge([](Outputs& o) { o.tension_plan_N[7] = kTable.tension.floor_motor_N - 0.1; }).execution,
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[7] = kTable.tension.floor_motor_N - 0.1; }).execution,
             Refusal::kTension);
-  EXPECT_EQ(judge([](Outputs& o) { o.tension_plan_N[7] = kTable.tension.floor_motor_N; }).execution, Refusal::kNone);
-  EXPECT_EQ(judge([](Outputs& o) { o.tension_plan_N[20] = 0.0; }).execution, Refusal::kNone) << "there is no cable 21";
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[7] = kTable.tension.floor_motor_N; }).execution,
+            Refusal::kNone);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[20] = 0.0; }).execution, Refusal::kNone)
+      << "there is no cable 21";
   const double most_m = kTable.limits.cable_speed_m_s * kTable.tick_s;
-  EXPECT_EQ(judge([&](Outputs& o) { o.payout_command_m[0] = most_m; }).execution, Refusal::kNone);
-  EXPECT_EQ(judge([&](Outputs& o) { o.payout_command_m[0] = 1.3 * most_m; }).execution, Refusal::kCableSpeed);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.payout_command_m[0] = most_m; }).execution, Refusal::kNone);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.payout_command_m[0] = 1.3 * most_m; }).execution, Refusal::kCableSpeed);
 }
 
 TEST(Verify, NotANumberNeverPasses) {
-  EXPECT_EQ(judge([](Outputs& o) { o.tip_speed_m_s = std::nan(""); }).simulation, Refusal::kNotFinite);
-  EXPECT_EQ(judge([](Outputs& o) { o.theta_command_rad[0] = std::nan(""); }).simulation, Refusal::kNotFinite);
-  EXPECT_EQ(judge([](Outputs& o) { o.tension_plan_N[0] = HUGE_VAL; }).execution, Refusal::kNotFinite);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tip_speed_m_s = std::nan(""); }).simulation, Refusal::kNotFinite);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.theta_command_rad[0] = std::nan(""); }).simulation, Refusal::kNotFinite);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[0] = HUGE_VAL; }).execution, Refusal::kNotFinite);
 }
 
 TEST(Verify, ARefusalNamesWhatWhereAndTheLimit) {
-  const std::string text = judge([](Outputs& o) { o.theta_command_rad[9] = 1.0; }).text;
+  const std::string text = judge([](cable::Outputs& o) { o.theta_command_rad[9] = 1.0; }).text;
   EXPECT_NE(text.find("theta [rad] 10"), std::string::npos) << text;
   EXPECT_NE(text.find("allowed 0.349066"), std::string::npos) << text;
 }
 
 TEST(Verify, AVerdictAfterTheIntervalBeganIsTooSlow) {
   Release release;
-  const Candidate candidate = release.candidate(Setpoint{}, 1, 100, 5);
+  const Candidate candidate = release.candidate(cable::Setpoint{}, 1, 100, 5);
   ExecutionVerdict verdict;
   judge_time(candidate, 99, verdict);
   EXPECT_TRUE(verdict.passed());
