@@ -83,9 +83,9 @@ int run_command(const liana::MissionOptions& options) {
 }
 
 int bindings_command() {
-  Json list = Json::array();
+  liana::Json list = liana::Json::array();
   for (const liana::Binding& binding : liana::bindings()) {
-    Json fields = Json::array();
+    liana::Json fields = liana::Json::array();
     for (const auto& field : binding.fields)
       fields.push_back({{"name", field.name}, {"type", field.type}, {"required", field.required}});
     list.push_back({{"name", binding.name}, {"fields", fields}});

@@ -12,7 +12,7 @@ namespace {
 volatile std::sig_atomic_t g_stop = 0;
 void on_signal(int) { g_stop = 1; }
 
-liana::RecordingInfo info_from(const Json& welcome) {
+liana::RecordingInfo info_from(const liana::Json& welcome) {
   if (welcome.value("op", "") != "welcome") throw std::runtime_error("lianad refused the archive: " + welcome.dump());
   return {welcome.at("config_hash"),  welcome.at("robot").dump(), welcome.at("scene").dump(),
           welcome.at("buses").dump(), welcome.at("time_mode"),    welcome.at("period_s")};
@@ -27,7 +27,7 @@ void record_until_end(liana::ApiClient& client, liana::Recording& recording) {
       recording.take(packet);
       continue;
     }
-    const Json message = Json::parse(packet);
+    const liana::Json message = liana::Json::parse(packet);
     if (message.value("op", "") == "state") client.send({{"op", "done"}, {"tick", message.at("tick")}});
   }
 }
@@ -39,7 +39,7 @@ int run(const std::string& api, const std::string& directory) {
                {"role", "archive"},
                {"lockstep", true},
                {"subscribe", {"tick", "state"}}});
-  const std::optional<Json> welcome = client.receive(30.0);
+  const std::optional<liana::Json> welcome = client.receive(30.0);
   if (!welcome) throw std::runtime_error("lianad did not answer the archive's hello within 30 s");
   liana::Recording recording(directory, info_from(*welcome));
   try {
