@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstring>
 
+#include "firmware_like/math/arithmetic.hpp"
+
 namespace liana {
 
 using Pair = double __attribute__((vector_size(16)));  // a language extension that g++ and clang share

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "firmware_like/math/arithmetic.hpp"
+
 namespace liana {
 
 using Vec3 = std::array<double, 3>;

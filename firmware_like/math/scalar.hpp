@@ -1,6 +1,8 @@
 // Scalars: the few helpers that would otherwise come from libm.
 #pragma once
 
+#include "firmware_like/math/arithmetic.hpp"
+
 namespace liana {
 
 constexpr double smaller(double a, double b) noexcept { return a < b ? a : b; }

@@ -37,7 +37,6 @@ Service::Service(const ServiceConfig& config, Link& link)
       zone_(config.scene.slit, config.robot.table.limits.tip_speed_slit_m_s),
       arbiter_(config.robot.table, zone_),
       shape_progress_(config.robot.table),
-      twin_(config.robot.table),
       server_(config.api_path, *this) {}
 
 void Service::wait_for(const std::vector<Role>& roles, double timeout_s) {
@@ -197,7 +196,7 @@ void Service::verify_and_release(const cable::Setpoint& setpoint) {
   const TwinImage& image = link_.image.value();
   const auto interval = static_cast<std::uint64_t>(table.interval_ticks);
   const Candidate candidate = release_.candidate(setpoint, owner_.role_number(), image.next_tick + interval, interval);
-  const Prediction prediction = twin_.run(image, released_, candidate, max_stop_ticks(table));
+  const Prediction prediction = Twin::run(image, released_, candidate, max_stop_ticks(table));
   ExecutionVerdict execution = judge_execution(table, candidate, prediction);
   const SimulationVerdict simulation = judge_motion(table, candidate, prediction, zone_);
   if (config_.time_mode == TimeMode::kReal) {

@@ -22,7 +22,7 @@
 #include "host/daemon/state_message.hpp"
 #include "host/json/json.hpp"
 #include "host/time/time_mode.hpp"
-#include "host/verify/release.hpp"
+#include "host/verify/release_step.hpp"
 #include "host/verify/twin.hpp"
 #include "host/verify/verify.hpp"
 
@@ -120,8 +120,7 @@ class Service : private ApiHandler {
   SpeedZone zone_;
   Arbiter arbiter_;
   ShapeProgress shape_progress_;
-  Release release_;
-  Twin twin_;
+  ReleaseStep release_;
   std::vector<cable::Telecommand> released_;  // not yet due at the newest image
   Notes notes_;
   HostTrouble trouble_;

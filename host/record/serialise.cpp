@@ -1,5 +1,6 @@
 #include "host/record/serialise.hpp"
 
+#include "firmware_like/command/release.hpp"
 #include "host/record/codec.hpp"
 
 namespace liana {
@@ -38,7 +39,7 @@ cable::Inputs RecordingDecoder::inputs(std::string_view bytes) {
   visit(reader, fields);
   check_length(reader.position(), bytes.size(), "inputs");
   inputs.telecommand =
-      cable::Telecommand(fields.sequence, fields.first_tick, fields.expiry_tick, fields.owner, fields.setpoint);
+      Release::make(fields.sequence, fields.first_tick, fields.expiry_tick, fields.owner, fields.setpoint);
   return inputs;
 }
 

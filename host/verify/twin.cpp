@@ -1,20 +1,31 @@
 #include "host/verify/twin.hpp"
 
-#include "host/verify/ideal_drives.hpp"
+#include "firmware_like/drive/ideal_drive.hpp"
+#include "firmware_like/math/convert.hpp"
 
 namespace liana {
 
 namespace {
 
-// One tick of the copy with ideal feedback.
-cable::Outputs step(cable::Controller& copy, IdealDrives& drives, std::uint64_t tick,
-                    const cable::Telecommand& command) {
-  cable::Inputs inputs = drives.next_inputs(tick);
-  inputs.telecommand = command;
-  const cable::Outputs outputs = copy.tick(inputs);
-  drives.command(outputs);
-  return outputs;
-}
+// A copy of the Controller on drives that go where they are told.
+struct Ahead {
+  cable::Controller controller;
+  cable::Inputs inputs;
+  cable::Outputs told;
+
+  const cable::Outputs& step(std::uint64_t tick, const cable::Telecommand& command) {
+    const cable::RobotTable& table = controller.table();
+    for (std::int32_t i = 0; i < table.drive_count(); ++i) {
+      const std::size_t d = as_index(i);
+      const std::int16_t permille = cable::CableArm::planned_permille(table, told, i);
+      inputs.drive[d] = ideal_feedback(inputs.drive[d], told.drive[d], permille);
+    }
+    inputs.tick = tick;
+    inputs.telecommand = command;
+    told = controller.tick(inputs);
+    return told;
+  }
+};
 
 cable::Telecommand command_at(std::span<const cable::Telecommand> released, std::uint64_t tick) {
   for (const cable::Telecommand& command : released) {
@@ -26,21 +37,21 @@ cable::Telecommand command_at(std::span<const cable::Telecommand> released, std:
 }  // namespace
 
 Prediction Twin::run(const TwinImage& start, std::span<const cable::Telecommand> released, const Candidate& candidate,
-                     std::size_t max_stop_ticks) const {
+                     std::size_t max_stop_ticks) {
   Prediction prediction;
   prediction.faults_before =
       static_cast<std::uint64_t>(start.last_outputs.faults.count) + start.last_outputs.faults.dropped;
-  cable::Controller copy = start.controller;
-  IdealDrives drives(table_, start.last_inputs, start.last_outputs);
+  Ahead copy{start.controller, {}, start.last_outputs};
+  copy.inputs.drive = start.last_inputs.drive;
   std::uint64_t tick = start.next_tick;
-  for (; tick < candidate.first_tick(); ++tick) step(copy, drives, tick, command_at(released, tick));
+  for (; tick < candidate.first_tick(); ++tick) copy.step(tick, command_at(released, tick));
   for (; tick < candidate.expiry_tick(); ++tick) {
     prediction.ticks.push_back(
-        step(copy, drives, tick, tick == candidate.first_tick() ? candidate.telecommand_ : cable::Telecommand{}));
+        copy.step(tick, tick == candidate.first_tick() ? candidate.telecommand_ : cable::Telecommand{}));
   }
   prediction.command_ticks = prediction.ticks.size();
   for (std::size_t i = 0; i < max_stop_ticks && !prediction.comes_to_rest; ++i, ++tick) {
-    prediction.ticks.push_back(step(copy, drives, tick, cable::Telecommand{}));
+    prediction.ticks.push_back(copy.step(tick, cable::Telecommand{}));
     prediction.comes_to_rest = prediction.ticks.back().at_rest != 0;
   }
   return prediction;

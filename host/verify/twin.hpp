@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "firmware_like/cable_controller.hpp"
-#include "host/verify/release.hpp"
+#include "host/verify/release_step.hpp"
 
 namespace liana {
 
@@ -28,14 +28,10 @@ struct Prediction {
 
 class Twin {
  public:
-  explicit Twin(const cable::RobotTable& table) : table_(table) {}
   // Advances a copy through what is already released, then through the candidate, then through the stop that follows
   // when nothing else comes; at most `max_stop_ticks` of it.
-  Prediction run(const TwinImage& start, std::span<const cable::Telecommand> released, const Candidate& candidate,
-                 std::size_t max_stop_ticks) const;
-
- private:
-  cable::RobotTable table_;
+  static Prediction run(const TwinImage& start, std::span<const cable::Telecommand> released,
+                        const Candidate& candidate, std::size_t max_stop_ticks);
 };
 
 }  // namespace liana

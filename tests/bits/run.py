@@ -5,6 +5,7 @@ import contextlib
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -13,8 +14,19 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TARGETS = pathlib.Path(__file__).resolve().parent / "target"
-QEMU = ["qemu-system-arm", "-M", "mps2-an500", "-nographic", "-monitor", "none", "-serial", "none",
+QEMU_M7 = ["qemu-system-arm", "-M", "mps2-an500", "-nographic", "-monitor", "none", "-serial", "none",
         "-semihosting-config", "enable=on,target=native", "-icount", "shift=5", "-kernel"]
+TOOLCHAINS = {
+    "arm-none-eabi-g++": ("cortex_m7.cmake", "arm-none-eabi-"),
+    "aarch64-linux-gnu-g++": ("aarch64.cmake", "aarch64-linux-gnu-"),
+}
+# What rounds once where source rounds twice: FMA3, FMA4 and AVX-512 on x86, scalar, vector and complex ones on ARM,
+# the library's function. Not vmla and vmls of 32-bit ARM: they round the product.
+FUSED = re.compile(
+    r":\s+(?:v4?fc?n?m(?:add|sub)|vfn?m[as]\b|vfm[as]l|fn?m(?:add?\b|sub\b|sb\b|l[as])|v?f?cmla)|\bR_\w+\s+fma[fl]?\b"
+)
+# Options under which the core must not compile, and what the message must name (firmware_like/math/arithmetic.hpp).
+REFUSED = {"-ffast-math": "-ffast-math", "-mfma": "-mno-fma", "-mavx512f -mno-fma": "-mno-avx512f", "-mfpmath=387": "x87"}
 WORST_CASES = ROOT / "tests/bench/worst_cases.txt"
 WORST_TICK = 1.5  # times the median of missions, which on the Cortex-M7 is
 M7_MEDIAN = 58_500  # where the whole slit crossing is not among them (./dev bits measures it)
@@ -27,18 +39,34 @@ class Failed(Exception):
 
 
 class Target:
-    """One build of the core and its player."""
+    """One build of the core and its player; with plays=False only looked through: not every machine can run it."""
 
-    def __init__(self, name, compiler, options, quick=False):
+    def __init__(self, name, compiler, options, quick=False, emulator=(), plays=True):
         self.name, self.compiler, self.options, self.quick = name, compiler, options, quick
+        self.emulator, self.plays = emulator, plays
+        self.toolchain, prefix = TOOLCHAINS.get(compiler, (None, ""))
+        self.objdump = prefix + "objdump"
         self.is_m7 = compiler == "arm-none-eabi-g++"
 
     def build(self, work):
         folder = work / self.name
-        chosen = f"-DCMAKE_TOOLCHAIN_FILE={TARGETS / 'cortex_m7.cmake'}" if self.is_m7 else f"-DCMAKE_CXX_COMPILER={self.compiler}"
-        run(["cmake", "-G", "Ninja", "-S", TARGETS, "-B", folder, chosen, f"-DBITS_OPTIONS={self.options}"], f"configuring {self.name}")
-        run(["ninja", "-C", folder, "-j", "1"], f"building {self.name}")
+        chosen = [f"-DCMAKE_CXX_COMPILER={self.compiler}", f"-DCMAKE_CXX_FLAGS={self.options}"]
+        if self.toolchain:
+            chosen = [f"-DCMAKE_TOOLCHAIN_FILE={TARGETS / self.toolchain}", f"-DBITS_OPTIONS={self.options}"]
+        run(["cmake", "-G", "Ninja", "-S", TARGETS, "-B", folder, *chosen], f"configuring {self.name}")
+        run(["ninja", "-C", folder, "-j", "1", *([] if self.plays else ["player", "planted"])], f"building {self.name}")
         return folder
+
+    def look_through(self, folder):
+        """Counts fused operations in the disassembly of the core, of what includes its headers, of the planted file."""
+        found = {}
+        for what, places in {"core": ["firmware_like", "CMakeFiles/player.dir"], "planted": ["CMakeFiles/planted.dir"]}.items():
+            objects = [file for place in places for file in sorted((folder / place).rglob("*.o*"))]
+            text = run([self.objdump, "-dr", "--no-show-raw-insn", *objects], f"disassembling {self.name}")
+            if not re.search(r":\s+ret|:\s+bx\s+lr|:\s+ldmia", text):
+                raise Failed(f"disassembling {self.name}: no code in {len(objects)} objects under {folder}")
+            found[what] = len(FUSED.findall(text))
+        return {"name": self.name, "compiler": self.compiler, "options": self.options, "fused": found["core"], "fused_planted": found["planted"]}
 
     def play(self, folder, tape, program="bits_ticks"):
         """Plays a tape and compares; what the Cortex-M7 counted comes along."""
@@ -46,7 +74,7 @@ class Target:
             answers = pathlib.Path(place)
             os.symlink(tape.tape, answers / "tape.bits")
             begin = time.monotonic()
-            run([*(QEMU if self.is_m7 else []), folder / program], f"playing on {self.name}", cwd=answers)
+            run([*self.emulator, folder / program], f"playing on {self.name}", cwd=answers)
             result = {"name": self.name, "compiler": self.compiler, "options": self.options, "seconds": round(time.monotonic() - begin, 1),
                       **tape.tool("compare", tape.expected, answers / "outputs.bits")}
             if self.is_m7:
@@ -54,6 +82,9 @@ class Target:
         return result
 
 
+# Processors with fused multiply-add, whose every use would change bits. What this machine's has not, QEMU has.
+PROCESSOR = set(re.search(r"^flags\s*:(.*)$|\Z", pathlib.Path("/proc/cpuinfo").read_text(), re.M)[0].split())
+V3 = [] if {"avx2", "bmi2", "fma", "f16c", "movbe", "abm"} <= PROCESSOR else ["qemu-x86_64", "-cpu", "max"]
 ALL_TARGETS = [
     Target("gcc_O2", "g++", "-O2"),  # not quick: the programs that record are built so
     Target("gcc_O3", "g++", "-O3"),
@@ -62,7 +93,14 @@ ALL_TARGETS = [
     Target("gcc_O0", "g++", "-O0"),
     Target("clang_O0", "clang++", "-O0"),
     Target("gcc_sanitizers", "g++", "-O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all"),
-    Target("cortex_m7_O2", "arm-none-eabi-g++", "-O2", quick=True),
+    Target("gcc_v3_O2", "g++", "-O2 -march=x86-64-v3", quick=True, emulator=V3),
+    Target("gcc_v3_O3", "g++", "-O3 -march=x86-64-v3", emulator=V3),
+    Target("clang_v3_O3", "clang++", "-O3 -march=x86-64-v3", emulator=V3),
+    Target("gcc_v4_O3", "g++", "-O3 -march=x86-64-v4", plays=False),
+    Target("gcc_bdver4_O3", "g++", "-O3 -march=bdver4", plays=False),
+    Target("aarch64_O2", "aarch64-linux-gnu-g++", "-O2", quick=True, emulator=["qemu-aarch64"]),
+    Target("aarch64_v9_O3", "aarch64-linux-gnu-g++", "-O3 -march=armv9-a", emulator=["qemu-aarch64", "-cpu", "max"]),
+    Target("cortex_m7_O2", "arm-none-eabi-g++", "-O2", quick=True, emulator=QEMU_M7),
 ]
 
 # Mission, further options, exit code of `liana run`: the last is turned back by its operator, and does not succeed.
@@ -108,6 +146,13 @@ class Tape:
         return json.loads(run([self.program, *words], f"bits_tape {words[0]}"))
 
 
+def refusal(options, named):
+    """True when the core's headers refuse to be compiled by g++ with these options, and say why."""
+    words = ["g++", "-std=c++20", "-fsyntax-only", *options.split(), "-I", ROOT, "-x", "c++", ROOT / "firmware_like/controller.hpp"]
+    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+    return done.returncode != 0 and any("#error" in line and named in line for line in done.stderr.splitlines())
+
+
 def size_of(folder):
     """Bytes of flash and static RAM of the least program with the core in it."""
     text, data, bss = run(["arm-none-eabi-size", folder / "bits_footprint"], "arm-none-eabi-size").splitlines()[1].split()[:3]
@@ -128,6 +173,7 @@ def measure(options, place, pool):
     missions = [SHORT_MISSION] if options.quick else [*MISSIONS, SHORT_MISSION]
     recorded = [pool.submit(record, options.bin, place, mission) for mission in missions]
     built = {target: pool.submit(target.build, options.work) for target in targets}
+    players = [target for target in targets if target.plays]
 
     recordings = [each.result() for each in recorded]
     whole = Tape(options.bin, place, "whole", "make", recordings, "--apart", "5000")
@@ -138,14 +184,16 @@ def measure(options, place, pool):
         shutil.rmtree(each.parent)
 
     m7 = next(target for target in targets if target.is_m7)
-    played = [pool.submit(target.play, built[target].result(), whole) for target in targets]
-    played_costly = [pool.submit(target.play, built[target].result(), costly) for target in targets]
+    played = [pool.submit(target.play, built[target].result(), whole) for target in players]
+    played_costly = [pool.submit(target.play, built[target].result(), costly) for target in players]
     planted = {"fused multiply-add in one source file, on the Cortex-M7": pool.submit(m7.play, built[m7].result(), brief, "bits_fused"),
                "one bit of one input": pool.submit(targets[0].play, built[targets[0]].result(), flipped)}
     results = [each.result() for each in played]
     results_costly = [each.result() for each in played_costly]
-    meters = [each[targets.index(m7)].pop("meter") for each in (results, results_costly)]
-    return {"tape": whole.summary, "targets": results, "costly": results_costly, "planted": {what: each.result() for what, each in planted.items()},
+    meters = [each[players.index(m7)].pop("meter") for each in (results, results_costly)]
+    return {"tape": whole.summary, "targets": results, "costly": results_costly,
+            "disassembly": [target.look_through(built[target].result()) for target in targets],
+            "refused": {flags: refusal(flags, named) for flags, named in REFUSED.items()}, "planted": {what: each.result() for what, each in planted.items()},
             "cortex_m7": figures(options.work / m7.name, *meters, options.quick)}
 
 
@@ -163,6 +211,9 @@ def show(report):
             print(f"{result['name']:16} {result['ticks']:8} ticks{' of costly cases' if what == 'costly' else ''}, {result['differing_ticks']} differ{first_of(result)}  ({result['seconds']} s)")
     for what, result in report["planted"].items():
         print(f"{'found' if result['differing_ticks'] else 'NOT FOUND'}: {what}: {result['differing_ticks']} of {result['ticks']} ticks differ{first_of(result)}")
+    for seen in report["disassembly"]:
+        print(f"{seen['name']:16} {seen['fused']} fused operations in the core; planted: {seen['fused_planted'] or 'NOT'} found  ({seen['options']})")
+    print("refused by the headers: " + ", ".join(f"{flags}: {'yes' if refused else 'NO'}" for flags, refused in report["refused"].items()))
     print(f"Cortex-M7: flash {m7['flash_bytes']} bytes, RAM {m7['static_ram_bytes']} bytes and {m7['worst_stack_bytes']} of stack; instructions per tick: "
           f"median {m7['median_instructions']:.0f} (enabled), worst {m7['worst_instructions']:.0f} (tick {m7['worst_tick']}, {m7['worst_state']}), "
           f"{m7['worst_over_median']:.2f} times the median")
@@ -172,8 +223,9 @@ def holds(report):
     """No tick differs or costs too much, the comparison is one that finds differences, and every fault was among what was compared."""
     same = all(result["ticks"] > 0 and result["differing_ticks"] == 0 for result in report["targets"] + report["costly"])
     found = all(result["differing_ticks"] > 0 for result in report["planted"].values())
+    unfused = all(seen["fused"] == 0 and seen["fused_planted"] > 0 for seen in report["disassembly"]) and all(report["refused"].values())
     bounded = report["cortex_m7"]["worst_over_median"] <= WORST_TICK
-    return same and found and bounded and set(report["tape"]["faults_not_reached"]) <= NOT_REACHED
+    return same and found and unfused and bounded and set(report["tape"]["faults_not_reached"]) <= NOT_REACHED
 
 
 def arguments():

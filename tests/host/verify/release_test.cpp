@@ -1,5 +1,5 @@
 // Only the release step makes telecommands, and only with both verdicts.
-#include "host/verify/release.hpp"
+#include "host/verify/release_step.hpp"
 
 #include <gtest/gtest.h>
 

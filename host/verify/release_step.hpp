@@ -1,10 +1,10 @@
-// The one place where telecommands are made: a candidate becomes a telecommand only with both verdicts.
+// The step after both verdicts: a candidate becomes a telecommand only here.
 #pragma once
 
 #include <cstdint>
 #include <optional>
 
-#include "firmware_like/cable/setpoint.hpp"
+#include "firmware_like/cable_controller.hpp"
 #include "host/verify/verdict.hpp"
 
 namespace liana {
@@ -18,13 +18,13 @@ class Candidate {
   const cable::Setpoint& setpoint() const { return telecommand_.setpoint(); }
 
  private:
-  friend class Release;
+  friend class ReleaseStep;
   friend class Twin;
   explicit Candidate(const cable::Telecommand& telecommand) : telecommand_(telecommand) {}
   cable::Telecommand telecommand_;
 };
 
-class Release {
+class ReleaseStep {
  public:
   // A candidate with a sequence of its own for the interval [first_tick, first_tick + interval_ticks).
   Candidate candidate(const cable::Setpoint& setpoint, std::uint32_t owner, std::uint64_t first_tick,

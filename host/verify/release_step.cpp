@@ -1,13 +1,15 @@
-#include "host/verify/release.hpp"
+#include "host/verify/release_step.hpp"
+
+#include "firmware_like/command/release.hpp"
 
 namespace liana {
 
-Candidate Release::candidate(const cable::Setpoint& setpoint, std::uint32_t owner, std::uint64_t first_tick,
+Candidate ReleaseStep::candidate(const cable::Setpoint& setpoint, std::uint32_t owner, std::uint64_t first_tick,
                              std::uint64_t interval_ticks) {
-  return Candidate(cable::Telecommand(++last_sequence_, first_tick, first_tick + interval_ticks, owner, setpoint));
+  return Candidate(Release::make(++last_sequence_, first_tick, first_tick + interval_ticks, owner, setpoint));
 }
 
-std::optional<cable::Telecommand> Release::release(const Candidate& candidate, const ExecutionVerdict& execution,
+std::optional<cable::Telecommand> ReleaseStep::release(const Candidate& candidate, const ExecutionVerdict& execution,
                                                    const SimulationVerdict& simulation) {
   const std::uint64_t sequence = candidate.sequence();
   const bool both =
