@@ -142,8 +142,12 @@ std::string kind_of(const Json& table) {
 
 std::string robot_kind(const std::string& text, const std::string& file) { return kind_of(parse_json(text, file)); }
 
+SerialRobotConfig parse_serial_robot(const std::string& text, const std::string& file) {
+  return read_serial_robot(parse_json(text, file), file);
+}
+
 SerialRobotConfig parse_serial_robot(const std::string& text, const std::string& file, const BusesConfig& buses) {
-  SerialRobotConfig out = read_serial_robot(parse_json(text, file), file);
+  SerialRobotConfig out = parse_serial_robot(text, file);
   check_nodes(out.name, out.table.drive_count(), file, buses);
   out.table.tick_s = buses.tick_s();
   out.table.interval_ticks = buses.interval_ticks();

@@ -39,6 +39,9 @@ SerialRobotConfig load_serial_robot(const std::string& path, const BusesConfig& 
 // The same from JSON text; `file` is what messages call it.
 SerialRobotConfig parse_serial_robot(const std::string& text, const std::string& file, const BusesConfig& buses);
 
+// For kinematics alone: without buses, tick and T_c stay 0.
+SerialRobotConfig parse_serial_robot(const std::string& text, const std::string& file);
+
 // Checks the table by itself, without buses, and returns its canonical JSON.
 std::string check_serial_robot(const Json& table, const std::string& file);
 
