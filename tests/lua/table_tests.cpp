@@ -69,7 +69,7 @@ TEST(Eval, RefusesMalformedLuaTablesByField) {
 TEST(Eval, NamesWhatThereIsWhenANameIsUnknown) {
   const Ended ended = run_program("eval buses can9");
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(ended.error.find("can9: allowed embedded, embedded_500, embedded_single, vcan"), std::string::npos)
+  EXPECT_NE(ended.error.find("can9: allowed embedded, embedded_500, embedded_micro, embedded_micro_single, embedded_single, vcan"), std::string::npos)
       << ended.error;
 }
 
