@@ -26,7 +26,7 @@ const Json& field(const Json& object, const std::string& key) {
                                           " where an object with this field belongs");
   }
   const auto found = object.find(key);
-  if (found == object.end()) throw RequestError("bad_request", "field '" + key + "' is missing: add it");
+  if (found == nullptr) throw RequestError("bad_request", "field '" + key + "' is missing: add it");
   return *found;
 }
 
@@ -104,8 +104,7 @@ Pose pose_field(const Json& object, const std::string& key, double reach_m) {
 
 std::string text_field(const Json& object, const std::string& key, std::size_t max_bytes) {
   const Json& value = field(object, key);
-  const bool good = value.is_string() && !value.get_ref<const std::string&>().empty() &&
-                    value.get_ref<const std::string&>().size() <= max_bytes;
+  const bool good = value.is_string() && !value.text().empty() && value.text().size() <= max_bytes;
   if (!good)
     throw RequestError("bad_request",
                        "field '" + key + "': must be a text of 1 to " + std::to_string(max_bytes) + " bytes");
@@ -122,7 +121,7 @@ bool flag_field(const Json& object, const std::string& key) {
 const Json& array_field(const Json& object, const std::string& key, std::size_t max_items) {
   static const Json kEmpty = Json::array();
   const auto found = object.find(key);
-  if (found == object.end()) return kEmpty;
+  if (found == nullptr) return kEmpty;
   if (!found->is_array() || found->size() > max_items) {
     const std::string what =
         found->is_array() ? std::to_string(found->size()) + " entries" : found->dump().substr(0, 60);

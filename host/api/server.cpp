@@ -31,12 +31,12 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 std::string error_packet(const Json& request, const std::string& code, const std::string& message) {
   Json answer{{"op", "error"}, {"code", code}, {"message", message}};
   if (request.is_object() && request.contains("id")) answer["id"] = request["id"];
-  return answer.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return answer.dump(-1, Json::BadUtf8::kReplace);
 }
 
 std::string op_of(const Json& request) {
   const auto op = request.find("op");
-  return op != request.end() && op->is_string() ? op->get<std::string>() : std::string();
+  return op != nullptr && op->is_string() ? op->get<std::string>() : std::string();
 }
 
 }  // namespace
@@ -143,7 +143,7 @@ void ApiServer::take_packet(Client& client, const std::string& packet) {
     client.inbox.push_back(std::move(request));
   } catch (const RequestError& error) {
     enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
-  } catch (const Json::exception& error) {
+  } catch (const JsonError& error) {
     enqueue(client, Topic::kState, false,
             error_packet(Json(), "bad_request", std::string("not JSON: ") + error.what()));
   }
@@ -189,7 +189,7 @@ void ApiServer::answer_one(Client& client, const Json& request) {
     enqueue(client, Topic::kState, false, answer.dump());
   } catch (const RequestError& error) {
     enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
-  } catch (const Json::exception& error) {
+  } catch (const JsonError& error) {
     enqueue(client, Topic::kState, false, error_packet(request, "bad_request", error.what()));
   }
 }

@@ -11,6 +11,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // Whether any entry is used.
 bool has_nodes(const NodeTargets& nodes);
 

@@ -11,6 +11,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 enum class DeviceKind : std::uint8_t { kNone = 0, kVr = 1, kHand = 2 };
 
 // What use_device sets.

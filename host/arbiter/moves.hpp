@@ -10,6 +10,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // Share of the limits that planned moves use; the rest is for the filters that follow them.
 constexpr double kMoveShare = 0.9;
 

@@ -9,6 +9,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // The shape has settled when what is missing has not changed by more than this for this long (arm time).
 constexpr double kShapeSettled_m = 0.0005;
 constexpr double kShapeSettled_s = 4.0;

@@ -53,7 +53,7 @@ struct Welcome {
 };
 static_assert(sizeof(Welcome) == 8 + 16 * kMaxBuses);
 
-struct cable::Frame {
+struct Frame {
   std::uint64_t time_us = 0;
   std::uint32_t id = 0;
   std::uint8_t bus = 0;
@@ -62,7 +62,7 @@ struct cable::Frame {
   std::uint8_t zero = 0;
   std::array<std::uint8_t, 8> data{};
 };
-static_assert(sizeof(cable::Frame) == 24);
+static_assert(sizeof(Frame) == 24);
 
 struct Wake {
   Type type = Type::kWake;
@@ -70,8 +70,8 @@ struct Wake {
   std::uint16_t frame_count = 0;
   std::uint32_t slot = 0;
   std::uint64_t now_us = 0;
-  std::array<cable::Frame, kMaxPacketFrames> frame{};  // frame_count of them are sent
-  std::size_t size() const { return offsetof(Wake, frame) + frame_count * sizeof(cable::Frame); }
+  std::array<Frame, kMaxPacketFrames> frame{};  // frame_count of them are sent
+  std::size_t size() const { return offsetof(Wake, frame) + frame_count * sizeof(Frame); }
 };
 static_assert(offsetof(Wake, frame) == 16);
 
@@ -81,18 +81,18 @@ struct Yield {
   std::uint16_t frame_count = 0;
   std::uint32_t zero = 0;
   std::uint64_t until_us = 0;
-  std::array<cable::Frame, kMaxPacketFrames> frame{};  // frame_count of them are sent
-  std::size_t size() const { return offsetof(Yield, frame) + frame_count * sizeof(cable::Frame); }
+  std::array<Frame, kMaxPacketFrames> frame{};  // frame_count of them are sent
+  std::size_t size() const { return offsetof(Yield, frame) + frame_count * sizeof(Frame); }
 };
 static_assert(offsetof(Yield, frame) == 16);
 
 constexpr std::size_t kHeaderBytes = 16;  // of WAKE and YIELD
 
 // The frame without what only the bus needs.
-inline CanFrame to_can_frame(const cable::Frame& frame) { return {frame.id, frame.length, frame.data, frame.time_us}; }
+inline CanFrame to_can_frame(const Frame& frame) { return {frame.id, frame.length, frame.data, frame.time_us}; }
 
 // The frame on `bus`, ready to be sent.
-inline cable::Frame to_wire_frame(int bus, const CanFrame& frame) {
+inline Frame to_wire_frame(int bus, const CanFrame& frame) {
   return {frame.time_us, frame.id, static_cast<std::uint8_t>(bus), frame.length, 0, 0, frame.data};
 }
 

@@ -20,6 +20,10 @@ Json field(const Json& object, const char* name) {
   return object.is_object() && object.contains(name) ? object.at(name) : Json();
 }
 
+bool is_within(const Json& value, double low, double high) {
+  return value.is_number() && value.get<double>() >= low && value.get<double>() <= high;
+}
+
 WireConfig read_wire(const std::string& path, const std::string& where, const Json& bus) {
   const auto name = field(bus, "name");
   const auto bitrate = field(bus, "bitrate");
@@ -27,7 +31,7 @@ WireConfig read_wire(const std::string& path, const std::string& where, const Js
       name.get<std::string>().find('/') != std::string::npos) {
     refuse(path, where + "name", name, "is a name of 1 to 11 letters without /");
   }
-  if (!bitrate.is_number_integer() || bitrate < 10000 || bitrate > 1000000)
+  if (!bitrate.is_number_integer() || !is_within(bitrate, 10000, 1000000))
     refuse(path, where + "bitrate", bitrate, "is 10000 to 1000000 bit/s");
   return {name.get<std::string>(), bitrate.get<std::uint32_t>()};
 }
@@ -37,9 +41,9 @@ WireConfig read_wire(const std::string& path, const std::string& where, const Js
 void load_wires(const std::string& path, BusHubOptions& options) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read; give the bus table with --buses");
-  const Json table = Json::parse(file, nullptr, false);
+  const Json table = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
   const auto rate = field(table, "rate_hz");
-  if (!rate.is_number() || rate < 1.0 || rate > 10000.0) refuse(path, "rate_hz", rate, "is 1 to 10000 Hz");
+  if (!is_within(rate, 1, 10000)) refuse(path, "rate_hz", rate, "is 1 to 10000 Hz");
   options.period_us = static_cast<std::uint32_t>(std::lround(1e6 / rate.get<double>()));
   const auto buses = field(table, "buses");
   if (!buses.is_array() || buses.empty() || buses.size() > wire::kMaxBuses)

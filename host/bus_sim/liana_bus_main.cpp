@@ -1,5 +1,4 @@
 // liana-bus: the embedded CAN bus (docs/bus-protocol.md).
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -7,6 +6,7 @@
 #include "host/bus_sim/bus_hub.hpp"
 #include "host/bus_sim/bus_listener.hpp"
 #include "host/bus_sim/bus_process.hpp"
+#include "host/command_line/command_line.hpp"
 
 namespace {
 
@@ -50,24 +50,18 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app(
+  liana::CommandLine line(
       "The embedded CAN bus: exact bit timing, arbitration and bounded queues between lianad and the bench, and "
       "virtual time.",
       "liana-bus");
   Arguments arguments;
-  app.add_option("--socket", arguments.socket, "Path of the local socket to listen on")->required();
-  app.add_option("--buses", arguments.buses, "Bus table (JSON)")->required();
-  app.add_option("--time", arguments.time, "How time passes")
-      ->check(CLI::IsMember({"fast", "paced", "real"}))
-      ->capture_default_str();
-  app.add_option("--log", arguments.log_directory, "Directory for one candump log per bus");
-  app.add_option("--script", arguments.script, "Scripted losses (JSON)");
-  app.add_option("--stats", arguments.stats, "File for frames, bits and load per bus (JSON), written at the end");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
-  }
+  line.option("--socket", arguments.socket, "Path of the local socket to listen on").required();
+  line.option("--buses", arguments.buses, "Bus table (JSON)").required();
+  line.option("--time", arguments.time, "How time passes").one_of({"fast", "paced", "real"}).with_default_shown();
+  line.option("--log", arguments.log_directory, "Directory for one candump log per bus");
+  line.option("--script", arguments.script, "Scripted losses (JSON)");
+  line.option("--stats", arguments.stats, "File for frames, bits and load per bus (JSON), written at the end");
+  if (const auto code = line.parse(argc, argv)) return *code == 0 ? 0 : 2;
   end_on_signals();
   try {
     run(arguments);

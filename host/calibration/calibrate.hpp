@@ -12,6 +12,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // The arm in a fixture at a known pose: what every drive reports, by the robot table.
 struct CalibrationReading {
   ThetaVector theta_rad{};

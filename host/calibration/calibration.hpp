@@ -10,6 +10,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // One drive with its cable.
 struct CableCalibration {
   std::uint32_t serial = 0;      // 0x1018:4 of the drive

@@ -9,7 +9,7 @@ namespace liana::canopen {
 namespace {
 
 // Ten times the lag of the drives at full cable speed (10 mm/s, 30 ms): only a drive that cannot follow gets there.
-constexpr double cable::kFollowingWindow_m = 0.005;
+constexpr double kFollowingWindow_m = 0.005;
 constexpr int kDeadlinePeriods = 3;
 constexpr int kMasterHeartbeatsMissed = 3;
 
@@ -49,7 +49,7 @@ std::vector<DriveExpectation> drive_expectations(const RobotConfig& robot, const
     }
     if (!robot.drive_serials.empty()) drive.serial = robot.drive_serials[static_cast<std::size_t>(i)];
     drive.following_window_counts =
-        rounded(cable::kFollowingWindow_m / robot.table.drive[static_cast<std::size_t>(i)].metres_per_count);
+        rounded(kFollowingWindow_m / robot.table.drive[static_cast<std::size_t>(i)].metres_per_count);
     drives.push_back(drive);
   }
   return drives;

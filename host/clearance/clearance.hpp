@@ -15,6 +15,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // A link: all points within radius_m (>= 0) of the straight axis between two points of the base frame; they may
 // coincide.
 struct Capsule {

@@ -39,7 +39,7 @@ std::vector<cable::ThetaVector> read_waypoints(const std::string& path, const ca
   if (std::filesystem::is_regular_file(path, unreadable)) file.open(path, std::ios::binary);
   if (!file.is_open())
     throw BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
-  const Json document = Json::parse(std::string{std::istreambuf_iterator<char>(file), {}}, nullptr, false);
+  const Json document = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
   const Json rows = document.is_object() ? document.value("waypoints_deg", Json()) : Json();
   if (!rows.is_array() || rows.empty() || rows.size() > kMaxWaypoints) {
     throw BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " +

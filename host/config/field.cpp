@@ -38,7 +38,7 @@ Field Field::at(const std::string& key) const {
   if (!value_->is_object()) refuse("a table with named fields", "write it as { " + key + " = ... }");
   const auto found = value_->find(key);
   const std::string path = path_.empty() ? key : path_ + "." + key;
-  if (found == value_->end())
+  if (found == nullptr)
     throw std::runtime_error(file_ + ": " + path +
                              ": missing: allowed a value as docs/formats.md gives it: add the field");
   return Field(*found, file_, path);
@@ -102,23 +102,13 @@ std::string Field::choice(const std::vector<std::string>& words) const {
 }
 
 Json parse_json(const std::string& text, const std::string& file, const std::string& advice) {
-  std::vector<std::set<std::string>> keys;  // of the objects that are open
-  std::string twice;
-  const auto look = [&](int, Json::parse_event_t event, Json& value) {
-    using Event = Json::parse_event_t;
-    if (event == Event::object_start) keys.emplace_back();
-    if (event == Event::object_end) keys.pop_back();
-    if (event == Event::key && !keys.back().insert(value.get<std::string>()).second) twice = value.get<std::string>();
-    return true;
-  };
-  Json parsed;
   try {
-    parsed = Json::parse(text, look);
-  } catch (const Json::exception& error) {
+    return Json::parse(text, Json::Twice::kRefuse);
+  } catch (const JsonTwiceError& error) {
+    throw std::runtime_error(file + ": " + error.key + ": given twice: allowed once: remove one of them");
+  } catch (const JsonParseError& error) {
     throw std::runtime_error(file + ": not JSON: " + error.what() + ": " + advice);
   }
-  if (!twice.empty()) throw std::runtime_error(file + ": " + twice + ": given twice: allowed once: remove one of them");
-  return parsed;
 }
 
 std::string read_text_file(const std::string& path) {

@@ -1,5 +1,4 @@
 // lianad: the real-time thread with the core and the buses, and the service side with the API socket.
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <csignal>
@@ -10,6 +9,7 @@
 
 #include "host/api/registry.hpp"
 #include "host/calibration/calibration.hpp"
+#include "host/command_line/command_line.hpp"
 #include "host/control/realtime.hpp"
 #include "host/control/rt_cycle.hpp"
 #include "host/daemon/service.hpp"
@@ -130,22 +130,20 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app{"lianad: control core, buses, verification and API of a cable-driven arm"};
-  app.add_option("--robot", options.robot, "robot JSON (docs/formats.md)")->required();
-  app.add_option("--scene", options.scene, "scene JSON")->required();
-  app.add_option("--buses", options.buses, "buses JSON")->required();
-  app.add_option("--api", options.api, "path of the API socket to listen at")->required();
-  app.add_option("--time", options.time, "fast, paced or real")->capture_default_str();
-  app.add_option("--physics", options.physics, "friction the core is told: nominal, ideal or worn")
-      ->capture_default_str();
-  app.add_option("--bus-socket", options.bus_socket, "socket of liana-bus (embedded back end)");
-  app.add_option("--calibration", options.calibration,
-                 "what liana calibrate measured of this arm's drives; the robot table's values without");
-  app.add_option("--in-pose", options.in_pose,
-                 "named pose in which the arm lies in its fixture: unless every cable says so, the arm is not enabled");
-  app.add_option("--expect", options.expect,
-                 "roles that must have connected before virtual time starts, comma separated");
-  CLI11_PARSE(app, argc, argv);
+  CommandLine line("lianad: control core, buses, verification and API of a cable-driven arm");
+  line.option("--robot", options.robot, "robot JSON (docs/formats.md)").required();
+  line.option("--scene", options.scene, "scene JSON").required();
+  line.option("--buses", options.buses, "buses JSON").required();
+  line.option("--api", options.api, "path of the API socket to listen at").required();
+  line.option("--time", options.time, "fast, paced or real").with_default_shown();
+  line.option("--physics", options.physics, "friction the core is told: nominal, ideal or worn").with_default_shown();
+  line.option("--bus-socket", options.bus_socket, "socket of liana-bus (embedded back end)");
+  line.option("--calibration", options.calibration,
+              "what liana calibrate measured of this arm's drives; the robot table's values without");
+  line.option("--in-pose", options.in_pose,
+              "named pose in which the arm lies in its fixture: unless every cable says so, the arm is not enabled");
+  line.option("--expect", options.expect, "roles that must have connected before virtual time starts, comma separated");
+  if (const auto code = line.parse(argc, argv)) return *code;
   try {
     return run(options);
   } catch (const std::exception& error) {

@@ -119,15 +119,15 @@ void check_fields(const Binding& binding, const Json& fields) {
   for (const BindingField& field : binding.fields) {
     known += (known.empty() ? "" : ", ") + std::string(field.name);
     const auto value = fields.find(field.name);
-    if (value == fields.end() && field.required)
+    if (value == nullptr && field.required)
       throw std::runtime_error(where + field.name + ": missing: allowed " + field.type + ": add it");
-    if (value != fields.end() && !has_type(*value, field.type)) {
+    if (value != nullptr && !has_type(*value, field.type)) {
       throw std::runtime_error(where + field.name + ": " + value->dump().substr(0, 60) + ": allowed " + field.type +
                                ": correct it");
     }
   }
   std::size_t found = 0;
-  for (const BindingField& field : binding.fields) found += fields.count(field.name);
+  for (const BindingField& field : binding.fields) found += fields.contains(field.name) ? 1 : 0;
   if (found != fields.size())
     throw std::runtime_error(where + "unknown field: allowed " + (known.empty() ? "none" : known) + ": remove it");
 }

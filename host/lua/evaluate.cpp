@@ -60,7 +60,7 @@ void push_mission(Script& script, const ScriptFile& file) {
 void check_robot_of_plan(const ScriptFile& file, const Json& robot) {
   if (!file.display.ends_with(".json")) return;
   const Json plan = parse_json(file.text, file.display, kPlanAdvice);
-  if (plan.value("/inputs/robot"_json_pointer, Json()) == robot) return;
+  if (plan.member_or_null("inputs").member_or_null("robot") == robot) return;
   throw std::runtime_error(
       "inputs.robot: another robot than " + robot.value("name", "") +
       ", or other tables of it: allowed the same: " + "name the robot with --robot, or plan again");

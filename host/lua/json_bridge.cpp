@@ -107,9 +107,9 @@ void push_list(lua_State* state, const Json& list) {
 
 void push_table(lua_State* state, const Json& table) {
   lua_createtable(state, 0, static_cast<int>(table.size()));
-  for (auto it = table.begin(); it != table.end(); ++it) {
-    push_json(state, it.value());
-    lua_setfield(state, -2, it.key().c_str());
+  for (const auto& [key, value] : table.items()) {
+    push_json(state, value);
+    lua_setfield(state, -2, key.c_str());
   }
 }
 
@@ -133,7 +133,7 @@ void push_json(lua_State* state, const Json& value) {
   if (value.is_number_integer()) return lua_pushinteger(state, value.get<lua_Integer>());
   if (value.is_number()) return lua_pushnumber(state, value.get<double>());
   if (!value.is_string()) return lua_pushnil(state);
-  const auto& text = value.get_ref<const std::string&>();
+  const auto& text = value.text();
   lua_pushlstring(state, text.data(), text.size());
 }
 

@@ -1,9 +1,9 @@
 // liana-mission: evaluates Lua tables and runs missions, each in a process that a watchdog can kill.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
 #include <functional>
 
+#include "host/command_line/command_line.hpp"
 #include "host/config/field.hpp"
 #include "host/json/json.hpp"
 #include "host/lua/bindings.hpp"
@@ -97,35 +97,30 @@ int bindings_command() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"Evaluates Liana's Lua tables and runs missions"};
-  app.require_subcommand(1);
+  liana::CommandLine line("Evaluates Liana's Lua tables and runs missions");
   liana::MissionOptions options;
   options.lua_dir = LIANA_LUA_DIR;
   EvalOptions evaluated;
-  CLI::App* eval = app.add_subcommand("eval", "check a table and print it as canonical JSON");
-  eval->add_option("kind", evaluated.kind, "robot, scene, buses or mission")->required();
-  eval->add_option("name", evaluated.name, "a name in the Lua folder or a file")->required();
-  eval->add_option("--robot", evaluated.robot, "robot a mission is checked against: a name or exported JSON")
-      ->capture_default_str();
-  eval->add_option("--lua-dir", options.lua_dir, "the Lua folder");
-  CLI::App* run = app.add_subcommand(
+  liana::Command eval = line.command("eval", "check a table and print it as canonical JSON");
+  eval.option("kind", evaluated.kind, "robot, scene, buses or mission").required();
+  eval.option("name", evaluated.name, "a name in the Lua folder or a file").required();
+  eval.option("--robot", evaluated.robot, "robot a mission is checked against: a name or exported JSON")
+      .with_default_shown();
+  eval.option("--lua-dir", options.lua_dir, "the Lua folder");
+  liana::Command run = line.command(
       "run", "run a mission; exit 0 on success, 1 when not, 2 for bad input, 4 when the script had to be killed");
-  run->add_option("--api", options.api, "socket of lianad")->required();
-  run->add_option("--mission", options.mission, "a name in lua/missions or a file")->required();
-  run->add_option("--lua-dir", options.lua_dir, "the Lua folder");
-  run->add_option("--report", options.report_file, "file for the report (JSON)");
-  run->add_flag("--lockstep", options.lockstep, "let virtual time wait for this mission");
-  run->add_flag("--progress", options.progress, "print a line when a step begins and ends");
-  run->add_flag("--json", options.json, "print progress and report as JSON lines");
-  CLI::App* list = app.add_subcommand("bindings", "print the commands a mission can give, as JSON");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : liana::kExitBadInput;
-  }
+  run.option("--api", options.api, "socket of lianad").required();
+  run.option("--mission", options.mission, "a name in lua/missions or a file").required();
+  run.option("--lua-dir", options.lua_dir, "the Lua folder");
+  run.option("--report", options.report_file, "file for the report (JSON)");
+  run.flag("--lockstep", options.lockstep, "let virtual time wait for this mission");
+  run.flag("--progress", options.progress, "print a line when a step begins and ends");
+  run.flag("--json", options.json, "print progress and report as JSON lines");
+  liana::Command list = line.command("bindings", "print the commands a mission can give, as JSON");
+  if (const auto code = line.parse(argc, argv)) return *code == 0 ? 0 : liana::kExitBadInput;
   return with_message([&] {
     evaluated.lua_dir = options.lua_dir;
-    if (eval->parsed()) return eval_command(evaluated);
-    return list->parsed() ? bindings_command() : run_command(options);
+    if (eval.chosen()) return eval_command(evaluated);
+    return list.chosen() ? bindings_command() : run_command(options);
   });
 }

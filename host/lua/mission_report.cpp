@@ -34,7 +34,7 @@ void write_report(const std::string& path, const std::string& report_json) {
 }
 
 std::string failed_report(const Activity& activity, const std::string& mission, const std::string& reason) {
-  Json report = Json::parse(activity.report.data(), nullptr, false);
+  Json report = Json::parse_or_null(activity.report.data());
   if (!report.is_object()) report = {{"mission", mission}, {"steps", Json::array()}, {"duration_s", 0}};
   report["outcome"] = "failed";
   report["reason"] = reason;

@@ -24,7 +24,7 @@ Json handle_json(const VrHandle& handle) {
 
 std::optional<Pose> pose_of(const Json& message, const char* key) {
   const auto found = message.find(key);
-  if (found == message.end() || found->is_null()) return std::nullopt;
+  if (found == nullptr || found->is_null()) return std::nullopt;
   if (!found->is_array() || found->size() != 7) {
     throw std::runtime_error(std::string("camera message: ") + key +
                              ": allowed null or [x,y,z,qw,qx,qy,qz]; see docs/api.md");

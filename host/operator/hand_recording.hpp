@@ -9,6 +9,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 using VrRecording = std::vector<VrSample>;
 using HandRecording = std::vector<ControllerSample>;
 

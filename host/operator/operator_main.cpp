@@ -1,9 +1,9 @@
 // liana-operator: the recorded and simulated person at the input devices, over the interface that live devices use.
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 
 #include "host/api/client.hpp"
+#include "host/command_line/command_line.hpp"
 #include "host/config/config.hpp"
 #include "host/json/json.hpp"
 #include "host/operator/operator_session.hpp"
@@ -74,13 +74,14 @@ int operate(const OperatorOptions& options) {
 
 int main(int argc, char** argv) {
   liana::OperatorOptions options;
-  CLI::App app{"The operator as data and as a model that looks: recorded VR handles, simulated hand controller"};
-  app.add_option("--api", options.api, "API socket of lianad")->required();
-  app.add_option("--recordings", options.recordings, "folder of the .hand files")->required();
-  app.add_option("--scene", options.scene, "scene JSON the person has as a drawing; default: the one lianad runs with");
-  app.add_option("--seed", options.seed, "seed of tremor, glitches and dropouts");
-  app.add_flag("--lockstep", options.lockstep, "answer every state, so that fast runs repeat");
-  CLI11_PARSE(app, argc, argv);
+  liana::CommandLine line(
+      "The operator as data and as a model that looks: recorded VR handles, simulated hand controller");
+  line.option("--api", options.api, "API socket of lianad").required();
+  line.option("--recordings", options.recordings, "folder of the .hand files").required();
+  line.option("--scene", options.scene, "scene JSON the person has as a drawing; default: the one lianad runs with");
+  line.option("--seed", options.seed, "seed of tremor, glitches and dropouts");
+  line.flag("--lockstep", options.lockstep, "answer every state, so that fast runs repeat");
+  if (const auto code = line.parse(argc, argv)) return *code;
   try {
     return liana::operate(options);
   } catch (const std::exception& error) {

@@ -22,13 +22,13 @@ HandTask hand_task(const AnnouncedStep& step) {
 
 std::string text(const Json& object, const char* key) {
   const auto found = object.find(key);
-  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+  return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 // A positive number, or `otherwise`.
 double positive(const Json& object, const char* key, double otherwise) {
   const auto found = object.find(key);
-  const double value = found != object.end() && found->is_number() ? found->get<double>() : otherwise;
+  const double value = found != nullptr && found->is_number() ? found->get<double>() : otherwise;
   return value > 0.0 ? value : otherwise;
 }
 
@@ -36,13 +36,13 @@ double positive(const Json& object, const char* key, double otherwise) {
 
 AnnouncedStep announced_step(const Json& state) {
   const auto found = state.find("step");
-  if (found == state.end() || !found->is_object()) return {};
+  if (found == nullptr || !found->is_object()) return {};
   return {found->value("index", std::int64_t{-1}), text(*found, "name"), text(*found, "device"), text(*found, "task")};
 }
 
 HandMapping announced_mapping(const Json& state) {
   const auto found = state.find("mapping");
-  if (found == state.end() || !found->is_object()) return {};
+  if (found == nullptr || !found->is_object()) return {};
   return {positive(*found, "scale", 1.0), positive(*found, "rotation_scale", 1.0), positive(*found, "speed_m_s", 0.0)};
 }
 

@@ -20,6 +20,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // Waypoints; between them every theta moves evenly.
 using Path = std::vector<ThetaVector>;
 

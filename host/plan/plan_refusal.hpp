@@ -8,6 +8,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 struct PlanRefusal {
   PlanOutcome outcome = PlanOutcome::limit;
   const char* constraint = "";

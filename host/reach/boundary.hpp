@@ -10,6 +10,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 constexpr std::int32_t kPolarBins = 12;      // rings of 15 deg
 constexpr std::size_t kOutlineSectors = 72;  // of 5 deg
 constexpr std::size_t kPushStarts = 6;       // samples of each bin or sector that are pushed outwards, and inwards

@@ -11,6 +11,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 constexpr double kPathStep_rad = 0.25 * 3.14159265358979323846 / 180.0;  // resolution of a path
 constexpr std::size_t kMaxWaypoints = 2000;
 

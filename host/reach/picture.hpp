@@ -9,6 +9,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // Top (x, y), side (x, z) and front (y, z) view of the region at one scale, in the base frame. The colour of a cell is
 // the mean mobility of the samples in it, over the whole depth of the view; the arm in `pose_rad` and the scene (may be
 // null) are drawn to scale over it.

@@ -7,6 +7,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 constexpr double kReachTolerance_m = 1e-6;  // a target is reached when the point is this near
 constexpr double kPushStep_m = 0.2;         // first step of a push
 constexpr double kPushResolution_m =

@@ -20,6 +20,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 constexpr std::int32_t kRadialShells = 20;  // of the radial profile
 constexpr std::int32_t kMinSamples = 1000;
 constexpr std::int32_t kMaxSamples = 1000000;

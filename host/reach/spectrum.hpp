@@ -11,6 +11,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // Rows of a matrix with kMaxTheta columns; unused columns are 0.
 template <std::size_t Rows>
 using ThetaRows = std::array<std::array<double, kMaxTheta>, Rows>;

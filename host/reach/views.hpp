@@ -12,6 +12,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // Looking along one base axis: coordinate `right` of the base frame to the right, `up` upwards.
 struct View {
   Axes axes;

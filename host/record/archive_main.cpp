@@ -1,9 +1,9 @@
 // liana-archive: takes tick records from lianad and writes what lasts. lianad itself writes no files.
-#include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
 
 #include "host/api/client.hpp"
+#include "host/command_line/command_line.hpp"
 #include "host/json/json.hpp"
 #include "host/record/recording.hpp"
 
@@ -57,10 +57,10 @@ int run(const std::string& api, const std::string& directory) {
 
 int main(int argc, char** argv) {
   std::string api, directory;
-  CLI::App app{"Writes the recording of a run (ticks.mcap)"};
-  app.add_option("--api", api, "API socket of lianad")->required();
-  app.add_option("--record", directory, "folder for ticks.mcap")->required()->check(CLI::ExistingDirectory);
-  CLI11_PARSE(app, argc, argv);
+  liana::CommandLine line("Writes the recording of a run (ticks.mcap)");
+  line.option("--api", api, "API socket of lianad").required();
+  line.option("--record", directory, "folder for ticks.mcap").required().existing_folder();
+  if (const auto code = line.parse(argc, argv)) return *code;
   std::signal(SIGTERM, on_signal);
   std::signal(SIGINT, on_signal);
   try {

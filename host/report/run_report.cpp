@@ -14,7 +14,7 @@ namespace {
 Json read_json(const std::string& path) {
   std::ifstream file(path);
   if (!file) return Json::object();
-  Json parsed = Json::parse(file, nullptr, false);
+  Json parsed = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
   return parsed.is_object() ? parsed : Json::object();
 }
 

@@ -15,7 +15,7 @@ constexpr std::size_t kMostWaypoints = 2000;  // a followed curve has as many as
 constexpr double kRounding_m = 1e-9;          // of angles that became degrees in between
 
 void check_scene(const std::string& file, const Json& plan, const SceneConfig& scene) {
-  const Json of_plan = plan.value("/inputs/scene"_json_pointer, Json());
+  const Json& of_plan = plan.member_or_null("inputs").member_or_null("scene");
   if (of_plan == Json::parse(scene.canonical_json)) return;
   throw BadInput("--scene: '" + scene.name + "': the plan " + file + " was made for another scene" +
                  (of_plan.is_object() ? ", '" + of_plan.value("name", "") + "'" : "") +

@@ -28,7 +28,7 @@ void Progress::show(const Json& state) {
     say(stamp + phase);
   }
   const auto step = state.find("step");
-  if (step != state.end() && step->is_object() && step->value("index", 0) != step_index_) {
+  if (step != nullptr && step->is_object() && step->value("index", 0) != step_index_) {
     step_index_ = step->value("index", 0);
     say(stamp + ("step " + std::to_string(step_index_)) + ": " + step->value("name", "") + " (" +
         step->value("device", "none") + ")");
@@ -39,7 +39,7 @@ void Progress::show(const Json& state) {
 void Progress::show_live(const Json& state) {
   next_live_s_ = state.value("time_s", 0.0) + kLivePeriod_s;
   const auto tip = state.find("measured_cp");
-  if (tip == state.end() || tip->size() != 7) return;
+  if (tip == nullptr || tip->size() != 7) return;
   std::fprintf(stderr, "\r\x1b[K%7.1f s  step %d, tip at %.3f %.3f %.3f m", state.value("time_s", 0.0), step_index_,
                (*tip)[0].get<double>(), (*tip)[1].get<double>(), (*tip)[2].get<double>());
   std::fflush(stderr);

@@ -25,7 +25,7 @@ cable::CableVector geometric_payout_m(const cable::RobotTable& table, const cabl
   return payout;
 }
 
-class cable::TensionPlan : public ::testing::TestWithParam<const char*> {
+class TensionPlan : public ::testing::TestWithParam<const char*> {
  protected:
   std::string pose() const { return GetParam(); }
 };

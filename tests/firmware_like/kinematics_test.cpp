@@ -18,8 +18,9 @@ using zhu2022::largest_difference;
 using zhu2022::Random;
 using Matrix4 = std::array<std::array<double, 4>, 4>;
 
-const json& golden() {
-  static const json data = json::parse(std::ifstream(LIANA_GOLDEN_DIR "/arm.json"));
+const Json& golden() {
+  std::ifstream file(LIANA_GOLDEN_DIR "/arm.json");
+  static const Json data = Json::parse(std::string{std::istreambuf_iterator<char>(file), {}});
   return data;
 }
 

@@ -80,7 +80,7 @@ void FakeLianad::converse() {
   char packet[65536];
   const auto hello = recv(client_, packet, sizeof packet, 0);
   if (hello <= 0) return;
-  requests_.push_back(Json::parse(packet, packet + hello));
+  requests_.push_back(Json::parse({packet, static_cast<std::size_t>(hello)}));
   send({{"op", "welcome"},
         {"time_mode", "fast"},
         {"period_s", 0.004},
@@ -116,7 +116,7 @@ bool FakeLianad::handle_until_done() {
   while (true) {
     const auto length = recv(client_, packet, sizeof packet, 0);
     if (length <= 0) return false;
-    const Json request = Json::parse(packet, packet + length);
+    const Json request = Json::parse({packet, static_cast<std::size_t>(length)});
     if (request["op"] == "done") return request["tick"] == tick_;
     requests_.push_back(request);
     answer(request);

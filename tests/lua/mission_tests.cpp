@@ -36,7 +36,7 @@ MissionRun run_mission_against(const FakeBehaviour& behaviour, const std::string
   run.ended = run_program("run --lockstep --api " + folder.file("api") + " --mission " + mission + " --report " +
                           folder.file("report.json") + flags);
   run.requests = lianad.requests();
-  run.report = Json::parse(read_file(folder.file("report.json")), nullptr, false);
+  run.report = Json::parse_or_null(read_file(folder.file("report.json")));
   return run;
 }
 

@@ -10,6 +10,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 constexpr double kUnseen_m = 0.0002;  // what the least distance found may be above the true one
 
 class PathSearch {

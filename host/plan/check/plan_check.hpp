@@ -17,6 +17,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 struct PlanCheck {
   double min_clearance_m = 0.0;   // over the whole path, every link and obstacle; without obstacles kNothingNear_m
   std::string nearest;            // obstacle where it is, empty without

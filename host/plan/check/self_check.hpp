@@ -10,6 +10,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // Least distance between two links' surfaces, negative: depth of overlap along the shortest line between their axes.
 // Links nearer along the arm than half a turn at the joint limits cannot touch and do not count.
 struct SelfClearance {

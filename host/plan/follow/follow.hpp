@@ -14,6 +14,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 constexpr double kFollowStep_m = 0.01;       // of the tip along the curve
 constexpr double kFollowTipOff_m = 0.002;    // of the tip from the curve between waypoints
 constexpr double kFollowMostLengths = 2.0;   // of the arm: no body stays on a longer curve

@@ -9,6 +9,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // Looked at the waypoints and three times between. Every link end is asked for its distance from the path before it:
 // the arm's centre line at the start, and from its tip on the way that the tip has gone so far.
 struct FollowFigures {

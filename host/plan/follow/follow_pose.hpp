@@ -8,6 +8,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 struct FollowAim {
   double along_m = 0.0;         // where on the curve the tip is
   ThetaVector drawn_to_rad{};   // what the curve leaves free goes here,

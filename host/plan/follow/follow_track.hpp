@@ -6,6 +6,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 class FollowTrack {
  public:
   // `from_rad` is the start pose, with its tip where the curve begins.

@@ -17,6 +17,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // Symmetric matrix over the thetas, entry [i][j] for i >= j only.
 using ThetaHessian = std::array<std::array<double, kMaxTheta>, kMaxTheta>;
 

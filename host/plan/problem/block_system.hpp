@@ -8,6 +8,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 struct BlockSystem {
   std::vector<ThetaHessian> own;   // lower triangles
   std::vector<ThetaHessian> next;  // [w]: rows of waypoint w + 1, columns of w

@@ -8,6 +8,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 enum class SolveStatus { solved, infeasible, limit, cancelled };
 
 struct Solution {

@@ -25,6 +25,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 constexpr double kRound_m = 0.01;
 constexpr double kInnerTension_N = 0.01;  // what tension rows keep from floor and ceiling
 

@@ -13,6 +13,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // A link that has to keep clear of an obstacle at a place, however far it is there on the present path.
 struct RowSite {
   PathPlace place;

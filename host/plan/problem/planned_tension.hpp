@@ -14,6 +14,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 class PlannedTension {
  public:
   // The table must outlive this.

@@ -8,6 +8,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 struct PointDistance {
   double distance_m = 0.0;  // signed, see clearance.hpp
   Vec3 normal{};            // gradient, unit

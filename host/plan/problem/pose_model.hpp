@@ -6,6 +6,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 // Gauss-Newton model of a cost at one pose.
 struct PoseModel {
   double cost = 0.0;

@@ -9,6 +9,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 constexpr std::int32_t kExploreSteps = 3000;  // random poses drawn
 constexpr std::int32_t kShortcutTries = 200;
 

@@ -5,6 +5,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 constexpr std::int32_t kGoalPoseSeeds = 8;
 constexpr std::int32_t kGoalPoses = 3;
 

@@ -10,6 +10,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 constexpr std::int32_t kRelaxIterations = 40;
 constexpr double kRelaxReach_m = 0.010;  // clearance beyond the margin that the penalty asks for
 

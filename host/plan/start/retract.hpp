@@ -9,6 +9,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 constexpr double kRetractStep_m = 0.02;  // of the tip
 constexpr double kOutside_m = 0.08;      // clearance at which the arm counts as out
 constexpr double kRetractShare = 0.75;   // of the arm's length, at most

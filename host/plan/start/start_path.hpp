@@ -11,6 +11,8 @@
 
 namespace liana {
 
+using namespace cable;  // this room serves the cable arm only
+
 enum class StartKind { straight, retract, explore_1, explore_2, explore_3 };
 constexpr std::array<StartKind, 5> kStartKinds{StartKind::straight, StartKind::retract, StartKind::explore_1,
                                                StartKind::explore_2, StartKind::explore_3};

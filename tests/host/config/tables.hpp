@@ -27,14 +27,22 @@ struct Spoiled {
   const char* expected_advice;  // and this is in it
 };
 
+// Sets the field at "a/0/b", or removes it where `value` is null.
+inline void spoil(Json& table, std::string_view path, const Json& value) {
+  const std::size_t end = path.find('/');
+  const std::string key(path.substr(0, end));
+  if (end == path.npos && value.is_null()) return table.erase(key);
+  Json& inside = table.is_array() ? table[std::stoul(key)] : table[key];
+  if (end == path.npos) {
+    inside = value;
+  } else {
+    spoil(inside, path.substr(end + 1), value);
+  }
+}
+
 // The message with which `read` refuses the spoiled table; empty when it does not.
 inline std::string message_of(Json table, const Spoiled& spoiled, const std::function<void(const std::string&)>& read) {
-  const Json::json_pointer pointer(spoiled.pointer);
-  if (spoiled.value.is_null()) {
-    table.at(pointer.parent_pointer()).erase(pointer.back());
-  } else {
-    table[pointer] = spoiled.value;
-  }
+  spoil(table, std::string_view(spoiled.pointer).substr(1), spoiled.value);
   try {
     read(table.dump());
   } catch (const std::runtime_error& error) {

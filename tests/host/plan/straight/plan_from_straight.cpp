@@ -12,7 +12,7 @@ namespace {
 
 liana::ThetaVector angles(const liana::Json& degrees) {
   liana::ThetaVector theta{};
-  for (std::size_t k = 0; k < degrees.size(); ++k) theta.at(k) = degrees.at(k).get<double>() * liana::kDegree;
+  for (std::size_t k = 0; k < degrees.size(); ++k) theta.at(k) = degrees[k].get<double>() * liana::kDegree;
   return theta;
 }
 
@@ -34,7 +34,8 @@ liana::PlanRequest request_of(const liana::Json& problem) {
 }  // namespace
 
 int main() {
-  const liana::PlanRequest request = request_of(liana::Json::parse(std::cin));
+  const liana::PlanRequest request =
+      request_of(liana::Json::parse(std::string{std::istreambuf_iterator<char>(std::cin), {}}));
   liana::PlanControl control;
   control.straight_start_only = true;
   const auto begin = std::chrono::steady_clock::now();
