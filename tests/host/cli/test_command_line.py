@@ -11,6 +11,7 @@ import unittest
 from programs import BIN, ROOT, liana, liana_json, liana_to_full_disk
 
 GOLDEN = json.loads((ROOT / "tests/golden/arm.json").read_text())["cases"]
+MICRO = json.loads((ROOT / "tests/golden/micro.json").read_text())["cases"]
 ZERO = ",".join(["0"] * 10)
 REACHABLE = "3.392167,-0.767048,0.291155,0.9655934,-0.0586164,0.2527781,-0.0172244"
 
