@@ -101,8 +101,8 @@ void Arbiter::shape(const cable::Outputs& now, const NodeTargets& nodes, const K
 
 // Nodes of the best shape for the tip as it stands; none when no solution was found.
 NodeTargets Arbiter::nodes_of_best(const cable::Outputs& now) const {
-  const GoalIkResult best =
-      solve_goal(table_, {now.tip_command, now.theta_command_rad, held_mask_, held_rad_, nodes_, clear_});
+  const solve::GoalIkResult best =
+      solve::solve_goal(table_, {now.tip_command, now.theta_command_rad, held_mask_, held_rad_, nodes_, clear_});
   NodeTargets out{};
   if (!best.converged) return out;
   const ArmKinematics arm = forward_kinematics(table_, best.theta_rad);

@@ -5,8 +5,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // How hand motion maps to tip motion.
 struct ClutchMapping {
   double scale = 1.0;           // tip metres per hand metre, > 0

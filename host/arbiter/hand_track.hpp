@@ -7,8 +7,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // One sample of a device.
 struct HandSample {
   std::int64_t t_us = 0;  // device time

@@ -15,7 +15,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Fixes the held angles, at their own value where one was given.
-void hold(const std::string& text, const cable::RobotTable& robot, GoalIkProblem& problem) {
+void hold(const std::string& text, const cable::RobotTable& robot, solve::GoalIkProblem& problem) {
   problem.held_rad = problem.from_rad;
   if (text.empty()) return;
   for (const HoldArgument& held : parse_hold(text, robot)) {
@@ -25,7 +25,7 @@ void hold(const std::string& text, const cable::RobotTable& robot, GoalIkProblem
   }
 }
 
-void aim_nodes(const std::vector<std::string>& texts, const cable::RobotTable& robot, GoalIkProblem& problem) {
+void aim_nodes(const std::vector<std::string>& texts, const cable::RobotTable& robot, solve::GoalIkProblem& problem) {
   if (texts.size() > problem.node.size()) {
     throw BadInput("--control-point: " + std::to_string(texts.size()) + " given: allowed: at most " +
                    std::to_string(problem.node.size()));
@@ -36,7 +36,7 @@ void aim_nodes(const std::vector<std::string>& texts, const cable::RobotTable& r
   }
 }
 
-Json to_json(const GoalIkResult& result, std::size_t theta_count, std::size_t node_count) {
+Json to_json(const solve::GoalIkResult& result, std::size_t theta_count, std::size_t node_count) {
   Json theta = Json::array();
   for (std::size_t i = 0; i < theta_count; ++i) theta.push_back(result.theta_rad[i] / kDegree);
   Json distances = Json::array(), reaches = Json::array();
@@ -66,12 +66,12 @@ void print_text(const Json& answer) {
 int ik_command(const IkOptions& options) {
   if (const auto serial = serial_robot_for_kinematics(options.robot)) return serial_ik_command(*serial, options);
   const cable::RobotTable robot = robot_for_kinematics(options.robot).table;
-  GoalIkProblem problem;
+  solve::GoalIkProblem problem;
   problem.from_rad = parse_theta_deg("--from-deg", options.from_deg, robot);
   problem.tip_in_base = parse_pose("--tip", options.tip);
   hold(options.hold, robot, problem);
   aim_nodes(options.control_points, robot, problem);
-  const GoalIkResult result = solve_goal(robot, problem);
+  const solve::GoalIkResult result = solve::solve_goal(robot, problem);
   const Json answer = to_json(result, static_cast<std::size_t>(robot.theta_count()), options.control_points.size());
   if (options.json) {
     std::puts(answer.dump().c_str());

@@ -29,7 +29,7 @@ Option Command::option(const std::string& name, std::string& value, const std::s
 }
 
 Option Command::option(const std::string& name, std::uint64_t& value, const std::string& about) {
-  return Option(*app_->add_option(name, value, about));
+  return Option(*app_->add_option(name, value, about)->check(CLI::NonNegativeNumber));  // -1 would wrap
 }
 
 void Command::flag(const std::string& name, bool& value, const std::string& about) {

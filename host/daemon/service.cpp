@@ -109,14 +109,14 @@ void Service::watch_slit() {
   if (!config_.scene.slit) return;
   const cable::RobotTable& table = config_.robot.table;
   const cable::LinkPoints links = link_points(table, link_.report.value().outputs.theta_command_rad);
-  const SlitMouth mouth = slit_mouth(*config_.scene.slit, config_.robot.module_radius_m);
-  notes_.planar_segments = planar_segments(table, links, mouth, PlanarSwitch{}, notes_.planar_segments);
+  const solve::SlitMouth mouth = slit_mouth(*config_.scene.slit, config_.robot.module_radius_m);
+  notes_.planar_segments = solve::planar_segments(table, links, mouth, solve::PlanarSwitch{}, notes_.planar_segments);
 }
 
 // An arm that is not homed some time after booting says why, once; the refusal to enable it says how it stands.
 void Service::watch_homing() {
   if (boot_seen_ != BootPhase::kDone) return;
-  homing_.look(link_.report.value(), link_.image.value().controller.estimator());
+  homing_.look(link_.report.value(), link_.image.value().controller.arm().estimator());
   notes_.homed = homing_.is_homed();
   if (!homing_due_tick_ || tick() < *homing_due_tick_) return;
   homing_due_tick_.reset();

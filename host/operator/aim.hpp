@@ -8,8 +8,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // Poses in the slit frame. Corrections integrate what is seen against what the hand should have done by the time of the
 // picture, so the arm's lag and the picture's age do not turn into overshoot.
 class Aim {

@@ -9,8 +9,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // `device` messages of one packet each.
 Json device_message(const std::vector<VrSample>& samples);
 Json device_message(const std::vector<ControllerSample>& samples);

@@ -7,8 +7,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // How hand motion maps to the tip: P_r = a P_m from the clutch pose (docs/api.md).
 struct HandMapping {
   double scale = 1.0;           // tip metres per hand metre, > 0

@@ -13,8 +13,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // What the person has been asked to do.
 enum class HandTask : std::uint8_t {
   kEnterSlit,  // align before the mouth, then go in to the depth where the next segment must go planar

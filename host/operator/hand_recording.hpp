@@ -9,8 +9,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 using VrRecording = std::vector<VrSample>;
 using HandRecording = std::vector<ControllerSample>;
 

@@ -5,8 +5,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // How fast a leg is walked.
 struct LegPace {
   double speed_m_s = 0.0;        // > 0

@@ -13,8 +13,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // The step the mission has announced, as far as the person is concerned.
 struct AnnouncedStep {
   std::int64_t index = -1;

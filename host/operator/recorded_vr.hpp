@@ -9,8 +9,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // What the seed adds to a recording.
 struct VrDisturbance {
   double tremor_m = 0.0002;       // RMS of each axis, of either hand

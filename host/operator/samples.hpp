@@ -8,8 +8,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // Hand controller, about 1 kHz; pose in the device frame (parallel to the arm's base frame), metres.
 struct ControllerSample {
   std::int64_t t_us = 0;

@@ -7,8 +7,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // One picture of the tip camera (docs/api.md): frames as seen from the tip; nothing when out of sight.
 struct TipSighting {
   std::optional<Pose> slit;

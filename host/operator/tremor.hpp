@@ -8,8 +8,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // Three sinusoids an axis with seeded frequencies and phases; a pure function of time, so it does not depend on when it
 // is asked.
 class Tremor {

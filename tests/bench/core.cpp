@@ -113,7 +113,9 @@ void near(Bench& bench) {
 
 void random_goals(Bench& bench) {
   const auto problems = random_problems(bench.robot, kTargets);
-  const auto solve = [&](std::size_t i) { return solve_goal(bench.robot, {problems[i].tip_in_base, {}, 0, {}, {}}); };
+  const auto solve = [&](std::size_t i) {
+    return solve::solve_goal(bench.robot, {problems[i].tip_in_base, {}, 0, {}, {}});
+  };
   if (!RUNNING_ON_VALGRIND) {
     std::size_t solved = 0;
     for (std::size_t i = 0; i < kTargets; ++i) {

@@ -206,7 +206,7 @@ TEST(Mission, AStepThatWasCutOffLastedUntilTheLastState) {
                                        "exit = liana.condition('never', function(arm) if arm.elapsed_s(arm.begin_tick) "
                                        "> 1 then error 'x' end end),"));
   EXPECT_EQ(run.report["outcome"], "failed");
-  EXPECT_GT(run.report["steps"][0]["duration_s"], 1.0);
+  EXPECT_GT(run.report["steps"][0]["duration_s"].get<double>(), 1.0);
   EXPECT_EQ(run.report["duration_s"], run.report["steps"][0]["duration_s"]);
 }
 

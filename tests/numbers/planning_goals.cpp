@@ -26,7 +26,7 @@ struct Outcome {
   std::vector<std::int32_t> iterations;
 };
 
-bool is_right(const cable::RobotTable& robot, const GoalIkProblem& problem, const cable::ThetaVector& theta) {
+bool is_right(const cable::RobotTable& robot, const solve::GoalIkProblem& problem, const cable::ThetaVector& theta) {
   const auto e = pose_error(problem.tip_in_base, forward_kinematics(robot, theta).tip_in_base);
   bool right = norm({e[0], e[1], e[2]}) <= 1e-6 && norm({e[3], e[4], e[5]}) <= 1e-6;
   for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
@@ -44,10 +44,10 @@ Outcome measure(const cable::RobotTable& robot, const Kind& kind, std::int32_t c
     for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
       if (((kind.held_mask >> k) & 1u) != 0) theta[k] = 0.0;
     }
-    GoalIkProblem problem;
+    solve::GoalIkProblem problem;
     problem.tip_in_base = forward_kinematics(robot, theta).tip_in_base;
     problem.held_mask = kind.held_mask;
-    const GoalIkResult result = solve_goal(robot, problem);
+    const solve::GoalIkResult result = solve::solve_goal(robot, problem);
     outcome.converged += result.converged ? 1 : 0;
     outcome.wrong += result.converged && !is_right(robot, problem, result.theta_rad) ? 1 : 0;
     outcome.iterations.push_back(result.iterations);

@@ -56,7 +56,7 @@ void run_ticks(const cable::RobotTable& robot, const cable::IkGoal& goal, const 
 
 struct Case {
   cable::ThetaVector start_rad{};
-  ShapeProblem problem{};
+  solve::ShapeProblem problem{};
   std::int32_t nodes = 0;
   bool thresholds = false;
 };
@@ -86,13 +86,13 @@ double best_offline_m(const cable::RobotTable& robot, const Case& c, double from
   double best_m = from_start_m;
   std::int32_t iterations = 0;
   for (std::int32_t found = 0, tries = 0; found < kOffline && tries < 10 * kOffline; ++tries) {
-    GoalIkProblem tip_only;
+    solve::GoalIkProblem tip_only;
     tip_only.tip_in_base = c.problem.goal.tip_in_base;
     tip_only.from_rad = random.theta(robot, 19.0);
-    GoalIkResult solution = solve_goal(robot, tip_only);
+    solve::GoalIkResult solution = solve::solve_goal(robot, tip_only);
     if (!solution.converged) continue;
     ++found;
-    best_m = std::min(best_m, improve_shape(robot, c.problem, solution.theta_rad, iterations));
+    best_m = std::min(best_m, solve::improve_shape(robot, c.problem, solution.theta_rad, iterations));
   }
   return best_m;
 }
@@ -137,24 +137,25 @@ void study(const cable::RobotTable& robot, std::int32_t index, Tally& tally) {
   const Case c = random_case(robot, index, random);
   std::int32_t iterations = 0;
   cable::ThetaVector nearest = c.start_rad;
-  const double branch_m = improve_shape(robot, c.problem, nearest, iterations);
+  const double branch_m = solve::improve_shape(robot, c.problem, nearest, iterations);
   const double best_m = best_offline_m(robot, c, branch_m, random);
-  const GoalIkResult goal = solve_goal(robot, {c.problem.goal.tip_in_base, c.start_rad, 0, {}, c.problem.node, {}});
+  const solve::GoalIkResult goal =
+      solve::solve_goal(robot, {c.problem.goal.tip_in_base, c.start_rad, 0, {}, c.problem.node, {}});
 
   Arm arm{c.start_rad, {}, {}};
   run_ticks(robot, c.problem.goal, c.problem.node, kRun_s, arm, tally.worst);
-  const double tick_m = shape_sum_m(robot, c.problem, arm.theta_rad);
+  const double tick_m = solve::shape_sum_m(robot, c.problem, arm.theta_rad);
   if (c.nodes > 1) try_heavier(robot, c, arm, tally);
 
   Arm guided{c.start_rad, {}, {}};
   run_ticks(robot, c.problem.goal, nodes_of(robot, goal.theta_rad), kGuide_s, guided, tally.worst);
   run_ticks(robot, c.problem.goal, c.problem.node, kRun_s, guided, tally.worst);
-  const double guided_m = shape_sum_m(robot, c.problem, guided.theta_rad);
+  const double guided_m = solve::shape_sum_m(robot, c.problem, guided.theta_rad);
 
   ++tally.cases;
   tally.tick_same_branch += reaches(tick_m, branch_m) ? 1 : 0;
   tally.tick_best += reaches(tick_m, best_m) ? 1 : 0;
-  tally.goal_best += reaches(shape_sum_m(robot, c.problem, goal.theta_rad), best_m) ? 1 : 0;
+  tally.goal_best += reaches(solve::shape_sum_m(robot, c.problem, goal.theta_rad), best_m) ? 1 : 0;
   tally.guided_best += reaches(guided_m, best_m) ? 1 : 0;
   tally.with_thresholds += c.thresholds ? 1 : 0;
   tally.thresholds_best += c.thresholds && reaches(guided_m, best_m) ? 1 : 0;

@@ -7,8 +7,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // A place on a curve.
 struct CurvePlace {
   double along_m = 0.0;  // from the curve's beginning

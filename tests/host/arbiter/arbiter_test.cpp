@@ -124,7 +124,8 @@ TEST_F(Arbitration, HeldVariablesAndShapeTravelWithTheTipGoal) {
 TEST_F(Arbitration, ASearchLeadsTheNodesToTheBestShapeAndThenGivesTheTargetsThemselves) {
   NodeTargets nodes{};
   nodes[0] = {3, {0.7, 0.3, 0.3}, 1.0, 0.0};
-  const GoalIkResult best = solve_goal(table_, {now_.tip_command, now_.theta_command_rad, 0, {}, nodes, {}});
+  const solve::GoalIkResult best =
+      solve::solve_goal(table_, {now_.tip_command, now_.theta_command_rad, 0, {}, nodes, {}});
   ASSERT_TRUE(best.converged);
   const ArmKinematics arm = forward_kinematics(table_, best.theta_rad);
   arbiter_.shape(now_, nodes, {}, true);

@@ -36,7 +36,7 @@ TEST(Scene, PlatesLeaveAGapOf100MillimetresAroundThePlane) {
 
 TEST(Scene, TheSlitLeavesLinkAxesTheGapLessTheArm) {
   const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
-  const SlitMouth mouth = slit_mouth(*scene.slit, 0.03);
+  const solve::SlitMouth mouth = slit_mouth(*scene.slit, 0.03);
   EXPECT_NEAR(mouth.half_gap_m, 0.02, 1e-12);
   EXPECT_NEAR(mouth.depth_m, 1.95, 1e-12);
   const Vec3 along = rotate(mouth.frame_in_base.quaternion, {1.0, 0.0, 0.0});
