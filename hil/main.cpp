@@ -83,6 +83,23 @@ std::unique_ptr<liana::bench::Bus> open_bus(const Paths& paths, const liana::ben
   return std::make_unique<liana::bench::SocketCanBus>(interfaces, buses.period_us);
 }
 
+void load_arm(const std::string& path, liana::bench::BenchOptions& options) {
+  if (liana::bench::is_serial_robot(path)) {
+    options.serial_robot = liana::bench::load_serial_robot(path);
+  } else {
+    options.robot = liana::bench::load_robot(path);
+  }
+}
+
+std::size_t drives_of(const liana::bench::BenchOptions& options) {
+  return options.serial_robot ? options.serial_robot->drives.size() : options.robot.cable_count();
+}
+
+// Angles that a fault can wait for.
+std::size_t angles_of(const liana::bench::BenchOptions& options) {
+  return options.serial_robot ? options.serial_robot->joints.size() : options.robot.theta_count();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -99,14 +116,13 @@ int main(int argc, char** argv) {
   }
   liana::bench::end_on_signals();
   try {
-    options.robot = liana::bench::load_robot(paths.robot);
+    load_arm(paths.robot, options);
     options.scene = liana::bench::load_scene(paths.scene);
     options.buses = liana::bench::load_buses(paths.buses);
     if (!paths.faults.empty())
-      options.faults =
-          liana::bench::load_faults(paths.faults, options.robot.cable_count(), options.robot.theta_count());
+      options.faults = liana::bench::load_faults(paths.faults, drives_of(options), angles_of(options));
     options.spread = !no_spread;
-    if (!paths.cross_wired.empty()) options.cross_wired = two_drives(paths.cross_wired, options.robot.cable_count());
+    if (!paths.cross_wired.empty()) options.cross_wired = two_drives(paths.cross_wired, drives_of(options));
     liana::bench::Bench bench(options);
     const auto bus = open_bus(paths, options.buses);
     bench.run(*bus);

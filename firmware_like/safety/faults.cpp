@@ -18,40 +18,44 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
       return 1;
     case kTicksLost:
       return 2;
-    case kDriveMissing:
+    case kJointOutOfRange:
       return 3;
-    case kDriveSilent:
+    case kJointJump:
       return 4;
-    case kDriveFault:
+    case kDriveMissing:
       return 5;
-    case kDriveLeftOperation:
+    case kDriveSilent:
       return 6;
-    case kDriveEnableTimeout:
+    case kDriveFault:
       return 7;
-    case kFollowingError:
+    case kDriveLeftOperation:
       return 8;
-    case kDriveNotOperational:
+    case kDriveEnableTimeout:
       return 9;
-    case kDriveStopTimeout:
+    case kFollowingError:
       return 10;
-    case kBusLost:
+    case kDriveNotOperational:
       return 11;
-    case kCableSlack:
+    case kDriveStopTimeout:
       return 12;
-    case kCableOverload:
+    case kBusLost:
       return 13;
-    case kTensionAlarm:
+    case kCableSlack:
       return 14;
-    case kHomingImplausible:
+    case kCableOverload:
       return 15;
-    case kCableSlip:
+    case kTensionAlarm:
       return 16;
-    case kCableBreak:
+    case kHomingImplausible:
       return 17;
-    case kTensionScatters:
+    case kCableSlip:
       return 18;
-    case kGateRefused:
+    case kCableBreak:
       return 19;
+    case kTensionScatters:
+      return 20;
+    case kGateRefused:
+      return 21;
   }
   return 0;
 }
@@ -59,13 +63,18 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
 constexpr StopCategory kHold = StopCategory::kHold;
 constexpr StopCategory kStop = StopCategory::kStop;
 
-constexpr std::array<FaultInfo, 20> kFaultTable{{
+constexpr std::array<FaultInfo, 22> kFaultTable{{
     {kNone, "none", StopCategory::kNone, false, "No fault.", "Nothing to do."},
     {kCommandInvalid, "command_invalid", kHold, false,
      "A released command held a value that is not finite or out of range.",
      "Look at the verdict log for the command's sequence number; correct the client that sent it, then clear."},
     {kTicksLost, "ticks_lost", kStop, true, "More control deadlines in a row were lost than the drives tolerate.",
      "Run liana doctor, free the computer's cores from other work, then clear and enable again."},
+    {kJointOutOfRange, "joint_out_of_range", kStop, true, "A joint with power stands beyond the end of its range.",
+     "Look for what pushes it, and compare the drive's stored zero with the robot table; move it back by hand with the brakes' release "
+     "procedure, then clear."},
+    {kJointJump, "joint_jump", kStop, true, "A joint's encoder changed faster than the joint can turn.",
+     "Check the encoder and its cable; compare the joint's angle with the arm by eye, then clear and enable again."},
     {kDriveMissing, "drive_missing", kStop, true, "A drive sent no heartbeat within the allowed time.",
      "Check the drive's supply and its bus connector; when it comes back it is booted by itself: then clear."},
     {kDriveSilent, "drive_silent", kStop, true, "A drive sent no feedback for more than two ticks.",

@@ -15,6 +15,8 @@ enum class FaultNumber : std::uint16_t {
   kNone = 0,
   kCommandInvalid = 1001,       // a released command held a value that is not finite or out of range
   kTicksLost = 2001,            // more deadlines lost in a row than allowed
+  kJointOutOfRange = 2002,      // a joint with power stands beyond the end of its range
+  kJointJump = 2003,            // a joint's encoder changed faster than the joint can turn
   kDriveMissing = 3001,         // no heartbeat from a drive
   kDriveSilent = 3002,          // no TPDO for more than two ticks
   kDriveFault = 3003,           // drive reports fault (EMCY code beside it)

@@ -6,92 +6,57 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
-#include "hil/arm/arm_physics.hpp"
-#include "hil/arm/light_arm.hpp"
+#include "hil/bench/cable_plant.hpp"
 #include "hil/bus/wall_clock.hpp"
+#include "hil/serial/serial_plant.hpp"
 
 namespace liana::bench {
 
 namespace {
 
-constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
-constexpr double kStartSpread_rad = 0.5 / kDegPerRad;
-
-TrueParameters parameters_of(const BenchOptions& options) {
-  return options.spread ? spread_parameters(options.robot, options.physics, options.seed)
-                        : table_parameters(options.robot, options.physics);
+std::unique_ptr<Plant> make_plant(const BenchOptions& options) {
+  if (options.serial_robot)
+    return std::make_unique<SerialPlant>(*options.serial_robot, options.buses, options, options.faults, options.seed);
+  return std::make_unique<CablePlant>(options.robot, options.scene, options.buses, options, options.seed);
 }
 
-std::unique_ptr<Arm> make_arm(const BenchOptions& options, const TrueParameters& truth) {
-  const Theta start = start_pose(options.robot, options.start_pose,
-                                 options.spread && !options.fixture ? kStartSpread_rad : 0.0, options.seed);
-  if (options.arm == "light") return std::make_unique<LightArm>(options.robot, truth, start);
-  if (options.arm != "full")
-    throw std::runtime_error("--arm: \"" + options.arm + "\" is no arm model; allowed are full, light");
-  auto arm = std::make_unique<ArmPhysics>(options.robot, options.scene, truth, start);
-  arm->set_state(start, Theta{});  // the extremes of slot 0 are those of the laid-out cables
-  return arm;
+std::vector<std::string> columns_of(const Plant& plant) {
+  std::vector<std::string> columns{"slot"};
+  for (std::string& name : plant.truth_columns()) columns.push_back(std::move(name));
+  return columns;
 }
 
 }  // namespace
 
 Bench::Bench(const BenchOptions& options)
     : options_(options),
-      truth_(parameters_of(options)),
-      arm_(make_arm(options, truth_)),
-      drives_(options.robot, options.buses, truth_, arm_->payouts_m(), options.spread, options.seed,
-              options.cross_wired),
+      plant_(make_plant(options)),
       injector_(options.faults),
       camera_(options.scene.camera, options.scene.slit_frame, options.scene.rod.pose, options.seed),
       link_(options.api_socket),
-      log_(options.truth_path, options.robot.theta_count()),
+      log_(options.truth_path, columns_of(*plant_)),
       syncs_(options.buses.names.size(), 0),
       received_(options.buses.names.size(), 0),
-      sent_(options.buses.names.size(), 0) {
-  drives_.measure(motor_tensions_N());
-}
-
-CableValues Bench::motor_tensions_N() const {
-  CableValues tension{};
-  for (std::size_t c = 0; c < drives_.size(); ++c) tension[c] = arm_->motor_tension_N(c);
-  return tension;
-}
+      sent_(options.buses.names.size(), 0) {}
 
 // State at the start of a slot goes to truth and camera before anything in the slot happens.
 void Bench::begin_slot(std::uint32_t slot, double now_s) {
-  injector_.step(slot, arm_->theta_rad(), arm_->rate_rad_s(), drives_);
+  plant_->inject(slot, injector_);
   record(slot);
-  camera_.look(now_s, arm_->tip());
+  camera_.look(now_s, plant_->tip());
   while (const auto view = camera_.deliver(now_s)) link_.send(camera_message(*view));
   begun_ = slot + 1;
 }
 
 void Bench::record(std::uint32_t slot) {
-  const LoadRecord loads = arm_->take_record();
-  const Clearance gap = arm_->clearance();
-  const Pose tip = arm_->tip();
   std::vector<double> row{static_cast<double>(slot)};
-  for (std::size_t i = 0; i < options_.robot.theta_count(); ++i) row.push_back(kDegPerRad * arm_->theta_rad()[i]);
-  const Vec3& p = tip.position_m;
-  const Quat& q = tip.attitude;
-  for (const double value :
-       {p.x, p.y, p.z, q.w, q.x, q.y, q.z, std::min(gap.slit_m, gap.sphere_m), gap.slit_m, gap.sphere_m,
-        loads.contact_N, loads.rod_N, loads.least_tension_N, loads.least_motor_tension_N, loads.most_motor_tension_N,
-        static_cast<double>(drives_.enabled())})
-    row.push_back(value);
+  plant_->add_truth(row);
   log_.write(row);
 }
 
 void Bench::integrate_slot(double period_s) {
-  const auto steps = static_cast<int>(std::ceil(period_s / arm_->longest_step_s() - 1e-9));
-  const double step_s = period_s / steps;
   const std::uint64_t start_us = wall_clock_us();
-  arm_->begin_slot(period_s);
-  for (int i = 0; i < steps; ++i) {
-    drives_.move(step_s, motor_tensions_N());
-    arm_->step(step_s, drives_.payouts_m());
-  }
-  drives_.measure(motor_tensions_N());
+  plant_->integrate(period_s);
   ++integrated_;
   physics_us_ += wall_clock_us() - start_us;
 }
@@ -140,7 +105,7 @@ void Bench::run(Bus& bus) {
     catch_up(slot, period_s);
     if (begun_ == slot) begin_slot(slot, slot * period_s);
     out.clear();
-    drives_.exchange(wake.frames, wake.now_us, out);
+    plant_->exchange(wake.frames, wake.now_us, out);
     for (const CanFrame& frame : out) ++sent_[frame.bus];
     bus.send(out);
     catch_up(bus.lockstep() ? slot + 1 : count_syncs(wake.frames, wake.now_us, bus.period_us()), period_s);
@@ -158,7 +123,7 @@ void Bench::run_on(std::uint64_t now_us, std::uint32_t period_us) {
   for (std::uint32_t i = 0; i < slots; ++i) {
     now_us += period_us;
     if (begun_ == integrated_) record(begun_++);
-    drives_.exchange({}, now_us, unheard);
+    plant_->exchange({}, now_us, unheard);
     integrate_slot(period_s);
   }
 }
@@ -166,9 +131,10 @@ void Bench::run_on(std::uint64_t now_us, std::uint32_t period_us) {
 void Bench::write_summary(const Bus& bus) const {
   if (options_.summary_path.empty()) return;
   nlohmann::json drives = nlohmann::json::array();
-  for (std::size_t i = 0; i < drives_.size(); ++i) {
-    const DriveCounts c = drives_.drive(i).counts();
-    drives.push_back({{"node", drives_.drive(i).node()},
+  for (std::size_t i = 0; i < plant_->drives().size(); ++i) {
+    const Drive& drive = plant_->drives().drive(i);
+    const DriveCounts c = drive.counts();
+    drives.push_back({{"node", drive.node()},
                       {"received", c.received},
                       {"sent", c.sent},
                       {"syncs", c.syncs},
@@ -176,7 +142,7 @@ void Bench::write_summary(const Bus& bus) const {
                       {"emergencies", c.emergencies},
                       {"quick_stops", c.quick_stops},
                       {"sdo_aborts", c.sdo_aborts},
-                      {"statusword", drives_.drive(i).statusword()}});
+                      {"statusword", drive.statusword()}});
   }
   nlohmann::json buses = nlohmann::json::array();
   for (std::size_t b = 0; b < received_.size(); ++b)
@@ -190,23 +156,17 @@ void Bench::write_summary(const Bus& bus) const {
     if (begun) faults.back()["begun_slot"] = *begun;
     if (ended) faults.back()["ended_slot"] = *ended;
   }
-  const ArmCounts counts = arm_->counts();
-  const nlohmann::json summary{
+  nlohmann::json summary{
       {"slots", integrated_},
       {"seed", options_.seed},
-      {"arm", options_.arm},
-      {"physics", options_.physics},
       {"drives", drives},
       {"faults", faults},
       {"buses", buses},
       {"frames_refused", bus.refused()},
-      {"mujoco_warnings", counts.mujoco_warnings},
-      {"slots_near_contact", counts.contact_slots},
-      {"friction_sweeps_max", counts.most_sweeps},
       {"camera_sent", link_.sent()},
       {"camera_lost", link_.lost()},
-      {"true_parameters", {{"EA_N", truth_.EA_N}, {"mu", truth_.mu}, {"hole_radius_m", truth_.hole_radius_m}}},
       {"measured", {{"physics_us_per_slot", integrated_ == 0 ? 0.0 : static_cast<double>(physics_us_) / integrated_}}}};
+  plant_->summarise(summary);
   std::ofstream file(options_.summary_path);
   file << summary.dump(1) << '\n';
   if (!file) throw std::runtime_error("--summary: " + options_.summary_path + " cannot be written; check the folder");

@@ -3,32 +3,30 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "hil/arm/arm.hpp"
 #include "hil/arm/tip_camera.hpp"
-#include "hil/bench/drive_bank.hpp"
 #include "hil/bench/fault_injector.hpp"
+#include "hil/bench/plant.hpp"
 #include "hil/bench/truth_log.hpp"
 #include "hil/bus/bus.hpp"
 #include "hil/bus/camera_link.hpp"
+#include "hil/config/robot_config.hpp"
+#include "hil/config/scene_config.hpp"
+#include "hil/config/serial_config.hpp"
 
 namespace liana::bench {
 
 // Everything that is chosen on the command line.
-struct BenchOptions {
-  RobotConfig robot;
+struct BenchOptions : ModelOptions {
+  RobotConfig robot;                              // a cable arm, unless
+  std::optional<SerialRobotConfig> serial_robot;  // it is a serial one
   SceneConfig scene;
   BusesConfig buses;
   std::vector<FaultConfig> faults;
-  std::string arm = "full";  // or light: no inertia, contact or cable friction
-  std::string physics = "nominal";
   std::uint64_t seed = 1;
-  bool spread = true;  // parameters, start pose and noise by seed; false: the table exactly, noise only from the camera
-  std::string start_pose = "prepare";
-  bool fixture = false;                  // the arm starts exactly in its start pose
-  std::vector<std::size_t> cross_wired;  // empty, or two drives that have each other's cable
   std::string api_socket;
   std::string truth_path;
   std::string summary_path;
@@ -50,13 +48,10 @@ class Bench {
   std::uint32_t count_syncs(const FrameList& frames, std::uint64_t now_us, std::uint32_t period_us);
   void catch_up(std::uint32_t slots, double period_s);
   void run_on(std::uint64_t now_us, std::uint32_t period_us);
-  CableValues motor_tensions_N() const;
   void write_summary(const Bus& bus) const;
 
   BenchOptions options_;
-  TrueParameters truth_;
-  std::unique_ptr<Arm> arm_;
-  DriveBank drives_;
+  std::unique_ptr<Plant> plant_;
   FaultInjector injector_;
   TipCamera camera_;
   CameraLink link_;

@@ -29,13 +29,12 @@ DriveSettings settings_of(const RobotConfig& robot, const BusesConfig& buses, st
 DriveBank::DriveBank(const RobotConfig& robot, const BusesConfig& buses, const TrueParameters& truth,
                      const CableValues& payout_m, bool noisy, std::uint64_t seed,
                      const std::vector<std::size_t>& cross_wired)
-    : robot_(robot),
+    : Drives(robot.product, seed),
+      robot_(robot),
       truth_(truth),
       creep_(robot.cable_count()),
-      noise_(robot.cable_count()),
       noisy_(noisy),
-      torque_noise_(seed, "torque noise"),
-      fault_noise_(seed, "fault noise") {
+      torque_noise_(seed, "torque noise") {
   for (std::size_t m = 0; m < robot.segments.size(); ++m)
     for (std::size_t c = 0; c < robot.segments[m].cable_phase_rad.size(); ++c)
       path_at_zero_m_.push_back(robot.path_at_zero_m(m));
@@ -45,14 +44,14 @@ DriveBank::DriveBank(const RobotConfig& robot, const BusesConfig& buses, const T
     const std::size_t cable = cable_of_[i];
     const double paid_out = payout_m[cable] - path_at_zero_m_[cable] - robot.lead_m - truth.zero_offset_m[cable];
     const double counts = robot.drives[i].zero_counts + robot.drives[i].direction * paid_out / robot.metres_per_count();
-    drives_.push_back(std::make_unique<Drive>(settings_of(robot, buses, i), counts));
+    add(settings_of(robot, buses, i), counts);
   }
 }
 
 CableValues DriveBank::payouts_m() const {
   CableValues payout{};
-  for (std::size_t i = 0; i < drives_.size(); ++i) {
-    const double counts = drives_[i]->motor().position_counts() - robot_.drives[i].zero_counts;
+  for (std::size_t i = 0; i < size(); ++i) {
+    const double counts = drive(i).motor().position_counts() - robot_.drives[i].zero_counts;
     const std::size_t cable = cable_of_[i];
     payout[cable] = path_at_zero_m_[cable] + robot_.lead_m + truth_.zero_offset_m[cable] + loose_m_[i] +
                     robot_.drives[i].direction * counts * robot_.metres_per_count();
@@ -74,31 +73,18 @@ void DriveBank::creep() {
 
 void DriveBank::exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) {
   creep();
-  for (const CanFrame& frame : frames)
-    for (auto& drive : drives_)
-      if (drive->bus() == frame.bus) drive->receive(frame, out);
-  for (auto& drive : drives_) drive->tick(now_us, out);
+  Drives::exchange(frames, now_us, out);
 }
 
 void DriveBank::move(double step_s, const CableValues& tension_N) {
-  for (std::size_t i = 0; i < drives_.size(); ++i) drives_[i]->move(step_s, permille(tension_N[cable_of_[i]]));
+  for (std::size_t i = 0; i < size(); ++i) at(i).move(step_s, permille(tension_N[cable_of_[i]]));
 }
 
 void DriveBank::measure(const CableValues& tension_N) {
-  for (std::size_t i = 0; i < drives_.size(); ++i) {
+  for (std::size_t i = 0; i < size(); ++i) {
     const double noise = noisy_ ? 1.0 + torque_noise_.gaussian(kTorqueNoise) : 1.0;
-    double reading = permille(tension_N[cable_of_[i]]) * truth_.torque_gain[i] * noise;
-    double error_counts = 0.0;
-    if (noise_[i].permille > 0.0) reading += fault_noise_.gaussian(noise_[i].permille);
-    if (noise_[i].counts > 0.0) error_counts = fault_noise_.gaussian(noise_[i].counts);
-    drives_[i]->set_measured(reading, error_counts);
+    set_measured(i, permille(tension_N[cable_of_[i]]) * truth_.torque_gain[i] * noise);
   }
-}
-
-std::size_t DriveBank::enabled() const {
-  std::size_t count = 0;
-  for (const auto& drive : drives_) count += drive->power_state() == PowerState::kOperationEnabled ? 1 : 0;
-  return count;
 }
 
 }  // namespace liana::bench

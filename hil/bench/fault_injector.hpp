@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "hil/bench/drive_bank.hpp"
+#include "hil/bench/drives.hpp"
 #include "hil/config/fault_config.hpp"
-#include "hil/math/reduced.hpp"
 
 namespace liana::bench {
 
@@ -25,15 +25,15 @@ class FaultInjector {
   explicit FaultInjector(std::vector<FaultConfig> faults);
 
   // At the start of every slot, in ascending order: true angles and rates as they are now.
-  void step(std::uint32_t slot, const Theta& theta_rad, const Theta& rate_rad_s, DriveBank& drives);
+  void step(std::uint32_t slot, std::span<const double> angle_rad, std::span<const double> rate_rad_s, Drives& drives);
 
   const std::vector<FaultConfig>& faults() const { return faults_; }
   // One per fault of the list.
   const std::vector<Course>& courses() const { return courses_; }
 
  private:
-  bool is_due(std::size_t fault, std::uint32_t slot, const Theta& theta_rad, const Theta& rate_rad_s,
-              const DriveBank& drives);
+  bool is_due(std::size_t fault, std::uint32_t slot, std::span<const double> angle_rad,
+              std::span<const double> rate_rad_s, const Drives& drives);
 
   std::vector<FaultConfig> faults_;
   std::vector<Course> courses_;

@@ -11,7 +11,7 @@ namespace liana::bench {
 class TruthLog {
  public:
   // An empty path writes nothing. Throws std::runtime_error when the file cannot be created.
-  TruthLog(const std::string& path, std::size_t theta_count);
+  TruthLog(const std::string& path, const std::vector<std::string>& columns);
   // One row in the order of the columns; throws std::runtime_error when the row has another length or the disk is full.
   void write(const std::vector<double>& row);
   // Hands all rows to the system; throws std::runtime_error when the disk is full.

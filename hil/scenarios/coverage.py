@@ -14,6 +14,8 @@ kShown = 2  # scenarios named for each number, the first in bring-up order
 
 # What no scenario can bring about: the test that does, by the file that holds it.
 kTests = {1001: ("Controller.ATelecommandThatIsNotANumberIsFault1001AndNeverFollowed", "tests/firmware_like/controller_test.cpp"),
+          2002: ("SerialController.AJointPushedOutOfItsRangeIsAFault", "tests/firmware_like/serial_controller_test.cpp"),
+          2003: ("SerialController.AnEncoderThatJumpsIsAFaultInTheSameTick", "tests/firmware_like/serial_controller_test.cpp"),
           6001: ("Gate.ARefusalBecomesAFaultThatNamesDriveAndCheck", "tests/firmware_like/gate_test.cpp")}
 
 

@@ -10,6 +10,7 @@ namespace {
 
 // Ten times the lag of the drives at full cable speed (10 mm/s, 30 ms): only a drive that cannot follow gets there.
 constexpr double kFollowingWindow_m = 0.005;
+constexpr double kFollowingWindow_rad = 0.02;  // of a serial arm's joint: ten times the lag at 4 deg/s and 30 ms
 constexpr int kDeadlinePeriods = 3;
 constexpr int kMasterHeartbeatsMissed = 3;
 
@@ -24,9 +25,9 @@ void set_gear(DriveExpectation& drive, double gear) {
   drive.gear_drum_turns = kDenominator / divisor;
 }
 
-}  // namespace
-
-std::vector<DriveExpectation> drive_expectations(const RobotConfig& robot, const BusesConfig& buses) {
+// What all drives of a robot have in common.
+template <class Robot>
+DriveExpectation common_expectation(const Robot& robot, const BusesConfig& buses) {
   DriveExpectation common;
   common.vendor = robot.identity.vendor;
   common.product = robot.identity.product;
@@ -38,21 +39,45 @@ std::vector<DriveExpectation> drive_expectations(const RobotConfig& robot, const
   common.rpdo_deadline_ms = static_cast<std::uint16_t>((kDeadlinePeriods * buses.period_us() + 999) / 1000);
   common.heartbeat_ms = static_cast<std::uint16_t>(buses.heartbeat_ms);
   common.master_timeout_ms = static_cast<std::uint16_t>(kMasterHeartbeatsMissed * buses.heartbeat_ms);
+  return common;
+}
+
+// One drive per window of following error [counts].
+template <class Robot>
+std::vector<DriveExpectation> expectations(const Robot& robot, const std::vector<double>& window_counts,
+                                           const BusesConfig& buses) {
+  const DriveExpectation common = common_expectation(robot, buses);
   std::vector<DriveExpectation> drives;
-  for (std::int32_t i = 0; i < robot.table.cable_count(); ++i) {
+  for (std::size_t i = 0; i < window_counts.size(); ++i) {
+    const auto node = static_cast<std::int32_t>(i + 1);
     DriveExpectation drive = common;
-    drive.node = static_cast<std::uint8_t>(i + 1);
-    drive.bus = buses.bus_of_node(i + 1);
+    drive.node = static_cast<std::uint8_t>(node);
+    drive.bus = buses.bus_of_node(node);
     if (drive.bus < 0) {
-      throw std::runtime_error("bus table " + buses.name + ": buses: node " + std::to_string(i + 1) + " of robot " +
+      throw std::runtime_error("bus table " + buses.name + ": buses: node " + std::to_string(node) + " of robot " +
                                robot.name + " is on no bus; each drive must be on exactly one");
     }
-    if (!robot.drive_serials.empty()) drive.serial = robot.drive_serials[static_cast<std::size_t>(i)];
-    drive.following_window_counts =
-        rounded(kFollowingWindow_m / robot.table.drive[static_cast<std::size_t>(i)].metres_per_count);
+    if (!robot.drive_serials.empty()) drive.serial = robot.drive_serials[i];
+    drive.following_window_counts = rounded(window_counts[i]);
     drives.push_back(drive);
   }
   return drives;
+}
+
+}  // namespace
+
+std::vector<DriveExpectation> drive_expectations(const RobotConfig& robot, const BusesConfig& buses) {
+  std::vector<double> window_counts;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(robot.table.cable_count()); ++i)
+    window_counts.push_back(kFollowingWindow_m / robot.table.drive[i].metres_per_count);
+  return expectations(robot, window_counts, buses);
+}
+
+std::vector<DriveExpectation> drive_expectations(const SerialRobotConfig& robot, const BusesConfig& buses) {
+  std::vector<double> window_counts;
+  for (std::size_t i = 0; i < robot.table.joints(); ++i)
+    window_counts.push_back(kFollowingWindow_rad / robot.table.drive[i].rad_per_count);
+  return expectations(robot, window_counts, buses);
 }
 
 }  // namespace liana::canopen

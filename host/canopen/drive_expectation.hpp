@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "host/config/config.hpp"
+#include "host/config/serial_robot.hpp"
 
 namespace liana::canopen {
 
@@ -31,7 +32,8 @@ struct DriveExpectation {
   std::uint16_t following_time_ms = 100;      // 6066
 };
 
-// One expectation per drive, in the order of the cables. Throws std::runtime_error when a node is on no bus.
+// One expectation per drive, in the order of the cables or joints. Throws std::runtime_error when a node is on no bus.
 std::vector<DriveExpectation> drive_expectations(const RobotConfig& robot, const BusesConfig& buses);
+std::vector<DriveExpectation> drive_expectations(const SerialRobotConfig& robot, const BusesConfig& buses);
 
 }  // namespace liana::canopen

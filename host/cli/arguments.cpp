@@ -1,5 +1,6 @@
 #include "host/cli/arguments.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -117,6 +118,24 @@ cable::ThetaVector parse_theta_deg(std::string_view option, std::string_view tex
   cable::ThetaVector theta_rad{};
   for (std::size_t i = 0; i < count; ++i) theta_rad[i] = checked_angle_deg(option, parts[i], robot, i) * kDegree;
   return theta_rad;
+}
+
+serial::JointVector parse_joint_deg(std::string_view option, std::string_view text, const serial::RobotTable& robot) {
+  const std::vector<double> angles_deg = parse_numbers(option, text, robot.joints());
+  serial::JointVector joint_rad{};
+  for (std::size_t i = 0; i < robot.joints(); ++i) {
+    const serial::JointTable& joint = robot.joint[i];
+    const double low_deg = std::round(joint.low_rad / kDegree * 1e9) / 1e9;
+    const double high_deg = std::round(joint.high_rad / kDegree * 1e9) / 1e9;
+    if (angles_deg[i] < low_deg || angles_deg[i] > high_deg) {
+      refuse(option, text,
+             "joint " + std::to_string(i + 1) + " from " + short_number(low_deg) + " to " + short_number(high_deg) +
+                 " deg");
+    }
+    // The ends are allowed; their degrees went through radians and back.
+    joint_rad[i] = std::clamp(angles_deg[i] * kDegree, joint.low_rad, joint.high_rad);
+  }
+  return joint_rad;
 }
 
 Pose parse_pose(std::string_view option, std::string_view text) {

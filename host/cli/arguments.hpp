@@ -9,6 +9,7 @@
 
 #include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
+#include "firmware_like/serial/robot_table.hpp"
 
 namespace liana {
 
@@ -48,6 +49,9 @@ std::vector<double> parse_numbers(std::string_view option, std::string_view text
 
 // Joint angles in degrees within the robot's limits, as radians; entries beyond the robot's are 0.
 cable::ThetaVector parse_theta_deg(std::string_view option, std::string_view text, const cable::RobotTable& robot);
+
+// The angles of a serial arm's joints in degrees, from the base to the tip, within their ranges.
+serial::JointVector parse_joint_deg(std::string_view option, std::string_view text, const serial::RobotTable& robot);
 
 // x,y,z,qw,qx,qy,qz: metres in the base frame within +-1000, quaternion of unit length within 1e-6.
 Pose parse_pose(std::string_view option, std::string_view text);

@@ -3,6 +3,7 @@
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/serial_commands.hpp"
 #include "host/json/json.hpp"
 #include "host/solve/goal_ik.hpp"
 #include "host/system/errors.hpp"
@@ -63,6 +64,7 @@ void print_text(const Json& answer) {
 }  // namespace
 
 int ik_command(const IkOptions& options) {
+  if (const auto serial = serial_robot_for_kinematics(options.robot)) return serial_ik_command(*serial, options);
   const cable::RobotTable robot = robot_for_kinematics(options.robot).table;
   solve::GoalIkProblem problem;
   problem.from_rad = parse_theta_deg("--from-deg", options.from_deg, robot);

@@ -4,39 +4,14 @@
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/pose_json.hpp"
+#include "host/cli/serial_commands.hpp"
 #include "host/cli/slit_part.hpp"
 #include "host/json/json.hpp"
 #include "host/system/tables.hpp"
 
 namespace liana {
 namespace {
-
-Json homogeneous(const Pose& pose) {
-  Json rows = Json::array();
-  for (std::size_t row = 0; row < 3; ++row) {
-    Json values = Json::array();
-    for (std::size_t column = 0; column < 3; ++column) {
-      Vec3 axis{};
-      axis[column] = 1.0;
-      values.push_back(rotate(pose.quaternion, axis)[row]);
-    }
-    values.push_back(pose.position_m[row]);
-    rows.push_back(values);
-  }
-  rows.push_back({0.0, 0.0, 0.0, 1.0});
-  return rows;
-}
-
-Json jacobian_rows(const cable::Jacobian& jacobian, std::size_t theta_count) {
-  Json rows = Json::array();
-  for (std::size_t row = 0; row < 6; ++row) {
-    Json values = Json::array();
-    for (std::size_t i = 0; i < theta_count; ++i)
-      values.push_back(row < 3 ? jacobian.linear[i][row] : jacobian.angular[i][row - 3]);
-    rows.push_back(values);
-  }
-  return rows;
-}
 
 Json pose_of(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
   const cable::ArmTrig trig = arm_trig(table, theta_rad);
@@ -54,7 +29,7 @@ Json pose_of(const cable::RobotTable& table, const cable::ThetaVector& theta_rad
   }
   return {{"tip_pose", homogeneous(arm.tip_in_base)},
           {"segment_ends_m", ends},
-          {"jacobian", jacobian_rows(arm.tip_jacobian, static_cast<std::size_t>(table.theta_count()))},
+          {"jacobian", jacobian_rows(arm.tip_jacobian.linear, arm.tip_jacobian.angular, table.theta_count())},
           {"cable_length_m", length},
           {"cable_length_change_m", change}};
 }
@@ -75,6 +50,7 @@ void print_summary(const Json& pose) {
 }  // namespace
 
 int pose_command(const PoseOptions& options) {
+  if (const auto serial = serial_robot_for_kinematics(options.robot)) return serial_pose_command(*serial, options);
   const RobotConfig robot = robot_for_kinematics(options.robot);
   const cable::ThetaVector theta_rad = parse_theta_deg("--theta-deg", options.theta_deg, robot.table);
   Json pose = pose_of(robot.table, theta_rad);

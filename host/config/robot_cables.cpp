@@ -41,14 +41,6 @@ void read_watch(const Field& cables, cable::CableWatchTable& watch) {
     watch.contradiction_m = field.at("contradiction_m").number({0, 0.1, true});
 }
 
-DriveIdentity read_identity(const Field& field) {
-  field.only({"vendor", "product", "revision"});
-  constexpr std::int64_t kMaxU32 = 0xffffffff;
-  return {static_cast<std::uint32_t>(field.at("vendor").integer(0, kMaxU32)),
-          static_cast<std::uint32_t>(field.at("product").integer(0, kMaxU32)),
-          static_cast<std::uint32_t>(field.at("revision").integer(0, kMaxU32))};
-}
-
 void read_drive_lists(const Field& drives, RobotConfig& out) {
   const auto count = static_cast<std::size_t>(out.table.cable_count());
   const Field direction = drives.at("direction");
@@ -62,20 +54,6 @@ void read_drive_lists(const Field& drives, RobotConfig& out) {
     out.table.drive[i].zero_counts = static_cast<std::int32_t>(zero.element(i).integer(-1000000000, 1000000000));
     out.table.drive[i].metres_per_count = kTwoPi * out.drum_radius_m / (out.counts_per_turn * out.gear);
     out.table.drive[i].newtons_per_permille = out.rated_torque_Nm / out.drum_radius_m / 1000.0;
-  }
-}
-
-// Optional: what is not known is not checked.
-void read_serials(const Field& drives, std::size_t count, RobotConfig& out) {
-  if (!drives.json().contains("serials")) return;
-  const Field serials = drives.at("serials");
-  serials.size(count, count, "one entry per cable, segment 1 cable 0 first");
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto serial = static_cast<std::uint32_t>(serials.element(i).integer(1, 0xffffffff));
-    if (std::find(out.drive_serials.begin(), out.drive_serials.end(), serial) != out.drive_serials.end())
-      serials.element(i).refuse("a number that no other drive has",
-                                "look at the drive's plate, or leave drives.serials out");
-    out.drive_serials.push_back(serial);
   }
 }
 
@@ -107,12 +85,9 @@ void read_drives(const Field& table, RobotConfig& out) {
                 "choose a stronger drive or a lower limit");
   }
   out.identity = read_identity(drives.at("identity"));
-  constexpr std::int32_t kCalibrationDays = 365;
-  out.calibration_days = drives.json().contains("calibration_days")
-                             ? static_cast<std::int32_t>(drives.at("calibration_days").integer(1, 36500))
-                             : kCalibrationDays;
+  out.calibration_days = read_calibration_days(drives);
   read_drive_lists(drives, out);
-  read_serials(drives, static_cast<std::size_t>(out.table.cable_count()), out);
+  out.drive_serials = read_serials(drives, static_cast<std::size_t>(out.table.cable_count()));
 }
 
 }  // namespace liana

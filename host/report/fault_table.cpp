@@ -6,6 +6,7 @@
 #include "firmware_like/cable/arm/tension_watch.hpp"
 #include "firmware_like/safety/link_watch.hpp"
 #include "firmware_like/safety/supervisor.hpp"
+#include "firmware_like/serial/joint_watch.hpp"
 
 namespace liana {
 namespace {
@@ -27,6 +28,10 @@ Detection detection_of(FaultNumber number, const cable::RobotTable& table) {
       return {"controller: each value of a released command when it takes force", 0};
     case FaultNumber::kTicksLost:
       return {"watchdog: deadlines lost in a row, more than 2", 1};
+    case FaultNumber::kJointOutOfRange:
+      return {"serial arm: encoder more than 1 deg beyond the joint's range, in a row", serial::kRangeDebounceTicks};
+    case FaultNumber::kJointJump:
+      return {"serial arm: encoder against the tick before, over three times the joint's rate", 1};
     case FaultNumber::kDriveMissing:
       return {"watchdog: age of the drive's heartbeat, more than 0.3 s",
               heartbeat_age_ticks(table.tick_s) + heartbeat_period};

@@ -62,4 +62,12 @@ RobotConfig robot_for_kinematics(const std::string& name) {
   return checked([&] { return parse_robot(robot, name, "nominal", parse_buses(buses, "embedded")); });
 }
 
+std::optional<SerialRobotConfig> serial_robot_for_kinematics(const std::string& name) {
+  const std::string robot = evaluate_table("robot", name);
+  return checked([&]() -> std::optional<SerialRobotConfig> {
+    if (robot_kind(robot, name) != "serial") return std::nullopt;
+    return parse_serial_robot(robot, name);
+  });
+}
+
 }  // namespace liana

@@ -1,10 +1,12 @@
 // Robot, scene and bus tables by name: evaluated by `liana-mission eval`, the only place where Lua tables are read.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 
 #include "host/config/config.hpp"
+#include "host/config/serial_robot.hpp"
 #include "host/system/errors.hpp"
 
 namespace liana {
@@ -32,5 +34,8 @@ SceneConfig scene_of(const std::string& name);
 
 // The robot as pose and ik need it, on the default buses.
 RobotConfig robot_for_kinematics(const std::string& name);
+
+// The same for a serial arm, without buses; empty when the robot is of another kind.
+std::optional<SerialRobotConfig> serial_robot_for_kinematics(const std::string& name);
 
 }  // namespace liana

@@ -1,5 +1,6 @@
 -- Checks a mission's structure before anything moves; every refusal says step, field, value, what is allowed and what to do.
 local check_command = require "liana.check_command"
+local kind = require "liana.kind"
 local uses = require "liana.uses"
 
 local check = {}
@@ -147,15 +148,17 @@ end
 
 local function step_suits(where, step, robot)
   local of_robot = " (robot " .. robot.name .. ")"
+  local held, nodes = kind.held_count(robot), kind.node_count(robot)
   for theta, target_deg in pairs(step.hold) do
-    local field, segment = "hold[" .. theta .. "]", robot.segments[(theta + 1) // 2]
-    if not segment then refuse(where, field, target_deg, "theta 1 to " .. 2 * #robot.segments .. of_robot, "correct the step") end
-    local limit_deg = segment.theta_limit_deg
-    local allowed = ("-%g to %g degrees"):format(limit_deg, limit_deg) .. of_robot
-    if math.abs(target_deg) > limit_deg then refuse(where, field, target_deg, allowed, "correct the step") end
+    local field = "hold[" .. theta .. "]"
+    local known = held == 0 and "none" or "theta 1 to " .. held
+    if theta > held then refuse(where, field, target_deg, known .. of_robot, "correct the step") end
+    local low_deg, high_deg = kind.range_deg(robot, theta)
+    local allowed = ("%g to %g degrees"):format(low_deg, high_deg) .. of_robot
+    if target_deg < low_deg or target_deg > high_deg then refuse(where, field, target_deg, allowed, "correct the step") end
   end
   local node, speed_m_s = step.steer.node or 0, step.steer.speed_m_s or 0
-  if node >= #robot.segments then refuse(where, "steer.node", node, "0 (none) to " .. #robot.segments - 1 .. of_robot, "correct the step") end
+  if node > nodes then refuse(where, "steer.node", node, "0 (none) to " .. nodes .. of_robot, "correct the step") end
   if speed_m_s > robot.limits.tip_speed_m_s then
     refuse(where, "steer.speed_m_s", speed_m_s, "up to " .. robot.limits.tip_speed_m_s .. of_robot, "correct the step")
   end

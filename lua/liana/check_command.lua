@@ -1,4 +1,5 @@
 -- Checks the constant fields of a command against the robot before anything moves, with the ranges that lianad has (docs/api.md).
+local kind = require "liana.kind"
 
 local function refuse(where, field, value, allowed)
   error(("%s: %s: %s: allowed %s: correct the step"):format(where, field, tostring(value), allowed), 0)
@@ -33,13 +34,13 @@ local function entries(where, list, known, check)
 end
 
 local function angles(where, goal_deg, robot)
-  local count = 2 * #robot.segments
+  local count = kind.angle_count(robot)
   if type(goal_deg) ~= "table" or #goal_deg ~= count then
     refuse(where, "angles", type(goal_deg) == "table" and #goal_deg or goal_deg, ("%d (robot %s)"):format(count, robot.name))
   end
   for theta, angle_deg in ipairs(goal_deg) do
-    local limit_deg = robot.segments[(theta + 1) // 2].theta_limit_deg
-    number_in(where, "theta " .. theta, angle_deg, -limit_deg, limit_deg, " deg")
+    local low_deg, high_deg = kind.range_deg(robot, theta)
+    number_in(where, "theta " .. theta, angle_deg, low_deg, high_deg, " deg")
   end
 end
 
@@ -52,6 +53,7 @@ end
 local commands = {}
 
 function commands.shape(where, fields, robot)
+  if kind.is_serial(robot) then refuse(where, "shape", "nodes", "cable arms only (robot " .. robot.name .. " has joints)") end
   local reach_m = reach_of(robot)
   entries(where .. ": nodes", fields.nodes, { "node", "position_m", "weight", "threshold_m" }, function(here, entry)
     local last = #robot.segments - 1
@@ -70,7 +72,7 @@ end
 
 function commands.move_jp(where, fields, robot)
   if fields.goal_deg then angles(where .. ": goal_deg", fields.goal_deg, robot) end
-  if fields.rate_deg_s then number_in(where, "rate_deg_s", fields.rate_deg_s, 0.01, robot.limits.theta_rate_deg_s, " deg/s") end
+  if fields.rate_deg_s then number_in(where, "rate_deg_s", fields.rate_deg_s, 0.01, kind.rate_deg_s(robot), " deg/s") end
 end
 
 -- `use` as lua/liana/uses.lua says; nothing to check when it names no command.

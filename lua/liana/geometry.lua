@@ -72,9 +72,29 @@ function geometry.segment_ends(robot, theta_deg)
   return ends
 end
 
--- Pose of the tip for theta in degrees.
+local function rotation_x(angle)
+  local c, s = math.cos(angle), math.sin(angle)
+  return { { 1, 0, 0 }, { 0, c, -s }, { 0, s, c } }
+end
+
+-- Ends of all links of a serial arm for joint angles in degrees, by its DH table; the last one is the tip.
+local function link_ends(robot, joint_deg)
+  local rotation = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } }
+  local position = { 0, 0, 0 }
+  local ends = {}
+  for i, joint in ipairs(robot.joints) do
+    rotation = times(rotation, rotation_z(math.rad(joint_deg[i] + (joint.offset_deg or 0))))
+    position = geometry.add(position, geometry.axis(rotation, 3), joint.d_m)
+    position = geometry.add(position, geometry.axis(rotation, 1), joint.a_m)
+    rotation = times(rotation, rotation_x(math.rad(joint.alpha_deg)))
+    ends[i] = { position = position, rotation = rotation }
+  end
+  return ends
+end
+
+-- Pose of the tip for theta in degrees, of either kind of arm.
 function geometry.tip(robot, theta_deg)
-  local ends = geometry.segment_ends(robot, theta_deg)
+  local ends = robot.kind == "serial" and link_ends(robot, theta_deg) or geometry.segment_ends(robot, theta_deg)
   return ends[#ends]
 end
 

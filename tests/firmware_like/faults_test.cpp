@@ -19,6 +19,8 @@ const std::vector<Published> kPublished{
     {FaultNumber::kNone, 0, "none"},
     {FaultNumber::kCommandInvalid, 1001, "command_invalid"},
     {FaultNumber::kTicksLost, 2001, "ticks_lost"},
+    {FaultNumber::kJointOutOfRange, 2002, "joint_out_of_range"},
+    {FaultNumber::kJointJump, 2003, "joint_jump"},
     {FaultNumber::kDriveMissing, 3001, "drive_missing"},
     {FaultNumber::kDriveSilent, 3002, "drive_silent"},
     {FaultNumber::kDriveFault, 3003, "drive_fault"},

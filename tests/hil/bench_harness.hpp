@@ -30,15 +30,19 @@ inline CanFrame frame_of(std::uint8_t bus, std::uint32_t id, std::vector<std::ui
 // A master in lockstep: maps and starts all drives, then enables them and moves every target by `counts_per_slot`.
 class ScriptedBus final : public Bus {
  public:
-  ScriptedBus(std::uint32_t slots, int counts_per_slot)
-      : slots_(slots), counts_per_slot_(counts_per_slot), position_(16, 0) {}
+  ScriptedBus(std::uint32_t slots, int counts_per_slot, std::uint8_t nodes = 15, std::uint8_t first_bus_nodes = 8)
+      : slots_(slots),
+        counts_per_slot_(counts_per_slot),
+        nodes_(nodes),
+        first_bus_nodes_(first_bus_nodes),
+        position_(16, 0) {}
 
   bool wait(Wake& wake) override {
     if (slot_ >= slots_) return false;
     wake.slot = slot_;
     wake.now_us = 4000ULL * slot_ + 50;
     wake.frames.clear();
-    for (std::uint8_t node = 1; node <= 15; ++node) add_for(node, wake.frames);
+    for (std::uint8_t node = 1; node <= nodes_; ++node) add_for(node, wake.frames);
     for (const std::uint8_t bus : {std::uint8_t{0}, std::uint8_t{1}}) wake.frames.push_back(frame_of(bus, 0x080, {}));
     for (auto& frame : wake.frames) frame.time_us = wake.now_us;
     ++slot_;
@@ -66,7 +70,7 @@ class ScriptedBus final : public Bus {
   static constexpr std::uint32_t kEnableSlot = 40;
 
   void add_for(std::uint8_t node, FrameList& frames) {
-    const auto bus = static_cast<std::uint8_t>(node <= 8 ? 0 : 1);
+    const auto bus = static_cast<std::uint8_t>(node <= first_bus_nodes_ ? 0 : 1);
     static const std::vector<std::vector<std::uint8_t>> kSetup = {
         {0x23, 0x00, 0x14, 1, 0, 2, 0, 0x80},       {0x23, 0x00, 0x16, 1, 0x10, 0, 0x40, 0x60},
         {0x23, 0x00, 0x16, 2, 0x20, 0, 0x7A, 0x60}, {0x2F, 0x00, 0x16, 0, 2},
@@ -95,6 +99,8 @@ class ScriptedBus final : public Bus {
   std::uint32_t slots_;
   std::uint32_t slot_ = 0;
   int counts_per_slot_;
+  std::uint8_t nodes_;
+  std::uint8_t first_bus_nodes_;
   std::vector<std::int32_t> position_;
 };
 

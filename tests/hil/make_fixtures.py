@@ -89,5 +89,23 @@ def buses():
             "heartbeat_ms": 100, "max_load": 0.75}
 
 
-for name, make in (("robot", robot), ("scene", scene), ("buses", buses)):
+def micro():
+    rows = [(90, 0, 0.28), (90, 0, 0.22), (0, 2.10, 0.20), (0, 2.10, 0), (90, 0, 0.20), (-90, 0, 0.22), (0, 0, 0.28)]
+    return {
+        "format": 1, "kind": "serial", "name": "micro",
+        "joints": [{"alpha_deg": alpha, "a_m": a, "d_m": d, "low_deg": -270, "high_deg": 270, "rate_deg_s": 4, "accel_deg_s2": 4} for alpha, a, d in rows],
+        "mass": {"module_kg": 30, "module_radius_m": 0.15, "boom_kg": 25, "end_effector_kg": 40},
+        "friction": {"coulomb_Nm": 8, "viscous_Nms_per_rad": 40, "rotor_inertia_kgm2": 10},
+        "drives": {"counts_per_turn": 1048576, "gear": 1, "servo_time_constant_s": 0.03, "rated_torque_Nm": 150,
+                   "identity": {"vendor": 19529, "product": 2, "revision": 1}, "direction": [1, -1, 1, -1, 1, -1, 1], "zero_counts": [1000000] * 7},
+        "named_poses_deg": {"zero": [0] * 7, "prepare": [0, 60, -30, 100, -40, 60, 0]},
+    }
+
+
+def micro_buses():
+    return {**buses(), "name": "embedded_micro",
+            "buses": [{"name": "can0", "bitrate": 1000000, "nodes": [1, 2, 3, 4]}, {"name": "can1", "bitrate": 1000000, "nodes": [5, 6, 7]}]}
+
+
+for name, make in (("robot", robot), ("scene", scene), ("buses", buses), ("micro", micro), ("micro_buses", micro_buses)):
     (pathlib.Path(sys.argv[1]) / (name + ".json")).write_text(json.dumps(make(), indent=1, sort_keys=True) + "\n")

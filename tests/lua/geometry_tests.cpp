@@ -13,14 +13,13 @@ namespace {
 constexpr double kTolerance = 1e-9;
 
 // Evaluates a Lua expression with geometry, robot and theta_deg in reach.
-Json evaluate_lua(const Json& theta_deg, const std::string& expression) {
+Json evaluate_lua(const Json& theta_deg, const std::string& expression, const std::string& robot = "zhu2022") {
   Activity activity;
   Script script(ScriptLimits{}, LIANA_SOURCE_DIR "/lua", activity);
   std::string list;
   for (const auto& angle : theta_deg) list += angle.dump() + ",";
-  script.run(
-      {"geometry_test.lua", "local geometry, robot, theta_deg = require 'liana.geometry', require 'robots.zhu2022', {" +
-                                list + "}\nreturn " + expression});
+  script.run({"geometry_test.lua", "local geometry, robot, theta_deg = require 'liana.geometry', require 'robots." +
+                                       robot + "', {" + list + "}\nreturn " + expression});
   return to_json(script.state(), -1, "geometry_test.lua");
 }
 
@@ -38,6 +37,17 @@ TEST(LuaGeometry, TipAndSegmentEndsAgreeWithTheGoldenValues) {
       for (std::size_t k = 0; k < 3; ++k)
         EXPECT_NEAR(ends[4]["rotation"][i][k], golden["tip_pose"][i][k], kTolerance) << golden["name"];
       EXPECT_NEAR(ends[4]["position"][i], golden["tip_pose"][i][3], kTolerance) << golden["name"];
+    }
+  }
+}
+
+TEST(LuaGeometry, TipOfASerialArmAgreesWithTheGoldenValues) {
+  for (const auto& golden : Json::parse(read_file(LIANA_SOURCE_DIR "/tests/golden/micro.json"))["cases"]) {
+    const auto tip = evaluate_lua(golden["joint_deg"], "geometry.tip(robot, theta_deg)", "micro");
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(tip["rotation"][i][k], golden["tip_pose"][i][k], kTolerance) << golden["name"];
+      EXPECT_NEAR(tip["position"][i], golden["tip_pose"][i][3], kTolerance) << golden["name"];
     }
   }
 }

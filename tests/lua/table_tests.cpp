@@ -9,7 +9,7 @@ namespace {
 
 TEST(Eval, PrintsTheSameCanonicalTextTwice) {
   for (const std::string table : {"robot zhu2022", "scene panel_slit", "buses embedded", "buses embedded_500",
-                                  "buses embedded_single", "buses vcan"}) {
+                                  "buses embedded_single", "buses vcan", "robot micro", "buses embedded_micro"}) {
     const Ended first = run_program("eval " + table);
     EXPECT_EQ(first.code, 0) << first.error;
     EXPECT_EQ(first.error, "");
@@ -69,7 +69,9 @@ TEST(Eval, RefusesMalformedLuaTablesByField) {
 TEST(Eval, NamesWhatThereIsWhenANameIsUnknown) {
   const Ended ended = run_program("eval buses can9");
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(ended.error.find("can9: allowed embedded, embedded_500, embedded_single, vcan"), std::string::npos)
+  EXPECT_NE(ended.error.find(
+                "can9: allowed embedded, embedded_500, embedded_micro, embedded_micro_single, embedded_single, vcan"),
+            std::string::npos)
       << ended.error;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "firmware_like/math/braking.hpp"
 #include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
 #include "firmware_like/safety/limits.hpp"
@@ -10,21 +11,6 @@ namespace liana::cable {
 namespace {
 
 using Index = std::size_t;
-
-// Largest speed from which steps of one tick can still brake within `distance`: v^2 + a h v = 2 a d.
-double braking_speed(double distance, double accel, double tick_s) noexcept {
-  const double step = 0.5 * accel * tick_s;
-  return std::sqrt(step * step + 2.0 * accel * distance) - step;
-}
-
-// Rate that closes the gap to the reference on top of the reference's own rate.
-double wanted_rate(double gap_rad, double reference_rate, double accel, double tick_s) noexcept {
-  if (gap_rad == 0.0) return reference_rate;
-  const double distance = std::fabs(gap_rad);
-  double close = braking_speed(distance, accel, tick_s);
-  if (close > distance / tick_s) close = distance / tick_s;
-  return reference_rate + (gap_rad < 0.0 ? -close : close);
-}
 
 constexpr double kCableShare = 0.8;  // of the cable speed limit; the rest is for tension changes and damping
 
@@ -40,16 +26,6 @@ double cable_factor(const RobotTable& table, const CableGeometry& geometry, cons
   }
   const double allowed = share * table.limits.cable_speed_m_s;
   return fastest > allowed ? allowed / fastest : 1.0;
-}
-
-// Fastest rate towards a joint limit from which the joint still stops before it: v^2 + 2 a h v = 2 a d, under which no
-// later tick needs to brake harder than `accel` or goes past. It may leave the limit at any rate.
-double rate_before_limit(double rate, double theta_rad, double limit_rad, double accel, double tick_s) noexcept {
-  const double room = larger(0.0, limit_rad - (rate < 0.0 ? -theta_rad : theta_rad));
-  const double step = accel * tick_s, size = std::fabs(rate);
-  if (size * (size + 2.0 * step) <= 2.0 * accel * room) return rate;
-  const double allowed = std::sqrt(step * step + 2.0 * accel * room) - step;
-  return rate < 0.0 ? -allowed : allowed;
 }
 
 }  // namespace
@@ -102,7 +78,8 @@ void limit_motion(const RobotTable& table, const CableGeometry& geometry, const 
   for (Index k = 0; k < n; ++k) {
     const double rate = clamp(wanted[k] * factor, -table.limits.theta_rate_rad_s, table.limits.theta_rate_rad_s);
     if (rate != wanted[k] * factor) state.limits |= kLimitThetaRate;
-    const double stopping = rate_before_limit(rate, state.theta_rad[k], table.segment[k / 2].theta_limit_rad, accel, h);
+    const double room = table.segment[k / 2].theta_limit_rad - (rate < 0.0 ? -state.theta_rad[k] : state.theta_rad[k]);
+    const double stopping = rate_before_limit(rate, room, accel, h);
     if (stopping != rate) state.limits |= kLimitTheta;
     const double bounded = clamp(stopping, state.rate_rad_s[k] - accel * h, state.rate_rad_s[k] + accel * h);
     if (bounded != stopping) state.limits |= kLimitThetaAccel;

@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include "firmware_like/cable/arm/kinematics.hpp"
+#include "firmware_like/math/ik_outcome.hpp"
 #include "firmware_like/cable/setpoint.hpp"
 
 namespace liana::cable {
@@ -33,17 +34,6 @@ struct IkGoal {
   double curvature_m = 0.0;     // kTipCurvature_m to follow a moving target; 0 for a goal that may be far away
 };
 
-// What became of the goal. The way out of the last three is a goal back along minus the residual; the arm follows it at
-// once.
-enum class IkOutcome : std::uint8_t {
-  kConverged = 0,    // position and attitude within kIkConverged
-  kApproaching = 1,  // not there yet, the error more than halves per tick
-  kLimited = 2,      // thetas on their limits keep the tip away
-  kSingular = 3,     // no free theta moves the tip towards the goal: straight or folded
-  kUnreachable = 4,  // the goal is farther from the base than the arm is long
-};
-const char* ik_outcome_name(IkOutcome outcome) noexcept;
-
 struct IkReport {
   double position_error_m = 0.0;
   double attitude_error_rad = 0.0;
@@ -51,9 +41,6 @@ struct IkReport {
   std::array<double, 6> residual{};  // goal less tip, base frame: position [m], rotation vector [rad]
   std::uint32_t limit_mask = 0;      // bit i: theta i was stopped by its limit
 };
-
-// Tip error (position, rotation vector) of `tip` against `goal`, base frame.
-std::array<double, 6> pose_error(const Pose& goal, const Pose& tip) noexcept;
 
 // One damped step of the free thetas towards the goal; limits respected exactly. Reports the tip error before the step.
 IkReport ik_step(const RobotTable& table, const IkGoal& goal, double damping, ThetaVector& theta_rad) noexcept;

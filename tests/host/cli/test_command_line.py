@@ -11,6 +11,7 @@ import unittest
 from programs import BIN, ROOT, liana, liana_json, liana_to_full_disk
 
 GOLDEN = json.loads((ROOT / "tests/golden/arm.json").read_text())["cases"]
+MICRO = json.loads((ROOT / "tests/golden/micro.json").read_text())["cases"]
 ZERO = ",".join(["0"] * 10)
 REACHABLE = "3.392167,-0.767048,0.291155,0.9655934,-0.0586164,0.2527781,-0.0172244"
 
@@ -66,6 +67,28 @@ class Pose(unittest.TestCase):
         self.assertEqual((code, out), (2, ""))
         self.assertIn("20.5", error)
         self.assertEqual(error.count("\n"), 1)
+
+
+class SerialArm(unittest.TestCase):
+    def test_every_golden_pose_of_micro_agrees_to_1e_9(self):
+        for case in MICRO:
+            pose = liana_json("pose", "--robot", "micro", f"--theta-deg={joined(case['joint_deg'])}")
+            self.assertLess(largest_difference(pose["tip_pose"][:3], case["tip_pose"]), 1e-9, case["name"])
+            self.assertLess(largest_difference(pose["jacobian"], case["tip_jacobian"]), 1e-9, case["name"])
+
+    def test_ik_of_micro_comes_back_to_the_pose_it_was_asked_for(self):
+        for case in MICRO[5:12]:
+            tip = [row[3] for row in case["tip_pose"]] + quaternion_of([row[:3] for row in case["tip_pose"]])
+            answer = liana_json("ik", "--robot", "micro", "--from-deg=0,60,-30,100,-40,60,0", f"--tip={joined(tip)}")
+            self.assertTrue(answer["converged"], case["name"])
+            pose = liana_json("pose", "--robot", "micro", f"--theta-deg={joined(answer['theta_deg'])}")
+            self.assertLess(largest_difference(pose["tip_pose"][:3], case["tip_pose"]), 1e-5, case["name"])
+
+    def test_what_only_cable_arms_have_is_refused(self):
+        for option in ("--hold=1", "--control-point=1:0,0,1"):
+            code, out, error = liana("ik", "--robot", "micro", "--from-deg=0,0,0,0,0,0,0", "--tip=1,0,0,1,0,0,0", option)
+            self.assertEqual((code, out), (2, ""))
+            self.assertIn("cable arms only", error)
 
 
 class InverseKinematics(unittest.TestCase):

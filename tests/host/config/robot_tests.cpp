@@ -60,7 +60,7 @@ TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/drives/rated_torque_Nm", 8, "drives.rated_torque_Nm", "at least 9"},
       {"/drives/direction/3", 0, "drives.direction[4]", "1 or -1"},
       {"/drives/zero_counts", {1, 2, 3}, "drives.zero_counts", "one entry per cable"},
-      {"/drives/serials", {1, 2, 3}, "drives.serials", "one entry per cable"},
+      {"/drives/serials", {1, 2, 3}, "drives.serials", "one entry per drive"},
       {"/drives/serials", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 2}, "drives.serials[15]", "no other drive"},
       {"/drives/serials", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 0}, "drives.serials[15]", "1 to"},
       {"/drives/identity/vendor", -1, "drives.identity.vendor", "0 to 4294967295"},

@@ -1,19 +1,35 @@
-// What each fault kind does to a drive or its cable, and how it ends.
-#include <cmath>
-
-#include "hil/bench/drive_bank.hpp"
+#include "hil/bench/drives.hpp"
 
 namespace liana::bench {
 
-namespace {
+Drives::Drives(std::uint32_t product, std::uint64_t seed) : product_(product), fault_noise_(seed, "fault noise") {}
 
-constexpr double kSlackPerSlot_m = 1e-5;  // a clamp slips, no faster than that its tension falls by noise
-constexpr int kSlackSlots = 2000;         // 20 mm: no tension left at any pose of the mission's
-constexpr double kBroken_m = 1.0;         // more than a drum winds up in an hour of pretension attempts
+void Drives::add(const DriveSettings& settings, double start_counts) {
+  drives_.push_back(std::make_unique<Drive>(settings, start_counts));
+  noise_.emplace_back();
+}
 
-}  // namespace
+void Drives::exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) {
+  for (const CanFrame& frame : frames)
+    for (auto& drive : drives_)
+      if (drive->bus() == frame.bus) drive->receive(frame, out);
+  for (auto& drive : drives_) drive->tick(now_us, out);
+}
 
-void DriveBank::begin(const FaultConfig& fault, std::size_t i) {
+void Drives::set_measured(std::size_t i, double permille) {
+  double error_counts = 0.0;
+  if (noise_[i].permille > 0.0) permille += fault_noise_.gaussian(noise_[i].permille);
+  if (noise_[i].counts > 0.0) error_counts = fault_noise_.gaussian(noise_[i].counts);
+  drives_[i]->set_measured(permille, error_counts);
+}
+
+std::size_t Drives::enabled() const {
+  std::size_t count = 0;
+  for (const auto& drive : drives_) count += drive->power_state() == PowerState::kOperationEnabled ? 1 : 0;
+  return count;
+}
+
+void Drives::begin(const FaultConfig& fault, std::size_t i) {
   Drive& drive = *drives_[i];
   const FaultParameters& with = fault.parameters;
   const auto code = static_cast<std::uint16_t>(with.code);
@@ -22,10 +38,10 @@ void DriveBank::begin(const FaultConfig& fault, std::size_t i) {
       return drive.power_off();
     case FaultKind::kWrongIdentityAfterReboot:
       drive.power_off();
-      drive.set_identity(robot_.product + 1);
+      drive.set_identity(product_ + 1);
       return drive.power_on();
     case FaultKind::kWrongIdentity:
-      return drive.set_identity(robot_.product + 1);
+      return drive.set_identity(product_ + 1);
     case FaultKind::kSilent:
       drive.defects().silent = true;
       return;
@@ -33,9 +49,6 @@ void DriveBank::begin(const FaultConfig& fault, std::size_t i) {
       return drive.raise_fault(code);
     case FaultKind::kSto:
       return drive.set_safe_torque_off();
-    case FaultKind::kSlack:
-      creep_[i] = {kSlackPerSlot_m, kSlackSlots};
-      return;
     case FaultKind::kLate:
       drive.defects().late_cycles = static_cast<std::size_t>(with.cycles);
       return;
@@ -55,18 +68,12 @@ void DriveBank::begin(const FaultConfig& fault, std::size_t i) {
       return drive.power_on();
     case FaultKind::kEncoderJump:
       return drive.jump_encoder(with.counts);
-    case FaultKind::kCableSlip:
-      creep_[i] = {with.length_m / with.slots, static_cast<int>(with.slots)};
-      return;
-    case FaultKind::kCableBreak:
-      loose_m_[i] += kBroken_m;
-      return;
-    case FaultKind::kMotorSaturation:
-      drive.defects().most_torque_permille = permille(with.tension_N);
+    default:
+      return begin_behind(fault, i);
   }
 }
 
-void DriveBank::end(const FaultConfig& fault, std::size_t i) {
+void Drives::end(const FaultConfig& fault, std::size_t i) {
   DriveDefects& defects = drives_[i]->defects();
   const DriveDefects none;
   switch (fault.kind) {
@@ -74,10 +81,6 @@ void DriveBank::end(const FaultConfig& fault, std::size_t i) {
       return drives_[i]->power_on();
     case FaultKind::kSilent:
       defects.silent = none.silent;
-      return;
-    case FaultKind::kSlack:
-      loose_m_[i] -= kSlackPerSlot_m * (kSlackSlots - creep_[i].slots_left);
-      creep_[i].slots_left = 0;
       return;
     case FaultKind::kLate:
       defects.late_cycles = none.late_cycles;
@@ -91,11 +94,8 @@ void DriveBank::end(const FaultConfig& fault, std::size_t i) {
     case FaultKind::kWrongPdoLength:
       defects.pdo_length = none.pdo_length;
       return;
-    case FaultKind::kMotorSaturation:
-      defects.most_torque_permille = none.most_torque_permille;
-      return;
     default:
-      return;  // the rest cannot end; load_faults sees to it
+      return end_behind(fault, i);
   }
 }
 

@@ -1,0 +1,66 @@
+// A serial arm as the Controller sees it (arm.hpp): absolute encoders in, joint targets of position-controlled drives
+// out.
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "firmware_like/drive/drive_io.hpp"
+#include "firmware_like/safety/supervisor.hpp"
+#include "firmware_like/serial/drive_units.hpp"
+#include "firmware_like/serial/joint_watch.hpp"
+#include "firmware_like/serial/motion.hpp"
+#include "firmware_like/serial/report.hpp"
+#include "firmware_like/serial/setpoint.hpp"
+
+namespace liana::serial {
+
+constexpr std::uint32_t kHomingTicks = 25;  // encoders have to be heard and plausible this long
+
+class SerialArm {
+ public:
+  using Table = RobotTable;
+  using Setpoint = serial::Setpoint;
+  using Report = serial::Report;
+  using Sensors = NoSensors;
+
+  // The table must have passed the loader; no other checks are made here.
+  explicit SerialArm(const RobotTable& table) noexcept;
+
+  const RobotTable& table() const noexcept { return table_; }
+  GateLimits gate_limits() const noexcept { return make_gate_limits(table_); }
+  LinkLimits link_limits() const noexcept { return make_link_limits(table_); }
+
+  // One tick, in the order of these functions; arm.hpp says what each has to do.
+  void read(const DriveFeedbacks& drives, const NoSensors&) noexcept;
+  void watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept;
+  void watch(WatchScope, std::uint64_t, FaultList&) noexcept {}  // joints are watched one by one
+  ArmStatus status() const noexcept;
+  bool accepts(const Setpoint& setpoint) const noexcept { return is_usable(table_, setpoint); }
+  void take(const Setpoint& setpoint) noexcept { accept_setpoint(table_, setpoint, motion_); }
+  void brake() noexcept { motion_.braking = true; }
+  bool is_braking() const noexcept { return motion_.braking; }
+  void stand() noexcept { reset_motion(table_, measured_rad(), motion_); }
+  std::uint32_t advance(bool allowed) noexcept;
+  std::uint32_t propose(const Orders& orders, const DriveCommands& sent, bool is_sound, DriveProposals& out) noexcept;
+  Report report() const noexcept;
+
+  // What the twin's drives show beside what they are told: nothing, in orbit and without a load.
+  static std::int16_t planned_permille(const RobotTable&, const Report&, std::int32_t) noexcept { return 0; }
+
+  // Motion stage, for the verifier's predictions and for tests.
+  const MotionState& motion() const noexcept { return motion_; }
+
+ private:
+  JointVector measured_rad() const noexcept;
+
+  RobotTable table_{};
+  JointWatchState joints_{};
+  JointVector torque_measured_Nm_{};
+  std::uint32_t homing_ticks_ = 0;
+  MotionState motion_{};
+};
+
+static_assert(std::is_trivially_copyable_v<SerialArm>);
+
+}  // namespace liana::serial

@@ -1,0 +1,105 @@
+#include "hil/bench/cable_plant.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "hil/arm/arm_physics.hpp"
+#include "hil/arm/light_arm.hpp"
+
+namespace liana::bench {
+
+namespace {
+
+constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
+constexpr double kStartSpread_rad = 0.5 / kDegPerRad;
+
+TrueParameters parameters_of(const RobotConfig& robot, const ModelOptions& options, std::uint64_t seed) {
+  return options.spread ? spread_parameters(robot, options.physics, seed) : table_parameters(robot, options.physics);
+}
+
+std::unique_ptr<Arm> make_arm(const RobotConfig& robot, const SceneConfig& scene, const ModelOptions& options,
+                              std::uint64_t seed, const TrueParameters& truth) {
+  const double spread_rad = options.spread && !options.fixture ? kStartSpread_rad : 0.0;
+  const Theta start = start_pose(robot, options.start_pose, spread_rad, seed);
+  if (options.arm == "light") return std::make_unique<LightArm>(robot, truth, start);
+  if (options.arm != "full")
+    throw std::runtime_error("--arm: \"" + options.arm + "\" is no arm model; allowed are full, light");
+  auto arm = std::make_unique<ArmPhysics>(robot, scene, truth, start);
+  arm->set_state(start, Theta{});  // the extremes of slot 0 are those of the laid-out cables
+  return arm;
+}
+
+}  // namespace
+
+CablePlant::CablePlant(const RobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses,
+                       const ModelOptions& options, std::uint64_t seed)
+    : thetas_(robot.theta_count()),
+      options_(options),
+      truth_(parameters_of(robot, options, seed)),
+      arm_(make_arm(robot, scene, options, seed, truth_)),
+      drives_(robot, buses, truth_, arm_->payouts_m(), options.spread, seed, options.cross_wired) {
+  drives_.measure(motor_tensions_N());
+}
+
+CableValues CablePlant::motor_tensions_N() const {
+  CableValues tension{};
+  for (std::size_t c = 0; c < drives_.size(); ++c) tension[c] = arm_->motor_tension_N(c);
+  return tension;
+}
+
+void CablePlant::inject(std::uint32_t slot, FaultInjector& injector) {
+  injector.step(slot, arm_->theta_rad(), arm_->rate_rad_s(), drives_);
+}
+
+void CablePlant::exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) {
+  drives_.exchange(frames, now_us, out);
+}
+
+void CablePlant::integrate(double period_s) {
+  const auto steps = static_cast<int>(std::ceil(period_s / arm_->longest_step_s() - 1e-9));
+  const double step_s = period_s / steps;
+  arm_->begin_slot(period_s);
+  for (int i = 0; i < steps; ++i) {
+    drives_.move(step_s, motor_tensions_N());
+    arm_->step(step_s, drives_.payouts_m());
+  }
+  drives_.measure(motor_tensions_N());
+}
+
+std::vector<std::string> CablePlant::truth_columns() const {
+  std::vector<std::string> columns;
+  for (std::size_t i = 1; i <= thetas_; ++i) columns.push_back("theta_deg_" + std::to_string(i));
+  for (const char* name : {"tip_x_m", "tip_y_m", "tip_z_m", "tip_qw", "tip_qx", "tip_qy", "tip_qz", "clearance_m",
+                           "slit_clearance_m", "sphere_clearance_m", "contact_force_N", "rod_force_N", "tension_min_N",
+                           "tension_motor_min_N", "tension_motor_max_N", "enabled"})
+    columns.emplace_back(name);
+  return columns;
+}
+
+void CablePlant::add_truth(std::vector<double>& row) {
+  const LoadRecord loads = arm_->take_record();
+  const Clearance gap = arm_->clearance();
+  const Pose tip = arm_->tip();
+  for (std::size_t i = 0; i < thetas_; ++i) row.push_back(kDegPerRad * arm_->theta_rad()[i]);
+  const Vec3& p = tip.position_m;
+  const Quat& q = tip.attitude;
+  for (const double value :
+       {p.x, p.y, p.z, q.w, q.x, q.y, q.z, std::min(gap.slit_m, gap.sphere_m), gap.slit_m, gap.sphere_m,
+        loads.contact_N, loads.rod_N, loads.least_tension_N, loads.least_motor_tension_N, loads.most_motor_tension_N,
+        static_cast<double>(drives_.enabled())})
+    row.push_back(value);
+}
+
+void CablePlant::summarise(nlohmann::json& summary) const {
+  const ArmCounts counts = arm_->counts();
+  summary["arm"] = options_.arm;
+  summary["physics"] = options_.physics;
+  summary["mujoco_warnings"] = counts.mujoco_warnings;
+  summary["slots_near_contact"] = counts.contact_slots;
+  summary["friction_sweeps_max"] = counts.most_sweeps;
+  summary["true_parameters"] = {{"EA_N", truth_.EA_N}, {"mu", truth_.mu}, {"hole_radius_m", truth_.hole_radius_m}};
+}
+
+}  // namespace liana::bench

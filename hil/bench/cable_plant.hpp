@@ -1,0 +1,37 @@
+// A cable arm and its drives as the bench's plant.
+#pragma once
+
+#include <memory>
+
+#include "hil/arm/arm.hpp"
+#include "hil/bench/drive_bank.hpp"
+#include "hil/bench/plant.hpp"
+
+namespace liana::bench {
+
+class CablePlant final : public Plant {
+ public:
+  // Throws std::runtime_error for anything that cannot work.
+  CablePlant(const RobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses, const ModelOptions& options,
+             std::uint64_t seed);
+
+  const Drives& drives() const override { return drives_; }
+  void inject(std::uint32_t slot, FaultInjector& injector) override;
+  void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) override;
+  void integrate(double period_s) override;
+  Pose tip() const override { return arm_->tip(); }
+  std::vector<std::string> truth_columns() const override;
+  void add_truth(std::vector<double>& row) override;
+  void summarise(nlohmann::json& summary) const override;
+
+ private:
+  CableValues motor_tensions_N() const;
+
+  std::size_t thetas_;
+  ModelOptions options_;
+  TrueParameters truth_;
+  std::unique_ptr<Arm> arm_;
+  DriveBank drives_;
+};
+
+}  // namespace liana::bench

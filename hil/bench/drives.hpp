@@ -1,0 +1,57 @@
+// The drives of a robot on their buses, and the faults that happen to a drive whatever it moves.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "hil/config/fault_config.hpp"
+#include "hil/drive/drive.hpp"
+#include "hil/math/random.hpp"
+
+namespace liana::bench {
+
+class Drives {
+ public:
+  // `product` is what object 1018:2 of healthy drives says; `seed` draws the noise that faults bring.
+  Drives(std::uint32_t product, std::uint64_t seed);
+  Drives(const Drives&) = delete;
+  Drives& operator=(const Drives&) = delete;
+  virtual ~Drives() = default;
+
+  // Gives the frames to the drives on their buses, then runs all timers.
+  void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out);
+
+  // A fault of this drive begins; end() takes back what can end (load_faults allows for_slots for no other).
+  void begin(const FaultConfig& fault, std::size_t drive);
+  void end(const FaultConfig& fault, std::size_t drive);
+
+  std::size_t size() const { return drives_.size(); }
+  const Drive& drive(std::size_t i) const { return *drives_[i]; }
+  // Drives in operation enabled.
+  std::size_t enabled() const;
+
+ protected:
+  void add(const DriveSettings& settings, double start_counts);
+  Drive& at(std::size_t i) { return *drives_[i]; }
+  // What the torque sensor reads [permille], with the noise that a fault brings to it and to the position.
+  void set_measured(std::size_t drive, double permille);
+
+ private:
+  // The kinds that happen to what a drive moves.
+  virtual void begin_behind(const FaultConfig& fault, std::size_t drive) = 0;
+  virtual void end_behind(const FaultConfig& fault, std::size_t drive) = 0;
+
+  // Standard deviations of sensor noise that a fault brings.
+  struct SensorNoise {
+    double counts = 0.0;
+    double permille = 0.0;
+  };
+
+  std::uint32_t product_;
+  std::vector<std::unique_ptr<Drive>> drives_;
+  std::vector<SensorNoise> noise_;
+  Random fault_noise_;
+};
+
+}  // namespace liana::bench

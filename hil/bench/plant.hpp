@@ -1,0 +1,47 @@
+// What a bench moves: the drives of one robot, the arm behind them, and what is true about both.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "hil/bench/fault_injector.hpp"
+#include "hil/math/vec3.hpp"
+
+namespace liana::bench {
+
+// How the arm is to be simulated.
+struct ModelOptions {
+  std::string arm = "full";  // of a cable arm; or light: no inertia, contact or cable friction
+  std::string physics = "nominal";
+  std::string start_pose = "prepare";
+  bool spread = true;  // parameters, start pose and noise by seed; false: the table exactly, noise only from the camera
+  bool fixture = false;                  // the arm starts exactly in its start pose
+  std::vector<std::size_t> cross_wired;  // empty, or two drives that have each other's cable
+};
+
+class Plant {
+ public:
+  Plant() = default;
+  Plant(const Plant&) = delete;
+  Plant& operator=(const Plant&) = delete;
+  virtual ~Plant() = default;
+
+  virtual const Drives& drives() const = 0;
+  // Faults that begin or end with this slot.
+  virtual void inject(std::uint32_t slot, FaultInjector& injector) = 0;
+  // What the drives hear and say.
+  virtual void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) = 0;
+  // The physics of one slot.
+  virtual void integrate(double period_s) = 0;
+  virtual Pose tip() const = 0;
+
+  // The truth's columns behind "slot", and their values now; extremes count since the last call.
+  virtual std::vector<std::string> truth_columns() const = 0;
+  virtual void add_truth(std::vector<double>& row) = 0;
+  // Adds what this kind of arm has to say at the end.
+  virtual void summarise(nlohmann::json& summary) const = 0;
+};
+
+}  // namespace liana::bench

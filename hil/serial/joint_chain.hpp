@@ -1,0 +1,36 @@
+// The serial arm as hinges in MuJoCo: where its tip is, and what torque a motion takes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hil/config/serial_config.hpp"
+#include "hil/math/vec3.hpp"
+
+namespace liana::bench {
+
+// The arm as MuJoCo XML: a sphere at every joint, a rod along every link with a length along x, a sphere at the tip.
+std::string make_serial_mjcf(const SerialRobotConfig& robot);
+
+class JointChain {
+ public:
+  // Throws std::runtime_error when MuJoCo refuses the model.
+  explicit JointChain(const SerialRobotConfig& robot);
+  ~JointChain();
+  JointChain(const JointChain&) = delete;
+  JointChain& operator=(const JointChain&) = delete;
+
+  // Turns the joints; tip() refers to these angles.
+  void place(const std::vector<double>& joint_rad);
+  Pose tip() const;
+  // Joint torques [N.m] of a motion at the present angles, without friction; rotors are included. In orbit: no gravity.
+  std::vector<double> torque_Nm(const std::vector<double>& rate_rad_s, const std::vector<double>& accel_rad_s2);
+
+ private:
+  struct Engine;
+  std::unique_ptr<Engine> engine_;
+  std::vector<double> offset_rad_;
+};
+
+}  // namespace liana::bench

@@ -1,0 +1,37 @@
+// A serial arm and its drives as the bench's plant: rigid joints that go where their position servos take them, and the
+// torque which that needs.
+#pragma once
+
+#include <vector>
+
+#include "hil/bench/plant.hpp"
+#include "hil/serial/joint_chain.hpp"
+#include "hil/serial/joint_drives.hpp"
+
+namespace liana::bench {
+
+class SerialPlant final : public Plant {
+ public:
+  // Throws std::runtime_error for anything that cannot work, faults of cables among it.
+  SerialPlant(const SerialRobotConfig& robot, const BusesConfig& buses, const ModelOptions& options,
+              const std::vector<FaultConfig>& faults, std::uint64_t seed);
+
+  const Drives& drives() const override { return drives_; }
+  void inject(std::uint32_t slot, FaultInjector& injector) override;
+  void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) override;
+  void integrate(double period_s) override;
+  Pose tip() const override { return chain_.tip(); }
+  std::vector<std::string> truth_columns() const override;
+  void add_truth(std::vector<double>& row) override;
+  void summarise(nlohmann::json& summary) const override;
+
+ private:
+  double friction_Nm(double rate_rad_s) const;
+
+  TrueArm arm_;
+  JointChain chain_;
+  JointDrives drives_;
+  std::vector<double> torque_Nm_;
+};
+
+}  // namespace liana::bench

@@ -1,0 +1,165 @@
+// Serial robots: joints, drives, limits and poses read one by one, then put together with the buses.
+#include "host/config/serial_robot.hpp"
+
+#include <cmath>
+
+#include "host/config/canonical.hpp"
+#include "host/config/robot_parts.hpp"
+
+namespace liana {
+namespace {
+
+using serial::JointTable;
+
+constexpr double kTwoPi = 6.28318530717958647692;
+constexpr double kMostAngle_deg = 720.0;
+constexpr double kMostCounts = 2e9;  // what fits into the 32 bits of a drive's position, with room for a target beyond
+
+JointTable read_joint(const Field& field) {
+  field.only({"alpha_deg", "a_m", "d_m", "offset_deg", "low_deg", "high_deg", "rate_deg_s", "accel_deg_s2"});
+  JointTable joint;
+  joint.dh.alpha_rad = field.at("alpha_deg").number({-180, 180}) * kRadPerDeg;
+  joint.dh.a_m = field.at("a_m").number({-20, 20});
+  joint.dh.d_m = field.at("d_m").number({-20, 20});
+  if (field.json().contains("offset_deg"))
+    joint.dh.offset_rad = field.at("offset_deg").number({-360, 360}) * kRadPerDeg;
+  const double low_deg = field.at("low_deg").number({-kMostAngle_deg, kMostAngle_deg - 1});
+  joint.low_rad = low_deg * kRadPerDeg;
+  joint.high_rad = field.at("high_deg").number({low_deg + 1, kMostAngle_deg}) * kRadPerDeg;
+  joint.rate_rad_s = field.at("rate_deg_s").number({0, 360, true}) * kRadPerDeg;
+  joint.accel_rad_s2 = field.at("accel_deg_s2").number({0, 10000, true}) * kRadPerDeg;
+  return joint;
+}
+
+void read_joints(const Field& joints, SerialRobotConfig& out) {
+  const std::size_t count = joints.size(6, serial::kMaxJoints,
+                                        "6 joints reach any pose; this build holds at most 8 "
+                                        "(kMaxJoints)");
+  out.table.joint_count = static_cast<std::int32_t>(count);
+  for (std::size_t i = 0; i < count; ++i) out.table.joint[i] = read_joint(joints.element(i));
+}
+
+// Numbers that only the bench needs: the core knows nothing of masses yet.
+void check_physics(const Field& table) {
+  const Field mass = table.at("mass");
+  mass.only({"module_kg", "module_radius_m", "boom_kg", "end_effector_kg"});
+  for (const char* name : {"module_kg", "boom_kg", "end_effector_kg"}) mass.at(name).number({0, 1e5, true});
+  mass.at("module_radius_m").number({0, 5, true});
+  const Field friction = table.at("friction");
+  friction.only({"coulomb_Nm", "viscous_Nms_per_rad", "rotor_inertia_kgm2"});
+  for (const char* name : {"coulomb_Nm", "viscous_Nms_per_rad", "rotor_inertia_kgm2"})
+    friction.at(name).number({0, 1e5});
+}
+
+// Counts at both ends of every joint's range have to be numbers that a drive can hold.
+void check_counts(const Field& zero, const SerialRobotConfig& out, std::size_t i) {
+  const JointTable& joint = out.table.joint[i];
+  const double farthest_rad = std::max(std::fabs(joint.low_rad), std::fabs(joint.high_rad));
+  const double most = std::fabs(out.table.drive[i].zero_counts) + farthest_rad / out.table.drive[i].rad_per_count;
+  if (most > kMostCounts) {
+    zero.element(i).refuse("positions of the joint's whole range within 2000000000 counts",
+                           "choose another zero, or an encoder with fewer counts per turn");
+  }
+}
+
+void read_drive_lists(const Field& drives, SerialRobotConfig& out) {
+  const std::size_t count = out.table.joints();
+  const Field direction = drives.at("direction"), zero = drives.at("zero_counts");
+  direction.size(count, count, "one entry per joint, from the base to the tip");
+  zero.size(count, count, "one entry per joint, from the base to the tip");
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::int64_t sign = direction.element(i).integer(-1, 1);
+    if (sign == 0) direction.element(i).refuse("1 or -1", "1 when counts grow with the joint angle");
+    out.table.drive[i].direction = static_cast<std::int32_t>(sign);
+    out.table.drive[i].zero_counts = static_cast<std::int32_t>(zero.element(i).integer(-1000000000, 1000000000));
+    out.table.drive[i].rad_per_count = kTwoPi / (out.counts_per_turn * out.gear);
+    out.table.drive[i].torque_per_permille_Nm = out.rated_torque_Nm / 1000.0;
+    check_counts(zero, out, i);
+  }
+}
+
+void read_joint_drives(const Field& drives, SerialRobotConfig& out) {
+  drives.only({"counts_per_turn", "gear", "servo_time_constant_s", "rated_torque_Nm", "identity", "direction",
+               "zero_counts", "serials", "calibration_days"});
+  out.counts_per_turn = static_cast<std::uint32_t>(drives.at("counts_per_turn").integer(16, 16777216));
+  out.gear = drives.at("gear").number({0, 10000, true});
+  out.table.servo_time_constant_s = drives.at("servo_time_constant_s").number({0, 1});
+  out.rated_torque_Nm = drives.at("rated_torque_Nm").number({0, 4000, true});
+  out.identity = read_identity(drives.at("identity"));
+  out.calibration_days = read_calibration_days(drives);
+  read_drive_lists(drives, out);
+  out.drive_serials = read_serials(drives, out.table.joints());
+}
+
+void read_tip_limits(const Field& field, serial::TipLimits& tip) {
+  field.only({"tip_speed_m_s", "tip_accel_m_s2", "tip_jerk_m_s3", "tip_rate_deg_s", "tip_angular_accel_deg_s2",
+              "tip_angular_jerk_deg_s3"});
+  tip.speed_m_s = field.at("tip_speed_m_s").number({0, 2, true});
+  tip.accel_m_s2 = field.at("tip_accel_m_s2").number({0, 50, true});
+  tip.jerk_m_s3 = field.at("tip_jerk_m_s3").number({0, 1000, true});
+  tip.rate_rad_s = field.at("tip_rate_deg_s").number({0, 360, true}) * kRadPerDeg;
+  tip.angular_accel_rad_s2 = field.at("tip_angular_accel_deg_s2").number({0, 10000, true}) * kRadPerDeg;
+  tip.angular_jerk_rad_s3 = field.at("tip_angular_jerk_deg_s3").number({0, 100000, true}) * kRadPerDeg;
+}
+
+void read_poses(const Field& field, SerialRobotConfig& out) {
+  const std::size_t joints = out.table.joints();
+  for (const auto& [name, list] : field.json().items()) {
+    const Field pose = field.at(name);
+    pose.size(joints, joints, "give every joint's angle in degrees, from the base to the tip");
+    std::vector<double> joint_deg;
+    for (std::size_t i = 0; i < joints; ++i) {
+      const JointTable& joint = out.table.joint[i];
+      joint_deg.push_back(pose.element(i).number({joint.low_rad / kRadPerDeg, joint.high_rad / kRadPerDeg}));
+    }
+    out.named_poses_deg.emplace(name, joint_deg);
+  }
+  if (out.named_poses_deg.empty()) field.refuse("at least one pose", "name the pose that a run starts from");
+}
+
+// The robot without what the buses decide (tick, T_c).
+SerialRobotConfig read_serial_robot(const Json& json, const std::string& file) {
+  const Field table(json, file, "");
+  check_kind(table, "serial");
+  table.only({"format", "kind", "name", "joints", "mass", "friction", "drives", "limits", "named_poses_deg"});
+  SerialRobotConfig out;
+  out.name = table.at("name").name(40);
+  read_joints(table.at("joints"), out);
+  check_physics(table);
+  read_joint_drives(table.at("drives"), out);
+  read_tip_limits(table.at("limits"), out.table.tip);
+  read_poses(table.at("named_poses_deg"), out);
+  out.canonical_json = canonical_json(json);
+  return out;
+}
+
+}  // namespace
+
+std::string kind_of(const Json& table) {
+  const bool has_kind = table.is_object() && table.contains("kind") && table["kind"].is_string();
+  return has_kind ? table["kind"].get<std::string>() : "";
+}
+
+std::string robot_kind(const std::string& text, const std::string& file) { return kind_of(parse_json(text, file)); }
+
+SerialRobotConfig parse_serial_robot(const std::string& text, const std::string& file) {
+  return read_serial_robot(parse_json(text, file), file);
+}
+
+SerialRobotConfig parse_serial_robot(const std::string& text, const std::string& file, const BusesConfig& buses) {
+  SerialRobotConfig out = parse_serial_robot(text, file);
+  check_nodes(out.name, out.table.drive_count(), file, buses);
+  out.table.tick_s = buses.tick_s();
+  out.table.interval_ticks = buses.interval_ticks();
+  return out;
+}
+
+SerialRobotConfig load_serial_robot(const std::string& path, const BusesConfig& buses) {
+  return parse_serial_robot(read_text_file(path), path, buses);
+}
+
+std::string check_serial_robot(const Json& table, const std::string& file) {
+  return read_serial_robot(table, file).canonical_json;
+}
+
+}  // namespace liana

@@ -1,0 +1,48 @@
+// Robots with a serial arm (kind "serial"): canonical JSON (docs/formats.md) to a checked struct, as config.hpp does it
+// for cable arms.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "firmware_like/serial/robot_table.hpp"
+#include "host/config/config.hpp"
+
+namespace liana {
+
+// What the core needs (table) and what only the host needs.
+struct SerialRobotConfig {
+  std::string name;
+  serial::RobotTable table{};  // tick and T_c included
+  DriveIdentity identity{};
+  double rated_torque_Nm = 0.0;  // 6076, at the joint
+  std::uint32_t counts_per_turn = 0;
+  double gear = 1.0;                                           // encoder turns per joint turn
+  std::vector<std::uint32_t> drive_serials;                    // what 0x1018:4 must say; empty: anything
+  std::int32_t calibration_days = 0;                           // how old a calibration may be
+  std::map<std::string, std::vector<double>> named_poses_deg;  // joint_count angles each
+  std::string canonical_json;
+};
+
+// What kind of arm a robot table describes: "robot" (cables) or "serial"; empty when it has no kind that is text.
+std::string kind_of(const Json& table);
+
+// The same of JSON text that was checked once; throws when it is no JSON.
+std::string robot_kind(const std::string& text, const std::string& file);
+
+// Loads and checks a serial robot for these buses (every drive on exactly one bus). Throws std::runtime_error
+// "file: field: value: allowed ...: what to do" on the first fault it finds.
+SerialRobotConfig load_serial_robot(const std::string& path, const BusesConfig& buses);
+
+// The same from JSON text; `file` is what messages call it.
+SerialRobotConfig parse_serial_robot(const std::string& text, const std::string& file, const BusesConfig& buses);
+
+// For kinematics alone: without buses, tick and T_c stay 0.
+SerialRobotConfig parse_serial_robot(const std::string& text, const std::string& file);
+
+// Checks the table by itself, without buses, and returns its canonical JSON.
+std::string check_serial_robot(const Json& table, const std::string& file);
+
+}  // namespace liana

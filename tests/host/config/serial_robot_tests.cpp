@@ -1,0 +1,90 @@
+#include "host/config/serial_robot.hpp"
+
+#include <cmath>
+
+#include "tests/host/config/tables.hpp"
+
+namespace liana {
+namespace {
+
+constexpr double kDeg = 3.14159265358979323846 / 180.0;
+
+BusesConfig micro_buses() { return parse_buses(good_table("buses", "embedded_micro").dump(), "b"); }
+
+SerialRobotConfig micro() { return parse_serial_robot(good_table("robot", "micro").dump(), "r", micro_buses()); }
+
+TEST(SerialRobot, BecomesTheTableTheCoreReads) {
+  const SerialRobotConfig robot = micro();
+  EXPECT_EQ(robot.name, "micro");
+  EXPECT_EQ(robot.table.joint_count, 7);
+  EXPECT_DOUBLE_EQ(robot.table.joint[5].dh.alpha_rad, -90 * kDeg);
+  EXPECT_EQ(robot.table.joint[2].dh.a_m, 2.10);
+  EXPECT_EQ(robot.table.joint[6].dh.d_m, 0.28);
+  EXPECT_DOUBLE_EQ(robot.table.joint[3].low_rad, -270 * kDeg);
+  EXPECT_DOUBLE_EQ(robot.table.joint[3].rate_rad_s, 4 * kDeg);
+  EXPECT_DOUBLE_EQ(robot.table.drive[0].rad_per_count, 2 * 3.14159265358979323846 / 1048576);
+  EXPECT_DOUBLE_EQ(robot.table.drive[0].torque_per_permille_Nm, 0.15);
+  EXPECT_EQ(robot.table.drive[1].direction, -1);
+  EXPECT_DOUBLE_EQ(robot.table.tip.rate_rad_s, 3 * kDeg);
+  EXPECT_DOUBLE_EQ(robot.table.tick_s, 0.004);
+  EXPECT_EQ(robot.table.interval_ticks, 5);
+  EXPECT_EQ(robot.named_poses_deg.at("install")[3], 139);
+}
+
+TEST(SerialRobot, EveryTableSaysItsKind) {
+  EXPECT_EQ(robot_kind(good_table("robot", "micro").dump(), "r"), "serial");
+  EXPECT_EQ(robot_kind(good_table("robot", "zhu2022").dump(), "r"), "robot");
+  EXPECT_EQ(robot_kind("[]", "r"), "");
+}
+
+TEST(SerialRobot, IsRefusedWithFileFieldValueRangeAndAdvice) {
+  const Json good = good_table("robot", "micro");
+  const auto nine = Json(std::vector<Json>(9, good["joints"][0]));
+  const auto five = Json(std::vector<Json>(5, good["joints"][0]));
+  const std::vector<Spoiled> cases = {
+      {"/format", 2, "format", "1 to 1"},
+      {"/kind", "robot", "kind", "allowed serial"},
+      {"/colour", "red", "colour", "no such field"},
+      {"/joints", nine, "joints", "kMaxJoints"},  // compiled capacity, by name
+      {"/joints", five, "joints", "6 to 8"},
+      {"/joints/2/alpha_deg", 200, "joints[3].alpha_deg", "-180 to 180"},
+      {"/joints/2/a_m", "long", "joints[3].a_m", "a number"},
+      {"/joints/2/d_m", nullptr, "joints[3].d_m", "add the field"},
+      {"/joints/2/high_deg", -270, "joints[3].high_deg", "-269 to 720"},
+      {"/joints/6/rate_deg_s", 0, "joints[7].rate_deg_s", "over 0"},
+      {"/joints/6/wobble", 1, "joints[7].wobble", "no such field"},
+      {"/mass/boom_kg", -1, "mass.boom_kg", "over 0"},
+      {"/friction/coulomb_Nm", -1, "friction.coulomb_Nm", "0 to"},
+      {"/drives/direction/3", 0, "drives.direction[4]", "1 or -1"},
+      {"/drives/zero_counts", {1, 2, 3}, "drives.zero_counts", "one entry per joint"},
+      {"/drives/gear", 3000, "drives.zero_counts[1]", "fewer counts per turn"},
+      {"/drives/serials", {1, 2, 3, 4, 5, 6, 2}, "drives.serials[7]", "no other drive"},
+      {"/drives/identity/vendor", -1, "drives.identity.vendor", "0 to 4294967295"},
+      {"/limits/tip_speed_m_s", 3, "limits.tip_speed_m_s", "up to 2"},
+      {"/limits/cable_speed_m_s", 3, "limits.cable_speed_m_s", "no such field"},
+      {"/named_poses_deg/prepare/3", 270.5, "named_poses_deg.prepare[4]", "-270 to 270"},
+      {"/named_poses_deg/prepare", {0, 0}, "named_poses_deg.prepare", "7 entries"}};
+  for (const Spoiled& spoiled : cases) {
+    expect_refused(good, spoiled,
+                   [](const std::string& text) { parse_serial_robot(text, "given.json", micro_buses()); });
+  }
+}
+
+TEST(SerialRobot, NeedsEveryDriveOnABusAndNoOther) {
+  const std::string robot = good_table("robot", "micro").dump();
+  Json table = good_table("buses", "embedded_micro");
+  table["buses"][1]["nodes"] = {5, 6};
+  EXPECT_THROW(parse_serial_robot(robot, "r", parse_buses(table.dump(), "b")), std::runtime_error);
+  table["buses"][1]["nodes"] = {5, 6, 7, 8};
+  EXPECT_THROW(parse_serial_robot(robot, "r", parse_buses(table.dump(), "b")), std::runtime_error);
+  EXPECT_NO_THROW(
+      parse_serial_robot(robot, "r", parse_buses(good_table("buses", "embedded_micro_single").dump(), "b")));
+}
+
+TEST(SerialRobot, TheTwoKindsAreNotTakenForEachOther) {
+  EXPECT_THROW(parse_serial_robot(good_table("robot", "zhu2022").dump(), "r", micro_buses()), std::runtime_error);
+  EXPECT_THROW(parse_robot(good_table("robot", "micro").dump(), "r", "nominal", micro_buses()), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace liana
