@@ -9,6 +9,8 @@
 #include "tests/bench/ticks.hpp"
 
 namespace liana::bench {
+
+using namespace cable;
 namespace {
 
 constexpr std::int32_t kIterations = 50;  // for near goals, at most

@@ -11,6 +11,8 @@
 
 namespace liana::bench {
 
+using namespace cable;
+
 constexpr double kSolved = 1e-6;     // m and rad: when an inverse problem counts as solved
 constexpr double kAgreement = 1e-9;  // m and rad, ours against a peer
 constexpr double kNearMove_m = 0.01;

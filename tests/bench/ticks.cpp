@@ -6,6 +6,8 @@
 #include "tests/firmware_like/ideal_drives.hpp"
 
 namespace liana::bench {
+
+using namespace cable;
 namespace {
 
 constexpr std::int32_t kPhaseTicks = 100;
