@@ -19,6 +19,8 @@
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 using zhu2022::kThetas;

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 HandSample sample(std::int64_t t_us, double x, bool valid = true, bool pressed = true) {

@@ -6,6 +6,8 @@
 #include "host/api/request_error.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 TEST(Owner, OnlyOneClientOwnsMotion) {

@@ -10,6 +10,8 @@
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 // Bytes of a value in which every bit pattern is different from its neighbours; padding included.

@@ -9,6 +9,8 @@
 #include "tests/host/verify/sim_arm.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 class TwinOfAnArm : public testing::Test {
@@ -38,7 +40,7 @@ class TwinOfAnArm : public testing::Test {
 
   std::unique_ptr<SimArm> arm_;
   Twin twin_;
-  Release release_;
+  ReleaseStep release_;
   std::vector<cable::Telecommand> released_;
 };
 
