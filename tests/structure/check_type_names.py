@@ -1,4 +1,4 @@
-"""Finds types of one full name that are defined in several files: two of them in one program break it without a word of the compiler."""
+"""Finds types of one full name in several files: two in one program break it without a word of the compiler."""
 
 import collections
 import pathlib
@@ -18,7 +18,8 @@ KNOWN = {
 NOISE = re.compile(r'//[^\n]*|/\*.*?\*/|R"\((?:.|\n)*?\)"|"(?:\\.|[^"\\\n])*"' + r"|'(?:\\.|[^'\\\n])'", re.S)
 SCOPE = re.compile(
     r"\bnamespace\s*([\w:]*)\s*\{"
-    r"|\b(?:struct|class|union|enum(?:\s+(?:class|struct))?)\s+(?:alignas\([^)]*\)\s*)?([\w:]+)\s*(?:final\s*)?(?::[^;{()]*)?\{"
+    r"|\b(?:struct|class|union|enum(?:\s+(?:class|struct))?)\s+(?:alignas\([^)]*\)\s*)?"
+    r"([\w:]+)\s*(?:final\s*)?(?::[^;{()]*)?\{"
     r"|\{|\}"
 )
 
@@ -48,7 +49,8 @@ def problems(root, known):
     found = {name: files for name, files in definitions(root).items() if len(files) > 1}
     for name, files in sorted(found.items()):
         if name not in known:
-            yield f"{files[0]}: {name} is also defined in {' '.join(files[1:])}; rename one, or give it its room's namespace"
+            others = " ".join(files[1:])
+            yield f"{files[0]}: {name} is also defined in {others}; rename one, or give it its room's namespace"
     yield from (
         f"check_type_names.py: {name} is defined once now; take it out of KNOWN" for name in sorted(known - set(found))
     )
