@@ -15,7 +15,9 @@ kReduced = ({"silent", "fault"}, {"slack", "overload"}, {"bus_lost", "operator_s
 
 # Fault of the bench or the bus; number and index it latches alone, and from how many ticks after its begin until how many. `or_else`: another number and index
 # that may be sooner, where two detectors see it nearly at once.
-Member = collections.namedtuple("Member", "name bench bus number index earliest latest travel_deg or_else", defaults=(2.0, None))
+Member = collections.namedtuple(
+    "Member", "name bench bus number index earliest latest travel_deg or_else", defaults=(2.0, None)
+)
 
 
 def bench(drive, kind, **values):
@@ -60,7 +62,9 @@ class Pair:
         return len(self.bench_faults()) + len(self.bus_script())
 
     def bench_faults(self):
-        return [{**member.bench, "at_slot": begin} for member, begin in zip(self.members, self.begins()) if member.bench]
+        return [
+            {**member.bench, "at_slot": begin} for member, begin in zip(self.members, self.begins()) if member.bench
+        ]
 
     def bus_script(self):
         return [{**member.bus, "from_slot": begin} for member, begin in zip(self.members, self.begins()) if member.bus]
@@ -71,12 +75,18 @@ class Pair:
 
     def expected_first(self):
         """(number, index) of those that may be latched first: both, where either could be. In one tick buses come first, then the lower index."""
-        faults = [(begin + member.earliest, begin + member.latest, member) for member, begin in zip(self.members, self.begins()) if member.number]
+        faults = [
+            (begin + member.earliest, begin + member.latest, member)
+            for member, begin in zip(self.members, self.begins())
+            if member.number
+        ]
         soonest = min(latest for _, latest, _ in faults)
         able = [(earliest, latest, member) for earliest, latest, member in faults if earliest <= soonest]
         if len({(earliest, latest) for earliest, latest, _ in able}) == 1 and able[0][0] == able[0][1]:
             able = [min(able, key=lambda one: (one[2].number != 4001, one[2].index))]
-        return [(member.number, member.index) for _, _, member in able] + [member.or_else for _, _, member in able if member.or_else]
+        return [(member.number, member.index) for _, _, member in able] + [
+            member.or_else for _, _, member in able if member.or_else
+        ]
 
     def run(self):
         return PairRun(self)
@@ -122,7 +132,10 @@ class PairRun:
         must(client.ask("state_command", command="clear"))
         client.until(lambda state: not in_fault or any("cleared" in event["text"] for event in state["events"]))
         client.go_on(1.0)
-        expect_that(client.state["state"] in ("FAULT", "DISABLED"), f"after the clear the state is not documented: {brief(client.state)}")
+        expect_that(
+            client.state["state"] in ("FAULT", "DISABLED"),
+            f"after the clear the state is not documented: {brief(client.state)}",
+        )
 
     def wait_for_the_end(self, client):
         stop = self.pair.stop_tick()
@@ -139,8 +152,14 @@ class PairRun:
         """Nothing clears itself, and nothing moves or enables without a clear."""
         state, end = client.state["state"], client.state["tick"] + kRested
         client.until(lambda state: state["tick"] >= end)
-        expect_that(client.state["state"] == state or client.state["state"] == "FAULT", f"{state} did not stay: {brief(client.state)}")
-        for op, words in (("state_command", {"command": "enable"}), ("move_jp", {"goal_deg": client.state["setpoint_js_deg"]})):
+        expect_that(
+            client.state["state"] == state or client.state["state"] == "FAULT",
+            f"{state} did not stay: {brief(client.state)}",
+        )
+        for op, words in (
+            ("state_command", {"command": "enable"}),
+            ("move_jp", {"goal_deg": client.state["setpoint_js_deg"]}),
+        ):
             answer = client.ask(op, **words)
             expect_that(answer["op"] == "error", f"{op} was accepted after the pair: {answer}")
 
@@ -148,8 +167,12 @@ class PairRun:
         latched = done.latched()
         if latched:
             first = latched[0]
-            self.notes.append(f"{self.pair.delay} ticks apart, first {first[0]} of {first[1]} after {first[2] - kBeginTick} ticks")
-            expect_that(first[:2] in self.pair.expected_first(), f"first is {first[:2]}, expected {self.pair.expected_first()}")
+            self.notes.append(
+                f"{self.pair.delay} ticks apart, first {first[0]} of {first[1]} after {first[2] - kBeginTick} ticks"
+            )
+            expect_that(
+                first[:2] in self.pair.expected_first(), f"first is {first[:2]}, expected {self.pair.expected_first()}"
+            )
         expect_that(latched or self.pair.stop_tick() is not None, "no fault was latched")
         missing = [course["kind"] for course in done.courses if course["begun_slot"] is None]
         expect_that(not missing, f"never began: {', '.join(missing)}")

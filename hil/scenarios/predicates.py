@@ -15,7 +15,7 @@ Report = collections.namedtuple("Report", "slot position")
 
 
 def little_endian(text, first, count, signed=False):
-    return int.from_bytes(bytes.fromhex(text)[first:first + count], "little", signed=signed)
+    return int.from_bytes(bytes.fromhex(text)[first : first + count], "little", signed=signed)
 
 
 class Traffic:
@@ -54,7 +54,9 @@ def target_steps(traffic, limit_counts):
             periods = max(1, now.slot - before.slot)
             step = abs(now.target - before.target)
             if is_enabling(before) and is_enabling(now) and step > limit_counts * periods:
-                complaints.append(f"node {node}, slot {now.slot}: the target changes by {step} counts, allowed are {limit_counts * periods:.0f}")
+                complaints.append(
+                    f"node {node}, slot {now.slot}: the target changes by {step} counts, allowed are {limit_counts * periods:.0f}"
+                )
     return complaints
 
 
@@ -68,8 +70,10 @@ def enabling_commands(traffic, first_slot, end_slot):
 
 def enabling_without_clear(traffic, first_slot, end_slot):
     """Between the stop and the operator's clear and enable, no drive is told to enable operation."""
-    return [f"node {node}, slot {found[0].slot}: told to enable operation while the fault is latched ({len(found)} times)"
-            for node, found in enabling_commands(traffic, first_slot, end_slot)]
+    return [
+        f"node {node}, slot {found[0].slot}: told to enable operation while the fault is latched ({len(found)} times)"
+        for node, found in enabling_commands(traffic, first_slot, end_slot)
+    ]
 
 
 def targets_that_move(traffic, first_slot, end_slot):
@@ -78,7 +82,9 @@ def targets_that_move(traffic, first_slot, end_slot):
     for node, found in enabling_commands(traffic, first_slot, end_slot):
         targets = [command.target for command in found]
         if max(targets) != min(targets):
-            complaints.append(f"node {node}: the target moves by {max(targets) - min(targets)} counts while the fault is latched")
+            complaints.append(
+                f"node {node}: the target moves by {max(targets) - min(targets)} counts while the fault is latched"
+            )
     return complaints
 
 
@@ -88,7 +94,9 @@ def drums_that_move(traffic, first_slot, end_slot, left_out=(), allowed_counts=1
     for node, reports in sorted(traffic.reports.items()):
         places = [report.position for report in reports if first_slot <= report.slot < end_slot]
         if node not in left_out and places and max(places) - min(places) > allowed_counts:
-            complaints.append(f"node {node}: the drum moves by {max(places) - min(places)} counts while the fault is latched")
+            complaints.append(
+                f"node {node}: the drum moves by {max(places) - min(places)} counts while the fault is latched"
+            )
     return complaints
 
 

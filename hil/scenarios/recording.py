@@ -13,20 +13,45 @@ kMessageHead = 22  # channel, sequence, two times
 kName = re.compile(r"(\w+)((?:\[\d+\])*)$")
 
 # Field: its type (struct), and how many of an array's elements belong to this arm ("drives", "thetas"); None: all.
-kInputs = {"tick": ("Q", 1), "lost_ticks": ("I", 1), "lost_bus_mask": ("I", 1), "request": ("B", 1), "telecommand.sequence": ("Q", 1),
-           "telecommand.first_tick": ("Q", 1), "telecommand.expiry_tick": ("Q", 1), "drive.statusword": ("H", "drives"),
-           "drive.torque_permille": ("h", "drives"), "drive.position_counts": ("i", "drives"), "drive.feedback_age_ticks": ("H", "drives"),
-           "drive.heartbeat_age_ticks": ("H", "drives"), "drive.operational": ("B", "drives")}
-kOutputs = {"state": ("B", 1), "stop_category": ("B", 1), "at_rest": ("B", 1), "active_sequence": ("Q", 1), "faults.fault.number": ("H", None),
-            "faults.fault.index": ("h", None), "faults.fault.detail": ("H", None), "faults.fault.tick": ("Q", None), "faults.count": ("I", 1),
-            "faults.dropped": ("I", 1), "drive.controlword": ("H", "drives"), "drive.target_counts": ("i", "drives"),
-            "theta_rate_rad_s": ("d", "thetas")}
+kInputs = {
+    "tick": ("Q", 1),
+    "lost_ticks": ("I", 1),
+    "lost_bus_mask": ("I", 1),
+    "request": ("B", 1),
+    "telecommand.sequence": ("Q", 1),
+    "telecommand.first_tick": ("Q", 1),
+    "telecommand.expiry_tick": ("Q", 1),
+    "drive.statusword": ("H", "drives"),
+    "drive.torque_permille": ("h", "drives"),
+    "drive.position_counts": ("i", "drives"),
+    "drive.feedback_age_ticks": ("H", "drives"),
+    "drive.heartbeat_age_ticks": ("H", "drives"),
+    "drive.operational": ("B", "drives"),
+}
+kOutputs = {
+    "state": ("B", 1),
+    "stop_category": ("B", 1),
+    "at_rest": ("B", 1),
+    "active_sequence": ("Q", 1),
+    "faults.fault.number": ("H", None),
+    "faults.fault.index": ("h", None),
+    "faults.fault.detail": ("H", None),
+    "faults.fault.tick": ("Q", None),
+    "faults.count": ("I", 1),
+    "faults.dropped": ("I", 1),
+    "drive.controlword": ("H", "drives"),
+    "drive.target_counts": ("i", "drives"),
+    "theta_rate_rad_s": ("d", "thetas"),
+}
 kStates = ("DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT")
 kRequests = ("none", "enable", "disable", "clear", "stop")
 
 Fault = collections.namedtuple("Fault", "number index detail tick")
-Tick = collections.namedtuple("Tick", "tick lost_ticks lost_buses request sequence first_tick expiry_tick statusword torque position age heartbeat_age operational "
-                              "state stop_category at_rest active_sequence faults dropped controlword target theta_rate")
+Tick = collections.namedtuple(
+    "Tick",
+    "tick lost_ticks lost_buses request sequence first_tick expiry_tick statusword torque position age heartbeat_age operational "
+    "state stop_category at_rest active_sequence faults dropped controlword target theta_rate",
+)
 
 
 class BadRecording(Exception):
@@ -58,7 +83,7 @@ class Picker:
 
     def __init__(self, schema, wanted, sizes):
         places = offsets([(line.rsplit(" ", 1)[0], int(line.rsplit(" ", 1)[1])) for line in schema.split("\n") if line])
-        elements = {path: places[path][:sizes.get(size, size)] for path, (_, size) in wanted.items()}
+        elements = {path: places[path][: sizes.get(size, size)] for path, (_, size) in wanted.items()}
         for path, (kind, _) in wanted.items():
             if {width for _, width in elements[path]} != {struct.calcsize(kind)}:
                 raise BadRecording(f"field {path} is not {struct.calcsize(kind)} bytes wide in the recording's schema")
@@ -80,16 +105,16 @@ class Picker:
 def text_at(data, at):
     """A string with its length before it, and where it ends."""
     end = at + 4 + struct.unpack_from("<I", data, at)[0]
-    return data[at + 4:end].decode(), end
+    return data[at + 4 : end].decode(), end
 
 
 def records(data):
     if data[:8] != kMagic:
         raise BadRecording("ticks.mcap is no MCAP file")
     at = len(kMagic)
-    while at + 9 <= len(data) and data[at:at + 8] != kMagic:
+    while at + 9 <= len(data) and data[at : at + 8] != kMagic:
         opcode, length = data[at], struct.unpack_from("<Q", data, at + 1)[0]
-        yield opcode, data[at + 9:at + 9 + length]
+        yield opcode, data[at + 9 : at + 9 + length]
         at += 9 + length
 
 
@@ -147,6 +172,33 @@ class Recording:
 
     @staticmethod
     def tick(inputs, outputs):
-        state, category, at_rest, active, numbers, indices, details, ticks, count, dropped, words, targets, rates = outputs
+        (
+            state,
+            category,
+            at_rest,
+            active,
+            numbers,
+            indices,
+            details,
+            ticks,
+            count,
+            dropped,
+            words,
+            targets,
+            rates,
+        ) = outputs
         faults = tuple(itertools.starmap(Fault, zip(numbers[:count], indices, details, ticks)))
-        return Tick(*inputs[:3], kRequests[inputs[3]], *inputs[4:], kStates[state], category, at_rest, active, faults, dropped, words, targets, rates)
+        return Tick(
+            *inputs[:3],
+            kRequests[inputs[3]],
+            *inputs[4:],
+            kStates[state],
+            category,
+            at_rest,
+            active,
+            faults,
+            dropped,
+            words,
+            targets,
+            rates,
+        )

@@ -20,11 +20,33 @@ kTravelDeg = 1.0  # of any angle from the fault to the end, where a scenario say
 kRefusing_s = 2.0
 kRested = 250  # ticks looked at after the end state, and after a clear
 
-kFields = {"about": str, "during": str, "faults": list, "bus_script": list, "expect": dict, "reduced": bool,
-           "host": dict, "start": dict, "time_limit_s": (int, float)}
+kFields = {
+    "about": str,
+    "during": str,
+    "faults": list,
+    "bus_script": list,
+    "expect": dict,
+    "reduced": bool,
+    "host": dict,
+    "start": dict,
+    "time_limit_s": (int, float),
+}
 kStart = {"pose": str, "in_pose": str, "cross_wired": list}
-kExpected = {"fault": (int, type(None)), "index": int, "detail": int, "within_ticks": int, "state": str, "stopped_within_ticks": int, "travel_deg": (int, float),
-             "after_clear": str, "events": list, "late_commands": bool, "boot_order": bool, "also": list, "refused": list}
+kExpected = {
+    "fault": (int, type(None)),
+    "index": int,
+    "detail": int,
+    "within_ticks": int,
+    "state": str,
+    "stopped_within_ticks": int,
+    "travel_deg": (int, float),
+    "after_clear": str,
+    "events": list,
+    "late_commands": bool,
+    "boot_order": bool,
+    "also": list,
+    "refused": list,
+}
 kHost = {"action": str, "program": str, "bytes": int}
 kHostExpected = {"outcome": str, "says": list}
 kDuring = ("boot", "rest", "move")
@@ -62,6 +84,7 @@ class Scenario:
 
     def run(self):
         import host_run  # it builds on this file
+
         return Run(self) if self.host is None else host_run.HostRun(self)
 
     def strangers_nodes(self):
@@ -69,13 +92,19 @@ class Scenario:
         return [int(rule["id"], 16) & 0x7F for rule in self.bus_script or [] if rule["action"] == "send"]
 
     def fault_count(self):
-        return len(self.faults or []) + len(self.bus_script or []) + (self.host is not None) + ("cross_wired" in self.start)
+        return (
+            len(self.faults or [])
+            + len(self.bus_script or [])
+            + (self.host is not None)
+            + ("cross_wired" in self.start)
+        )
 
     def words(self):
         """What lianad and the bench are told of the start."""
         start = self.start
-        bench = (["--start-pose", start["pose"], "--fixture"] if "pose" in start else []) + \
-                (["--cross-wired", ",".join(map(str, start["cross_wired"]))] if "cross_wired" in start else [])
+        bench = (["--start-pose", start["pose"], "--fixture"] if "pose" in start else []) + (
+            ["--cross-wired", ",".join(map(str, start["cross_wired"]))] if "cross_wired" in start else []
+        )
         return {"lianad": ["--in-pose", start["in_pose"]] if "in_pose" in start else [], "bench": bench}
 
 
@@ -97,7 +126,9 @@ class Run:
         try:
             self.act()
         except Exception:
-            expect_that(not self.over_time, f"over its time limit of {self.scenario.time_limit_s} s: the programs were killed")
+            expect_that(
+                not self.over_time, f"over its time limit of {self.scenario.time_limit_s} s: the programs were killed"
+            )
             raise
         expect_that(not self.violations, "; ".join(self.violations))
 
@@ -116,7 +147,12 @@ class Run:
             limit.cancel()
 
     def act(self):
-        with System(expect="client,archive", faults=self.scenario.faults, bus_script=self.scenario.bus_script, **self.scenario.words()) as system:
+        with System(
+            expect="client,archive",
+            faults=self.scenario.faults,
+            bus_script=self.scenario.bus_script,
+            **self.scenario.words(),
+        ) as system:
             with self.limited(system):
                 trial.start_archive(system)
                 client = system.client()
@@ -166,10 +202,15 @@ class Run:
             raise Failed(f"fault {number} was expected, but: {brief(client.state)}") from None
         first = client.state["faults"][0]
         self.latched = first["tick"]
-        expect_that((first["number"], first["index"]) == (number, self.expect["index"]),
-                    f"{number} of {self.expect['index']} was expected first, but: {brief(client.state)}")
+        expect_that(
+            (first["number"], first["index"]) == (number, self.expect["index"]),
+            f"{number} of {self.expect['index']} was expected first, but: {brief(client.state)}",
+        )
         if "detail" in self.expect:
-            expect_that(first["detail"] == self.expect["detail"], f"detail {self.expect['detail']} was expected, but: {first['detail']}")
+            expect_that(
+                first["detail"] == self.expect["detail"],
+                f"detail {self.expect['detail']} was expected, but: {first['detail']}",
+            )
 
     def stay(self, client):
         """The end state, for a second: nothing clears itself, and nothing moves or enables without a clear."""
@@ -182,9 +223,14 @@ class Run:
             return
         end = client.state["tick"] + kRested
         client.until(lambda state: state["tick"] >= end)
-        expect_that(client.state["state"] == wanted and client.state["faults"], f"the fault did not stay: {brief(client.state)}")
+        expect_that(
+            client.state["state"] == wanted and client.state["faults"], f"the fault did not stay: {brief(client.state)}"
+        )
         if wanted == "FAULT":
-            for op, words in (("state_command", {"command": "enable"}), ("move_jp", {"goal_deg": client.state["setpoint_js_deg"]})):
+            for op, words in (
+                ("state_command", {"command": "enable"}),
+                ("move_jp", {"goal_deg": client.state["setpoint_js_deg"]}),
+            ):
                 answer = client.ask(op, **words)
                 expect_that(answer["op"] == "error", f"{op} was accepted while a fault is latched: {answer}")
 
@@ -195,7 +241,9 @@ class Run:
         answer = client.ask("state_command", command="enable")
         expect_that(answer["op"] == "error", f"the arm was enabled: {answer}")
         for text in [answer["message"], " ".join(event["text"] for event in client.events)]:
-            expect_that(all(words in text for words in self.expect["refused"]), f"{self.expect['refused']} is not in: {text}")
+            expect_that(
+                all(words in text for words in self.expect["refused"]), f"{self.expect['refused']} is not in: {text}"
+            )
         client.go_on(kRefusing_s)
         expect_that(client.state["state"] == "DISABLED", f"DISABLED was expected, but: {brief(client.state)}")
 
@@ -211,7 +259,9 @@ class Run:
             client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
         end = client.state["tick"] + kRested
         client.until(lambda state: state["tick"] >= end)
-        expect_that(client.state["state"] == wanted, f"after the clear {wanted} was expected, but: {brief(client.state)}")
+        expect_that(
+            client.state["state"] == wanted, f"after the clear {wanted} was expected, but: {brief(client.state)}"
+        )
 
     def judge_events(self, client):
         """What came besides, and what the arm got over, has been said."""
@@ -219,14 +269,19 @@ class Run:
         for wanted in self.expect.get("also", []):
             expect_that(wanted in told, f"{wanted} was expected besides, but there were {sorted(told)}")
         for wanted in self.expect.get("events", []):
-            expect_that(any(wanted in event["text"] for event in client.events), f"no event says '{wanted}'; there were {[event['text'] for event in client.events]}")
+            expect_that(
+                any(wanted in event["text"] for event in client.events),
+                f"no event says '{wanted}'; there were {[event['text'] for event in client.events]}",
+            )
 
     def begun(self, system):
         """The slot in which the first fault began; 0 without one."""
         courses = system.json("bench_summary.json")["faults"]
         missing = [course["kind"] for course in courses if course["begun_slot"] is None]
         expect_that(not missing, f"never began: {', '.join(missing)}")
-        slots = [course["begun_slot"] for course in courses] + [rule["from_slot"] for rule in self.scenario.bus_script or []]
+        slots = [course["begun_slot"] for course in courses] + [
+            rule["from_slot"] for rule in self.scenario.bus_script or []
+        ]
         return min(slots, default=0)
 
     def judge(self, system, end):
@@ -235,15 +290,23 @@ class Run:
         traffic = predicates.Traffic([path.read_text() for path in sorted(system.directory.glob("can*.log"))], period_s)
         for node in self.scenario.strangers_nodes():
             traffic.commands.pop(node, None), traffic.reports.pop(node, None)
-        expect_that(self.scenario.during == "boot" or traffic.commands, "no command on the wire: the rules had nothing to look at")
-        self.violations += predicates.target_steps(traffic, predicates.step_limit_counts(system.json("robot.json"), period_s))
+        expect_that(
+            self.scenario.during == "boot" or traffic.commands,
+            "no command on the wire: the rules had nothing to look at",
+        )
+        self.violations += predicates.target_steps(
+            traffic, predicates.step_limit_counts(system.json("robot.json"), period_s)
+        )
         if "refused" in self.expect:
             self.violations += predicates.drives_with_torque(truth.column("enabled"), 0, end)
         if self.latched is None:
             return
         took = self.latched - begun
         self.notes.append(f"{self.expect['fault']} after {took} ticks")
-        expect_that(0 <= took <= self.expect["within_ticks"], f"latched {took} ticks after it began, allowed are {self.expect['within_ticks']}")
+        expect_that(
+            0 <= took <= self.expect["within_ticks"],
+            f"latched {took} ticks after it began, allowed are {self.expect['within_ticks']}",
+        )
         self.violations += predicates.targets_that_move(traffic, self.latched + kPathStop, self.enabled_again or end)
         if self.expect["state"] == "FAULT":
             self.judge_stop(truth, traffic, self.enabled_again or end)
@@ -258,7 +321,9 @@ class Run:
         if self.expect.get("boot_order"):
             for bus, log in zip(system.json("buses.json")["buses"], logs):
                 frames = wire_checks.decoded(log)
-                self.violations += [complaint for node in bus["nodes"] for complaint in wire_checks.boot_order(frames, node)]
+                self.violations += [
+                    complaint for node in bus["nodes"] for complaint in wire_checks.boot_order(frames, node)
+                ]
 
     def judge_stop(self, truth, traffic, end):
         stopped = self.latched + self.expect.get("stopped_within_ticks", 0)
@@ -267,6 +332,8 @@ class Run:
         self.notes.append(f"without torque after {last - self.latched} ticks")
         nodes = [1 + drive for drive in trial.self_reporting(self.scenario.faults or [], 15)]
         self.violations += predicates.drives_with_torque(enabled, stopped, end)
-        if not self.expect.get("late_commands"):  # those that waited in a transmit queue switch nothing on, as truth shows
+        if not self.expect.get(
+            "late_commands"
+        ):  # those that waited in a transmit queue switch nothing on, as truth shows
             self.violations += predicates.enabling_without_clear(traffic, stopped, end)
         self.violations += predicates.drums_that_move(traffic, stopped, end, nodes)

@@ -30,7 +30,15 @@ def read(path):
 
 kStates = ("BOOTING", "DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT")
 # Numbers that mean something in a scenario of any kind: least and most.
-kRanges = {"within_ticks": (0, 1e6), "stopped_within_ticks": (0, 1e6), "travel_deg": (0.0, 360.0), "time_limit_s": (0.1, 86400), "index": (-1, 31), "fault": (1001, 6999), "overruns": (0, 1e6)}
+kRanges = {
+    "within_ticks": (0, 1e6),
+    "stopped_within_ticks": (0, 1e6),
+    "travel_deg": (0.0, 360.0),
+    "time_limit_s": (0.1, 86400),
+    "index": (-1, 31),
+    "fault": (1001, 6999),
+    "overruns": (0, 1e6),
+}
 
 
 def check_values(name, found):

@@ -74,6 +74,8 @@ def replay_complaints(directory):
     done = run("liana", "replay", directory, "--json")
     said = json.loads(done.stdout) if done.returncode in (0, 1) and done.stdout else {}
     if done.returncode != 0 or said.get("differing_ticks") != 0 or said.get("missing_ticks") != 0:
-        return [f"the recording does not replay: exit {done.returncode}, {said.get('differing_ticks')} ticks differ, {said.get('missing_ticks')} are missing, "
-                f"{done.stderr.strip()}"]
+        return [
+            f"the recording does not replay: exit {done.returncode}, {said.get('differing_ticks')} ticks differ, {said.get('missing_ticks')} are missing, "
+            f"{done.stderr.strip()}"
+        ]
     return []

@@ -25,12 +25,15 @@ def worst_of(counts):
 
 def verdicts(counts, worst_cases):
     """(what, holds, text) for every limit; `counts`: label -> instructions of each call, `worst_cases`: name -> the same."""
+
     def at_most(what, value, limit):
         return what, value <= limit, f"{value:,} instructions, at most {limit:,}"
 
     for operation in ("fk_jacobian", "ik_step", "cable_jacobian"):
         yield at_most(operation, max(counts[f"{operation} ours"]), LIMITS[operation])
-    median, worst = callgrind.ticks({label.removeprefix("tick "): calls for label, calls in counts.items() if label.startswith("tick ")})
+    median, worst = callgrind.ticks(
+        {label.removeprefix("tick "): calls for label, calls in counts.items() if label.startswith("tick ")}
+    )
     yield at_most("tick", median, LIMITS["tick"])
     yield at_most("tick_worst", worst, round(WORST_TICK * median))
     for name, cases in worst_cases.items():
@@ -42,7 +45,10 @@ def verdicts(counts, worst_cases):
 
 def main():
     core, worst, cases = map(pathlib.Path, sys.argv[1:])
-    worst_cases = {"stored_cases": callgrind.instructions(worst, "stored", cases), "random_cases": callgrind.instructions(worst, "random", *RANDOM_CASES)}
+    worst_cases = {
+        "stored_cases": callgrind.instructions(worst, "stored", cases),
+        "random_cases": callgrind.instructions(worst, "random", *RANDOM_CASES),
+    }
     results = list(verdicts(callgrind.instructions(core), worst_cases))
     for what, holds, text in results:
         print(f"{'held' if holds else 'BROKEN':6} {what:20} {text}")

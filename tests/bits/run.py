@@ -13,8 +13,21 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TARGETS = pathlib.Path(__file__).resolve().parent / "target"
-QEMU = ["qemu-system-arm", "-M", "mps2-an500", "-nographic", "-monitor", "none", "-serial", "none",
-        "-semihosting-config", "enable=on,target=native", "-icount", "shift=5", "-kernel"]
+QEMU = [
+    "qemu-system-arm",
+    "-M",
+    "mps2-an500",
+    "-nographic",
+    "-monitor",
+    "none",
+    "-serial",
+    "none",
+    "-semihosting-config",
+    "enable=on,target=native",
+    "-icount",
+    "shift=5",
+    "-kernel",
+]
 WORST_CASES = ROOT / "tests/bench/worst_cases.txt"
 WORST_TICK = 1.5  # times the median of missions, which on the Cortex-M7 is
 M7_MEDIAN = 58_500  # where the whole slit crossing is not among them (./dev bits measures it)
@@ -35,8 +48,15 @@ class Target:
 
     def build(self, work):
         folder = work / self.name
-        chosen = f"-DCMAKE_TOOLCHAIN_FILE={TARGETS / 'cortex_m7.cmake'}" if self.is_m7 else f"-DCMAKE_CXX_COMPILER={self.compiler}"
-        run(["cmake", "-G", "Ninja", "-S", TARGETS, "-B", folder, chosen, f"-DBITS_OPTIONS={self.options}"], f"configuring {self.name}")
+        chosen = (
+            f"-DCMAKE_TOOLCHAIN_FILE={TARGETS / 'cortex_m7.cmake'}"
+            if self.is_m7
+            else f"-DCMAKE_CXX_COMPILER={self.compiler}"
+        )
+        run(
+            ["cmake", "-G", "Ninja", "-S", TARGETS, "-B", folder, chosen, f"-DBITS_OPTIONS={self.options}"],
+            f"configuring {self.name}",
+        )
         run(["ninja", "-C", folder, "-j", "1"], f"building {self.name}")
         return folder
 
@@ -47,8 +67,13 @@ class Target:
             os.symlink(tape.tape, answers / "tape.bits")
             begin = time.monotonic()
             run([*(QEMU if self.is_m7 else []), folder / program], f"playing on {self.name}", cwd=answers)
-            result = {"name": self.name, "compiler": self.compiler, "options": self.options, "seconds": round(time.monotonic() - begin, 1),
-                      **tape.tool("compare", tape.expected, answers / "outputs.bits")}
+            result = {
+                "name": self.name,
+                "compiler": self.compiler,
+                "options": self.options,
+                "seconds": round(time.monotonic() - begin, 1),
+                **tape.tool("compare", tape.expected, answers / "outputs.bits"),
+            }
             if self.is_m7:
                 result["meter"] = tape.tool("meter", answers / "outputs.bits", answers / "meter.bits")
         return result
@@ -77,7 +102,9 @@ MISSIONS = [
 def run(words, what, expected=0, **options):
     """A program to its end; returns its standard output."""
     try:
-        done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=PATIENCE_S, check=False, **options)
+        done = subprocess.run(
+            [str(word) for word in words], capture_output=True, text=True, timeout=PATIENCE_S, check=False, **options
+        )
     except FileNotFoundError as reason:
         raise Failed(f"{what}: {words[0]} is not there; ./dev bits installs it") from reason
     except subprocess.TimeoutExpired as reason:
@@ -91,8 +118,13 @@ def record(binaries, place, mission):
     """Runs a mission in virtual time; returns the directory of its recording."""
     what, options, expected = mission
     home = pathlib.Path(tempfile.mkdtemp(dir=place))
-    run([binaries / "liana", "run", what, "--time", "fast", *options, "--record", home / "recording"], f"mission {what}", expected,
-        cwd=ROOT, env={**os.environ, "XDG_RUNTIME_DIR": str(home)})
+    run(
+        [binaries / "liana", "run", what, "--time", "fast", *options, "--record", home / "recording"],
+        f"mission {what}",
+        expected,
+        cwd=ROOT,
+        env={**os.environ, "XDG_RUNTIME_DIR": str(home)},
+    )
     return home / "recording"
 
 
@@ -110,7 +142,9 @@ class Tape:
 
 def size_of(folder):
     """Bytes of flash and static RAM of the least program with the core in it."""
-    text, data, bss = run(["arm-none-eabi-size", folder / "bits_footprint"], "arm-none-eabi-size").splitlines()[1].split()[:3]
+    text, data, bss = (
+        run(["arm-none-eabi-size", folder / "bits_footprint"], "arm-none-eabi-size").splitlines()[1].split()[:3]
+    )
     return {"flash_bytes": int(text) + int(data), "static_ram_bytes": int(data) + int(bss)}
 
 
@@ -119,8 +153,13 @@ def figures(folder, meter, costly, quick):
     median = M7_MEDIAN if quick else meter["median_instructions"]
     worst = max(meter, costly, key=lambda each: each["worst_instructions"])
     stack = max(meter["worst_stack_bytes"], costly["worst_stack_bytes"])
-    return {**size_of(folder), **worst, "median_instructions": median, "worst_stack_bytes": stack,
-            "worst_over_median": round(worst["worst_instructions"] / median, 3)}
+    return {
+        **size_of(folder),
+        **worst,
+        "median_instructions": median,
+        "worst_stack_bytes": stack,
+        "worst_over_median": round(worst["worst_instructions"] / median, 3),
+    }
 
 
 def measure(options, place, pool):
@@ -132,7 +171,19 @@ def measure(options, place, pool):
     recordings = [each.result() for each in recorded]
     whole = Tape(options.bin, place, "whole", "make", recordings, "--apart", "5000")
     brief = Tape(options.bin, place, "brief", "make", recordings[-1:], "--apart", "5000", "--limit", "2500")
-    flipped = Tape(options.bin, place, "flipped", "make", recordings[-1:], "--apart", "5000", "--limit", "2500", "--flip-at", "1500")
+    flipped = Tape(
+        options.bin,
+        place,
+        "flipped",
+        "make",
+        recordings[-1:],
+        "--apart",
+        "5000",
+        "--limit",
+        "2500",
+        "--flip-at",
+        "1500",
+    )
     costly = Tape(options.bin, place, "costly", "cases", [WORST_CASES])
     for each in recordings:
         shutil.rmtree(each.parent)
@@ -140,13 +191,22 @@ def measure(options, place, pool):
     m7 = next(target for target in targets if target.is_m7)
     played = [pool.submit(target.play, built[target].result(), whole) for target in targets]
     played_costly = [pool.submit(target.play, built[target].result(), costly) for target in targets]
-    planted = {"fused multiply-add in one source file, on the Cortex-M7": pool.submit(m7.play, built[m7].result(), brief, "bits_fused"),
-               "one bit of one input": pool.submit(targets[0].play, built[targets[0]].result(), flipped)}
+    planted = {
+        "fused multiply-add in one source file, on the Cortex-M7": pool.submit(
+            m7.play, built[m7].result(), brief, "bits_fused"
+        ),
+        "one bit of one input": pool.submit(targets[0].play, built[targets[0]].result(), flipped),
+    }
     results = [each.result() for each in played]
     results_costly = [each.result() for each in played_costly]
     meters = [each[targets.index(m7)].pop("meter") for each in (results, results_costly)]
-    return {"tape": whole.summary, "targets": results, "costly": results_costly, "planted": {what: each.result() for what, each in planted.items()},
-            "cortex_m7": figures(options.work / m7.name, *meters, options.quick)}
+    return {
+        "tape": whole.summary,
+        "targets": results,
+        "costly": results_costly,
+        "planted": {what: each.result() for what, each in planted.items()},
+        "cortex_m7": figures(options.work / m7.name, *meters, options.quick),
+    }
 
 
 def first_of(result):
@@ -156,21 +216,36 @@ def first_of(result):
 
 def show(report):
     tape, m7 = report["tape"], report["cortex_m7"]
-    print(f"{tape['mission_ticks']} ticks of missions, {tape['what_if_ticks']} of {tape['what_ifs']} planted faults and commands")
-    print("faults among them: " + " ".join(map(str, tape["faults"])) + "; not reached: " + " ".join(map(str, tape["faults_not_reached"])))
+    print(
+        f"{tape['mission_ticks']} ticks of missions, {tape['what_if_ticks']} of {tape['what_ifs']} planted faults and commands"
+    )
+    print(
+        "faults among them: "
+        + " ".join(map(str, tape["faults"]))
+        + "; not reached: "
+        + " ".join(map(str, tape["faults_not_reached"]))
+    )
     for what in ("targets", "costly"):
         for result in report[what]:
-            print(f"{result['name']:16} {result['ticks']:8} ticks{' of costly cases' if what == 'costly' else ''}, {result['differing_ticks']} differ{first_of(result)}  ({result['seconds']} s)")
+            print(
+                f"{result['name']:16} {result['ticks']:8} ticks{' of costly cases' if what == 'costly' else ''}, {result['differing_ticks']} differ{first_of(result)}  ({result['seconds']} s)"
+            )
     for what, result in report["planted"].items():
-        print(f"{'found' if result['differing_ticks'] else 'NOT FOUND'}: {what}: {result['differing_ticks']} of {result['ticks']} ticks differ{first_of(result)}")
-    print(f"Cortex-M7: flash {m7['flash_bytes']} bytes, RAM {m7['static_ram_bytes']} bytes and {m7['worst_stack_bytes']} of stack; instructions per tick: "
-          f"median {m7['median_instructions']:.0f} (enabled), worst {m7['worst_instructions']:.0f} (tick {m7['worst_tick']}, {m7['worst_state']}), "
-          f"{m7['worst_over_median']:.2f} times the median")
+        print(
+            f"{'found' if result['differing_ticks'] else 'NOT FOUND'}: {what}: {result['differing_ticks']} of {result['ticks']} ticks differ{first_of(result)}"
+        )
+    print(
+        f"Cortex-M7: flash {m7['flash_bytes']} bytes, RAM {m7['static_ram_bytes']} bytes and {m7['worst_stack_bytes']} of stack; instructions per tick: "
+        f"median {m7['median_instructions']:.0f} (enabled), worst {m7['worst_instructions']:.0f} (tick {m7['worst_tick']}, {m7['worst_state']}), "
+        f"{m7['worst_over_median']:.2f} times the median"
+    )
 
 
 def holds(report):
     """No tick differs or costs too much, the comparison is one that finds differences, and every fault was among what was compared."""
-    same = all(result["ticks"] > 0 and result["differing_ticks"] == 0 for result in report["targets"] + report["costly"])
+    same = all(
+        result["ticks"] > 0 and result["differing_ticks"] == 0 for result in report["targets"] + report["costly"]
+    )
     found = all(result["differing_ticks"] > 0 for result in report["planted"].values())
     bounded = report["cortex_m7"]["worst_over_median"] <= WORST_TICK
     return same and found and bounded and set(report["tape"]["faults_not_reached"]) <= NOT_REACHED
@@ -178,10 +253,22 @@ def holds(report):
 
 def arguments():
     parser = argparse.ArgumentParser(prog="./dev bits", description=__doc__)
-    parser.add_argument("--json", type=argparse.FileType("w"), metavar="FILE", help="also write what was measured as JSON")
+    parser.add_argument(
+        "--json", type=argparse.FileType("w"), metavar="FILE", help="also write what was measured as JSON"
+    )
     parser.add_argument("--quick", action="store_true", help="a short mission, and fewer targets")
-    parser.add_argument("--bin", type=lambda path: pathlib.Path(path).resolve(), default=ROOT / "build/dev/bin", help="where the programs are")
-    parser.add_argument("--work", type=lambda path: pathlib.Path(path).resolve(), default=ROOT / "build/bits", help="where the targets are built")
+    parser.add_argument(
+        "--bin",
+        type=lambda path: pathlib.Path(path).resolve(),
+        default=ROOT / "build/dev/bin",
+        help="where the programs are",
+    )
+    parser.add_argument(
+        "--work",
+        type=lambda path: pathlib.Path(path).resolve(),
+        default=ROOT / "build/bits",
+        help="where the targets are built",
+    )
     return parser.parse_args()
 
 

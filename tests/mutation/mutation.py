@@ -33,8 +33,15 @@ class BadMutation(Exception):
 def mutations(path=HERE / "mutations.json"):
     content = json.loads(path.read_text())
     planted = {name: tuple(Edit(**edit) for edit in edits) for name, edits in content["planted"].items()}
-    return [Mutation(one["name"], (Edit(one["file"], one["line"], one["becomes"]),), planted[one["planted"]] if "planted" in one else (), one["caught_by"])
-            for one in content["mutations"]]
+    return [
+        Mutation(
+            one["name"],
+            (Edit(one["file"], one["line"], one["becomes"]),),
+            planted[one["planted"]] if "planted" in one else (),
+            one["caught_by"],
+        )
+        for one in content["mutations"]
+    ]
 
 
 def changed(text, edit):
@@ -42,8 +49,10 @@ def changed(text, edit):
     lines = text.split("\n")
     found = [i for i, line in enumerate(lines) if line.strip() == edit.line]
     if len(found) != 1:
-        raise BadMutation(f"{edit.file}: the line '{edit.line}' is there {len(found)} times, not once: bring mutations.json up to date")
-    indent = lines[found[0]][:len(lines[found[0]]) - len(lines[found[0]].lstrip())]
+        raise BadMutation(
+            f"{edit.file}: the line '{edit.line}' is there {len(found)} times, not once: bring mutations.json up to date"
+        )
+    indent = lines[found[0]][: len(lines[found[0]]) - len(lines[found[0]].lstrip())]
     lines[found[0]] = indent + edit.becomes if edit.becomes else ""
     return "\n".join(lines)
 
@@ -77,12 +86,30 @@ class Workshop:
         for program in binaries.glob("liana*"):
             if program.name != "lianad":
                 shutil.copy2(program, self.bin)
-        listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True, check=True)
+        listed = subprocess.run(
+            ["git", "-C", str(ROOT), "ls-files", "--cached", "--others", "--exclude-standard"],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
         for name in listed.stdout.splitlines():
             if (ROOT / name).is_file():
                 self.write(name, (ROOT / name).read_bytes())
-        subprocess.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2"],
-                       check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            [
+                "cmake",
+                "-S",
+                self.tree,
+                "-B",
+                self.build,
+                "-G",
+                "Ninja",
+                "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+                "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2",
+            ],
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
 
     def write(self, name, content):
         """Touches the file only where it changes: what has not changed is not built again."""
@@ -148,7 +175,11 @@ def run(wanted, binaries, directory):
                 complaints = zip(one.caught_by, pool.map(why_it_fails, [by_name[name] for name in one.caught_by]))
                 killer, why = next(((name, why) for name, why in complaints if why), (None, ""))
             outcomes[one.name] = (killer, why)
-            print(f"{'caught' if killer else 'SURVIVED'}  {one.name}  {killer or ''}  {why[:120]}", file=sys.stderr, flush=True)
+            print(
+                f"{'caught' if killer else 'SURVIVED'}  {one.name}  {killer or ''}  {why[:120]}",
+                file=sys.stderr,
+                flush=True,
+            )
     return outcomes
 
 
@@ -170,7 +201,10 @@ def main():
         print(f"mutation: {error}", file=sys.stderr)
         return 2
     survivors = [name for name, (killer, _) in outcomes.items() if killer is None]
-    print(f"{len(outcomes) - len(survivors)} of {len(outcomes)} mutations caught" + (f"; survived: {', '.join(survivors)}" if survivors else ""))
+    print(
+        f"{len(outcomes) - len(survivors)} of {len(outcomes)} mutations caught"
+        + (f"; survived: {', '.join(survivors)}" if survivors else "")
+    )
     return 1 if survivors else 0
 
 

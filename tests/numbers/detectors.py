@@ -9,30 +9,55 @@ import subprocess
 
 from page import table
 
-HEAD = ["fault", "physics", "found as", "of the right cable", "size: segment 1", "2", "3", "4", "5", "ticks: median, worst", "travel deg: median, worst"]
+HEAD = [
+    "fault",
+    "physics",
+    "found as",
+    "of the right cable",
+    "size: segment 1",
+    "2",
+    "3",
+    "4",
+    "5",
+    "ticks: median, worst",
+    "travel deg: median, worst",
+]
 kSegments, kCablesEach = 5, 3
 
 
 def row(kind, physics, trials):
     found = [trial for trial in trials if trial["number"]]
     numbers = collections.Counter(trial["number"] for trial in found)
-    named = " ".join(f"{number} x {count}" for number, count in sorted(numbers.items())) + (f", {len(trials) - len(found)} not" if len(found) < len(trials) else "")
+    named = " ".join(f"{number} x {count}" for number, count in sorted(numbers.items())) + (
+        f", {len(trials) - len(found)} not" if len(found) < len(trials) else ""
+    )
     right = sum(trial["index"] == trial["cable"] for trial in found)
     sizes = []
     for segment in range(kSegments):
         own = [trial["size"] for trial in found if trial["cable"] // kCablesEach == segment]
         sizes.append(f"{max(own):.0f} {trials[0]['unit']}" if own and trials[0]["unit"] else "-")
-    spread = lambda key, digits: f"{statistics.median(trial[key] for trial in found):.{digits}f}, {max(trial[key] for trial in found):.{digits}f}" if found else "-"  # noqa: E731
+    spread = (
+        lambda key, digits: f"{statistics.median(trial[key] for trial in found):.{digits}f}, {max(trial[key] for trial in found):.{digits}f}"
+        if found
+        else "-"
+    )  # noqa: E731
     return [kind, physics, named, f"{right} of {len(found)}", *sizes, spread("ticks", 0), spread("travel_deg", 2)]
 
 
 def measure(binaries, count=2):
-    trials = json.loads(subprocess.run([str(binaries / "detectors"), "--count", str(count), "--json"], capture_output=True, text=True, check=True).stdout)
+    trials = json.loads(
+        subprocess.run(
+            [str(binaries / "detectors"), "--count", str(count), "--json"], capture_output=True, text=True, check=True
+        ).stdout
+    )
     groups = collections.defaultdict(list)
     for trial in trials:
         groups[trial["kind"], trial["physics"]].append(trial)
     text = table(HEAD, [row(*key, group) for key, group in groups.items()])
-    return trials, f"Sizes grow by 15 % until they are found: the worst of each segment's seeds. False alarms: none in the missions above ([mission](#mission)).\n\n{text}"
+    return (
+        trials,
+        f"Sizes grow by 15 % until they are found: the worst of each segment's seeds. False alarms: none in the missions above ([mission](#mission)).\n\n{text}",
+    )
 
 
 if __name__ == "__main__":

@@ -9,22 +9,24 @@ SCENARIOS = pathlib.Path(__file__).resolve().parents[2] / "hil" / "scenarios"
 
 
 def listed(counts, kind):
-    """"name count" of every counter of a kind, most first."""
+    """ "name count" of every counter of a kind, most first."""
     found = {name.removeprefix(kind): count for name, count in counts.items() if name.startswith(kind)}
     return ", ".join(f"{name} {count}" for name, count in sorted(found.items(), key=lambda item: (-item[1], item[0])))
 
 
 def rows(counts, failed):
     begun = sum(count for name, count in counts.items() if name.startswith("begun: "))
-    return [["sequences", counts["sequences"]],
-            ["sequences that broke a rule", len(failed)],
-            ["sequences that failed once and not again (the machine stalled)", counts["failed once, not again"]],
-            ["ticks judged", counts["ticks"]],
-            ["faults begun", f"{begun}: {listed(counts, 'begun: ')}"],
-            ["sequences in which a fault was latched", listed(counts, "latched: ")],
-            ["times the arm was enabled", counts["enabled"]],
-            ["operator's requests, refused of them", f"{counts['requests']}, {counts['refused requests']}"],
-            ["recordings replayed, all the same bit for bit" if not failed else "recordings replayed", counts["replayed"]]]
+    return [
+        ["sequences", counts["sequences"]],
+        ["sequences that broke a rule", len(failed)],
+        ["sequences that failed once and not again (the machine stalled)", counts["failed once, not again"]],
+        ["ticks judged", counts["ticks"]],
+        ["faults begun", f"{begun}: {listed(counts, 'begun: ')}"],
+        ["sequences in which a fault was latched", listed(counts, "latched: ")],
+        ["times the arm was enabled", counts["enabled"]],
+        ["operator's requests, refused of them", f"{counts['requests']}, {counts['refused requests']}"],
+        ["recordings replayed, all the same bit for bit" if not failed else "recordings replayed", counts["replayed"]],
+    ]
 
 
 def measure(binaries, count=500):

@@ -26,4 +26,6 @@ def measure(binaries):
         answer = pose(binaries, case["theta_deg"])
         for key in KEYS:
             worst[key] = max(worst[key], largest_difference(answer[key], case[key]))
-    return worst, table(["quantity", f"largest difference over {len(CASES)} poses"], [[key, f"{worst[key]:.1e}"] for key in KEYS])
+    return worst, table(
+        ["quantity", f"largest difference over {len(CASES)} poses"], [[key, f"{worst[key]:.1e}"] for key in KEYS]
+    )

@@ -24,7 +24,10 @@ def joined(numbers):
 
 def quaternion_of(r):
     """Quaternion (w, x, y, z) of a rotation matrix by its most stable form."""
-    q = [math.sqrt(max(0.0, 1 + s[0] * r[0][0] + s[1] * r[1][1] + s[2] * r[2][2])) / 2 for s in ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))]
+    q = [
+        math.sqrt(max(0.0, 1 + s[0] * r[0][0] + s[1] * r[1][1] + s[2] * r[2][2])) / 2
+        for s in ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))
+    ]
     k = max(range(4), key=q.__getitem__)
     v = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]]
     if k == 0:
@@ -72,8 +75,17 @@ def measure(binaries):
     for kind in sorted({result[0] for result in results}):
         mine = [result for result in results if result[0] == kind]
         iterations = sorted(result[3] for result in mine)
-        rows.append([kind[0], kind[1], len(mine), f"{100 * sum(r[1] for r in mine) / len(mine):.1f} %", sum(r[2] for r in mine),
-                     iterations[len(iterations) // 2], iterations[-1]])
+        rows.append(
+            [
+                kind[0],
+                kind[1],
+                len(mine),
+                f"{100 * sum(r[1] for r in mine) / len(mine):.1f} %",
+                sum(r[2] for r in mine),
+                iterations[len(iterations) // 2],
+                iterations[-1],
+            ]
+        )
     total = sum(result[1] for result in results)
     wrong = sum(result[2] for result in results)
     text = f"{total} of {GOALS} goals found ({100 * total / GOALS:.2f} %); {wrong} wrongly called converged.\n\n"

@@ -8,7 +8,16 @@ import sys
 import tempfile
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from planning_plans import PANEL_EDGE, POINTS_PER_LINK, PRESS_ROD, ROOT, joined, link_points, run, tip_of  # noqa: E402 (found through the line above)
+from planning_plans import (
+    PANEL_EDGE,
+    POINTS_PER_LINK,
+    PRESS_ROD,
+    ROOT,
+    joined,
+    link_points,
+    run,
+    tip_of,
+)  # noqa: E402 (found through the line above)
 
 LOOKS = 8  # at a step between waypoints
 
@@ -24,7 +33,12 @@ def curves():
     yield "straight ahead", ahead(0.001), False
     yield "straight ahead", ahead(0.3), False
     yield "straight to (1.2, 0.05, 0.3)", [tip, [1.2, 0.05, 0.3]], True
-    yield "bend by (0.6, -0.15, 0.4), (1, -0.05, 0.35) to (1.4, 0, 0.4)", [tip, [0.6, -0.15, 0.4], [1.0, -0.05, 0.35], [1.4, 0.0, 0.4]], True
+    yield "bend by (0.6, -0.15, 0.4), (1, -0.05, 0.35) to (1.4, 0, 0.4)", [
+        tip,
+        [0.6, -0.15, 0.4],
+        [1.0, -0.05, 0.35],
+        [1.4, 0.0, 0.4],
+    ], True
     yield "`--follow=slit` to the press rod", None, True
 
 
@@ -38,7 +52,7 @@ def away(p, a, b):
 
 def body_off(waypoints):
     """Greatest and mean distance of the link ends from the arm's line at the start and the tip's path since."""
-    ends = lambda theta: [[0.0, 0.0, 0.0], *link_points(theta)[0][POINTS_PER_LINK - 1::POINTS_PER_LINK]]  # noqa: E731
+    ends = lambda theta: [[0.0, 0.0, 0.0], *link_points(theta)[0][POINTS_PER_LINK - 1 :: POINTS_PER_LINK]]  # noqa: E731
     line, offs = ends(waypoints[0]), []
     for before, after in zip(waypoints, waypoints[1:]):
         for look in range(1, LOOKS + 1):
@@ -80,9 +94,30 @@ def measure(binaries):
     from page import table
 
     found = study(binaries)
-    rows = [[r["curve"], f"{r['curve_length_m']:.3f} m", f"{1000 * r['tip_off_m']:.1f} mm", f"{1000 * r['body_off_m']:.1f} mm", f"{1000 * r['mean_body_off_m']:.1f} mm", r["waypoints"],
-             ", ".join(f"{1000 * x:.0f} mm" for x in r.get("arriving_m", []))] for r in found]
-    return found, table(["from the panel edge pose", "curve", "tip within", "body within", "on average", "waypoints", "a plan that only has to arrive there: body within, on average"], rows)
+    rows = [
+        [
+            r["curve"],
+            f"{r['curve_length_m']:.3f} m",
+            f"{1000 * r['tip_off_m']:.1f} mm",
+            f"{1000 * r['body_off_m']:.1f} mm",
+            f"{1000 * r['mean_body_off_m']:.1f} mm",
+            r["waypoints"],
+            ", ".join(f"{1000 * x:.0f} mm" for x in r.get("arriving_m", [])),
+        ]
+        for r in found
+    ]
+    return found, table(
+        [
+            "from the panel edge pose",
+            "curve",
+            "tip within",
+            "body within",
+            "on average",
+            "waypoints",
+            "a plan that only has to arrive there: body within, on average",
+        ],
+        rows,
+    )
 
 
 def main():

@@ -9,8 +9,16 @@ HEAD = ["held at 0", "theta within", "goals", "converged", "wrong", "iterations 
 
 def row(kind):
     iterations = kind["iterations"]
-    return [kind["held"], f"{kind['range_deg']} deg", kind["goals"], f"{100 * kind['converged'] / kind['goals']:.3f} %", kind["wrong"],
-            iterations["median"], iterations["p99"], iterations["most"]]
+    return [
+        kind["held"],
+        f"{kind['range_deg']} deg",
+        kind["goals"],
+        f"{100 * kind['converged'] / kind['goals']:.3f} %",
+        kind["wrong"],
+        iterations["median"],
+        iterations["p99"],
+        iterations["most"],
+    ]
 
 
 def measure(binaries, count=20000):

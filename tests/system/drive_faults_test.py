@@ -22,7 +22,9 @@ class DrivesThatDoNotBoot(SystemTest):
             client = system.client()
             must(client.ask("acquire"))
             state = client.until(lambda state: state["state"] == "FAULT")
-            self.assertTrue(any(all(word in event["text"] for word in words) for event in state["events"]), brief(state))
+            self.assertTrue(
+                any(all(word in event["text"] for word in words) for event in state["events"]), brief(state)
+            )
             self.assertEqual([(fault["number"], fault["index"]) for fault in state["faults"]], [(number, kDrive)])
             for word in words:
                 self.assertIn(word, state["faults"][0]["text"])
@@ -51,7 +53,11 @@ class DrivesThatFailInMotion(SystemTest):
         client.start_moving()
         self.assertLess(client.state["tick"], kFaultSlot - 5, "the move must be under way before the fault")
         client.until(lambda state: state["faults"])
-        self.assertLess(client.state["tick"], kFaultSlot + 250, "slack is debounced for 25 ticks, and the cable needs some to come loose")
+        self.assertLess(
+            client.state["tick"],
+            kFaultSlot + 250,
+            "slack is debounced for 25 ticks, and the cable needs some to come loose",
+        )
         return system, client
 
     def ended(self, system, client, stop_deg=1.0):
@@ -166,7 +172,10 @@ class DrivesWithoutTargets(SystemTest):
             self.assert_fault(state, 3004, 8)
             client.go_on(1.0)
             system.shut_down(client)
-            self.assertEqual({node: codes[0] for node, codes in system.emergencies().items()}, {node: 0x8130 for node in range(9, 16)})
+            self.assertEqual(
+                {node: codes[0] for node, codes in system.emergencies().items()},
+                {node: 0x8130 for node in range(9, 16)},
+            )
             self.assert_stopped(system.truth(), kFaultSlot, stop_deg=2.0)
 
 

@@ -20,7 +20,7 @@ def children_of(pid):
             text = stat.read_text()
         except OSError:
             continue
-        name, rest = text[text.index("(") + 1:text.rindex(")")], text[text.rindex(")") + 2:].split()
+        name, rest = text[text.index("(") + 1 : text.rindex(")")], text[text.rindex(")") + 2 :].split()
         if int(rest[1]) == pid:
             found[name] = int(stat.parent.name)
     return found
@@ -29,7 +29,9 @@ def children_of(pid):
 class ClientsThatDie(SystemTest):
     def mission_under_way(self, mission="short", operator=False, lockstep=True):
         """A lianad that expects a mission ends with it; one that has to outlive it meets it outside lockstep."""
-        system = self.enterContext(System("client,mission,operator" if operator else "client,mission" if lockstep else "client"))
+        system = self.enterContext(
+            System("client,mission,operator" if operator else "client,mission" if lockstep else "client")
+        )
         client = system.client()
         if operator:
             system.start_operator()
@@ -40,7 +42,10 @@ class ClientsThatDie(SystemTest):
         self.assertTrue(any(all(word in event["text"] for word in words) for event in state["events"]), brief(state))
 
     def moving(self, client):
-        return client.until(lambda state: state["owner"] == "mission" and state["is_busy"] and state["step"] and not state["at_rest"], 120)
+        return client.until(
+            lambda state: state["owner"] == "mission" and state["is_busy"] and state["step"] and not state["at_rest"],
+            120,
+        )
 
     def test_when_the_mission_runner_dies_the_arm_holds_and_another_client_can_go_back(self):
         system, client = self.mission_under_way(lockstep=False)
@@ -80,7 +85,9 @@ class ClientsThatDie(SystemTest):
         system, client = self.mission_under_way("steered", operator=True)
         client.until(lambda state: state["device_engaged"] and not state["at_rest"], 60)
         client.go_on(1.5)
-        self.assertTrue(client.state["device_engaged"] and not client.state["at_rest"], "the operator has to be steering")
+        self.assertTrue(
+            client.state["device_engaged"] and not client.state["at_rest"], "the operator has to be steering"
+        )
         tick = client.state["tick"]
         system.kill("liana-operator")
         state = client.until(lambda state: not state["device_engaged"])
@@ -134,7 +141,9 @@ class BusSidesThatDie(SystemTest):
         self.assertLessEqual(last_slot, len(truth.rows) - 125 + 6, "three periods without a target are allowed")
         self.assertGreater(truth.travel_deg(len(truth.rows) - 126, len(truth.rows)), 0.0)
         for drive in system.json("bench_summary.json")["drives"]:
-            self.assertEqual((drive["quick_stops"], drive["emergencies"], drive["statusword"] & 0x6F), (1, 2, 0x40), drive)
+            self.assertEqual(
+                (drive["quick_stops"], drive["emergencies"], drive["statusword"] & 0x6F), (1, 2, 0x40), drive
+            )
         self.assertEqual(enabled[-1], 0)
         self.assertLess(truth.travel_deg(last_slot, None), 1.0)
         self.assert_still(truth, len(truth.rows) - 50)

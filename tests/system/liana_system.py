@@ -28,15 +28,28 @@ def program(name):
 
 def run(*words, **options):
     """A program to its end: the completed process with text output."""
-    return subprocess.run([program(words[0]), *map(str, words[1:])], capture_output=True, text=True, timeout=PATIENCE_S, check=False, **options)
+    return subprocess.run(
+        [program(words[0]), *map(str, words[1:])],
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE_S,
+        check=False,
+        **options,
+    )
 
 
 def start_run(test, *words):
     """`liana run` with these words, its runtime directory its own; ended when the test ends."""
     home = tempfile.mkdtemp(prefix="liana-home-")
     test.addCleanup(shutil.rmtree, home, ignore_errors=True)
-    process = subprocess.Popen([program("liana"), "run", *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=home,
-                               env={**os.environ, "XDG_RUNTIME_DIR": home, "TMPDIR": home})
+    process = subprocess.Popen(
+        [program("liana"), "run", *map(str, words)],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        cwd=home,
+        env={**os.environ, "XDG_RUNTIME_DIR": home, "TMPDIR": home},
+    )
     process.home = pathlib.Path(home)
     test.addCleanup(process.communicate)
     test.addCleanup(process.kill)
@@ -81,7 +94,9 @@ class Client:
         self.last_id, self.faults_told = 0, set()
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.socket.settimeout(PATIENCE_S)
-        wait_until(lambda: self.socket.connect_ex(str(path)) == 0, f"{path} to listen", check)  # the path is there a moment before
+        wait_until(
+            lambda: self.socket.connect_ex(str(path)) == 0, f"{path} to listen", check
+        )  # the path is there a moment before
         if name is None:
             return
         self.send({"op": "hello", "name": name, "role": role, "lockstep": lockstep, "subscribe": list(subscribe)})
@@ -191,7 +206,7 @@ class Truth:
 
     def theta_deg(self, row):
         first = self.columns.index("theta_deg_1")
-        return self.rows[row][first:first + 10]
+        return self.rows[row][first : first + 10]
 
     def travel_deg(self, first, last):
         """Largest change of any angle between any row and the first of the range."""
@@ -216,7 +231,9 @@ class System:
 
     def start(self, name, *words):
         log = open(self.directory / f"{name}.log", "ab")
-        self.children[name] = subprocess.Popen([program(name), *map(str, words)], stdin=subprocess.DEVNULL, stdout=log, stderr=log)
+        self.children[name] = subprocess.Popen(
+            [program(name), *map(str, words)], stdin=subprocess.DEVNULL, stdout=log, stderr=log
+        )
         log.close()
 
     def write_tables(self):
@@ -230,15 +247,52 @@ class System:
         try:
             self.write_tables()
             script = ["--script", self.directory / "script.json"] if self.script is not None else []
-            self.start("liana-bus", "--socket", self.bus_socket, "--buses", self.directory / "buses.json", "--time", "fast", "--log",
-                       self.directory, "--stats", self.directory / "bus_stats.json", *script)
+            self.start(
+                "liana-bus",
+                "--socket",
+                self.bus_socket,
+                "--buses",
+                self.directory / "buses.json",
+                "--time",
+                "fast",
+                "--log",
+                self.directory,
+                "--stats",
+                self.directory / "bus_stats.json",
+                *script,
+            )
             wait_until(self.bus_socket.exists, "liana-bus to listen", self.check_refused)
-            self.start("lianad", *self.tables(), "--api", self.api, "--bus-socket", self.bus_socket, "--time", "fast", "--expect", self.expect,
-                       *self.lianad_words)
+            self.start(
+                "lianad",
+                *self.tables(),
+                "--api",
+                self.api,
+                "--bus-socket",
+                self.bus_socket,
+                "--time",
+                "fast",
+                "--expect",
+                self.expect,
+                *self.lianad_words,
+            )
             wait_until(self.api.exists, "lianad to listen", self.check_refused)
             faults = ["--faults", self.directory / "faults.json"] if self.faults is not None else []
-            self.start("liana-bench", *self.tables(), "--bus-socket", self.bus_socket, "--api", self.api, "--seed", self.seed, "--truth",
-                       self.directory / "truth.bin", "--summary", self.directory / "bench_summary.json", *faults, *self.bench_words)
+            self.start(
+                "liana-bench",
+                *self.tables(),
+                "--bus-socket",
+                self.bus_socket,
+                "--api",
+                self.api,
+                "--seed",
+                self.seed,
+                "--truth",
+                self.directory / "truth.bin",
+                "--summary",
+                self.directory / "bench_summary.json",
+                *faults,
+                *self.bench_words,
+            )
             return self
         except BaseException:
             self.__exit__(*sys.exc_info())
@@ -265,12 +319,32 @@ class System:
         return Client(self.api, None, None)
 
     def start_operator(self):
-        self.start("liana-operator", "--api", self.api, "--recordings", SOURCE / "lua" / "recordings", "--scene", self.directory / "scene.json",
-                   "--seed", self.seed, "--lockstep")
+        self.start(
+            "liana-operator",
+            "--api",
+            self.api,
+            "--recordings",
+            SOURCE / "lua" / "recordings",
+            "--scene",
+            self.directory / "scene.json",
+            "--seed",
+            self.seed,
+            "--lockstep",
+        )
 
     def start_mission(self, mission, lockstep=True):
         waits = ["--lockstep"] if lockstep else []
-        self.start("liana-mission", "run", "--api", self.api, "--mission", mission, "--report", self.directory / "mission.json", *waits)
+        self.start(
+            "liana-mission",
+            "run",
+            "--api",
+            self.api,
+            "--mission",
+            mission,
+            "--report",
+            self.directory / "mission.json",
+            *waits,
+        )
 
     def check_refused(self):
         """Nobody has to wait for a program that has refused its input."""

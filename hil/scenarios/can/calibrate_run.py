@@ -33,8 +33,13 @@ class CalibrateRun:
     def calibrate(self, system, file):
         """Answers each prompt with the arm in its fixture and Enter, as many as there are poses; exit code and all that was said."""
         words = ["--bus", system.directory / "buses.json", "--physics", "ideal", "--out", file]
-        process = subprocess.Popen([program("liana"), "calibrate", *map(str, words)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                   stderr=subprocess.STDOUT, text=True)
+        process = subprocess.Popen(
+            [program("liana"), "calibrate", *map(str, words)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
         left, said = list(self.scenario.calibrate["poses"]), []
         for line in process.stdout:
             said.append(line)
@@ -55,7 +60,12 @@ class CalibrateRun:
         """The arm, anew, in a fixture."""
         expect_that(f"fixture {pose}," in prompt, f"fixture {pose} was expected, but: {prompt}")
         crossed = self.scenario.calibrate.get("cross_wired")
-        system.bench_words = ["--start-pose", pose, "--fixture", *(["--cross-wired", ",".join(map(str, crossed))] if crossed else [])]
+        system.bench_words = [
+            "--start-pose",
+            pose,
+            "--fixture",
+            *(["--cross-wired", ",".join(map(str, crossed))] if crossed else []),
+        ]
         system.start_bench()
 
     def end_bench(self, system):

@@ -13,8 +13,26 @@ import calibrate_run  # noqa: E402
 from scenario_file import BadScenario, Failed, check_fields, expect_that, read  # noqa: E402
 
 kReadme = "hil/scenarios/can/README.md"
-kFields = {"about": str, "on": list, "during": str, "do": list, "restart": str, "mend": list, "calibrate": dict, "expect": dict, "reduced": bool, "only_in_vm": bool}
-kExpected = {"fault": (int, list, type(None)), "state": str, "within_ticks": int, "after_clear": str, "travel_deg": (int, float), "overruns": int}
+kFields = {
+    "about": str,
+    "on": list,
+    "during": str,
+    "do": list,
+    "restart": str,
+    "mend": list,
+    "calibrate": dict,
+    "expect": dict,
+    "reduced": bool,
+    "only_in_vm": bool,
+}
+kExpected = {
+    "fault": (int, list, type(None)),
+    "state": str,
+    "within_ticks": int,
+    "after_clear": str,
+    "travel_deg": (int, float),
+    "overruns": int,
+}
 kKinds = (*kInterfaces, "drives")
 kDuring = ("boot", "rest", "move")
 kMoveDeg = 2.0
@@ -28,7 +46,9 @@ class CanScenario:
         self.name = f"can/{path.parent.name}/{path.stem}"
         content = read(path)
         self.calibrate = content.get("calibrate")
-        check_fields(self.name, content, kFields, ("about", "on", "expect", *([] if self.calibrate else ["during"])), kReadme)
+        check_fields(
+            self.name, content, kFields, ("about", "on", "expect", *([] if self.calibrate else ["during"])), kReadme
+        )
         if self.calibrate:
             check_fields(f"{self.name}: calibrate", self.calibrate, calibrate_run.kFields, ("poses",), kReadme)
             check_fields(f"{self.name}: expect", content["expect"], calibrate_run.kExpected, ("code",), kReadme)
@@ -85,7 +105,9 @@ class Run:
         client.until(lambda state: state["faults"] or (state["state"] != "BOOTING" and state["is_homed"]), kReach_s)
         self.enable(client)
         if self.scenario.during == "move":
-            client.start_moving(math.copysign(kMoveDeg, client.state["setpoint_js_deg"][8]))  # to and fro where one follows the other
+            client.start_moving(
+                math.copysign(kMoveDeg, client.state["setpoint_js_deg"][8])
+            )  # to and fro where one follows the other
 
     def enable(self, client):
         self.enables += 1
@@ -95,7 +117,9 @@ class Run:
 
     def shell(self, system, lines):
         for line in lines:
-            done = subprocess.run(["bash", "-ec", line], env=system.environment(), capture_output=True, text=True, check=False)
+            done = subprocess.run(
+                ["bash", "-ec", line], env=system.environment(), capture_output=True, text=True, check=False
+            )
             expect_that(done.returncode == 0, f"`{line}` failed: {done.stderr.strip()}")
 
     def act(self, system, client):
@@ -126,19 +150,30 @@ class Run:
             expect_that(first["number"] in numbers, f"fault {numbers} was expected first, but: {brief(client.state)}")
             took = first["tick"] - begin
             self.notes.append(f"{first['number']} after {took} ticks" if not self.scenario.restart else f"{found[0]}")
-            expect_that(took <= self.expect.get("within_ticks", took), f"{first['number']} after {took} ticks, allowed are {self.expect.get('within_ticks')}")
+            expect_that(
+                took <= self.expect.get("within_ticks", took),
+                f"{first['number']} after {took} ticks, allowed are {self.expect.get('within_ticks')}",
+            )
         client.until(lambda state: state["state"] == wanted and (numbers or not state["is_busy"]), kReach_s)
         client.go_on(kRested_s)
-        expect_that(client.state["state"] == wanted and bool(client.state["faults"]) == bool(numbers), f"{wanted} did not stay: {brief(client.state)}")
+        expect_that(
+            client.state["state"] == wanted and bool(client.state["faults"]) == bool(numbers),
+            f"{wanted} did not stay: {brief(client.state)}",
+        )
         if wanted != "FAULT":
             return
-        for op, words in (("state_command", {"command": "enable"}), ("move_jp", {"goal_deg": client.state["setpoint_js_deg"]})):
+        for op, words in (
+            ("state_command", {"command": "enable"}),
+            ("move_jp", {"goal_deg": client.state["setpoint_js_deg"]}),
+        ):
             answer = client.ask(op, **words)
             expect_that(answer["op"] == "error", f"{op} was accepted while a fault is latched: {answer}")
 
     def count_overruns(self, found):
         self.notes.append(f"{found} overruns")
-        expect_that(found <= self.expect["overruns"], f"{found} deadlines were missed, allowed are {self.expect['overruns']}")
+        expect_that(
+            found <= self.expect["overruns"], f"{found} deadlines were missed, allowed are {self.expect['overruns']}"
+        )
 
     def clear(self, client):
         wanted = self.expect["after_clear"]
@@ -148,7 +183,9 @@ class Run:
             client.until(lambda state: any("cleared" in event["text"] for event in state["events"]), kReach_s)
         if wanted == "FAULT":
             client.go_on(kRested_s)
-            expect_that(client.state["state"] == "FAULT", f"the clear was expected to be refused, but: {brief(client.state)}")
+            expect_that(
+                client.state["state"] == "FAULT", f"the clear was expected to be refused, but: {brief(client.state)}"
+            )
             return
         client.until(lambda state: state["state"] == "DISABLED" and not state["faults"], kReach_s)
         if wanted == "ENABLED":
@@ -170,9 +207,14 @@ class Run:
         enabled, travel = system.torque()
         rises = [slot for slot in range(1, len(enabled)) if enabled[slot] and not enabled[slot - 1]]
         allowed = self.enables if self.scenario.restart != "liana-bench" else 1
-        expect_that(len(rises) == allowed, f"the drives got torque {len(rises)} times ({rises}), the operator enabled {allowed} times")
+        expect_that(
+            len(rises) == allowed,
+            f"the drives got torque {len(rises)} times ({rises}), the operator enabled {allowed} times",
+        )
         expect_that(not enabled[-1], "drives still have torque at the end")
-        expect_that(travel <= self.expect.get("travel_deg", kTravelDeg), f"the arm travelled {travel:.2f} deg without torque")
+        expect_that(
+            travel <= self.expect.get("travel_deg", kTravelDeg), f"the arm travelled {travel:.2f} deg without torque"
+        )
 
 
 def run(scenario, kind, make_system):
@@ -183,8 +225,14 @@ def run(scenario, kind, make_system):
         one.go()
     except (Failed, AssertionError, OSError, ValueError, KeyError, subprocess.SubprocessError) as error:
         why = f"{type(error).__name__}: {error}"
-    return {"name": scenario.name, "on": kind, "outcome": "failed" if why else "passed", "seconds": round(time.monotonic() - start, 2), "why": why,
-            "notes": one.notes}
+    return {
+        "name": scenario.name,
+        "on": kind,
+        "outcome": "failed" if why else "passed",
+        "seconds": round(time.monotonic() - start, 2),
+        "why": why,
+        "notes": one.notes,
+    }
 
 
 def main():
@@ -195,7 +243,10 @@ def main():
                 if f"{scenario.name}@{kind}" not in names:
                     continue
                 row = run(scenario, kind, lambda kind=kind: BenchOnCan(kind))
-                print(f"{row['outcome']}  {row['name']} ({kind})  {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}", flush=True)
+                print(
+                    f"{row['outcome']}  {row['name']} ({kind})  {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}",
+                    flush=True,
+                )
                 results.write(json.dumps(row) + "\n")
                 results.flush()
 

@@ -40,7 +40,9 @@ def activity():
 def wait_until_enabled(measuring):
     """The load is for an arm at work: it begins when the arm is enabled."""
     while measuring.poll() is None:
-        told = subprocess.run([program("liana"), "status", "--json"], capture_output=True, text=True, check=False).stdout
+        told = subprocess.run(
+            [program("liana"), "status", "--json"], capture_output=True, text=True, check=False
+        ).stdout
         if '"state":"ENABLED"' in told.replace(" ", ""):
             return
         time.sleep(0.05)
@@ -49,11 +51,18 @@ def wait_until_enabled(measuring):
 def measure(rate, load):
     with tempfile.TemporaryDirectory() as folder:
         environment = {**os.environ, "LOAD_DIR": folder, "LOAD_BIN": os.path.dirname(program("liana"))}
-        measuring = subprocess.Popen([program("liana"), "latency", "--arm", "light", "--rate", rate, "--seconds", str(kSeconds), "--json"],
-                                     stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        measuring = subprocess.Popen(
+            [program("liana"), "latency", "--arm", "light", "--rate", rate, "--seconds", str(kSeconds), "--json"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         if kLoads[load]:
             wait_until_enabled(measuring)
-        beside = [subprocess.Popen(words, env=environment, stderr=subprocess.DEVNULL, start_new_session=True) for words in kLoads[load]]
+        beside = [
+            subprocess.Popen(words, env=environment, stderr=subprocess.DEVNULL, start_new_session=True)
+            for words in kLoads[load]
+        ]
         before = activity()
         try:
             out, error = measuring.communicate()
@@ -73,7 +82,9 @@ def measure(rate, load):
 def main():
     if sys.argv[1:] == ["flood"]:
         flood()
-    subprocess.run([program("liana"), "latency", "--arm", "light", "--seconds", "0.1", "--json"], capture_output=True, check=False)  # reads everything once
+    subprocess.run(
+        [program("liana"), "latency", "--arm", "light", "--seconds", "0.1", "--json"], capture_output=True, check=False
+    )  # reads everything once
     with open(sys.argv[1], "w", encoding="utf-8") as results:
         for word in sys.argv[2:]:
             results.write(json.dumps(measure(*word.split(":"))) + "\n")

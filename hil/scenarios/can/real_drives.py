@@ -21,7 +21,9 @@ class Witness(Client):
 
     def next_state(self):
         state = super().next_state()
-        self.seen.append((any(drive["state"] == "operation_enabled" for drive in state["drives"]), state["measured_js_deg"]))
+        self.seen.append(
+            (any(drive["state"] == "operation_enabled" for drive in state["drives"]), state["measured_js_deg"])
+        )
         return state
 
 
@@ -76,14 +78,20 @@ def check_buses(buses, calibration):
         raise BadScenario(f"--drives: {done.stderr.strip()}")
     backend = json.loads(done.stdout)["backend"]
     if backend != "socketcan":
-        raise BadScenario(f"--drives: {buses} has the back end {backend}; give a table with socketcan (copy lua/buses/vcan.lua)")
+        raise BadScenario(
+            f"--drives: {buses} has the back end {backend}; give a table with socketcan (copy lua/buses/vcan.lua)"
+        )
     for bus in json.loads(done.stdout)["buses"]:
         try:
             socket.if_nametoindex(bus["name"])
         except OSError:
-            raise BadScenario(f"--drives: {buses}: interface {bus['name']} does not exist here; see liana doctor") from None
+            raise BadScenario(
+                f"--drives: {buses}: interface {bus['name']} does not exist here; see liana doctor"
+            ) from None
     if calibration and not pathlib.Path(calibration).is_file():
-        raise BadScenario(f"--calibration: {calibration}: there is no such file; give what liana calibrate --out has written")
+        raise BadScenario(
+            f"--calibration: {calibration}: there is no such file; give what liana calibrate --out has written"
+        )
 
 
 def run_all(items, buses, calibration, report):
@@ -92,6 +100,12 @@ def run_all(items, buses, calibration, report):
     for item in items:
         skipped = {"outcome": "skipped", "seconds": 0.0, "why": kSkipped, "notes": []}
         row = can_scenario.run(item.scenario, kKind, lambda: RealDrives(buses, calibration)) if item.runs() else skipped
-        rows.append({"name": item.name, "where": f"real drives: {buses}", **{key: row[key] for key in ("outcome", "seconds", "why", "notes")}})
+        rows.append(
+            {
+                "name": item.name,
+                "where": f"real drives: {buses}",
+                **{key: row[key] for key in ("outcome", "seconds", "why", "notes")},
+            }
+        )
         report(rows[-1])
     return rows

@@ -11,12 +11,18 @@ sys.path.insert(0, str(HERE.parents[2] / "tests" / "system"))
 
 from liana_system import BIN, SOURCE, System, program, table, wait_until  # noqa: E402
 
-kHardwarePriority = 70  # the bench stands for hardware, which is never late for want of a processor; under lianad's thread (80)
+kHardwarePriority = (
+    70  # the bench stands for hardware, which is never late for want of a processor; under lianad's thread (80)
+)
 kLinePriority = 75  # of what stands for a wire
 # Kind of bus -> what lianad opens, what the bench opens: one virtual wire; two with a gateway between, which can lose and swap; the two
 # controllers of one emulated bus; or two adapters on a serial line.
-kInterfaces = {"vcan": (("vcan0", "vcan1"), ("vcan0", "vcan1")), "gateway": (("vcan0", "vcan1"), ("vcan2", "vcan3")),
-               "sja1000": (("can0", "can2"), ("can1", "can3")), "serial": (("serial0", "serial2"), ("serial1", "serial3"))}
+kInterfaces = {
+    "vcan": (("vcan0", "vcan1"), ("vcan0", "vcan1")),
+    "gateway": (("vcan0", "vcan1"), ("vcan2", "vcan3")),
+    "sja1000": (("can0", "can2"), ("can1", "can3")),
+    "serial": (("serial0", "serial2"), ("serial1", "serial3")),
+}
 # The emulated controllers send in no time: the queue before them keeps the pace. The kernel counts 16 bytes for a frame, 128 us at this rate,
 # which is what one with 8 data bytes takes at 1 Mbit/s; there is room for 256.
 kWire = ("tbf", "rate", "1mbit", "burst", "32", "limit", "4096")
@@ -67,7 +73,13 @@ class CanSystem(System):
     def environment(self):
         """What the commands of a scenario may use."""
         names = {f"BUS{index}": name for index, name in enumerate(self.ours)}
-        return {**os.environ, **names, "LIANAD": str(self.children["lianad"].pid), "DIR": str(self.directory), "BIN": os.path.dirname(program("liana"))}
+        return {
+            **os.environ,
+            **names,
+            "LIANAD": str(self.children["lianad"].pid),
+            "DIR": str(self.directory),
+            "BIN": os.path.dirname(program("liana")),
+        }
 
 
 class BenchOnCan(CanSystem):
@@ -103,8 +115,23 @@ class BenchOnCan(CanSystem):
         (self.directory / "buses.json").write_text(json.dumps(buses))
 
     def start_bench(self):
-        self.start("liana-bench", *self.tables(), "--can", ",".join(self.theirs), "--api", self.api, "--arm", "light", "--physics", "ideal",
-                   "--truth", self.directory / "truth.bin", "--summary", self.directory / "bench_summary.json", *self.bench_words)
+        self.start(
+            "liana-bench",
+            *self.tables(),
+            "--can",
+            ",".join(self.theirs),
+            "--api",
+            self.api,
+            "--arm",
+            "light",
+            "--physics",
+            "ideal",
+            "--truth",
+            self.directory / "truth.bin",
+            "--summary",
+            self.directory / "bench_summary.json",
+            *self.bench_words,
+        )
         os.sched_setscheduler(self.children["liana-bench"].pid, os.SCHED_FIFO, os.sched_param(kHardwarePriority))
 
     def client(self, **options):

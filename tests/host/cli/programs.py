@@ -20,14 +20,18 @@ atexit.register(shutil.rmtree, os.environ["XDG_RUNTIME_DIR"])
 
 def liana(*arguments, timeout_s=120):
     """Runs `liana` and returns (exit code, standard output, standard error)."""
-    done = subprocess.run([str(BIN / "liana"), *map(str, arguments)], capture_output=True, text=True, timeout=timeout_s, check=False)
+    done = subprocess.run(
+        [str(BIN / "liana"), *map(str, arguments)], capture_output=True, text=True, timeout=timeout_s, check=False
+    )
     return done.returncode, done.stdout, done.stderr
 
 
 def liana_to_full_disk(*arguments):
     """Runs `liana` with a standard output that takes nothing, and returns (exit code, standard error)."""
     with open("/dev/full", "w", encoding="utf-8") as full:
-        done = subprocess.run([str(BIN / "liana"), *map(str, arguments)], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run(
+            [str(BIN / "liana"), *map(str, arguments)], stdout=full, stderr=subprocess.PIPE, text=True, check=False
+        )
     return done.returncode, done.stderr
 
 
@@ -49,4 +53,6 @@ def interrupt(process):
 
 def start_liana(*arguments, **options):
     """Starts `liana` without waiting for it."""
-    return subprocess.Popen([str(BIN / "liana"), *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+    return subprocess.Popen(
+        [str(BIN / "liana"), *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options
+    )
