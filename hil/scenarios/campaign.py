@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Random sequences of faults and of what an operator does about them, each from its seed, in lockstep; judged tick by tick (recorded_rules.py).
+"""Random sequences of faults and of what an operator does about them, each from its seed, in lockstep; judged tick by
+tick (recorded_rules.py).
 
 `./dev numbers faults` runs 500; `campaign.py --seed N` repeats one and tells what happened in it.
 """
@@ -42,7 +43,8 @@ kBenchKinds = {
     "cable_break": ({}, False),
     "wrong_identity_after_reboot": ({}, False),
 }
-# Action of the bus script: ids it takes (None: the whole bus); for "send" the stranger's id. Ids of one drive (+ node): TPDO, RPDO, heartbeat.
+# Action of the bus script: ids it takes (None: the whole bus); for "send" the stranger's id. Ids of one drive (+ node):
+# TPDO, RPDO, heartbeat.
 kSync, kMaster, kBabble = 0x080, 0x77F, 0x001
 kOfOneDrive = (0x180, 0x200, 0x700)
 kAnyFrame = (None, kSync, kMaster, *kOfOneDrive)
@@ -217,7 +219,8 @@ class SequenceRun:
         self.counts["requests"] += 1
         self.counts["refused requests"] += answer["op"] == "error"
         self.told.append(
-            f"tick {client.state['tick']}: {op} {fields.get('command', '')} -> {answer.get('code', 'ok')}; {client.state['state']}"
+            f"tick {client.state['tick']}: {op} {fields.get('command', '')} -> {answer.get('code', 'ok')};"
+            f" {client.state['state']}"
         )
 
     def count(self, done, replay):
@@ -236,7 +239,8 @@ class SequenceRun:
         for number in {fault[0] for fault in done.latched()}:
             self.counts[f"latched: {number}"] += 1
         self.notes.append(
-            f"{self.sequence.fault_count()} faults, latched {sorted({fault[0] for fault in done.latched()})}, {len(done.recording.ticks)} ticks"
+            f"{self.sequence.fault_count()} faults, latched {sorted({fault[0] for fault in done.latched()})},"
+            f" {len(done.recording.ticks)} ticks"
         )
         self.told += [f"tick {fault[2]}: {fault[0]} of {fault[1]} is latched" for fault in done.latched()]
 
@@ -256,7 +260,9 @@ def run_seed(seed):
 
 
 def campaign(seeds, say=lambda text: print(text, file=sys.stderr, flush=True)):
-    """Counts over all seeds, and {seed: why} of those that failed twice: what a sequence does repeats to the bit, what a machine that stalls does to it does not."""
+    """Counts over all seeds, and {seed: why} of those that failed twice: what a sequence does repeats to the bit, what
+    a machine that stalls does to it does not.
+    """
     counts, failed = collections.Counter(), {}
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
         for seed, found, why in pool.map(run_seed, seeds):

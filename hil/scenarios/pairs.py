@@ -1,4 +1,6 @@
-"""Every pair of these faults, the second 0 to 50 ticks after the first, into a moving arm: what is latched first, what wins (docs/priorities.md), and that it ends at rest."""
+"""Every pair of these faults, the second 0 to 50 ticks after the first, into a moving arm: what is latched first, what
+wins (docs/priorities.md), and that it ends at rest.
+"""
 import collections
 import itertools
 
@@ -13,8 +15,8 @@ kEnd_s = 60  # arm time; the slowest detection takes a third of it
 kSwingDeg = 2.0  # in the last half second: brakes hold the drums, but on its elastic cables the arm swings on
 kReduced = ({"silent", "fault"}, {"slack", "overload"}, {"bus_lost", "operator_stop"})
 
-# Fault of the bench or the bus; number and index it latches alone, and from how many ticks after its begin until how many. `or_else`: another number and index
-# that may be sooner, where two detectors see it nearly at once.
+# Fault of the bench or the bus; number and index it latches alone, and from how many ticks after its begin until how
+# many. `or_else`: another number and index that may be sooner, where two detectors see it nearly at once.
 Member = collections.namedtuple(
     "Member", "name bench bus number index earliest latest travel_deg or_else", defaults=(2.0, None)
 )
@@ -74,7 +76,9 @@ class Pair:
         return next((begin for member, begin in zip(self.members, self.begins()) if member.number is None), None)
 
     def expected_first(self):
-        """(number, index) of those that may be latched first: both, where either could be. In one tick buses come first, then the lower index."""
+        """(number, index) of those that may be latched first: both, where either could be. In one tick buses come
+        first, then the lower index.
+        """
         faults = [
             (begin + member.earliest, begin + member.latest, member)
             for member, begin in zip(self.members, self.begins())

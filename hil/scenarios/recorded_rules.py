@@ -1,6 +1,8 @@
-"""Safety rules over a recording (recording.py), tick by tick. Each gives a list of complaints, empty when the rule held; all_complaints() is all of them.
+"""Safety rules over a recording (recording.py), tick by tick. Each gives a list of complaints, empty when the rule
+held; all_complaints() is all of them.
 
-What is wrong is judged anew from what the drives reported; only the reaction to each number is read, from docs/faults.md.
+What is wrong is judged anew from what the drives reported; only the reaction to each number is read, from
+docs/faults.md.
 """
 import collections
 import math
@@ -105,7 +107,9 @@ def missing_ticks(ticks):
 
 
 def target_steps(ticks, limits):
-    """No target of a drive told to enable operation changes more in a tick than the cable speed with the gate's margin."""
+    """No target of a drive told to enable operation changes more in a tick than the cable speed with the gate's
+    margin.
+    """
     complaints = []
     for before, now in neighbours(ticks):
         if now.target == before.target:
@@ -117,7 +121,8 @@ def target_steps(ticks, limits):
                 and is_enabling(now.controlword[drive])
             ):
                 complaints.append(
-                    f"tick {now.tick}: the target of drive {drive} changes by {new - old} counts, allowed are {limits.step_counts:.0f}"
+                    f"tick {now.tick}: the target of drive {drive} changes by {new - old} counts, allowed are"
+                    f" {limits.step_counts:.0f}"
                 )
     return complaints
 
@@ -132,7 +137,8 @@ def commands_out_of_time(ticks):
         first, expiry = offered.get(now.active_sequence, (math.inf, 0))
         if not first <= now.tick < expiry:
             complaints.append(
-                f"tick {now.tick}: telecommand {now.active_sequence} is in force, which holds from {first} until before {expiry}"
+                f"tick {now.tick}: telecommand {now.active_sequence} is in force, which holds from {first} until before"
+                f" {expiry}"
             )
     return complaints
 
@@ -225,7 +231,9 @@ def weakest_reaction_broken(before, now, highest, was, persisted):
 
 
 def weak_reactions(ticks, reactions):
-    """The highest reaction of all latched faults is what happens, in the tick in which they are latched (docs/priorities.md)."""
+    """The highest reaction of all latched faults is what happens, in the tick in which they are latched
+    (docs/priorities.md).
+    """
     complaints, was = [], kNone
     for before, now in neighbours(ticks):
         held = acting(now)
@@ -234,7 +242,8 @@ def weak_reactions(ticks, reactions):
         why = weakest_reaction_broken(before, now, highest, was, persisted) if held and not now.dropped else None
         if why:
             complaints.append(
-                f"tick {now.tick}: {kReactions[highest]} is asked for by {[tuple(fault[:2]) for fault in held]}, but {why}"
+                f"tick {now.tick}: {kReactions[highest]} is asked for by {[tuple(fault[:2]) for fault in held]}, but"
+                f" {why}"
             )
         was = highest
     return complaints
@@ -302,7 +311,9 @@ def faults_not_latched(ticks, limits):
 
 
 def quick_stops_cut_short(ticks, reactions):
-    """A drive that was told to quick stop keeps its torque until it stands: until it is off, its time is up, or a fault asks for off."""
+    """A drive that was told to quick stop keeps its torque until it stands: until it is off, its time is up, or a
+    fault asks for off.
+    """
     told_since, complaints = {}, []
     for now in ticks:
         off = any(reactions.get(fault.number, kOff) == kOff for fault in acting(now)) or now.dropped
@@ -334,13 +345,16 @@ def stops_not_confirmed(ticks):
             shown = now.age[drive] <= kSilentTicks and not has_torque(status)
             if not shown and (3008, drive) not in names(now):
                 complaints.append(
-                    f"tick {now.tick}: {now.state} is reached, but drive {drive} is not shown to be without torque, nor is 3008 latched"
+                    f"tick {now.tick}: {now.state} is reached, but drive {drive} is not shown to be without torque, nor"
+                    " is 3008 latched"
                 )
     return complaints
 
 
 def faults_not_told(ticks, told):
-    """Every fault that a client was told of is in the recording, and every recorded one was told; `told`: (number, index, tick)."""
+    """Every fault that a client was told of is in the recording, and every recorded one was told; `told`: (number,
+    index, tick).
+    """
     recorded = {(fault.number, fault.index, fault.tick) for now in ticks for fault in now.faults}
     due = {fault for fault in recorded if fault[2] < ticks[-1].tick - kTellTicks}
     return [f"fault {fault} was told to the client, but is not recorded" for fault in sorted(told - recorded)] + [
@@ -380,7 +394,8 @@ def drums_moving_while_off(ticks, left_out):
             places = [row.position[drive] for row in rows if row.age[drive] == 0]
             if drive not in left_out and places and max(places) - min(places) > 1:
                 complaints.append(
-                    f"ticks {first} to {end}: the drum of drive {drive} moves by {max(places) - min(places)} counts while the arm is off"
+                    f"ticks {first} to {end}: the drum of drive {drive} moves by {max(places) - min(places)} counts"
+                    " while the arm is off"
                 )
     return complaints
 

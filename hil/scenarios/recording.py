@@ -1,4 +1,6 @@
-"""Reads what `liana-archive` wrote (ticks.mcap, docs/formats.md): the fields of every tick that the rules look at, and whether the recording is whole."""
+"""Reads what `liana-archive` wrote (ticks.mcap, docs/formats.md): the fields of every tick that the rules look at, and
+whether the recording is whole.
+"""
 import collections
 import itertools
 import json
@@ -49,8 +51,11 @@ kRequests = ("none", "enable", "disable", "clear", "stop")
 Fault = collections.namedtuple("Fault", "number index detail tick")
 Tick = collections.namedtuple(
     "Tick",
-    "tick lost_ticks lost_buses request sequence first_tick expiry_tick statusword torque position age heartbeat_age operational "
-    "state stop_category at_rest active_sequence faults dropped controlword target theta_rate",
+    (
+        "tick lost_ticks lost_buses request sequence first_tick expiry_tick statusword torque position age"
+        " heartbeat_age operational state stop_category at_rest active_sequence faults dropped controlword target"
+        " theta_rate"
+    ),
 )
 
 

@@ -46,7 +46,10 @@ def arguments():
     parser.add_argument(
         "--drives",
         metavar="BUSES",
-        help="run the scenarios on CAN against real drives on the interfaces of this table, by name or file; THE ARM MOVES",
+        help=(
+            "run the scenarios on CAN against real drives on the interfaces of this table, by name or file; THE ARM"
+            " MOVES"
+        ),
     )
     parser.add_argument(
         "--calibration", metavar="FILE", help="with --drives: what liana calibrate measured of this arm"
@@ -68,7 +71,8 @@ def chosen(options):
         wanted = [one for one in wanted if options.only in one.name or fnmatch.fnmatch(one.name, options.only)]
     if not wanted:
         raise scenario.BadScenario(
-            f"--only: {options.only} names no scenario; they are in {', '.join(sorted({one.name.split('/')[0] for one in everything}))}"
+            f"--only: {options.only} names no scenario; they are in"
+            f" {', '.join(sorted({one.name.split('/')[0] for one in everything}))}"
         )
     return wanted
 
@@ -93,7 +97,10 @@ def run_one(one):
 
 def report(row):
     print(
-        f"{'FAILED' if row['outcome'] == 'failed' else row['outcome']}  {row['name']}  [{row['where']}]  {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}",
+        (
+            f"{'FAILED' if row['outcome'] == 'failed' else row['outcome']}  {row['name']}  [{row['where']}] "
+            f" {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}"
+        ),
         flush=True,
     )
 
@@ -153,7 +160,10 @@ def main():
         return 2
     except OSError as error:
         print(
-            f"dev hil: --json: {options.json} cannot be written: {error.strerror}; give a file in a directory that exists",
+            (
+                f"dev hil: --json: {options.json} cannot be written: {error.strerror}; give a file in a directory that"
+                " exists"
+            ),
             file=sys.stderr,
         )
         return 2
@@ -174,7 +184,8 @@ def main():
     results = {"scenarios": rows, "faults": faults, "pairs": pair_count, "latency": latency, "violations": violations}
     written = not options.json or write_json(options.json, results)
     print(
-        f"{len(rows) - len(failed) - len(skipped)} passed, {len(failed)} failed, {len(skipped)} skipped; {faults} faults injected, {pair_count} pairs, {len(violations)} violations"
+        f"{len(rows) - len(failed) - len(skipped)} passed, {len(failed)} failed, {len(skipped)} skipped;"
+        f" {faults} faults injected, {pair_count} pairs, {len(violations)} violations"
     )
     print(f"where: {'; '.join(sorted({row['where'] for row in rows}))}")
     return 1 if failed or not written else 0

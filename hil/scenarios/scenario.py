@@ -88,7 +88,9 @@ class Scenario:
         return Run(self) if self.host is None else host_run.HostRun(self)
 
     def strangers_nodes(self):
-        """Nodes in whose name a scripted stranger speaks: what the log says of them is not what controller and drive said."""
+        """Nodes in whose name a scripted stranger speaks: what the log says of them is not what controller and drive
+        said.
+        """
         return [int(rule["id"], 16) & 0x7F for rule in self.bus_script or [] if rule["action"] == "send"]
 
     def fault_count(self):

@@ -1,4 +1,4 @@
-"""One system in lockstep with faults of bench and bus, recorded whole, and every safety rule over what it left behind."""
+"""One system in lockstep with faults of bench and bus, recorded whole; every safety rule over what it left behind."""
 import json
 import pathlib
 import sys
@@ -75,7 +75,7 @@ def replay_complaints(directory):
     said = json.loads(done.stdout) if done.returncode in (0, 1) and done.stdout else {}
     if done.returncode != 0 or said.get("differing_ticks") != 0 or said.get("missing_ticks") != 0:
         return [
-            f"the recording does not replay: exit {done.returncode}, {said.get('differing_ticks')} ticks differ, {said.get('missing_ticks')} are missing, "
-            f"{done.stderr.strip()}"
+            f"the recording does not replay: exit {done.returncode}, {said.get('differing_ticks')} ticks differ,"
+            f" {said.get('missing_ticks')} are missing, {done.stderr.strip()}"
         ]
     return []

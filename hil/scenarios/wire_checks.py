@@ -1,4 +1,6 @@
-"""What tshark, a decoder that is not ours, reads in the bus logs of a run. Each gives a list of complaints, empty when all is well."""
+"""What tshark, a decoder that is not ours, reads in the bus logs of a run. Each gives a list of complaints, empty when
+all is well.
+"""
 import collections
 import shutil
 import subprocess
@@ -71,7 +73,9 @@ def of_node(frames, node):
 
 
 def boot_order(frames, node):
-    """CiA 301: after the last reset boot-up, then SDO only, identity among the first, then NMT start; PDOs and operational only after it."""
+    """CiA 301: after the last reset boot-up, then SDO only, identity among the first, then NMT start; PDOs and
+    operational only after it.
+    """
     steps = list(of_node(frames, node))
     resets = [i for i, (step, _) in enumerate(steps) if step == "reset"]
     if not resets:
@@ -84,7 +88,8 @@ def boot_order(frames, node):
     names = [step for step, _ in order]
     if names[:4] not in (["boot-up", "SDO", "start", "operational"], ["boot-up", "SDO", "start", "PDO"]):
         return [
-            f"node {node}: after the reset come {', '.join(names[:5])}; CiA 301 asks for boot-up, SDO, start, then PDO and operational"
+            f"node {node}: after the reset come {', '.join(names[:5])}; CiA 301 asks for boot-up, SDO, start, then PDO"
+            " and operational"
         ]
     objects = [frame.object for step, frame in steps if step == "SDO"]
     if kIdentity not in objects:

@@ -77,6 +77,8 @@ def measure(program):
 
 
 def ticks(counts):
-    """Of all ticks in which the controller moves or holds the arm the median; of every tick the worst. `counts`: phase -> instructions."""
+    """Of all ticks in which the controller moves or holds the arm the median; of every tick the worst. `counts`: phase
+    -> instructions.
+    """
     controlled = [count for phase, values in counts.items() if phase not in ("disabled", "fault") for count in values]
     return round(statistics.median(controlled)), max(max(values) for values in counts.values())

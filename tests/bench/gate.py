@@ -1,6 +1,8 @@
-"""ctest bench.instructions: the core's operations stay within their limits of instructions (plain -O2, callgrind: the same on every day).
+"""ctest bench.instructions: the core's operations stay within their limits of instructions (plain -O2, callgrind: the
+same on every day).
 
-gate.py BENCH_CORE BENCH_WORST CASES: the worst tick is that of the bench's phases, of the stored cases and of some random ones.
+gate.py BENCH_CORE BENCH_WORST CASES: the worst tick is that of the bench's phases, of the stored cases and of some
+random ones.
 """
 import pathlib
 import statistics
@@ -12,7 +14,8 @@ LIMITS = {
     "fk_jacobian": 8_000,
     "ik_step": 12_000,
     "cable_jacobian": 6_000,
-    "tick": 42_000,  # median; the aim of 40,000 is held where it was measured, but copies of the C library cost more on some processors
+    # Median; the aim of 40,000 is held where it was measured, but copies of the C library cost more on some processors.
+    "tick": 42_000,
 }
 WORST_TICK = 1.5  # times the median
 RANDOM_CASES = (3, 1)  # how many, and their seed
@@ -24,7 +27,9 @@ def worst_of(counts):
 
 
 def verdicts(counts, worst_cases):
-    """(what, holds, text) for every limit; `counts`: label -> instructions of each call, `worst_cases`: name -> the same."""
+    """(what, holds, text) for every limit; `counts`: label -> instructions of each call, `worst_cases`: name -> the
+    same.
+    """
 
     def at_most(what, value, limit):
         return what, value <= limit, f"{value:,} instructions, at most {limit:,}"

@@ -30,27 +30,29 @@ MEANING = {
 }
 HEAD = """# Instructions and times beside peers
 
-Written by `./dev bench`; do not edit by hand. {date}, commit {commit}, {compiler} at plain -O2 throughout, {machine}, took {seconds:.0f} s.
+Written by `./dev bench`; do not edit by hand. {date}, commit {commit}, {compiler} at plain -O2 throughout, {machine},
+took {seconds:.0f} s.
 
-Instructions are counted by callgrind (valgrind) in each call on its own; a row shows the median over all calls. They repeat to within a few
-instructions and are what the tests hold (`tests/bench/gate.py`). Times are those of one run, on a machine that does other things as well: an
-order of magnitude. Before anything is counted, the same program checks that ours and the peer agree: poses, Jacobians and cable lengths to
-1e-9, solved goals to 1e-5 or better, FCL's distances to 2 mm.
+Instructions are counted by callgrind (valgrind) in each call on its own; a row shows the median over all calls. They
+repeat to within a few instructions and are what the tests hold (`tests/bench/gate.py`). Times are those of one run, on
+a machine that does other things as well: an order of magnitude. Before anything is counted, the same program checks
+that ours and the peer agree: poses, Jacobians and cable lengths to 1e-9, solved goals to 1e-5 or better, FCL's
+distances to 2 mm.
 """
 TAIL = """## What the peers are
 
-- `kdl`: Orocos KDL with 80 joints from the D-H rows of the source, columns summed to 6x10. It knows no coupled joints, so its inverse problems
-  are easier than ours and its solutions are not for this arm.
-- Pinocchio is not in Debian and not measured here. Version 3.7 at -O2 on the same 80 joints, summed to 6x10, once took 50,644 instructions for
-  `fk_jacobian`.
+- `kdl`: Orocos KDL with 80 joints from the D-H rows of the source, columns summed to 6x10. It knows no coupled
+  joints, so its inverse problems are easier than ours and its solutions are not for this arm.
+- Pinocchio is not in Debian and not measured here. Version 3.7 at -O2 on the same 80 joints, summed to 6x10, once
+  took 50,644 instructions for `fk_jacobian`.
 - `own_80`: our own loop over 80 hinges, without waste; for inverse problems all 80 are free and have no limits.
 - `textbook`: every hole of every disc, hole to hole; derivative by central differences.
 - `fcl`, `libccd`: no broad phase anywhere. All but `fcl` only say whether two bodies touch.
-- `ipopt_straight`: Ipopt with our problem, derivatives and rounds, but from the straight line in theta instead of our start paths. One call each,
-  the final check included, counted to within 0.01 %; the remark says how it ended.
+- `ipopt_straight`: Ipopt with our problem, derivatives and rounds, but from the straight line in theta instead of
+  our start paths. One call each, the final check included, counted to within 0.01 %; the remark says how it ended.
 
-Ticks are whole calls of `Controller::tick` with ideal drives, 100 in each phase. The median is over the phases in which the controller holds or
-moves the arm (all but disabled and fault), the worst over every tick.
+Ticks are whole calls of `Controller::tick` with ideal drives, 100 in each phase. The median is over the phases in
+which the controller holds or moves the arm (all but disabled and fault), the worst over every tick.
 """
 
 

@@ -1,4 +1,6 @@
-"""The same bits from every build of the core: `./dev bits [--json FILE]`. Exit code 0 only if no tick differs, and planted differences are found."""
+"""The same bits from every build of the core: `./dev bits [--json FILE]`. Exit code 0 only if no tick differs, and
+planted differences are found.
+"""
 import argparse
 import concurrent.futures
 import contextlib
@@ -217,7 +219,8 @@ def first_of(result):
 def show(report):
     tape, m7 = report["tape"], report["cortex_m7"]
     print(
-        f"{tape['mission_ticks']} ticks of missions, {tape['what_if_ticks']} of {tape['what_ifs']} planted faults and commands"
+        f"{tape['mission_ticks']} ticks of missions, {tape['what_if_ticks']} of {tape['what_ifs']} planted faults and"
+        " commands"
     )
     print(
         "faults among them: "
@@ -228,21 +231,26 @@ def show(report):
     for what in ("targets", "costly"):
         for result in report[what]:
             print(
-                f"{result['name']:16} {result['ticks']:8} ticks{' of costly cases' if what == 'costly' else ''}, {result['differing_ticks']} differ{first_of(result)}  ({result['seconds']} s)"
+                f"{result['name']:16} {result['ticks']:8} ticks{' of costly cases' if what == 'costly' else ''},"
+                f" {result['differing_ticks']} differ{first_of(result)}  ({result['seconds']} s)"
             )
     for what, result in report["planted"].items():
         print(
-            f"{'found' if result['differing_ticks'] else 'NOT FOUND'}: {what}: {result['differing_ticks']} of {result['ticks']} ticks differ{first_of(result)}"
+            f"{'found' if result['differing_ticks'] else 'NOT FOUND'}: {what}: {result['differing_ticks']} of"
+            f" {result['ticks']} ticks differ{first_of(result)}"
         )
     print(
-        f"Cortex-M7: flash {m7['flash_bytes']} bytes, RAM {m7['static_ram_bytes']} bytes and {m7['worst_stack_bytes']} of stack; instructions per tick: "
-        f"median {m7['median_instructions']:.0f} (enabled), worst {m7['worst_instructions']:.0f} (tick {m7['worst_tick']}, {m7['worst_state']}), "
-        f"{m7['worst_over_median']:.2f} times the median"
+        f"Cortex-M7: flash {m7['flash_bytes']} bytes, RAM {m7['static_ram_bytes']} bytes and"
+        f" {m7['worst_stack_bytes']} of stack; instructions per tick: median {m7['median_instructions']:.0f} (enabled),"
+        f" worst {m7['worst_instructions']:.0f} (tick {m7['worst_tick']}, {m7['worst_state']}),"
+        f" {m7['worst_over_median']:.2f} times the median"
     )
 
 
 def holds(report):
-    """No tick differs or costs too much, the comparison is one that finds differences, and every fault was among what was compared."""
+    """No tick differs or costs too much, the comparison is one that finds differences, and every fault was among what
+    was compared.
+    """
     same = all(
         result["ticks"] > 0 and result["differing_ticks"] == 0 for result in report["targets"] + report["costly"]
     )

@@ -1,4 +1,6 @@
-"""Writes the robot, scene and bus fixtures of the bench tests; the slit comes from the press-rod angles. Usage: make_fixtures.py DIR"""
+"""Writes the robot, scene and bus fixtures of the bench tests; the slit comes from the press-rod angles. Usage:
+make_fixtures.py DIR
+"""
 import json
 import math
 import pathlib
@@ -17,7 +19,9 @@ def multiply(a, b):
 
 
 def tip_pose(theta_deg):
-    """Position and rotation of the tip: odd modules turn Rz(pitch) Ry(yaw), even ones Ry(yaw) Rz(pitch), then 0.1 m along x."""
+    """Position and rotation of the tip: odd modules turn Rz(pitch) Ry(yaw), even ones Ry(yaw) Rz(pitch), then 0.1 m
+    along x.
+    """
     rotation = [[1.0 if i == j else 0.0 for j in range(3)] for i in range(3)]
     position = [0.0, 0.0, 0.0]
     for segment in range(5):

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Plants one bug after the other in a copy of the tree (mutations.json), builds lianad from it, and runs the scenarios that have to notice.
+"""Plants one bug after the other in a copy of the tree (mutations.json), builds lianad from it, and runs the scenarios
+that have to notice.
 
-`--check`: only that every line to be changed is there once, and that every scenario named exists. `./dev numbers mutations` runs all.
+`--check`: only that every line to be changed is there once, and that every scenario named exists. `./dev numbers
+mutations` runs all.
 """
 import argparse
 import collections
@@ -21,7 +23,8 @@ sys.path.insert(0, str(ROOT / "hil" / "scenarios"))
 
 kPatience_s = 60  # wall clock after which a program counts as hung; a mutant may hang
 
-# A bug: `edits` in `file`; `planted`: another bug that only the mutated line keeps from the drives; `caught_by`: scenarios of which one must fail.
+# A bug: `edits` in `file`; `planted`: another bug that only the mutated line keeps from the drives; `caught_by`:
+# scenarios of which one must fail.
 Mutation = collections.namedtuple("Mutation", "name edits planted caught_by")
 Edit = collections.namedtuple("Edit", "file line becomes")
 
@@ -50,7 +53,8 @@ def changed(text, edit):
     found = [i for i, line in enumerate(lines) if line.strip() == edit.line]
     if len(found) != 1:
         raise BadMutation(
-            f"{edit.file}: the line '{edit.line}' is there {len(found)} times, not once: bring mutations.json up to date"
+            f"{edit.file}: the line '{edit.line}' is there {len(found)} times, not once: bring mutations.json up to"
+            " date"
         )
     indent = lines[found[0]][: len(lines[found[0]]) - len(lines[found[0]].lstrip())]
     lines[found[0]] = indent + edit.becomes if edit.becomes else ""

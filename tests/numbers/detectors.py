@@ -1,4 +1,5 @@
-"""How small a cable's fault is found, and how soon (docs/cables.md): closed loop of core and arm, one cable of every segment, two seeds.
+"""How small a cable's fault is found, and how soon (docs/cables.md): closed loop of core and arm, one cable of every
+segment, two seeds.
 
 Alone: detectors.py [--bin DIR] [--count SEEDS] [--json].
 """
@@ -36,8 +37,9 @@ def row(kind, physics, trials):
     for segment in range(kSegments):
         own = [trial["size"] for trial in found if trial["cable"] // kCablesEach == segment]
         sizes.append(f"{max(own):.0f} {trials[0]['unit']}" if own and trials[0]["unit"] else "-")
-    spread = (
-        lambda key, digits: f"{statistics.median(trial[key] for trial in found):.{digits}f}, {max(trial[key] for trial in found):.{digits}f}"
+    spread = lambda key, digits: (
+        f"{statistics.median(trial[key] for trial in found):.{digits}f},"
+        f" {max(trial[key] for trial in found):.{digits}f}"
         if found
         else "-"
     )  # noqa: E731
@@ -56,7 +58,10 @@ def measure(binaries, count=2):
     text = table(HEAD, [row(*key, group) for key, group in groups.items()])
     return (
         trials,
-        f"Sizes grow by 15 % until they are found: the worst of each segment's seeds. False alarms: none in the missions above ([mission](#mission)).\n\n{text}",
+        (
+            "Sizes grow by 15 % until they are found: the worst of each segment's seeds. False alarms: none in the"
+            f" missions above ([mission](#mission)).\n\n{text}"
+        ),
     )
 
 

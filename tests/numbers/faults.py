@@ -1,4 +1,6 @@
-"""The campaign: random sequences of faults and operator's actions in lockstep, every tick judged by the safety rules (hil/scenarios/recorded_rules.py)."""
+"""The campaign: random sequences of faults and operator's actions in lockstep, every tick judged by the safety rules
+(hil/scenarios/recorded_rules.py).
+"""
 import os
 import pathlib
 import sys

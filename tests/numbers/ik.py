@@ -1,4 +1,6 @@
-"""2000 random reachable goals (theta within +-15 deg) by `liana ik`, from zero and from nearby, free and with held pitches."""
+"""2000 random reachable goals (theta within +-15 deg) by `liana ik`, from zero and from nearby, free and with held
+pitches.
+"""
 import concurrent.futures
 import json
 import math

@@ -1,4 +1,6 @@
-"""lianad's real-time thread in the virtual machine whose clock counts instructions: 250 and 500 Hz, idle and under load, each so often in turn."""
+"""lianad's real-time thread in the virtual machine whose clock counts instructions: 250 and 500 Hz, idle and under
+load, each so often in turn.
+"""
 import os
 import pathlib
 import sys
@@ -46,7 +48,10 @@ def measure(binaries, count=3):
     if broken:
         raise SystemExit(f"latency: {broken[0]}")
     cells = [{**cell, "holds": not latency_verdict.judge(cell)} for cell in cells]
-    text = "Microseconds, median / 99 % / worst, in a guest of 500 MIPS ([latency.md](latency.md)); the last column but one is the largest difference between runs in any figure.\n\n"
+    text = (
+        "Microseconds, median / 99 % / worst, in a guest of 500 MIPS ([latency.md](latency.md)); the last column but"
+        " one is the largest difference between runs in any figure.\n\n"
+    )
     text += table(
         ["ticks", "beside it", "run", "wake-up", "tick", "overruns", "difference", "verdict"],
         [line for cell in cells for line in lines(cell)],

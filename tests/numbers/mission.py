@@ -19,7 +19,9 @@ DEG_PER_RAD = 57.29577951308232
 
 
 def planar_error_deg(recording):
-    """Largest true angle of what the steered steps hold at 0 (X5, then X4 and X5) while the tip is past the slit's mouth."""
+    """Largest true angle of what the steered steps hold at 0 (X5, then X4 and X5) while the tip is past the slit's
+    mouth.
+    """
     truth = Truth(recording / "truth.bin")
     slit = json.loads((recording / "scene.json").read_text())["slit"]
     tip = [truth.column(f"tip_{axis}_m") for axis in "xyz"]
@@ -110,5 +112,8 @@ def measure(binaries):
     with tempfile.TemporaryDirectory(prefix="liana-numbers-") as directory:
         reports = [run_once(binaries, directory, physics, seed) for physics, seed in RUNS]
     successes = sum(report["outcome"] == "success" for report in reports)
-    text = f"{successes} of {len(reports)} runs succeeded. Clearances, forces, tensions and errors are the physics' truth.\n\n"
+    text = (
+        f"{successes} of {len(reports)} runs succeeded. Clearances, forces, tensions and errors are the physics'"
+        " truth.\n\n"
+    )
     return reports, text + table(HEAD, [row(report) for report in reports])

@@ -1,4 +1,6 @@
-"""Planted bugs in detectors, watchdogs, supervisor and gate, one after the other: which scenario notices (tests/mutation)."""
+"""Planted bugs in detectors, watchdogs, supervisor and gate, one after the other: which scenario notices
+(tests/mutation).
+"""
 import pathlib
 import sys
 

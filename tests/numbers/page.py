@@ -7,7 +7,8 @@ import subprocess
 
 HEAD = """# Measured figures
 
-Written by `./dev numbers`; do not edit by hand. Each section says with which command, when, at which commit and on what it was measured.
+Written by `./dev numbers`; do not edit by hand. Each section says with which command, when, at which commit and
+on what it was measured.
 """
 
 

@@ -1,5 +1,5 @@
-"""Following curves by `liana plan --follow` from the panel edge pose, beside plans that only have to arrive there, judged alike.
-Alone: planning_follow.py [--bin DIR] [--json]."""
+"""Following curves by `liana plan --follow` from the panel edge pose, beside plans that only have to arrive there,
+judged alike. Alone: planning_follow.py [--bin DIR] [--json]."""
 import argparse
 import json
 import math

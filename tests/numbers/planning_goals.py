@@ -1,4 +1,6 @@
-"""20,000 random reachable goals of each kind by the goal IK, from the zero pose. Alone: planning_goals.py [--bin DIR] [--count N] [--json]."""
+"""20,000 random reachable goals of each kind by the goal IK, from the zero pose. Alone: planning_goals.py [--bin DIR]
+[--count N] [--json].
+"""
 import json
 import subprocess
 

@@ -1,5 +1,6 @@
-"""Offline plans: the two legs of the slit crossing and random scenes in which a path is known to exist, by `liana plan`; beside them the same
-problems with nothing but the straight line in theta to start from. Can be run alone: planning_plans.py [--count N] [--json] [--bin DIR]."""
+"""Offline plans: the two legs of the slit crossing and random scenes in which a path is known to exist, by `liana
+plan`; beside them the same problems with nothing but the straight line in theta to start from. Can be run alone:
+planning_plans.py [--count N] [--json] [--bin DIR]."""
 import argparse
 import collections
 import json
@@ -91,8 +92,9 @@ def distance(obstacle, p):
 
 
 def obstacle_beside(draw, path_points, line_points, name):
-    """A sphere or box at least KNOWN_CLEARANCE_M from all of the known path; None when it is in its way. With `line_points`, the arm half way
-    on the straight line in theta, it stands in the way of that; else near a point of the arm on the known path."""
+    """A sphere or box at least KNOWN_CLEARANCE_M from all of the known path; None when it is in its way. With
+    `line_points`, the arm half way on the straight line in theta, it stands in the way of that; else near a point of
+    the arm on the known path."""
     size, direction = draw.uniform(0.05, 0.25), unit([draw.gauss(0, 1) for _ in range(3)])
     if line_points:
         center = draw.choice(line_points[len(line_points) // 5 :])
@@ -113,8 +115,8 @@ def obstacle_beside(draw, path_points, line_points, name):
 
 
 def random_problem(index, base_scene):
-    """A smooth path bent to one side, 1 to 5 obstacles beside it, the first of them across the straight line in theta, and the ends of the path;
-    every second goal is given as a tip pose."""
+    """A smooth path bent to one side, 1 to 5 obstacles beside it, the first of them across the straight line in theta,
+    and the ends of the path; every second goal is given as a tip pose."""
     draw = random.Random(index)
     a, b, bend = ([draw.uniform(-limit, limit) for _ in range(10)] for limit in (10, 10, 6))
     poses = [
@@ -174,8 +176,8 @@ def end_off(binaries, from_deg, to_deg, scene, *options):
 
 
 def published(binaries):
-    """The published poses beside ours for the same tips: the shortest way there, the same with what the source holds planar, and the pose with the
-    published nodes as control points."""
+    """The published poses beside ours for the same tips: the shortest way there, the same with what the source holds
+    planar, and the pose with the published nodes as control points."""
     rows = []
     for name, from_deg, to_deg, scene, planar in (
         ("prepare", [0] * 10, PREPARE, "none", None),
@@ -263,8 +265,11 @@ def study(binaries, count):
         for problem in problems(tables, count):
             answer, other = solve(binaries, problem, folder), from_straight(binaries, problem, tables)
             print(
-                f"{problem['name']}: {answer['outcome']} ({answer['start']}) {answer['time_s']:.2f} s, {answer['iterations']} iterations; "
-                f"from the straight line {other['outcome']}, {other['iterations']} iterations {answer.get('reason', '')}",
+                (
+                    f"{problem['name']}: {answer['outcome']} ({answer['start']}) {answer['time_s']:.2f} s,"
+                    f" {answer['iterations']} iterations; from the straight line {other['outcome']},"
+                    f" {other['iterations']} iterations {answer.get('reason', '')}"
+                ),
                 file=sys.stderr,
                 flush=True,
             )
@@ -321,7 +326,10 @@ def measure(binaries, count=PROBLEMS):
             straight["failures"],
         ],
     ]
-    text = f"Random scenes, 20 waypoints, margin {1000 * MARGIN_M:.0f} mm; {found['wrong']} solved plans fail the independent check; {found['settled']} settled; starts {found['starts']}.\n\n"
+    text = (
+        f"Random scenes, 20 waypoints, margin {1000 * MARGIN_M:.0f} mm; {found['wrong']} solved plans fail the"
+        f" independent check; {found['settled']} settled; starts {found['starts']}.\n\n"
+    )
     text += table(["start", "problems", "solved", "median time", "median iterations", "failures"], rows) + "\n"
     text += (
         table(

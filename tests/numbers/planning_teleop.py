@@ -1,4 +1,6 @@
-"""1000 random hand motions of 10 s at 250 Hz, judged tick by tick. Alone: planning_teleop.py [--bin DIR] [--count N] [--json]."""
+"""1000 random hand motions of 10 s at 250 Hz, judged tick by tick. Alone: planning_teleop.py [--bin DIR] [--count N]
+[--json].
+"""
 import collections
 import json
 import subprocess

@@ -1,4 +1,6 @@
-"""Measures at full size and writes docs/numbers.md: `./dev numbers [NAME]`. A section is replaced by the newest measurement of its name."""
+"""Measures at full size and writes docs/numbers.md: `./dev numbers [NAME]`. A section is replaced by the newest
+measurement of its name.
+"""
 import argparse
 import importlib
 import json

@@ -48,7 +48,10 @@ def measure(binaries, count=20000):
             "found now": worst_of(callgrind.instructions(program, "stored", file.name)),
         }
     rows = [[name, f"{value:,}", f"{value / median:.2f}"] for name, value in worst.items()]
-    text = f"Median of an enabled arm's ticks: {median:,} instructions. Search with seed {SEED}: {count} cases, {tried}.\n\n"
+    text = (
+        f"Median of an enabled arm's ticks: {median:,} instructions. Search with seed {SEED}: {count} cases,"
+        f" {tried}.\n\n"
+    )
     return {"median": median, "worst": worst, "cases": count, "found": found[:COUNTED]}, text + table(
         ["worst of", "instructions", "times the median"], rows
     )

@@ -1,4 +1,6 @@
-"""Calibration as an operator does it: measured in fixtures, used by a run, and refused before motion when anything does not fit."""
+"""Calibration as an operator does it: measured in fixtures, used by a run, and refused before motion when anything
+does not fit.
+"""
 import hashlib
 import json
 import os

@@ -1,4 +1,6 @@
-"""Scenarios on CAN interfaces: their files, where each runs, and what makes a latency measurement fail. Nothing here needs CAN."""
+"""Scenarios on CAN interfaces: their files, where each runs, and what makes a latency measurement fail. Nothing here
+needs CAN.
+"""
 import json
 import pathlib
 import subprocess

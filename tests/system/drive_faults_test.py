@@ -143,7 +143,8 @@ class DrivesThatFailInMotion(SystemTest):
         self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
         truth = system.truth()
         self.assertEqual(truth.column("enabled")[-1], 0)
-        # 20 mm of cable at 25 mm from the axes of 8 joints let the segment give way by 5.7 deg; a swing about that place reaches twice as far.
+        # 20 mm of cable at 25 mm from the axes of 8 joints let the segment give way by 5.7 deg; a swing about that
+        # place reaches twice as far.
         self.assertLess(truth.travel_deg(kFaultSlot, None), 12.0)
 
 

@@ -1,4 +1,6 @@
-"""Programs that die in the middle of motion, by kill -9: the arm stops with a named reason, and the others go on (A30, C5)."""
+"""Programs that die in the middle of motion, by kill -9: the arm stops with a named reason, and the others go on (A30,
+C5).
+"""
 import os
 import pathlib
 import signal
@@ -9,7 +11,10 @@ import unittest
 from liana_system import SOURCE, System, SystemTest, brief, must, start_run, wait_until
 
 MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
-WATCHER = "import sys; sys.path.insert(0, sys.argv[1]); from liana_system import Client; c = Client(sys.argv[2], 'watcher', 'observer')\nwhile True: c.step()"
+WATCHER = (
+    "import sys; sys.path.insert(0, sys.argv[1]); from liana_system import Client; c = Client(sys.argv[2], 'watcher',"
+    " 'observer')\nwhile True: c.step()"
+)
 
 
 def children_of(pid):

@@ -1,4 +1,6 @@
-"""`liana latency` as users call it: the shape of its report and its counts. Times are the machine's own and judged by nobody here."""
+"""`liana latency` as users call it: the shape of its report and its counts. Times are the machine's own and judged by
+nobody here.
+"""
 import json
 import os
 import shutil

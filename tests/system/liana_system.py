@@ -417,7 +417,8 @@ class SystemTest(unittest.TestCase):
     def assert_stopped(self, truth, event_slot, stop_deg=1.0, swing_deg=0.02):
         """Brakes closed at the end, little travel after the event, next to none in the last half second.
 
-        Brakes hold the drums; on its elastic cables the arm swings on with what motion it had, and next to nothing damps it.
+        Brakes hold the drums; on its elastic cables the arm swings on with what motion it had, and next to nothing
+        damps it.
         """
         self.assertEqual(truth.column("enabled")[-1], 0)
         self.assertLess(truth.travel_deg(event_slot, None), stop_deg)

@@ -1,4 +1,6 @@
-"""Each safety rule over a recording can fail: good ticks pass it, one thing changed breaks it. Pairs of faults: what is expected first."""
+"""Each safety rule over a recording can fail: good ticks pass it, one thing changed breaks it. Pairs of faults: what
+is expected first.
+"""
 import sys
 import unittest
 

@@ -224,8 +224,8 @@ class TargetsTheArmCannotFollow(SystemTest):
                 max(abs(angle) for row in range(first, len(truth.rows), 25) for angle in truth.theta_deg(row)), 20.5
             )
             self.assertLess(max(truth.column("contact_force_N")), 5.0)
-            # With cables slack little pulls the arm back, and nothing damps it: it swings for minutes, up to 0.03 deg in half a second
-            # and 0.16 deg since the brakes began to close. Drums that run free would show degrees.
+            # With cables slack little pulls the arm back, and nothing damps it: it swings for minutes, up to 0.03 deg
+            # in half a second and 0.16 deg since the brakes began to close. Drums that run free would show degrees.
             off = max(row for row, count in enumerate(truth.column("enabled")) if count > 0)
             self.assert_stopped(truth, off, stop_deg=0.5, swing_deg=0.1)
 

@@ -1,4 +1,6 @@
-"""`liana run` with input that cannot work: one message, exit code 2 before anything moves or 1 after, and a safe arm (A35)."""
+"""`liana run` with input that cannot work: one message, exit code 2 before anything moves or 1 after, and a safe arm
+(A35).
+"""
 import json
 import pathlib
 import socket

@@ -1,4 +1,6 @@
-"""The scenarios of hil/scenarios are judged by rules that can fail: each rule against traffic that breaks it, each mistake in a scenario's file refused."""
+"""The scenarios of hil/scenarios are judged by rules that can fail: each rule against traffic that breaks it, each
+mistake in a scenario's file refused.
+"""
 import json
 import pathlib
 import struct
@@ -130,7 +132,10 @@ class Wire(unittest.TestCase):
         return path
 
     def test_a_malformed_frame_is_found_and_what_is_no_log_refused(self):
-        good = "(0000000001.000000) can0 080#\n(0000000001.001000) can0 704#05\n(0000000001.002000) can0 20000004#0008000000008000\n"
+        good = (
+            "(0000000001.000000) can0 080#\n(0000000001.001000) can0 704#05\n(0000000001.002000) can0"
+            " 20000004#0008000000008000\n"
+        )
         self.assertEqual(wire_checks.malformed([self.log(good)]), [])
         self.assertIn("line 4", wire_checks.malformed([self.log(good + "(0000000001.003000) can0 604#4018\n")])[0])
         with self.assertRaises(ValueError):

@@ -1,4 +1,6 @@
-"""`liana calibrate` on CAN interfaces: a person puts the arm into one fixture after the other and presses Enter (field `calibrate`)."""
+"""`liana calibrate` on CAN interfaces: a person puts the arm into one fixture after the other and presses Enter (field
+`calibrate`).
+"""
 import contextlib
 import json
 import subprocess
@@ -31,7 +33,9 @@ class CalibrateRun:
                 self.judge_file(json.loads(file.read_text()))
 
     def calibrate(self, system, file):
-        """Answers each prompt with the arm in its fixture and Enter, as many as there are poses; exit code and all that was said."""
+        """Answers each prompt with the arm in its fixture and Enter, as many as there are poses; exit code and all
+        that was said.
+        """
         words = ["--bus", system.directory / "buses.json", "--physics", "ideal", "--out", file]
         process = subprocess.Popen(
             [program("liana"), "calibrate", *map(str, words)],

@@ -1,4 +1,6 @@
-"""One scenario on CAN interfaces of the kernel (README.md): read it, run it, judge it. Runs on the machine that has them."""
+"""One scenario on CAN interfaces of the kernel (README.md): read it, run it, judge it. Runs on the machine that has
+them.
+"""
 import json
 import math
 import subprocess
@@ -244,7 +246,10 @@ def main():
                     continue
                 row = run(scenario, kind, lambda kind=kind: BenchOnCan(kind))
                 print(
-                    f"{row['outcome']}  {row['name']} ({kind})  {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}",
+                    (
+                        f"{row['outcome']}  {row['name']} ({kind})  {row['seconds']:.1f} s  {', '.join(row['notes'])} "
+                        f" {row['why']}"
+                    ),
                     flush=True,
                 )
                 results.write(json.dumps(row) + "\n")

@@ -1,6 +1,8 @@
 """lianad's real-time thread measured by `liana latency`, idle and under load; runs on the machine that is measured.
 
-    python3 latency.py RESULTS RATE:LOAD [RATE:LOAD ...]        RATE 250 or 500, LOAD idle or loaded; one JSON row each in RESULTS"""
+    python3 latency.py RESULTS RATE:LOAD [RATE:LOAD ...]
+
+RATE is 250 or 500, LOAD idle or loaded; one JSON row each in RESULTS."""
 import json
 import os
 import socket

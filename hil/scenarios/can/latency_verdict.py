@@ -1,4 +1,6 @@
-"""What measurements of lianad's thread at one rate and load say together: verdict of each run, how far runs differ, the worst of all."""
+"""What measurements of lianad's thread at one rate and load say together: verdict of each run, how far runs differ,
+the worst of all.
+"""
 
 kWorstWakeup_us = {"idle": 25, "loaded": 50}
 kAgree_us = 10  # between any two runs, in every figure
@@ -27,7 +29,9 @@ def over_runs(runs, choose):
 
 
 def cell(rate_hz, load, runs):
-    """One row of the report: the largest of all runs in each figure, all overruns, the largest difference, and the runs with their verdicts."""
+    """One row of the report: the largest of all runs in each figure, all overruns, the largest difference, and the
+    runs with their verdicts.
+    """
     runs = [{**run, "verdict": judge_run(run) or "holds"} for run in runs]
     row = {"rate_hz": rate_hz, "load": load, "runs": runs}
     measured = [run for run in runs if "error" not in run]
@@ -55,5 +59,6 @@ def notes(row):
         return []
     wakeup, tick = ("/".join(str(row[time][figure]) for figure in kFigures) for time in kTimes)
     return [
-        f"wake-up {wakeup} us, tick {tick} us (median/p99/worst of {len(row['runs'])} runs), {row['overruns']} overruns, difference {row['difference_us']} us"
+        f"wake-up {wakeup} us, tick {tick} us (median/p99/worst of {len(row['runs'])} runs),"
+        f" {row['overruns']} overruns, difference {row['difference_us']} us"
     ]

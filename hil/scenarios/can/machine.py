@@ -1,4 +1,6 @@
-"""Where scenarios on CAN interfaces and latency measurements run: on this machine where it has CAN, else in virtual machines (hil/vm)."""
+"""Where scenarios on CAN interfaces and latency measurements run: on this machine where it has CAN, else in virtual
+machines (hil/vm).
+"""
 import concurrent.futures
 import json
 import os
@@ -52,7 +54,8 @@ kTools = (
     "mount",
     "umount",
 )
-# On a processor of 500 MIPS, verifying a move beside the controllers' interrupts takes longer than its command interval; at 1000 it does not.
+# On a processor of 500 MIPS, verifying a move beside the controllers' interrupts takes longer than its command
+# interval; at 1000 it does not.
 kScenarioMachine = ("--controllers", "--instruction-ns", "1", "--memory", "1024")
 kBuses = {"vcan": "vcan", "gateway": "vcan and can-gw", "sja1000": "SJA1000", "serial": "slcan"}
 kLatency = [("250", "idle"), ("250", "loaded"), ("500", "idle"), ("500", "loaded")]
@@ -63,7 +66,9 @@ class NoMachine(Exception):
 
 
 class Item:
-    """What is run on CAN: a scenario on one kind of bus, or a latency measurement. `runs_here`: on this machine, if it has CAN."""
+    """What is run on CAN: a scenario on one kind of bus, or a latency measurement. `runs_here`: on this machine, if it
+    has CAN.
+    """
 
     def __init__(self, name, word, reduced, faults, runs_here):
         self.name, self.word, self.reduced, self.faults, self.runs_here = name, word, reduced, faults, runs_here
@@ -131,10 +136,13 @@ def where_of(item, native):
 
 
 def guest_files():
-    """Options of a guest: it is sealed and has in memory what it reads, so that its clock never waits for this machine's files."""
+    """Options of a guest: it is sealed and has in memory what it reads, so that its clock never waits for this
+    machine's files.
+    """
     ask = (
-        f"import sys; sys.path.insert(0, {str(HERE)!r}); import can_scenario, encodings, latency, serial_line; "
-        "print(*{str(path) for each in list(sys.modules.values()) for path in (getattr(each, '__file__', 0), getattr(each, '__cached__', 0)) if path}, sep='\\n')"
+        f"import sys; sys.path.insert(0, {str(HERE)!r}); import can_scenario, encodings, latency, serial_line;"
+        " print(*{str(path) for each in list(sys.modules.values()) for path in (getattr(each, '__file__', 0),"
+        " getattr(each, '__cached__', 0)) if path}, sep='\\n')"
     )
     modules = subprocess.run([kPython, "-S", "-c", ask], capture_output=True, text=True, check=True).stdout.split()
     encodings = [
@@ -149,7 +157,9 @@ def guest_files():
 
 
 def in_guest(program, what, native, machine=()):
-    """Runs `program` over what these words name, in a guest of its own or here; the rows it left, and what it said when it did not leave all."""
+    """Runs `program` over what these words name, in a guest of its own or here; the rows it left, and what it said
+    when it did not leave all.
+    """
     with tempfile.TemporaryDirectory(prefix="liana-can-") as folder:
         words = [str(HERE / program)]
         if native:
@@ -214,7 +224,9 @@ def chunks(items, size):
 
 
 def run_all(items, report, runs):
-    """Runs scenarios, and measures latency so often at each rate; calls report(row) as rows come; (rows, latency rows)."""
+    """Runs scenarios, and measures latency so often at each rate; calls report(row) as rows come; (rows, latency
+    rows).
+    """
     check_packages()
     native = has_can()
     here = [item for item in items if native and item.runs_here]

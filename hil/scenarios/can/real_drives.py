@@ -1,4 +1,6 @@
-"""The same scenarios against real drives (`./dev hil --drives BUSES`): lianad alone on a lab's own interfaces, nothing stands in for the drives."""
+"""The same scenarios against real drives (`./dev hil --drives BUSES`): lianad alone on a lab's own interfaces, nothing
+stands in for the drives.
+"""
 import json
 import pathlib
 import socket
@@ -28,7 +30,9 @@ class Witness(Client):
 
 
 class RealDrives(CanSystem):
-    """`buses`: the lab's table, by name or file. Its interfaces are up and have their bit rate. `calibration`: file of `liana calibrate`, or None."""
+    """`buses`: the lab's table, by name or file. Its interfaces are up and have their bit rate. `calibration`: file of
+    `liana calibrate`, or None.
+    """
 
     def __init__(self, buses, calibration):
         super().__init__()
@@ -72,7 +76,9 @@ def all_items():
 
 
 def check_buses(buses, calibration):
-    """Refuses a table that lianad could not use with SocketCAN, interfaces that are not there, and a file that cannot be read."""
+    """Refuses a table that lianad could not use with SocketCAN, interfaces that are not there, and a file that cannot
+    be read.
+    """
     done = run("liana-mission", "eval", "buses", buses)
     if done.returncode != 0:
         raise BadScenario(f"--drives: {done.stderr.strip()}")

@@ -15,16 +15,16 @@ kHardwarePriority = (
     70  # the bench stands for hardware, which is never late for want of a processor; under lianad's thread (80)
 )
 kLinePriority = 75  # of what stands for a wire
-# Kind of bus -> what lianad opens, what the bench opens: one virtual wire; two with a gateway between, which can lose and swap; the two
-# controllers of one emulated bus; or two adapters on a serial line.
+# Kind of bus -> what lianad opens, what the bench opens: one virtual wire; two with a gateway between, which can lose
+# and swap; the two controllers of one emulated bus; or two adapters on a serial line.
 kInterfaces = {
     "vcan": (("vcan0", "vcan1"), ("vcan0", "vcan1")),
     "gateway": (("vcan0", "vcan1"), ("vcan2", "vcan3")),
     "sja1000": (("can0", "can2"), ("can1", "can3")),
     "serial": (("serial0", "serial2"), ("serial1", "serial3")),
 }
-# The emulated controllers send in no time: the queue before them keeps the pace. The kernel counts 16 bytes for a frame, 128 us at this rate,
-# which is what one with 8 data bytes takes at 1 Mbit/s; there is room for 256.
+# The emulated controllers send in no time: the queue before them keeps the pace. The kernel counts 16 bytes for a
+# frame, 128 us at this rate, which is what one with 8 data bytes takes at 1 Mbit/s; there is room for 256.
 kWire = ("tbf", "rate", "1mbit", "burst", "32", "limit", "4096")
 
 
@@ -147,7 +147,9 @@ class BenchOnCan(CanSystem):
         return {"liana-bench": self.ended("liana-bench")}
 
     def torque(self):
-        """(for each moment, whether some drive had torque; the largest change of any angle since the last of them, in degrees)."""
+        """(for each moment, whether some drive had torque; the largest change of any angle since the last of them, in
+        degrees).
+        """
         arm, truth = self.json("bench_summary.json")["arm"], self.truth()
         assert arm == "light", f"the bench ran arm {arm}"
         with_torque = [count > 0 for count in truth.column("enabled")]

@@ -43,7 +43,9 @@ def liana_json(*arguments, expected=(0,), timeout_s=120):
 
 
 def interrupt(process):
-    """Sends SIGINT as soon as the program has a handler of it: before that the system's loader is at work, not `liana`."""
+    """Sends SIGINT as soon as the program has a handler of it: before that the system's loader is at work, not
+    `liana`.
+    """
     caught = 0
     while not caught & 1 << (signal.SIGINT - 1):
         status = pathlib.Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")

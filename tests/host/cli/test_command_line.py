@@ -327,7 +327,10 @@ class Help(unittest.TestCase):
         for fault in json.loads(liana("faults", "--json")[1]):
             told = plain[plain.index(f"{fault['number']} {fault['name']} ") :]
             self.assertIn(
-                f"\n     detected by {fault['detected_by']}\n     within ticks: {fault['within_ticks']}\n     {fault['remedy']}\n",
+                (
+                    f"\n     detected by {fault['detected_by']}\n     within ticks: {fault['within_ticks']}\n    "
+                    f" {fault['remedy']}\n"
+                ),
                 told,
             )
 
@@ -345,7 +348,10 @@ class Help(unittest.TestCase):
         ]:
             program = words.split()[0]
             function = "_liana_mission" if program == "liana-mission" else "_liana"
-            script = f"source <({BIN}/liana completion bash); COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); {function}; echo ${{COMPREPLY[@]}}"
+            script = (
+                f"source <({BIN}/liana completion bash); COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1));"
+                f" {function}; echo ${{COMPREPLY[@]}}"
+            )
             done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=False, cwd="/")
             self.assertEqual((done.stdout.strip(), done.stderr), (wanted, ""), words)
 

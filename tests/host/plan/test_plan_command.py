@@ -15,7 +15,9 @@ BIN = pathlib.Path(sys.argv.pop(1))
 
 PREPARE = "-8.5,0,-12,0,8,-2,13,0,12,-2"
 PANEL_EDGE = "-6.14,-15,-3.29,-8.72,7.2,15,5.55,15,1,-2.8"
-TILTED = "-2.641,-2.064,-1.81,-4.64,4.777,5.87,0,4.764,8,-0.543"  # the press rod pose, with the last segment bent out of the slit
+TILTED = (  # the press rod pose, with the last segment bent out of the slit
+    "-2.641,-2.064,-1.81,-4.64,4.777,5.87,0,4.764,8,-0.543"
+)
 
 
 def words(*options):
