@@ -198,7 +198,7 @@ class StopsBeforeTheArmIsEnabled(SystemTest):
 
 
 class StopsFromTheCommandLine(SystemTest):
-    """`liana status` and `estop` without --api deal with every running system of the user, `clear` with the only one."""
+    """Without --api, `liana status` and `estop` deal with every running system of the user, `clear` with the only one."""
 
     def setUp(self):
         self.home = tempfile.mkdtemp(prefix="liana-home-")
