@@ -10,11 +10,13 @@ import concurrent.futures
 import json
 import os
 import random
-import subprocess
 import sys
 
+import source_tree  # noqa: F401
 import trial
-from scenario import Failed, expect_that
+from liana.client import NotReached
+from run_scenario import kFailures
+from scenario_file import Failed, expect_that
 
 kDrives, kThetas = 15, 10
 kBootTicks, kEnabledTick = 130, 1000
@@ -174,7 +176,7 @@ class Sequence:
 
 
 class SequenceRun:
-    """A sequence under way; the fields are those of scenario.Run, and what is counted."""
+    """A sequence under way; the fields are those of run_scenario.Run, and what is counted."""
 
     def __init__(self, sequence):
         self.sequence, self.notes, self.violations = sequence, [], []
@@ -184,7 +186,7 @@ class SequenceRun:
         """Failed says how to repeat it, whatever went wrong."""
         try:
             self.go_once()
-        except (Failed, AssertionError, OSError, ValueError, KeyError, subprocess.SubprocessError) as error:
+        except kFailures as error:
             raise Failed(f"{error or type(error).__name__}; again: {again(self.sequence.seed)}") from error
 
     def go_once(self):
@@ -206,7 +208,7 @@ class SequenceRun:
             client.until(lambda state: state["tick"] >= end)
         try:
             client.until(lambda state: state["state"] in ("DISABLED", "FAULT", "ENABLED"), kSettle_s)
-        except AssertionError as error:
+        except NotReached as error:
             raise Failed(f"it hangs: {error}") from None
 
     @staticmethod

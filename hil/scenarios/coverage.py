@@ -10,6 +10,7 @@ import re
 import subprocess
 import sys
 
+import source_tree  # noqa: F401
 import scenario
 
 kShown = 2  # scenarios named for each number, the first in bring-up order

@@ -5,12 +5,15 @@ import collections
 import itertools
 
 import trial
-from liana_system import brief, must
-from scenario import Failed, expect_that, kMoveDeg, kRested
+from embedded import start_move
+from liana.client import NotReached, brief
+from run_scenario import expect_refused
+from scenario_file import Failed, expect_that
 
 kBeginTick = 2000  # the arm is enabled at about 900; by now the move is well under way
 kDelays = (0, 1, 2, 3, 5, 8, 13, 21, 34, 50)
 kForever = 1000000
+kRested_s = 1.0  # arm time for which the end state is watched
 kEnd_s = 60  # arm time; the slowest detection takes a third of it
 kSwingDeg = 2.0  # in the last half second: brakes hold the drums, but on its elastic cables the arm swings on
 kReduced = ({"silent", "fault"}, {"slack", "overload"}, {"bus_lost", "operator_stop"})
@@ -110,7 +113,7 @@ def ended(state):
 
 
 class PairRun:
-    """A pair under way; the fields are those of scenario.Run."""
+    """A pair under way; the fields are those of run_scenario.Run."""
 
     def __init__(self, pair):
         self.pair, self.notes, self.violations = pair, [], []
@@ -122,18 +125,16 @@ class PairRun:
         expect_that(not self.violations, "; ".join(self.violations))
 
     def operate(self, client):
-        must(client.ask("acquire"))
+        client.call("acquire")
         client.until(lambda state: state["faults"] or (state["state"] != "BOOTING" and state["is_homed"]))
-        must(client.ask("state_command", command="enable"))
+        client.call("state_command", command="enable")
         client.until(lambda state: state["faults"] or state["state"] == "ENABLED")
         expect_that(not client.state["faults"], f"a fault before the first of the pair: {brief(client.state)}")
-        goal = list(client.state["setpoint_js_deg"])
-        goal[8] -= kMoveDeg
-        must(client.ask("move_jp", goal_deg=goal))
+        start_move(client)
         self.wait_for_the_end(client)
         self.stay(client)
         in_fault = client.state["state"] == "FAULT"
-        must(client.ask("state_command", command="clear"))
+        client.call("state_command", command="clear")
         client.until(lambda state: not in_fault or any("cleared" in event["text"] for event in state["events"]))
         client.go_on(1.0)
         expect_that(
@@ -145,27 +146,22 @@ class PairRun:
         stop = self.pair.stop_tick()
         if stop is not None:
             client.until(lambda state: state["tick"] >= stop, kEnd_s)
-            must(client.ask("stop", reason="one of a pair"))
+            client.call("stop", reason="one of a pair")
         try:
             client.until(ended, kEnd_s)
-        except AssertionError as error:
+        except NotReached as error:
             raise Failed(f"it does not come to an end: {error}") from None
 
     @staticmethod
     def stay(client):
         """Nothing clears itself, and nothing moves or enables without a clear."""
-        state, end = client.state["state"], client.state["tick"] + kRested
-        client.until(lambda state: state["tick"] >= end)
+        state = client.state["state"]
+        client.go_on(kRested_s)
         expect_that(
             client.state["state"] == state or client.state["state"] == "FAULT",
             f"{state} did not stay: {brief(client.state)}",
         )
-        for op, words in (
-            ("state_command", {"command": "enable"}),
-            ("move_jp", {"goal_deg": client.state["setpoint_js_deg"]}),
-        ):
-            answer = client.ask(op, **words)
-            expect_that(answer["op"] == "error", f"{op} was accepted after the pair: {answer}")
+        expect_refused(client, "after the pair")
 
     def judge(self, done):
         latched = done.latched()

@@ -1,4 +1,4 @@
-"""Safety rules over a recording (recording.py), tick by tick. Each gives a list of complaints, empty when the rule
+"""Safety rules over a recording (liana.recordings), tick by tick. Each gives a list of complaints, empty when the rule
 held; all_complaints() is all of them.
 
 What is wrong is judged anew from what the drives reported; only the reaction to each number is read, from

@@ -7,18 +7,15 @@ import json
 import os
 import pathlib
 import signal
-import subprocess
 import sys
-import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "can"))
-
+import source_tree  # noqa: F401
 import campaign
-import can_scenario
-import machine
 import pairs
-import real_drives
 import scenario
+from can import machine, real_drives
+from run_scenario import outcome
+from scenario_file import BadScenario
 
 kWhere = "embedded bus, lockstep"
 kLatencyRuns = {"250": 3, "500": 1}  # `./dev numbers latency` measures each three times
@@ -70,7 +67,7 @@ def chosen(options):
     if options.only:
         wanted = [one for one in wanted if options.only in one.name or fnmatch.fnmatch(one.name, options.only)]
     if not wanted:
-        raise scenario.BadScenario(
+        raise BadScenario(
             f"--only: {options.only} names no scenario; they are in"
             f" {', '.join(sorted({one.name.split('/')[0] for one in everything}))}"
         )
@@ -78,21 +75,10 @@ def chosen(options):
 
 
 def run_one(one):
-    run, start, why = one.run(), time.monotonic(), ""
-    try:
-        run.go()
-    except (scenario.Failed, AssertionError, OSError, ValueError, KeyError, subprocess.SubprocessError) as error:
-        why = f"{type(error).__name__}: {error}"
-    seconds = time.monotonic() - start
-    row = {
-        "name": one.name,
-        "where": kWhere,
-        "outcome": "failed" if why else "passed",
-        "seconds": round(seconds, 2),
-        "why": why,
-        "notes": run.notes,
-    }
-    return row, [{"scenario": one.name, "rule": rule} for rule in run.violations]
+    run = one.run()
+    return {"name": one.name, "where": kWhere, **outcome(run)}, [
+        {"scenario": one.name, "rule": rule} for rule in run.violations
+    ]
 
 
 def report(row):
@@ -155,7 +141,7 @@ def main():
             machine.check_packages()
         if options.drives and not options.check:
             real_drives.check_buses(options.drives, options.calibration)
-    except (scenario.BadScenario, machine.NoMachine) as error:
+    except (BadScenario, machine.NoMachine) as error:
         print(f"dev hil: {error}", file=sys.stderr)
         return 2
     except OSError as error:

@@ -5,7 +5,7 @@ import contextlib
 import json
 import subprocess
 
-from liana_system import program
+from liana.system import program
 from scenario_file import expect_that
 
 kFields = {"poses": list, "cross_wired": list}
@@ -15,12 +15,12 @@ kExpected = {"code": int, "says": list}
 class CalibrateRun:
     """Nothing runs by itself: `liana calibrate` starts lianad, the person the bench."""
 
-    def __init__(self, scenario, make_system):
-        self.scenario, self.make_system, self.expect, self.notes = scenario, make_system, scenario.expect, []
+    def __init__(self, scenario, stand):
+        self.scenario, self.stand, self.expect, self.notes = scenario, stand, scenario.expect, []
 
     def go(self):
         with contextlib.ExitStack() as stack:
-            system = self.make_system()
+            system = self.stand.start(self.scenario)
             stack.push(system.__exit__)
             system.write_tables()
             file = system.directory / "arm.json"

@@ -11,11 +11,14 @@ import subprocess
 import sys
 import tempfile
 
-import can_scenario
-import latency_verdict
-from system import HERE, SOURCE, BIN, kInterfaces
+from can import can_scenario, latency_verdict
+from can.system import kInterfaces
+from liana.system import binaries
+from source_tree import SCENARIOS, SOURCE
 
-RUN_IN_VM = HERE.parents[1] / "vm" / "run_in_vm"
+HERE = SCENARIOS / "can"
+GUEST = SCENARIOS / "guest.py"
+RUN_IN_VM = SOURCE / "hil" / "vm" / "run_in_vm"
 kTimeout_s = 1500  # of wall time for one guest; half a minute to two minutes on a free machine
 kGuests = 2  # at a time; each takes one processor
 kMostPerGuest = 10  # scenarios in one boot
@@ -29,6 +32,7 @@ kPrograms = {
     "choom": "util-linux",
     "unshare": "util-linux",
 }
+kLiana = ("liana", "lianad", "liana-bus", "liana-bench", "liana-mission", "liana-archive")
 kHere = ("vcan", "gateway")  # kinds of bus that a machine's own kernel makes in a network of its own
 kOwnNetwork = (
     "unshare",
@@ -140,7 +144,7 @@ def guest_files():
     machine's files.
     """
     ask = (
-        f"import sys; sys.path.insert(0, {str(HERE)!r}); import can_scenario, encodings, latency, serial_line;"
+        f"import sys; sys.path.insert(0, {str(SCENARIOS)!r}); import guest, encodings, can.serial_line;"
         " print(*{str(path) for each in list(sys.modules.values()) for path in (getattr(each, '__file__', 0),"
         " getattr(each, '__cached__', 0)) if path}, sep='\\n')"
     )
@@ -149,39 +153,22 @@ def guest_files():
         os.path.dirname(path) for path in modules if path.endswith("/encodings/__init__.py")
     ]  # each is read when it is first used
     files = [HERE, SOURCE / "lua", "/etc/ld.so.cache", *encodings, *[path for path in modules if os.path.exists(path)]]
-    programs = [
-        str(BIN / name) for name in ("liana", "lianad", "liana-bus", "liana-bench", "liana-mission", "liana-archive")
-    ]
+    programs = [str(binaries() / name) for name in kLiana]
     words = ["--sealed", *[word for path in files for word in ("--preload", str(path))]]
     return words + [word for name in [kPython, *kTools, *kPrograms, *programs] for word in ("--preload-program", name)]
 
 
-def in_guest(program, what, native, machine=()):
-    """Runs `program` over what these words name, in a guest of its own or here; the rows it left, and what it said
-    when it did not leave all.
+def in_guest(what, native, machine=()):
+    """Runs guest.py over these words, in a guest of its own or here; the rows it left, and what it said when it did
+    not leave all.
     """
     with tempfile.TemporaryDirectory(prefix="liana-can-") as folder:
-        words = [str(HERE / program)]
         if native:
-            call = [*kOwnNetwork, sys.executable, *words, f"{folder}/rows", *what]
+            call = [*kOwnNetwork, sys.executable, GUEST, f"{folder}/rows", *what]
         else:
-            call = [
-                RUN_IN_VM,
-                "--icount",
-                *machine,
-                *guest_files(),
-                "--timeout",
-                str(kTimeout_s),
-                "--results",
-                folder,
-                "env",
-                f"LIANA_BIN={BIN}",
-                kPython,
-                "-S",
-                *words,
-                "/run/liana-vm/results/rows",
-                *what,
-            ]
+            vm = [RUN_IN_VM, "--icount", *machine, *guest_files(), "--timeout", str(kTimeout_s), "--results", folder]
+            python = ["env", f"LIANA_BIN={binaries()}", kPython, "-S", GUEST]
+            call = [*vm, *python, "/run/liana-vm/results/rows", *what]
         done = subprocess.run(call, capture_output=True, text=True, check=False, cwd=HERE)
         path = pathlib.Path(folder) / "rows"
         rows = [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
@@ -189,7 +176,7 @@ def in_guest(program, what, native, machine=()):
 
 
 def scenario_rows(items, native):
-    rows, said = in_guest("can_scenario.py", [item.word for item in items], native, kScenarioMachine)
+    rows, said = in_guest([item.word for item in items], native, kScenarioMachine)
     found = {f"{row['name']}@{row['on']}": row for row in rows}
     for item in items:
         row = found.get(item.word, {"outcome": "failed", "seconds": 0.0, "why": f"the machine {said}", "notes": []})
@@ -202,7 +189,7 @@ def scenario_rows(items, native):
 
 def latency_rows(items, runs):
     """(row of scenarios, row of latency) of each, measured so often in turn."""
-    rows, said = in_guest("latency.py", [item.word for item in items] * runs, False)
+    rows, said = in_guest([item.word for item in items] * runs, False)
     for item in items:
         rate, load = item.word.split(":")
         mine = [row for row in rows if (row["rate_hz"], row["load"]) == (float(rate), load)]

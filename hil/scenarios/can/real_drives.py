@@ -5,10 +5,12 @@ import json
 import pathlib
 import socket
 
-import can_scenario
-from liana_system import Client, run, table
+from can import can_scenario
+from can.stand import CanStand
+from can.system import CanSystem
+from liana.client import Client
+from liana.system import run, table
 from scenario_file import BadScenario
-from system import CanSystem
 
 kKind = "drives"
 kSkipped = "breaks, watches or needs what the bench stands in for; on real drives do it by hand"
@@ -35,9 +37,8 @@ class RealDrives(CanSystem):
     """
 
     def __init__(self, buses, calibration):
-        super().__init__()
-        self.options = ("--calibration", calibration) if calibration else ()
-        self.bus, self.seen = buses, []
+        super().__init__(bus=buses, lianad=["--calibration", calibration] if calibration else [])
+        self.seen = []
         self.ours = [bus["name"] for bus in json.loads(table("buses", buses))["buses"]]
 
     def start_bench(self):
@@ -47,15 +48,21 @@ class RealDrives(CanSystem):
         self.clients.append(Witness(self.api, "scenario", "client", seen=self.seen))
         return self.clients[-1]
 
-    def end_drives(self):
-        return {}
-
     def torque(self):
         """As BenchOnCan's, from what lianad told: no truth exists here."""
         with_torque = [torque for torque, _ in self.seen]
         last = max((index for index, torque in enumerate(with_torque) if torque), default=0)
         after = [angles for _, angles in self.seen[last:]]
         return with_torque, max(max(abs(now - then) for now, then in zip(angles, after[0])) for angles in after)
+
+
+class DrivesStand(CanStand):
+    def __init__(self, buses, calibration):
+        super().__init__()
+        self.buses, self.calibration = buses, calibration
+
+    def start(self, scenario):
+        return RealDrives(self.buses, self.calibration)
 
 
 class Item:
@@ -105,7 +112,7 @@ def run_all(items, buses, calibration, report):
     rows = []
     for item in items:
         skipped = {"outcome": "skipped", "seconds": 0.0, "why": kSkipped, "notes": []}
-        row = can_scenario.run(item.scenario, kKind, lambda: RealDrives(buses, calibration)) if item.runs() else skipped
+        row = can_scenario.row(item.scenario, kKind, DrivesStand(buses, calibration)) if item.runs() else skipped
         rows.append(
             {
                 "name": item.name,
