@@ -21,6 +21,13 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path.insert(0, str(ROOT / "hil" / "scenarios"))
 
+import source_tree  # noqa: E402,F401
+import campaign  # noqa: E402
+import pairs  # noqa: E402
+import scenario  # noqa: E402
+from liana import client as clients  # noqa: E402
+from run_scenario import kFailures  # noqa: E402
+
 kPatience_s = 60  # wall clock after which a program counts as hung; a mutant may hang
 
 # A bug: `edits` in `file`; `planted`: another bug that only the mutated line keeps from the drives; `caught_by`:
@@ -63,10 +70,6 @@ def changed(text, edit):
 
 def scenarios():
     """Every scenario by name, those for planted bugs included."""
-    import campaign
-    import pairs
-    import scenario
-
     everything = scenario.all_scenarios() + scenario.all_scenarios(HERE) + pairs.all_pairs() + campaign.short_campaign()
     return {one.name: one for one in everything}
 
@@ -143,12 +146,10 @@ class Workshop:
 
 def why_it_fails(scenario_object):
     """What the scenario complains about; empty when it passes."""
-    import scenario
-
     with contextlib.redirect_stderr(io.StringIO()):  # the last words of programs that were ended
         try:
             scenario_object.run().go()
-        except (scenario.Failed, AssertionError, OSError, ValueError, KeyError, subprocess.TimeoutExpired) as error:
+        except kFailures as error:
             return str(error) or type(error).__name__
     return ""
 
@@ -166,9 +167,7 @@ def controls(wanted, workshop, by_name, pool):
 def run(wanted, binaries, directory):
     """name -> (scenario that noticed, its complaint); (None, "") for a survivor."""
     os.environ["LIANA_BIN"] = str(directory / "bin")
-    import liana_system
-
-    liana_system.PATIENCE_S = kPatience_s
+    clients.PATIENCE_S = kPatience_s
     by_name = scenarios()
     check(wanted, by_name)
     workshop, outcomes = Workshop(directory, binaries), {}
@@ -194,7 +193,6 @@ def main():
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build" / "bin", help="where the programs are")
     options = parser.parse_args()
     wanted = [one for one in mutations() if options.only in one.name]
-    sys.path.insert(0, str(ROOT / "tests" / "system"))
     try:
         if options.check:
             check(wanted, scenarios())

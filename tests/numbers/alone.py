@@ -3,13 +3,15 @@ import argparse
 import json
 import pathlib
 
+from folders import ROOT
+
 
 def run(measure, description):
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument(
         "--bin",
         type=pathlib.Path,
-        default=pathlib.Path(__file__).resolve().parents[2] / "build/bin",
+        default=ROOT / "build/bin",
         help="where the programs are",
     )
     parser.add_argument("--count", type=int, help="cases; full size without")

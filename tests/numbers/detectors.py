@@ -4,10 +4,9 @@ segment, two seeds.
 Alone: detectors.py [--bin DIR] [--count SEEDS] [--json].
 """
 import collections
-import json
 import statistics
-import subprocess
 
+from asking import counted
 from page import table
 
 HEAD = [
@@ -26,6 +25,12 @@ HEAD = [
 kSegments, kCablesEach = 5, 3
 
 
+def spread(found, key, digits):
+    """Median and worst."""
+    values = [trial[key] for trial in found]
+    return f"{statistics.median(values):.{digits}f}, {max(values):.{digits}f}" if values else "-"
+
+
 def row(kind, physics, trials):
     found = [trial for trial in trials if trial["number"]]
     numbers = collections.Counter(trial["number"] for trial in found)
@@ -37,32 +42,28 @@ def row(kind, physics, trials):
     for segment in range(kSegments):
         own = [trial["size"] for trial in found if trial["cable"] // kCablesEach == segment]
         sizes.append(f"{max(own):.0f} {trials[0]['unit']}" if own and trials[0]["unit"] else "-")
-    spread = lambda key, digits: (
-        f"{statistics.median(trial[key] for trial in found):.{digits}f},"
-        f" {max(trial[key] for trial in found):.{digits}f}"
-        if found
-        else "-"
-    )  # noqa: E731
-    return [kind, physics, named, f"{right} of {len(found)}", *sizes, spread("ticks", 0), spread("travel_deg", 2)]
+    return [
+        kind,
+        physics,
+        named,
+        f"{right} of {len(found)}",
+        *sizes,
+        spread(found, "ticks", 0),
+        spread(found, "travel_deg", 2),
+    ]
 
 
 def measure(binaries, count=2):
-    trials = json.loads(
-        subprocess.run(
-            [str(binaries / "detectors"), "--count", str(count), "--json"], capture_output=True, text=True, check=True
-        ).stdout
-    )
+    trials = counted(binaries / "detectors", count)
     groups = collections.defaultdict(list)
     for trial in trials:
         groups[trial["kind"], trial["physics"]].append(trial)
     text = table(HEAD, [row(*key, group) for key, group in groups.items()])
-    return (
-        trials,
-        (
-            "Sizes grow by 15 % until they are found: the worst of each segment's seeds. False alarms: none in the"
-            f" missions above ([mission](#mission)).\n\n{text}"
-        ),
+    text = (
+        "Sizes grow by 15 % until they are found: the worst of each segment's seeds. False alarms: none in the missions"
+        f" above ([mission](#mission)).\n\n{text}"
     )
+    return trials, text
 
 
 if __name__ == "__main__":

@@ -2,12 +2,10 @@
 (hil/scenarios/recorded_rules.py).
 """
 import os
-import pathlib
-import sys
 
+import folders  # noqa: F401
+import campaign
 from page import table
-
-SCENARIOS = pathlib.Path(__file__).resolve().parents[2] / "hil" / "scenarios"
 
 
 def listed(counts, kind):
@@ -33,9 +31,6 @@ def rows(counts, failed):
 
 def measure(binaries, count=500):
     os.environ["LIANA_BIN"] = str(binaries)
-    sys.path.insert(0, str(SCENARIOS))
-    import campaign
-
     counts, failed = campaign.campaign(range(1, count + 1))
     text = table(["what", "measured"], rows(counts, failed))
     for seed, why in failed.items():

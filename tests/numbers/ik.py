@@ -2,12 +2,11 @@
 pitches.
 """
 import concurrent.futures
-import json
 import math
 import os
 import random
-import subprocess
 
+from asking import ask, joined, quaternion_of
 from page import table
 
 GOALS = 2000
@@ -15,34 +14,8 @@ NEAR_DEG = 3.0
 HELD = {"free": [], "X5 held": [9], "X4 and X5 held": [7, 9]}
 
 
-def call(binaries, *words):
-    done = subprocess.run([str(binaries / "liana"), *words, "--json"], capture_output=True, text=True, check=False)
-    return json.loads(done.stdout)
-
-
-def joined(numbers):
-    return ",".join(repr(x) for x in numbers)
-
-
-def quaternion_of(r):
-    """Quaternion (w, x, y, z) of a rotation matrix by its most stable form."""
-    q = [
-        math.sqrt(max(0.0, 1 + s[0] * r[0][0] + s[1] * r[1][1] + s[2] * r[2][2])) / 2
-        for s in ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))
-    ]
-    k = max(range(4), key=q.__getitem__)
-    v = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]]
-    if k == 0:
-        return [q[0]] + [x / (4 * q[0]) for x in v]
-    i = k - 1
-    out = [v[i] / (4 * q[k]), 0.0, 0.0, 0.0]
-    for j in range(3):
-        out[j + 1] = q[k] if j == i else (r[i][j] + r[j][i]) / (4 * q[k])
-    return out
-
-
 def tip_of(binaries, theta_deg):
-    pose = call(binaries, "pose", f"--theta-deg={joined(theta_deg)}")["tip_pose"]
+    pose = ask(binaries / "liana", "pose", f"--theta-deg={joined(theta_deg)}", "--json")["tip_pose"]
     return [row[3] for row in pose[:3]], quaternion_of(pose)
 
 
@@ -65,7 +38,7 @@ def one_goal(binaries, index):
     options = [f"--from-deg={joined(start)}", f"--tip={joined(tip[0] + tip[1])}"]
     if HELD[held]:
         options.append("--hold=" + ",".join(map(str, HELD[held])))
-    answer = call(binaries, "ik", *options)
+    answer = ask(binaries / "liana", "ik", *options, "--json")
     wrong = answer["converged"] and max(errors(tip_of(binaries, answer["theta_deg"]), tip)) > 1e-6
     return (held, "nearby" if near else "zero"), answer["converged"], wrong, answer["iterations"]
 

@@ -2,12 +2,10 @@
 load, each so often in turn.
 """
 import os
-import pathlib
-import sys
 
+import folders  # noqa: F401
+from can import latency_verdict, machine
 from page import table
-
-CAN = pathlib.Path(__file__).resolve().parents[2] / "hil" / "scenarios" / "can"
 
 
 def times(row):
@@ -37,10 +35,6 @@ def lines(cell):
 
 def measure(binaries, count=3):
     os.environ["LIANA_BIN"] = str(binaries)
-    sys.path.insert(0, str(CAN))
-    import latency_verdict
-    import machine
-
     _, cells = machine.run_all(
         [item for item in machine.all_items() if item.is_latency()], lambda row: None, {"250": count, "500": count}
     )

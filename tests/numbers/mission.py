@@ -7,10 +7,9 @@ import sys
 import tempfile
 import time
 
+import folders  # noqa: F401
+from liana.recordings import Truth
 from page import table
-
-sys.path.append(str(pathlib.Path(__file__).resolve().parents[1] / "system"))
-from liana_system import Truth  # noqa: E402
 
 RUNS = [("nominal", seed) for seed in range(1, 11)] + [
     (physics, seed) for physics in ("ideal", "worn") for seed in range(1, 4)
@@ -41,19 +40,8 @@ def run_once(binaries, directory, physics, seed):
     recording = pathlib.Path(directory) / f"{physics}-{seed}"
     file = recording.with_suffix(".json")
     start = time.monotonic()
-    call = [
-        str(binaries / "liana"),
-        "run",
-        "slit_crossing",
-        "--physics",
-        physics,
-        "--seed",
-        str(seed),
-        "--json",
-        str(file),
-        "--record",
-        str(recording),
-    ]
+    words = ["--physics", physics, "--seed", str(seed), "--json", str(file), "--record", str(recording)]
+    call = [str(binaries / "liana"), "run", "slit_crossing", *words]
     done = subprocess.run(call, capture_output=True, text=True, check=False)
     report = json.loads(file.read_text()) if file.exists() else {"outcome": "no report"}
     report.update(physics=physics, seed=seed, exit_code=done.returncode, wall_s=time.monotonic() - start)

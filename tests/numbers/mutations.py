@@ -2,17 +2,13 @@
 (tests/mutation).
 """
 import pathlib
-import sys
 
+from folders import ROOT
+import mutation
 from page import table
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def measure(binaries, count=None):
-    sys.path[:0] = [str(ROOT / "tests" / "mutation"), str(ROOT / "tests" / "system")]
-    import mutation
-
     wanted = mutation.mutations()[:count]
     outcomes = mutation.run(wanted, binaries, ROOT / "build" / "mutation")
     caught = sum(killer is not None for killer, _ in outcomes.values())

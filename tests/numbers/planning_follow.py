@@ -1,23 +1,13 @@
 """Following curves by `liana plan --follow` from the panel edge pose, beside plans that only have to arrive there,
 judged alike. Alone: planning_follow.py [--bin DIR] [--json]."""
-import argparse
 import json
 import math
 import pathlib
-import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from planning_plans import (
-    PANEL_EDGE,
-    POINTS_PER_LINK,
-    PRESS_ROD,
-    ROOT,
-    joined,
-    link_points,
-    run,
-    tip_of,
-)  # noqa: E402 (found through the line above)
+from asking import ask, joined
+from page import table
+from planning_plans import PANEL_EDGE, POINTS_PER_LINK, PRESS_ROD, link_points, tip_of
 
 LOOKS = 8  # at a step between waypoints
 
@@ -63,7 +53,7 @@ def body_off(waypoints):
 
 
 def plan(binaries, *options):
-    answer = run([str(binaries / "liana"), "plan", f"--from-deg={joined(PANEL_EDGE)}", "--json", *options])
+    answer = ask(binaries / "liana", "plan", f"--from-deg={joined(PANEL_EDGE)}", "--json", *options)
     if answer["outcome"] != "solved":
         raise RuntimeError(f"{options}: {answer['outcome']}: {answer['reason']}")
     return answer
@@ -91,8 +81,6 @@ def study(binaries):
 
 
 def measure(binaries):
-    from page import table
-
     found = study(binaries)
     rows = [
         [
@@ -120,14 +108,7 @@ def measure(binaries):
     )
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--json", action="store_true", help="print what was measured as JSON, not as a table")
-    parser.add_argument("--bin", default=str(ROOT / "build/bin"), help="where the programs are")
-    options = parser.parse_args()
-    found, text = measure(pathlib.Path(options.bin))
-    print(json.dumps(found) if options.json else text)
-
-
 if __name__ == "__main__":
-    main()
+    import alone
+
+    alone.run(measure, __doc__)

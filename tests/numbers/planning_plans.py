@@ -1,18 +1,18 @@
 """Offline plans: the two legs of the slit crossing and random scenes in which a path is known to exist, by `liana
 plan`; beside them the same problems with nothing but the straight line in theta to start from. Can be run alone:
 planning_plans.py [--count N] [--json] [--bin DIR]."""
-import argparse
 import collections
 import json
 import math
 import pathlib
 import random
 import statistics
-import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+from asking import ask, joined, quaternion_of
+from page import table
+
 PROBLEMS = 100
 MARGIN_M = 0.005
 KNOWN_CLEARANCE_M = 0.02  # of the path that obstacles are placed beside
@@ -20,18 +20,8 @@ RADIUS_M = 0.03  # of a link
 PATH_POSES = 120
 POINTS_PER_LINK = 3
 PREPARE = [-8.5, 0, -12, 0, 8, -2, 13, 0, 12, -2]
-SEGMENT_5_IN_SLIT = [
-    -2.79,
-    -6.63,
-    -1.75,
-    -6.31,
-    5.03,
-    11.6,
-    1.87,
-    9.68,
-    0,
-    -4.64,
-]  # not inside the slit of the scene: docs/sources-notes.md
+# Not inside the slit of the scene: docs/sources-notes.md.
+SEGMENT_5_IN_SLIT = [-2.79, -6.63, -1.75, -6.31, 5.03, 11.6, 1.87, 9.68, 0, -4.64]
 PANEL_EDGE = [-6.14, -15, -3.29, -8.72, 7.2, 15, 5.55, 15, 1, -2.8]
 PRESS_ROD = [-2.641, -2.064, -1.81, -4.64, 4.777, 5.87, 0, 4.764, 0, -0.543]
 
@@ -53,20 +43,8 @@ def link_points(theta_deg):
 
 
 def tip_of(theta_deg):
-    points, r = link_points(theta_deg)
-    q = [
-        math.sqrt(max(0.0, 1 + s[0] * r[0][0] + s[1] * r[1][1] + s[2] * r[2][2])) / 2
-        for s in ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))
-    ]
-    k = max(range(4), key=q.__getitem__)
-    v = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]]
-    if k == 0:
-        return points[-1] + [q[0]] + [x / (4 * q[0]) for x in v]
-    i = k - 1
-    out = [v[i] / (4 * q[k]), 0.0, 0.0, 0.0]
-    for j in range(3):
-        out[j + 1] = q[k] if j == i else (r[i][j] + r[j][i]) / (4 * q[k])
-    return points[-1] + out
+    points, rotation = link_points(theta_deg)
+    return points[-1] + quaternion_of(rotation)
 
 
 def unit(vector):
@@ -149,26 +127,10 @@ def problems(tables, count):
         yield random_problem(index, scene)
 
 
-def run(words, text=None):
-    done = subprocess.run(words, input=text, capture_output=True, text=True, check=False)
-    if not done.stdout:
-        raise RuntimeError(done.stderr)
-    return json.loads(done.stdout)
-
-
 def end_off(binaries, from_deg, to_deg, scene, *options):
     """Largest and rms difference [deg] between the last pose of a plan to the tip of `to_deg` and `to_deg` itself."""
-    answer = run(
-        [
-            str(binaries / "liana"),
-            "plan",
-            f"--scene={scene}",
-            f"--from-deg={joined(from_deg)}",
-            f"--tip={joined(tip_of(to_deg))}",
-            "--json",
-            *options,
-        ]
-    )
+    ends = [f"--from-deg={joined(from_deg)}", f"--tip={joined(tip_of(to_deg))}"]
+    answer = ask(binaries / "liana", "plan", f"--scene={scene}", *ends, "--json", *options)
     if answer["outcome"] != "solved":
         raise RuntimeError(f"{answer['outcome']}: {answer['reason']}")
     off = [a - b for a, b in zip(answer["waypoints_deg"][-1], to_deg)]
@@ -196,26 +158,13 @@ def published(binaries):
     return rows
 
 
-def joined(numbers):
-    return ",".join(map(repr, numbers))
-
-
 def solve(binaries, problem, folder):
     """The plan, and whether the check's figures bear it out."""
     file = pathlib.Path(folder) / "scene.json"
     file.write_text(json.dumps(problem["scene"]), encoding="utf-8")
     goal = f"--tip={joined(problem['tip'])}" if "tip" in problem else f"--to-deg={joined(problem['to_deg'])}"
-    answer = run(
-        [
-            str(binaries / "liana"),
-            "plan",
-            f"--scene={file}",
-            f"--from-deg={joined(problem['from_deg'])}",
-            goal,
-            f"--margin={MARGIN_M}",
-            "--json",
-        ]
-    )
+    ends = [f"--from-deg={joined(problem['from_deg'])}", goal]
+    answer = ask(binaries / "liana", "plan", f"--scene={file}", *ends, f"--margin={MARGIN_M}", "--json")
     checked = answer["checked"]
     answer["good"] = (
         answer["outcome"] == "solved"
@@ -227,18 +176,13 @@ def solve(binaries, problem, folder):
 
 
 def from_straight(binaries, problem, tables):
-    return run(
-        [str(binaries / "plan_from_straight")],
-        json.dumps({**problem, "robot": tables["robot"], "buses": tables["buses"]}),
-    )
+    text = json.dumps({**problem, "robot": tables["robot"], "buses": tables["buses"]})
+    return ask(binaries / "plan_from_straight", text=text)
 
 
 def load_tables(binaries):
-    tables = {
-        kind: run([str(binaries / "liana-mission"), "eval", kind, name])
-        for kind, name in (("robot", "zhu2022"), ("buses", "embedded"), ("scene", "panel_slit"))
-    }
-    return tables
+    names = {"robot": "zhu2022", "buses": "embedded", "scene": "panel_slit"}
+    return {kind: ask(binaries / "liana-mission", "eval", kind, name) for kind, name in names.items()}
 
 
 def causes(answers):
@@ -304,8 +248,6 @@ def study(binaries, count):
 
 
 def measure(binaries, count=PROBLEMS):
-    from page import table
-
     found = study(binaries, count)
     ours, straight = found["random"], found["from_straight"]
     rows = [
@@ -348,15 +290,7 @@ def measure(binaries, count=PROBLEMS):
     )
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=PROBLEMS, help="random problems")
-    parser.add_argument("--json", action="store_true", help="print what was measured as JSON, not as tables")
-    parser.add_argument("--bin", default=str(ROOT / "build/bin"), help="where the programs are")
-    options = parser.parse_args()
-    found, text = measure(pathlib.Path(options.bin), options.count)
-    print(json.dumps(found) if options.json else text)
-
-
 if __name__ == "__main__":
-    main()
+    import alone
+
+    alone.run(measure, __doc__)

@@ -2,9 +2,8 @@
 
 Alone: planning_shape.py [--bin DIR] [--count N] [--json]. What is measured: docs/shape.md.
 """
-import json
-import subprocess
 
+from asking import counted
 from page import table
 
 
@@ -30,8 +29,7 @@ def rows(found):
 
 
 def measure(binaries, count=500):
-    call = [str(binaries / "planning_shape"), "--count", str(count), "--json"]
-    found = json.loads(subprocess.run(call, capture_output=True, text=True, check=True).stdout)
+    found = counted(binaries / "planning_shape", count)
     return found, table(["what", "measured"], rows(found))
 
 

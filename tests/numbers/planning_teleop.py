@@ -2,9 +2,8 @@
 [--json].
 """
 import collections
-import json
-import subprocess
 
+from asking import ask
 from page import table
 
 HEAD = [
@@ -31,8 +30,7 @@ def row(kind):
 
 
 def measure(binaries, count=1000):
-    call = [str(binaries / "planning_teleop"), "--count", str(count), "--json"]
-    found = json.loads(subprocess.run(call, capture_output=True, text=True, check=False).stdout)
+    found = ask(binaries / "planning_teleop", "--count", count, "--json")
     causes = collections.Counter(violation["cause"] for violation in found["violations"])
     text = (
         "Broken promises by cause: "

@@ -8,9 +8,8 @@ import pathlib
 import sys
 import time
 
+from folders import ROOT
 from page import Page, commit_of
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def arguments():

@@ -2,16 +2,12 @@
 
 Alone: worst.py [--bin DIR] [--count CASES] [--json].
 """
-import pathlib
 import subprocess
-import sys
 import tempfile
 
+from folders import BENCH
+import callgrind
 from page import table
-
-BENCH = pathlib.Path(__file__).resolve().parents[1] / "bench"
-sys.path.insert(0, str(BENCH))
-import callgrind  # noqa: E402
 
 STORED = BENCH / "worst_cases.txt"
 SEED = 1

@@ -10,9 +10,8 @@ import subprocess
 import tempfile
 import unittest
 
-from liana_system import BIN, run, start_run
-
-MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
+from support import MISSIONS, start_run
+from liana.system import program, run
 
 
 def signed(content):
@@ -87,7 +86,7 @@ class Calibration(unittest.TestCase):
         for says in ("pose 1", "pose 2"):
             with tempfile.TemporaryDirectory() as home:
                 running = subprocess.Popen(
-                    [BIN / "liana", "calibrate"],
+                    [program("liana"), "calibrate"],
                     stdout=subprocess.PIPE,
                     stderr=subprocess.PIPE,
                     text=True,

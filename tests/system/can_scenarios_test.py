@@ -4,22 +4,14 @@ needs CAN.
 import json
 import pathlib
 import subprocess
-import sys
 import tempfile
 import unittest
 from unittest import mock
 
-from liana_system import SOURCE
-
-FOLDER = SOURCE / "hil" / "scenarios"
-sys.path[:0] = [str(FOLDER), str(FOLDER / "can"), str(SOURCE / "hil" / "vm")]
-
-import can_scenario  # noqa: E402
-import latency_verdict  # noqa: E402
-import machine  # noqa: E402
-import preload  # noqa: E402
-import real_drives  # noqa: E402
-from scenario_file import BadScenario  # noqa: E402
+import support  # noqa: F401
+import preload
+from can import can_scenario, latency_verdict, machine, real_drives
+from scenario_file import BadScenario
 
 
 class Files(unittest.TestCase):

@@ -1,7 +1,9 @@
 """Drives that are missing, wrong, silent, in fault or without power: a named message and a safe arm (A28, C5)."""
 import unittest
 
-from liana_system import System, SystemTest, brief, must
+from support import SystemTest
+from liana.client import brief
+from liana.system import System
 
 kFaultSlot = 2500  # the move that start_moving begins is under way then; checked in each test
 kDrive, kNode = 3, 4
@@ -20,7 +22,7 @@ class DrivesThatDoNotBoot(SystemTest):
     def refused_boot(self, kind, number, *words):
         with System(faults=fault(kind, 0)) as system:
             client = system.client()
-            must(client.ask("acquire"))
+            client.call("acquire")
             state = client.until(lambda state: state["state"] == "FAULT")
             self.assertTrue(
                 any(all(word in event["text"] for word in words) for event in state["events"]), brief(state)
@@ -77,7 +79,7 @@ class DrivesThatFailInMotion(SystemTest):
         system, client = self.moving_into("silent")
         self.assert_fault(client.state, 3002, kDrive)
         self.in_fault(client)
-        must(client.ask("state_command", command="clear"))
+        client.call("state_command", command="clear")
         client.until(lambda state: says(state, "faults not cleared, not met: ", "; checked: "))
         client.go_on(1.0)
         self.assertEqual(client.state["state"], "FAULT")
@@ -97,12 +99,12 @@ class DrivesThatFailInMotion(SystemTest):
         self.in_fault(client)
         client.go_on(1.0)
         self.assertEqual(client.state["state"], "FAULT", "nothing clears itself")
-        must(client.ask("state_command", command="clear"))
+        client.call("state_command", command="clear")
         client.until(lambda state: says(state, "faults cleared; checked: "))
         client.until(lambda state: state["state"] == "DISABLED" and not state["faults"])
-        must(client.ask("state_command", command="enable"))
+        client.call("state_command", command="enable")
         client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
-        must(client.ask("state_command", command="disable"))
+        client.call("state_command", command="disable")
         client.until(lambda state: state["state"] == "DISABLED")
         self.ended(system, client)
         self.assertEqual(system.emergencies()[kNode][:2], [0x2310, 0])
@@ -122,9 +124,9 @@ class DrivesThatFailInMotion(SystemTest):
         system, client = self.moving_into("sto")
         self.assert_fault(client.state, 3004, kDrive)
         self.in_fault(client)
-        must(client.ask("state_command", command="clear"))
+        client.call("state_command", command="clear")
         client.until(lambda state: state["state"] == "DISABLED")
-        must(client.ask("state_command", command="enable"))
+        client.call("state_command", command="enable")
         client.until(lambda state: state["state"] == "FAULT")
         self.assert_fault(client.state, 3005, kDrive)
         self.ended(system, client)

@@ -8,11 +8,12 @@ import subprocess
 import sys
 import unittest
 
-from liana_system import SOURCE, System, SystemTest, brief, must, start_run, wait_until
+from support import MISSIONS, PYTHON, SystemTest, start_run
+from liana.client import brief, wait_until
+from liana.system import System
 
-MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
 WATCHER = (
-    "import sys; sys.path.insert(0, sys.argv[1]); from liana_system import Client; c = Client(sys.argv[2], 'watcher',"
+    "import sys; sys.path.insert(0, sys.argv[1]); from liana import Client; c = Client(sys.argv[2], 'watcher',"
     " 'observer')\nwhile True: c.step()"
 )
 
@@ -64,11 +65,11 @@ class ClientsThatDie(SystemTest):
         client.go_on(0.5)
         self.assert_holds(client.state)
         self.assertLess(max(abs(a - b) for a, b in zip(client.state["setpoint_js_deg"], before)), 2.0)
-        must(client.ask("acquire"))
-        must(client.ask("retract", until_tick=0))
+        client.call("acquire")
+        client.call("retract", until_tick=0)
         client.until(lambda state: state["is_busy"] and not state["at_rest"])
         client.until(lambda state: state["at_rest"] and not state["is_busy"])
-        must(client.ask("hold"))
+        client.call("hold")
         self.assertEqual(client.state["faults"], [])
         system.shut_down(client)
         self.assert_stopped(system.truth(), len(system.truth().rows) - 130)
@@ -111,7 +112,7 @@ class ClientsThatDie(SystemTest):
         system, client = self.mission_under_way()
         watchers = []
         for _ in range(2):
-            call = [sys.executable, "-c", WATCHER, str(SOURCE / "tests" / "system"), str(system.api)]
+            call = [sys.executable, "-c", WATCHER, str(PYTHON), str(system.api)]
             watchers.append(subprocess.Popen(call, stderr=subprocess.DEVNULL))
             self.addCleanup(watchers[-1].wait)
             self.addCleanup(watchers[-1].kill)

@@ -8,7 +8,9 @@ import subprocess
 import tempfile
 import unittest
 
-from liana_system import PATIENCE_S, System, SystemTest, must, program
+from support import SystemTest
+from liana.client import PATIENCE_S
+from liana.system import System, program
 
 
 class Latency(unittest.TestCase):
@@ -63,7 +65,7 @@ class VirtualTime(SystemTest):
         with System() as system:
             client = system.client()
             self.assert_refused(client.ask("timing"), "refused", "time mode fast", "real")
-            must(client.ask("acquire"))
+            client.call("acquire")
 
 
 if __name__ == "__main__":

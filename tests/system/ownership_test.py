@@ -8,9 +8,9 @@ import tempfile
 import unittest
 import unittest.mock
 
-from liana_system import PATIENCE_S, System, SystemTest, brief, must, program, run, start_run, wait_until
-
-MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
+from support import MISSIONS, SystemTest, start_run
+from liana.client import PATIENCE_S, brief, wait_until
+from liana.system import System, program, run
 
 
 class OwnershipOfMotion(SystemTest):
@@ -103,10 +103,10 @@ class OwnershipOfMotion(SystemTest):
             client = system.client()
             client.enable()
             client.start_moving()
-            must(client.ask("stop", reason="test"))
+            client.call("stop", reason="test")
             client.until(lambda state: state["state"] == "DISABLED")
             self.assert_refused(client.ask("move_jp", goal_deg=[0] * 10), "not_enabled")
-            must(client.ask("release"))
+            client.call("release")
             second = system.client("second", lockstep=False)
             second.request("acquire")
             client.until(lambda state: state["owner"] == "second")
@@ -133,7 +133,7 @@ class OwnershipOfMotion(SystemTest):
             watcher.until(lambda state: state["at_rest"] and not state["is_busy"])
             self.assert_holds(watcher.state)
             self.assertGreater(abs(watcher.state["setpoint_js_deg"][8] - goal[8]), 1.0, "the move must not go on")
-            must(watcher.ask("acquire"))
+            watcher.call("acquire")
 
     def test_the_command_line_estop_stops_the_arm(self):
         with System() as system:
@@ -182,23 +182,23 @@ class StopsBeforeTheArmIsEnabled(SystemTest):
     def test_after_a_stop_motion_has_to_be_acquired_anew_or_cleared_before_anybody_enables(self):
         with System() as system:
             client = system.client()
-            must(client.ask("acquire"))
-            must(client.ask("stop", reason="look first"))
+            client.call("acquire")
+            client.call("stop", reason="look first")
             client.until(lambda state: state["state"] == "DISABLED" and state["is_homed"])
             self.assert_refused(
                 client.ask("state_command", command="enable"), "refused", "emergency stop by test: look first", "clear"
             )
-            must(client.ask("state_command", command="clear"))
+            client.call("state_command", command="clear")
             client.until(lambda state: state["stop"] is None)
-            must(client.ask("stop"))
-            must(client.ask("acquire"))
+            client.call("stop")
+            client.call("acquire")
             self.assertIsNone(client.step()["stop"])
-            must(client.ask("state_command", command="enable"))
+            client.call("state_command", command="enable")
             client.until(lambda state: state["state"] == "ENABLED")
 
 
 class StopsFromTheCommandLine(SystemTest):
-    """Without --api, `liana status` and `estop` deal with every running system of the user, `clear` with the only one."""
+    """Without --api, `liana status` and `estop` deal with every system of the user, `clear` with the only one."""
 
     def setUp(self):
         self.home = tempfile.mkdtemp(prefix="liana-home-")
@@ -263,7 +263,7 @@ class StopsFromTheCommandLine(SystemTest):
         self.assertIn("'test' owns motion", error)
         self.assertIn("'test' owns motion", refused[0]["said"])
         self.assertEqual((client.state["stop"]["by"], len(client.state["faults"])), ("liana estop", 1))
-        must(client.ask("release"))
+        client.call("release")
         code, cleared, error = self.while_running("clear", [client])
         self.assertEqual((code, error), (0, ""))
         self.assertEqual(
@@ -285,7 +285,7 @@ class StopsFromTheCommandLine(SystemTest):
     def test_a_fault_that_is_still_there_is_not_cleared_and_several_systems_are_not_cleared_at_once(self):
         first, client = self.moving([{"drive": 3, "kind": "silent", "at_slot": 2500}])
         client.until(lambda state: state["state"] == "FAULT")
-        must(client.ask("release"))
+        client.call("release")
         code, cleared, error = self.while_running("clear", [client])
         self.assertEqual((code, cleared[0]["cleared"], cleared[0]["faults"][0]["number"]), (1, False, 3002))
         self.assertIn("faults not cleared, not met: ", error)

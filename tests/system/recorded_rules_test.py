@@ -1,17 +1,14 @@
 """Each safety rule over a recording can fail: good ticks pass it, one thing changed breaks it. Pairs of faults: what
 is expected first.
 """
-import sys
 import unittest
 
-from liana_system import SOURCE
+import support  # noqa: F401
 
-sys.path.insert(0, str(SOURCE / "hil" / "scenarios"))
-
-import campaign  # noqa: E402
-import pairs  # noqa: E402
-import recorded_rules as rules  # noqa: E402
-from recording import Fault, Tick, offsets  # noqa: E402
+import campaign
+import pairs
+import recorded_rules as rules
+from liana.recordings import Fault, Tick, offsets
 
 kEnabled, kSwitchOnDisabled, kInFault = 0x1237, 0x0250, 0x0218
 kLimits = rules.Limits(

@@ -1,15 +1,16 @@
 """What a run leaves behind: repeatable, replayable, readable by others (A36)."""
 import collections
 import json
-import pathlib
 import random
 import shutil
 import subprocess
 import unittest
 
-from liana_system import SystemTest, Truth, run, start_run
+from support import MISSIONS, SystemTest, start_run
+from liana.recordings import Truth
+from liana.system import run
 
-MISSION = pathlib.Path(__file__).resolve().parent / "missions" / "short.lua"
+MISSION = MISSIONS / "short.lua"
 FILES = ("ticks.mcap", "truth.bin", "can0.log", "can1.log")
 
 

@@ -2,7 +2,8 @@
 import math
 import unittest
 
-from liana_system import System, SystemTest, must
+from support import SystemTest
+from liana.system import System
 
 kUpright = [1.0, 0.0, 0.0, 0.0]
 
@@ -192,13 +193,13 @@ class Requests(SystemTest):
         self.assert_refused(self.client.ask("use_device", device="piano"), "bad_request", "piano")
 
     def test_an_observer_that_asks_for_motion_does_not_get_it(self):
-        must(self.client.ask("release"))
+        self.client.call("release")
         number = self.other.request("acquire")
         self.client.go_on(0.1)
         while number not in self.other.answers:
             self.other.next_state()
         self.assert_refused(self.other.answers.pop(number), "not_owner", "observer")
-        must(self.client.ask("acquire"))
+        self.client.call("acquire")
 
 
 class TargetsTheArmCannotFollow(SystemTest):
@@ -215,7 +216,7 @@ class TargetsTheArmCannotFollow(SystemTest):
                 self.assertLessEqual({fault["name"] for fault in client.state["faults"]}, {"cable_slack"})
                 client.ask("hold")
                 client.until(lambda state: state["at_rest"])
-            must(client.ask("state_command", command="disable"))
+            client.call("state_command", command="disable")
             client.until(lambda state: state["state"] in ("DISABLED", "FAULT"))
             client.go_on(3.0)
             system.shut_down(client)
@@ -237,7 +238,7 @@ class Shapes(SystemTest):
             client.enable()
             tip, node = client.state["setpoint_cp"], client.state["node_m"][2]
             target = [node[0], node[1] + 0.1, node[2] + 0.1]
-            must(client.ask("shape", nodes=[{"node": 3, "position_m": target, "threshold_m": 0.0}], search=True))
+            client.call("shape", nodes=[{"node": 3, "position_m": target, "threshold_m": 0.0}], search=True)
             client.go_on(1.0)
             self.assert_refused(client.ask("shape", nodes=[], search=True), "busy", "rest")
             client.until(lambda state: math.dist(state["node_m"][2], target) < 0.005, limit_s=200.0)

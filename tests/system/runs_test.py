@@ -7,9 +7,9 @@ import socket
 import tempfile
 import unittest
 
-from liana_system import SOURCE, SystemTest, Truth, start_run
+from support import MISSIONS, SOURCE, SystemTest, start_run
+from liana.recordings import Truth
 
-MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
 ATTACKS = SOURCE / "tests" / "lua" / "attacks"
 PATIENCE_S = 300
 

@@ -9,16 +9,16 @@ import sys
 import tempfile
 import unittest
 
-from liana_system import SOURCE, Refused
+from support import SCENARIOS, SOURCE
 
-FOLDER = SOURCE / "hil" / "scenarios"
-sys.path.insert(0, str(FOLDER))
-
-import coverage  # noqa: E402
-import predicates  # noqa: E402
-import recorded_rules  # noqa: E402
-import scenario  # noqa: E402
-import wire_checks  # noqa: E402
+import coverage
+import predicates
+import recorded_rules
+import scenario
+import wire_checks
+from liana.system import ProgramRefused, System
+from run_scenario import LimitedRun
+from scenario_file import BadScenario, Failed
 
 kPeriod_s = 0.004
 
@@ -157,7 +157,7 @@ class Files(unittest.TestCase):
         return scenario.Scenario(path)
 
     def refused(self, *words, **changed):
-        with self.assertRaises(scenario.BadScenario) as caught:
+        with self.assertRaises(BadScenario) as caught:
             self.read(**changed)
         for word in words:
             self.assertIn(word, str(caught.exception))
@@ -206,21 +206,21 @@ class Files(unittest.TestCase):
         self.refused("program is missing", host={"action": "kill"}, expect={"outcome": "drives_stop"})
 
     def test_past_its_time_limit_a_scenario_has_failed_and_its_programs_are_dead(self):
-        class Endless(scenario.Run):
+        class Endless(LimitedRun):
             def act(self):
-                with scenario.System() as system, self.limited(system):
+                with System() as system, self.limited(system):
                     self.system = system
                     system.client().until(lambda state: False, 1e9)
 
         run = Endless(self.read(time_limit_s=0.5))
-        with self.assertRaises(scenario.Failed) as caught:
+        with self.assertRaises(Failed) as caught:
             run.go()
         self.assertIn("over its time limit of 0.5 s", str(caught.exception))
         self.assertTrue(all(child.returncode is not None for child in run.system.children.values()))
 
     def test_what_the_bench_refuses_ends_a_scenario_with_its_words(self):
         run = self.read(faults=[{"drive": 3, "kind": "silnt", "at_slot": 1}]).run()
-        with self.assertRaises(Refused) as caught:
+        with self.assertRaises(ProgramRefused) as caught:
             run.go()
         self.assertIn('kind: is "silnt"; allowed are', str(caught.exception))
 
@@ -241,7 +241,7 @@ class Files(unittest.TestCase):
         )
 
     def test_every_folder_of_scenarios_says_what_it_is(self):
-        folders = {FOLDER / one.name.split("/")[0] for one in scenario.all_scenarios()}
+        folders = {SCENARIOS / one.name.split("/")[0] for one in scenario.all_scenarios()}
         self.assertGreaterEqual(len(folders), 5)
         for folder in folders:
             self.assertTrue((folder / "README.md").is_file(), folder)
@@ -253,7 +253,7 @@ class Files(unittest.TestCase):
             (("--fast",), "--fast"),
         ):
             done = subprocess.run(
-                [sys.executable, FOLDER / "run.py", *words], capture_output=True, text=True, check=False
+                [sys.executable, SCENARIOS / "run.py", *words], capture_output=True, text=True, check=False
             )
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(said, done.stderr)
