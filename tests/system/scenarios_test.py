@@ -1,6 +1,8 @@
 """The scenarios of hil/scenarios are judged by rules that can fail: each rule against traffic that breaks it, each
 mistake in a scenario's file refused.
 """
+import ast
+import graphlib
 import json
 import pathlib
 import struct
@@ -21,6 +23,17 @@ from run_scenario import LimitedRun
 from scenario_file import BadScenario, Failed
 
 kPeriod_s = 0.004
+
+
+def imported_by(path):
+    """Modules that a file imports, as paths; of `from package import x` also package/x."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (name.name.replace(".", "/") for name in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            package = node.module.replace(".", "/")
+            yield package
+            yield from (f"{package}/{name.name}" for name in node.names)
 
 
 def traffic(commands=(), reports=()):
@@ -140,6 +153,20 @@ class Wire(unittest.TestCase):
         self.assertIn("line 4", wire_checks.malformed([self.log(good + "(0000000001.003000) can0 604#4018\n")])[0])
         with self.assertRaises(ValueError):
             wire_checks.malformed([self.log("nothing of the kind")])
+
+
+class Modules(unittest.TestCase):
+    def test_scenarios_import_only_each_other_the_client_and_pythons_own_and_never_in_a_circle(self):
+        files = {path.relative_to(SCENARIOS).with_suffix("").as_posix(): path for path in SCENARIOS.rglob("*.py")}
+        graph = {name: set(imported_by(path)) for name, path in files.items()}
+        for name, modules in graph.items():
+            foreign = {module for module in modules - files.keys() if not self.is_allowed(module)}
+            self.assertEqual(foreign, set(), name)
+        graphlib.TopologicalSorter({name: modules & files.keys() for name, modules in graph.items()}).prepare()
+
+    @staticmethod
+    def is_allowed(module):
+        return module.split("/")[0] in ("liana", "can", *sys.stdlib_module_names)
 
 
 class Files(unittest.TestCase):

@@ -79,8 +79,11 @@ class Connection:
         self.check = check
         self.socket = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         self.socket.settimeout(PATIENCE_S)
-        # The path is there a moment before somebody listens.
-        wait_until(lambda: self.socket.connect_ex(os.fspath(path)) == 0, f"{path} to listen", check)
+        try:  # the path is there a moment before somebody listens
+            wait_until(lambda: self.socket.connect_ex(os.fspath(path)) == 0, f"{path} to listen", check)
+        except BaseException:
+            self.close()
+            raise
 
     def send(self, message: Union[bytes, Message]) -> None:
         """One packet: bytes as they are, or an object as JSON."""
@@ -124,11 +127,14 @@ class Client(Connection):
         self.faults_told: set[tuple[int, int, int]] = set()  # (number, index, tick) of every fault in any state
         self.last_id = 0
         hello = {"op": "hello", "name": name, "role": role, "lockstep": lockstep, "subscribe": list(subscribe)}
-        self.send(hello)
-        self.welcome = self.receive()
-        if self.welcome["op"] == "error":
+        try:
+            self.send(hello)
+            self.welcome = self.receive()
+            if self.welcome["op"] == "error":
+                raise RequestRefused("hello", self.welcome)
+        except BaseException:
             self.close()
-            raise RequestRefused("hello", self.welcome)
+            raise
 
     def __enter__(self) -> Client:
         return self
