@@ -39,8 +39,7 @@ class LimitedRun:
             self.act()
         except Exception:
             expect_that(
-                not self.over_time,
-                f"over its time limit of {self.scenario.time_limit_s} s: the programs were killed",
+                not self.over_time, f"over its time limit of {self.scenario.time_limit_s} s: the programs were killed"
             )
             raise
         expect_that(not self.violations, "; ".join(self.violations))
