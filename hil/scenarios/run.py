@@ -82,13 +82,9 @@ def run_one(one):
 
 
 def report(row):
-    print(
-        (
-            f"{'FAILED' if row['outcome'] == 'failed' else row['outcome']}  {row['name']}  [{row['where']}] "
-            f" {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}"
-        ),
-        flush=True,
-    )
+    result = "FAILED" if row["outcome"] == "failed" else row["outcome"]
+    words = (result, row["name"], f"[{row['where']}]", f"{row['seconds']:.1f} s", ", ".join(row["notes"]), row["why"])
+    print("  ".join(words), flush=True)
 
 
 def run_embedded(wanted):
@@ -146,10 +142,8 @@ def main():
         return 2
     except OSError as error:
         print(
-            (
-                f"dev hil: --json: {options.json} cannot be written: {error.strerror}; give a file in a directory that"
-                " exists"
-            ),
+            f"dev hil: --json: {options.json} cannot be written: {error.strerror};"
+            " give a file in a directory that exists",
             file=sys.stderr,
         )
         return 2

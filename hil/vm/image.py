@@ -78,8 +78,7 @@ def kernel_package():
 
 def unpack_kernel(target):
     """Downloads and unpacks the kernel below `target`; nothing is installed and no boot loader is touched."""
-    partial = target.with_name(target.name + ".part")
-    shutil.rmtree(partial, ignore_errors=True)
+    partial = target.with_name(f"{target.name}-{os.getpid()}.part")  # guests start side by side
     partial.mkdir(parents=True)
     run(["apt-get", "download", kernel_package()], cwd=partial)
     package = next(partial.glob("*.deb"))
@@ -87,7 +86,12 @@ def unpack_kernel(target):
     package.unlink()
     release = next((partial / "root/lib/modules").iterdir()).name
     run([find_program("depmod"), "-b", partial / "root", release])
-    partial.rename(target)
+    try:
+        partial.rename(target)
+    except OSError:
+        shutil.rmtree(partial)
+        if not target.exists():  # else another guest was sooner
+            raise
 
 
 def kernel():

@@ -209,11 +209,9 @@ def study(binaries, count):
         for problem in problems(tables, count):
             answer, other = solve(binaries, problem, folder), from_straight(binaries, problem, tables)
             print(
-                (
-                    f"{problem['name']}: {answer['outcome']} ({answer['start']}) {answer['time_s']:.2f} s,"
-                    f" {answer['iterations']} iterations; from the straight line {other['outcome']},"
-                    f" {other['iterations']} iterations {answer.get('reason', '')}"
-                ),
+                f"{problem['name']}: {answer['outcome']} ({answer['start']}) {answer['time_s']:.2f} s,"
+                f" {answer['iterations']} iterations; from the straight line {other['outcome']},"
+                f" {other['iterations']} iterations {answer.get('reason', '')}",
                 file=sys.stderr,
                 flush=True,
             )
