@@ -102,16 +102,17 @@ class Run(LimitedRun):
         boots, scheduled = self.scenario.during == "boot", self.stand.faults_are_scheduled
         if boots and not scheduled:
             return
-        is_ready = lambda state: state["state"] != "BOOTING" and (
-            state["is_homed"] or "refused" in self.expect
-        )  # noqa: E731
-        client.until(lambda state: state["faults"] or is_ready(state), self.stand.reach_s)
+        client.until(lambda state: state["faults"] or self.is_ready(state), self.stand.reach_s)
         if boots:
             return
         self.enable(client)
         expect_that(scheduled or not client.state["faults"], f"the arm could not be enabled: {brief(client.state)}")
         if self.scenario.during == "move" and not client.state["faults"]:
             self.stand.start_move(client)
+
+    def is_ready(self, state):
+        """Booted, and homed where the scenario lets it be."""
+        return state["state"] != "BOOTING" and (state["is_homed"] or "refused" in self.expect)
 
     def enable(self, client):
         expect_that(not client.state["faults"], f"a fault before the arm was enabled: {brief(client.state)}")

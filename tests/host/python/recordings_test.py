@@ -1,4 +1,4 @@
-"""Recordings as the reader has to take them: files written here byte by byte, plain, in chunks, compressed, cut short."""
+"""Recordings as the reader has to take them, written here byte by byte: plain, in chunks, compressed, cut short."""
 import ctypes
 import json
 import pathlib
