@@ -99,7 +99,8 @@ class Connection:
         packet = self.socket.recv(PACKET_BYTES)
         if not packet:
             raise ConnectionClosed("lianad closed the connection")
-        return json.loads(packet)
+        message: Message = json.loads(packet)
+        return message
 
     def close(self) -> None:
         self.socket.close()

@@ -58,7 +58,7 @@ class Fault(NamedTuple):
     """A latched fault; numbers are those of docs/faults.md, `tick` is when it was latched."""
 
     number: int
-    index: int
+    index: int  # type: ignore[assignment]  # of drive or bus; hides the tuple's own index()
     detail: int
     tick: int
 
@@ -97,7 +97,10 @@ def offsets(lines: Iterable[tuple[str, int]]) -> dict[str, list[tuple[int, int]]
     def place(group: list[tuple[list[str], int]], at: int, prefix: str) -> int:
         for head, same in itertools.groupby(group, key=lambda line: line[0][0]):
             fields = list(same)
-            name, counts = FIELD_NAME.match(head).groups()
+            match = FIELD_NAME.match(head)
+            if match is None:
+                raise BadRecording(f"the schema has a field {head}, which is no name")
+            name, counts = match.groups()
             for _ in range(math.prod(map(int, re.findall(r"\d+", counts)))):
                 if len(fields[0][0]) > 1:
                     at = place([(path[1:], width) for path, width in fields], at, f"{prefix}{name}.")
@@ -116,7 +119,8 @@ class Picker:
     def __init__(self, schema: str, wanted: Wanted, sizes: dict[str, int]) -> None:
         lines = [line.rsplit(" ", 1) for line in schema.split("\n") if line]
         places = offsets([(path, int(width)) for path, width in lines])
-        elements = {path: places[path][: sizes.get(size, size)] for path, (_, size) in wanted.items()}
+        many = {path: sizes[size] if isinstance(size, str) else size for path, (_, size) in wanted.items()}
+        elements = {path: places[path][: many[path]] for path in wanted}
         for path, (kind, _) in wanted.items():
             if {width for _, width in elements[path]} != {struct.calcsize(kind)}:
                 raise BadRecording(f"field {path} is not {struct.calcsize(kind)} bytes wide in the recording's schema")
@@ -140,7 +144,8 @@ class Recording(Mcap):
 
     def robot(self) -> dict[str, Any]:
         """The robot table that was recorded with."""
-        return json.loads(self.metadata["run"]["robot"])
+        robot: dict[str, Any] = json.loads(self.metadata["run"]["robot"])
+        return robot
 
     @functools.cached_property
     def ticks(self) -> list[Tick]:
@@ -171,7 +176,7 @@ def tick_of(inputs: list[Any], outputs: list[Any]) -> Tick:
     state, category, at_rest, active, numbers, indices, details, ticks, count, dropped, *commands = outputs
     faults = tuple(itertools.starmap(Fault, zip(numbers[:count], indices, details, ticks)))
     asked = (*inputs[:3], REQUESTS[inputs[3]], *inputs[4:])
-    return Tick(*asked, STATES[state], category, at_rest, active, faults, dropped, *commands)
+    return Tick._make((*asked, STATES[state], category, at_rest, active, faults, dropped, *commands))
 
 
 class Truth:

@@ -159,6 +159,11 @@ class Ticks(Files):
         with self.assertRaisesRegex(BadRecording, "field tick is not 8 bytes"):
             self.recording(changed, outputs).ticks
 
+    def test_a_schema_that_is_none_is_refused(self):
+        inputs, outputs = fields(recordings.INPUTS, {}), fields(recordings.OUTPUTS, {})
+        with self.assertRaisesRegex(BadRecording, "a field , which is no name"):
+            self.recording(("tick..x 8\n", inputs[1]), outputs).ticks
+
     def test_a_run_that_never_ticked_has_no_ticks(self):
         self.assertEqual(Recording(self.file(END)).ticks, [])
 
