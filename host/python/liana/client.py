@@ -19,6 +19,7 @@ Path = Union[str, "os.PathLike[str]"]
 PACKET_BYTES = 1 << 18  # more than lianad ever sends in one packet
 PATIENCE_S = 120.0  # wall clock after which a program counts as hung; nothing is measured by it
 JOINT_OF_TEST_MOVE = 8
+ROUNDING_S = 1e-6  # a sum of times that should be a state's own time may be a little over it
 
 
 class LianaError(Exception):
@@ -181,7 +182,7 @@ class Client(Connection):
 
     def go_on(self, seconds: float) -> Message:
         """Lets so much arm time pass."""
-        end_s = (self.state or self.step())["time_s"] + seconds
+        end_s = (self.state or self.step())["time_s"] + seconds - ROUNDING_S
         return self.until(lambda state: state["time_s"] >= end_s, seconds + 1)
 
     # ---- requests ----

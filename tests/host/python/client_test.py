@@ -116,6 +116,12 @@ class States(unittest.TestCase):
         self.assertIn("somebody", str(caught.exception))
         self.assertEqual(caught.exception.state["tick"], 52)
 
+    def test_going_on_for_some_time_ends_in_the_state_of_that_time_however_the_sum_is_rounded(self):
+        client = self.client([state(tick) for tick in range(1, 400)])
+        for tick in range(2, 300, 7):
+            client.until(lambda now: now["tick"] >= tick)
+            self.assertEqual(client.go_on(0.06)["tick"], tick + 3)
+
     def test_events_and_faults_are_kept_once_though_many_states_tell_them(self):
         event, fault = {"tick": 1, "text": "x"}, {"number": 3002, "index": 3, "tick": 1}
         client = self.client([state(tick, events=[event], faults=[fault]) for tick in (1, 2)] + [state(3)])
