@@ -29,10 +29,12 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
   app.add_option("--scene", paths.scene, "scene JSON")->required();
   app.add_option("--buses", paths.buses, "bus table JSON")->required();
   auto* socket = app.add_option("--bus-socket", paths.bus_socket, "socket of liana-bus");
-  auto* can = app.add_option("--can", paths.can, "SocketCAN interfaces, e.g. vcan0,vcan1; alone: the bus table's names")->expected(0, 1);
+  auto* can = app.add_option("--can", paths.can, "SocketCAN interfaces, e.g. vcan0,vcan1; alone: the bus table's names")
+                  ->expected(0, 1);
   socket->excludes(can);
   app.add_option("--api", options.api_socket, "API socket of lianad, for the tip camera");
-  app.add_option("--arm", options.arm, "arm model: full, or light for slow machines (no inertia, no contact; with --physics ideal only)")
+  app.add_option("--arm", options.arm,
+                 "arm model: full, or light for slow machines (no inertia, no contact; with --physics ideal only)")
       ->capture_default_str();
   app.add_option("--physics", options.physics, "friction: nominal, ideal or worn")->capture_default_str();
   app.add_option("--seed", options.seed, "true parameters, start offset and noise")->capture_default_str();
@@ -40,7 +42,8 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
   app.add_option("--summary", options.summary_path, "write a JSON summary here at the end");
   app.add_option("--faults", paths.faults, "JSON list of faults to inject");
   app.add_option("--start-pose", options.start_pose, "named pose to start from")->capture_default_str();
-  app.add_option("--run-on", options.run_on_s, "seconds that drives and arm go on after the bus has ended, in truth and summary")
+  app.add_option("--run-on", options.run_on_s,
+                 "seconds that drives and arm go on after the bus has ended, in truth and summary")
       ->check(CLI::Range(0.0, 60.0))
       ->capture_default_str();
   app.add_flag("--fixture", options.fixture, "the arm starts exactly in its start pose");
@@ -66,16 +69,17 @@ std::vector<std::size_t> two_drives(const std::string& list, std::size_t count) 
     if (number && std::stoul(part) < count) drives.push_back(std::stoul(part));
   }
   if (parts.size() == 2 && drives.size() == 2 && drives[0] != drives[1]) return drives;
-  throw std::runtime_error("--cross-wired: \"" + list + "\"; allowed are two different drives from 0 to " + std::to_string(count - 1) +
-                           ", e.g. 3,4");
+  throw std::runtime_error("--cross-wired: \"" + list + "\"; allowed are two different drives from 0 to " +
+                           std::to_string(count - 1) + ", e.g. 3,4");
 }
 
 std::unique_ptr<liana::bench::Bus> open_bus(const Paths& paths, const liana::bench::BusesConfig& buses) {
-  if (!paths.bus_socket.empty()) return std::make_unique<liana::bench::EmbeddedBus>(paths.bus_socket, buses.period_us, buses.names.size());
+  if (!paths.bus_socket.empty())
+    return std::make_unique<liana::bench::EmbeddedBus>(paths.bus_socket, buses.period_us, buses.names.size());
   const auto interfaces = paths.can.empty() ? buses.names : split(paths.can);
   if (interfaces.size() != buses.names.size())
-    throw std::runtime_error("--can: " + std::to_string(interfaces.size()) + " interfaces for " + std::to_string(buses.names.size()) +
-                             " buses of the table; name one for each");
+    throw std::runtime_error("--can: " + std::to_string(interfaces.size()) + " interfaces for " +
+                             std::to_string(buses.names.size()) + " buses of the table; name one for each");
   return std::make_unique<liana::bench::SocketCanBus>(interfaces, buses.period_us);
 }
 
@@ -99,7 +103,8 @@ int main(int argc, char** argv) {
     options.scene = liana::bench::load_scene(paths.scene);
     options.buses = liana::bench::load_buses(paths.buses);
     if (!paths.faults.empty())
-      options.faults = liana::bench::load_faults(paths.faults, options.robot.cable_count(), options.robot.theta_count());
+      options.faults =
+          liana::bench::load_faults(paths.faults, options.robot.cable_count(), options.robot.theta_count());
     options.spread = !no_spread;
     if (!paths.cross_wired.empty()) options.cross_wired = two_drives(paths.cross_wired, options.robot.cable_count());
     liana::bench::Bench bench(options);

@@ -9,7 +9,8 @@
 
 namespace liana::bench {
 
-constexpr double kJointStop_Nm_per_rad = 500.0;  // all joints of a segment together; stiff against the cables' 1 to 100 N.m/rad
+constexpr double kJointStop_Nm_per_rad =
+    500.0;  // all joints of a segment together; stiff against the cables' 1 to 100 N.m/rad
 
 // Extremes since the last take_record().
 struct LoadRecord {

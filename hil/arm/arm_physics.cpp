@@ -8,7 +8,8 @@
 
 namespace liana::bench {
 
-ArmPhysics::ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const TrueParameters& truth, const Theta& start_rad)
+ArmPhysics::ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const TrueParameters& truth,
+                       const Theta& start_rad)
     : robot_(robot),
       scene_(scene),
       thetas_(robot.theta_count()),
@@ -19,7 +20,8 @@ ArmPhysics::ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const
   chain_.place(theta_);
   paths_.update(theta_);
   const CableValues tension = balanced_tensions(paths_, thetas_, kStartTensionN, kStartFloorN);
-  for (std::size_t c = 0; c < paths_.cable_count(); ++c) lines_.emplace_back(paths_, c, robot.lead_m, truth.EA_N, truth.mu, tension[c]);
+  for (std::size_t c = 0; c < paths_.cable_count(); ++c)
+    lines_.emplace_back(paths_, c, robot.lead_m, truth.EA_N, truth.mu, tension[c]);
 }
 
 CableValues ArmPhysics::payouts_m() const {
@@ -60,7 +62,8 @@ void ArmPhysics::stop_at_limits(Theta& force, ThetaMatrix& damping, double step_
 void ArmPhysics::touch(double step_s, ContactLoad& load) {
   add_rod(scene_.rod, chain_, thetas_, load);
   if (near_contact_)
-    for (const Contact& contact : chain_.contacts()) add_contact(scene_.contact, chain_, contact, rate_, thetas_, step_s, load);
+    for (const Contact& contact : chain_.contacts())
+      add_contact(scene_.contact, chain_, contact, rate_, thetas_, step_s, load);
   record_.contact_N = std::max(record_.contact_N, load.largest_N);
   record_.rod_N = std::max(record_.rod_N, load.rod_N);
 }
@@ -105,8 +108,8 @@ double ArmPhysics::fastest_joint_m_s() const {
 }
 
 void ArmPhysics::begin_slot(double duration_s) {
-  // Collision detection costs as much as the rest, so it is left out while nothing can touch: three times the present speed and half a
-  // millimetre are far beyond what cables change in one slot.
+  // Collision detection costs as much as the rest, so it is left out while nothing can touch: three times the present
+  // speed and half a millimetre are far beyond what cables change in one slot.
   constexpr double kReserve_m = 0.5e-3;
   const Clearance gap = clearance();
   const double reach = kReserve_m + 3.0 * duration_s * fastest_joint_m_s();

@@ -15,7 +15,8 @@ namespace liana::bench {
 
 class ArmPhysics final : public Arm {
  public:
-  // Arm at rest at `start_rad`, tensions balanced around 30 N with none below 15 N, nothing held by friction. Throws std::runtime_error.
+  // Arm at rest at `start_rad`, tensions balanced around 30 N with none below 15 N, nothing held by friction. Throws
+  // std::runtime_error.
   ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const TrueParameters& truth, const Theta& start_rad);
 
   // Unstretched cable between drum and anchor, as the drums now hold it [m].

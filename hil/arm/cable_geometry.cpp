@@ -11,7 +11,9 @@ double angle_of(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0))
 
 }  // namespace
 
-Bend Bend::of(double pitch_rad, double yaw_rad) { return {std::cos(pitch_rad), std::sin(pitch_rad), std::cos(yaw_rad), std::sin(yaw_rad)}; }
+Bend Bend::of(double pitch_rad, double yaw_rad) {
+  return {std::cos(pitch_rad), std::sin(pitch_rad), std::cos(yaw_rad), std::sin(yaw_rad)};
+}
 
 HoleGap hole_gap(const Bend& bend, double y_m, double z_m, double face_m) {
   // Proximal frame, R = Rz(pitch) Ry(yaw): the near hole is b = (-f, y, z), the far one R a with a = (f, y, z).

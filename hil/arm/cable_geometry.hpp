@@ -1,4 +1,5 @@
-// How long each cable is for given joint angles: straight between the holes of a universal joint, straight inside a link (mission A3).
+// How long each cable is for given joint angles: straight between the holes of a universal joint, straight inside a
+// link (mission A3).
 #pragma once
 
 #include <array>
@@ -19,7 +20,8 @@ struct Bend {
   static Bend of(double pitch_rad, double yaw_rad);
 };
 
-// One cable across one universal joint. Both axis orders (pitch first, yaw first) give the same values, by reflection in the disc plane.
+// One cable across one universal joint. Both axis orders (pitch first, yaw first) give the same values, by reflection
+// in the disc plane.
 struct HoleGap {
   double distance_m = 0.0;
   double d_pitch_m = 0.0;  // d distance / d pitch [m/rad]

@@ -12,7 +12,8 @@ constexpr double kToleranceN = 1e-7;
 
 }  // namespace
 
-CableLine::CableLine(const CablePaths& paths, std::size_t cable, double lead_m, double EA_N, double mu, double tension_N)
+CableLine::CableLine(const CablePaths& paths, std::size_t cable, double lead_m, double EA_N, double mu,
+                     double tension_N)
     : cable_(cable), lumps_(paths.last_segment(cable) + 1), lead_m_(lead_m), EA_N_(EA_N), mu_(mu) {
   lay_out(paths);
   for (std::size_t i = 0; i <= lumps_; ++i) {
@@ -49,7 +50,8 @@ void CableLine::spread_evenly() {
   for (std::size_t i = 0; i <= lumps_; ++i) material_m_[i] = length_m_[i] * scale;
 }
 
-// Moves just enough material through a lump that the larger tension is `ratio` times the smaller; false when the lump held.
+// Moves just enough material through a lump that the larger tension is `ratio` times the smaller; false when the lump
+// held.
 bool CableLine::slip(std::size_t lump) {
   const double near = tension_N_[lump];
   const double far = tension_N_[lump + 1];
@@ -61,7 +63,8 @@ bool CableLine::slip(std::size_t lump) {
   const double stretch_loose = length_m_[loose] - material_m_[loose];
   const double k_tight = EA_N_ / material_m_[tight];
   const double k_loose = EA_N_ / material_m_[loose];
-  const double balanced = (k_tight * stretch_tight - ratio_[lump] * k_loose * stretch_loose) / (k_tight + ratio_[lump] * k_loose);
+  const double balanced =
+      (k_tight * stretch_tight - ratio_[lump] * k_loose * stretch_loose) / (k_tight + ratio_[lump] * k_loose);
   // Never more than makes the tight side slack: material is pulled, not pushed.
   const double moved = std::min(balanced, stretch_tight);
   material_m_[tight] += moved;

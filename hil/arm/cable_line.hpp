@@ -8,9 +8,10 @@
 
 namespace liana::bench {
 
-// The cable is cut into spans at one friction lump in the middle of every segment it passes: span 0 runs from the drum through half of
-// segment 0, span j from the middle of segment j-1 to that of segment j, the last one to the anchor. A lump holds a tension ratio up to
-// exp(mu wrap) and lets material through beyond it (Euler-Eytelwein), so the cable sticks, shows hysteresis and keeps tension gradients.
+// The cable is cut into spans at one friction lump in the middle of every segment it passes: span 0 runs from the drum
+// through half of segment 0, span j from the middle of segment j-1 to that of segment j, the last one to the anchor. A
+// lump holds a tension ratio up to exp(mu wrap) and lets material through beyond it (Euler-Eytelwein), so the cable
+// sticks, shows hysteresis and keeps tension gradients.
 class CableLine {
  public:
   // Lays the cable along the present paths with one tension everywhere and nothing held by friction.
@@ -18,7 +19,8 @@ class CableLine {
 
   // Unstretched material between drum and anchor [m].
   double payout_m() const;
-  // Drum at `payout_m`, arm at the paths: lets material slip until every lump holds. Returns the number of sweeps it took.
+  // Drum at `payout_m`, arm at the paths: lets material slip until every lump holds. Returns the number of sweeps it
+  // took.
   int settle(const CablePaths& paths, double payout_m);
 
   // At the drum, at the emptiest span, and averaged over the two sides of a segment's lump [N].

@@ -22,7 +22,8 @@ struct Chain::Engine {
     char error[500] = "";
     model = mj_loadXML("arm.xml", vfs.get(), error, sizeof error);
     mj_deleteVFS(vfs.get());
-    if (model == nullptr) throw std::runtime_error(std::string("physics: MuJoCo refuses the model of robot and scene: ") + error);
+    if (model == nullptr)
+      throw std::runtime_error(std::string("physics: MuJoCo refuses the model of robot and scene: ") + error);
     data = mj_makeData(model);
     rod_geom = mj_name2id(model, mjOBJ_GEOM, "rod");
   }
@@ -111,7 +112,9 @@ const std::vector<Contact>& Chain::contacts() {
   return contacts_;
 }
 
-Vec3 Chain::joint_center_m(std::size_t link) const { return link < links_ ? at(engine_->data->xpos, link + 1) : tip().position_m; }
+Vec3 Chain::joint_center_m(std::size_t link) const {
+  return link < links_ ? at(engine_->data->xpos, link + 1) : tip().position_m;
+}
 
 Pose Chain::tip() const {
   const mjtNum* q = engine_->data->xquat + 4 * links_;

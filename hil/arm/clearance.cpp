@@ -14,7 +14,8 @@ struct Squared {
   double slope;
 };
 
-Squared squared_distance(const std::array<double, 3>& a, const std::array<double, 3>& d, const std::array<double, 3>& h, double t) {
+Squared squared_distance(const std::array<double, 3>& a, const std::array<double, 3>& d, const std::array<double, 3>& h,
+                         double t) {
   Squared result{0.0, 0.0};
   for (std::size_t k = 0; k < 3; ++k) {
     const double x = a[k] + t * d[k];
@@ -70,11 +71,14 @@ Clearance clearance_of(const Chain& chain, const SceneConfig& scene, double link
   Vec3 a = chain.joint_center_m(0);
   for (std::size_t i = 0; i < chain.link_count(); ++i) {
     const Vec3 b = chain.joint_center_m(i + 1);
-    for (const auto& box : scene.boxes) least.slit_m = std::min(least.slit_m, segment_box_distance_m(a, b, box) - link_radius_m);
+    for (const auto& box : scene.boxes)
+      least.slit_m = std::min(least.slit_m, segment_box_distance_m(a, b, box) - link_radius_m);
     for (const auto& sphere : scene.spheres)
-      least.sphere_m = std::min(least.sphere_m, segment_point_distance_m(a, b, sphere.center_m) - sphere.radius_m - link_radius_m);
+      least.sphere_m =
+          std::min(least.sphere_m, segment_point_distance_m(a, b, sphere.center_m) - sphere.radius_m - link_radius_m);
     if (i + 1 < chain.link_count())
-      least.rod_m = std::min(least.rod_m, segment_point_distance_m(a, b, scene.rod.pose.position_m) - scene.rod.radius_m - link_radius_m);
+      least.rod_m = std::min(
+          least.rod_m, segment_point_distance_m(a, b, scene.rod.pose.position_m) - scene.rod.radius_m - link_radius_m);
     a = b;
   }
   return least;

@@ -29,8 +29,8 @@ Vec3 velocity_of(const PointJacobian& jacobian, const Theta& rate, std::size_t t
 
 }  // namespace
 
-void add_contact(const ContactConfig& law, const Chain& chain, const Contact& contact, const Theta& rate_rad_s, std::size_t thetas,
-                 double step_s, ContactLoad& load) {
+void add_contact(const ContactConfig& law, const Chain& chain, const Contact& contact, const Theta& rate_rad_s,
+                 std::size_t thetas, double step_s, ContactLoad& load) {
   PointJacobian jacobian;
   chain.point_jacobian(contact.link, contact.point_m, jacobian);
   const Vec3 velocity = velocity_of(jacobian, rate_rad_s, thetas);

@@ -16,11 +16,11 @@ struct ContactLoad {
 };
 
 // Adds spring, damper and regularised Coulomb friction of one contact of a link.
-void add_contact(const ContactConfig& law, const Chain& chain, const Contact& contact, const Theta& rate_rad_s, std::size_t thetas,
-                 double step_s, ContactLoad& load);
+void add_contact(const ContactConfig& law, const Chain& chain, const Contact& contact, const Theta& rate_rad_s,
+                 std::size_t thetas, double step_s, ContactLoad& load);
 
-// Force of the rod on the tip point, base frame [N]: stiffness times the depth below the rod's surface measured along the rod's x axis,
-// pushing back along -x, the way the tip came. Zero outside the sphere.
+// Force of the rod on the tip point, base frame [N]: stiffness times the depth below the rod's surface measured along
+// the rod's x axis, pushing back along -x, the way the tip came. Zero outside the sphere.
 Vec3 rod_force_N(const RodConfig& rod, const Vec3& tip_m);
 
 // Adds the rod's push on the tip.

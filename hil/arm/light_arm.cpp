@@ -42,10 +42,12 @@ LightArm::LightArm(const RobotConfig& robot, const TrueParameters& truth, const 
       paths_(robot, truth.hole_radius_m),
       theta_(start_rad),
       tip_(tip_of(robot, start_rad)) {
-  if (truth.mu != 0.0) throw std::runtime_error("--arm light has no friction in its cables; give --physics ideal, or --arm full");
+  if (truth.mu != 0.0)
+    throw std::runtime_error("--arm light has no friction in its cables; give --physics ideal, or --arm full");
   paths_.update(theta_);
   const CableValues tension = balanced_tensions(paths_, thetas_, kStartTensionN, kStartFloorN);
-  for (std::size_t c = 0; c < paths_.cable_count(); ++c) payout_[c] = (paths_.length_m(c) + robot_.lead_m) / (1.0 + tension[c] / EA_N_);
+  for (std::size_t c = 0; c < paths_.cable_count(); ++c)
+    payout_[c] = (paths_.length_m(c) + robot_.lead_m) / (1.0 + tension[c] / EA_N_);
   stretch();
   note_extremes();
 }
@@ -99,7 +101,8 @@ void LightArm::step(double step_s, const CableValues& payout_m) {
   pull(torque, stiffness);
   for (std::size_t a = 0; a < thetas_; ++a) stiffness[a][a] += robot_.viscous_Nms_per_rad / step_s;
   Theta turn{};
-  if (!solve_spd(stiffness, torque, thetas_, turn)) throw std::runtime_error("light arm: no step is possible; the state is broken");
+  if (!solve_spd(stiffness, torque, thetas_, turn))
+    throw std::runtime_error("light arm: no step is possible; the state is broken");
   for (std::size_t a = 0; a < thetas_; ++a) {
     const double limited = std::clamp(turn[a], -kMostTurn_rad, kMostTurn_rad);
     theta_[a] += limited;

@@ -7,12 +7,14 @@
 
 namespace liana::bench {
 
-// The angles follow the drums by c dtheta/dt = -J^T t, c the viscous friction of the joints: they creep to where the cables balance, which
-// is where the full physics without friction comes to rest. Tensions are elongation times stiffness over the exact cable lengths. One
-// implicit Gauss-Newton step per call, about 20,000 instructions with five segments, for slots as long as the bus's.
+// The angles follow the drums by c dtheta/dt = -J^T t, c the viscous friction of the joints: they creep to where the
+// cables balance, which is where the full physics without friction comes to rest. Tensions are elongation times
+// stiffness over the exact cable lengths. One implicit Gauss-Newton step per call, about 20,000 instructions with five
+// segments, for slots as long as the bus's.
 class LightArm final : public Arm {
  public:
-  // As ArmPhysics: at rest at `start_rad`, around 30 N. Throws std::runtime_error for no balance there, or when `truth` has friction.
+  // As ArmPhysics: at rest at `start_rad`, around 30 N. Throws std::runtime_error for no balance there, or when `truth`
+  // has friction.
   LightArm(const RobotConfig& robot, const TrueParameters& truth, const Theta& start_rad);
 
   CableValues payouts_m() const override { return payout_; }
@@ -45,7 +47,8 @@ class LightArm final : public Arm {
   LoadRecord record_;
 };
 
-// Tip of the arm with these angles, base frame: every joint turns pitch first in odd modules and yaw first in even ones.
+// Tip of the arm with these angles, base frame: every joint turns pitch first in odd modules and yaw first in even
+// ones.
 Pose tip_of(const RobotConfig& robot, const Theta& theta_rad);
 
 }  // namespace liana::bench

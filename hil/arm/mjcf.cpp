@@ -13,36 +13,41 @@ std::ostream& operator<<(std::ostream& out, const Vec3& v) { return out << v.x <
 // Collision classes: scene shapes are 1, the rod is 2; links carry 3, the last link 1.
 void write_scene(std::ostream& out, const SceneConfig& scene) {
   for (const auto& box : scene.boxes) {
-    out << "<geom type='box' contype='0' conaffinity='1' pos='" << box.center_m << "' size='" << box.half_extent_m[0] << ' '
-        << box.half_extent_m[1] << ' ' << box.half_extent_m[2] << "' xyaxes='" << box.axis[0] << ' ' << box.axis[1] << "'/>\n";
+    out << "<geom type='box' contype='0' conaffinity='1' pos='" << box.center_m << "' size='" << box.half_extent_m[0]
+        << ' ' << box.half_extent_m[1] << ' ' << box.half_extent_m[2] << "' xyaxes='" << box.axis[0] << ' '
+        << box.axis[1] << "'/>\n";
   }
   for (const auto& sphere : scene.spheres)
-    out << "<geom type='sphere' contype='0' conaffinity='1' pos='" << sphere.center_m << "' size='" << sphere.radius_m << "'/>\n";
-  out << "<geom name='rod' type='sphere' contype='0' conaffinity='2' pos='" << scene.rod.pose.position_m << "' size='" << scene.rod.radius_m
-      << "'/>\n";
+    out << "<geom type='sphere' contype='0' conaffinity='1' pos='" << sphere.center_m << "' size='" << sphere.radius_m
+        << "'/>\n";
+  out << "<geom name='rod' type='sphere' contype='0' conaffinity='2' pos='" << scene.rod.pose.position_m << "' size='"
+      << scene.rod.radius_m << "'/>\n";
 }
 
 void write_sites(std::ostream& out, const RobotConfig& robot, const char* side, int link, double x_m) {
   std::size_t cable = 0;
   for (const auto& segment : robot.segments) {
     for (const double phase : segment.cable_phase_rad) {
-      out << "<site name='" << side << link << '_' << cable++ << "' pos='" << x_m << ' ' << robot.hole_radius_m * std::cos(phase) << ' '
-          << robot.hole_radius_m * std::sin(phase) << "'/>";
+      out << "<site name='" << side << link << '_' << cable++ << "' pos='" << x_m << ' '
+          << robot.hole_radius_m * std::cos(phase) << ' ' << robot.hole_radius_m * std::sin(phase) << "'/>";
     }
   }
   out << '\n';
 }
 
-void write_link(std::ostream& out, const RobotConfig& robot, const SegmentConfig& segment, double offset_m, bool pitch_first, bool last) {
+void write_link(std::ostream& out, const RobotConfig& robot, const SegmentConfig& segment, double offset_m,
+                bool pitch_first, bool last) {
   const double l = segment.module_length_m;
   const double r = robot.module_radius_m;
   const double m = robot.module_mass_kg;
   const double across = m * (3.0 * r * r + l * l) / 12.0;
   const char* axes[2] = {pitch_first ? "0 0 1" : "0 1 0", pitch_first ? "0 1 0" : "0 0 1"};
-  out << "<body pos='" << offset_m << " 0 0'><joint type='hinge' axis='" << axes[0] << "'/><joint type='hinge' axis='" << axes[1] << "'/>"
-      << "<inertial pos='" << 0.5 * l << " 0 0' mass='" << m << "' diaginertia='" << 0.5 * m * r * r << ' ' << across << ' ' << across
-      << "'/>"
-      << "<geom type='capsule' fromto='0 0 0 " << l << " 0 0' size='" << r << "' contype='" << (last ? 1 : 3) << "' conaffinity='0'/>\n";
+  out << "<body pos='" << offset_m << " 0 0'><joint type='hinge' axis='" << axes[0] << "'/><joint type='hinge' axis='"
+      << axes[1] << "'/>"
+      << "<inertial pos='" << 0.5 * l << " 0 0' mass='" << m << "' diaginertia='" << 0.5 * m * r * r << ' ' << across
+      << ' ' << across << "'/>"
+      << "<geom type='capsule' fromto='0 0 0 " << l << " 0 0' size='" << r << "' contype='" << (last ? 1 : 3)
+      << "' conaffinity='0'/>\n";
 }
 
 void write_tendons(std::ostream& out, const RobotConfig& robot) {
@@ -53,7 +58,8 @@ void write_tendons(std::ostream& out, const RobotConfig& robot) {
     links += segment.modules;
     for (std::size_t c = 0; c < segment.cable_phase_rad.size(); ++c, ++cable) {
       out << "<spatial>";
-      for (int i = 0; i < links; ++i) out << "<site site='n" << i << '_' << cable << "'/><site site='f" << i << '_' << cable << "'/>";
+      for (int i = 0; i < links; ++i)
+        out << "<site site='n" << i << '_' << cable << "'/><site site='f" << i << '_' << cable << "'/>";
       out << "</spatial>\n";
     }
   }
@@ -65,7 +71,8 @@ void write_tendons(std::ostream& out, const RobotConfig& robot) {
 std::string make_mjcf(const RobotConfig& robot, const SceneConfig& scene, bool with_tendons) {
   std::ostringstream out;
   out << std::setprecision(17);
-  out << "<mujoco><compiler angle='radian' autolimits='true'/><size nconmax='2000' njmax='1'/><option gravity='0 0 0'/><worldbody>\n";
+  out << "<mujoco><compiler angle='radian' autolimits='true'/><size nconmax='2000' njmax='1'/><option gravity='0 0 "
+         "0'/><worldbody>\n";
   write_scene(out, scene);
   double offset_m = 0.0;
   int link = 0;

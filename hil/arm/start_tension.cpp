@@ -34,12 +34,14 @@ CableValues balanced_tensions(const CablePaths& paths, std::size_t theta_count, 
   std::fill_n(tension.begin(), cables, wanted_N);
   project(jacobian, cables, theta_count, tension);
   for (int round = 0; round < kMaxRounds; ++round) {
-    if (*std::min_element(tension.begin(), tension.begin() + static_cast<std::ptrdiff_t>(cables)) >= floor_N) return tension;
+    if (*std::min_element(tension.begin(), tension.begin() + static_cast<std::ptrdiff_t>(cables)) >= floor_N)
+      return tension;
     // A little above the floor, so that the rounds end.
     for (std::size_t c = 0; c < cables; ++c) tension[c] = std::max(tension[c], 1.05 * floor_N);
     project(jacobian, cables, theta_count, tension);
   }
-  throw std::runtime_error("physics: no balanced tensions above the floor at the start pose; choose another start pose");
+  throw std::runtime_error(
+      "physics: no balanced tensions above the floor at the start pose; choose another start pose");
 }
 
 }  // namespace liana::bench

@@ -8,8 +8,8 @@ namespace liana::bench {
 constexpr double kStartTensionN = 30.0;
 constexpr double kStartFloorN = 15.0;
 
-// Nearest balanced tensions to `wanted_N` everywhere with none below `floor_N` (alternating projections on the null space of the
-// transposed cable Jacobian and the floor). Throws std::runtime_error when there are none.
+// Nearest balanced tensions to `wanted_N` everywhere with none below `floor_N` (alternating projections on the null
+// space of the transposed cable Jacobian and the floor). Throws std::runtime_error when there are none.
 CableValues balanced_tensions(const CablePaths& paths, std::size_t theta_count, double wanted_N, double floor_N);
 
 }  // namespace liana::bench

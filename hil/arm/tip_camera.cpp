@@ -22,9 +22,12 @@ TipCamera::TipCamera(const CameraConfig& config, const std::optional<Pose>& slit
 
 std::optional<Pose> TipCamera::see(const Pose& tip, const Pose& target) {
   Pose seen = relative(tip, target);
-  // Noise is drawn whether the target is in range or not, so that the stream depends on the seed and the picture number only.
-  const Vec3 shift{noise_.gaussian(config_.noise_m), noise_.gaussian(config_.noise_m), noise_.gaussian(config_.noise_m)};
-  const Vec3 turn{noise_.gaussian(config_.noise_rad), noise_.gaussian(config_.noise_rad), noise_.gaussian(config_.noise_rad)};
+  // Noise is drawn whether the target is in range or not, so that the stream depends on the seed and the picture number
+  // only.
+  const Vec3 shift{noise_.gaussian(config_.noise_m), noise_.gaussian(config_.noise_m),
+                   noise_.gaussian(config_.noise_m)};
+  const Vec3 turn{noise_.gaussian(config_.noise_rad), noise_.gaussian(config_.noise_rad),
+                  noise_.gaussian(config_.noise_rad)};
   if (norm(seen.position_m) > config_.range_m) return std::nullopt;
   seen.position_m = seen.position_m + shift;
   seen.attitude = seen.attitude * from_rotation_vector(turn);
@@ -42,15 +45,18 @@ void TipCamera::look(double now_s, const Pose& tip) {
 }
 
 std::optional<CameraView> TipCamera::deliver(double now_s) {
-  if (pending_.empty() || now_s + kTimeTolerance_s < pending_.front().capture_time_s + config_.latency_s) return std::nullopt;
+  if (pending_.empty() || now_s + kTimeTolerance_s < pending_.front().capture_time_s + config_.latency_s)
+    return std::nullopt;
   const CameraView view = pending_.front();
   pending_.pop_front();
   return view;
 }
 
 std::string camera_message(const CameraView& view) {
-  const nlohmann::json message{
-      {"op", "camera"}, {"capture_time_s", view.capture_time_s}, {"slit", pose_json(view.slit)}, {"rod", pose_json(view.rod)}};
+  const nlohmann::json message{{"op", "camera"},
+                               {"capture_time_s", view.capture_time_s},
+                               {"slit", pose_json(view.slit)},
+                               {"rod", pose_json(view.rod)}};
   return message.dump();
 }
 

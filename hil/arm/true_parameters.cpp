@@ -52,7 +52,8 @@ Theta start_pose(const RobotConfig& robot, const std::string& name, double sprea
                              names_of(robot.named_poses_rad));
   Random offsets(seed, "start pose");
   Theta theta{};
-  for (std::size_t i = 0; i < robot.theta_count(); ++i) theta[i] = pose->second[i] + offsets.uniform(-spread_rad, spread_rad);
+  for (std::size_t i = 0; i < robot.theta_count(); ++i)
+    theta[i] = pose->second[i] + offsets.uniform(-spread_rad, spread_rad);
   return theta;
 }
 

@@ -23,10 +23,11 @@ TrueParameters parameters_of(const BenchOptions& options) {
 }
 
 std::unique_ptr<Arm> make_arm(const BenchOptions& options, const TrueParameters& truth) {
-  const Theta start =
-      start_pose(options.robot, options.start_pose, options.spread && !options.fixture ? kStartSpread_rad : 0.0, options.seed);
+  const Theta start = start_pose(options.robot, options.start_pose,
+                                 options.spread && !options.fixture ? kStartSpread_rad : 0.0, options.seed);
   if (options.arm == "light") return std::make_unique<LightArm>(options.robot, truth, start);
-  if (options.arm != "full") throw std::runtime_error("--arm: \"" + options.arm + "\" is no arm model; allowed are full, light");
+  if (options.arm != "full")
+    throw std::runtime_error("--arm: \"" + options.arm + "\" is no arm model; allowed are full, light");
   auto arm = std::make_unique<ArmPhysics>(options.robot, options.scene, truth, start);
   arm->set_state(start, Theta{});  // the extremes of slot 0 are those of the laid-out cables
   return arm;
@@ -38,7 +39,8 @@ Bench::Bench(const BenchOptions& options)
     : options_(options),
       truth_(parameters_of(options)),
       arm_(make_arm(options, truth_)),
-      drives_(options.robot, options.buses, truth_, arm_->payouts_m(), options.spread, options.seed, options.cross_wired),
+      drives_(options.robot, options.buses, truth_, arm_->payouts_m(), options.spread, options.seed,
+              options.cross_wired),
       injector_(options.faults),
       camera_(options.scene.camera, options.scene.slit_frame, options.scene.rod.pose, options.seed),
       link_(options.api_socket),
@@ -73,8 +75,9 @@ void Bench::record(std::uint32_t slot) {
   const Vec3& p = tip.position_m;
   const Quat& q = tip.attitude;
   for (const double value :
-       {p.x, p.y, p.z, q.w, q.x, q.y, q.z, std::min(gap.slit_m, gap.sphere_m), gap.slit_m, gap.sphere_m, loads.contact_N, loads.rod_N,
-        loads.least_tension_N, loads.least_motor_tension_N, loads.most_motor_tension_N, static_cast<double>(drives_.enabled())})
+       {p.x, p.y, p.z, q.w, q.x, q.y, q.z, std::min(gap.slit_m, gap.sphere_m), gap.slit_m, gap.sphere_m,
+        loads.contact_N, loads.rod_N, loads.least_tension_N, loads.least_motor_tension_N, loads.most_motor_tension_N,
+        static_cast<double>(drives_.enabled())})
     row.push_back(value);
   log_.write(row);
 }
@@ -100,8 +103,8 @@ void Bench::catch_up(std::uint32_t slots, double period_s) {
   }
 }
 
-// Real time: a SYNC on every bus ends a slot; one that is missing on a bus ends it with the next SYNC of the others. Without any SYNC
-// slots go on by the clock, one per wake-up: a bench that was stopped makes up for nothing.
+// Real time: a SYNC on every bus ends a slot; one that is missing on a bus ends it with the next SYNC of the others.
+// Without any SYNC slots go on by the clock, one per wake-up: a bench that was stopped makes up for nothing.
 std::uint32_t Bench::count_syncs(const FrameList& frames, std::uint64_t now_us, std::uint32_t period_us) {
   const std::vector<std::uint32_t> before = syncs_;
   for (const CanFrame& frame : frames)
@@ -129,7 +132,8 @@ void Bench::run(Bus& bus) {
     // lianad has said HELLO by now, so its API listens; later this is tried only when a picture is due.
     if (first) link_.connect(2000);
     first = false;
-    wake.frames.erase(std::remove_if(wake.frames.begin(), wake.frames.end(), [&](const CanFrame& f) { return f.bus >= received_.size(); }),
+    wake.frames.erase(std::remove_if(wake.frames.begin(), wake.frames.end(),
+                                     [&](const CanFrame& f) { return f.bus >= received_.size(); }),
                       wake.frames.end());
     for (const CanFrame& frame : wake.frames) ++received_[frame.bus];
     const std::uint32_t slot = bus.lockstep() ? wake.slot : integrated_;
@@ -181,7 +185,8 @@ void Bench::write_summary(const Bus& bus) const {
   for (std::size_t i = 0; i < injector_.faults().size(); ++i) {
     const auto& [begun, ended] = injector_.courses()[i];
     const FaultConfig& fault = injector_.faults()[i];
-    faults.push_back({{"kind", fault.name}, {"drives", fault.drives}, {"begun_slot", nullptr}, {"ended_slot", nullptr}});
+    faults.push_back(
+        {{"kind", fault.name}, {"drives", fault.drives}, {"begun_slot", nullptr}, {"ended_slot", nullptr}});
     if (begun) faults.back()["begun_slot"] = *begun;
     if (ended) faults.back()["ended_slot"] = *ended;
   }

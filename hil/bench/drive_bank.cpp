@@ -26,8 +26,9 @@ DriveSettings settings_of(const RobotConfig& robot, const BusesConfig& buses, st
 
 }  // namespace
 
-DriveBank::DriveBank(const RobotConfig& robot, const BusesConfig& buses, const TrueParameters& truth, const CableValues& payout_m,
-                     bool noisy, std::uint64_t seed, const std::vector<std::size_t>& cross_wired)
+DriveBank::DriveBank(const RobotConfig& robot, const BusesConfig& buses, const TrueParameters& truth,
+                     const CableValues& payout_m, bool noisy, std::uint64_t seed,
+                     const std::vector<std::size_t>& cross_wired)
     : robot_(robot),
       truth_(truth),
       creep_(robot.cable_count()),
@@ -36,7 +37,8 @@ DriveBank::DriveBank(const RobotConfig& robot, const BusesConfig& buses, const T
       torque_noise_(seed, "torque noise"),
       fault_noise_(seed, "fault noise") {
   for (std::size_t m = 0; m < robot.segments.size(); ++m)
-    for (std::size_t c = 0; c < robot.segments[m].cable_phase_rad.size(); ++c) path_at_zero_m_.push_back(robot.path_at_zero_m(m));
+    for (std::size_t c = 0; c < robot.segments[m].cable_phase_rad.size(); ++c)
+      path_at_zero_m_.push_back(robot.path_at_zero_m(m));
   for (std::size_t i = 0; i < robot.cable_count(); ++i) cable_of_.push_back(i);
   if (cross_wired.size() == 2) std::swap(cable_of_[cross_wired[0]], cable_of_[cross_wired[1]]);
   for (std::size_t i = 0; i < robot.cable_count(); ++i) {

@@ -16,8 +16,9 @@ namespace liana::bench {
 class DriveBank {
  public:
   // Drums hold `payout_m`; brakes on. `cross_wired`: empty, or two drives that have each other's cable.
-  DriveBank(const RobotConfig& robot, const BusesConfig& buses, const TrueParameters& truth, const CableValues& payout_m, bool noisy,
-            std::uint64_t seed, const std::vector<std::size_t>& cross_wired = {});
+  DriveBank(const RobotConfig& robot, const BusesConfig& buses, const TrueParameters& truth,
+            const CableValues& payout_m, bool noisy, std::uint64_t seed,
+            const std::vector<std::size_t>& cross_wired = {});
 
   // Gives the frames to the drives on their buses, then runs all timers.
   void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out);

@@ -11,7 +11,8 @@ namespace {
 bool holds(const FaultCondition& when, const Theta& theta_rad, const Theta& rate_rad_s, const DriveBank& drives) {
   if (when.theta && (theta_rad[*when.theta] < when.above_rad || theta_rad[*when.theta] > when.below_rad)) return false;
   if (when.enabled && drives.enabled() != drives.size()) return false;
-  return !when.moving || std::any_of(rate_rad_s.begin(), rate_rad_s.end(), [](double rate) { return std::fabs(rate) > kMoving_rad_s; });
+  return !when.moving ||
+         std::any_of(rate_rad_s.begin(), rate_rad_s.end(), [](double rate) { return std::fabs(rate) > kMoving_rad_s; });
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ class FaultInjector {
   const std::vector<Course>& courses() const { return courses_; }
 
  private:
-  bool is_due(std::size_t fault, std::uint32_t slot, const Theta& theta_rad, const Theta& rate_rad_s, const DriveBank& drives);
+  bool is_due(std::size_t fault, std::uint32_t slot, const Theta& theta_rad, const Theta& rate_rad_s,
+              const DriveBank& drives);
 
   std::vector<FaultConfig> faults_;
   std::vector<Course> courses_;

@@ -14,15 +14,18 @@ namespace liana::bench {
 
 EmbeddedBus::EmbeddedBus(const std::string& socket_path, std::uint32_t period_us, std::size_t bus_count)
     : socket_(connect_local(socket_path, 10000)) {
-  if (!socket_.open()) throw std::runtime_error("embedded bus: nobody listens on " + socket_path + " (10 s); start liana-bus first");
+  if (!socket_.open())
+    throw std::runtime_error("embedded bus: nobody listens on " + socket_path + " (10 s); start liana-bus first");
   write(make_hello("liana-bench"));
   Packet packet;
-  if (!read(packet, -1)) throw std::runtime_error("embedded bus: " + socket_path + " closed before WELCOME; see the bus's own message");
+  if (!read(packet, -1))
+    throw std::runtime_error("embedded bus: " + socket_path + " closed before WELCOME; see the bus's own message");
   welcome_ = read_welcome(packet);
   if (welcome_.period_us != period_us || welcome_.bus_names.size() != bus_count)
     throw std::runtime_error("embedded bus: runs " + std::to_string(welcome_.bus_names.size()) + " buses at " +
-                             std::to_string(welcome_.period_us) + " us, the bus table says " + std::to_string(bus_count) + " at " +
-                             std::to_string(period_us) + "; give both the same table");
+                             std::to_string(welcome_.period_us) + " us, the bus table says " +
+                             std::to_string(bus_count) + " at " + std::to_string(period_us) +
+                             "; give both the same table");
 }
 
 bool EmbeddedBus::read(Packet& packet, int timeout_ms) {
@@ -74,7 +77,8 @@ void EmbeddedBus::send(const FrameList& frames) {
   // Without SYNC the bench still runs: at the end of the slot after the present one.
   const std::uint64_t until_us = (static_cast<std::uint64_t>(slot_) + 2) * period_us();
   if (frames.size() > kMaxPacketFrames)
-    throw std::runtime_error("embedded bus: " + std::to_string(frames.size()) + " frames in one YIELD, allowed are 256");
+    throw std::runtime_error("embedded bus: " + std::to_string(frames.size()) +
+                             " frames in one YIELD, allowed are 256");
   write(make_yield(true, until_us, frames));
 }
 

@@ -11,8 +11,8 @@ namespace liana::bench {
 
 class EmbeddedBus final : public Bus {
  public:
-  // Connects (waiting up to 10 s for the bus to appear) and says HELLO; throws std::runtime_error when that fails or when the bus has
-  // another period or number of buses than the table.
+  // Connects (waiting up to 10 s for the bus to appear) and says HELLO; throws std::runtime_error when that fails or
+  // when the bus has another period or number of buses than the table.
   EmbeddedBus(const std::string& socket_path, std::uint32_t period_us, std::size_t bus_count);
 
   bool wait(Wake& wake) override;

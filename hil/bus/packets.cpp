@@ -22,8 +22,8 @@ void check(const Packet& packet, std::uint8_t type, std::size_t least_bytes) {
   if (!packet.empty() && packet[0] == kError)
     throw std::runtime_error("embedded bus: refused: " + std::string(packet.begin() + 1, packet.end()));
   if (packet.size() < least_bytes || packet[0] != type)
-    throw std::runtime_error("embedded bus: packet of " + std::to_string(packet.size()) + " bytes is not of type " + std::to_string(type) +
-                             "; bus and bench must come from one build");
+    throw std::runtime_error("embedded bus: packet of " + std::to_string(packet.size()) + " bytes is not of type " +
+                             std::to_string(type) + "; bus and bench must come from one build");
 }
 
 std::string fixed_text(const std::uint8_t* from, std::size_t size) {

@@ -20,8 +20,8 @@ class Socket {
   int descriptor_;
 };
 
-// Connects to an AF_UNIX SOCK_SEQPACKET socket, trying again for up to `patience_ms`; not open() when nobody listens by then.
-// Throws std::runtime_error when the path is too long.
+// Connects to an AF_UNIX SOCK_SEQPACKET socket, trying again for up to `patience_ms`; not open() when nobody listens by
+// then. Throws std::runtime_error when the path is too long.
 Socket connect_local(const std::string& path, int patience_ms);
 
 // Asks all loops to end; set by SIGINT and SIGTERM after end_on_signals().

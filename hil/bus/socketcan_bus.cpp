@@ -46,7 +46,8 @@ bool SocketCanBus::wait(Wake& wake) {
   wake.frames.clear();
   std::vector<pollfd> ready;
   for (const auto& socket : sockets_) ready.push_back({socket.descriptor(), POLLIN, 0});
-  if (::poll(ready.data(), ready.size(), std::max(1, static_cast<int>(period_us_ / 1000))) < 0 && errno != EINTR) return false;
+  if (::poll(ready.data(), ready.size(), std::max(1, static_cast<int>(period_us_ / 1000))) < 0 && errno != EINTR)
+    return false;
   if (end_requested()) return false;
   wake.now_us = wall_clock_us() - start_us_;
   for (std::size_t b = 0; b < sockets_.size(); ++b) {

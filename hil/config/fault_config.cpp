@@ -38,7 +38,10 @@ const std::vector<Kind>& kinds() {
       {"slack", FaultKind::kSlack, true, {}},
       {"late", FaultKind::kLate, true, {{"cycles", &P::cycles, 1, 100, true, false}}},
       {"stuck", FaultKind::kStuck, true, {}},
-      {"noisy", FaultKind::kNoisy, true, {{"counts", &P::counts, 0, 1e6, false, false}, {"permille", &P::permille, 0, 1e4, false, false}}},
+      {"noisy",
+       FaultKind::kNoisy,
+       true,
+       {{"counts", &P::counts, 0, 1e6, false, false}, {"permille", &P::permille, 0, 1e4, false, false}}},
       {"wrong_pdo_length", FaultKind::kWrongPdoLength, true, {{"bytes", &P::bytes, 0, 8, true, false}}},
       {"emcy", FaultKind::kEmcy, false, {{"code", &P::code, 1, 0xFFFF, true, true}}},
       {"reboot", FaultKind::kReboot, false, {}},
@@ -79,7 +82,8 @@ std::vector<std::size_t> read_drives(const JsonFile& file, const std::string& fi
   const int last = static_cast<int>(count) - 1;
   std::vector<std::size_t> drives;
   if (file.is_text(field)) {
-    if (file.text(field) != "all") file.fail(field, "is \"" + file.text(field) + "\"; allowed are an index, a list of them, or \"all\"");
+    if (file.text(field) != "all")
+      file.fail(field, "is \"" + file.text(field) + "\"; allowed are an index, a list of them, or \"all\"");
     for (std::size_t i = 0; i < count; ++i) drives.push_back(i);
     return drives;
   }
@@ -89,7 +93,8 @@ std::vector<std::size_t> read_drives(const JsonFile& file, const std::string& fi
   if (drives.empty()) file.fail(field, "is an empty list; name at least one drive");
   std::vector<std::size_t> sorted = drives;
   std::sort(sorted.begin(), sorted.end());
-  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end()) file.fail(field, "names a drive twice; name each once");
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    file.fail(field, "names a drive twice; name each once");
   return drives;
 }
 
@@ -106,7 +111,8 @@ FaultCondition read_condition(const JsonFile& file, const std::string& field, st
     when.theta = static_cast<std::size_t>(file.integer(field + "/theta", 1, static_cast<int>(theta_count)) - 1);
     if (!above && !below) file.fail(field, "names theta, but neither above_deg nor below_deg; add one");
   } else if (above || below) {
-    file.fail(field + "/theta", "is missing beside above_deg or below_deg; allowed is 1 to " + std::to_string(theta_count));
+    file.fail(field + "/theta",
+              "is missing beside above_deg or below_deg; allowed is 1 to " + std::to_string(theta_count));
   }
   if (above) when.above_rad = kRadPerDeg * file.number(field + "/above_deg", -180.0, 180.0);
   if (below) when.below_rad = kRadPerDeg * file.number(field + "/below_deg", -180.0, 180.0);
@@ -115,7 +121,8 @@ FaultCondition read_condition(const JsonFile& file, const std::string& field, st
     if (!file.is_true(field + name)) file.fail(field + name, "can only be true; leave it out instead");
     *flag = true;
   }
-  if (!when.theta && !when.enabled && !when.moving) file.fail(field, "names no condition; add theta, enabled or moving");
+  if (!when.theta && !when.enabled && !when.moving)
+    file.fail(field, "names no condition; add theta, enabled or moving");
   if (file.has(field + "/for_slots")) when.for_slots = read_slots(file, field + "/for_slots", 1);
   return when;
 }
@@ -125,16 +132,19 @@ FaultParameters read_parameters(const JsonFile& file, const std::string& field, 
   for (const Parameter& parameter : kind.parameters) {
     const std::string name = field + "/" + parameter.name;
     if (!parameter.required && !file.has(name)) continue;
-    values.*parameter.value = parameter.whole ? file.integer(name, static_cast<int>(parameter.low), static_cast<int>(parameter.high))
-                                              : file.number(name, parameter.low, parameter.high);
+    values.*parameter.value =
+        parameter.whole ? file.integer(name, static_cast<int>(parameter.low), static_cast<int>(parameter.high))
+                        : file.number(name, parameter.low, parameter.high);
   }
   if (kind.kind == FaultKind::kNoisy && values.counts == 0.0 && values.permille == 0.0)
     file.fail(field, "is noisy by nothing; add counts or permille above 0");
-  if (kind.kind == FaultKind::kCableSlip && values.length_m == 0.0) file.fail(field + "/length_m", "is 0; allowed is -0.1 to 0.1 but 0");
+  if (kind.kind == FaultKind::kCableSlip && values.length_m == 0.0)
+    file.fail(field + "/length_m", "is 0; allowed is -0.1 to 0.1 but 0");
   return values;
 }
 
-FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size_t drive_count, std::size_t theta_count) {
+FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size_t drive_count,
+                       std::size_t theta_count) {
   const Kind& kind = read_kind(file, field + "/kind");
   std::vector<std::string> allowed{"drive", "kind", "at_slot", "when"};
   if (kind.can_end) allowed.emplace_back("for_slots");
@@ -145,7 +155,8 @@ FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size
   fault.drives = read_drives(file, field + "/drive", drive_count);
   fault.kind = kind.kind;
   fault.name = kind.name;
-  if (file.has(field + "/at_slot") == file.has(field + "/when")) file.fail(field, "needs exactly one of at_slot and when");
+  if (file.has(field + "/at_slot") == file.has(field + "/when"))
+    file.fail(field, "needs exactly one of at_slot and when");
   if (file.has(field + "/at_slot")) fault.at_slot = read_slots(file, field + "/at_slot", 0);
   if (file.has(field + "/when")) fault.when = read_condition(file, field + "/when", theta_count);
   if (file.has(field + "/for_slots")) fault.for_slots = read_slots(file, field + "/for_slots", 1);
@@ -158,7 +169,8 @@ FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size
 std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count, std::size_t theta_count) {
   const JsonFile file(path, "");
   std::vector<FaultConfig> faults;
-  for (std::size_t i = 0; i < file.size(""); ++i) faults.push_back(read_fault(file, "/" + std::to_string(i), drive_count, theta_count));
+  for (std::size_t i = 0; i < file.size(""); ++i)
+    faults.push_back(read_fault(file, "/" + std::to_string(i), drive_count, theta_count));
   return faults;
 }
 

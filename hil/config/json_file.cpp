@@ -20,11 +20,14 @@ struct JsonFile::Document {
 
 namespace {
 
-std::string range_text(double low, double high) { return "allowed is " + json(low).dump() + " to " + json(high).dump(); }
+std::string range_text(double low, double high) {
+  return "allowed is " + json(low).dump() + " to " + json(high).dump();
+}
 
 }  // namespace
 
-JsonFile::JsonFile(std::string path, const std::string& kind) : path_(std::move(path)), document_(std::make_unique<Document>()) {
+JsonFile::JsonFile(std::string path, const std::string& kind)
+    : path_(std::move(path)), document_(std::make_unique<Document>()) {
   std::ifstream stream(path_);
   if (!stream) throw std::runtime_error(path_ + ": cannot be opened; check the path");
   try {
@@ -33,26 +36,31 @@ JsonFile::JsonFile(std::string path, const std::string& kind) : path_(std::move(
     throw std::runtime_error(path_ + ": is not JSON: " + error.what() + "; write it with `liana-mission eval`");
   }
   if (kind.empty()) return;
-  if (text("/kind") != kind) fail("/kind", "is \"" + text("/kind") + "\", expected \"" + kind + "\"; pass the right file");
+  if (text("/kind") != kind)
+    fail("/kind", "is \"" + text("/kind") + "\", expected \"" + kind + "\"; pass the right file");
   integer("/format", 1, 1);
 }
 
 JsonFile::~JsonFile() = default;
 
-void JsonFile::fail(const std::string& field, const std::string& why) const { throw std::runtime_error(path_ + ": " + field + ": " + why); }
+void JsonFile::fail(const std::string& field, const std::string& why) const {
+  throw std::runtime_error(path_ + ": " + field + ": " + why);
+}
 
 double JsonFile::number(const std::string& field, double low, double high) const {
   const json* value = document_->find(field);
   if (value == nullptr) fail(field, "is missing; " + range_text(low, high) + "; add it");
   if (!value->is_number()) fail(field, "is " + value->dump() + ", not a number; " + range_text(low, high));
   const double number = value->get<double>();
-  if (!(number >= low && number <= high)) fail(field, "is " + value->dump() + "; " + range_text(low, high) + "; correct it");
+  if (!(number >= low && number <= high))
+    fail(field, "is " + value->dump() + "; " + range_text(low, high) + "; correct it");
   return number;
 }
 
 int JsonFile::integer(const std::string& field, int low, int high) const {
   const double value = number(field, low, high);
-  if (value != std::floor(value)) fail(field, "is " + json(value).dump() + ", not a whole number; " + range_text(low, high));
+  if (value != std::floor(value))
+    fail(field, "is " + json(value).dump() + ", not a whole number; " + range_text(low, high));
   return static_cast<int>(value);
 }
 
@@ -63,7 +71,8 @@ std::string JsonFile::text(const std::string& field) const {
 }
 
 std::vector<double> JsonFile::numbers(const std::string& field, std::size_t count, double low, double high) const {
-  if (size(field) != count) fail(field, "has " + std::to_string(size(field)) + " entries, expected " + std::to_string(count));
+  if (size(field) != count)
+    fail(field, "has " + std::to_string(size(field)) + " entries, expected " + std::to_string(count));
   std::vector<double> values;
   for (std::size_t i = 0; i < count; ++i) values.push_back(number(field + "/" + std::to_string(i), low, high));
   return values;
@@ -77,7 +86,8 @@ Vec3 JsonFile::vector(const std::string& field) const {
 Pose JsonFile::pose(const std::string& field) const {
   const auto q = numbers(field + "/quaternion_wxyz", 4, -1.0, 1.0);
   const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-  if (std::fabs(length - 1.0) > 1e-6) fail(field + "/quaternion_wxyz", "has length " + std::to_string(length) + ", allowed is 1 +- 1e-6");
+  if (std::fabs(length - 1.0) > 1e-6)
+    fail(field + "/quaternion_wxyz", "has length " + std::to_string(length) + ", allowed is 1 +- 1e-6");
   return {vector(field + "/position_m"), {q[0] / length, q[1] / length, q[2] / length, q[3] / length}};
 }
 

@@ -12,14 +12,15 @@ namespace liana::bench {
 
 class JsonFile {
  public:
-  // Reads and parses; throws std::runtime_error when the file cannot be read, is no JSON, or its "kind" is not `kind` (empty: not asked).
+  // Reads and parses; throws std::runtime_error when the file cannot be read, is no JSON, or its "kind" is not `kind`
+  // (empty: not asked).
   JsonFile(std::string path, const std::string& kind);
   ~JsonFile();
   JsonFile(const JsonFile&) = delete;
   JsonFile& operator=(const JsonFile&) = delete;
 
-  // Fields are JSON pointers, e.g. "/cables/EA_N". All of these throw std::runtime_error when a field is missing, of the wrong type or out
-  // of range.
+  // Fields are JSON pointers, e.g. "/cables/EA_N". All of these throw std::runtime_error when a field is missing, of
+  // the wrong type or out of range.
   double number(const std::string& field, double low, double high) const;
   int integer(const std::string& field, int low, int high) const;
   std::string text(const std::string& field) const;

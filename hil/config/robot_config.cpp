@@ -15,7 +15,8 @@ std::string at(const std::string& list, std::size_t i) { return list + "/" + std
 
 void read_segments(const JsonFile& file, RobotConfig& robot) {
   const std::size_t count = file.size("/segments");
-  if (count < 1 || count > kMaxSegments) file.fail("/segments", "has " + std::to_string(count) + " entries, allowed is 1 to 8");
+  if (count < 1 || count > kMaxSegments)
+    file.fail("/segments", "has " + std::to_string(count) + " entries, allowed is 1 to 8");
   for (std::size_t m = 0; m < count; ++m) {
     SegmentConfig segment;
     segment.modules = file.integer(at("/segments", m) + "/modules", 1, 16);
@@ -24,7 +25,8 @@ void read_segments(const JsonFile& file, RobotConfig& robot) {
     const std::string phases = at("/cables/phase_deg", m);
     const std::size_t cables = file.size(phases);
     if (cables < 3 || cables > 4) file.fail(phases, "has " + std::to_string(cables) + " cables, allowed is 3 to 4");
-    for (const double phase : file.numbers(phases, cables, -360.0, 360.0)) segment.cable_phase_rad.push_back(kRadPerDeg * phase);
+    for (const double phase : file.numbers(phases, cables, -360.0, 360.0))
+      segment.cable_phase_rad.push_back(kRadPerDeg * phase);
     robot.segments.push_back(segment);
   }
 }
@@ -37,7 +39,8 @@ void read_mechanics(const JsonFile& file, RobotConfig& robot) {
   robot.face_offset_m = file.number("/cables/face_offset_m", 0.0, 0.5);
   robot.cable_EA_N = file.number("/cables/EA_N", 1e3, 1e8);
   robot.lead_m = file.number("/cables/lead_m", 0.01, 10.0);
-  for (const auto& name : file.keys("/cables/friction_mu")) robot.friction_mu[name] = file.number("/cables/friction_mu/" + name, 0.0, 0.5);
+  for (const auto& name : file.keys("/cables/friction_mu"))
+    robot.friction_mu[name] = file.number("/cables/friction_mu/" + name, 0.0, 0.5);
 }
 
 void read_drives(const JsonFile& file, RobotConfig& robot) {

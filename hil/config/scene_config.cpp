@@ -23,9 +23,11 @@ BoxConfig read_box(const JsonFile& file, const std::string& field) {
   for (std::size_t k = 0; k < 3; ++k) {
     box.half_extent_m[k] = half[k];
     box.axis[k] = file.vector(at(field + "/rotation", k));
-    if (std::fabs(norm(box.axis[k]) - 1.0) > 1e-6) file.fail(at(field + "/rotation", k), "must be a unit vector to 1e-6");
+    if (std::fabs(norm(box.axis[k]) - 1.0) > 1e-6)
+      file.fail(at(field + "/rotation", k), "must be a unit vector to 1e-6");
   }
-  if (norm(cross(box.axis[0], box.axis[1]) - box.axis[2]) > 1e-6) file.fail(field + "/rotation", "must be right-handed and orthogonal");
+  if (norm(cross(box.axis[0], box.axis[1]) - box.axis[2]) > 1e-6)
+    file.fail(field + "/rotation", "must be right-handed and orthogonal");
   return box;
 }
 
@@ -43,15 +45,17 @@ SceneConfig load_scene(const std::string& path) {
   for (std::size_t i = 0; i < file.size("/boxes"); ++i) scene.boxes.push_back(read_box(file, at("/boxes", i)));
   for (std::size_t i = 0; i < file.size("/spheres"); ++i) {
     const std::string field = at("/spheres", i);
-    scene.spheres.push_back({file.text(field + "/name"), file.vector(field + "/center_m"), file.number(field + "/radius_m", 1e-4, 100.0)});
+    scene.spheres.push_back(
+        {file.text(field + "/name"), file.vector(field + "/center_m"), file.number(field + "/radius_m", 1e-4, 100.0)});
   }
   if (file.has("/slit")) scene.slit_frame = file.pose("/slit/frame");
   scene.rod = kNoRod;
   if (file.has("/rod"))
-    scene.rod = {file.pose("/rod"), file.number("/rod/radius_m", 1e-4, 1.0), file.number("/rod/stiffness_N_per_m", 0.0, 1e5)};
+    scene.rod = {file.pose("/rod"), file.number("/rod/radius_m", 1e-4, 1.0),
+                 file.number("/rod/stiffness_N_per_m", 0.0, 1e5)};
   scene.camera = read_camera(file);
-  scene.contact = {file.number("/contact/stiffness_N_per_m", 1.0, 1e5), file.number("/contact/damping_Ns_per_m", 0.0, 1e4),
-                   file.number("/contact/friction", 0.0, 2.0)};
+  scene.contact = {file.number("/contact/stiffness_N_per_m", 1.0, 1e5),
+                   file.number("/contact/damping_Ns_per_m", 0.0, 1e4), file.number("/contact/friction", 0.0, 2.0)};
   return scene;
 }
 

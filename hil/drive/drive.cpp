@@ -15,14 +15,16 @@ Drive::Drive(const DriveSettings& settings, double start_counts)
     : settings_(settings),
       objects_(make_objects(settings)),
       sdo_(
-          objects_, [this](const Object& o, std::int64_t v) { return guard(o, v); }, [this](const Object& o) { written(o); }),
+          objects_, [this](const Object& o, std::int64_t v) { return guard(o, v); },
+          [this](const Object& o) { written(o); }),
       motor_(settings.servo_time_constant_s, settings.pull_direction, start_counts) {
   rebuild_pdos();
   sample();
   objects_.set(0x607A, 0, objects_.get(0x6064));
 }
 
-// ---- frames -------------------------------------------------------------------------------------------------------------------
+// ---- frames
+// -------------------------------------------------------------------------------------------------------------------
 
 void Drive::receive(const CanFrame& frame, FrameList& out) {
   if (dead_) return;
@@ -63,7 +65,8 @@ void Drive::send_emergency(std::uint16_t code, FrameList& out) {
   objects_.set(0x1003, 1, code);
 }
 
-// ---- network management -------------------------------------------------------------------------------------------------------
+// ---- network management
+// -------------------------------------------------------------------------------------------------------
 
 void Drive::handle_nmt(const CanFrame& frame, FrameList& out) {
   if (frame.length != 2 || (frame.data[1] != 0 && frame.data[1] != settings_.node)) return;
@@ -124,7 +127,8 @@ void Drive::handle_heartbeat(const CanFrame& frame, FrameList& out) {
   if (connection_lost_ && !targets_lost_) connection_back(out);
 }
 
-// ---- objects ------------------------------------------------------------------------------------------------------------------
+// ---- objects
+// ------------------------------------------------------------------------------------------------------------------
 
 std::uint32_t Drive::guard(const Object& object, std::int64_t value) const {
   if (is_pdo_object(object.index)) {
@@ -152,7 +156,8 @@ void Drive::rebuild_pdos() {
   }
 }
 
-// ---- process data -------------------------------------------------------------------------------------------------------------
+// ---- process data
+// -------------------------------------------------------------------------------------------------------------
 
 void Drive::handle_rpdo(const CanFrame& frame, FrameList& out) {
   if (nmt_ != NmtState::kOperational) return;
@@ -209,10 +214,11 @@ void Drive::sample() {
 
 std::uint16_t Drive::statusword() const {
   unsigned word = state_bits(power_);
-  if (!safe_torque_off_) word |= 0x0010;                                                                              // voltage enabled
-  if (nmt_ == NmtState::kOperational) word |= 0x0200;                                                                 // remote
-  if (motor_.at_torque_limit()) word |= 0x0800;                                                                       // internal limit
-  if (power_ == PowerState::kOperationEnabled && objects_.get(0x6061) == kCyclicSynchronousPosition) word |= 0x1000;  // follows the target
+  if (!safe_torque_off_) word |= 0x0010;               // voltage enabled
+  if (nmt_ == NmtState::kOperational) word |= 0x0200;  // remote
+  if (motor_.at_torque_limit()) word |= 0x0800;        // internal limit
+  if (power_ == PowerState::kOperationEnabled && objects_.get(0x6061) == kCyclicSynchronousPosition)
+    word |= 0x1000;  // follows the target
   if (following_error_) word |= 0x2000;
   return static_cast<std::uint16_t>(word);
 }

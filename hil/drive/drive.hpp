@@ -48,13 +48,15 @@ class Drive {
 
   // Faults from outside.
   DriveDefects& defects() { return defects_; }
-  void power_off();            // dead: brake on, nothing heard or sent
-  void power_on();             // after power_off(): objects have their power-on values, the next tick() sends the boot-up
+  void power_off();  // dead: brake on, nothing heard or sent
+  void power_on();   // after power_off(): objects have their power-on values, the next tick() sends the boot-up
   void set_safe_torque_off();  // STO line open: brake on, stays disabled
   void raise_fault(std::uint16_t emergency_code);
   void report_emergency(std::uint16_t code) { emergencies_.push_back(code); }  // sent, and nothing else happens
   void set_identity(std::uint32_t product);
-  void jump_encoder(double counts) { encoder_offset_counts_ += counts; }  // reads so much more from now on; the servo goes by it
+  void jump_encoder(double counts) {
+    encoder_offset_counts_ += counts;
+  }  // reads so much more from now on; the servo goes by it
 
   PowerState power_state() const { return power_; }
   NmtState nmt_state() const { return nmt_; }

@@ -57,9 +57,11 @@ void add_pdo(std::vector<Object>& objects, std::uint16_t number, int node, bool 
   objects.push_back({communication, 0, kU8, kReadOnly, false, 5, 0, 255});
   objects.push_back({communication, 1, kU32, kReadWrite, false, number == 0 ? cob : (cob | kDisabled), 0, kU32Max});
   objects.push_back({communication, 2, kU8, kReadWrite, false, 1, 0, 255});
-  objects.push_back({communication, 5, kU16, kReadWrite, false, 0, 0, 65535});  // event timer; on an RPDO the deadline [ms]
+  objects.push_back(
+      {communication, 5, kU16, kReadWrite, false, 0, 0, 65535});  // event timer; on an RPDO the deadline [ms]
   objects.push_back({mapping, 0, kU8, kReadWrite, false, 0, 0, 8});
-  for (std::uint8_t entry = 1; entry <= 8; ++entry) objects.push_back({mapping, entry, kU32, kReadWrite, false, 0, 0, kU32Max});
+  for (std::uint8_t entry = 1; entry <= 8; ++entry)
+    objects.push_back({mapping, entry, kU32, kReadWrite, false, 0, 0, kU32Max});
 }
 
 }  // namespace

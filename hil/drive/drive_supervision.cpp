@@ -17,7 +17,8 @@ constexpr std::uint8_t kCommunicationError = 0x10;
 
 }  // namespace
 
-// ---- power --------------------------------------------------------------------------------------------------------------------
+// ---- power
+// --------------------------------------------------------------------------------------------------------------------
 
 void Drive::act_on_controlword(std::uint16_t controlword) {
   const bool reset_edge = (controlword & 0x80) != 0 && (controlword_ & 0x80) == 0;
@@ -56,7 +57,8 @@ void Drive::enter_power(PowerState state) {
 // Quick stop when moving, switch-on disabled when only switched on.
 void Drive::stop_by_itself() {
   if (power_ == PowerState::kOperationEnabled) return enter_power(PowerState::kQuickStopActive);
-  if (power_ == PowerState::kReadyToSwitchOn || power_ == PowerState::kSwitchedOn) enter_power(PowerState::kSwitchOnDisabled);
+  if (power_ == PowerState::kReadyToSwitchOn || power_ == PowerState::kSwitchedOn)
+    enter_power(PowerState::kSwitchOnDisabled);
 }
 
 void Drive::raise_fault(std::uint16_t emergency_code) {
@@ -100,7 +102,8 @@ void Drive::set_measured(double permille, double position_error_counts) {
   position_error_counts_ = position_error_counts;
 }
 
-// ---- time ---------------------------------------------------------------------------------------------------------------------
+// ---- time
+// ---------------------------------------------------------------------------------------------------------------------
 
 void Drive::connection_lost(std::uint16_t code, FrameList& out) {
   connection_lost_ = true;
@@ -119,14 +122,16 @@ void Drive::connection_back(FrameList& out) {
 
 void Drive::supervise_following(std::uint64_t now_us) {
   const double window = static_cast<double>(objects_.get(0x6065));
-  const double error = std::fabs(static_cast<double>(objects_.get(0x607A)) - encoder_offset_counts_ - motor_.position_counts());
+  const double error =
+      std::fabs(static_cast<double>(objects_.get(0x607A)) - encoder_offset_counts_ - motor_.position_counts());
   if (power_ != PowerState::kOperationEnabled || error <= window) {
     following_since_us_ = now_us;
     following_error_ = false;
     return;
   }
   following_error_ = true;
-  if (now_us - following_since_us_ >= 1000 * static_cast<std::uint64_t>(objects_.get(0x6066))) raise_fault(kFollowingError);
+  if (now_us - following_since_us_ >= 1000 * static_cast<std::uint64_t>(objects_.get(0x6066)))
+    raise_fault(kFollowingError);
 }
 
 void Drive::tick(std::uint64_t now_us, FrameList& out) {
@@ -164,7 +169,8 @@ void Drive::tick(std::uint64_t now_us, FrameList& out) {
 }
 
 void Drive::move(double step_s, double load_permille) {
-  motor_.step(step_s, load_permille, std::min(static_cast<double>(objects_.get(0x6072)), defects_.most_torque_permille));
+  motor_.step(step_s, load_permille,
+              std::min(static_cast<double>(objects_.get(0x6072)), defects_.most_torque_permille));
 }
 
 DriveCounts Drive::counts() const {

@@ -45,15 +45,19 @@ ObjectDictionary::ObjectDictionary(std::vector<Object> objects) : objects_(std::
 }
 
 const Object* ObjectDictionary::find(std::uint16_t index, std::uint8_t sub) const {
-  const auto found = std::lower_bound(objects_.begin(), objects_.end(), std::pair(index, sub),
-                                      [](const Object& object, const auto& key) { return std::pair(object.index, object.sub) < key; });
+  const auto found =
+      std::lower_bound(objects_.begin(), objects_.end(), std::pair(index, sub),
+                       [](const Object& object, const auto& key) { return std::pair(object.index, object.sub) < key; });
   return found != objects_.end() && found->index == index && found->sub == sub ? &*found : nullptr;
 }
 
-Object* ObjectDictionary::find(std::uint16_t index, std::uint8_t sub) { return const_cast<Object*>(std::as_const(*this).find(index, sub)); }
+Object* ObjectDictionary::find(std::uint16_t index, std::uint8_t sub) {
+  return const_cast<Object*>(std::as_const(*this).find(index, sub));
+}
 
 std::uint32_t ObjectDictionary::missing(std::uint16_t index) const {
-  const bool known = std::any_of(objects_.begin(), objects_.end(), [index](const Object& object) { return object.index == index; });
+  const bool known =
+      std::any_of(objects_.begin(), objects_.end(), [index](const Object& object) { return object.index == index; });
   return known ? abort_code::kNoSub : abort_code::kNoObject;
 }
 
@@ -63,7 +67,8 @@ std::uint32_t ObjectDictionary::check_read(std::uint16_t index, std::uint8_t sub
   return object->access == Access::kWriteOnly ? abort_code::kWriteOnly : abort_code::kNone;
 }
 
-std::uint32_t ObjectDictionary::check_write(std::uint16_t index, std::uint8_t sub, const std::uint8_t* bytes, std::size_t size) const {
+std::uint32_t ObjectDictionary::check_write(std::uint16_t index, std::uint8_t sub, const std::uint8_t* bytes,
+                                            std::size_t size) const {
   const Object* object = find(index, sub);
   if (object == nullptr) return missing(index);
   if (object->access == Access::kReadOnly) return abort_code::kReadOnly;

@@ -17,7 +17,8 @@ std::uint32_t check_entry(const ObjectDictionary& objects, std::int64_t entry, b
   const Object* object = objects.find(entry_index(entry), entry_sub(entry));
   if (object == nullptr) return abort_code::kNoObject;
   const bool right_way = !receive || object->access != Access::kReadOnly;
-  return object->mappable && right_way && entry_bits(entry) == 8 * size_of(object->type) ? abort_code::kNone : abort_code::kNotMappable;
+  return object->mappable && right_way && entry_bits(entry) == 8 * size_of(object->type) ? abort_code::kNone
+                                                                                         : abort_code::kNotMappable;
 }
 
 std::uint32_t check_count(const ObjectDictionary& objects, std::uint16_t mapping, std::int64_t count, bool receive) {

@@ -14,8 +14,8 @@ constexpr std::uint16_t kPdoCount = 4;  // each direction
 
 // True for 0x1400.., 0x1600.., 0x1800.. and 0x1A00...
 bool is_pdo_object(std::uint16_t index);
-// Whether a PDO object may be given this value now (CiA 301 re-mapping order); an abort code or kNone. The NMT state is the caller's
-// business.
+// Whether a PDO object may be given this value now (CiA 301 re-mapping order); an abort code or kNone. The NMT state is
+// the caller's business.
 std::uint32_t check_pdo_write(const ObjectDictionary& objects, const Object& object, std::int64_t value);
 
 // One PDO as configured at the time of making.

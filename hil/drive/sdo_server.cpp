@@ -15,7 +15,8 @@ const std::uint8_t* bytes_of(const std::string& text) { return reinterpret_cast<
 std::string encode(const Object& object) {
   if (object.type == ObjectType::kText) return object.text;
   std::string bytes(size_of(object.type), '\0');
-  put_little_endian(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size(), static_cast<std::uint64_t>(object.value));
+  put_little_endian(reinterpret_cast<std::uint8_t*>(bytes.data()), bytes.size(),
+                    static_cast<std::uint64_t>(object.value));
   return bytes;
 }
 

@@ -6,7 +6,10 @@
 namespace liana::bench {
 
 ServoMotor::ServoMotor(double time_constant_s, int pull_direction, double position_counts)
-    : time_constant_s_(time_constant_s), pull_direction_(pull_direction), position_(position_counts), target_(position_counts) {}
+    : time_constant_s_(time_constant_s),
+      pull_direction_(pull_direction),
+      position_(position_counts),
+      target_(position_counts) {}
 
 void ServoMotor::set_mode(MotorMode mode) {
   mode_ = mode;

@@ -1,4 +1,5 @@
-// The core's vectors seen as vectors of Eigen, and the small equations of joint angles that planner and reach solve. Nothing here allocates.
+// The core's vectors seen as vectors of Eigen, and the small equations of joint angles that planner and reach solve.
+// Nothing here allocates.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -18,7 +19,9 @@ using SpaceColumns = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3
 inline Eigen::Index theta_count(const RobotTable& table) { return table.theta_count(); }
 
 // Views, not copies: of the first `count` thetas, of a vector, of the first `count` columns.
-inline Eigen::Map<const Eigen::VectorXd> view(const ThetaVector& theta, Eigen::Index count) { return {theta.data(), count}; }
+inline Eigen::Map<const Eigen::VectorXd> view(const ThetaVector& theta, Eigen::Index count) {
+  return {theta.data(), count};
+}
 inline Eigen::Map<Eigen::VectorXd> view(ThetaVector& theta, Eigen::Index count) { return {theta.data(), count}; }
 inline Eigen::Map<const Eigen::Vector3d> view(const Vec3& v) { return Eigen::Map<const Eigen::Vector3d>(v.data()); }
 inline Eigen::Map<const Eigen::Matrix3Xd> view(const std::array<Vec3, kMaxTheta>& columns, Eigen::Index count) {

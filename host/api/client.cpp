@@ -17,7 +17,9 @@ namespace {
 constexpr double kSendTimeout_s = 10.0;
 constexpr useconds_t kRetry_us = 20000;
 
-[[noreturn]] void throw_gone() { throw std::runtime_error("lianad is gone: the API socket was closed by the other end"); }
+[[noreturn]] void throw_gone() {
+  throw std::runtime_error("lianad is gone: the API socket was closed by the other end");
+}
 }  // namespace
 
 ApiClient ApiClient::connect(const std::string& path, double timeout_s) {
@@ -29,7 +31,8 @@ ApiClient ApiClient::connect(const std::string& path, double timeout_s) {
       return ApiClient(std::move(fd));
     }
     if (std::chrono::steady_clock::now() >= deadline) {
-      throw std::runtime_error("cannot reach lianad at " + path + ": " + std::strerror(errno) + "; is it running with --api " + path + "?");
+      throw std::runtime_error("cannot reach lianad at " + path + ": " + std::strerror(errno) +
+                               "; is it running with --api " + path + "?");
     }
     ::usleep(kRetry_us);
   }
@@ -40,7 +43,8 @@ void ApiClient::send(const Json& request) {
   if (packet.size() > kMaxPacketBytes)
     throw std::runtime_error("API request of " + std::to_string(packet.size()) + " bytes: at most 65536");
   SocketResult result = send_packet(fd_.get(), packet);
-  if (result == SocketResult::kWouldBlock && wait_writable(fd_.get(), kSendTimeout_s)) result = send_packet(fd_.get(), packet);
+  if (result == SocketResult::kWouldBlock && wait_writable(fd_.get(), kSendTimeout_s))
+    result = send_packet(fd_.get(), packet);
   if (result == SocketResult::kClosed) throw_gone();
   if (result == SocketResult::kWouldBlock) throw std::runtime_error("lianad does not read its API socket");
 }

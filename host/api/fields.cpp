@@ -22,8 +22,8 @@ std::string unit_of(const std::string& name) {
 
 const Json& field(const Json& object, const std::string& key) {
   if (!object.is_object()) {
-    throw RequestError("bad_request",
-                       "field '" + key + "' is missing: found " + object.dump().substr(0, 60) + " where an object with this field belongs");
+    throw RequestError("bad_request", "field '" + key + "' is missing: found " + object.dump().substr(0, 60) +
+                                          " where an object with this field belongs");
   }
   const auto found = object.find(key);
   if (found == object.end()) throw RequestError("bad_request", "field '" + key + "' is missing: add it");
@@ -31,11 +31,12 @@ const Json& field(const Json& object, const std::string& key) {
 }
 
 double checked_number(const Json& value, const std::string& name, double min, double max) {
-  if (!value.is_number()) throw RequestError("bad_request", "field '" + name + "': " + value.dump().substr(0, 60) + ": must be a number");
+  if (!value.is_number())
+    throw RequestError("bad_request", "field '" + name + "': " + value.dump().substr(0, 60) + ": must be a number");
   const double number = value.get<double>();
   if (!(number >= min && number <= max)) {
-    throw RequestError("out_of_range",
-                       name + " = " + text_of(number) + ": allowed " + text_of(min) + " to " + text_of(max) + unit_of(name));
+    throw RequestError("out_of_range", name + " = " + text_of(number) + ": allowed " + text_of(min) + " to " +
+                                           text_of(max) + unit_of(name));
   }
   return number;
 }
@@ -63,16 +64,19 @@ double number_field_or(const Json& object, const std::string& key, double min, d
 std::int64_t integer_field(const Json& object, const std::string& key, std::int64_t min, std::int64_t max) {
   const Json& value = field(object, key);
   if (!value.is_number_integer())
-    throw RequestError("bad_request", "field '" + key + "': " + value.dump().substr(0, 60) + ": must be a whole number");
+    throw RequestError("bad_request",
+                       "field '" + key + "': " + value.dump().substr(0, 60) + ": must be a whole number");
   checked_number(value, key, static_cast<double>(min), static_cast<double>(max));
   return value.get<std::int64_t>();
 }
 
-std::vector<double> numbers_field(const Json& object, const std::string& key, std::size_t count, double min, double max) {
+std::vector<double> numbers_field(const Json& object, const std::string& key, std::size_t count, double min,
+                                  double max) {
   const Json& value = field(object, key);
   if (!value.is_array() || value.size() != count) {
     const std::string found = value.is_array() ? std::to_string(value.size()) + " entries" : value.dump().substr(0, 60);
-    throw RequestError("bad_request", "field '" + key + "': " + found + ": must be an array of " + std::to_string(count) + " numbers");
+    throw RequestError("bad_request",
+                       "field '" + key + "': " + found + ": must be an array of " + std::to_string(count) + " numbers");
   }
   std::vector<double> numbers;
   for (std::size_t i = 0; i < count; ++i) {
@@ -89,19 +93,22 @@ Vec3 point_field(const Json& object, const std::string& key, double reach_m) {
 Pose pose_field(const Json& object, const std::string& key, double reach_m) {
   const std::vector<double> p = numbers_field(object, key, 7, -std::max(reach_m, 1.001), std::max(reach_m, 1.001));
   Pose pose{{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}};
-  if (!is_valid(pose)) throw RequestError("out_of_range", key + ": the quaternion (qw,qx,qy,qz) must have length 1 within 1e-6");
+  if (!is_valid(pose))
+    throw RequestError("out_of_range", key + ": the quaternion (qw,qx,qy,qz) must have length 1 within 1e-6");
   if (norm(pose.position_m) > reach_m) {
-    throw RequestError("out_of_range",
-                       key + ": " + text_of(norm(pose.position_m)) + " m from the base; the arm reaches " + text_of(reach_m) + " m");
+    throw RequestError("out_of_range", key + ": " + text_of(norm(pose.position_m)) +
+                                           " m from the base; the arm reaches " + text_of(reach_m) + " m");
   }
   return pose;
 }
 
 std::string text_field(const Json& object, const std::string& key, std::size_t max_bytes) {
   const Json& value = field(object, key);
-  const bool good =
-      value.is_string() && !value.get_ref<const std::string&>().empty() && value.get_ref<const std::string&>().size() <= max_bytes;
-  if (!good) throw RequestError("bad_request", "field '" + key + "': must be a text of 1 to " + std::to_string(max_bytes) + " bytes");
+  const bool good = value.is_string() && !value.get_ref<const std::string&>().empty() &&
+                    value.get_ref<const std::string&>().size() <= max_bytes;
+  if (!good)
+    throw RequestError("bad_request",
+                       "field '" + key + "': must be a text of 1 to " + std::to_string(max_bytes) + " bytes");
   return value.get<std::string>();
 }
 
@@ -117,9 +124,10 @@ const Json& array_field(const Json& object, const std::string& key, std::size_t 
   const auto found = object.find(key);
   if (found == object.end()) return kEmpty;
   if (!found->is_array() || found->size() > max_items) {
-    const std::string what = found->is_array() ? std::to_string(found->size()) + " entries" : found->dump().substr(0, 60);
-    throw RequestError("bad_request",
-                       "field '" + key + "': " + what + ": must be an array of at most " + std::to_string(max_items) + " entries");
+    const std::string what =
+        found->is_array() ? std::to_string(found->size()) + " entries" : found->dump().substr(0, 60);
+    throw RequestError("bad_request", "field '" + key + "': " + what + ": must be an array of at most " +
+                                          std::to_string(max_items) + " entries");
   }
   return *found;
 }

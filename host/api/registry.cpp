@@ -29,7 +29,8 @@ void require_own(const std::string& folder) {
   struct stat found {};
   if (::lstat(folder.c_str(), &found) != 0) throw std::runtime_error(folder + ": " + std::strerror(errno));
   if (!S_ISDIR(found.st_mode) || found.st_uid != ::getuid()) {
-    throw std::runtime_error(folder + ": is not a folder of this user; remove it, set XDG_RUNTIME_DIR, or name sockets with --api");
+    throw std::runtime_error(
+        folder + ": is not a folder of this user; remove it, set XDG_RUNTIME_DIR, or name sockets with --api");
   }
 }
 
@@ -37,9 +38,11 @@ void require_own(const std::string& folder) {
 
 std::string registry_folder() { return runtime_folder() + "/liana-" + std::to_string(::getuid()); }
 
-Registration::Registration(const std::string& api_socket) : link_(registry_folder() + "/" + std::to_string(::getpid())) {
+Registration::Registration(const std::string& api_socket)
+    : link_(registry_folder() + "/" + std::to_string(::getpid())) {
   const std::string folder = registry_folder();
-  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) throw std::runtime_error(folder + ": " + std::strerror(errno));
+  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+    throw std::runtime_error(folder + ": " + std::strerror(errno));
   require_own(folder);
   fs::remove(link_);  // of a dead process that had our number
   fs::create_symlink(fs::absolute(api_socket), link_);

@@ -12,7 +12,8 @@ std::string registry_folder();
 // Entry of one lianad while it lives.
 class Registration {
  public:
-  // Makes the folder (only its user may enter) and the link; throws std::runtime_error when it cannot or the folder is somebody else's.
+  // Makes the folder (only its user may enter) and the link; throws std::runtime_error when it cannot or the folder is
+  // somebody else's.
   explicit Registration(const std::string& api_socket);
   ~Registration();
   Registration(const Registration&) = delete;

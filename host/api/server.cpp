@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr std::size_t kMaxInbox = 512;    // requests waiting for the next interval; beyond it the client's own sends wait
+constexpr std::size_t kMaxInbox = 512;  // requests waiting for the next interval; beyond it the client's own sends wait
 constexpr std::size_t kMaxDroppable = 8;  // state or camera messages waiting for a slow subscriber
 constexpr std::size_t kMaxOutbox = 8192;  // packets of any kind waiting
 constexpr std::size_t kMaxClients = 32;
@@ -45,7 +45,8 @@ Role role_of(const std::string& name) {
   for (std::size_t i = 0; i < kRoleNames.size(); ++i) {
     if (name == kRoleNames[i]) return static_cast<Role>(i);
   }
-  throw RequestError("bad_request", "role '" + name + "': allowed mission, operator, camera, archive, client, observer");
+  throw RequestError("bad_request",
+                     "role '" + name + "': allowed mission, operator, camera, archive, client, observer");
 }
 
 const char* role_name(Role role) { return kRoleNames[static_cast<std::size_t>(role)]; }
@@ -76,7 +77,8 @@ struct ApiServer::Client {
   bool readable(std::uint64_t tick) const { return inbox.size() < kMaxInbox && !(in_lockstep() && is_done(tick)); }
 };
 
-ApiServer::ApiServer(const std::string& path, ApiHandler& handler) : listener_(listen_at("--api", path)), handler_(handler) {}
+ApiServer::ApiServer(const std::string& path, ApiHandler& handler)
+    : listener_(listen_at("--api", path)), handler_(handler) {}
 ApiServer::~ApiServer() = default;
 
 void ApiServer::pump(double timeout_s) {
@@ -131,7 +133,8 @@ void ApiServer::take_packet(Client& client, const std::string& packet) {
     }
     const std::string op = op_of(request);
     if (op == "hello") return greet(client, request);
-    if (!client.greeted) throw RequestError("bad_request", "say hello first: {\"op\":\"hello\",\"name\":...,\"role\":...}");
+    if (!client.greeted)
+      throw RequestError("bad_request", "say hello first: {\"op\":\"hello\",\"name\":...,\"role\":...}");
     if (op == "done") {
       client.done_tick = static_cast<std::uint64_t>(integer_field(request, "tick", 0, 1LL << 53));
       client.has_done = true;
@@ -141,7 +144,8 @@ void ApiServer::take_packet(Client& client, const std::string& packet) {
   } catch (const RequestError& error) {
     enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
   } catch (const Json::exception& error) {
-    enqueue(client, Topic::kState, false, error_packet(Json(), "bad_request", std::string("not JSON: ") + error.what()));
+    enqueue(client, Topic::kState, false,
+            error_packet(Json(), "bad_request", std::string("not JSON: ") + error.what()));
   }
 }
 
@@ -151,7 +155,8 @@ void ApiServer::greet(Client& client, const Json& request) {
   client.info.role = role_of(text_field(request, "role", 32));
   client.info.lockstep = request.contains("lockstep") && flag_field(request, "lockstep");
   for (const Json& topic : array_field(request, "subscribe", 8)) {
-    const auto found = std::find(kTopicNames.begin(), kTopicNames.end(), topic.is_string() ? topic.get<std::string>() : std::string());
+    const auto found =
+        std::find(kTopicNames.begin(), kTopicNames.end(), topic.is_string() ? topic.get<std::string>() : std::string());
     if (found == kTopicNames.end()) throw RequestError("bad_request", "subscribe: allowed state, camera, tick");
     client.subscribed[static_cast<std::size_t>(found - kTopicNames.begin())] = true;
   }
@@ -192,8 +197,8 @@ void ApiServer::answer_one(Client& client, const Json& request) {
 void ApiServer::enqueue(Client& client, Topic topic, bool droppable, const std::string& packet) {
   const auto t = static_cast<std::size_t>(topic);
   if (droppable && !client.info.lockstep && client.waiting[t] >= kMaxDroppable) {
-    const auto oldest =
-        std::find_if(client.outbox.begin(), client.outbox.end(), [&](const Client::Packet& p) { return p.droppable && p.topic == topic; });
+    const auto oldest = std::find_if(client.outbox.begin(), client.outbox.end(),
+                                     [&](const Client::Packet& p) { return p.droppable && p.topic == topic; });
     client.outbox.erase(oldest);
     --client.waiting[t];
     ++dropped_;
@@ -208,8 +213,8 @@ void ApiServer::enqueue(Client& client, Topic topic, bool droppable, const std::
   client.outbox.push_back({topic, droppable, packet});
 }
 
-// That a client has left is found by reading alone: its last requests come before its end, and in lockstep time both wait for the next
-// interval, whatever the moment at which a packet to it fails.
+// That a client has left is found by reading alone: its last requests come before its end, and in lockstep time both
+// wait for the next interval, whatever the moment at which a packet to it fails.
 void ApiServer::flush(Client& client) {
   while (!client.outbox.empty() && client.why_closed.empty()) {
     const SocketResult result = send_packet(client.fd.get(), client.outbox.front().bytes);
@@ -256,7 +261,8 @@ void ApiServer::wait_done(std::uint64_t tick, double timeout_s) {
 }
 
 bool ApiServer::has_role(Role role) const {
-  return std::any_of(clients_.begin(), clients_.end(), [role](const auto& c) { return c->greeted && c->info.role == role; });
+  return std::any_of(clients_.begin(), clients_.end(),
+                     [role](const auto& c) { return c->greeted && c->info.role == role; });
 }
 
 bool ApiServer::has_subscriber(Topic topic) const {

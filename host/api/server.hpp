@@ -46,13 +46,13 @@ class ApiServer {
   void pump(double timeout_s);
   // Hands every queued request to the handler: clients by role, then name, each in its own order.
   void dispatch();
-  // Sends to every subscriber of the topic. Slow subscribers lose their oldest state and camera messages, and newest ticks (counted), but
-  // no message that was published as one to `keep`.
+  // Sends to every subscriber of the topic. Slow subscribers lose their oldest state and camera messages, and newest
+  // ticks (counted), but no message that was published as one to `keep`.
   void publish(Topic topic, const std::string& packet, bool keep = false);
   // Sends what waits for slow readers, at most for `timeout_s`; for the end.
   void deliver(double timeout_s);
-  // Pumps until every lockstep client has answered the state of `tick` with done; drops those silent for `timeout_s`. What a lockstep
-  // client sends after its done, its end included, is read in the next call, so that runs repeat.
+  // Pumps until every lockstep client has answered the state of `tick` with done; drops those silent for `timeout_s`.
+  // What a lockstep client sends after its done, its end included, is read in the next call, so that runs repeat.
   void wait_done(std::uint64_t tick, double timeout_s);
   // From now on lockstep clients are read like all others.
   void end_lockstep() { lockstep_tick_ = UINT64_MAX; }

@@ -1,4 +1,5 @@
-// AF_UNIX SOCK_SEQPACKET sockets: who listens, one packet in, one packet out; for both ends of the API and of the embedded bus.
+// AF_UNIX SOCK_SEQPACKET sockets: who listens, one packet in, one packet out; for both ends of the API and of the
+// embedded bus.
 #pragma once
 
 #include <cstddef>
@@ -32,18 +33,20 @@ enum class SocketResult { kDone, kWouldBlock, kClosed };
 // Writes one packet without waiting; kClosed when the peer is gone.
 SocketResult send_packet(int fd, std::string_view packet);
 
-// Reads one packet without waiting; kClosed when the peer is gone. Packets over kMaxPacketBytes arrive cut to that size plus one.
+// Reads one packet without waiting; kClosed when the peer is gone. Packets over kMaxPacketBytes arrive cut to that size
+// plus one.
 SocketResult receive_packet(int fd, std::string& packet);
 
 // Waits until `fd` is readable (or writable), at most `timeout_s`; true when it is.
 bool wait_readable(int fd, double timeout_s);
 bool wait_writable(int fd, double timeout_s);
 
-// Somebody listens at `path`, though perhaps too busy to answer; errno says why not. Throws std::runtime_error for too long a path.
+// Somebody listens at `path`, though perhaps too busy to answer; errno says why not. Throws std::runtime_error for too
+// long a path.
 bool is_listening(const std::string& path);
 
-// A listening socket at `path`, which the program was given with `option`; replaces a stale socket file. Accepting from it never waits.
-// Throws std::runtime_error when the path is in use, no socket, too long or not writable.
+// A listening socket at `path`, which the program was given with `option`; replaces a stale socket file. Accepting from
+// it never waits. Throws std::runtime_error when the path is in use, no socket, too long or not writable.
 UniqueFd listen_at(const std::string& option, const std::string& path);
 
 }  // namespace liana

@@ -11,7 +11,8 @@ namespace liana {
 
 namespace {
 
-// A tip goal counts as reached within these, some intervals after it was set: a request needs two to show in the arm's report.
+// A tip goal counts as reached within these, some intervals after it was set: a request needs two to show in the arm's
+// report.
 constexpr double kArrived_m = 1e-5;
 constexpr double kArrived_rad = 1e-5;
 constexpr std::int32_t kSettledIntervals = 10;
@@ -28,18 +29,23 @@ bool has_nodes(const NodeTargets& nodes) {
 }
 
 Arbiter::Arbiter(const RobotTable& table, const SpeedZone& zone)
-    : table_(table), zone_(zone), interval_s_(table.tick_s * table.interval_ticks), tip_speed_m_s_(table.limits.tip_speed_m_s) {}
+    : table_(table),
+      zone_(zone),
+      interval_s_(table.tick_s * table.interval_ticks),
+      tip_speed_m_s_(table.limits.tip_speed_m_s) {}
 
 void Arbiter::require_ready(const Outputs& now) const {
   if (now.faults.count > 0) {
-    throw RequestError("fault", std::string("fault ") + fault_info(now.faults.fault[0].number).name + " is latched: clear it first");
+    throw RequestError(
+        "fault", std::string("fault ") + fault_info(now.faults.fault[0].number).name + " is latched: clear it first");
   }
   if (now.state != OperatingState::kEnabled) throw RequestError("not_enabled", "the arm is not enabled");
 }
 
 void Arbiter::require_free(const Outputs& now) const {
   require_ready(now);
-  if (is_searching()) throw RequestError("busy", "the shape that a search has found is gone to: wait until it has settled or send hold");
+  if (is_searching())
+    throw RequestError("busy", "the shape that a search has found is gone to: wait until it has settled or send hold");
   if (is_busy()) throw RequestError("busy", "a planned move is under way: wait for it or send hold");
   if (device_.engaged()) throw RequestError("busy", "the operator steers: wait for the deadman to open");
 }
@@ -82,8 +88,10 @@ void Arbiter::hold_theta(const Outputs& now, std::uint32_t mask, const ThetaVect
 
 void Arbiter::shape(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear, bool search) {
   require_ready(now);
-  if (search && is_busy()) throw RequestError("busy", "search needs an arm at rest, a planned move is under way: wait for it or send hold");
-  if (search && now.at_rest == 0) throw RequestError("busy", "search looks for a shape of the arm at rest: wait for it or send hold");
+  if (search && is_busy())
+    throw RequestError("busy", "search needs an arm at rest, a planned move is under way: wait for it or send hold");
+  if (search && now.at_rest == 0)
+    throw RequestError("busy", "search looks for a shape of the arm at rest: wait for it or send hold");
   nodes_ = nodes;
   clear_ = clear;
   lead_ = search ? nodes_of_best(now) : NodeTargets{};
@@ -93,13 +101,15 @@ void Arbiter::shape(const Outputs& now, const NodeTargets& nodes, const KeepClea
 
 // Nodes of the best shape for the tip as it stands; none when no solution was found.
 NodeTargets Arbiter::nodes_of_best(const Outputs& now) const {
-  const GoalIkResult best = solve_goal(table_, {now.tip_command, now.theta_command_rad, held_mask_, held_rad_, nodes_, clear_});
+  const GoalIkResult best =
+      solve_goal(table_, {now.tip_command, now.theta_command_rad, held_mask_, held_rad_, nodes_, clear_});
   NodeTargets out{};
   if (!best.converged) return out;
   const ArmKinematics arm = forward_kinematics(table_, best.theta_rad);
   const std::int32_t count = std::min(table_.segment_count - 1, kMaxNodeTargets);
   for (std::int32_t node = 1; node <= count; ++node)
-    out[static_cast<std::size_t>(node - 1)] = {node, arm.node_in_base[static_cast<std::size_t>(node)].position_m, 1.0, 0.0};
+    out[static_cast<std::size_t>(node - 1)] = {node, arm.node_in_base[static_cast<std::size_t>(node)].position_m, 1.0,
+                                               0.0};
   return out;
 }
 
@@ -108,7 +118,8 @@ void Arbiter::end_lead(const Outputs& now) {
   bool there = true;
   for (const NodeTarget& target : lead_) {
     if (target.node == 0) continue;
-    there = there && norm(subtract(target.position_m, now.node_command_m[static_cast<std::size_t>(target.node - 1)])) < kLed_m;
+    there = there &&
+            norm(subtract(target.position_m, now.node_command_m[static_cast<std::size_t>(target.node - 1)])) < kLed_m;
   }
   if (!there && (unchanged_intervals_ < kSettledIntervals || now.at_rest == 0)) return;
   lead_ = NodeTargets{};
@@ -128,7 +139,8 @@ void Arbiter::take_device_away() {
   was_engaged_ = false;
 }
 
-// The way out takes over from whatever is under way. An operator who could grip again would steer back in as soon as it ends.
+// The way out takes over from whatever is under way. An operator who could grip again would steer back in as soon as it
+// ends.
 void Arbiter::retract(const Outputs& now, std::uint64_t until_tick) {
   require_ready(now);
   if (path_.empty()) throw RequestError("refused", "there is no stored path to go back along");
@@ -159,7 +171,8 @@ Setpoint Arbiter::tip_setpoint(const Outputs& now) const {
   setpoint.held_rad = held_rad_;
   setpoint.node = is_searching() ? lead_ : nodes_;
   setpoint.clear = clear_;
-  setpoint.tip_speed_m_s = zone_.advice_at(now.tip_command.position_m, zone_.advice_at(tip_goal_.position_m, tip_speed_m_s_));
+  setpoint.tip_speed_m_s =
+      zone_.advice_at(now.tip_command.position_m, zone_.advice_at(tip_goal_.position_m, tip_speed_m_s_));
   if (device_node_.node == 0) return setpoint;
   for (NodeTarget& slot : setpoint.node) {
     if (slot.node != 0 && slot.node != device_node_.node) continue;
@@ -202,8 +215,8 @@ std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const Outputs
   return mode_ == Mode::kTip ? std::optional(tip_setpoint(now)) : std::nullopt;
 }
 
-// Tip and held variables stand where they should; nothing more is asked for, and the null space comes to rest. Node targets are in force
-// until they stand, too.
+// Tip and held variables stand where they should; nothing more is asked for, and the null space comes to rest. Node
+// targets are in force until they stand, too.
 bool Arbiter::has_arrived(const Outputs& now) const {
   if (unchanged_intervals_ < kSettledIntervals || now.held_at_target == 0) return false;
   const bool shape_wanted = has_nodes(tip_setpoint(now).node) || largest_weight(clear_) > 0.0;

@@ -1,4 +1,5 @@
-// One wish per command interval: the arbiter turns the owner's requests and the operator's hand into the setpoint to verify next.
+// One wish per command interval: the arbiter turns the owner's requests and the operator's hand into the setpoint to
+// verify next.
 #pragma once
 
 #include <cstdint>
@@ -18,24 +19,28 @@ class Arbiter {
   // In `zone` the tip is asked to go no faster than the zone says.
   explicit Arbiter(const RobotTable& table, const SpeedZone& zone = {});
 
-  // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused). `now` is the newest tick of the arm.
+  // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused). `now` is the newest tick of the
+  // arm.
   void move_joints(const Outputs& now, const ThetaVector& goal_rad, double rate_rad_s);
   void move_line(const Outputs& now, const Pose& goal);
   void servo_tip(const Outputs& now, const Pose& goal);
   // Held variables: bit i of mask holds theta i at held_rad[i]; mask 0 releases all.
   void hold_theta(const Outputs& now, std::uint32_t mask, const ThetaVector& held_rad);
-  // Null-space targets; unused entries have node = 0. The core goes downhill from where it stands; with `search` (arm at rest) the goal IK
-  // looks for the best shape of all first, and the nodes are led there before the targets themselves are given.
+  // Null-space targets; unused entries have node = 0. The core goes downhill from where it stands; with `search` (arm
+  // at rest) the goal IK looks for the best shape of all first, and the nodes are led there before the targets
+  // themselves are given.
   void shape(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear, bool search);
   void use_device(const DeviceUse& use);
-  // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until use_device is asked for.
+  // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until
+  // use_device is asked for.
   void retract(const Outputs& now, std::uint64_t until_tick);
   // Stop along the path: nothing is asked for any more. The operator has to let go and engage again.
   void hold();
 
   // Ends the interval: what to verify for the next one; nothing = the arm holds. `tick` counts the ticks done.
   std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Outputs& now);
-  // The setpoint was refused: planned moves end, the operator's clutch takes new anchors. The way back stops and starts again, some times.
+  // The setpoint was refused: planned moves end, the operator's clutch takes new anchors. The way back stops and starts
+  // again, some times.
   void refused();
 
   // A planned move is under way.

@@ -17,8 +17,8 @@ struct ClutchAnchor {
   Pose tip_in_base{};
 };
 
-// Tip goal in the base frame for a hand pose. At the anchor it is exactly the anchored tip pose, so that engaging never jumps. The device
-// frame is parallel to the base frame.
+// Tip goal in the base frame for a hand pose. At the anchor it is exactly the anchored tip pose, so that engaging never
+// jumps. The device frame is parallel to the base frame.
 Pose clutch_goal(const ClutchMapping& mapping, const ClutchAnchor& anchor, const Pose& hand_in_device);
 
 // The same for a point (node control, left VR hand): only translation counts.

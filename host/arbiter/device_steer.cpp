@@ -28,9 +28,11 @@ void DeviceSteer::steer_node(const HandReading& left, const Outputs& now) {
   if (!node_engaged_) {
     node_engaged_ = true;
     node_hand_anchor_m_ = left.mean.position_m;
-    node_anchor_m_ = node_target_.node == use_.node ? node_target_.position_m : now.node_command_m[static_cast<std::size_t>(use_.node - 1)];
+    node_anchor_m_ = node_target_.node == use_.node ? node_target_.position_m
+                                                    : now.node_command_m[static_cast<std::size_t>(use_.node - 1)];
   }
-  node_target_ = {use_.node, clutch_point(use_.mapping.scale, node_hand_anchor_m_, node_anchor_m_, left.mean.position_m), 1.0,
+  node_target_ = {use_.node,
+                  clutch_point(use_.mapping.scale, node_hand_anchor_m_, node_anchor_m_, left.mean.position_m), 1.0,
                   kNodeThreshold_m};
 }
 

@@ -1,4 +1,5 @@
-// Who steers by hand: deadman, clutch and tracking state of the device in use; yields a tip goal per command interval while engaged.
+// Who steers by hand: deadman, clutch and tracking state of the device in use; yields a tip goal per command interval
+// while engaged.
 #pragma once
 
 #include <cstdint>
@@ -40,11 +41,13 @@ class DeviceSteer {
   // Samples counted since the start.
   std::uint64_t samples() const { return samples_; }
 
-  // Samples of the tip hand (vr right hand, hand controller) and of the vr left hand. Others than the device in use are ignored.
+  // Samples of the tip hand (vr right hand, hand controller) and of the vr left hand. Others than the device in use are
+  // ignored.
   void add_tip_sample(const HandSample& sample) { tip_.add_sample(sample); }
   void add_node_sample(const HandSample& sample) { node_.add_sample(sample); }
 
-  // Ends the interval; a goal while engaged. `now` gives the anchors on engaging, `interval_s` the time since the last call.
+  // Ends the interval; a goal while engaged. `now` gives the anchors on engaging, `interval_s` the time since the last
+  // call.
   std::optional<SteerGoal> finish_interval(const Outputs& now, double interval_s);
   // A refused command: engages again at once, with new anchors.
   void drop_anchor() { engaged_ = false; }

@@ -56,7 +56,8 @@ HandReading HandTrack::finish_interval() {
   reading.has_mean = reading.used > 0;
   if (reading.has_mean) {
     const double share = 1.0 / reading.used;
-    reading.mean = {scale(position_sum_m_, share), normalize(multiply(quaternion_of(scale(turn_sum_rad_, share)), first_.quaternion))};
+    reading.mean = {scale(position_sum_m_, share),
+                    normalize(multiply(quaternion_of(scale(turn_sum_rad_, share)), first_.quaternion))};
   }
   reading.lost = any_ && (!any_good_ || seconds(last_t_us_ - last_good_t_us_) > kTrackingLost_s);
   const bool pressed = reading_.pressed;

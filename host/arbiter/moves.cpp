@@ -33,7 +33,8 @@ double steepest_tip_travel_m(const RobotTable& table, const ThetaVector& from, c
   double steepest = 0.0;
   Vec3 last = forward_kinematics(table, from).tip_in_base.position_m;
   for (int i = 1; i <= kSteps; ++i) {
-    const Vec3 tip = forward_kinematics(table, between(from, to, static_cast<double>(i) / kSteps)).tip_in_base.position_m;
+    const Vec3 tip =
+        forward_kinematics(table, between(from, to, static_cast<double>(i) / kSteps)).tip_in_base.position_m;
     steepest = std::max(steepest, norm(subtract(tip, last)) * kSteps);
     last = tip;
   }
@@ -51,9 +52,11 @@ JointMove::JointMove(const RobotTable& table, const ThetaVector& from_rad, const
     : from_rad_(from_rad), to_rad_(to_rad) {
   double way_rad = 0.0;
   for (std::size_t i = 0; i < from_rad.size(); ++i) way_rad = std::max(way_rad, std::fabs(to_rad[i] - from_rad[i]));
-  const double joint_s = std::max(kPeakSpeed * way_rad / (kMoveShare * rate_rad_s),
-                                  std::sqrt(kPeakAccel * way_rad / (kMoveAccelShare * table.limits.theta_accel_rad_s2)));
-  const double tip_s = kPeakSpeed * steepest_tip_travel_m(table, from_rad, to_rad) / (kMoveShare * table.limits.tip_speed_m_s);
+  const double joint_s =
+      std::max(kPeakSpeed * way_rad / (kMoveShare * rate_rad_s),
+               std::sqrt(kPeakAccel * way_rad / (kMoveAccelShare * table.limits.theta_accel_rad_s2)));
+  const double tip_s =
+      kPeakSpeed * steepest_tip_travel_m(table, from_rad, to_rad) / (kMoveShare * table.limits.tip_speed_m_s);
   duration_s_ = std::max(joint_s, tip_s);
 }
 
@@ -65,9 +68,10 @@ TipLine::TipLine(const RobotTable& table, const Pose& from, const Pose& to, doub
   const MotionLimits& l = table.limits;
   turn_rad_ = rotation_vector(multiply(to.quaternion, conjugate(from.quaternion)));
   const double way_m = norm(subtract(to.position_m, from.position_m));
-  duration_s_ = std::max(duration_for(way_m, kMoveShare * speed_m_s, kMoveShare * l.tip_accel_m_s2, kMoveShare * l.tip_jerk_m_s3),
-                         duration_for(norm(turn_rad_), kMoveShare * l.tip_rate_rad_s, kMoveShare * l.tip_angular_accel_rad_s2,
-                                      kMoveShare * l.tip_angular_jerk_rad_s3));
+  duration_s_ =
+      std::max(duration_for(way_m, kMoveShare * speed_m_s, kMoveShare * l.tip_accel_m_s2, kMoveShare * l.tip_jerk_m_s3),
+               duration_for(norm(turn_rad_), kMoveShare * l.tip_rate_rad_s, kMoveShare * l.tip_angular_accel_rad_s2,
+                            kMoveShare * l.tip_angular_jerk_rad_s3));
 }
 
 Pose TipLine::at(double time_s) const {
@@ -80,7 +84,8 @@ Pose TipLine::at(double time_s) const {
 void PathMemory::note(std::uint64_t tick, const ThetaVector& theta_rad) {
   if (!points_.empty()) {
     double change = 0.0;
-    for (std::size_t i = 0; i < theta_rad.size(); ++i) change = std::max(change, std::fabs(theta_rad[i] - points_.back().theta_rad[i]));
+    for (std::size_t i = 0; i < theta_rad.size(); ++i)
+      change = std::max(change, std::fabs(theta_rad[i] - points_.back().theta_rad[i]));
     if (change < kSamePoint_rad) return;
   }
   points_.push_back({tick, theta_rad});

@@ -1,4 +1,5 @@
-// Planned moves between two points: minimum-jerk joint moves, straight tip lines, and the way back along the stored path.
+// Planned moves between two points: minimum-jerk joint moves, straight tip lines, and the way back along the stored
+// path.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +13,8 @@ namespace liana {
 // Share of the limits that planned moves use; the rest is for the filters that follow them.
 constexpr double kMoveShare = 0.9;
 
-// Share of the theta acceleration limit that joint moves use. All thetas together swing the whole arm: 1 deg/s2 would take 100 N off a
-// cable.
+// Share of the theta acceleration limit that joint moves use. All thetas together swing the whole arm: 1 deg/s2 would
+// take 100 N off a cable.
 constexpr double kMoveAccelShare = 0.02;
 
 // Minimum-jerk position for time share 0..1 (clamped): 0..1 with velocity and acceleration zero at both ends.
@@ -64,10 +65,12 @@ class PathMemory {
   std::deque<Point> points_;
 };
 
-// Path points per command interval on the way back: slower than the way in, so that what passed verification then passes it again.
+// Path points per command interval on the way back: slower than the way in, so that what passed verification then
+// passes it again.
 constexpr double kWayBackPace = 0.8;
 
-// The way back along a path memory, from rest. A refusal ends in rest, too; the next start takes the place that was refused slowly.
+// The way back along a path memory, from rest. A refusal ends in rest, too; the next start takes the place that was
+// refused slowly.
 class WayBack {
  public:
   // Back to where the command stood at `until_tick`.

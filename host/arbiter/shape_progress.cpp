@@ -9,7 +9,8 @@
 namespace liana {
 namespace {
 
-double missing_now_m(const RobotTable& table, const ThetaVector& theta_rad, const NodeTargets& nodes, const KeepClearTargets& clear) {
+double missing_now_m(const RobotTable& table, const ThetaVector& theta_rad, const NodeTargets& nodes,
+                     const KeepClearTargets& clear) {
   const double largest = std::max(largest_weight(table, nodes), largest_weight(clear));
   if (!(largest > 0.0)) return 0.0;
   const ArmKinematics arm = forward_kinematics(table, theta_rad);
@@ -19,7 +20,8 @@ double missing_now_m(const RobotTable& table, const ThetaVector& theta_rad, cons
 }  // namespace
 
 ShapeProgress::ShapeProgress(const RobotTable& table)
-    : table_(table), window_(static_cast<std::size_t>(std::ceil(kShapeSettled_s / (table.tick_s * table.interval_ticks)))) {}
+    : table_(table),
+      window_(static_cast<std::size_t>(std::ceil(kShapeSettled_s / (table.tick_s * table.interval_ticks)))) {}
 
 void ShapeProgress::note(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear) {
   missing_m_ = missing_now_m(table_, now.theta_command_rad, nodes, clear);

@@ -1,5 +1,5 @@
-// How much of the wanted shape is missing, and whether it still comes nearer: what tells that a shape has arrived, long before the arm has
-// come to rest altogether.
+// How much of the wanted shape is missing, and whether it still comes nearer: what tells that a shape has arrived, long
+// before the arm has come to rest altogether.
 #pragma once
 
 #include <cstddef>
@@ -17,13 +17,14 @@ class ShapeProgress {
  public:
   explicit ShapeProgress(const RobotTable& table);
 
-  // One command interval of the arm and what its shape is asked for. Cost: one forward kinematics where something is asked for.
+  // One command interval of the arm and what its shape is asked for. Cost: one forward kinematics where something is
+  // asked for.
   void note(const Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear);
   // New targets: what was missing of the old ones says nothing about them.
   void restart() { recent_m_.clear(), oldest_ = 0; }
 
-  // Sum of weight times excess, over the largest weight [m]: how far nodes are beyond their thresholds, and what points to keep clear of
-  // lack. 0 when nothing is asked for.
+  // Sum of weight times excess, over the largest weight [m]: how far nodes are beyond their thresholds, and what points
+  // to keep clear of lack. 0 when nothing is asked for.
   double missing_m() const { return missing_m_; }
   // Nothing is missing, or nothing has been gained for kShapeSettled_s.
   bool is_settled() const;

@@ -25,7 +25,8 @@ void BusBook::note_error_frame(DriveBusStats& book, const CanFrame& frame) noexc
     book.state = BusState::kBusOff;
   } else if ((controller & kPassive) != 0) {
     book.state = BusState::kErrorPassive;
-  } else if ((frame.id & CAN_ERR_RESTARTED) != 0 || (book.state == BusState::kErrorPassive && (controller & kActive) != 0)) {
+  } else if ((frame.id & CAN_ERR_RESTARTED) != 0 ||
+             (book.state == BusState::kErrorPassive && (controller & kActive) != 0)) {
     book.state = BusState::kActive;
   }
 }

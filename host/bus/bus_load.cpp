@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t kMaxNameLength = 11;  // 12 bytes with the final zero in WELCOME
 constexpr int kMaxDriveNode = 126;          // 127 is the master
 
-[[noreturn]] void refuse(const BusesConfig& config, const std::string& field, const std::string& value, const std::string& allowed) {
+[[noreturn]] void refuse(const BusesConfig& config, const std::string& field, const std::string& value,
+                         const std::string& allowed) {
   throw std::runtime_error("bus table " + config.name + ": " + field + ": " + value + ": " + allowed);
 }
 
@@ -30,7 +31,8 @@ void check_timing(const BusesConfig& config) {
   const bool whole = config.rate_hz > 0.0 && std::fabs(period_us - std::round(period_us)) < 1e-6;
   if (!whole || interpolation_period(static_cast<std::int32_t>(std::lround(period_us))).value == 0) {
     refuse(config, "rate_hz", shortest(config.rate_hz),
-           "object 60C2 of the drives cannot express this period; allowed are rates whose period is 1 to 255 times a power of ten seconds, "
+           "object 60C2 of the drives cannot express this period; allowed are rates whose period is 1 to 255 times a "
+           "power of ten seconds, "
            "as 100, 125, 200, 250, 500 and 1000 Hz");
   }
   const double ticks = config.command_interval_s * config.rate_hz;
@@ -38,7 +40,8 @@ void check_timing(const BusesConfig& config) {
     refuse(config, "command_interval_s", shortest(config.command_interval_s),
            "allowed are whole multiples of the period, " + shortest(1.0 / config.rate_hz) + " s; change it or rate_hz");
   }
-  if (config.heartbeat_ms < 1) refuse(config, "heartbeat_ms", std::to_string(config.heartbeat_ms), "allowed is 1 or more");
+  if (config.heartbeat_ms < 1)
+    refuse(config, "heartbeat_ms", std::to_string(config.heartbeat_ms), "allowed is 1 or more");
 }
 
 void check_nodes(const BusesConfig& config, std::size_t b, std::set<int>& used) {
@@ -47,11 +50,14 @@ void check_nodes(const BusesConfig& config, std::size_t b, std::set<int>& used) 
   if (bus.name.empty() || bus.name.size() > kMaxNameLength)
     refuse(config, field + "name", "'" + bus.name + "'", "allowed are 1 to 11 letters");
   if (bus.bitrate < 10000 || bus.bitrate > 1000000) {
-    refuse(config, field + "bitrate", std::to_string(bus.bitrate), "allowed is 10000 to 1000000 bit/s, the range of classical CAN");
+    refuse(config, field + "bitrate", std::to_string(bus.bitrate),
+           "allowed is 10000 to 1000000 bit/s, the range of classical CAN");
   }
   for (const int node : bus.nodes) {
-    if (node < 1 || node > kMaxDriveNode) refuse(config, field + "nodes", std::to_string(node), "allowed is 1 to 126; 127 is the master");
-    if (!used.insert(node).second) refuse(config, field + "nodes", std::to_string(node), "each node id once over all buses");
+    if (node < 1 || node > kMaxDriveNode)
+      refuse(config, field + "nodes", std::to_string(node), "allowed is 1 to 126; 127 is the master");
+    if (!used.insert(node).second)
+      refuse(config, field + "nodes", std::to_string(node), "each node id once over all buses");
   }
 }
 
@@ -59,8 +65,8 @@ void check_load(const BusesConfig& config, std::size_t b) {
   const double load = worst_load_with_sdo(config, b);
   if (load <= config.max_load) return;
   refuse(config, "buses[" + std::to_string(b) + "].nodes",
-         std::to_string(config.buses[b].nodes.size()) + " drives at " + shortest(config.rate_hz) + " Hz load " + config.buses[b].name +
-             " to " + shortest(std::round(1000.0 * load) / 10.0) + " % at worst",
+         std::to_string(config.buses[b].nodes.size()) + " drives at " + shortest(config.rate_hz) + " Hz load " +
+             config.buses[b].name + " to " + shortest(std::round(1000.0 * load) / 10.0) + " % at worst",
          "allowed is max_load, " + shortest(100.0 * config.max_load) +
              " %; lower rate_hz, raise bitrate or spread the drives over more buses");
 }
@@ -71,7 +77,8 @@ double worst_bits_per_second(const LoadTerms& terms) {
   const auto rpdo = worst_frame_bits(static_cast<std::uint32_t>(terms.rpdo_bytes));
   const auto tpdo = worst_frame_bits(static_cast<std::uint32_t>(terms.tpdo_bytes));
   const double period_bits = worst_frame_bits(0) + static_cast<double>(terms.drives) * (rpdo + tpdo);
-  return period_bits * terms.rate_hz + terms.heartbeats_per_s * worst_frame_bits(1) + 2.0 * terms.sdo_pairs_per_s * worst_frame_bits(8);
+  return period_bits * terms.rate_hz + terms.heartbeats_per_s * worst_frame_bits(1) +
+         2.0 * terms.sdo_pairs_per_s * worst_frame_bits(8);
 }
 
 LoadTerms load_terms(const BusesConfig& config, std::size_t bus) {

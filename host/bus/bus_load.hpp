@@ -26,8 +26,9 @@ LoadTerms load_terms(const BusesConfig& config, std::size_t bus);
 // Worst-case share of the wire of bus `bus`, SDO traffic included; over 1 it can not work.
 double worst_load_with_sdo(const BusesConfig& config, std::size_t bus);
 
-// Throws std::runtime_error when a bus exceeds max_load, 60C2 cannot express the period, T_c is not a whole number of ticks, a node id is
-// used twice or out of 1..126, or a bus has no name or too long a one. Messages name file (the table), field, value and what is allowed.
+// Throws std::runtime_error when a bus exceeds max_load, 60C2 cannot express the period, T_c is not a whole number of
+// ticks, a node id is used twice or out of 1..126, or a bus has no name or too long a one. Messages name file (the
+// table), field, value and what is allowed.
 void check_buses(const BusesConfig& config);
 
 }  // namespace liana

@@ -47,20 +47,21 @@ ifreq request_for(const std::string& name) {
 void check_interface(int descriptor, const std::string& name) {
   ifreq request = request_for(name);
   if (ioctl(descriptor, SIOCGIFHWADDR, &request) != 0) {
-    refuse(name,
-           "does not exist; " + interface_list() + "; correct the bus table, or for a virtual one: ip link add dev " + name + " type vcan");
+    refuse(name, "does not exist; " + interface_list() +
+                     "; correct the bus table, or for a virtual one: ip link add dev " + name + " type vcan");
   }
   if (request.ifr_hwaddr.sa_family != kArpHardwareCan) refuse(name, "is not a CAN interface; " + interface_list());
   request = request_for(name);
   if (ioctl(descriptor, SIOCGIFFLAGS, &request) != 0 || (request.ifr_flags & IFF_UP) == 0) {
-    refuse(name, "is down; set its bit rate if it is a real one (ip link set " + name + " type can bitrate 1000000), then: ip link set " +
-                     name + " up");
+    refuse(name, "is down; set its bit rate if it is a real one (ip link set " + name +
+                     " type can bitrate 1000000), then: ip link set " + name + " up");
   }
   request = request_for(name);
   // 0 means no queue at all (vcan): nothing can overflow. Linux's default of 10 is less than the frames of one tick.
-  if (ioctl(descriptor, SIOCGIFTXQLEN, &request) == 0 && request.ifr_qlen > 0 && request.ifr_qlen < kLeastTransmitQueue) {
-    refuse(name, "its transmit queue holds " + std::to_string(request.ifr_qlen) + " frames, needed are 64; ip link set " + name +
-                     " txqueuelen 128");
+  if (ioctl(descriptor, SIOCGIFTXQLEN, &request) == 0 && request.ifr_qlen > 0 &&
+      request.ifr_qlen < kLeastTransmitQueue) {
+    refuse(name, "its transmit queue holds " + std::to_string(request.ifr_qlen) +
+                     " frames, needed are 64; ip link set " + name + " txqueuelen 128");
   }
 }
 
@@ -70,7 +71,8 @@ void set_option(int descriptor, const std::string& name, int option, const void*
 }
 
 void configure_and_bind(int descriptor, const std::string& name) {
-  const can_err_mask_t errors = CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_BUSERROR | CAN_ERR_PROT | CAN_ERR_ACK | CAN_ERR_RESTARTED;
+  const can_err_mask_t errors =
+      CAN_ERR_CRTL | CAN_ERR_BUSOFF | CAN_ERR_BUSERROR | CAN_ERR_PROT | CAN_ERR_ACK | CAN_ERR_RESTARTED;
   set_option(descriptor, name, CAN_RAW_ERR_FILTER, &errors, sizeof errors);
   // Loopback stays on: it is how other programs of this machine (vcan, candump) see our frames. We ourselves do not.
   const int off = 0;

@@ -1,10 +1,12 @@
-// One interface to all CAN buses of a robot, whatever carries them: SocketCAN, or the embedded bus in lockstep or in real time.
+// One interface to all CAN buses of a robot, whatever carries them: SocketCAN, or the embedded bus in lockstep or in
+// real time.
 //
 // One tick, in this order:
 //   start = bus.begin_tick(k); bus.write_sync(); bus.send(...)  // SYNC, then what else belongs to the start of a tick
 //   bus.wait_feedback(n); while (bus.receive(received)) ...      // what came in since the last tick
 //   bus.send(...); bus.end_tick();                               // the targets
-// After open nothing allocates, takes a lock or throws; the only system calls are those of the sockets and the deadline timer.
+// After open nothing allocates, takes a lock or throws; the only system calls are those of the sockets and the deadline
+// timer.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +14,9 @@
 #include <string>
 
 #include "host/bus/can_frame.hpp"
+#include "host/config/config.hpp"
 #include "host/time/tick_start.hpp"
 #include "host/time/time_mode.hpp"
-#include "host/config/config.hpp"
 
 namespace liana {
 
@@ -56,11 +58,13 @@ class DriveBus {
 
   virtual int bus_count() const noexcept = 0;
   virtual TimeMode time_mode() const noexcept = 0;
-  // Waits for the start of tick `tick` (they start at 0 and grow). In real time a tick whose deadline has passed is not caught up with.
+  // Waits for the start of tick `tick` (they start at 0 and grow). In real time a tick whose deadline has passed is not
+  // caught up with.
   virtual TickStart begin_tick(std::uint64_t tick) noexcept = 0;
   // Queues a frame on bus 0..bus_count()-1.
   virtual SendResult send(int bus, const CanFrame& frame) noexcept = 0;
-  // Waits until `expected_tpdos` PDO frames (COB-ID 0x181..0x1FF) have come in since begin_tick, or half the period has passed.
+  // Waits until `expected_tpdos` PDO frames (COB-ID 0x181..0x1FF) have come in since begin_tick, or half the period has
+  // passed.
   virtual void wait_feedback(int expected_tpdos) noexcept = 0;
   // Fetches the next frame, oldest first; false when there is none.
   virtual bool receive(ReceivedFrame& received) noexcept = 0;
@@ -78,8 +82,9 @@ class DriveBus {
 };
 
 // Opens the buses of the table. `bus_socket` is the path of liana-bus; unused for the socketcan backend.
-// Throws std::runtime_error saying what is missing and what to do: no such interface (and which exist), interface down, kernel without
-// CAN, transmit queue too short, virtual time asked of SocketCAN, nobody listening at bus_socket, or a bus process that runs another table.
+// Throws std::runtime_error saying what is missing and what to do: no such interface (and which exist), interface down,
+// kernel without CAN, transmit queue too short, virtual time asked of SocketCAN, nobody listening at bus_socket, or a
+// bus process that runs another table.
 std::unique_ptr<DriveBus> open_drive_bus(const BusesConfig& config, TimeMode mode, const std::string& bus_socket);
 
 }  // namespace liana

@@ -15,7 +15,8 @@ UniqueFd connect_to(const std::string& path) {
   const sockaddr_un address = unix_address(path);
   UniqueFd fd(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   if (fd.get() < 0 || connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
-    throw std::runtime_error("bus socket " + path + ": " + std::strerror(errno) + "; start liana-bus with --socket " + path + " first");
+    throw std::runtime_error("bus socket " + path + ": " + std::strerror(errno) + "; start liana-bus with --socket " +
+                             path + " first");
   }
   return fd;
 }
@@ -31,12 +32,14 @@ wire::Welcome greet(int descriptor, const std::string& path) {
     } while (size < 0 && errno == EINTR);
   }
   if (size > 0 && packet[0] == static_cast<char>(wire::Type::kError)) {
-    throw std::runtime_error("bus socket " + path + ": refused: " + std::string(packet.data() + 1, static_cast<std::size_t>(size - 1)));
+    throw std::runtime_error("bus socket " + path +
+                             ": refused: " + std::string(packet.data() + 1, static_cast<std::size_t>(size - 1)));
   }
   wire::Welcome welcome;
   const auto bytes = static_cast<std::size_t>(size < 0 ? 0 : size);
   if (bytes >= 8 && bytes <= sizeof welcome) std::memcpy(&welcome, packet.data(), bytes);
-  if (bytes < 8 || welcome.type != wire::Type::kWelcome || welcome.bus_count > wire::kMaxBuses || bytes != welcome.size()) {
+  if (bytes < 8 || welcome.type != wire::Type::kWelcome || welcome.bus_count > wire::kMaxBuses ||
+      bytes != welcome.size()) {
     throw std::runtime_error("bus socket " + path +
                              ": closed or answered with something else than WELCOME; is it liana-bus of this version?");
   }
@@ -70,8 +73,8 @@ EmbeddedLink::EmbeddedLink(const std::string& path, const BusesConfig& config)
   const std::string runs = describe(welcome_);
   const std::string expected = describe(expected_welcome(config));
   if (runs != expected) {
-    throw std::runtime_error("bus socket " + path + ": liana-bus runs " + runs + "; table " + config.name + " says " + expected +
-                             "; give both the same table");
+    throw std::runtime_error("bus socket " + path + ": liana-bus runs " + runs + "; table " + config.name + " says " +
+                             expected + "; give both the same table");
   }
 }
 

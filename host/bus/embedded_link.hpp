@@ -11,8 +11,8 @@ namespace liana {
 
 class EmbeddedLink {
  public:
-  // Connects to `path` and exchanges HELLO and WELCOME, as liana-bus answers at once. Throws std::runtime_error when nobody
-  // listens there, the bus refuses, or it runs other buses than `config`.
+  // Connects to `path` and exchanges HELLO and WELCOME, as liana-bus answers at once. Throws std::runtime_error when
+  // nobody listens there, the bus refuses, or it runs other buses than `config`.
   EmbeddedLink(const std::string& path, const BusesConfig& config);
 
   int descriptor() const noexcept { return socket_.get(); }

@@ -10,7 +10,8 @@ namespace liana {
 // CRC delimiter 1, ACK 2, end of frame 7, interframe space 3: never stuffed.
 constexpr std::uint32_t kUnstuffedTailBits = 13;
 
-// Bits of `frame` from start of frame to the end of the interframe space, stuff bits included: 11-bit 47..55+10n, 29-bit 67..80+10n.
+// Bits of `frame` from start of frame to the end of the interframe space, stuff bits included: 11-bit 47..55+10n,
+// 29-bit 67..80+10n.
 std::uint32_t frame_bits(const CanFrame& frame) noexcept;
 
 // CRC-15 (polynomial 0x4599) of the unstuffed bits from start of frame to the last data bit.

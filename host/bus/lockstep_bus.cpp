@@ -9,7 +9,8 @@ constexpr int kTransmitQueue = 64;  // frames per bus, docs/bus-protocol.md
 
 }  // namespace
 
-LockstepBus::LockstepBus(std::unique_ptr<EmbeddedLink> link) : link_(std::move(link)), period_us_(link_->welcome().period_us) {}
+LockstepBus::LockstepBus(std::unique_ptr<EmbeddedLink> link)
+    : link_(std::move(link)), period_us_(link_->welcome().period_us) {}
 
 LockstepBus::~LockstepBus() {
   yield_.flags = wire::kYieldLeave;

@@ -16,8 +16,9 @@ std::unique_ptr<DriveBus> open_embedded(const BusesConfig& config, TimeMode mode
   auto link = std::make_unique<EmbeddedLink>(bus_socket, config);
   const auto runs = static_cast<TimeMode>(link->welcome().time_mode);
   if (runs != mode) {
-    throw std::runtime_error("bus socket " + bus_socket + ": liana-bus runs in " + std::string(time_mode_name(runs)) + " time, asked was " +
-                             std::string(time_mode_name(mode)) + "; start both with the same --time");
+    throw std::runtime_error("bus socket " + bus_socket + ": liana-bus runs in " + std::string(time_mode_name(runs)) +
+                             " time, asked was " + std::string(time_mode_name(mode)) +
+                             "; start both with the same --time");
   }
   if (mode == TimeMode::kReal) return std::make_unique<EmbeddedRealtimeBus>(std::move(link));
   return std::make_unique<LockstepBus>(std::move(link));
@@ -29,7 +30,8 @@ std::unique_ptr<DriveBus> open_drive_bus(const BusesConfig& config, TimeMode mod
   check_buses(config);
   if (config.backend == "embedded") return open_embedded(config, mode, bus_socket);
   if (config.backend != "socketcan") {
-    throw std::runtime_error("bus table " + config.name + ": backend: '" + config.backend + "': allowed are embedded and socketcan");
+    throw std::runtime_error("bus table " + config.name + ": backend: '" + config.backend +
+                             "': allowed are embedded and socketcan");
   }
   if (mode != TimeMode::kReal) {
     throw std::runtime_error("bus table " + config.name + ": time " + std::string(time_mode_name(mode)) +

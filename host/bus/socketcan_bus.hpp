@@ -7,7 +7,8 @@ namespace liana {
 
 class SocketCanBus final : public RealtimeBus {
  public:
-  // Throws std::runtime_error: kernel without CAN, interface missing, not CAN, down, or with too short a transmit queue.
+  // Throws std::runtime_error: kernel without CAN, interface missing, not CAN, down, or with too short a transmit
+  // queue.
   explicit SocketCanBus(const BusesConfig& config);
   ~SocketCanBus() override;
 

@@ -37,7 +37,8 @@ wire::Welcome welcome_of(const BusHubOptions& options) {
 void BusHub::wait_readable(std::uint64_t timeout_ns) {
   std::array<pollfd, 2> watched{};
   for (std::size_t i = 0; i < participants_.size(); ++i) watched[i] = {participants_[i].descriptor(), POLLIN, 0};
-  const timespec timeout{static_cast<time_t>(timeout_ns / 1'000'000'000), static_cast<long>(timeout_ns % 1'000'000'000)};
+  const timespec timeout{static_cast<time_t>(timeout_ns / 1'000'000'000),
+                         static_cast<long>(timeout_ns % 1'000'000'000)};
   const bool forever = timeout_ns == std::numeric_limits<std::uint64_t>::max();
   ppoll(watched.data(), participants_.size(), forever ? nullptr : &timeout, nullptr);
   if (bus_stop_requested()) end("stopped by a signal");
@@ -67,7 +68,8 @@ void BusHub::queue_yield(std::size_t index) {
     wire::Frame frame = yield.frame[i];
     if (frame.bus >= sim_.wires().size() || frame.length > 8) {
       participant.refuse("frame for bus " + std::to_string(frame.bus) + " with " + std::to_string(frame.length) +
-                         " bytes; allowed are buses 0 to " + std::to_string(sim_.wires().size() - 1) + " and 0 to 8 bytes");
+                         " bytes; allowed are buses 0 to " + std::to_string(sim_.wires().size() - 1) +
+                         " and 0 to 8 bytes");
       return end(participant.name() + " sent a malformed frame");
     }
     if (sim_.queue(static_cast<int>(index), frame.bus, wire::to_can_frame(frame), now_ns)) continue;

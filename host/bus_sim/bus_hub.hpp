@@ -1,4 +1,5 @@
-// What the bus process holds once everybody is there: wires, participants, logs. How time passes is run_lockstep's and run_real's business.
+// What the bus process holds once everybody is there: wires, participants, logs. How time passes is run_lockstep's and
+// run_real's business.
 #pragma once
 
 #include <string>
@@ -40,7 +41,8 @@ class BusHub final : private FrameSink {
   void wait_readable(std::uint64_t timeout_ns);
   // Reads one packet of participant `index`; true when it is a YIELD. Ends the bus when it has left or talks nonsense.
   bool read_yield(std::size_t index);
-  // Puts the frames of the YIELD just read into the queues; those that do not fit go back to their sender with its next WAKE.
+  // Puts the frames of the YIELD just read into the queues; those that do not fit go back to their sender with its next
+  // WAKE.
   void queue_yield(std::size_t index);
   // When participant `index` may run at the earliest: later than now while a script pauses it.
   std::uint64_t awake_from_ns(std::size_t index) const;

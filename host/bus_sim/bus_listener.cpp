@@ -27,14 +27,15 @@ std::optional<wire::Hello> read_hello(int descriptor) {
 
 std::string objection(const wire::Hello& hello, const std::vector<Participant>& present) {
   if (hello.version != wire::kVersion) {
-    return "bus protocol version " + std::to_string(hello.version) + " asked, spoken is " + std::to_string(wire::kVersion) +
-           "; use programs of one build";
+    return "bus protocol version " + std::to_string(hello.version) + " asked, spoken is " +
+           std::to_string(wire::kVersion) + "; use programs of one build";
   }
   if (hello.role != wire::Role::kController && hello.role != wire::Role::kPlant)
     return "unknown role; allowed are 0 controller and 1 plant";
   for (const Participant& other : present) {
     if (other.role() == hello.role)
-      return "the bus has a " + std::string(hello.role == wire::Role::kPlant ? "plant" : "controller") + " already: " + other.name();
+      return "the bus has a " + std::string(hello.role == wire::Role::kPlant ? "plant" : "controller") +
+             " already: " + other.name();
   }
   return "";
 }
@@ -76,7 +77,8 @@ std::vector<Participant> admit_participants(const std::string& socket_path, cons
     if (count > 0) admit_one(listener.get(), welcome, present);
   }
   unlink(socket_path.c_str());
-  std::sort(present.begin(), present.end(), [](const Participant& a, const Participant& b) { return a.role() < b.role(); });
+  std::sort(present.begin(), present.end(),
+            [](const Participant& a, const Participant& b) { return a.role() < b.role(); });
   return present;
 }
 

@@ -10,8 +10,10 @@
 namespace liana {
 namespace {
 
-[[noreturn]] void refuse(const std::string& path, const std::string& field, const Json& value, const std::string& allowed) {
-  throw std::runtime_error(path + ": " + field + ": " + (value.is_null() ? "missing" : value.dump()) + ": allowed " + allowed);
+[[noreturn]] void refuse(const std::string& path, const std::string& field, const Json& value,
+                         const std::string& allowed) {
+  throw std::runtime_error(path + ": " + field + ": " + (value.is_null() ? "missing" : value.dump()) + ": allowed " +
+                           allowed);
 }
 
 Json field(const Json& object, const char* name) {
@@ -40,8 +42,10 @@ void load_wires(const std::string& path, BusHubOptions& options) {
   if (!rate.is_number() || rate < 1.0 || rate > 10000.0) refuse(path, "rate_hz", rate, "is 1 to 10000 Hz");
   options.period_us = static_cast<std::uint32_t>(std::lround(1e6 / rate.get<double>()));
   const auto buses = field(table, "buses");
-  if (!buses.is_array() || buses.empty() || buses.size() > wire::kMaxBuses) refuse(path, "buses", buses, "are 1 to 8 buses");
-  for (std::size_t b = 0; b < buses.size(); ++b) options.wires.push_back(read_wire(path, "buses[" + std::to_string(b) + "].", buses[b]));
+  if (!buses.is_array() || buses.empty() || buses.size() > wire::kMaxBuses)
+    refuse(path, "buses", buses, "are 1 to 8 buses");
+  for (std::size_t b = 0; b < buses.size(); ++b)
+    options.wires.push_back(read_wire(path, "buses[" + std::to_string(b) + "].", buses[b]));
 }
 
 void write_bus_stats(const std::string& path, const BusHub& hub) {
@@ -60,7 +64,8 @@ void write_bus_stats(const std::string& path, const BusHub& hub) {
                      {"disturbed", stats.disturbed}});
   }
   std::ofstream file(path);
-  file << Json{{"time_s", elapsed_s}, {"slots", hub.slot()}, {"ended", hub.end_reason()}, {"buses", buses}}.dump(1) << '\n';
+  file << Json{{"time_s", elapsed_s}, {"slots", hub.slot()}, {"ended", hub.end_reason()}, {"buses", buses}}.dump(1)
+       << '\n';
   file.close();
   if (!file) throw std::runtime_error(path + ": cannot be written; give --stats a file in a directory you may write");
 }

@@ -7,10 +7,12 @@
 
 namespace liana {
 
-// Wires and period from the bus table (docs/formats.md); nothing else in it matters here. Throws std::runtime_error with file and field.
+// Wires and period from the bus table (docs/formats.md); nothing else in it matters here. Throws std::runtime_error
+// with file and field.
 void load_wires(const std::string& path, BusHubOptions& options);
 
-// Writes per bus frames, bits, load (0..1), refused and dropped as JSON. Throws std::runtime_error when the file cannot be written.
+// Writes per bus frames, bits, load (0..1), refused and dropped as JSON. Throws std::runtime_error when the file cannot
+// be written.
 void write_bus_stats(const std::string& path, const BusHub& hub);
 
 }  // namespace liana

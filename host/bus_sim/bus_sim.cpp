@@ -5,7 +5,8 @@
 
 namespace liana {
 
-BusSim::BusSim(std::vector<WireConfig> wires, std::uint32_t period_us, int participants, FaultScript script, FrameSink& sink)
+BusSim::BusSim(std::vector<WireConfig> wires, std::uint32_t period_us, int participants, FaultScript script,
+               FrameSink& sink)
     : wires_(std::move(wires)),
       lines_(wires_.size()),
       connectors_(wires_.size()),
@@ -61,8 +62,10 @@ void BusSim::begin_slot(std::uint64_t slot) {
 
 std::uint32_t BusSim::strangers_frames(const BusFault& fault) const {
   if (fault.load_percent == 0) return 1;
-  const std::uint64_t bits = std::uint64_t{wires_[static_cast<std::size_t>(fault.bus)].bitrate} * period_us_ / 1'000'000;
-  return static_cast<std::uint32_t>(bits * static_cast<std::uint64_t>(fault.load_percent) / 100 / frame_bits(fault.frame));
+  const std::uint64_t bits =
+      std::uint64_t{wires_[static_cast<std::size_t>(fault.bus)].bitrate} * period_us_ / 1'000'000;
+  return static_cast<std::uint32_t>(bits * static_cast<std::uint64_t>(fault.load_percent) / 100 /
+                                    frame_bits(fault.frame));
 }
 
 // What was queued is gone, and the error counters begin anew.
@@ -89,7 +92,9 @@ void BusSim::start_next(std::size_t bus, std::uint64_t now_ns) {
   }
   for (Stranger& stranger : strangers_) {
     const std::uint32_t key = arbitration_key(stranger.frame);
-    if (stranger.bus != static_cast<int>(bus) || stranger.pending == 0 || (winner != nullptr && winner->next_key() <= key)) continue;
+    if (stranger.bus != static_cast<int>(bus) || stranger.pending == 0 ||
+        (winner != nullptr && winner->next_key() <= key))
+      continue;
     --stranger.pending;
     line.sender = kStranger;
     line.sending = {key, stranger.frame, true};
@@ -122,7 +127,8 @@ std::uint64_t BusSim::next_end_ns() const {
 bool BusSim::is_sync_under_way() const {
   return std::any_of(lines_.begin(), lines_.end(), [](const Line& line) {
     const auto holds_sync = [](const TransmitQueue& queue) { return queue.holds(kSyncId); };
-    return (line.busy && line.sending.frame.id == kSyncId) || std::any_of(line.queues.begin(), line.queues.end(), holds_sync);
+    return (line.busy && line.sending.frame.id == kSyncId) ||
+           std::any_of(line.queues.begin(), line.queues.end(), holds_sync);
   });
 }
 
@@ -151,7 +157,8 @@ void BusSim::end_frame(std::size_t bus, std::uint64_t now_ns) {
   if (ended.dropped) ++line.stats.dropped;
   const bool again = !line.sending.sent_before && script_.takes(BusAction::kDuplicate, wire, ended.frame.id, slot);
   if (again) line.queues[static_cast<std::size_t>(line.sender)].put_back(line.sending);
-  if (line.held.empty() && script_.takes(BusAction::kReorder, wire, ended.frame.id, slot)) return line.held.push_back(ended);
+  if (line.held.empty() && script_.takes(BusAction::kReorder, wire, ended.frame.id, slot))
+    return line.held.push_back(ended);
   hand_over(line, ended);
 }
 

@@ -1,4 +1,5 @@
-// The wires of the embedded bus: who may send, how long a frame takes, who gets it. Knows virtual time, no clock and no sockets.
+// The wires of the embedded bus: who may send, how long a frame takes, who gets it. Knows virtual time, no clock and no
+// sockets.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +44,8 @@ struct EndedFrame {
   int controller_bus = 0;  // at which connector of the controller
 };
 
-// Told of what happens on the wires, and of what the controller's own interfaces report (`bus` is then the controller's connector).
+// Told of what happens on the wires, and of what the controller's own interfaces report (`bus` is then the controller's
+// connector).
 class FrameSink {
  public:
   virtual ~FrameSink() = default;

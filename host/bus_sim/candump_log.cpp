@@ -23,7 +23,8 @@ char* put_hex(char* to, std::uint32_t value, int digits) {
 
 }  // namespace
 
-std::size_t format_candump(const std::string& interface, const CanFrame& frame, std::array<char, kLongestLogLine>& line) {
+std::size_t format_candump(const std::string& interface, const CanFrame& frame,
+                           std::array<char, kLongestLogLine>& line) {
   char* to = line.data();
   *to++ = '(';
   to = put_decimal(to, frame.time_us / 1'000'000, 10);
@@ -35,7 +36,9 @@ std::size_t format_candump(const std::string& interface, const CanFrame& frame, 
   *to++ = ' ';
   const bool is_error = (frame.id & kCanErrorFlag) != 0;
   const bool extended = (frame.id & kCanExtendedFlag) != 0;
-  const std::uint32_t mask = is_error ? kCanErrorFlag | kCanExtendedMask : extended ? kCanExtendedMask : kCanStandardMask;
+  const std::uint32_t mask = is_error   ? kCanErrorFlag | kCanExtendedMask
+                             : extended ? kCanExtendedMask
+                                        : kCanStandardMask;
   to = put_hex(to, frame.id & mask, extended || is_error ? 8 : 3);
   *to++ = '#';
   const bool remote = (frame.id & kCanRemoteFlag) != 0;

@@ -15,7 +15,8 @@ namespace liana {
 constexpr std::size_t kLongestLogLine = 64;
 
 // Formats "(seconds.microseconds) interface id#data\n" into `line`; its length.
-std::size_t format_candump(const std::string& interface, const CanFrame& frame, std::array<char, kLongestLogLine>& line);
+std::size_t format_candump(const std::string& interface, const CanFrame& frame,
+                           std::array<char, kLongestLogLine>& line);
 
 class CandumpLog {
  public:

@@ -18,7 +18,8 @@ class ErrorCounters {
   std::optional<CanFrame> received() noexcept;
   // An own frame was destroyed.
   std::optional<CanFrame> transmit_failed() noexcept;
-  // Nobody acknowledged an own frame; a passive controller no longer counts this, so that it alone never leads to bus-off.
+  // Nobody acknowledged an own frame; a passive controller no longer counts this, so that it alone never leads to
+  // bus-off.
   std::optional<CanFrame> unacknowledged() noexcept;
   // Somebody else's frame was destroyed.
   std::optional<CanFrame> receive_failed() noexcept;

@@ -57,7 +57,8 @@ struct Entry {
     return value;
   }
 
-  std::uint64_t number_or(const std::string& field, std::uint64_t least, std::uint64_t most, std::uint64_t otherwise) const {
+  std::uint64_t number_or(const std::string& field, std::uint64_t least, std::uint64_t most,
+                          std::uint64_t otherwise) const {
     return has(field) ? number(field, least, most) : otherwise;
   }
 };
@@ -89,10 +90,12 @@ std::optional<std::uint32_t> read_id(const Entry& entry) {
 
 // The frame a stranger sends: an 11-bit id and up to 8 bytes in hex.
 CanFrame read_frame(const Entry& entry, const std::optional<std::uint32_t>& id) {
-  if (!id || *id > kCanStandardMask) entry.refuse("id", "is the 11-bit identifier of the frame to send, like \"0x000\"");
+  if (!id || *id > kCanStandardMask)
+    entry.refuse("id", "is the 11-bit identifier of the frame to send, like \"0x000\"");
   CanFrame frame;
   frame.id = *id;
-  const std::string text = entry.has("data") && entry.json.at("data").is_string() ? entry.json.at("data").get<std::string>() : "";
+  const std::string text =
+      entry.has("data") && entry.json.at("data").is_string() ? entry.json.at("data").get<std::string>() : "";
   const bool is_hex = text.find_first_not_of("0123456789abcdefABCDEF") == std::string::npos;
   if ((entry.has("data") && text.empty()) || !is_hex || text.size() % 2 != 0 || text.size() > 16)
     entry.refuse("data", "are up to 8 bytes in hex, like \"8104\"");
@@ -103,7 +106,8 @@ CanFrame read_frame(const Entry& entry, const std::optional<std::uint32_t>& id) 
 
 BusFault read_fault(const Entry& entry, int bus_count) {
   if (!entry.json.is_object())
-    throw std::runtime_error(entry.where + " is not an object; write {\"action\":\"drop\",\"bus\":0,\"from_slot\":100,...}");
+    throw std::runtime_error(entry.where +
+                             " is not an object; write {\"action\":\"drop\",\"bus\":0,\"from_slot\":100,...}");
   const ActionFields& action = read_action(entry);
   const std::string known = "action from_slot to_slot " + std::string(action.fields);
   for (const auto& [key, value] : entry.json.items()) {
@@ -119,7 +123,8 @@ BusFault read_fault(const Entry& entry, int bus_count) {
   fault.id = read_id(entry);
   fault.count = static_cast<std::uint32_t>(entry.number_or("count", 1, kLastSlot, fault.count));
   if (action.action == BusAction::kSwap) fault.with_bus = static_cast<int>(entry.number("with_bus", 0, last_bus));
-  if (action.action == BusAction::kSwap && fault.with_bus == fault.bus) entry.refuse("with_bus", "is another bus than bus");
+  if (action.action == BusAction::kSwap && fault.with_bus == fault.bus)
+    entry.refuse("with_bus", "is another bus than bus");
   if (action.action == BusAction::kSend) fault.frame = read_frame(entry, fault.id);
   fault.load_percent = static_cast<int>(entry.number_or("load_percent", 1, 100, 0));
   return fault;
@@ -129,7 +134,9 @@ BusFault read_fault(const Entry& entry, int bus_count) {
 
 bool FaultScript::takes(BusAction action, int bus, std::uint32_t id, std::uint64_t slot) {
   for (BusFault& fault : faults_) {
-    if (fault.action != action || fault.bus != bus || !covers(fault, slot) || fault.count == 0 || fault.id.value_or(id) != id) continue;
+    if (fault.action != action || fault.bus != bus || !covers(fault, slot) || fault.count == 0 ||
+        fault.id.value_or(id) != id)
+      continue;
     --fault.count;
     return true;
   }
@@ -137,8 +144,9 @@ bool FaultScript::takes(BusAction action, int bus, std::uint32_t id, std::uint64
 }
 
 bool FaultScript::lasts(BusAction action, int bus, std::uint64_t slot) const {
-  return std::any_of(faults_.begin(), faults_.end(),
-                     [&](const BusFault& fault) { return fault.action == action && fault.bus == bus && covers(fault, slot); });
+  return std::any_of(faults_.begin(), faults_.end(), [&](const BusFault& fault) {
+    return fault.action == action && fault.bus == bus && covers(fault, slot);
+  });
 }
 
 int FaultScript::across(int bus, std::uint64_t slot) const {

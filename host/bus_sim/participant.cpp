@@ -10,7 +10,9 @@
 namespace liana {
 
 Participant::Participant(UniqueFd socket, const wire::Hello& hello)
-    : socket_(std::move(socket)), name_(hello.name.data(), strnlen(hello.name.data(), hello.name.size())), role_(hello.role) {
+    : socket_(std::move(socket)),
+      name_(hello.name.data(), strnlen(hello.name.data(), hello.name.size())),
+      role_(hello.role) {
   inbox_.reserve(4 * wire::kMaxPacketFrames);
 }
 

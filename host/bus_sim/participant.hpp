@@ -29,7 +29,8 @@ class Participant {
   bool sync_seen() const { return sync_seen_; }
   // The first one since the last WAKE.
   std::uint64_t sync_ns() const { return sync_ns_; }
-  // Sends WAKE with the kept frames (at most 256); false when the participant has gone. Without `block`, a full socket keeps them.
+  // Sends WAKE with the kept frames (at most 256); false when the participant has gone. Without `block`, a full socket
+  // keeps them.
   bool wake(std::uint8_t flags, std::uint32_t slot, std::uint64_t now_us, bool block);
 
   enum class Received { kYield, kNothing, kGone, kMalformed };

@@ -8,7 +8,8 @@ namespace {
 
 constexpr std::uint64_t kForeverNs = std::numeric_limits<std::uint64_t>::max();
 
-// Slows virtual time to the wall clock at slot starts. When computing takes longer than the slot, the rest is shifted: no bursts.
+// Slows virtual time to the wall clock at slot starts. When computing takes longer than the slot, the rest is shifted:
+// no bursts.
 class Pacer {
  public:
   explicit Pacer(std::uint64_t period_ns) : period_ns_(period_ns) { clock_gettime(CLOCK_MONOTONIC, &start_); }
@@ -32,7 +33,9 @@ class Pacer {
     time.tv_sec += static_cast<time_t>(sum / 1'000'000'000);
     time.tv_nsec = static_cast<long>(sum % 1'000'000'000);
   }
-  static bool later(const timespec& a, const timespec& b) { return a.tv_sec != b.tv_sec ? a.tv_sec > b.tv_sec : a.tv_nsec > b.tv_nsec; }
+  static bool later(const timespec& a, const timespec& b) {
+    return a.tv_sec != b.tv_sec ? a.tv_sec > b.tv_sec : a.tv_nsec > b.tv_nsec;
+  }
 
   std::uint64_t period_ns_;
   std::uint64_t slot_ = 0;
@@ -46,7 +49,8 @@ void take_yield(BusHub& hub, std::size_t index) {
   const wire::Yield& yield = participant.yield();
   if (!participant.awake) return hub.end(participant.name() + " yielded without having been woken");
   if (yield.until_us <= hub.now_ns / 1000) {
-    participant.refuse("until_us " + std::to_string(yield.until_us) + " is not later than now, " + std::to_string(hub.now_ns / 1000));
+    participant.refuse("until_us " + std::to_string(yield.until_us) + " is not later than now, " +
+                       std::to_string(hub.now_ns / 1000));
     return hub.end(participant.name() + " asked to be woken in the past");
   }
   participant.awake = false;
@@ -61,7 +65,8 @@ bool somebody_awake(BusHub& hub) {
   return false;
 }
 
-// Waits until everybody woken has yielded, then queues their frames in the order of the participants, not of their arrival.
+// Waits until everybody woken has yielded, then queues their frames in the order of the participants, not of their
+// arrival.
 void collect(BusHub& hub) {
   std::array<bool, 2> was_awake{};
   for (std::size_t i = 0; i < hub.participants().size(); ++i) was_awake[i] = hub.participants()[i].awake;
@@ -81,7 +86,8 @@ std::uint64_t sync_patience_ns(const BusHub& hub) { return std::uint64_t{hub.per
 std::uint64_t wanted_ns(BusHub& hub, std::size_t index) {
   const Participant& participant = hub.participants()[index];
   std::uint64_t wanted = participant.until_ns;
-  if (participant.wake_on_sync && participant.sync_seen()) wanted = std::min(wanted, participant.sync_ns() + sync_patience_ns(hub));
+  if (participant.wake_on_sync && participant.sync_seen())
+    wanted = std::min(wanted, participant.sync_ns() + sync_patience_ns(hub));
   return std::max(wanted, hub.awake_from_ns(index));
 }
 

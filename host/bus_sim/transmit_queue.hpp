@@ -1,4 +1,5 @@
-// The transmit queue of one participant on one bus: bounded, lowest identifier first, first come first served among equals.
+// The transmit queue of one participant on one bus: bounded, lowest identifier first, first come first served among
+// equals.
 #pragma once
 
 #include <array>

@@ -8,8 +8,8 @@
 #include <stdexcept>
 
 #include "firmware_like/math/convert.hpp"
-#include "host/config/sha256.hpp"
 #include "host/calibration/fixture.hpp"
+#include "host/config/sha256.hpp"
 
 namespace liana {
 namespace {
@@ -31,7 +31,8 @@ std::string text(const char* format, auto... values) {
 // Largest |a scale - b| over the poses.
 double misfit_m(const Changes& a, double scale, const Changes& b) { return (scale * a - b).lpNorm<Eigen::Infinity>(); }
 
-// What the drives report and what the geometry says: changes between poses, by drive and by cable, and the means they are about.
+// What the drives report and what the geometry says: changes between poses, by drive and by cable, and the means they
+// are about.
 struct Lengths {
   Eigen::MatrixXd reported, expected;  // rows are poses
   Eigen::RowVectorXd reported_mean_m, expected_mean_m;
@@ -65,7 +66,9 @@ Fit fit(const Changes& reported, const Changes& expected) {
   return {scale, misfit_m(reported, scale, expected)};
 }
 
-bool is_drum(const Fit& found) { return found.misfit_m <= kMisfit_m && std::fabs(std::fabs(found.scale) - 1.0) <= kDrumShare; }
+bool is_drum(const Fit& found) {
+  return found.misfit_m <= kMisfit_m && std::fabs(std::fabs(found.scale) - 1.0) <= kDrumShare;
+}
 
 // The other cable that a drive follows as if it were its own.
 std::optional<Index> followed_by(const Lengths& lengths, Index drive) {
@@ -85,19 +88,22 @@ std::string problem_of(const RobotConfig& robot, const Lengths& lengths, Index d
   const int node = static_cast<int>(drive) + 1;
   if (other && *other != drive) {
     return text(
-        "drive %d (node %d) moves as cable %d does, not as its own: their cables are exchanged: wind each cable on its own drum, or "
+        "drive %d (node %d) moves as cable %d does, not as its own: their cables are exchanged: wind each cable on its "
+        "own drum, or "
         "exchange the drives' node ids, then calibrate again",
         static_cast<int>(drive), node, static_cast<int>(*other));
   }
   if (own.misfit_m <= kMisfit_m) {
     return text(
-        "drive %d (node %d): drum radius %.4f mm: allowed %.4f mm +- %.0f %%: look whether cable lies on cable, or correct "
+        "drive %d (node %d): drum radius %.4f mm: allowed %.4f mm +- %.0f %%: look whether cable lies on cable, or "
+        "correct "
         "drives.drum_radius_m of robot %s",
-        static_cast<int>(drive), node, 1e3 * std::fabs(own.scale) * robot.drum_radius_m, 1e3 * robot.drum_radius_m, 100.0 * kDrumShare,
-        robot.name.c_str());
+        static_cast<int>(drive), node, 1e3 * std::fabs(own.scale) * robot.drum_radius_m, 1e3 * robot.drum_radius_m,
+        100.0 * kDrumShare, robot.name.c_str());
   }
   return text(
-      "drive %d (node %d): its position misses the fixtures' poses by %.1f mm: allowed %.1f mm: look whether the arm lies in every "
+      "drive %d (node %d): its position misses the fixtures' poses by %.1f mm: allowed %.1f mm: look whether the arm "
+      "lies in every "
       "fixture and the cable is on its drum",
       static_cast<int>(drive), node, 1e3 * own.misfit_m, 1e3 * kMisfit_m);
 }
@@ -106,13 +112,16 @@ std::string problem_of(const RobotConfig& robot, const Lengths& lengths, Index d
 std::string serial_problem_of(const RobotConfig& robot, std::span<const CalibrationReading> readings, Index drive) {
   const std::uint32_t serial = readings.front().serial[drive];
   const int node = static_cast<int>(drive) + 1;
-  const std::string who = text("drive %d (node %d): serial number %u (object 0x1018:4)", static_cast<int>(drive), node, serial);
+  const std::string who =
+      text("drive %d (node %d): serial number %u (object 0x1018:4)", static_cast<int>(drive), node, serial);
   if (serial == 0)
-    return who + ": allowed 1 or more: a drive without a number of its own cannot be told from another: give it one, or take another";
+    return who +
+           ": allowed 1 or more: a drive without a number of its own cannot be told from another: give it one, or take "
+           "another";
   for (const CalibrationReading& reading : readings) {
     if (reading.serial[drive] != serial)
-      return who +
-             text(" in the first fixture, %u in another: leave the drives where they are, then calibrate again", reading.serial[drive]);
+      return who + text(" in the first fixture, %u in another: leave the drives where they are, then calibrate again",
+                        reading.serial[drive]);
   }
   for (Index other = 0; other < as_index(robot.table.cable_count()); ++other) {
     if (other != drive && readings.front().serial[other] == serial)
@@ -121,7 +130,8 @@ std::string serial_problem_of(const RobotConfig& robot, std::span<const Calibrat
   return "";
 }
 
-CableCalibration cable_of(const RobotConfig& robot, const Lengths& lengths, Index c, double scale, const CalibrationReading& first) {
+CableCalibration cable_of(const RobotConfig& robot, const Lengths& lengths, Index c, double scale,
+                          const CalibrationReading& first) {
   const DriveTable& table = robot.table.drive[c];
   // expected = scale reported + zero; reported is what the table's drum and direction make of the counts.
   const double zero_m = lengths.expected_mean_m[c] - scale * lengths.reported_mean_m[c];
@@ -146,18 +156,21 @@ void check_poses(const RobotConfig& robot, std::span<const ThetaVector> poses_ra
   const Eigen::MatrixXd cables = lengths_of(robot, readings).expected;
   for (Index a = 0; a < Index(cables.cols()); ++a) {
     if (cables.col(a).lpNorm<Eigen::Infinity>() < kLeastChange_m)
-      throw std::runtime_error(text("cable %d changes by less than %.0f mm between these poses: add one that bends its segment more",
-                                    static_cast<int>(a), 1e3 * kLeastChange_m));
+      throw std::runtime_error(
+          text("cable %d changes by less than %.0f mm between these poses: add one that bends its segment more",
+               static_cast<int>(a), 1e3 * kLeastChange_m));
     for (Index b = 0; b < Index(cables.cols()); ++b) {
       const Fit alike = fit(cables.col(a), cables.col(b));
       if (a != b && alike.misfit_m < kApart_m && std::fabs(std::fabs(alike.scale) - 1.0) <= 2.0 * kDrumShare)
-        throw std::runtime_error(text("cables %d and %d change alike between these poses: add one that bends the arm another way",
-                                      static_cast<int>(a), static_cast<int>(b)));
+        throw std::runtime_error(
+            text("cables %d and %d change alike between these poses: add one that bends the arm another way",
+                 static_cast<int>(a), static_cast<int>(b)));
     }
   }
 }
 
-CalibrationResult calibrate(const RobotConfig& robot, std::span<const CalibrationReading> readings, const std::string& date) {
+CalibrationResult calibrate(const RobotConfig& robot, std::span<const CalibrationReading> readings,
+                            const std::string& date) {
   const Lengths lengths = lengths_of(robot, readings);
   CalibrationResult out;
   out.calibration = {robot.name, sha256_hex(robot.canonical_json), date, {}};

@@ -1,4 +1,5 @@
-// From what the drives report at known poses to zeros, drums and directions, and to what is wired wrong (docs/calibration.md).
+// From what the drives report at known poses to zeros, drums and directions, and to what is wired wrong
+// (docs/calibration.md).
 #pragma once
 
 #include <array>
@@ -24,13 +25,14 @@ struct CalibrationResult {
   std::vector<std::string> problems;  // each names drive or cable, what was found and what to do
 };
 
-// The poses tell every two cables apart by at least 1 mm of change, and every cable changes enough to see its direction; throws
-// std::runtime_error naming what is missing. At least two poses.
+// The poses tell every two cables apart by at least 1 mm of change, and every cable changes enough to see its
+// direction; throws std::runtime_error naming what is missing. At least two poses.
 void check_poses(const RobotConfig& robot, std::span<const ThetaVector> poses_rad);
 
-// Fits a drum radius and a zero to every drive. A drive that counts backwards gets the other direction and is a problem of nobody; cables
-// that are wound on each other's drums, a drum that is off by over 2 %, readings that no drum explains, and a drive without a serial number
-// of its own are problems.
-CalibrationResult calibrate(const RobotConfig& robot, std::span<const CalibrationReading> readings, const std::string& date);
+// Fits a drum radius and a zero to every drive. A drive that counts backwards gets the other direction and is a problem
+// of nobody; cables that are wound on each other's drums, a drum that is off by over 2 %, readings that no drum
+// explains, and a drive without a serial number of its own are problems.
+CalibrationResult calibrate(const RobotConfig& robot, std::span<const CalibrationReading> readings,
+                            const std::string& date);
 
 }  // namespace liana

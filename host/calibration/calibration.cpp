@@ -67,7 +67,8 @@ CableCalibration read_cable(const Field& field, const RobotConfig& robot) {
   if (cable.direction == 0) field.at("direction").refuse("1 or -1", kAgain);
   cable.zero_counts = static_cast<std::int32_t>(field.at("zero_counts").integer(-1000000000, 1000000000));
   cable.drum_radius_m =
-      field.at("drum_radius_m").number({(1.0 - kDrumShare) * robot.drum_radius_m, (1.0 + kDrumShare) * robot.drum_radius_m});
+      field.at("drum_radius_m")
+          .number({(1.0 - kDrumShare) * robot.drum_radius_m, (1.0 + kDrumShare) * robot.drum_radius_m});
   cable.pretension_N = field.at("pretension_N").number({0, robot.table.tension.hard_limit_N});
   cable.offset_m = field.at("offset_m").number({-10, 10});
   return cable;
@@ -89,14 +90,16 @@ std::string calibration_json(const Calibration& calibration) {
   return canonical_json(content) + "\n";
 }
 
-Calibration parse_calibration(const std::string& text, const std::string& file, const RobotConfig& robot, const std::string& today) {
+Calibration parse_calibration(const std::string& text, const std::string& file, const RobotConfig& robot,
+                              const std::string& today) {
   const Json content = parse_json(text, file, kAgain);
   const Field table(content, file, "");
   if (!content.is_object()) table.refuse("a calibration file", "give a file that liana calibrate --out has written");
   check_kind(table, "calibration");
   const Field sum = table.at("sha256");
   if (sum.json() != checksum(content)) {
-    sum.refuse(checksum(content), "the file was changed or damaged after it was written; take a good copy, or " + std::string(kAgain));
+    sum.refuse(checksum(content),
+               "the file was changed or damaged after it was written; take a good copy, or " + std::string(kAgain));
   }
   table.only({"format", "kind", "robot", "robot_sha256", "date", "cables", "sha256"});
   Calibration out;
@@ -106,7 +109,8 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
   out.robot_sha256 = table.at("robot_sha256").name(64);
   if (out.robot_sha256 != sha256_hex(robot.canonical_json)) {
     table.at("robot_sha256")
-        .refuse("\"" + sha256_hex(robot.canonical_json) + "\"", "the robot table was changed since; " + std::string(kAgain));
+        .refuse("\"" + sha256_hex(robot.canonical_json) + "\"",
+                "the robot table was changed since; " + std::string(kAgain));
   }
   check_age(table.at("date"), robot, today);
   out.date = table.at("date").json().get<std::string>();

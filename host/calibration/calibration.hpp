@@ -1,4 +1,5 @@
-// The calibration of one arm: what `liana calibrate` measured of every drive and cable, and when it may be used (docs/calibration.md).
+// The calibration of one arm: what `liana calibrate` measured of every drive and cable, and when it may be used
+// (docs/calibration.md).
 #pragma once
 
 #include <cstdint>
@@ -32,10 +33,11 @@ std::string today_utc();
 // The file's text: canonical JSON with a checksum over everything else in it.
 std::string calibration_json(const Calibration& calibration);
 
-// Reads a calibration for `robot` as of `today`. Throws std::runtime_error "file: field: value: allowed ...: what to do" when the checksum
-// is wrong, it is for another robot or table, older than drives.calibration_days of the robot table, from the future, or holds a value out
-// of range.
-Calibration parse_calibration(const std::string& text, const std::string& file, const RobotConfig& robot, const std::string& today);
+// Reads a calibration for `robot` as of `today`. Throws std::runtime_error "file: field: value: allowed ...: what to
+// do" when the checksum is wrong, it is for another robot or table, older than drives.calibration_days of the robot
+// table, from the future, or holds a value out of range.
+Calibration parse_calibration(const std::string& text, const std::string& file, const RobotConfig& robot,
+                              const std::string& today);
 Calibration load_calibration(const std::string& path, const RobotConfig& robot, const std::string& today);
 
 // The robot with the calibration's drums, directions, zeros and drive serial numbers in place of its table's.

@@ -23,7 +23,9 @@ std::string text(const char* format, auto... values) {
   return line;
 }
 
-bool is_off(double reported_m, double expected_m) { return !(std::fabs(reported_m - expected_m) <= kFixtureTolerance_m); }
+bool is_off(double reported_m, double expected_m) {
+  return !(std::fabs(reported_m - expected_m) <= kFixtureTolerance_m);
+}
 
 // Of the drives that are off, two that read what the other one should.
 std::string exchanged(const std::vector<Index>& off, const CableVector& reported_m, const CableVector& expected_m) {
@@ -54,7 +56,8 @@ CableVector beyond_zero_m(const RobotTable& table, const ThetaVector& theta_rad,
   const CableLayout layout = cable_layout(table);
   const ArmTrig trig = arm_trig(table, theta_rad);
   const CableGeometry geometry = cable_geometry(table, layout, trig);
-  CableVector out = payout_for(table, layout, geometry.part_m, tension_ratio(table, layout, trig, SlipState{}), tension_N);
+  CableVector out =
+      payout_for(table, layout, geometry.part_m, tension_ratio(table, layout, trig, SlipState{}), tension_N);
   for (Index c = 0; c < static_cast<Index>(table.cable_count()); ++c) out[c] -= layout.zero_length_m[c] + table.lead_m;
   return out;
 }
@@ -67,15 +70,17 @@ void check_tells_apart(const RobotConfig& robot, const std::string& name) {
     for (Index b = 0; b < a; ++b) {
       const double apart_m = std::fabs(expected_m[a] - expected_m[b]);
       if (apart_m >= kApart * kFixtureTolerance_m) continue;
-      throw std::runtime_error("pose '" + name +
-                               text("': cables %zu and %zu are only %.1f mm apart there, so that nobody would see them exchanged: allowed "
-                                    "are poses that tell every two cables apart by %.0f mm",
-                                    b, a, 1e3 * apart_m, 1e3 * kApart * kFixtureTolerance_m));
+      throw std::runtime_error(
+          "pose '" + name +
+          text("': cables %zu and %zu are only %.1f mm apart there, so that nobody would see them exchanged: allowed "
+               "are poses that tell every two cables apart by %.0f mm",
+               b, a, 1e3 * apart_m, 1e3 * kApart * kFixtureTolerance_m));
     }
   }
 }
 
-std::string contradiction(const RobotConfig& robot, const std::string& name, const CableVector& paid_out_m, const CableVector& tension_N) {
+std::string contradiction(const RobotConfig& robot, const std::string& name, const CableVector& paid_out_m,
+                          const CableVector& tension_N) {
   const CableVector expected_m = beyond_zero_m(robot.table, named_pose_rad(robot, name), tension_N);
   std::vector<Index> off;
   for (Index c = 0; c < static_cast<Index>(robot.table.cable_count()); ++c) {
@@ -91,7 +96,8 @@ std::string contradiction(const RobotConfig& robot, const std::string& name, con
   if (off.size() > kNamed) out += text(" and %zu more", off.size() - kNamed);
   out += text(", allowed %.0f mm", 1e3 * kFixtureTolerance_m);
   return out + exchanged(off, paid_out_m, expected_m) +
-         "; put the arm into its fixture, look whether each cable is taut and on its own drum, then run liana calibrate";
+         "; put the arm into its fixture, look whether each cable is taut and on its own drum, then run liana "
+         "calibrate";
 }
 
 }  // namespace liana

@@ -46,7 +46,8 @@ constexpr std::array kAbortNames = {
 }  // namespace
 
 const char* abort_text(std::uint32_t code) noexcept {
-  const auto* found = std::find_if(kAbortNames.begin(), kAbortNames.end(), [code](const AbortName& name) { return name.code == code; });
+  const auto* found =
+      std::find_if(kAbortNames.begin(), kAbortNames.end(), [code](const AbortName& name) { return name.code == code; });
   return found == kAbortNames.end() ? "unknown abort code" : found->text;
 }
 

@@ -20,7 +20,8 @@ std::string object_text(const BootMismatch& m) {
 }
 
 std::string advice(const BootMismatch& m) {
-  if (m.index == 0x1000 || m.index == 0x1018) return "another drive is connected under this node id, or the robot table is wrong";
+  if (m.index == 0x1000 || m.index == 0x1018)
+    return "another drive is connected under this node id, or the robot table is wrong";
   if (m.written) return "the drive does not keep what it is told; it may be the wrong type or have other firmware";
   return "the drive is set up for another motor or drum, or the robot table is wrong";
 }
@@ -33,12 +34,15 @@ std::string describe(const BootMismatch& m, const std::string& bus_name) {
     case BootFailure::kNone:
       return who + "ok";
     case BootFailure::kNoBootUp:
-      return who + "no boot-up message after reset communication: the drive is missing, without power, or has another node id or bit rate";
+      return who +
+             "no boot-up message after reset communication: the drive is missing, without power, or has another node "
+             "id or bit rate";
     case BootFailure::kNoAnswer:
       return who + object_text(m) + "no answer: the drive fell silent; check its power and the cable";
     case BootFailure::kAborted:
-      return who + object_text(m) + (m.written ? "writing " + number(m.expected) : "reading") + " refused with abort code " +
-             hex("0x%08X", m.abort_code) + ", " + abort_text(m.abort_code) + ": is it the drive of the robot table?";
+      return who + object_text(m) + (m.written ? "writing " + number(m.expected) : "reading") +
+             " refused with abort code " + hex("0x%08X", m.abort_code) + ", " + abort_text(m.abort_code) +
+             ": is it the drive of the robot table?";
     case BootFailure::kValue:
       return who + object_text(m) + "expected " + number(m.expected) + ", found " + number(m.found) + ": " + advice(m);
     case BootFailure::kRestarts:

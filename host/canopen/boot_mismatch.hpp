@@ -29,7 +29,8 @@ struct BootMismatch {
   std::uint32_t abort_code = 0;
 };
 
-// "node 3 on can0: object 0x1018:2 (product code): expected 1 (0x1), found 2 (0x2): what to do". Allocates: not for the real-time thread.
+// "node 3 on can0: object 0x1018:2 (product code): expected 1 (0x1), found 2 (0x2): what to do". Allocates: not for the
+// real-time thread.
 std::string describe(const BootMismatch& mismatch, const std::string& bus_name);
 
 }  // namespace liana::canopen

@@ -15,7 +15,9 @@ constexpr int kMaxRestarts = 3;  // a slow drive may see two resets
 }  // namespace
 
 BootTiming boot_timing(double rate_hz) {
-  const auto ticks = [rate_hz](double seconds) { return static_cast<std::uint32_t>(std::max(2.0, std::ceil(seconds * rate_hz))); };
+  const auto ticks = [rate_hz](double seconds) {
+    return static_cast<std::uint32_t>(std::max(2.0, std::ceil(seconds * rate_hz)));
+  };
   return {ticks(0.5), ticks(10.0), ticks(0.3), ticks(0.25), ticks(1.0)};
 }
 
@@ -132,7 +134,8 @@ void BootNode::restart(bool all_were_operational) noexcept {
     enter(NodePhase::kConfigured);
   }
   const bool waiting = phase_ == NodePhase::kWaitBootUp && !out_waiting_;
-  const bool configured = phase_ == NodePhase::kObjects || phase_ == NodePhase::kConfigured || phase_ == NodePhase::kWaitOperational;
+  const bool configured =
+      phase_ == NodePhase::kObjects || phase_ == NodePhase::kConfigured || phase_ == NodePhase::kWaitOperational;
   if (!waiting && !configured) return;
   if (configured && ++restarts_ > kMaxRestarts) return fail(BootFailure::kRestarts);
   at_ = 0;

@@ -19,7 +19,16 @@ struct BootTiming {
 // 0.5 s between resets, 10 s in all; 0.3 s per answer; 0.25 s between starts, 1 s to become operational.
 BootTiming boot_timing(double rate_hz);
 
-enum class NodePhase : std::uint8_t { kReset, kWaitBootUp, kObjects, kConfigured, kStart, kWaitOperational, kOperational, kFailed };
+enum class NodePhase : std::uint8_t {
+  kReset,
+  kWaitBootUp,
+  kObjects,
+  kConfigured,
+  kStart,
+  kWaitOperational,
+  kOperational,
+  kFailed
+};
 
 class BootNode {
  public:
@@ -41,8 +50,8 @@ class BootNode {
   bool step(CanFrame& frame) noexcept;
   // The frame of the last step() has (or has not) been taken by the bus; if not, it comes again.
   void sent(bool accepted) noexcept;
-  // A boot-up message of an operational node begins its plan again, and, when `all_were_operational`, that of a failed one, too: the drive
-  // has come back.
+  // A boot-up message of an operational node begins its plan again, and, when `all_were_operational`, that of a failed
+  // one, too: the drive has come back.
   void on_heartbeat(std::uint8_t state, bool all_were_operational) noexcept;
   void on_sdo_response(const CanFrame& frame) noexcept;
 

@@ -18,7 +18,9 @@ constexpr std::uint32_t kPdoSpacing = 0x100;
 
 std::uint32_t mask_of(std::uint8_t bytes) { return bytes == 4 ? 0xFFFFFFFF : (1U << (8U * bytes)) - 1U; }
 
-bool is_cob_id(std::uint16_t index, std::uint8_t sub) { return sub == 1 && ((index & 0xFF00) == 0x1400 || (index & 0xFF00) == 0x1800); }
+bool is_cob_id(std::uint16_t index, std::uint8_t sub) {
+  return sub == 1 && ((index & 0xFF00) == 0x1400 || (index & 0xFF00) == 0x1800);
+}
 
 }  // namespace
 
@@ -37,7 +39,8 @@ void BootPlan::add(const BootObject& object) {
   objects_[count_++] = object;
 }
 
-void BootPlan::expect(std::uint16_t index, std::uint8_t sub, std::uint32_t value, const char* name, std::uint32_t mask) {
+void BootPlan::expect(std::uint16_t index, std::uint8_t sub, std::uint32_t value, const char* name,
+                      std::uint32_t mask) {
   add({index, sub, 4, false, false, value, mask, name});
 }
 
@@ -104,9 +107,11 @@ void BootPlan::map_tpdo1(const DriveExpectation& drive) {
 void BootPlan::disable_other_pdos(const DriveExpectation& drive) {
   for (std::uint16_t number = 1; number <= 3; ++number) {
     const std::uint32_t offset = number * kPdoSpacing + drive.node;
-    write(static_cast<std::uint16_t>(0x1400 + number), 1, 4, kDisabled | (kRpdo1Base + offset), "COB-ID of an RPDO that is not used");
+    write(static_cast<std::uint16_t>(0x1400 + number), 1, 4, kDisabled | (kRpdo1Base + offset),
+          "COB-ID of an RPDO that is not used");
     objects_[count_ - 1].may_be_missing = true;
-    write(static_cast<std::uint16_t>(0x1800 + number), 1, 4, kDisabled | (kTpdo1Base + offset), "COB-ID of a TPDO that is not used");
+    write(static_cast<std::uint16_t>(0x1800 + number), 1, 4, kDisabled | (kTpdo1Base + offset),
+          "COB-ID of a TPDO that is not used");
     objects_[count_ - 1].may_be_missing = true;
   }
 }

@@ -31,7 +31,8 @@ class BootPlan {
   std::uint32_t serial() const noexcept { return objects_[serial_at_].value; }
 
  private:
-  void expect(std::uint16_t index, std::uint8_t sub, std::uint32_t value, const char* name, std::uint32_t mask = 0xFFFFFFFF);
+  void expect(std::uint16_t index, std::uint8_t sub, std::uint32_t value, const char* name,
+              std::uint32_t mask = 0xFFFFFFFF);
   void write(std::uint16_t index, std::uint8_t sub, std::uint8_t bytes, std::uint32_t value, const char* name);
   void add(const BootObject& object);
   void check_identity(const DriveExpectation& drive);

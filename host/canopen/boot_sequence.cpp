@@ -35,8 +35,9 @@ void BootSequence::on_frame(int bus, const CanFrame& frame) noexcept {
 }
 
 int BootSequence::count(NodePhase least, NodePhase most) const noexcept {
-  return static_cast<int>(
-      std::count_if(nodes_.begin(), nodes_.end(), [=](const BootNode& node) { return node.phase() >= least && node.phase() <= most; }));
+  return static_cast<int>(std::count_if(nodes_.begin(), nodes_.end(), [=](const BootNode& node) {
+    return node.phase() >= least && node.phase() <= most;
+  }));
 }
 
 void BootSequence::update_state() noexcept {

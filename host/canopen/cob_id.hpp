@@ -30,7 +30,17 @@ constexpr std::uint8_t kStateOperational = 0x05;
 constexpr std::uint8_t kStatePreOperational = 0x7F;
 
 // What kind of frame an identifier stands for.
-enum class FrameKind : std::uint8_t { kNmt, kSync, kEmergency, kTpdo1, kRpdo1, kSdoResponse, kSdoRequest, kHeartbeat, kOther };
+enum class FrameKind : std::uint8_t {
+  kNmt,
+  kSync,
+  kEmergency,
+  kTpdo1,
+  kRpdo1,
+  kSdoResponse,
+  kSdoRequest,
+  kHeartbeat,
+  kOther
+};
 
 // Kind and node (0 where there is none) of an identifier.
 struct FrameRoute {

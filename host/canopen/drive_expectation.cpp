@@ -44,11 +44,12 @@ std::vector<DriveExpectation> drive_expectations(const RobotConfig& robot, const
     drive.node = static_cast<std::uint8_t>(i + 1);
     drive.bus = buses.bus_of_node(i + 1);
     if (drive.bus < 0) {
-      throw std::runtime_error("bus table " + buses.name + ": buses: node " + std::to_string(i + 1) + " of robot " + robot.name +
-                               " is on no bus; each drive must be on exactly one");
+      throw std::runtime_error("bus table " + buses.name + ": buses: node " + std::to_string(i + 1) + " of robot " +
+                               robot.name + " is on no bus; each drive must be on exactly one");
     }
     if (!robot.drive_serials.empty()) drive.serial = robot.drive_serials[static_cast<std::size_t>(i)];
-    drive.following_window_counts = rounded(kFollowingWindow_m / robot.table.drive[static_cast<std::size_t>(i)].metres_per_count);
+    drive.following_window_counts =
+        rounded(kFollowingWindow_m / robot.table.drive[static_cast<std::size_t>(i)].metres_per_count);
     drives.push_back(drive);
   }
   return drives;

@@ -38,8 +38,8 @@ constexpr std::array kCodeNames = {
 }  // namespace
 
 const char* emergency_text(std::uint16_t code) noexcept {
-  const auto* found =
-      std::find_if(kCodeNames.begin(), kCodeNames.end(), [code](const CodeName& name) { return (code & name.mask) == name.code; });
+  const auto* found = std::find_if(kCodeNames.begin(), kCodeNames.end(),
+                                   [code](const CodeName& name) { return (code & name.mask) == name.code; });
   return found == kCodeNames.end() ? "unknown" : found->text;
 }
 

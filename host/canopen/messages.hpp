@@ -7,10 +7,14 @@
 namespace liana::canopen {
 
 // NMT command for `node`, 0 = all.
-constexpr CanFrame nmt_frame(std::uint8_t command, std::uint8_t node) noexcept { return {kNmtId, 2, {command, node}, 0}; }
+constexpr CanFrame nmt_frame(std::uint8_t command, std::uint8_t node) noexcept {
+  return {kNmtId, 2, {command, node}, 0};
+}
 
 // Heartbeat of `node` in `state`.
-constexpr CanFrame heartbeat_frame(std::uint8_t node, std::uint8_t state) noexcept { return {kHeartbeatBase + node, 1, {state}, 0}; }
+constexpr CanFrame heartbeat_frame(std::uint8_t node, std::uint8_t state) noexcept {
+  return {kHeartbeatBase + node, 1, {state}, 0};
+}
 
 // `count` bytes (1..4) of `from`, least significant first.
 constexpr std::uint32_t get_u32(const std::uint8_t* from, std::size_t count) noexcept {

@@ -145,7 +145,8 @@ void SdoClient::on_download_answer(const CanFrame& frame) noexcept {
 void SdoClient::request_download_segment() noexcept {
   const std::size_t count = std::min(size_ - at_, kSegmentBytes);
   last_segment_sent_ = at_ + count == size_;
-  request(static_cast<std::uint8_t>(toggle_bit(toggle_) | ((kSegmentBytes - count) << 1) | (last_segment_sent_ ? 1U : 0U)));
+  request(
+      static_cast<std::uint8_t>(toggle_bit(toggle_) | ((kSegmentBytes - count) << 1) | (last_segment_sent_ ? 1U : 0U)));
   std::copy_n(buffer_.begin() + static_cast<std::ptrdiff_t>(at_), count, request_.data.begin() + 1);
   at_ += count;
 }

@@ -41,7 +41,8 @@ double slope(const BoxSegment& s, double t) {
   return sum;
 }
 
-// Where a link outside the box is nearest: the zero of the slope, linear between the places where the axis passes a face's plane.
+// Where a link outside the box is nearest: the zero of the slope, linear between the places where the axis passes a
+// face's plane.
 double nearest_outside(const BoxSegment& s) {
   double low = 0.0, high = 1.0;
   double at_low = slope(s, low), at_high = slope(s, high);
@@ -90,7 +91,8 @@ Part part_inside(const BoxSegment& s) {
   return part;
 }
 
-// Deepest point of the part inside. The depth is the maximum of six lines in t, so its minimum is at an end or where two lines cross.
+// Deepest point of the part inside. The depth is the maximum of six lines in t, so its minimum is at an end or where
+// two lines cross.
 double deepest_inside(const BoxSegment& s, const Part& part) {
   double best_t = part.from;
   Index axis = 0;
@@ -129,7 +131,8 @@ Clearance clearance(const Capsule& link, const SceneSphere& sphere) noexcept {
   out.on_axis_m = add(link.from_m, scale(axis, out.share));
   const Vec3 away = subtract(out.on_axis_m, sphere.center_m);
   const double distance_m = norm(away);
-  out.normal = distance_m > 0.0 ? scale(away, 1.0 / distance_m) : Vec3{0.0, 0.0, 1.0};  // at the centre every way out is as long
+  out.normal =
+      distance_m > 0.0 ? scale(away, 1.0 / distance_m) : Vec3{0.0, 0.0, 1.0};  // at the centre every way out is as long
   out.on_obstacle_m = add(sphere.center_m, scale(out.normal, sphere.radius_m));
   out.distance_m = distance_m - sphere.radius_m - link.radius_m;
   return out;
@@ -171,7 +174,8 @@ const std::string& obstacle_name(const SceneConfig& scene, std::int32_t obstacle
 
 Clearance clearance(const Capsule& link, const SceneConfig& scene, std::int32_t obstacle) noexcept {
   const Index i = static_cast<Index>(obstacle);
-  return i < scene.spheres.size() ? clearance(link, scene.spheres[i]) : clearance(link, scene.boxes[i - scene.spheres.size()]);
+  return i < scene.spheres.size() ? clearance(link, scene.spheres[i])
+                                  : clearance(link, scene.boxes[i - scene.spheres.size()]);
 }
 
 Capsule link_capsule(const LinkPoints& points, std::int32_t link, double radius_m) noexcept {

@@ -1,10 +1,11 @@
 // Distances between links and the scene, in closed form: a link is a capsule, an obstacle a sphere or an oriented box.
 //
 // A slit is what its two plates leave free, so it is no shape of its own here: the plates are boxes of the scene.
-// Distances are between surfaces and signed: negative means overlap, by the depth to the nearest face or surface. The distance of a point
-// to a box or sphere is convex, so a link's nearest point is found exactly: no iteration to a tolerance, no sampling. Nothing allocates.
-// Derivatives: where a point p of the link moves by dp(share), the distance changes by normal . dp(share) wherever the nearest points are
-// unique. They are not where a link lies parallel to a face, and where its axis passes through a box (any of the faces may be the way out).
+// Distances are between surfaces and signed: negative means overlap, by the depth to the nearest face or surface. The
+// distance of a point to a box or sphere is convex, so a link's nearest point is found exactly: no iteration to a
+// tolerance, no sampling. Nothing allocates. Derivatives: where a point p of the link moves by dp(share), the distance
+// changes by normal . dp(share) wherever the nearest points are unique. They are not where a link lies parallel to a
+// face, and where its axis passes through a box (any of the faces may be the way out).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,8 @@
 
 namespace liana {
 
-// A link: all points within radius_m (>= 0) of the straight axis between two points of the base frame; they may coincide.
+// A link: all points within radius_m (>= 0) of the straight axis between two points of the base frame; they may
+// coincide.
 struct Capsule {
   Vec3 from_m{};
   Vec3 to_m{};
@@ -24,17 +26,19 @@ struct Capsule {
 // Signed distance and where it is taken.
 struct Clearance {
   double distance_m = 0.0;  // between the surfaces; negative: depth of overlap
-  double share = 0.0;       // nearest point of the axis: from_m + share (to_m - from_m), 0..1; the first one where several are nearest
-  Vec3 on_axis_m{};         // that point, base frame
-  Vec3 on_obstacle_m{};     // nearest point of the obstacle's surface, base frame
-  Vec3 normal{};            // unit, from the obstacle to the link: the way out
+  double share =
+      0.0;  // nearest point of the axis: from_m + share (to_m - from_m), 0..1; the first one where several are nearest
+  Vec3 on_axis_m{};      // that point, base frame
+  Vec3 on_obstacle_m{};  // nearest point of the obstacle's surface, base frame
+  Vec3 normal{};         // unit, from the obstacle to the link: the way out
 };
 
 // Capsule to sphere: about 40 flops and two square roots.
 Clearance clearance(const Capsule& link, const SceneSphere& sphere) noexcept;
 
-// Capsule to oriented box, exact also at edges and corners: the axis is split where it passes the planes of the faces (at most 6 places),
-// between which the squared distance is quadratic. Inside the box it is the depth to the nearest face, minimised over the axis.
+// Capsule to oriented box, exact also at edges and corners: the axis is split where it passes the planes of the faces
+// (at most 6 places), between which the squared distance is quadratic. Inside the box it is the depth to the nearest
+// face, minimised over the axis.
 Clearance clearance(const Capsule& link, const SceneBox& box) noexcept;
 
 // Obstacles are numbered: the scene's spheres first, then its boxes.
@@ -54,8 +58,8 @@ struct ArmClearance {
 };
 constexpr double kNoObstacle_m = 1e3;
 
-// Every link against every obstacle; on equal distances the first obstacle, then the first link, wins. 40 links and 3 obstacles: about 5
-// us.
+// Every link against every obstacle; on equal distances the first obstacle, then the first link, wins. 40 links and 3
+// obstacles: about 5 us.
 ArmClearance arm_clearance(const LinkPoints& points, double radius_m, const SceneConfig& scene) noexcept;
 
 }  // namespace liana

@@ -49,7 +49,9 @@ double checked_angle_deg(std::string_view option, std::string_view text, const R
   const double limit_deg = theta_limit_rad(robot, theta) / kDegree;
   // The limit itself is allowed; its degrees went through radians and back.
   if (std::fabs(angle_deg) > limit_deg * (1.0 + 1e-12)) {
-    refuse(option, text, "theta " + std::to_string(theta + 1) + " within +-" + short_number(std::round(limit_deg * 1e9) / 1e9) + " deg");
+    refuse(
+        option, text,
+        "theta " + std::to_string(theta + 1) + " within +-" + short_number(std::round(limit_deg * 1e9) / 1e9) + " deg");
   }
   return angle_deg;
 }
@@ -60,27 +62,33 @@ double parse_number(std::string_view option, std::string_view text) {
   double value = 0.0;
   const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value)) refuse(option, text, "a finite number");
+  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
+    refuse(option, text, "a finite number");
   return value;
 }
 
-double parse_number_in(std::string_view option, std::string_view text, double least, double most, std::string_view unit) {
+double parse_number_in(std::string_view option, std::string_view text, double least, double most,
+                       std::string_view unit) {
   const double value = parse_number(option, text);
-  if (value < least || value > most) refuse(option, text, short_number(least) + " to " + short_number(most) + " " + std::string(unit));
+  if (value < least || value > most)
+    refuse(option, text, short_number(least) + " to " + short_number(most) + " " + std::string(unit));
   return value;
 }
 
-std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most, std::string_view note) {
+std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most,
+                         std::string_view note) {
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || value < least || value > most) {
-    refuse(option, text, "a whole number from " + std::to_string(least) + " to " + std::to_string(most) + std::string(note));
+    refuse(option, text,
+           "a whole number from " + std::to_string(least) + " to " + std::to_string(most) + std::string(note));
   }
   return value;
 }
 
 std::int32_t parse_node(std::string_view option, std::string_view text, const RobotTable& robot) {
-  return static_cast<std::int32_t>(parse_whole(option, text, 1, robot.segment_count, ": a node (the end of a segment)"));
+  return static_cast<std::int32_t>(
+      parse_whole(option, text, 1, robot.segment_count, ": a node (the end of a segment)"));
 }
 
 std::uint64_t parse_seed(std::string_view option, std::string_view text) {
@@ -90,7 +98,9 @@ std::uint64_t parse_seed(std::string_view option, std::string_view text) {
 std::vector<double> parse_numbers(std::string_view option, std::string_view text, std::size_t count) {
   const auto parts = split(text, ',');
   if (parts.size() != count) {
-    refuse(option, text, std::to_string(count) + " numbers separated by commas, not " + std::to_string(text.empty() ? 0 : parts.size()));
+    refuse(
+        option, text,
+        std::to_string(count) + " numbers separated by commas, not " + std::to_string(text.empty() ? 0 : parts.size()));
   }
   std::vector<double> values;
   for (const std::string_view part : parts) values.push_back(parse_number(option, part));
@@ -111,7 +121,9 @@ Pose parse_pose(std::string_view option, std::string_view text) {
   const Pose pose{checked_position(option, text, v), {v[3], v[4], v[5], v[6]}};
   const double length = std::sqrt(v[3] * v[3] + v[4] * v[4] + v[5] * v[5] + v[6] * v[6]);
   if (std::fabs(length - 1.0) > 1e-6) {
-    refuse(option, text, "x,y,z,qw,qx,qy,qz with a quaternion of length 1 within 1e-6, not " + short_number(length) + "; normalise it");
+    refuse(
+        option, text,
+        "x,y,z,qw,qx,qy,qz with a quaternion of length 1 within 1e-6, not " + short_number(length) + "; normalise it");
   }
   return pose;
 }
@@ -121,13 +133,15 @@ std::vector<HoldArgument> parse_hold(std::string_view text, const RobotTable& ro
   for (const std::string_view part : split(text, ',')) {
     const std::size_t equals = part.find('=');
     HoldArgument hold;
-    hold.theta = static_cast<std::int32_t>(parse_whole("--hold", part.substr(0, equals), 1, robot.theta_count(), ": a theta"));
+    hold.theta =
+        static_cast<std::int32_t>(parse_whole("--hold", part.substr(0, equals), 1, robot.theta_count(), ": a theta"));
     for (const HoldArgument& other : holds) {
       if (other.theta == hold.theta) refuse("--hold", text, "each theta at most once");
     }
     if (equals != std::string_view::npos) {
       hold.has_value = true;
-      hold.value_deg = checked_angle_deg("--hold", part.substr(equals + 1), robot, static_cast<std::size_t>(hold.theta - 1));
+      hold.value_deg =
+          checked_angle_deg("--hold", part.substr(equals + 1), robot, static_cast<std::size_t>(hold.theta - 1));
     }
     holds.push_back(hold);
   }

@@ -1,4 +1,5 @@
-// The values of command line options: strict readers that name the option, the value and what is allowed. All throw BadInput.
+// The values of command line options: strict readers that name the option, the value and what is allowed. All throw
+// BadInput.
 #pragma once
 
 #include <cstdint>
@@ -29,10 +30,12 @@ struct ControlPointArgument {
 double parse_number(std::string_view option, std::string_view text);
 
 // A finite number from `least` to `most`; `unit` is for the message.
-double parse_number_in(std::string_view option, std::string_view text, double least, double most, std::string_view unit);
+double parse_number_in(std::string_view option, std::string_view text, double least, double most,
+                       std::string_view unit);
 
 // A whole number from `least` to `most`; `note`, if any, is added to what the message allows.
-std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most, std::string_view note = "");
+std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most,
+                         std::string_view note = "");
 
 // A node, which is the end of a segment, counted from 1.
 std::int32_t parse_node(std::string_view option, std::string_view text, const RobotTable& robot);

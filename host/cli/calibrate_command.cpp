@@ -2,18 +2,18 @@
 #include <iostream>
 #include <sstream>
 
-#include "host/cli/arguments.hpp"
 #include "host/calibration/calibrate.hpp"
-#include "host/system/calibrate_session.hpp"
+#include "host/calibration/fixture.hpp"
+#include "host/calibration/fixture_prompt.hpp"
+#include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
+#include "host/json/json.hpp"
+#include "host/system/calibrate_session.hpp"
 #include "host/system/errors.hpp"
-#include "host/cli/fixture_prompt.hpp"
 #include "host/system/interrupt.hpp"
 #include "host/system/output.hpp"
 #include "host/system/system_layout.hpp"
 #include "host/system/tables.hpp"
-#include "host/calibration/fixture.hpp"
-#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
@@ -62,12 +62,15 @@ CalibrationReading read_in(const CalibrateOptions& options, bool simulated, cons
   return reading;
 }
 
-// One fixture after the other; the drives are off all the time. Between the fixtures nothing runs: whoever moves the arm has it for
-// himself.
-std::vector<CalibrationReading> read_all(const CalibrateOptions& options, bool simulated, const std::vector<std::string>& poses,
+// One fixture after the other; the drives are off all the time. Between the fixtures nothing runs: whoever moves the
+// arm has it for himself.
+std::vector<CalibrationReading> read_all(const CalibrateOptions& options, bool simulated,
+                                         const std::vector<std::string>& poses,
                                          const std::vector<ThetaVector>& thetas_rad) {
   std::vector<CalibrationReading> readings;
-  if (!simulated) clean_up(plan_for(options, simulated, poses.front()), true);  // what is missing is said before anybody lifts the arm
+  if (!simulated)
+    clean_up(plan_for(options, simulated, poses.front()),
+             true);  // what is missing is said before anybody lifts the arm
   for (std::size_t p = 0; p < poses.size(); ++p) {
     if (!simulated) wait_for_fixture(std::cin, std::cerr, poses[p], p + 1, poses.size());
     std::fprintf(stderr, "pose %zu of %zu, %s: reading the drives\n", p + 1, poses.size(), poses[p].c_str());

@@ -5,9 +5,9 @@
 
 #include "host/api/client.hpp"
 #include "host/cli/commands.hpp"
+#include "host/json/json.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/observer.hpp"
-#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
@@ -45,7 +45,9 @@ Json state_of(ApiClient& client) {
 void require_settled(const Clearing& before, const Json& state) {
   const std::string name = state.value("state", "");
   const bool settled = name == "DISABLED" || name == "FAULT" || (before.stop.is_null() && name == "ENABLED");
-  if (!settled) throw std::runtime_error("nothing was cleared: the arm is " + name + "; wait until liana status says DISABLED or FAULT");
+  if (!settled)
+    throw std::runtime_error("nothing was cleared: the arm is " + name +
+                             "; wait until liana status says DISABLED or FAULT");
 }
 
 void ask(ApiClient& client, Json request, int id) {
@@ -92,8 +94,8 @@ void print_text(const std::string& api, const Clearing& clearing) {
                 (reason.empty() ? "" : ": " + reason).c_str());
   }
   for (const Json& fault : clearing.faults) {
-    std::printf("%s: %s: fault %d %s (index %d)\n", api.c_str(), clearing.good ? "cleared" : "not cleared", fault.value("number", 0),
-                fault.value("name", "").c_str(), fault.value("index", -1));
+    std::printf("%s: %s: fault %d %s (index %d)\n", api.c_str(), clearing.good ? "cleared" : "not cleared",
+                fault.value("number", 0), fault.value("name", "").c_str(), fault.value("index", -1));
   }
   if (!clearing.said.empty()) std::printf("%s: %s\n", api.c_str(), clearing.said.c_str());
 }
@@ -112,7 +114,11 @@ int clear_command(const ClientOptions& options) {
     clearing.said = problem = error.what();
   }
   if (options.json) {
-    std::puts(Json{{"api", api}, {"cleared", clearing.good}, {"stop", clearing.stop}, {"faults", clearing.faults}, {"said", clearing.said}}
+    std::puts(Json{{"api", api},
+                   {"cleared", clearing.good},
+                   {"stop", clearing.stop},
+                   {"faults", clearing.faults},
+                   {"said", clearing.said}}
                   .dump()
                   .c_str());
   } else if (problem.empty()) {

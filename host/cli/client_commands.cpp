@@ -4,9 +4,9 @@
 
 #include "host/api/client.hpp"
 #include "host/cli/commands.hpp"
+#include "host/json/json.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/observer.hpp"
-#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
@@ -21,7 +21,8 @@ struct Talk {
   std::string problem;  // empty: none so far
 };
 
-// Does `action` with a system, unless something went wrong with it before; what goes wrong is kept, so that others get their turn.
+// Does `action` with a system, unless something went wrong with it before; what goes wrong is kept, so that others get
+// their turn.
 template <typename Action>
 void attempt(Talk& talk, const Action& action) {
   if (!talk.problem.empty()) return;
@@ -63,18 +64,20 @@ int exit_code_of(const std::vector<Talk>& talks) {
   for (const Talk& talk : talks) {
     if (!talk.problem.empty()) std::fprintf(stderr, "liana: %s: %s\n", talk.api.c_str(), talk.problem.c_str());
   }
-  return std::all_of(talks.begin(), talks.end(), [](const Talk& talk) { return talk.problem.empty(); }) ? kExitOk : kExitFailure;
+  return std::all_of(talks.begin(), talks.end(), [](const Talk& talk) { return talk.problem.empty(); }) ? kExitOk
+                                                                                                        : kExitFailure;
 }
 
 void print_state(const std::string& api, const Json& state) {
   const std::string owner = state.value("owner", "");
-  std::printf("%s: %s, t = %.2f s, owner %s\n", api.c_str(), state.value("state", "?").c_str(), state.value("time_s", 0.0),
-              owner.empty() ? "nobody" : owner.c_str());
+  std::printf("%s: %s, t = %.2f s, owner %s\n", api.c_str(), state.value("state", "?").c_str(),
+              state.value("time_s", 0.0), owner.empty() ? "nobody" : owner.c_str());
   const Json stop = state.value("stop", Json());
-  if (stop.is_object()) std::printf("emergency stop by %s %s\n", stop.value("by", "").c_str(), stop.value("reason", "").c_str());
+  if (stop.is_object())
+    std::printf("emergency stop by %s %s\n", stop.value("by", "").c_str(), stop.value("reason", "").c_str());
   for (const Json& fault : state.value("faults", Json::array())) {
-    std::printf("fault %d %s (index %d): %s\n", fault.value("number", 0), fault.value("name", "").c_str(), fault.value("index", -1),
-                fault.value("text", "").c_str());
+    std::printf("fault %d %s (index %d): %s\n", fault.value("number", 0), fault.value("name", "").c_str(),
+                fault.value("index", -1), fault.value("text", "").c_str());
   }
   std::printf("theta (deg):");
   for (const Json& angle : state.value("measured_js_deg", Json::array())) std::printf(" %.3f", angle.get<double>());

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "host/system/run_options.hpp"
+
 namespace liana {
 
 struct PoseOptions {
@@ -63,23 +65,6 @@ struct PlanOptions {
 // The offline planner; exit code 3 when there is no plan, 130 when it was interrupted.
 int plan_command(const PlanOptions& options);
 
-struct RunOptions {
-  std::string mission;  // empty: none (liana latency)
-  std::string robot = "zhu2022";
-  std::string scene = "panel_slit";
-  std::string bus = "embedded";
-  std::string time;           // empty: fast, or real on SocketCAN
-  bool simulated_arm = true;  // false: real drives are on the buses, there is no bench
-  std::string physics = "nominal";
-  std::string arm = "full";  // or light, which needs physics ideal
-  std::string fixture;       // empty: the bench's start pose; a named pose: the simulated arm lies exactly there
-  std::string in_pose;       // empty: nobody knows; a named pose: lianad enables only an arm that lies there, and the simulated one does
-  std::string cross_wired;   // empty, or two drives whose cables are exchanged, e.g. 3,4
-  std::string calibration;   // empty: as the robot table says
-  std::string record_dir;    // empty: nothing is kept
-  std::string report_file;   // empty: a summary on standard output; "-": JSON on standard output
-  std::uint64_t seed = 1;
-};
 // Starts the whole system, runs one mission, reports; exit code 0 only on success.
 int run_command(const RunOptions& options);
 
@@ -93,7 +78,8 @@ struct CalibrateOptions {
   std::uint64_t seed = 1;
   bool json = false;
 };
-// Reads the drives with the arm in fixtures, writes a calibration; exit code 1 when something is wired or wound wrong, which it names.
+// Reads the drives with the arm in fixtures, writes a calibration; exit code 1 when something is wired or wound wrong,
+// which it names.
 int calibrate_command(const CalibrateOptions& options);
 
 struct LatencyOptions {
@@ -103,8 +89,8 @@ struct LatencyOptions {
   std::string arm = "full";  // or light, for slow machines
   bool json = false;
 };
-// Measures lianad's real-time thread with the arm enabled and at rest; exit code 1 when a deadline was missed or the arm did not stay
-// enabled.
+// Measures lianad's real-time thread with the arm enabled and at rest; exit code 1 when a deadline was missed or the
+// arm did not stay enabled.
 int latency_command(const LatencyOptions& options);
 
 struct ClientOptions {
@@ -113,11 +99,12 @@ struct ClientOptions {
 };
 // The state of every running system, each named by its socket; exit code 1 when one does not answer.
 int status_command(const ClientOptions& options);
-// Emergency stop of every running system (stop, brakes, disable), each named by its socket; exit code 1 when one does not confirm.
+// Emergency stop of every running system (stop, brakes, disable), each named by its socket; exit code 1 when one does
+// not confirm.
 int estop_command(const ClientOptions& options);
 
-// Clears the emergency stop in force and the latched faults of one running system, and names them; it enables nothing. Exit code 1 when
-// somebody else owns motion, the arm is not at rest yet, or a fault is still there.
+// Clears the emergency stop in force and the latched faults of one running system, and names them; it enables nothing.
+// Exit code 1 when somebody else owns motion, the arm is not at rest yet, or a fault is still there.
 int clear_command(const ClientOptions& options);
 
 struct FaultsOptions {

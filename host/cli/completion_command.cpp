@@ -6,7 +6,8 @@
 namespace liana {
 namespace {
 
-// Names of tables and missions are looked up when they are asked for. A value that may be a file, too, is completed as both.
+// Names of tables and missions are looked up when they are asked for. A value that may be a file, too, is completed as
+// both.
 constexpr const char* kBash = R"bash(_liana_names() {
   local file
   for file in "$_liana_lua/$1"/*.lua; do file=${file##*/}; echo "${file%.lua}"; done

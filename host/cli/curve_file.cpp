@@ -2,11 +2,11 @@
 
 #include <filesystem>
 
-#include "host/system/errors.hpp"
-#include "host/system/tables.hpp"
 #include "host/config/field.hpp"
 #include "host/plan/plan.hpp"
 #include "host/plan/text.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/tables.hpp"
 
 namespace liana {
 namespace {
@@ -17,7 +17,8 @@ constexpr double kLeastGap_m = 0.001 * (1.0 - 1e-9);  // between the curve's poi
 std::vector<Vec3> points_of(const Field& curve) {
   curve.only({"points_m"});
   const Field rows = curve.at("points_m");
-  const std::size_t count = rows.size(2, kMaxFollowPoints, "give the points of the curve in order, the tip's place first");
+  const std::size_t count =
+      rows.size(2, kMaxFollowPoints, "give the points of the curve in order, the tip's place first");
   std::vector<Vec3> points;
   for (std::size_t i = 0; i < count; ++i) {
     points.push_back(rows.element(i).numbers<3>(kPlace));
@@ -35,9 +36,11 @@ std::vector<Vec3> points_of(const Field& curve) {
 std::vector<Vec3> read_curve(const std::string& path) {
   const std::string name = "--follow: " + path;
   std::error_code unreadable;
-  if (!std::filesystem::is_regular_file(path, unreadable)) throw BadInput(name + ": no such file; give a JSON file with points_m, or slit");
+  if (!std::filesystem::is_regular_file(path, unreadable))
+    throw BadInput(name + ": no such file; give a JSON file with points_m, or slit");
   return checked([&] {
-    const Json json = parse_json(read_text_file(path), name, "write {\"points_m\": [[x, y, z], ...]}, metres in the base frame");
+    const Json json =
+        parse_json(read_text_file(path), name, "write {\"points_m\": [[x, y, z], ...]}, metres in the base frame");
     return points_of(Field(json, name, ""));
   });
 }

@@ -1,8 +1,8 @@
 #include <cstdio>
 
 #include "host/cli/commands.hpp"
-#include "host/report/doctor.hpp"
 #include "host/json/json.hpp"
+#include "host/report/doctor.hpp"
 
 namespace liana {
 namespace {

@@ -1,10 +1,10 @@
 #include <cstdio>
 
 #include "host/cli/commands.hpp"
-#include "host/system/errors.hpp"
-#include "host/report/fault_table.hpp"
-#include "host/system/tables.hpp"
 #include "host/json/json.hpp"
+#include "host/report/fault_table.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/tables.hpp"
 
 namespace liana {
 namespace {
@@ -25,7 +25,8 @@ Json json_of(const std::vector<FaultRow>& rows) {
 
 void print_text(const std::vector<FaultRow>& rows) {
   for (const FaultRow& row : rows) {
-    std::printf("%d %s (%s): %s\n", static_cast<int>(row.info.number), row.info.name, row.stops_by.c_str(), row.info.text);
+    std::printf("%d %s (%s): %s\n", static_cast<int>(row.info.number), row.info.name, row.stops_by.c_str(),
+                row.info.text);
     std::printf("     detected by %s\n", row.detector);
     if (row.within_ticks >= 0) std::printf("     within ticks: %d\n", row.within_ticks);
     std::printf("     %s\n", row.info.remedy);

@@ -4,9 +4,9 @@
 #include "firmware_like/motion/goal_ik.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
+#include "host/json/json.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/tables.hpp"
-#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
@@ -26,7 +26,8 @@ void hold(const std::string& text, const RobotTable& robot, GoalIkProblem& probl
 
 void aim_nodes(const std::vector<std::string>& texts, const RobotTable& robot, GoalIkProblem& problem) {
   if (texts.size() > problem.node.size()) {
-    throw BadInput("--control-point: " + std::to_string(texts.size()) + " given: allowed: at most " + std::to_string(problem.node.size()));
+    throw BadInput("--control-point: " + std::to_string(texts.size()) + " given: allowed: at most " +
+                   std::to_string(problem.node.size()));
   }
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const ControlPointArgument point = parse_control_point(texts[i], robot);
@@ -52,9 +53,9 @@ Json to_json(const GoalIkResult& result, std::size_t theta_count, std::size_t no
 }
 
 void print_text(const Json& answer) {
-  std::printf(
-      "%s after %d iterations, error %.2e m, %.2e rad\ntheta (deg):", answer["converged"].get<bool>() ? "converged" : "not converged",
-      answer["iterations"].get<int>(), answer["position_error_m"].get<double>(), answer["attitude_error_rad"].get<double>());
+  std::printf("%s after %d iterations, error %.2e m, %.2e rad\ntheta (deg):",
+              answer["converged"].get<bool>() ? "converged" : "not converged", answer["iterations"].get<int>(),
+              answer["position_error_m"].get<double>(), answer["attitude_error_rad"].get<double>());
   for (const Json& angle : answer["theta_deg"]) std::printf(" %.6f", angle.get<double>());
   std::printf("\n");
 }

@@ -3,11 +3,11 @@
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
-#include "host/system/errors.hpp"
+#include "host/json/json.hpp"
 #include "host/report/latency_report.hpp"
+#include "host/system/errors.hpp"
 #include "host/system/latency_session.hpp"
 #include "host/system/system_layout.hpp"
-#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
@@ -25,9 +25,9 @@ std::string table_of(const LatencyOptions& options) {
   for (const RateTable& table : kTables) {
     if (parse_number("--rate", options.rate_hz) == parse_number("--rate", table.rate_hz)) return table.name;
   }
-  throw BadInput(
-      "--rate: " + options.rate_hz +
-      " Hz: allowed 250 (buses embedded) or 500 (buses embedded_500); for another rate name a table that carries it with --buses");
+  throw BadInput("--rate: " + options.rate_hz +
+                 " Hz: allowed 250 (buses embedded) or 500 (buses embedded_500); for another rate name a table that "
+                 "carries it with --buses");
 }
 
 void check_rate(const LatencyOptions& options, const BusesConfig& buses) {

@@ -17,13 +17,15 @@ using liana::ExitCode;
 using Action = std::function<int()>;
 
 constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 failed, 2 bad input (one message on standard error), 3 inverse kinematics did not converge or there is no "
+    "Exit codes: 0 done, 1 failed, 2 bad input (one message on standard error), 3 inverse kinematics did not converge "
+    "or there is no "
     "plan,\n130 interrupted.\n"
     "Angles are degrees where the option says deg, lengths metres, poses in the base frame.";
 
 // Adds a subcommand and remembers what to do when it is chosen.
 template <typename Options>
-CLI::App* add(CLI::App& app, Action& action, const char* name, const char* text, Options& options, int (*command)(const Options&)) {
+CLI::App* add(CLI::App& app, Action& action, const char* name, const char* text, Options& options,
+              int (*command)(const Options&)) {
   CLI::App* sub = app.add_subcommand(name, text);
   sub->callback([&action, &options, command] { action = [&options, command] { return command(options); }; });
   return sub;
@@ -31,39 +33,46 @@ CLI::App* add(CLI::App& app, Action& action, const char* name, const char* text,
 
 void add_seed(CLI::App& sub, std::uint64_t& seed, const std::string& what) {
   sub.add_option_function<std::string>(
-         "--seed", [&seed](const std::string& text) { seed = liana::parse_seed("--seed", text); }, what + "; 0 to 9007199254740991")
+         "--seed", [&seed](const std::string& text) { seed = liana::parse_seed("--seed", text); },
+         what + "; 0 to 9007199254740991")
       ->default_str("1");
 }
 
 void add_kinematics(CLI::App& app, Action& action, liana::PoseOptions& pose, liana::IkOptions& ik) {
-  CLI::App* sub = add(app, action, "pose", "tip pose, segment ends, Jacobian and cable lengths of joint angles", pose, liana::pose_command);
+  CLI::App* sub = add(app, action, "pose", "tip pose, segment ends, Jacobian and cable lengths of joint angles", pose,
+                      liana::pose_command);
   sub->add_option("--robot", pose.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
   sub->add_option("--theta-deg", pose.theta_deg, "joint angles t1,t2,... (pitch, yaw per segment)")->required();
-  sub->add_option("--scene", pose.scene, "scene: which segments its slit wants planar, where they begin, what their yaws may be");
+  sub->add_option("--scene", pose.scene,
+                  "scene: which segments its slit wants planar, where they begin, what their yaws may be");
   sub->add_flag("--json", pose.json, "print JSON");
 
   sub = add(app, action, "ik", "joint angles of a tip pose (goal solver)", ik, liana::ik_command);
   sub->add_option("--robot", ik.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
   sub->add_option("--from-deg", ik.from_deg, "joint angles to start from")->required();
   sub->add_option("--tip", ik.tip, "goal x,y,z,qw,qx,qy,qz")->required();
-  sub->add_option("--hold", ik.hold, "joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg where no value is given)");
-  sub->add_option(
-         "--control-point", ik.control_points,
-         "node target NODE:x,y,z[:WEIGHT]; may be repeated; WEIGHT is 1 for the arm's middle node and 0.25 for others where not given")
+  sub->add_option("--hold", ik.hold,
+                  "joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg where no value is given)");
+  sub->add_option("--control-point", ik.control_points,
+                  "node target NODE:x,y,z[:WEIGHT]; may be repeated; WEIGHT is 1 for the arm's middle node and 0.25 "
+                  "for others where not given")
       ->take_all()
       ->allow_extra_args(false);
   sub->add_flag("--json", ik.json, "print JSON");
 }
 
 void add_reach(CLI::App& app, Action& action, liana::ReachOptions& reach) {
-  CLI::App* sub = add(app, action, "reach", "where tip or node can go; conditioning and limits along a path", reach, liana::reach_command);
+  CLI::App* sub = add(app, action, "reach", "where tip or node can go; conditioning and limits along a path", reach,
+                      liana::reach_command);
   sub->add_option("--robot", reach.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
   sub->add_option("--scene", reach.scene, "scene table drawn to scale; takes nothing away from the region");
-  sub->add_option("--hold", reach.hold, "joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg or 0 where no value is given)");
+  sub->add_option("--hold", reach.hold,
+                  "joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg or 0 where no value is given)");
   sub->add_option("--from-deg", reach.from_deg, "joint angles that are drawn, or where the path begins");
   sub->add_option("--to-deg", reach.to_deg, "joint angles where the path ends");
   sub->add_option("--path", reach.path, "JSON file with waypoints_deg, as plan --json prints it");
-  sub->add_option("--node", reach.node, "node (the end of that segment) whose region is wanted; the tip where not given");
+  sub->add_option("--node", reach.node,
+                  "node (the end of that segment) whose region is wanted; the tip where not given");
   sub->add_option("--samples", reach.samples, "poses drawn")->capture_default_str();
   add_seed(*sub, reach.seed, "of the poses drawn");
   sub->add_option("--svg", reach.svg_file, "write the picture to this file");
@@ -71,39 +80,44 @@ void add_reach(CLI::App& app, Action& action, liana::ReachOptions& reach) {
 }
 
 void add_plan(CLI::App& app, Action& action, liana::PlanOptions& plan) {
-  CLI::App* sub =
-      add(app, action, "plan", "joint angles or a tip pose reached past the scene (offline planner)", plan, liana::plan_command);
+  CLI::App* sub = add(app, action, "plan", "joint angles or a tip pose reached past the scene (offline planner)", plan,
+                      liana::plan_command);
   sub->add_option("--robot", plan.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
-  sub->add_option("--scene", plan.scene, "scene table: a name under lua/scenes, a file, or none")->capture_default_str();
+  sub->add_option("--scene", plan.scene, "scene table: a name under lua/scenes, a file, or none")
+      ->capture_default_str();
   sub->add_option("--from-deg", plan.from_deg, "joint angles to start from")->required();
   sub->add_option("--to-deg", plan.to_deg, "goal as joint angles");
   sub->add_option("--tip", plan.tip, "goal as tip pose x,y,z,qw,qx,qy,qz");
+  sub->add_option("--follow", plan.follow,
+                  "follow the leader: the tip along the curve of a JSON file (points_m), the body after it; or slit: "
+                  "through the scene's slit "
+                  "to the goal");
+  sub->add_option("--hold", plan.hold,
+                  "joint angles held, e.g. 7,9 or 7=0.5,9 (deg); one with another value than at the start is there "
+                  "after a third of the way");
   sub->add_option(
-      "--follow", plan.follow,
-      "follow the leader: the tip along the curve of a JSON file (points_m), the body after it; or slit: through the scene's slit "
-      "to the goal");
-  sub->add_option(
-      "--hold", plan.hold,
-      "joint angles held, e.g. 7,9 or 7=0.5,9 (deg); one with another value than at the start is there after a third of the way");
-  sub->add_option("--planar", plan.planar,
-                  "segments whose pitch is 0 from a share of the way on, e.g. 5@0.4,4@0.7; all the way where no share is given");
-  sub->add_option(
-         "--control-point", plan.control_points,
-         "node target NODE:x,y,z[:WEIGHT]; may be repeated; WEIGHT is 1 for the arm's middle node and 0.25 for others where not given")
+      "--planar", plan.planar,
+      "segments whose pitch is 0 from a share of the way on, e.g. 5@0.4,4@0.7; all the way where no share is given");
+  sub->add_option("--control-point", plan.control_points,
+                  "node target NODE:x,y,z[:WEIGHT]; may be repeated; WEIGHT is 1 for the arm's middle node and 0.25 "
+                  "for others where not given")
       ->take_all()
       ->allow_extra_args(false);
   sub->add_option("--waypoints", plan.waypoints, "waypoints with both ends, 20 where not given; 1: only the end pose");
-  sub->add_option("--margin", plan.margin_m, "least clearance of every link from every obstacle, m")->capture_default_str();
+  sub->add_option("--margin", plan.margin_m, "least clearance of every link from every obstacle, m")
+      ->capture_default_str();
   sub->add_option("--max-step-deg", plan.max_step_deg,
                   "most that an angle changes between waypoints; 80 / (waypoints - 1) where not given");
-  sub->add_option("--iterations", plan.max_iterations, "of the solver in each round, 300 where not given; not with --follow");
+  sub->add_option("--iterations", plan.max_iterations,
+                  "of the solver in each round, 300 where not given; not with --follow");
   sub->add_option("--out", plan.out_file, "keep the plan with its inputs in this file, JSON");
   sub->add_flag("--json", plan.json, "print JSON");
 }
 
 void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
   CLI::App* sub = add(app, action, "run", "start the whole system and run a mission", run, liana::run_command);
-  sub->add_option("mission", run.mission, "a name under lua/missions, a file, or a plan (JSON of liana plan --out)")->required();
+  sub->add_option("mission", run.mission, "a name under lua/missions, a file, or a plan (JSON of liana plan --out)")
+      ->required();
   sub->add_option("--robot", run.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
   sub->add_option("--scene", run.scene, "scene table: a name under lua/scenes or a file")->capture_default_str();
   sub->add_option("--bus", run.bus, "bus table: a name under lua/buses or a file")->capture_default_str();
@@ -112,50 +126,60 @@ void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
   sub->add_option("--physics", run.physics, "nominal, ideal or worn")
       ->capture_default_str()
       ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
-  sub->add_option("--calibration", run.calibration, "what liana calibrate wrote; the robot table's values where not given");
+  sub->add_option("--calibration", run.calibration,
+                  "what liana calibrate wrote; the robot table's values where not given");
   sub->add_option("--in-pose", run.in_pose,
                   "named pose in which the arm lies in its fixture: unless every cable says so, it is not enabled");
-  sub->add_option("--cross-wired", run.cross_wired, "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
+  sub->add_option("--cross-wired", run.cross_wired,
+                  "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
   sub->add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
   sub->add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
   add_seed(*sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
 }
 
 void add_calibrate(CLI::App& app, Action& action, liana::CalibrateOptions& calibrate) {
-  CLI::App* sub = add(app, action, "calibrate", "zeros, drums, directions and wiring of all drives, with the arm in fixtures", calibrate,
-                      liana::calibrate_command);
+  CLI::App* sub =
+      add(app, action, "calibrate", "zeros, drums, directions and wiring of all drives, with the arm in fixtures",
+          calibrate, liana::calibrate_command);
   sub->add_option("--robot", calibrate.robot, "robot table")->capture_default_str();
   sub->add_option("--bus", calibrate.bus, "bus table")->capture_default_str();
-  sub->add_option("--poses", calibrate.poses, "named poses of the robot for which there are fixtures, two or more")->capture_default_str();
+  sub->add_option("--poses", calibrate.poses, "named poses of the robot for which there are fixtures, two or more")
+      ->capture_default_str();
   sub->add_option("--physics", calibrate.physics, "nominal, ideal or worn")
       ->capture_default_str()
       ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
   sub->add_option("--cross-wired", calibrate.cross_wired,
                   "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
-  sub->add_option("--out", calibrate.out_file, "write the calibration to this file, for lianad --calibration and liana run --calibration");
+  sub->add_option("--out", calibrate.out_file,
+                  "write the calibration to this file, for lianad --calibration and liana run --calibration");
   add_seed(*sub, calibrate.seed, "of the simulated arm");
   sub->add_flag("--json", calibrate.json, "print JSON");
 }
 
 void add_latency(CLI::App& app, Action& action, liana::LatencyOptions& latency) {
-  CLI::App* sub = add(app, action, "latency", "how late this machine wakes lianad's real-time thread, and how long its ticks take", latency,
-                      liana::latency_command);
+  CLI::App* sub =
+      add(app, action, "latency", "how late this machine wakes lianad's real-time thread, and how long its ticks take",
+          latency, liana::latency_command);
   sub->add_option("--rate", latency.rate_hz, "250 or 500 Hz")->default_str("250");
   sub->add_option_function<std::string>(
          "--seconds",
-         [&latency](const std::string& text) { latency.seconds = liana::parse_number_in("--seconds", text, 0.1, 86400.0, "s"); },
+         [&latency](const std::string& text) {
+           latency.seconds = liana::parse_number_in("--seconds", text, 0.1, 86400.0, "s");
+         },
          "how long to measure; 0.1 to 86400")
       ->default_str("10");
-  sub->add_option("--buses", latency.buses, "bus table, in place of the embedded one of the rate: vcan, or a table of your interfaces");
-  sub->add_option("--arm", latency.arm, "the bench's arm model: full, or light (no inertia, contact or cable friction) for slow machines")
+  sub->add_option("--buses", latency.buses,
+                  "bus table, in place of the embedded one of the rate: vcan, or a table of your interfaces");
+  sub->add_option("--arm", latency.arm,
+                  "the bench's arm model: full, or light (no inertia, contact or cable friction) for slow machines")
       ->capture_default_str()
       ->check(CLI::IsMember({"full", "light"}));
   sub->add_flag("--json", latency.json, "print JSON");
 }
 
 void add_faults(CLI::App& app, Action& action, liana::FaultsOptions& faults) {
-  CLI::App* sub =
-      add(app, action, "faults", "every fault number: how it is detected, what it stops, what to do", faults, liana::faults_command);
+  CLI::App* sub = add(app, action, "faults", "every fault number: how it is detected, what it stops, what to do",
+                      faults, liana::faults_command);
   sub->add_option("--robot", faults.robot, "robot table whose tick counts")->capture_default_str();
   sub->add_flag("--markdown", faults.markdown, "print the table of docs/faults.md");
   sub->add_flag("--json", faults.json, "print JSON");
@@ -165,15 +189,17 @@ void add_client(CLI::App& app, Action& action, const char* name, const char* tex
                 int (*command)(const liana::ClientOptions&), bool one = false) {
   CLI::App* sub = add(app, action, name, text, client, command);
   sub->add_option("--api", client.api,
-                  one ? "API socket of the lianad; where not given, that of the one running system of this user (several are refused)"
+                  one ? "API socket of the lianad; where not given, that of the one running system of this user "
+                        "(several are refused)"
                       : "API socket of one lianad; where not given, all running systems of this user");
-  sub->add_flag("--json", client.json, one ? "print JSON, also when nothing could be cleared" : "print JSON, one line for each system");
+  sub->add_flag("--json", client.json,
+                one ? "print JSON, also when nothing could be cleared" : "print JSON, one line for each system");
 }
 
-void add_tools(CLI::App& app, Action& action, liana::ReplayOptions& replay, liana::ExportOptions& exported, bool& doctor_json,
-               std::string& shell) {
-  CLI::App* sub =
-      add(app, action, "replay", "run a recording through the core again and compare every output", replay, liana::replay_command);
+void add_tools(CLI::App& app, Action& action, liana::ReplayOptions& replay, liana::ExportOptions& exported,
+               bool& doctor_json, std::string& shell) {
+  CLI::App* sub = add(app, action, "replay", "run a recording through the core again and compare every output", replay,
+                      liana::replay_command);
   sub->add_option("directory", replay.directory, "what `liana run --record` wrote")->required();
   sub->add_flag("--json", replay.json, "print JSON");
 
@@ -195,7 +221,8 @@ void add_tools(CLI::App& app, Action& action, liana::ReplayOptions& replay, lian
   app.add_subcommand("help", "this text, or `liana help COMMAND`");
 }
 
-// `--hold= --json` must not read `--json` as the value of --hold, and an unset shell variable must not mean "everything" or "nothing".
+// `--hold= --json` must not read `--json` as the value of --hold, and an unset shell variable must not mean
+// "everything" or "nothing".
 void check_values(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     if (word.empty()) throw liana::BadInput("an argument is empty (''); give a value, or leave the option out");
@@ -204,7 +231,8 @@ void check_values(const std::vector<std::string>& words) {
   }
 }
 
-// An option that its command does not know is named, whatever else is missing. `before`: the command's words, each with a blank.
+// An option that its command does not know is named, whatever else is missing. `before`: the command's words, each with
+// a blank.
 void check_options(const CLI::App& command, const std::string& before, std::span<const std::string> words) {
   for (const std::string& word : words) {
     if (word == "--") return;
@@ -219,7 +247,8 @@ void check_command(const CLI::App& app, const std::string& before, std::span<con
   std::string names;
   for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
     names += (names.empty() ? "" : ", ") + sub->get_name();
-    if (!words.empty() && words.front() == sub->get_name()) return check_command(*sub, before + words.front() + " ", words.subspan(1));
+    if (!words.empty() && words.front() == sub->get_name())
+      return check_command(*sub, before + words.front() + " ", words.subspan(1));
   }
   if (names.empty() || (!words.empty() && words.front().starts_with('-'))) return check_options(app, before, words);
   const std::string problem = words.empty() ? "no command given" : "'" + before + words.front() + "': no such command";
@@ -247,8 +276,8 @@ std::string extra_word_text(const CLI::App& app) {
     command += " " + at->get_name();
   }
   const std::vector<std::string> words = app.remaining(true);
-  return "'" + (words.empty() ? "" : words.front()) + "': liana" + command + " takes no such word; leave it out, or see liana" + command +
-         " --help";
+  return "'" + (words.empty() ? "" : words.front()) + "': liana" + command +
+         " takes no such word; leave it out, or see liana" + command + " --help";
 }
 
 int perform(const Action& action) {
@@ -289,8 +318,10 @@ int run(int argc, char** argv) {
   add_plan(app, action, plan);
   add_run(app, action, run);
   add_client(app, action, "status", "state of every running system", client, liana::status_command);
-  add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client, liana::estop_command);
-  add_client(app, action, "clear", "clear an emergency stop and the latched faults of one running system; enables nothing", client,
+  add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client,
+             liana::estop_command);
+  add_client(app, action, "clear",
+             "clear an emergency stop and the latched faults of one running system; enables nothing", client,
              liana::clear_command, true);
   add_calibrate(app, action, calibrate);
   add_latency(app, action, latency);

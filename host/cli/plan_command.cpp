@@ -7,18 +7,19 @@
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/curve_file.hpp"
+#include "host/json/json.hpp"
+#include "host/plan/plan.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/interrupt.hpp"
 #include "host/system/output.hpp"
 #include "host/system/tables.hpp"
-#include "host/json/json.hpp"
-#include "host/plan/plan.hpp"
 
 namespace liana {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kTransitionShare = 1.0 / 3.0;  // of the way, in which a held angle with another value than the start's gets there
+constexpr double kTransitionShare =
+    1.0 / 3.0;  // of the way, in which a held angle with another value than the start's gets there
 
 void add_phase(const HeldPhase& phase, const PlanOptions& options, PlanRequest& request) {
   for (const HeldPhase& other : request.held) {
@@ -47,10 +48,11 @@ void read_planar(const PlanOptions& options, PlanRequest& request) {
     const std::size_t at = std::min(part.find('@'), part.size());
     const double segment = parse_number("--planar", part.substr(0, at));
     const double share = at < part.size() ? parse_number("--planar", part.substr(at + 1)) : 0.0;
-    const bool good =
-        segment >= 1 && segment <= request.robot.table.segment_count && segment == std::floor(segment) && share >= 0 && share <= 1;
+    const bool good = segment >= 1 && segment <= request.robot.table.segment_count && segment == std::floor(segment) &&
+                      share >= 0 && share <= 1;
     if (!good)
-      throw BadInput("--planar: '" + std::string(part) + "': allowed: SEGMENT@SHARE, a segment of the robot and a share from 0 to 1");
+      throw BadInput("--planar: '" + std::string(part) +
+                     "': allowed: SEGMENT@SHARE, a segment of the robot and a share from 0 to 1");
     add_phase({2 * static_cast<std::int32_t>(segment) - 2, 0.0, share}, options, request);
   }
 }
@@ -73,18 +75,23 @@ void check_held_goal(const PlanRequest& request) {
 
 void read_follow(const PlanOptions& options, PlanRequest& request) {
   if (options.follow.empty()) return;
-  const auto refuse = [](const std::string& option, const char* why) { throw BadInput(option + ": not with --follow: " + why); };
+  const auto refuse = [](const std::string& option, const char* why) {
+    throw BadInput(option + ": not with --follow: " + why);
+  };
   if (!options.planar.empty()) refuse("--planar", "the curve says where the arm is; leave it out");
   if (!options.control_points.empty()) refuse("--control-point", "the curve says where the arm is; leave it out");
   if (!options.max_iterations.empty()) refuse("--iterations", "nothing is solved by Ipopt there; leave it out");
   if (!options.waypoints.empty()) refuse("--waypoints", "as many as the tip needs come out; leave it out");
-  if (options.hold.find('=') != std::string::npos) refuse("--hold with values", "name the angles alone, which keep what they have");
+  if (options.hold.find('=') != std::string::npos)
+    refuse("--hold with values", "name the angles alone, which keep what they have");
   request.follow.emplace();
   if (options.follow != "slit") {
-    if (!options.to_deg.empty() || !options.tip.empty()) refuse("--to-deg, --tip", "the curve's end is the goal; leave them out");
+    if (!options.to_deg.empty() || !options.tip.empty())
+      refuse("--to-deg, --tip", "the curve's end is the goal; leave them out");
     request.follow->points_m = read_curve(options.follow);
   } else if (!request.scene.slit) {
-    throw BadInput("--follow: slit: the scene '" + options.scene + "' has none; give a --scene with a slit, or a curve's file");
+    throw BadInput("--follow: slit: the scene '" + options.scene +
+                   "' has none; give a --scene with a slit, or a curve's file");
   }
 }
 
@@ -102,11 +109,13 @@ void read_sizes(const PlanOptions& options, PlanRequest& request) {
   const std::int64_t fewest = request.tip_in_base ? 1 : 2;
   const char* note = request.tip_in_base ? "; 1: the end pose alone" : "; 1, the end pose alone, is for --tip";
   if (!options.waypoints.empty())
-    request.waypoints = static_cast<std::int32_t>(parse_whole("--waypoints", options.waypoints, fewest, kMaxWaypoints, note));
+    request.waypoints =
+        static_cast<std::int32_t>(parse_whole("--waypoints", options.waypoints, fewest, kMaxWaypoints, note));
   request.margin_m = parse_number_in("--margin", options.margin_m, 0.0, 0.5, "m");
-  request.max_step_rad = options.max_step_deg.empty()
-                             ? (request.follow ? kFollowMaxStep_rad : default_max_step_rad(request.robot.table, request.waypoints))
-                             : parse_number_in("--max-step-deg", options.max_step_deg, kLeastStep_deg, 180.0, "deg") * kDegree;
+  request.max_step_rad =
+      options.max_step_deg.empty()
+          ? (request.follow ? kFollowMaxStep_rad : default_max_step_rad(request.robot.table, request.waypoints))
+          : parse_number_in("--max-step-deg", options.max_step_deg, kLeastStep_deg, 180.0, "deg") * kDegree;
 }
 
 void read_control_points(const PlanOptions& options, PlanRequest& request) {
@@ -138,7 +147,8 @@ Json to_json(const PlanRequest& request, const PlanResult& result, double time_s
   Json waypoints = Json::array();
   for (const ThetaVector& theta : result.waypoints_rad) {
     Json row = Json::array();
-    for (std::int32_t k = 0; k < request.robot.table.theta_count(); ++k) row.push_back(theta[static_cast<std::size_t>(k)] / kDegree);
+    for (std::int32_t k = 0; k < request.robot.table.theta_count(); ++k)
+      row.push_back(theta[static_cast<std::size_t>(k)] / kDegree);
     waypoints.push_back(row);
   }
   Json answer{{"outcome", name_of(result.outcome)},
@@ -201,8 +211,8 @@ Json inputs(const PlanOptions& options, const PlanRequest& request) {
 }
 
 void print_text(const Json& answer) {
-  std::printf("%s after %d iterations in %.2f s", answer["outcome"].get<std::string>().c_str(), answer["iterations"].get<int>(),
-              answer["time_s"].get<double>());
+  std::printf("%s after %d iterations in %.2f s", answer["outcome"].get<std::string>().c_str(),
+              answer["iterations"].get<int>(), answer["time_s"].get<double>());
   if (answer.contains("reason")) std::printf(": %s", answer["reason"].get<std::string>().c_str());
   std::printf("\n");
   for (const Json& row : answer["waypoints_deg"]) {
@@ -222,10 +232,11 @@ void print_text(const Json& answer) {
   if (!answer.contains("follow")) return;
   const Json& follow = answer["follow"];
   std::printf(
-      "followed %.3f m: tip within %.1f mm of the curve, body within %.1f mm of its line at the start and the tip's path, %.1f mm on "
+      "followed %.3f m: tip within %.1f mm of the curve, body within %.1f mm of its line at the start and the tip's "
+      "path, %.1f mm on "
       "average\n",
-      follow["curve_length_m"].get<double>(), 1000.0 * follow["tip_off_m"].get<double>(), 1000.0 * follow["body_off_m"].get<double>(),
-      1000.0 * follow["mean_body_off_m"].get<double>());
+      follow["curve_length_m"].get<double>(), 1000.0 * follow["tip_off_m"].get<double>(),
+      1000.0 * follow["body_off_m"].get<double>(), 1000.0 * follow["mean_body_off_m"].get<double>());
 }
 
 int exit_code(PlanOutcome outcome) {
@@ -253,8 +264,10 @@ int plan_command(const PlanOptions& options) {
   } else {
     print_text(answer);
   }
-  if (!options.out_file.empty() && result.outcome != PlanOutcome::solved) {  // an earlier plan in the file is worth more
-    std::fprintf(stderr, "plan: --out: nothing was written to %s: the outcome is %s\n", options.out_file.c_str(), name_of(result.outcome));
+  if (!options.out_file.empty() &&
+      result.outcome != PlanOutcome::solved) {  // an earlier plan in the file is worth more
+    std::fprintf(stderr, "plan: --out: nothing was written to %s: the outcome is %s\n", options.out_file.c_str(),
+                 name_of(result.outcome));
   } else if (!options.out_file.empty()) {
     answer["inputs"] = inputs(options, request);
     write_output(options.out_file, answer.dump(1) + "\n");

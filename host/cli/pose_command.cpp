@@ -5,8 +5,8 @@
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/slit_part.hpp"
-#include "host/system/tables.hpp"
 #include "host/json/json.hpp"
+#include "host/system/tables.hpp"
 
 namespace liana {
 namespace {
@@ -31,7 +31,8 @@ Json jacobian_rows(const Jacobian& jacobian, std::size_t theta_count) {
   Json rows = Json::array();
   for (std::size_t row = 0; row < 6; ++row) {
     Json values = Json::array();
-    for (std::size_t i = 0; i < theta_count; ++i) values.push_back(row < 3 ? jacobian.linear[i][row] : jacobian.angular[i][row - 3]);
+    for (std::size_t i = 0; i < theta_count; ++i)
+      values.push_back(row < 3 ? jacobian.linear[i][row] : jacobian.angular[i][row - 3]);
     rows.push_back(values);
   }
   return rows;
@@ -43,7 +44,8 @@ Json pose_of(const RobotTable& table, const ThetaVector& theta_rad) {
   const CableLayout layout = cable_layout(table);
   const CableGeometry cables = cable_geometry(table, layout, trig);
   Json ends = Json::array();
-  for (std::size_t m = 1; m <= static_cast<std::size_t>(table.segment_count); ++m) ends.push_back(arm.node_in_base[m].position_m);
+  for (std::size_t m = 1; m <= static_cast<std::size_t>(table.segment_count); ++m)
+    ends.push_back(arm.node_in_base[m].position_m);
   Json length = Json::array();
   Json change = Json::array();
   for (std::size_t c = 0; c < static_cast<std::size_t>(table.cable_count()); ++c) {
@@ -59,11 +61,13 @@ Json pose_of(const RobotTable& table, const ThetaVector& theta_rad) {
 
 void print_summary(const Json& pose) {
   for (const Json& row : pose["tip_pose"]) {
-    std::printf("%10.6f %10.6f %10.6f %11.6f m\n", row[0].get<double>(), row[1].get<double>(), row[2].get<double>(), row[3].get<double>());
+    std::printf("%10.6f %10.6f %10.6f %11.6f m\n", row[0].get<double>(), row[1].get<double>(), row[2].get<double>(),
+                row[3].get<double>());
   }
   const Json& change = pose["cable_length_change_m"];
   for (std::size_t c = 0; c < change.size(); ++c) {
-    std::printf("cable %2zu: %10.6f m, %+9.3f mm\n", c, pose["cable_length_m"][c].get<double>(), 1000.0 * change[c].get<double>());
+    std::printf("cable %2zu: %10.6f m, %+9.3f mm\n", c, pose["cable_length_m"][c].get<double>(),
+                1000.0 * change[c].get<double>());
   }
   if (pose.contains("slit")) std::printf("slit: %s\n", pose["slit"].dump().c_str());
 }
@@ -76,7 +80,8 @@ int pose_command(const PoseOptions& options) {
   Json pose = pose_of(robot.table, theta_rad);
   if (!options.scene.empty()) {
     const SceneConfig scene = scene_of(options.scene);
-    if (!scene.slit) throw BadInput("--scene: '" + options.scene + "': has no slit; name a scene with one, or leave it out");
+    if (!scene.slit)
+      throw BadInput("--scene: '" + options.scene + "': has no slit; name a scene with one, or leave it out");
     pose["slit"] = slit_part(robot, scene, theta_rad);
   }
   if (options.json) {

@@ -9,14 +9,14 @@
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
-#include "host/system/errors.hpp"
-#include "host/system/output.hpp"
-#include "host/system/tables.hpp"
 #include "host/config/theta_numbers.hpp"
 #include "host/json/json.hpp"
 #include "host/reach/path.hpp"
 #include "host/reach/picture.hpp"
 #include "host/reach/region.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/output.hpp"
+#include "host/system/tables.hpp"
 
 namespace liana {
 namespace {
@@ -31,23 +31,26 @@ std::string number_list(const std::vector<double>& numbers) {
   return text;
 }
 
-// The waypoints of a file: what `liana plan --json` prints, or a JSON object with waypoints_deg (rows of joint angles, degrees).
+// The waypoints of a file: what `liana plan --json` prints, or a JSON object with waypoints_deg (rows of joint angles,
+// degrees).
 std::vector<ThetaVector> read_waypoints(const std::string& path, const RobotTable& robot) {
   std::error_code unreadable;
   std::ifstream file;
   if (std::filesystem::is_regular_file(path, unreadable)) file.open(path, std::ios::binary);
-  if (!file.is_open()) throw BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
+  if (!file.is_open())
+    throw BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
   const Json document = Json::parse(std::string{std::istreambuf_iterator<char>(file), {}}, nullptr, false);
-  const Json rows = document.is_object() ? document.value("waypoints_deg", Json()) : json();
+  const Json rows = document.is_object() ? document.value("waypoints_deg", Json()) : Json();
   if (!rows.is_array() || rows.empty() || rows.size() > kMaxWaypoints) {
-    throw BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " + std::to_string(kMaxWaypoints) +
-                   " rows of joint angles under this key");
+    throw BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " +
+                   std::to_string(kMaxWaypoints) + " rows of joint angles under this key");
   }
   std::vector<ThetaVector> waypoints;
   for (const Json& row : rows) {
     const std::string name = "--path: " + path + ": waypoints_deg row " + std::to_string(waypoints.size() + 1);
     const auto is_number = [](const Json& value) { return value.is_number(); };
-    if (!row.is_array() || !std::all_of(row.begin(), row.end(), is_number)) throw BadInput(name + ": allowed: an array of numbers");
+    if (!row.is_array() || !std::all_of(row.begin(), row.end(), is_number))
+      throw BadInput(name + ": allowed: an array of numbers");
     waypoints.push_back(parse_theta_deg(name, number_list(row.get<std::vector<double>>()), robot));
   }
   return waypoints;
@@ -80,7 +83,8 @@ std::vector<HoldArgument> holds_of(const ReachOptions& options, const RobotTable
 void require_free(std::uint32_t held_mask, std::int32_t theta_count, const std::string& what) {
   const std::uint32_t all = (1u << theta_count) - 1u;
   if ((held_mask & all) == all)
-    throw BadInput("--hold: nothing is left that moves " + what + "; free at least one of theta 1 to " + std::to_string(theta_count));
+    throw BadInput("--hold: nothing is left that moves " + what + "; free at least one of theta 1 to " +
+                   std::to_string(theta_count));
 }
 
 RegionRequest region_request(const ReachOptions& options, const RobotTable& robot, const ThetaVector& pose_rad) {
@@ -102,7 +106,8 @@ RegionRequest region_request(const ReachOptions& options, const RobotTable& robo
 
 Json degrees(const ThetaVector& theta_rad, const RobotTable& robot) {
   Json list = Json::array();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) list.push_back(theta_rad[i] / kDegree);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i)
+    list.push_back(theta_rad[i] / kDegree);
   return list;
 }
 
@@ -152,7 +157,8 @@ Json shells_json(const Region& region) {
 
 Json binding_json(const Region& region, const RobotTable& robot) {
   Json shares = Json::array();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) shares.push_back(region.outer_binding_share[i]);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i)
+    shares.push_back(region.outer_binding_share[i]);
   return {{"theta_share", shares}, {"no_limit_share", region.outer_stretched_share}};
 }
 
@@ -201,16 +207,18 @@ Json path_json(const PathReport& report, std::uint32_t held_mask, const RobotCon
 }
 
 void print_region(const RegionRequest& request, const Region& region, const RobotTable& robot) {
-  std::printf("node %d, held: %s\n", request.point.node, held_text(robot, request.point.held_mask, request.held_rad).c_str());
+  std::printf("node %d, held: %s\n", request.point.node,
+              held_text(robot, request.point.held_mask, request.held_rad).c_str());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::printf("%c: %.3f .. %.3f m\n", "xyz"[axis], region.extent_m[0][axis], region.extent_m[1][axis]);
   }
   const Vec3& origin = region.origin_in_base_m;
-  std::printf("distance from (%.3f, %.3f, %.3f): %.3f .. %.3f m (straight arm %.3f m)\n", origin[0], origin[1], origin[2], region.nearest_m,
-              region.farthest_m, region.length_m);
+  std::printf("distance from (%.3f, %.3f, %.3f): %.3f .. %.3f m (straight arm %.3f m)\n", origin[0], origin[1],
+              origin[2], region.nearest_m, region.farthest_m, region.length_m);
   std::printf("what binds at the outer boundary: no limit %.0f %%", 100.0 * region.outer_stretched_share);
   for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) {
-    if (region.outer_binding_share[i] > 0.0) std::printf(", theta %zu %.0f %%", i + 1, 100.0 * region.outer_binding_share[i]);
+    if (region.outer_binding_share[i] > 0.0)
+      std::printf(", theta %zu %.0f %%", i + 1, 100.0 * region.outer_binding_share[i]);
   }
   std::printf("\n");
 }
@@ -219,10 +227,10 @@ void print_path(const PathReport& report) {
   const PathPoint& worst = report.points[report.worst_conditioned];
   const PathPoint& nearest = report.points[report.nearest_limit];
   std::printf("%zu points over %.1f deg of joint travel\n", report.points.size(), report.joint_travel_rad / kDegree);
-  std::printf("least singular value %.4f at %.1f %% of the way, condition %.1f\n", worst.least_singular_value, 100.0 * worst.way,
-              condition_number(worst));
-  std::printf("nearest limit: theta %d, %.3f deg left at %.1f %% of the way\n", nearest.nearest_theta, nearest.limit_margin_rad / kDegree,
-              100.0 * nearest.way);
+  std::printf("least singular value %.4f at %.1f %% of the way, condition %.1f\n", worst.least_singular_value,
+              100.0 * worst.way, condition_number(worst));
+  std::printf("nearest limit: theta %d, %.3f deg left at %.1f %% of the way\n", nearest.nearest_theta,
+              nearest.limit_margin_rad / kDegree, 100.0 * nearest.way);
 }
 
 int reach_along_path(const ReachOptions& options, const RobotConfig& robot) {
@@ -235,7 +243,8 @@ int reach_along_path(const ReachOptions& options, const RobotConfig& robot) {
   }
   const auto holds = holds_of(options, robot.table);
   for (const HoldArgument& hold : holds) {
-    if (hold.has_value) throw BadInput("--hold: a path gives every angle; name the held thetas without values, e.g. 7,9");
+    if (hold.has_value)
+      throw BadInput("--hold: a path gives every angle; name the held thetas without values, e.g. 7,9");
   }
   const std::uint32_t held_mask = mask_of(holds);
   require_free(held_mask, robot.table.theta_count(), "the tip");

@@ -4,11 +4,11 @@
 #include <stdexcept>
 
 #include "host/cli/commands.hpp"
-#include "host/system/errors.hpp"
 #include "host/json/json.hpp"
 #include "host/record/mcap.hpp"
 #include "host/record/recording.hpp"
 #include "host/record/replay.hpp"
+#include "host/system/errors.hpp"
 
 namespace liana {
 namespace {
@@ -42,15 +42,15 @@ ImagesCheck check_images(const std::filesystem::path& file) {
 
 void print_json(const ReplayResult& result, const ImagesCheck& images) {
   std::puts(Json{{"ticks", result.ticks},
-                           {"differing_ticks", result.differing_ticks},
-                           {"missing_ticks", result.missing_ticks},
-                           {"complete", result.complete},
-                           {"same_build", result.same_build},
-                           {"recorded_by", result.recorded_by},
-                           {"first_differing_tick", result.differing_ticks > 0 ? Json(result.first_differing_tick) : nullptr},
-                           {"first_differing_field", result.first_differing_field},
-                           {"compared", {kRecordingFile}},
-                           {"images", {{"file", kImagesFile}, {"state", images.state}, {"count", images.count}}}}
+                 {"differing_ticks", result.differing_ticks},
+                 {"missing_ticks", result.missing_ticks},
+                 {"complete", result.complete},
+                 {"same_build", result.same_build},
+                 {"recorded_by", result.recorded_by},
+                 {"first_differing_tick", result.differing_ticks > 0 ? Json(result.first_differing_tick) : nullptr},
+                 {"first_differing_field", result.first_differing_field},
+                 {"compared", {kRecordingFile}},
+                 {"images", {{"file", kImagesFile}, {"state", images.state}, {"count", images.count}}}}
                 .dump()
                 .c_str());
 }
@@ -58,12 +58,14 @@ void print_json(const ReplayResult& result, const ImagesCheck& images) {
 void print_text(const ReplayResult& result, const ImagesCheck& images) {
   std::printf("%" PRIu64 " ticks, %" PRIu64 " differ\n", result.ticks, result.differing_ticks);
   if (result.differing_ticks > 0) {
-    std::printf("first: tick %" PRIu64 ", field %s\n", result.first_differing_tick, result.first_differing_field.c_str());
+    std::printf("first: tick %" PRIu64 ", field %s\n", result.first_differing_tick,
+                result.first_differing_field.c_str());
   }
   if (result.missing_ticks > 0) std::printf("%" PRIu64 " ticks are missing in the recording\n", result.missing_ticks);
   std::printf("compared: %s, every field of Outputs\n", kRecordingFile);
   if (images.state == "whole") {
-    std::printf("checked: %s, its checksums, and that each of its %" PRIu64 " images can be read\n", kImagesFile, images.count);
+    std::printf("checked: %s, its checksums, and that each of its %" PRIu64 " images can be read\n", kImagesFile,
+                images.count);
   } else if (images.good()) {
     std::printf("not there, so not checked: %s\n", kImagesFile);
   }
@@ -75,7 +77,8 @@ void print_text(const ReplayResult& result, const ImagesCheck& images) {
 int replay_command(const ReplayOptions& options) {
   const std::filesystem::path file = std::filesystem::path(options.directory) / kRecordingFile;
   if (!std::filesystem::exists(file)) {
-    throw BadInput("replay: '" + options.directory + "': holds no " + kRecordingFile + "; give a directory that liana run --record wrote");
+    throw BadInput("replay: '" + options.directory + "': holds no " + kRecordingFile +
+                   "; give a directory that liana run --record wrote");
   }
   const ReplayResult result = replay(options.directory);
   const ImagesCheck images = check_images(std::filesystem::path(options.directory) / kImagesFile);
@@ -86,18 +89,20 @@ int replay_command(const ReplayOptions& options) {
   }
   if (!result.complete) {
     std::fprintf(stderr,
-                 "liana: %s: the recording was cut short: the file ends before its end record, so nothing says how much is missing; "
+                 "liana: %s: the recording was cut short: the file ends before its end record, so nothing says how "
+                 "much is missing; "
                  "the ticks that are there were compared\n",
                  file.c_str());
   }
   if (result.complete && result.ticks + result.missing_ticks == 0) {
     std::fprintf(stderr,
-                 "liana: %s: no tick was recorded: the core ticks only once all drives are booted; report.json beside it says why\n",
+                 "liana: %s: no tick was recorded: the core ticks only once all drives are booted; report.json beside "
+                 "it says why\n",
                  file.c_str());
   }
   if (!images.good()) {
-    std::fprintf(stderr, "liana: %s/%s: %s; take a good copy of the file: a replay from mid-run needs it\n", options.directory.c_str(),
-                 kImagesFile, images.state.c_str());
+    std::fprintf(stderr, "liana: %s/%s: %s; take a good copy of the file: a replay from mid-run needs it\n",
+                 options.directory.c_str(), kImagesFile, images.state.c_str());
   }
   return result.complete && images.good() && result.ticks > 0 && result.differing_ticks == 0 ? kExitOk : kExitFailure;
 }

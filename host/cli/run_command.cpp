@@ -1,11 +1,11 @@
 #include <cstdio>
 
 #include "host/cli/commands.hpp"
+#include "host/report/run_report.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/output.hpp"
-#include "host/system/system_layout.hpp"
-#include "host/report/run_report.hpp"
 #include "host/system/run_session.hpp"
+#include "host/system/system_layout.hpp"
 
 namespace liana {
 namespace {

@@ -6,8 +6,9 @@
 
 namespace liana {
 
-// The scene has to have a slit. `planar_segments`, `held_theta`, `root` (x,y,z,qw,qx,qy,qz of the planar part, base frame; null without
-// one) and `yaw_range_deg` (per segment of it: [lowest, highest], or null where it fits nowhere); see motion/dof_split.hpp.
+// The scene has to have a slit. `planar_segments`, `held_theta`, `root` (x,y,z,qw,qx,qy,qz of the planar part, base
+// frame; null without one) and `yaw_range_deg` (per segment of it: [lowest, highest], or null where it fits nowhere);
+// see motion/dof_split.hpp.
 Json slit_part(const RobotConfig& robot, const SceneConfig& scene, const ThetaVector& theta_rad);
 
 }  // namespace liana

@@ -23,7 +23,8 @@ BusConfig read_bus(const Field& field, std::map<std::int32_t, std::string>& owne
   const std::size_t count = nodes.size(1, kMaxCables, "list the node ids of the drives on this bus");
   for (std::size_t i = 0; i < count; ++i) {
     const auto node = static_cast<std::int32_t>(nodes.element(i).integer(1, kMasterNode - 1));
-    if (!owner.emplace(node, bus.name).second) nodes.element(i).refuse("each node id once", "it is already on bus " + owner[node]);
+    if (!owner.emplace(node, bus.name).second)
+      nodes.element(i).refuse("each node id once", "it is already on bus " + owner[node]);
     bus.nodes.push_back(node);
   }
   return bus;
@@ -40,7 +41,8 @@ void check_timing(const Field& table, const BusesConfig& buses) {
   const double ticks = buses.command_interval_s * buses.rate_hz;
   if (std::round(ticks) < 1.0 || std::fabs(ticks - std::round(ticks)) > 1e-9) {
     table.at("command_interval_s")
-        .refuse("whole multiples of the period, " + canonical_number(1.0 / buses.rate_hz) + " s", "change it or rate_hz");
+        .refuse("whole multiples of the period, " + canonical_number(1.0 / buses.rate_hz) + " s",
+                "change it or rate_hz");
   }
 }
 
@@ -55,14 +57,19 @@ void check_load(const Field& table, const BusesConfig& buses) {
   }
 }
 
-// Bits of a classical CAN frame with 11-bit identifier, worst stuffing, interframe space included (can-utils' constants).
+// Bits of a classical CAN frame with 11-bit identifier, worst stuffing, interframe space included (can-utils'
+// constants).
 constexpr double worst_frame_bits(int bytes) { return 55.0 + 10.0 * bytes; }
 
 }  // namespace
 
-std::int32_t BusesConfig::period_us() const { return static_cast<std::int32_t>(std::lround(kMicrosecondsPerSecond / rate_hz)); }
+std::int32_t BusesConfig::period_us() const {
+  return static_cast<std::int32_t>(std::lround(kMicrosecondsPerSecond / rate_hz));
+}
 
-std::int32_t BusesConfig::interval_ticks() const { return static_cast<std::int32_t>(std::lround(command_interval_s * rate_hz)); }
+std::int32_t BusesConfig::interval_ticks() const {
+  return static_cast<std::int32_t>(std::lround(command_interval_s * rate_hz));
+}
 
 std::int32_t BusesConfig::bus_of_node(std::int32_t node) const {
   for (std::size_t i = 0; i < buses.size(); ++i) {
@@ -89,7 +96,8 @@ double worst_case_load(const BusesConfig& buses, std::size_t bus) {
   const double tick_bits = worst_frame_bits(0) + nodes * (worst_frame_bits(6) + worst_frame_bits(8));
   const double heartbeat_bits = (nodes + 1.0) * worst_frame_bits(1);
   const double sdo_bits = 2.0 * worst_frame_bits(8);  // request and response
-  const double bits_per_second = tick_bits * buses.rate_hz + heartbeat_bits * 1000.0 / buses.heartbeat_ms + sdo_bits * kSdoPairsPerSecond;
+  const double bits_per_second =
+      tick_bits * buses.rate_hz + heartbeat_bits * 1000.0 / buses.heartbeat_ms + sdo_bits * kSdoPairsPerSecond;
   return bits_per_second / buses.buses[bus].bitrate;
 }
 
@@ -97,7 +105,8 @@ BusesConfig parse_buses(const std::string& text, const std::string& file) {
   const Json json = parse_json(text, file);
   const Field table(json, file, "");
   check_kind(table, "buses");
-  table.only({"format", "kind", "name", "backend", "rate_hz", "command_interval_s", "buses", "heartbeat_ms", "max_load"});
+  table.only(
+      {"format", "kind", "name", "backend", "rate_hz", "command_interval_s", "buses", "heartbeat_ms", "max_load"});
   BusesConfig out;
   out.name = table.at("name").name(40);
   out.backend = table.at("backend").choice({"embedded", "socketcan"});

@@ -44,7 +44,8 @@ void write(const Json& value, std::string& out) {
 
 std::string canonical_number(double value) {
   constexpr double kExactInteger = 9007199254740992.0;  // 2^53
-  if (std::fabs(value) < kExactInteger && value == std::trunc(value)) return std::to_string(static_cast<std::int64_t>(value));
+  if (std::fabs(value) < kExactInteger && value == std::trunc(value))
+    return std::to_string(static_cast<std::int64_t>(value));
   std::array<char, 32> text{};
   const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
   return std::string(text.data(), end);

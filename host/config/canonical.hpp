@@ -7,7 +7,8 @@
 
 namespace liana {
 
-// Shortest decimal text that reads back as exactly `value`; integers without a point, minus zero as 0. `value` must be finite.
+// Shortest decimal text that reads back as exactly `value`; integers without a point, minus zero as 0. `value` must be
+// finite.
 std::string canonical_number(double value);
 
 // `value` as one line: keys sorted, no blanks, numbers by canonical_number (1 and 1.0 are the same).

@@ -1,5 +1,6 @@
 // Robot, scene and buses: canonical JSON (docs/formats.md) to checked C++ structs.
-// Every function that reads throws std::runtime_error "file: field: value: allowed ...: what to do" on the first fault it finds.
+// Every function that reads throws std::runtime_error "file: field: value: allowed ...: what to do" on the first fault
+// it finds.
 #pragma once
 
 #include <array>
@@ -51,8 +52,8 @@ struct InterpolationPeriod {
 // 60C2 for a period of `period_us`; value 0 when CiA 402 cannot express it exactly.
 InterpolationPeriod interpolation_period(std::int32_t period_us);
 
-// Worst-case share of the wire (0..) of one bus: SYNC, RPDO1 and TPDO1 of every node each tick with worst stuffing, heartbeats of all and
-// the master, SDO traffic.
+// Worst-case share of the wire (0..) of one bus: SYNC, RPDO1 and TPDO1 of every node each tick with worst stuffing,
+// heartbeats of all and the master, SDO traffic.
 double worst_case_load(const BusesConfig& buses, std::size_t bus);
 
 // What object 0x1018 of every drive must say.
@@ -147,11 +148,12 @@ struct SceneConfig {
   std::string canonical_json;
 };
 
-// Loads and checks the buses: rate expressible by CiA 402, T_c whole ticks, node ids unique, worst-case load within max_load.
+// Loads and checks the buses: rate expressible by CiA 402, T_c whole ticks, node ids unique, worst-case load within
+// max_load.
 BusesConfig load_buses(const std::string& path);
 
-// Loads and checks the robot for these buses (every drive on exactly one bus); physics is "nominal", "ideal" or "worn" and chooses
-// friction_mu.
+// Loads and checks the robot for these buses (every drive on exactly one bus); physics is "nominal", "ideal" or "worn"
+// and chooses friction_mu.
 RobotConfig load_robot(const std::string& path, const std::string& physics, const BusesConfig& buses);
 
 // Loads and checks the scene: axes orthonormal, slit frame and plane consistent, sizes positive.
@@ -159,7 +161,8 @@ SceneConfig load_scene(const std::string& path);
 
 // The same from JSON text; `file` is what messages call it.
 BusesConfig parse_buses(const std::string& text, const std::string& file);
-RobotConfig parse_robot(const std::string& text, const std::string& file, const std::string& physics, const BusesConfig& buses);
+RobotConfig parse_robot(const std::string& text, const std::string& file, const std::string& physics,
+                        const BusesConfig& buses);
 SceneConfig parse_scene(const std::string& text, const std::string& file);
 
 // Checks one table of kind "robot", "scene" or "buses" by itself and returns its canonical JSON.

@@ -25,11 +25,13 @@ std::string Range::text() const {
   return canonical_number(low) + " to " + canonical_number(high);
 }
 
-bool Range::contains(double value) const { return std::isfinite(value) && value <= high && (above ? value > low : value >= low); }
+bool Range::contains(double value) const {
+  return std::isfinite(value) && value <= high && (above ? value > low : value >= low);
+}
 
 void Field::refuse(const std::string& allowed, const std::string& what_to_do) const {
-  throw std::runtime_error(file_ + ": " + (path_.empty() ? "" : path_ + ": ") + shown(*value_) + ": allowed " + allowed + ": " +
-                           what_to_do);
+  throw std::runtime_error(file_ + ": " + (path_.empty() ? "" : path_ + ": ") + shown(*value_) + ": allowed " +
+                           allowed + ": " + what_to_do);
 }
 
 Field Field::at(const std::string& key) const {
@@ -37,26 +39,30 @@ Field Field::at(const std::string& key) const {
   const auto found = value_->find(key);
   const std::string path = path_.empty() ? key : path_ + "." + key;
   if (found == value_->end())
-    throw std::runtime_error(file_ + ": " + path + ": missing: allowed a value as docs/formats.md gives it: add the field");
+    throw std::runtime_error(file_ + ": " + path +
+                             ": missing: allowed a value as docs/formats.md gives it: add the field");
   return Field(*found, file_, path);
 }
 
-Field Field::element(std::size_t i) const { return Field((*value_)[i], file_, path_ + "[" + std::to_string(i + 1) + "]"); }
+Field Field::element(std::size_t i) const {
+  return Field((*value_)[i], file_, path_ + "[" + std::to_string(i + 1) + "]");
+}
 
 std::size_t Field::size(std::size_t low, std::size_t high, const std::string& what_to_do) const {
   const std::string count = low == high ? std::to_string(low) : std::to_string(low) + " to " + std::to_string(high);
   const std::string allowed = "a list of " + count + " entries";
   if (!value_->is_array()) refuse(allowed, what_to_do);
   if (value_->size() >= low && value_->size() <= high) return value_->size();
-  throw std::runtime_error(file_ + ": " + path_ + ": " + std::to_string(value_->size()) + " entries: allowed " + allowed + ": " +
-                           what_to_do);
+  throw std::runtime_error(file_ + ": " + path_ + ": " + std::to_string(value_->size()) + " entries: allowed " +
+                           allowed + ": " + what_to_do);
 }
 
 void Field::only(const std::set<std::string>& known) const {
   if (!value_->is_object()) refuse("a table with named fields", "see docs/formats.md");
   for (const auto& [key, item] : value_->items()) {
     if (known.count(key) == 0)
-      Field(item, file_, path_.empty() ? key : path_ + "." + key).refuse("no such field", "remove it or correct its spelling");
+      Field(item, file_, path_.empty() ? key : path_ + "." + key)
+          .refuse("no such field", "remove it or correct its spelling");
   }
 }
 
@@ -69,7 +75,8 @@ double Field::number(const Range& range) const {
 
 std::int64_t Field::integer(std::int64_t low, std::int64_t high) const {
   const double value = number({static_cast<double>(low), static_cast<double>(high)});
-  if (value != std::trunc(value)) refuse("whole numbers " + std::to_string(low) + " to " + std::to_string(high), "round it");
+  if (value != std::trunc(value))
+    refuse("whole numbers " + std::to_string(low) + " to " + std::to_string(high), "round it");
   return static_cast<std::int64_t>(value);
 }
 
@@ -77,8 +84,11 @@ std::string Field::name(std::size_t longest) const {
   const std::string allowed = "1 to " + std::to_string(longest) + " letters, digits, '_', '-', '.'";
   if (!value_->is_string()) refuse(allowed, "give a quoted name");
   const auto text = value_->get<std::string>();
-  const auto plain = [](unsigned char c) { return (c < 128 && std::isalnum(c) != 0) || c == '_' || c == '-' || c == '.'; };
-  if (text.empty() || text.size() > longest || !std::all_of(text.begin(), text.end(), plain)) refuse(allowed, "choose another name");
+  const auto plain = [](unsigned char c) {
+    return (c < 128 && std::isalnum(c) != 0) || c == '_' || c == '-' || c == '.';
+  };
+  if (text.empty() || text.size() > longest || !std::all_of(text.begin(), text.end(), plain))
+    refuse(allowed, "choose another name");
   return text;
 }
 

@@ -23,10 +23,12 @@ struct Range {
   bool contains(double value) const;
 };
 
-// A place in a JSON table; knows its file and path for messages. Cheap to copy; refers to the JSON, which must outlive it.
+// A place in a JSON table; knows its file and path for messages. Cheap to copy; refers to the JSON, which must outlive
+// it.
 class Field {
  public:
-  Field(const Json& value, std::string file, std::string path) : value_(&value), file_(std::move(file)), path_(std::move(path)) {}
+  Field(const Json& value, std::string file, std::string path)
+      : value_(&value), file_(std::move(file)), path_(std::move(path)) {}
 
   // Throws std::runtime_error "file: path: value: allowed ...: what to do".
   [[noreturn]] void refuse(const std::string& allowed, const std::string& what_to_do) const;
@@ -66,7 +68,7 @@ class Field {
 
 // Parses `text`; a syntax error becomes a message that names the file and the place.
 Json parse_json(const std::string& text, const std::string& file,
-                          const std::string& advice = "export the Lua table again with liana-mission eval");
+                const std::string& advice = "export the Lua table again with liana-mission eval");
 
 // The whole file as text; throws when it cannot be read.
 std::string read_text_file(const std::string& path);

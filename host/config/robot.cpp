@@ -9,7 +9,8 @@ namespace {
 RobotConfig read_robot(const Json& json, const std::string& file, const std::string& physics) {
   const Field table(json, file, "");
   check_kind(table, "robot");
-  table.only({"format", "kind", "name", "segments", "module", "joint", "cables", "tension", "drives", "limits", "named_poses_deg"});
+  table.only({"format", "kind", "name", "segments", "module", "joint", "cables", "tension", "drives", "limits",
+              "named_poses_deg"});
   RobotConfig out;
   out.name = table.at("name").name(40);
   read_arm(table, out);
@@ -24,25 +25,27 @@ RobotConfig read_robot(const Json& json, const std::string& file, const std::str
 // Drive i has node id i + 1 (docs/drives.md): every drive on a bus, no node without a drive.
 void check_nodes(const RobotConfig& robot, const std::string& file, const BusesConfig& buses) {
   const std::int32_t drives = robot.table.cable_count();
-  const std::string allowed = ": allowed the nodes 1 to " + std::to_string(drives) + " of robot " + robot.name + ", each on one bus: ";
+  const std::string allowed =
+      ": allowed the nodes 1 to " + std::to_string(drives) + " of robot " + robot.name + ", each on one bus: ";
   for (std::int32_t node = 1; node <= drives; ++node) {
     if (buses.bus_of_node(node) < 0) {
-      throw std::runtime_error(file + ": buses " + buses.name + ": node " + std::to_string(node) + " is on no bus" + allowed +
-                               "add it to a bus");
+      throw std::runtime_error(file + ": buses " + buses.name + ": node " + std::to_string(node) + " is on no bus" +
+                               allowed + "add it to a bus");
     }
   }
   for (const BusConfig& bus : buses.buses) {
     for (const std::int32_t node : bus.nodes) {
       if (node <= drives) continue;
-      throw std::runtime_error(file + ": buses " + buses.name + ": node " + std::to_string(node) + allowed + "remove it from bus " +
-                               bus.name);
+      throw std::runtime_error(file + ": buses " + buses.name + ": node " + std::to_string(node) + allowed +
+                               "remove it from bus " + bus.name);
     }
   }
 }
 
 }  // namespace
 
-RobotConfig parse_robot(const std::string& text, const std::string& file, const std::string& physics, const BusesConfig& buses) {
+RobotConfig parse_robot(const std::string& text, const std::string& file, const std::string& physics,
+                        const BusesConfig& buses) {
   RobotConfig out = read_robot(parse_json(text, file), file, physics);
   check_nodes(out, file, buses);
   out.table.tick_s = buses.tick_s();

@@ -32,7 +32,8 @@ void read_phases(const Field& field, SegmentTable& segment) {
     segment.cable_phase_rad[c] = phases_deg.back() * kRadPerDeg;
   }
   if (!surround(phases_deg))
-    field.refuse("phases with less than 179 deg between neighbours", "spread the cables around the link, they can only pull");
+    field.refuse("phases with less than 179 deg between neighbours",
+                 "spread the cables around the link, they can only pull");
   segment.cables = static_cast<std::int32_t>(count);
 }
 
@@ -58,14 +59,16 @@ void read_arm(const Field& table, RobotConfig& out) {
     read_phases(phases.element(m), robot.segment[m]);
     shortest_m = std::min(shortest_m, robot.segment[m].module_length_m);
   }
-  if (robot.cable_count() > kMaxCables) phases.refuse("at most 32 cables", "this build holds at most 32 drives (kMaxCables)");
+  if (robot.cable_count() > kMaxCables)
+    phases.refuse("at most 32 cables", "this build holds at most 32 drives (kMaxCables)");
   robot.hole_radius_m = table.at("cables").at("hole_radius_m").number({0, out.module_radius_m, true});
   robot.face_offset_m = table.at("cables").at("face_offset_m").number({0, 0.49 * shortest_m, true});
 }
 
 void read_limits(const Field& field, MotionLimits& limits) {
-  field.only({"theta_rate_deg_s", "theta_accel_deg_s2", "tip_speed_m_s", "tip_speed_slit_m_s", "tip_accel_m_s2", "tip_jerk_m_s3",
-              "tip_rate_deg_s", "tip_angular_accel_deg_s2", "tip_angular_jerk_deg_s3", "cable_speed_m_s"});
+  field.only({"theta_rate_deg_s", "theta_accel_deg_s2", "tip_speed_m_s", "tip_speed_slit_m_s", "tip_accel_m_s2",
+              "tip_jerk_m_s3", "tip_rate_deg_s", "tip_angular_accel_deg_s2", "tip_angular_jerk_deg_s3",
+              "cable_speed_m_s"});
   limits.theta_rate_rad_s = field.at("theta_rate_deg_s").number({0, 90, true}) * kRadPerDeg;
   limits.theta_accel_rad_s2 = field.at("theta_accel_deg_s2").number({0, 1000, true}) * kRadPerDeg;
   limits.tip_speed_m_s = field.at("tip_speed_m_s").number({0, 2, true});

@@ -15,7 +15,8 @@ double read_friction(const Field& field, const std::string& physics) {
   field.only({"nominal", "ideal", "worn"});
   for (const char* name : {"nominal", "ideal", "worn"}) field.at(name).number({0, 0.5});
   if (!field.json().contains(physics)) {
-    throw std::runtime_error(field.file() + ": physics: " + physics + ": allowed nominal, ideal, worn: use one of these words");
+    throw std::runtime_error(field.file() + ": physics: " + physics +
+                             ": allowed nominal, ideal, worn: use one of these words");
   }
   return field.at(physics).number({0, 0.5});
 }
@@ -36,7 +37,8 @@ void read_watch(const Field& cables, CableWatchTable& watch) {
   const Field field = cables.at("watch");
   field.only({"jump_N", "contradiction_m"});
   if (field.json().contains("jump_N")) watch.jump_N = field.at("jump_N").number({0, 1000, true});
-  if (field.json().contains("contradiction_m")) watch.contradiction_m = field.at("contradiction_m").number({0, 0.1, true});
+  if (field.json().contains("contradiction_m"))
+    watch.contradiction_m = field.at("contradiction_m").number({0, 0.1, true});
 }
 
 DriveIdentity read_identity(const Field& field) {
@@ -71,7 +73,8 @@ void read_serials(const Field& drives, std::size_t count, RobotConfig& out) {
   for (std::size_t i = 0; i < count; ++i) {
     const auto serial = static_cast<std::uint32_t>(serials.element(i).integer(1, 0xffffffff));
     if (std::find(out.drive_serials.begin(), out.drive_serials.end(), serial) != out.drive_serials.end())
-      serials.element(i).refuse("a number that no other drive has", "look at the drive's plate, or leave drives.serials out");
+      serials.element(i).refuse("a number that no other drive has",
+                                "look at the drive's plate, or leave drives.serials out");
     out.drive_serials.push_back(serial);
   }
 }
@@ -90,8 +93,8 @@ void read_cables(const Field& table, const std::string& physics, RobotConfig& ou
 
 void read_drives(const Field& table, RobotConfig& out) {
   const Field drives = table.at("drives");
-  drives.only({"drum_radius_m", "counts_per_turn", "gear", "servo_time_constant_s", "rated_torque_Nm", "identity", "direction",
-               "zero_counts", "serials", "calibration_days"});
+  drives.only({"drum_radius_m", "counts_per_turn", "gear", "servo_time_constant_s", "rated_torque_Nm", "identity",
+               "direction", "zero_counts", "serials", "calibration_days"});
   out.drum_radius_m = drives.at("drum_radius_m").number({0, 1, true});
   out.counts_per_turn = static_cast<std::uint32_t>(drives.at("counts_per_turn").integer(16, 16777216));
   out.gear = drives.at("gear").number({0, 10000, true});

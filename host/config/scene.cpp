@@ -15,15 +15,19 @@ constexpr Range kDirection{-1 - kUnitTolerance, 1 + kUnitTolerance};
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-Vec3 cross(const Vec3& a, const Vec3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 
 bool near(const Vec3& a, const Vec3& b, double tolerance) {
   return std::fabs(a[0] - b[0]) < tolerance && std::fabs(a[1] - b[1]) < tolerance && std::fabs(a[2] - b[2]) < tolerance;
 }
 
 bool right_handed(const std::array<Vec3, 3>& axes) {
-  const bool unit = std::fabs(dot(axes[0], axes[0]) - 1) < kUnitTolerance && std::fabs(dot(axes[1], axes[1]) - 1) < kUnitTolerance;
-  return unit && std::fabs(dot(axes[0], axes[1])) < kUnitTolerance && near(cross(axes[0], axes[1]), axes[2], kUnitTolerance);
+  const bool unit =
+      std::fabs(dot(axes[0], axes[0]) - 1) < kUnitTolerance && std::fabs(dot(axes[1], axes[1]) - 1) < kUnitTolerance;
+  return unit && std::fabs(dot(axes[0], axes[1])) < kUnitTolerance &&
+         near(cross(axes[0], axes[1]), axes[2], kUnitTolerance);
 }
 
 // Columns of the rotation matrix of a unit quaternion: the frame's axes in base coordinates.
@@ -40,7 +44,8 @@ ScenePose read_pose(const Field& field) {
   pose.quaternion_wxyz = field.at("quaternion_wxyz").numbers<4>(kDirection);
   double square = 0.0;
   for (const double q : pose.quaternion_wxyz) square += q * q;
-  if (std::fabs(square - 1) > kUnitTolerance) field.at("quaternion_wxyz").refuse("unit length to 1e-9", "divide it by its length");
+  if (std::fabs(square - 1) > kUnitTolerance)
+    field.at("quaternion_wxyz").refuse("unit length to 1e-9", "divide it by its length");
   return pose;
 }
 
@@ -99,8 +104,9 @@ SceneRod read_rod(const Field& field) {
 
 SceneCamera read_camera(const Field& field) {
   field.only({"rate_hz", "latency_s", "noise_m", "noise_deg", "range_m"});
-  return {field.at("rate_hz").number({1, 1000}), field.at("latency_s").number({0, 10}), field.at("noise_m").number({0, 1}),
-          field.at("noise_deg").number({0, 45}), field.at("range_m").number(kLength)};
+  return {field.at("rate_hz").number({1, 1000}), field.at("latency_s").number({0, 10}),
+          field.at("noise_m").number({0, 1}), field.at("noise_deg").number({0, 45}),
+          field.at("range_m").number(kLength)};
 }
 
 SceneContact read_contact(const Field& field) {

@@ -1,4 +1,5 @@
-// Test build (LIANA_NO_ALLOC): stands in front of the C library and aborts when a tick allocates, locks or opens a file.
+// Test build (LIANA_NO_ALLOC): stands in front of the C library and aborts when a tick allocates, locks or opens a
+// file.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>

@@ -24,12 +24,14 @@ LatencyCounts LatencyHistogram::counts() const {
     counts.count[i] = count_[i].load(std::memory_order_relaxed) - before_[i];
     if (counts.count[i] > 0) counts.worst_us = static_cast<std::uint32_t>(i);
   }
-  if (counts.count[kLatencyBuckets] > 0) counts.worst_us = std::max(counts.worst_us, worst_us_.load(std::memory_order_relaxed));
+  if (counts.count[kLatencyBuckets] > 0)
+    counts.worst_us = std::max(counts.worst_us, worst_us_.load(std::memory_order_relaxed));
   return counts;
 }
 
-// Within the buckets the highest one that is not empty tells the worst; only the worst beyond them has to be forgotten here. A time that
-// the writer is recording right now may be lost from that worst (not from the counts): it belongs to before the reset.
+// Within the buckets the highest one that is not empty tells the worst; only the worst beyond them has to be forgotten
+// here. A time that the writer is recording right now may be lost from that worst (not from the counts): it belongs to
+// before the reset.
 void LatencyHistogram::reset() {
   for (std::size_t i = 0; i < count_.size(); ++i) before_[i] = count_[i].load(std::memory_order_relaxed);
   worst_us_.store(0, std::memory_order_relaxed);

@@ -1,4 +1,5 @@
-// How long something took, tick after tick: counted by the real-time thread, read by the service, without either waiting.
+// How long something took, tick after tick: counted by the real-time thread, read by the service, without either
+// waiting.
 #pragma once
 
 #include <array>
@@ -12,17 +13,18 @@ constexpr std::size_t kLatencyBuckets = 2048;  // of 1 us each; what takes longe
 
 // What a histogram held when it was read.
 struct LatencyCounts {
-  std::array<std::uint64_t, kLatencyBuckets + 1> count{};  // [i]: i us to under i + 1 us; the last one: kLatencyBuckets us or more
-  std::uint32_t worst_us = 0;                              // exact, beyond the buckets too
+  std::array<std::uint64_t, kLatencyBuckets + 1>
+      count{};                 // [i]: i us to under i + 1 us; the last one: kLatencyBuckets us or more
+  std::uint32_t worst_us = 0;  // exact, beyond the buckets too
 
   std::uint64_t total() const;
-  // The smallest time that at least `share` (over 0, up to 1) of all stayed within [us]; the worst where it lies beyond the buckets, 0
-  // where nothing was counted. The same as the nearest rank in the sorted times.
+  // The smallest time that at least `share` (over 0, up to 1) of all stayed within [us]; the worst where it lies beyond
+  // the buckets, 0 where nothing was counted. The same as the nearest rank in the sorted times.
   std::uint32_t percentile_us(double share) const;
 };
 
-// One writer thread, one reader thread. Relaxed atomics that only the writer changes, so record() costs a load and a store; a reset moves
-// what the reader subtracts, and the writer never hears of it.
+// One writer thread, one reader thread. Relaxed atomics that only the writer changes, so record() costs a load and a
+// store; a reset moves what the reader subtracts, and the writer never hears of it.
 class LatencyHistogram {
  public:
   // Writer: counts one time. Bounded, no allocation.
@@ -46,8 +48,9 @@ class LatencyHistogram {
 // The real-time thread's times, one of each per tick, in real time; in virtual time they mean nothing.
 struct TickTiming {
   LatencyHistogram wakeup_us;  // from the deadline of the tick to the thread running (TickStart::lateness_us)
-  // The tick's own work: from the return of DriveBus::wait_feedback (every drive's feedback is there, or half the period is over) to the
-  // end of the tick with its reports published. SYNC and the wait for the bus are not in it. Difference of two whole microseconds: +-1 us.
+  // The tick's own work: from the return of DriveBus::wait_feedback (every drive's feedback is there, or half the
+  // period is over) to the end of the tick with its reports published. SYNC and the wait for the bus are not in it.
+  // Difference of two whole microseconds: +-1 us.
   LatencyHistogram tick_us;
 };
 

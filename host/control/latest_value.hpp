@@ -8,8 +8,8 @@
 
 namespace liana {
 
-// The writer fills its own slot and swaps it with the middle one; the reader swaps the middle one with its own. Nobody ever waits, and a
-// slot is never touched by both.
+// The writer fills its own slot and swaps it with the middle one; the reader swaps the middle one with its own. Nobody
+// ever waits, and a slot is never touched by both.
 template <class T>
 class LatestValue {
   static_assert(std::is_trivially_copyable_v<T>);

@@ -9,8 +9,8 @@
 #include "host/control/latency_histogram.hpp"
 #include "host/control/latest_value.hpp"
 #include "host/control/spsc_ring.hpp"
-#include "host/verify/twin.hpp"
 #include "host/record/tick_packet.hpp"
+#include "host/verify/twin.hpp"
 
 namespace liana {
 
@@ -25,7 +25,8 @@ struct Overruns {
   std::uint64_t total() const { return late_wake + long_tick + bus_wait; }
   // Those since `before` was taken.
   Overruns since(const Overruns& before) const {
-    return {late_wake - before.late_wake, long_tick - before.long_tick, bus_wait - before.bus_wait, lost_ticks - before.lost_ticks};
+    return {late_wake - before.late_wake, long_tick - before.long_tick, bus_wait - before.bus_wait,
+            lost_ticks - before.lost_ticks};
   }
 };
 
@@ -41,7 +42,8 @@ struct CycleReport {
 };
 
 struct Link {
-  explicit Link(const RobotTable& table) : image(TwinImage{0, true, Controller(table), {}, {}}), report(CycleReport{}) {}
+  explicit Link(const RobotTable& table)
+      : image(TwinImage{0, true, Controller(table), {}, {}}), report(CycleReport{}) {}
 
   // Service to real time.
   SpscRing<Telecommand, 16> released;

@@ -41,8 +41,9 @@ void lock_memory() {
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0 && room_is_left()) return;
   const int error = errno;
   ::munlockall();
-  throw std::runtime_error(std::string("time mode real: memory cannot be locked (") + std::strerror(error) +
-                           "): needs CAP_IPC_LOCK or an unlimited memlock limit; see `liana doctor`, or use --time fast or paced");
+  throw std::runtime_error(
+      std::string("time mode real: memory cannot be locked (") + std::strerror(error) +
+      "): needs CAP_IPC_LOCK or an unlimited memlock limit; see `liana doctor`, or use --time fast or paced");
 }
 
 std::thread start_realtime(std::function<void()> body) {

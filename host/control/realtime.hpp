@@ -11,7 +11,8 @@ constexpr int kRealtimePriority = 80;  // over drivers' interrupt threads (50), 
 // Locks all memory, present and future. Throws std::runtime_error naming the missing privilege.
 void lock_memory();
 
-// Starts `body` in a thread with SCHED_FIFO and a stack that is already in memory. Throws std::runtime_error naming the missing privilege.
+// Starts `body` in a thread with SCHED_FIFO and a stack that is already in memory. Throws std::runtime_error naming the
+// missing privilege.
 std::thread start_realtime(std::function<void()> body);
 
 }  // namespace liana

@@ -18,8 +18,9 @@ std::vector<std::string> names_of(const BusesConfig& buses) {
   return names;
 }
 
-// How long a bus on which nobody is heard still gets its commands: long enough for a quick stop to arrive. Then silence makes drives that
-// hear us but act on nothing (without SYNC they do not) stop by themselves, and no old command waits in a queue for the bus to come back.
+// How long a bus on which nobody is heard still gets its commands: long enough for a quick stop to arrive. Then silence
+// makes drives that hear us but act on nothing (without SYNC they do not) stop by themselves, and no old command waits
+// in a queue for the bus to come back.
 constexpr std::uint16_t kFarewellTicks = 25;
 
 std::uint16_t older(std::uint16_t age) { return narrow<std::uint16_t>(static_cast<std::uint32_t>(age) + 1); }
@@ -66,7 +67,8 @@ void RtCycle::collect(const TickStart& start) noexcept {
   inputs_.tick = start.tick;
   inputs_.lost_ticks = start.lost_ticks;
   inputs_.request = Request::kNone;
-  for (std::size_t i = 0; i < drives_.size(); ++i) inputs_.drive[i].feedback_age_ticks = older(inputs_.drive[i].feedback_age_ticks);
+  for (std::size_t i = 0; i < drives_.size(); ++i)
+    inputs_.drive[i].feedback_age_ticks = older(inputs_.drive[i].feedback_age_ticks);
   for (std::uint16_t& ticks : silent_ticks_) ticks = older(ticks);
   ReceivedFrame received;
   while (bus_.receive(received)) {
@@ -91,12 +93,13 @@ void RtCycle::collect(const TickStart& start) noexcept {
   inputs_.lost_bus_mask = lost_buses();
 }
 
-// An interface that is up proves nothing: with its cable off it goes on sending to nobody. A bus is also lost when none of its drives is
-// heard any more, as soon as one of them would be silent.
+// An interface that is up proves nothing: with its cable off it goes on sending to nobody. A bus is also lost when none
+// of its drives is heard any more, as soon as one of them would be silent.
 std::uint32_t RtCycle::lost_buses() const noexcept {
   std::uint32_t mask = 0;
   for (int b = 0; b < bus_.bus_count(); ++b) {
-    const bool is_silent = has_drives_[static_cast<std::size_t>(b)] && silent_ticks_[static_cast<std::size_t>(b)] > kFeedbackAgeTicks;
+    const bool is_silent =
+        has_drives_[static_cast<std::size_t>(b)] && silent_ticks_[static_cast<std::size_t>(b)] > kFeedbackAgeTicks;
     if (is_silent || is_out(bus_.stats(b).state)) mask |= 1u << b;
   }
   return mask;
@@ -123,7 +126,8 @@ void RtCycle::command_drives(const Outputs& outputs) noexcept {
   }
 }
 
-// Names why deadlines were missed: the tick before took too long (its own work, or waiting for the bus), or the thread woke up late.
+// Names why deadlines were missed: the tick before took too long (its own work, or waiting for the bus), or the thread
+// woke up late.
 void RtCycle::count_overrun(const TickStart& start) noexcept {
   const std::uint64_t waited_us = heard_us_ - began_us_, took_us = ended_us_ - began_us_;
   began_us_ = bus_.now_us();
@@ -159,7 +163,8 @@ std::vector<BootProblem> RtCycle::boot_problems() const {
   for (std::size_t i = 0; i < master_.boot().node_count(); ++i) {
     const canopen::BootMismatch& mismatch = master_.boot().mismatch(i);
     if (mismatch.failure == canopen::BootFailure::kNone) continue;
-    const bool missing = mismatch.failure == canopen::BootFailure::kNoBootUp || mismatch.failure == canopen::BootFailure::kNoAnswer;
+    const bool missing =
+        mismatch.failure == canopen::BootFailure::kNoBootUp || mismatch.failure == canopen::BootFailure::kNoAnswer;
     problems.push_back({static_cast<int>(i), missing ? FaultNumber::kDriveMissing : FaultNumber::kDriveNotOperational,
                         canopen::describe(mismatch, bus_names_[static_cast<std::size_t>(mismatch.bus)])});
   }

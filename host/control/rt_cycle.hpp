@@ -17,13 +17,14 @@ class RtCycle {
   // Setup: may allocate and throw. `bus` and `link` must outlive this.
   RtCycle(const RobotConfig& robot, const BusesConfig& buses, DriveBus& bus, Link& link);
 
-  // Waits for the next deadline and runs one tick; false when the other side of the bus has left. After construction nothing here
-  // allocates, waits for a lock, or makes a system call that the bus and the timer do not need.
+  // Waits for the next deadline and runs one tick; false when the other side of the bus has left. After construction
+  // nothing here allocates, waits for a lock, or makes a system call that the bus and the timer do not need.
   bool run_tick() noexcept;
 
   // After booting has failed: every drive that is to blame. Not for the real-time thread.
   std::vector<BootProblem> boot_problems() const;
-  // After booting: serial number of every drive (0x1018:4), 0 where it has none. They do not change any more. Not for the real-time thread.
+  // After booting: serial number of every drive (0x1018:4), 0 where it has none. They do not change any more. Not for
+  // the real-time thread.
   std::vector<std::uint32_t> serials() const;
 
  private:
@@ -47,7 +48,8 @@ class RtCycle {
   std::array<std::uint16_t, kMaxDriveBuses> silent_ticks_{};  // in a row without a report of any drive of the bus
   Inputs inputs_{};
   CycleReport report_{};
-  std::uint64_t began_us_ = 0, heard_us_ = 0, ended_us_ = 0;  // of the last tick, on the bus's clock; heard: the wait for feedback is over
+  std::uint64_t began_us_ = 0, heard_us_ = 0,
+                ended_us_ = 0;  // of the last tick, on the bus's clock; heard: the wait for feedback is over
 };
 
 }  // namespace liana

@@ -10,9 +10,11 @@ class TickCore {
  public:
   TickCore(const RobotTable& table, Link& link) : controller_(table), link_(link) {}
 
-  // One tick: adds the next request and the telecommand that is due to `inputs`, runs the Controller, and records the tick.
+  // One tick: adds the next request and the telecommand that is due to `inputs`, runs the Controller, and records the
+  // tick.
   const Outputs& step(Inputs& inputs);
-  // Makes the state after this tick visible to the service; when a command interval has ended, the Controller's image, too.
+  // Makes the state after this tick visible to the service; when a command interval has ended, the Controller's image,
+  // too.
   void publish(CycleReport& report);
 
  private:

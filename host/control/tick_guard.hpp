@@ -1,4 +1,5 @@
-// Marks the thread as being inside a tick, where nothing may allocate, lock or open files. The test build enforces it (alloc_guard.cpp).
+// Marks the thread as being inside a tick, where nothing may allocate, lock or open files. The test build enforces it
+// (alloc_guard.cpp).
 #pragma once
 
 namespace liana {

@@ -24,25 +24,29 @@ std::vector<Contradiction> contradictions(const RobotTable& table, const Estimat
   Index first = 0;
   for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
     Contradiction of{m, first, static_cast<Index>(table.segment[m].cables)};
-    for (Index c = first; c < first + of.cables; ++c) of.largest_m = std::fmax(of.largest_m, std::fabs(estimator.residual_m[c]));
+    for (Index c = first; c < first + of.cables; ++c)
+      of.largest_m = std::fmax(of.largest_m, std::fabs(estimator.residual_m[c]));
     first += of.cables;
     if (!(of.largest_m < kHomingResidual_m)) out.push_back(of);
   }
-  std::stable_sort(out.begin(), out.end(), [](const Contradiction& a, const Contradiction& b) { return a.largest_m > b.largest_m; });
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Contradiction& a, const Contradiction& b) { return a.largest_m > b.largest_m; });
   return out;
 }
 
 std::string text_of(const Contradiction& found) {
   char text[100];
-  std::snprintf(text, sizeof text, "%zu to %zu (segment %zu) contradict each other by %.1f mm", found.first, found.first + found.cables - 1,
-                found.segment + 1, 1e3 * found.largest_m);
+  std::snprintf(text, sizeof text, "%zu to %zu (segment %zu) contradict each other by %.1f mm", found.first,
+                found.first + found.cables - 1, found.segment + 1, 1e3 * found.largest_m);
   return text;
 }
 
 std::string why_lengths_do_not_fit(const RobotTable& table, const EstimatorState& estimator) {
   std::string out;
-  for (const Contradiction& found : contradictions(table, estimator)) out += (out.empty() ? "cables " : ", cables ") + text_of(found);
-  if (out.empty()) return "the angles that the cables' lengths say have not settled: wait, or look for a drum that turns";
+  for (const Contradiction& found : contradictions(table, estimator))
+    out += (out.empty() ? "cables " : ", cables ") + text_of(found);
+  if (out.empty())
+    return "the angles that the cables' lengths say have not settled: wait, or look for a drum that turns";
   char allowed[40];
   std::snprintf(allowed, sizeof allowed, "; allowed %.1f mm: ", 1e3 * kHomingResidual_m);
   return out + allowed + "look for cables on each other's drums, slack ones and wrong zeros, then run liana calibrate";
@@ -54,7 +58,8 @@ CableVector paid_out_m(const RobotTable& table, const Inputs& inputs) {
   CableVector out{};
   for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i) {
     const DriveTable& drive = table.drive[i];
-    out[i] = drive.direction * (static_cast<double>(inputs.drive[i].position_counts) - drive.zero_counts) * drive.metres_per_count;
+    out[i] = drive.direction * (static_cast<double>(inputs.drive[i].position_counts) - drive.zero_counts) *
+             drive.metres_per_count;
   }
   return out;
 }
@@ -77,7 +82,8 @@ void Homing::look(const CycleReport& report, const EstimatorState& estimator) {
   }
   why_not_.clear();
   if (!in_pose_.empty()) {
-    why_not_ = contradiction(robot_, in_pose_, paid_out_m(table, report.inputs), reported_tension_N(table, report.inputs));
+    why_not_ =
+        contradiction(robot_, in_pose_, paid_out_m(table, report.inputs), reported_tension_N(table, report.inputs));
     if (why_not_.empty() && report.outputs.homed != 0) in_pose_.clear();
   }
   if (why_not_.empty() && report.outputs.homed == 0) why_not_ = why_lengths_do_not_fit(table, estimator);

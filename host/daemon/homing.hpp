@@ -1,4 +1,5 @@
-// Whether the arm is where its drives say, and why not: homing is the comparison of stored zeros with the lengths found.
+// Whether the arm is where its drives say, and why not: homing is the comparison of stored zeros with the lengths
+// found.
 #pragma once
 
 #include <string>
@@ -16,8 +17,8 @@ CableVector reported_tension_N(const RobotTable& table, const Inputs& inputs);
 
 class Homing {
  public:
-  // `in_pose`: the named pose in which the arm lies in its fixture at the start; empty: nobody knows. Throws std::runtime_error when there
-  // is no such pose, or when it does not tell every two cables apart.
+  // `in_pose`: the named pose in which the arm lies in its fixture at the start; empty: nobody knows. Throws
+  // std::runtime_error when there is no such pose, or when it does not tell every two cables apart.
   Homing(const RobotConfig& robot, const std::string& in_pose);
 
   // Once per interval after booting. The pose is compared until it fits once: then the arm may leave it.

@@ -10,7 +10,8 @@ const char* advice(BusState state) {
     case BusState::kErrorPassive:
       return ": frames are destroyed or nobody acknowledges them; check cable, termination and bit rate";
     case BusState::kBusOff:
-      return ": the interface has given up after too many errors; mend the cable, then restart it (ip link set NAME type can restart)";
+      return ": the interface has given up after too many errors; mend the cable, then restart it (ip link set NAME "
+             "type can restart)";
     case BusState::kDown:
       return ": set it up again (ip link set NAME up)";
   }
@@ -26,18 +27,22 @@ const char* bus_state_name(BusState state) {
   return kNames[static_cast<std::size_t>(state)];
 }
 
-void HostTrouble::look_at(const std::string& name, const DriveBusStats& now, Seen& seen, std::vector<std::string>& out) const {
+void HostTrouble::look_at(const std::string& name, const DriveBusStats& now, Seen& seen,
+                          std::vector<std::string>& out) const {
   const std::string bus = "bus " + name;
   if (now.state != seen.stats.state) out.push_back(bus + " is " + bus_state_name(now.state) + advice(now.state));
   if (now.state == seen.stats.state && now.errors != seen.stats.errors)
-    out.push_back(bus + " reported " + number(now.errors - seen.stats.errors) + " error frames and is " + bus_state_name(now.state));
-  if (now.dropped != seen.stats.dropped) out.push_back(bus + ": " + number(now.dropped - seen.stats.dropped) + " received frames lost");
+    out.push_back(bus + " reported " + number(now.errors - seen.stats.errors) + " error frames and is " +
+                  bus_state_name(now.state));
+  if (now.dropped != seen.stats.dropped)
+    out.push_back(bus + ": " + number(now.dropped - seen.stats.dropped) + " received frames lost");
   const bool refuses = now.refused > seen.stats.refused;
   if (refuses && !seen.refuses) {
     seen.refused_before = seen.stats.refused;
     out.push_back(bus + " refuses frames: its transmit queue is full");
   }
-  if (!refuses && seen.refuses) out.push_back(bus + " takes frames again; " + number(now.refused - seen.refused_before) + " were refused");
+  if (!refuses && seen.refuses)
+    out.push_back(bus + " takes frames again; " + number(now.refused - seen.refused_before) + " were refused");
   seen.refuses = refuses;
   seen.stats = now;
 }

@@ -14,8 +14,8 @@ const char* bus_state_name(BusState state);
 // Compares each report with the one before.
 class HostTrouble {
  public:
-  // What has changed since the last call, one sentence each: state of an interface, error frames, frames it refuses, frames lost in the
-  // receive buffer, lost control deadlines.
+  // What has changed since the last call, one sentence each: state of an interface, error frames, frames it refuses,
+  // frames lost in the receive buffer, lost control deadlines.
   std::vector<std::string> changes(const BusesConfig& buses, const CycleReport& report);
 
  private:

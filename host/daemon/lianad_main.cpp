@@ -47,10 +47,12 @@ std::vector<Role> roles_in(const std::string& list) {
 void wait_for_dismissal(Service& service) {
   constexpr double kPatience_s = 30.0, kLook_s = 0.05;
   service.end_lockstep();
-  for (double waited_s = 0.0; waited_s < kPatience_s && !service.dismissed() && g_signal == 0; waited_s += kLook_s) service.idle(kLook_s);
+  for (double waited_s = 0.0; waited_s < kPatience_s && !service.dismissed() && g_signal == 0; waited_s += kLook_s)
+    service.idle(kLook_s);
 }
 
-// Fast and paced: one thread alternates service and real-time side, so that runs repeat bit for bit. False when the bus has ended.
+// Fast and paced: one thread alternates service and real-time side, so that runs repeat bit for bit. False when the bus
+// has ended.
 bool run_lockstep(Service& service, RtCycle& cycle) {
   for (;;) {
     if (g_signal != 0) service.begin_shutdown("signal");
@@ -89,7 +91,8 @@ std::optional<Registration> registered(const std::string& api) {
   try {
     return std::optional<Registration>(std::in_place, api);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "lianad: liana status and estop find this system only with --api %s: %s\n", api.c_str(), error.what());
+    std::fprintf(stderr, "lianad: liana status and estop find this system only with --api %s: %s\n", api.c_str(),
+                 error.what());
     return std::nullopt;
   }
 }
@@ -107,9 +110,10 @@ int run(const Options& options) {
   // The API is there before the bus hears of us: the bench connects to it at its first wake-up.
   const auto link = std::make_unique<Link>(robot.table);
   std::unique_ptr<RtCycle> cycle;
-  const bool ends_with_mission = *mode != TimeMode::kReal && std::find(expected.begin(), expected.end(), Role::kMission) != expected.end();
-  Service service({options.api, *mode, robot, scene, buses, options.in_pose, ends_with_mission, [&] { return cycle->boot_problems(); },
-                   [&] { return cycle->serials(); }},
+  const bool ends_with_mission =
+      *mode != TimeMode::kReal && std::find(expected.begin(), expected.end(), Role::kMission) != expected.end();
+  Service service({options.api, *mode, robot, scene, buses, options.in_pose, ends_with_mission,
+                   [&] { return cycle->boot_problems(); }, [&] { return cycle->serials(); }},
                   *link);
   const std::optional<Registration> registration = registered(options.api);
   const std::unique_ptr<DriveBus> bus = open_drive_bus(buses, *mode, options.bus_socket);
@@ -132,13 +136,15 @@ int main(int argc, char** argv) {
   app.add_option("--buses", options.buses, "buses JSON")->required();
   app.add_option("--api", options.api, "path of the API socket to listen at")->required();
   app.add_option("--time", options.time, "fast, paced or real")->capture_default_str();
-  app.add_option("--physics", options.physics, "friction the core is told: nominal, ideal or worn")->capture_default_str();
+  app.add_option("--physics", options.physics, "friction the core is told: nominal, ideal or worn")
+      ->capture_default_str();
   app.add_option("--bus-socket", options.bus_socket, "socket of liana-bus (embedded back end)");
   app.add_option("--calibration", options.calibration,
                  "what liana calibrate measured of this arm's drives; the robot table's values without");
   app.add_option("--in-pose", options.in_pose,
                  "named pose in which the arm lies in its fixture: unless every cable says so, the arm is not enabled");
-  app.add_option("--expect", options.expect, "roles that must have connected before virtual time starts, comma separated");
+  app.add_option("--expect", options.expect,
+                 "roles that must have connected before virtual time starts, comma separated");
   CLI11_PARSE(app, argc, argv);
   try {
     return run(options);

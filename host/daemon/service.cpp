@@ -47,7 +47,8 @@ void Service::wait_for(const std::vector<Role>& roles, double timeout_s) {
     while (!server_.has_role(role)) {
       server_.pump(0.05);
       if (Clock::now() > deadline)
-        throw std::runtime_error("--expect: a client with role '" + std::string(role_name(role)) + "' did not come within the time");
+        throw std::runtime_error("--expect: a client with role '" + std::string(role_name(role)) +
+                                 "' did not come within the time");
     }
   }
 }
@@ -75,14 +76,16 @@ void Service::idle(double timeout_s) {
 
 void Service::watch_shape() {
   shape_progress_.note(now(), arbiter_.nodes(), arbiter_.keep_clear());
-  notes_.shape = {shape_progress_.missing_m(), shape_progress_.is_settled() && !arbiter_.is_searching(), arbiter_.is_searching()};
+  notes_.shape = {shape_progress_.missing_m(), shape_progress_.is_settled() && !arbiter_.is_searching(),
+                  arbiter_.is_searching()};
 }
 
 void Service::publish_state() {
   if (!server_.has_subscriber(Topic::kState)) return;
   const Json state = state_message(config_.robot.table, config_.buses, link_.report.value(), arbiter_, owner_, notes_);
   const char* name = state_name(link_.report.value());
-  server_.publish(Topic::kState, state.dump(), name != published_);  // a slow reader may lose states, but no change of state
+  server_.publish(Topic::kState, state.dump(),
+                  name != published_);  // a slow reader may lose states, but no change of state
   published_ = name;
 }
 
@@ -150,7 +153,8 @@ void Service::note_emergencies(const Inputs& inputs) {
     const std::uint16_t code = inputs.drive[i].emergency_code;
     if (code == 0) continue;
     char text[96];
-    std::snprintf(text, sizeof text, "drive %zu sent emergency 0x%04X: %s", i, static_cast<unsigned>(code), canopen::emergency_text(code));
+    std::snprintf(text, sizeof text, "drive %zu sent emergency 0x%04X: %s", i, static_cast<unsigned>(code),
+                  canopen::emergency_text(code));
     note(text);
   }
 }
@@ -203,13 +207,15 @@ void Service::verify_and_release(const Setpoint& setpoint) {
 
   const std::optional<Telecommand> telecommand = release_.release(candidate, execution, simulation);
   const Verdict& worst = execution.passed() ? static_cast<const Verdict&>(simulation) : execution;
-  notes_.verdict = {candidate.sequence(), telecommand.has_value(), worst, prediction.ticks[prediction.command_ticks - 1].theta_command_rad};
+  notes_.verdict = {candidate.sequence(), telecommand.has_value(), worst,
+                    prediction.ticks[prediction.command_ticks - 1].theta_command_rad};
   if (telecommand && link_.released.push(*telecommand)) {
     released_.push_back(*telecommand);
     return;
   }
   ++notes_.refusals;
-  note("refused " + std::to_string(candidate.sequence()) + ", M_e " + std::to_string(static_cast<int>(worst.code)) + ": " + worst.text);
+  note("refused " + std::to_string(candidate.sequence()) + ", M_e " + std::to_string(static_cast<int>(worst.code)) +
+       ": " + worst.text);
   arbiter_.refused();
 }
 
@@ -219,7 +225,8 @@ void Service::note(const std::string& text) {
 }
 
 void Service::request(Request what) {
-  if (boot_seen_ != BootPhase::kDone) return;  // drives that are not booted have no power, and a stop in force keeps it so
+  if (boot_seen_ != BootPhase::kDone)
+    return;  // drives that are not booted have no power, and a stop in force keeps it so
   if (!link_.requests.push(what)) throw RequestError("busy", "too many requests are waiting for the next ticks");
 }
 

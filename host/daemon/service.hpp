@@ -1,4 +1,5 @@
-// The service side of lianad: once per command interval it hears the clients, decides what to ask for, verifies and releases it.
+// The service side of lianad: once per command interval it hears the clients, decides what to ask for, verifies and
+// releases it.
 #pragma once
 
 #include <cstdint>
@@ -10,20 +11,20 @@
 #include <vector>
 
 #include "host/api/server.hpp"
-#include "host/time/time_mode.hpp"
-#include "host/config/config.hpp"
 #include "host/arbiter/arbiter.hpp"
+#include "host/arbiter/shape_progress.hpp"
+#include "host/config/config.hpp"
 #include "host/control/boot_problem.hpp"
+#include "host/control/link.hpp"
 #include "host/daemon/homing.hpp"
 #include "host/daemon/host_trouble.hpp"
-#include "host/control/link.hpp"
 #include "host/daemon/owner.hpp"
-#include "host/verify/release.hpp"
-#include "host/arbiter/shape_progress.hpp"
 #include "host/daemon/state_message.hpp"
+#include "host/json/json.hpp"
+#include "host/time/time_mode.hpp"
+#include "host/verify/release.hpp"
 #include "host/verify/twin.hpp"
 #include "host/verify/verify.hpp"
-#include "host/json/json.hpp"
 
 namespace liana {
 
@@ -34,8 +35,8 @@ struct ServiceConfig {
   RobotConfig robot;
   SceneConfig scene;
   BusesConfig buses;
-  std::string in_pose;                                      // named pose in which the arm lies at the start; empty: nobody knows
-  bool ends_with_mission = false;                           // stop the arm once the mission has come and gone
+  std::string in_pose;             // named pose in which the arm lies at the start; empty: nobody knows
+  bool ends_with_mission = false;  // stop the arm once the mission has come and gone
   std::function<std::vector<BootProblem>()> boot_problems;  // asked once, when booting has failed
   std::function<std::vector<std::uint32_t>()> serials;      // of the drives; asked once, when they are booted
 };
@@ -45,7 +46,8 @@ class Service : private ApiHandler {
   // Listens at config.api_path; throws std::runtime_error, also about config.in_pose (homing.hpp).
   Service(const ServiceConfig& config, Link& link);
 
-  // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after `timeout_s`.
+  // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after
+  // `timeout_s`.
   void wait_for(const std::vector<Role>& roles, double timeout_s);
   // One command interval. Lockstep time: returns after every lockstep client has answered.
   void cycle();

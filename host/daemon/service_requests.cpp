@@ -46,13 +46,13 @@ const std::map<std::string, Service::Handler>& Service::handlers() {
   return kHandlers;
 }
 
-Service::Json Service::handle(const ClientInfo& client, const Json& request) {
+Json Service::handle(const ClientInfo& client, const Json& request) {
   const auto found = handlers().find(text_field(request, "op", 32));
   if (found == handlers().end()) throw RequestError("bad_request", "unknown op " + request["op"].dump());
   return (this->*found->second)(client, request);
 }
 
-Service::Json Service::welcome(const ClientInfo&) {
+Json Service::welcome(const ClientInfo&) {
   return {{"op", "welcome"},
           {"time_mode", time_mode_name(config_.time_mode)},
           {"period_s", config_.robot.table.tick_s},
@@ -69,29 +69,31 @@ void Service::gone(const ClientInfo& client, const std::string& why) {
   if (config_.ends_with_mission && client.role == Role::kMission) mission_end_tick_ = tick();
 }
 
-Service::Json Service::on_acquire(const ClientInfo& client, const Json&) {
+Json Service::on_acquire(const ClientInfo& client, const Json&) {
   if (client.role != Role::kMission && client.role != Role::kClient) {
-    throw RequestError("not_owner", "role '" + std::string(role_name(client.role)) + "' cannot own motion; mission and client can");
+    throw RequestError("not_owner",
+                       "role '" + std::string(role_name(client.role)) + "' cannot own motion; mission and client can");
   }
   owner_.acquire(client.id, static_cast<std::uint32_t>(client.role) + 1, client.name);
   if (client.role == Role::kClient) notes_.stop = nullptr;  // a mission may have asked before it saw the stop
   return Json::object();
 }
 
-Service::Json Service::on_release(const ClientInfo& client, const Json&) {
+Json Service::on_release(const ClientInfo& client, const Json&) {
   owner_.release(client.id);
   drop_motion("'" + client.name + "' released motion");
   return Json::object();
 }
 
-Service::Json Service::on_state_command(const ClientInfo& client, const Json& request) {
+Json Service::on_state_command(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const std::string command = text_field(request, "command", 16);
   if (boot_seen_ == BootPhase::kFailed) throw RequestError("fault", "booting failed: " + text_of(notes_.boot_problems));
   if (boot_seen_ == BootPhase::kBooting) throw RequestError("busy", "the drives are still booting");
   if (command == "enable") {
     if (!notes_.stop.is_null()) {
-      throw RequestError("refused", stop_text(notes_.stop) + " is in force: a client has to acquire motion anew, or to send clear");
+      throw RequestError(
+          "refused", stop_text(notes_.stop) + " is in force: a client has to acquire motion anew, or to send clear");
     }
     if (now().faults.count > 0) throw RequestError("fault", "a fault is latched: clear it first");
     if (shutdown_tick_) throw RequestError("refused", "lianad is stopping");
@@ -114,7 +116,7 @@ void Service::require_homed() const {
   if (!homing_.is_homed()) throw RequestError("refused", "not homed: " + homing_.why_not());
 }
 
-Service::Json Service::on_move_jp(const ClientInfo& client, const Json& request) {
+Json Service::on_move_jp(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const RobotTable& table = config_.robot.table;
   const auto count = static_cast<std::size_t>(table.theta_count());
@@ -126,8 +128,9 @@ Service::Json Service::on_move_jp(const ClientInfo& client, const Json& request)
     const double most_deg = limit_deg(table, i);
     if (std::fabs(goal_deg[i]) > most_deg) {
       const auto number = [](double value) { return Json(value).dump(); };
-      throw RequestError("out_of_range", "goal_deg, theta " + std::to_string(i + 1) + ": " + number(goal_deg[i]) + ": allowed -" +
-                                             number(most_deg) + " to " + number(most_deg) + " deg: choose another goal");
+      throw RequestError("out_of_range", "goal_deg, theta " + std::to_string(i + 1) + ": " + number(goal_deg[i]) +
+                                             ": allowed -" + number(most_deg) + " to " + number(most_deg) +
+                                             " deg: choose another goal");
     }
     goal_rad[i] = goal_deg[i] * kDegree;
   }
@@ -135,7 +138,7 @@ Service::Json Service::on_move_jp(const ClientInfo& client, const Json& request)
   return Json::object();
 }
 
-Service::Json Service::on_move_cp(const ClientInfo& client, const Json& request) {
+Json Service::on_move_cp(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const Pose goal = pose_field(request, "goal", reach_m_);
   if (request.contains("hold")) on_hold_theta(client, {{"held", request["hold"]}});
@@ -143,13 +146,13 @@ Service::Json Service::on_move_cp(const ClientInfo& client, const Json& request)
   return Json::object();
 }
 
-Service::Json Service::on_servo_cp(const ClientInfo& client, const Json& request) {
+Json Service::on_servo_cp(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   arbiter_.servo_tip(now(), pose_field(request, "goal", reach_m_));
   return Json::object();
 }
 
-Service::Json Service::on_hold_theta(const ClientInfo& client, const Json& request) {
+Json Service::on_hold_theta(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const RobotTable& table = config_.robot.table;
   std::uint32_t mask = 0;
@@ -164,7 +167,7 @@ Service::Json Service::on_hold_theta(const ClientInfo& client, const Json& reque
   return Json::object();
 }
 
-Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
+Json Service::on_shape(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   NodeTargets nodes{};
   read_entries(request, "nodes", nodes.size(), [&](std::size_t i, const Json& entry) {
@@ -185,60 +188,68 @@ Service::Json Service::on_shape(const ClientInfo& client, const Json& request) {
   return Json::object();
 }
 
-Service::Json Service::on_use_device(const ClientInfo& client, const Json& request) {
+Json Service::on_use_device(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const RobotTable& table = config_.robot.table;
   DeviceUse use;
   use.kind = device_kind(text_field(request, "device", 16));
   use.mapping.scale = number_field_or(request, "scale", 0.01, 100.0, 1.0);
   use.mapping.rotation_scale = number_field_or(request, "rotation_scale", 0.0, 10.0, 1.0);
-  use.node = request.contains("node") ? static_cast<std::int32_t>(integer_field(request, "node", 0, table.segment_count - 1)) : 0;
+  use.node = request.contains("node")
+                 ? static_cast<std::int32_t>(integer_field(request, "node", 0, table.segment_count - 1))
+                 : 0;
   use.speed_m_s = number_field_or(request, "speed_m_s", 1e-4, table.limits.tip_speed_m_s, table.limits.tip_speed_m_s);
-  if (use.kind != DeviceKind::kNone && !server_.has_role(Role::kOperator)) throw RequestError("no_device", "no operator is connected");
+  if (use.kind != DeviceKind::kNone && !server_.has_role(Role::kOperator))
+    throw RequestError("no_device", "no operator is connected");
   arbiter_.use_device(use);
   return Json::object();
 }
 
-Service::Json Service::on_retract(const ClientInfo& client, const Json& request) {
+Json Service::on_retract(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   const std::int64_t until = request.contains("until_tick") ? integer_field(request, "until_tick", 0, 1LL << 53) : 0;
   arbiter_.retract(now(), static_cast<std::uint64_t>(until));
   return Json::object();
 }
 
-Service::Json Service::on_hold(const ClientInfo& client, const Json&) {
+Json Service::on_hold(const ClientInfo& client, const Json&) {
   owner_.require(client.id);
   arbiter_.hold();
   return Json::object();
 }
 
-Service::Json Service::on_tool(const ClientInfo& client, const Json& request) {
+Json Service::on_tool(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
   note("tool: " + text_field(request, "command", 64));
   return {{"tick", tick()}};
 }
 
-Service::Json Service::on_stop(const ClientInfo& client, const Json& request) {
-  const Json stop{{"by", client.name}, {"reason", request.contains("reason") ? text_field(request, "reason", 200) : ""}, {"tick", tick()}};
+Json Service::on_stop(const ClientInfo& client, const Json& request) {
+  const Json stop{{"by", client.name},
+                  {"reason", request.contains("reason") ? text_field(request, "reason", 200) : ""},
+                  {"tick", tick()}};
   arbiter_.hold();
   this->request(Request::kStop);
-  // A mission's own stop is how it ends; everybody else's stays in force, so that nothing enables the arm by itself afterwards.
+  // A mission's own stop is how it ends; everybody else's stays in force, so that nothing enables the arm by itself
+  // afterwards.
   if (client.role != Role::kMission && notes_.stop.is_null()) notes_.stop = stop;
   note(stop_text(stop));
   return Json::object();
 }
 
-// Acted on at the next interval: where the end of the mission stops the arm, and the mission has just ended, its (repeatable) time counts.
-Service::Json Service::on_shutdown(const ClientInfo& client, const Json&) {
+// Acted on at the next interval: where the end of the mission stops the arm, and the mission has just ended, its
+// (repeatable) time counts.
+Json Service::on_shutdown(const ClientInfo& client, const Json&) {
   dismissed_ = true;
   note("shutdown asked for by '" + client.name + "'");
   return Json::object();
 }
 
-Service::Json Service::on_announce(const ClientInfo& client, const Json& request) {
+Json Service::on_announce(const ClientInfo& client, const Json& request) {
   if (client.role != Role::kMission) throw RequestError("bad_request", "announce is for role mission");
   const Json step = request.value("step", Json());
-  if (!step.is_null() && !step.is_object()) throw RequestError("bad_request", "field 'step': must be an object or null");
+  if (!step.is_null() && !step.is_object())
+    throw RequestError("bad_request", "field 'step': must be an object or null");
   notes_.step = nullptr;
   if (step.is_null()) return Json::object();
   notes_.step = {{"index", integer_field(step, "index", 0, 1000)},
@@ -248,19 +259,19 @@ Service::Json Service::on_announce(const ClientInfo& client, const Json& request
   return {{"tick", tick()}};
 }
 
-Service::Json Service::on_operator_says(const ClientInfo& client, const Json& request) {
+Json Service::on_operator_says(const ClientInfo& client, const Json& request) {
   if (client.role != Role::kOperator) throw RequestError("bad_request", "operator_says is for role operator");
   notes_.operator_says = {{"what", text_field(request, "what", 40)}, {"tick", tick()}};
   return Json::object();
 }
 
-Service::Json Service::on_device(const ClientInfo& client, const Json& request) {
+Json Service::on_device(const ClientInfo& client, const Json& request) {
   if (client.role != Role::kOperator) throw RequestError("bad_request", "device samples are for role operator");
   add_samples(request, arbiter_.device());
   return Json::object();
 }
 
-Service::Json Service::on_camera(const ClientInfo& client, const Json& request) {
+Json Service::on_camera(const ClientInfo& client, const Json& request) {
   if (client.role != Role::kCamera) throw RequestError("bad_request", "camera frames are for role camera");
   const double capture_s = number_field(request, "capture_time_s", 0.0, 1e9);
   CameraFrame frame{0, request.dump()};
@@ -269,12 +280,13 @@ Service::Json Service::on_camera(const ClientInfo& client, const Json& request) 
     const double ready_s = capture_s + config_.scene.camera.value_or(SceneCamera{}).latency_s;
     frame.due_tick = static_cast<std::uint64_t>(std::ceil(ready_s / config_.robot.table.tick_s - 1e-6)) + 3;
   }
-  if (camera_.size() >= 64) throw RequestError("busy", "64 camera frames are waiting: their time stamps lie in the future");
+  if (camera_.size() >= 64)
+    throw RequestError("busy", "64 camera frames are waiting: their time stamps lie in the future");
   camera_.push_back(frame);
   return Json::object();
 }
 
-Service::Json Service::on_timing(const ClientInfo&, const Json& request) {
+Json Service::on_timing(const ClientInfo&, const Json& request) {
   const bool reset = request.contains("reset") && flag_field(request, "reset");
   if (config_.time_mode != TimeMode::kReal) {
     throw RequestError("refused", "timing: time mode " + std::string(time_mode_name(config_.time_mode)) +
@@ -282,7 +294,8 @@ Service::Json Service::on_timing(const ClientInfo&, const Json& request) {
   }
   link_.report.refresh();
   const Overruns& overruns = link_.report.value().overruns;
-  Json answer = timing_message(link_.timing.wakeup_us.counts(), link_.timing.tick_us.counts(), overruns.since(overruns_before_));
+  Json answer =
+      timing_message(link_.timing.wakeup_us.counts(), link_.timing.tick_us.counts(), overruns.since(overruns_before_));
   if (!reset) return answer;
   link_.timing.wakeup_us.reset();
   link_.timing.tick_us.reset();

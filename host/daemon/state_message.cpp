@@ -15,14 +15,18 @@ namespace {
 constexpr double kDegrees = 57.29577951308232;
 
 Json pose_json(const Pose& p) {
-  return {p.position_m[0], p.position_m[1], p.position_m[2], p.quaternion[0], p.quaternion[1], p.quaternion[2], p.quaternion[3]};
+  return {p.position_m[0], p.position_m[1], p.position_m[2], p.quaternion[0],
+          p.quaternion[1], p.quaternion[2], p.quaternion[3]};
 }
 
-Json first(const CableVector& values, std::int32_t count) { return Json(std::vector<double>(values.begin(), values.begin() + count)); }
+Json first(const CableVector& values, std::int32_t count) {
+  return Json(std::vector<double>(values.begin(), values.begin() + count));
+}
 
 Json nodes_json(const RobotTable& table, const Outputs& outputs) {
   Json nodes = Json::array();
-  for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m) nodes.push_back(outputs.node_command_m[m]);
+  for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m)
+    nodes.push_back(outputs.node_command_m[m]);
   return nodes;
 }
 
@@ -85,14 +89,15 @@ Json buses_json(const BusesConfig& buses, const CycleReport& report) {
   Json list = Json::array();
   for (std::size_t b = 0; b < buses.buses.size(); ++b) {
     const DriveBusStats& bus = report.bus[b];
-    list.push_back({{"name", buses.buses[b].name},
-                    {"frames", bus.sent + bus.received},
-                    {"refused", bus.refused},
-                    {"errors", bus.errors},
-                    {"state", bus_state_name(bus.state)},
-                    {"lost", (report.inputs.lost_bus_mask >> b & 1u) != 0},
-                    {"worst_load", worst_case_load(buses, b)},
-                    {"measured_load", time_s > 0.0 ? static_cast<double>(bus.bits) / (time_s * buses.buses[b].bitrate) : 0.0}});
+    list.push_back(
+        {{"name", buses.buses[b].name},
+         {"frames", bus.sent + bus.received},
+         {"refused", bus.refused},
+         {"errors", bus.errors},
+         {"state", bus_state_name(bus.state)},
+         {"lost", (report.inputs.lost_bus_mask >> b & 1u) != 0},
+         {"worst_load", worst_case_load(buses, b)},
+         {"measured_load", time_s > 0.0 ? static_cast<double>(bus.bits) / (time_s * buses.buses[b].bitrate) : 0.0}});
   }
   return list;
 }
@@ -136,7 +141,8 @@ void add_arm(Json& state, const RobotTable& table, const CycleReport& report) {
 
 Json degrees(const RobotTable& table, const ThetaVector& theta_rad) {
   Json list = Json::array();
-  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) list.push_back(theta_rad[i] * kDegrees);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i)
+    list.push_back(theta_rad[i] * kDegrees);
   return list;
 }
 
@@ -147,36 +153,38 @@ const char* state_name(const CycleReport& report) {
   return kNames[static_cast<std::size_t>(report.outputs.state)];
 }
 
-Json state_message(const RobotTable& table, const BusesConfig& buses, const CycleReport& report, const Arbiter& arbiter, const Owner& owner,
-                   const Notes& notes) {
+Json state_message(const RobotTable& table, const BusesConfig& buses, const CycleReport& report, const Arbiter& arbiter,
+                   const Owner& owner, const Notes& notes) {
   const Outputs& o = report.outputs;
   const DeviceUse& device = arbiter.device().in_use();
   const bool moving = o.state == OperatingState::kEnabled && (o.at_rest == 0 || o.held_at_target == 0);
-  Json state{{"op", "state"},
-             {"tick", report.next_tick},
-             {"time_s", static_cast<double>(report.next_tick) * table.tick_s},
-             {"state", state_name(report)},
-             {"is_homed", notes.homed},
-             {"is_busy", arbiter.is_busy() || moving},
-             {"retracted", arbiter.has_retracted()},
-             {"owner", owner.name()},
-             {"device", device_name(device.kind)},
-             {"device_engaged", arbiter.device().engaged()},
-             {"device_reason", arbiter.device().reason()},
-             {"device_samples", arbiter.device().samples()},
-             {"mapping", {{"scale", device.mapping.scale}, {"rotation_scale", device.mapping.rotation_scale}}},
-             {"step", notes.step},
-             {"operator_says", notes.operator_says},
-             {"overruns", report.overruns.total()},
-             {"refusals", notes.refusals},
-             {"verdict", verdict_json(table, notes.verdict)},
-             {"drives", drives_json(table, report, notes.serials)},
-             {"buses", buses_json(buses, report)},
-             {"events", notes.events},
-             {"stop", notes.stop},
-             {"stopping", notes.stopping},
-             {"shape", {{"missing_m", notes.shape.missing_m}, {"settled", notes.shape.settled}, {"searching", notes.shape.searching}}},
-             {"planar_segments", notes.planar_segments}};
+  Json state{
+      {"op", "state"},
+      {"tick", report.next_tick},
+      {"time_s", static_cast<double>(report.next_tick) * table.tick_s},
+      {"state", state_name(report)},
+      {"is_homed", notes.homed},
+      {"is_busy", arbiter.is_busy() || moving},
+      {"retracted", arbiter.has_retracted()},
+      {"owner", owner.name()},
+      {"device", device_name(device.kind)},
+      {"device_engaged", arbiter.device().engaged()},
+      {"device_reason", arbiter.device().reason()},
+      {"device_samples", arbiter.device().samples()},
+      {"mapping", {{"scale", device.mapping.scale}, {"rotation_scale", device.mapping.rotation_scale}}},
+      {"step", notes.step},
+      {"operator_says", notes.operator_says},
+      {"overruns", report.overruns.total()},
+      {"refusals", notes.refusals},
+      {"verdict", verdict_json(table, notes.verdict)},
+      {"drives", drives_json(table, report, notes.serials)},
+      {"buses", buses_json(buses, report)},
+      {"events", notes.events},
+      {"stop", notes.stop},
+      {"stopping", notes.stopping},
+      {"shape",
+       {{"missing_m", notes.shape.missing_m}, {"settled", notes.shape.settled}, {"searching", notes.shape.searching}}},
+      {"planar_segments", notes.planar_segments}};
   add_arm(state, table, report);
   add_boot_faults(state, notes.boot_problems);
   return state;

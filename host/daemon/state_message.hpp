@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "host/config/config.hpp"
 #include "host/arbiter/arbiter.hpp"
+#include "host/config/config.hpp"
 #include "host/control/boot_problem.hpp"
 #include "host/control/link.hpp"
 #include "host/daemon/owner.hpp"
-#include "host/verify/verdict.hpp"
 #include "host/json/json.hpp"
+#include "host/verify/verdict.hpp"
 
 namespace liana {
 
@@ -39,7 +39,7 @@ struct Notes {
   LastVerdict verdict{};
   std::uint64_t refusals = 0;
   std::vector<BootProblem> boot_problems;  // faults of drives that did not boot
-  Json stop = nullptr;           // the emergency stop in force: by, reason (may be empty), tick
+  Json stop = nullptr;                     // the emergency stop in force: by, reason (may be empty), tick
   bool stopping = false;
   ShapeNotes shape{};
   bool homed = false;                  // homing.hpp
@@ -55,6 +55,6 @@ Json degrees(const RobotTable& table, const ThetaVector& theta_rad);
 
 // The whole message.
 Json state_message(const RobotTable& table, const BusesConfig& buses, const CycleReport& report, const Arbiter& arbiter,
-                             const Owner& owner, const Notes& notes);
+                   const Owner& owner, const Notes& notes);
 
 }  // namespace liana

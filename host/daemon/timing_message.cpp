@@ -11,7 +11,10 @@ Json times_json(const LatencyCounts& counts) {
   for (std::size_t i = 0; i < counts.count.size(); ++i) {
     if (counts.count[i] > 0) buckets.push_back({i, counts.count[i]});
   }
-  return {{"median", counts.percentile_us(0.5)}, {"p99", counts.percentile_us(0.99)}, {"worst", counts.worst_us}, {"buckets", buckets}};
+  return {{"median", counts.percentile_us(0.5)},
+          {"p99", counts.percentile_us(0.99)},
+          {"worst", counts.worst_us},
+          {"buckets", buckets}};
 }
 
 }  // namespace

@@ -8,7 +8,9 @@ namespace {
 
 std::string px(double value) { return short_number(value, 1); }
 
-std::string attribute(std::string_view name, std::string_view value) { return " " + std::string(name) + "=\"" + std::string(value) + "\""; }
+std::string attribute(std::string_view name, std::string_view value) {
+  return " " + std::string(name) + "=\"" + std::string(value) + "\"";
+}
 
 }  // namespace
 
@@ -49,7 +51,8 @@ std::string short_number(double value, int decimals) {
 Svg::Svg(double width, double height, std::string_view title) {
   head_ = "<svg xmlns=\"http://www.w3.org/2000/svg\"" + attribute("viewBox", "0 0 " + px(width) + " " + px(height)) +
           attribute("width", px(width)) + attribute("height", px(height)) +
-          " font-family=\"DejaVu Sans, Arial, sans-serif\" stroke-linejoin=\"round\">\n<title>" + escaped(title) + "</title>\n";
+          " font-family=\"DejaVu Sans, Arial, sans-serif\" stroke-linejoin=\"round\">\n<title>" + escaped(title) +
+          "</title>\n";
   rectangle({0.0, 0.0}, width, height, {.fill = "white"});
 }
 
@@ -65,7 +68,8 @@ void Svg::add_look(const Look& look) {
 
 void Svg::add_points(const std::vector<Pixel>& points) {
   body_ += " points=\"";
-  for (std::size_t i = 0; i < points.size(); ++i) body_ += (i == 0 ? "" : " ") + px(points[i].x) + "," + px(points[i].y);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    body_ += (i == 0 ? "" : " ") + px(points[i].x) + "," + px(points[i].y);
   body_ += "\"";
 }
 
@@ -76,7 +80,8 @@ void Svg::rectangle(Pixel corner, double width, double height, const Look& look)
 }
 
 void Svg::line(Pixel from, Pixel to, const Look& look) {
-  body_ += "<line" + attribute("x1", px(from.x)) + attribute("y1", px(from.y)) + attribute("x2", px(to.x)) + attribute("y2", px(to.y));
+  body_ += "<line" + attribute("x1", px(from.x)) + attribute("y1", px(from.y)) + attribute("x2", px(to.x)) +
+           attribute("y2", px(to.y));
   add_look(look);
 }
 
@@ -100,8 +105,8 @@ void Svg::circle(Pixel centre, double radius, const Look& look) {
 
 void Svg::bars(const std::vector<Bar>& bars, double height, std::string_view colour) {
   if (bars.empty()) return;
-  body_ +=
-      "<path shape-rendering=\"crispEdges\" fill=\"none\"" + attribute("stroke", colour) + attribute("stroke-width", px(height)) + " d=\"";
+  body_ += "<path shape-rendering=\"crispEdges\" fill=\"none\"" + attribute("stroke", colour) +
+           attribute("stroke-width", px(height)) + " d=\"";
   for (const Bar& bar : bars) body_ += "M" + px(bar.from.x) + " " + px(bar.from.y) + "h" + px(bar.width);
   body_ += "\"/>\n";
 }

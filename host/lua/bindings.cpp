@@ -72,7 +72,9 @@ int guarded(lua_State* state, const Body& body) {
   return lua_error(state);
 }
 
-RequestSink& sink_of(lua_State* state) { return *static_cast<RequestSink*>(lua_touserdata(state, lua_upvalueindex(1))); }
+RequestSink& sink_of(lua_State* state) {
+  return *static_cast<RequestSink*>(lua_touserdata(state, lua_upvalueindex(1)));
+}
 
 int send_command(lua_State* state) {
   const auto& binding = *static_cast<const Binding*>(lua_touserdata(state, lua_upvalueindex(2)));
@@ -111,7 +113,8 @@ std::span<const Binding> bindings() { return kBindings; }
 
 void check_fields(const Binding& binding, const Json& fields) {
   const std::string where = std::string(binding.name) + ": ";
-  if (!fields.is_object()) throw std::runtime_error(where + "allowed a table with named fields: write arm." + binding.name + " { ... }");
+  if (!fields.is_object())
+    throw std::runtime_error(where + "allowed a table with named fields: write arm." + binding.name + " { ... }");
   std::string known;
   for (const BindingField& field : binding.fields) {
     known += (known.empty() ? "" : ", ") + std::string(field.name);
@@ -119,7 +122,8 @@ void check_fields(const Binding& binding, const Json& fields) {
     if (value == fields.end() && field.required)
       throw std::runtime_error(where + field.name + ": missing: allowed " + field.type + ": add it");
     if (value != fields.end() && !has_type(*value, field.type)) {
-      throw std::runtime_error(where + field.name + ": " + value->dump().substr(0, 60) + ": allowed " + field.type + ": correct it");
+      throw std::runtime_error(where + field.name + ": " + value->dump().substr(0, 60) + ": allowed " + field.type +
+                               ": correct it");
     }
   }
   std::size_t found = 0;

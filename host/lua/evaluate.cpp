@@ -61,8 +61,9 @@ void check_robot_of_plan(const ScriptFile& file, const Json& robot) {
   if (!file.display.ends_with(".json")) return;
   const Json plan = parse_json(file.text, file.display, kPlanAdvice);
   if (plan.value("/inputs/robot"_json_pointer, Json()) == robot) return;
-  throw std::runtime_error("inputs.robot: another robot than " + robot.value("name", "") +
-                           ", or other tables of it: allowed the same: " + "name the robot with --robot, or plan again");
+  throw std::runtime_error(
+      "inputs.robot: another robot than " + robot.value("name", "") +
+      ", or other tables of it: allowed the same: " + "name the robot with --robot, or plan again");
 }
 
 }  // namespace
@@ -85,7 +86,8 @@ std::string evaluate(Script& script, const std::string& lua_dir, const std::stri
   return check_table(kind, result, file.display);
 }
 
-std::string evaluate_mission(Script& script, const std::string& lua_dir, const std::string& name, const std::string& robot_json) {
+std::string evaluate_mission(Script& script, const std::string& lua_dir, const std::string& name,
+                             const std::string& robot_json) {
   const ScriptFile file = find_script(lua_dir, "mission", name);
   Json result;
   naming_file(file.display, [&] {

@@ -34,14 +34,17 @@ class Reader {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& path, const std::string& value, const std::string& allowed, const std::string& advice) const {
-    throw std::runtime_error(file_ + ": " + (path.empty() ? "result" : path) + ": " + value + ": allowed " + allowed + ": " + advice);
+  [[noreturn]] void refuse(const std::string& path, const std::string& value, const std::string& allowed,
+                           const std::string& advice) const {
+    throw std::runtime_error(file_ + ": " + (path.empty() ? "result" : path) + ": " + value + ": allowed " + allowed +
+                             ": " + advice);
   }
 
   Json number(int index, const std::string& path) const {
     if (lua_isinteger(state_, index) != 0) return static_cast<std::int64_t>(lua_tointeger(state_, index));
     const double value = lua_tonumber(state_, index);
-    if (!std::isfinite(value)) refuse(path, std::isnan(value) ? "nan" : "inf", "finite numbers", "correct the computation");
+    if (!std::isfinite(value))
+      refuse(path, std::isnan(value) ? "nan" : "inf", "finite numbers", "correct the computation");
     return value;
   }
 

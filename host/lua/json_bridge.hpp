@@ -8,8 +8,9 @@
 
 namespace liana {
 
-// The value at `index` as JSON: tables with keys 1..n are arrays (an empty table is one), tables with text keys objects. Raises no Lua
-// error apart from lack of memory; throws std::runtime_error naming `file` and field for what JSON cannot hold.
+// The value at `index` as JSON: tables with keys 1..n are arrays (an empty table is one), tables with text keys
+// objects. Raises no Lua error apart from lack of memory; throws std::runtime_error naming `file` and field for what
+// JSON cannot hold.
 Json to_json(lua_State* state, int index, const std::string& file);
 
 // Pushes `value` on the stack of a protected call (may raise lack of memory); null becomes nil.

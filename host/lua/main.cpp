@@ -35,53 +35,59 @@ std::string robot_json(const EvalOptions& options, liana::Activity& activity) {
 
 int evaluate_and_print(const EvalOptions& options, liana::Activity& activity) {
   liana::Script script(liana::ScriptLimits{}, options.lua_dir, activity);
-  const std::string text = options.kind == "mission"
-                               ? liana::evaluate_mission(script, options.lua_dir, options.name, robot_json(options, activity))
-                               : liana::evaluate(script, options.lua_dir, options.kind, options.name);
+  const std::string text =
+      options.kind == "mission"
+          ? liana::evaluate_mission(script, options.lua_dir, options.name, robot_json(options, activity))
+          : liana::evaluate(script, options.lua_dir, options.kind, options.name);
   std::printf("%s\n", text.c_str());
   return 0;
 }
 
 // What the watchdog's kill means for the user, in one message.
 std::string killed_text(const std::string& name, const liana::Activity& activity) {
-  return name + ": computed for more than 2 s without giving back control and was killed, last seen at " + liana::last_seen(activity) +
-         ": look for an endless loop";
+  return name + ": computed for more than 2 s without giving back control and was killed, last seen at " +
+         liana::last_seen(activity) + ": look for an endless loop";
 }
 
 int eval_command(const EvalOptions& options) {
   const std::string& name = options.name;
   liana::Activity& activity = liana::shared_activity();
-  const liana::WatchedEnd end =
-      liana::run_watched(activity, {}, [&] { return with_message([&] { return evaluate_and_print(options, activity); }); });
+  const liana::WatchedEnd end = liana::run_watched(
+      activity, {}, [&] { return with_message([&] { return evaluate_and_print(options, activity); }); });
   if (end.killed_by_watchdog) std::fprintf(stderr, "liana-mission: %s\n", killed_text(name, activity).c_str());
-  if (end.signal != 0) std::fprintf(stderr, "liana-mission: %s: the script's process was killed by signal %d\n", name.c_str(), end.signal);
+  if (end.signal != 0)
+    std::fprintf(stderr, "liana-mission: %s: the script's process was killed by signal %d\n", name.c_str(), end.signal);
   return end.killed_by_watchdog ? liana::kExitBadInput : end.exit_code;
 }
 
 // Reports for a script's process that can no longer do it.
 int report_death(const liana::MissionOptions& options, const liana::Activity& activity, const std::string& reason) {
   std::fprintf(stderr, "liana-mission: %s\n", reason.c_str());
-  if (!options.report_file.empty()) liana::write_report(options.report_file, liana::failed_report(activity, options.mission, reason));
+  if (!options.report_file.empty())
+    liana::write_report(options.report_file, liana::failed_report(activity, options.mission, reason));
   return liana::kExitWatchdog;
 }
 
 int run_command(const liana::MissionOptions& options) {
   liana::Activity& activity = liana::shared_activity();
-  const liana::WatchedEnd end =
-      liana::run_watched(activity, {}, [&] { return with_message([&] { return liana::run_mission(options, activity); }); });
-  if (end.killed_by_watchdog) return report_death(options, activity, killed_text(options.mission, activity) + "; the arm holds");
+  const liana::WatchedEnd end = liana::run_watched(
+      activity, {}, [&] { return with_message([&] { return liana::run_mission(options, activity); }); });
+  if (end.killed_by_watchdog)
+    return report_death(options, activity, killed_text(options.mission, activity) + "; the arm holds");
   if (end.signal != 0) {
-    return report_death(options, activity,
-                        options.mission + ": its process was killed by signal " + std::to_string(end.signal) + "; the arm holds");
+    return report_death(
+        options, activity,
+        options.mission + ": its process was killed by signal " + std::to_string(end.signal) + "; the arm holds");
   }
   return end.exit_code;
 }
 
 int bindings_command() {
-  Json list = Json::array();
+  liana::Json list = liana::Json::array();
   for (const liana::Binding& binding : liana::bindings()) {
-    Json fields = Json::array();
-    for (const auto& field : binding.fields) fields.push_back({{"name", field.name}, {"type", field.type}, {"required", field.required}});
+    liana::Json fields = liana::Json::array();
+    for (const auto& field : binding.fields)
+      fields.push_back({{"name", field.name}, {"type", field.type}, {"required", field.required}});
     list.push_back({{"name", binding.name}, {"fields", fields}});
   }
   std::printf("%s\n", list.dump().c_str());
@@ -99,10 +105,11 @@ int main(int argc, char** argv) {
   CLI::App* eval = app.add_subcommand("eval", "check a table and print it as canonical JSON");
   eval->add_option("kind", evaluated.kind, "robot, scene, buses or mission")->required();
   eval->add_option("name", evaluated.name, "a name in the Lua folder or a file")->required();
-  eval->add_option("--robot", evaluated.robot, "robot a mission is checked against: a name or exported JSON")->capture_default_str();
+  eval->add_option("--robot", evaluated.robot, "robot a mission is checked against: a name or exported JSON")
+      ->capture_default_str();
   eval->add_option("--lua-dir", options.lua_dir, "the Lua folder");
-  CLI::App* run =
-      app.add_subcommand("run", "run a mission; exit 0 on success, 1 when not, 2 for bad input, 4 when the script had to be killed");
+  CLI::App* run = app.add_subcommand(
+      "run", "run a mission; exit 0 on success, 1 when not, 2 for bad input, 4 when the script had to be killed");
   run->add_option("--api", options.api, "socket of lianad")->required();
   run->add_option("--mission", options.mission, "a name in lua/missions or a file")->required();
   run->add_option("--lua-dir", options.lua_dir, "the Lua folder");

@@ -29,7 +29,8 @@ void close_step(Json& step, std::uint64_t last_tick, double period_s, const std:
 void write_report(const std::string& path, const std::string& report_json) {
   std::ofstream out(path, std::ios::trunc);
   out << report_json << "\n";
-  if (!out.flush()) throw std::runtime_error(path + ": cannot be written: allowed a writable place: choose another --report");
+  if (!out.flush())
+    throw std::runtime_error(path + ": cannot be written: allowed a writable place: choose another --report");
 }
 
 std::string failed_report(const Activity& activity, const std::string& mission, const std::string& reason) {

@@ -59,8 +59,8 @@ void converse(Script& script, MissionSession& session) {
   }
 }
 
-// The socket stays open until the answers to the last commands are through. In lockstep time lianad would otherwise notice this end in
-// the present interval or in the next one, as it happens, and runs would not repeat.
+// The socket stays open until the answers to the last commands are through. In lockstep time lianad would otherwise
+// notice this end in the present interval or in the next one, as it happens, and runs would not repeat.
 void await_next_state(MissionSession& session) {
   try {
     for (int i = 0; i < kLastMessages; ++i) {

@@ -24,7 +24,8 @@ constexpr int kExitNotSuccess = 1;  // refused, aborted or failed: see the repor
 constexpr int kExitBadInput = 2;
 constexpr int kExitWatchdog = 4;
 
-// Runs the mission and returns the exit code; the report is written whatever happens short of the death of this process.
+// Runs the mission and returns the exit code; the report is written whatever happens short of the death of this
+// process.
 int run_mission(const MissionOptions& options, Activity& activity);
 
 // Writes a report file: {"mission","outcome","reason","steps","duration_s",...}; throws std::runtime_error.

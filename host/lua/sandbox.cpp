@@ -16,15 +16,18 @@ constexpr const char* kLoading = "liana.loading";  // value of a module that is 
 // Functions scripts get from the base library, as they are.
 constexpr std::array<const char*, 12> kBase = {"assert", "error",  "ipairs",   "pcall",    "xpcall", "select",
                                                "type",   "rawget", "rawequal", "tonumber", "rawlen", "getmetatable"};
-constexpr std::array<const char*, 25> kMath = {"abs",  "ceil", "floor", "sqrt",      "sin",        "cos",        "tan",   "asin", "acos",
-                                               "atan", "exp",  "log",   "fmod",      "modf",       "max",        "min",   "pi",   "huge",
-                                               "deg",  "rad",  "type",  "tointeger", "maxinteger", "mininteger", "random"};
+constexpr std::array<const char*, 25> kMath = {"abs",       "ceil",       "floor",      "sqrt",  "sin", "cos",  "tan",
+                                               "asin",      "acos",       "atan",       "exp",   "log", "fmod", "modf",
+                                               "max",       "min",        "pi",         "huge",  "deg", "rad",  "type",
+                                               "tointeger", "maxinteger", "mininteger", "random"};
 constexpr std::array<const char*, 12> kString = {"byte", "char",  "find",  "format", "gmatch",  "gsub",
                                                  "len",  "lower", "match", "rep",    "reverse", "upper"};
 constexpr std::array<const char*, 6> kTable = {"concat", "insert", "pack", "remove", "sort", "unpack"};
-constexpr std::array<const char*, 7> kCoroutine = {"create", "isyieldable", "resume", "running", "status", "wrap", "yield"};
+constexpr std::array<const char*, 7> kCoroutine = {"create", "isyieldable", "resume", "running",
+                                                   "status", "wrap",        "yield"};
 
-// pairs in the order of keys: numbers, then texts. Lua's own order changes from process to process, and runs must repeat.
+// pairs in the order of keys: numbers, then texts. Lua's own order changes from process to process, and runs must
+// repeat.
 constexpr const char* kOrderedPairs = R"lua(
 local next, sort, type, error = ...
 local function before(a, b)
@@ -46,7 +49,9 @@ return function(t)
 end
 )lua";
 
-int refuse_write(lua_State* state) { return luaL_error(state, "this table is read-only: keep your own data in local variables"); }
+int refuse_write(lua_State* state) {
+  return luaL_error(state, "this table is read-only: keep your own data in local variables");
+}
 
 // Replaces the table on top by a read-only view of it.
 void make_read_only(lua_State* state) {
@@ -138,7 +143,8 @@ bool push_module_chunk(lua_State* state, const char* name, std::array<char, 400>
     put_text(problem, error.what());
     return false;
   }
-  if (luaL_loadbufferx(state, file.text.data(), file.text.size(), ("@" + file.display).c_str(), "t") == LUA_OK) return true;
+  if (luaL_loadbufferx(state, file.text.data(), file.text.size(), ("@" + file.display).c_str(), "t") == LUA_OK)
+    return true;
   put_text(problem, lua_tostring(state, -1));
   return false;
 }

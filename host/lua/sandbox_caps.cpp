@@ -28,8 +28,8 @@ int capped_match(lua_State* state) {
   luaL_checklstring(state, 1, &subject);
   luaL_checklstring(state, 2, &pattern);
   if (static_cast<lua_Integer>(subject) > kLongestSubject || static_cast<lua_Integer>(pattern) > kLongestPattern) {
-    return luaL_error(state, "pattern match too long: allowed %I bytes of text and %I of pattern: split the text", kLongestSubject,
-                      kLongestPattern);
+    return luaL_error(state, "pattern match too long: allowed %I bytes of text and %I of pattern: split the text",
+                      kLongestSubject, kLongestPattern);
   }
   return call_original(state);
 }
@@ -42,14 +42,16 @@ int capped_rep(lua_State* state) {
   luaL_optlstring(state, 3, "", &separator);
   const auto piece = static_cast<lua_Integer>(text + separator);
   if (count > 0 && piece > 0 && count > kLongestRepetition / piece) {
-    return luaL_error(state, "string.rep: too long: allowed %I bytes: build less text (out of memory otherwise)", kLongestRepetition);
+    return luaL_error(state, "string.rep: too long: allowed %I bytes: build less text (out of memory otherwise)",
+                      kLongestRepetition);
   }
   return call_original(state);
 }
 
 int capped_sort(lua_State* state) {
   luaL_checktype(state, 1, LUA_TTABLE);
-  if (luaL_len(state, 1) > kLongestSort) return luaL_error(state, "table.sort: too long: allowed %I entries: sort less", kLongestSort);
+  if (luaL_len(state, 1) > kLongestSort)
+    return luaL_error(state, "table.sort: too long: allowed %I entries: sort less", kLongestSort);
   return call_original(state);
 }
 
@@ -76,11 +78,13 @@ int guarded_setmetatable(lua_State* state) {
   if (lua_istable(state, 2)) {
     for (const char* field : {"__gc", "__mode"}) {
       lua_pushstring(state, field);
-      if (lua_rawget(state, 2) != LUA_TNIL) return luaL_error(state, "setmetatable: %s is not allowed: do without it", field);
+      if (lua_rawget(state, 2) != LUA_TNIL)
+        return luaL_error(state, "setmetatable: %s is not allowed: do without it", field);
       lua_pop(state, 1);
     }
   }
-  if (luaL_getmetafield(state, 1, "__metatable") != LUA_TNIL) return luaL_error(state, "setmetatable: this metatable is protected");
+  if (luaL_getmetafield(state, 1, "__metatable") != LUA_TNIL)
+    return luaL_error(state, "setmetatable: this metatable is protected");
   lua_settop(state, 2);
   lua_setmetatable(state, 1);
   return 1;

@@ -26,7 +26,8 @@ void* allocate(void* user, void* old, std::size_t old_size, std::size_t new_size
   return block;
 }
 
-// Notes where the script is; stops it when its budget is used up, and then again at every instruction, so that pcall does not help.
+// Notes where the script is; stops it when its budget is used up, and then again at every instruction, so that pcall
+// does not help.
 void count_hook(lua_State* state, lua_Debug* where) {
   Script::Budget& budget = script_budget(state);
   if (lua_getinfo(state, "Sl", where) != 0 && where->currentline > 0) {
@@ -36,16 +37,21 @@ void count_hook(lua_State* state, lua_Debug* where) {
   budget.instructions_used += kHookInstructions;
   if (budget.instructions_used <= budget.limits.instructions) return;
   lua_sethook(state, count_hook, LUA_MASKCOUNT, 1);
-  luaL_error(state, "%s:%d: computes too long: allowed %d million instructions before giving back control: look for an endless loop",
-             where->short_src, where->currentline, static_cast<int>(budget.limits.instructions / 1'000'000));
+  luaL_error(
+      state,
+      "%s:%d: computes too long: allowed %d million instructions before giving back control: look for an endless loop",
+      where->short_src, where->currentline, static_cast<int>(budget.limits.instructions / 1'000'000));
 }
 
 std::string error_text(lua_State* state, int status, const ScriptLimits& limits) {
   if (status == LUA_ERRMEM) {
-    return "the script uses too much memory: allowed " + std::to_string(limits.memory_bytes >> 20) + " MiB: keep less data";
+    return "the script uses too much memory: allowed " + std::to_string(limits.memory_bytes >> 20) +
+           " MiB: keep less data";
   }
   const char* text = lua_tostring(state, -1);
-  return text != nullptr ? text : std::string("the script raised a ") + luaL_typename(state, -1) + " as its error: raise texts";
+  return text != nullptr
+             ? text
+             : std::string("the script raised a ") + luaL_typename(state, -1) + " as its error: raise texts";
 }
 
 struct FileToLoad {

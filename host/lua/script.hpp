@@ -1,4 +1,5 @@
-// One Lua state with capped memory and instructions. A good message is its aim; the bound is the watchdog (watchdog.hpp).
+// One Lua state with capped memory and instructions. A good message is its aim; the bound is the watchdog
+// (watchdog.hpp).
 #pragma once
 
 #include <cstddef>
@@ -29,7 +30,8 @@ class Script {
 
   lua_State* state() const { return state_; }
 
-  // Runs a file in a fresh environment and leaves its one result on the stack. Throws std::runtime_error with the script's message.
+  // Runs a file in a fresh environment and leaves its one result on the stack. Throws std::runtime_error with the
+  // script's message.
   void run(const ScriptFile& file);
   // Leaves the result of `require name` on the stack. Throws as run does.
   void require(const std::string& name);

@@ -11,11 +11,12 @@ struct ScriptFile {
   std::string text;
 };
 
-// The script called `name` of kind robot, scene, buses or mission: a name in its folder, or a file (contains '/', ends in .lua, or in .json
-// for a mission: a plan). Throws std::runtime_error when there is none, naming those there are.
+// The script called `name` of kind robot, scene, buses or mission: a name in its folder, or a file (contains '/', ends
+// in .lua, or in .json for a mission: a plan). Throws std::runtime_error when there is none, naming those there are.
 ScriptFile find_script(const std::string& lua_dir, const std::string& kind, const std::string& name);
 
-// The file of module `name` ("liana", "liana.geometry", "robots.zhu2022"): only letters, digits, '_' and '.', only below the Lua folder.
+// The file of module `name` ("liana", "liana.geometry", "robots.zhu2022"): only letters, digits, '_' and '.', only
+// below the Lua folder.
 ScriptFile find_module(const std::string& lua_dir, const std::string& name);
 
 }  // namespace liana

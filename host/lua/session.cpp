@@ -15,11 +15,11 @@ std::string progress_line(const Json& event) {
   const int index = event.value("index", 0);
   const int count = event.value("count", 0);
   if (event.value("event", "") == "begin") {
-    std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  device %s", event.value("time_s", 0.0), index, count, name.c_str(),
-                  event.value("device", "").c_str());
+    std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  device %s", event.value("time_s", 0.0), index, count,
+                  name.c_str(), event.value("device", "").c_str());
   } else {
-    std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  %s after %.2f s%s%s", event.value("time_s", 0.0), index, count,
-                  name.c_str(), event.value("outcome", "").c_str(), event.value("duration_s", 0.0),
+    std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  %s after %.2f s%s%s", event.value("time_s", 0.0),
+                  index, count, name.c_str(), event.value("outcome", "").c_str(), event.value("duration_s", 0.0),
                   event.value("reason", "").empty() ? "" : ": ", event.value("reason", "").c_str());
   }
   return line;
@@ -29,7 +29,11 @@ std::string progress_line(const Json& event) {
 
 MissionSession::MissionSession(const MissionOptions& options, Activity& activity)
     : options_(options), activity_(activity), client_(ApiClient::connect(options.api, kWelcome_s)) {
-  client_.send({{"op", "hello"}, {"name", "mission"}, {"role", "mission"}, {"lockstep", options.lockstep}, {"subscribe", {"state"}}});
+  client_.send({{"op", "hello"},
+                {"name", "mission"},
+                {"role", "mission"},
+                {"lockstep", options.lockstep},
+                {"subscribe", {"state"}}});
   for (double waited_s = 0.0; waited_s < kWelcome_s; waited_s += kWait_s) {
     const auto message = client_.receive(kWait_s);
     activity_.beat();
@@ -48,7 +52,8 @@ Json MissionSession::next() {
   auto message = client_.receive(kWait_s);
   activity_.beat();
   if (!message) return {};
-  if (message->value("op", "") == "state") activity_.tick.store(message->value("tick", std::uint64_t{0}), std::memory_order_relaxed);
+  if (message->value("op", "") == "state")
+    activity_.tick.store(message->value("tick", std::uint64_t{0}), std::memory_order_relaxed);
   return std::move(*message);
 }
 

@@ -36,7 +36,7 @@ double seconds(clockid_t clock) {
 // Notices when the child computes without a beat for longer than the limits.
 class Watch {
  public:
-  Watch(pid_t child, const Activity& activity, const WatchdogLimits& limits) : activity_(activity), limits_(limits) {
+  Watch(pid_t child, const Activity& activity, const ScriptTimeLimits& limits) : activity_(activity), limits_(limits) {
     if (clock_getcpuclockid(child, &cpu_clock_) != 0) cpu_clock_ = CLOCK_MONOTONIC;
     restart();
   }
@@ -57,7 +57,7 @@ class Watch {
   }
 
   const Activity& activity_;
-  WatchdogLimits limits_;
+  ScriptTimeLimits limits_;
   clockid_t cpu_clock_ = CLOCK_MONOTONIC;
   std::uint64_t beats_ = 0;
   double wall_start_s_ = 0.0;
@@ -73,11 +73,12 @@ WatchedEnd end_of(int status) {
 
 Activity& shared_activity() {
   void* memory = mmap(nullptr, sizeof(Activity), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-  if (memory == MAP_FAILED) throw std::runtime_error(std::string("shared memory for the script watchdog: ") + std::strerror(errno));
+  if (memory == MAP_FAILED)
+    throw std::runtime_error(std::string("shared memory for the script watchdog: ") + std::strerror(errno));
   return *new (memory) Activity;
 }
 
-WatchedEnd run_watched(Activity& activity, const WatchdogLimits& limits, const std::function<int()>& body) {
+WatchedEnd run_watched(Activity& activity, const ScriptTimeLimits& limits, const std::function<int()>& body) {
   std::fflush(stdout);
   const pid_t parent = getpid();
   const pid_t child = fork();

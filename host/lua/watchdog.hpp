@@ -1,4 +1,5 @@
-// Runs a function in a process of its own and kills it when it computes for too long: the bound no script can get around.
+// Runs a function in a process of its own and kills it when it computes for too long: the bound no script can get
+// around.
 #pragma once
 
 #include <functional>
@@ -9,7 +10,7 @@
 namespace liana {
 
 // How long a script may compute between two beats.
-struct WatchdogLimits {
+struct ScriptTimeLimits {
   double wall_s = 2.0;      // with at least `cpu_s` of computing in it
   double cpu_s = 1.5;       // so that a busy machine is not taken for an endless loop
   double starved_s = 20.0;  // killed after this in any case
@@ -25,8 +26,9 @@ struct WatchedEnd {
 // Memory for an Activity that parent and child share; lives as long as the process.
 Activity& shared_activity();
 
-// Forks, runs `body` in the child (its result is the exit code) and watches the beats of `activity`. The child dies with the parent.
-WatchedEnd run_watched(Activity& activity, const WatchdogLimits& limits, const std::function<int()>& body);
+// Forks, runs `body` in the child (its result is the exit code) and watches the beats of `activity`. The child dies
+// with the parent.
+WatchedEnd run_watched(Activity& activity, const ScriptTimeLimits& limits, const std::function<int()>& body);
 
 // "file:line" where the script was last seen.
 std::string last_seen(const Activity& activity);

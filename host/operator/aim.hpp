@@ -8,8 +8,8 @@
 
 namespace liana {
 
-// Poses in the slit frame. Corrections integrate what is seen against what the hand should have done by the time of the picture, so the
-// arm's lag and the picture's age do not turn into overshoot.
+// Poses in the slit frame. Corrections integrate what is seen against what the hand should have done by the time of the
+// picture, so the arm's lag and the picture's age do not turn into overshoot.
 class Aim {
  public:
   explicit Aim(const HandGains& gains);

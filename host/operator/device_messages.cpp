@@ -26,13 +26,15 @@ std::optional<Pose> pose_of(const Json& message, const char* key) {
   const auto found = message.find(key);
   if (found == message.end() || found->is_null()) return std::nullopt;
   if (!found->is_array() || found->size() != 7) {
-    throw std::runtime_error(std::string("camera message: ") + key + ": allowed null or [x,y,z,qw,qx,qy,qz]; see docs/api.md");
+    throw std::runtime_error(std::string("camera message: ") + key +
+                             ": allowed null or [x,y,z,qw,qx,qy,qz]; see docs/api.md");
   }
   Pose pose;
   for (std::size_t i = 0; i < 3; ++i) pose.position_m[i] = (*found)[i].get<double>();
   for (std::size_t i = 0; i < 4; ++i) pose.quaternion[i] = (*found)[i + 3].get<double>();
   if (!is_valid(pose))
-    throw std::runtime_error(std::string("camera message: ") + key + ": not a pose; allowed finite numbers and a unit quaternion");
+    throw std::runtime_error(std::string("camera message: ") + key +
+                             ": not a pose; allowed finite numbers and a unit quaternion");
   return pose;
 }
 
@@ -49,7 +51,10 @@ Json device_message(const std::vector<VrSample>& samples) {
 Json device_message(const std::vector<ControllerSample>& samples) {
   Json list = Json::array();
   for (const ControllerSample& sample : samples) {
-    list.push_back({{"t_us", sample.t_us}, {"valid", sample.valid}, {"button", sample.button ? 1 : 0}, {"pose", pose_json(sample.pose)}});
+    list.push_back({{"t_us", sample.t_us},
+                    {"valid", sample.valid},
+                    {"button", sample.button ? 1 : 0},
+                    {"pose", pose_json(sample.pose)}});
   }
   return {{"op", "device"}, {"device", "hand"}, {"samples", std::move(list)}};
 }

@@ -3,9 +3,9 @@
 
 #include <vector>
 
+#include "host/json/json_fwd.hpp"
 #include "host/operator/samples.hpp"
 #include "host/operator/slit_view.hpp"
-#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -13,7 +13,8 @@ namespace liana {
 Json device_message(const std::vector<VrSample>& samples);
 Json device_message(const std::vector<ControllerSample>& samples);
 
-// Picture in a `camera` message; throws std::runtime_error when a pose is neither null nor seven numbers with a unit quaternion.
+// Picture in a `camera` message; throws std::runtime_error when a pose is neither null nor seven numbers with a unit
+// quaternion.
 TipSighting sighting_of(const Json& message);
 
 }  // namespace liana

@@ -13,13 +13,15 @@ struct HandGains {
   double blind_s = 1.0;            // without a picture for this long, the hand stops
   double judge_tau_s = 0.8;        // low pass of the error that decides "there"
 
-  // Correcting: a slow integral of what is seen against what the hand should have done; the arm is soft, fast corrections make it swing
+  // Correcting: a slow integral of what is seen against what the hand should have done; the arm is soft, fast
+  // corrections make it swing
   double correction_per_s = 0.25;        // 0.1..0.3
   double correction_speed_m_s = 0.010;   // most
   double correction_rate_rad_s = 0.010;  // most
-  double along_quiet_s = 1.5;            // while moving and this long after, errors along the motion are lag and are not corrected
-  double wait_from_m = 0.06;             // the arm falls behind by this: go slower
-  double wait_full_m = 0.14;             // by this: wait for it
+  double along_quiet_s =
+      1.5;                    // while moving and this long after, errors along the motion are lag and are not corrected
+  double wait_from_m = 0.06;  // the arm falls behind by this: go slower
+  double wait_full_m = 0.14;  // by this: wait for it
 
   // Moving
   double free_speed_m_s = 0.075;
@@ -54,7 +56,8 @@ struct HandGains {
   double fine_m = 0.0011;
   double fine_rad = 0.0015;  // 0.09 deg
   double fine_dwell_s = 2.0;
-  double relent_s = 40.0;     // after striving this long at a goal, a little more error will do: friction lets a soft arm creep for minutes
+  double relent_s = 40.0;  // after striving this long at a goal, a little more error will do: friction lets a soft arm
+                           // creep for minutes
   double relent_most = 1.15;  // times the tolerances above, at most
 };
 

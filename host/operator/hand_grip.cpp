@@ -28,7 +28,8 @@ PoseStep HandGrip::hand_step(const PoseStep& tip_step) const {
 
 void HandGrip::start_return(const PoseStep& ahead) {
   const PoseStep step = hand_step(ahead);
-  const Pose target{opposite(step.shift_m, 0.95 * gains_.reach_m), quaternion_of(opposite(step.turn_rad, 0.95 * gains_.reach_rad))};
+  const Pose target{opposite(step.shift_m, 0.95 * gains_.reach_m),
+                    quaternion_of(opposite(step.turn_rad, 0.95 * gains_.reach_rad))};
   return_from_ = pose_;
   return_step_ = step_between(pose_, target);
   return_s_ = 0.0;
@@ -47,7 +48,9 @@ void HandGrip::grip(const Pose& commanded) {
   commanded_at_grip_ = commanded;
 }
 
-void HandGrip::follow(const Pose& commanded) { pose_ = moved(gripped_at_, hand_step(step_between(commanded_at_grip_, commanded))); }
+void HandGrip::follow(const Pose& commanded) {
+  pose_ = moved(gripped_at_, hand_step(step_between(commanded_at_grip_, commanded)));
+}
 
 bool HandGrip::out_of_reach(const PoseStep& ahead, double stop_m) const {
   const Vec3 shift = hand_step(ahead).shift_m;

@@ -1,4 +1,5 @@
-// The hand on the controller: small workspace, a button that engages, re-indexing by letting go, moving back and gripping again.
+// The hand on the controller: small workspace, a button that engages, re-indexing by letting go, moving back and
+// gripping again.
 #pragma once
 
 #include "host/operator/hand_gains.hpp"

@@ -41,7 +41,9 @@ void HandPerson::enter(Phase phase, double now_s) {
   followed_s_ = good_since_s_ = now_s;
 }
 
-bool HandPerson::button() const { return phase_ == Phase::kGripping || phase_ == Phase::kSteering || phase_ == Phase::kSettling; }
+bool HandPerson::button() const {
+  return phase_ == Phase::kGripping || phase_ == Phase::kSteering || phase_ == Phase::kSettling;
+}
 
 void HandPerson::look(const TipSighting& sighting, double now_s) {
   if (phase_ == Phase::kIdle || phase_ == Phase::kDone) return;
@@ -58,8 +60,12 @@ void HandPerson::plan(const Pose& seen_tip) {
   const double depth_m = seen_tip.position_m[0];
   if (task_ == HandTask::kEnterSlit) {
     const Pose approach{{-gains_.approach_before_mouth_m, 0.0, gains_.approach_z_m}, heading};
-    if (depth_m < -gains_.slow_before_mouth_m) goals_.push_back({approach, gains_.align_m, gains_.align_rad, gains_.align_dwell_s});
-    goals_.push_back({{{gains_.switch_depth_m, 0.0, gains_.switch_z_m}, heading}, gains_.depth_m, gains_.align_rad, gains_.align_dwell_s});
+    if (depth_m < -gains_.slow_before_mouth_m)
+      goals_.push_back({approach, gains_.align_m, gains_.align_rad, gains_.align_dwell_s});
+    goals_.push_back({{{gains_.switch_depth_m, 0.0, gains_.switch_z_m}, heading},
+                      gains_.depth_m,
+                      gains_.align_rad,
+                      gains_.align_dwell_s});
   } else {
     goals_.push_back({drawing_.rod_in_slit, gains_.fine_m, gains_.fine_rad, gains_.fine_dwell_s});
   }
@@ -80,8 +86,8 @@ void HandPerson::go_on(double now_s) {
 // A little slower than allowed, so that the arm does not fall behind.
 LegPace HandPerson::pace() const {
   const double most = allowed_speed_m_s_ > 0.0 ? kSpeedMargin * allowed_speed_m_s_ : gains_.free_speed_m_s;
-  return {std::min(gains_.free_speed_m_s, most), std::min(gains_.slit_speed_m_s, most), -gains_.slow_before_mouth_m, gains_.turn_rate_rad_s,
-          gains_.accel_m_s2};
+  return {std::min(gains_.free_speed_m_s, most), std::min(gains_.slit_speed_m_s, most), -gains_.slow_before_mouth_m,
+          gains_.turn_rate_rad_s, gains_.accel_m_s2};
 }
 
 void HandPerson::start_leg(const Pose& from) {
@@ -152,8 +158,8 @@ void HandPerson::watch_goal(double now_s) {
   const Goal& goal = goals_[goal_index_];
   if (!leg_.finished()) striving_since_s_ = now_s;
   const double relent = std::min(1.0 + (now_s - striving_since_s_) / gains_.relent_s, gains_.relent_most);
-  const bool good =
-      leg_.finished() && norm(judged_.shift_m) < relent * goal.tolerance_m && norm(judged_.turn_rad) < relent * goal.tolerance_rad;
+  const bool good = leg_.finished() && norm(judged_.shift_m) < relent * goal.tolerance_m &&
+                    norm(judged_.turn_rad) < relent * goal.tolerance_rad;
   if (!good) good_since_s_ = now_s;
   if (now_s - good_since_s_ < goal.dwell_s) return;
   if (goal_index_ + 1 == goals_.size()) {

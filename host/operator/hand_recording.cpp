@@ -29,14 +29,16 @@ struct Line {
     double value = 0.0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) {
-      fail(std::string(name) + ": \"" + word + "\": allowed a finite decimal number; correct the file or record it again");
+      fail(std::string(name) + ": \"" + word +
+           "\": allowed a finite decimal number; correct the file or record it again");
     }
     return value;
   }
 
   bool flag(std::size_t column, const char* name) const {
     const double value = real(column, name);
-    if (value != 0.0 && value != 1.0) fail(std::string(name) + ": " + words[column] + ": allowed 0 or 1; correct the file");
+    if (value != 0.0 && value != 1.0)
+      fail(std::string(name) + ": " + words[column] + ": allowed 0 or 1; correct the file");
     return value == 1.0;
   }
 
@@ -72,7 +74,8 @@ struct Line {
 
   void need(std::size_t columns) const {
     if (words.size() != columns) {
-      fail(std::to_string(words.size()) + " columns: allowed exactly " + std::to_string(columns) + "; see docs/formats.md");
+      fail(std::to_string(words.size()) + " columns: allowed exactly " + std::to_string(columns) +
+           "; see docs/formats.md");
     }
   }
 };
@@ -100,7 +103,8 @@ std::vector<std::string> split(const std::string& text) {
 
 template <class Sample>
 void append(std::vector<Sample>& samples, const Sample& sample, const Line& line) {
-  if (samples.empty() && sample.t_us != 0) line.fail("t_us: " + line.words[0] + ": allowed 0 for the first sample; shift the times");
+  if (samples.empty() && sample.t_us != 0)
+    line.fail("t_us: " + line.words[0] + ": allowed 0 for the first sample; shift the times");
   if (!samples.empty() && sample.t_us <= samples.back().t_us) {
     line.fail("t_us: " + line.words[0] + ": allowed more than " + std::to_string(samples.back().t_us) +
               " of the line before; sort the file");
@@ -109,7 +113,8 @@ void append(std::vector<Sample>& samples, const Sample& sample, const Line& line
 }
 
 template <class Sample>
-std::vector<Sample> read_samples(std::istream& stream, const std::string& path, std::size_t number, Sample (*convert)(const Line&)) {
+std::vector<Sample> read_samples(std::istream& stream, const std::string& path, std::size_t number,
+                                 Sample (*convert)(const Line&)) {
   std::vector<Sample> samples;
   for (std::string text; std::getline(stream, text);) {
     const Line line{path, ++number, split(text)};
@@ -137,13 +142,15 @@ std::variant<VrRecording, HandRecording> read_hand_recording(const std::string& 
 VrRecording read_vr_recording(const std::string& path) {
   auto recording = read_hand_recording(path);
   if (auto* vr = std::get_if<VrRecording>(&recording)) return std::move(*vr);
-  throw std::runtime_error(path + ": holds a hand controller: allowed VR handles (liana-hand 1 vr); choose another recording");
+  throw std::runtime_error(path +
+                           ": holds a hand controller: allowed VR handles (liana-hand 1 vr); choose another recording");
 }
 
 HandRecording read_hand_controller_recording(const std::string& path) {
   auto recording = read_hand_recording(path);
   if (auto* hand = std::get_if<HandRecording>(&recording)) return std::move(*hand);
-  throw std::runtime_error(path + ": holds VR handles: allowed a hand controller (liana-hand 1 hand); choose another recording");
+  throw std::runtime_error(
+      path + ": holds VR handles: allowed a hand controller (liana-hand 1 hand); choose another recording");
 }
 
 }  // namespace liana

@@ -9,7 +9,8 @@ namespace {
 constexpr double kArrived_m = 1e-5;  // closer than this a leg ends, or braking would creep for ever
 }
 
-Leg::Leg(const Pose& from, const Pose& to, const LegPace& pace) : start_(from), goal_(to), whole_(step_between(from, to)), pace_(pace) {
+Leg::Leg(const Pose& from, const Pose& to, const LegPace& pace)
+    : start_(from), goal_(to), whole_(step_between(from, to)), pace_(pace) {
   const double turn_worth_m = norm(whole_.turn_rad) / pace.turn_rate_rad_s * pace.speed_m_s;
   length_m_ = std::max(norm(whole_.shift_m), turn_worth_m);
 }
@@ -18,7 +19,8 @@ double Leg::speed_limit() const {
   const double left_m = length_m_ - walked_m_;
   const double stop = std::sqrt(2.0 * pace_.accel_m_s2 * left_m);
   const double until_slow_m = std::max(0.0, pace_.slow_from_x_m - pose().position_m[0]);
-  const double slow_down = std::sqrt(pace_.slow_speed_m_s * pace_.slow_speed_m_s + 2.0 * pace_.accel_m_s2 * until_slow_m);
+  const double slow_down =
+      std::sqrt(pace_.slow_speed_m_s * pace_.slow_speed_m_s + 2.0 * pace_.accel_m_s2 * until_slow_m);
   return std::min({pace_.speed_m_s, stop, slow_down});
 }
 

@@ -5,8 +5,8 @@
 
 #include "host/api/client.hpp"
 #include "host/config/config.hpp"
-#include "host/operator/operator_session.hpp"
 #include "host/json/json.hpp"
+#include "host/operator/operator_session.hpp"
 
 namespace liana {
 namespace {
@@ -32,8 +32,11 @@ SlitDrawing drawing_of(const SceneConfig& scene) {
 }
 
 Json greet(ApiClient& client, const OperatorOptions& options) {
-  client.send(
-      {{"op", "hello"}, {"name", "operator"}, {"role", "operator"}, {"lockstep", options.lockstep}, {"subscribe", {"state", "camera"}}});
+  client.send({{"op", "hello"},
+               {"name", "operator"},
+               {"role", "operator"},
+               {"lockstep", options.lockstep},
+               {"subscribe", {"state", "camera"}}});
   const auto welcome = client.receive(kWelcomeTimeout_s);
   if (!welcome || welcome->value("op", "") != "welcome") {
     throw std::runtime_error("lianad at " + options.api + " did not welcome the operator" +
@@ -56,8 +59,8 @@ bool answer(ApiClient& client, OperatorSession& session, const Json& message, bo
 int operate(const OperatorOptions& options) {
   ApiClient client = ApiClient::connect(options.api, kWelcomeTimeout_s);
   const Json welcome = greet(client, options);
-  const SceneConfig scene =
-      options.scene.empty() ? parse_scene(welcome.at("scene").dump(), "scene of " + options.api) : load_scene(options.scene);
+  const SceneConfig scene = options.scene.empty() ? parse_scene(welcome.at("scene").dump(), "scene of " + options.api)
+                                                  : load_scene(options.scene);
   OperatorSession session(options.recordings, drawing_of(scene), HandGains{}, options.seed);
   for (bool running = true; running;) {
     const auto message = client.receive(kPoll_s);

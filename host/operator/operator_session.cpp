@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/operator/device_messages.hpp"
 #include "host/json/json.hpp"
+#include "host/operator/device_messages.hpp"
 
 namespace liana {
 namespace {
@@ -46,7 +46,8 @@ HandMapping announced_mapping(const Json& state) {
   return {positive(*found, "scale", 1.0), positive(*found, "rotation_scale", 1.0), positive(*found, "speed_m_s", 0.0)};
 }
 
-OperatorSession::OperatorSession(std::string recordings, const SlitDrawing& drawing, const HandGains& gains, std::uint64_t seed)
+OperatorSession::OperatorSession(std::string recordings, const SlitDrawing& drawing, const HandGains& gains,
+                                 std::uint64_t seed)
     : recordings_(std::move(recordings)), person_(gains, drawing, seed), seed_(seed) {}
 
 void OperatorSession::begin_step(const AnnouncedStep& step, const Json& state) {
@@ -90,7 +91,8 @@ std::vector<Json> OperatorSession::steer_hand(double from_s, double to_s, bool e
   person_.feel(engaged, to_s);
   std::vector<ControllerSample> samples;
   const auto count = std::lround((to_s - from_s) / kSamplePeriod_s);
-  for (long i = 1; i <= count; ++i) samples.push_back(person_.sample(from_s + static_cast<double>(i) * kSamplePeriod_s));
+  for (long i = 1; i <= count; ++i)
+    samples.push_back(person_.sample(from_s + static_cast<double>(i) * kSamplePeriod_s));
   std::vector<Json> messages;
   if (!samples.empty()) messages.push_back(device_message(samples));
   report_arrival(messages, person_.arrived(), to_s);

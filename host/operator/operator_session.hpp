@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "host/json/json_fwd.hpp"
 #include "host/operator/hand_person.hpp"
 #include "host/operator/recorded_vr.hpp"
-#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
@@ -21,8 +21,8 @@ struct AnnouncedStep {
   std::string task;    // vr: name of the recording; hand: "slit" or "rod"; empty: told by the step's name
 };
 
-// Turns state and camera messages into device samples. Reads of the state only the step, the device, its mapping, whether it is engaged,
-// and the time.
+// Turns state and camera messages into device samples. Reads of the state only the step, the device, its mapping,
+// whether it is engaged, and the time.
 class OperatorSession {
  public:
   // `recordings` is the folder of the `.hand` files.

@@ -11,7 +11,8 @@ namespace liana {
 class RandomStream {
  public:
   // `purpose` separates streams of one seed.
-  RandomStream(std::uint64_t seed, std::uint64_t purpose) : state_(seed * 0x9E3779B97F4A7C15ULL + purpose * 0xD1B54A32D192ED03ULL) {
+  RandomStream(std::uint64_t seed, std::uint64_t purpose)
+      : state_(seed * 0x9E3779B97F4A7C15ULL + purpose * 0xD1B54A32D192ED03ULL) {
     next();
   }
 

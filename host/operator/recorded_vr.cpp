@@ -20,7 +20,8 @@ RecordedVr::RecordedVr(VrRecording recording, const VrDisturbance& disturbance, 
       disturbance_(disturbance),
       right_tremor_(disturbance.tremor_m, disturbance.tremor_rad, seed, kRightPurpose),
       left_tremor_(disturbance.tremor_m, disturbance.tremor_rad, seed, kLeftPurpose) {
-  if (recording_.empty()) throw std::runtime_error("VR recording: no samples: allowed at least one; give another recording");
+  if (recording_.empty())
+    throw std::runtime_error("VR recording: no samples: allowed at least one; give another recording");
   RandomStream random(seed, kGlitchPurpose);
   const double end_s = static_cast<double>(recording_.back().t_us) * 1e-6;
   jump_index_ = static_cast<std::size_t>(random.uniform(0.1, 0.45) * static_cast<double>(recording_.size()));

@@ -1,4 +1,5 @@
-// What input devices deliver: one sample of a hand controller or of a pair of VR handles (docs/api.md, docs/formats.md).
+// What input devices deliver: one sample of a hand controller or of a pair of VR handles (docs/api.md,
+// docs/formats.md).
 #pragma once
 
 #include <cstdint>

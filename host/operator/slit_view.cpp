@@ -13,7 +13,8 @@ std::optional<Pose> tip_in_slit(const SlitDrawing& drawing, const TipSighting& s
 }
 
 PoseStep step_between(const Pose& from, const Pose& to) {
-  return {subtract(to.position_m, from.position_m), rotation_vector(normalize(multiply(to.quaternion, conjugate(from.quaternion))))};
+  return {subtract(to.position_m, from.position_m),
+          rotation_vector(normalize(multiply(to.quaternion, conjugate(from.quaternion))))};
 }
 
 Pose moved(const Pose& pose, const PoseStep& step) {

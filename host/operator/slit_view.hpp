@@ -13,7 +13,8 @@ struct TipSighting {
   std::optional<Pose> rod;
 };
 
-// The drawing: where the slit frame is in the base frame (turns hand directions), and where the rod is in the slit frame.
+// The drawing: where the slit frame is in the base frame (turns hand directions), and where the rod is in the slit
+// frame.
 struct SlitDrawing {
   Pose slit_in_base{};
   Pose rod_in_slit{};
@@ -22,7 +23,8 @@ struct SlitDrawing {
 // Drawing from the slit and rod poses in the base frame.
 SlitDrawing slit_drawing(const Pose& slit_in_base, const Pose& rod_in_base);
 
-// Tip pose in the slit frame, from the rod when `by_rod` and it is in sight, else from the slit; nothing when neither is in sight.
+// Tip pose in the slit frame, from the rod when `by_rod` and it is in sight, else from the slit; nothing when neither
+// is in sight.
 std::optional<Pose> tip_in_slit(const SlitDrawing& drawing, const TipSighting& sighting, bool by_rod);
 
 // Position [m] and rotation vector [rad] that lead from pose `from` to pose `to`, in the frame both are given in.

@@ -32,7 +32,8 @@ double Tremor::axis(std::size_t index, double t_s) const {
 Pose Tremor::apply(const Pose& pose, double t_s) const {
   const Vec3 shift{axis(0, t_s), axis(1, t_s), axis(2, t_s)};
   const Vec3 turn{axis(3, t_s), axis(4, t_s), axis(5, t_s)};
-  return {add(pose.position_m, scale(shift, position_m_)), multiply(quaternion_of(scale(turn, rotation_rad_)), pose.quaternion)};
+  return {add(pose.position_m, scale(shift, position_m_)),
+          multiply(quaternion_of(scale(turn, rotation_rad_)), pose.quaternion)};
 }
 
 }  // namespace liana

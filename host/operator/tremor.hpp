@@ -8,7 +8,8 @@
 
 namespace liana {
 
-// Three sinusoids an axis with seeded frequencies and phases; a pure function of time, so it does not depend on when it is asked.
+// Three sinusoids an axis with seeded frequencies and phases; a pure function of time, so it does not depend on when it
+// is asked.
 class Tremor {
  public:
   // `position_m` and `rotation_rad`: RMS of each axis; `purpose` separates the hands of one seed.

@@ -6,10 +6,10 @@
 
 #include "firmware_like/math/trig.hpp"
 #include "host/plan/follow/follow.hpp"
-#include "host/plan/start/goal_poses.hpp"
-#include "host/plan/problem/ipopt_solver.hpp"
 #include "host/plan/plan_refusal.hpp"
+#include "host/plan/problem/ipopt_solver.hpp"
 #include "host/plan/problem/plan_rows.hpp"
+#include "host/plan/start/goal_poses.hpp"
 #include "host/plan/start/relax.hpp"
 #include "host/plan/start/start_path.hpp"
 #include "host/plan/text.hpp"
@@ -20,8 +20,10 @@ namespace {
 using Index = std::size_t;
 
 constexpr std::int32_t kMaxRounds = 12;
-constexpr double kStride_rad = 0.05;      // of every theta in one round: planes made on a path are good near it, and Newton steps too
-constexpr double kInner_m = 0.001;        // the solver keeps this beyond the margin, so that what lies between rows keeps the margin
+constexpr double kStride_rad =
+    0.05;  // of every theta in one round: planes made on a path are good near it, and Newton steps too
+constexpr double kInner_m =
+    0.001;  // the solver keeps this beyond the margin, so that what lies between rows keeps the margin
 constexpr double kRecheck_m = 0.0003;     // rows are added where less than this beyond the margin is left
 constexpr double kStartSpacing_m = 0.01;  // of motion between the poses looked at in a start path
 constexpr double kSettled = 0.01;         // of the objective: what a last round gains at most
@@ -41,7 +43,8 @@ void validate(const PlanRequest& request) {
     require(request.to_rad.has_value() != request.tip_in_base.has_value(), "goal: either joint angles or a tip pose");
   }
   require(request.waypoints >= 1 && request.waypoints <= kMaxWaypoints, "waypoints: allowed: 1 to 100");
-  require(request.waypoints > 1 || request.tip_in_base, "waypoints: 1 is for a tip pose: joint angles leave nothing to find");
+  require(request.waypoints > 1 || request.tip_in_base,
+          "waypoints: 1 is for a tip pose: joint angles leave nothing to find");
   require(request.margin_m >= 0.0 && request.margin_m <= 1.0, "margin: allowed: 0 to 1 m");
   require(request.max_step_rad > 0.0, "max step: allowed: over 0");
   require(request.control_points.size() <= kMaxControlPoints, "control points: at most 4");
@@ -49,7 +52,8 @@ void validate(const PlanRequest& request) {
 
 // Where the arm is nearest, as one clause.
 std::string nearest_text(const Room& room, double clearance_m, std::int32_t link, std::int32_t obstacle) {
-  return text("link %d ", static_cast<int>(link) + 1) + distance_text(clearance_m, "'" + obstacle_name(room.scene(), obstacle) + "'");
+  return text("link %d ", static_cast<int>(link) + 1) +
+         distance_text(clearance_m, "'" + obstacle_name(room.scene(), obstacle) + "'");
 }
 
 class Planner {
@@ -69,7 +73,8 @@ class Planner {
       if (request_.follow ? through_slit(goal) : search(goal)) return result_;
     }
     if (result_.constraint.empty())
-      fail(PlanOutcome::limit, "path", "no free way was found; try more waypoints, a smaller margin or a control point");
+      fail(PlanOutcome::limit, "path",
+           "no free way was found; try more waypoints, a smaller margin or a control point");
     return result_;
   }
 
@@ -92,18 +97,20 @@ class Planner {
     if (here.nearest.distance_m < request_.margin_m) {
       return fail(PlanOutcome::infeasible, which,
                   text("at the %s %s; the margin is %.1f mm", which,
-                       nearest_text(room_, here.nearest.distance_m, here.link, here.obstacle).c_str(), 1000.0 * request_.margin_m));
+                       nearest_text(room_, here.nearest.distance_m, here.link, here.obstacle).c_str(),
+                       1000.0 * request_.margin_m));
     }
     const SelfClearance self = self_clearance(request_.robot, theta);
     if (self.clearance_m < kSelfMargin_m) {
-      return fail(PlanOutcome::infeasible, "self",
-                  text("at the %s %s; the margin is %.1f mm", which, nearest_text(self).c_str(), 1000.0 * kSelfMargin_m));
+      return fail(
+          PlanOutcome::infeasible, "self",
+          text("at the %s %s; the margin is %.1f mm", which, nearest_text(self).c_str(), 1000.0 * kSelfMargin_m));
     }
     const double excess_N = PlannedTension(room_.table()).excess_N(theta);
     if (excess_N <= 0.0) return true;
     return fail(PlanOutcome::infeasible, "tension",
-                text("at the %s a cable would be pulled %.1f N beyond the %.0f to %.0f N that are allowed", which, excess_N,
-                     room_.table().tension.floor_motor_N, room_.table().tension.ceiling_free_N));
+                text("at the %s a cable would be pulled %.1f N beyond the %.0f to %.0f N that are allowed", which,
+                     excess_N, room_.table().tension.floor_motor_N, room_.table().tension.ceiling_free_N));
   }
 
   Path goals_or_none() {
@@ -123,11 +130,13 @@ class Planner {
 
   bool steps_suffice(const ThetaVector& goal) {
     for (Index k = 0; k < goal.size(); ++k) {
-      const double way = std::fabs(goal[k] - request_.from_rad[k]), most = request_.max_step_rad * (request_.waypoints - 1);
+      const double way = std::fabs(goal[k] - request_.from_rad[k]),
+                   most = request_.max_step_rad * (request_.waypoints - 1);
       if (way <= most * (1.0 + kRoundOff)) continue;
       return fail(PlanOutcome::infeasible, "step",
-                  text("theta %d has %.2f deg to go, %d waypoints with steps of %.2f deg allow %.2f deg", static_cast<int>(k) + 1,
-                       way / kDegree, static_cast<int>(request_.waypoints), request_.max_step_rad / kDegree, most / kDegree));
+                  text("theta %d has %.2f deg to go, %d waypoints with steps of %.2f deg allow %.2f deg",
+                       static_cast<int>(k) + 1, way / kDegree, static_cast<int>(request_.waypoints),
+                       request_.max_step_rad / kDegree, most / kDegree));
     }
     return true;
   }
@@ -138,7 +147,8 @@ class Planner {
     const double most_m = kFollowMostLengths * arm_length_m(room_.table());
     if (length_m <= most_m) return true;
     return fail(PlanOutcome::infeasible, "curve",
-                text("the curve is %.1f m long; at most %.1f m are allowed, %.0f times the arm", length_m, most_m, kFollowMostLengths));
+                text("the curve is %.1f m long; at most %.1f m are allowed, %.0f times the arm", length_m, most_m,
+                     kFollowMostLengths));
   }
 
   // True when the search is over.
@@ -156,7 +166,8 @@ class Planner {
     if (cancelled()) {
       fail(PlanOutcome::cancelled, "", "cancelled");
     } else if (found.theta_rad.empty()) {
-      fail(found.constraint == "curve" ? PlanOutcome::infeasible : PlanOutcome::limit, found.constraint.c_str(), found.reason);
+      fail(found.constraint == "curve" ? PlanOutcome::infeasible : PlanOutcome::limit, found.constraint.c_str(),
+           found.reason);
     } else {
       tell(text("%d waypoints", static_cast<int>(found.theta_rad.size())));
       if (accept(found.theta_rad)) accept_figures(follow_figures(room_.table(), found.theta_rad, curve));
@@ -168,14 +179,15 @@ class Planner {
     result_.follow = figures;
     if (figures.tip_off_m <= kFollowTipOff_m * (1.0 + kRoundOff)) return true;
     return fail(PlanOutcome::limit, "tip",
-                text("between waypoints the tip leaves the curve by %.3f mm; allowed are %.3f mm", 1000.0 * figures.tip_off_m,
-                     1000.0 * kFollowTipOff_m));
+                text("between waypoints the tip leaves the curve by %.3f mm; allowed are %.3f mm",
+                     1000.0 * figures.tip_off_m, 1000.0 * kFollowTipOff_m));
   }
 
   // Tries the start paths in order; true when the search is over (solved or cancelled).
   bool search(const ThetaVector& goal) {
     const PathEnds ends{request_.from_rad, goal};
-    if (control_.straight_start_only || request_.waypoints <= 2) return improve(straight_path(request_, ends), "straight");
+    if (control_.straight_start_only || request_.waypoints <= 2)
+      return improve(straight_path(request_, ends), "straight");
     Path best;
     double best_m = -kNoObstacle_m;
     for (const StartKind kind : kStartKinds) {
@@ -183,8 +195,9 @@ class Planner {
       if (cancelled()) return !fail(PlanOutcome::cancelled, "", "cancelled");
       if (path.empty()) continue;
       const PathLook look = look_along(room_, path, kStartSpacing_m);
-      tell(look.distance_m < kNoObstacle_m ? text("start %s: clearance %.1f mm", name_of(kind), 1000.0 * look.distance_m)
-                                           : text("start %s: nothing in the scene", name_of(kind)));
+      tell(look.distance_m < kNoObstacle_m
+               ? text("start %s: clearance %.1f mm", name_of(kind), 1000.0 * look.distance_m)
+               : text("start %s: nothing in the scene", name_of(kind)));
       if (look.distance_m >= request_.margin_m && improve(path, name_of(kind))) return true;
       if (look.distance_m < request_.margin_m && look.distance_m > best_m) best = path, best_m = look.distance_m;
     }
@@ -209,7 +222,8 @@ class Planner {
       const std::vector<RowSite> below = sites_below(room_, request_, found, request_.margin_m + kRecheck_m);
       sites.insert(sites.end(), below.begin(), below.end());
       if (rows_hold && below.empty() && steps_hold(request_, found) && tensions_hold(request_, found)) {
-        result_.settled = free && solution.status == SolveStatus::solved && solution.objective >= (1.0 - kSettled) * before;
+        result_.settled =
+            free && solution.status == SolveStatus::solved && solution.objective >= (1.0 - kSettled) * before;
         path = found;
         free = true;
       } else {
@@ -220,7 +234,8 @@ class Planner {
   }
 
   bool is_free(const Path& path) const {
-    return sites_below(room_, request_, path, request_.margin_m).empty() && steps_hold(request_, path) && tensions_hold(request_, path);
+    return sites_below(room_, request_, path, request_.margin_m).empty() && steps_hold(request_, path) &&
+           tensions_hold(request_, path);
   }
 
   // As far towards a solution that is not free as the way stays free; the last waypoint keeps its tip.
@@ -242,18 +257,19 @@ class Planner {
       solution.objective = problem.objective(solution.x.data());
       return solution;
     }
-    tell(text("round %d: %d variables, %d constraints", static_cast<int>(result_.rounds), static_cast<int>(problem.variables()),
-              static_cast<int>(problem.constraints())));
+    tell(text("round %d: %d variables, %d constraints", static_cast<int>(result_.rounds),
+              static_cast<int>(problem.variables()), static_cast<int>(problem.constraints())));
     solution = solve(problem, control_);
     result_.iterations += solution.iterations;
     return solution;
   }
 
   bool unsolved(const PlanProblem& problem, const Solution& solution) {
-    const PlanOutcome outcome = solution.status == SolveStatus::infeasible ? PlanOutcome::infeasible : PlanOutcome::limit;
+    const PlanOutcome outcome =
+        solution.status == SolveStatus::infeasible ? PlanOutcome::infeasible : PlanOutcome::limit;
     return fail(outcome, problem.constraint_kind(solution.worst_constraint),
-                text("the solver ended with a %s constraint violated by %.2g", problem.constraint_kind(solution.worst_constraint),
-                     solution.worst_violation));
+                text("the solver ended with a %s constraint violated by %.2g",
+                     problem.constraint_kind(solution.worst_constraint), solution.worst_violation));
   }
 
   // The solver lets variables pass their bounds by 1e-8.
@@ -270,7 +286,8 @@ class Planner {
   CheckedTip goal_tip(const Path& path) const {
     if (request_.tip_in_base) return {request_.tip_in_base->position_m, request_.tip_in_base->quaternion};
     CheckedTip tip = plain_tip(room_.table(), request_.to_rad.value_or(path.back()));
-    if (request_.follow && !request_.follow->points_m.empty()) tip.position_m = request_.follow->points_m.back();  // in any attitude
+    if (request_.follow && !request_.follow->points_m.empty())
+      tip.position_m = request_.follow->points_m.back();  // in any attitude
     return tip;
   }
 
@@ -285,7 +302,8 @@ class Planner {
     const PlanCheck check = check_plan(request_.robot, request_.scene, whole, goal_tip(path));
     result_.checked = check;
     result_.objective = objective(path);
-    if (const auto refused = refusal_of(request_, check)) return fail(refused->outcome, refused->constraint, refused->reason);
+    if (const auto refused = refusal_of(request_, check))
+      return fail(refused->outcome, refused->constraint, refused->reason);
     result_.outcome = PlanOutcome::solved;
     result_.waypoints_rad = whole;
     result_.constraint.clear();
@@ -303,7 +321,8 @@ class Planner {
 
 double default_max_step_rad(const RobotTable& table, std::int32_t waypoints) {
   double limit_rad = 0.0;
-  for (Index m = 0; m < Index(table.segment_count); ++m) limit_rad = std::max(limit_rad, table.segment[m].theta_limit_rad);
+  for (Index m = 0; m < Index(table.segment_count); ++m)
+    limit_rad = std::max(limit_rad, table.segment[m].theta_limit_rad);
   return 4.0 * limit_rad / std::max(1, waypoints - 1);
 }
 

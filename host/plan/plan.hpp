@@ -1,8 +1,8 @@
 // The offline planner: from joint angles to joint angles or a tip pose, past the scene (docs/planning.md).
 //
-// The problem (plan_problem.hpp) is solved by Ipopt with exact derivatives from a start path (start_path.hpp); the result is checked by
-// code that shares nothing with either (plan_check.hpp). All limits are counts of iterations, never times, and every choice has a fixed
-// order: the same request gives the same plan on one machine.
+// The problem (plan_problem.hpp) is solved by Ipopt with exact derivatives from a start path (start_path.hpp); the
+// result is checked by code that shares nothing with either (plan_check.hpp). All limits are counts of iterations,
+// never times, and every choice has a fixed order: the same request gives the same plan on one machine.
 #pragma once
 
 #include <atomic>
@@ -15,8 +15,8 @@
 #include "firmware_like/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
 #include "host/config/config.hpp"
-#include "host/plan/follow/follow_figures.hpp"
 #include "host/plan/check/plan_check.hpp"
+#include "host/plan/follow/follow_figures.hpp"
 
 namespace liana {
 
@@ -37,8 +37,8 @@ struct HeldPhase {
   double from_share = 0.0;
 };
 
-// The tip goes along a curve through these points (base frame, at least two, neighbours apart), the body after it; no points: through the
-// scene's slit to the goal.
+// The tip goes along a curve through these points (base frame, at least two, neighbours apart), the body after it; no
+// points: through the scene's slit to the goal.
 struct FollowRequest {
   std::vector<Vec3> points_m;
 };
@@ -57,12 +57,16 @@ struct PlanRequest {
   std::optional<FollowRequest> follow;  // points alone; through the slit with one of the two above
   std::vector<HeldPhase> held;
   std::vector<ControlPoint> control_points;
-  std::int32_t waypoints = 20;         // with the ends, 2..kMaxWaypoints; 1: only the end pose, not the way; no matter when following
+  std::int32_t waypoints =
+      20;  // with the ends, 2..kMaxWaypoints; 1: only the end pose, not the way; no matter when following
   double margin_m = kDefaultMargin_m;  // clearance of every link from every obstacle, also between waypoints, >= 0
   double max_step_rad = 0.0;           // of every theta between waypoints; see default_max_step_rad
 
-  // Longest change of any cable between waypoints [m]: what it can wind while theta moves max_step_rad at its rate limit.
-  double max_cable_step_m() const { return robot.table.limits.cable_speed_m_s * max_step_rad / robot.table.limits.theta_rate_rad_s; }
+  // Longest change of any cable between waypoints [m]: what it can wind while theta moves max_step_rad at its rate
+  // limit.
+  double max_cable_step_m() const {
+    return robot.table.limits.cable_speed_m_s * max_step_rad / robot.table.limits.theta_rate_rad_s;
+  }
 };
 
 // What a step may be beyond its limit, rad of a theta or m of a cable: twice what the solver leaves of a constraint
@@ -71,7 +75,8 @@ constexpr double kStepTolerance = 2e-7;
 
 // Every theta may cross its whole range twice on the way.
 double default_max_step_rad(const RobotTable& table, std::int32_t waypoints);
-constexpr double kFollowMaxStep_rad = 0.05;  // the same for following, where the waypoints come out as many as are needed
+constexpr double kFollowMaxStep_rad =
+    0.05;  // the same for following, where the waypoints come out as many as are needed
 
 enum class PlanOutcome { solved, infeasible, limit, cancelled };
 const char* name_of(PlanOutcome outcome);
@@ -82,13 +87,13 @@ struct PlanResult {
   double objective = 0.0;       // see plan_problem.hpp
   std::int32_t iterations = 0;  // of Ipopt, over all rounds
   std::int32_t rounds = 0;      // solves of Ipopt
-  bool settled = false;         // the last solve gained less than 1 % of the objective: a local optimum, not only a valid path
-  std::string start;            // which start path led here; follow when following
-  std::string
-      constraint;  // what stands in the way when not solved: start, goal, tip, step, clearance, self, cable, tension, limits, path, curve
-  std::string reason;                   // the same as one sentence with body, link and amount
+  bool settled = false;  // the last solve gained less than 1 % of the objective: a local optimum, not only a valid path
+  std::string start;     // which start path led here; follow when following
+  std::string constraint;  // what stands in the way when not solved: start, goal, tip, step, clearance, self, cable,
+                           // tension, limits, path, curve
+  std::string reason;      // the same as one sentence with body, link and amount
   std::optional<FollowFigures> follow;  // how well the body followed, when it did
-  std::optional<PlanCheck> checked;     // of the path found, also when the check refused it; empty when no path was found
+  std::optional<PlanCheck> checked;  // of the path found, also when the check refused it; empty when no path was found
 };
 
 // What the planner tells while it runs, and how it is stopped.
@@ -96,7 +101,8 @@ struct PlanControl {
   std::function<void(const std::string&)> progress;  // one line; may be empty
   const std::atomic<bool>* cancelled = nullptr;      // may be set by a signal handler at any time
   std::int32_t max_iterations = 300;                 // of Ipopt in each round
-  bool straight_start_only = false;                  // for comparison: no other start than the straight line in theta, and that not relaxed
+  bool straight_start_only =
+      false;  // for comparison: no other start than the straight line in theta, and that not relaxed
 };
 
 // Plans. Throws std::invalid_argument on a request out of range; everything else is an outcome.

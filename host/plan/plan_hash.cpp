@@ -7,13 +7,16 @@
 namespace liana {
 namespace {
 
-Json angles(const ThetaVector& theta_rad, std::int32_t count) { return std::vector<double>(theta_rad.begin(), theta_rad.begin() + count); }
+Json angles(const ThetaVector& theta_rad, std::int32_t count) {
+  return std::vector<double>(theta_rad.begin(), theta_rad.begin() + count);
+}
 
 Json inputs(const PlanRequest& request) {
   const std::int32_t count = request.robot.table.theta_count();
   Json held = Json::array(), points = Json::array();
   for (const HeldPhase& phase : request.held) held.push_back({phase.theta, phase.value_rad, phase.from_share});
-  for (const ControlPoint& point : request.control_points) points.push_back({point.node, point.position_m, point.weight});
+  for (const ControlPoint& point : request.control_points)
+    points.push_back({point.node, point.position_m, point.weight});
   Json out{{"from_rad", angles(request.from_rad, count)},
            {"held", held},
            {"control_points", points},
@@ -30,10 +33,11 @@ Json inputs(const PlanRequest& request) {
 
 std::string plan_hash(const PlanRequest& request, const PlanResult& result) {
   Json waypoints = Json::array();
-  for (const ThetaVector& theta : result.waypoints_rad) waypoints.push_back(angles(theta, request.robot.table.theta_count()));
+  for (const ThetaVector& theta : result.waypoints_rad)
+    waypoints.push_back(angles(theta, request.robot.table.theta_count()));
   const Json outcome{{"outcome", name_of(result.outcome)}, {"waypoints_rad", waypoints}};
-  return sha256_hex(request.robot.canonical_json + "\n" + request.scene.canonical_json + "\n" + canonical_json(inputs(request)) + "\n" +
-                    canonical_json(outcome) + "\n");
+  return sha256_hex(request.robot.canonical_json + "\n" + request.scene.canonical_json + "\n" +
+                    canonical_json(inputs(request)) + "\n" + canonical_json(outcome) + "\n");
 }
 
 }  // namespace liana

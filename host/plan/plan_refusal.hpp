@@ -8,13 +8,13 @@
 
 namespace liana {
 
-struct Refusal {
+struct PlanRefusal {
   PlanOutcome outcome = PlanOutcome::limit;
   const char* constraint = "";
   std::string reason;
 };
 
 // The first limit of the request that a checked plan does not keep; none: the plan is good.
-std::optional<Refusal> refusal_of(const PlanRequest& request, const PlanCheck& check);
+std::optional<PlanRefusal> refusal_of(const PlanRequest& request, const PlanCheck& check);
 
 }  // namespace liana

@@ -16,8 +16,8 @@ std::string text(const char* format, Values... values) {
 
 // "is 3.00 mm from BODY", or "is 40.00 mm inside BODY".
 inline std::string distance_text(double clearance_m, const std::string& body) {
-  return text("is %.2f mm %s %s", 1000.0 * (clearance_m < 0.0 ? -clearance_m : clearance_m), clearance_m < 0.0 ? "inside" : "from",
-              body.c_str());
+  return text("is %.2f mm %s %s", 1000.0 * (clearance_m < 0.0 ? -clearance_m : clearance_m),
+              clearance_m < 0.0 ? "inside" : "from", body.c_str());
 }
 
 }  // namespace liana

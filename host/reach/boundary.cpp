@@ -17,7 +17,8 @@ std::vector<DirectionBin> empty_bins() {
   for (std::int32_t ring = 0; ring < kPolarBins; ++ring) {
     const std::int32_t count = azimuth_bins(ring);
     const double width = 2.0 * kPi / count;
-    for (std::int32_t k = 0; k < count; ++k) bins.push_back({(ring + 0.5) * kRingWidth_rad, (k + 0.5) * width, kRingWidth_rad, width});
+    for (std::int32_t k = 0; k < count; ++k)
+      bins.push_back({(ring + 0.5) * kRingWidth_rad, (k + 0.5) * width, kRingWidth_rad, width});
   }
   return bins;
 }
@@ -75,7 +76,8 @@ std::size_t direction_bin(const Vec3& direction) {
   std::int32_t index = 0;
   for (std::int32_t i = 0; i < ring; ++i) index += azimuth_bins(i);
   const std::int32_t count = azimuth_bins(ring);
-  return static_cast<std::size_t>(index + std::min(static_cast<std::int32_t>(azimuth / (2.0 * kPi) * count), count - 1));
+  return static_cast<std::size_t>(index +
+                                  std::min(static_cast<std::int32_t>(azimuth / (2.0 * kPi) * count), count - 1));
 }
 
 std::vector<DirectionBin> find_boundary(const RaySearch& search, const std::vector<ReachSample>& samples) {
@@ -100,7 +102,9 @@ Outline find_outline(const RaySearch& search, std::int32_t flat_axis, const std:
   RaySearch flat = search;
   flat.point.flat_axis = flat_axis;
   flat.origin_in_base_m[static_cast<std::size_t>(flat_axis)] = 0.0;
-  const auto seen = [&](const ReachSample& sample) { return subtract(sample.point_in_base_m, search.origin_in_base_m); };
+  const auto seen = [&](const ReachSample& sample) {
+    return subtract(sample.point_in_base_m, search.origin_in_base_m);
+  };
   const auto distance = [&](const ReachSample& sample) { return std::hypot(seen(sample)[right], seen(sample)[up]); };
   std::array<Members, kOutlineSectors> members;
   for (const ReachSample& sample : samples) {

@@ -1,5 +1,5 @@
-// The boundary of a region that was sampled: by direction in space, and as an outline in the three views. See region.hpp for how sound it
-// is.
+// The boundary of a region that was sampled: by direction in space, and as an outline in the three views. See
+// region.hpp for how sound it is.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct ReachSample {
 // What is searched: the point, and where rays start.
 struct RaySearch {
   const RobotTable& table;
-  ArmPoint point{};
+  PointOnArm point{};
   Vec3 origin_in_base_m{};
 };
 
@@ -48,8 +48,9 @@ struct DirectionBin {
   BoundaryPoint inner{};  // distance_m under kPushResolution_m: reaches down to the origin
 };
 
-// The region as seen along one base axis: its ends in every sector of 5 deg about the origin, from the first other axis towards the second.
-// Ends are found like the boundary's, with the depth of the view left free; a sector that no sample is seen in has none.
+// The region as seen along one base axis: its ends in every sector of 5 deg about the origin, from the first other axis
+// towards the second. Ends are found like the boundary's, with the depth of the view left free; a sector that no sample
+// is seen in has none.
 struct OutlineSector {
   bool seen = false;
   std::array<double, 2> outer_m{};  // along the two axes of the view, in the order x, y, z

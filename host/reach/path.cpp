@@ -68,11 +68,13 @@ std::size_t first_least(const std::vector<PathPoint>& points, const Less& less) 
 }  // namespace
 
 double condition_number(const PathPoint& point) {
-  if (point.least_singular_value <= 1e-12 * point.largest_singular_value) return std::numeric_limits<double>::infinity();
+  if (point.least_singular_value <= 1e-12 * point.largest_singular_value)
+    return std::numeric_limits<double>::infinity();
   return point.largest_singular_value / point.least_singular_value;
 }
 
-PathReport examine_path(const RobotTable& table, const std::vector<ThetaVector>& waypoints_rad, std::uint32_t held_mask) {
+PathReport examine_path(const RobotTable& table, const std::vector<ThetaVector>& waypoints_rad,
+                        std::uint32_t held_mask) {
   PathReport report;
   report.points.push_back(examine(table, held_mask, 0.0, waypoints_rad.front()));
   report.waypoint_way.push_back(0.0);
@@ -82,7 +84,8 @@ PathReport examine_path(const RobotTable& table, const std::vector<ThetaVector>&
     const int steps = std::max(1, static_cast<int>(std::ceil(change_rad / kPathStep_rad - 1e-9)));
     for (int k = 1; k < steps; ++k) {
       const double share = static_cast<double>(k) / steps;
-      report.points.push_back(examine(table, held_mask, report.joint_travel_rad + share * change_rad, between(from, to, share)));
+      report.points.push_back(
+          examine(table, held_mask, report.joint_travel_rad + share * change_rad, between(from, to, share)));
     }
     report.joint_travel_rad += change_rad;
     report.points.push_back(examine(table, held_mask, report.joint_travel_rad, to));
@@ -91,8 +94,10 @@ PathReport examine_path(const RobotTable& table, const std::vector<ThetaVector>&
   const double travel_rad = report.joint_travel_rad > 0.0 ? report.joint_travel_rad : 1.0;
   for (PathPoint& point : report.points) point.way /= travel_rad;
   for (double& way : report.waypoint_way) way /= travel_rad;
-  report.worst_conditioned = first_least(report.points, [](auto& a, auto& b) { return a.least_singular_value < b.least_singular_value; });
-  report.nearest_limit = first_least(report.points, [](auto& a, auto& b) { return a.limit_margin_rad < b.limit_margin_rad; });
+  report.worst_conditioned =
+      first_least(report.points, [](auto& a, auto& b) { return a.least_singular_value < b.least_singular_value; });
+  report.nearest_limit =
+      first_least(report.points, [](auto& a, auto& b) { return a.limit_margin_rad < b.limit_margin_rad; });
   return report;
 }
 

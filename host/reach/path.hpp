@@ -1,6 +1,7 @@
 // How well conditioned the arm is along a path of joint angles, and how near its limits.
 //
-// Between two waypoints all angles move in proportion; points lie so close that no angle changes by more than kPathStep_rad.
+// Between two waypoints all angles move in proportion; points lie so close that no angle changes by more than
+// kPathStep_rad.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@ namespace liana {
 constexpr double kPathStep_rad = 0.25 * 3.14159265358979323846 / 180.0;  // resolution of a path
 constexpr std::size_t kMaxWaypoints = 2000;
 
-// One pose on the path. Singular values are of the 6 x free Jacobian of the tip with linear rows in m/rad and angular rows in rad/rad, that
-// is attitude weighed by a length of 1 m; all 0 beyond the number of free thetas.
+// One pose on the path. Singular values are of the 6 x free Jacobian of the tip with linear rows in m/rad and angular
+// rows in rad/rad, that is attitude weighed by a length of 1 m; all 0 beyond the number of free thetas.
 struct PathPoint {
   double way = 0.0;  // 0..1: share of the joint travel (largest change of any angle, summed) up to here
   ThetaVector theta_rad{};
@@ -36,7 +37,9 @@ struct PathReport {
 // Largest singular value over the least; infinite when the least is below 1e-12 times it.
 double condition_number(const PathPoint& point);
 
-// Examines a path of 1..kMaxWaypoints waypoints; thetas in `held_mask` are not free (at least one must be). Cost: about 10 us a point.
-PathReport examine_path(const RobotTable& table, const std::vector<ThetaVector>& waypoints_rad, std::uint32_t held_mask);
+// Examines a path of 1..kMaxWaypoints waypoints; thetas in `held_mask` are not free (at least one must be). Cost: about
+// 10 us a point.
+PathReport examine_path(const RobotTable& table, const std::vector<ThetaVector>& waypoints_rad,
+                        std::uint32_t held_mask);
 
 }  // namespace liana

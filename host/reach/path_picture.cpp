@@ -22,13 +22,14 @@ constexpr std::size_t kMostWaypointLines = 25;
 constexpr std::string_view kLineColour = "#1f65a3";
 constexpr std::string_view kWorstColour = "#d62728";
 
-Axes plot(std::size_t index, const Range& y, bool log_y) {
+Axes plot(std::size_t index, const AxisRange& y, bool log_y) {
   return {{kLeft_px, kPlotTop_px[index]}, kPlotWidth_px, kPlotHeight_px, {0.0, 100.0}, y, log_y};
 }
 
 using Value = std::function<double(const PathPoint&)>;
 
-// The curve of a value, broken where it is not finite; places nearer than kLeastAdvance_px to the last one are left out.
+// The curve of a value, broken where it is not finite; places nearer than kLeastAdvance_px to the last one are left
+// out.
 void draw_curve(Svg& svg, const Axes& axes, const PathReport& report, const Value& value, const Look& look) {
   std::vector<Pixel> run;
   for (const PathPoint& point : report.points) {
@@ -85,12 +86,13 @@ void draw_condition(Svg& svg, const PathReport& report) {
     high = std::max(high, value);
   }
   const bool any = high > 0.0;
-  const Axes axes = plot(1, any ? Range{low / 1.3, high * 1.3} : Range{1.0, 10.0}, true);
+  const Axes axes = plot(1, any ? AxisRange{low / 1.3, high * 1.3} : AxisRange{1.0, 10.0}, true);
   draw_axes(svg, axes, "", "condition number");
   draw_waypoints(svg, axes, report);
   draw_curve(svg, axes, report, condition_number, {.stroke = kLineColour, .width = 2.0});
   if (!any)
-    svg.text({kLeft_px + 10.0, kPlotTop_px[1] + 24.0}, "infinite all the way: some tip motion is not possible", {.colour = kWorstColour});
+    svg.text({kLeft_px + 10.0, kPlotTop_px[1] + 24.0}, "infinite all the way: some tip motion is not possible",
+             {.colour = kWorstColour});
 }
 
 // Which theta is nearest to its limit, as a strip of coloured runs.
@@ -104,7 +106,8 @@ void draw_strip(Svg& svg, const Axes& axes, const PathReport& report) {
     const double width_px = axes.at(100.0 * last_way, 0.0).x - from.x;
     svg.rectangle({from.x, from.y - kStrip_px}, width_px, kStrip_px, {.fill = theta_colour(theta), .opacity = 0.85});
     if (width_px >= kLabelRoom_px) {
-      svg.text({from.x + width_px / 2.0, from.y - 3.0}, "theta " + std::to_string(theta), {.size = 11.0, .anchor = "middle", .bold = true});
+      svg.text({from.x + width_px / 2.0, from.y - 3.0}, "theta " + std::to_string(theta),
+               {.size = 11.0, .anchor = "middle", .bold = true});
     }
     first = next;
   }
@@ -131,7 +134,8 @@ void draw_margins(Svg& svg, const RobotTable& table, const PathReport& report, s
   draw_strip(svg, axes, report);
   const PathPoint& worst = report.points[report.nearest_limit];
   mark_worst(svg, axes, worst, least_deg(worst),
-             "theta " + std::to_string(worst.nearest_theta) + ": " + short_number(least_deg(worst), 2) + " deg left" + percent(worst));
+             "theta " + std::to_string(worst.nearest_theta) + ": " + short_number(least_deg(worst), 2) + " deg left" +
+                 percent(worst));
 }
 
 void draw_theta_legend(Svg& svg, const RobotTable& table, std::uint32_t held_mask) {
@@ -167,7 +171,8 @@ std::string path_picture(const RobotConfig& robot, const PathReport& report, std
   Svg svg(kWidth_px, kHeight_px, title);
   svg.text({30.0, 34.0}, title, {.size = 20.0, .bold = true});
   svg.text({30.0, 56.0}, free_text(robot.table, held_mask) + ", " + std::to_string(report.waypoint_way.size()) +
-                             " waypoints, joint travel " + short_number(report.joint_travel_rad * kPerDegree, 1) + " deg");
+                             " waypoints, joint travel " + short_number(report.joint_travel_rad * kPerDegree, 1) +
+                             " deg");
   svg.text({30.0, 75.0}, "tip Jacobian, linear rows m/rad, angular rows rad/rad (weighed by 1 m)", {.size = 12.0});
   draw_singular_value(svg, report);
   draw_condition(svg, report);

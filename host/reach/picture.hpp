@@ -9,10 +9,11 @@
 
 namespace liana {
 
-// Top (x, y), side (x, z) and front (y, z) view of the region at one scale, in the base frame. The colour of a cell is the mean mobility of
-// the samples in it, over the whole depth of the view; the arm in `pose_rad` and the scene (may be null) are drawn to scale over it.
-std::string region_picture(const RobotConfig& robot, const SceneConfig* scene, const RegionRequest& request, const Region& region,
-                           const ThetaVector& pose_rad);
+// Top (x, y), side (x, z) and front (y, z) view of the region at one scale, in the base frame. The colour of a cell is
+// the mean mobility of the samples in it, over the whole depth of the view; the arm in `pose_rad` and the scene (may be
+// null) are drawn to scale over it.
+std::string region_picture(const RobotConfig& robot, const SceneConfig* scene, const RegionRequest& request,
+                           const Region& region, const ThetaVector& pose_rad);
 
 // Least singular value, condition number and limit margins over the way, the worst places marked.
 std::string path_picture(const RobotConfig& robot, const PathReport& report, std::uint32_t held_mask);

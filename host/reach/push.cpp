@@ -33,7 +33,7 @@ bool on_limit(const RobotTable& table, const ThetaVector& theta_rad, std::size_t
   return std::fabs(theta_rad[i]) >= theta_limit_rad(table, i) - kOnLimit_rad;
 }
 
-ThetaMask free_mask(const ArmPoint& point) {
+ThetaMask free_mask(const PointOnArm& point) {
   ThetaMask mask = 0;
   for (std::size_t i = 0; i < kMaxTheta; ++i) mask |= is_free(point, i) ? 1u << i : 0u;
   return mask;
@@ -56,7 +56,8 @@ void apply(const RobotTable& table, const ThetaVector& step, ThetaVector& theta_
 }
 
 // One step towards the target; thetas that would leave their limit are taken out and the rest is solved again.
-void step_towards(const RobotTable& table, const PointMotion& motion, ThetaMask active, const Vec3& error_m, ThetaVector& theta_rad) {
+void step_towards(const RobotTable& table, const PointMotion& motion, ThetaMask active, const Vec3& error_m,
+                  ThetaVector& theta_rad) {
   const double damping = dot(error_m, error_m) + kLeastDamping;
   for (int pass = 0; pass <= kMaxTheta; ++pass) {
     const ThetaVector step = damped_step(motion, active, error_m, damping);
@@ -66,7 +67,8 @@ void step_towards(const RobotTable& table, const PointMotion& motion, ThetaMask 
   }
 }
 
-// The direction that the thetas off their limits move the point least in, on the side of `direction`; `direction` where there is none.
+// The direction that the thetas off their limits move the point least in, on the side of `direction`; `direction` where
+// there is none.
 Vec3 wall_normal(const RobotTable& table, const PointMotion& motion, Eigen::Index dimensions, const Vec3& direction,
                  const ThetaVector& theta_rad) {
   ThetaJacobian J = view(motion.column, kMaxTheta);
@@ -75,20 +77,20 @@ Vec3 wall_normal(const RobotTable& table, const PointMotion& motion, Eigen::Inde
   }
   const Eigen::JacobiSVD<ThetaJacobian> svd(J, Eigen::ComputeFullU);
   if (svd.singularValues()[dimensions - 2] < 1e-6) return direction;  // too few ways to move: no wall
-  const Eigen::Vector3d across = svd.matrixU().col(dimensions - 1);    // a flat axis has the value 0 and comes behind
+  const Eigen::Vector3d across = svd.matrixU().col(dimensions - 1);   // a flat axis has the value 0 and comes behind
   const double side = across.dot(view(direction));
   return std::fabs(side) < 0.1 ? direction : scale({across[0], across[1], across[2]}, side > 0.0 ? 1.0 : -1.0);
 }
 
 }  // namespace
 
-bool is_free(const ArmPoint& point, std::size_t theta) {
+bool is_free(const PointOnArm& point, std::size_t theta) {
   return theta < static_cast<std::size_t>(2 * point.node) && (point.held_mask >> theta & 1u) == 0;
 }
 
 double theta_limit_rad(const RobotTable& table, std::size_t theta) { return table.segment[theta / 2].theta_limit_rad; }
 
-PointMotion point_motion(const RobotTable& table, const ArmPoint& point, const ThetaVector& theta_rad) {
+PointMotion point_motion(const RobotTable& table, const PointOnArm& point, const ThetaVector& theta_rad) {
   const ArmKinematics arm = forward_kinematics(table, theta_rad);
   PointMotion motion;
   motion.point_in_base_m = arm.node_in_base[static_cast<std::size_t>(point.node)].position_m;
@@ -103,7 +105,8 @@ PointMotion point_motion(const RobotTable& table, const ArmPoint& point, const T
   return motion;
 }
 
-bool reach_position(const RobotTable& table, const ArmPoint& point, const Vec3& target_in_base_m, ThetaVector& theta_rad) {
+bool reach_position(const RobotTable& table, const PointOnArm& point, const Vec3& target_in_base_m,
+                    ThetaVector& theta_rad) {
   const ThetaMask active = free_mask(point);
   ThetaVector trial = theta_rad;
   for (int iteration = 0; iteration < kReachIterations; ++iteration) {
@@ -118,7 +121,8 @@ bool reach_position(const RobotTable& table, const ArmPoint& point, const Vec3& 
   return false;
 }
 
-void push_along_ray(const RobotTable& table, const ArmPoint& point, const Vec3& origin_in_base_m, double sign, ThetaVector& theta_rad) {
+void push_along_ray(const RobotTable& table, const PointOnArm& point, const Vec3& origin_in_base_m, double sign,
+                    ThetaVector& theta_rad) {
   const Vec3 start_m = subtract(point_motion(table, point, theta_rad).point_in_base_m, origin_in_base_m);
   double distance_m = norm(start_m);
   if (distance_m < kPushResolution_m) return;
@@ -126,13 +130,14 @@ void push_along_ray(const RobotTable& table, const ArmPoint& point, const Vec3& 
   const auto target_m = [&](double along_m) { return add(origin_in_base_m, scale(ray, along_m)); };
   for (double step_m = kPushStep_m; step_m >= kPushResolution_m / 2.0; step_m /= 2.0) {
     // The arm's length bounds the number of steps outwards, the origin that inwards.
-    while (distance_m + sign * step_m >= 0.0 && reach_position(table, point, target_m(distance_m + sign * step_m), theta_rad)) {
+    while (distance_m + sign * step_m >= 0.0 &&
+           reach_position(table, point, target_m(distance_m + sign * step_m), theta_rad)) {
       distance_m += sign * step_m;
     }
   }
 }
 
-void climb(const RobotTable& table, const ArmPoint& point, const Vec3& direction, ThetaVector& theta_rad) {
+void climb(const RobotTable& table, const PointOnArm& point, const Vec3& direction, ThetaVector& theta_rad) {
   double step_m = kPushStep_m;
   for (int i = 0; i < kClimbSteps && step_m > 1e-6; ++i) {
     const PointMotion motion = point_motion(table, point, theta_rad);
@@ -147,7 +152,8 @@ void climb(const RobotTable& table, const ArmPoint& point, const Vec3& direction
     for (double& s : slope) s *= step_m / steepness;
     ThetaVector trial = theta_rad;
     apply(table, slope, trial);
-    const double gain_m = dot(subtract(point_motion(table, point, trial).point_in_base_m, motion.point_in_base_m), direction);
+    const double gain_m =
+        dot(subtract(point_motion(table, point, trial).point_in_base_m, motion.point_in_base_m), direction);
     if (gain_m > 0.0) {
       theta_rad = trial;
       step_m *= 1.5;
@@ -157,12 +163,14 @@ void climb(const RobotTable& table, const ArmPoint& point, const Vec3& direction
   }
 }
 
-std::uint32_t binding_limits(const RobotTable& table, const ArmPoint& point, const Vec3& direction, const ThetaVector& theta_rad) {
+std::uint32_t binding_limits(const RobotTable& table, const PointOnArm& point, const Vec3& direction,
+                             const ThetaVector& theta_rad) {
   const PointMotion motion = point_motion(table, point, theta_rad);
   const Vec3 normal = wall_normal(table, motion, point.flat_axis < 0 ? 3 : 2, direction, theta_rad);
   std::uint32_t mask = 0;
   for (std::size_t i = 0; i < kMaxTheta; ++i) {
-    if (is_free(point, i) && on_limit(table, theta_rad, i) && dot(motion.column[i], normal) * theta_rad[i] > 1e-9) mask |= 1u << i;
+    if (is_free(point, i) && on_limit(table, theta_rad, i) && dot(motion.column[i], normal) * theta_rad[i] > 1e-9)
+      mask |= 1u << i;
   }
   return mask;
 }

@@ -3,8 +3,8 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
-#include "host/operator/random.hpp"
 #include "host/algebra/thetas.hpp"
+#include "host/operator/random.hpp"
 
 namespace liana {
 namespace {
@@ -36,12 +36,13 @@ Samples draw_samples(const RaySearch& search, const RegionRequest& request) {
   RandomStream random(request.seed, kSampleStream);
   Samples samples;
   samples.reserve(static_cast<std::size_t>(request.samples));
-  for (std::int32_t i = 0; i < request.samples; ++i) samples.push_back(sample_at(search, draw(search.table, request, i, random)));
+  for (std::int32_t i = 0; i < request.samples; ++i)
+    samples.push_back(sample_at(search, draw(search.table, request, i, random)));
   return samples;
 }
 
 // Segments at the root whose thetas are all held.
-std::int32_t still_segments(const ArmPoint& point) {
+std::int32_t still_segments(const PointOnArm& point) {
   std::int32_t count = 0;
   while (count + 1 < point.node && !is_free(point, static_cast<std::size_t>(2 * count)) &&
          !is_free(point, static_cast<std::size_t>(2 * count + 1)))
@@ -73,8 +74,9 @@ Samples climb_from_best(const RaySearch& search, const Samples& samples, std::si
   std::vector<const ReachSample*> order;
   for (const ReachSample& sample : samples) order.push_back(&sample);
   const std::size_t starts = std::min(order.size(), kClimbStarts);
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(starts), order.end(),
-                    [&](auto* a, auto* b) { return sign * (a->point_in_base_m[axis] - b->point_in_base_m[axis]) > 0.0; });
+  std::partial_sort(
+      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(starts), order.end(),
+      [&](auto* a, auto* b) { return sign * (a->point_in_base_m[axis] - b->point_in_base_m[axis]) > 0.0; });
   Vec3 direction{};
   direction[axis] = sign;
   Samples found;
@@ -150,14 +152,16 @@ void count_binding(const RobotTable& table, Region& region) {
 Region explore_region(const RobotTable& table, const RegionRequest& request) {
   Region region;
   const std::int32_t still = still_segments(request.point);
-  region.origin_in_base_m = forward_kinematics(table, request.held_rad).node_in_base[static_cast<std::size_t>(still)].position_m;
+  region.origin_in_base_m =
+      forward_kinematics(table, request.held_rad).node_in_base[static_cast<std::size_t>(still)].position_m;
   region.length_m = length_between(table, still, request.point.node);
   const RaySearch search{table, request.point, region.origin_in_base_m};
   Samples samples = draw_samples(search, request);
   describe_samples(samples, region);
   region.extent_m = find_extent(search, samples);
   region.bins = find_boundary(search, samples);
-  for (std::int32_t axis = 0; axis < 3; ++axis) region.outline[static_cast<std::size_t>(axis)] = find_outline(search, axis, samples);
+  for (std::int32_t axis = 0; axis < 3; ++axis)
+    region.outline[static_cast<std::size_t>(axis)] = find_outline(search, axis, samples);
   describe_distances(samples, region);
   count_binding(table, region);
   return region;

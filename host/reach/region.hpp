@@ -1,12 +1,15 @@
-// The region that the tip or a node can reach: sampled, then pushed out to its boundary in every direction seen from the base.
+// The region that the tip or a node can reach: sampled, then pushed out to its boundary in every direction seen from
+// the base.
 //
-// Sampling: sample 0 has all free thetas at 0; then evenly spread samples alternate with straighter ones (all free thetas times one common
-// factor 0..1), seeded and in fixed order. Directions are seen from the origin: the root of the first segment with a free theta, which is
-// the base unless the arm's root is held. They are binned by the polar angle from base x (15 deg) and the azimuth about it (15 deg at the
-// equator, fewer near the poles, symmetric about y and z). In every bin the outermost and innermost samples are pushed along their rays
-// (push.hpp) until the solver cannot follow. Every boundary point is reached by angles within limits, so the true region is never smaller
-// than what is reported; it can be larger where no start led further, and a bin hides what is finer than 15 deg. Holes between the inner
-// and the outer boundary are not looked for. Only joint limits count: neither obstacles nor the arm's own body take anything away.
+// Sampling: sample 0 has all free thetas at 0; then evenly spread samples alternate with straighter ones (all free
+// thetas times one common factor 0..1), seeded and in fixed order. Directions are seen from the origin: the root of the
+// first segment with a free theta, which is the base unless the arm's root is held. They are binned by the polar angle
+// from base x (15 deg) and the azimuth about it (15 deg at the equator, fewer near the poles, symmetric about y and z).
+// In every bin the outermost and innermost samples are pushed along their rays (push.hpp) until the solver cannot
+// follow. Every boundary point is reached by angles within limits, so the true region is never smaller than what is
+// reported; it can be larger where no start led further, and a bin hides what is finer than 15 deg. Holes between the
+// inner and the outer boundary are not looked for. Only joint limits count: neither obstacles nor the arm's own body
+// take anything away.
 #pragma once
 
 #include <array>
@@ -22,7 +25,7 @@ constexpr std::int32_t kMinSamples = 1000;
 constexpr std::int32_t kMaxSamples = 1000000;
 
 struct RegionRequest {
-  ArmPoint point{};
+  PointOnArm point{};
   ThetaVector held_rad{};    // where held thetas are
   std::int32_t samples = 0;  // kMinSamples..kMaxSamples
   std::uint64_t seed = 1;
@@ -31,7 +34,8 @@ struct RegionRequest {
 // One place that was reached.
 struct ReachedPoint {
   Vec3 point_in_base_m{};
-  double mobility_m_per_rad = 0.0;  // travel per radian of the free thetas (root sum of squares) in the worst direction of the region
+  double mobility_m_per_rad =
+      0.0;  // travel per radian of the free thetas (root sum of squares) in the worst direction of the region
 };
 
 struct Region {
@@ -49,7 +53,8 @@ struct Region {
   double outer_stretched_share = 0.0;                   // where no limit does
 };
 
-// Explores the region. The point must have at least one free theta. Cost: about 4 us a sample and 1 s for the boundary on one core.
+// Explores the region. The point must have at least one free theta. Cost: about 4 us a sample and 1 s for the boundary
+// on one core.
 Region explore_region(const RobotTable& table, const RegionRequest& request);
 
 }  // namespace liana

@@ -15,7 +15,7 @@ constexpr double kLeft_px = 70.0, kTop_px = 80.0, kGap_px = 80.0, kBottom_px = 6
 constexpr double kLegendWidth_px = 480.0, kLegendHeight_px = 470.0;
 constexpr double kRow_px = 21.0;
 
-using Space = std::array<Range, 3>;
+using Space = std::array<AxisRange, 3>;
 
 void include(Space& space, const Vec3& low_m, const Vec3& high_m) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -25,7 +25,8 @@ void include(Space& space, const Vec3& low_m, const Vec3& high_m) {
 }
 
 // What the views must show: base, region, arm and scene.
-Space shown_space(const RobotConfig& robot, const SceneConfig* scene, const Region& region, const ThetaVector& pose_rad) {
+Space shown_space(const RobotConfig& robot, const SceneConfig* scene, const Region& region,
+                  const ThetaVector& pose_rad) {
   Space space;
   space.fill({-kBorder_m, kBorder_m});
   include(space, region.extent_m[0], region.extent_m[1]);
@@ -46,7 +47,7 @@ Space shown_space(const RobotConfig& robot, const SceneConfig* scene, const Regi
   return space;
 }
 
-double length(const Range& range) { return range.high - range.low; }
+double length(const AxisRange& range) { return range.high - range.low; }
 
 // Top view above the side view, front view right of it, as in a technical drawing.
 struct Layout {
@@ -70,7 +71,7 @@ Layout lay_out(const Space& space) {
   return layout;
 }
 
-std::string point_name(const RobotTable& table, const ArmPoint& point) {
+std::string point_name(const RobotTable& table, const PointOnArm& point) {
   return point.node == table.segment_count ? "the tip" : "node " + std::to_string(point.node);
 }
 
@@ -97,11 +98,13 @@ std::string binding_text(const RobotTable& table, const Region& region) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
     if (region.outer_binding_share[i] > 0.0) order.push_back(i);
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return region.outer_binding_share[a] > region.outer_binding_share[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return region.outer_binding_share[a] > region.outer_binding_share[b];
+  });
   std::string text;
   for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), 3); ++k) {
-    text += "theta " + std::to_string(order[k] + 1) + " " + short_number(100.0 * region.outer_binding_share[order[k]], 0) + " %, ";
+    text += "theta " + std::to_string(order[k] + 1) + " " +
+            short_number(100.0 * region.outer_binding_share[order[k]], 0) + " %, ";
   }
   return text + "no limit " + short_number(100.0 * region.outer_stretched_share, 0) + " %";
 }
@@ -143,8 +146,8 @@ void describe_heat(Legend& legend, double top) {
   legend.words("cells: travel in the worst direction (m/rad), mean over the depth");
   for (std::size_t i = 0; i < kHeatClasses; ++i) {
     const double step = top / kHeatClasses;
-    legend.swatch({.fill = kHeatColours[i]},
-                  short_number(static_cast<double>(i) * step, 2) + " .. " + short_number(static_cast<double>(i + 1) * step, 2));
+    legend.swatch({.fill = kHeatColours[i]}, short_number(static_cast<double>(i) * step, 2) + " .. " +
+                                                 short_number(static_cast<double>(i + 1) * step, 2));
   }
 }
 
@@ -171,15 +174,16 @@ void describe_objects(Legend& legend, const SceneConfig* scene, const std::strin
     legend.swatch({.fill = colour, .stroke = colour, .opacity = 0.5},
                   scene->boxes[i].name + (i == 0 && scene->slit ? " (the slit is between the plates)" : ""));
   }
-  for (const SceneSphere& sphere : scene->spheres) legend.dot({.fill = kSphereColour, .opacity = 0.55}, 7.0, sphere.name);
+  for (const SceneSphere& sphere : scene->spheres)
+    legend.dot({.fill = kSphereColour, .opacity = 0.55}, 7.0, sphere.name);
   if (scene->rod) legend.dot({.stroke = kRodColour, .width = 2.0}, 7.0, "press rod, inside the ring");
 }
 
 void describe_region(Legend& legend, const RobotTable& table, const RegionRequest& request, const Region& region) {
   legend.heading("In figures");
   legend.words("extent: " + extent_text(region));
-  legend.words("distance from " + origin_text(region) + ": " + metres(region.nearest_m) + " .. " + metres(region.farthest_m) +
-               " m (straight arm " + metres(region.length_m) + " m)");
+  legend.words("distance from " + origin_text(region) + ": " + metres(region.nearest_m) + " .. " +
+               metres(region.farthest_m) + " m (straight arm " + metres(region.length_m) + " m)");
   legend.words("binds at the outer boundary: " + binding_text(table, region));
   legend.words("joint limits only: obstacles take nothing away");
   legend.words(std::to_string(request.samples) + " samples, seed " + std::to_string(request.seed));
@@ -191,23 +195,26 @@ std::string held_text(const RobotTable& table, std::uint32_t held_mask, const Th
   std::string text;
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
     if ((held_mask >> i & 1u) == 0) continue;
-    text += (text.empty() ? "" : ", ") + ("theta " + std::to_string(i + 1)) + " = " + short_number(held_rad[i] * kPerDegree, 3);
+    text += (text.empty() ? "" : ", ") + ("theta " + std::to_string(i + 1)) + " = " +
+            short_number(held_rad[i] * kPerDegree, 3);
   }
   return text.empty() ? "none" : text + " deg";
 }
 
-std::string region_picture(const RobotConfig& robot, const SceneConfig* scene, const RegionRequest& request, const Region& region,
-                           const ThetaVector& pose_rad) {
+std::string region_picture(const RobotConfig& robot, const SceneConfig* scene, const RegionRequest& request,
+                           const Region& region, const ThetaVector& pose_rad) {
   const Space space = shown_space(robot, scene, region, pose_rad);
   const Layout layout = lay_out(space);
   const std::string point = point_name(robot.table, request.point);
   const std::string title = "Where " + point + " of " + robot.name + " can go";
   Svg svg(layout.width_px, layout.height_px, title);
   svg.text({kLeft_px - 40.0, 34.0}, title, {.size = 20.0, .bold = true});
-  svg.text({kLeft_px - 40.0, 56.0}, "held: " + held_text(robot.table, request.point.held_mask, request.held_rad), {.size = 13.0});
+  svg.text({kLeft_px - 40.0, 56.0}, "held: " + held_text(robot.table, request.point.held_mask, request.held_rad),
+           {.size = 13.0});
 
   constexpr std::array kAxisTitles{"x (m)", "y (m)", "z (m)"};
-  constexpr std::array kViewNames{"front view, from +x", "side view, from -y", "top view, from +z"};  // by the axis that is looked along
+  constexpr std::array kViewNames{"front view, from +x", "side view, from -y",
+                                  "top view, from +z"};  // by the axis that is looked along
   const std::array<const View*, 3> views{&layout.front, &layout.side, &layout.top};
   std::array<std::map<Cell, double>, 3> cells;
   double top = 0.0;
@@ -224,7 +231,8 @@ std::string region_picture(const RobotConfig& robot, const SceneConfig* scene, c
     draw_binding(svg, view, region.outline[i]);
     if (scene != nullptr) draw_scene(svg, view, *scene);
     draw_arm(svg, view, robot, pose_rad, request.point.node);
-    svg.text({view.axes.corner.x + 8.0, view.axes.corner.y + 18.0}, kViewNames[i], {.size = 13.0, .bold = true, .halo = true});
+    svg.text({view.axes.corner.x + 8.0, view.axes.corner.y + 18.0}, kViewNames[i],
+             {.size = 13.0, .bold = true, .halo = true});
   }
   Legend legend(svg, layout.legend);
   describe_heat(legend, top);

@@ -16,7 +16,8 @@ double pixels_per_m(const View& view) { return view.axes.width / (view.axes.x.hi
 
 // Corners of the convex hull, in order (Andrew's monotone chain).
 std::vector<Pixel> convex_hull(std::vector<Pixel> points) {
-  std::sort(points.begin(), points.end(), [](const Pixel& a, const Pixel& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  std::sort(points.begin(), points.end(),
+            [](const Pixel& a, const Pixel& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   const auto left_turn = [](const Pixel& a, const Pixel& b, const Pixel& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0.0;
   };
@@ -40,14 +41,17 @@ std::size_t heat_class(double value, double top) {
 
 }  // namespace
 
-std::string_view theta_colour(std::int32_t theta) { return kThetaColours[static_cast<std::size_t>(theta - 1) % kThetaColours.size()]; }
+std::string_view theta_colour(std::int32_t theta) {
+  return kThetaColours[static_cast<std::size_t>(theta - 1) % kThetaColours.size()];
+}
 
 std::array<Vec3, 8> box_corners(const SceneBox& box) {
   std::array<Vec3, 8> corners;
   for (std::size_t i = 0; i < 8; ++i) {
     corners[i] = box.center_m;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      corners[i] = add(corners[i], scale(box.rotation[axis], i >> axis & 1u ? box.half_extent_m[axis] : -box.half_extent_m[axis]));
+      corners[i] = add(corners[i],
+                       scale(box.rotation[axis], i >> axis & 1u ? box.half_extent_m[axis] : -box.half_extent_m[axis]));
     }
   }
   return corners;
@@ -76,8 +80,10 @@ void draw_heat(Svg& svg, const View& view, const std::map<Cell, double>& cells, 
     const auto [row, first] = cell->first;
     const std::size_t kind = heat_class(cell->second, top_m_per_rad);
     int column = first;
-    while (cell != cells.end() && cell->first == Cell{row, column} && heat_class(cell->second, top_m_per_rad) == kind) ++cell, ++column;
-    bars[kind].push_back({{view.axes.corner.x + first * kHeatCell_px, view.axes.corner.y + view.axes.height - (row + 0.5) * kHeatCell_px},
+    while (cell != cells.end() && cell->first == Cell{row, column} && heat_class(cell->second, top_m_per_rad) == kind)
+      ++cell, ++column;
+    bars[kind].push_back({{view.axes.corner.x + first * kHeatCell_px,
+                           view.axes.corner.y + view.axes.height - (row + 0.5) * kHeatCell_px},
                           (column - first) * kHeatCell_px});
   }
   for (std::size_t kind = 0; kind < kHeatClasses; ++kind) svg.bars(bars[kind], kHeatCell_px, kHeatColours[kind]);
@@ -85,9 +91,10 @@ void draw_heat(Svg& svg, const View& view, const std::map<Cell, double>& cells, 
 
 void draw_outline(Svg& svg, const View& view, const Outline& outline, const Look& look) {
   const auto pixel = [&](const std::array<double, 2>& place_m) { return view.axes.at(place_m[0], place_m[1]); };
-  const auto gap =
-      static_cast<std::size_t>(std::find_if(outline.begin(), outline.end(), [](auto& s) { return !s.seen; }) - outline.begin());
-  // Runs of neighbouring sectors: out along the outer ends, back along the inner ones. Counting starts behind a gap, if there is one.
+  const auto gap = static_cast<std::size_t>(
+      std::find_if(outline.begin(), outline.end(), [](auto& s) { return !s.seen; }) - outline.begin());
+  // Runs of neighbouring sectors: out along the outer ends, back along the inner ones. Counting starts behind a gap, if
+  // there is one.
   std::vector<Pixel> there, back;
   const auto close_run = [&] {
     there.insert(there.end(), back.rbegin(), back.rend());
@@ -132,7 +139,8 @@ void draw_scene(Svg& svg, const View& view, const SceneConfig& scene) {
     svg.polygon(convex_hull(corners), {.stroke = colour, .width = 1.2});
   }
   for (const SceneSphere& sphere : scene.spheres) {
-    svg.circle(view.at(sphere.center_m), sphere.radius_m * pixels_per_m(view), {.fill = kSphereColour, .opacity = 0.55});
+    svg.circle(view.at(sphere.center_m), sphere.radius_m * pixels_per_m(view),
+               {.fill = kSphereColour, .opacity = 0.55});
   }
   if (!scene.rod) return;
   const Pixel rod = view.at(scene.rod->pose.position_m);
@@ -140,10 +148,12 @@ void draw_scene(Svg& svg, const View& view, const SceneConfig& scene) {
   svg.circle(rod, kRing_px, {.stroke = kRodColour, .width = 2.0});
 }
 
-void draw_arm(Svg& svg, const View& view, const RobotConfig& robot, const ThetaVector& theta_rad, std::int32_t marked_node) {
+void draw_arm(Svg& svg, const View& view, const RobotConfig& robot, const ThetaVector& theta_rad,
+              std::int32_t marked_node) {
   const LinkPoints links = link_points(robot.table, theta_rad);
   std::vector<Pixel> line;
-  for (std::int32_t i = 0; i < links.count; ++i) line.push_back(view.at(links.point_in_base[static_cast<std::size_t>(i)]));
+  for (std::int32_t i = 0; i < links.count; ++i)
+    line.push_back(view.at(links.point_in_base[static_cast<std::size_t>(i)]));
   const double width_px = std::max(kLeastArm_px, 2.0 * robot.module_radius_m * pixels_per_m(view));
   svg.polyline(line, {.stroke = kArmColour, .width = width_px});
   const ArmKinematics arm = forward_kinematics(robot.table, theta_rad);

@@ -29,7 +29,8 @@ std::map<Cell, double> heat_cells(const View& view, const std::vector<ReachedPoi
 
 // Classes of mobility, from 0 to the largest mean.
 constexpr std::size_t kHeatClasses = 5;
-constexpr std::array<std::string_view, kHeatClasses> kHeatColours{"#deebf7", "#b3d3ec", "#7fb8de", "#3f8fc5", "#1f65a3"};
+constexpr std::array<std::string_view, kHeatClasses> kHeatColours{"#deebf7", "#b3d3ec", "#7fb8de", "#3f8fc5",
+                                                                  "#1f65a3"};
 
 // Cells in the colour of their class; `top_m_per_rad` is the upper end of the highest one.
 void draw_heat(Svg& svg, const View& view, const std::map<Cell, double>& cells, double top_m_per_rad);
@@ -40,7 +41,8 @@ void draw_outline(Svg& svg, const View& view, const Outline& outline, const Look
 // Boxes (first, second, ... in fixed colours), spheres and the rod with a ring around it.
 void draw_scene(Svg& svg, const View& view, const SceneConfig& scene);
 // Links as one thick line, nodes as dots, base and tip marked.
-void draw_arm(Svg& svg, const View& view, const RobotConfig& robot, const ThetaVector& theta_rad, std::int32_t marked_node);
+void draw_arm(Svg& svg, const View& view, const RobotConfig& robot, const ThetaVector& theta_rad,
+              std::int32_t marked_node);
 
 constexpr std::string_view kRegionColour = "#eef4fa";
 constexpr std::string_view kOutlineColour = "#17436b";

@@ -12,7 +12,7 @@ namespace {
 volatile std::sig_atomic_t g_stop = 0;
 void on_signal(int) { g_stop = 1; }
 
-liana::RecordingInfo info_from(const Json& welcome) {
+liana::RecordingInfo info_from(const liana::Json& welcome) {
   if (welcome.value("op", "") != "welcome") throw std::runtime_error("lianad refused the archive: " + welcome.dump());
   return {welcome.at("config_hash"),  welcome.at("robot").dump(), welcome.at("scene").dump(),
           welcome.at("buses").dump(), welcome.at("time_mode"),    welcome.at("period_s")};
@@ -27,15 +27,19 @@ void record_until_end(liana::ApiClient& client, liana::Recording& recording) {
       recording.take(packet);
       continue;
     }
-    const Json message = Json::parse(packet);
+    const liana::Json message = liana::Json::parse(packet);
     if (message.value("op", "") == "state") client.send({{"op", "done"}, {"tick", message.at("tick")}});
   }
 }
 
 int run(const std::string& api, const std::string& directory) {
   liana::ApiClient client = liana::ApiClient::connect(api, 10.0);
-  client.send({{"op", "hello"}, {"name", "archive"}, {"role", "archive"}, {"lockstep", true}, {"subscribe", {"tick", "state"}}});
-  const std::optional<Json> welcome = client.receive(30.0);
+  client.send({{"op", "hello"},
+               {"name", "archive"},
+               {"role", "archive"},
+               {"lockstep", true},
+               {"subscribe", {"tick", "state"}}});
+  const std::optional<liana::Json> welcome = client.receive(30.0);
   if (!welcome) throw std::runtime_error("lianad did not answer the archive's hello within 30 s");
   liana::Recording recording(directory, info_from(*welcome));
   try {
@@ -44,8 +48,8 @@ int run(const std::string& api, const std::string& directory) {
     std::fprintf(stderr, "liana-archive: %s; finishing the recording\n", gone.what());
   }
   recording.finish();
-  std::printf("liana-archive: %llu ticks in %s/%s, %llu dropped\n", static_cast<unsigned long long>(recording.ticks()), directory.c_str(),
-              liana::kRecordingFile, static_cast<unsigned long long>(recording.dropped()));
+  std::printf("liana-archive: %llu ticks in %s/%s, %llu dropped\n", static_cast<unsigned long long>(recording.ticks()),
+              directory.c_str(), liana::kRecordingFile, static_cast<unsigned long long>(recording.dropped()));
   return 0;
 }
 

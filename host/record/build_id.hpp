@@ -5,7 +5,8 @@
 
 namespace liana {
 
-// SHA-256 over the core's sources, and the compiler: two builds with the same id understand each other's controller images.
+// SHA-256 over the core's sources, and the compiler: two builds with the same id understand each other's controller
+// images.
 std::string build_id();
 
 }  // namespace liana

@@ -1,4 +1,5 @@
-// Little-endian writing and reading of visited fields: the form of recordings and of every bit comparison. Never memory images.
+// Little-endian writing and reading of visited fields: the form of recordings and of every bit comparison. Never memory
+// images.
 #pragma once
 
 #include <array>
@@ -38,7 +39,8 @@ class Writer {
   void operator()(const char*, const T& value) {
     const auto bits = bits_of(value);
     std::array<char, sizeof bits> bytes{};
-    for (std::size_t i = 0; i < sizeof bits; ++i) bytes[i] = static_cast<char>(static_cast<std::uint8_t>(bits >> (8 * i)));
+    for (std::size_t i = 0; i < sizeof bits; ++i)
+      bytes[i] = static_cast<char>(static_cast<std::uint8_t>(bits >> (8 * i)));
     out_.append(bytes.data(), bytes.size());
   }
   template <class T, std::size_t N>
@@ -61,9 +63,11 @@ class Reader {
   template <Scalar T>
   void operator()(const char* name, T& value) {
     using Bits = decltype(bits_of(value));
-    if (in_.size() - at_ < sizeof(Bits)) throw std::runtime_error(std::string("recording: data end inside field ") + name);
+    if (in_.size() - at_ < sizeof(Bits))
+      throw std::runtime_error(std::string("recording: data end inside field ") + name);
     std::uint64_t bits = 0;
-    for (std::size_t i = 0; i < sizeof(Bits); ++i) bits |= static_cast<std::uint64_t>(static_cast<std::uint8_t>(in_[at_ + i])) << (8 * i);
+    for (std::size_t i = 0; i < sizeof(Bits); ++i)
+      bits |= static_cast<std::uint64_t>(static_cast<std::uint8_t>(in_[at_ + i])) << (8 * i);
     at_ += sizeof(Bits);
     if constexpr (std::is_same_v<T, double>) {
       value = std::bit_cast<double>(bits);

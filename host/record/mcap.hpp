@@ -25,8 +25,8 @@ class McapWriter {
   std::uint16_t add_channel(const std::string& topic, const std::string& encoding, const std::string& schema_text);
   void add_metadata(const std::string& name, const std::map<std::string, std::string>& values);
   void write_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data);
-  // Ends the file properly, with the checksums of the format (data section, summary); throws std::runtime_error when the disk refused any
-  // write. A file without it can still be read.
+  // Ends the file properly, with the checksums of the format (data section, summary); throws std::runtime_error when
+  // the disk refused any write. A file without it can still be read.
   void finish();
 
  private:
@@ -46,7 +46,8 @@ class McapWriter {
 
 // What a reader calls; unset members are skipped.
 struct McapVisitor {
-  std::function<void(const std::string& topic, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data)> message;
+  std::function<void(const std::string& topic, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data)>
+      message;
   std::function<void(const std::string& name, const std::map<std::string, std::string>& values)> metadata;
 };
 
@@ -56,8 +57,8 @@ enum class McapState : std::uint8_t {
   kDamaged,   // some byte is not as it was written
 };
 
-// Reads a whole file in order and visits what is there, damaged or not. Throws std::runtime_error when it cannot be opened, is no MCAP
-// file, or is damaged so that its records cannot be told apart.
+// Reads a whole file in order and visits what is there, damaged or not. Throws std::runtime_error when it cannot be
+// opened, is no MCAP file, or is damaged so that its records cannot be told apart.
 McapState read_mcap(const std::string& path, const McapVisitor& visitor);
 
 }  // namespace liana

@@ -24,7 +24,8 @@ enum Opcode : std::uint8_t {
 
 constexpr std::size_t kFooterBytes = 20;  // summary start, summary offset start, summary CRC
 
-// The footer's own checksum: from the start of the summary (here empty: of the footer record) up to the checksum itself.
+// The footer's own checksum: from the start of the summary (here empty: of the footer record) up to the checksum
+// itself.
 inline std::uint32_t summary_crc(std::string_view footer_before_crc) {
   std::string bytes{static_cast<char>(kFooter), static_cast<char>(kFooterBytes)};
   bytes.append(7, '\0');  // the rest of the record's 64-bit length

@@ -44,7 +44,8 @@ class Cursor {
   Reader reader_;
 };
 
-void visit_record(std::uint8_t opcode, std::string_view content, const McapVisitor& visitor, std::map<std::uint16_t, std::string>& topics) {
+void visit_record(std::uint8_t opcode, std::string_view content, const McapVisitor& visitor,
+                  std::map<std::uint16_t, std::string>& topics) {
   Cursor cursor(content);
   if (opcode == mcap::kChannel) {
     const auto id = cursor.take<std::uint16_t>();

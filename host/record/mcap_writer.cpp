@@ -32,8 +32,11 @@ void put_map(std::string& out, const std::map<std::string, std::string>& values)
 
 }  // namespace
 
-McapWriter::McapWriter(const std::string& path, const std::string& library) : file_(std::fopen(path.c_str(), "wb")), path_(path) {
-  if (!file_) throw std::runtime_error("recording " + path + ": " + std::strerror(errno) + "; the folder must exist and be writable");
+McapWriter::McapWriter(const std::string& path, const std::string& library)
+    : file_(std::fopen(path.c_str(), "wb")), path_(path) {
+  if (!file_)
+    throw std::runtime_error("recording " + path + ": " + std::strerror(errno) +
+                             "; the folder must exist and be writable");
   write(mcap::kMagic);
   std::string content;
   put_text(content, "liana");
@@ -56,7 +59,8 @@ void McapWriter::record(std::uint8_t opcode, std::string_view content) {
   write(buffer_);
 }
 
-std::uint16_t McapWriter::add_channel(const std::string& topic, const std::string& encoding, const std::string& schema_text) {
+std::uint16_t McapWriter::add_channel(const std::string& topic, const std::string& encoding,
+                                      const std::string& schema_text) {
   const std::uint16_t id = ++channels_;
   std::string schema;
   put(schema, id);
@@ -81,7 +85,8 @@ void McapWriter::add_metadata(const std::string& name, const std::map<std::strin
   record(mcap::kMetadata, content);
 }
 
-void McapWriter::write_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data) {
+void McapWriter::write_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns,
+                               std::string_view data) {
   std::string content;
   content.reserve(data.size() + 22);
   put(content, channel);

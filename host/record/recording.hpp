@@ -1,6 +1,6 @@
-// The recording of a run. DIR/ticks.mcap (channels start, inputs, outputs) holds all that a replay needs, and is the same byte for byte
-// when a run is repeated. DIR/images.mcap (channel controller_image), which makes it seekable, is so, too: a Controller has no byte left to
-// chance.
+// The recording of a run. DIR/ticks.mcap (channels start, inputs, outputs) holds all that a replay needs, and is the
+// same byte for byte when a run is repeated. DIR/images.mcap (channel controller_image), which makes it seekable, is
+// so, too: a Controller has no byte left to chance.
 #pragma once
 
 #include <cstdint>

@@ -21,21 +21,27 @@ using Images = std::map<std::uint64_t, std::string>;  // controller_image messag
 
 // No checksum vouches for a file that was cut short: what sizes the core's loops is looked at before the core sees it.
 void require_plausible(const RobotTable& table, const std::string& directory) {
-  const auto within = [](std::int32_t value, std::int32_t least, std::int32_t most) { return value >= least && value <= most; };
+  const auto within = [](std::int32_t value, std::int32_t least, std::int32_t most) {
+    return value >= least && value <= most;
+  };
   bool plausible = within(table.segment_count, 1, kMaxSegments) && table.interval_ticks > 0;
   for (std::size_t m = 0; plausible && m < static_cast<std::size_t>(table.segment_count); ++m) {
-    plausible = within(table.segment[m].modules, 1, kMaxModules) && within(table.segment[m].cables, 3, kMaxSegmentCables);
+    plausible =
+        within(table.segment[m].modules, 1, kMaxModules) && within(table.segment[m].cables, 3, kMaxSegmentCables);
   }
   if (!plausible)
-    throw std::runtime_error("recording " + directory + ": damaged: its robot table makes no sense; take a good copy of the file");
+    throw std::runtime_error("recording " + directory +
+                             ": damaged: its robot table makes no sense; take a good copy of the file");
 }
 
-// Throws std::runtime_error when a byte of the file is not as it was written; true when the file is whole, false when it was cut short.
+// Throws std::runtime_error when a byte of the file is not as it was written; true when the file is whole, false when
+// it was cut short.
 bool require_undamaged(const std::string& file) {
   const McapState state = read_mcap(file, {});
   if (state == McapState::kDamaged) {
-    throw std::runtime_error("recording " + file +
-                             ": damaged: its bytes do not match the checksum they were written with; take a good copy of the file");
+    throw std::runtime_error(
+        "recording " + file +
+        ": damaged: its bytes do not match the checksum they were written with; take a good copy of the file");
   }
   return state == McapState::kWhole;
 }
@@ -90,7 +96,9 @@ class Replayer {
   void inputs(std::string_view data) {
     expected_.clear();
     const Inputs in = RecordingDecoder::inputs(data);
-    const bool follows = controller_ && in.tick == next_tick_ + in.lost_ticks;  // deadlines that were lost are no gap: the core had no tick
+    const bool follows =
+        controller_ &&
+        in.tick == next_tick_ + in.lost_ticks;  // deadlines that were lost are no gap: the core had no tick
     if (!follows && !resume_at(in.tick)) {
       ++result_.missing_ticks;
       return;
@@ -126,13 +134,17 @@ ReplayResult replay(const std::string& directory) {
   result.complete = require_undamaged(file);
   Replayer replayer(result, directory);
   McapVisitor visitor;
-  visitor.message = [&](const std::string& topic, std::uint32_t, std::uint64_t, std::string_view data) { replayer.take(topic, data); };
-  visitor.metadata = [&](const std::string&, const std::map<std::string, std::string>& values) { replayer.metadata(values); };
+  visitor.message = [&](const std::string& topic, std::uint32_t, std::uint64_t, std::string_view data) {
+    replayer.take(topic, data);
+  };
+  visitor.metadata = [&](const std::string&, const std::map<std::string, std::string>& values) {
+    replayer.metadata(values);
+  };
   read_mcap(file, visitor);
   if (!replayer.started())
-    throw std::runtime_error(
-        "recording " + directory +
-        ": holds no start that this build can use: the run ended before the core started, or another build recorded it in mid-run");
+    throw std::runtime_error("recording " + directory +
+                             ": holds no start that this build can use: the run ended before the core started, or "
+                             "another build recorded it in mid-run");
   return result;
 }
 

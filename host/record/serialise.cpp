@@ -37,7 +37,8 @@ Inputs RecordingDecoder::inputs(std::string_view bytes) {
   visit(reader, inputs);
   visit(reader, fields);
   check_length(reader.position(), bytes.size(), "inputs");
-  inputs.telecommand = Telecommand(fields.sequence, fields.first_tick, fields.expiry_tick, fields.owner, fields.setpoint);
+  inputs.telecommand =
+      Telecommand(fields.sequence, fields.first_tick, fields.expiry_tick, fields.owner, fields.setpoint);
   return inputs;
 }
 

@@ -18,7 +18,8 @@ std::string tick_packet(const TickRecord& record, std::uint64_t dropped) {
   return out;
 }
 
-std::string image_packet(std::uint64_t next_tick, bool fresh, const RobotTable& table, std::string_view controller_bytes) {
+std::string image_packet(std::uint64_t next_tick, bool fresh, const RobotTable& table,
+                         std::string_view controller_bytes) {
   std::string out;
   Writer writer(out);
   writer("kind", TickPacket::kImage);
@@ -32,7 +33,8 @@ std::string image_packet(std::uint64_t next_tick, bool fresh, const RobotTable& 
 TickParts split_tick_packet(std::string_view packet) {
   constexpr std::size_t kHead = 9;
   if (packet.size() != kHead + serialised_inputs_size() + serialised_outputs_size()) {
-    throw std::runtime_error("tick packet of " + std::to_string(packet.size()) + " bytes: lianad and archive are of different versions");
+    throw std::runtime_error("tick packet of " + std::to_string(packet.size()) +
+                             " bytes: lianad and archive are of different versions");
   }
   TickParts parts;
   Reader reader(packet.substr(1));

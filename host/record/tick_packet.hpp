@@ -11,8 +11,9 @@ namespace liana {
 
 // First byte of a packet. JSON packets start with '{' and never collide.
 enum class TickPacket : std::uint8_t {
-  kTick = 1,   // u64 dropped, Inputs, Outputs
-  kImage = 2,  // u64 next tick, u8 fresh (1: the Controller has not ticked yet), RobotTable, then the Controller's bytes
+  kTick = 1,  // u64 dropped, Inputs, Outputs
+  kImage =
+      2,  // u64 next tick, u8 fresh (1: the Controller has not ticked yet), RobotTable, then the Controller's bytes
 };
 
 struct TickRecord {
@@ -25,7 +26,8 @@ std::string tick_packet(const TickRecord& record, std::uint64_t dropped);
 
 // One packet before the first tick (fresh, `controller_bytes` empty) and every kImageEveryTicks.
 constexpr std::uint64_t kImageEveryTicks = 1000;
-std::string image_packet(std::uint64_t next_tick, bool fresh, const RobotTable& table, std::string_view controller_bytes);
+std::string image_packet(std::uint64_t next_tick, bool fresh, const RobotTable& table,
+                         std::string_view controller_bytes);
 
 // Splits a kTick packet into serialised inputs and outputs; throws std::runtime_error when its length is wrong.
 struct TickParts {

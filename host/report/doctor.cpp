@@ -38,7 +38,8 @@ Finding realtime_priority() {
   rlimit limit{};
   getrlimit(RLIMIT_RTPRIO, &limit);
   const bool good = geteuid() == 0 || limit.rlim_cur >= kWantedPriority;
-  return finding("real-time priority", good, geteuid() == 0 ? "root, any priority" : "RLIMIT_RTPRIO " + limit_text(limit.rlim_cur),
+  return finding("real-time priority", good,
+                 geteuid() == 0 ? "root, any priority" : "RLIMIT_RTPRIO " + limit_text(limit.rlim_cur),
                  "--time real runs the control thread with SCHED_FIFO 80; fast and paced need nothing",
                  "add '@realtime - rtprio 95' to /etc/security/limits.d/liana.conf, join that group, log in again");
 }
@@ -47,9 +48,11 @@ Finding memory_lock() {
   rlimit limit{};
   getrlimit(RLIMIT_MEMLOCK, &limit);
   const bool good = geteuid() == 0 || limit.rlim_cur >= kWantedLocked_bytes;
-  return finding("memory locking", good, geteuid() == 0 ? "root, unlimited" : "RLIMIT_MEMLOCK " + limit_text(limit.rlim_cur) + " bytes",
-                 "--time real locks lianad's memory, so that a page fault never delays a tick",
-                 "add '@realtime - memlock unlimited' to /etc/security/limits.d/liana.conf, join that group, log in again");
+  return finding(
+      "memory locking", good,
+      geteuid() == 0 ? "root, unlimited" : "RLIMIT_MEMLOCK " + limit_text(limit.rlim_cur) + " bytes",
+      "--time real locks lianad's memory, so that a page fault never delays a tick",
+      "add '@realtime - memlock unlimited' to /etc/security/limits.d/liana.conf, join that group, log in again");
 }
 
 Finding kernel() {
@@ -65,11 +68,13 @@ Finding clock_source() {
   const std::string source = first_line("/sys/devices/system/clocksource/clocksource0/current_clocksource");
   timespec resolution{};
   clock_getres(CLOCK_MONOTONIC, &resolution);
-  const bool good =
-      resolution.tv_sec == 0 && resolution.tv_nsec <= 1000 && (source == "tsc" || source == "kvm-clock" || source == "arch_sys_counter");
-  return finding("clock", good, (source.empty() ? "unknown source" : source) + ", resolution " + std::to_string(resolution.tv_nsec) + " ns",
-                 "deadlines are absolute times of CLOCK_MONOTONIC; slow sources cost a system call per reading",
-                 "in real mode choose tsc: echo tsc > /sys/devices/system/clocksource/clocksource0/current_clocksource");
+  const bool good = resolution.tv_sec == 0 && resolution.tv_nsec <= 1000 &&
+                    (source == "tsc" || source == "kvm-clock" || source == "arch_sys_counter");
+  return finding(
+      "clock", good,
+      (source.empty() ? "unknown source" : source) + ", resolution " + std::to_string(resolution.tv_nsec) + " ns",
+      "deadlines are absolute times of CLOCK_MONOTONIC; slow sources cost a system call per reading",
+      "in real mode choose tsc: echo tsc > /sys/devices/system/clocksource/clocksource0/current_clocksource");
 }
 
 Finding processors() {
@@ -80,7 +85,8 @@ Finding processors() {
 
 Finding governor() {
   const std::string name = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
-  return finding("cpu governor", name.empty() || name == "performance", name.empty() ? "none (fixed or virtual clock)" : name,
+  return finding("cpu governor", name.empty() || name == "performance",
+                 name.empty() ? "none (fixed or virtual clock)" : name,
                  "a processor that slows down between ticks wakes up late", "cpupower frequency-set -g performance");
 }
 
@@ -98,9 +104,11 @@ Finding can_interfaces() {
   std::string names;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator("/sys/class/net", error)) {
-    if (first_line(entry.path() / "type") == kArphrdCan) names += (names.empty() ? "" : ", ") + entry.path().filename().string();
+    if (first_line(entry.path() / "type") == kArphrdCan)
+      names += (names.empty() ? "" : ", ") + entry.path().filename().string();
   }
-  return finding("CAN interfaces", !names.empty(), names.empty() ? "none" : names, "the buses a socketcan bus table may name",
+  return finding("CAN interfaces", !names.empty(), names.empty() ? "none" : names,
+                 "the buses a socketcan bus table may name",
                  "ip link add dev vcan0 type vcan; ip link set vcan0 up (and vcan1)");
 }
 
@@ -118,21 +126,28 @@ Finding tool(const std::string& program, const std::string& package, const std::
 
 }  // namespace
 
-std::vector<Finding> examine_realtime() { return {realtime_priority(), memory_lock(), kernel(), clock_source(), processors(), governor()}; }
+std::vector<Finding> examine_realtime() {
+  return {realtime_priority(), memory_lock(), kernel(), clock_source(), processors(), governor()};
+}
 
 std::vector<Finding> examine_host() {
   std::vector<Finding> findings = examine_realtime();
   findings.push_back(can_socket());
   findings.push_back(can_interfaces());
   findings.push_back(tool("tshark", "tshark", "decodes recorded bus logs as CANopen in the tests"));
-  findings.push_back(tool("qemu-system-x86_64", "qemu-system-x86", "hil/vm: SocketCAN on machines whose kernel has no CAN"));
+  findings.push_back(
+      tool("qemu-system-x86_64", "qemu-system-x86", "hil/vm: SocketCAN on machines whose kernel has no CAN"));
   return findings;
 }
 
 Json findings_json(const std::vector<Finding>& findings) {
   Json list = Json::array();
   for (const Finding& one : findings) {
-    list.push_back({{"name", one.name}, {"good", one.good}, {"found", one.found}, {"meaning", one.meaning}, {"action", one.action}});
+    list.push_back({{"name", one.name},
+                    {"good", one.good},
+                    {"found", one.found},
+                    {"meaning", one.meaning},
+                    {"action", one.action}});
   }
   return list;
 }

@@ -36,7 +36,8 @@ Detection detection_of(FaultNumber number, const RobotTable& table) {
     case FaultNumber::kDriveLeftOperation:
       return {"watchdog: statusword of a drive that should be in Operation enabled", 1};
     case FaultNumber::kDriveEnableTimeout:
-      return {"supervisor: time in a step of enabling (a ramp of tension has 15000 ticks)", static_cast<int>(kPoweringBudgetTicks) + 1};
+      return {"supervisor: time in a step of enabling (a ramp of tension has 15000 ticks)",
+              static_cast<int>(kPoweringBudgetTicks) + 1};
     case FaultNumber::kFollowingError:
       return {"watchdog: sent target less reported place, over the window, in a row", kFollowingDebounceTicks};
     case FaultNumber::kDriveNotOperational:
@@ -53,10 +54,12 @@ Detection detection_of(FaultNumber number, const RobotTable& table) {
       return {"watchdog: motor tension over the alarm limit, in a row", kAlarmDebounceTicks};
     case FaultNumber::kHomingImplausible:
       return {
-          "cable watch: the part of a segment's lengths that no two angles explain, against its value when the arm was enabled, in a row",
+          "cable watch: the part of a segment's lengths that no two angles explain, against its value when the arm was "
+          "enabled, in a row",
           kContradictionTicks + table.segment_count - 1};
     case FaultNumber::kCableSlip:
-      return {"cable watch: tension and length of a cable against the tick before, over the limit, and still there", kJumpConfirmTicks};
+      return {"cable watch: tension and length of a cable against the tick before, over the limit, and still there",
+              kJumpConfirmTicks};
     case FaultNumber::kCableBreak:
       return {"watchdog: motor tension under the floor while its 20 ms low-pass is not, in a row", kBreakDebounceTicks};
     case FaultNumber::kTensionScatters:
@@ -88,9 +91,9 @@ std::string markdown_of(const std::vector<FaultRow>& rows) {
       "| number | name | detected by | within ticks | stops by | what it means | what to do |\n"
       "|---|---|---|---|---|---|---|\n";
   for (const FaultRow& row : rows) {
-    text += "| " + std::to_string(static_cast<int>(row.info.number)) + " | " + row.info.name + " | " + row.detector + " | " +
-            (row.within_ticks < 0 ? "" : std::to_string(row.within_ticks)) + " | " + row.stops_by + " | " + row.info.text + " | " +
-            row.info.remedy + " |\n";
+    text += "| " + std::to_string(static_cast<int>(row.info.number)) + " | " + row.info.name + " | " + row.detector +
+            " | " + (row.within_ticks < 0 ? "" : std::to_string(row.within_ticks)) + " | " + row.stops_by + " | " +
+            row.info.text + " | " + row.info.remedy + " |\n";
   }
   return text;
 }

@@ -1,5 +1,5 @@
-// Every fault number with how it is detected, for `liana faults` and docs/faults.md. Numbers, names, reactions and remedies are the
-// core's own; times come from its constants and from the robot table.
+// Every fault number with how it is detected, for `liana faults` and docs/faults.md. Numbers, names, reactions and
+// remedies are the core's own; times come from its constants and from the robot table.
 #pragma once
 
 #include <string>

@@ -7,9 +7,9 @@ namespace liana {
 
 // What lianad measured, and how it went meanwhile.
 struct LatencyMeasurement {
-  Json timing;      // lianad's answer (docs/api.md, `timing`)
-  Json last_state;  // at the end of the measurement
-  bool enabled = false;       // from before its begin to its end
+  Json timing;           // lianad's answer (docs/api.md, `timing`)
+  Json last_state;       // at the end of the measurement
+  bool enabled = false;  // from before its begin to its end
 };
 
 }  // namespace liana

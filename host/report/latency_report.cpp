@@ -31,7 +31,8 @@ std::string range_of(std::size_t bin) {
 }
 
 std::string row(const char* name, const Json& times) {
-  return line("  %-10s %8u %8u %8u\n", name, times.value("median", 0u), times.value("p99", 0u), times.value("worst", 0u));
+  return line("  %-10s %8u %8u %8u\n", name, times.value("median", 0u), times.value("p99", 0u),
+              times.value("worst", 0u));
 }
 
 // Each kind of fault once: a starved machine loses all drives at a time.
@@ -43,24 +44,26 @@ std::string faults_text(const Json& faults) {
     words = fault.value("name", "") + ": " + fault.value("text", "");
   }
   std::string text;
-  for (const auto& [number, kind] : kinds) text += line("  fault %d (%d times) %s\n", number, kind.first, kind.second.c_str());
+  for (const auto& [number, kind] : kinds)
+    text += line("  fault %d (%d times) %s\n", number, kind.first, kind.second.c_str());
   return text;
 }
 
 std::string verdict(const Json& report) {
   const double period_us = 1e6 / report.value("rate_hz", 0.0);
   const double wakeup = report["wakeup_us"].value("worst", 0.0), tick = report["tick_us"].value("worst", 0.0);
-  std::string text = line("worst wake-up %.1f %% of the period of %.0f us, longest tick %.1f %%\n", 100.0 * wakeup / period_us, period_us,
-                          100.0 * tick / period_us);
+  std::string text = line("worst wake-up %.1f %% of the period of %.0f us, longest tick %.1f %%\n",
+                          100.0 * wakeup / period_us, period_us, 100.0 * tick / period_us);
   const Json& causes = report["overrun_causes"];
   if (report.value("overruns", 0u) == 0) {
     text += "no deadline was missed\n";
   } else {
     text += line("DEADLINES MISSED: %u (woke up late %u, tick too long %u, bus kept it waiting %u), %u ticks lost\n",
-                 report.value("overruns", 0u), causes.value("late_wake", 0u), causes.value("long_tick", 0u), causes.value("bus_wait", 0u),
-                 causes.value("lost_ticks", 0u));
+                 report.value("overruns", 0u), causes.value("late_wake", 0u), causes.value("long_tick", 0u),
+                 causes.value("bus_wait", 0u), causes.value("lost_ticks", 0u));
   }
-  if (!report.value("enabled", false)) text += "THE ARM WAS NOT ENABLED ALL THE TIME: these are not the ticks of an arm at work\n";
+  if (!report.value("enabled", false))
+    text += "THE ARM WAS NOT ENABLED ALL THE TIME: these are not the ticks of an arm at work\n";
   return text + faults_text(report["faults"]);
 }
 
@@ -68,14 +71,17 @@ std::string missing(const Json& findings) {
   std::string text;
   for (const Json& finding : findings) {
     if (finding.value("good", false)) continue;
-    text += "  " + finding.value("name", "") + ": " + finding.value("found", "") + "\n    to do: " + finding.value("action", "") + "\n";
+    text += "  " + finding.value("name", "") + ": " + finding.value("found", "") +
+            "\n    to do: " + finding.value("action", "") + "\n";
   }
-  return text.empty() ? "the machine has what --time real asks for (liana doctor)\n" : "what the machine lacks for --time real:\n" + text;
+  return text.empty() ? "the machine has what --time real asks for (liana doctor)\n"
+                      : "what the machine lacks for --time real:\n" + text;
 }
 
 }  // namespace
 
-Json latency_report(const LatencyMeasurement& measured, const BusesConfig& buses, double seconds, const std::vector<Finding>& realtime) {
+Json latency_report(const LatencyMeasurement& measured, const BusesConfig& buses, double seconds,
+                    const std::vector<Finding>& realtime) {
   Json report = measured.timing;
   report.erase("op");
   report.erase("id");
@@ -109,9 +115,9 @@ std::string histogram_text(const Json& buckets) {
 }
 
 std::string latency_text(const Json& report) {
-  std::string text =
-      line("%g Hz (buses %s), %g s, %llu ticks; times in us\n", report.value("rate_hz", 0.0), report.value("buses", "").c_str(),
-           report.value("seconds", 0.0), static_cast<unsigned long long>(report.value("ticks", std::uint64_t{0})));
+  std::string text = line("%g Hz (buses %s), %g s, %llu ticks; times in us\n", report.value("rate_hz", 0.0),
+                          report.value("buses", "").c_str(), report.value("seconds", 0.0),
+                          static_cast<unsigned long long>(report.value("ticks", std::uint64_t{0})));
   text += line("  %-10s %8s %8s %8s\n", "", "median", "p99", "worst");
   text += row("wake-up", report["wakeup_us"]) + row("tick", report["tick_us"]);
   text += "wake-up after the deadline, us (bars logarithmic)\n" + histogram_text(report["wakeup_us"]["buckets"]);

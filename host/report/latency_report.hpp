@@ -3,21 +3,22 @@
 
 #include <string>
 
+#include "host/json/json_fwd.hpp"
 #include "host/report/doctor.hpp"
 #include "host/report/latency_measurement.hpp"
-#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
-// The measurement as JSON: rate_hz, seconds, buses, enabled, ticks, wakeup_us, tick_us, overruns, overrun_causes, realtime.
+// The measurement as JSON: rate_hz, seconds, buses, enabled, ticks, wakeup_us, tick_us, overruns, overrun_causes,
+// realtime.
 Json latency_report(const LatencyMeasurement& measured, const BusesConfig& buses, double seconds,
-                              const std::vector<Finding>& realtime);
+                    const std::vector<Finding>& realtime);
 
 // The report for people: table, histogram, verdict, and what the machine lacks.
 std::string latency_text(const Json& report);
 
-// Lines of a histogram with bins 0, 1, 2-3, 4-7, ... us from buckets [[us,count],...]; bars grow with the logarithm of the count, so that
-// one late wake-up in a million is seen. Empty bins at both ends are left out.
+// Lines of a histogram with bins 0, 1, 2-3, 4-7, ... us from buckets [[us,count],...]; bars grow with the logarithm of
+// the count, so that one late wake-up in a million is seen. Empty bins at both ends are left out.
 std::string histogram_text(const Json& buckets);
 
 }  // namespace liana

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "host/report/truth.hpp"
 #include "host/json/json.hpp"
+#include "host/report/truth.hpp"
 
 namespace liana {
 namespace {
@@ -33,7 +33,8 @@ Window window_of(const Json& mission, const Json& steps, const std::vector<State
     window.first_tick = steps.front().value("start_tick", std::uint64_t{0});
     window.last_tick = std::max(window.first_tick, steps.back().value("end_tick", window.last_tick));
   }
-  if (mission.contains("repair_tick") && mission["repair_tick"].is_number_unsigned()) window.last_tick = mission["repair_tick"];
+  if (mission.contains("repair_tick") && mission["repair_tick"].is_number_unsigned())
+    window.last_tick = mission["repair_tick"];
   return window;
 }
 
@@ -42,7 +43,7 @@ Json known_steps(const Json& mission, const ReportSources& sources) {
   if (mission.contains("steps")) return mission["steps"];
   Json steps = Json::array();
   for (std::size_t i = 0; i < sources.announced.size(); ++i) {
-    const AnnouncedStep& step = sources.announced[i];
+    const ReportedStep& step = sources.announced[i];
     const bool last = i + 1 == sources.announced.size();
     const std::uint64_t end = last ? step.last_tick : sources.announced[i + 1].start_tick;
     steps.push_back({{"name", step.name},
@@ -50,7 +51,8 @@ Json known_steps(const Json& mission, const ReportSources& sources) {
                      {"outcome", last ? "failed" : "success"},
                      {"start_tick", step.start_tick},
                      {"end_tick", end},
-                     {"duration_s", static_cast<double>(end - step.start_tick) * object_of(sources.welcome).value("period_s", 0.0)}});
+                     {"duration_s",
+                      static_cast<double>(end - step.start_tick) * object_of(sources.welcome).value("period_s", 0.0)}});
     if (last) steps.back()["reason"] = "the mission runner left no report";
   }
   return steps;
@@ -78,7 +80,9 @@ const StateSample* sample_at(const std::vector<StateSample>& states, std::uint64
 
 double distance_m(const Pose& a, const Pose& b) { return norm(subtract(a.position_m, b.position_m)); }
 
-double angle_rad(const Pose& a, const Pose& b) { return norm(rotation_vector(multiply(conjugate(a.quaternion), b.quaternion))); }
+double angle_rad(const Pose& a, const Pose& b) {
+  return norm(rotation_vector(multiply(conjugate(a.quaternion), b.quaternion)));
+}
 
 void add_truth(Json& report, const ReportSources& sources, const Window& window) {
   const TruthLog truth = TruthLog::load(sources.truth_file);
@@ -173,14 +177,16 @@ Json make_report(const ReportSources& sources) {
 }
 
 std::string report_text(const Json& report) {
-  std::string text = "outcome " + report.value("outcome", "") + line(", arm time %.1f s\n", report.value("duration_s", 0.0));
+  std::string text =
+      "outcome " + report.value("outcome", "") + line(", arm time %.1f s\n", report.value("duration_s", 0.0));
   if (!report.value("reason", "").empty()) text += "reason: " + report.value("reason", "") + "\n";
   for (const Json& fault : report.value("faults", Json::array())) {
-    text += "fault " + std::to_string(fault.value("number", 0)) + " " + fault.value("name", "") + ": " + fault.value("text", "") + "\n";
+    text += "fault " + std::to_string(fault.value("number", 0)) + " " + fault.value("name", "") + ": " +
+            fault.value("text", "") + "\n";
   }
   for (const Json& step : report.value("steps", Json::array())) {
-    text += line("  %7.1f s  ", step.value("duration_s", 0.0)) + step.value("outcome", "") + "  " + step.value("name", "") + " (" +
-            step.value("device", "none") + ")\n";
+    text += line("  %7.1f s  ", step.value("duration_s", 0.0)) + step.value("outcome", "") + "  " +
+            step.value("name", "") + " (" + step.value("device", "none") + ")\n";
   }
   if (report.contains("tip_error_m")) {
     text += line("tip error %.2f mm", 1e3 * report["tip_error_m"].get<double>()) +

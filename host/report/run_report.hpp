@@ -19,7 +19,7 @@ struct StateSample {
 };
 
 // A step as the mission announced it.
-struct AnnouncedStep {
+struct ReportedStep {
   int index = 0;
   std::string name, device;
   std::uint64_t start_tick = 0;
@@ -37,10 +37,10 @@ struct ReportSources {
   std::string mission_report_file;  // of liana-mission
   std::string bus_stats_file;       // of liana-bus
   std::vector<StateSample> states;
-  std::vector<AnnouncedStep> announced;        // stands in for the steps of a mission runner that left no report
-  const Json* welcome = nullptr;     // of lianad
-  const Json* last_state = nullptr;  // of lianad
-  std::optional<ScenePose> rod;                // none: the scene has none
+  std::vector<ReportedStep> announced;  // stands in for the steps of a mission runner that left no report
+  const Json* welcome = nullptr;        // of lianad
+  const Json* last_state = nullptr;     // of lianad
+  std::optional<ScenePose> rod;         // none: the scene has none
 };
 
 // The report with the keys of docs/command-line.md.

@@ -20,7 +20,8 @@ TruthLog TruthLog::load(const std::string& path) {
   std::string header;
   if (!std::getline(file, header)) throw std::runtime_error(path + ": no truth was written by the bench");
   const auto parsed = Json::parse(header, nullptr, false);
-  if (parsed.is_discarded() || !parsed.contains("columns")) throw std::runtime_error(path + ": the first line names no columns");
+  if (parsed.is_discarded() || !parsed.contains("columns"))
+    throw std::runtime_error(path + ": the first line names no columns");
   TruthLog log;
   for (const auto& name : parsed["columns"]) log.columns_.emplace(name.get<std::string>(), log.columns_.size());
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
@@ -70,7 +71,8 @@ Pose TruthLog::tip(std::size_t row) const {
 
 std::vector<double> TruthLog::theta_deg(std::size_t row) const {
   std::vector<double> theta;
-  for (int i = 1; columns_.contains("theta_deg_" + std::to_string(i)); ++i) theta.push_back(at(row, "theta_deg_" + std::to_string(i)));
+  for (int i = 1; columns_.contains("theta_deg_" + std::to_string(i)); ++i)
+    theta.push_back(at(row, "theta_deg_" + std::to_string(i)));
   return theta;
 }
 

@@ -12,7 +12,8 @@ namespace liana {
 
 class TruthLog {
  public:
-  // Reads a whole file; throws std::runtime_error when it is missing or malformed. A row cut short at the end is dropped.
+  // Reads a whole file; throws std::runtime_error when it is missing or malformed. A row cut short at the end is
+  // dropped.
   static TruthLog load(const std::string& path);
 
   std::size_t row_count() const { return columns_.empty() ? 0 : values_.size() / columns_.size(); }

@@ -2,9 +2,9 @@
 
 #include <stdexcept>
 
+#include "host/json/json.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/observer.hpp"
-#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
@@ -26,7 +26,8 @@ void add(const Json& state, CalibrationReading& sum) {
 
 }  // namespace
 
-CalibrateSession::CalibrateSession(const SystemLayout& plan, const InterruptGuard& interrupts) : plan_(plan), interrupts_(interrupts) {}
+CalibrateSession::CalibrateSession(const SystemLayout& plan, const InterruptGuard& interrupts)
+    : plan_(plan), interrupts_(interrupts) {}
 
 CalibrateSession::~CalibrateSession() {
   try {
@@ -45,7 +46,8 @@ void CalibrateSession::start() {
     if (!wait_for_socket(socket, *children_.back(), interrupts_.any())) give_up(call.name + " did not open its socket");
   }
   api_ = ApiClient::connect(plan_.api_socket());
-  api_->send({{"op", "hello"}, {"name", "liana calibrate"}, {"role", "client"}, {"lockstep", true}, {"subscribe", {"state"}}});
+  api_->send(
+      {{"op", "hello"}, {"name", "liana calibrate"}, {"role", "client"}, {"lockstep", true}, {"subscribe", {"state"}}});
 }
 
 void CalibrateSession::give_up(const std::string& why) {

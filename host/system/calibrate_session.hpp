@@ -23,8 +23,9 @@ class CalibrateSession {
   CalibrateSession(const CalibrateSession&) = delete;
   CalibrateSession& operator=(const CalibrateSession&) = delete;
 
-  // Boots the drives and averages what they report for a second; the pose of the result is left empty. Throws std::runtime_error when a
-  // drive does not boot or a program ends; Interrupted at Ctrl-C; BadInput when a program refused what it was given.
+  // Boots the drives and averages what they report for a second; the pose of the result is left empty. Throws
+  // std::runtime_error when a drive does not boot or a program ends; Interrupted at Ctrl-C; BadInput when a program
+  // refused what it was given.
   CalibrationReading read();
 
  private:

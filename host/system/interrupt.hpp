@@ -6,7 +6,8 @@
 
 namespace liana {
 
-// From now on Ctrl-C ends the program with kExitInterrupted and one message, unless whoever started it wants Ctrl-C ignored.
+// From now on Ctrl-C ends the program with kExitInterrupted and one message, unless whoever started it wants Ctrl-C
+// ignored.
 void end_on_interrupt();
 
 // While it lives, Ctrl-C and SIGTERM are counted instead of ending the program. One at a time.

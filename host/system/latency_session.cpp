@@ -49,7 +49,8 @@ LatencyMeasurement LatencySession::measure(double seconds) {
   }
   show_progress(seconds, seconds);
   measured.timing = ask({{"op", "timing"}});
-  if (measured.timing.value("op", "") != "ok") throw std::runtime_error("lianad: " + measured.timing.value("message", ""));
+  if (measured.timing.value("op", "") != "ok")
+    throw std::runtime_error("lianad: " + measured.timing.value("message", ""));
   measured.last_state = state_;
   return measured;
 }
@@ -81,7 +82,8 @@ bool LatencySession::reaches(const std::string& state) {
   const double deadline_s = now_s() + kReadyTimeout_s;
   while (now_s() < deadline_s && state_.value("state", "") != "FAULT") {
     look(kLook_s);
-    if (state_.value("state", "") == state && state_.value("is_homed", false) && state_.value("at_rest", false)) return true;
+    if (state_.value("state", "") == state && state_.value("is_homed", false) && state_.value("at_rest", false))
+      return true;
   }
   return false;
 }
@@ -107,7 +109,8 @@ Json LatencySession::ask(Json request) {
   api_->send(request);
   const double deadline_s = now_s() + kAnswerTimeout_s;
   while (answer_.value("id", 0) != last_id_) {
-    if (now_s() > deadline_s) throw std::runtime_error("lianad did not answer " + request.value("op", "") + " within 10 s");
+    if (now_s() > deadline_s)
+      throw std::runtime_error("lianad did not answer " + request.value("op", "") + " within 10 s");
     look(kLook_s);
   }
   return answer_;

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "host/api/client.hpp"
+#include "host/json/json.hpp"
+#include "host/report/latency_measurement.hpp"
 #include "host/system/interrupt.hpp"
 #include "host/system/process.hpp"
 #include "host/system/system_layout.hpp"
-#include "host/json/json.hpp"
-#include "host/report/latency_measurement.hpp"
 
 namespace liana {
 
@@ -24,8 +24,9 @@ class LatencySession {
   LatencySession(const LatencySession&) = delete;
   LatencySession& operator=(const LatencySession&) = delete;
 
-  // Starts the programs, enables the arm, waits for it to rest, measures for `seconds`; an arm that cannot be enabled is measured as it is.
-  // Throws std::runtime_error with what a program that ended said last, or when it was interrupted.
+  // Starts the programs, enables the arm, waits for it to rest, measures for `seconds`; an arm that cannot be enabled
+  // is measured as it is. Throws std::runtime_error with what a program that ended said last, or when it was
+  // interrupted.
   LatencyMeasurement measure(double seconds);
 
  private:

@@ -6,8 +6,8 @@
 
 #include "host/api/client.hpp"
 #include "host/api/registry.hpp"
-#include "host/system/errors.hpp"
 #include "host/json/json.hpp"
+#include "host/system/errors.hpp"
 
 namespace liana {
 
@@ -17,7 +17,8 @@ std::vector<std::string> systems_to_ask(const std::string& given) {
     const auto kind = std::filesystem::status(given, error).type();
     if (kind == std::filesystem::file_type::not_found || error)
       throw BadInput("--api: '" + given + "': no such socket; is lianad running there?");
-    if (kind != std::filesystem::file_type::socket) throw BadInput("--api: '" + given + "': is no socket; give the API socket of a lianad");
+    if (kind != std::filesystem::file_type::socket)
+      throw BadInput("--api: '" + given + "': is no socket; give the API socket of a lianad");
     return {given};
   }
   std::vector<std::string> systems = running_systems();
@@ -35,7 +36,8 @@ std::optional<Json> wait_for(ApiClient& client, const std::string& op, double ti
     auto message = client.receive(left);
     if (!message) return std::nullopt;
     if (message->value("op", "") == op) return message;
-    if (message->value("op", "") == "error") throw std::runtime_error("lianad: " + message->value("message", message->dump()));
+    if (message->value("op", "") == "error")
+      throw std::runtime_error("lianad: " + message->value("message", message->dump()));
   }
   return std::nullopt;
 }

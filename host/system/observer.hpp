@@ -21,10 +21,12 @@ enum class Observer {
   kClient,  // sees states, and may own motion
 };
 
-// Says hello without waiting for the welcome; `name` is what a stop's reason names. Throws std::runtime_error when lianad is gone.
+// Says hello without waiting for the welcome; `name` is what a stop's reason names. Throws std::runtime_error when
+// lianad is gone.
 void say_hello(ApiClient& client, const std::string& name, Observer observer);
 
-// Says hello, subscribes to states, returns the welcome. Throws std::runtime_error when lianad refuses or does not answer within 5 s.
+// Says hello, subscribes to states, returns the welcome. Throws std::runtime_error when lianad refuses or does not
+// answer within 5 s.
 Json hello_as_observer(ApiClient& client, const std::string& name);
 
 // Waits for a message whose `op` is given, at most `timeout_s`; an error message of lianad throws std::runtime_error.

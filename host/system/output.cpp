@@ -28,15 +28,18 @@ bool can_be_written(const std::string& path) {
 }  // namespace
 
 void check_output(const std::string& option, const std::string& path) {
-  if (path == "-") throw BadInput(option + ": '-': allowed: a file; standard output has the answer without this option");
+  if (path == "-")
+    throw BadInput(option + ": '-': allowed: a file; standard output has the answer without this option");
   if (can_be_written(path)) return;
   const std::string reason = std::strerror(errno);
-  throw BadInput(option + ": '" + path + "': cannot be written: " + reason + "; give a file in a directory that exists");
+  throw BadInput(option + ": '" + path + "': cannot be written: " + reason +
+                 "; give a file in a directory that exists");
 }
 
 void write_output(const std::string& path, const std::string& text) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
-  bool good = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
+  bool good =
+      file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
   const int reason = errno;
   if (file != nullptr) std::fclose(file);
   if (!good) throw std::runtime_error(path + ": cannot be written: " + std::strerror(reason));
@@ -45,7 +48,8 @@ void write_output(const std::string& path, const std::string& text) {
 int after_standard_output(int code) {
   errno = 0;
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
-  const char* reason = errno != 0 ? std::strerror(errno) : "is the disk full?";  // of an earlier failure nobody has kept the reason
+  const char* reason =
+      errno != 0 ? std::strerror(errno) : "is the disk full?";  // of an earlier failure nobody has kept the reason
   std::fprintf(stderr, "liana: standard output cannot be written: %s\n", reason);
   return kExitFailure;
 }

@@ -1,11 +1,11 @@
 #include "host/system/plan_file.hpp"
 
-#include "host/system/errors.hpp"
-#include "host/system/tables.hpp"
 #include "host/config/field.hpp"
 #include "host/json/json.hpp"
 #include "host/plan/check/plan_check.hpp"
 #include "host/plan/plan_refusal.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/tables.hpp"
 
 namespace liana {
 namespace {
@@ -18,7 +18,8 @@ void check_scene(const std::string& file, const Json& plan, const SceneConfig& s
   const Json of_plan = plan.value("/inputs/scene"_json_pointer, Json());
   if (of_plan == Json::parse(scene.canonical_json)) return;
   throw BadInput("--scene: '" + scene.name + "': the plan " + file + " was made for another scene" +
-                 (of_plan.is_object() ? ", '" + of_plan.value("name", "") + "'" : "") + "; run it in that one, or plan again");
+                 (of_plan.is_object() ? ", '" + of_plan.value("name", "") + "'" : "") +
+                 "; run it in that one, or plan again");
 }
 
 Path read_waypoints(const Field& plan, const RobotTable& table) {
@@ -35,7 +36,8 @@ Path read_waypoints(const Field& plan, const RobotTable& table) {
 }  // namespace
 
 void check_plan_file(const std::string& file, const RobotConfig& robot, const SceneConfig& scene) {
-  const Json content = checked([&] { return parse_json(read_text_file(file), file, "give a file that liana plan --out has written"); });
+  const Json content =
+      checked([&] { return parse_json(read_text_file(file), file, "give a file that liana plan --out has written"); });
   check_scene(file, content, scene);
   const Field plan(content, file, "");
   PlanRequest limits;
@@ -50,7 +52,9 @@ void check_plan_file(const std::string& file, const RobotConfig& robot, const Sc
     return 0;
   });
   const auto refused = refusal_of(limits, check_plan(robot, scene, path, plain_tip(robot.table, path.back())));
-  if (refused) throw BadInput(file + ": waypoints_deg: " + refused->reason + ": the file is not what liana plan wrote: plan again");
+  if (refused)
+    throw BadInput(file + ": waypoints_deg: " + refused->reason +
+                   ": the file is not what liana plan wrote: plan again");
 }
 
 }  // namespace liana

@@ -84,10 +84,12 @@ void drain(int out_fd, int error_fd, Captured& captured) {
 }  // namespace
 
 std::string how(const ChildEnd& end) {
-  return end.signal != 0 ? "was killed by signal " + std::to_string(end.signal) : "ended with code " + std::to_string(end.code);
+  return end.signal != 0 ? "was killed by signal " + std::to_string(end.signal)
+                         : "ended with code " + std::to_string(end.code);
 }
 
-ChildProcess::ChildProcess(std::string name, const std::vector<std::string>& argv, std::string log_path, int realtime_priority)
+ChildProcess::ChildProcess(std::string name, const std::vector<std::string>& argv, std::string log_path,
+                           int realtime_priority)
     : name_(std::move(name)), log_path_(std::move(log_path)) {
   const int log_fd = open(log_path_.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0644);
   if (log_fd < 0) throw std::runtime_error(log_path_ + ": cannot be written: " + strerror(errno));
@@ -105,7 +107,8 @@ std::optional<ChildEnd> ChildProcess::poll() {
 
 std::optional<ChildEnd> ChildProcess::wait(double timeout_s) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
-  while (!poll() && std::chrono::steady_clock::now() < deadline) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  while (!poll() && std::chrono::steady_clock::now() < deadline)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
   return poll();
 }
 
@@ -176,7 +179,8 @@ Captured run_and_capture(const std::vector<std::string>& argv) {
 
 std::string sibling_program(const std::string& name) {
   const auto path = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
-  if (access(path.c_str(), X_OK) != 0) throw std::runtime_error(path.string() + ": this program is missing; build it with ./dev build");
+  if (access(path.c_str(), X_OK) != 0)
+    throw std::runtime_error(path.string() + ": this program is missing; build it with ./dev build");
   return path.string();
 }
 

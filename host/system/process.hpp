@@ -27,8 +27,8 @@ constexpr int kShownLines = 5;
 // One running program; its standard output and error go to a log file. It is told to end when its parent dies.
 class ChildProcess {
  public:
-  // Starts argv[0] (a path) with its output appended to `log_path`; throws std::runtime_error when it cannot be started.
-  // `realtime_priority` over 0: with SCHED_FIFO at that priority, where the machine grants it.
+  // Starts argv[0] (a path) with its output appended to `log_path`; throws std::runtime_error when it cannot be
+  // started. `realtime_priority` over 0: with SCHED_FIFO at that priority, where the machine grants it.
   ChildProcess(std::string name, const std::vector<std::string>& argv, std::string log_path, int realtime_priority = 0);
   ~ChildProcess();
   ChildProcess(const ChildProcess&) = delete;
@@ -60,7 +60,8 @@ struct NamedEnd {
   std::string text;
 };
 
-// Of the programs that have ended and whose end `counts`, the one that ended worst: killed, failed, then in order. Nothing without any.
+// Of the programs that have ended and whose end `counts`, the one that ended worst: killed, failed, then in order.
+// Nothing without any.
 std::optional<NamedEnd> worst_end(const std::vector<std::unique_ptr<ChildProcess>>& children,
                                   const std::function<bool(const ChildProcess&, const ChildEnd&)>& counts);
 

@@ -30,7 +30,8 @@ void Progress::show(const Json& state) {
   const auto step = state.find("step");
   if (step != state.end() && step->is_object() && step->value("index", 0) != step_index_) {
     step_index_ = step->value("index", 0);
-    say(stamp + ("step " + std::to_string(step_index_)) + ": " + step->value("name", "") + " (" + step->value("device", "none") + ")");
+    say(stamp + ("step " + std::to_string(step_index_)) + ": " + step->value("name", "") + " (" +
+        step->value("device", "none") + ")");
   }
   if (terminal_ && time_s >= next_live_s_) show_live(state);
 }

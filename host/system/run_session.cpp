@@ -57,7 +57,8 @@ std::optional<RunEnd> RunSession::start() {
   for (const ProgramCall& call : plan_.programs) {
     children_.push_back(std::make_unique<ChildProcess>(call.name, call.argv, plan_.file(call.name + ".log")));
     const bool serves = call.name == "liana-bus" || call.name == "lianad";
-    if (serves && !wait_for_socket(call.name == "lianad" ? plan_.api_socket() : plan_.bus_socket(), *children_.back(), interrupts_.any())) {
+    if (serves && !wait_for_socket(call.name == "lianad" ? plan_.api_socket() : plan_.bus_socket(), *children_.back(),
+                                   interrupts_.any())) {
       if (const auto dead = dead_child(false)) return dead;
       return RunEnd{"failed", call.name + " did not open its socket within 30 s", false};
     }
@@ -79,8 +80,8 @@ RunEnd RunSession::watch() {
   return conclusion();
 }
 
-// Somebody has ended. The others follow within moments, in any order: who failed by itself is seen only after that. Once the mission has
-// ended, the others end in order.
+// Somebody has ended. The others follow within moments, in any order: who failed by itself is seen only after that.
+// Once the mission has ended, the others end in order.
 RunEnd RunSession::conclusion() {
   const auto end = mission_->wait(kFinishGrace_s);
   if (!end || end->code != 0) {
@@ -94,15 +95,17 @@ RunEnd RunSession::conclusion() {
 RunEnd RunSession::end_of_mission(const ChildEnd& end) {
   if (end.signal == 0 && fs::exists(plan_.file("mission.json"))) return {};
   return {"failed",
-          "the mission runner " + how(end) + "; lianad holds the arm when the owner of motion dies\n" + mission_->last_lines(kShownLines),
+          "the mission runner " + how(end) + "; lianad holds the arm when the owner of motion dies\n" +
+              mission_->last_lines(kShownLines),
           end.code == 2};
 }
 
-// Of the programs beside the mission runner that have ended the one that ended worst: killed, failed or, unless `failed_only`, in order.
-// Exit code 2 means that it refused its input.
+// Of the programs beside the mission runner that have ended the one that ended worst: killed, failed or, unless
+// `failed_only`, in order. Exit code 2 means that it refused its input.
 std::optional<RunEnd> RunSession::dead_child(bool failed_only) {
-  const auto worst = worst_end(
-      children_, [&](const ChildProcess& child, const ChildEnd& end) { return &child != mission_ && !(failed_only && end.code == 0); });
+  const auto worst = worst_end(children_, [&](const ChildProcess& child, const ChildEnd& end) {
+    return &child != mission_ && !(failed_only && end.code == 0);
+  });
   if (!worst) return std::nullopt;
   return RunEnd{"failed", worst->text, worst->end.code == 2 && states_.empty()};
 }
@@ -179,7 +182,9 @@ void RunSession::request(const Json& message) {
 
 // A lianad that had to be killed leaves its entry among the running systems; looking at them removes it.
 void RunSession::remove_stale_entry() const {
-  const auto killed = [](const auto& child) { return child->name() == "lianad" && child->poll() && child->poll()->signal != 0; };
+  const auto killed = [](const auto& child) {
+    return child->name() == "lianad" && child->poll() && child->poll()->signal != 0;
+  };
   if (std::none_of(children_.begin(), children_.end(), killed)) return;
   try {
     running_systems();

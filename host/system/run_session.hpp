@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "host/api/client.hpp"
+#include "host/json/json.hpp"
+#include "host/report/run_report.hpp"
 #include "host/system/interrupt.hpp"
 #include "host/system/process.hpp"
 #include "host/system/progress.hpp"
 #include "host/system/system_layout.hpp"
-#include "host/report/run_report.hpp"
-#include "host/json/json.hpp"
 
 namespace liana {
 
@@ -34,7 +34,7 @@ class RunSession {
   RunEnd run();
 
   const std::vector<StateSample>& states() const { return states_; }
-  const std::vector<AnnouncedStep>& announced() const { return announced_; }
+  const std::vector<ReportedStep>& announced() const { return announced_; }
   const Json& welcome() const { return welcome_; }
   const Json& last_state() const { return last_state_; }
 
@@ -63,7 +63,7 @@ class RunSession {
   Json welcome_;
   Json last_state_;
   std::vector<StateSample> states_;
-  std::vector<AnnouncedStep> announced_;
+  std::vector<ReportedStep> announced_;
 };
 
 }  // namespace liana

@@ -11,14 +11,14 @@
 #include <optional>
 #include <string_view>
 
+#include "host/calibration/calibration.hpp"
+#include "host/calibration/fixture.hpp"
+#include "host/config/field.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/output.hpp"
 #include "host/system/plan_file.hpp"
 #include "host/system/process.hpp"
 #include "host/system/tables.hpp"
-#include "host/calibration/calibration.hpp"
-#include "host/config/field.hpp"
-#include "host/calibration/fixture.hpp"
 
 namespace liana {
 namespace {
@@ -27,14 +27,16 @@ namespace fs = std::filesystem;
 
 std::string temporary_directory() {
   std::string name = (fs::temp_directory_path() / "liana-run-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw BadInput(name + ": a temporary directory cannot be made; free space there or set TMPDIR");
+  if (mkdtemp(name.data()) == nullptr)
+    throw BadInput(name + ": a temporary directory cannot be made; free space there or set TMPDIR");
   return name;
 }
 
 std::string record_directory(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
-  if (error) throw BadInput("--record: '" + path + "': cannot be made: " + error.message() + "; give a directory you may write");
+  if (error)
+    throw BadInput("--record: '" + path + "': cannot be made: " + error.message() + "; give a directory you may write");
   if (!fs::is_empty(path)) throw BadInput("--record: '" + path + "': is not empty; give a new directory");
   return fs::absolute(path).string();
 }
@@ -52,12 +54,14 @@ void check_interfaces(const BusesConfig& buses) {
   if (buses.backend != "socketcan") return;
   const int fd = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, 1);
   if (fd < 0)
-    throw BadInput("buses: '" + buses.name + "': this kernel has no CAN; load can and can-raw, or take table embedded; see liana doctor");
+    throw BadInput("buses: '" + buses.name +
+                   "': this kernel has no CAN; load can and can-raw, or take table embedded; see liana doctor");
   close(fd);
   for (const BusConfig& bus : buses.buses) {
     if (if_nametoindex(bus.name.c_str()) == 0) {
-      throw BadInput("buses: '" + buses.name + "': interface " + bus.name + " does not exist; make it (ip link add dev " + bus.name +
-                     " type vcan; ip link set " + bus.name + " up) or take table embedded");
+      throw BadInput("buses: '" + buses.name + "': interface " + bus.name +
+                     " does not exist; make it (ip link add dev " + bus.name + " type vcan; ip link set " + bus.name +
+                     " up) or take table embedded");
     }
   }
 }
@@ -74,7 +78,8 @@ std::string time_mode_of(const RunOptions& options, const BusesConfig& buses) {
   const bool wall_clock_only = buses.backend == "socketcan";
   if (options.time.empty()) return wall_clock_only ? "real" : "fast";
   if (wall_clock_only && options.time != "real") {
-    throw BadInput("--time: '" + options.time + "': bus " + buses.name + " is SocketCAN, which has no virtual time; allowed: real");
+    throw BadInput("--time: '" + options.time + "': bus " + buses.name +
+                   " is SocketCAN, which has no virtual time; allowed: real");
   }
   return options.time;
 }
@@ -85,12 +90,14 @@ std::string interface_names(const BusesConfig& buses) {
   return names;
 }
 
-void append(std::vector<std::string>& argv, const std::vector<std::string>& words) { argv.insert(argv.end(), words.begin(), words.end()); }
+void append(std::vector<std::string>& argv, const std::vector<std::string>& words) {
+  argv.insert(argv.end(), words.begin(), words.end());
+}
 
 ProgramCall bus_call(const SystemLayout& plan) {
   return {"liana-bus",
-          {sibling_program("liana-bus"), "--socket", plan.bus_socket(), "--buses", plan.file("buses.json"), "--time", plan.time_mode,
-           "--log", plan.directory, "--stats", plan.file("bus_stats.json")}};
+          {sibling_program("liana-bus"), "--socket", plan.bus_socket(), "--buses", plan.file("buses.json"), "--time",
+           plan.time_mode, "--log", plan.directory, "--stats", plan.file("bus_stats.json")}};
 }
 
 std::string expected_roles(const SystemLayout& plan, const RunOptions& options) {
@@ -100,9 +107,9 @@ std::string expected_roles(const SystemLayout& plan, const RunOptions& options) 
 
 ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
   ProgramCall call{"lianad",
-                   {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"), "--buses",
-                    plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode, "--physics", options.physics, "--expect",
-                    expected_roles(plan, options)}};
+                   {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"),
+                    "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode,
+                    "--physics", options.physics, "--expect", expected_roles(plan, options)}};
   if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});
   if (!options.in_pose.empty()) append(call.argv, {"--in-pose", options.in_pose});
   if (embedded) append(call.argv, {"--bus-socket", plan.bus_socket()});
@@ -115,9 +122,10 @@ ProgramCall archive_call(const SystemLayout& plan) {
 
 ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
   ProgramCall call{"liana-bench",
-                   {sibling_program("liana-bench"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"), "--buses",
-                    plan.file("buses.json"), "--api", plan.api_socket(), "--arm", options.arm, "--physics", options.physics, "--seed",
-                    std::to_string(options.seed), "--truth", plan.file("truth.bin"), "--summary", plan.file("bench_summary.json")}};
+                   {sibling_program("liana-bench"), "--robot", plan.file("robot.json"), "--scene",
+                    plan.file("scene.json"), "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--arm",
+                    options.arm, "--physics", options.physics, "--seed", std::to_string(options.seed), "--truth",
+                    plan.file("truth.bin"), "--summary", plan.file("bench_summary.json")}};
   const std::string& fixture = options.in_pose.empty() ? options.fixture : options.in_pose;
   if (!fixture.empty()) append(call.argv, {"--start-pose", fixture, "--fixture"});
   if (!options.cross_wired.empty()) append(call.argv, {"--cross-wired", options.cross_wired});
@@ -131,17 +139,18 @@ ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool
 
 ProgramCall operator_call(const SystemLayout& plan, const RunOptions& options) {
   return {"liana-operator",
-          {sibling_program("liana-operator"), "--api", plan.api_socket(), "--recordings", LIANA_LUA_DIR "/recordings", "--scene",
-           plan.file("scene.json"), "--seed", std::to_string(options.seed), "--lockstep"}};
+          {sibling_program("liana-operator"), "--api", plan.api_socket(), "--recordings", LIANA_LUA_DIR "/recordings",
+           "--scene", plan.file("scene.json"), "--seed", std::to_string(options.seed), "--lockstep"}};
 }
 
 ProgramCall mission_call(const SystemLayout& plan, const RunOptions& options) {
   return {"liana-mission",
-          {sibling_program("liana-mission"), "run", "--api", plan.api_socket(), "--mission", options.mission, "--report",
-           plan.file("mission.json"), "--lockstep", "--progress"}};
+          {sibling_program("liana-mission"), "run", "--api", plan.api_socket(), "--mission", options.mission,
+           "--report", plan.file("mission.json"), "--lockstep", "--progress"}};
 }
 
-void write_tables(const SystemLayout& plan, const std::string& robot, const std::string& scene, const std::string& buses) {
+void write_tables(const SystemLayout& plan, const std::string& robot, const std::string& scene,
+                  const std::string& buses) {
   write_output(plan.file("robot.json"), robot);
   write_output(plan.file("scene.json"), scene);
   write_output(plan.file("buses.json"), buses);
@@ -155,7 +164,8 @@ SystemLayout make_layout(const RunOptions& options) {
   const std::string scene_text = evaluate_table("scene", options.scene);
   SystemLayout plan;
   plan.buses = checked([&] { return parse_buses(buses_text, options.bus); });
-  const RobotConfig robot = checked([&] { return parse_robot(robot_text, options.robot, options.physics, plan.buses); });
+  const RobotConfig robot =
+      checked([&] { return parse_robot(robot_text, options.robot, options.physics, plan.buses); });
   if (!options.calibration.empty()) checked([&] { return load_calibration(options.calibration, robot, today_utc()); });
   if (!options.in_pose.empty()) check_in_pose(robot, options.in_pose);
   check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
@@ -165,7 +175,8 @@ SystemLayout make_layout(const RunOptions& options) {
   if (!plan.scene.camera || !plan.scene.contact)
     throw BadInput("--scene: '" + options.scene + "': has no " + (plan.scene.camera ? "contact" : "camera") +
                    ", which the bench needs; add it (docs/formats.md)");
-  if (options.mission.ends_with(".json")) check_plan_file(options.mission, robot_for_kinematics(options.robot), plan.scene);
+  if (options.mission.ends_with(".json"))
+    check_plan_file(options.mission, robot_for_kinematics(options.robot), plan.scene);
   check_interfaces(plan.buses);
   plan.time_mode = time_mode_of(options, plan.buses);
   plan.keep_directory = !options.record_dir.empty();
@@ -199,7 +210,8 @@ void check_cross_wired(const std::string& list, std::size_t drives) {
   const auto first = drive_of(words.substr(0, comma));
   const auto second = drive_of(words.substr(std::min(comma + 1, words.size())));
   if (first && second && first != second) return;
-  throw BadInput("--cross-wired: '" + list + "': allowed are two different drives from 0 to " + std::to_string(drives - 1) + ", e.g. 3,4");
+  throw BadInput("--cross-wired: '" + list + "': allowed are two different drives from 0 to " +
+                 std::to_string(drives - 1) + ", e.g. 3,4");
 }
 
 void clean_up(const SystemLayout& plan, bool success) {

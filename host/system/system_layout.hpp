@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "host/cli/commands.hpp"
 #include "host/config/config.hpp"
+#include "host/system/run_options.hpp"
 
 namespace liana {
 
@@ -30,8 +30,8 @@ struct SystemLayout {
   std::string bus_socket() const { return socket_dir + "/bus"; }
 };
 
-// Evaluates and checks tables and mission, makes the directories, writes the tables there. Without a mission there is no operator either.
-// Throws BadInput.
+// Evaluates and checks tables and mission, makes the directories, writes the tables there. Without a mission there is
+// no operator either. Throws BadInput.
 SystemLayout make_layout(const RunOptions& options);
 
 // Refuses anything but empty text or two different drives from 0 to `drives` - 1, e.g. 3,4. Throws BadInput.

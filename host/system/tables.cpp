@@ -14,7 +14,8 @@ std::string first_message(const Captured& captured) {
   std::string line = captured.error.substr(0, captured.error.find('\n'));
   const std::string prefix = "liana-mission: ";
   if (line.starts_with(prefix)) line.erase(0, prefix.size());
-  return line.empty() ? "liana-mission eval ended with code " + std::to_string(captured.code) + " and no message" : line;
+  return line.empty() ? "liana-mission eval ended with code " + std::to_string(captured.code) + " and no message"
+                      : line;
 }
 
 std::string evaluate(std::vector<std::string> words) {

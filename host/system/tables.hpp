@@ -4,16 +4,17 @@
 #include <stdexcept>
 #include <string>
 
-#include "host/system/errors.hpp"
 #include "host/config/config.hpp"
+#include "host/system/errors.hpp"
 
 namespace liana {
 
-// Canonical JSON of a table; kind is robot, scene or buses, `name` a name under lua/ or a file (.lua, or .json as exported).
-// Throws BadInput with the evaluator's one message.
+// Canonical JSON of a table; kind is robot, scene or buses, `name` a name under lua/ or a file (.lua, or .json as
+// exported). Throws BadInput with the evaluator's one message.
 std::string evaluate_table(const std::string& kind, const std::string& name);
 
-// Checks a mission script against a robot (a name, or exported JSON) without running it; throws BadInput with the evaluator's one message.
+// Checks a mission script against a robot (a name, or exported JSON) without running it; throws BadInput with the
+// evaluator's one message.
 void check_mission(const std::string& name, const std::string& robot);
 
 // Runs a loader of host/config and turns its refusal into BadInput.

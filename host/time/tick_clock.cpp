@@ -15,7 +15,8 @@ std::uint64_t monotonic_ns() noexcept {
 }
 
 void sleep_until_ns(std::uint64_t deadline_ns) noexcept {
-  const timespec deadline{static_cast<time_t>(deadline_ns / kNanosecondsPerSecond), static_cast<long>(deadline_ns % kNanosecondsPerSecond)};
+  const timespec deadline{static_cast<time_t>(deadline_ns / kNanosecondsPerSecond),
+                          static_cast<long>(deadline_ns % kNanosecondsPerSecond)};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr) == EINTR) {
   }
 }

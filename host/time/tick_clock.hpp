@@ -11,8 +11,8 @@ class TickClock {
  public:
   explicit TickClock(std::uint32_t period_us) noexcept : period_ns_(std::uint64_t{period_us} * 1000) {}
 
-  // Sleeps until the deadline of `tick`, or, when that has passed, until the next one after now. The first call fixes tick 0 so that
-  // `tick` begins one period later.
+  // Sleeps until the deadline of `tick`, or, when that has passed, until the next one after now. The first call fixes
+  // tick 0 so that `tick` begins one period later.
   TickStart wait(std::uint64_t tick) noexcept;
   // Time left until half the period of the running tick has passed [ns], 0 when it has.
   std::uint64_t left_to_half_ns() const noexcept;

@@ -40,7 +40,8 @@ DriveFeedback IdealDrives::feedback_of(std::size_t drive) const {
     const double permille = told_.tension_plan_N[drive] / table_.drive[drive].newtons_per_permille;
     feedback.torque_permille = narrow<std::int16_t>(to_counts(permille).value);
   }
-  feedback.feedback_age_ticks = 1;  // imagined from the last tick: it says nothing about the cables (safety/cable_watch.hpp)
+  feedback.feedback_age_ticks =
+      1;  // imagined from the last tick: it says nothing about the cables (safety/cable_watch.hpp)
   feedback.heartbeat_age_ticks = feedback.emergency_code = 0;
   return feedback;
 }

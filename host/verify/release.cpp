@@ -2,14 +2,16 @@
 
 namespace liana {
 
-Candidate Release::candidate(const Setpoint& setpoint, std::uint32_t owner, std::uint64_t first_tick, std::uint64_t interval_ticks) {
+Candidate Release::candidate(const Setpoint& setpoint, std::uint32_t owner, std::uint64_t first_tick,
+                             std::uint64_t interval_ticks) {
   return Candidate(Telecommand(++last_sequence_, first_tick, first_tick + interval_ticks, owner, setpoint));
 }
 
 std::optional<Telecommand> Release::release(const Candidate& candidate, const ExecutionVerdict& execution,
                                             const SimulationVerdict& simulation) {
   const std::uint64_t sequence = candidate.sequence();
-  const bool both = execution.sequence == sequence && execution.passed() && simulation.sequence == sequence && simulation.passed();
+  const bool both =
+      execution.sequence == sequence && execution.passed() && simulation.sequence == sequence && simulation.passed();
   if (!both || sequence != last_sequence_ || sequence == last_released_) return std::nullopt;
   last_released_ = sequence;
   return candidate.telecommand_;

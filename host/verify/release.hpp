@@ -27,9 +27,12 @@ class Candidate {
 class Release {
  public:
   // A candidate with a sequence of its own for the interval [first_tick, first_tick + interval_ticks).
-  Candidate candidate(const Setpoint& setpoint, std::uint32_t owner, std::uint64_t first_tick, std::uint64_t interval_ticks);
-  // The telecommand; nothing unless both ends passed exactly this candidate, the newest one, and it was not released before.
-  std::optional<Telecommand> release(const Candidate& candidate, const ExecutionVerdict& execution, const SimulationVerdict& simulation);
+  Candidate candidate(const Setpoint& setpoint, std::uint32_t owner, std::uint64_t first_tick,
+                      std::uint64_t interval_ticks);
+  // The telecommand; nothing unless both ends passed exactly this candidate, the newest one, and it was not released
+  // before.
+  std::optional<Telecommand> release(const Candidate& candidate, const ExecutionVerdict& execution,
+                                     const SimulationVerdict& simulation);
 
  private:
   std::uint64_t last_sequence_ = 0;

@@ -27,13 +27,15 @@ Telecommand command_at(std::span<const Telecommand> released, std::uint64_t tick
 Prediction Twin::run(const TwinImage& start, std::span<const Telecommand> released, const Candidate& candidate,
                      std::size_t max_stop_ticks) const {
   Prediction prediction;
-  prediction.faults_before = static_cast<std::uint64_t>(start.last_outputs.faults.count) + start.last_outputs.faults.dropped;
+  prediction.faults_before =
+      static_cast<std::uint64_t>(start.last_outputs.faults.count) + start.last_outputs.faults.dropped;
   Controller copy = start.controller;
   IdealDrives drives(table_, start.last_inputs, start.last_outputs);
   std::uint64_t tick = start.next_tick;
   for (; tick < candidate.first_tick(); ++tick) step(copy, drives, tick, command_at(released, tick));
   for (; tick < candidate.expiry_tick(); ++tick) {
-    prediction.ticks.push_back(step(copy, drives, tick, tick == candidate.first_tick() ? candidate.telecommand_ : Telecommand{}));
+    prediction.ticks.push_back(
+        step(copy, drives, tick, tick == candidate.first_tick() ? candidate.telecommand_ : Telecommand{}));
   }
   prediction.command_ticks = prediction.ticks.size();
   for (std::size_t i = 0; i < max_stop_ticks && !prediction.comes_to_rest; ++i, ++tick) {

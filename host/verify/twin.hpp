@@ -30,8 +30,8 @@ struct Prediction {
 class Twin {
  public:
   explicit Twin(const RobotTable& table) : table_(table) {}
-  // Advances a copy through what is already released, then through the candidate, then through the stop that follows when nothing else
-  // comes; at most `max_stop_ticks` of it.
+  // Advances a copy through what is already released, then through the candidate, then through the stop that follows
+  // when nothing else comes; at most `max_stop_ticks` of it.
   Prediction run(const TwinImage& start, std::span<const Telecommand> released, const Candidate& candidate,
                  std::size_t max_stop_ticks) const;
 

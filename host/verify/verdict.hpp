@@ -6,7 +6,8 @@
 
 namespace liana {
 
-// Error codes M_e: 1xx execution capability (the controller's own outputs), 2xx simulation (the motion). Numbers never change meaning.
+// Error codes M_e: 1xx execution capability (the controller's own outputs), 2xx simulation (the motion). Numbers never
+// change meaning.
 enum class Refusal : std::uint16_t {
   kNone = 0,
   kTwinFault = 101,    // the controller would latch a fault

@@ -9,13 +9,15 @@ namespace liana {
 namespace {
 
 constexpr double kRounding = 1.0 + 1e-6;  // limits that the limiter reaches exactly
-// The gate lets cables pass 1.25 times the table's speed so that rounding to counts and the pretension ramp fit; so does verification.
+// The gate lets cables pass 1.25 times the table's speed so that rounding to counts and the pretension ramp fit; so
+// does verification.
 constexpr double kCableSpeedMargin = 1.25;
 // The filter bounds the target; the tip itself may lead it a little while the servo IK catches up.
 constexpr double kTipSpeedMargin = 1.05;
 
-// How far the servo IK may fall behind: far more than rounding and limiting leave (micrometres), far less than anyone would see. A tip
-// target beyond the arm's reach grows past it within a few intervals, before the arm has stretched out and folded back.
+// How far the servo IK may fall behind: far more than rounding and limiting leave (micrometres), far less than anyone
+// would see. A tip target beyond the arm's reach grows past it within a few intervals, before the arm has stretched out
+// and folded back.
 constexpr double kIkDistance_m = 0.005;
 constexpr double kIkAngle_rad = 0.01;
 
@@ -33,7 +35,8 @@ class Judge {
       std::snprintf(text, sizeof text, "%.3f", share);
       verdict_.margin = describe(what, index) + ": " + text + " of the limit";
     }
-    if (std::fabs(value) > limit * kRounding) refuse(code, describe(what, index) + " = " + number(value) + ", allowed " + number(limit));
+    if (std::fabs(value) > limit * kRounding)
+      refuse(code, describe(what, index) + " = " + number(value) + ", allowed " + number(limit));
   }
   void require(bool good, Refusal code, const std::string& text) {
     if (!good) refuse(code, text);
@@ -61,7 +64,8 @@ class Judge {
 void judge_tension(const RobotTable& table, const Outputs& outputs, Judge& judge) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
     const double tension_N = outputs.tension_plan_N[i];
-    judge.check(Refusal::kTension, "planned tension [N] of cable", static_cast<int>(i), tension_N, table.tension.ceiling_free_N);
+    judge.check(Refusal::kTension, "planned tension [N] of cable", static_cast<int>(i), tension_N,
+                table.tension.ceiling_free_N);
     judge.require(tension_N * kRounding >= table.tension.floor_motor_N, Refusal::kTension,
                   "planned tension of cable " + std::to_string(i + 1) + " is under the floor");
   }
@@ -103,7 +107,8 @@ void judge_time(const Candidate& candidate, std::uint64_t ticks_done, ExecutionV
   verdict.text = "verification took longer than the command interval";
 }
 
-SimulationVerdict judge_motion(const RobotTable& table, const Candidate& candidate, const Prediction& prediction, const SpeedZone& zone) {
+SimulationVerdict judge_motion(const RobotTable& table, const Candidate& candidate, const Prediction& prediction,
+                               const SpeedZone& zone) {
   SimulationVerdict verdict;
   verdict.sequence = candidate.sequence();
   Judge judge(verdict);
@@ -116,12 +121,16 @@ SimulationVerdict judge_motion(const RobotTable& table, const Candidate& candida
     }
     const double speed_m_s = zone.limit_at(outputs.tip_command.position_m, table.limits.tip_speed_m_s);
     judge.check(Refusal::kTipSpeed, "tip speed [m/s]", -1, outputs.tip_speed_m_s, kTipSpeedMargin * speed_m_s);
-    judge.check(Refusal::kTipSpeed, "tip turn rate [rad/s]", -1, outputs.tip_rate_rad_s, kTipSpeedMargin * table.limits.tip_rate_rad_s);
-    judge.check(Refusal::kUnreachable, "distance of the tip from its target [m]", -1, outputs.ik_position_error_m, kIkDistance_m);
-    judge.check(Refusal::kUnreachable, "angle of the tip from its target [rad]", -1, outputs.ik_attitude_error_rad, kIkAngle_rad);
+    judge.check(Refusal::kTipSpeed, "tip turn rate [rad/s]", -1, outputs.tip_rate_rad_s,
+                kTipSpeedMargin * table.limits.tip_rate_rad_s);
+    judge.check(Refusal::kUnreachable, "distance of the tip from its target [m]", -1, outputs.ik_position_error_m,
+                kIkDistance_m);
+    judge.check(Refusal::kUnreachable, "angle of the tip from its target [rad]", -1, outputs.ik_attitude_error_rad,
+                kIkAngle_rad);
     if (!verdict.passed()) return verdict;
   }
-  judge.require(prediction.comes_to_rest, Refusal::kNoRest, "the arm would not come to rest within 3 s after the command");
+  judge.require(prediction.comes_to_rest, Refusal::kNoRest,
+                "the arm would not come to rest within 3 s after the command");
   return verdict;
 }
 

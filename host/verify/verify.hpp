@@ -7,7 +7,8 @@
 
 namespace liana {
 
-// Longest stop that is accepted: full speed to rest takes about 2 s with the limits of the arm (v/a + a/j + filter lag).
+// Longest stop that is accepted: full speed to rest takes about 2 s with the limits of the arm (v/a + a/j + filter
+// lag).
 constexpr double kMaxStop_s = 3.0;
 
 // Ticks of kMaxStop_s.

@@ -28,7 +28,8 @@ struct Scenario {
 Scenario scenario(const RobotTable& robot, const ThetaVector& theta, zhu2022::Random& random) {
   Scenario out;
   const LinkPoints points = link_points(robot, theta);
-  for (std::int32_t link = 0; link + 1 < points.count; ++link) out.links.push_back(link_capsule(points, link, kLinkRadius_m));
+  for (std::int32_t link = 0; link + 1 < points.count; ++link)
+    out.links.push_back(link_capsule(points, link, kLinkRadius_m));
   while (out.boxes.size() < kBoxes) {
     const Quat turn = quaternion_of(random.vector(1.5));
     const Vec3 from_middle = random.vector(1.5), half = random.vector(0.125);
@@ -146,7 +147,8 @@ void compare(const Scenario& ours, const FclScenario& fcl, const ccd_t& ccd) {
     for (std::size_t b = 0; b < kBoxes; ++b) {
       const double distance_m = clearance(ours.links[l], ours.boxes[b]).distance_m;
       if (distance_m > kPeerError_m)
-        require_agreement("distance of FCL", std::fabs(fcl_distance(fcl.links[l], fcl.boxes[b]) - distance_m), kPeerError_m);
+        require_agreement("distance of FCL", std::fabs(fcl_distance(fcl.links[l], fcl.boxes[b]) - distance_m),
+                          kPeerError_m);
       if (std::fabs(distance_m) < kPeerError_m) continue;
       const bool touch = distance_m < 0.0;
       const bool same = fcl_touch(fcl.links[l], fcl.boxes[b]) == touch &&
@@ -174,8 +176,9 @@ void measure(Meter& meter, const RobotTable& robot) {
   };
   const auto touch_of = [&](auto&& intersect) {
     return [&ours, &ccd, intersect](std::size_t i) {
-      return sum_over_pairs(ours[i].links, ours[i].boxes,
-                            [&](const Capsule& link, const SceneBox& box) { return static_cast<double>(intersect(&link, &box, &ccd)); });
+      return sum_over_pairs(ours[i].links, ours[i].boxes, [&](const Capsule& link, const SceneBox& box) {
+        return static_cast<double>(intersect(&link, &box, &ccd));
+      });
     };
   };
   count("ours", [&](std::size_t i) {

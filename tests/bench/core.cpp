@@ -23,14 +23,16 @@ void forward(Bench& bench) {
   const RobotTable& robot = bench.robot;
   const auto poses = random_poses(robot, kCalls);
   for (const ThetaVector& theta : poses) {
-    const ArmKinematics ours = forward_kinematics(robot, theta), own_80 = hinge_kinematics_summed(robot, bench.chain, theta);
+    const ArmKinematics ours = forward_kinematics(robot, theta),
+                        own_80 = hinge_kinematics_summed(robot, bench.chain, theta);
     require_agreement("pose of the 80 hinges", tip_difference(ours.tip_in_base, own_80.tip_in_base));
     require_agreement("Jacobian of the 80 hinges", jacobian_difference(ours.tip_jacobian, own_80.tip_jacobian));
   }
   bench.meter.each("fk_jacobian", "ours", kCalls,
                    [&](std::size_t i) { return forward_kinematics(robot, poses[i]).tip_in_base.position_m[0]; });
-  bench.meter.each("fk_jacobian", "own_80", kCalls,
-                   [&](std::size_t i) { return hinge_kinematics_summed(robot, bench.chain, poses[i]).tip_in_base.position_m[0]; });
+  bench.meter.each("fk_jacobian", "own_80", kCalls, [&](std::size_t i) {
+    return hinge_kinematics_summed(robot, bench.chain, poses[i]).tip_in_base.position_m[0];
+  });
 }
 
 void cables(Bench& bench) {
@@ -38,10 +40,12 @@ void cables(Bench& bench) {
   const CableLayout layout = cable_layout(robot);
   const auto poses = random_poses(robot, kCalls);
   for (const ThetaVector& theta : poses) {
-    const CableGeometry ours = cable_geometry(robot, layout, arm_trig(robot, theta)), textbook = textbook_cables(robot, layout, theta);
+    const CableGeometry ours = cable_geometry(robot, layout, arm_trig(robot, theta)),
+                        textbook = textbook_cables(robot, layout, theta);
     require_agreement("cable length of the textbook", zhu2022::largest_difference(ours.length_m, textbook.length_m));
     for (std::size_t c = 0; c < kMaxCables; ++c) {
-      require_agreement("cable Jacobian of the textbook", zhu2022::largest_difference(ours.jacobian_m_rad[c], textbook.jacobian_m_rad[c]));
+      require_agreement("cable Jacobian of the textbook",
+                        zhu2022::largest_difference(ours.jacobian_m_rad[c], textbook.jacobian_m_rad[c]));
     }
   }
   bench.meter.each("cable_jacobian", "ours", kCalls,
@@ -80,14 +84,18 @@ void near(Bench& bench) {
   for (const IkProblem& problem : problems) {
     steps += solve_near(robot, problem, theta);
     hinge_steps += solve_near(bench.chain, problem, angle);
-    require_agreement("the near goal of ours", tip_difference(problem.tip_in_base, forward_kinematics(robot, theta).tip_in_base), kSolved);
+    require_agreement("the near goal of ours",
+                      tip_difference(problem.tip_in_base, forward_kinematics(robot, theta).tip_in_base), kSolved);
     require_agreement("the near goal of the 80 hinges",
                       tip_difference(problem.tip_in_base, hinge_kinematics(bench.chain, angle).tip_in_base), kSolved);
   }
   const double calls = static_cast<double>(kCalls);
-  bench.meter.note("ik_near", "ours", std::to_string(steps / calls).substr(0, 4) + " calls of servo_ik from fresh kinematics");
-  bench.meter.note("ik_near", "own_80", std::to_string(hinge_steps / calls).substr(0, 4) + " steps; 80 free hinges, no limits");
-  bench.meter.each("ik_near", "ours", kCalls, [&](std::size_t i) { return static_cast<double>(solve_near(robot, problems[i], theta)); });
+  bench.meter.note("ik_near", "ours",
+                   std::to_string(steps / calls).substr(0, 4) + " calls of servo_ik from fresh kinematics");
+  bench.meter.note("ik_near", "own_80",
+                   std::to_string(hinge_steps / calls).substr(0, 4) + " steps; 80 free hinges, no limits");
+  bench.meter.each("ik_near", "ours", kCalls,
+                   [&](std::size_t i) { return static_cast<double>(solve_near(robot, problems[i], theta)); });
   bench.meter.each("ik_near", "own_80", kCalls,
                    [&](std::size_t i) { return static_cast<double>(solve_near(bench.chain, problems[i], angle)); });
   bench.meter.each("ik_step", "ours", kCalls, [&](std::size_t i) {
@@ -111,9 +119,11 @@ void random_goals(Bench& bench) {
     for (std::size_t i = 0; i < kTargets; ++i) {
       if (solve(i).converged) ++solved;
     }
-    bench.meter.note("ik_random", "ours", std::to_string(solved) + " of " + std::to_string(kTargets) + " solved, all within the limits");
+    bench.meter.note("ik_random", "ours",
+                     std::to_string(solved) + " of " + std::to_string(kTargets) + " solved, all within the limits");
   }
-  for (std::size_t i = 0; i < kCalls; ++i) bench.meter.once("ik_random", "ours", [&] { return solve(i).position_error_m; });
+  for (std::size_t i = 0; i < kCalls; ++i)
+    bench.meter.once("ik_random", "ours", [&] { return solve(i).position_error_m; });
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// Orocos KDL on the same arm: a chain of 80 joints from the D-H rows of the source, for KDL knows no coupled joints. It therefore solves an
-// easier inverse problem than ours: its 80 angles are free, and the coupled arm cannot take them up.
+// Orocos KDL on the same arm: a chain of 80 joints from the D-H rows of the source, for KDL knows no coupled joints. It
+// therefore solves an easier inverse problem than ours: its 80 angles are free, and the coupled arm cannot take them
+// up.
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -103,7 +104,8 @@ void forward(Meter& meter, const RobotTable& robot, Solvers& solvers) {
     require_agreement("pose of KDL", tip_difference(ours.tip_in_base, kdl.tip_in_base));
     require_agreement("Jacobian of KDL", jacobian_difference(ours.tip_jacobian, kdl.tip_jacobian));
   }
-  meter.each("fk_jacobian", "kdl", kCalls, [&](std::size_t i) { return solvers.forward(joints[i]).tip_in_base.position_m[0]; });
+  meter.each("fk_jacobian", "kdl", kCalls,
+             [&](std::size_t i) { return solvers.forward(joints[i]).tip_in_base.position_m[0]; });
 }
 
 void near(Meter& meter, const RobotTable& robot, Solvers& solvers) {
@@ -121,13 +123,15 @@ void near(Meter& meter, const RobotTable& robot, Solvers& solvers) {
   meter.note("ik_near", "kdl", "ChainIkSolverPos_LMA; 80 free joints, no limits");
   meter.note("ik_near", "kdl_nr_jl", "ChainIkSolverPos_NR_JL with WDLS 0.01; 80 free joints");
   meter.note("ik_step", "kdl", "ChainIkSolverVel_wdls, 80 free joints");
-  meter.each("ik_near", "kdl", kCalls, [&](std::size_t i) { return static_cast<double>(solvers.lma.CartToJnt(from, goals[i], q)); });
+  meter.each("ik_near", "kdl", kCalls,
+             [&](std::size_t i) { return static_cast<double>(solvers.lma.CartToJnt(from, goals[i], q)); });
   meter.each("ik_near", "kdl_nr_jl", kSlowCalls,
              [&](std::size_t i) { return static_cast<double>(solvers.newton.CartToJnt(from, goals[i], q)); });
   KDL::Frame start;
   solvers.fk.JntToCart(from, start);
-  meter.each("ik_step", "kdl", kSlowCalls,
-             [&](std::size_t i) { return static_cast<double>(solvers.wdls.CartToJnt(from, KDL::diff(start, goals[i]), q)); });
+  meter.each("ik_step", "kdl", kSlowCalls, [&](std::size_t i) {
+    return static_cast<double>(solvers.wdls.CartToJnt(from, KDL::diff(start, goals[i]), q));
+  });
 }
 
 bool within_limits(const RobotTable& robot, const KDL::JntArray& q) {
@@ -150,8 +154,8 @@ void random_goals(Meter& meter, const RobotTable& robot, Solvers& solvers) {
       if (within_limits(robot, q)) ++usable;
     }
     meter.note("ik_random", "kdl",
-               "LMA: " + std::to_string(solved) + " of " + std::to_string(kTargets) + " solved, " + std::to_string(usable) +
-                   " of them with every joint within its limit; 80 free joints");
+               "LMA: " + std::to_string(solved) + " of " + std::to_string(kTargets) + " solved, " +
+                   std::to_string(usable) + " of them with every joint within its limit; 80 free joints");
   }
   for (std::size_t i = 0; i < kSlowCalls; ++i) {
     const KDL::Frame goal = frame_of(problems[i].tip_in_base);

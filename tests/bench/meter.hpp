@@ -1,7 +1,8 @@
 // Counts instructions when run under callgrind and measures time otherwise: one program does both, on the same calls.
 //
-// Under callgrind (--collect-atstart=no) collection is on during a counted call only, and each call is dumped on its own with the label
-// "operation version". Otherwise `print` writes one line of JSON for each label. tests/bench/callgrind.py puts both together.
+// Under callgrind (--collect-atstart=no) collection is on during a counted call only, and each call is dumped on its
+// own with the label "operation version". Otherwise `print` writes one line of JSON for each label.
+// tests/bench/callgrind.py puts both together.
 #pragma once
 
 #include <valgrind/callgrind.h>
@@ -19,7 +20,8 @@ namespace liana::bench {
 
 class Meter {
  public:
-  // One call that cannot be repeated, such as a tick, or one among calls of very different cost. `call` returns a number of its result.
+  // One call that cannot be repeated, such as a tick, or one among calls of very different cost. `call` returns a
+  // number of its result.
   template <class Call>
   void once(const std::string& operation, const std::string& version, Call&& call) {
     const std::string label = operation + " " + version;
@@ -33,8 +35,8 @@ class Meter {
     }
   }
 
-  // `call(i)` for i = 0 .. calls - 1. Times are means over all calls, the least of several rounds: the steadiest figure on a shared
-  // machine.
+  // `call(i)` for i = 0 .. calls - 1. Times are means over all calls, the least of several rounds: the steadiest figure
+  // on a shared machine.
   template <class Call>
   void each(const std::string& operation, const std::string& version, std::size_t calls, Call&& call) {
     if (RUNNING_ON_VALGRIND) {
@@ -52,12 +54,14 @@ class Meter {
 
   // One call consists of that many equal parts; the page shows one.
   void parts(const std::string& operation, const std::string& version, std::size_t count) {
-    if (!RUNNING_ON_VALGRIND) std::printf("{\"label\": \"%s %s\", \"parts\": %zu}\n", operation.c_str(), version.c_str(), count);
+    if (!RUNNING_ON_VALGRIND)
+      std::printf("{\"label\": \"%s %s\", \"parts\": %zu}\n", operation.c_str(), version.c_str(), count);
   }
 
   // A remark on what was measured, for the page.
   void note(const std::string& operation, const std::string& version, const std::string& text) {
-    if (!RUNNING_ON_VALGRIND) std::printf("{\"label\": \"%s %s\", \"note\": \"%s\"}\n", operation.c_str(), version.c_str(), text.c_str());
+    if (!RUNNING_ON_VALGRIND)
+      std::printf("{\"label\": \"%s %s\", \"note\": \"%s\"}\n", operation.c_str(), version.c_str(), text.c_str());
   }
 
   void print() {

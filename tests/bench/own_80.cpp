@@ -27,7 +27,8 @@ Quat quaternion_of_axes(const Axes& axes) {
   const double trace = axes[0][0] + axes[1][1] + axes[2][2];
   if (trace > 0.0) {
     const double w = 0.5 * std::sqrt(1.0 + trace);
-    return {w, (axes[1][2] - axes[2][1]) / (4.0 * w), (axes[2][0] - axes[0][2]) / (4.0 * w), (axes[0][1] - axes[1][0]) / (4.0 * w)};
+    return {w, (axes[1][2] - axes[2][1]) / (4.0 * w), (axes[2][0] - axes[0][2]) / (4.0 * w),
+            (axes[0][1] - axes[1][0]) / (4.0 * w)};
   }
   std::size_t i = axes[0][0] > axes[1][1] ? 0 : 1;
   if (axes[2][2] > axes[i][i]) i = 2;
@@ -41,7 +42,8 @@ Quat quaternion_of_axes(const Axes& axes) {
   return q;
 }
 
-// Walks the chain; `trig_of(i)` gives sine and cosine of hinge i. Columns first hold the hinge's point, then its linear velocity.
+// Walks the chain; `trig_of(i)` gives sine and cosine of hinge i. Columns first hold the hinge's point, then its linear
+// velocity.
 template <class TrigOf>
 HingeKinematics walk(const HingeChain& chain, TrigOf&& trig_of) {
   HingeKinematics out;

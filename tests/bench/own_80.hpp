@@ -1,5 +1,5 @@
-// The same arm as a chain of 80 independent hinges, worked joint by joint: what the closed form and the reduced Jacobian save.
-// Straightforward and without waste: one turn of two axes a hinge, no 4x4 products, no heap.
+// The same arm as a chain of 80 independent hinges, worked joint by joint: what the closed form and the reduced
+// Jacobian save. Straightforward and without waste: one turn of two axes a hinge, no 4x4 products, no heap.
 #pragma once
 
 #include <array>
@@ -34,10 +34,12 @@ HingeVector hinge_angles(const HingeChain& chain, const ThetaVector& theta_rad);
 // Pose and 6x80 Jacobian; the angles of the hinges are independent.
 HingeKinematics hinge_kinematics(const HingeChain& chain, const HingeVector& angle_rad);
 
-// The same with each theta's sine and cosine taken once, and the columns of each theta summed to 6x10 (eq. 3-12 of the source).
+// The same with each theta's sine and cosine taken once, and the columns of each theta summed to 6x10 (eq. 3-12 of the
+// source).
 ArmKinematics hinge_kinematics_summed(const RobotTable& table, const HingeChain& chain, const ThetaVector& theta_rad);
 
-// One step of damped least squares over 80 hinges: angle += J^T (J J^T + damping I)^-1 e, from their kinematics and the tip error e.
+// One step of damped least squares over 80 hinges: angle += J^T (J J^T + damping I)^-1 e, from their kinematics and the
+// tip error e.
 void hinge_ik_step(const HingeKinematics& arm, std::array<double, 6> e, double damping, HingeVector& angle_rad);
 
 }  // namespace liana::bench

@@ -1,4 +1,5 @@
-// Whole plans: ours, and Ipopt alone from the straight line in theta, on the same problems with the same derivatives and constraints.
+// Whole plans: ours, and Ipopt alone from the straight line in theta, on the same problems with the same derivatives
+// and constraints.
 #include <cstdio>
 
 #include "host/plan/plan.hpp"
@@ -33,7 +34,8 @@ void measure(Meter& meter, const std::string& operation, PlanRequest request) {
       return result.objective;
     });
     if (!straight && result.outcome != PlanOutcome::solved) throw std::runtime_error(operation + ": " + result.reason);
-    meter.note(operation, version, std::string(name_of(result.outcome)) + ", " + std::to_string(result.iterations) + " iterations");
+    meter.note(operation, version,
+               std::string(name_of(result.outcome)) + ", " + std::to_string(result.iterations) + " iterations");
   }
 }
 

@@ -1,4 +1,5 @@
-// What every program of the bench works on, so that ours and the peers see the same: seeded, and the same on every machine.
+// What every program of the bench works on, so that ours and the peers see the same: seeded, and the same on every
+// machine.
 #pragma once
 
 #include <stdexcept>
@@ -50,14 +51,16 @@ inline std::vector<IkProblem> near_problems(const RobotTable& robot, std::size_t
 // Tips of random poses, from the straight arm.
 inline std::vector<IkProblem> random_problems(const RobotTable& robot, std::size_t count) {
   std::vector<IkProblem> problems;
-  for (const ThetaVector& theta : random_poses(robot, count, 3)) problems.push_back({forward_kinematics(robot, theta).tip_in_base, {}});
+  for (const ThetaVector& theta : random_poses(robot, count, 3))
+    problems.push_back({forward_kinematics(robot, theta).tip_in_base, {}});
   return problems;
 }
 
 // Throws std::runtime_error unless `difference` is within `allowed`; NaN is not.
 inline void require_agreement(const std::string& what, double difference, double allowed = kAgreement) {
   if (difference <= allowed) return;
-  throw std::runtime_error("bench: " + what + " differs by " + std::to_string(difference) + ", allowed is " + std::to_string(allowed));
+  throw std::runtime_error("bench: " + what + " differs by " + std::to_string(difference) + ", allowed is " +
+                           std::to_string(allowed));
 }
 
 // Size of the tip error [m and rad, together].
@@ -67,8 +70,8 @@ inline double tip_difference(const Pose& a, const Pose& b) { return zhu2022::len
 inline double jacobian_difference(const Jacobian& a, const Jacobian& b) {
   double largest = 0.0;
   for (std::size_t k = 0; k < kMaxTheta; ++k) {
-    largest =
-        std::max({largest, zhu2022::largest_difference(a.linear[k], b.linear[k]), zhu2022::largest_difference(a.angular[k], b.angular[k])});
+    largest = std::max({largest, zhu2022::largest_difference(a.linear[k], b.linear[k]),
+                        zhu2022::largest_difference(a.angular[k], b.angular[k])});
   }
   return largest;
 }

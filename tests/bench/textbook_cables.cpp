@@ -43,7 +43,8 @@ CableVector textbook_lengths(const RobotTable& table, const CableLayout& layout,
         const Vec3 before{-g, layout.hole_y_m[c], layout.hole_z_m[c]}, hole{g, before[1], before[2]};
         const Vec3 gap = subtract({dot(turn[0], hole), dot(turn[1], hole), dot(turn[2], hole)}, before);
         length_m[c] += std::sqrt(dot(gap, gap));
-        if (anchor > j || k + 1 < passed.modules) length_m[c] += passed.module_length_m - 2.0 * g;  // not behind the anchor
+        if (anchor > j || k + 1 < passed.modules)
+          length_m[c] += passed.module_length_m - 2.0 * g;  // not behind the anchor
       }
     }
   }

@@ -1,4 +1,5 @@
-// Cable lengths as a textbook has them: every hole of every disc, hole to hole, joint by joint; the derivative by central differences.
+// Cable lengths as a textbook has them: every hole of every disc, hole to hole, joint by joint; the derivative by
+// central differences.
 #pragma once
 
 #include "firmware_like/arm/cables.hpp"

@@ -74,7 +74,8 @@ void moving_shape(Meter& meter, const Rig& enabled) {
   Phase phase(meter, "moving_shape", enabled);
   Setpoint setpoint = phase.rig.tip_by({0.02, 0.0, 0.01});
   setpoint.node[0] = {3, add(phase.rig.out.node_command_m[2], {0.0, 0.03, 0.03}), 1.0, 0.001};
-  for (const std::size_t i : {0u, 1u}) setpoint.clear[i] = {add(phase.rig.out.node_command_m[i + 1], {0.0, 0.0, 0.1}), 0.3, 1.0};
+  for (const std::size_t i : {0u, 1u})
+    setpoint.clear[i] = {add(phase.rig.out.node_command_m[i + 1], {0.0, 0.0, 0.1}), 0.3, 1.0};
   setpoint.held_mask = 0x300;
   setpoint.held_rad = phase.rig.out.theta_command_rad;
   phase.follow(setpoint);

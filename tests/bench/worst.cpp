@@ -1,11 +1,13 @@
 // The hunt for the most expensive tick.
 //
-//   bench_worst search CASES SEED [FILE]    tries CASES cases, random ones and changed ones of the worst so far (at first those in a
+//   bench_worst search CASES SEED [FILE]    tries CASES cases, random ones and changed ones of the worst so far (at
+//   first those in a
 //                                           file), led by time; prints the worst
 //   bench_worst random CASES SEED    counts every tick of random cases
 //   bench_worst stored FILE          counts every tick of the cases in a file
 //
-// Time is only a guide: what a case costs is what callgrind counts of it (tests/bench/callgrind.py), each case under the operation "tick".
+// Time is only a guide: what a case costs is what callgrind counts of it (tests/bench/callgrind.py), each case under
+// the operation "tick".
 #include <algorithm>
 #include <charconv>
 #include <chrono>
@@ -64,8 +66,8 @@ class Search {
       const bool fresh = pool_.size() < kPool || random_.uniform(0.0, 1.0) < kFresh;
       try_case(fresh ? random_case(random_) : mutated(any(), any(), random_));
       if ((i + 1) % 1000 == 0)
-        std::fprintf(stderr, "%lld cases, %lld ticks, worst %.0f ns\n", static_cast<long long>(i + 1), static_cast<long long>(ticks_),
-                     pool_[0].ns);
+        std::fprintf(stderr, "%lld cases, %lld ticks, worst %.0f ns\n", static_cast<long long>(i + 1),
+                     static_cast<long long>(ticks_), pool_[0].ns);
     }
   }
   void print() const {
@@ -74,7 +76,9 @@ class Search {
   }
 
  private:
-  const Case& any() { return pool_[static_cast<std::size_t>(random_.uniform(0.0, static_cast<double>(pool_.size())))].one; }
+  const Case& any() {
+    return pool_[static_cast<std::size_t>(random_.uniform(0.0, static_cast<double>(pool_.size())))].one;
+  }
 
   void try_case(const Case& one) {
     const double enough_ns = pool_.size() < kPool ? 0.0 : pool_.back().ns;
@@ -84,7 +88,8 @@ class Search {
       const Controller before = controller;
       Outputs outputs;
       const double first_ns = time_ns(controller, inputs, outputs);
-      if (first_ns > worst_ns && first_ns > enough_ns) worst_ns = std::max(worst_ns, std::min(first_ns, least_time_ns(before, inputs)));
+      if (first_ns > worst_ns && first_ns > enough_ns)
+        worst_ns = std::max(worst_ns, std::min(first_ns, least_time_ns(before, inputs)));
       return outputs;
     });
     keep({one, worst_ns});
@@ -94,7 +99,9 @@ class Search {
   void keep(const Found& found) {
     if (pool_.size() == kPool && found.ns <= pool_.back().ns) return;
     if (std::any_of(pool_.begin(), pool_.end(), [&](const Found& other) { return other.one == found.one; })) return;
-    pool_.insert(std::upper_bound(pool_.begin(), pool_.end(), found, [](const Found& a, const Found& b) { return a.ns > b.ns; }), found);
+    pool_.insert(
+        std::upper_bound(pool_.begin(), pool_.end(), found, [](const Found& a, const Found& b) { return a.ns > b.ns; }),
+        found);
     if (pool_.size() > kPool) pool_.pop_back();
   }
 

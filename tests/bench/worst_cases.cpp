@@ -135,7 +135,9 @@ Setpoint setpoint_of(const Act& act, const Rig& rig) {
   }
   setpoint.held_mask = act.held_mask;
   if (!has_shape(act.kind)) return setpoint;
-  const auto node_m = [&](std::int32_t node) { return rig.out.node_command_m[static_cast<std::size_t>(std::max(node, 1) - 1)]; };
+  const auto node_m = [&](std::int32_t node) {
+    return rig.out.node_command_m[static_cast<std::size_t>(std::max(node, 1) - 1)];
+  };
   for (std::size_t i = 0; i < act.node.size(); ++i) {
     const NodeGenes& from = act.node[i];
     setpoint.node[i] = {from.node, add(node_m(from.node), from.off_m), from.weight, from.threshold_m};
@@ -195,9 +197,10 @@ void scatter(const NoiseGenes& noise, zhu2022::Random& random, Inputs& inputs) {
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
     DriveFeedback& drive = inputs.drive[c];
     if (noise.torque > kLeast)
-      drive.torque_permille =
-          narrow<std::int16_t>(to_counts(drive.torque_permille + random.uniform(-1.0, 1.0) * (noise.torque - kLeast)).value);
-    if (noise.position > kLeast) drive.position_counts += to_counts(random.uniform(-1.0, 1.0) * (noise.position - kLeast)).value;
+      drive.torque_permille = narrow<std::int16_t>(
+          to_counts(drive.torque_permille + random.uniform(-1.0, 1.0) * (noise.torque - kLeast)).value);
+    if (noise.position > kLeast)
+      drive.position_counts += to_counts(random.uniform(-1.0, 1.0) * (noise.position - kLeast)).value;
   }
 }
 
@@ -218,7 +221,8 @@ Case mutated(const Case& from, const Case& other, zhu2022::Random& random) {
   Case one = from;
   if (random.uniform(0.0, 1.0) < 0.2) {
     const std::size_t a = index(), b = index();
-    std::copy(other.begin() + static_cast<std::ptrdiff_t>(std::min(a, b)), other.begin() + static_cast<std::ptrdiff_t>(std::max(a, b)),
+    std::copy(other.begin() + static_cast<std::ptrdiff_t>(std::min(a, b)),
+              other.begin() + static_cast<std::ptrdiff_t>(std::max(a, b)),
               one.begin() + static_cast<std::ptrdiff_t>(std::min(a, b)));
   }
   const Case fresh = random_case(random);
@@ -245,10 +249,12 @@ std::vector<Case> read_cases(std::istream& lines) {
     ++number;
     if (line.empty() || line[0] == '#') continue;
     if (line.size() != 2 * kGenes || line.find_first_not_of("0123456789abcdef") != std::string::npos) {
-      throw std::runtime_error("cases: line " + std::to_string(number) + " is not " + std::to_string(2 * kGenes) + " hexadecimal digits");
+      throw std::runtime_error("cases: line " + std::to_string(number) + " is not " + std::to_string(2 * kGenes) +
+                               " hexadecimal digits");
     }
     Case one{};
-    for (std::size_t i = 0; i < kGenes; ++i) one[i] = static_cast<std::uint8_t>(std::stoul(line.substr(2 * i, 2), nullptr, 16));
+    for (std::size_t i = 0; i < kGenes; ++i)
+      one[i] = static_cast<std::uint8_t>(std::stoul(line.substr(2 * i, 2), nullptr, 16));
     cases.push_back(one);
   }
   return cases;

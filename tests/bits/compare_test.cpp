@@ -59,7 +59,9 @@ TEST(BitsCompare, AnAnswerThatEndsInTheMiddleOfATickDiffers) {
   EXPECT_EQ(compared(run, run.substr(0, run.size() - 1)).differing_ticks, 1u);
 }
 
-TEST(BitsCompare, AnAnswerTooManyDiffers) { EXPECT_EQ(compared(outputs_of(7), outputs_of(7) + outputs_of(8)).differing_ticks, 1u); }
+TEST(BitsCompare, AnAnswerTooManyDiffers) {
+  EXPECT_EQ(compared(outputs_of(7), outputs_of(7) + outputs_of(8)).differing_ticks, 1u);
+}
 
 }  // namespace
 }  // namespace liana::bits

@@ -1,4 +1,5 @@
-// bits_tape: makes tapes of recordings, compares answers, sums up counts. `./dev bits` calls it; every command prints JSON.
+// bits_tape: makes tapes of recordings, compares answers, sums up counts. `./dev bits` calls it; every command prints
+// JSON.
 #include <CLI/CLI.hpp>
 #include <fstream>
 #include <iostream>
@@ -14,13 +15,14 @@ namespace {
 std::string tape_json(const TapeSummary& summary) {
   Json faults = Json::array(), missing = Json::array();
   for (const FaultInfo& info : all_faults()) {
-    if (info.number != FaultNumber::kNone) (summary.faults.contains(info.number) ? faults : missing).push_back(info.number);
+    if (info.number != FaultNumber::kNone)
+      (summary.faults.contains(info.number) ? faults : missing).push_back(info.number);
   }
   return Json{{"mission_ticks", summary.mission_ticks},
-                        {"what_if_ticks", summary.what_if_ticks},
-                        {"what_ifs", summary.what_ifs},
-                        {"faults", faults},
-                        {"faults_not_reached", missing}}
+              {"what_if_ticks", summary.what_if_ticks},
+              {"what_ifs", summary.what_ifs},
+              {"faults", faults},
+              {"faults_not_reached", missing}}
       .dump();
 }
 
@@ -34,11 +36,11 @@ std::string comparison_json(const Comparison& result) {
 
 std::string meter_json(const MeterSummary& meter) {
   return Json{{"ticks", meter.ticks},
-                        {"median_instructions", meter.median_instructions},
-                        {"worst_instructions", meter.worst_instructions},
-                        {"worst_tick", meter.worst_tick},
-                        {"worst_state", meter.worst_state},
-                        {"worst_stack_bytes", meter.worst_stack_bytes}}
+              {"median_instructions", meter.median_instructions},
+              {"worst_instructions", meter.worst_instructions},
+              {"worst_tick", meter.worst_tick},
+              {"worst_state", meter.worst_state},
+              {"worst_stack_bytes", meter.worst_stack_bytes}}
       .dump();
 }
 
@@ -58,8 +60,8 @@ int main(int argc, char** argv) {
   make->add_option("tape", first)->required();
   make->add_option("expected", second)->required();
   make->add_option("recordings", recordings)->required();
-  CLI::App* const cases =
-      app.add_subcommand("cases", "write a tape of costly cases (tests/bench/worst_cases.hpp) and the Outputs expected of it");
+  CLI::App* const cases = app.add_subcommand(
+      "cases", "write a tape of costly cases (tests/bench/worst_cases.hpp) and the Outputs expected of it");
   std::string case_file;
   cases->add_option("tape", first)->required();
   cases->add_option("expected", second)->required();
@@ -75,7 +77,8 @@ int main(int argc, char** argv) {
     if (make->parsed()) {
       liana::bits::TapeSummary summary;
       std::ofstream tape(first, std::ios::binary), expected(second, std::ios::binary);
-      for (const std::string& directory : recordings) liana::bits::append_recording(directory, options, tape, expected, summary);
+      for (const std::string& directory : recordings)
+        liana::bits::append_recording(directory, options, tape, expected, summary);
       std::cout << liana::bits::tape_json(summary) << "\n";
       return 0;
     }

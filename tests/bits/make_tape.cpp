@@ -17,7 +17,9 @@
 namespace liana::bits {
 namespace {
 
-constexpr std::uint64_t kAtChange = 0, kAfterChange = 20;  // ticks after a change of state or of held variables: beginning, and in force
+constexpr std::uint64_t kAtChange = 0,
+                        kAfterChange =
+                            20;  // ticks after a change of state or of held variables: beginning, and in force
 
 struct RecordedTick {
   std::string inputs, outputs;
@@ -34,11 +36,13 @@ RecordedRun read(const std::string& directory, std::uint64_t limit) {
   visitor.message = [&](const std::string& topic, std::uint32_t, std::uint64_t, std::string_view data) {
     if (topic == kStartTopic) run.robot = parse_image(data).table;
     if (topic == kInputsTopic && run.ticks.size() < limit) run.ticks.push_back({std::string(data), {}});
-    if (topic == kOutputsTopic && !run.ticks.empty() && run.ticks.back().outputs.empty()) run.ticks.back().outputs = data;
+    if (topic == kOutputsTopic && !run.ticks.empty() && run.ticks.back().outputs.empty())
+      run.ticks.back().outputs = data;
   };
   const McapState state = read_mcap(directory + "/" + kRecordingFile, visitor);
   if (state != McapState::kWhole || !run.robot || run.ticks.empty()) {
-    throw std::runtime_error("recording " + directory + ": not whole, or it does not begin at the start of a run; record it again");
+    throw std::runtime_error("recording " + directory +
+                             ": not whole, or it does not begin at the start of a run; record it again");
   }
   return run;
 }
@@ -87,7 +91,8 @@ class Maker {
   }
 
   bool is_branch(const RecordedRun& run, std::size_t i) const {
-    return i + 1 < run.ticks.size() && (since_change_ == kAtChange || since_change_ == kAfterChange || (i + 1) % options_.apart == 0);
+    return i + 1 < run.ticks.size() &&
+           (since_change_ == kAtChange || since_change_ == kAfterChange || (i + 1) % options_.apart == 0);
   }
 
   // What could have happened from recorded tick `next` on, as one branch each.
@@ -136,8 +141,8 @@ class Maker {
 
 }  // namespace
 
-void append_recording(const std::string& directory, const TapeOptions& options, std::ostream& tape, std::ostream& expected,
-                      TapeSummary& summary) {
+void append_recording(const std::string& directory, const TapeOptions& options, std::ostream& tape,
+                      std::ostream& expected, TapeSummary& summary) {
   Maker(options, tape, expected, summary).append(read(directory, options.limit));
   if (!tape || !expected) throw std::runtime_error("tape: could not be written; is the disk full?");
 }

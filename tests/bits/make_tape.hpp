@@ -24,14 +24,15 @@ struct TapeOptions {
   std::optional<std::uint64_t> flip_at;  // falsifies one bit of this recorded tick (from 0), to see that it is found
 };
 
-// Appends a recording to a tape. Branches leave it at and shortly after every change of the operating state and of the held variables, and
-// every `apart` ticks. `expected` gets the recorded Outputs, in branches those of the core that this program is built with. Throws
-// std::runtime_error when the recording is not whole or does not begin at the start of a run.
-void append_recording(const std::string& directory, const TapeOptions& options, std::ostream& tape, std::ostream& expected,
-                      TapeSummary& summary);
+// Appends a recording to a tape. Branches leave it at and shortly after every change of the operating state and of the
+// held variables, and every `apart` ticks. `expected` gets the recorded Outputs, in branches those of the core that
+// this program is built with. Throws std::runtime_error when the recording is not whole or does not begin at the start
+// of a run.
+void append_recording(const std::string& directory, const TapeOptions& options, std::ostream& tape,
+                      std::ostream& expected, TapeSummary& summary);
 
-// Appends cases (tests/bench/worst_cases.hpp), one a line, each from power-up. Returns how many ticks they have; throws std::runtime_error
-// on a line that is no case.
+// Appends cases (tests/bench/worst_cases.hpp), one a line, each from power-up. Returns how many ticks they have; throws
+// std::runtime_error on a line that is no case.
 std::uint64_t append_cases(std::istream& lines, std::ostream& tape, std::ostream& expected);
 
 }  // namespace liana::bits

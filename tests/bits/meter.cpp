@@ -33,8 +33,8 @@ const char* name_of(OperatingState state) {
   return kNames.at(static_cast<std::size_t>(state));
 }
 
-// Instructions per clock, from a loop of known length. Under -icount every instruction takes equally long, so this is the same on every
-// machine.
+// Instructions per clock, from a loop of known length. Under -icount every instruction takes equally long, so this is
+// the same on every machine.
 double instructions_per_clock(const std::string& bytes) {
   const std::uint32_t clocks = bytes.empty() ? 0 : count_from(bytes).clocks;
   const double ratio = clocks == 0 ? 0.0 : static_cast<double>(kCalibrationInstructions) / clocks;

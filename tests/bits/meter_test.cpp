@@ -46,7 +46,8 @@ MeterSummary summary_of(const std::vector<OperatingState>& states, const std::ve
 constexpr OperatingState kOn = OperatingState::kEnabled, kFault = OperatingState::kFault;
 
 TEST(BitsMeter, TheMedianIsOfEnabledTicksTheWorstOfAll) {
-  const MeterSummary summary = summary_of({kFault, kOn, kOn, kOn}, {kCalibration, {9000, 400}, {800, 100}, {1600, 900}, {2400, 200}});
+  const MeterSummary summary =
+      summary_of({kFault, kOn, kOn, kOn}, {kCalibration, {9000, 400}, {800, 100}, {1600, 900}, {2400, 200}});
   EXPECT_EQ(summary.ticks, 4u);
   EXPECT_EQ(summary.median_instructions, 2000.0);
   EXPECT_EQ(summary.worst_instructions, 11250.0);

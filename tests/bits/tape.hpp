@@ -1,14 +1,15 @@
-// The files between the programs of `./dev bits`. A tape is what every build of the core is fed with: one byte says what follows, fields
-// are written as in host/record/serialise.hpp.
+// The files between the programs of `./dev bits`. A tape is what every build of the core is fed with: one byte says
+// what follows, fields are written as in host/record/serialise.hpp.
 #pragma once
 
 #include <cstdint>
 
 namespace liana::bits {
 
-constexpr const char* kTapeFile = "tape.bits";        // in the working directory of bits_ticks
-constexpr const char* kOutputsFile = "outputs.bits";  // written beside it: the Outputs of every tick of the tape, one after the other
-constexpr const char* kMeterFile = "meter.bits";      // Cortex-M7: a Count of the calibration loop, then one of every tick
+constexpr const char* kTapeFile = "tape.bits";  // in the working directory of bits_ticks
+constexpr const char* kOutputsFile =
+    "outputs.bits";  // written beside it: the Outputs of every tick of the tape, one after the other
+constexpr const char* kMeterFile = "meter.bits";  // Cortex-M7: a Count of the calibration loop, then one of every tick
 
 enum class Mark : std::uint8_t {
   kRobot = 1,   // a robot table follows: a new Controller

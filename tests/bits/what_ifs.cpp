@@ -39,7 +39,8 @@ void slipped(Inputs& inputs, std::uint32_t, std::size_t drive) {
   inputs.drive[drive].torque_permille = static_cast<std::int16_t>(inputs.drive[drive].torque_permille - 20);
 }
 void scattering(Inputs& inputs, std::uint32_t age, std::size_t drive) {
-  if (age % 2 == 0) inputs.drive[drive].torque_permille = static_cast<std::int16_t>(inputs.drive[drive].torque_permille + 40);
+  if (age % 2 == 0)
+    inputs.drive[drive].torque_permille = static_cast<std::int16_t>(inputs.drive[drive].torque_permille + 40);
 }
 void alarming(Inputs& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].torque_permille = 800; }
 void overloaded(Inputs& inputs, std::uint32_t, std::size_t drive) {
@@ -68,7 +69,9 @@ void straightened(Inputs& inputs, std::uint32_t age, std::size_t) {
   inputs.telecommand = Release::make(kUnusedSequence, inputs.tick, inputs.tick + kLife_ticks, setpoint);
 }
 void no_telecommands(Inputs& inputs, std::uint32_t, std::size_t) { inputs.telecommand = Telecommand{}; }
-void stop(Inputs& inputs, std::uint32_t age, std::size_t) { inputs.request = age == 0 ? Request::kStop : Request::kNone; }
+void stop(Inputs& inputs, std::uint32_t age, std::size_t) {
+  inputs.request = age == 0 ? Request::kStop : Request::kNone;
+}
 void silent_then_cleared(Inputs& inputs, std::uint32_t age, std::size_t drive) {
   if (age < 10) silent(inputs, age, drive);
   if (age > 150) {

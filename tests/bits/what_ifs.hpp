@@ -1,5 +1,5 @@
-// Faults and commands planted into recorded Inputs: what would the core have done if, from this tick on, a drive, a bus or a client had
-// behaved otherwise?
+// Faults and commands planted into recorded Inputs: what would the core have done if, from this tick on, a drive, a bus
+// or a client had behaved otherwise?
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,8 @@ namespace liana {
 // The release step of these tests: there is no verifier here, only the core and the arm.
 class Release {
  public:
-  static Telecommand make(std::uint64_t sequence, std::uint64_t first_tick, std::uint64_t expiry_tick, const Setpoint& setpoint) {
+  static Telecommand make(std::uint64_t sequence, std::uint64_t first_tick, std::uint64_t expiry_tick,
+                          const Setpoint& setpoint) {
     return Telecommand(sequence, first_tick, expiry_tick, 1, setpoint);
   }
 };
@@ -78,7 +79,8 @@ void ArmUnderControl::step() {
   // SYNC: drives act on what the last tick sent, and sample; the new targets wait for the next SYNC.
   read_drives();
   const CableVector acted_on_m = targets_m();
-  const bool powered = std::ranges::any_of(in_.drive, [](const DriveFeedback& drive) { return drive.statusword == kStatusEnabled; });
+  const bool powered =
+      std::ranges::any_of(in_.drive, [](const DriveFeedback& drive) { return drive.statusword == kStatusEnabled; });
   ++in_.tick;
   out_ = controller_.tick(in_);
   in_.request = Request::kNone;
@@ -95,7 +97,8 @@ void ArmUnderControl::boot() {
   in_.request = Request::kEnable;
   for (double t = 0.0; t < kBootLimit_s && out_.state != OperatingState::kEnabled; t += table_.tick_s) step();
   if (out_.state == OperatingState::kEnabled) return;
-  const auto fault = static_cast<std::int32_t>(out_.faults.count > 0 ? out_.faults.fault[0].number : FaultNumber::kNone);
+  const auto fault =
+      static_cast<std::int32_t>(out_.faults.count > 0 ? out_.faults.fault[0].number : FaultNumber::kNone);
   throw std::runtime_error("closed loop: not enabled within 10 s; first fault " + std::to_string(fault));
 }
 

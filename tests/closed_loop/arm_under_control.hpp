@@ -27,7 +27,8 @@ class ArmUnderControl {
   // Plant and core with drives off; `told` names the friction that the core believes (empty: the plant's physics).
   explicit ArmUnderControl(const PlantSetup& setup, const std::string& told = "");
 
-  // Homing, enable, pretension ramp; throws std::runtime_error with the first fault when the arm is not enabled in 10 s.
+  // Homing, enable, pretension ramp; throws std::runtime_error with the first fault when the arm is not enabled in 10
+  // s.
   void boot();
   // One tick.
   void step();

@@ -24,7 +24,8 @@ void get_under_way(ArmUnderControl& arm) {
   arm.follow(12.0, [&](double share) {
     Setpoint setpoint;
     setpoint.kind = CommandKind::kJoint;
-    for (std::size_t i = 0; i < 10; ++i) setpoint.joint_rad[i] = from[i] + minimum_jerk(0.5 * share) * (to[i] - from[i]);
+    for (std::size_t i = 0; i < 10; ++i)
+      setpoint.joint_rad[i] = from[i] + minimum_jerk(0.5 * share) * (to[i] - from[i]);
     return setpoint;
   });
 }
@@ -51,7 +52,8 @@ Course under_way(const std::function<void(Plant&)>& begin) {
       [&](double share) {
         Setpoint setpoint;
         setpoint.kind = CommandKind::kJoint;
-        for (std::size_t i = 0; i < 10; ++i) setpoint.joint_rad[i] = from[i] + minimum_jerk(0.55 * share) * (to[i] - from[i]);
+        for (std::size_t i = 0; i < 10; ++i)
+          setpoint.joint_rad[i] = from[i] + minimum_jerk(0.55 * share) * (to[i] - from[i]);
         return setpoint;
       },
       [&](ArmUnderControl& now) {

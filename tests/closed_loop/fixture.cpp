@@ -27,11 +27,14 @@ const RobotTable& robot_table(const std::string& physics) { return robot(physics
 
 ThetaVector named_pose_rad(const std::string& name) {
   ThetaVector theta{};
-  std::ranges::transform(robot("nominal").named_poses_deg.at(name), theta.begin(), [](double deg) { return deg * kDegree; });
+  std::ranges::transform(robot("nominal").named_poses_deg.at(name), theta.begin(),
+                         [](double deg) { return deg * kDegree; });
   return theta;
 }
 
-Pose tip_at(const std::string& pose_name) { return forward_kinematics(robot_table(), named_pose_rad(pose_name)).tip_in_base; }
+Pose tip_at(const std::string& pose_name) {
+  return forward_kinematics(robot_table(), named_pose_rad(pose_name)).tip_in_base;
+}
 
 const SceneConfig& scene() {
   static const SceneConfig loaded = load_scene(CLOSED_LOOP_DATA "/scene.json");

@@ -1,5 +1,5 @@
-// What the friction feed-forward is for: capstan friction bends the arm, and the core knows beforehand which way (physics study, section
-// 3).
+// What the friction feed-forward is for: capstan friction bends the arm, and the core knows beforehand which way
+// (physics study, section 3).
 #include <gtest/gtest.h>
 
 #include "arm_under_control.hpp"

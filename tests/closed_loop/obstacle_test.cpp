@@ -1,5 +1,5 @@
-// Why the shape is steered: the tip alone leads the arm's middle into the sphere (mission figure A8, requirements A42, A43). Kinematics
-// only.
+// Why the shape is steered: the tip alone leads the arm's middle into the sphere (mission figure A8, requirements A42,
+// A43). Kinematics only.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -23,7 +23,8 @@ double distance_to_centre_m(const ThetaVector& theta_rad) {
   const LinkPoints links = link_points(robot_table(), theta_rad);
   double least_m = 1e3;
   for (std::size_t i = 1; i < static_cast<std::size_t>(links.count); ++i) {
-    const double distance_m = segment_point_distance_m(links.point_in_base[i - 1], links.point_in_base[i], scene().spheres[0].center_m);
+    const double distance_m =
+        segment_point_distance_m(links.point_in_base[i - 1], links.point_in_base[i], scene().spheres[0].center_m);
     least_m = std::min(least_m, distance_m);
   }
   return least_m;
@@ -46,12 +47,14 @@ TEST(Obstacle, TheTipAloneOnAStraightWayLeadsTheArmThroughTheSphere) {
   double lag_m = 0.0;
   for (int k = 1; k <= 2000; ++k) {
     const IkGoal goal{leg_setpoint(leg, from, {}, k / 2000.0).tip_in_base, 0};
-    lag_m = std::max(lag_m, servo_ik(robot_table(), goal, forward_kinematics(robot_table(), theta), theta).position_error_m);
+    lag_m = std::max(lag_m,
+                     servo_ik(robot_table(), goal, forward_kinematics(robot_table(), theta), theta).position_error_m);
     least_m = std::min(least_m, distance_to_centre_m(theta));
   }
   measured("tip-only motion: least distance of an axis to the sphere's centre", 1000.0 * least_m, "mm");
   EXPECT_LT(lag_m, 0.005) << "the tip must follow, or the motion is another one";
-  EXPECT_LT(distance_mm(forward_kinematics(robot_table(), theta).tip_in_base.position_m, leg.goal_in_base.position_m), 0.1);
+  EXPECT_LT(distance_mm(forward_kinematics(robot_table(), theta).tip_in_base.position_m, leg.goal_in_base.position_m),
+            0.1);
   EXPECT_LT(least_m, 0.1 * thickness_m()) << "the arm's middle goes through the sphere's";
 }
 

@@ -13,7 +13,8 @@ constexpr double kTorqueNoise = 0.003;                   // of the reading, as t
 constexpr double kStartSpread_rad = 8.7266462599716e-3;  // 0.5 deg, mission figure A8
 
 bench::TrueParameters parameters(const bench::RobotConfig& robot, const PlantSetup& setup) {
-  return setup.spread ? bench::spread_parameters(robot, setup.physics, setup.seed) : bench::table_parameters(robot, setup.physics);
+  return setup.spread ? bench::spread_parameters(robot, setup.physics, setup.seed)
+                      : bench::table_parameters(robot, setup.physics);
 }
 
 }  // namespace
@@ -41,12 +42,14 @@ struct Plant::Parts {
         fault_noise(setup.seed, "closed loop fault noise") {}
 };
 
-Plant::Plant(const PlantSetup& setup) : parts_(std::make_unique<Parts>(bench::load_robot(CLOSED_LOOP_DATA "/robot.json"), setup)) {}
+Plant::Plant(const PlantSetup& setup)
+    : parts_(std::make_unique<Parts>(bench::load_robot(CLOSED_LOOP_DATA "/robot.json"), setup)) {}
 Plant::~Plant() = default;
 
 CableVector Plant::measured_payout_m() const {
   CableVector payout{};
-  for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c) payout[c] = parts_->drum_m[c] - parts_->truth.zero_offset_m[c];
+  for (std::size_t c = 0; c < parts_->robot.cable_count(); ++c)
+    payout[c] = parts_->drum_m[c] - parts_->truth.zero_offset_m[c];
   return payout;
 }
 
@@ -81,7 +84,8 @@ const ThetaVector& Plant::rate_rad_s() const { return parts_->arm.rate_rad_s(); 
 
 Pose Plant::tip_in_base() const {
   const bench::Pose tip = parts_->arm.tip();
-  return {{tip.position_m.x, tip.position_m.y, tip.position_m.z}, {tip.attitude.w, tip.attitude.x, tip.attitude.y, tip.attitude.z}};
+  return {{tip.position_m.x, tip.position_m.y, tip.position_m.z},
+          {tip.attitude.w, tip.attitude.x, tip.attitude.y, tip.attitude.z}};
 }
 
 double Plant::kinetic_energy_J() {

@@ -1,4 +1,5 @@
-// The bench's arm behind servo motors, without bus and drive state machines. Hides the bench's headers: plant.cpp alone includes them.
+// The bench's arm behind servo motors, without bus and drive state machines. Hides the bench's headers: plant.cpp alone
+// includes them.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,8 @@ namespace liana::closed_loop {
 struct PlantSetup {
   std::string physics = "nominal";  // friction: nominal, ideal or worn
   std::uint64_t seed = 1;           // of the spread and of the torque noise
-  bool spread = true;  // true parameters and start pose differ from the table (mission figure A9); false: exactly the table, no noise
+  bool spread = true;  // true parameters and start pose differ from the table (mission figure A9); false: exactly the
+                       // table, no noise
   std::string start_pose = "prepare";
 };
 
@@ -38,7 +40,8 @@ class Plant {
   // What the drives measure: unstretched length [m] by their stored zero, and tension [N] with gain error and noise.
   CableVector measured_payout_m() const;
   CableVector measured_tension_N();
-  // One control period. Motors follow `target_m` (in measured lengths) with the servo's lag, or stand when `powered` is false.
+  // One control period. Motors follow `target_m` (in measured lengths) with the servo's lag, or stand when `powered` is
+  // false.
   void advance(double tick_s, const CableVector& target_m, bool powered);
 
   // The truth, which the core never sees.
@@ -50,7 +53,8 @@ class Plant {
   double sphere_clearance_m() const;
   Load take_load();
 
-  // Faults of a cable. So much of it comes off the drum; the encoder reads so much more; the tension reading scatters by so much, is 0.
+  // Faults of a cable. So much of it comes off the drum; the encoder reads so much more; the tension reading scatters
+  // by so much, is 0.
   void loosen(std::size_t cable, double length_m);
   void jump_encoder(std::size_t cable, double length_m);
   void scatter(std::size_t cable, double deviation_N);

@@ -63,7 +63,8 @@ SlitRecord run(const std::string& physics, std::uint64_t seed) {
         leg.seconds, [&](double share) { return leg_setpoint(leg, from, node_from_m, share); },
         [&](ArmUnderControl& now) { look(now, at_zero, record); });
     const Outputs& out = arm.outputs();
-    record.estimate_deg = std::max(record.estimate_deg, largest_difference_deg(out.theta_measured_rad, arm.plant().theta_rad()));
+    record.estimate_deg =
+        std::max(record.estimate_deg, largest_difference_deg(out.theta_measured_rad, arm.plant().theta_rad()));
     if (out.held_at_target != 0) at_zero = leg.held_mask;
     from = leg.goal_in_base;
   }
@@ -87,14 +88,17 @@ std::vector<Leg> slit_legs() {
           {"at the rod", rod(), 5.0, kHoldX4X5, slit_m_s, false}};
 }
 
-Vec3 node_3_at_panel_edge_m() { return forward_kinematics(robot_table(), named_pose_rad("panel_edge")).node_in_base[3].position_m; }
+Vec3 node_3_at_panel_edge_m() {
+  return forward_kinematics(robot_table(), named_pose_rad("panel_edge")).node_in_base[3].position_m;
+}
 
 Setpoint leg_setpoint(const Leg& leg, const Pose& from, const Vec3& node_from_m, double share) {
   const double done = minimum_jerk(share);
   const Vec3 turn = rotation_vector(multiply(leg.goal_in_base.quaternion, conjugate(from.quaternion)));
   Setpoint setpoint;
   setpoint.kind = CommandKind::kTip;
-  setpoint.tip_in_base.position_m = add(from.position_m, scale(subtract(leg.goal_in_base.position_m, from.position_m), done));
+  setpoint.tip_in_base.position_m =
+      add(from.position_m, scale(subtract(leg.goal_in_base.position_m, from.position_m), done));
   setpoint.tip_in_base.quaternion = normalize(multiply(quaternion_of(scale(turn, done)), from.quaternion));
   setpoint.held_mask = leg.held_mask;
   setpoint.tip_speed_m_s = leg.speed_m_s;

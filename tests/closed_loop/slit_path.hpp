@@ -1,5 +1,5 @@
-// The whole way of the slit crossing as tip targets, without people and cameras (mission figures A7, A8): what the core and the arm make
-// of it.
+// The whole way of the slit crossing as tip targets, without people and cameras (mission figures A7, A8): what the core
+// and the arm make of it.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// The way through the slit in open loop: no camera, no operator, parameters spread by seed (mission figures A7 to A9, requirements A38 to
-// A41, A47). All figures are the plant's truth.
+// The way through the slit in open loop: no camera, no operator, parameters spread by seed (mission figures A7 to A9,
+// requirements A38 to A41, A47). All figures are the plant's truth.
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -77,7 +77,8 @@ TEST_P(SlitPath, KnowsItsAnglesWithinATwentiethOfADegreeAllTheWay) {
   EXPECT_LT(record().estimate_deg, 0.05);
 }
 
-INSTANTIATE_TEST_SUITE_P(Plant, SlitPath, ::testing::Values(Arm{"nominal", 1}, Arm{"nominal", 2}, Arm{"ideal", 1}), name_of);
+INSTANTIATE_TEST_SUITE_P(Plant, SlitPath, ::testing::Values(Arm{"nominal", 1}, Arm{"nominal", 2}, Arm{"ideal", 1}),
+                         name_of);
 
 }  // namespace
 }  // namespace liana::closed_loop

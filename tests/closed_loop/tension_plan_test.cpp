@@ -1,4 +1,5 @@
-// What the tension plan is for: a command from geometry alone leaves even a frictionless arm beside its pose (physics study, section 1).
+// What the tension plan is for: a command from geometry alone leaves even a frictionless arm beside its pose (physics
+// study, section 1).
 #include <gtest/gtest.h>
 
 #include "arm_under_control.hpp"
@@ -12,7 +13,8 @@ constexpr double kLevel_N = 40.0;
 
 PlantSetup exact_plant(const std::string& pose) { return {"ideal", 1, false, pose}; }
 
-// Path and lead, shortened by the elongation of one constant tension: what a controller without a tension plan would send.
+// Path and lead, shortened by the elongation of one constant tension: what a controller without a tension plan would
+// send.
 CableVector geometric_payout_m(const RobotTable& table, const ThetaVector& theta_rad) {
   const CableLayout layout = cable_layout(table);
   const CableGeometry geometry = cable_geometry(table, layout, arm_trig(table, theta_rad));
@@ -37,7 +39,8 @@ TEST_P(TensionPlan, WithoutItAFrictionlessArmStandsMillimetresBesideItsPose) {
   for (int i = 0; i < 7500; ++i) plant.advance(table.tick_s, payout, true);
   const double miss_mm = distance_mm(plant.tip_in_base().position_m, tip_at(pose()).position_m);
   measured(pose() + ", geometric command: tip error", miss_mm, "mm");
-  measured(pose() + ", geometric command: joint error", largest_difference_deg(plant.theta_rad(), named_pose_rad(pose())), "deg");
+  measured(pose() + ", geometric command: joint error",
+           largest_difference_deg(plant.theta_rad(), named_pose_rad(pose())), "deg");
   EXPECT_GT(miss_mm, 3.0) << "with the plan it is under 1 mm";
   EXPECT_LT(miss_mm, 22.0);
 }

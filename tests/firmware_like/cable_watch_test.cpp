@@ -54,7 +54,8 @@ TEST_F(CableWatch, TensionThatFallsWithoutLengthIsASlipAfterItsConfirmation) {
   EXPECT_EQ(faults_.count, 0);
   run(1);
   expect_fault(FaultNumber::kCableSlip, 7);
-  EXPECT_NEAR(faults_.fault[0].detail, 1e6 * 1.1 * jump_N() * zero_payout_m_[7] / robot_.cable_EA_N, 1.0) << "micrometres";
+  EXPECT_NEAR(faults_.fault[0].detail, 1e6 * 1.1 * jump_N() * zero_payout_m_[7] / robot_.cable_EA_N, 1.0)
+      << "micrometres";
 }
 
 TEST_F(CableWatch, LengthThatJumpsWithoutTensionIsASlip) {
@@ -160,7 +161,8 @@ TEST(CableWatchLimits, FrictionThatTheCoreIsToldWidensTheContradictionOfLongCabl
   CableVector zero_payout_m{};
   const CableLayout layout = cable_layout(ideal);
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) zero_payout_m[c] = layout.zero_length_m[c] + ideal.lead_m;
-  const CableWatchLimits without = make_cable_watch_limits(ideal, zero_payout_m), with = make_cable_watch_limits(worn, zero_payout_m);
+  const CableWatchLimits without = make_cable_watch_limits(ideal, zero_payout_m),
+                         with = make_cable_watch_limits(worn, zero_payout_m);
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
     EXPECT_DOUBLE_EQ(without.contradiction_m[c], ideal.cable_watch.contradiction_m);
     EXPECT_GT(with.contradiction_m[c], without.contradiction_m[c]);
@@ -172,7 +174,8 @@ TEST(CableWatchLimits, FourCablesInASegmentAreWatchedToo) {
   const RobotTable robot = zhu2022::uneven_table();
   CableVector zero_payout_m{};
   const CableLayout layout = cable_layout(robot);
-  for (std::size_t c = 0; c < as_index(robot.cable_count()); ++c) zero_payout_m[c] = layout.zero_length_m[c] + robot.lead_m;
+  for (std::size_t c = 0; c < as_index(robot.cable_count()); ++c)
+    zero_payout_m[c] = layout.zero_length_m[c] + robot.lead_m;
   const CableWatchLimits limits = make_cable_watch_limits(robot, zero_payout_m);
   for (std::size_t c = 0; c < as_index(robot.cable_count()); ++c) {
     CableWatchState state;
@@ -180,7 +183,8 @@ TEST(CableWatchLimits, FourCablesInASegmentAreWatchedToo) {
     CableVector tension_N{}, residual_m{};
     for (std::uint64_t tick = 1; tick < 60; ++tick) {
       if (tick == 10) residual_m[c] = 0.01;
-      watch_cables(robot, limits, {zero_payout_m, tension_N, layout.zero_length_m, residual_m}, faults.count == 0, tick, state, faults);
+      watch_cables(robot, limits, {zero_payout_m, tension_N, layout.zero_length_m, residual_m}, faults.count == 0, tick,
+                   state, faults);
     }
     EXPECT_EQ(faults.count, 1) << "cable " << c;
   }

@@ -87,7 +87,8 @@ TEST(Cables, JacobianEqualsFiniteDifferencesAtZeroNearZeroAndElsewhere) {
         more[k] += kStep, less[k] -= kStep;
         const CableGeometry a = geometry_at(robot, less), b = geometry_at(robot, more);
         for (std::size_t c = 0; c < static_cast<std::size_t>(robot.cable_count()); ++c) {
-          ASSERT_NEAR(geometry.jacobian_m_rad[c][k], (b.length_m[c] - a.length_m[c]) / (2.0 * kStep), 2e-9) << c << " " << k;
+          ASSERT_NEAR(geometry.jacobian_m_rad[c][k], (b.length_m[c] - a.length_m[c]) / (2.0 * kStep), 2e-9)
+              << c << " " << k;
         }
       }
     }
@@ -107,7 +108,8 @@ TEST(Cables, SegmentsBehindTheAnchorDoNotTouchACable) {
   }
 }
 
-// The lengths of three cables do not sum to a constant: that is why angles from lengths are a least-squares problem (A3).
+// The lengths of three cables do not sum to a constant: that is why angles from lengths are a least-squares problem
+// (A3).
 TEST(Cables, ThreeLengthsOfABentSegmentDoNotSumToTheStraightOnes) {
   const RobotTable robot = zhu2022::table();
   ThetaVector theta{};

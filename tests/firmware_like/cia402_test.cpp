@@ -55,7 +55,8 @@ TEST(Cia402, EveryOneOfThe65536StatuswordsDecodesToExactlyOneStateOrUnknown) {
   EXPECT_EQ(seen[DriveState::kFault], 2048);             // eleven
 }
 
-// A drive of the standard: what a controlword does in a state. Bits are read as the command coding of CiA 402 prints them.
+// A drive of the standard: what a controlword does in a state. Bits are read as the command coding of CiA 402 prints
+// them.
 struct Drive {
   DriveState state = DriveState::kNotReadyToSwitchOn;
   std::uint16_t last_word = 0;
@@ -173,7 +174,8 @@ TEST(Cia402, OnlyTheFaultResetGoalInFaultEverSetsTheResetBit) {
   for (std::int32_t state = 0; state < kDriveStateCount; ++state) {
     for (std::int32_t goal = 0; goal < kDriveGoalCount; ++goal) {
       const std::uint16_t word = controlword_for(static_cast<DriveState>(state), static_cast<DriveGoal>(goal), 0);
-      const bool may = static_cast<DriveState>(state) == DriveState::kFault && static_cast<DriveGoal>(goal) == DriveGoal::kFaultReset;
+      const bool may = static_cast<DriveState>(state) == DriveState::kFault &&
+                       static_cast<DriveGoal>(goal) == DriveGoal::kFaultReset;
       EXPECT_EQ((word & 0x0080) != 0, may) << state << " " << goal;
     }
   }
@@ -194,7 +196,8 @@ TEST(Cia402, EnableOperationIsSentOnlyFromSwitchedOnOrOperationEnabled) {
 TEST(Cia402, AStateOrGoalThatDoesNotExistIsAnsweredByDisableVoltage) {
   EXPECT_EQ(controlword_for(static_cast<DriveState>(200), DriveGoal::kOperationEnabled, 0), kDisableVoltage);
   EXPECT_EQ(controlword_for(DriveState::kOperationEnabled, static_cast<DriveGoal>(200), 0), kDisableVoltage);
-  EXPECT_EQ(controlword_for(DriveState::kOperationEnabled, static_cast<DriveGoal>(kDriveGoalCount), 0), kDisableVoltage);
+  EXPECT_EQ(controlword_for(DriveState::kOperationEnabled, static_cast<DriveGoal>(kDriveGoalCount), 0),
+            kDisableVoltage);
   EXPECT_STREQ(drive_state_name(static_cast<DriveState>(kDriveStateCount)), "unknown");
   EXPECT_STREQ(drive_state_name(static_cast<DriveState>(200)), "unknown");
 }

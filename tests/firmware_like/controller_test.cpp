@@ -16,8 +16,10 @@ TEST(Controller, HomesFromTheStoredZerosWithoutMoving) {
   rig.run(100);
   EXPECT_TRUE(rig.out.homed);
   EXPECT_EQ(rig.out.state, OperatingState::kDisabled);
-  EXPECT_LE(zhu2022::largest_difference(rig.out.theta_measured_rad, zhu2022::radians(zhu2022::kPrepare_deg)), 0.01 * kDegree);
-  for (std::size_t c = 0; c < zhu2022::kCables; ++c) EXPECT_EQ(rig.drives.inputs(0).drive[c].position_counts, before[c].position_counts);
+  EXPECT_LE(zhu2022::largest_difference(rig.out.theta_measured_rad, zhu2022::radians(zhu2022::kPrepare_deg)),
+            0.01 * kDegree);
+  for (std::size_t c = 0; c < zhu2022::kCables; ++c)
+    EXPECT_EQ(rig.drives.inputs(0).drive[c].position_counts, before[c].position_counts);
 }
 
 TEST(Controller, ALengthThatContradictsTheOthersIsNotHomed) {
@@ -34,7 +36,8 @@ TEST(Controller, EnablingIsBumpless) {
   Rig rig;
   rig.run(60);
   const double step_counts =
-      rig.robot.limits.cable_speed_m_s * rig.robot.tick_s * kGateSpeedMargin / rig.robot.drive[0].metres_per_count + 1.0;
+      rig.robot.limits.cable_speed_m_s * rig.robot.tick_s * kGateSpeedMargin / rig.robot.drive[0].metres_per_count +
+      1.0;
   const ThetaVector before = rig.out.theta_measured_rad;
   rig.tick(Request::kEnable);
   for (std::int32_t i = 0; i < 1200; ++i) {
@@ -49,7 +52,8 @@ TEST(Controller, EnablingIsBumpless) {
   EXPECT_EQ(rig.out.faults.count, 0);
 }
 
-// The arm is held while the cables are loose at first: pretension comes as a ramp over seconds, not at the cables' top speed.
+// The arm is held while the cables are loose at first: pretension comes as a ramp over seconds, not at the cables' top
+// speed.
 TEST(Controller, PretensionComesAsARamp) {
   Rig rig;
   rig.robot.friction_mu = 0.0;
@@ -67,7 +71,8 @@ TEST(Controller, PretensionComesAsARamp) {
       const double zero_m = layout.zero_length_m[c] + rig.robot.lead_m;
       const double payout_m = payout_at_counts(rig.robot.drive[c], zero_m, inputs.drive[c].position_counts);
       const double pulled_N = rig.robot.cable_EA_N * (geometry.length_m[c] + rig.robot.lead_m - payout_m) / payout_m;
-      inputs.drive[c].torque_permille = narrow<std::int16_t>(to_counts(pulled_N / rig.robot.drive[c].newtons_per_permille).value);
+      inputs.drive[c].torque_permille =
+          narrow<std::int16_t>(to_counts(pulled_N / rig.robot.drive[c].newtons_per_permille).value);
     }
     rig.out = rig.controller.tick(inputs);
     for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
@@ -89,9 +94,9 @@ TEST(Controller, FollowsATipTelecommandWithTheMeasuredArm) {
   EXPECT_EQ(rig.out.active_sequence, 1u);
   rig.run(4000);
   EXPECT_LE(norm(subtract(rig.out.tip_command.position_m, setpoint.tip_in_base.position_m)), 1e-3);
-  EXPECT_LE(
-      norm(subtract(tip_pose(rig.robot, arm_trig(rig.robot, rig.out.theta_measured_rad)).position_m, setpoint.tip_in_base.position_m)),
-      3e-3);
+  EXPECT_LE(norm(subtract(tip_pose(rig.robot, arm_trig(rig.robot, rig.out.theta_measured_rad)).position_m,
+                          setpoint.tip_in_base.position_m)),
+            3e-3);
   EXPECT_EQ(rig.out.faults.count, 0);
 }
 
@@ -220,7 +225,8 @@ TEST(Controller, AStopWhileMovingEndsAlongThePathWithoutAQuickStop) {
   bool quick_stop = false;
   for (std::int32_t i = 0; i < 1500 && rig.out.state == OperatingState::kStopping; ++i) {
     rig.tick();
-    for (std::size_t c = 0; c < zhu2022::kCables; ++c) quick_stop = quick_stop || rig.out.drive[c].controlword == kQuickStopCommand;
+    for (std::size_t c = 0; c < zhu2022::kCables; ++c)
+      quick_stop = quick_stop || rig.out.drive[c].controlword == kQuickStopCommand;
   }
   EXPECT_EQ(rig.out.state, OperatingState::kDisabled);
   EXPECT_FALSE(quick_stop);

@@ -85,7 +85,8 @@ TEST(Damping, TheShiftIsNeverMoreThanACorrection) {
   }
 }
 
-// One mode of the arm on elastic cables, s'' = -w^2 (s - motor), behind servo lag and tension filter. Returns the amplitude after `time_s`.
+// One mode of the arm on elastic cables, s'' = -w^2 (s - motor), behind servo lag and tension filter. Returns the
+// amplitude after `time_s`.
 double amplitude_after(double frequency_hz, bool damped, double time_s) {
   const Bench bench;
   const RobotTable& robot = bench.robot;
@@ -116,7 +117,8 @@ double amplitude_after(double frequency_hz, bool damped, double time_s) {
   return amplitude / start;
 }
 
-// Over the arm's whole range of modes (physics study, section 4: 0.37 to 13 Hz), not only near the one it was tuned for.
+// Over the arm's whole range of modes (physics study, section 4: 0.37 to 13 Hz), not only near the one it was tuned
+// for.
 TEST(Damping, EveryModeOfTheArmDecaysAndNoneWithoutIt) {
   for (const double frequency_hz : {0.4, 0.6, 1.0, 1.8, 3.0, 5.0, 9.0, 13.0}) {
     EXPECT_GT(amplitude_after(frequency_hz, false, 10.0), 0.99) << frequency_hz;

@@ -16,7 +16,8 @@ using zhu2022::Random;
 
 std::uint32_t bit(std::size_t theta) { return 1u << (theta - 1); }  // theta as the source counts them, from 1
 
-// ---- equation 13 ----------------------------------------------------------------------------------------------------------------------
+// ---- equation 13
+// ----------------------------------------------------------------------------------------------------------------------
 
 double pose_difference(const Pose& a, const Pose& b) { return zhu2022::length(pose_error(a, b)); }
 
@@ -29,7 +30,8 @@ TEST(DofSplit, A39TheRootOfTheLastSegmentsFollowsFromTheTipAndTheirAngles) {
       for (std::int32_t segments = 0; segments <= robot.segment_count; ++segments) {
         PlanarPart part{segments, arm.tip_in_base, theta};
         // Nothing of S1 is known.
-        for (std::int32_t k = 0; k < 2 * (robot.segment_count - segments); ++k) part.theta_rad[static_cast<std::size_t>(k)] = 0.3;
+        for (std::int32_t k = 0; k < 2 * (robot.segment_count - segments); ++k)
+          part.theta_rad[static_cast<std::size_t>(k)] = 0.3;
         const Pose& root = arm.node_in_base[static_cast<std::size_t>(robot.segment_count - segments)];
         ASSERT_LE(pose_difference(root_of(robot, part), root), 1e-13) << segments;
       }
@@ -66,7 +68,8 @@ TEST(DofSplit, PlanarPitchesAreThoseOfTheLastSegments) {
   EXPECT_EQ(planar_pitches(robot, 5), bit(1) | bit(3) | bit(5) | bit(7) | bit(9));
 }
 
-// ---- the switch point -----------------------------------------------------------------------------------------------------------------
+// ---- the switch point
+// -----------------------------------------------------------------------------------------------------------------
 
 // A straight arm along x into a slit whose mouth is at `mouth_m`.
 std::int32_t planar_of_straight_arm(double mouth_m, const PlanarSwitch& when, std::int32_t before) {

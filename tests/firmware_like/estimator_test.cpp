@@ -47,7 +47,8 @@ CableModel model_at(const RobotTable& robot, const CableLayout& layout, const Th
 void run(const RobotTable& robot, const Measured& measured, std::int32_t ticks, EstimatorState& state) {
   const CableLayout layout = cable_layout(robot);
   for (std::int32_t i = 0; i < ticks; ++i) {
-    estimate(robot, layout, model_at(robot, layout, state.theta_rad), measured.ratio, measured.payout_m, measured.tension_N, state);
+    estimate(robot, layout, model_at(robot, layout, state.theta_rad), measured.ratio, measured.payout_m,
+             measured.tension_N, state);
   }
 }
 
@@ -134,7 +135,8 @@ TEST(Estimator, FindsADeflectedArmToHalfTheSquareOfItsDeflection) {
   Random random(4);
   for (const double deflection_deg : {0.1, 0.3, 1.0, 3.0}) {
     for (std::int32_t i = 0; i < 50; ++i) {
-      const ThetaVector motors = random.theta(robot, 15.0), theta = zhu2022::plus(motors, random.theta(robot, deflection_deg));
+      const ThetaVector motors = random.theta(robot, 15.0),
+                        theta = zhu2022::plus(motors, random.theta(robot, deflection_deg));
       const Measured measured = measured_at(robot, theta, SlipState{});
       const CableModel model = model_at(robot, layout, motors);
       EstimatorState state;

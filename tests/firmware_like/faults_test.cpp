@@ -60,7 +60,9 @@ TEST(Faults, EveryFaultSaysWhatHappenedWhatToDoAndHowTheArmStops) {
   EXPECT_EQ(remedies.size(), all_faults().size());
 }
 
-TEST(Faults, ANumberThatDoesNotExistHasTheEntryOfNone) { EXPECT_EQ(fault_info(static_cast<FaultNumber>(1234)).number, FaultNumber::kNone); }
+TEST(Faults, ANumberThatDoesNotExistHasTheEntryOfNone) {
+  EXPECT_EQ(fault_info(static_cast<FaultNumber>(1234)).number, FaultNumber::kNone);
+}
 
 TEST(Faults, TheSameNumberAndIndexIsLatchedOnceAndKeepsItsFirstTick) {
   FaultList faults{};
@@ -84,7 +86,8 @@ TEST(Faults, ADetailThatComesLaterIsFilledInButNeverOverwritten) {
 
 TEST(Faults, AFullListCountsTheRestAndStillRaisesTheStopCategory) {
   FaultList faults{};
-  for (std::int16_t i = 0; i < FaultList::kCapacity; ++i) EXPECT_TRUE(latch(faults, {FaultNumber::kCableSlack, i, 0, 1}));
+  for (std::int16_t i = 0; i < FaultList::kCapacity; ++i)
+    EXPECT_TRUE(latch(faults, {FaultNumber::kCableSlack, i, 0, 1}));
   EXPECT_EQ(faults.category, StopCategory::kHold);
   EXPECT_EQ(faults.immediate, 0);
   EXPECT_FALSE(latch(faults, {FaultNumber::kCableOverload, 0, 0, 2}));

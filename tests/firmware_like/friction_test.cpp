@@ -20,17 +20,20 @@ struct Arm {
 };
 
 // Slip after a straight way from `from` to `to` in `steps` ticks.
-SlipState slip_along(const Arm& arm, const ThetaVector& from, const ThetaVector& to, std::int32_t steps, SlipState slip = {}) {
+SlipState slip_along(const Arm& arm, const ThetaVector& from, const ThetaVector& to, std::int32_t steps,
+                     SlipState slip = {}) {
   slip.part_m = arm.at(from).part_m;
   for (std::int32_t i = 1; i <= steps; ++i) {
-    advance_slip(arm.layout, arm.at(zhu2022::plus(from, zhu2022::plus(to, from, -1.0), static_cast<double>(i) / steps)), slip);
+    advance_slip(arm.layout, arm.at(zhu2022::plus(from, zhu2022::plus(to, from, -1.0), static_cast<double>(i) / steps)),
+                 slip);
   }
   return slip;
 }
 
 double largest_slip_difference(const SlipState& a, const SlipState& b) {
   double largest = 0.0;
-  for (std::size_t c = 0; c < kMaxCables; ++c) largest = std::max(largest, zhu2022::largest_difference(a.sigma[c], b.sigma[c]));
+  for (std::size_t c = 0; c < kMaxCables; ++c)
+    largest = std::max(largest, zhu2022::largest_difference(a.sigma[c], b.sigma[c]));
   return largest;
 }
 

@@ -1,4 +1,5 @@
-// Mutation tests of the gate's comparisons: the tables below are judged by whether they tell the comparison from plausible wrong ones.
+// Mutation tests of the gate's comparisons: the tables below are judged by whether they tell the comparison from
+// plausible wrong ones.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -93,23 +94,30 @@ struct StepMutant {
 };
 std::int64_t step_of(std::int32_t previous, std::int32_t next) { return static_cast<std::int64_t>(next) - previous; }
 const std::vector<StepMutant> kStepMutants{
-    {"limit exclusive", [](std::int32_t p, std::int32_t n, std::int64_t l) { return step_of(p, n) >= l || step_of(p, n) <= -l; }},
-    {"upper limit exclusive", [](std::int32_t p, std::int32_t n, std::int64_t l) { return step_of(p, n) >= l || step_of(p, n) < -l; }},
-    {"lower limit exclusive", [](std::int32_t p, std::int32_t n, std::int64_t l) { return step_of(p, n) > l || step_of(p, n) <= -l; }},
+    {"limit exclusive",
+     [](std::int32_t p, std::int32_t n, std::int64_t l) { return step_of(p, n) >= l || step_of(p, n) <= -l; }},
+    {"upper limit exclusive",
+     [](std::int32_t p, std::int32_t n, std::int64_t l) { return step_of(p, n) >= l || step_of(p, n) < -l; }},
+    {"lower limit exclusive",
+     [](std::int32_t p, std::int32_t n, std::int64_t l) { return step_of(p, n) > l || step_of(p, n) <= -l; }},
     {"only growing steps", [](std::int32_t p, std::int32_t n, std::int64_t l) { return step_of(p, n) > l; }},
     {"only shrinking steps", [](std::int32_t p, std::int32_t n, std::int64_t l) { return step_of(p, n) < -l; }},
-    {"and instead of or", [](std::int32_t p, std::int32_t n, std::int64_t l) { return step_of(p, n) > l && step_of(p, n) < -l; }},
+    {"and instead of or",
+     [](std::int32_t p, std::int32_t n, std::int64_t l) { return step_of(p, n) > l && step_of(p, n) < -l; }},
     {"one count too generous",
      [](std::int32_t p, std::int32_t n, std::int64_t l) { return step_of(p, n) > l + 1 || step_of(p, n) < -l - 1; }},
     {"previous forgotten", [](std::int32_t, std::int32_t n, std::int64_t l) { return n > l || n < -l; }},
     {"sum instead of difference",
-     [](std::int32_t p, std::int32_t n, std::int64_t l) { return step_of(-(p / 2) - p / 2, n) > l || step_of(-(p / 2) - p / 2, n) < -l; }},
+     [](std::int32_t p, std::int32_t n, std::int64_t l) {
+       return step_of(-(p / 2) - p / 2, n) > l || step_of(-(p / 2) - p / 2, n) < -l;
+     }},
     {"wraps at 32 bits",
      [](std::int32_t p, std::int32_t n, std::int64_t l) {
        const auto step = static_cast<std::int32_t>(static_cast<std::uint32_t>(n) - static_cast<std::uint32_t>(p));
        return step > l || step < -l;
      }},
-    {"negated", [](std::int32_t p, std::int32_t n, std::int64_t l) { return !(step_of(p, n) > l || step_of(p, n) < -l); }},
+    {"negated",
+     [](std::int32_t p, std::int32_t n, std::int64_t l) { return !(step_of(p, n) > l || step_of(p, n) < -l); }},
     {"never", [](std::int32_t, std::int32_t, std::int64_t) { return false; }},
 };
 
@@ -130,7 +138,8 @@ struct FiniteCase {
   bool bad;
 };
 const std::vector<FiniteCase> kFiniteCases{
-    {0.0, false}, {-0.0, false}, {kDenormal, false}, {1.7e308, false}, {-1.7e308, false}, {kNan, true}, {kInf, true}, {-kInf, true},
+    {0.0, false},      {-0.0, false}, {kDenormal, false}, {1.7e308, false},
+    {-1.7e308, false}, {kNan, true},  {kInf, true},       {-kInf, true},
 };
 using FiniteCheck = bool (*)(double);
 struct FiniteMutant {

@@ -83,7 +83,8 @@ TEST_F(Gate, LimitsAreThoseOfTheTable) {
 
 TEST_F(Gate, AProposalInsideEveryLimitReachesEveryDriveUnchanged) {
   expect_passed("standing");
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) proposal_.payout_m[i] += 1e-6 * static_cast<double>(i + 1);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i)
+    proposal_.payout_m[i] += 1e-6 * static_cast<double>(i + 1);
   expect_passed("each drive another target");
 }
 
@@ -191,8 +192,8 @@ TEST_F(Gate, TheFirstDriveThatFailsIsNamed) {
 }
 
 TEST_F(Gate, MotionWithOneDriveOutOfOperationIsRefusedForAll) {
-  for (const std::uint16_t status :
-       {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusQuickStop, kStatusFaultReaction, kStatusFault, std::uint16_t{0x0001}}) {
+  for (const std::uint16_t status : {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusQuickStop,
+                                     kStatusFaultReaction, kStatusFault, std::uint16_t{0x0001}}) {
     feedback_[3].statusword = status;
     const GateResult result = judge();
     EXPECT_EQ(result.check, GateCheck::kDriveNotEnabled);
@@ -203,7 +204,8 @@ TEST_F(Gate, MotionWithOneDriveOutOfOperationIsRefusedForAll) {
 
 TEST_F(Gate, ADriveWithoutTorqueGetsItsActualPosition) {
   proposal_.live_targets = false;
-  for (const std::uint16_t status : {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusFault, std::uint16_t{0x0001}}) {
+  for (const std::uint16_t status :
+       {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusFault, std::uint16_t{0x0001}}) {
     feedback_[3].statusword = status;
     feedback_[3].position_counts = kIntMax;
     const GateResult result = judge();
@@ -218,7 +220,8 @@ TEST_F(Gate, WhileTargetsAreNotLiveNothingOfTheProposalReachesADrive) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) proposal_.payout_m[i] = i % 2 == 0 ? kNan : 1.31;
   const GateResult result = judge();
   EXPECT_EQ(result.check, GateCheck::kPassed);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) EXPECT_EQ(result.command[i].target_counts, 1000000);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i)
+    EXPECT_EQ(result.command[i].target_counts, 1000000);
 }
 
 TEST_F(Gate, ATargetFromBeforeThePowerIsNeverHeld) {

@@ -75,7 +75,8 @@ TEST(GoalIk, FindsStraightNearlyStraightAndFullyBentArms) {
     for (std::int32_t i = 0; i < 30; ++i) {
       ThetaVector solution = random.theta(robot, bend_deg);
       if (bend_deg == 20.0) {
-        for (std::size_t k = 0; k < zhu2022::kThetas; ++k) solution[k] = solution[k] > 0.0 ? 20.0 * kDegree : -20.0 * kDegree;
+        for (std::size_t k = 0; k < zhu2022::kThetas; ++k)
+          solution[k] = solution[k] > 0.0 ? 20.0 * kDegree : -20.0 * kDegree;
       }
       GoalIkProblem problem;
       problem.tip_in_base = forward_kinematics(robot, solution).tip_in_base;

@@ -36,7 +36,8 @@ class HeldMotion : public testing::Test {
 
   // Moves the target at `velocity_m_s` for some command intervals.
   void steer(
-      const Vec3& velocity_m_s, const Held& held, std::int32_t intervals, const std::function<void()>& every_tick = [] {}) {
+      const Vec3& velocity_m_s, const Held& held, std::int32_t intervals,
+      const std::function<void()>& every_tick = [] {}) {
     const double interval_s = robot_.tick_s * robot_.interval_ticks;
     Setpoint target;
     target.kind = CommandKind::kTip;
@@ -124,8 +125,9 @@ TEST_F(HeldMotion, A38AnyVariablesAtAnyValuesAreHeldExactlyWhileTheTipMoves) {
   }
 }
 
-// A38: bumpless in position and rate. Two numbers per tick while the tip moves and the mask changes again and again: how far the angles
-// that the IK asks for go, and how much their rates change. The limiter would hide a bump by leaving the path: it is not in these numbers.
+// A38: bumpless in position and rate. Two numbers per tick while the tip moves and the mask changes again and again:
+// how far the angles that the IK asks for go, and how much their rates change. The limiter would hide a bump by leaving
+// the path: it is not in these numbers.
 TEST_F(HeldMotion, A38ChangingWhatIsHeldWhileTheTipMovesChangesRatesNoFasterThanTheJointsCan) {
   const double allowed = robot_.limits.theta_accel_rad_s2 * robot_.tick_s;
   for (const Hold& hold : kHolds) {

@@ -1,4 +1,5 @@
-// Ideal drives for tests of the whole core: they do what they are told one tick later, on an arm that stands where the lengths say.
+// Ideal drives for tests of the whole core: they do what they are told one tick later, on an arm that stands where the
+// lengths say.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,7 +16,8 @@
 
 namespace liana {
 
-// CiA 402 drives without dynamics: targets of the tick before are positions of this one, torque is what the controller planned.
+// CiA 402 drives without dynamics: targets of the tick before are positions of this one, torque is what the controller
+// planned.
 class IdealDrives {
  public:
   // Cables pulled as planned at `theta_rad`, drives switched off.
@@ -74,7 +76,8 @@ class IdealDrives {
   void pull(const CableVector& motor_N) {
     for (std::size_t c = 0; c < count(); ++c) {
       if (motor_N[c] > 0.0)
-        drive_[c].torque_permille = narrow<std::int16_t>(to_counts(motor_N[c] / robot_.drive[c].newtons_per_permille).value);
+        drive_[c].torque_permille =
+            narrow<std::int16_t>(to_counts(motor_N[c] / robot_.drive[c].newtons_per_permille).value);
     }
   }
 
@@ -86,7 +89,8 @@ constexpr std::uint64_t kForever = 1000000;  // a tick after the end of every te
 
 // A controller and its drives, ticked together.
 struct Rig {
-  explicit Rig(const ThetaVector& theta = zhu2022::radians(zhu2022::kPrepare_deg)) : controller(robot), drives(robot, theta) {}
+  explicit Rig(const ThetaVector& theta = zhu2022::radians(zhu2022::kPrepare_deg))
+      : controller(robot), drives(robot, theta) {}
 
   const Outputs& tick(Request request = Request::kNone, const Telecommand& telecommand = {}) {
     Inputs inputs = drives.inputs(now++);
@@ -164,7 +168,8 @@ inline std::vector<double> numbers(const Outputs& out) {
   }
   for (const ThetaVector& v : {out.theta_command_rad, out.theta_rate_rad_s, out.theta_measured_rad})
     all.insert(all.end(), v.begin(), v.end());
-  for (const CableVector& v : {out.tension_plan_N, out.tension_measured_N, out.payout_command_m}) all.insert(all.end(), v.begin(), v.end());
+  for (const CableVector& v : {out.tension_plan_N, out.tension_measured_N, out.payout_command_m})
+    all.insert(all.end(), v.begin(), v.end());
   return all;
 }
 

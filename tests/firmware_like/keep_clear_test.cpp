@@ -133,7 +133,8 @@ TEST(KeepClear, UnusedFarAndCoincidentTargetsPushNothing) {
   const ThetaVector theta{};
   const ArmKinematics arm = forward_kinematics(robot, theta);
   const NullSpace space = null_space(arm.tip_jacobian, robot.theta_count(), 0);
-  for (const KeepClear& target : {KeepClear{}, KeepClear{{0.0, 5.0, 0.0}, 0.5, 1.0}, KeepClear{{1.0, 0.0, 0.0}, 0.5, 0.0}}) {
+  for (const KeepClear& target :
+       {KeepClear{}, KeepClear{{0.0, 5.0, 0.0}, 0.5, 1.0}, KeepClear{{1.0, 0.0, 0.0}, 0.5, 0.0}}) {
     KeepClearTargets targets{};
     targets[3] = target;
     EXPECT_EQ(missing_clearance_m(robot, theta, arm, targets), 0.0);

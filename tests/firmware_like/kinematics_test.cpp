@@ -62,7 +62,8 @@ struct Hinge {
   std::size_t theta;
 };
 
-// Chain of modules, one rotation after the other: odd ones Rz(pitch) Ry(yaw), even ones Ry(yaw) Rz(pitch), link along x.
+// Chain of modules, one rotation after the other: odd ones Rz(pitch) Ry(yaw), even ones Ry(yaw) Rz(pitch), link along
+// x.
 struct Chain {
   std::vector<Hinge> hinges;  // two per module
   std::vector<Pose> nodes{Pose{}};
@@ -101,7 +102,8 @@ Jacobian summed_jacobian(const Chain& chain) {
 double jacobian_difference(const Jacobian& a, const Jacobian& b) {
   double largest = 0.0;
   for (std::size_t k = 0; k < kMaxTheta; ++k) {
-    largest = std::max({largest, largest_difference(a.linear[k], b.linear[k]), largest_difference(a.angular[k], b.angular[k])});
+    largest = std::max(
+        {largest, largest_difference(a.linear[k], b.linear[k]), largest_difference(a.angular[k], b.angular[k])});
   }
   return largest;
 }
@@ -126,7 +128,8 @@ TEST(Kinematics, GoldenTipSegmentEndsAndJacobianAreMetTo1e9) {
     const ArmKinematics arm = forward_kinematics(robot, golden_theta(entry));
     EXPECT_LE(pose_difference(arm.tip_in_base, entry.at("tip_pose").get<Matrix4>()), 1e-9) << entry.at("name");
     const auto ends = entry.at("segment_ends_m").get<std::vector<Vec3>>();
-    for (std::size_t m = 0; m < 5; ++m) EXPECT_LE(largest_difference(arm.node_in_base[m + 1].position_m, ends[m]), 1e-9);
+    for (std::size_t m = 0; m < 5; ++m)
+      EXPECT_LE(largest_difference(arm.node_in_base[m + 1].position_m, ends[m]), 1e-9);
     const auto rows = entry.at("jacobian").get<std::vector<std::vector<double>>>();
     for (std::size_t r = 0; r < 6; ++r) {
       for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
@@ -240,7 +243,8 @@ TEST(Kinematics, LinkPointsAreTheModulesOfTheChain) {
   const LinkPoints links = link_points(robot, theta);
   const Chain chain = chain_of(robot, theta);
   ASSERT_EQ(links.count, 1 + 7 + 8 + 9);
-  for (std::size_t i = 0; i < 24; ++i) EXPECT_LE(largest_difference(links.point_in_base[i], chain.hinges[2 * i].point_m), 1e-13) << i;
+  for (std::size_t i = 0; i < 24; ++i)
+    EXPECT_LE(largest_difference(links.point_in_base[i], chain.hinges[2 * i].point_m), 1e-13) << i;
   EXPECT_LE(largest_difference(links.point_in_base[24], chain.nodes.back().position_m), 1e-13);
 }
 

@@ -14,7 +14,9 @@ using zhu2022::Random;
 constexpr double kRounding = 1e-12;
 
 // What the last step of a braking parabola may go too far: less than a tick's change of rate can make good.
-double overshoot_rad(const RobotTable& robot) { return robot.limits.theta_accel_rad_s2 * robot.tick_s * robot.tick_s / 8.0; }
+double overshoot_rad(const RobotTable& robot) {
+  return robot.limits.theta_accel_rad_s2 * robot.tick_s * robot.tick_s / 8.0;
+}
 
 CableGeometry geometry_at(const RobotTable& robot, const ThetaVector& theta) {
   return cable_geometry(robot, cable_layout(robot), arm_trig(robot, theta));
@@ -28,7 +30,8 @@ void step(const RobotTable& robot, const CableGeometry& geometry, const ThetaVec
     const double rate = (state.theta_rad[k] - before.theta_rad[k]) / robot.tick_s;
     ASSERT_NEAR(rate, state.rate_rad_s[k], 1e-9);
     ASSERT_LE(std::fabs(state.rate_rad_s[k]), robot.limits.theta_rate_rad_s + kRounding);
-    ASSERT_LE(std::fabs(state.rate_rad_s[k] - before.rate_rad_s[k]), robot.limits.theta_accel_rad_s2 * robot.tick_s + kRounding);
+    ASSERT_LE(std::fabs(state.rate_rad_s[k] - before.rate_rad_s[k]),
+              robot.limits.theta_accel_rad_s2 * robot.tick_s + kRounding);
   }
 }
 
@@ -39,7 +42,8 @@ LimiterState at_rest_at(const ThetaVector& theta) {
 }
 
 // Steps, ramps and noise in turn, some far faster than any limit.
-ThetaVector next_reference(const RobotTable& robot, Random& random, std::int32_t tick, std::int32_t kind, const ThetaVector& before) {
+ThetaVector next_reference(const RobotTable& robot, Random& random, std::int32_t tick, std::int32_t kind,
+                           const ThetaVector& before) {
   if (kind % 3 == 0) return tick % 50 == 0 ? random.theta(robot, 20.0) : before;
   if (kind % 3 == 1) return zhu2022::plus(before, random.theta(robot, 0.02));
   return random.theta(robot, 1.0);
@@ -111,7 +115,8 @@ TEST(Limiter, CatchesUpWithAMovingReferenceWithoutPassingIt) {
   EXPECT_EQ(state.theta_rad[0], reference[0]);
 }
 
-// A reference that runs against a joint limit and stands there: a lagging command, on its way at full rate, must not swing past it.
+// A reference that runs against a joint limit and stands there: a lagging command, on its way at full rate, must not
+// swing past it.
 TEST(Limiter, ALaggingCommandStopsBeforeTheJointLimitWithoutBrakingHarderThanItMay) {
   const RobotTable robot = zhu2022::table();
   const double limit = robot.segment[0].theta_limit_rad;
@@ -120,14 +125,16 @@ TEST(Limiter, ALaggingCommandStopsBeforeTheJointLimitWithoutBrakingHarderThanItM
   for (std::int32_t i = 0; i < 20; ++i) {
     ThetaVector reference = random.theta(robot, 17.0);
     LimiterState state = at_rest_at(reference);
-    const double speed = random.uniform(1.0, 6.0) * robot.limits.theta_rate_rad_s;  // of the reference: too fast to follow
+    const double speed =
+        random.uniform(1.0, 6.0) * robot.limits.theta_rate_rad_s;  // of the reference: too fast to follow
     for (std::int32_t tick = 0; tick < 10000; ++tick) {
       for (std::size_t k = 8; k < 10; ++k) {
         reference[k] = std::clamp(reference[k] + (k % 2 == 0 ? speed : -speed) * robot.tick_s, -limit, limit);
       }
       step(robot, geometry, reference, state);
       if (HasFatalFailure()) return;
-      for (std::size_t k = 0; k < zhu2022::kThetas; ++k) ASSERT_LE(std::fabs(state.theta_rad[k]), limit + kRounding) << k;
+      for (std::size_t k = 0; k < zhu2022::kThetas; ++k)
+        ASSERT_LE(std::fabs(state.theta_rad[k]), limit + kRounding) << k;
     }
     EXPECT_LE(zhu2022::largest_difference(state.theta_rad, reference), 1e-6);
   }

@@ -121,7 +121,8 @@ TEST_F(Motion, A38SwitchingBetweenTenNineAndEightVariablesIsBumpless) {
       const ThetaVector before = state_.ik_rad;
       run(1);
       // What the IK asks of the limiter at the switch is no more than what a tick may do.
-      ASSERT_LE(zhu2022::largest_difference(before, state_.ik_rad), robot_.limits.theta_rate_rad_s * robot_.tick_s) << held;
+      ASSERT_LE(zhu2022::largest_difference(before, state_.ik_rad), robot_.limits.theta_rate_rad_s * robot_.tick_s)
+          << held;
       run(robot_.interval_ticks - 1);
     }
     ASSERT_LE(zhu2022::length(pose_error(state_.filter.pose, tip())), 2e-3) << held;
@@ -164,7 +165,8 @@ TEST_F(Motion, BrakingComesToRestFromTipAndFromJointMotion) {
 // Joints that stopped one by one would leave the path, and what cancels at the tip would not cancel any more.
 TEST_F(Motion, BrakingJointMotionKeepsTheProportionOfTheRates) {
   ThetaVector goal = theta();
-  for (std::size_t k = 0; k < zhu2022::kThetas; ++k) goal[k] += (k % 2 == 0 ? 0.002 : -0.0005) * static_cast<double>(k + 1);
+  for (std::size_t k = 0; k < zhu2022::kThetas; ++k)
+    goal[k] += (k % 2 == 0 ? 0.002 : -0.0005) * static_cast<double>(k + 1);
   accept_setpoint(robot_, joint_setpoint(goal), state_);
   run(20);
   const ThetaVector rate = state_.limiter.rate_rad_s;
@@ -176,7 +178,8 @@ TEST_F(Motion, BrakingJointMotionKeepsTheProportionOfTheRates) {
     const double share = state_.limiter.rate_rad_s[8] / rate[8];
     EXPECT_GE(share, 0.0);
     EXPECT_LT(share, 1.0);
-    for (std::size_t k = 0; k < zhu2022::kThetas; ++k) EXPECT_NEAR(state_.limiter.rate_rad_s[k], share * rate[k], 1e-12) << k;
+    for (std::size_t k = 0; k < zhu2022::kThetas; ++k)
+      EXPECT_NEAR(state_.limiter.rate_rad_s[k], share * rate[k], 1e-12) << k;
   }
   EXPECT_TRUE(at_rest(robot_, state_));
 }
@@ -189,12 +192,14 @@ TEST_F(Motion, MotionThatIsNotAllowedBrakes) {
   EXPECT_TRUE(at_rest(robot_, state_));
 }
 
-// Out of reach the IK has no solution: the command must still be one that the arm can follow, and say why it does not arrive.
+// Out of reach the IK has no solution: the command must still be one that the arm can follow, and say why it does not
+// arrive.
 TEST_F(Motion, ATargetOutOfReachBreaksNoLimitAndIsNamed) {
   accept_setpoint(robot_, tip_setpoint({0.0, 0.0, 6.0}), state_);
   for (std::int32_t i = 0; i < 10; ++i) {
     run(1500);
-    for (std::size_t k = 0; k < zhu2022::kThetas; ++k) ASSERT_LE(std::fabs(theta()[k]), robot_.segment[k / 2].theta_limit_rad) << k;
+    for (std::size_t k = 0; k < zhu2022::kThetas; ++k)
+      ASSERT_LE(std::fabs(theta()[k]), robot_.segment[k / 2].theta_limit_rad) << k;
   }
   EXPECT_GT(state_.ik.position_error_m, 0.5);
   EXPECT_TRUE(limits_seen_ & (kLimitTheta | kLimitSingular));

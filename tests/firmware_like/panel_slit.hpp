@@ -13,7 +13,8 @@ inline SlitMouth panel_slit() {
   const Vec3 n = rotate(rod.quaternion, {0.0, 1.0, 0.0});
   const Vec3 along = subtract({1.0, 0.0, 0.0}, scale(n, n[0]));
   const Vec3 u = scale(along, 1.0 / norm(along));
-  const Vec3 rod_u = rotate(conjugate(rod.quaternion), u);  // the rod's frame turned about its y (which is n) until its x is u
+  const Vec3 rod_u =
+      rotate(conjugate(rod.quaternion), u);  // the rod's frame turned about its y (which is n) until its x is u
   const double angle = arc_tangent(-rod_u[2], rod_u[0]);
   const Quat frame = multiply(rod.quaternion, quaternion_of({0.0, angle, 0.0}));
   return {{add(scale(u, 1.75), scale(n, dot(n, rod.position_m))), frame}, 1.95, 0.02, 1.97};

@@ -120,7 +120,8 @@ TEST(Convert, PayoutAndCountsAreInversesForBothDirections) {
   for (const std::int32_t direction : {1, -1}) {
     const DriveTable drive{1.438e-6, direction, 1000000, 0.6};
     EXPECT_DOUBLE_EQ(payout_at_counts(drive, 1.3, 1000000), 1.3);
-    EXPECT_GT(direction * (payout_at_counts(drive, 1.3, 1000001) - 1.3), 0.0);  // +1: counts grow while cable is paid out
+    EXPECT_GT(direction * (payout_at_counts(drive, 1.3, 1000001) - 1.3),
+              0.0);  // +1: counts grow while cable is paid out
     for (int i = 0; i < 1000; ++i) {
       const std::int32_t counts = counts_in_reach(random);
       EXPECT_EQ(counts_at_payout(drive, 1.3, payout_at_counts(drive, 1.3, counts)).value, counts);

@@ -9,7 +9,8 @@ namespace liana {
 
 class Release {
  public:
-  static Telecommand make(std::uint64_t sequence, std::uint64_t first_tick, std::uint64_t expiry_tick, const Setpoint& setpoint) {
+  static Telecommand make(std::uint64_t sequence, std::uint64_t first_tick, std::uint64_t expiry_tick,
+                          const Setpoint& setpoint) {
     return {sequence, first_tick, expiry_tick, 1, setpoint};
   }
 };

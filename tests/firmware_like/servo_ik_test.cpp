@@ -128,7 +128,8 @@ TEST(ServoIk, TheOthersTakeOverTheShareOfAVariableOnItsLimit) {
   EXPECT_GT(taken_over, 20);
 }
 
-// The straight arm cannot move its tip along itself: the closed forms and the iteration must stay calm there (A34 note).
+// The straight arm cannot move its tip along itself: the closed forms and the iteration must stay calm there (A34
+// note).
 TEST(ServoIk, TheStraightArmNeitherBlowsUpNorDividesByZero) {
   const RobotTable robot = zhu2022::table();
   for (const double size_deg : {0.0, 1e-10, 1e-6, 1e-3}) {
@@ -152,7 +153,8 @@ TEST(ServoIk, TheStraightArmMovesSidewaysAndSaysWhereItCannotGo) {
   run(robot, {goal, 0}, 60, theta);
   const std::array<double, 6> error = pose_error(goal, tip_at(robot, theta));
   EXPECT_LE(std::fabs(error[1]), 1e-6);
-  EXPECT_LE(zhu2022::length(error), 1e-4);  // the shortening that a bend brings is slow to follow: that direction is singular
+  EXPECT_LE(zhu2022::length(error),
+            1e-4);  // the shortening that a bend brings is slow to follow: that direction is singular
 
   ThetaVector straight{};
   Pose longer = tip_at(robot, straight);
@@ -167,7 +169,8 @@ TEST(ServoIk, A37EveryOutcomeIsNamedWithTheDirectionThatIsLeft) {
   const RobotTable robot = zhu2022::table();
   const auto settle = [&](const Pose& goal, ThetaVector theta, std::uint32_t held = 0) {
     IkReport report;
-    for (std::int32_t i = 0; i < 400; ++i) report = servo_ik(robot, {goal, held}, forward_kinematics(robot, theta), theta);
+    for (std::int32_t i = 0; i < 400; ++i)
+      report = servo_ik(robot, {goal, held}, forward_kinematics(robot, theta), theta);
     return report;
   };
   const ThetaVector bent = zhu2022::radians(zhu2022::kPanelEdge_deg);

@@ -32,11 +32,13 @@ NodeTargets target_of(std::int32_t node, const Vec3& position_m, double weight =
 }
 
 double distance_m(const RobotTable& robot, const ThetaVector& theta, const NodeTarget& target) {
-  return norm(subtract(target.position_m, arm_at(robot, theta).node_in_base[static_cast<std::size_t>(target.node)].position_m));
+  return norm(
+      subtract(target.position_m, arm_at(robot, theta).node_in_base[static_cast<std::size_t>(target.node)].position_m));
 }
 
 // Shape motion for `ticks` with the tip brought back by the servo IK, as the tick does it.
-void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, std::int32_t ticks, ThetaVector& theta) {
+void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, std::int32_t ticks,
+         ThetaVector& theta) {
   const IkGoal goal{arm_at(robot, theta).tip_in_base, held};
   ShapeState shape;
   for (std::int32_t i = 0; i < ticks; ++i) {
@@ -48,7 +50,8 @@ void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, 
 
 TEST(Shape, A45TheMiddleNodeComesFirstUnlessWeightsSayOtherwise) {
   const RobotTable robot = zhu2022::table();
-  for (const std::int32_t node : {1, 2, 4, 5}) EXPECT_LT(default_node_weight(robot, node), default_node_weight(robot, 3));
+  for (const std::int32_t node : {1, 2, 4, 5})
+    EXPECT_LT(default_node_weight(robot, node), default_node_weight(robot, 3));
 }
 
 // A43: a true projector, not a damped inverse.
@@ -57,7 +60,8 @@ TEST(Shape, A43ProjectedVectorsDoNotMoveTheTip) {
   Random random(1);
   for (const std::uint32_t held : {0u, kX5, kX4AndX5, (1u << 3) | kX4AndX5}) {
     for (std::int32_t i = 0; i < 300; ++i) {
-      const double bend_deg = i == 0 ? 0.0 : (i < 50 ? std::pow(10.0, random.uniform(-6.0, 0.0)) : 20.0);  // nearly straight, too
+      const double bend_deg =
+          i == 0 ? 0.0 : (i < 50 ? std::pow(10.0, random.uniform(-6.0, 0.0)) : 20.0);  // nearly straight, too
       const Jacobian J = arm_at(robot, random.theta(robot, bend_deg)).tip_jacobian;
       const NullSpace space = null_space(J, robot.theta_count(), held);
       const ThetaVector v = random.theta(robot, 57.0);
@@ -72,7 +76,8 @@ TEST(Shape, A43ProjectedVectorsDoNotMoveTheTip) {
 TEST(Shape, TheNullSpaceHasTheDimensionThatTheTipLeaves) {
   const RobotTable robot = zhu2022::table();
   const ThetaVector bent = Random(2).theta(robot, 15.0);
-  for (const auto& [held, dimension] : {std::pair{0u, 4}, std::pair{kX5, 3}, std::pair{kX4AndX5, 2}, std::pair{0x3F8u, 0}}) {
+  for (const auto& [held, dimension] :
+       {std::pair{0u, 4}, std::pair{kX5, 3}, std::pair{kX4AndX5, 2}, std::pair{0x3F8u, 0}}) {
     EXPECT_EQ(null_space(arm_at(robot, bent).tip_jacobian, robot.theta_count(), held).dimension, dimension) << held;
   }
   // The straight arm can neither stretch nor roll: four directions are left to the tip, six to the shape.
@@ -84,7 +89,8 @@ TEST(Shape, ProjectionIsSymmetricSoThatDescentStaysDescent) {
   Random random(3);
   for (std::int32_t i = 0; i < 100; ++i) {
     const NullSpace space = null_space(arm_at(robot, random.theta(robot, 20.0)).tip_jacobian, robot.theta_count(), kX5);
-    const ThetaVector a = random.theta(robot, 57.0), b = random.theta(robot, 57.0), pa = project(space, a), pb = project(space, b);
+    const ThetaVector a = random.theta(robot, 57.0), b = random.theta(robot, 57.0), pa = project(space, a),
+                      pb = project(space, b);
     double left = 0.0, right = 0.0;
     for (std::size_t k = 0; k < zhu2022::kThetas; ++k) left += pa[k] * b[k], right += a[k] * pb[k];
     ASSERT_NEAR(left, right, 1e-12);
@@ -125,8 +131,8 @@ TEST(Shape, A43OnlyNodesBeyondTheirThresholdCount) {
   const Vec3 near = add(at, {0.0, 0.0, 0.05});
   EXPECT_NEAR(node_excess_m(robot, arm, target_of(3, near, 1.0, 0.04)), 0.01, 1e-12);
   const NullSpace space = null_space(arm.tip_jacobian, robot.theta_count(), 0);
-  for (const NodeTargets& nodes :
-       {target_of(3, near, 1.0, 0.06), target_of(3, at), target_of(0, near), target_of(6, near), target_of(3, near, 0.0)}) {
+  for (const NodeTargets& nodes : {target_of(3, near, 1.0, 0.06), target_of(3, at), target_of(0, near),
+                                   target_of(6, near), target_of(3, near, 0.0)}) {
     EXPECT_EQ(node_excess_m(robot, arm, nodes), 0.0);
     ShapeModel model = resting_model(space, 1.0, ThetaVector{});
     PullSum pulls;
@@ -136,7 +142,8 @@ TEST(Shape, A43OnlyNodesBeyondTheirThresholdCount) {
   }
 }
 
-// A43, A44: towards a target that another shape with the same tip has d falls, up to the balance with centring, and the tip stays.
+// A43, A44: towards a target that another shape with the same tip has d falls, up to the balance with centring, and the
+// tip stays.
 TEST(Shape, A43TheNodeDistanceFallsWhileTheTipStays) {
   const RobotTable robot = zhu2022::table();
   ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
@@ -187,7 +194,8 @@ TEST(Shape, MovesStayWithinLimitsAndBelowTheirShareOfTheRate) {
     }
     const NodeTargets nodes = target_of(1 + i % 4, random.vector(3.0), 1.0);
     for (std::int32_t tick = 0; tick < 100; ++tick) {
-      const ThetaVector move = shape_move(robot, arm_at(robot, theta), nodes, {}, kX5, false, kShapeBesideTip, theta, shape);
+      const ThetaVector move =
+          shape_move(robot, arm_at(robot, theta), nodes, {}, kX5, false, kShapeBesideTip, theta, shape);
       theta = zhu2022::plus(theta, move);
       for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
         ASSERT_LE(std::fabs(move[k]), robot.limits.theta_rate_rad_s * robot.tick_s * (1.0 + 1e-9)) << k;
@@ -204,10 +212,12 @@ TEST(Shape, BrakingEndsTheShapeMotionWithinABoundedNumberOfTicks) {
   ShapeState shape;
   const NodeTargets nodes = target_of(3, {0.0, 0.0, 0.0});
   for (std::int32_t i = 0; i < 250; ++i)
-    theta = zhu2022::plus(theta, shape_move(robot, arm_at(robot, theta), nodes, {}, 0, false, kShapeBesideTip, theta, shape));
+    theta = zhu2022::plus(theta,
+                          shape_move(robot, arm_at(robot, theta), nodes, {}, 0, false, kShapeBesideTip, theta, shape));
   ASSERT_GT(zhu2022::length(shape.rate_rad_s), 0.1 * kDegree);
   for (std::int32_t i = 0; i < 350; ++i)
-    theta = zhu2022::plus(theta, shape_move(robot, arm_at(robot, theta), nodes, {}, 0, true, kShapeBesideTip, theta, shape));
+    theta = zhu2022::plus(theta,
+                          shape_move(robot, arm_at(robot, theta), nodes, {}, 0, true, kShapeBesideTip, theta, shape));
   EXPECT_LT(zhu2022::length(shape.rate_rad_s), 1e-9);
 }
 
@@ -251,7 +261,8 @@ TEST(Shape, LimitsAreBoundsOfTheSameProblem) {
   for (std::int32_t i = 0; i < 300; ++i) {
     ThetaVector theta = random.theta(robot, 15.0);
     for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
-      if (random.uniform(0.0, 1.0) < 0.3) theta[k] = (theta[k] > 0.0 ? 1.0 : -1.0) * random.uniform(19.9, 20.0) * kDegree;
+      if (random.uniform(0.0, 1.0) < 0.3)
+        theta[k] = (theta[k] > 0.0 ? 1.0 : -1.0) * random.uniform(19.9, 20.0) * kDegree;
     }
     const ArmKinematics arm = arm_at(robot, theta);
     const NullSpace space = null_space(arm.tip_jacobian, robot.theta_count(), 0);
@@ -270,7 +281,8 @@ TEST(Shape, LimitsAreBoundsOfTheSameProblem) {
     NullVector slope{};  // of the model at what was found
     for (std::size_t a = 0; a < m; ++a) {
       slope[a] = -model.pull[a];
-      for (std::size_t b = 0; b < m; ++b) slope[a] += (a >= b ? model.curvature[a][b] : model.curvature[b][a]) * found.z[b];
+      for (std::size_t b = 0; b < m; ++b)
+        slope[a] += (a >= b ? model.curvature[a][b] : model.curvature[b][a]) * found.z[b];
     }
     for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
       ASSERT_LE(found.theta_rad[k], bounds.high[k] + 1e-10);
@@ -297,7 +309,8 @@ TEST(Shape, A44TheTickEndsWhereTheOfflineSolveFromTheSameStartEnds) {
   for (std::int32_t i = 0; i < 10; ++i) {
     const ThetaVector start = random.theta(robot, 15.0);
     const ArmKinematics arm = arm_at(robot, start);
-    ShapeProblem problem{{arm.tip_in_base, 0}, target_of(3, add(arm.node_in_base[3].position_m, random.vector(0.2))), {}};
+    ShapeProblem problem{
+        {arm.tip_in_base, 0}, target_of(3, add(arm.node_in_base[3].position_m, random.vector(0.2))), {}};
     problem.node[1] = {2, add(arm.node_in_base[2].position_m, random.vector(0.2)), 0.5, i % 2 == 0 ? 0.0 : 0.02};
     ThetaVector offline = start, theta = start;
     std::int32_t iterations = 0;
@@ -342,7 +355,8 @@ TEST(Shape, ArmsOfOtherSizesKeepTheirTipToo) {
     const ArmKinematics arm = arm_at(robot, theta);
     const NodeTargets nodes = target_of(2, add(arm.node_in_base[2].position_m, {0.0, 0.0, 0.2}));
     ThetaVector move{};
-    for (std::int32_t tick = 0; tick < 2; ++tick) move = shape_move(robot, arm, nodes, {}, 0, false, kShapeBesideTip, theta, shape);
+    for (std::int32_t tick = 0; tick < 2; ++tick)
+      move = shape_move(robot, arm, nodes, {}, 0, false, kShapeBesideTip, theta, shape);
     EXPECT_LE(tip_rate(arm.tip_jacobian, move), 1e-9 * zhu2022::length(move));
     EXPECT_EQ(zhu2022::length(move) > 0.0, robot.segment_count == 8);
     EXPECT_EQ(null_space(arm.tip_jacobian, robot.theta_count(), 0).dimension, robot.theta_count() - 6);

@@ -25,8 +25,9 @@ struct Severity {
 };
 
 // Names of the phases in docs/priorities.md, in the order of Phase.
-const std::array<std::string, kPhaseCount> kPhaseNames{"disabled", "switching on", "powering",   "tensioning", "enabled",  "path stop",
-                                                       "braking",  "quick stop",   "power down", "fault",      "resetting"};
+const std::array<std::string, kPhaseCount> kPhaseNames{"disabled",   "switching on", "powering", "tensioning",
+                                                       "enabled",    "path stop",    "braking",  "quick stop",
+                                                       "power down", "fault",        "resetting"};
 
 // The rows of the page's table that begin with a phase: that phase and what it leads to, by rising severity.
 std::vector<std::vector<Phase>> documented_reactions() {
@@ -36,7 +37,8 @@ std::vector<std::vector<Phase>> documented_reactions() {
     std::vector<Phase> row;
     std::istringstream cells(line);
     for (std::string cell; std::getline(cells, cell, '|');) {
-      const auto* const name = std::find(kPhaseNames.begin(), kPhaseNames.end(), cell.substr(cell.empty() ? 0 : 1, cell.size() - 2));
+      const auto* const name =
+          std::find(kPhaseNames.begin(), kPhaseNames.end(), cell.substr(cell.empty() ? 0 : 1, cell.size() - 2));
       if (name != kPhaseNames.end()) row.push_back(static_cast<Phase>(name - kPhaseNames.begin()));
     }
     if (row.size() > 1) rows.push_back(row);
@@ -46,8 +48,11 @@ std::vector<std::vector<Phase>> documented_reactions() {
 
 TEST(SupervisorTable, EveryPhaseAnswersEverySeverityInTheSameTickAsThePageSays) {
   // No fault, hold, stop, stop at once, off at once.
-  constexpr std::array<Severity, 5> kSeverities{
-      {{StopCategory::kNone, 0}, {StopCategory::kHold, 0}, {StopCategory::kStop, 0}, {StopCategory::kStop, 1}, {StopCategory::kOff, 1}}};
+  constexpr std::array<Severity, 5> kSeverities{{{StopCategory::kNone, 0},
+                                                 {StopCategory::kHold, 0},
+                                                 {StopCategory::kStop, 0},
+                                                 {StopCategory::kStop, 1},
+                                                 {StopCategory::kOff, 1}}};
   const std::vector<std::vector<Phase>> rows = documented_reactions();
   ASSERT_EQ(rows.size(), static_cast<std::size_t>(kPhaseCount));
   std::set<Phase> documented;
@@ -60,8 +65,8 @@ TEST(SupervisorTable, EveryPhaseAnswersEverySeverityInTheSameTickAsThePageSays) 
       faults.category = kSeverities[s].category;
       faults.immediate = kSeverities[s].immediate;
       supervise(kLimits, healthy(kStatusEnabled), {false, true, false, true}, 0, state, faults);
-      EXPECT_EQ(state.phase, row[s + 1]) << kPhaseNames[static_cast<std::size_t>(row[0])] << ", severity " << s << " leads to "
-                                         << kPhaseNames[static_cast<std::size_t>(state.phase)];
+      EXPECT_EQ(state.phase, row[s + 1]) << kPhaseNames[static_cast<std::size_t>(row[0])] << ", severity " << s
+                                         << " leads to " << kPhaseNames[static_cast<std::size_t>(state.phase)];
     }
   }
   EXPECT_EQ(documented.size(), rows.size());
@@ -72,12 +77,14 @@ TEST(SupervisorTable, AFaultIsNeverShownAsDisabledNotEvenForOneTick) {
     SupervisorState state{from, 100, 0, 0, {}};
     FaultList faults{};
     latch(faults, {FaultNumber::kDriveMissing, 1, 0, 1});
-    EXPECT_EQ(supervise(kLimits, healthy(kStatusDisabled), {false, true, true, true}, 1, state, faults).state, OperatingState::kFault);
+    EXPECT_EQ(supervise(kLimits, healthy(kStatusDisabled), {false, true, true, true}, 1, state, faults).state,
+              OperatingState::kFault);
   }
 }
 
 TEST(SupervisorTable, NoStateIsLeftWithoutEndWhateverTheDrivesDo) {
-  // From every phase, with drives that never answer, a stop request ends in Disabled or Fault with disable voltage on the bus.
+  // From every phase, with drives that never answer, a stop request ends in Disabled or Fault with disable voltage on
+  // the bus.
   for (std::int32_t phase = 0; phase < kPhaseCount; ++phase) {
     SupervisorState state{static_cast<Phase>(phase), 0, 0, 0, {}};
     FaultList faults{};
@@ -89,7 +96,8 @@ TEST(SupervisorTable, NoStateIsLeftWithoutEndWhateverTheDrivesDo) {
     for (; ticks < bound && !ended; ++ticks) {
       inputs.request = Request::kStop;
       const Orders orders = supervise(kLimits, inputs, motion, 0, state, faults);
-      ended = orders.goal == DriveGoal::kDisabled && (orders.state == OperatingState::kDisabled || orders.state == OperatingState::kFault);
+      ended = orders.goal == DriveGoal::kDisabled &&
+              (orders.state == OperatingState::kDisabled || orders.state == OperatingState::kFault);
     }
     EXPECT_TRUE(ended) << "phase " << phase;
   }

@@ -22,7 +22,8 @@ class Operation : public ::testing::Test {
   Orders tick(Request request = Request::kNone) {
     ++inputs_.tick;
     inputs_.request = request;
-    const std::int32_t active = watch(limits_, watch_scope(state_), inputs_, sent_, tension_N_, tension_N_, watchdogs_, faults_);
+    const std::int32_t active =
+        watch(limits_, watch_scope(state_), inputs_, sent_, tension_N_, tension_N_, watchdogs_, faults_);
     orders_ = supervise(limits_, inputs_, motion_, active, state_, faults_);
     GateProposal proposal{orders_.goal, orders_.live_targets, zero_payout_m(), tension_N_};
     sent_ = gate(robot_, gate_limits_, proposal, sent_, inputs_.drive).command;
@@ -266,10 +267,12 @@ TEST_F(Operation, AHoldFaultIsNotClearedWhileTheArmStillMoves) {
 TEST_F(Operation, ACauseThatPersistsTurnsAHoldIntoAStop) {
   enable();
   tension_N_[2] = 450.0;
-  for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kPersistTicks - 1; ++i) ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
+  for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kPersistTicks - 1; ++i)
+    ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
   EXPECT_EQ(tick().state, OperatingState::kStopping);
   EXPECT_LE(ticks_until(OperatingState::kFault, 100), 100);
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(tick().stop_category, StopCategory::kStop) << "in Fault it still says what happened";
+  for (int i = 0; i < 100; ++i)
+    EXPECT_EQ(tick().stop_category, StopCategory::kStop) << "in Fault it still says what happened";
   tension_N_[2] = 40.0;
   tick(Request::kClear);
   EXPECT_LE(ticks_until(OperatingState::kDisabled, 100), 100);
@@ -282,9 +285,11 @@ TEST_F(Operation, ADriveThatGoesSilentQuickStopsTheOthersInTheSameTick) {
   inputs_.drive[3].feedback_age_ticks = 3;
   EXPECT_EQ(tick().goal, DriveGoal::kQuickStop);
   EXPECT_FALSE(orders_.live_targets);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) EXPECT_EQ(sent_[i].controlword, kQuickStopCommand);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i)
+    EXPECT_EQ(sent_[i].controlword, kQuickStopCommand);
   const int limit = static_cast<int>(kQuickStopBudgetTicks + kOffBudgetTicks) + 2;
-  EXPECT_LE(ticks_until(OperatingState::kFault, limit), limit) << "a drive that cannot confirm does not hold the others up for ever";
+  EXPECT_LE(ticks_until(OperatingState::kFault, limit), limit)
+      << "a drive that cannot confirm does not hold the others up for ever";
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveStopTimeout, 3));
 }
 

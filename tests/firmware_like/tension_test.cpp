@@ -1,4 +1,5 @@
-// Tension plan: balance, floor, ceiling, smoothness; and what a purely geometric command leaves undone (mission A9, physics section 1).
+// Tension plan: balance, floor, ceiling, smoothness; and what a purely geometric command leaves undone (mission A9,
+// physics section 1).
 #include "firmware_like/arm/tension.hpp"
 
 #include <gtest/gtest.h>
@@ -39,7 +40,8 @@ Planned plan_at(const RobotTable& robot, const ThetaVector& theta, const SlipSta
 ThetaVector torque_of(const RobotTable& robot, const Planned& at, const CableVector& motor_N) {
   ThetaVector torque{};
   for (std::size_t c = 0; c < static_cast<std::size_t>(robot.cable_count()); ++c) {
-    for (std::size_t k = 0; k < kMaxTheta; ++k) torque[k] -= at.geometry.jacobian_m_rad[c][k] * at.ratio[c][k / 2] * motor_N[c];
+    for (std::size_t k = 0; k < kMaxTheta; ++k)
+      torque[k] -= at.geometry.jacobian_m_rad[c][k] * at.ratio[c][k / 2] * motor_N[c];
   }
   return torque;
 }
@@ -104,12 +106,14 @@ TEST(Tension, OtherCableCountsAndPhasesBalanceToo) {
 TEST(Tension, CablesThatCannotTurnBothAnglesAreNamedUnbalanced) {
   for (const double apart_rad : {0.0, 1e-7}) {
     RobotTable robot = zhu2022::table();
-    robot.segment[2].cable_phase_rad = {0.25 * kPi, 1.25 * kPi, 0.25 * kPi + apart_rad, 0.0};  // all in one plane, or nearly
+    robot.segment[2].cable_phase_rad = {0.25 * kPi, 1.25 * kPi, 0.25 * kPi + apart_rad,
+                                        0.0};  // all in one plane, or nearly
     EXPECT_FALSE(plan_at(robot, ThetaVector{}, SlipState{}).plan.balanced) << apart_rad;
   }
 }
 
-// Tensions follow the pose with a bounded slope, so that no tick asks a motor for a jump: the slope does not grow as the steps shrink.
+// Tensions follow the pose with a bounded slope, so that no tick asks a motor for a jump: the slope does not grow as
+// the steps shrink.
 TEST(Tension, PlansAreSmoothAlongRandomPaths) {
   constexpr double kSlope_N_rad = 700.0;
   const RobotTable robot = zhu2022::table();
@@ -167,7 +171,8 @@ ThetaVector rest_pose(const RobotTable& robot, const CableVector& payout_m, Thet
     for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
       for (std::size_t r = 0; r < zhu2022::kThetas; ++r) {
         for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
-          stiffness[r][k] += at.geometry.jacobian_m_rad[c][r] * at.geometry.jacobian_m_rad[c][k] * robot.cable_EA_N / payout_m[c];
+          stiffness[r][k] +=
+              at.geometry.jacobian_m_rad[c][r] * at.geometry.jacobian_m_rad[c][k] * robot.cable_EA_N / payout_m[c];
         }
       }
     }
@@ -180,7 +185,8 @@ ThetaVector rest_pose(const RobotTable& robot, const CableVector& payout_m, Thet
 }
 
 double tip_distance_m(const RobotTable& robot, const ThetaVector& a, const ThetaVector& b) {
-  return norm(subtract(forward_kinematics(robot, a).tip_in_base.position_m, forward_kinematics(robot, b).tip_in_base.position_m));
+  return norm(subtract(forward_kinematics(robot, a).tip_in_base.position_m,
+                       forward_kinematics(robot, b).tip_in_base.position_m));
 }
 
 TEST(Tension, AGeometricCommandLeavesATorqueThatPlannedTensionsDoNot) {
@@ -256,7 +262,8 @@ SegmentVector lifted_until_taut(const RobotTable& robot, double lost_N, CableVec
 TEST(Tension, A9_ASegmentWhoseCableLosesTensionIsPulledTighterAndTurnsNoJoint) {
   const RobotTable robot = zhu2022::table(zhu2022::kMu);
   const Planned at = plan_at(robot, kBent_rad, SlipState{});
-  const double lost_N = at.plan.motor_N[0] - robot.tension.floor_motor_N - kLiftBelow_N + 5.0;  // 5 N under where lifting starts
+  const double lost_N =
+      at.plan.motor_N[0] - robot.tension.floor_motor_N - kLiftBelow_N + 5.0;  // 5 N under where lifting starts
   CableVector measured_N{};
   const SegmentVector lift_N = lifted_until_taut(robot, lost_N, measured_N);
   EXPECT_GT(lift_N[0], 4.0);

@@ -1,4 +1,5 @@
-// Operator filter (A16): whatever comes in, velocity, acceleration and jerk stay bounded, and the lag is the stated one.
+// Operator filter (A16): whatever comes in, velocity, acceleration and jerk stay bounded, and the lag is the stated
+// one.
 #include "firmware_like/operator_input/tip_filter.hpp"
 
 #include <gtest/gtest.h>
@@ -139,7 +140,7 @@ TEST(TipFilter, BrakingComesToRestWithinABoundedNumberOfTicks) {
     const double speed = norm(state.linear.velocity);
     brake_tip(with, state);
     ASSERT_LE(norm(state.linear.velocity), speed + with.linear.jerk * with.tick_s * with.tick_s);  // slower and slower
-    ASSERT_GE(dot(state.linear.velocity, direction), 0.0);                                         // and never backwards
+    ASSERT_GE(dot(state.linear.velocity, direction), 0.0);  // and never backwards
   }
   EXPECT_LT(ticks, kMostTicks);
   EXPECT_EQ(norm(state.linear.velocity), 0.0);

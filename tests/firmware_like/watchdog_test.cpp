@@ -29,7 +29,9 @@ class Watchdogs : public ::testing::Test {
     EXPECT_EQ(faults_.count, 0);
   }
 
-  std::int32_t run(WatchScope scope) { return watch(limits_, scope, inputs_, sent_, tension_N_, lowpass_N_, state_, faults_); }
+  std::int32_t run(WatchScope scope) {
+    return watch(limits_, scope, inputs_, sent_, tension_N_, lowpass_N_, state_, faults_);
+  }
 
   WatchdogLimits limits_ = make_watchdog_limits(table());
   Inputs inputs_ = healthy(kStatusEnabled);
@@ -142,7 +144,8 @@ TEST_F(Watchdogs, AnOldEmergencyCodeIsNotBlamedForALaterFault) {
 }
 
 TEST_F(Watchdogs, EveryStateButOperationEnabledIsLeavingOperationWhilePowered) {
-  for (const std::uint16_t status : {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusQuickStop, std::uint16_t{0x0001}}) {
+  for (const std::uint16_t status :
+       {kStatusDisabled, kStatusReady, kStatusSwitchedOn, kStatusQuickStop, std::uint16_t{0x0001}}) {
     faults_ = FaultList{};
     inputs_ = healthy(kStatusEnabled);
     inputs_.drive[4].statusword = status;

@@ -18,10 +18,12 @@ TEST(DofSplit, TheFrameOfThePanelSlitHasItsAxes) {
   const Vec3 n = rotate(mouth.frame_in_base.quaternion, {0.0, 1.0, 0.0});
   EXPECT_NEAR(n[0], 0.0036, 1e-4);
   EXPECT_NEAR(n[1], 0.9925, 1e-4);
-  EXPECT_NEAR(rotate(mouth.frame_in_base.quaternion, {0.0, 0.0, 1.0})[0], 0.0, 1e-12);  // w is at right angles to base x
+  EXPECT_NEAR(rotate(mouth.frame_in_base.quaternion, {0.0, 0.0, 1.0})[0], 0.0,
+              1e-12);  // w is at right angles to base x
 }
 
-// Fitting judged anew, point by point along densely sampled links: inside the slit's depth everything within gap and width.
+// Fitting judged anew, point by point along densely sampled links: inside the slit's depth everything within gap and
+// width.
 bool fits_by_sampling(const RobotTable& robot, const PlanarPart& part, const SlitMouth& mouth, double slack_m) {
   const LinkPoints links = link_points(robot, part.theta_rad);
   const Pose tip = forward_kinematics(robot, part.theta_rad).tip_in_base;
@@ -45,7 +47,8 @@ bool fits_by_sampling(const RobotTable& robot, const PlanarPart& part, const Sli
   return true;
 }
 
-// Poses on the way from the panel edge to the rod, S2 of one and two segments: dense sampling agrees inside and outside the interval.
+// Poses on the way from the panel edge to the rod, S2 of one and two segments: dense sampling agrees inside and outside
+// the interval.
 TEST(DofSplit, A39TheYawIntervalIsWhereS2IsReachableAndInsideTheSlit) {
   const RobotTable robot = zhu2022::table();
   const SlitMouth mouth = panel_slit();
@@ -75,7 +78,8 @@ TEST(DofSplit, A39TheYawIntervalIsWhereS2IsReachableAndInsideTheSlit) {
           for (const double beyond : {interval.lowest_rad - 1e-4, interval.highest_rad + 1e-4}) {
             if (std::fabs(beyond) > limit) continue;
             ++bounded;
-            EXPECT_FALSE(fits_at(beyond, -1e-7)) << segments << " " << back_m << " " << segment << " yaw " << beyond / kDegree;
+            EXPECT_FALSE(fits_at(beyond, -1e-7))
+                << segments << " " << back_m << " " << segment << " yaw " << beyond / kDegree;
           }
         }
       }
@@ -84,9 +88,10 @@ TEST(DofSplit, A39TheYawIntervalIsWhereS2IsReachableAndInsideTheSlit) {
   EXPECT_GT(bounded, 5);  // geometry, not only the joint limits, has bounded some
 }
 
-// By hand: S2 is one segment of two links of 0.1 m, its root 0.1 m behind its middle joint. The tip 1.7 m before the base, S1 1.5 m long:
-// with the middle joint bent by yaw b, the root is at (1.7 - 0.1 - 0.1 cos b, 0, -0.1 sin b) turned only by b; 1.6 - 0.1 cos b > 1.5 unless
-// b = 0: one point. With 5 mm more of S1 it is |b| <= acos of (1.6^2 + 0.01 - 1.505^2) / 0.32.
+// By hand: S2 is one segment of two links of 0.1 m, its root 0.1 m behind its middle joint. The tip 1.7 m before the
+// base, S1 1.5 m long: with the middle joint bent by yaw b, the root is at (1.7 - 0.1 - 0.1 cos b, 0, -0.1 sin b)
+// turned only by b; 1.6 - 0.1 cos b > 1.5 unless b = 0: one point. With 5 mm more of S1 it is |b| <= acos of (1.6^2 +
+// 0.01 - 1.505^2) / 0.32.
 TEST(DofSplit, TheYawIntervalOfTwoLinksIsThatOfTheTriangle) {
   RobotTable robot = zhu2022::table();
   robot.segment_count = 2;
@@ -95,7 +100,8 @@ TEST(DofSplit, TheYawIntervalOfTwoLinksIsThatOfTheTriangle) {
   for (const double more_m : {0.0005, 0.002}) {
     robot.segment[0].module_length_m = (1.5 + more_m) / 14.0;
     PlanarPart part{1, {{1.7, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, {}};
-    const YawInterval interval = feasible_yaw(robot, part, {{{10.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, 1.0, 1.0, 1.0}, 2);
+    const YawInterval interval =
+        feasible_yaw(robot, part, {{{10.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, 1.0, 1.0, 1.0}, 2);
     const double cosine = (1.6 * 1.6 + 0.01 - (1.5 + more_m) * (1.5 + more_m)) / (2.0 * 1.6 * 0.1);
     const double expected = std::acos(cosine);
     ASSERT_FALSE(interval.empty);
@@ -129,7 +135,8 @@ TEST(DofSplit, TheYawIntervalIsEmptyWhereNoYawFitsAndForOtherSegments) {
   part.tip_in_base.position_m = {6.0, 0.0, 0.0};  // S1 cannot carry the root there
   EXPECT_TRUE(feasible_yaw(robot, part, mouth, 5).empty);
   part.tip_in_base = forward_kinematics(robot, rod).tip_in_base;
-  part.tip_in_base.quaternion = multiply(part.tip_in_base.quaternion, quaternion_of({0.0, 0.0, 0.5}));  // stands across the slit
+  part.tip_in_base.quaternion =
+      multiply(part.tip_in_base.quaternion, quaternion_of({0.0, 0.0, 0.5}));  // stands across the slit
   EXPECT_TRUE(feasible_yaw(robot, part, mouth, 5).empty);
 }
 

@@ -1,4 +1,5 @@
-// The source's arm (docs/formats.md, robot zhu2022) as the core's table, and the random poses that the core's tests share.
+// The source's arm (docs/formats.md, robot zhu2022) as the core's table, and the random poses that the core's tests
+// share.
 #pragma once
 
 #include <algorithm>
@@ -51,8 +52,10 @@ inline RobotTable table(double mu = kMu) {
   robot.tick_s = 0.004;
   robot.interval_ticks = 5;
   robot.tension = {40.0, 15.0, 1.0, 150.0, 400.0, 600.0};
-  robot.limits = {2.0 * kDegree, 4.0 * kDegree, 0.10, 0.03, 0.2, 2.0, 20.0 * kDegree, 40.0 * kDegree, 400.0 * kDegree, 0.010};
-  for (std::size_t i = 0; i < kMaxCables; ++i) robot.drive[i] = {2.0 * kPi * 0.015 / 65536.0, i % 2 == 0 ? 1 : -1, 1000000, 0.6};
+  robot.limits = {2.0 * kDegree,  4.0 * kDegree,   0.10, 0.03, 0.2, 2.0, 20.0 * kDegree,
+                  40.0 * kDegree, 400.0 * kDegree, 0.010};
+  for (std::size_t i = 0; i < kMaxCables; ++i)
+    robot.drive[i] = {2.0 * kPi * 0.015 / 65536.0, i % 2 == 0 ? 1 : -1, 1000000, 0.6};
   return robot;
 }
 
@@ -79,11 +82,14 @@ class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
   // Evenly spread in [low, high).
-  double uniform(double low, double high) { return low + (high - low) * static_cast<double>(engine_() >> 11) / 9007199254740992.0; }
+  double uniform(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) / 9007199254740992.0;
+  }
   // Every theta within +-`range_deg`.
   ThetaVector theta(const RobotTable& robot, double range_deg) {
     ThetaVector out{};
-    for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) out[i] = uniform(-range_deg, range_deg) * kDegree;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i)
+      out[i] = uniform(-range_deg, range_deg) * kDegree;
     return out;
   }
   Vec3 vector(double range) { return {uniform(-range, range), uniform(-range, range), uniform(-range, range)}; }

@@ -30,7 +30,8 @@ inline CanFrame frame_of(std::uint8_t bus, std::uint32_t id, std::vector<std::ui
 // A master in lockstep: maps and starts all drives, then enables them and moves every target by `counts_per_slot`.
 class ScriptedBus final : public Bus {
  public:
-  ScriptedBus(std::uint32_t slots, int counts_per_slot) : slots_(slots), counts_per_slot_(counts_per_slot), position_(16, 0) {}
+  ScriptedBus(std::uint32_t slots, int counts_per_slot)
+      : slots_(slots), counts_per_slot_(counts_per_slot), position_(16, 0) {}
 
   bool wait(Wake& wake) override {
     if (slot_ >= slots_) return false;
@@ -85,9 +86,10 @@ class ScriptedBus final : public Bus {
     const std::uint8_t controlword = since < 2 ? 0x06 : (since < 4 ? 0x07 : 0x0F);
     if (since >= 50) position_[node] += counts_per_slot_;
     const auto target = static_cast<std::uint32_t>(position_[node]);
-    frames.push_back(frame_of(bus, 0x200U + node,
-                              {controlword, 0, static_cast<std::uint8_t>(target), static_cast<std::uint8_t>(target >> 8),
-                               static_cast<std::uint8_t>(target >> 16), static_cast<std::uint8_t>(target >> 24)}));
+    frames.push_back(
+        frame_of(bus, 0x200U + node,
+                 {controlword, 0, static_cast<std::uint8_t>(target), static_cast<std::uint8_t>(target >> 8),
+                  static_cast<std::uint8_t>(target >> 16), static_cast<std::uint8_t>(target >> 24)}));
   }
 
   std::uint32_t slots_;
@@ -105,7 +107,9 @@ inline BenchOptions options_of(std::uint64_t seed) {
   return options;
 }
 
-inline std::string temporary(const std::string& name) { return testing::TempDir() + "bench_" + std::to_string(::getpid()) + "_" + name; }
+inline std::string temporary(const std::string& name) {
+  return testing::TempDir() + "bench_" + std::to_string(::getpid()) + "_" + name;
+}
 
 inline std::string content(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

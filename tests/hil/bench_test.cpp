@@ -116,10 +116,13 @@ class OneWakeBus {
     const Socket peer(::accept(listener_.descriptor(), nullptr, nullptr));
     const auto receive = [&] {
       Packet packet(kMaxPacketBytes);
-      packet.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::recv(peer.descriptor(), packet.data(), packet.size(), 0))));
+      packet.resize(
+          static_cast<std::size_t>(std::max<ssize_t>(0, ::recv(peer.descriptor(), packet.data(), packet.size(), 0))));
       return packet;
     };
-    const auto send = [&](const Packet& packet) { ::send(peer.descriptor(), packet.data(), packet.size(), MSG_NOSIGNAL); };
+    const auto send = [&](const Packet& packet) {
+      ::send(peer.descriptor(), packet.data(), packet.size(), MSG_NOSIGNAL);
+    };
     hello = receive();
     Packet welcome(8 + 32);
     welcome[0] = 2;
@@ -188,7 +191,8 @@ TEST(BenchConfig, ComplainsWithFileFieldValueAndRange) {
     FAIL() << "a negative stiffness was accepted";
   } catch (const std::runtime_error& error) {
     const std::string what = error.what();
-    for (const char* part : {path.c_str(), "/cables/EA_N", "-1", "allowed is"}) EXPECT_NE(what.find(part), std::string::npos) << what;
+    for (const char* part : {path.c_str(), "/cables/EA_N", "-1", "allowed is"})
+      EXPECT_NE(what.find(part), std::string::npos) << what;
   }
   EXPECT_THROW(load_robot(HIL_DATA "/scene.json"), std::runtime_error);
   EXPECT_THROW(load_robot("nowhere.json"), std::runtime_error);

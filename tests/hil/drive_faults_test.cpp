@@ -41,7 +41,8 @@ TEST_F(DriveFaults, ALateDriveReportsWhatWasTrueSoManyPeriodsBefore) {
     const std::int32_t reported = position(3000);
     prompt.push_back(static_cast<std::int32_t>(*read(0x6064, 0)));
     if (i < 4) {
-      EXPECT_EQ(reported, 1000) << "the target came a period after the first SYNC, acts a period later, and is told two later";
+      EXPECT_EQ(reported, 1000)
+          << "the target came a period after the first SYNC, acts a period later, and is told two later";
     } else {
       EXPECT_GT(reported, 1000);
     }

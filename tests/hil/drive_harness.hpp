@@ -80,14 +80,16 @@ class DriveHarness : public ::testing::Test {
 
   // RPDO1 and TPDO1 as docs/drives.md wants them, heartbeats both ways, mode csp, then NMT start.
   void configure(std::uint32_t deadline_ms = 12) {
-    for (const auto& [receive, mapped] : {std::pair{true, std::vector<std::uint32_t>{0x60400010, 0x607A0020}},
-                                          std::pair{false, std::vector<std::uint32_t>{0x60410010, 0x60640020, 0x60770010}}}) {
+    for (const auto& [receive, mapped] :
+         {std::pair{true, std::vector<std::uint32_t>{0x60400010, 0x607A0020}},
+          std::pair{false, std::vector<std::uint32_t>{0x60410010, 0x60640020, 0x60770010}}}) {
       const auto communication = static_cast<std::uint16_t>(receive ? 0x1400 : 0x1800);
       const auto mapping = static_cast<std::uint16_t>(communication + 0x200);
       const std::uint32_t cob = (receive ? 0x200U : 0x180U) + kNode;
       EXPECT_EQ(write(communication, 1, 4, cob | 0x80000000U), 0U);
       EXPECT_EQ(write(mapping, 0, 1, 0), 0U);
-      for (std::size_t i = 0; i < mapped.size(); ++i) EXPECT_EQ(write(mapping, static_cast<std::uint8_t>(i + 1), 4, mapped[i]), 0U);
+      for (std::size_t i = 0; i < mapped.size(); ++i)
+        EXPECT_EQ(write(mapping, static_cast<std::uint8_t>(i + 1), 4, mapped[i]), 0U);
       EXPECT_EQ(write(mapping, 0, 1, static_cast<std::uint32_t>(mapped.size())), 0U);
       EXPECT_EQ(write(communication, 2, 1, 1), 0U);
       EXPECT_EQ(write(communication, 5, 2, receive ? deadline_ms : 0), 0U);
@@ -100,8 +102,9 @@ class DriveHarness : public ::testing::Test {
 
   void command(int controlword, std::int32_t target) {
     const auto t = static_cast<std::uint32_t>(target);
-    give(0x200 + kNode, {static_cast<std::uint8_t>(controlword), static_cast<std::uint8_t>(controlword >> 8), static_cast<std::uint8_t>(t),
-                         static_cast<std::uint8_t>(t >> 8), static_cast<std::uint8_t>(t >> 16), static_cast<std::uint8_t>(t >> 24)});
+    give(0x200 + kNode, {static_cast<std::uint8_t>(controlword), static_cast<std::uint8_t>(controlword >> 8),
+                         static_cast<std::uint8_t>(t), static_cast<std::uint8_t>(t >> 8),
+                         static_cast<std::uint8_t>(t >> 16), static_cast<std::uint8_t>(t >> 24)});
   }
 
   // One period: SYNC, what was sent, motion, then the next command; returns everything the drive sent.

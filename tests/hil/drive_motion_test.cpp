@@ -32,17 +32,19 @@ TEST(Cia402Table, HasTheTransitionsOfTheStandardAndNoOthers) {
       {kFault, 0x0F, kFault, "fault stays"},
       {kFaultReactionActive, 0x06, kFaultReactionActive, "-"},
   };
-  for (const auto& test : cases) EXPECT_EQ(next_state(test.from, decode_command(test.controlword)), test.to) << test.number;
+  for (const auto& test : cases)
+    EXPECT_EQ(next_state(test.from, decode_command(test.controlword)), test.to) << test.number;
 }
 
 TEST(Cia402Table, StatuswordsDecodeToTheirStateWithTheMasksOfTheStandard) {
-  const std::pair<PowerState, std::pair<unsigned, unsigned>> cases[] = {{PowerState::kSwitchOnDisabled, {0x4F, 0x40}},
-                                                                        {PowerState::kReadyToSwitchOn, {0x6F, 0x21}},
-                                                                        {PowerState::kSwitchedOn, {0x6F, 0x23}},
-                                                                        {PowerState::kOperationEnabled, {0x6F, 0x27}},
-                                                                        {PowerState::kQuickStopActive, {0x6F, 0x07}},
-                                                                        {PowerState::kFaultReactionActive, {0x4F, 0x0F}},
-                                                                        {PowerState::kFault, {0x4F, 0x08}}};
+  const std::pair<PowerState, std::pair<unsigned, unsigned>> cases[] = {
+      {PowerState::kSwitchOnDisabled, {0x4F, 0x40}},
+      {PowerState::kReadyToSwitchOn, {0x6F, 0x21}},
+      {PowerState::kSwitchedOn, {0x6F, 0x23}},
+      {PowerState::kOperationEnabled, {0x6F, 0x27}},
+      {PowerState::kQuickStopActive, {0x6F, 0x07}},
+      {PowerState::kFaultReactionActive, {0x4F, 0x0F}},
+      {PowerState::kFault, {0x4F, 0x08}}};
   for (const auto& [state, bits] : cases) EXPECT_EQ(state_bits(state) & bits.first, bits.second);
 }
 
@@ -98,7 +100,8 @@ TEST_F(DriveMotion, ActsOnATargetAtTheSyncAfterItsArrival) {
   const double after_one = drive_.motor().position_counts();
   EXPECT_NEAR(after_one, 1000.0 + 1000.0 * (1.0 - std::exp(-4.0 / 30.0)), 0.01);
   const auto tpdo = find(cycle(0x0F, 2000), 0x180 + kNode);
-  EXPECT_EQ(static_cast<double>(get_little_endian(&tpdo->data[2], 4)), std::round(after_one)) << "sampled at SYNC, before moving on";
+  EXPECT_EQ(static_cast<double>(get_little_endian(&tpdo->data[2], 4)), std::round(after_one))
+      << "sampled at SYNC, before moving on";
 }
 
 TEST_F(DriveMotion, StopsByItselfWhenTargetsStopComing) {

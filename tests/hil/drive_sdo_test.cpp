@@ -66,7 +66,8 @@ TEST_F(DriveNode, RefusesWithTheCodeOfTheStandard) {
       {"mapping of an enabled PDO", 0x1600, 0, 1, 0, 0x08000022},
       {"COB-ID changed while enabled", 0x1400, 1, 4, 0x300, 0x06090030},
   };
-  for (const auto& test : cases) EXPECT_EQ(write(test.index, test.sub, test.size, test.value), test.code) << test.reason;
+  for (const auto& test : cases)
+    EXPECT_EQ(write(test.index, test.sub, test.size, test.value), test.code) << test.reason;
   EXPECT_EQ(aborted(sdo({0xC0, 0x00, 0x10, 0})), 0x05040001U) << "block transfer";
   EXPECT_FALSE(read(0x2000, 0));
   EXPECT_EQ(aborted(last_), 0x06020000U);

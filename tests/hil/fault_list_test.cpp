@@ -67,7 +67,8 @@ TEST(FaultList, RefusesWhatItDoesNotUnderstandWithFieldAndWhatIsAllowed) {
       {R"({"drive":[],"kind":"fault","at_slot":1})", {"/0/drive", "at least one"}},
       {R"({"drive":[2,2],"kind":"fault","at_slot":1})", {"/0/drive", "twice"}},
       {R"({"drive":[2,15],"kind":"fault","at_slot":1})", {"/0/drive/1", "15"}},
-      {R"({"drive":3,"kind":"tired","at_slot":1})", {"/0/kind", "tired", "allowed are missing, wrong_identity", "cable_break"}},
+      {R"({"drive":3,"kind":"tired","at_slot":1})",
+       {"/0/kind", "tired", "allowed are missing, wrong_identity", "cable_break"}},
       {R"({"drive":3,"kind":"fault"})", {"exactly one of at_slot and when"}},
       {R"({"drive":3,"kind":"fault","at_slot":1,"when":{"moving":true}})", {"exactly one of at_slot and when"}},
       {R"({"drive":3,"kind":"fault","at_slot":-1})", {"/0/at_slot", "-1"}},
@@ -111,7 +112,8 @@ TEST(FaultsOfTheBench, HitTheDriveAndTheSlotTheyName) {
     const Outcome run = run_with(std::string(R"([{"drive":3,"at_slot":120,"kind":")") + kind + "\"}]", 160);
     EXPECT_EQ(run.truth.at(119, "enabled"), 15.0);
     EXPECT_EQ(run.truth.at(159, "enabled"), expected);
-    EXPECT_EQ(run.truth.at(159, "tension_min_N") < 0.5 * run.truth.at(119, "tension_min_N"), std::string(kind) == "slack");
+    EXPECT_EQ(run.truth.at(159, "tension_min_N") < 0.5 * run.truth.at(119, "tension_min_N"),
+              std::string(kind) == "slack");
     const bool quiet = std::string(kind) == "missing" || std::string(kind) == "silent";
     EXPECT_EQ(run.tpdos, quiet ? 15 * 140 - 40 : 15 * 140);
     EXPECT_EQ(run.summary.at("faults")[0].at("begun_slot"), 120);
@@ -131,12 +133,14 @@ TEST(FaultsOfTheBench, EndAfterTheSlotsTheyLast) {
 TEST(FaultsOfTheBench, WaitForTheirConditionAndBeginOnce) {
   const Outcome enabled = run_with(R"([{"drive":3,"kind":"sto","when":{"enabled":true,"for_slots":20}}])", 160);
   const int begun = enabled.summary.at("faults")[0].at("begun_slot");
-  EXPECT_LT(enabled.truth.at(static_cast<std::size_t>(begun) - 20, "enabled"), 15.0) << "the first of twenty slots comes after this one";
+  EXPECT_LT(enabled.truth.at(static_cast<std::size_t>(begun) - 20, "enabled"), 15.0)
+      << "the first of twenty slots comes after this one";
   EXPECT_EQ(enabled.truth.at(static_cast<std::size_t>(begun) - 19, "enabled"), 15.0);
   EXPECT_EQ(enabled.truth.at(static_cast<std::size_t>(begun) + 1, "enabled"), 14.0);
   EXPECT_LT(begun, 90);
 
-  const Outcome moving = run_with(R"([{"drive":3,"kind":"sto","when":{"moving":true,"enabled":true,"for_slots":3}}])", 160, 5);
+  const Outcome moving =
+      run_with(R"([{"drive":3,"kind":"sto","when":{"moving":true,"enabled":true,"for_slots":3}}])", 160, 5);
   EXPECT_GT(moving.summary.at("faults")[0].at("begun_slot"), 90) << "targets move from slot 90 on";
 
   const Outcome resting = run_with(R"([{"drive":3,"kind":"sto","when":{"theta":3,"above_deg":30}}])", 160, 5);

@@ -1,4 +1,5 @@
-// Cable lengths, tip and inertia of the bench against three independent witnesses: golden values, MuJoCo's tendons, finite differences.
+// Cable lengths, tip and inertia of the bench against three independent witnesses: golden values, MuJoCo's tendons,
+// finite differences.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -39,10 +40,12 @@ TEST(BenchGeometry, TheTipIsTheGoldenOneToANanometre) {
   for (const auto& test : golden_cases()) {
     chain.place(theta_of(test));
     const Pose tip = chain.tip();
-    const Vec3 axes[3] = {rotate(tip.attitude, {1, 0, 0}), rotate(tip.attitude, {0, 1, 0}), rotate(tip.attitude, {0, 0, 1})};
+    const Vec3 axes[3] = {rotate(tip.attitude, {1, 0, 0}), rotate(tip.attitude, {0, 1, 0}),
+                          rotate(tip.attitude, {0, 0, 1})};
     const auto& pose = test.at("tip_pose");
     EXPECT_LT(norm(tip.position_m - Vec3{pose[0][3], pose[1][3], pose[2][3]}), 1e-9) << test.at("name");
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_LT(norm(axes[k] - Vec3{pose[0][k], pose[1][k], pose[2][k]}), 1e-9) << test.at("name");
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_LT(norm(axes[k] - Vec3{pose[0][k], pose[1][k], pose[2][k]}), 1e-9) << test.at("name");
   }
 }
 
@@ -54,7 +57,8 @@ TEST(BenchGeometry, ThePointJacobianOfTheTipIsTheGoldenOne) {
     PointJacobian jacobian;
     chain.point_jacobian(39, chain.tip().position_m, jacobian);
     for (std::size_t row = 0; row < 3; ++row)
-      for (std::size_t i = 0; i < 10; ++i) EXPECT_NEAR(jacobian[row][i], test.at("jacobian").at(row).at(i).get<double>(), 1e-9);
+      for (std::size_t i = 0; i < 10; ++i)
+        EXPECT_NEAR(jacobian[row][i], test.at("jacobian").at(row).at(i).get<double>(), 1e-9);
   }
 }
 
@@ -95,7 +99,8 @@ TEST(BenchGeometry, CableDerivativesAreTheDifferencesOfLengths) {
       behind.update(theta);
       theta[i] = middle;
       for (std::size_t c = 0; c < 15; ++c)
-        EXPECT_NEAR(jacobian[c][i], (ahead.length_m(c) - behind.length_m(c)) / (2.0 * kStep), 1e-8) << "cable " << c << " theta " << i;
+        EXPECT_NEAR(jacobian[c][i], (ahead.length_m(c) - behind.length_m(c)) / (2.0 * kStep), 1e-8)
+            << "cable " << c << " theta " << i;
     }
   }
 }
@@ -111,7 +116,8 @@ TEST(BenchGeometry, TheReducedInertiaIsTheFullOneBetweenSelections) {
     ASSERT_EQ(full.size(), 80U * 80U);
     ThetaMatrix expected{};
     for (std::size_t i = 0; i < 80; ++i)
-      for (std::size_t j = 0; j < 80; ++j) expected[chain.theta_of_hinge(i)][chain.theta_of_hinge(j)] += full[80 * i + j];
+      for (std::size_t j = 0; j < 80; ++j)
+        expected[chain.theta_of_hinge(i)][chain.theta_of_hinge(j)] += full[80 * i + j];
     for (std::size_t a = 0; a < 10; ++a)
       for (std::size_t b = 0; b < 10; ++b) EXPECT_NEAR(reduced[a][b], expected[a][b], 1e-9 * std::fabs(expected[a][a]));
   }

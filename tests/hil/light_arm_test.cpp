@@ -1,4 +1,5 @@
-// The light arm beside the full physics: the same arm at rest, and close to it while it moves as slowly as Liana moves it.
+// The light arm beside the full physics: the same arm at rest, and close to it while it moves as slowly as Liana moves
+// it.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -66,7 +67,8 @@ TEST(LightArm, StaysWhereItStartsWithBrakesOn) {
   EXPECT_LT(largest_deg(arm.theta_rad(), start), 1e-9);
 }
 
-// Put where the light arm rests, with its drums, the full physics has nothing to do: 0.5 s without inertia's excuse of a slow swing.
+// Put where the light arm rests, with its drums, the full physics has nothing to do: 0.5 s without inertia's excuse of
+// a slow swing.
 TEST(LightArm, RestsWhereTheFullPhysicsStays) {
   SceneConfig open_space = fixture_scene();  // nothing to touch: the light arm knows no contact
   open_space.boxes.clear();
@@ -80,7 +82,8 @@ TEST(LightArm, RestsWhereTheFullPhysicsStays) {
     full.set_state(light.theta_rad(), Theta{});
     for (int i = 0; i < 500; ++i) full.step(0.001, light.payouts_m());
     EXPECT_LT(largest_deg(light.theta_rad(), full.theta_rad()), 1e-6) << goal;
-    for (std::size_t c = 0; c < 15; ++c) EXPECT_NEAR(light.motor_tension_N(c), full.motor_tension_N(c), 1e-4) << goal << " " << c;
+    for (std::size_t c = 0; c < 15; ++c)
+      EXPECT_NEAR(light.motor_tension_N(c), full.motor_tension_N(c), 1e-4) << goal << " " << c;
   }
 }
 
@@ -108,7 +111,8 @@ TEST(LightArm, ALooseCableIsSlackAndTheArmStaysNear) {
 
 TEST(LightArm, IsRefusedWithFriction) {
   const RobotConfig robot = fixture_robot();
-  EXPECT_THROW(LightArm(robot, table_parameters(robot, "nominal"), start_pose(robot, "zero", 0.0, 1)), std::runtime_error);
+  EXPECT_THROW(LightArm(robot, table_parameters(robot, "nominal"), start_pose(robot, "zero", 0.0, 1)),
+               std::runtime_error);
 }
 
 TEST(LightArm, TheSummarySaysWhichArmRan) {

@@ -160,7 +160,8 @@ TEST_F(OneCable, SticksHoldsAGradientAndComesBackAnotherWay) {
   EXPECT_NEAR(cable.motor_tension_N() / far_after_pull, whole_ratio, 0.01 * whole_ratio);
 
   cable.settle(paths_, start - 0.995e-3);  // a small way back moves only the near end
-  EXPECT_NEAR(cable.segment_tension_N(4), far_after_pull * (1.0 + std::exp(0.05 * paths_.path(14, 4).wrap_rad)) / 2.0, 0.5);
+  EXPECT_NEAR(cable.segment_tension_N(4), far_after_pull * (1.0 + std::exp(0.05 * paths_.path(14, 4).wrap_rad)) / 2.0,
+              0.5);
   for (int i = 200; i >= 0; --i) cable.settle(paths_, start - i * 5e-6);
   EXPECT_LT(cable.motor_tension_N(), 38.0) << "hysteresis: back at the start the motor feels less";
   EXPECT_GT(cable.segment_tension_N(4), 40.5) << "and the far end is tighter";

@@ -7,7 +7,8 @@ namespace {
 // SYNCs on both buses for `syncs` periods, then `silent_wakes` wake-ups without a frame, `apart_us` after each other.
 class RealBus final : public Bus {
  public:
-  RealBus(int syncs, int silent_wakes, std::uint64_t apart_us) : syncs_(syncs), silent_wakes_(silent_wakes), apart_us_(apart_us) {}
+  RealBus(int syncs, int silent_wakes, std::uint64_t apart_us)
+      : syncs_(syncs), silent_wakes_(silent_wakes), apart_us_(apart_us) {}
 
   bool wait(Wake& wake) override {
     wake.frames.clear();
@@ -43,7 +44,8 @@ std::uint64_t slots(int syncs, int silent_wakes, std::uint64_t apart_us) {
 TEST(SilentBus, EverySyncIsASlot) { EXPECT_EQ(slots(50, 0, 0), 50U); }
 
 TEST(SilentBus, SlotsGoOnByTheClockWithoutSync) {
-  // 600 ms in wake-ups of 2 ms: SYNC counts as missing after more than 6 ms, so the first slot ends after 8, then one every 4.
+  // 600 ms in wake-ups of 2 ms: SYNC counts as missing after more than 6 ms, so the first slot ends after 8, then one
+  // every 4.
   EXPECT_EQ(slots(50, 300, 2000), 50U + 149U);
 }
 

@@ -10,7 +10,8 @@
 namespace liana {
 namespace {
 
-// Stub lines "function arm.NAME(fields) end" under "---@param fields { a: number, b?: string }", as "NAME a:number b?:string".
+// Stub lines "function arm.NAME(fields) end" under "---@param fields { a: number, b?: string }", as "NAME a:number
+// b?:string".
 std::set<std::string> stubs() {
   std::istringstream in(read_file(LIANA_SOURCE_DIR "/lua/liana/arm_stubs.lua"));
   std::set<std::string> found;
@@ -37,7 +38,8 @@ TEST(Stubs, DescribeExactlyTheRegisteredCommands) {
   std::set<std::string> registered;
   for (const Binding& binding : bindings()) {
     std::string entry = binding.name;
-    for (const BindingField& field : binding.fields) entry += std::string(" ") + field.name + (field.required ? ":" : "?:") + field.type;
+    for (const BindingField& field : binding.fields)
+      entry += std::string(" ") + field.name + (field.required ? ":" : "?:") + field.type;
     registered.insert(entry);
   }
   EXPECT_EQ(stubs(), registered);
@@ -53,7 +55,8 @@ TEST(Bindings, EveryCommandIsOnTheApiPage) {
   const std::string page = read_file(LIANA_SOURCE_DIR "/docs/api.md");
   for (const Binding& binding : bindings()) {
     const std::string name = binding.name;
-    const bool there = page.find("`" + name + "`") != std::string::npos || page.find("\"op\":\"" + name + "\"") != std::string::npos;
+    const bool there =
+        page.find("`" + name + "`") != std::string::npos || page.find("\"op\":\"" + name + "\"") != std::string::npos;
     EXPECT_TRUE(there) << name;
   }
 }

@@ -81,7 +81,12 @@ void FakeLianad::converse() {
   const auto hello = recv(client_, packet, sizeof packet, 0);
   if (hello <= 0) return;
   requests_.push_back(Json::parse(packet, packet + hello));
-  send({{"op", "welcome"}, {"time_mode", "fast"}, {"period_s", 0.004}, {"interval_ticks", 5}, {"robot", robot_}, {"scene", scene_}});
+  send({{"op", "welcome"},
+        {"time_mode", "fast"},
+        {"period_s", 0.004},
+        {"interval_ticks", 5},
+        {"robot", robot_},
+        {"scene", scene_}});
   for (int interval = 0; interval < kMostIntervals; ++interval) {
     if (behaviour_.vanish_in_step != 0 && step_ >= behaviour_.vanish_in_step) return;
     if (behaviour_.silent_in_step != 0 && step_ >= behaviour_.silent_in_step) {
@@ -167,7 +172,8 @@ void FakeLianad::advance() {
   if (intervals_with_device_ < 60 || !behaviour_.operator_arrives) return;
   if (device_ == "vr") tip_ = tip_of(named_pose("panel_edge"));
   if (device_ == "hand" && held_.size() == 1) {
-    for (std::size_t k = 0; k < 3; ++k) tip_[k] = scene_["slit"]["u_axis"][k].get<double>() * behaviour_.tip_in_slit_u_m;
+    for (std::size_t k = 0; k < 3; ++k)
+      tip_[k] = scene_["slit"]["u_axis"][k].get<double>() * behaviour_.tip_in_slit_u_m;
   }
   if (device_ == "hand" && held_.size() == 2) tip_ = tip_of(named_pose("press_rod"));
   if (intervals_with_device_ < 80) return;

@@ -18,8 +18,9 @@ Json evaluate_lua(const Json& theta_deg, const std::string& expression) {
   Script script(ScriptLimits{}, LIANA_SOURCE_DIR "/lua", activity);
   std::string list;
   for (const auto& angle : theta_deg) list += angle.dump() + ",";
-  script.run({"geometry_test.lua", "local geometry, robot, theta_deg = require 'liana.geometry', require 'robots.zhu2022', {" + list +
-                                       "}\nreturn " + expression});
+  script.run(
+      {"geometry_test.lua", "local geometry, robot, theta_deg = require 'liana.geometry', require 'robots.zhu2022', {" +
+                                list + "}\nreturn " + expression});
   return to_json(script.state(), -1, "geometry_test.lua");
 }
 
@@ -30,10 +31,12 @@ TEST(LuaGeometry, TipAndSegmentEndsAgreeWithTheGoldenValues) {
   for (const auto& golden : golden_cases()) {
     const auto ends = evaluate_lua(golden["theta_deg"], "geometry.segment_ends(robot, theta_deg)");
     for (std::size_t m = 0; m < 5; ++m) {
-      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(ends[m]["position"][k], golden["segment_ends_m"][m][k], kTolerance) << golden["name"];
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(ends[m]["position"][k], golden["segment_ends_m"][m][k], kTolerance) << golden["name"];
     }
     for (std::size_t i = 0; i < 3; ++i) {
-      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(ends[4]["rotation"][i][k], golden["tip_pose"][i][k], kTolerance) << golden["name"];
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(ends[4]["rotation"][i][k], golden["tip_pose"][i][k], kTolerance) << golden["name"];
       EXPECT_NEAR(ends[4]["position"][i], golden["tip_pose"][i][3], kTolerance) << golden["name"];
     }
   }
@@ -42,7 +45,8 @@ TEST(LuaGeometry, TipAndSegmentEndsAgreeWithTheGoldenValues) {
 // Rebuilds the rotation from the quaternion, for poses that need each of its four branches.
 TEST(LuaGeometry, QuaternionIsTheRotationAndHasUnitLength) {
   const std::vector<std::string> rotations = {"geometry.tip(robot, theta_deg).rotation", "{{1,0,0},{0,-1,0},{0,0,-1}}",
-                                              "{{-1,0,0},{0,1,0},{0,0,-1}}", "{{-1,0,0},{0,-1,0},{0,0,1}}", "{{0,0,1},{1,0,0},{0,1,0}}"};
+                                              "{{-1,0,0},{0,1,0},{0,0,-1}}", "{{-1,0,0},{0,-1,0},{0,0,1}}",
+                                              "{{0,0,1},{1,0,0},{0,1,0}}"};
   for (const std::string& rotation : rotations) {
     const auto r = evaluate_lua(golden_cases()[0]["theta_deg"], rotation);
     const auto q = evaluate_lua(golden_cases()[0]["theta_deg"], "geometry.quaternion(" + rotation + ")");

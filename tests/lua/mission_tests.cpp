@@ -42,8 +42,9 @@ MissionRun run_mission_against(const FakeBehaviour& behaviour, const std::string
 
 // A mission file of one step whose run and exit are given.
 std::string one_step(const TemporaryFolder& folder, const std::string& body) {
-  return folder.write("given.lua", "local liana = require 'liana'\nreturn liana.mission 'given' { liana.step 'only' {\n" + body +
-                                       "\n device = 'none', time_limit_s = 5, on_fail = 'hold' } }\n");
+  return folder.write("given.lua",
+                      "local liana = require 'liana'\nreturn liana.mission 'given' { liana.step 'only' {\n" + body +
+                          "\n device = 'none', time_limit_s = 5, on_fail = 'hold' } }\n");
 }
 
 // A50, A40: six steps, 10+0, 9+1, 8+2, then the repair command.
@@ -83,7 +84,9 @@ TEST(Mission, SendsWhatTheApiPageSays) {
   EXPECT_EQ(run.requests.back()["op"], "release");
 }
 
-TEST(Mission, TwoRunsSendIdenticalRequests) { EXPECT_EQ(run_mission_against({}).requests, run_mission_against({}).requests); }
+TEST(Mission, TwoRunsSendIdenticalRequests) {
+  EXPECT_EQ(run_mission_against({}).requests, run_mission_against({}).requests);
+}
 
 TEST(Mission, PrintsJsonLinesForPrograms) {
   const MissionRun run = run_mission_against({}, "slit_crossing", " --json");
@@ -101,7 +104,8 @@ TEST(Mission, HoldsWhenTheOperatorDoesNotArriveInTime) {
   EXPECT_EQ(run.report["outcome"], "failed");
   EXPECT_EQ(run.last_command(), "hold");
   ASSERT_EQ(run.report["steps"].size(), 2u);
-  EXPECT_NE(run.ended.error.find("time limit of 120 s passed, not met: device released by the operator and operator says arrived"),
+  EXPECT_NE(run.ended.error.find(
+                "time limit of 120 s passed, not met: device released by the operator and operator says arrived"),
             std::string::npos)
       << run.ended.error;
 }
@@ -137,7 +141,8 @@ TEST(Mission, ARefusalInTheSlitRetracts) {
 }
 
 TEST(Mission, ARefusedRetractionHoldsAndSaysSo) {
-  const MissionRun run = run_mission_against({.refuse = {{"use_device", "no_device"}, {"retract", "refused"}}, .refuse_in_step = 6});
+  const MissionRun run =
+      run_mission_against({.refuse = {{"use_device", "no_device"}, {"retract", "refused"}}, .refuse_in_step = 6});
   EXPECT_EQ(run.report["outcome"], "refused");
   EXPECT_NE(run.report["reason"].get<std::string>().find("retract refused"), std::string::npos);
 }
@@ -145,7 +150,8 @@ TEST(Mission, ARefusedRetractionHoldsAndSaysSo) {
 TEST(Mission, AWayBackThatEndsEarlyIsAFailureAndSaysSo) {
   const MissionRun run = run_mission_against({.way_back_ends_early = true, .tip_in_slit_u_m = 2.5});
   EXPECT_EQ(run.report["outcome"], "failed");
-  EXPECT_NE(run.report["reason"].get<std::string>().find("the way back was refused before its end"), std::string::npos) << run.report;
+  EXPECT_NE(run.report["reason"].get<std::string>().find("the way back was refused before its end"), std::string::npos)
+      << run.report;
 }
 
 TEST(Mission, IsPatientWhileDrivesBootAndThenSaysWhy) {
@@ -153,7 +159,8 @@ TEST(Mission, IsPatientWhileDrivesBootAndThenSaysWhy) {
   EXPECT_EQ(run.report["outcome"], "failed");
   EXPECT_GT(run.ops("state_command").size(), 10u);
   EXPECT_LT(run.ops("state_command").size(), 60u);
-  EXPECT_NE(run.report["reason"].get<std::string>().find("not enabled after 60 s, state_command refused: busy"), std::string::npos)
+  EXPECT_NE(run.report["reason"].get<std::string>().find("not enabled after 60 s, state_command refused: busy"),
+            std::string::npos)
       << run.report;
 }
 
@@ -194,8 +201,10 @@ TEST(Mission, TheEndOfLianadIsReported) {
 
 TEST(Mission, AStepThatWasCutOffLastedUntilTheLastState) {
   const TemporaryFolder folder;
-  const MissionRun run = run_mission_against(
-      {}, one_step(folder, "exit = liana.condition('never', function(arm) if arm.elapsed_s(arm.begin_tick) > 1 then error 'x' end end),"));
+  const MissionRun run =
+      run_mission_against({}, one_step(folder,
+                                       "exit = liana.condition('never', function(arm) if arm.elapsed_s(arm.begin_tick) "
+                                       "> 1 then error 'x' end end),"));
   EXPECT_EQ(run.report["outcome"], "failed");
   EXPECT_GT(run.report["steps"][0]["duration_s"], 1.0);
   EXPECT_EQ(run.report["duration_s"], run.report["steps"][0]["duration_s"]);
@@ -213,7 +222,8 @@ TEST(Mission, AMotionOfTheScriptThatVerificationRefusesFailsItsStepWithTheReason
   const MissionRun run = run_mission_against({.refuse_motion_in_step = 3});
   EXPECT_EQ(run.report["outcome"], "refused");
   EXPECT_EQ(run.report["steps"][2]["outcome"], "refused");
-  EXPECT_NE(run.report["reason"].get<std::string>().find("refused the motion: joint rate 1.2 of the limit"), std::string::npos)
+  EXPECT_NE(run.report["reason"].get<std::string>().find("refused the motion: joint rate 1.2 of the limit"),
+            std::string::npos)
       << run.report;
 }
 
@@ -225,33 +235,38 @@ TEST(Mission, ARefusalWhileTheOperatorSteersIsPartOfSteering) {
 TEST(Mission, ATimeLimitThatPassesDuringAMoveSaysSo) {
   const TemporaryFolder folder;
   const MissionRun run = run_mission_against(
-      {}, one_step(folder, "exit = liana.condition('never', function(arm) arm.move_jp { goal_deg = arm.named_pose 'zero' } end),"));
-  EXPECT_NE(run.ended.error.find("time limit of 5 s passed while the arm was still moving, not met: never"), std::string::npos)
+      {},
+      one_step(folder,
+               "exit = liana.condition('never', function(arm) arm.move_jp { goal_deg = arm.named_pose 'zero' } end),"));
+  EXPECT_NE(run.ended.error.find("time limit of 5 s passed while the arm was still moving, not met: never"),
+            std::string::npos)
       << run.ended.error;
 }
 
 TEST(Mission, AnErrorInAStepNamesFileAndLineAndHolds) {
   const TemporaryFolder folder;
-  const MissionRun run =
-      run_mission_against({}, one_step(folder, "run = function(arm) local x = arm.nothing.at_all end, exit = liana.at_rest(),"));
+  const MissionRun run = run_mission_against(
+      {}, one_step(folder, "run = function(arm) local x = arm.nothing.at_all end, exit = liana.at_rest(),"));
   EXPECT_EQ(run.ended.code, 1);
   EXPECT_EQ(run.last_command(), "hold");
   EXPECT_EQ(run.report["outcome"], "failed");
   EXPECT_EQ(run.report["steps"][0]["outcome"], "failed");
-  EXPECT_NE(run.ended.error.find("given.lua:3: attempt to index a nil value (field 'nothing')"), std::string::npos) << run.ended.error;
+  EXPECT_NE(run.ended.error.find("given.lua:3: attempt to index a nil value (field 'nothing')"), std::string::npos)
+      << run.ended.error;
 }
 
 TEST(Mission, AWrongCommandNamesItsField) {
   const TemporaryFolder folder;
-  const MissionRun run =
-      run_mission_against({}, one_step(folder, "run = function(arm) arm.move_jp { goal = 1 } end, exit = liana.at_rest(),"));
+  const MissionRun run = run_mission_against(
+      {}, one_step(folder, "run = function(arm) arm.move_jp { goal = 1 } end, exit = liana.at_rest(),"));
   EXPECT_NE(run.ended.error.find("move_jp: goal_deg: missing: allowed number[]"), std::string::npos) << run.ended.error;
   EXPECT_EQ(run.last_command(), "hold");
 }
 
 TEST(Mission, AnEndlessConditionIsStoppedByTheBudget) {
   const TemporaryFolder folder;
-  const MissionRun run = run_mission_against({}, one_step(folder, "exit = liana.condition('never', function() while true do end end),"));
+  const MissionRun run =
+      run_mission_against({}, one_step(folder, "exit = liana.condition('never', function() while true do end end),"));
   EXPECT_EQ(run.ended.code, 1);
   EXPECT_EQ(run.last_command(), "hold");
   EXPECT_NE(run.ended.error.find("computes too long"), std::string::npos) << run.ended.error;
@@ -261,7 +276,8 @@ TEST(Mission, AnEndlessConditionIsStoppedByTheBudget) {
 TEST(Mission, TheWatchdogKillsWhatTheBudgetCannotStop) {
   const TemporaryFolder folder;
   const MissionRun run = run_mission_against(
-      {}, one_step(folder, "exit = liana.condition('never', function() xpcall(error, function() while true do end end) end),"));
+      {}, one_step(folder,
+                   "exit = liana.condition('never', function() xpcall(error, function() while true do end end) end),"));
   EXPECT_EQ(run.ended.code, 4);
   EXPECT_NE(run.ended.error.find("given.lua: computed for more than 2 s"), std::string::npos) << run.ended.error;
   EXPECT_NE(run.ended.error.find("given.lua:3"), std::string::npos) << run.ended.error;
@@ -273,8 +289,8 @@ TEST(Mission, TheWatchdogKillsWhatTheBudgetCannotStop) {
 TEST(Mission, KilledWithSignal9LeavesNoProcessThatOwnsMotion) {
   const TemporaryFolder folder;
   FakeLianad lianad(folder.file("api"), {.silent_in_step = 2});
-  const std::string command =
-      std::string(LIANA_MISSION) + " run --lockstep --api " + folder.file("api") + " --mission slit_crossing & sleep 2; kill -9 $!";
+  const std::string command = std::string(LIANA_MISSION) + " run --lockstep --api " + folder.file("api") +
+                              " --mission slit_crossing & sleep 2; kill -9 $!";
   EXPECT_EQ(std::system(command.c_str()), 0);
   EXPECT_TRUE(lianad.runner_left());
   EXPECT_EQ(lianad.requests().back()["op"], "announce");
@@ -288,7 +304,8 @@ TEST(Mission, WaitingForLianadIsNotComputing) {
 TEST(Mission, AMemoryBombInAStepHolds) {
   const TemporaryFolder folder;
   const MissionRun run = run_mission_against(
-      {}, one_step(folder, "run = function() local t = {} for i = 1, 1e9 do t[i] = {i} end end, exit = liana.at_rest(),"));
+      {},
+      one_step(folder, "run = function() local t = {} for i = 1, 1e9 do t[i] = {i} end end, exit = liana.at_rest(),"));
   EXPECT_EQ(run.ended.code, 1);
   EXPECT_NE(run.ended.error.find("too much memory"), std::string::npos) << run.ended.error;
   EXPECT_EQ(run.last_command(), "hold");
@@ -302,7 +319,8 @@ TEST(Mission, ABadMissionFileNeverReachesLianad) {
   EXPECT_NE(run.ended.error.find("given.lua:1:"), std::string::npos) << run.ended.error;
 }
 
-// The mission reads like the experiment: steps 2 and 3 change places by moving text, and what step 2 makes planar stays so.
+// The mission reads like the experiment: steps 2 and 3 change places by moving text, and what step 2 makes planar stays
+// so.
 TEST(Mission, AShapeThatHasSettledEndsItsStepUnlessTooMuchIsMissing) {
   const TemporaryFolder folder;
   const std::string shape = "run = liana.shape { { node = 3, position_m = { 1, 0, 0 } } }, exit = liana.shape_settled";
@@ -310,12 +328,14 @@ TEST(Mission, AShapeThatHasSettledEndsItsStepUnlessTooMuchIsMissing) {
   EXPECT_EQ(run_mission_against({}, one_step(folder, shape + "(0.02),")).report["outcome"], "success");
   const MissionRun run = run_mission_against({}, one_step(folder, shape + "(0.01),"));
   EXPECT_EQ(run.report["outcome"], "failed");
-  EXPECT_NE(run.ended.error.find("not met: shape settled with at most 0.01 m missing"), std::string::npos) << run.ended.error;
+  EXPECT_NE(run.ended.error.find("not met: shape settled with at most 0.01 m missing"), std::string::npos)
+      << run.ended.error;
 }
 
 TEST(Mission, APlanIsCarriedOutWaypointByWaypoint) {
   const TemporaryFolder folder;
-  const std::string start = "[-8.5,0,-12,0,8,-2,13,0,12,-2]", next = "[-7.5,0,-12,0,8,-2,13,0,12,-1]", far = "[0,0,0,0,0,0,0,0,0,0]";
+  const std::string start = "[-8.5,0,-12,0,8,-2,13,0,12,-2]", next = "[-7.5,0,-12,0,8,-2,13,0,12,-1]",
+                    far = "[0,0,0,0,0,0,0,0,0,0]";
   const auto plan = [&](const std::string& waypoints) {
     return folder.write("plan.json", R"({"outcome":"solved","waypoints_deg":[)" + waypoints + "]}");
   };
@@ -327,7 +347,8 @@ TEST(Mission, APlanIsCarriedOutWaypointByWaypoint) {
   const MissionRun elsewhere = run_mission_against({}, plan(far + "," + start));
   EXPECT_EQ(elsewhere.report["outcome"], "failed");
   EXPECT_TRUE(elsewhere.ops("move_jp").empty());
-  EXPECT_NE(elsewhere.ended.error.find("cannot enter, not met: arm within 1 deg of the plan's start"), std::string::npos)
+  EXPECT_NE(elsewhere.ended.error.find("cannot enter, not met: arm within 1 deg of the plan's start"),
+            std::string::npos)
       << elsewhere.ended.error;
 }
 
@@ -338,7 +359,8 @@ TEST(Mission, StepsRunInTheOrderInWhichTheyAreWritten) {
   const auto second = text.find("  step \"around the obstacle");
   const auto fourth = text.find("  step \"segment 5 into the slit\"");
   ASSERT_LT(second, third);
-  text = text.substr(0, second) + text.substr(third, fourth - third) + text.substr(second, third - second) + text.substr(fourth);
+  text = text.substr(0, second) + text.substr(third, fourth - third) + text.substr(second, third - second) +
+         text.substr(fourth);
   const MissionRun run = run_mission_against({}, folder.write("swapped.lua", text));
   EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
   EXPECT_EQ(run.report["steps"][1]["name"], "segment 5 goes planar");

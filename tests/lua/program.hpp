@@ -50,7 +50,8 @@ struct Ended {
 // Runs liana-mission with these arguments (quoted for the shell by the caller).
 inline Ended run_program(const std::string& arguments) {
   const TemporaryFolder folder;
-  const std::string command = std::string(LIANA_MISSION) + " " + arguments + " >" + folder.file("out") + " 2>" + folder.file("err");
+  const std::string command =
+      std::string(LIANA_MISSION) + " " + arguments + " >" + folder.file("out") + " 2>" + folder.file("err");
   const int status = std::system(command.c_str());
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder.file("out")), read_file(folder.file("err"))};
 }

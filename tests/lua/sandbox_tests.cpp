@@ -41,7 +41,8 @@ TEST(Sandbox, EveryAttackEndsWithOneClearMessage) {
                                        {"error_value", "raised a table"},
                                        {"nothing", "named fields"}};
   for (const Attack& attack : attacks) {
-    const Ended ended = run_program("eval robot " LIANA_SOURCE_DIR "/tests/lua/attacks/" + std::string(attack.file) + ".lua");
+    const Ended ended =
+        run_program("eval robot " LIANA_SOURCE_DIR "/tests/lua/attacks/" + std::string(attack.file) + ".lua");
     EXPECT_EQ(ended.code, 2) << attack.file << ": " << ended.error;
     EXPECT_EQ(ended.out, "") << attack.file;
     EXPECT_NE(ended.error.find(attack.message), std::string::npos) << attack.file << ": " << ended.error;
@@ -66,7 +67,9 @@ TEST(Sandbox, RunsTheSameInEveryProcess) {
 TEST(Sandbox, PairsAllowsRemovingWhileItRuns) {
   Activity activity;
   Script script(ScriptLimits{}, LIANA_SOURCE_DIR "/lua", activity);
-  script.run({"remove.lua", "local t, n = { a = 1, b = 2, c = 3 }, 0 for k in pairs(t) do n = n + 1 t.b = nil t[k] = nil end return n"});
+  script.run(
+      {"remove.lua",
+       "local t, n = { a = 1, b = 2, c = 3 }, 0 for k in pairs(t) do n = n + 1 t.b = nil t[k] = nil end return n"});
   EXPECT_EQ(lua_tointeger(script.state(), -1), 2);
 }
 
@@ -114,8 +117,8 @@ TEST(Sandbox, GivesWhatLuacheckAllowsAndNoDoorOutside) {
     end
     return table.concat(missing, " "))"});
   EXPECT_STREQ(lua_tostring(script.state(), -1), "");
-  for (const char* name :
-       {"io", "os", "debug", "load", "loadfile", "dofile", "collectgarbage", "package", "next", "rawset", "_G", "utf8"}) {
+  for (const char* name : {"io", "os", "debug", "load", "loadfile", "dofile", "collectgarbage", "package", "next",
+                           "rawset", "_G", "utf8"}) {
     script.run({"absent.lua", "return " + std::string(name)});
     EXPECT_TRUE(lua_isnil(script.state(), -1)) << name;
   }

@@ -8,8 +8,8 @@ namespace liana {
 namespace {
 
 TEST(Eval, PrintsTheSameCanonicalTextTwice) {
-  for (const std::string table :
-       {"robot zhu2022", "scene panel_slit", "buses embedded", "buses embedded_500", "buses embedded_single", "buses vcan"}) {
+  for (const std::string table : {"robot zhu2022", "scene panel_slit", "buses embedded", "buses embedded_500",
+                                  "buses embedded_single", "buses vcan"}) {
     const Ended first = run_program("eval " + table);
     EXPECT_EQ(first.code, 0) << first.error;
     EXPECT_EQ(first.error, "");
@@ -28,30 +28,37 @@ struct Change {
 // Lua tables of users, each with one mistake: the message names file, field, value, what is allowed and what to do.
 TEST(Eval, RefusesMalformedLuaTablesByField) {
   const std::vector<Change> changes = {
-      {"robot", "robots.zhu2022", "t.segments[2].modules = 99", "given.lua: segments[1].modules: 99: allowed 1 to 16: choose a value"},
-      {"robot", "robots.zhu2022", "t.module.mass_kg = 'heavy'", "given.lua: module.mass_kg: \"heavy\": allowed a number over 0"},
+      {"robot", "robots.zhu2022", "t.segments[2].modules = 99",
+       "given.lua: segments[1].modules: 99: allowed 1 to 16: choose a value"},
+      {"robot", "robots.zhu2022", "t.module.mass_kg = 'heavy'",
+       "given.lua: module.mass_kg: \"heavy\": allowed a number over 0"},
       {"robot", "robots.zhu2022", "t.format = 3", "given.lua: format: 3: allowed 1 to 1"},
       {"robot", "robots.zhu2022", "t.limits.tip_speed = 1", "given.lua: limits.tip_speed: 1: allowed no such field"},
       {"robot", "robots.zhu2022", "t.limits.tip_sped_m_s, t.limits.tip_speed_m_s = t.limits.tip_speed_m_s, nil",
        "given.lua: limits.tip_sped_m_s: 0.1: allowed no such field: remove it or correct its spelling"},
-      {"robot", "robots.zhu2022", "t.drives.idenity, t.drives.identity = t.drives.identity, nil", "given.lua: drives.idenity: {"},
+      {"robot", "robots.zhu2022", "t.drives.idenity, t.drives.identity = t.drives.identity, nil",
+       "given.lua: drives.idenity: {"},
       {"robot", "robots.zhu2022", "t.drives = nil", "given.lua: drives: missing"},
       {"robot", "robots.zhu2022", "for i = 6, 9 do t.segments[i] = t.segments[1] end",
        "given.lua: segments: 9 entries: allowed a list of 1 to 8"},
-      {"scene", "scenes.panel_slit", "t.spheres[1].radius_m = -1", "given.lua: spheres[1].radius_m: -1: allowed over 0"},
+      {"scene", "scenes.panel_slit", "t.spheres[1].radius_m = -1",
+       "given.lua: spheres[1].radius_m: -1: allowed over 0"},
       {"scene", "scenes.panel_slit", "t.boxes[1].rotation[1] = {1,1,1}", "given.lua: boxes[1].rotation: "},
-      {"scene", "scenes.panel_slit", "t.rod.position_m = {1,2}", "given.lua: rod.position_m: 2 entries: allowed a list of 3 entries"},
+      {"scene", "scenes.panel_slit", "t.rod.position_m = {1,2}",
+       "given.lua: rod.position_m: 2 entries: allowed a list of 3 entries"},
       {"scene", "scenes.panel_slit", "t.slit.offset_m = t.slit.offset_m + 0.1", "given.lua: slit.frame.position_m: "},
       {"buses", "buses.embedded", "t.rate_hz = 300", "given.lua: rate_hz: 300: allowed rates whose period"},
       {"buses", "buses.embedded", "t.buses[1].nodes[1] = 0", "given.lua: buses[1].nodes[1]: 0: allowed 1 to 126"},
-      {"buses", "buses.embedded", "t.buses[2].nodes[1] = 1", "given.lua: buses[2].nodes[1]: 1: allowed each node id once"},
+      {"buses", "buses.embedded", "t.buses[2].nodes[1] = 1",
+       "given.lua: buses[2].nodes[1]: 1: allowed each node id once"},
       {"buses", "buses.embedded_single", "t.rate_hz = 250", "given.lua: buses[1].nodes: "},
-      {"buses", "buses.embedded", "t.backend = 'ethernet'", "given.lua: backend: \"ethernet\": allowed embedded, socketcan"},
+      {"buses", "buses.embedded", "t.backend = 'ethernet'",
+       "given.lua: backend: \"ethernet\": allowed embedded, socketcan"},
       {"buses", "buses.embedded", "t.kind = 'robot'", "given.lua: kind: \"robot\": allowed buses"}};
   const TemporaryFolder folder;
   for (const Change& change : changes) {
-    const std::string file =
-        folder.write("given.lua", "local t = require '" + std::string(change.module) + "'\n" + change.statement + "\nreturn t\n");
+    const std::string file = folder.write(
+        "given.lua", "local t = require '" + std::string(change.module) + "'\n" + change.statement + "\nreturn t\n");
     const Ended ended = run_program("eval " + std::string(change.kind) + " " + file);
     EXPECT_EQ(ended.code, 2) << change.statement;
     EXPECT_NE(ended.error.find(change.message), std::string::npos) << change.statement << " -> " << ended.error;
@@ -62,7 +69,8 @@ TEST(Eval, RefusesMalformedLuaTablesByField) {
 TEST(Eval, NamesWhatThereIsWhenANameIsUnknown) {
   const Ended ended = run_program("eval buses can9");
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(ended.error.find("can9: allowed embedded, embedded_500, embedded_single, vcan"), std::string::npos) << ended.error;
+  EXPECT_NE(ended.error.find("can9: allowed embedded, embedded_500, embedded_single, vcan"), std::string::npos)
+      << ended.error;
 }
 
 TEST(Eval, DescribesTheSlitCrossing) {
@@ -87,7 +95,8 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "step 1 \"a\": device: joystick: allowed \"vr\""},
       {"step 'a' { device = 'none', exit = at_rest, time_limit_s = 1, on_fail = 'hold' }",
        "step 1 \"a\": exit: function: allowed a condition"},
-      {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 0, on_fail = 'hold' }", "time_limit_s: 0: allowed seconds over 0"},
+      {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 0, on_fail = 'hold' }",
+       "time_limit_s: 0: allowed seconds over 0"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'pray' }",
        "on_fail: pray: allowed \"retract\", \"hold\" or \"stop\""},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1 }", "on_fail: missing"},
@@ -105,8 +114,10 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "steer.scale: 0: allowed 0.01 to 100"},
       {"step 'a' { device = 'none', exit = liana.at_pose(nil), time_limit_s = 1, on_fail = 'hold' }",
        "given.lua:3: at_pose: name: nil: allowed a string"},
-      {"step 'a' { device = 'none', exit = liana.all { at_rest }, time_limit_s = 1, on_fail = 'hold' }", "all: entry 1: function: "},
-      {"step 'a' { device = 'none', exit = liana.tip_past 'x', time_limit_s = 1, on_fail = 'hold' }", "tip_past: u_m: x: allowed a number"},
+      {"step 'a' { device = 'none', exit = liana.all { at_rest }, time_limit_s = 1, on_fail = 'hold' }",
+       "all: entry 1: function: "},
+      {"step 'a' { device = 'none', exit = liana.tip_past 'x', time_limit_s = 1, on_fail = 'hold' }",
+       "tip_past: u_m: x: allowed a number"},
       {"step 'a' { device = 'none', exit = liana.needs_planar(nil), time_limit_s = 1, on_fail = 'hold' }",
        "needs_planar: count: nil: allowed a number"},
       // What only the robot (zhu2022: 5 segments, 20 deg) forbids.
@@ -118,32 +129,41 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "steer.node: 5: allowed 0 (none) to 4 (robot zhu2022)"},
       {"step 'a' { device = 'vr', steer = { speed_m_s = 0.5 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        "steer.speed_m_s: 0.5: allowed up to 0.1 (robot zhu2022)"},
-      {"step 'a' { device = 'none', run = liana.move_to 'nowhere', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+      {"step 'a' { device = 'none', run = liana.move_to 'nowhere', exit = at_rest(), time_limit_s = 1, on_fail = "
+       "'hold' }",
        "run: pose nowhere: allowed fixture, panel_edge, prepare"},
-      {"step 'a' { device = 'none', exit = liana.any { at_rest(), liana.all { liana.at_pose 'x' } }, time_limit_s = 1, on_fail = 'hold' }",
+      {"step 'a' { device = 'none', exit = liana.any { at_rest(), liana.all { liana.at_pose 'x' } }, time_limit_s = 1, "
+       "on_fail = 'hold' }",
        "exit: pose x: allowed fixture, panel_edge, prepare"},
-      {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }, finish = liana.move_to 'home'",
+      {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }, finish = liana.move_to "
+       "'home'",
        "finish: pose home: allowed fixture, panel_edge, prepare"},
-      {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 1, 0, 0 } }, { node = 5, position_m = { 1, 0, 0 } } }, "
+      {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 1, 0, 0 } }, { node = 5, position_m "
+       "= { 1, 0, 0 } } }, "
        "exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        "step 1 \"a\": run: shape: nodes: entry 2: node: 5: allowed 1 to 4 (the tip, 5, has its own goal)"},
-      {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 9, 0, 0 } } }, exit = at_rest(), time_limit_s = 1, "
+      {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 9, 0, 0 } } }, exit = at_rest(), "
+       "time_limit_s = 1, "
        "on_fail = 'hold' }",
        "nodes: entry 1: position_m[1]: 9: allowed -4 to 4 m"},
-      {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 1, 0, 0 }, wieght = 2 } }, exit = at_rest(), "
+      {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 1, 0, 0 }, wieght = 2 } }, exit = "
+       "at_rest(), "
        "time_limit_s = 1, on_fail = 'hold' }",
        "nodes: entry 1: wieght: 2: allowed only node, position_m, weight, threshold_m"},
-      {"step 'a' { device = 'none', run = liana.shape({}, { { centre_m = { 1, 0, 0 } } }), exit = at_rest(), time_limit_s = 1, "
+      {"step 'a' { device = 'none', run = liana.shape({}, { { centre_m = { 1, 0, 0 } } }), exit = at_rest(), "
+       "time_limit_s = 1, "
        "on_fail = 'hold' }",
        "keep_clear: entry 1: distance_m: nil: allowed 0 to 4 m"},
-      {"step 'a' { device = 'none', run = liana.move_to('prepare', 3), exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+      {"step 'a' { device = 'none', run = liana.move_to('prepare', 3), exit = at_rest(), time_limit_s = 1, on_fail = "
+       "'hold' }",
        "run: move_to: rate_deg_s: 3: allowed 0.01 to 2 deg/s"},
       {"finish = 3", "finish: 3: allowed an action"}};
   const TemporaryFolder folder;
   for (const BadMission& mission : missions) {
     const std::string file = folder.write(
-        "given.lua", "local liana = require 'liana'\nlocal step, at_rest = liana.step, liana.at_rest\nreturn liana.mission 'm' { " +
-                         std::string(mission.steps) + " }\n");
+        "given.lua",
+        "local liana = require 'liana'\nlocal step, at_rest = liana.step, liana.at_rest\nreturn liana.mission 'm' { " +
+            std::string(mission.steps) + " }\n");
     const Ended ended = run_program("eval mission " + file);
     EXPECT_EQ(ended.code, 2) << mission.steps;
     EXPECT_NE(ended.error.find(mission.message), std::string::npos) << mission.steps << " -> " << ended.error;
@@ -156,8 +176,8 @@ TEST(Eval, APlanIsAMissionWithAStepForEachWaypoint) {
   const std::string zero = "[0,0,0,0,0,0,0,0,0,0]";
   const std::string robot = run_program("eval robot zhu2022").out;
   const auto plan = [&](const std::string& outcome, const std::string& waypoints, const std::string& of) {
-    return "eval mission " + folder.write("plan.json", R"({"outcome":")" + outcome + R"(","waypoints_deg":[)" + waypoints +
-                                                           R"(],"inputs":{"robot":)" + of + "}}");
+    return "eval mission " + folder.write("plan.json", R"({"outcome":")" + outcome + R"(","waypoints_deg":[)" +
+                                                           waypoints + R"(],"inputs":{"robot":)" + of + "}}");
   };
   const Ended good = run_program(plan("solved", zero + ",[1,0,0,0,0,0,0,0,0,0]", robot));
   ASSERT_EQ(good.code, 0) << good.error;
@@ -167,21 +187,26 @@ TEST(Eval, APlanIsAMissionWithAStepForEachWaypoint) {
   const Ended unsolved = run_program(plan("limit", zero + "," + zero, robot));
   EXPECT_EQ(unsolved.code, 2);
   EXPECT_NE(unsolved.error.find("plan: outcome: limit: allowed solved"), std::string::npos) << unsolved.error;
-  EXPECT_NE(run_program(plan("solved", zero, robot)).error.find("waypoints_deg: 1 waypoints: allowed 2 or more"), std::string::npos);
-  EXPECT_NE(run_program(plan("solved", zero + ",[1]", robot)).error.find("waypoint 2 of 2: goal_deg: angles: 1: allowed 10"),
+  EXPECT_NE(run_program(plan("solved", zero, robot)).error.find("waypoints_deg: 1 waypoints: allowed 2 or more"),
             std::string::npos);
-  EXPECT_NE(run_program(plan("solved", zero + "," + zero, "{}")).error.find("inputs.robot: another robot than zhu2022"), std::string::npos);
+  EXPECT_NE(
+      run_program(plan("solved", zero + ",[1]", robot)).error.find("waypoint 2 of 2: goal_deg: angles: 1: allowed 10"),
+      std::string::npos);
+  EXPECT_NE(run_program(plan("solved", zero + "," + zero, "{}")).error.find("inputs.robot: another robot than zhu2022"),
+            std::string::npos);
 }
 
 TEST(Eval, AMissionIsCheckedAgainstTheRobotThatIsNamed) {
   const TemporaryFolder folder;
-  const std::string robot = folder.write("short.lua",
-                                         "local t = require 'robots.zhu2022'\nt.name, t.named_poses_deg.panel_edge = 'short', nil\n"
-                                         "return t\n");
+  const std::string robot =
+      folder.write("short.lua",
+                   "local t = require 'robots.zhu2022'\nt.name, t.named_poses_deg.panel_edge = 'short', nil\n"
+                   "return t\n");
   const Ended ended = run_program("eval mission slit_crossing --robot " + robot);
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(ended.error.find("pose panel_edge: allowed fixture, prepare, press_rod, segment5_in_slit, zero (robot short)"),
-            std::string::npos)
+  EXPECT_NE(
+      ended.error.find("pose panel_edge: allowed fixture, prepare, press_rod, segment5_in_slit, zero (robot short)"),
+      std::string::npos)
       << ended.error;
 }
 

@@ -1,5 +1,7 @@
-// How small a fault of a cable is found, and how soon: the real core against the bench's arm, on its way from prepare to the panel edge.
-// `--count` seeds. One cable of every segment gets every fault in a run of its own; faults that have a size grow until they are found.
+// How small a fault of a cable is found, and how soon: the real core against the bench's arm, on its way from prepare
+// to the panel edge.
+// `--count` seeds. One cable of every segment gets every fault in a run of its own; faults that have a size grow until
+// they are found.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -74,7 +76,8 @@ struct Found {
 // A fault of one cable on the way; the core stops the arm when it is found.
 class Trial {
  public:
-  Trial(const Kind& kind, const closed_loop::PlantSetup& setup, std::size_t cable) : kind_(kind), cable_(cable), arm_(setup) {}
+  Trial(const Kind& kind, const closed_loop::PlantSetup& setup, std::size_t cable)
+      : kind_(kind), cable_(cable), arm_(setup) {}
 
   Found run() {
     arm_.boot();
@@ -111,7 +114,8 @@ class Trial {
       if (age == 0 || (kind_.apart > 0 && age % kind_.apart == 0)) grow(age);
       return;
     }
-    found_.travel_deg = std::max(found_.travel_deg, closed_loop::largest_difference_deg(arm_.plant().theta_rad(), before_));
+    found_.travel_deg =
+        std::max(found_.travel_deg, closed_loop::largest_difference_deg(arm_.plant().theta_rad(), before_));
     if (age - since_ - found_.ticks > kAfter) throw Seen{};
   }
 
@@ -143,7 +147,8 @@ void measure(std::int32_t seeds) {
           const Found found = Trial(kind, {physics, static_cast<std::uint64_t>(seed), true, "prepare"}, cable).run();
           std::printf(
               R"(%s{"kind":"%s","unit":"%s","physics":"%s","seed":%d,"cable":%zu,"number":%d,"index":%d,"size":%.4g,"ticks":%d,"travel_deg":%.3f})",
-              separator, kind.name, kind.unit, physics, seed, cable, found.number, found.index, found.size, found.ticks, found.travel_deg);
+              separator, kind.name, kind.unit, physics, seed, cable, found.number, found.index, found.size, found.ticks,
+              found.travel_deg);
           std::fflush(stdout);
           separator = ",\n ";
         }

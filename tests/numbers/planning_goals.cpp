@@ -1,4 +1,5 @@
-// Random reachable goals from the zero pose: how many the goal IK finds, with what effort. `--count` goals for each kind.
+// Random reachable goals from the zero pose: how many the goal IK finds, with what effort. `--count` goals for each
+// kind.
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -57,12 +58,13 @@ Outcome measure(const RobotTable& robot, const Kind& kind, std::int32_t count, s
 
 void print(const Kind& kind, const Outcome& o, bool json, bool first) {
   const std::size_t n = o.iterations.size();
-  const char* format =
-      json ? "%s{\"held\":\"%s\",\"range_deg\":%g,\"goals\":%zu,\"converged\":%d,\"wrong\":%d,\"iterations\":{\"median\":%d,"
-             "\"p99\":%d,\"most\":%d}}"
-           : "%sheld %-10s theta within %g deg: %zu goals, %d converged, %d wrong; iterations median %d, p99 %d, most %d\n";
-  std::printf(format, !json ? "" : (first ? "[" : ","), kind.held, kind.range_deg, n, o.converged, o.wrong, o.iterations[n / 2],
-              o.iterations[n * 99 / 100], o.iterations.back());
+  const char* format = json ? "%s{\"held\":\"%s\",\"range_deg\":%g,\"goals\":%zu,\"converged\":%d,\"wrong\":%d,"
+                              "\"iterations\":{\"median\":%d,"
+                              "\"p99\":%d,\"most\":%d}}"
+                            : "%sheld %-10s theta within %g deg: %zu goals, %d converged, %d wrong; iterations median "
+                              "%d, p99 %d, most %d\n";
+  std::printf(format, !json ? "" : (first ? "[" : ","), kind.held, kind.range_deg, n, o.converged, o.wrong,
+              o.iterations[n / 2], o.iterations[n * 99 / 100], o.iterations.back());
 }
 
 void run(const Options& options) {

@@ -1,4 +1,5 @@
-// Tip and shape together: the tick's shape motion against the best of 50 offline solves. `--count` random tip poses. Method: docs/shape.md.
+// Tip and shape together: the tick's shape motion against the best of 50 offline solves. `--count` random tip poses.
+// Method: docs/shape.md.
 #include <algorithm>
 #include <cstdio>
 #include <vector>
@@ -33,7 +34,8 @@ struct Arm {
   ThetaVector rate_rad_s{};
 };
 
-void run_ticks(const RobotTable& robot, const IkGoal& goal, const NodeTargets& nodes, std::int32_t seconds, Arm& arm, Worst& worst) {
+void run_ticks(const RobotTable& robot, const IkGoal& goal, const NodeTargets& nodes, std::int32_t seconds, Arm& arm,
+               Worst& worst) {
   const std::int32_t ticks = static_cast<std::int32_t>(seconds / robot.tick_s);
   for (std::int32_t i = 0; i < ticks; ++i) {
     const ThetaVector before = arm.theta_rad, rate_before = arm.rate_rad_s;
@@ -72,7 +74,8 @@ Case random_case(const RobotTable& robot, std::int32_t index, Random& random) {
     while (norm(offset) > kRadius_m) offset = random.vector(kRadius_m);
     const double weight = random.uniform(0.2, 2.0), threshold_m = random.uniform(0.0, 0.05);
     const Vec3 node = arm.node_in_base[static_cast<std::size_t>(kOrder[i])].position_m;
-    out.problem.node[static_cast<std::size_t>(i)] = {kOrder[i], add(node, offset), weight, out.thresholds ? threshold_m : 0.0};
+    out.problem.node[static_cast<std::size_t>(i)] = {kOrder[i], add(node, offset), weight,
+                                                     out.thresholds ? threshold_m : 0.0};
   }
   return out;
 }
@@ -157,15 +160,19 @@ void study(const RobotTable& robot, std::int32_t index, Tally& tally) {
 }
 
 void print(const Tally& t, bool json) {
-  const char* format =
-      json ? "{\"cases\":%d,\"tick_same_branch\":%d,\"tick_best\":%d,\"goal_best\":%d,\"guided_best\":%d,\"with_thresholds\":%d,"
-             "\"thresholds_best\":%d,\"with_rivals\":%d,\"heavier_closer\":%d,\"worst_tip_error\":%.3e,\"worst_rate_deg_s\":%.4f,"
-             "\"worst_accel_deg_s2\":%.4f}\n"
-           : "cases %d; within 1 %% of the offline solve from the same start %d, of the best of 50: tick %d, goal IK %d, tick led by the "
-             "goal IK %d\nwith thresholds %d, of these best %d; with rival nodes %d, of these the heavier came no farther %d\n"
-             "worst tip error %.3e (m and rad), rate %.4f deg/s, acceleration %.4f deg/s2\n";
-  std::printf(format, t.cases, t.tick_same_branch, t.tick_best, t.goal_best, t.guided_best, t.with_thresholds, t.thresholds_best,
-              t.with_rivals, t.heavier_closer, t.worst.tip_m_rad, t.worst.rate_rad_s / kDegree, t.worst.accel_rad_s2 / kDegree);
+  const char* format = json ? "{\"cases\":%d,\"tick_same_branch\":%d,\"tick_best\":%d,\"goal_best\":%d,\"guided_best\":"
+                              "%d,\"with_thresholds\":%d,"
+                              "\"thresholds_best\":%d,\"with_rivals\":%d,\"heavier_closer\":%d,\"worst_tip_error\":%."
+                              "3e,\"worst_rate_deg_s\":%.4f,"
+                              "\"worst_accel_deg_s2\":%.4f}\n"
+                            : "cases %d; within 1 %% of the offline solve from the same start %d, of the best of 50: "
+                              "tick %d, goal IK %d, tick led by the "
+                              "goal IK %d\nwith thresholds %d, of these best %d; with rival nodes %d, of these the "
+                              "heavier came no farther %d\n"
+                              "worst tip error %.3e (m and rad), rate %.4f deg/s, acceleration %.4f deg/s2\n";
+  std::printf(format, t.cases, t.tick_same_branch, t.tick_best, t.goal_best, t.guided_best, t.with_thresholds,
+              t.thresholds_best, t.with_rivals, t.heavier_closer, t.worst.tip_m_rad, t.worst.rate_rad_s / kDegree,
+              t.worst.accel_rad_s2 / kDegree);
 }
 
 void run(const Options& options) {

@@ -1,9 +1,11 @@
-// Teleoperation at its limits: random hand motions through the motion stage (filter, servo IK, limiter), judged tick by tick.
+// Teleoperation at its limits: random hand motions through the motion stage (filter, servo IK, limiter), judged tick by
+// tick.
 //
 //   planning_teleop [--count N] [--first SEED] [--json] [--trace]
 //
-// Seed s is one motion of 10 s of the kind s % 8; then the hand goes back to the start pose, which is reachable, and waits for the arm.
-// Every broken promise is listed with its seed; exit code 1 when there is one, 2 on bad input. --trace prints ten lines a second.
+// Seed s is one motion of 10 s of the kind s % 8; then the hand goes back to the start pose, which is reachable, and
+// waits for the arm. Every broken promise is listed with its seed; exit code 1 when there is one, 2 on bad input.
+// --trace prints ten lines a second.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -29,15 +31,37 @@ constexpr double kResidual = 1e-3;      // m; larger residuals have a direction 
 constexpr double kSameDirection = 0.9;  // cosine
 constexpr double kRounding = 1e-9;
 
-enum Kind : std::size_t { kFree, kAtLimits, kOutOfReach, kFromStraight, kThroughStraight, kHolding, kJerky, kTurning, kKinds };
-constexpr std::array<const char*, kKinds> kKindNames{"free",    "at limits", "out of reach", "from straight", "through straight",
-                                                     "holding", "jerky",     "turning far"};
+enum Kind : std::size_t {
+  kFree,
+  kAtLimits,
+  kOutOfReach,
+  kFromStraight,
+  kThroughStraight,
+  kHolding,
+  kJerky,
+  kTurning,
+  kKinds
+};
+constexpr std::array<const char*, kKinds> kKindNames{
+    "free", "at limits", "out of reach", "from straight", "through straight", "holding", "jerky", "turning far"};
 
-enum Cause : std::size_t { kNotANumber, kRate, kAcceleration, kJointLimit, kJump, kResidualDirection, kUnnamed, kStuck, kCauses };
-constexpr std::array<const char*, kCauses> kCauseNames{"not a number",  "rate limit",         "acceleration limit", "joint limit",
-                                                       "jump of theta", "residual direction", "outcome not named",  "never back"};
+enum Cause : std::size_t {
+  kNotANumber,
+  kRate,
+  kAcceleration,
+  kJointLimit,
+  kJump,
+  kResidualDirection,
+  kUnnamed,
+  kStuck,
+  kCauses
+};
+constexpr std::array<const char*, kCauses> kCauseNames{"not a number",      "rate limit",    "acceleration limit",
+                                                       "joint limit",       "jump of theta", "residual direction",
+                                                       "outcome not named", "never back"};
 
-// Where the hand is: the start pose moved by a few sines per axis, or by steps, or drawn out to somewhere in the middle of the motion.
+// Where the hand is: the start pose moved by a few sines per axis, or by steps, or drawn out to somewhere in the middle
+// of the motion.
 class Hand {
  public:
   Hand(Kind kind, const Pose& start, Random& random) : kind_(kind), start_(start) {
@@ -45,7 +69,8 @@ class Hand {
     const double turn_rad = kind == kTurning ? 1.5 : 0.5;
     for (std::size_t axis = 0; axis < 6; ++axis) {
       const double size = axis < 3 ? reach_m : turn_rad;
-      for (Wave& wave : wave_[axis]) wave = {random.uniform(0.0, size / 2), random.uniform(0.05, 0.4), random.uniform(0.0, 2.0 * kPi)};
+      for (Wave& wave : wave_[axis])
+        wave = {random.uniform(0.0, size / 2), random.uniform(0.05, 0.4), random.uniform(0.0, 2.0 * kPi)};
     }
     for (Vec3& step : moves_) step = random.vector(0.3);
     for (Vec3& step : turns_) step = random.vector(0.6);
@@ -172,7 +197,8 @@ class Trial {
       const double rate = (theta - before.theta_rad[k]) / robot_.tick_s;
       if (!std::isfinite(theta)) figures_.broken[kNotANumber] = true;
       if (std::fabs(rate) > robot_.limits.theta_rate_rad_s + kRounding) figures_.broken[kRate] = true;
-      if (std::fabs(rate - rate_[k]) > robot_.limits.theta_accel_rad_s2 * robot_.tick_s + kRounding) figures_.broken[kAcceleration] = true;
+      if (std::fabs(rate - rate_[k]) > robot_.limits.theta_accel_rad_s2 * robot_.tick_s + kRounding)
+        figures_.broken[kAcceleration] = true;
       if (std::fabs(theta) > robot_.segment[k / 2].theta_limit_rad + kRounding) figures_.broken[kJointLimit] = true;
       keep(figures_.lag_deg, std::fabs(state_.ik_rad[k] - theta) / kDegree);
       rate_[k] = rate;
@@ -184,18 +210,21 @@ class Trial {
     const double step_rad = zhu2022::largest_difference(state_.ik_rad, before.ik_rad);
     const double target_m = norm(subtract(state_.filter.pose.position_m, before.filter.pose.position_m));
     keep(figures_.step_deg, step_rad / kDegree);
-    if (target_m > 0.1 * robot_.limits.tip_speed_m_s * robot_.tick_s) keep(figures_.step_deg_mm, step_rad / kDegree / (1e3 * target_m));
+    if (target_m > 0.1 * robot_.limits.tip_speed_m_s * robot_.tick_s)
+      keep(figures_.step_deg_mm, step_rad / kDegree / (1e3 * target_m));
     if (step_rad > robot_.limits.theta_rate_rad_s * robot_.tick_s + kRounding) figures_.broken[kJump] = true;
   }
 
   void judge_residual() {
     const Vec3 residual = subtract(state_.filter.pose.position_m, tip_of(state_.ik_rad).position_m);
     if (norm(residual) < kThere) {
-      keep(figures_.off_path_m, norm(subtract(state_.filter.pose.position_m, tip_of(state_.limiter.theta_rad).position_m)));
+      keep(figures_.off_path_m,
+           norm(subtract(state_.filter.pose.position_m, tip_of(state_.limiter.theta_rad).position_m)));
     }
     const Vec3 reported{state_.ik.residual[0], state_.ik.residual[1], state_.ik.residual[2]};
     if (norm(residual) < kResidual || norm(reported) < kResidual) return;
-    if (dot(residual, reported) < kSameDirection * norm(residual) * norm(reported)) figures_.broken[kResidualDirection] = true;
+    if (dot(residual, reported) < kSameDirection * norm(residual) * norm(reported))
+      figures_.broken[kResidualDirection] = true;
     const bool too_far = norm(state_.filter.pose.position_m) > 4.0 + kResidual;
     if (state_.ik.outcome == IkOutcome::kConverged || (too_far && state_.ik.outcome != IkOutcome::kUnreachable)) {
       figures_.broken[kUnnamed] = true;
@@ -203,8 +232,8 @@ class Trial {
   }
 
   void print(double time_s) const {
-    std::printf("%7.3f s %-11s %.2e m %.2e rad limits %03x", time_s, ik_outcome_name(state_.ik.outcome), state_.ik.position_error_m,
-                state_.ik.attitude_error_rad, state_.limits);
+    std::printf("%7.3f s %-11s %.2e m %.2e rad limits %03x", time_s, ik_outcome_name(state_.ik.outcome),
+                state_.ik.position_error_m, state_.ik.attitude_error_rad, state_.limits);
     for (const ThetaVector& theta : {state_.ik_rad, state_.limiter.theta_rad}) {
       std::printf(" |");
       for (std::size_t k = 0; k < kThetas; ++k) std::printf(" %6.2f", theta[k] / kDegree);
@@ -262,14 +291,14 @@ struct Study {
 };
 
 void print_text(const Study& study) {
-  std::printf("%-17s %8s %7s %12s %12s %9s %12s %14s\n", "hand", "motions", "broken", "step deg", "deg per mm", "lag deg", "off path mm",
-              "back s (mean)");
+  std::printf("%-17s %8s %7s %12s %12s %9s %12s %14s\n", "hand", "motions", "broken", "step deg", "deg per mm",
+              "lag deg", "off path mm", "back s (mean)");
   for (std::size_t kind = 0; kind < kKinds; ++kind) {
     const Row& r = study.row[kind];
     if (r.motions == 0) continue;
-    std::printf("%-17s %8llu %7llu %12.4f %12.3f %9.3f %12.2f %7.1f (%.1f)\n", kKindNames[kind], static_cast<unsigned long long>(r.motions),
-                static_cast<unsigned long long>(r.broken), r.step_deg, r.step_deg_mm, r.lag_deg, 1e3 * r.off_path_m, r.back_s,
-                r.back_sum_s / static_cast<double>(r.motions));
+    std::printf("%-17s %8llu %7llu %12.4f %12.3f %9.3f %12.2f %7.1f (%.1f)\n", kKindNames[kind],
+                static_cast<unsigned long long>(r.motions), static_cast<unsigned long long>(r.broken), r.step_deg,
+                r.step_deg_mm, r.lag_deg, 1e3 * r.off_path_m, r.back_s, r.back_sum_s / static_cast<double>(r.motions));
   }
   for (std::size_t cause = 0; cause < kCauses; ++cause) {
     std::printf("%s: %zu", kCauseNames[cause], study.seeds[cause].size());
@@ -284,9 +313,11 @@ void print_json(const Study& study) {
   for (std::size_t kind = 0; kind < kKinds; ++kind) {
     const Row& r = study.row[kind];
     if (r.motions == 0) continue;
-    std::printf("%s{\"hand\":\"%s\",\"motions\":%llu,\"broken\":%llu,\"step_deg\":%.6g,\"step_deg_per_mm\":%.6g,\"lag_deg\":%.6g,", comma,
-                kKindNames[kind], static_cast<unsigned long long>(r.motions), static_cast<unsigned long long>(r.broken), r.step_deg,
-                r.step_deg_mm, r.lag_deg);
+    std::printf(
+        "%s{\"hand\":\"%s\",\"motions\":%llu,\"broken\":%llu,\"step_deg\":%.6g,\"step_deg_per_mm\":%.6g,\"lag_deg\":%."
+        "6g,",
+        comma, kKindNames[kind], static_cast<unsigned long long>(r.motions), static_cast<unsigned long long>(r.broken),
+        r.step_deg, r.step_deg_mm, r.lag_deg);
     std::printf("\"off_path_m\":%.6g,\"back_s\":%.4g,\"back_mean_s\":%.4g}", r.off_path_m, r.back_s,
                 r.back_sum_s / static_cast<double>(r.motions));
     comma = ",";
@@ -295,7 +326,8 @@ void print_json(const Study& study) {
   comma = "";
   for (std::size_t cause = 0; cause < kCauses; ++cause) {
     for (const std::uint64_t seed : study.seeds[cause]) {
-      std::printf("%s{\"cause\":\"%s\",\"seed\":%llu}", comma, kCauseNames[cause], static_cast<unsigned long long>(seed));
+      std::printf("%s{\"cause\":\"%s\",\"seed\":%llu}", comma, kCauseNames[cause],
+                  static_cast<unsigned long long>(seed));
       comma = ",";
     }
   }
@@ -317,7 +349,8 @@ bool read_options(int argc, char** argv, Options& options) {
     } else if (word == "--trace") {
       options.trace = true;
     } else if (!number || i + 1 == argc || !read_number(argv[++i], word == "--count" ? options.count : options.first)) {
-      std::fprintf(stderr, "planning_teleop: %s: allowed: --count N, --first SEED (whole numbers), --json, --trace\n", argv[i]);
+      std::fprintf(stderr, "planning_teleop: %s: allowed: --count N, --first SEED (whole numbers), --json, --trace\n",
+                   argv[i]);
       return false;
     }
   }

@@ -8,8 +8,8 @@ namespace {
 
 using Index = std::size_t;
 
-// No point of the arm moves more than this while the thetas change by `b - a`: every joint of a segment turns by the change, with at most
-// the length of the arm from the segment's root as lever.
+// No point of the arm moves more than this while the thetas change by `b - a`: every joint of a segment turns by the
+// change, with at most the length of the arm from the segment's root as lever.
 double largest_motion_m(const RobotTable& table, const ThetaVector& a, const ThetaVector& b) {
   double lever_m = 0.0, motion_m = 0.0;
   for (Index m = static_cast<Index>(table.segment_count); m-- > 0;) {
@@ -35,8 +35,8 @@ double PathSearch::look(const ThetaVector& theta_rad) {
   return here_m;
 }
 
-// Halves the piece until nothing below the least - kUnseen_m can be hidden in it. From an end with distance c the arm has to move
-// (c - d) / pace to come as near as d, so within a piece d >= (sum of both distances - pace motion) / 2.
+// Halves the piece until nothing below the least - kUnseen_m can be hidden in it. From an end with distance c the arm
+// has to move (c - d) / pace to come as near as d, so within a piece d >= (sum of both distances - pace motion) / 2.
 void PathSearch::search(const Piece& whole) {
   std::vector<Piece> open{whole};
   while (!open.empty()) {

@@ -1,4 +1,5 @@
-// The least distance along a path of the arm, certain between the poses looked at: a part of the independent check (plan_check.hpp).
+// The least distance along a path of the arm, certain between the poses looked at: a part of the independent check
+// (plan_check.hpp).
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@ constexpr double kUnseen_m = 0.0002;  // what the least distance found may be ab
 
 class PathSearch {
  public:
-  // `look` tells the distance at a pose; it changes by at most `pace` times what any point of the arm moves. Distances of `enough_m` and
-  // more need not be told apart.
+  // `look` tells the distance at a pose; it changes by at most `pace` times what any point of the arm moves. Distances
+  // of `enough_m` and more need not be told apart.
   PathSearch(const RobotTable& table, std::function<double(const ThetaVector&)> look, double pace, double enough_m)
       : table_(table), look_(std::move(look)), pace_(pace), least_m_(enough_m) {}
 

@@ -64,8 +64,8 @@ Chain chain_of(const RobotTable& table, const ThetaVector& theta_rad) {
 }
 
 std::array<double, 4> quaternion_of(const Rotation& R) {
-  const std::array<double, 4> square{1 + R[0][0] + R[1][1] + R[2][2], 1 + R[0][0] - R[1][1] - R[2][2], 1 - R[0][0] + R[1][1] - R[2][2],
-                                     1 - R[0][0] - R[1][1] + R[2][2]};
+  const std::array<double, 4> square{1 + R[0][0] + R[1][1] + R[2][2], 1 + R[0][0] - R[1][1] - R[2][2],
+                                     1 - R[0][0] + R[1][1] - R[2][2], 1 - R[0][0] - R[1][1] + R[2][2]};
   const Index k = static_cast<Index>(std::max_element(square.begin(), square.end()) - square.begin());
   const double f = 0.5 / std::sqrt(square[k]);
   const double wx = R[2][1] - R[1][2], wy = R[0][2] - R[2][0], wz = R[1][0] - R[0][1];
@@ -97,7 +97,9 @@ std::vector<double> cable_lengths_m(const RobotTable& table, const ThetaVector& 
   return lengths;
 }
 
-double point_distance_m(const Vector& p, const SceneSphere& sphere) { return distance(p, sphere.center_m) - sphere.radius_m; }
+double point_distance_m(const Vector& p, const SceneSphere& sphere) {
+  return distance(p, sphere.center_m) - sphere.radius_m;
+}
 
 double point_distance_m(const Vector& p, const SceneBox& box) {
   double outside2 = 0.0, inside = -1e300;
@@ -111,14 +113,15 @@ double point_distance_m(const Vector& p, const SceneBox& box) {
   return inside > 0.0 ? std::sqrt(outside2) : inside;
 }
 
-// Least distance of a link's axis from an obstacle, or `enough` when it cannot be below that. The distance is convex along the link, so a
-// golden-section search finds it.
+// Least distance of a link's axis from an obstacle, or `enough` when it cannot be below that. The distance is convex
+// along the link, so a golden-section search finds it.
 template <typename Obstacle>
 double axis_distance_m(const Vector& from, const Vector& to, const Obstacle& obstacle, double enough) {
   constexpr double kGolden = 0.6180339887498949;
   const auto at = [&](double t) {
-    return point_distance_m(Vector{from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2])},
-                            obstacle);
+    return point_distance_m(
+        Vector{from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2])},
+        obstacle);
   };
   if (at(0.5) - 0.5 * distance(from, to) >= enough) return enough;
   double low = 0.0, high = 1.0;
@@ -143,7 +146,8 @@ template <typename Obstacle>
 void look_at(const Chain& chain, double radius_m, const std::vector<Obstacle>& obstacles, Nearest& nearest) {
   for (const Obstacle& obstacle : obstacles) {
     for (Index link = 1; link < chain.link_end_m.size(); ++link) {
-      const double d = axis_distance_m(chain.link_end_m[link - 1], chain.link_end_m[link], obstacle, nearest.clearance_m + radius_m);
+      const double d =
+          axis_distance_m(chain.link_end_m[link - 1], chain.link_end_m[link], obstacle, nearest.clearance_m + radius_m);
       if (d - radius_m < nearest.clearance_m) nearest = {d - radius_m, obstacle.name, static_cast<std::int32_t>(link)};
     }
   }
@@ -157,7 +161,8 @@ Nearest nearest_at(const RobotConfig& robot, const SceneConfig& scene, const The
   return nearest;
 }
 
-void check_clearance(const RobotConfig& robot, const SceneConfig& scene, const std::vector<ThetaVector>& path, PlanCheck& out) {
+void check_clearance(const RobotConfig& robot, const SceneConfig& scene, const std::vector<ThetaVector>& path,
+                     PlanCheck& out) {
   out.min_clearance_m = kNothingNear_m;
   if (scene.spheres.empty() && scene.boxes.empty()) return;
   Nearest nearest;
@@ -242,7 +247,8 @@ PlanCheck check_plan(const RobotConfig& robot, const SceneConfig& scene, const s
   double cosine = 0.0;
   for (Index i = 0; i < 4; ++i) cosine += tip.quaternion_wxyz[i] * goal.quaternion_wxyz[i];
   double gap2 = 0.0;  // |q -+ goal|^2, exact also for small angles
-  for (Index i = 0; i < 4; ++i) gap2 += std::pow(tip.quaternion_wxyz[i] - (cosine < 0.0 ? -1.0 : 1.0) * goal.quaternion_wxyz[i], 2);
+  for (Index i = 0; i < 4; ++i)
+    gap2 += std::pow(tip.quaternion_wxyz[i] - (cosine < 0.0 ? -1.0 : 1.0) * goal.quaternion_wxyz[i], 2);
   out.tip_attitude_error_rad = 4.0 * std::asin(std::min(1.0, 0.5 * std::sqrt(gap2)));
   return out;
 }

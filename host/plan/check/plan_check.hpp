@@ -1,9 +1,9 @@
 // The check of a plan: limits, clearances, cables and goal, from first principles.
 //
-// Shares no code with the planner, its derivatives or the core (but for the tension plan, about which the core is asked): the arm is the
-// product of its 80 joint rotations one by one, link distances come from a search along the link, cable lengths from hole to hole. Between
-// waypoints the path is halved until the arm cannot have come nearer unseen: no point of it moves more than kUnseen_m between two poses
-// looked at where it matters (path_search.hpp).
+// Shares no code with the planner, its derivatives or the core (but for the tension plan, about which the core is
+// asked): the arm is the product of its 80 joint rotations one by one, link distances come from a search along the
+// link, cable lengths from hole to hole. Between waypoints the path is halved until the arm cannot have come nearer
+// unseen: no point of it moves more than kUnseen_m between two poses looked at where it matters (path_search.hpp).
 #pragma once
 
 #include <array>
@@ -41,7 +41,8 @@ struct CheckedTip {
   std::array<double, 4> quaternion_wxyz{};
 };
 
-// Checks waypoints [rad] against the scene. `goal` is where the tip has to end. A path of one waypoint is a single pose.
+// Checks waypoints [rad] against the scene. `goal` is where the tip has to end. A path of one waypoint is a single
+// pose.
 PlanCheck check_plan(const RobotConfig& robot, const SceneConfig& scene, const std::vector<ThetaVector>& waypoints_rad,
                      const CheckedTip& goal);
 

@@ -23,8 +23,8 @@ double length(const Vector& v) { return std::sqrt(product(v, v)); }
 
 double clamped_share(double part, double whole) { return whole > 0.0 ? std::clamp(part / whole, 0.0, 1.0) : 0.0; }
 
-// Least distance of two line pieces: the nearest points of the whole lines, moved onto the pieces one after the other, which is exact
-// because the squared distance is convex in both shares and each is bounded by itself.
+// Least distance of two line pieces: the nearest points of the whole lines, moved onto the pieces one after the other,
+// which is exact because the squared distance is convex in both shares and each is bounded by itself.
 double pieces_distance_m(const Vector& a, const Vector& a_end, const Vector& b, const Vector& b_end) {
   const Vector u = minus(a_end, a), v = minus(b_end, b), w = minus(a, b);
   const double uu = product(u, u), vv = product(v, v), uv = product(u, v), uw = product(u, w), vw = product(v, w);
@@ -37,7 +37,8 @@ double pieces_distance_m(const Vector& a, const Vector& a_end, const Vector& b, 
 // Joints between two links that can bend by half a turn at their limits: with fewer the links cannot touch.
 Index least_gap(const RobotTable& table) {
   double limit_rad = 0.0;
-  for (Index m = 0; m < Index(table.segment_count); ++m) limit_rad = std::max(limit_rad, table.segment[m].theta_limit_rad);
+  for (Index m = 0; m < Index(table.segment_count); ++m)
+    limit_rad = std::max(limit_rad, table.segment[m].theta_limit_rad);
   return static_cast<Index>(std::ceil(std::numbers::pi / (std::numbers::sqrt2 * limit_rad)));
 }
 
@@ -51,7 +52,8 @@ SelfClearance self_clearance(const RobotConfig& robot, const ThetaVector& theta_
   for (Index a = 1; a + gap < end.size(); ++a) {
     for (Index b = a + gap; b < end.size(); ++b) {
       const double between_m = pieces_distance_m(end[a - 1], end[a], end[b - 1], end[b]) - 2.0 * robot.module_radius_m;
-      if (between_m < least.clearance_m) least = {between_m, {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)}};
+      if (between_m < least.clearance_m)
+        least = {between_m, {static_cast<std::int32_t>(a), static_cast<std::int32_t>(b)}};
     }
   }
   return least;

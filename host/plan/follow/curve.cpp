@@ -14,7 +14,8 @@ double distance(const Vec3& a, const Vec3& b) { return norm(subtract(a, b)); }
 
 Vec3 between(const Vec3& a, const Vec3& b, double share) { return add(scale(a, 1.0 - share), scale(b, share)); }
 
-// Slope by chord length at every point: from the parabola through it and its neighbours; at the ends that of the first and last chord.
+// Slope by chord length at every point: from the parabola through it and its neighbours; at the ends that of the first
+// and last chord.
 std::vector<Vec3> slopes(const std::vector<Vec3>& points) {
   std::vector<Vec3> chord;
   for (Index i = 0; i + 1 < points.size(); ++i) {
@@ -44,7 +45,8 @@ Curve::Curve(const std::vector<Vec3>& points_m) : sample_m_{points_m.front()}, a
     const double chord_m = distance(points_m[i], points_m[i + 1]);
     const int pieces = static_cast<int>(std::ceil(chord_m / kPiece_m));
     for (int s = 1; s <= pieces; ++s) {
-      sample_m_.push_back(cubic(points_m[i], points_m[i + 1], slope[i], slope[i + 1], chord_m, static_cast<double>(s) / pieces));
+      sample_m_.push_back(
+          cubic(points_m[i], points_m[i + 1], slope[i], slope[i + 1], chord_m, static_cast<double>(s) / pieces));
       along_m_.push_back(along_m_.back() + distance(sample_m_.back(), sample_m_[sample_m_.size() - 2]));
     }
   }
@@ -64,7 +66,8 @@ CurvePlace Curve::nearest(const Vec3& point_m, double from_m, double until_m) co
   from_m = std::clamp(from_m, 0.0, until_m);
   const auto after = std::upper_bound(along_m_.begin() + 1, along_m_.end() - 1, from_m);
   double best_m = 1e300, along_m = from_m;
-  for (Index i = static_cast<Index>(after - along_m_.begin()) - 1; i + 1 < sample_m_.size() && along_m_[i] <= until_m; ++i) {
+  for (Index i = static_cast<Index>(after - along_m_.begin()) - 1; i + 1 < sample_m_.size() && along_m_[i] <= until_m;
+       ++i) {
     const Vec3 piece = subtract(sample_m_[i + 1], sample_m_[i]);
     const double length_m = along_m_[i + 1] - along_m_[i];
     const double share = dot(subtract(point_m, sample_m_[i]), piece) / (length_m * length_m);

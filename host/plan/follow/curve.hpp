@@ -16,15 +16,15 @@ struct CurvePlace {
 
 class Curve {
  public:
-  // Through at least two points, neighbours more than 1e-6 m apart: Catmull-Rom pieces with knots by chord length, so that the direction
-  // has no jumps. Close points keep the curve as near to the straight lines between them as wanted.
+  // Through at least two points, neighbours more than 1e-6 m apart: Catmull-Rom pieces with knots by chord length, so
+  // that the direction has no jumps. Close points keep the curve as near to the straight lines between them as wanted.
   explicit Curve(const std::vector<Vec3>& points_m);
 
   double length_m() const { return along_m_.back(); }
   // The place at `along_m`, taken into 0..length_m.
   CurvePlace at(double along_m) const;
-  // The place nearest to a point, of those from `from_m` to `until_m`, both taken into 0..length_m. Cost: one pass over that part, a piece
-  // per 5 mm.
+  // The place nearest to a point, of those from `from_m` to `until_m`, both taken into 0..length_m. Cost: one pass over
+  // that part, a piece per 5 mm.
   CurvePlace nearest(const Vec3& point_m, double from_m, double until_m) const;
 
  private:

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "host/plan/follow/follow_pose.hpp"
-#include "host/plan/start/goal_poses.hpp"
 #include "host/plan/problem/plan_rows.hpp"
+#include "host/plan/start/goal_poses.hpp"
 #include "host/plan/start/relax.hpp"
 #include "host/plan/text.hpp"
 
@@ -32,7 +32,9 @@ double largest_change(const ThetaVector& a, const ThetaVector& b) {
   return most;
 }
 
-Vec3 tip_of(const Room& room, const ThetaVector& theta) { return forward_kinematics(room.table(), theta).tip_in_base.position_m; }
+Vec3 tip_of(const Room& room, const ThetaVector& theta) {
+  return forward_kinematics(room.table(), theta).tip_in_base.position_m;
+}
 
 std::uint32_t held_mask(const PlanRequest& request) {
   std::uint32_t mask = 0;
@@ -55,8 +57,8 @@ class Follower {
     if (!is_possible()) return out_;
     const ThetaVector end = goal ? *goal : end_pose();
     if (tip_off_m(room_, curve_, curve_.length_m(), end) > kTipTolerance_m) {
-      return failed("tip",
-                    text("no joint angles within the limits bring the tip to the end of the curve, %s", at(curve_.length_m()).c_str()));
+      return failed("tip", text("no joint angles within the limits bring the tip to the end of the curve, %s",
+                                at(curve_.length_m()).c_str()));
     }
     std::vector<Stop> way{{request_.from_rad, 0.0}};
     if (feed_in(end, way) && (!goal || turn_to(end, way))) out_.theta_rad = thinned(refined(way));
@@ -79,15 +81,16 @@ class Follower {
     const Vec3 tip = tip_of(room_, request_.from_rad);
     const double off_m = norm(subtract(tip, curve_.at(0.0).position_m)), length_m = arm_length_m(room_.table());
     if (off_m > kFollowStartOff_m) {
-      failed("curve", text("the curve begins %.1f mm from the tip, which is at (%.4f, %.4f, %.4f); at most %.0f mm are allowed",
-                           1000.0 * off_m, tip[0], tip[1], tip[2], 1000.0 * kFollowStartOff_m));
+      failed("curve",
+             text("the curve begins %.1f mm from the tip, which is at (%.4f, %.4f, %.4f); at most %.0f mm are allowed",
+                  1000.0 * off_m, tip[0], tip[1], tip[2], 1000.0 * kFollowStartOff_m));
       return false;
     }
     for (double along_m = 0.0; along_m < curve_.length_m() + kFollowStep_m; along_m += kFollowStep_m) {
       const Vec3 here = curve_.at(along_m).position_m;
       if (norm(here) > length_m) {
-        failed("curve", text("the curve leaves the arm's reach: %.3f m from the base %s; the arm is %.3f m long", norm(here),
-                             at(along_m).c_str(), length_m));
+        failed("curve", text("the curve leaves the arm's reach: %.3f m from the base %s; the arm is %.3f m long",
+                             norm(here), at(along_m).c_str(), length_m));
         return false;
       }
       for (std::int32_t i = 0; i < obstacle_count(room_.scene()); ++i) {
@@ -114,16 +117,18 @@ class Follower {
       for (Index k = 0; k < from.size(); ++k) {
         if (((held_mask(request_) >> k) & 1u) != 0) from[k] = request_.from_rad[k];
       }
-      const ThetaVector theta = follow_pose(room_, track_, aim(curve_.length_m(), from, kEndDraw_m2), from, kEndIterations);
+      const ThetaVector theta =
+          follow_pose(room_, track_, aim(curve_.length_m(), from, kEndDraw_m2), from, kEndIterations);
       if (tip_off_m(room_, curve_, curve_.length_m(), theta) > kTipTolerance_m) continue;
-      const double cost =
-          misfit_m2(room_, track_, curve_.length_m(), theta) + (room_.look(theta).nearest.distance_m < request_.margin_m ? 1e3 : 0.0);
+      const double cost = misfit_m2(room_, track_, curve_.length_m(), theta) +
+                          (room_.look(theta).nearest.distance_m < request_.margin_m ? 1e3 : 0.0);
       if (cost < least) least = cost, best = theta;
     }
     return best;
   }
 
-  // Appends poses with the tip ever farther along the curve; where the arm has to change its shape, several with the tip in one place.
+  // Appends poses with the tip ever farther along the curve; where the arm has to change its shape, several with the
+  // tip in one place.
   bool feed_in(const ThetaVector& end, std::vector<Stop>& way) {
     const std::int32_t steps = static_cast<std::int32_t>(std::ceil(curve_.length_m() / kFollowStep_m));
     for (std::int32_t s = 1; s <= steps; ++s) {
@@ -137,7 +142,8 @@ class Follower {
       if (tip_off_m(room_, curve_, along_m, way.back().theta_rad) < kTipTolerance_m) continue;
       const ArmClearance near = room_.look(way.back().theta_rad);
       const bool pushed = near.nearest.distance_m < request_.margin_m + kRelaxReach_m;
-      const std::string what = pushed ? "'" + obstacle_name(room_.scene(), near.obstacle) + "'" : "the limits of the joints";
+      const std::string what =
+          pushed ? "'" + obstacle_name(room_.scene(), near.obstacle) + "'" : "the limits of the joints";
       failed(pushed ? "clearance" : "tip", text("%s keep the tip off the curve %s", what.c_str(), at(along_m).c_str()));
       return false;
     }
@@ -157,8 +163,8 @@ class Follower {
     return false;
   }
 
-  // Steps of the request and, between the two, the tip within kFollowTipOff_m of their part of the curve and on a way as long: a part that
-  // turns back is not cut off.
+  // Steps of the request and, between the two, the tip within kFollowTipOff_m of their part of the curve and on a way
+  // as long: a part that turns back is not cut off.
   bool suffices(const Stop& a, const Stop& b) const {
     if (!steps_hold(request_, {a.theta_rad, b.theta_rad})) return false;
     double way_m = 0.0;
@@ -213,8 +219,8 @@ class Follower {
 
 }  // namespace
 
-FollowPath follow_path(const Room& room, const PlanRequest& request, const Curve& curve, const std::optional<ThetaVector>& goal_rad,
-                       const PlanControl& control) {
+FollowPath follow_path(const Room& room, const PlanRequest& request, const Curve& curve,
+                       const std::optional<ThetaVector>& goal_rad, const PlanControl& control) {
   return Follower(room, request, curve, control).run(goal_rad);
 }
 

@@ -9,8 +9,8 @@
 
 namespace liana {
 
-// Looked at the waypoints and three times between. Every link end is asked for its distance from the path before it: the arm's centre line
-// at the start, and from its tip on the way that the tip has gone so far.
+// Looked at the waypoints and three times between. Every link end is asked for its distance from the path before it:
+// the arm's centre line at the start, and from its tip on the way that the tip has gone so far.
 struct FollowFigures {
   double curve_length_m = 0.0;
   double tip_off_m = 0.0;          // greatest distance of the tip from the curve
@@ -21,6 +21,7 @@ struct FollowFigures {
 };
 
 // Figures of waypoints [rad] against a curve. Cost: about 0.1 s for 200 waypoints.
-FollowFigures follow_figures(const RobotTable& table, const std::vector<ThetaVector>& waypoints_rad, const Curve& curve);
+FollowFigures follow_figures(const RobotTable& table, const std::vector<ThetaVector>& waypoints_rad,
+                             const Curve& curve);
 
 }  // namespace liana

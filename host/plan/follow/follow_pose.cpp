@@ -29,7 +29,8 @@ constexpr double kStepSettled_rad = 1e-6;
 struct Quadratic {
   ThetaMatrix hessian;
   ThetaColumn rhs;  // minus the gradient
-  explicit Quadratic(Eigen::Index thetas) : hessian(ThetaMatrix::Zero(thetas, thetas)), rhs(ThetaColumn::Zero(thetas)) {}
+  explicit Quadratic(Eigen::Index thetas)
+      : hessian(ThetaMatrix::Zero(thetas, thetas)), rhs(ThetaColumn::Zero(thetas)) {}
 
   // Adds weight |J dtheta + error|^2 / 2, of the error's part across `along` when that is a unit vector.
   void add(const Eigen::Ref<const Eigen::Matrix3Xd>& J, const Vec3& error, const Vec3& along, double weight) {
@@ -39,8 +40,10 @@ struct Quadratic {
   }
 };
 
-// The least of a quadratic within the limits: thetas that would pass theirs are set onto them, and the rest is solved again.
-ThetaVector bounded_step(const RobotTable& table, Quadratic q, double damping, const ThetaVector& theta, std::uint32_t held_mask) {
+// The least of a quadratic within the limits: thetas that would pass theirs are set onto them, and the rest is solved
+// again.
+ThetaVector bounded_step(const RobotTable& table, Quadratic q, double damping, const ThetaVector& theta,
+                         std::uint32_t held_mask) {
   const Eigen::Index n = theta_count(table);
   q.hessian.diagonal().array() += damping;
   for (Eigen::Index k = 0; k < n; ++k) {
@@ -69,10 +72,12 @@ double largest(const ThetaVector& step) {
   return most;
 }
 
-double body_weight(double along_m, double behind_m) { return std::clamp((along_m - behind_m) / kRamp_m, kStartLine, 1.0); }
+double body_weight(double along_m, double behind_m) {
+  return std::clamp((along_m - behind_m) / kRamp_m, kStartLine, 1.0);
+}
 
-// Nearest on the track to a link end so far behind the tip along the arm: between where it was at the start and where it is when it has
-// moved with the tip.
+// Nearest on the track to a link end so far behind the tip along the arm: between where it was at the start and where
+// it is when it has moved with the tip.
 CurvePlace body_place(const FollowTrack& track, double along_m, double behind_m, const Vec3& link_end_m) {
   return track.nearest(link_end_m, -behind_m - kWindow_m, std::min(along_m, along_m - behind_m + kWindow_m));
 }
@@ -97,12 +102,15 @@ Quadratic model(const Room& room, const FollowTrack& track, const FollowAim& aim
     if (end == tip_point.link - 1) {  // the tip's direction
       const SpaceColumns turning = (view(tip.by_theta, n) - view(here.by_theta, n)) / length_m;
       const Vec3 link = scale(subtract(tip.position_m, here.position_m), 1.0 / length_m);
-      const double facing = std::max(0.0, dot(link, place.tangent));  // a tip that would have to turn round goes sideways or backwards
-      q.add(turning, subtract(link, place.tangent), {}, aim.body * kDirection_m2 * facing * std::min(1.0, aim.along_m / kRamp_m));
+      const double facing =
+          std::max(0.0, dot(link, place.tangent));  // a tip that would have to turn round goes sideways or backwards
+      q.add(turning, subtract(link, place.tangent), {},
+            aim.body * kDirection_m2 * facing * std::min(1.0, aim.along_m / kRamp_m));
     }
     if (aim.body == 0.0) break;
     const CurvePlace on = body_place(track, aim.along_m, behind_m, here.position_m);
-    q.add(view(here.by_theta, n), subtract(here.position_m, on.position_m), on.tangent, aim.body * body_weight(aim.along_m, behind_m));
+    q.add(view(here.by_theta, n), subtract(here.position_m, on.position_m), on.tangent,
+          aim.body * body_weight(aim.along_m, behind_m));
   }
   const PoseModel push = push_model(room, theta, aim.clearance_m, true);
   q.rhs += aim.draw * (view(aim.drawn_to_rad, n) - view(theta, n)) - kPushWeight * push.gradient;
@@ -130,7 +138,8 @@ double tip_off_m(const Room& room, const Curve& curve, double along_m, const The
   return norm(subtract(points.point_in_base[Index(points.count) - 1], curve.at(along_m).position_m));
 }
 
-ThetaVector follow_pose(const Room& room, const FollowTrack& track, const FollowAim& aim, ThetaVector theta, std::int32_t iterations) {
+ThetaVector follow_pose(const Room& room, const FollowTrack& track, const FollowAim& aim, ThetaVector theta,
+                        std::int32_t iterations) {
   for (std::int32_t i = 0; i < iterations + kTipSteps; ++i) {
     const bool tip_only = i >= iterations;
     if (tip_only && tip_off_m(room, track.curve(), aim.along_m, theta) < kTipThere_m) break;

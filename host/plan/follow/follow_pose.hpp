@@ -17,12 +17,14 @@ struct FollowAim {
   double body = 1.0;            // weight of the body's distance from the track
 };
 
-// Joint angles near `theta_rad` with the tip on the curve and every link end as near to the track as it can be (least squares; those that
-// are not past the curve's beginning yet count less), pushed off obstacles; limits hold exactly. Gauss-Newton, at most `iterations` steps,
-// then some that bring the tip alone onto its place.
-ThetaVector follow_pose(const Room& room, const FollowTrack& track, const FollowAim& aim, ThetaVector theta_rad, std::int32_t iterations);
+// Joint angles near `theta_rad` with the tip on the curve and every link end as near to the track as it can be (least
+// squares; those that are not past the curve's beginning yet count less), pushed off obstacles; limits hold exactly.
+// Gauss-Newton, at most `iterations` steps, then some that bring the tip alone onto its place.
+ThetaVector follow_pose(const Room& room, const FollowTrack& track, const FollowAim& aim, ThetaVector theta_rad,
+                        std::int32_t iterations);
 
-// Weighted sum of the squared distances of the link ends from the track, as follow_pose makes it least, with the tip at `along_m`.
+// Weighted sum of the squared distances of the link ends from the track, as follow_pose makes it least, with the tip at
+// `along_m`.
 double misfit_m2(const Room& room, const FollowTrack& track, double along_m, const ThetaVector& theta_rad);
 
 // Distance of the tip from its place.

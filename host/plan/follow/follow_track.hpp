@@ -13,8 +13,8 @@ class FollowTrack {
 
   const Curve& curve() const { return curve_; }
   double start_length_m() const { return start_line_.length_m(); }
-  // The place nearest to a point, of those from `from_m` to `until_m`. Both are counted along the curve, and below 0 back from its
-  // beginning along the start line. Cost: one pass over that part, a piece per 5 mm.
+  // The place nearest to a point, of those from `from_m` to `until_m`. Both are counted along the curve, and below 0
+  // back from its beginning along the start line. Cost: one pass over that part, a piece per 5 mm.
   CurvePlace nearest(const Vec3& point_m, double from_m, double until_m) const;
 
  private:

@@ -46,7 +46,9 @@ Vec3 first(const JetVec3& v, Index i) { return {first(v[0], i), first(v[1], i), 
 Vec3 second(const JetVec3& v, Index i, Index j) { return {second(v[0], i, j), second(v[1], i, j), second(v[2], i, j)}; }
 Quat value(const JetQuat& q) { return {q[0].value, q[1].value, q[2].value, q[3].value}; }
 Quat first(const JetQuat& q, Index i) { return {first(q[0], i), first(q[1], i), first(q[2], i), first(q[3], i)}; }
-Quat second(const JetQuat& q, Index i, Index j) { return {second(q[0], i, j), second(q[1], i, j), second(q[2], i, j), second(q[3], i, j)}; }
+Quat second(const JetQuat& q, Index i, Index j) {
+  return {second(q[0], i, j), second(q[1], i, j), second(q[2], i, j), second(q[3], i, j)};
+}
 Vec3 twice_vector(const Quat& q) { return {2.0 * q[1], 2.0 * q[2], 2.0 * q[3]}; }
 
 double dot(const Quat& a, const Quat& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
@@ -84,7 +86,9 @@ ArmDerivatives::ArmDerivatives(const RobotTable& table, const ThetaVector& theta
   }
 }
 
-ArmPoint ArmDerivatives::node(std::int32_t segment) const { return {first_link_[static_cast<Index>(segment)] - 1, 1.0}; }
+ArmPoint ArmDerivatives::node(std::int32_t segment) const {
+  return {first_link_[static_cast<Index>(segment)] - 1, 1.0};
+}
 
 ArmDerivatives::LocalPoint ArmDerivatives::local(const ArmPoint& where) const {
   Index m = 0;
@@ -104,17 +108,20 @@ PointDerivatives ArmDerivatives::point(const ArmPoint& where) const {
   for (Index i = 0; i < 2; ++i) out.by_theta[2 * m + i] = rotate(quaternion_[m], first(local_point.jet, i));
   for (Index n = 0; n < m; ++n) {
     const Vec3 lever = subtract(out.position_m, origin_m_[n + 1]);
-    for (Index i = 0; i < 2; ++i) out.by_theta[2 * n + i] = add(segment_[n].end_rate[i], cross(segment_[n].spin[i], lever));
+    for (Index i = 0; i < 2; ++i)
+      out.by_theta[2 * n + i] = add(segment_[n].end_rate[i], cross(segment_[n].spin[i], lever));
   }
   return out;
 }
 
-void ArmDerivatives::add_hessian(const ArmPoint& where, const PointDerivatives& at, const Vec3& weight, ThetaHessian& hessian) const {
+void ArmDerivatives::add_hessian(const ArmPoint& where, const PointDerivatives& at, const Vec3& weight,
+                                 ThetaHessian& hessian) const {
   const LocalPoint local_point = local(where);
   const Index m = local_point.segment;
   const Vec3 local_weight = rotate(conjugate(quaternion_[m]), weight);
   for (Index i = 0; i < 2; ++i) {
-    for (Index j = 0; j <= i; ++j) hessian[2 * m + i][2 * m + j] += liana::dot(local_weight, second(local_point.jet, i, j));
+    for (Index j = 0; j <= i; ++j)
+      hessian[2 * m + i][2 * m + j] += liana::dot(local_weight, second(local_point.jet, i, j));
   }
   for (Index n = 0; n < m; ++n) {
     const Segment& segment = segment_[n];
@@ -123,7 +130,8 @@ void ArmDerivatives::add_hessian(const ArmPoint& where, const PointDerivatives& 
       const Vec3 turned = cross(weight, segment.spin[i]);  // weight . (spin x v) = turned . v
       for (Index k = 2 * n + 2; k < 2 * m + 2; ++k) hessian[k][2 * n + i] += liana::dot(turned, at.by_theta[k]);
       for (Index j = 0; j <= i; ++j) {
-        const Vec3 turn = add(cross(segment.spin_rate[i][j], lever), cross(segment.spin[j], cross(segment.spin[i], lever)));
+        const Vec3 turn =
+            add(cross(segment.spin_rate[i][j], lever), cross(segment.spin[j], cross(segment.spin[i], lever)));
         hessian[2 * n + i][2 * n + j] += liana::dot(weight, add(segment.end_second[i][j], turn));
       }
     }
@@ -171,8 +179,8 @@ CableDerivatives cable_derivatives(const RobotTable& table, const ThetaVector& t
         const SegmentTable& passed = table.segment[j];
         const Jet pitch = pitch_variable(theta_rad[2 * j]), yaw = yaw_variable(theta_rad[2 * j + 1]);
         const Jet sa = sin(pitch), ca = cos(pitch), sb = sin(yaw), cb = cos(yaw), one = constant(1.0);
-        const Jet bracket = (-g * g) * (ca * cb) + (g * y) * (sa * (one + cb)) - (g * z) * (sb * (one + ca)) + (y * y) * ca +
-                            (y * z) * (sa * sb) + (z * z) * cb;
+        const Jet bracket = (-g * g) * (ca * cb) + (g * y) * (sa * (one + cb)) - (g * z) * (sb * (one + ca)) +
+                            (y * y) * ca + (y * z) * (sa * sb) + (z * z) * cb;
         parts.push_back(passed.modules * sqrt(constant(2.0 * (g * g + r * r)) - 2.0 * bracket));
         const std::int32_t links = j == m ? passed.modules - 1 : passed.modules;  // the anchor is the last disc
         length_m += parts.back().value + links * (passed.module_length_m - 2.0 * g);

@@ -1,8 +1,10 @@
-// The arm with first and second derivatives: points of links, tip attitude, cable lengths. Exact, for the planner's Hessians.
+// The arm with first and second derivatives: points of links, tip attitude, cable lengths. Exact, for the planner's
+// Hessians.
 //
-// A segment's own derivatives come from jets over the closed form (firmware_like/arm/kinematics.hpp). Between segments rotations multiply:
-// with w_i the angular velocity that theta i gives everything behind its segment, d2 p / di dj = w_i x dp/dj when segment(i) <
-// segment(j), and within one segment R d2 s / di dj + dw_j/di x r + w_j x (w_i x r), r from the segment's end to p.
+// A segment's own derivatives come from jets over the closed form (firmware_like/arm/kinematics.hpp). Between segments
+// rotations multiply: with w_i the angular velocity that theta i gives everything behind its segment, d2 p / di dj =
+// w_i x dp/dj when segment(i) < segment(j), and within one segment R d2 s / di dj + dw_j/di x r + w_j x (w_i x r), r
+// from the segment's end to p.
 #pragma once
 
 #include <array>
@@ -32,7 +34,8 @@ struct PointDerivatives {
 
 class ArmDerivatives {
  public:
-  // Evaluates at theta [rad]: one closed form with jets per segment, about 10,000 flops for five segments of eight modules.
+  // Evaluates at theta [rad]: one closed form with jets per segment, about 10,000 flops for five segments of eight
+  // modules.
   ArmDerivatives(const RobotTable& table, const ThetaVector& theta_rad);
 
   // A point and its Jacobian.
@@ -70,11 +73,12 @@ class ArmDerivatives {
   std::vector<Vec3> origin_m_;    // of each segment's root, and of the tip
 };
 
-// Lengths of all cables (the path from first disc to anchor, mission figure A3) with derivatives. A length is a sum over segments, so its
-// second derivatives couple the two angles of one segment only.
+// Lengths of all cables (the path from first disc to anchor, mission figure A3) with derivatives. A length is a sum
+// over segments, so its second derivatives couple the two angles of one segment only.
 struct CableDerivatives {
-  std::vector<double> length_m;                // per cable
-  std::vector<std::vector<Jet>> by_segment_m;  // [cable][segment]: part of the length that depends on the segment's angles
+  std::vector<double> length_m;  // per cable
+  std::vector<std::vector<Jet>>
+      by_segment_m;  // [cable][segment]: part of the length that depends on the segment's angles
 };
 CableDerivatives cable_derivatives(const RobotTable& table, const ThetaVector& theta_rad);
 

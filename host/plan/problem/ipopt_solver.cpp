@@ -63,32 +63,35 @@ class Adapter : public Ipopt::TNLP {
     return true;
   }
 
-  bool eval_h(Index, const Number* x, bool, Number factor, Index, const Number* multipliers, bool, Index, Index* rows, Index* columns,
-              Number* values) override {
+  bool eval_h(Index, const Number* x, bool, Number factor, Index, const Number* multipliers, bool, Index, Index* rows,
+              Index* columns, Number* values) override {
     if (values == nullptr) return structure(problem_.hessian_structure(), rows, columns);
     problem_.hessian(x, factor, multipliers, values);
     return true;
   }
 
-  bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number objective, Number infeasibility, Number, Number, Number, Number,
-                             Number, Number, Index, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+  bool intermediate_callback(Ipopt::AlgorithmMode, Index iteration, Number objective, Number infeasibility, Number,
+                             Number, Number, Number, Number, Number, Index, const Ipopt::IpoptData*,
+                             Ipopt::IpoptCalculatedQuantities*) override {
     solution.iterations = iteration;
     if (control_.progress && iteration % kProgressEvery == 0) {
       char line[100];
-      std::snprintf(line, sizeof line, "iteration %d: objective %.6g, violation %.1e", static_cast<int>(iteration), objective,
-                    infeasibility);
+      std::snprintf(line, sizeof line, "iteration %d: objective %.6g, violation %.1e", static_cast<int>(iteration),
+                    objective, infeasibility);
       control_.progress(line);
     }
     return control_.cancelled == nullptr || !control_.cancelled->load();
   }
 
-  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*, const Number*, Index m, const Number* g,
-                         const Number*, Number objective, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* x, const Number*, const Number*, Index m,
+                         const Number* g, const Number*, Number objective, const Ipopt::IpoptData*,
+                         Ipopt::IpoptCalculatedQuantities*) override {
     solution.x.assign(x, x + n);
     solution.objective = objective;
     for (Index row = 0; row < m; ++row) {
       const auto i = static_cast<std::size_t>(row);
-      const double violation = std::max(problem_.constraint_lower()[i] - g[row], g[row] - problem_.constraint_upper()[i]);
+      const double violation =
+          std::max(problem_.constraint_lower()[i] - g[row], g[row] - problem_.constraint_upper()[i]);
       if (violation <= std::max(solution.worst_violation, kConstraintTolerance)) continue;
       solution.worst_violation = violation;
       solution.worst_constraint = row;

@@ -1,8 +1,8 @@
 // Second-order forward-mode derivatives by two variables, the pitch and yaw of one segment.
 //
-// A number together with its first and second derivatives; every operation carries them along (chain and product rule), so whatever is
-// computed from angles has exact derivatives. Two variables are enough: a segment depends on its own angles only, and what lies between
-// segments is a product of rotations (arm_derivatives.hpp).
+// A number together with its first and second derivatives; every operation carries them along (chain and product rule),
+// so whatever is computed from angles has exact derivatives. Two variables are enough: a segment depends on its own
+// angles only, and what lies between segments is a product of rotations (arm_derivatives.hpp).
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,9 @@ constexpr Jet yaw_variable(double value) { return {value, 0, 1, 0, 0, 0}; }
 constexpr Jet operator+(const Jet& x, const Jet& y) {
   return {x.value + y.value, x.a + y.a, x.b + y.b, x.aa + y.aa, x.ab + y.ab, x.bb + y.bb};
 }
-constexpr Jet operator*(double s, const Jet& x) { return {s * x.value, s * x.a, s * x.b, s * x.aa, s * x.ab, s * x.bb}; }
+constexpr Jet operator*(double s, const Jet& x) {
+  return {s * x.value, s * x.a, s * x.b, s * x.aa, s * x.ab, s * x.bb};
+}
 constexpr Jet operator-(const Jet& x) { return -1.0 * x; }
 constexpr Jet operator-(const Jet& x, const Jet& y) { return x + -y; }
 constexpr Jet operator*(const Jet& x, const Jet& y) {

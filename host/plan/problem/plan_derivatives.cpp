@@ -67,7 +67,8 @@ double PlanProblem::objective(const double* x) {
     for (Index k = 0; k < thetas(); ++k) squares += (path_[w + 1][k] - path_[w][k]) * (path_[w + 1][k] - path_[w][k]);
     for (const ControlPoint& target : request_.control_points) {
       const ArmDerivatives& arm = at_waypoint_[w + 1];
-      distances += target.weight * node_distance(arm.point(arm.node(target.node)).position_m, target.position_m).value_m;
+      distances +=
+          target.weight * node_distance(arm.point(arm.node(target.node)).position_m, target.position_m).value_m;
     }
   }
   const double intervals = static_cast<double>(last());
@@ -88,7 +89,8 @@ void PlanProblem::gradient(const double* x, double* out) {
       const PointDerivatives node = at_waypoint_[w + 1].point(at_waypoint_[w + 1].node(target.node));
       const Vec3 slope = node_distance(node.position_m, target.position_m).slope;
       for (Index k = 0; k < thetas(); ++k) {
-        if (variable_[w + 1][k] >= 0) out[variable_[w + 1][k]] += target.weight / intervals * dot(slope, node.by_theta[k]);
+        if (variable_[w + 1][k] >= 0)
+          out[variable_[w + 1][k]] += target.weight / intervals * dot(slope, node.by_theta[k]);
       }
     }
   }
@@ -98,7 +100,8 @@ void PlanProblem::constraint_values(const double* x, double* out) {
   evaluate(x);
   if (has_tip()) {
     const ArmDerivatives& arm = at_waypoint_.back();
-    const Vec3 away = subtract(arm.point(arm.node(request_.robot.table.segment_count)).position_m, request_.tip_in_base->position_m);
+    const Vec3 away =
+        subtract(arm.point(arm.node(request_.robot.table.segment_count)).position_m, request_.tip_in_base->position_m);
     const Quat turned = multiply(conjugate(request_.tip_in_base->quaternion), arm.tip_quaternion());
     for (Index i = 0; i < 3; ++i) *out++ = away[i];
     for (Index i = 1; i < 4; ++i) *out++ = turned[i];
@@ -152,7 +155,9 @@ void PlanProblem::jacobian(const double* x, double* out) {
   }
   for (const CableRow& row : rows_.cable) {
     const Index w = static_cast<Index>(row.interval), c = static_cast<Index>(row.cable);
-    const auto slope = [&](Index at) { return [&, at](Index k) { return first(cables_[at].by_segment_m[c][k / 2], k % 2); }; };
+    const auto slope = [&](Index at) {
+      return [&, at](Index k) { return first(cables_[at].by_segment_m[c][k / 2], k % 2); };
+    };
     const Index count = 2 * cables_[w].by_segment_m[c].size();
     put(w, count, -1.0, slope(w));
     put(w + 1, count, 1.0, slope(w + 1));
@@ -178,7 +183,8 @@ void PlanProblem::scatter(const PathPlace& place, const ThetaHessian& block, dou
   if (before == 0.0) return;
   for (Index k = 0; k < thetas(); ++k) {
     for (Index j = 0; j <= k; ++j) put(own_block_[w][k][j], before * before * block[k][j]);
-    for (Index j = 0; j < thetas(); ++j) put(next_block_[w][k][j], before * after * block[std::max(k, j)][std::min(k, j)]);
+    for (Index j = 0; j < thetas(); ++j)
+      put(next_block_[w][k][j], before * after * block[std::max(k, j)][std::min(k, j)]);
   }
 }
 
@@ -270,7 +276,8 @@ void PlanProblem::hessian(const double* x, double objective_factor, const double
       if (multiplier == 0.0) continue;
       const PointDerivatives point = arm.point(row.where);
       const PointDistance distance = row_distance(row, point.position_m, request_.scene);
-      add_projected(scaled(distance.curvature, multiplier), point, thetas_before(request_.robot.table, row.where.link), block);
+      add_projected(scaled(distance.curvature, multiplier), point, thetas_before(request_.robot.table, row.where.link),
+                    block);
       arm.add_hessian(row.where, point, scale(distance.normal, multiplier), block);
     }
     scatter(places_[place], block, out);

@@ -21,7 +21,8 @@ std::size_t thetas_before(const RobotTable& table, std::int32_t link) {
 ThetaVector theta_at(const Path& path, const PathPlace& place) {
   const std::size_t w = static_cast<std::size_t>(place.interval);
   ThetaVector theta{};
-  for (std::size_t k = 0; k < theta.size(); ++k) theta[k] = (1.0 - place.share) * path[w][k] + place.share * path[w + 1][k];
+  for (std::size_t k = 0; k < theta.size(); ++k)
+    theta[k] = (1.0 - place.share) * path[w][k] + place.share * path[w + 1][k];
   return theta;
 }
 
@@ -29,7 +30,8 @@ bool is_held(const HeldPhase& phase, std::int32_t waypoint, std::int32_t waypoin
   return waypoint >= phase.from_share * (waypoints - 1) - 1e-9;
 }
 
-PlanProblem::PlanProblem(const PlanRequest& request, const Path& path, const PlanRows& rows, double clearance_m, double stride_rad)
+PlanProblem::PlanProblem(const PlanRequest& request, const Path& path, const PlanRows& rows, double clearance_m,
+                         double stride_rad)
     : request_(request), stride_rad_(stride_rad), base_(path), tension_(request.robot.table), rows_(rows) {
   std::stable_sort(rows_.clearance.begin(), rows_.clearance.end(), [](const ClearanceRow& a, const ClearanceRow& b) {
     return a.place.interval != b.place.interval ? a.place.interval < b.place.interval : a.place.share < b.place.share;
@@ -80,7 +82,8 @@ void PlanProblem::build_bounds(double clearance_m) {
   rows(rows_.cable.size(), -request_.max_cable_step_m(), request_.max_cable_step_m());
   first_tension_ = constraint_lower_.size();
   const TensionLimits& tension = request_.robot.table.tension;
-  rows(rows_.tension.size(), 1e-3 * (tension.floor_motor_N + kInnerTension_N), 1e-3 * (tension.ceiling_free_N - kInnerTension_N));
+  rows(rows_.tension.size(), 1e-3 * (tension.floor_motor_N + kInnerTension_N),
+       1e-3 * (tension.ceiling_free_N - kInnerTension_N));
 }
 
 const char* PlanProblem::constraint_kind(std::int32_t row) const {
@@ -103,7 +106,8 @@ void PlanProblem::build_jacobian() {
     for (; row < kTipRows; ++row) add_jacobian_row(row, last(), thetas());
   }
   for (const ClearanceRow& clearance : rows_.clearance) {
-    const Index w = static_cast<Index>(clearance.place.interval), count = thetas_before(request_.robot.table, clearance.where.link);
+    const Index w = static_cast<Index>(clearance.place.interval),
+                count = thetas_before(request_.robot.table, clearance.where.link);
     if (clearance.place.share < 1.0) add_jacobian_row(row, w, count);
     add_jacobian_row(row++, w + 1, count);
   }
@@ -120,7 +124,8 @@ void PlanProblem::build_jacobian() {
     add_jacobian_row(row, w, count);
     add_jacobian_row(row++, w + 1, count);
   }
-  for (const TensionRow& tension : rows_.tension) add_jacobian_row(row++, static_cast<Index>(tension.waypoint), thetas());
+  for (const TensionRow& tension : rows_.tension)
+    add_jacobian_row(row++, static_cast<Index>(tension.waypoint), thetas());
 }
 
 std::int32_t PlanProblem::add_hessian_entry(std::int32_t a, std::int32_t b) {

@@ -1,13 +1,16 @@
-// The trajectory problem as numbers: variables, bounds, objective, constraints, exact derivatives, sparse structure. Knows no solver.
+// The trajectory problem as numbers: variables, bounds, objective, constraints, exact derivatives, sparse structure.
+// Knows no solver.
 //
-// Variables: the thetas of every waypoint that are free there. The first waypoint is fixed; the last one too when the goal is joint angles.
-// Objective: (N - 1) / 2 sum |theta_(w+1) - theta_w|^2 [rad^2] + sum_j weight_j mean_w |node_j(w) - target_j| [m], N waypoints, the mean
-// over all but the first, distances rounded to sqrt(d^2 + kRound_m^2) - kRound_m so that they are smooth.
-// Constraints (rows), of which a problem holds those that matter near its path; they are chosen at setup and the structure then is fixed:
+// Variables: the thetas of every waypoint that are free there. The first waypoint is fixed; the last one too when the
+// goal is joint angles. Objective: (N - 1) / 2 sum |theta_(w+1) - theta_w|^2 [rad^2] + sum_j weight_j mean_w |node_j(w)
+// - target_j| [m], N waypoints, the mean over all but the first, distances rounded to sqrt(d^2 + kRound_m^2) - kRound_m
+// so that they are smooth. Constraints (rows), of which a problem holds those that matter near its path; they are
+// chosen at setup and the structure then is fixed:
 // - tip: position and the vector part of conj(q_goal) q_tip, 6 equalities at the last waypoint
-// - clearance: a point of a link's axis against one obstacle, or against a plane that has the whole obstacle behind it, at a waypoint or at
-//   a fixed share between two. Both ends of a link before a plane keep the whole link clear, and a plane has no edges and no far side:
-//   that is how boxes are kept off (plan_rows.hpp)
+// - clearance: a point of a link's axis against one obstacle, or against a plane that has the whole obstacle behind it,
+// at a waypoint or at
+//   a fixed share between two. Both ends of a link before a plane keep the whole link clear, and a plane has no edges
+//   and no far side: that is how boxes are kept off (plan_rows.hpp)
 // - step: change of a theta between two waypoints
 // - cable: change of a cable's length between two waypoints
 // - tension: of a cable at the motor at a waypoint, as the core plans it [kN, so that all rows are of one size]
@@ -16,8 +19,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/plan/problem/arm_derivatives.hpp"
 #include "host/plan/plan.hpp"
+#include "host/plan/problem/arm_derivatives.hpp"
 #include "host/plan/problem/planned_tension.hpp"
 
 namespace liana {
@@ -80,9 +83,11 @@ std::size_t thetas_before(const RobotTable& table, std::int32_t link);
 
 class PlanProblem {
  public:
-  // `path` has as many waypoints as the problem; its values are the start and those of everything fixed. Clearance rows keep
-  // `clearance_m` from the link's surface; no theta leaves the path by more than `stride_rad`. The request must outlive the problem.
-  PlanProblem(const PlanRequest& request, const Path& path, const PlanRows& rows, double clearance_m, double stride_rad);
+  // `path` has as many waypoints as the problem; its values are the start and those of everything fixed. Clearance rows
+  // keep `clearance_m` from the link's surface; no theta leaves the path by more than `stride_rad`. The request must
+  // outlive the problem.
+  PlanProblem(const PlanRequest& request, const Path& path, const PlanRows& rows, double clearance_m,
+              double stride_rad);
 
   std::int32_t variables() const { return static_cast<std::int32_t>(start_.size()); }
   std::int32_t constraints() const { return static_cast<std::int32_t>(constraint_lower_.size()); }

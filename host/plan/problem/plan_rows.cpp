@@ -11,17 +11,19 @@ using Index = std::size_t;
 constexpr double kSpacing_m = 0.15;      // of motion between the places with rows
 constexpr std::int32_t kMostPlaces = 4;  // per interval
 constexpr double kLookSpacing_m = 0.004;
-constexpr std::int32_t kMostLooks = 256;   // per interval
-constexpr double kNear_m = 0.10;           // beyond the margin: rows for links that are nearest among their neighbours
-constexpr double kTight_m = 0.02;          // beyond the margin: rows for every link
-constexpr double kStepShare = 0.6;         // of the step and cable limits: rows for steps that are larger
-constexpr double kNearFloor_N = 1.0;       // the core's plan rounds there: it is often a little over the floor, and never far below
+constexpr std::int32_t kMostLooks = 256;  // per interval
+constexpr double kNear_m = 0.10;          // beyond the margin: rows for links that are nearest among their neighbours
+constexpr double kTight_m = 0.02;         // beyond the margin: rows for every link
+constexpr double kStepShare = 0.6;        // of the step and cable limits: rows for steps that are larger
+constexpr double kNearFloor_N =
+    1.0;  // the core's plan rounds there: it is often a little over the floor, and never far below
 constexpr double kNearCeiling_N = 40.0;    // what a round's change of theta can bring
 constexpr double kSamePlane = 1.0 - 1e-9;  // cosine between normals
 
-// Keeps both ends of a link before the plane that touches the box at its nearest point. The end that the link before shares is left out
-// when that link has the same plane.
-void add_planes(const PathPlace& place, std::int32_t link, std::int32_t obstacle, const Clearance& here, std::vector<ClearanceRow>& rows) {
+// Keeps both ends of a link before the plane that touches the box at its nearest point. The end that the link before
+// shares is left out when that link has the same plane.
+void add_planes(const PathPlace& place, std::int32_t link, std::int32_t obstacle, const Clearance& here,
+                std::vector<ClearanceRow>& rows) {
   const Plane plane{here.normal, dot(here.normal, here.on_obstacle_m)};
   const ClearanceRow* last = rows.empty() ? nullptr : &rows.back();
   const bool shared = last != nullptr && last->plane && last->place == place && last->obstacle == obstacle &&
@@ -54,8 +56,8 @@ bool is_nearest(const std::vector<Clearance>& links, Index i) {
 }
 
 // Rows at one place: links that are nearest among their neighbours, all that are very near, and those of the sites.
-void add_place(const Room& room, const PlanRequest& request, const Path& path, const PathPlace& place, const std::vector<RowSite>& sites,
-               std::vector<ClearanceRow>& rows) {
+void add_place(const Room& room, const PlanRequest& request, const Path& path, const PathPlace& place,
+               const std::vector<RowSite>& sites, std::vector<ClearanceRow>& rows) {
   const LinkPoints points = link_points(room.table(), theta_at(path, place));
   for (std::int32_t obstacle = 0; obstacle < obstacle_count(room.scene()); ++obstacle) {
     const std::vector<Clearance> links = clearances(room, points, obstacle);
@@ -79,11 +81,14 @@ void add_steps(const PlanRequest& request, const Path& path, double share, doubl
   for (std::int32_t w = 0; w + 1 < static_cast<std::int32_t>(path.size()); ++w) {
     const ThetaVector &before = path[Index(w)], &after = path[Index(w) + 1];
     for (std::int32_t k = 0; k < table.theta_count(); ++k) {
-      if (std::fabs(after[Index(k)] - before[Index(k)]) > share * request.max_step_rad + tolerance) rows.step.push_back({w, k});
+      if (std::fabs(after[Index(k)] - before[Index(k)]) > share * request.max_step_rad + tolerance)
+        rows.step.push_back({w, k});
     }
-    const std::vector<double> short_m = cable_derivatives(table, before).length_m, long_m = cable_derivatives(table, after).length_m;
+    const std::vector<double> short_m = cable_derivatives(table, before).length_m,
+                              long_m = cable_derivatives(table, after).length_m;
     for (std::int32_t c = 0; c < table.cable_count(); ++c) {
-      if (std::fabs(long_m[Index(c)] - short_m[Index(c)]) > share * request.max_cable_step_m() + tolerance) rows.cable.push_back({w, c});
+      if (std::fabs(long_m[Index(c)] - short_m[Index(c)]) > share * request.max_cable_step_m() + tolerance)
+        rows.cable.push_back({w, c});
     }
   }
 }
@@ -118,8 +123,9 @@ PlanRows rows_near(const Room& room, const PlanRequest& request, const Path& pat
     const std::int32_t count = single_pose(request) ? 1 : places_of(room, path, w, kSpacing_m, kMostPlaces);
     for (std::int32_t s = 1; s <= count; ++s) places.push_back({static_cast<std::int32_t>(w), double(s) / count});
   }
-  std::sort(places.begin(), places.end(),
-            [](const PathPlace& a, const PathPlace& b) { return a.interval != b.interval ? a.interval < b.interval : a.share < b.share; });
+  std::sort(places.begin(), places.end(), [](const PathPlace& a, const PathPlace& b) {
+    return a.interval != b.interval ? a.interval < b.interval : a.share < b.share;
+  });
   places.erase(std::unique(places.begin(), places.end()), places.end());
   PlanRows rows;
   for (const PathPlace& place : places) {
@@ -137,7 +143,8 @@ std::vector<RowSite> sites_below(const Room& room, const PlanRequest& request, c
     for (std::int32_t obstacle = 0; obstacle < obstacle_count(room.scene()); ++obstacle) {
       const std::vector<Clearance> links = clearances(room, points, obstacle);
       for (Index i = 0; i < links.size(); ++i) {
-        if (links[i].distance_m < clearance_m && is_nearest(links, i)) out.push_back({place, static_cast<std::int32_t>(i), obstacle});
+        if (links[i].distance_m < clearance_m && is_nearest(links, i))
+          out.push_back({place, static_cast<std::int32_t>(i), obstacle});
       }
     }
   };
@@ -145,9 +152,11 @@ std::vector<RowSite> sites_below(const Room& room, const PlanRequest& request, c
     const std::int32_t count = single_pose(request) ? 1 : places_of(room, path, w, kLookSpacing_m, kMostLooks);
     double before = 1e300, here = 1e300;
     for (std::int32_t s = 1; s <= count + 1; ++s) {
-      const PathPlace next{static_cast<std::int32_t>(w), double(s) / count}, last{static_cast<std::int32_t>(w), double(s - 1) / count};
+      const PathPlace next{static_cast<std::int32_t>(w), double(s) / count},
+          last{static_cast<std::int32_t>(w), double(s - 1) / count};
       const double after = s <= count ? room.look(theta_at(path, next)).nearest.distance_m : 1e300;
-      if (s > 1 && here < clearance_m && here <= before && here < after && is_movable(request, path, last)) add_sites(last);
+      if (s > 1 && here < clearance_m && here <= before && here < after && is_movable(request, path, last))
+        add_sites(last);
       before = here;
       here = after;
     }
@@ -164,7 +173,8 @@ bool steps_hold(const PlanRequest& request, const Path& path) {
 
 bool tensions_hold(const PlanRequest& request, const Path& path) {
   const PlannedTension tension(request.robot.table);
-  return std::none_of(path.begin(), path.end(), [&](const ThetaVector& theta) { return tension.excess_N(theta) > 0.0; });
+  return std::none_of(path.begin(), path.end(),
+                      [&](const ThetaVector& theta) { return tension.excess_N(theta) > 0.0; });
 }
 
 }  // namespace liana

@@ -1,8 +1,10 @@
-// Cable tensions of a pose as the core plans them (firmware_like/arm/tension.hpp, nothing has slipped yet), with derivatives.
+// Cable tensions of a pose as the core plans them (firmware_like/arm/tension.hpp, nothing has slipped yet), with
+// derivatives.
 //
-// The core's plan is a sweep over segments by smooth formulas. It is asked, not copied: derivatives are central differences of it. The
-// planner so constrains what the controller will do, whatever the formulas are. Steps are a hundred times what round-off needs, and a
-// hundredth of what the formulas' roundings (2 N) see: the tests hold 1e-4 of the largest entry, first and second derivatives.
+// The core's plan is a sweep over segments by smooth formulas. It is asked, not copied: derivatives are central
+// differences of it. The planner so constrains what the controller will do, whatever the formulas are. Steps are a
+// hundred times what round-off needs, and a hundredth of what the formulas' roundings (2 N) see: the tests hold 1e-4 of
+// the largest entry, first and second derivatives.
 #pragma once
 
 #include <array>

@@ -9,9 +9,10 @@
 namespace liana {
 
 struct PointDistance {
-  double distance_m = 0.0;          // signed, see clearance.hpp
-  Vec3 normal{};                    // gradient, unit
-  std::array<Vec3, 3> curvature{};  // second derivatives [1/m]; those of the face, edge or corner that is nearest, 0 inside a box
+  double distance_m = 0.0;  // signed, see clearance.hpp
+  Vec3 normal{};            // gradient, unit
+  std::array<Vec3, 3>
+      curvature{};  // second derivatives [1/m]; those of the face, edge or corner that is nearest, 0 inside a box
 };
 
 // Obstacles are numbered as in clearance.hpp.

@@ -8,13 +8,15 @@ namespace liana {
 
 // Gauss-Newton model of a cost at one pose.
 struct PoseModel {
-  explicit PoseModel(Eigen::Index thetas) : gradient(ThetaColumn::Zero(thetas)), hessian(ThetaMatrix::Zero(thetas, thetas)) {}
+  explicit PoseModel(Eigen::Index thetas)
+      : gradient(ThetaColumn::Zero(thetas)), hessian(ThetaMatrix::Zero(thetas, thetas)) {}
   double cost = 0.0;
   ThetaColumn gradient;
   ThetaMatrix hessian;
 };
 
-// Cost [m^2]: sum over links and obstacles of (wanted - distance)^2 where positive. The derivatives only when asked for.
+// Cost [m^2]: sum over links and obstacles of (wanted - distance)^2 where positive. The derivatives only when asked
+// for.
 PoseModel push_model(const Room& room, const ThetaVector& theta_rad, double wanted_m, bool derivatives);
 
 }  // namespace liana

@@ -55,7 +55,8 @@ std::int32_t grow(const Room& room, Tree& tree, std::int32_t from, const ThetaVe
 // Grows towards theta until it is reached (its index) or blocked (-1).
 std::int32_t connect(const Room& room, Tree& tree, const ThetaVector& theta, double margin_m) {
   std::int32_t at = nearest(room, tree, theta);
-  while (at >= 0 && room.motion_m(tree[static_cast<Index>(at)].theta, theta) > 1e-12) at = grow(room, tree, at, theta, margin_m);
+  while (at >= 0 && room.motion_m(tree[static_cast<Index>(at)].theta, theta) > 1e-12)
+    at = grow(room, tree, at, theta, margin_m);
   return at;
 }
 

@@ -1,5 +1,5 @@
-// A way round obstacles when none is known: two random trees in theta, one from each end, growing towards each other (Kuffner and LaValle
-// 2000), then straightened. The random numbers are a fixed sequence: same request, same way.
+// A way round obstacles when none is known: two random trees in theta, one from each end, growing towards each other
+// (Kuffner and LaValle 2000), then straightened. The random numbers are a fixed sequence: same request, same way.
 #pragma once
 
 #include <atomic>

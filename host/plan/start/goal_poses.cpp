@@ -36,7 +36,8 @@ GoalIkProblem ik_problem(const PlanRequest& request) {
 }
 
 // Pitch (axis 0) or yaw (1) of the last `segments` segments at 0; what is held already stays.
-GoalIkProblem with_planar_end(GoalIkProblem problem, const RobotTable& table, std::int32_t segments, std::int32_t axis) {
+GoalIkProblem with_planar_end(GoalIkProblem problem, const RobotTable& table, std::int32_t segments,
+                              std::int32_t axis) {
   for (std::int32_t m = std::max(0, table.segment_count - segments); m < table.segment_count; ++m) {
     const std::int32_t theta = 2 * m + axis;
     if (((problem.held_mask >> theta) & 1u) == 0) problem.held_rad[Index(theta)] = 0.0;
@@ -46,13 +47,15 @@ GoalIkProblem with_planar_end(GoalIkProblem problem, const RobotTable& table, st
 }
 
 // Also wanted of the shape: clear of the spheres that are nearest to a pose.
-GoalIkProblem with_clear_spheres(GoalIkProblem problem, const Room& room, const ThetaVector& theta, double clearance_m) {
+GoalIkProblem with_clear_spheres(GoalIkProblem problem, const Room& room, const ThetaVector& theta,
+                                 double clearance_m) {
   const LinkPoints points = link_points(room.table(), theta);
   std::vector<std::pair<double, Index>> near;
   for (Index i = 0; i < room.scene().spheres.size(); ++i) {
     double least_m = kNoObstacle_m;
     for (std::int32_t link = 0; link + 1 < points.count; ++link) {
-      least_m = std::min(least_m, clearance(link_capsule(points, link, room.link_radius_m()), room.scene().spheres[i]).distance_m);
+      least_m = std::min(
+          least_m, clearance(link_capsule(points, link, room.link_radius_m()), room.scene().spheres[i]).distance_m);
     }
     near.push_back({least_m, i});
   }
@@ -107,7 +110,8 @@ GoalPoses goal_poses(const Room& room, const PlanRequest& request) {
     problems.back().from_rad = seed_pose(room.table(), request.from_rad, seed);
   }
   for (const std::int32_t segments : {1, 2}) {
-    for (const std::int32_t axis : {0, 1}) problems.push_back(with_planar_end(problems.front(), room.table(), segments, axis));
+    for (const std::int32_t axis : {0, 1})
+      problems.push_back(with_planar_end(problems.front(), room.table(), segments, axis));
   }
   double most_clearance = -kNoObstacle_m;
   const auto try_problem = [&](const GoalIkProblem& problem) {

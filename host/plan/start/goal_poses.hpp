@@ -14,10 +14,11 @@ struct GoalPoses {
   ThetaVector nearest_rad{};  // of the poses that reach the tip: the one with most clearance
 };
 
-// Goal IK (firmware_like/motion/goal_ik.hpp) from the start pose and fixed seeds, each pushed off obstacles with its tip in place; also
-// with the last one and two segments planar (their pitch, or their yaw, at 0), which is how an arm fits a slit that the tip is in line
-// with. Where none of them is free, once more with clearance of the nearest spheres as an aim of the shape (GoalIkProblem::clear): that
-// finds a pose where pushing gets stuck, but far from the start, and knows no boxes. Held thetas are those of the last waypoint.
+// Goal IK (firmware_like/motion/goal_ik.hpp) from the start pose and fixed seeds, each pushed off obstacles with its
+// tip in place; also with the last one and two segments planar (their pitch, or their yaw, at 0), which is how an arm
+// fits a slit that the tip is in line with. Where none of them is free, once more with clearance of the nearest spheres
+// as an aim of the shape (GoalIkProblem::clear): that finds a pose where pushing gets stuck, but far from the start,
+// and knows no boxes. Held thetas are those of the last waypoint.
 GoalPoses goal_poses(const Room& room, const PlanRequest& request);
 
 // Seed 0 is `from_rad`, 1 the straight arm, then patterns of signs at half the limits.

@@ -34,7 +34,8 @@ class Relaxation {
 
   // The samples of an interval: how many depends on how far the arm moves there.
   std::int32_t samples(const Path& path, Index w) const {
-    return std::clamp(static_cast<std::int32_t>(std::ceil(room_.motion_m(path[w], path[w + 1]) / kSampleSpacing_m)), 1, kMaxSamples);
+    return std::clamp(static_cast<std::int32_t>(std::ceil(room_.motion_m(path[w], path[w + 1]) / kSampleSpacing_m)), 1,
+                      kMaxSamples);
   }
 
   double cost(const Path& path) const {
@@ -79,7 +80,8 @@ class Relaxation {
  private:
   bool is_free(Index w, Eigen::Index k) const { return ((free_[w] >> k) & 1u) != 0; }
 
-  // Weighted distances of nodes from their targets at one pose; each as the parabola that touches it here and has its value at the target.
+  // Weighted distances of nodes from their targets at one pose; each as the parabola that touches it here and has its
+  // value at the target.
   PoseModel node_model(const ThetaVector& theta) const {
     PoseModel model(n_);
     const ArmDerivatives arm(room_.table(), theta);
@@ -87,7 +89,8 @@ class Relaxation {
       const PointDerivatives node = arm.point(arm.node(target.node));
       const auto J = view(node.by_theta, n_);
       const Eigen::Vector3d away = view(node.position_m) - view(target.position_m);
-      const double distance_m = std::sqrt(away.squaredNorm() + kRound_m * kRound_m), weight = target.weight / distance_m;
+      const double distance_m = std::sqrt(away.squaredNorm() + kRound_m * kRound_m),
+                   weight = target.weight / distance_m;
       model.cost += target.weight * distance_m;
       model.gradient.noalias() += weight * J.transpose() * away;
       model.hessian.noalias() += weight * J.transpose() * J;
@@ -155,7 +158,8 @@ Path relax(const Room& room, const PlanRequest& request, Path path) {
 PathLook look_along(const Room& room, const Path& path, double spacing_m) {
   PathLook worst;
   for (Index w = 0; w + 1 < path.size(); ++w) {
-    const std::int32_t count = static_cast<std::int32_t>(std::ceil(room.motion_m(path[w], path[w + 1]) / spacing_m)) + 1;
+    const std::int32_t count =
+        static_cast<std::int32_t>(std::ceil(room.motion_m(path[w], path[w + 1]) / spacing_m)) + 1;
     for (std::int32_t s = 0; s <= count; ++s) {
       const double share = static_cast<double>(s) / count;
       const ArmClearance here = room.look(between(path[w], path[w + 1], share));
@@ -228,7 +232,8 @@ TipEquations tip_equations(const Room& room, const PoseAim& aim, const ThetaVect
   }
   const PoseModel push = push_model(room, theta, aim.clearance_m, true);
   TipEquations out;
-  out.A = kTipWeight * linear.transpose() * linear + kTurnWeight * turning.transpose() * turning + kPenalty * push.hessian;
+  out.A =
+      kTipWeight * linear.transpose() * linear + kTurnWeight * turning.transpose() * turning + kPenalty * push.hessian;
   out.A.diagonal().array() += kNearWeight + kDamping;
   out.b = kTipWeight * linear.transpose() * view(way) + kTurnWeight * turning.transpose() * view(turn) -
           kPenalty * push.gradient + kNearWeight * (view(aim.near_rad, n) - view(theta, n));

@@ -1,5 +1,6 @@
-// Start paths pulled tight and pushed off obstacles: Gauss-Newton on the planner's smoothness plus a penalty for clearance below what is
-// wanted. This is what makes Ipopt converge (docs/planning.md): it starts beside the solution, on a path that is free.
+// Start paths pulled tight and pushed off obstacles: Gauss-Newton on the planner's smoothness plus a penalty for
+// clearance below what is wanted. This is what makes Ipopt converge (docs/planning.md): it starts beside the solution,
+// on a path that is free.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +13,8 @@ namespace liana {
 constexpr std::int32_t kRelaxIterations = 40;
 constexpr double kRelaxReach_m = 0.010;  // clearance beyond the margin that the penalty asks for
 
-// Relaxes the free thetas of all waypoints but the ends; limits hold. Each iteration solves one block-tridiagonal system.
+// Relaxes the free thetas of all waypoints but the ends; limits hold. Each iteration solves one block-tridiagonal
+// system.
 Path relax(const Room& room, const PlanRequest& request, Path path);
 
 // Least clearance over a path looked at every `spacing_m` of motion, and where.

@@ -44,7 +44,9 @@ Path retract(const Room& room, const ThetaVector& theta_rad, std::uint32_t held_
     if (room.look(path.back()).nearest.distance_m > kOutside_m) break;
     const PoseAim aim{on_axis(line, behind_m), true, path.back(), held_mask, margin_m + kRelaxReach_m};
     const SettledPose next = settle(room, aim, path.back(), kSettleIterations);
-    if (next.clearance_m < margin_m || next.tip_error_m > kTipTolerance_m || !room.is_free(path.back(), next.theta_rad, margin_m)) break;
+    if (next.clearance_m < margin_m || next.tip_error_m > kTipTolerance_m ||
+        !room.is_free(path.back(), next.theta_rad, margin_m))
+      break;
     path.push_back(next.theta_rad);
   }
   return path;

@@ -23,7 +23,8 @@ class Room {
   // Bound on how far any point of the arm moves when the thetas change from a to b [m].
   double motion_m(const ThetaVector& a, const ThetaVector& b) const;
 
-  // True when the arm keeps `margin_m` all the way from a to b, but for dips of less than 2 mm between the poses looked at.
+  // True when the arm keeps `margin_m` all the way from a to b, but for dips of less than 2 mm between the poses looked
+  // at.
   bool is_free(const ThetaVector& a, const ThetaVector& b, double margin_m) const;
 
  private:

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "host/plan/start/explore.hpp"
 #include "host/plan/problem/plan_problem.hpp"
+#include "host/plan/start/explore.hpp"
 #include "host/plan/start/relax.hpp"
 #include "host/plan/start/retract.hpp"
 
@@ -39,8 +39,8 @@ void apply_phases(const PlanRequest& request, Path& path) {
   }
 }
 
-Path explored(const Room& room, const PlanRequest& request, const ThetaVector& from, const ThetaVector& to, std::uint64_t sequence,
-              const PlanControl& control) {
+Path explored(const Room& room, const PlanRequest& request, const ThetaVector& from, const ThetaVector& to,
+              std::uint64_t sequence, const PlanControl& control) {
   const Path found = explore(room, {from, to, always_held(request), request.margin_m, sequence}, control.cancelled);
   return found.empty() ? found : shortcut(room, found, request.margin_m, sequence);
 }
@@ -86,7 +86,8 @@ Path straight_path(const PlanRequest& request, const PathEnds& ends) {
   return path;
 }
 
-Path start_path(const Room& room, const PlanRequest& request, const PathEnds& ends, StartKind kind, const PlanControl& control) {
+Path start_path(const Room& room, const PlanRequest& request, const PathEnds& ends, StartKind kind,
+                const PlanControl& control) {
   if (kind == StartKind::straight) return relax(room, request, straight_path(request, ends));
   Path path;
   if (kind == StartKind::retract) {

@@ -12,8 +12,8 @@
 namespace liana {
 
 enum class StartKind { straight, retract, explore_1, explore_2, explore_3 };
-constexpr std::array<StartKind, 5> kStartKinds{StartKind::straight, StartKind::retract, StartKind::explore_1, StartKind::explore_2,
-                                               StartKind::explore_3};
+constexpr std::array<StartKind, 5> kStartKinds{StartKind::straight, StartKind::retract, StartKind::explore_1,
+                                               StartKind::explore_2, StartKind::explore_3};
 const char* name_of(StartKind kind);
 
 // Ends of the path: the first waypoint, and what the last one is at the start of the solve.
@@ -26,6 +26,7 @@ struct PathEnds {
 Path straight_path(const PlanRequest& request, const PathEnds& ends);
 
 // A start path with request.waypoints waypoints; empty when this kind leads to none.
-Path start_path(const Room& room, const PlanRequest& request, const PathEnds& ends, StartKind kind, const PlanControl& control);
+Path start_path(const Room& room, const PlanRequest& request, const PathEnds& ends, StartKind kind,
+                const PlanControl& control);
 
 }  // namespace liana

@@ -1,4 +1,5 @@
-// The least program with the core in it, for its size: one Controller, Inputs and Outputs in memory, nothing else. It is never run.
+// The least program with the core in it, for its size: one Controller, Inputs and Outputs in memory, nothing else. It
+// is never run.
 #include "firmware_like/controller.hpp"
 
 namespace {

@@ -1,4 +1,5 @@
-// bits_ticks: runs the tape in the working directory through the core it is linked with, and writes the Outputs of every tick.
+// bits_ticks: runs the tape in the working directory through the core it is linked with, and writes the Outputs of
+// every tick.
 #include <cstdio>
 #include <cstdlib>
 #include <optional>
@@ -20,7 +21,9 @@ std::string default_table() {
 }
 
 // Reads all of `bytes`; false at the end of the file.
-bool read_all(std::FILE* file, std::string& bytes) { return std::fread(bytes.data(), 1, bytes.size(), file) == bytes.size(); }
+bool read_all(std::FILE* file, std::string& bytes) {
+  return std::fread(bytes.data(), 1, bytes.size(), file) == bytes.size();
+}
 
 // Plays a tape; false when it makes no sense or the disk refuses.
 class Player {

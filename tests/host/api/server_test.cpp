@@ -89,7 +89,8 @@ TEST_F(Api, NothingIsDoneBeforeHello) {
   EXPECT_EQ(raw(client, R"({"op":"stop"})").value("code", ""), "bad_request");
   EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"king"})").value("code", ""), "bad_request");
   EXPECT_EQ(raw(client, R"({"op":"hello","role":"client"})").value("code", ""), "bad_request");
-  EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"client","subscribe":["weather"]})").value("code", ""), "bad_request");
+  EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"client","subscribe":["weather"]})").value("code", ""),
+            "bad_request");
   EXPECT_TRUE(recorder_.log.empty());
 }
 
@@ -123,7 +124,8 @@ TEST_F(Api, ASlowObserverLosesOldStatesAndHoldsNobodyUp) {
   ApiClient slow = join("slow", "observer", false, {"state"});
   const std::string filler(4000, ' ');
   const auto is_change = [](int i) { return i == 500 || i == 501; };
-  for (int i = 0; i < 1000; ++i) server_.publish(Topic::kState, Json({{"op", "state"}, {"tick", i}}).dump() + filler, is_change(i));
+  for (int i = 0; i < 1000; ++i)
+    server_.publish(Topic::kState, Json({{"op", "state"}, {"tick", i}}).dump() + filler, is_change(i));
   EXPECT_GT(server_.dropped(), 0u);
   std::vector<int> ticks;
   std::thread reader([&] {
@@ -173,7 +175,8 @@ TEST_F(Api, ALockstepClientThatLeavesWithoutItsAnswerBelongsToTheNextIntervalToo
   client.reset();
   server_.dispatch();
   server_.publish(Topic::kState, R"({"op":"state","tick":10})");
-  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m:move"})) << "its answer and the next state meet a closed socket";
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m:move"}))
+      << "its answer and the next state meet a closed socket";
   server_.wait_done(10, 10.0);
   server_.dispatch();
   EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m:move", "m gone"}));
@@ -212,7 +215,9 @@ TEST_F(Api, AFileThatIsNoSocketStays) {
   std::filesystem::remove(file);
 }
 
-TEST_F(Api, AClientWithoutAServerIsToldSo) { EXPECT_THROW(ApiClient::connect(path_ + "_none", 0.05), std::runtime_error); }
+TEST_F(Api, AClientWithoutAServerIsToldSo) {
+  EXPECT_THROW(ApiClient::connect(path_ + "_none", 0.05), std::runtime_error);
+}
 
 }  // namespace
 }  // namespace liana

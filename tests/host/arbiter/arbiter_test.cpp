@@ -100,7 +100,8 @@ TEST_F(Arbitration, ALineEndsAtItsGoalAndStaysThere) {
   goal.position_m[2] += 0.05;
   arbiter_.move_line(now_, goal);
   std::optional<Setpoint> setpoint = next();
-  EXPECT_LT(norm(subtract(setpoint->tip_in_base.position_m, now_.tip_command.position_m)), 1e-3) << "starts slowly from where the tip is";
+  EXPECT_LT(norm(subtract(setpoint->tip_in_base.position_m, now_.tip_command.position_m)), 1e-3)
+      << "starts slowly from where the tip is";
   for (int i = 0; i < 500; ++i) setpoint = next();
   ASSERT_TRUE(setpoint);
   EXPECT_EQ(setpoint->tip_in_base.position_m, goal.position_m);
@@ -165,7 +166,8 @@ TEST_F(Arbitration, ASearchAndAPlannedMoveExcludeEachOther) {
   ThetaVector goal = now_.theta_command_rad;
   goal[0] += 0.1;
   arbiter_.move_joints(now_, goal, 0.03);
-  EXPECT_EQ(code_of([&] { arbiter_.shape(now_, nodes, {}, true); }), "busy") << "the move has not begun to show in at_rest";
+  EXPECT_EQ(code_of([&] { arbiter_.shape(now_, nodes, {}, true); }), "busy")
+      << "the move has not begun to show in at_rest";
   arbiter_.hold();
   arbiter_.shape(now_, nodes, {}, true);
   EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, goal, 0.03); }), "busy");

@@ -98,7 +98,8 @@ PlantThread::PlantThread(const std::string& socket_path, React react, int leave_
 PlantThread::~PlantThread() { thread_.join(); }
 
 std::string fresh_directory(const std::string& name) {
-  const std::string path = std::filesystem::temp_directory_path().string() + "/" + name + "-" + std::to_string(getpid());
+  const std::string path =
+      std::filesystem::temp_directory_path().string() + "/" + name + "-" + std::to_string(getpid());
   std::filesystem::remove_all(path);
   std::filesystem::create_directories(path);
   return path;

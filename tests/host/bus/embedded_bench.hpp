@@ -6,8 +6,8 @@
 #include <thread>
 #include <vector>
 
-#include "host/bus_sim/bus_hub.hpp"
 #include "host/bus/drive_bus.hpp"
+#include "host/bus_sim/bus_hub.hpp"
 
 namespace liana::test {
 
@@ -36,7 +36,8 @@ class BusThread {
   std::thread thread_;
 };
 
-// A plant: connects, and answers every WAKE with what `react` returns. Ends when the bus does, or after `leave_after` wakes.
+// A plant: connects, and answers every WAKE with what `react` returns. Ends when the bus does, or after `leave_after`
+// wakes.
 class PlantThread {
  public:
   using React = std::function<std::vector<wire::Frame>(const wire::Wake&)>;

@@ -1,4 +1,5 @@
-// Drives as far as the boot sees them: NMT, heartbeat, an object dictionary behind an expedited SDO server. Written for the tests alone.
+// Drives as far as the boot sees them: NMT, heartbeat, an object dictionary behind an expedited SDO server. Written for
+// the tests alone.
 #pragma once
 
 #include <cstdint>

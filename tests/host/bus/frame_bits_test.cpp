@@ -1,4 +1,5 @@
-// Lengths on the wire against a second implementation that works on strings of bits, and against figures known from elsewhere.
+// Lengths on the wire against a second implementation that works on strings of bits, and against figures known from
+// elsewhere.
 #include "host/bus/frame_bits.hpp"
 
 #include <gtest/gtest.h>
@@ -77,7 +78,8 @@ TEST(FrameBits, CrcAndLengthAgreeWithBitStringsOverRandomFrames) {
   std::mt19937 random(1);
   for (int i = 0; i < 5000; ++i) {
     const CanFrame frame = random_frame(random);
-    ASSERT_EQ(frame_crc15(frame), std::bitset<15>(crc_by_division(unstuffed_bits(frame))).to_ulong()) << std::hex << frame.id;
+    ASSERT_EQ(frame_crc15(frame), std::bitset<15>(crc_by_division(unstuffed_bits(frame))).to_ulong())
+        << std::hex << frame.id;
     ASSERT_EQ(frame_bits(frame), reference_bits(frame)) << std::hex << frame.id << " length " << int{frame.length};
   }
 }

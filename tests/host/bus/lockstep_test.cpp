@@ -34,14 +34,20 @@ std::vector<wire::Frame> tpdos_for(const wire::Wake& wake) {
   std::vector<wire::Frame> out;
   for (std::size_t i = 0; i < wake.frame_count; ++i) {
     if (wake.frame[i].id != 0x080) continue;
-    CanFrame tpdo{0x181U + wake.frame[i].bus, 8, {static_cast<std::uint8_t>(wake.slot), static_cast<std::uint8_t>(wake.slot >> 8)}, 0};
+    CanFrame tpdo{0x181U + wake.frame[i].bus,
+                  8,
+                  {static_cast<std::uint8_t>(wake.slot), static_cast<std::uint8_t>(wake.slot >> 8)},
+                  0};
     out.push_back(wire::to_wire_frame(wake.frame[i].bus, tpdo));
   }
   return out;
 }
 
 CanFrame rpdo_of(int bus, std::uint64_t tick) {
-  return {0x201U + static_cast<std::uint32_t>(bus), 6, {static_cast<std::uint8_t>(tick * 7), static_cast<std::uint8_t>(tick)}, 0};
+  return {0x201U + static_cast<std::uint32_t>(bus),
+          6,
+          {static_cast<std::uint8_t>(tick * 7), static_cast<std::uint8_t>(tick)},
+          0};
 }
 
 // One run of 300 ticks; participants dawdle at random when `jitter` is set. Returns the logs of both buses.
@@ -149,8 +155,9 @@ TEST(Lockstep, AScriptedPauseCostsTheControllerItsDeadlinesAndTheBusGoesOn) {
 }
 
 TEST(Lockstep, TheControllersInterfaceSaysWhatSocketCanWouldSay) {
-  BusThread bus_thread(small_table(), TimeMode::kFast, "",
-                       FaultScript({{BusAction::kDown, 0, 2, 3}, {BusAction::kDisturb, 1, 2, 3}, {BusAction::kRestart, 1, 6, 6}}));
+  BusThread bus_thread(
+      small_table(), TimeMode::kFast, "",
+      FaultScript({{BusAction::kDown, 0, 2, 3}, {BusAction::kDisturb, 1, 2, 3}, {BusAction::kRestart, 1, 6, 6}}));
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
   auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
   std::vector<BusState> down, off;

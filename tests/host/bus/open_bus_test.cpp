@@ -27,7 +27,8 @@ void expect_says(const std::string& message, const std::string& part) {
 }
 
 TEST(OpenDriveBus, SaysWhichProgramToStartWhenNobodyListens) {
-  expect_says(refusal(small_table(), TimeMode::kFast, "/tmp/no-such-liana-bus"), "start liana-bus with --socket /tmp/no-such-liana-bus");
+  expect_says(refusal(small_table(), TimeMode::kFast, "/tmp/no-such-liana-bus"),
+              "start liana-bus with --socket /tmp/no-such-liana-bus");
   expect_says(refusal(small_table(), TimeMode::kFast, ""), "--bus-socket");
   expect_says(refusal(small_table(), TimeMode::kFast, std::string(200, 'x')), "allowed are paths of 1 to 107 bytes");
 }
@@ -59,7 +60,8 @@ TEST(OpenDriveBus, RefusesABusProcessWithAnotherTable) {
   BusesConfig other = small_table();
   other.buses[1].bitrate = 1000000;
   std::string message;
-  while ((message = refusal(other, TimeMode::kFast, bus_thread.socket_path())).find("first") != std::string::npos) usleep(10000);
+  while ((message = refusal(other, TimeMode::kFast, bus_thread.socket_path())).find("first") != std::string::npos)
+    usleep(10000);
   expect_says(message, "can1 at 500000");
   expect_says(message, "can1 at 1000000");
   meet_and_part(bus_thread.socket_path());
@@ -68,7 +70,9 @@ TEST(OpenDriveBus, RefusesABusProcessWithAnotherTable) {
 TEST(OpenDriveBus, RefusesABusProcessInAnotherTimeMode) {
   BusThread bus_thread(small_table(), TimeMode::kFast);
   std::string message;
-  while ((message = refusal(small_table(), TimeMode::kPaced, bus_thread.socket_path())).find("first") != std::string::npos) usleep(10000);
+  while ((message = refusal(small_table(), TimeMode::kPaced, bus_thread.socket_path())).find("first") !=
+         std::string::npos)
+    usleep(10000);
   expect_says(message, "runs in fast time, asked was paced");
   meet_and_part(bus_thread.socket_path());
 }

@@ -1,4 +1,5 @@
-// Scripted faults of the embedded bus beyond loss: what arrives, in which order, and what the controller's interface says.
+// Scripted faults of the embedded bus beyond loss: what arrives, in which order, and what the controller's interface
+// says.
 #include <gtest/gtest.h>
 #include <linux/can/error.h>
 
@@ -36,8 +37,9 @@ class Wires : private FrameSink {
   bool send(int sender, int bus, std::uint32_t id) { return sim.queue(sender, bus, frame_of(id), now_ns); }
   // Identifiers that the controller has heard at its connector `bus`, and the plant on the wire `bus`.
   std::vector<std::uint32_t> heard_by_controller(int bus) const {
-    return ids(
-        [=](const EndedFrame& each) { return each.sender != kController && each.heard_by_controller && each.controller_bus == bus; });
+    return ids([=](const EndedFrame& each) {
+      return each.sender != kController && each.heard_by_controller && each.controller_bus == bus;
+    });
   }
   std::vector<std::uint32_t> heard_by_plant(int bus) const {
     return ids([=](const EndedFrame& each) { return each.sender != kPlant && each.bus == bus; });
@@ -66,7 +68,9 @@ class Wires : private FrameSink {
 
 using Ids = std::vector<std::uint32_t>;
 
-BusFault on_bus_0(BusAction action, std::uint64_t from_slot, std::uint64_t to_slot) { return {action, 0, from_slot, to_slot}; }
+BusFault on_bus_0(BusAction action, std::uint64_t from_slot, std::uint64_t to_slot) {
+  return {action, 0, from_slot, to_slot};
+}
 
 TEST(BusFaults, ADuplicateIsTheSameFrameSentOnceMore) {
   Wires wires({on_bus_0(BusAction::kDuplicate, 0, 0)});

@@ -163,16 +163,23 @@ TEST(FaultScript, ReadsIdentifiersAndWholeBuses) {
 
 TEST(FaultScript, RefusesWhatItDoesNotUnderstandAndNamesIt) {
   EXPECT_NE(message_for("{}").find("not a JSON array"), std::string::npos);
-  EXPECT_NE(message_for(R"([{"bus":2,"from_slot":1,"to_slot":2,"action":"drop"}])").find("[0].bus: 2"), std::string::npos);
-  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":3,"to_slot":2,"action":"drop"}])").find("to_slot: 2"), std::string::npos);
+  EXPECT_NE(message_for(R"([{"bus":2,"from_slot":1,"to_slot":2,"action":"drop"}])").find("[0].bus: 2"),
+            std::string::npos);
+  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":3,"to_slot":2,"action":"drop"}])").find("to_slot: 2"),
+            std::string::npos);
   EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"to_slot":2,"action":"burn"}])").find("action"), std::string::npos);
-  EXPECT_NE(message_for(R"([{"bus":0,"id":"zz","from_slot":1,"to_slot":2,"action":"drop"}])").find("id: \"zz\""), std::string::npos);
+  EXPECT_NE(message_for(R"([{"bus":0,"id":"zz","from_slot":1,"to_slot":2,"action":"drop"}])").find("id: \"zz\""),
+            std::string::npos);
   EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"cut","count":3}])").find("count: 3"), std::string::npos);
-  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"swap","with_bus":0}])").find("with_bus: 0"), std::string::npos);
-  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"send","data":"00"}])").find("id: missing"), std::string::npos);
-  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"send","id":"0x1","data":"0"}])").find("data: \"0\""), std::string::npos);
+  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"swap","with_bus":0}])").find("with_bus: 0"),
+            std::string::npos);
+  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"send","data":"00"}])").find("id: missing"),
+            std::string::npos);
+  EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"send","id":"0x1","data":"0"}])").find("data: \"0\""),
+            std::string::npos);
   EXPECT_NE(message_for(R"([{"bus":0,"from_slot":1,"action":"drop","count":0}])").find("count: 0"), std::string::npos);
-  EXPECT_NE(message_for(R"([{"bus":0,"slot":1,"from_slot":1,"to_slot":2,"action":"drop"}])").find("slot: 1"), std::string::npos);
+  EXPECT_NE(message_for(R"([{"bus":0,"slot":1,"from_slot":1,"to_slot":2,"action":"drop"}])").find("slot: 1"),
+            std::string::npos);
 }
 
 }  // namespace

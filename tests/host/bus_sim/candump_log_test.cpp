@@ -21,7 +21,8 @@ std::string line_of(const CanFrame& frame) {
 
 TEST(CandumpLog, WritesLinesAsCandumpDoes) {
   EXPECT_EQ(line_of({0x080, 0, {}, 4000}), "(0000000000.004000) can0 080#\n");
-  EXPECT_EQ(line_of({0x201, 6, {0x0F, 0, 0xDE, 0xAD, 0xBE, 0xEF}, 123456789}), "(0000000123.456789) can0 201#0F00DEADBEEF\n");
+  EXPECT_EQ(line_of({0x201, 6, {0x0F, 0, 0xDE, 0xAD, 0xBE, 0xEF}, 123456789}),
+            "(0000000123.456789) can0 201#0F00DEADBEEF\n");
   EXPECT_EQ(line_of({0x1ABCDEF | kCanExtendedFlag, 1, {7}, 0}), "(0000000000.000000) can0 01ABCDEF#07\n");
   EXPECT_EQ(line_of({0x701 | kCanRemoteFlag, 1, {}, 0}), "(0000000000.000000) can0 701#R\n");
 }
@@ -50,7 +51,8 @@ void record_a_boot(const std::string& directory) {
       }
     }
     for (std::size_t d = 0; d < 2 && wakes % 25 == 0; ++d) {
-      for (const CanFrame& heartbeat : drives[d].heartbeat()) out.push_back(wire::to_wire_frame(static_cast<int>(d), heartbeat));
+      for (const CanFrame& heartbeat : drives[d].heartbeat())
+        out.push_back(wire::to_wire_frame(static_cast<int>(d), heartbeat));
     }
     if (wakes == 150) out.push_back(wire::to_wire_frame(0, {0x081, 8, {0x50, 0x82, 0x10}, 0}));
     ++wakes;
@@ -117,7 +119,9 @@ TEST(CandumpLog, TsharkFindsAMalformedFrameWhenThereIsOne) {
     CandumpLog log(directory, "can0");
     log.write({0x601, 2, {0x40, 0x00}, 0});  // an SDO request cut short
   }
-  EXPECT_GT(lines_with(output_of("tshark -r " + directory + "/can0.log -d can.subdissector,canopen 2>/dev/null"), "Malformed"), 0);
+  EXPECT_GT(lines_with(output_of("tshark -r " + directory + "/can0.log -d can.subdissector,canopen 2>/dev/null"),
+                       "Malformed"),
+            0);
 }
 
 }  // namespace

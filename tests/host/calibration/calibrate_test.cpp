@@ -12,10 +12,10 @@
 #include "firmware_like/arm/tension.hpp"
 #include "firmware_like/controller.hpp"
 #include "firmware_like/math/convert.hpp"
-#include "host/cli/fixture_prompt.hpp"
+#include "host/calibration/fixture.hpp"
+#include "host/calibration/fixture_prompt.hpp"
 #include "host/config/canonical.hpp"
 #include "host/config/sha256.hpp"
-#include "host/calibration/fixture.hpp"
 #include "host/json/json.hpp"
 #include "tests/host/config/tables.hpp"
 
@@ -29,7 +29,8 @@ RobotConfig robot() {
   return parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
 }
 
-// What the drives of an arm report that is as its table says, but for cables exchanged, drives that count backwards, and drums.
+// What the drives of an arm report that is as its table says, but for cables exchanged, drives that count backwards,
+// and drums.
 struct Workshop {
   RobotConfig arm = robot();
   std::vector<std::size_t> cable_of;  // on each drum
@@ -44,7 +45,8 @@ struct Workshop {
     }
     factor.fill(1.0);
   }
-  std::vector<CalibrationReading> readings(const std::vector<std::string>& poses = {"zero", "fixture", "prepare"}) const {
+  std::vector<CalibrationReading> readings(const std::vector<std::string>& poses = {"zero", "fixture",
+                                                                                    "prepare"}) const {
     std::vector<CalibrationReading> out;
     for (const std::string& name : poses) {
       CalibrationReading reading;
@@ -52,7 +54,8 @@ struct Workshop {
       reading.tension_N.fill(30.0);
       reading.serial = serial;
       const CableVector beyond_m = beyond_zero_m(arm.table, reading.theta_rad, reading.tension_N);
-      for (std::size_t i = 0; i < 15; ++i) reading.position_m[i] = factor[i] * (beyond_m[cable_of[i]] + off_m[cable_of[i]]);
+      for (std::size_t i = 0; i < 15; ++i)
+        reading.position_m[i] = factor[i] * (beyond_m[cable_of[i]] + off_m[cable_of[i]]);
       out.push_back(reading);
     }
     return out;
@@ -135,19 +138,22 @@ TEST(Calibrate, ADriveWithoutASerialNumberOfItsOwnIsNamed) {
   Workshop none;
   none.serial[2] = 0;
   ASSERT_EQ(none.result().problems.size(), 1u);
-  EXPECT_NE(none.result().problems[0].find("drive 2 (node 3): serial number 0 (object 0x1018:4): allowed 1 or more"), std::string::npos);
+  EXPECT_NE(none.result().problems[0].find("drive 2 (node 3): serial number 0 (object 0x1018:4): allowed 1 or more"),
+            std::string::npos);
   Workshop twice;
   twice.serial[9] = twice.serial[4];
   const std::vector<std::string> problems = twice.result().problems;
   ASSERT_EQ(problems.size(), 2u);
-  EXPECT_NE(problems[0].find("drive 4 (node 5): serial number 70412 (object 0x1018:4): drive 9 says it, too"), std::string::npos)
+  EXPECT_NE(problems[0].find("drive 4 (node 5): serial number 70412 (object 0x1018:4): drive 9 says it, too"),
+            std::string::npos)
       << problems[0];
   const Workshop workshop;
   std::vector<CalibrationReading> readings = workshop.readings();
   readings[2].serial[7] = 99;
   const std::vector<std::string> changed = calibrate(workshop.arm, readings, kDay).problems;
   ASSERT_EQ(changed.size(), 1u);
-  EXPECT_NE(changed[0].find("70421 (object 0x1018:4) in the first fixture, 99 in another"), std::string::npos) << changed[0];
+  EXPECT_NE(changed[0].find("70421 (object 0x1018:4) in the first fixture, 99 in another"), std::string::npos)
+      << changed[0];
 }
 
 TEST(FixturePrompt, WaitsForEnterAtEachFixture) {
@@ -155,9 +161,9 @@ TEST(FixturePrompt, WaitsForEnterAtEachFixture) {
   std::ostringstream out;
   wait_for_fixture(in, out, "zero", 1, 2);
   wait_for_fixture(in, out, "prepare", 2, 2);
-  EXPECT_EQ(
-      out.str(),
-      "pose 1 of 2: put the arm into fixture zero, then press Enter\npose 2 of 2: put the arm into fixture prepare, then press Enter\n");
+  EXPECT_EQ(out.str(),
+            "pose 1 of 2: put the arm into fixture zero, then press Enter\npose 2 of 2: put the arm into fixture "
+            "prepare, then press Enter\n");
 }
 
 TEST(FixturePrompt, AnInputThatEndsIsNoConsent) {
@@ -198,7 +204,8 @@ TEST(Calibrate, HomingAloneSeesExchangedCablesOfDifferentSegments) {
   for (std::size_t a = 0; a < 15; ++a) {
     for (std::size_t b = a + 1; b < 15; ++b) {
       CableVector payout_m{};
-      for (std::size_t c = 0; c < 15; ++c) payout_m[c] = beyond_m[c == a ? b : c == b ? a : c] + layout.zero_length_m[c] + table.lead_m;
+      for (std::size_t c = 0; c < 15; ++c)
+        payout_m[c] = beyond_m[c == a ? b : c == b ? a : c] + layout.zero_length_m[c] + table.lead_m;
       EstimatorState state;
       CableModel model;
       for (int i = 0; i < 60; ++i) {
@@ -224,7 +231,8 @@ TEST(Calibrate, HomingAloneSeesExchangedCablesOfDifferentSegments) {
 // A good file, spoiled.
 class CalibrationFile : public ::testing::Test {
  protected:
-  std::string message(const std::function<void(Json&)>& spoil, bool sign = true, const std::string& today = kDay) const {
+  std::string message(const std::function<void(Json&)>& spoil, bool sign = true,
+                      const std::string& today = kDay) const {
     Json content = Json::parse(calibration_json(Workshop().result().calibration));
     spoil(content);
     try {
@@ -258,8 +266,10 @@ TEST_F(CalibrationFile, IsRefusedWithFieldValueAllowedAndAdvice) {
     for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
   };
   has(message([](Json& c) { c["cables"][2]["zero_counts"] = 5; }, false), {"arm.json: sha256: ", "changed or damaged"});
-  has(message([](Json& c) { c["robot"] = "other"; }), {"arm.json: robot: \"other\": allowed \"zhu2022\"", "another robot"});
-  has(message([](Json& c) { c["robot_sha256"] = std::string(64, '0'); }), {"robot_sha256", "the robot table was changed"});
+  has(message([](Json& c) { c["robot"] = "other"; }),
+      {"arm.json: robot: \"other\": allowed \"zhu2022\"", "another robot"});
+  has(message([](Json& c) { c["robot_sha256"] = std::string(64, '0'); }),
+      {"robot_sha256", "the robot table was changed"});
   has(message([](Json& c) { c["date"] = "2025-06-14"; }),
       {"date: \"2025-06-14\": allowed 0 to 365 days before today, 2026-06-15", "calibrate again"});
   EXPECT_EQ(message([](Json& c) { c["date"] = "2025-06-15"; }), "");

@@ -41,8 +41,9 @@ TEST_F(Fixture, EveryPairOfExchangedCablesIsNamed) {
   for (std::size_t a = 0; a < 15; ++a) {
     for (std::size_t b = a + 1; b < 15; ++b) {
       std::swap(reported_m_[a], reported_m_[b]);
-      EXPECT_NE(said().find("drives " + std::to_string(a) + " and " + std::to_string(b) + " read what the other one should"),
-                std::string::npos)
+      EXPECT_NE(
+          said().find("drives " + std::to_string(a) + " and " + std::to_string(b) + " read what the other one should"),
+          std::string::npos)
           << said();
       std::swap(reported_m_[a], reported_m_[b]);
     }

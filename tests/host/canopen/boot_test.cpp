@@ -1,4 +1,5 @@
-// Booting the drives as docs/drives.md wants it: order, every mismatch, losses, restarts, and nothing allocated on the way.
+// Booting the drives as docs/drives.md wants it: order, every mismatch, losses, restarts, and nothing allocated on the
+// way.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -80,8 +81,10 @@ struct BootBench {
       boot->step(bus);
       AllocationCount::stop();
       for (std::size_t i = 0; i < bus.count; ++i) {
-        if (bus.sent[i].frame.id == 0 && bus.sent[i].frame.data[0] == kNmtResetCommunication) ++resets[bus.sent[i].frame.data[1]];
-        if (bus.sent[i].frame.id == 0 && bus.sent[i].frame.data[0] == kNmtStart && lost_starts > 0 && lost_starts-- > 0) continue;
+        if (bus.sent[i].frame.id == 0 && bus.sent[i].frame.data[0] == kNmtResetCommunication)
+          ++resets[bus.sent[i].frame.data[1]];
+        if (bus.sent[i].frame.id == 0 && bus.sent[i].frame.data[0] == kNmtStart && lost_starts > 0 && lost_starts-- > 0)
+          continue;
         for (std::size_t d = 0; d < drives.size(); ++d) {
           if (expected[d].bus == bus.sent[i].bus) deliver(drives[d].receive(bus.sent[i].frame), d);
         }
@@ -138,7 +141,9 @@ TEST(Boot, TheAllocationCounterSeesAPlantedNew) {
 TEST(Boot, EveryDriveEndsWithTheConfigurationOfTheContract) {
   BootBench bench;
   bench.run();
-  const auto value = [&](std::uint32_t index, std::uint32_t sub) { return bench.drive(3).objects[key(index, sub)].value; };
+  const auto value = [&](std::uint32_t index, std::uint32_t sub) {
+    return bench.drive(3).objects[key(index, sub)].value;
+  };
   EXPECT_EQ(value(0x1400, 1), 0x203U);
   EXPECT_EQ(value(0x1400, 2), 1U);
   EXPECT_EQ(value(0x1400, 5), 12U);
@@ -177,8 +182,9 @@ TEST(Boot, APdoIsRemappedInTheOrderCia301Demands) {
 }
 
 TEST(Boot, EveryWrongIdentityOrMechanicIsNamedWithNodeObjectExpectedAndFound) {
-  const std::pair<std::uint32_t, std::uint32_t> cases[] = {{0x1000, 0}, {0x1018, 1}, {0x1018, 2}, {0x1018, 3}, {0x1018, 4}, {0x6502, 0},
-                                                           {0x608F, 1}, {0x608F, 2}, {0x6091, 1}, {0x6091, 2}, {0x6076, 0}};
+  const std::pair<std::uint32_t, std::uint32_t> cases[] = {{0x1000, 0}, {0x1018, 1}, {0x1018, 2}, {0x1018, 3},
+                                                           {0x1018, 4}, {0x6502, 0}, {0x608F, 1}, {0x608F, 2},
+                                                           {0x6091, 1}, {0x6091, 2}, {0x6076, 0}};
   for (const auto& [index, sub] : cases) {
     BootBench bench;
     std::uint32_t& value = bench.drive(7).objects[key(index, sub)].value;
@@ -192,7 +198,8 @@ TEST(Boot, EveryWrongIdentityOrMechanicIsNamedWithNodeObjectExpectedAndFound) {
     EXPECT_EQ(mismatch.sub, sub);
     EXPECT_NE(mismatch.expected, mismatch.found);
     EXPECT_EQ(bench.boot->progress().failed, 1);
-    for (const FakeDrive& drive : bench.drives) EXPECT_NE(drive.state, 0x05) << "one failing drive keeps all from starting";
+    for (const FakeDrive& drive : bench.drives)
+      EXPECT_NE(drive.state, 0x05) << "one failing drive keeps all from starting";
   }
 }
 
@@ -200,10 +207,10 @@ TEST(Boot, TheMessageOfAMismatchSaysAllOfIt) {
   BootBench bench;
   bench.drive(7).objects[key(0x1018, 2)].value = 9;
   bench.run();
-  EXPECT_EQ(
-      bench.text(7),
-      "node 7 on can0: object 0x1018:2 (product code): expected 1 (0x1), found 9 (0x9): another drive is connected under this node id, or "
-      "the robot table is wrong");
+  EXPECT_EQ(bench.text(7),
+            "node 7 on can0: object 0x1018:2 (product code): expected 1 (0x1), found 9 (0x9): another drive is "
+            "connected under this node id, or "
+            "the robot table is wrong");
 }
 
 TEST(Boot, EveryWriteThatDoesNotStickIsFound) {
@@ -229,7 +236,8 @@ TEST(Boot, ARefusedWriteIsReportedWithTheAbortCodeAsText) {
   bench.drive(2).aborts[key(0x6072, 0)] = 0x06090031;
   bench.run();
   EXPECT_EQ(bench.mismatch(2).failure, BootFailure::kAborted);
-  EXPECT_NE(bench.text(2).find("0x6072:0 (max torque): writing 1000 (0x3E8) refused with abort code 0x06090031, value too high"),
+  EXPECT_NE(bench.text(2).find(
+                "0x6072:0 (max torque): writing 1000 (0x3E8) refused with abort code 0x06090031, value too high"),
             std::string::npos)
       << bench.text(2);
 }

@@ -175,7 +175,8 @@ TEST(Expectations, FollowFromRobotAndBusTable) {
   EXPECT_EQ(drives[0].following_window_counts, 5000U);
   EXPECT_EQ(drives[0].period.value, 4);
   EXPECT_EQ(drives[0].period.exponent, -3);
-  EXPECT_EQ(drive_expectations(robot_with_three_cables(), buses_at(800))[0].rpdo_deadline_ms, 4) << "3.75 ms, rounded up";
+  EXPECT_EQ(drive_expectations(robot_with_three_cables(), buses_at(800))[0].rpdo_deadline_ms, 4)
+      << "3.75 ms, rounded up";
 }
 
 TEST(Expectations, ADriveOnNoBusIsNamed) {

@@ -37,7 +37,9 @@ class Draw {
   std::mt19937 generator_;
 };
 
-double point_distance_m(const Vec3& p, const SceneSphere& sphere) { return norm(subtract(p, sphere.center_m)) - sphere.radius_m; }
+double point_distance_m(const Vec3& p, const SceneSphere& sphere) {
+  return norm(subtract(p, sphere.center_m)) - sphere.radius_m;
+}
 
 double point_distance_m(const Vec3& p, const SceneBox& box) {
   double outside2 = 0.0, inside = -1e300;
@@ -68,10 +70,12 @@ void expect_least(const Capsule& link, const Obstacle& obstacle) {
   EXPECT_LE(found.distance_m, sampled + 1e-12);
   EXPECT_GE(found.distance_m, sampled - 0.5 * spacing_m - 1e-12);
   EXPECT_NEAR(norm(found.normal), 1.0, 1e-9);
-  EXPECT_NEAR(norm(subtract(found.on_axis_m, add(link.from_m, scale(subtract(link.to_m, link.from_m), found.share)))), 0.0, 1e-12);
+  EXPECT_NEAR(norm(subtract(found.on_axis_m, add(link.from_m, scale(subtract(link.to_m, link.from_m), found.share)))),
+              0.0, 1e-12);
   EXPECT_NEAR(point_distance_m(found.on_axis_m, obstacle), found.distance_m + link.radius_m, 1e-12);
   EXPECT_NEAR(point_distance_m(found.on_obstacle_m, obstacle), 0.0, 1e-12);
-  EXPECT_NEAR(dot(found.normal, subtract(found.on_axis_m, found.on_obstacle_m)), found.distance_m + link.radius_m, 1e-12);
+  EXPECT_NEAR(dot(found.normal, subtract(found.on_axis_m, found.on_obstacle_m)), found.distance_m + link.radius_m,
+              1e-12);
 }
 
 TEST(Clearance, OfASphereIsTheLeastOfDenseSamples) {
@@ -125,7 +129,8 @@ void expect_derivative(Draw& draw, const Capsule& link, const Obstacle& obstacle
     return clearance(Capsule{add(link.from_m, scale(a, s)), add(link.to_m, scale(b, s)), link.radius_m}, obstacle);
   };
   const Clearance here = moved(0.0), before = moved(-kStep), after = moved(kStep);
-  if (std::fabs(after.share - before.share) > 1e-3 || dot(after.normal, before.normal) < 0.999) return;  // two nearest points
+  if (std::fabs(after.share - before.share) > 1e-3 || dot(after.normal, before.normal) < 0.999)
+    return;                                      // two nearest points
   if (here.distance_m < -link.radius_m) return;  // inside, where the way out may jump
   const double expected = (after.distance_m - before.distance_m) / (2.0 * kStep);
   EXPECT_NEAR(dot(here.normal, add(scale(a, 1.0 - here.share), scale(b, here.share))), expected, 2e-4);

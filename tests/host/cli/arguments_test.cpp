@@ -41,7 +41,8 @@ TEST(Arguments, AnglesAreConvertedToRadiansAndMayStandOnTheLimit) {
 
 TEST(Arguments, AnglesOverTheLimitOrOfTheWrongNumberAreRefusedByName) {
   const RobotTable robot = two_segments();
-  EXPECT_NE(refusal([&] { parse_theta_deg("--theta-deg", "0,0,20.001,0", robot); }).find("theta 3 within +-20 deg"), std::string::npos);
+  EXPECT_NE(refusal([&] { parse_theta_deg("--theta-deg", "0,0,20.001,0", robot); }).find("theta 3 within +-20 deg"),
+            std::string::npos);
   EXPECT_NE(refusal([&] { parse_theta_deg("--theta-deg", "0,0,0", robot); }).find("4 numbers"), std::string::npos);
   EXPECT_NE(refusal([&] { parse_theta_deg("--theta-deg", "0,0,nan,0", robot); }).find("finite"), std::string::npos);
 }
@@ -63,7 +64,8 @@ TEST(Arguments, HeldAnglesAreCountedFromOneAndMayCarryAValue) {
 
 TEST(Arguments, HoldsOutsideTheRobotAreRefused) {
   const RobotTable robot = two_segments();
-  for (const char* text : {"0", "5", "1,1", "1=21", "x", "1=", ""}) EXPECT_NE(refusal([&] { parse_hold(text, robot); }), "") << text;
+  for (const char* text : {"0", "5", "1,1", "1=21", "x", "1=", ""})
+    EXPECT_NE(refusal([&] { parse_hold(text, robot); }), "") << text;
 }
 
 TEST(Arguments, AControlPointHasANodeAPlaceAndAPositiveWeight) {

@@ -14,7 +14,8 @@ TEST(CanonicalJson, WritesEveryNumberInOneWay) {
   EXPECT_EQ(canonical_number(20.0), "20");
   EXPECT_EQ(canonical_number(1000000.0), "1000000");
   EXPECT_EQ(canonical_number(0.1), "0.1");
-  EXPECT_EQ(canonical_json(Json::parse(R"({"b":1.0,"a":[1,2.5,{"d":[],"c":{}}]})")), R"({"a":[1,2.5,{"c":{},"d":[]}],"b":1})");
+  EXPECT_EQ(canonical_json(Json::parse(R"({"b":1.0,"a":[1,2.5,{"d":[],"c":{}}]})")),
+            R"({"a":[1,2.5,{"c":{},"d":[]}],"b":1})");
 }
 
 TEST(CanonicalJson, NumbersReadBackExactly) {
@@ -32,7 +33,8 @@ TEST(ConfigHash, IsTheSameForTheSameTablesAndChangesWithAnyOfThem) {
     const BusesConfig buses = parse_buses(good_table("buses", buses_name).dump(), "b");
     Json scene = good_table("scene", "panel_slit");
     scene["spheres"][0]["radius_m"] = std::stod(radius);
-    return config_hash(parse_robot(good_table("robot", "zhu2022").dump(2), "r", "nominal", buses), parse_scene(scene.dump(), "s"), buses);
+    return config_hash(parse_robot(good_table("robot", "zhu2022").dump(2), "r", "nominal", buses),
+                       parse_scene(scene.dump(), "s"), buses);
   };
   EXPECT_EQ(hash("embedded", "0.25"), hash("embedded", "0.250"));
   EXPECT_NE(hash("embedded", "0.25"), hash("embedded", "0.26"));

@@ -92,7 +92,9 @@ TEST(Robot, TextThatIsNoJsonIsRefusedWithItsFile) {
   }
 }
 
-TEST(Robot, AMissingFileIsNamed) { EXPECT_THROW(load_robot("/nonexistent/robot.json", "nominal", buses()), std::runtime_error); }
+TEST(Robot, AMissingFileIsNamed) {
+  EXPECT_THROW(load_robot("/nonexistent/robot.json", "nominal", buses()), std::runtime_error);
+}
 
 }  // namespace
 }  // namespace liana

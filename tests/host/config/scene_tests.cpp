@@ -23,7 +23,8 @@ TEST(Scene, PanelSlitHasThePlaneOfThePressRodPose) {
 TEST(Scene, PlatesLeaveAGapOf100MillimetresAroundThePlane) {
   const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
   for (const SceneBox& box : scene.boxes) {
-    const double distance_m = std::fabs(dot(box.center_m, scene.slit->normal) - scene.slit->offset_m) - box.half_extent_m[1];
+    const double distance_m =
+        std::fabs(dot(box.center_m, scene.slit->normal) - scene.slit->offset_m) - box.half_extent_m[1];
     EXPECT_NEAR(distance_m, 0.05, 1e-12) << box.name;
     const double along_m = dot(box.center_m, scene.slit->u_axis);
     EXPECT_NEAR(along_m - box.half_extent_m[0], 1.75, 1e-12) << box.name;

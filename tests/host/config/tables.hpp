@@ -22,7 +22,7 @@ inline Json good_table(const std::string& kind, const std::string& name) {
 // One way to spoil a table and what the message must contain.
 struct Spoiled {
   const char* pointer;          // JSON pointer of the field
-  Json value;         // its new value; null removes the field
+  Json value;                   // its new value; null removes the field
   const char* expected_path;    // "file: " + this begins the message
   const char* expected_advice;  // and this is in it
 };
@@ -44,9 +44,11 @@ inline std::string message_of(Json table, const Spoiled& spoiled, const std::fun
 }
 
 // Expects "given.json: path: ...: allowed ...: advice".
-inline void expect_refused(const Json& table, const Spoiled& spoiled, const std::function<void(const std::string&)>& read) {
+inline void expect_refused(const Json& table, const Spoiled& spoiled,
+                           const std::function<void(const std::string&)>& read) {
   const std::string message = message_of(table, spoiled, read);
-  EXPECT_TRUE(message.starts_with("given.json: " + std::string(spoiled.expected_path) + ": ")) << spoiled.pointer << " -> " << message;
+  EXPECT_TRUE(message.starts_with("given.json: " + std::string(spoiled.expected_path) + ": "))
+      << spoiled.pointer << " -> " << message;
   EXPECT_NE(message.find(": allowed "), std::string::npos) << message;
   EXPECT_NE(message.find(spoiled.expected_advice), std::string::npos) << message;
 }

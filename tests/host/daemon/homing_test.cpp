@@ -21,7 +21,8 @@ class HomingOfAnArm : public ::testing::Test {
       const DriveTable& drive = robot_.table.drive[i];
       DriveFeedback& report = report_.inputs.drive[i];
       report.feedback_age_ticks = 0;
-      report.position_counts = static_cast<std::int32_t>(drive.zero_counts + out_m[i] / (drive.direction * drive.metres_per_count));
+      report.position_counts =
+          static_cast<std::int32_t>(drive.zero_counts + out_m[i] / (drive.direction * drive.metres_per_count));
       report.torque_permille = static_cast<std::int16_t>(30.0 / drive.newtons_per_permille);
     }
     report_.outputs.homed = 1;
@@ -29,7 +30,8 @@ class HomingOfAnArm : public ::testing::Test {
   // Drive 4 reports so much more.
   void turn(double change_m) {
     const DriveTable& drive = robot_.table.drive[4];
-    report_.inputs.drive[4].position_counts += static_cast<std::int32_t>(change_m / (drive.direction * drive.metres_per_count));
+    report_.inputs.drive[4].position_counts +=
+        static_cast<std::int32_t>(change_m / (drive.direction * drive.metres_per_count));
   }
 
   RobotConfig robot_;
@@ -54,9 +56,11 @@ TEST_F(HomingOfAnArm, NamesTheCablesThatContradictEachOtherTheWorstFirst) {
   estimator_.residual_m[9] = -0.012;
   estimator_.residual_m[6] = 0.001;
   homing.look(report_, estimator_);
-  EXPECT_EQ(homing.why_not().find("cables 9 to 11 (segment 4) contradict each other by 12.0 mm, cables 0 to 2 (segment 1) contradict each "
-                                  "other by 4.0 mm; allowed 1.5 mm"),
-            0u)
+  EXPECT_EQ(
+      homing.why_not().find(
+          "cables 9 to 11 (segment 4) contradict each other by 12.0 mm, cables 0 to 2 (segment 1) contradict each "
+          "other by 4.0 mm; allowed 1.5 mm"),
+      0u)
       << homing.why_not();
 }
 

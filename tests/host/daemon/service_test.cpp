@@ -23,7 +23,9 @@ ServiceConfig config_for(const SimArm& arm, TimeMode mode) {
   config.scene.camera->latency_s = 0.1;
   config.buses.rate_hz = 250.0;
   config.serials = [] { return std::vector<std::uint32_t>(15, 7); };
-  config.boot_problems = [] { return std::vector<BootProblem>{{3, FaultNumber::kDriveMissing, "node 4 on can0: silent"}}; };
+  config.boot_problems = [] {
+    return std::vector<BootProblem>{{3, FaultNumber::kDriveMissing, "node 4 on can0: silent"}};
+  };
   return config;
 }
 
@@ -65,7 +67,8 @@ class ServiceOverSocket : public testing::Test {
   Json state(ApiClient& client) {
     intervals(1);
     Json newest;
-    for (int idle = 0; idle < 2; ++idle) {  // a client that has not read for long has more waiting in the daemon than in its socket
+    for (int idle = 0; idle < 2;
+         ++idle) {  // a client that has not read for long has more waiting in the daemon than in its socket
       service_.idle(0.0);
       while (const auto message = client.receive(0.0)) {
         if ((*message)["op"] == "state") newest = *message;

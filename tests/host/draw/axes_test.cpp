@@ -31,7 +31,8 @@ TEST(Ticks, StandAtRoundPlacesInsideTheRange) {
 
 TEST(Ticks, OfLogarithmsAreAtLeastThreeWhereverTheRangeLies) {
   EXPECT_EQ(log_ticks({0.5, 2000.0}).size(), 4u);
-  for (const Range range : {Range{3.8, 16.0}, Range{5.1, 9.7}, Range{1.0, 1.4}, Range{90.0, 110.0}}) {
+  for (const AxisRange range :
+       {AxisRange{3.8, 16.0}, AxisRange{5.1, 9.7}, AxisRange{1.0, 1.4}, AxisRange{90.0, 110.0}}) {
     const auto places = log_ticks(range);
     EXPECT_GE(places.size(), 3u) << range.low;
     for (const double place : places) EXPECT_TRUE(place >= range.low * 0.999 && place <= range.high * 1.001) << place;

@@ -30,8 +30,8 @@ struct TaskRun {
   std::vector<ControllerSample> samples;
 };
 
-TaskRun run_task(HandTask task, const Pose& start, const Pose& goal_in_slit, const HandMapping& mapping, const SoftTipConfig& config,
-                 const HandGains& gains = {}, std::uint64_t seed = 1) {
+TaskRun run_task(HandTask task, const Pose& start, const Pose& goal_in_slit, const HandMapping& mapping,
+                 const SoftTipConfig& config, const HandGains& gains = {}, std::uint64_t seed = 1) {
   const SlitDrawing drawing = panel_slit();
   SoftTip tip(drawing, start, mapping, config);
   HandPerson person(gains, drawing, seed);
@@ -55,7 +55,8 @@ TaskRun run_task(HandTask task, const Pose& start, const Pose& goal_in_slit, con
     const Pose now = tip.true_tip_in_slit();
     if (now.position_m[0] > 0.0) {
       run.widest_in_slit_m = std::max(run.widest_in_slit_m, std::fabs(now.position_m[1]));
-      run.fastest_in_slit_m_s = std::max(run.fastest_in_slit_m_s, norm(subtract(now.position_m, before.position_m)) / kStep_s);
+      run.fastest_in_slit_m_s =
+          std::max(run.fastest_in_slit_m_s, norm(subtract(now.position_m, before.position_m)) / kStep_s);
     }
     before = now;
     run.duration_s = now_s;
@@ -68,7 +69,9 @@ TaskRun run_task(HandTask task, const Pose& start, const Pose& goal_in_slit, con
   return run;
 }
 
-Pose switch_pose(const HandGains& gains) { return {{gains.switch_depth_m, 0.0, gains.switch_z_m}, panel_slit().rod_in_slit.quaternion}; }
+Pose switch_pose(const HandGains& gains) {
+  return {{gains.switch_depth_m, 0.0, gains.switch_z_m}, panel_slit().rod_in_slit.quaternion};
+}
 
 Pose switch_in_base() { return compose(panel_slit().slit_in_base, switch_pose({})); }
 
@@ -102,7 +105,8 @@ TEST(HandPerson, ConvergesOnTheRodWithinSevenTenthsOfAMillimetre) {
     config.offset_m = {0.003, 0.003, -0.0026};
     config.offset_rad = {0.002, -0.002, 0.002};
     config.seed = seed;
-    const TaskRun run = run_task(HandTask::kReachRod, switch_in_base(), panel_slit().rod_in_slit, {2.0, 1.0}, config, {}, seed);
+    const TaskRun run =
+        run_task(HandTask::kReachRod, switch_in_base(), panel_slit().rod_in_slit, {2.0, 1.0}, config, {}, seed);
     report("rod", run);
     EXPECT_TRUE(run.arrived);
     EXPECT_LT(run.position_error_m, 0.0007);
@@ -195,7 +199,8 @@ TEST(HandPerson, ForgetsPicturesFromBeforeTheTask) {
   const auto third_second = [&](int pictures_before) {
     SoftTip tip(drawing, switch_in_base(), {2.0, 1.0}, {});
     HandPerson person({}, drawing, 1);
-    for (int i = 0; i < pictures_before; ++i) person.look({Pose{{1.0, 2.0, 0.5}, {1.0, 0.0, 0.0, 0.0}}, std::nullopt}, 0.04 * i);
+    for (int i = 0; i < pictures_before; ++i)
+      person.look({Pose{{1.0, 2.0, 0.5}, {1.0, 0.0, 0.0, 0.0}}, std::nullopt}, 0.04 * i);
     person.begin(HandTask::kReachRod, {2.0, 1.0}, 10.0);
     ControllerSample last;
     for (std::int64_t k = 10001; k <= 13000; ++k) {

@@ -30,7 +30,8 @@ constexpr const char* kPose = " 0 0 0 1 0 0 0";
 
 TEST(HandRecording, ShippedVrRecordingHasOneDropoutOneJumpAndNinetyHertz) {
   const VrRecording recording = read_vr_recording(kRecordings + "/panel_edge_vr.hand");
-  const double rate_hz = static_cast<double>(recording.size() - 1) / (static_cast<double>(recording.back().t_us) * 1e-6);
+  const double rate_hz =
+      static_cast<double>(recording.size() - 1) / (static_cast<double>(recording.back().t_us) * 1e-6);
   EXPECT_NEAR(rate_hz, 90.0, 0.1);
   int dropouts = 0, jumps = 0;
   for (std::size_t i = 1; i < recording.size(); ++i) {
@@ -131,7 +132,8 @@ TEST(RecordedVr, SeedChangesTheHandAndNothingElseDoes) {
 TEST(RecordedVr, ReleasesAndGripsAgainWhenTheArmDoesNotFollow) {
   const auto samples = play(1, 10.0);
   int grips = 0;
-  for (std::size_t i = 1; i < samples.size(); ++i) grips += samples[i].right.trigger > 0.5 && samples[i - 1].right.trigger <= 0.5 ? 1 : 0;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    grips += samples[i].right.trigger > 0.5 && samples[i - 1].right.trigger <= 0.5 ? 1 : 0;
   EXPECT_EQ(grips, 2);
 }
 

@@ -67,7 +67,8 @@ TEST(OperatorSession, GripsOnlyAfterPicturesHaveArrived) {
   bool gripped_blind = false, gripped = false;
   for (int k = 1; k < 400; ++k) {
     if (k > 200 && k % 2 == 0) {
-      operator_session.on_camera({{"op", "camera"}, {"capture_time_s", 0.0}, {"slit", {1.6, -0.3, -0.5, 1, 0, 0, 0}}, {"rod", nullptr}});
+      operator_session.on_camera(
+          {{"op", "camera"}, {"capture_time_s", 0.0}, {"slit", {1.6, -0.3, -0.5, 1, 0, 0, 0}}, {"rod", nullptr}});
     }
     for (const Json& message : operator_session.on_state(state(0.02 * k, 4, "hand", "hand"))) {
       if (message["op"] != "device") continue;
@@ -82,7 +83,8 @@ TEST(OperatorSession, GripsOnlyAfterPicturesHaveArrived) {
 TEST(OperatorSession, IgnoresThePoseInTheState) {  // it must see the arm through the camera only
   OperatorSession with = session(), without = session();
   for (int k = 1; k < 200; ++k) {
-    const Json camera{{"op", "camera"}, {"capture_time_s", 0.0}, {"slit", {1.6, -0.3, -0.5, 1, 0, 0, 0}}, {"rod", nullptr}};
+    const Json camera{
+        {"op", "camera"}, {"capture_time_s", 0.0}, {"slit", {1.6, -0.3, -0.5, 1, 0, 0, 0}}, {"rod", nullptr}};
     with.on_camera(camera);
     without.on_camera(camera);
     Json rich = state(0.02 * k, 4, "hand", "hand");

@@ -1,4 +1,5 @@
-// A kinematic stand-in for daemon, arm and camera: clutch mapping, first-order lag, a constant offset, late and noisy pictures.
+// A kinematic stand-in for daemon, arm and camera: clutch mapping, first-order lag, a constant offset, late and noisy
+// pictures.
 #pragma once
 
 #include <deque>
@@ -55,7 +56,8 @@ class SoftTip {
   std::optional<TipSighting> picture(double now_s) {
     const Pose tip = true_tip();
     const Pose rod = compose(drawing_.slit_in_base, drawing_.rod_in_slit);
-    pictures_.push_back({now_s, {noisy(compose(inverse(tip), drawing_.slit_in_base)), noisy(compose(inverse(tip), rod))}});
+    pictures_.push_back(
+        {now_s, {noisy(compose(inverse(tip), drawing_.slit_in_base)), noisy(compose(inverse(tip), rod))}});
     if (pictures_.front().taken_s + config_.camera_latency_s > now_s) return std::nullopt;
     const TipSighting sighting = pictures_.front().sighting;
     pictures_.pop_front();
@@ -74,7 +76,8 @@ class SoftTip {
     const double omega = 2.0 * 3.14159265358979 * config_.swing_hz;
     swing_m_ = subtract(swing_m_, subtract(sent_.position_m, before_m_));
     before_m_ = sent_.position_m;
-    const Vec3 pull = add(scale(swing_m_, -omega * omega), scale(swing_speed_m_s_, -2.0 * config_.swing_damping * omega));
+    const Vec3 pull =
+        add(scale(swing_m_, -omega * omega), scale(swing_speed_m_s_, -2.0 * config_.swing_damping * omega));
     swing_speed_m_s_ = add(swing_speed_m_s_, scale(pull, dt_s));
     swing_m_ = add(swing_m_, scale(swing_speed_m_s_, dt_s));
   }
@@ -85,7 +88,9 @@ class SoftTip {
   };
 
   Pose noisy(const Pose& pose) {
-    const auto axis = [&](double sigma) { return Vec3{noise_.normal(sigma), noise_.normal(sigma), noise_.normal(sigma)}; };
+    const auto axis = [&](double sigma) {
+      return Vec3{noise_.normal(sigma), noise_.normal(sigma), noise_.normal(sigma)};
+    };
     return moved(pose, {axis(config_.noise_m), axis(config_.noise_rad)});
   }
 

@@ -68,7 +68,8 @@ TEST(ArmDerivatives, OfPointsAreTheCentralDifferences) {
         const Vec3 slope = scale(subtract(after.position_m, before.position_m), 0.5 / kStep_rad);
         EXPECT_LT(norm(subtract(here.by_theta[k], slope)), 1e-7);
         for (Index j = 0; j <= k; ++j) {
-          EXPECT_NEAR(hessian[k][j], dot(weight, subtract(after.by_theta[j], before.by_theta[j])) / (2.0 * kStep_rad), 1e-6);
+          EXPECT_NEAR(hessian[k][j], dot(weight, subtract(after.by_theta[j], before.by_theta[j])) / (2.0 * kStep_rad),
+                      1e-6);
         }
       }
     }
@@ -89,7 +90,8 @@ TEST(ArmDerivatives, OfTheTipAttitudeAreTheCentralDifferences) {
       for (Index k = 0; k < thetas; ++k) {
         const ArmDerivatives after(table, moved(theta, k, kStep_rad)), before(table, moved(theta, k, -kStep_rad));
         for (Index x = 0; x < 4; ++x) {
-          EXPECT_NEAR(by_theta[k][x], (after.tip_quaternion()[x] - before.tip_quaternion()[x]) / (2.0 * kStep_rad), 1e-7);
+          EXPECT_NEAR(by_theta[k][x], (after.tip_quaternion()[x] - before.tip_quaternion()[x]) / (2.0 * kStep_rad),
+                      1e-7);
         }
         const auto slope_after = after.tip_quaternion_by_theta(), slope_before = before.tip_quaternion_by_theta();
         for (Index j = 0; j <= k; ++j) {
@@ -114,9 +116,11 @@ TEST(CableDerivatives, AreTheCoresLengthsAndTheCentralDifferences) {
         const CableDerivatives before = cable_derivatives(table, moved(theta, k, -kStep_rad));
         for (Index c = 0; c < here.length_m.size(); ++c) {
           if (k / 2 >= here.by_segment_m[c].size()) continue;
-          const Jet &part = here.by_segment_m[c][k / 2], &a = after.by_segment_m[c][k / 2], &b = before.by_segment_m[c][k / 2];
+          const Jet &part = here.by_segment_m[c][k / 2], &a = after.by_segment_m[c][k / 2],
+                    &b = before.by_segment_m[c][k / 2];
           EXPECT_NEAR(first(part, k % 2), (after.length_m[c] - before.length_m[c]) / (2.0 * kStep_rad), 1e-7);
-          for (Index j = 0; j < 2; ++j) EXPECT_NEAR(second(part, k % 2, j), (first(a, j) - first(b, j)) / (2.0 * kStep_rad), 1e-6);
+          for (Index j = 0; j < 2; ++j)
+            EXPECT_NEAR(second(part, k % 2, j), (first(a, j) - first(b, j)) / (2.0 * kStep_rad), 1e-6);
         }
       }
     }

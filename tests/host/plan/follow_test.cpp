@@ -1,10 +1,11 @@
-// Following the leader: curves, the arm along them, through the slit. Judged by the independent check and by figures of the finished plan.
+// Following the leader: curves, the arm along them, through the slit. Judged by the independent check and by figures of
+// the finished plan.
 #include <algorithm>
 #include <cmath>
 
 #include "firmware_like/math/trig.hpp"
-#include "host/plan/follow/follow.hpp"
 #include "host/plan/check/path_search.hpp"
+#include "host/plan/follow/follow.hpp"
 #include "host/plan/plan.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/plan/requests.hpp"
@@ -24,7 +25,8 @@ PlanRequest request_along_a_bend(const SceneConfig& scene = {}) {
   request.to_rad.reset();
   request.max_step_rad = kFollowMaxStep_rad;
   request.follow.emplace();
-  request.follow->points_m = {tip_of(request, request.from_rad), {0.6, -0.15, 0.40}, {1.0, -0.05, 0.35}, {1.4, 0.0, 0.40}};
+  request.follow->points_m = {
+      tip_of(request, request.from_rad), {0.6, -0.15, 0.40}, {1.0, -0.05, 0.35}, {1.4, 0.0, 0.40}};
   return request;
 }
 
@@ -74,13 +76,14 @@ PlanRequest request_straight_ahead(double length_m) {
 
 TEST(Follow, ACurveThatTurnsBackIsFollowedToItsTurningPoint) {
   PlanRequest request = request_straight_ahead(0.08);
-  request.follow->points_m.push_back(
-      add(request.follow->points_m[0], scale(subtract(request.follow->points_m[1], request.follow->points_m[0]), 0.125)));
+  request.follow->points_m.push_back(add(
+      request.follow->points_m[0], scale(subtract(request.follow->points_m[1], request.follow->points_m[0]), 0.125)));
   const PlanResult result = plan(request, {});
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.constraint << ": " << result.reason;
   double nearest_m = 1.0;
   for (const ThetaVector& theta : result.waypoints_rad)
-    nearest_m = std::min(nearest_m, norm(subtract(plain_axis(request.robot.table, theta).back(), request.follow->points_m[1])));
+    nearest_m =
+        std::min(nearest_m, norm(subtract(plain_axis(request.robot.table, theta).back(), request.follow->points_m[1])));
   EXPECT_LT(nearest_m, 2.0 * kFollowTipOff_m);
 }
 
@@ -110,7 +113,8 @@ TEST(Follow, ASwingOfTheArmBeforeTheCurveShowsInTheFigures) {
   const PlanRequest request = request_straight_ahead(0.001);
   ThetaVector swung = request.from_rad;
   swung[0] += 0.02;  // at eight joints
-  const FollowFigures figures = follow_figures(request.robot.table, {request.from_rad, swung}, Curve(request.follow->points_m));
+  const FollowFigures figures =
+      follow_figures(request.robot.table, {request.from_rad, swung}, Curve(request.follow->points_m));
   EXPECT_GT(figures.body_off_m, 0.1);
   EXPECT_GT(figures.worst_link, 0);
 }
@@ -148,7 +152,8 @@ TEST(Follow, TheWayBackOfASolvedPlanIsVerifiedWithIt) {
   ASSERT_EQ(result.outcome, PlanOutcome::solved) << result.reason;
   Path back = result.waypoints_rad;
   std::reverse(back.begin(), back.end());
-  const PlanCheck check = check_plan(request.robot, request.scene, back, plain_tip(request.robot.table, request.from_rad));
+  const PlanCheck check =
+      check_plan(request.robot, request.scene, back, plain_tip(request.robot.table, request.from_rad));
   EXPECT_NEAR(check.min_clearance_m, result.checked->min_clearance_m, kUnseen_m);
   EXPECT_EQ(check.max_step_deg, result.checked->max_step_deg);
   EXPECT_EQ(check.max_cable_step_m, result.checked->max_cable_step_m);

@@ -8,7 +8,8 @@
 namespace liana {
 namespace {
 
-// The tip of `to` among four large spheres that stand 6 mm beside that pose, and in the way of all others that pushing comes to.
+// The tip of `to` among four large spheres that stand 6 mm beside that pose, and in the way of all others that pushing
+// comes to.
 PlanRequest request_among_spheres() {
   SceneConfig scene;
   scene.spheres = {{"a", {0.577, 1.641, 1.795}, 0.160},

@@ -27,7 +27,8 @@ SceneConfig ball_and_box() {
   SceneConfig scene;
   scene.spheres.push_back({"ball", {1.6, 0.9, 0.5}, 0.25});
   const Quat q = quaternion_of({0.3, -0.5, 0.2});
-  scene.boxes.push_back({"box", {1.5, -1.0, 0.2}, {0.4, 0.02, 0.3}, {rotate(q, {1, 0, 0}), rotate(q, {0, 1, 0}), rotate(q, {0, 0, 1})}});
+  scene.boxes.push_back(
+      {"box", {1.5, -1.0, 0.2}, {0.4, 0.02, 0.3}, {rotate(q, {1, 0, 0}), rotate(q, {0, 1, 0}), rotate(q, {0, 0, 1})}});
   return scene;
 }
 
@@ -63,7 +64,8 @@ TEST(PlanCheck, FindsTheLeastClearanceThatDenseSamplingFinds) {
       sampled_m = std::min(sampled_m, arm_clearance(link_points(table, theta), 0.03, scene).nearest.distance_m);
     }
     const double found_m = check(table, scene, path).min_clearance_m;
-    if (sampled_m < -0.03) continue;        // inside a body depth is measured to the nearest face, which a search along the link may miss
+    if (sampled_m < -0.03)
+      continue;  // inside a body depth is measured to the nearest face, which a search along the link may miss
     EXPECT_GT(found_m, sampled_m - 0.005);  // samples are up to 5 mm of motion apart
     EXPECT_LT(found_m, sampled_m + kUnseen_m + 1e-6);
   }
@@ -94,7 +96,9 @@ TEST(PlanCheck, TellsStepsLimitsCablesAndTheTip) {
   EXPECT_NEAR(found.max_step_deg, 21.0, 1e-9);
   EXPECT_EQ(found.min_clearance_m, kNothingNear_m);
   const CableLayout layout = cable_layout(table);
-  const auto length_m = [&](const ThetaVector& theta) { return cable_geometry(table, layout, arm_trig(table, theta)).length_m; };
+  const auto length_m = [&](const ThetaVector& theta) {
+    return cable_geometry(table, layout, arm_trig(table, theta)).length_m;
+  };
   EXPECT_NEAR(found.max_cable_step_m, zhu2022::largest_difference(length_m(a), length_m(b)), 1e-12);
   EXPECT_NEAR(found.duration_s, std::max(10.5, found.max_cable_step_m / 0.010), 1e-9);
   const Vec3 tip = forward_kinematics(table, b).tip_in_base.position_m;

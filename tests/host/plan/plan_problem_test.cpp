@@ -20,7 +20,8 @@ SceneConfig two_obstacles() {
   SceneConfig scene;
   scene.spheres.push_back({"ball", {1.0, 0.8, 0.4}, 0.2});
   const Quat q = quaternion_of({0.3, -0.5, 0.2});
-  scene.boxes.push_back({"box", {2.0, -1.0, 0.3}, {0.3, 0.1, 0.2}, {rotate(q, {1, 0, 0}), rotate(q, {0, 1, 0}), rotate(q, {0, 0, 1})}});
+  scene.boxes.push_back(
+      {"box", {2.0, -1.0, 0.3}, {0.3, 0.1, 0.2}, {rotate(q, {1, 0, 0}), rotate(q, {0, 1, 0}), rotate(q, {0, 0, 1})}});
   return scene;
 }
 
@@ -155,7 +156,8 @@ TEST(PlanProblem, HessianIsTheCentralDifferenceOfTheLagrangiansGradient) {
       x[k] = here - kStep;
       const std::vector<double> before = lagrangian_gradient(problem, x, 0.6, made.multipliers);
       x[k] = here;
-      for (Index j = 0; j < x.size(); ++j) EXPECT_NEAR(H[std::max(k, j)][std::min(k, j)], (after[j] - before[j]) / (2.0 * kStep), 1e-5);
+      for (Index j = 0; j < x.size(); ++j)
+        EXPECT_NEAR(H[std::max(k, j)][std::min(k, j)], (after[j] - before[j]) / (2.0 * kStep), 1e-5);
     }
   }
 }
@@ -200,7 +202,8 @@ TEST(PlanProblem, EntriesOfTheHessianAreDifferent) {
 TEST(PlanProblem, HeldThetasAndTheStartAreNoVariablesAndKeepTheirValues) {
   const Case made(2);
   const PlanProblem problem(made.request, made.path, rows_of_all_kinds(), 0.005, 1.0);
-  EXPECT_EQ(problem.variables(), 3 * 9 - 2);  // three waypoints without theta 4; theta 9 is held from waypoint 2 of 0..3 on
+  EXPECT_EQ(problem.variables(),
+            3 * 9 - 2);  // three waypoints without theta 4; theta 9 is held from waypoint 2 of 0..3 on
   std::vector<double> x(Index(problem.variables()), 0.1);
   const Path path = problem.path_of(x.data());
   EXPECT_EQ(path[0], made.path[0]);

@@ -12,7 +12,8 @@ inline RobotConfig the_robot() {
   return parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
 }
 
-inline PlanRequest request_between(const zhu2022::Degrees& from_deg, const zhu2022::Degrees& to_deg, const SceneConfig& scene) {
+inline PlanRequest request_between(const zhu2022::Degrees& from_deg, const zhu2022::Degrees& to_deg,
+                                   const SceneConfig& scene) {
   PlanRequest request;
   request.robot = the_robot();
   request.scene = scene;

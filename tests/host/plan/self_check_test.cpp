@@ -47,7 +47,8 @@ double sampled_m(const ThetaVector& theta) {
 TEST(SelfCheck, FindsWhatDenseSamplingFinds) {
   zhu2022::Random random(5);
   for (int i = 0; i < 20; ++i) {
-    const ThetaVector theta = i < 10 ? random.theta(zhu2022::table(), 19.0) : curled(random.uniform(0.2, 0.34), random.uniform(-0.1, 0.1));
+    const ThetaVector theta =
+        i < 10 ? random.theta(zhu2022::table(), 19.0) : curled(random.uniform(0.2, 0.34), random.uniform(-0.1, 0.1));
     const double found_m = self_clearance(robot(), theta).clearance_m;
     EXPECT_LE(found_m, sampled_m(theta) + 1e-12);
     EXPECT_GT(found_m, sampled_m(theta) - 0.006) << "samples are 5 mm apart";
@@ -83,7 +84,8 @@ TEST(SelfCheck, APlanThroughTheArmItselfIsRefusedByName) {
   const auto refused = refusal_of(request, check);
   ASSERT_TRUE(refused);
   EXPECT_STREQ(refused->constraint, "self");
-  EXPECT_EQ(refused->reason, "on the path found link 24 is 12.00 mm inside link 3 of the arm itself; the margin is 1.00 mm");
+  EXPECT_EQ(refused->reason,
+            "on the path found link 24 is 12.00 mm inside link 3 of the arm itself; the margin is 1.00 mm");
 }
 
 }  // namespace

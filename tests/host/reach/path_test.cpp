@@ -13,7 +13,8 @@ PathReport at(const zhu2022::Degrees& theta_deg, std::uint32_t held_mask = 0) {
   return examine_path(zhu2022::table(), {radians(theta_deg)}, held_mask);
 }
 
-// Reference: an independent study of this arm gives 20.4 .. 4.10 at prepare and 21.0 .. 2.90 at panel edge (m/rad and rad/rad).
+// Reference: an independent study of this arm gives 20.4 .. 4.10 at prepare and 21.0 .. 2.90 at panel edge (m/rad and
+// rad/rad).
 TEST(Conditioning, AgreesWithAnIndependentStudyAtThePublishedPoses) {
   const PathPoint prepare = at(zhu2022::kPrepare_deg).points.front();
   EXPECT_NEAR(prepare.largest_singular_value, 20.4, 0.05);
@@ -48,7 +49,8 @@ TEST(Conditioning, WithFewerThanSixFreeAnglesSomeMotionIsImpossible) {
 }
 
 TEST(Path, NamesTheAngleNearestToItsLimitAndWhere) {
-  const PathReport report = examine_path(zhu2022::table(), {radians({1, 2}), radians({1, 2, 0, -19}), radians({1, 2, 0, -4})}, 0);
+  const PathReport report =
+      examine_path(zhu2022::table(), {radians({1, 2}), radians({1, 2, 0, -19}), radians({1, 2, 0, -4})}, 0);
   const PathPoint& nearest = report.points[report.nearest_limit];
   EXPECT_EQ(nearest.nearest_theta, 4);
   EXPECT_NEAR(nearest.limit_margin_rad, 1.0 * kDegree, 1e-12);
@@ -72,7 +74,8 @@ TEST(Path, IsExaminedFromEndToEndInStepsWithinItsResolution) {
   ASSERT_EQ(report.waypoint_way.size(), 3u);
   for (std::size_t i = 1; i < report.points.size(); ++i) {
     EXPECT_GT(report.points[i].way, report.points[i - 1].way);
-    EXPECT_LE(zhu2022::largest_difference(report.points[i].theta_rad, report.points[i - 1].theta_rad), kPathStep_rad * (1.0 + 1e-9));
+    EXPECT_LE(zhu2022::largest_difference(report.points[i].theta_rad, report.points[i - 1].theta_rad),
+              kPathStep_rad * (1.0 + 1e-9));
   }
   for (const PathPoint& point : report.points) {
     EXPECT_GE(point.least_singular_value, report.points[report.worst_conditioned].least_singular_value);
@@ -80,7 +83,8 @@ TEST(Path, IsExaminedFromEndToEndInStepsWithinItsResolution) {
 }
 
 TEST(Path, ThatStandsStillIsOnePoseExaminedTwice) {
-  const PathReport report = examine_path(zhu2022::table(), {radians(zhu2022::kPrepare_deg), radians(zhu2022::kPrepare_deg)}, 0);
+  const PathReport report =
+      examine_path(zhu2022::table(), {radians(zhu2022::kPrepare_deg), radians(zhu2022::kPrepare_deg)}, 0);
   EXPECT_EQ(report.joint_travel_rad, 0.0);
   ASSERT_EQ(report.points.size(), 2u);
   EXPECT_EQ(report.points.back().way, 0.0);

@@ -9,9 +9,9 @@ namespace {
 
 using zhu2022::Random;
 
-constexpr ArmPoint kTip{.node = 5};
+constexpr PointOnArm kTip{.node = 5};
 
-Vec3 place(const RobotTable& table, const ArmPoint& point, const ThetaVector& theta_rad) {
+Vec3 place(const RobotTable& table, const PointOnArm& point, const ThetaVector& theta_rad) {
   return point_motion(table, point, theta_rad).point_in_base_m;
 }
 
@@ -21,7 +21,7 @@ void expect_within_limits(const RobotTable& table, const ThetaVector& theta_rad)
 
 TEST(ReachPosition, FindsPlacesNearbyWithHeldAnglesStillAndLimitsKept) {
   const RobotTable table = zhu2022::table();
-  const ArmPoint point{.node = 5, .held_mask = 0b0101000000};
+  const PointOnArm point{.node = 5, .held_mask = 0b0101000000};
   Random random(1);
   int found = 0;
   for (int trial = 0; trial < 200; ++trial) {
@@ -78,7 +78,7 @@ TEST(Push, InwardsEndsAtTheOrigin) {
 TEST(Push, SeenAlongAnAxisGoesFurtherThanWithTheDepthKept) {
   const RobotTable table = zhu2022::table();
   const ThetaVector start = zhu2022::radians(zhu2022::kPressRod_deg);
-  const ArmPoint flat{.node = 5, .flat_axis = 2};
+  const PointOnArm flat{.node = 5, .flat_axis = 2};
   ThetaVector seen = start, kept = start;
   push_along_ray(table, flat, {}, 1.0, seen);
   push_along_ray(table, kTip, {}, 1.0, kept);
@@ -89,7 +89,7 @@ TEST(Push, SeenAlongAnAxisGoesFurtherThanWithTheDepthKept) {
 
 TEST(BindingLimits, NameTheOnlyAngleThatIsLeftToMove) {
   const RobotTable table = zhu2022::table();
-  const ArmPoint pitch_1_only{.node = 5, .held_mask = 0b1111111110};
+  const PointOnArm pitch_1_only{.node = 5, .held_mask = 0b1111111110};
   ThetaVector theta{};
   theta[0] = 5.0 * kDegree;
   climb(table, pitch_1_only, {-1.0, 0.0, 0.0}, theta);  // bends back until the limit

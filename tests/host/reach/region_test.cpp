@@ -39,7 +39,8 @@ TEST(Bins, CoverTheSphereAndFindTheirOwnMiddle) {
     const double half = bin.polar_width_rad / 2.0;
     solid_angle += bin.azimuth_width_rad * (std::cos(bin.polar_rad - half) - std::cos(bin.polar_rad + half));
     const double s = std::sin(bin.polar_rad);
-    EXPECT_EQ(direction_bin({std::cos(bin.polar_rad), s * std::cos(bin.azimuth_rad), s * std::sin(bin.azimuth_rad)}), i);
+    EXPECT_EQ(direction_bin({std::cos(bin.polar_rad), s * std::cos(bin.azimuth_rad), s * std::sin(bin.azimuth_rad)}),
+              i);
   }
   EXPECT_NEAR(solid_angle, 4.0 * std::numbers::pi, 1e-9);
 }
@@ -113,8 +114,10 @@ TEST(Region, IsReachedByTheAnglesItNames) {
   for (const DirectionBin& bin : region.bins) {
     if (bin.samples == 0) continue;
     for (const BoundaryPoint& end : {bin.outer, bin.inner}) {
-      EXPECT_LT(norm(subtract(forward_kinematics(table, end.theta_rad).tip_in_base.position_m, end.point_in_base_m)), 1e-12);
-      for (std::size_t i = 0; i < zhu2022::kThetas; ++i) EXPECT_LE(std::fabs(end.theta_rad[i]), theta_limit_rad(table, i));
+      EXPECT_LT(norm(subtract(forward_kinematics(table, end.theta_rad).tip_in_base.position_m, end.point_in_base_m)),
+                1e-12);
+      for (std::size_t i = 0; i < zhu2022::kThetas; ++i)
+        EXPECT_LE(std::fabs(end.theta_rad[i]), theta_limit_rad(table, i));
       EXPECT_EQ(end.theta_rad[6], with_held.held_rad[6]);
       EXPECT_EQ(end.theta_rad[8], 0.0);
     }
@@ -162,19 +165,22 @@ TEST(Region, HasTheDimensionThatTheFreeAnglesGive) {
 
 TEST(Region, IsTheSameForTheSameSeedAndAnotherDrawForAnother) {
   const RobotTable table = zhu2022::table();
-  const Region a = explore_region(table, request(5)), b = explore_region(table, request(5)), c = explore_region(table, request(5, 0, 2));
+  const Region a = explore_region(table, request(5)), b = explore_region(table, request(5)),
+               c = explore_region(table, request(5, 0, 2));
   ASSERT_EQ(a.bins.size(), b.bins.size());
   for (std::size_t i = 0; i < a.bins.size(); ++i) EXPECT_EQ(a.bins[i].outer.theta_rad, b.bins[i].outer.theta_rad);
   EXPECT_NE(a.samples[7].point_in_base_m, c.samples[7].point_in_base_m);
 }
 
-// Seen from above, the arm goes straight back only with the pitch of its first segment on the limit; forwards it ends stretched out.
+// Seen from above, the arm goes straight back only with the pitch of its first segment on the limit; forwards it ends
+// stretched out.
 TEST(Outline, NamesTheFirstPitchBehindTheBaseAndNoLimitBeforeIt) {
   const Region region = explore_region(zhu2022::table(), request(5));
   int behind = 0, behind_bound = 0;
   for (std::size_t k = 0; k < kOutlineSectors; ++k) {
     const OutlineSector& sector = region.outline[2][k];
-    const double from_x_deg = std::fabs(std::remainder((static_cast<double>(k) + 0.5) * 360.0 / kOutlineSectors, 360.0));
+    const double from_x_deg =
+        std::fabs(std::remainder((static_cast<double>(k) + 0.5) * 360.0 / kOutlineSectors, 360.0));
     ASSERT_TRUE(sector.seen);
     if (from_x_deg < 90.0) {
       EXPECT_EQ(sector.outer_binding, 0u) << from_x_deg;
@@ -193,7 +199,8 @@ TEST(Outline, IsNeverInsideASampleOfItsSector) {
   for (const ReachedPoint& sample : region.samples) {
     const Vec3& p = sample.point_in_base_m;
     const double turns = std::atan2(p[1], p[0]) / (2.0 * std::numbers::pi);
-    const OutlineSector& sector = region.outline[2][static_cast<std::size_t>((turns + 1.0) * kOutlineSectors) % kOutlineSectors];
+    const OutlineSector& sector =
+        region.outline[2][static_cast<std::size_t>((turns + 1.0) * kOutlineSectors) % kOutlineSectors];
     beyond_m = std::max(beyond_m, std::hypot(p[0], p[1]) - std::hypot(sector.outer_m[0], sector.outer_m[1]));
   }
   EXPECT_LE(beyond_m, 1e-9);  // the farthest one was pushed itself

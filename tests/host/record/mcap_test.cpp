@@ -13,7 +13,9 @@
 namespace liana {
 namespace {
 
-std::string temporary(const std::string& name) { return testing::TempDir() + "liana_" + std::to_string(::getpid()) + name; }
+std::string temporary(const std::string& name) {
+  return testing::TempDir() + "liana_" + std::to_string(::getpid()) + name;
+}
 
 std::string write_small(const std::string& path, bool finish) {
   McapWriter file(path, "test");
@@ -37,7 +39,9 @@ Seen read_all(const std::string& path) {
   visitor.message = [&](const std::string& topic, std::uint32_t sequence, std::uint64_t, std::string_view data) {
     seen.messages.push_back(topic + " " + std::to_string(sequence) + " " + std::string(data));
   };
-  visitor.metadata = [&](const std::string&, const std::map<std::string, std::string>& values) { seen.metadata = values; };
+  visitor.metadata = [&](const std::string&, const std::map<std::string, std::string>& values) {
+    seen.metadata = values;
+  };
   seen.state = read_mcap(path, visitor);
   return seen;
 }

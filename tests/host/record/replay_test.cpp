@@ -45,7 +45,8 @@ std::string fresh_folder(const std::string& name) {
 
 // Records `ticks` ticks; `change` may falsify what is written. An image is written at every tick in `images`.
 template <class Change>
-std::string record_run(const std::string& folder, std::uint64_t ticks, Change change, std::uint64_t image_at = kFirstTick) {
+std::string record_run(const std::string& folder, std::uint64_t ticks, Change change,
+                       std::uint64_t image_at = kFirstTick) {
   Recording recording(folder, {"hash", "{}", "{}", "{}", "fast", 0.004});
   Controller controller(zhu2022::table());
   for (std::uint64_t tick = kFirstTick; tick < kFirstTick + ticks; ++tick) {
@@ -139,7 +140,8 @@ TEST(Replay, AFlippedByteAnywhereIsNoticedBeforeTheCoreSeesIt) {
 
 TEST(Replay, ARecordingCutShortIsComparedAsFarAsItGoesAndNotCalledComplete) {
   const std::string folder = record_run(fresh_folder("cut"), 100, [](TickRecord&) {});
-  std::filesystem::resize_file(folder + "/" + kRecordingFile, std::filesystem::file_size(folder + "/" + kRecordingFile) / 2);
+  std::filesystem::resize_file(folder + "/" + kRecordingFile,
+                               std::filesystem::file_size(folder + "/" + kRecordingFile) / 2);
   const ReplayResult result = replay(folder);
   EXPECT_FALSE(result.complete);
   EXPECT_GT(result.ticks, 10u);

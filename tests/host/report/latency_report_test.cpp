@@ -12,7 +12,8 @@ LatencyMeasurement measurement(unsigned overruns) {
   LatencyMeasurement measured;
   measured.enabled = true;
   measured.last_state = {{"faults", Json::array()}};
-  measured.timing = Json::parse(R"({"op":"ok","id":5,"ticks":4,"wakeup_us":{"median":3,"p99":100,"worst":100,"buckets":[[3,3],[100,1]]},
+  measured.timing = Json::parse(
+      R"({"op":"ok","id":5,"ticks":4,"wakeup_us":{"median":3,"p99":100,"worst":100,"buckets":[[3,3],[100,1]]},
     "tick_us":{"median":40,"p99":50,"worst":50,"buckets":[[40,4]]},"overrun_causes":{"late_wake":0,"long_tick":0,"bus_wait":0,"lost_ticks":0}})");
   measured.timing["overruns"] = measured.timing["overrun_causes"]["late_wake"] = overruns;
   return measured;
@@ -22,14 +23,15 @@ Json report_of(const LatencyMeasurement& measured) {
   BusesConfig buses;
   buses.name = "embedded";
   buses.rate_hz = 250.0;
-  const std::vector<Finding> realtime{{"memory locking", true, "unlimited", "", ""}, {"PREEMPT_RT kernel", false, "6.1", "", "boot it"}};
+  const std::vector<Finding> realtime{{"memory locking", true, "unlimited", "", ""},
+                                      {"PREEMPT_RT kernel", false, "6.1", "", "boot it"}};
   return latency_report(measured, buses, 2.0, realtime);
 }
 
 TEST(LatencyReport, HasWhatWasMeasuredAndHow) {
   const Json report = report_of(measurement(0));
-  for (const char* key :
-       {"rate_hz", "seconds", "buses", "enabled", "faults", "ticks", "wakeup_us", "tick_us", "overruns", "overrun_causes", "realtime"}) {
+  for (const char* key : {"rate_hz", "seconds", "buses", "enabled", "faults", "ticks", "wakeup_us", "tick_us",
+                          "overruns", "overrun_causes", "realtime"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
   EXPECT_FALSE(report.contains("op"));

@@ -5,9 +5,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "host/json/json.hpp"
 #include "host/report/run_report.hpp"
 #include "host/report/truth.hpp"
-#include "host/json/json.hpp"
 
 namespace liana {
 namespace {
@@ -16,7 +16,8 @@ namespace {
 class RunReport : public testing::Test {
  protected:
   RunReport() {
-    directory_ = testing::TempDir() + "liana-report-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
+    directory_ = testing::TempDir() + "liana-report-" +
+                 std::to_string(::testing::UnitTest::GetInstance()->random_seed()) + "-" +
                  testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::create_directories(directory_);
   }

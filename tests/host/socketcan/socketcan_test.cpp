@@ -1,4 +1,5 @@
-// SocketCAN on real interfaces of the kernel: vcan0 and vcan1 must exist and be up, and the user must be allowed to change them.
+// SocketCAN on real interfaces of the kernel: vcan0 and vcan1 must exist and be up, and the user must be allowed to
+// change them.
 #include <gtest/gtest.h>
 #include <linux/can.h>
 #include <net/if.h>
@@ -111,7 +112,8 @@ TEST(SocketCan, BootsDrivesOnTwoInterfacesAndCollectsTheirFeedback) {
     master.step(*bus);
     bus->end_tick();
   }
-  EXPECT_EQ(master.boot().state(), canopen::BootState::kOperational) << canopen::describe(master.boot().mismatch(0), "vcan0");
+  EXPECT_EQ(master.boot().state(), canopen::BootState::kOperational)
+      << canopen::describe(master.boot().mismatch(0), "vcan0");
   EXPECT_GE(tpdos, 100);
   EXPECT_FALSE(master.heartbeats().lost(1));
   EXPECT_EQ(bus->stats(0).state, BusState::kActive);
@@ -124,7 +126,9 @@ TEST(SocketCan, AMissingInterfaceIsNamedTogetherWithThoseThatExist) {
   EXPECT_NE(message.find("vcan0, vcan1"), std::string::npos) << message;
 }
 
-TEST(SocketCan, AnInterfaceThatIsNoCanOneIsRefused) { EXPECT_NE(refusal_of("lo").find("is not a CAN interface"), std::string::npos); }
+TEST(SocketCan, AnInterfaceThatIsNoCanOneIsRefused) {
+  EXPECT_NE(refusal_of("lo").find("is not a CAN interface"), std::string::npos);
+}
 
 TEST(SocketCan, AnInterfaceThatIsDownIsRefusedWithTheCommandThatHelps) {
   shell("ip link set vcan1 down");

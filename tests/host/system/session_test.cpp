@@ -9,8 +9,8 @@
 #include <thread>
 
 #include "host/api/socket.hpp"
-#include "host/system/run_session.hpp"
 #include "host/json/json.hpp"
+#include "host/system/run_session.hpp"
 
 namespace liana {
 namespace {
@@ -35,7 +35,11 @@ class FakeDaemon {
     const UniqueFd client(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
     for (int tick = 0; !quit_ && !shut_down_; ++tick) {
       if (stopped_ && deaf_) return;
-      Json state{{"op", "state"}, {"tick", tick}, {"time_s", 0.5}, {"state", stopped_ ? "DISABLED" : "ENABLED"}, {"stop", nullptr}};
+      Json state{{"op", "state"},
+                 {"tick", tick},
+                 {"time_s", 0.5},
+                 {"state", stopped_ ? "DISABLED" : "ENABLED"},
+                 {"stop", nullptr}};
       if (stopped_) state["stop"] = {{"by", "liana run"}, {"reason", "interrupted"}, {"tick", tick}};
       send_packet(client.get(), state.dump());
       std::string packet;
@@ -51,8 +55,11 @@ class FakeDaemon {
   // The last states, faster than they are read; lianad's stand-in ends at once after them.
   void say_farewell(const UniqueFd& client) {
     for (int i = 0; i < 60; ++i) {
-      const Json state{
-          {"op", "state"}, {"tick", 1000 + i}, {"time_s", 9.5}, {"state", i < 59 ? "STOPPING" : "DISABLED"}, {"stop", nullptr}};
+      const Json state{{"op", "state"},
+                       {"tick", 1000 + i},
+                       {"time_s", 9.5},
+                       {"state", i < 59 ? "STOPPING" : "DISABLED"},
+                       {"stop", nullptr}};
       send_packet(client.get(), state.dump());
     }
     std::ofstream(farewell_) << "said";
@@ -74,7 +81,9 @@ class Session : public testing::Test {
   }
   ~Session() override { std::filesystem::remove_all(plan_.directory); }
 
-  void add(const std::string& name, const std::string& script) { plan_.programs.push_back({name, {"/bin/sh", "-c", script}}); }
+  void add(const std::string& name, const std::string& script) {
+    plan_.programs.push_back({name, {"/bin/sh", "-c", script}});
+  }
   // A program that lives until it is told to end, as bus, bench and operator do.
   void add_living(const std::string& name) { add(name, "exec sleep 60"); }
 
@@ -137,7 +146,8 @@ TEST_F(Session, AnInterruptedRunSaysOnlyWhatIsKnownOfTheArm) {
   add("liana-mission", "kill -TERM " + std::to_string(getpid()) + "; exec sleep 60");
   const RunEnd end = RunSession(plan_).run();
   EXPECT_EQ(end.outcome, "aborted");
-  EXPECT_NE(end.message.find("lianad was gone before it confirmed the stop; the arm was last seen ENABLED, at 0.50 s"), std::string::npos)
+  EXPECT_NE(end.message.find("lianad was gone before it confirmed the stop; the arm was last seen ENABLED, at 0.50 s"),
+            std::string::npos)
       << end.message;
 }
 

@@ -8,8 +8,9 @@
 namespace liana {
 namespace {
 
-static_assert(!std::is_constructible_v<Telecommand, std::uint64_t, std::uint64_t, std::uint64_t, std::uint32_t, const Setpoint&>,
-              "nobody but Release and RecordingDecoder can make a telecommand");
+static_assert(
+    !std::is_constructible_v<Telecommand, std::uint64_t, std::uint64_t, std::uint64_t, std::uint32_t, const Setpoint&>,
+    "nobody but Release and RecordingDecoder can make a telecommand");
 static_assert(!std::is_constructible_v<Candidate, const Telecommand&>, "nobody but Release can make a candidate");
 static_assert(!std::is_constructible_v<Candidate>);
 static_assert(!std::is_constructible_v<Telecommand, const Candidate&>);

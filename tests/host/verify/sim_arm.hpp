@@ -5,8 +5,8 @@
 
 #include "firmware_like/arm/cables.hpp"
 #include "firmware_like/math/convert.hpp"
-#include "host/verify/ideal_drives.hpp"
 #include "host/control/tick_core.hpp"
+#include "host/verify/ideal_drives.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
@@ -49,13 +49,15 @@ class SimArm {
   Inputs start_inputs() const {
     Inputs inputs;
     const CableLayout layout = cable_layout(table_);
-    const CableGeometry geometry = cable_geometry(table_, layout, arm_trig(table_, zhu2022::radians(zhu2022::kPrepare_deg)));
+    const CableGeometry geometry =
+        cable_geometry(table_, layout, arm_trig(table_, zhu2022::radians(zhu2022::kPrepare_deg)));
     for (std::size_t i = 0; i < zhu2022::kCables; ++i) {
       const double zero_payout_m = layout.zero_length_m[i] + table_.lead_m;
       DriveFeedback& drive = inputs.drive[i];
       drive.statusword = 0x0250;
       drive.operational = 1;
-      drive.position_counts = counts_at_payout(table_.drive[i], zero_payout_m, geometry.length_m[i] + table_.lead_m).value;
+      drive.position_counts =
+          counts_at_payout(table_.drive[i], zero_payout_m, geometry.length_m[i] + table_.lead_m).value;
     }
     return inputs;
   }

@@ -18,7 +18,8 @@ struct Judged {
   std::string text;
 };
 
-// A prediction of five quiet ticks and a stop, with `change` applied to one tick of the command (2) and one of the stop (6).
+// A prediction of five quiet ticks and a stop, with `change` applied to one tick of the command (2) and one of the stop
+// (6).
 Judged judge(const std::function<void(Outputs&)>& change, std::size_t at = 2, bool comes_to_rest = true) {
   Release release;
   Setpoint setpoint;
@@ -49,9 +50,11 @@ TEST(Verify, ASpeedJustOverTheLimitIsRefusedAndJustUnderPasses) {
   EXPECT_EQ(judge([&](Outputs& o) { o.theta_rate_rad_s[4] = rate * 1.00001; }).simulation, Refusal::kJointRate);
   EXPECT_EQ(judge([&](Outputs& o) { o.theta_rate_rad_s[4] = -rate * 1.00001; }).simulation, Refusal::kJointRate);
   EXPECT_EQ(judge([&](Outputs& o) { o.theta_rate_rad_s[4] = rate; }).simulation, Refusal::kNone);
-  EXPECT_EQ(judge([&](Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s * 1.06; }).simulation, Refusal::kTipSpeed);
+  EXPECT_EQ(judge([&](Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s * 1.06; }).simulation,
+            Refusal::kTipSpeed);
   EXPECT_EQ(judge([&](Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s; }).simulation, Refusal::kNone);
-  EXPECT_EQ(judge([&](Outputs& o) { o.tip_rate_rad_s = kTable.limits.tip_rate_rad_s * 1.06; }).simulation, Refusal::kTipSpeed);
+  EXPECT_EQ(judge([&](Outputs& o) { o.tip_rate_rad_s = kTable.limits.tip_rate_rad_s * 1.06; }).simulation,
+            Refusal::kTipSpeed);
 }
 
 TEST(Verify, TheStopAfterTheCommandIsJudgedToo) {
@@ -71,13 +74,17 @@ TEST(Verify, WhatTheControllerWouldNotDoIsRefused) {
   EXPECT_EQ(judge([](Outputs& o) { o.faults.dropped = 1; }).execution, Refusal::kTwinFault);
   EXPECT_EQ(judge([](Outputs& o) { o.limits = kLimitGate; }).execution, Refusal::kGate);
   EXPECT_EQ(judge([](Outputs& o) { o.active_sequence = 0; }).execution, Refusal::kNotAccepted);
-  EXPECT_EQ(judge([](Outputs& o) { o.active_sequence = 0; }, 6).execution, Refusal::kNone) << "after its expiry nothing need be in force";
-  EXPECT_EQ(judge([](Outputs& o) { o.limits = kLimitTipSpeed; }).execution, Refusal::kNone) << "limits that act are no refusal";
+  EXPECT_EQ(judge([](Outputs& o) { o.active_sequence = 0; }, 6).execution, Refusal::kNone)
+      << "after its expiry nothing need be in force";
+  EXPECT_EQ(judge([](Outputs& o) { o.limits = kLimitTipSpeed; }).execution, Refusal::kNone)
+      << "limits that act are no refusal";
 }
 
 TEST(Verify, TensionAndCableSpeedStayWithinTheirLimits) {
-  EXPECT_EQ(judge([](Outputs& o) { o.tension_plan_N[7] = kTable.tension.ceiling_free_N + 0.1; }).execution, Refusal::kTension);
-  EXPECT_EQ(judge([](Outputs& o) { o.tension_plan_N[7] = kTable.tension.floor_motor_N - 0.1; }).execution, Refusal::kTension);
+  EXPECT_EQ(judge([](Outputs& o) { o.tension_plan_N[7] = kTable.tension.ceiling_free_N + 0.1; }).execution,
+            Refusal::kTension);
+  EXPECT_EQ(judge([](Outputs& o) { o.tension_plan_N[7] = kTable.tension.floor_motor_N - 0.1; }).execution,
+            Refusal::kTension);
   EXPECT_EQ(judge([](Outputs& o) { o.tension_plan_N[7] = kTable.tension.floor_motor_N; }).execution, Refusal::kNone);
   EXPECT_EQ(judge([](Outputs& o) { o.tension_plan_N[20] = 0.0; }).execution, Refusal::kNone) << "there is no cable 21";
   const double most_m = kTable.limits.cable_speed_m_s * kTable.tick_s;

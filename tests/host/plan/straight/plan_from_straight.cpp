@@ -1,5 +1,6 @@
-// The planner started from the straight line in theta, for comparison with its own starts. Reads one problem as JSON from standard input:
-// robot, buses and scene tables, from_deg, to_deg or tip; prints outcome, constraint, iterations and time_s as JSON.
+// The planner started from the straight line in theta, for comparison with its own starts. Reads one problem as JSON
+// from standard input: robot, buses and scene tables, from_deg, to_deg or tip; prints outcome, constraint, iterations
+// and time_s as JSON.
 #include <chrono>
 #include <iostream>
 
@@ -9,13 +10,13 @@
 
 namespace {
 
-liana::ThetaVector angles(const Json& degrees) {
+liana::ThetaVector angles(const liana::Json& degrees) {
   liana::ThetaVector theta{};
   for (std::size_t k = 0; k < degrees.size(); ++k) theta.at(k) = degrees.at(k).get<double>() * liana::kDegree;
   return theta;
 }
 
-liana::PlanRequest request_of(const Json& problem) {
+liana::PlanRequest request_of(const liana::Json& problem) {
   liana::PlanRequest request;
   const liana::BusesConfig buses = liana::parse_buses(problem.at("buses").dump(), "buses");
   request.robot = liana::parse_robot(problem.at("robot").dump(), "robot", "nominal", buses);
@@ -33,16 +34,16 @@ liana::PlanRequest request_of(const Json& problem) {
 }  // namespace
 
 int main() {
-  const liana::PlanRequest request = request_of(Json::parse(std::cin));
+  const liana::PlanRequest request = request_of(liana::Json::parse(std::cin));
   liana::PlanControl control;
   control.straight_start_only = true;
   const auto begin = std::chrono::steady_clock::now();
   const liana::PlanResult result = liana::plan(request, control);
   const double time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  std::cout << Json{{"outcome", liana::name_of(result.outcome)},
-                    {"constraint", result.constraint},
-                    {"objective", result.objective},
-                    {"iterations", result.iterations},
-                    {"time_s", time_s}}
+  std::cout << liana::Json{{"outcome", liana::name_of(result.outcome)},
+                           {"constraint", result.constraint},
+                           {"objective", result.objective},
+                           {"iterations", result.iterations},
+                           {"time_s", time_s}}
             << "\n";
 }

@@ -1,0 +1,28 @@
+// What a system of processes is asked for: the options of `liana run`, which other verbs fill in part.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace liana {
+
+struct RunOptions {
+  std::string mission;  // empty: none (liana latency)
+  std::string robot = "zhu2022";
+  std::string scene = "panel_slit";
+  std::string bus = "embedded";
+  std::string time;           // empty: fast, or real on SocketCAN
+  bool simulated_arm = true;  // false: real drives are on the buses, there is no bench
+  std::string physics = "nominal";
+  std::string arm = "full";  // or light, which needs physics ideal
+  std::string fixture;       // empty: the bench's start pose; a named pose: the simulated arm lies exactly there
+  std::string in_pose;       // empty: nobody knows; a named pose: lianad enables only an arm that lies there, and the
+                             // simulated one does
+  std::string cross_wired;   // empty, or two drives whose cables are exchanged, e.g. 3,4
+  std::string calibration;   // empty: as the robot table says
+  std::string record_dir;    // empty: nothing is kept
+  std::string report_file;   // empty: a summary on standard output; "-": JSON on standard output
+  std::uint64_t seed = 1;
+};
+
+}  // namespace liana
