@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "host/config/config.hpp"
 #include "host/json/json_fwd.hpp"
 #include "host/report/doctor.hpp"
 #include "host/report/latency_measurement.hpp"
