@@ -7,12 +7,12 @@
 
 #include "firmware_like/cable/arm/cable_watch.hpp"
 #include "firmware_like/cable/arm/estimator.hpp"
+#include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/cable/arm/tension.hpp"
 #include "firmware_like/cable/arm/tension_watch.hpp"
 #include "firmware_like/cable/motion/damping.hpp"
 #include "firmware_like/cable/motion/motion.hpp"
 #include "firmware_like/cable/report.hpp"
-#include "firmware_like/cable/setpoint.hpp"
 #include "firmware_like/drive/drive_io.hpp"
 #include "firmware_like/safety/gate.hpp"
 #include "firmware_like/safety/link_watch.hpp"

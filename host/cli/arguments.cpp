@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "firmware_like/cable/setpoint.hpp"
+#include "firmware_like/cable/arm/setpoint.hpp"
 #include "host/system/errors.hpp"
 
 namespace liana {

@@ -8,7 +8,7 @@ namespace liana {
 
 // The scene has to have a slit. `planar_segments`, `held_theta`, `root` (x,y,z,qw,qx,qy,qz of the planar part, base
 // frame; null without one) and `yaw_range_deg` (per segment of it: [lowest, highest], or null where it fits nowhere);
-// see motion/dof_split.hpp.
+// see host/solve/dof_split.hpp.
 Json slit_part(const RobotConfig& robot, const SceneConfig& scene, const cable::ThetaVector& theta_rad);
 
 }  // namespace liana

@@ -44,7 +44,7 @@ struct Notes {
   ShapeNotes shape{};
   bool homed = false;                  // homing.hpp
   std::vector<std::uint32_t> serials;  // of the drives, once they are booted
-  std::int32_t planar_segments = 0;    // how many the slit asks for now (motion/dof_split.hpp)
+  std::int32_t planar_segments = 0;    // how many the slit asks for now (host/solve/dof_split.hpp)
 };
 
 // Name of the operating state in the API.

@@ -68,8 +68,8 @@ class Table:
 
 
 def room_of(path):
-    """Folder of a file, two levels deep: host/plan/start/x.cpp is in host/plan."""
-    return "/".join(pathlib.PurePosixPath(path).parent.parts[:2])
+    """Folder of a file: every folder is a room."""
+    return str(pathlib.PurePosixPath(path).parent)
 
 
 def file_of(target, file, root):

@@ -52,7 +52,7 @@ class CheckIncludes(unittest.TestCase):
         self.assertIn("firmware_like/math/new.hpp:1: includes", problems(planted)[0])
 
     def test_an_include_beside_the_file_stays_in_its_room_and_one_upwards_does_not(self):
-        inside = {"host/plan/start/a.cpp": '#include "b.hpp"\n', "host/plan/start/b.hpp": "\n"}
+        inside = {"host/plan/a.cpp": '#include "b.hpp"\n', "host/plan/b.hpp": "\n"}
         self.assertEqual(problems(inside), [])
         upwards = {"firmware_like/math/new.cpp": '#include "../arm/arm.hpp"\n'}
         self.assertIn("firmware_like/math/new.cpp:1: includes", problems(upwards)[0])

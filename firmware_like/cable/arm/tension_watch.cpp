@@ -3,8 +3,12 @@
 namespace liana::cable {
 
 TensionWatchLimits make_tension_watch_limits(const RobotTable& table) noexcept {
-  return {table.tension.floor_anywhere_N, kBreakShare * table.tension.floor_motor_N, table.tension.alarm_N,
-          table.tension.hard_limit_N};
+  TensionWatchLimits limits{};
+  limits.slack_N = table.tension.floor_anywhere_N;
+  limits.firm_N = kBreakShare * table.tension.floor_motor_N;
+  limits.alarm_N = table.tension.alarm_N;
+  limits.hard_limit_N = table.tension.hard_limit_N;
+  return limits;
 }
 
 void watch_doubtful_tension(const TensionWatchLimits& limits, WatchScope scope, const TensionReading& now,

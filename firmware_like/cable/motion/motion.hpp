@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdint>
 
+#include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/cable/motion/limiter.hpp"
 #include "firmware_like/cable/motion/servo_ik.hpp"
-#include "firmware_like/cable/setpoint.hpp"
 #include "firmware_like/cable/shape/shape.hpp"
 #include "firmware_like/operator_input/tip_filter.hpp"
 

@@ -1,7 +1,7 @@
 // Clearance as an aim of the shape: the arm's middle is pushed away from given points while the tip stays.
 #pragma once
 
-#include "firmware_like/cable/setpoint.hpp"
+#include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/cable/shape/shape_model.hpp"
 
 namespace liana::cable {

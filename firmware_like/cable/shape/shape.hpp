@@ -11,7 +11,7 @@
 #include <cstdint>
 
 #include "firmware_like/cable/arm/kinematics.hpp"
-#include "firmware_like/cable/setpoint.hpp"
+#include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/cable/shape/bounds.hpp"
 #include "firmware_like/cable/shape/keep_clear.hpp"
 

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "host/plan/follow/curve.hpp"
-#include "host/plan/start/room.hpp"
+#include "host/plan/problem/room.hpp"
 
 namespace liana {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "host/plan/follow/follow_track.hpp"
-#include "host/plan/start/room.hpp"
+#include "host/plan/problem/room.hpp"
 
 namespace liana {
 

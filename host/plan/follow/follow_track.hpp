@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/plan/follow/curve.hpp"
-#include "host/plan/start/room.hpp"
+#include "host/plan/problem/room.hpp"
 
 namespace liana {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "host/plan/problem/plan_problem.hpp"
-#include "host/plan/start/room.hpp"
+#include "host/plan/problem/room.hpp"
 
 namespace liana {
 

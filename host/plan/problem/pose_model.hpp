@@ -2,7 +2,7 @@
 #pragma once
 
 #include "host/algebra/thetas.hpp"
-#include "host/plan/start/room.hpp"
+#include "host/plan/problem/room.hpp"
 
 namespace liana {
 

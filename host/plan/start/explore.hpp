@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstdint>
 
-#include "host/plan/start/room.hpp"
+#include "host/plan/problem/room.hpp"
 
 namespace liana {
 

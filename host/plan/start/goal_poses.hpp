@@ -1,7 +1,7 @@
 // Joint angles to start from at the end of a plan whose goal is a tip pose.
 #pragma once
 
-#include "host/plan/start/room.hpp"
+#include "host/plan/problem/room.hpp"
 
 namespace liana {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "host/plan/start/room.hpp"
+#include "host/plan/problem/room.hpp"
 
 namespace liana {
 

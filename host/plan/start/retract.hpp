@@ -5,7 +5,7 @@
 // the way in when read backwards.
 #pragma once
 
-#include "host/plan/start/room.hpp"
+#include "host/plan/problem/room.hpp"
 
 namespace liana {
 

@@ -7,7 +7,7 @@
 
 #include <string>
 
-#include "host/plan/start/room.hpp"
+#include "host/plan/problem/room.hpp"
 
 namespace liana {
 

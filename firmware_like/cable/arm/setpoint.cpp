@@ -1,4 +1,4 @@
-#include "firmware_like/cable/setpoint.hpp"
+#include "firmware_like/cable/arm/setpoint.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "host/plan/start/room.hpp"
+#include "host/plan/problem/room.hpp"
 
 #include <algorithm>
 #include <cmath>
