@@ -98,6 +98,7 @@ class Service : private ApiHandler {
   std::uint64_t tick() const { return link_.report.value().next_tick; }
   void note(const std::string& text);
   void request(Request what);
+  void press_stop() noexcept;
   void drop_motion(const std::string& why);
   void watch_arm();
   void watch_homing();
@@ -135,6 +136,7 @@ class Service : private ApiHandler {
   std::uint64_t clear_seen_tick_ = 0;
   Overruns overruns_before_;  // at the last reset of the timing
   std::optional<std::uint64_t> mission_end_tick_, shutdown_tick_;
+  std::optional<std::uint64_t> stop_tick_;  // of the last stop, whoever asked for it
   bool dismissed_ = false;
   ApiServer server_;  // last: its destructor may call gone()
 };
