@@ -13,29 +13,29 @@ template <class Arm>
 class NominalDrives {
  public:
   // Starts from what the real drives reported last and what they were told last. `table` must outlive this.
-  NominalDrives(const typename Arm::Table& table, const DriveFeedbacks& last, const Outputs<Arm>& told)
+  NominalDrives(const typename Arm::Table& table, const DriveFeedbacks& last, const liana::Outputs<Arm>& told)
       : table_(table), last_(last), told_(told) {}
 
   // The inputs of the next tick: the state, position and torque that the last commands asked for.
-  Inputs<Arm> next_inputs(std::uint64_t tick) {
+  liana::Inputs<Arm> next_inputs(std::uint64_t tick) {
     for (std::int32_t drive = 0; drive < table_.drive_count(); ++drive) {
       const std::size_t i = as_index(drive);
       const std::int16_t permille = Arm::planned_permille(table_, told_, drive);
       last_[i] = ideal_feedback(last_[i], told_.drive[i], permille);
     }
-    Inputs<Arm> inputs;
+    liana::Inputs<Arm> inputs;
     inputs.tick = tick;
     inputs.drive = last_;
     return inputs;
   }
 
   // Takes the commands of a tick.
-  void command(const Outputs<Arm>& outputs) { told_ = outputs; }
+  void command(const liana::Outputs<Arm>& outputs) { told_ = outputs; }
 
  private:
   const typename Arm::Table& table_;
   DriveFeedbacks last_;
-  Outputs<Arm> told_;
+  liana::Outputs<Arm> told_;
 };
 
 }  // namespace liana

@@ -4,10 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
+
 #include <vector>
 
 #include "firmware_like/cable/arm/cables.hpp"
+#include "host/json/json.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {

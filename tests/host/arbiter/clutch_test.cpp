@@ -7,7 +7,6 @@
 
 namespace liana {
 
-using namespace cable;
 namespace {
 
 const Pose kTip{{1.0, -0.5, 0.3}, normalize({0.9, 0.1, -0.3, 0.2})};

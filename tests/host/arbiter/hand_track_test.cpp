@@ -5,7 +5,6 @@
 
 namespace liana {
 
-using namespace cable;
 namespace {
 
 HandSample sample(std::int64_t t_us, double x, bool valid = true, bool pressed = true) {

@@ -7,7 +7,6 @@
 
 namespace liana {
 
-using namespace cable;
 namespace {
 
 TEST(Owner, OnlyOneClientOwnsMotion) {
