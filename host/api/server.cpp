@@ -209,7 +209,7 @@ void ApiServer::answer_one(Client& client, const Json& request) {
     for (const char* key : {"id", "remark"}) {
       if (request.contains(key)) answer[key] = request[key];
     }
-    enqueue(client, Topic::kState, false, answer.dump());
+    enqueue(client, Topic::kState, false, answer.dump(-1, Json::BadUtf8::kReplace));
   } catch (const RequestError& error) {
     enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
   } catch (const JsonError& error) {

@@ -251,6 +251,14 @@ void Service::begin_shutdown(const std::string& reason) {
   note("shutdown: " + reason);
 }
 
+void Service::stop_by_itself(const std::string& reason) {
+  press_stop();
+  const StopOrder order{"lianad", printable(reason), tick()};
+  notes_.stop.press(order);
+  note(text_of(order));
+  publish_state();
+}
+
 bool Service::finished() const {
   if (!shutdown_tick_) return false;
   const double waited_s = static_cast<double>(tick() - *shutdown_tick_) * config_.robot.table.tick_s;

@@ -58,6 +58,8 @@ class Service : private ApiHandler {
   // Stops the arm (stop category stop); finished() becomes true when drives are off, or after 10 s of arm time.
   void begin_shutdown(const std::string& reason);
   bool finished() const;
+  // An emergency stop by lianad, told to all clients at once; for failures after which no cycle may follow.
+  void stop_by_itself(const std::string& reason);
   // There will be no further cycle().
   void end_lockstep() { server_.end_lockstep(); }
   // Gives slow readers a moment to take what was said last; for the end.
