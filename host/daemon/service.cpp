@@ -35,7 +35,8 @@ Service::Service(const ServiceConfig& config, Link& link)
       reach_m_(reach_of(config.robot.table)),
       homing_(config_.robot, config.in_pose),
       zone_(config.scene.slit, config.robot.table.limits.tip_speed_slit_m_s),
-      arbiter_(config.robot.table, zone_),
+      arbiter_(config.robot.table, zone_,
+               config.time_mode == TimeMode::kReal ? SearchResult::kWhenThere : SearchResult::kInItsInterval),
       shape_progress_(config.robot.table),
       server_(config.api_path, *this) {}
 
