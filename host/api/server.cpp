@@ -11,6 +11,7 @@
 
 #include "host/api/fields.hpp"
 #include "host/api/request_error.hpp"
+#include "host/api/stop_packet.hpp"
 #include "host/json/json.hpp"
 
 namespace liana {
@@ -23,6 +24,7 @@ constexpr std::size_t kMaxInbox = 512;  // requests waiting for the next interva
 constexpr std::size_t kMaxDroppable = 8;  // state or camera messages waiting for a slow subscriber
 constexpr std::size_t kMaxOutbox = 8192;  // packets of any kind waiting
 constexpr std::size_t kMaxClients = 32;
+constexpr std::size_t kLongestHeard = 16u << 20;  // of a packet that is too long a request; it may be a stop
 constexpr std::array<const char*, 6> kRoleNames{"mission", "operator", "camera", "archive", "client", "observer"};
 constexpr std::array<const char*, 3> kTopicNames{"state", "camera", "tick"};
 
@@ -66,6 +68,7 @@ struct ApiServer::Client {
   bool has_done = false;
   bool awaited = false;  // was there when waiting began: who joins meanwhile cannot answer a state it never got
   std::deque<Json> inbox;
+  std::deque<Json> stops;  // served before everybody's inbox
   std::deque<Packet> outbox;
   std::array<std::size_t, kTopicNames.size()> waiting{};
 
@@ -114,7 +117,7 @@ void ApiServer::accept_new() {
 void ApiServer::read_from(Client& client) {
   std::string packet;
   while (client.why_closed.empty() && client.readable(lockstep_tick_)) {
-    const SocketResult result = receive_packet(client.fd.get(), packet);
+    const SocketResult result = receive_packet(client.fd.get(), packet, kLongestHeard);
     if (result == SocketResult::kWouldBlock) return;
     if (result == SocketResult::kClosed) return close(client, "connection closed");
     take_packet(client, packet);
@@ -140,13 +143,22 @@ void ApiServer::take_packet(Client& client, const std::string& packet) {
       client.has_done = true;
       return;
     }
-    client.inbox.push_back(std::move(request));
+    (op == "stop" ? client.stops : client.inbox).push_back(std::move(request));
   } catch (const RequestError& error) {
-    enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
+    if (!take_bad_stop(client, packet, error.what()))
+      enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
   } catch (const JsonError& error) {
-    enqueue(client, Topic::kState, false,
-            error_packet(Json(), "bad_request", std::string("not JSON: ") + error.what()));
+    const std::string why = std::string("not JSON: ") + error.what();
+    if (!take_bad_stop(client, packet, why))
+      enqueue(client, Topic::kState, false, error_packet(Json(), "bad_request", why));
   }
+}
+
+// A stop is taken however it is written; the answer says what was wrong with it.
+bool ApiServer::take_bad_stop(Client& client, const std::string& packet, const std::string& why) {
+  const StopPacket stop = client.greeted ? read_stop(packet) : StopPacket{};
+  if (stop.is_stop) client.stops.push_back({{"op", "stop"}, {"reason", stop.reason}, {"remark", why}});
+  return stop.is_stop;
 }
 
 void ApiServer::greet(Client& client, const Json& request) {
@@ -169,6 +181,7 @@ void ApiServer::greet(Client& client, const Json& request) {
 
 void ApiServer::dispatch() {
   std::sort(clients_.begin(), clients_.end(), [](const auto& a, const auto& b) { return a->order() < b->order(); });
+  for (auto& client : clients_) serve_stops(*client);
   for (auto& client : clients_) {
     while (!client->inbox.empty()) {
       const Json request = std::move(client->inbox.front());
@@ -180,13 +193,23 @@ void ApiServer::dispatch() {
   bury();
 }
 
+void ApiServer::serve_stops(Client& client) {
+  while (!client.stops.empty()) {
+    const Json stop = std::move(client.stops.front());
+    client.stops.pop_front();
+    answer_one(client, stop);
+  }
+}
+
 void ApiServer::answer_one(Client& client, const Json& request) {
   try {
     Json answer = handler_.handle(client.info, request);
-    if (!request.contains("id")) return;
+    if (!request.contains("id") && !request.contains("remark")) return;
     answer["op"] = "ok";
-    answer["id"] = request["id"];
-    enqueue(client, Topic::kState, false, answer.dump());
+    for (const char* key : {"id", "remark"}) {
+      if (request.contains(key)) answer[key] = request[key];
+    }
+    enqueue(client, Topic::kState, false, answer.dump(-1, Json::BadUtf8::kReplace));
   } catch (const RequestError& error) {
     enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
   } catch (const JsonError& error) {

@@ -44,7 +44,8 @@ class ApiServer {
 
   // Moves packets between sockets and queues, waiting up to `timeout_s` for something to do.
   void pump(double timeout_s);
-  // Hands every queued request to the handler: clients by role, then name, each in its own order.
+  // Hands every queued request to the handler: stops of all clients first, then the others by role and name of the
+  // client, each in its own order.
   void dispatch();
   // Sends to every subscriber of the topic. Slow subscribers lose their oldest state and camera messages, and newest
   // ticks (counted), but no message that was published as one to `keep`.
@@ -70,7 +71,9 @@ class ApiServer {
   void accept_new();
   void read_from(Client& client);
   void take_packet(Client& client, const std::string& packet);
+  bool take_bad_stop(Client& client, const std::string& packet, const std::string& why);
   void greet(Client& client, const Json& request);
+  void serve_stops(Client& client);
   void answer_one(Client& client, const Json& request);
   void enqueue(Client& client, Topic topic, bool droppable, const std::string& packet);
   void flush(Client& client);

@@ -5,6 +5,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -39,16 +40,19 @@ SocketResult send_packet(int fd, std::string_view packet) {
   }
 }
 
-SocketResult receive_packet(int fd, std::string& packet) {
-  packet.resize(kMaxPacketBytes + 1);
+SocketResult receive_packet(int fd, std::string& packet, std::size_t most_bytes) {
   for (;;) {
-    const ssize_t n = ::recv(fd, packet.data(), packet.size(), MSG_DONTWAIT);
+    // The size first: a buffer for the largest packet would have to be made anew for each small one.
+    const ssize_t size = ::recv(fd, nullptr, 0, MSG_DONTWAIT | MSG_PEEK | MSG_TRUNC);
     // A peer that left without reading everything is reported once as a reset; what it sent before is still there.
-    if (n < 0 && (errno == EINTR || errno == ECONNRESET)) continue;
+    if (size < 0 && (errno == EINTR || errno == ECONNRESET)) continue;
+    packet.resize(size > 0 ? std::min(static_cast<std::size_t>(size), most_bytes + 1) : 0);
+    if (size < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) return SocketResult::kWouldBlock;
+    if (size <= 0) return SocketResult::kClosed;
+    const ssize_t n = ::recv(fd, packet.data(), packet.size(), MSG_DONTWAIT);
+    if (n < 0 && errno == EINTR) continue;
     packet.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
-    if (n > 0) return SocketResult::kDone;
-    const bool empty = n < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);
-    return empty ? SocketResult::kWouldBlock : SocketResult::kClosed;
+    return n > 0 ? SocketResult::kDone : SocketResult::kClosed;
   }
 }
 

@@ -28,10 +28,12 @@ bool has_nodes(const NodeTargets& nodes) {
   return false;
 }
 
-Arbiter::Arbiter(const RobotTable& table, const SpeedZone& zone)
+Arbiter::Arbiter(const RobotTable& table, const SpeedZone& zone, SearchResult taken)
     : table_(table),
       zone_(zone),
       interval_s_(table.tick_s * table.interval_ticks),
+      taken_(taken),
+      search_(table),
       tip_speed_m_s_(table.limits.tip_speed_m_s) {}
 
 void Arbiter::require_ready(const cable::Outputs& now) const {
@@ -92,17 +94,27 @@ void Arbiter::shape(const cable::Outputs& now, const NodeTargets& nodes, const K
     throw RequestError("busy", "search needs an arm at rest, a planned move is under way: wait for it or send hold");
   if (search && now.at_rest == 0)
     throw RequestError("busy", "search looks for a shape of the arm at rest: wait for it or send hold");
+  search_.forget();
+  if (search) search_.start({now.tip_command, now.theta_command_rad, held_mask_, held_rad_, nodes, clear});
   nodes_ = nodes;
   clear_ = clear;
-  lead_ = search ? nodes_of_best(now) : NodeTargets{};
+  lead_ = NodeTargets{};
   unchanged_intervals_ = 0;
   if (mode_ == Mode::kIdle && !device_.engaged()) stay_here(now);
 }
 
-// Nodes of the best shape for the tip as it stands; none when no solution was found.
-NodeTargets Arbiter::nodes_of_best(const cable::Outputs& now) const {
-  const solve::GoalIkResult best =
-      solve::solve_goal(table_, {now.tip_command, now.theta_command_rad, held_mask_, held_rad_, nodes_, clear_});
+// The arm holds until the result of a search is there.
+bool Arbiter::awaits_search() {
+  if (!search_.is_wanted()) return false;
+  const std::optional<solve::GoalIkResult> best = search_.take(taken_ == SearchResult::kInItsInterval);
+  if (!best) return true;
+  lead_ = nodes_of(*best);
+  unchanged_intervals_ = 0;
+  return false;
+}
+
+// Nodes of the shape that was found; none when no solution was.
+NodeTargets Arbiter::nodes_of(const solve::GoalIkResult& best) const {
   NodeTargets out{};
   if (!best.converged) return out;
   const ArmKinematics arm = forward_kinematics(table_, best.theta_rad);
@@ -144,6 +156,7 @@ void Arbiter::take_device_away() {
 void Arbiter::retract(const cable::Outputs& now, std::uint64_t until_tick) {
   require_ready(now);
   if (path_.empty()) throw RequestError("refused", "there is no stored path to go back along");
+  search_.forget();
   take_device_away();
   way_back_.emplace(until_tick);
   rest_intervals_ = 0;
@@ -153,6 +166,7 @@ void Arbiter::retract(const cable::Outputs& now, std::uint64_t until_tick) {
 
 void Arbiter::hold() {
   mode_ = Mode::kIdle;
+  search_.forget();
   lead_ = NodeTargets{};
   device_.let_go();
 }
@@ -206,9 +220,11 @@ std::optional<Setpoint> Arbiter::next_setpoint(std::uint64_t tick, const cable::
     device_.drop_anchor();  // a hand that closes the deadman now starts from where the move ends
     return planned_setpoint(now);
   }
+  const bool awaits = awaits_search();
   if (steer) return steered_setpoint(now, *steer);
   if (was_engaged_) mode_ = Mode::kIdle;  // the operator let go: stop along the path
   was_engaged_ = false;
+  if (awaits) return std::nullopt;
   if (is_searching()) end_lead(now);
   if (mode_ == Mode::kTip && has_arrived(now)) mode_ = Mode::kIdle;
   ++unchanged_intervals_;

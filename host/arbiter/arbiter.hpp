@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "host/arbiter/device_steer.hpp"
+#include "host/arbiter/goal_search.hpp"
 #include "host/arbiter/moves.hpp"
 #include "host/arbiter/speed_zone.hpp"
 
@@ -16,10 +17,15 @@ using namespace cable;  // this room serves the cable arm only
 // Whether any entry is used.
 bool has_nodes(const NodeTargets& nodes);
 
+// When the result of a search for a shape is taken: in virtual time at the end of the interval that asked for it, so
+// that runs repeat bit for bit; in real time in the first interval that finds it there.
+enum class SearchResult { kInItsInterval, kWhenThere };
+
 class Arbiter {
  public:
   // In `zone` the tip is asked to go no faster than the zone says.
-  explicit Arbiter(const RobotTable& table, const SpeedZone& zone = {});
+  explicit Arbiter(const RobotTable& table, const SpeedZone& zone = {},
+                   SearchResult taken = SearchResult::kInItsInterval);
 
   // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused). `now` is the newest tick of the
   // arm.
@@ -49,8 +55,9 @@ class Arbiter {
   bool is_busy() const { return mode_ == Mode::kLine || mode_ == Mode::kJoint || mode_ == Mode::kRetract; }
   // The last retract has gone back all the way.
   bool has_retracted() const { return has_retracted_; }
-  // The nodes are on their way to a shape that a search has found; their own targets come after it.
-  bool is_searching() const { return has_nodes(lead_); }
+  // A shape is looked for (the arm holds meanwhile), or the nodes are on their way to the one that was found; their own
+  // targets come after it.
+  bool is_searching() const { return search_.is_wanted() || has_nodes(lead_); }
   // What the shape was last asked for.
   const NodeTargets& nodes() const { return nodes_; }
   const KeepClearTargets& keep_clear() const { return clear_; }
@@ -68,7 +75,8 @@ class Arbiter {
   Setpoint tip_setpoint(const cable::Outputs& now) const;
   Setpoint joint_setpoint(const ThetaVector& theta_rad) const;
   bool has_arrived(const cable::Outputs& now) const;
-  NodeTargets nodes_of_best(const cable::Outputs& now) const;
+  bool awaits_search();
+  NodeTargets nodes_of(const solve::GoalIkResult& best) const;
   void end_lead(const cable::Outputs& now);
   std::optional<Setpoint> planned_setpoint(const cable::Outputs& now);
   std::optional<Setpoint> way_back_setpoint(const cable::Outputs& now);
@@ -90,6 +98,8 @@ class Arbiter {
   ThetaVector held_rad_{};
   NodeTargets nodes_{};
   KeepClearTargets clear_{};
+  SearchResult taken_;
+  GoalSearch search_;
   NodeTargets lead_{};  // to the shape that a search has found; unused: the targets themselves are in force
   NodeTarget device_node_{};
   double tip_speed_m_s_;

@@ -9,6 +9,7 @@
 #include "host/control/latency_histogram.hpp"
 #include "host/control/latest_value.hpp"
 #include "host/control/spsc_ring.hpp"
+#include "host/control/stop_flag.hpp"
 #include "host/record/tick_packet.hpp"
 #include "host/verify/twin.hpp"
 
@@ -41,13 +42,16 @@ struct CycleReport {
   std::uint64_t records_lost = 0;  // tick records that found the ring full
 };
 
+constexpr std::size_t kMostRequests = 16;  // room for requests between the threads, one more than can wait
+
 struct Link {
   explicit Link(const cable::RobotTable& table)
       : image(TwinImage{0, true, cable::Controller(table), {}, {}}), report(CycleReport{}) {}
 
   // Service to real time.
+  StopFlag stop;  // read before `requests`, and empties them: what was asked for before a stop is void
   SpscRing<cable::Telecommand, 16> released;
-  SpscRing<Request, 16> requests;
+  SpscRing<Request, kMostRequests> requests;
   // Real time to service.
   SpscRing<TickRecord, 512> ticks;
   LatestValue<TwinImage> image;     // at the start of each command interval

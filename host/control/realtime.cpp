@@ -46,15 +46,16 @@ void lock_memory() {
       "): needs CAP_IPC_LOCK or an unlimited memlock limit; see `liana doctor`, or use --time fast or paced");
 }
 
-std::thread start_realtime(std::function<void()> body) {
+std::jthread start_realtime(std::function<void(const std::stop_token&)> body, ThreadEnd& end) {
   std::promise<int> started;
   std::future<int> result = started.get_future();
-  std::thread thread([started = std::move(started), body = std::move(body)]() mutable {
-    const int error = become_realtime();
-    touch_stack();
-    started.set_value(error);
-    if (error == 0) body();
-  });
+  std::jthread thread(
+      [started = std::move(started), body = std::move(body), &end](const std::stop_token& stop) mutable {
+        const int error = become_realtime();
+        touch_stack();
+        started.set_value(error);
+        if (error == 0) run_guarded([&] { body(stop); }, end);
+      });
   const int error = result.get();
   if (error == 0) return thread;
   thread.join();

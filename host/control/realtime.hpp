@@ -2,7 +2,10 @@
 #pragma once
 
 #include <functional>
+#include <stop_token>
 #include <thread>
+
+#include "host/control/last_stop.hpp"
 
 namespace liana {
 
@@ -11,8 +14,8 @@ constexpr int kRealtimePriority = 80;  // over drivers' interrupt threads (50), 
 // Locks all memory, present and future. Throws std::runtime_error naming the missing privilege.
 void lock_memory();
 
-// Starts `body` in a thread with SCHED_FIFO and a stack that is already in memory. Throws std::runtime_error naming the
-// missing privilege.
-std::thread start_realtime(std::function<void()> body);
+// Starts `body` in a thread with SCHED_FIFO and a stack that is already in memory. How it ends is written to `end`,
+// which must outlive the thread. Throws std::runtime_error naming the missing privilege.
+std::jthread start_realtime(std::function<void(const std::stop_token&)> body, ThreadEnd& end);
 
 }  // namespace liana

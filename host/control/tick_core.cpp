@@ -13,12 +13,22 @@ cable::Telecommand TickCore::due_telecommand(std::uint64_t tick) {
   return due;
 }
 
+// A stop overtakes what waits, and voids it: an enable that was asked for before it must not follow it.
+Request TickCore::due_request() {
+  if (link_.stop.take()) {
+    for (std::size_t i = 0; i < kMostRequests && link_.requests.front() != nullptr; ++i) link_.requests.pop();
+    return Request::kStop;
+  }
+  const Request* const next = link_.requests.front();
+  if (next == nullptr) return Request::kNone;
+  const Request request = *next;
+  link_.requests.pop();
+  return request;
+}
+
 const cable::Outputs& TickCore::step(cable::Inputs& inputs) {
   inputs.telecommand = due_telecommand(inputs.tick);
-  if (const Request* request = link_.requests.front()) {
-    inputs.request = *request;
-    link_.requests.pop();
-  }
+  inputs.request = due_request();
   record_.inputs = inputs;
   record_.outputs = controller_.tick(inputs);
   fresh_ = false;

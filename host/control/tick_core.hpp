@@ -10,7 +10,7 @@ class TickCore {
  public:
   TickCore(const cable::RobotTable& table, Link& link) : controller_(table), link_(link) {}
 
-  // One tick: adds the next request and the telecommand that is due to `inputs`, runs the Controller, and records the
+  // One tick: adds a stop that was pressed, or else the next request, and the telecommand that is due to `inputs`, runs the Controller, and records the
   // tick.
   const cable::Outputs& step(cable::Inputs& inputs);
   // Makes the state after this tick visible to the service; when a command interval has ended, the Controller's image,
@@ -19,6 +19,7 @@ class TickCore {
 
  private:
   cable::Telecommand due_telecommand(std::uint64_t tick);
+  Request due_request();
 
   cable::Controller controller_;
   Link& link_;

@@ -1,15 +1,18 @@
 // lianad: the real-time thread with the core and the buses, and the service side with the API socket.
 #include <algorithm>
-#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
+#include <thread>
 
 #include "host/api/registry.hpp"
 #include "host/calibration/calibration.hpp"
 #include "host/command_line/command_line.hpp"
+#include "host/control/last_stop.hpp"
 #include "host/control/realtime.hpp"
 #include "host/control/rt_cycle.hpp"
 #include "host/daemon/service.hpp"
@@ -19,6 +22,7 @@ namespace {
 using namespace liana;
 
 constexpr double kExpectTimeout_s = 60.0;
+constexpr double kStopLimit_s = 10.0;  // of arm time, until the drives are off after a failure
 
 volatile std::sig_atomic_t g_signal = 0;
 void on_signal(int number) { g_signal = number; }
@@ -51,9 +55,14 @@ void wait_for_dismissal(Service& service) {
     service.idle(kLook_s);
 }
 
+// A side that has failed ends the run; before that, the arm is stopped and its drives are off.
+[[noreturn]] void end_after_stop(const std::string& side, const std::string& problem) {
+  throw std::runtime_error(side + " failed, so the arm was stopped: " + problem);
+}
+
 // Fast and paced: one thread alternates service and real-time side, so that runs repeat bit for bit. False when the bus
 // has ended.
-bool run_lockstep(Service& service, RtCycle& cycle) {
+bool alternate(Service& service, RtCycle& cycle) {
   for (;;) {
     if (g_signal != 0) service.begin_shutdown("signal");
     service.cycle();
@@ -67,23 +76,47 @@ bool run_lockstep(Service& service, RtCycle& cycle) {
   }
 }
 
-// Real: two threads. The service runs once per command interval, when the real-time thread has published its image.
-bool run_real(Service& service, RtCycle& cycle) {
-  std::atomic<bool> stop{false}, ended{false};
-  std::thread realtime = start_realtime([&] {
-    while (!stop.load(std::memory_order_relaxed) && cycle.run_tick()) {
-    }
-    ended = true;
-  });
-  while (!ended && !service.finished()) {
+bool run_lockstep(Service& service, RtCycle& cycle, Link& link, std::uint64_t stop_limit_ticks) {
+  try {
+    return alternate(service, cycle);
+  } catch (const std::exception& error) {
+    stop_without_service(link, stop_limit_ticks, [&] { return cycle.run_tick(); });
+    end_after_stop("the service side", error.what());
+  }
+}
+
+// The service runs once per command interval, when the real-time thread has published its image.
+void serve_beside(const ThreadEnd& realtime, Service& service) {
+  while (!realtime.over && !service.finished()) {
     if (g_signal != 0) service.begin_shutdown("signal");
     if (service.interval_began()) service.cycle();
     service.idle(0.001);
   }
-  const bool finished = service.finished();
-  stop = true;
-  realtime.join();
-  return finished;
+}
+
+// Real: two threads, each of which ends the motion when the other one fails.
+bool run_real(Service& service, RtCycle& cycle, Link& link, std::uint64_t stop_limit_ticks) {
+  ThreadEnd end;
+  const std::jthread realtime = start_realtime(
+      [&cycle](const std::stop_token& stop) {
+        while (!stop.stop_requested() && cycle.run_tick()) {
+        }
+      },
+      end);
+  try {
+    serve_beside(end, service);
+  } catch (const std::exception& error) {
+    stop_without_service(link, stop_limit_ticks, [&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      return !end.over;
+    });
+    end_after_stop("the service side", error.what());
+  }
+  if (!end.over || end.problem.empty()) return service.finished();
+  // Without ticks the drives hear nothing more and stop by themselves.
+  service.stop_by_itself("the real-time thread failed: " + end.problem);
+  service.take_leave();
+  end_after_stop("the real-time thread", end.problem);
 }
 
 // That status and estop do not find it by themselves is no reason not to run.
@@ -120,7 +153,9 @@ int run(const Options& options) {
   cycle = std::make_unique<RtCycle>(robot, buses, *bus, *link);
   handle_signals();
   if (*mode != TimeMode::kReal) service.wait_for(expected, kExpectTimeout_s);
-  const bool finished = *mode == TimeMode::kReal ? run_real(service, *cycle) : run_lockstep(service, *cycle);
+  const auto stop_limit = static_cast<std::uint64_t>(kStopLimit_s / robot.table.tick_s);
+  const bool finished = *mode == TimeMode::kReal ? run_real(service, *cycle, *link, stop_limit)
+                                                 : run_lockstep(service, *cycle, *link, stop_limit);
   service.take_leave();
   if (!finished) throw std::runtime_error("the bus has ended: liana-bus or the bench left");
   return 0;

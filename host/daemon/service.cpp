@@ -35,7 +35,8 @@ Service::Service(const ServiceConfig& config, Link& link)
       reach_m_(reach_of(config.robot.table)),
       homing_(config_.robot, config.in_pose),
       zone_(config.scene.slit, config.robot.table.limits.tip_speed_slit_m_s),
-      arbiter_(config.robot.table, zone_),
+      arbiter_(config.robot.table, zone_,
+               config.time_mode == TimeMode::kReal ? SearchResult::kWhenThere : SearchResult::kInItsInterval),
       shape_progress_(config.robot.table),
       server_(config.api_path, *this) {}
 
@@ -184,11 +185,12 @@ void Service::forward_camera() {
   }
 }
 
+// While a stop is on its way to the next tick, the arm is given nothing else.
 void Service::release_next() {
   const std::optional<cable::Setpoint> setpoint = arbiter_.next_setpoint(tick(), now());
   const std::uint64_t next_tick = link_.image.value().next_tick;
   std::erase_if(released_, [next_tick](const cable::Telecommand& t) { return t.first_tick() < next_tick; });
-  if (setpoint && owner_.client() != 0) verify_and_release(*setpoint);
+  if (setpoint && owner_.client() != 0 && !link_.stop.is_pressed()) verify_and_release(*setpoint);
 }
 
 void Service::verify_and_release(const cable::Setpoint& setpoint) {
@@ -229,6 +231,12 @@ void Service::request(Request what) {
   if (!link_.requests.push(what)) throw RequestError("busy", "too many requests are waiting for the next ticks");
 }
 
+// Drives that are not booted have no power.
+void Service::press_stop() noexcept {
+  stop_tick_ = tick();
+  if (boot_seen_ == BootPhase::kDone) link_.stop.press();
+}
+
 // Nobody asks for motion any more: the command in force expires and the arm holds.
 void Service::drop_motion(const std::string& why) {
   arbiter_.hold();
@@ -240,8 +248,16 @@ void Service::begin_shutdown(const std::string& reason) {
   if (shutdown_tick_) return;
   shutdown_tick_ = tick();
   notes_.stopping = true;
+  press_stop();
   note("shutdown: " + reason);
-  request(Request::kStop);
+}
+
+void Service::stop_by_itself(const std::string& reason) {
+  press_stop();
+  const StopOrder order{"lianad", printable(reason), tick()};
+  notes_.stop.press(order);
+  note(text_of(order));
+  publish_state();
 }
 
 bool Service::finished() const {

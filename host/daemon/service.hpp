@@ -58,6 +58,8 @@ class Service : private ApiHandler {
   // Stops the arm (stop category stop); finished() becomes true when drives are off, or after 10 s of arm time.
   void begin_shutdown(const std::string& reason);
   bool finished() const;
+  // An emergency stop by lianad, told to all clients at once; for failures after which no cycle may follow.
+  void stop_by_itself(const std::string& reason);
   // There will be no further cycle().
   void end_lockstep() { server_.end_lockstep(); }
   // Gives slow readers a moment to take what was said last; for the end.
@@ -98,6 +100,7 @@ class Service : private ApiHandler {
   std::uint64_t tick() const { return link_.report.value().next_tick; }
   void note(const std::string& text);
   void request(Request what);
+  void press_stop() noexcept;
   void drop_motion(const std::string& why);
   void watch_arm();
   void watch_homing();
@@ -135,6 +138,7 @@ class Service : private ApiHandler {
   std::uint64_t clear_seen_tick_ = 0;
   Overruns overruns_before_;  // at the last reset of the timing
   std::optional<std::uint64_t> mission_end_tick_, shutdown_tick_;
+  std::optional<std::uint64_t> stop_tick_;  // of the last stop, whoever asked for it
   bool dismissed_ = false;
   ApiServer server_;  // last: its destructor may call gone()
 };

@@ -16,11 +16,6 @@ constexpr double kDegree = 0.017453292519943295;
 double limit_deg(const cable::RobotTable& table, std::size_t theta) {
   return std::round(table.segment[theta / 2].theta_limit_rad / kDegree * 1e9) / 1e9;
 }
-
-std::string stop_text(const Json& stop) {
-  const std::string reason = stop["reason"];
-  return "emergency stop by " + stop["by"].get<std::string>() + (reason.empty() ? "" : ": " + reason);
-}
 }  // namespace
 
 const std::map<std::string, Service::Handler>& Service::handlers() {
@@ -75,7 +70,7 @@ Json Service::on_acquire(const ClientInfo& client, const Json&) {
                        "role '" + std::string(role_name(client.role)) + "' cannot own motion; mission and client can");
   }
   owner_.acquire(client.id, static_cast<std::uint32_t>(client.role) + 1, client.name);
-  if (client.role == Role::kClient) notes_.stop = nullptr;  // a mission may have asked before it saw the stop
+  if (client.role == Role::kClient) notes_.stop.release();  // a mission may have asked before it saw the stop
   return Json::object();
 }
 
@@ -91,10 +86,11 @@ Json Service::on_state_command(const ClientInfo& client, const Json& request) {
   if (boot_seen_ == BootPhase::kFailed) throw RequestError("fault", "booting failed: " + text_of(notes_.boot_problems));
   if (boot_seen_ == BootPhase::kBooting) throw RequestError("busy", "the drives are still booting");
   if (command == "enable") {
-    if (!notes_.stop.is_null()) {
-      throw RequestError(
-          "refused", stop_text(notes_.stop) + " is in force: a client has to acquire motion anew, or to send clear");
+    if (const auto& stop = notes_.stop.order()) {
+      throw RequestError("refused",
+                         text_of(*stop) + " is in force: a client has to acquire motion anew, or to send clear");
     }
+    if (stop_tick_ == tick()) throw RequestError("refused", "a stop was asked for in the same command interval");
     if (now().faults.count > 0) throw RequestError("fault", "a fault is latched: clear it first");
     if (shutdown_tick_) throw RequestError("refused", "lianad is stopping");
     require_homed();
@@ -102,7 +98,7 @@ Json Service::on_state_command(const ClientInfo& client, const Json& request) {
   } else if (command == "disable") {
     this->request(Request::kDisable);
   } else if (command == "clear") {
-    notes_.stop = nullptr;
+    notes_.stop.release();
     this->request(Request::kClear);
   } else if (command == "home") {
     require_homed();  // encoders are absolute: nothing has to be done
@@ -224,16 +220,15 @@ Json Service::on_tool(const ClientInfo& client, const Json& request) {
   return {{"tick", tick()}};
 }
 
+// Never refused, and first of all the flag: nothing that may fail stands before it.
 Json Service::on_stop(const ClientInfo& client, const Json& request) {
-  const Json stop{{"by", client.name},
-                  {"reason", request.contains("reason") ? text_field(request, "reason", 200) : ""},
-                  {"tick", tick()}};
+  press_stop();
   arbiter_.hold();
-  this->request(Request::kStop);
+  const StopOrder order{printable(client.name), stop_reason(request.find("reason")), tick()};
   // A mission's own stop is how it ends; everybody else's stays in force, so that nothing enables the arm by itself
   // afterwards.
-  if (client.role != Role::kMission && notes_.stop.is_null()) notes_.stop = stop;
-  note(stop_text(stop));
+  if (client.role != Role::kMission) notes_.stop.press(order);
+  note(text_of(order));
   return Json::object();
 }
 

@@ -113,6 +113,11 @@ const char* device_name(DeviceKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
+Json stop_json(const EmergencyStop& stop) {
+  if (!stop.order()) return nullptr;
+  return {{"by", stop.order()->by}, {"reason", stop.order()->reason}, {"tick", stop.order()->tick}};
+}
+
 Json verdict_json(const cable::RobotTable& table, const LastVerdict& v) {
   return {{"sequence", v.sequence}, {"released", v.released},   {"code", static_cast<int>(v.worst.code)},
           {"text", v.worst.text},   {"margin", v.worst.margin}, {"twin_js_deg", degrees(table, v.twin_theta_rad)}};
@@ -181,7 +186,7 @@ Json state_message(const cable::RobotTable& table, const BusesConfig& buses, con
       {"drives", drives_json(table, report, notes.serials)},
       {"buses", buses_json(buses, report)},
       {"events", notes.events},
-      {"stop", notes.stop},
+      {"stop", stop_json(notes.stop)},
       {"stopping", notes.stopping},
       {"shape",
        {{"missing_m", notes.shape.missing_m}, {"settled", notes.shape.settled}, {"searching", notes.shape.searching}}},

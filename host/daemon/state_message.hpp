@@ -9,6 +9,7 @@
 #include "host/config/config.hpp"
 #include "host/control/boot_problem.hpp"
 #include "host/control/link.hpp"
+#include "host/daemon/emergency_stop.hpp"
 #include "host/daemon/owner.hpp"
 #include "host/json/json.hpp"
 #include "host/verify/verdict.hpp"
@@ -39,7 +40,7 @@ struct Notes {
   LastVerdict verdict{};
   std::uint64_t refusals = 0;
   std::vector<BootProblem> boot_problems;  // faults of drives that did not boot
-  Json stop = nullptr;                     // the emergency stop in force: by, reason (may be empty), tick
+  EmergencyStop stop;
   bool stopping = false;
   ShapeNotes shape{};
   bool homed = false;                  // homing.hpp

@@ -193,6 +193,12 @@ function Runner:fault_names()
   return #names > 0 and table.concat(names, ", ") or "none named"
 end
 
+-- A reason that no limit on packets and no encoding can keep from lianad, which shows 200 bytes of it. The report has the
+-- whole text.
+local function short(reason)
+  return (reason:sub(1, 200):gsub("[^\32-\126]", "?"))
+end
+
 -- Ends the step with `outcome` and does what the step says; without a step, holds.
 function Runner:fail(outcome, reason)
   local step = self:step()
@@ -204,7 +210,7 @@ function Runner:fail(outcome, reason)
     self:request("retract", { until_tick = self.first_retract_tick })
     return self:enter_phase("retract")
   end
-  if self.owned or action == "stop" then self:request(action, action == "stop" and { reason = reason } or {}) end
+  if self.owned or action == "stop" then self:request(action, action == "stop" and { reason = short(reason) } or {}) end
   self:enter_phase("give_up")
 end
 

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "firmware_like/cable/arm/kinematics.hpp"
@@ -156,6 +158,36 @@ TEST_F(Arbitration, ASearchWhoseShapeCannotBeReachedEndsWhenTheArmHasComeToRest)
   ASSERT_TRUE(setpoint);
   EXPECT_EQ(setpoint->node[0].position_m, nodes[0].position_m);
   EXPECT_GE(intervals, 5) << "a request needs some intervals to show in the arm's report";
+}
+
+TEST_F(Arbitration, InRealTimeTheArmHoldsUntilTheSearchHasItsResult) {
+  Arbiter arbiter(table_, {}, SearchResult::kWhenThere);
+  NodeTargets nodes{};
+  nodes[0] = {3, {0.7, 0.3, 0.3}, 1.0, 0.0};
+  arbiter.shape(now_, nodes, {}, true);
+  EXPECT_TRUE(arbiter.is_searching());
+  std::optional<Setpoint> lead;
+  for (int i = 0; i < 5000 && !lead; ++i) {
+    EXPECT_TRUE(arbiter.is_searching());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    lead = arbiter.next_setpoint(tick_ += 5, now_);
+  }
+  arbiter_.shape(now_, nodes, {}, true);
+  const auto repeated = next();
+  ASSERT_TRUE(lead && repeated);
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(lead->node[i].position_m, repeated->node[i].position_m);
+}
+
+TEST_F(Arbitration, AHoldEndsASearchThatHasNoResultYet) {
+  Arbiter arbiter(table_, {}, SearchResult::kWhenThere);
+  NodeTargets nodes{};
+  nodes[0] = {3, {0.7, 0.3, 0.3}, 1.0, 0.0};
+  arbiter.shape(now_, nodes, {}, true);
+  arbiter.hold();
+  EXPECT_FALSE(arbiter.is_searching());
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  EXPECT_FALSE(arbiter.next_setpoint(tick_ += 5, now_));
+  EXPECT_FALSE(arbiter.is_searching());
 }
 
 TEST_F(Arbitration, ASearchIsRefusedWhileTheArmMoves) {

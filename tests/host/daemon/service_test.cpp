@@ -166,6 +166,100 @@ TEST_F(ServiceOverSocket, AnyoneMayStop) {
   EXPECT_EQ(state(watcher)["state"], "DISABLED");
 }
 
+TEST_F(ServiceOverSocket, AStopIsTakenWhateverItsReasonOrItsSpelling) {
+  ApiClient watcher = join("observer"), other = join("client");
+  intervals(2);
+  const std::string filler(60000, 'x'), deep(5000, '[');
+  const std::vector<std::pair<std::string, std::string>> table{
+      {R"({"op":"stop","id":1})", ""},
+      {R"({"op":"stop","id":1,"reason":""})", ""},
+      {R"({"op":"stop","id":1,"reason":null})", ""},
+      {R"({"op":"stop","id":1,"reason":7})", "7"},
+      {R"({"op":"stop","id":1,"reason":["a",{"b":1}]})", R"(["a",{"b":1}])"},
+      {R"({"op":"stop","id":1,"reason":"a\u0007b"})", "a b"},
+      {R"({"op":"stop","id":1,"reason":")" + filler + "\"}", filler.substr(0, 200)},
+      {R"({"op":"stop","id":"one","reason":"a"})", "a"},
+      {R"({"op":"stop","id":1,"reason":")" + filler + filler + "\"}", filler.substr(0, 200)},
+      {R"({"reason":")" + filler + filler + R"(","op":"stop"})", filler.substr(0, 200)},
+      {R"({"op":"stop","reason":)" + deep, deep.substr(0, 200)},
+      {"{\"op\":\"stop\",\"reason\":\"\xff\"}", "?"},
+      {R"({"op":"stop","reason":"cut sho)", "cut sho"},
+  };
+  for (const auto& [packet, reason] : table) {
+    SCOPED_TRACE(packet.substr(0, 60));
+    ASSERT_EQ(send_packet(watcher.fd(), packet), SocketResult::kDone);
+    service_.idle(0.01);
+    EXPECT_TRUE(arm_->link.stop.take());
+    while (const auto heard = watcher.receive(0.0)) {
+      EXPECT_NE(heard->value("op", ""), "error") << *heard;
+    }
+    const Json stop = state(watcher)["stop"];
+    ASSERT_TRUE(stop.is_object());
+    EXPECT_EQ(stop["reason"], reason);
+    EXPECT_EQ(ask(other, {{"op", "acquire"}}), "ok") << "releases the stop";
+    EXPECT_TRUE(state(watcher)["stop"].is_null());
+  }
+}
+
+TEST_F(ServiceOverSocket, AStopActsInTheNextTickThoughNoOtherRequestHasRoom) {
+  ApiClient mission = join("mission"), watcher = join("observer");
+  enable(mission);
+  for (int i = 0; i < 40; ++i) ask(mission, {{"op", "state_command"}, {"command", "clear"}});
+  ASSERT_EQ(ask(mission, {{"op", "state_command"}, {"command", "clear"}}), "busy");
+  ASSERT_EQ(ask(watcher, {{"op", "stop"}}), "ok");
+  arm_->tick();
+  EXPECT_EQ(arm_->now().state, OperatingState::kStopping);
+}
+
+TEST_F(ServiceOverSocket, AStopIsServedBeforeWhatOthersAskedForEarlier) {
+  ApiClient mission = join("mission"), watcher = join("observer");
+  enable(mission);
+  for (int i = 0; i < 100; ++i) mission.send({{"op", "tool"}, {"command", std::to_string(i)}});
+  mission.send(move_request(5.0));
+  watcher.send({{"op", "stop"}, {"reason", "now"}});
+  intervals(1);
+  EXPECT_EQ(arm_->now().state, OperatingState::kStopping);
+  for (int i = 0; i < 600 && arm_->now().state != OperatingState::kDisabled; ++i) intervals(1);
+  const Json after = state(watcher);
+  EXPECT_EQ(after["state"], "DISABLED");
+  EXPECT_EQ(after["stop"], Json({{"by", "observer"}, {"reason", "now"}, {"tick", after["stop"]["tick"]}}));
+  EXPECT_FALSE(after["is_busy"]);
+}
+
+TEST_F(ServiceOverSocket, WhatAMissionAskedForBesideItsOwnStopDoesNotEnableTheArm) {
+  ApiClient mission = join("mission");
+  ASSERT_EQ(ask(mission, {{"op", "acquire"}}), "ok");
+  intervals(10);
+  mission.send({{"op", "state_command"}, {"command", "enable"}, {"id", 900}});
+  mission.send({{"op", "stop"}, {"reason", "the end"}});
+  intervals(200);
+  EXPECT_EQ(arm_->now().state, OperatingState::kDisabled);
+  EXPECT_TRUE(state(mission)["stop"].is_null()) << "a mission's stop is how it ends";
+}
+
+TEST_F(ServiceOverSocket, AStopOfLianadItselfIsToldToEverybody) {
+  ApiClient watcher = join("observer");
+  intervals(2);
+  service_.stop_by_itself("the real-time thread failed");
+  const auto last = watcher.receive(1.0);
+  ASSERT_TRUE(last);
+  Json told = *last;
+  while (const auto next = watcher.receive(0.0)) told = *next;
+  EXPECT_EQ(told["stop"]["by"], "lianad");
+  EXPECT_EQ(told["stop"]["reason"], "the real-time thread failed");
+  EXPECT_TRUE(arm_->link.stop.is_pressed());
+}
+
+TEST_F(ServiceOverSocket, AShutdownStopsTheArmThoughTheQueueOfRequestsIsFull) {
+  ApiClient mission = join("mission");
+  enable(mission);
+  while (arm_->link.requests.push(Request::kClear)) {
+  }
+  EXPECT_NO_THROW(service_.begin_shutdown("signal"));
+  arm_->tick();
+  EXPECT_EQ(arm_->now().state, OperatingState::kStopping);
+}
+
 TEST_F(ServiceOverSocket, BadMotionRequestsAreRefusedWithTheirReason) {
   ApiClient mission = join("mission");
   ask(mission, {{"op", "acquire"}});

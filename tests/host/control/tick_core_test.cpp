@@ -1,0 +1,46 @@
+// How requests reach the tick.
+#include "host/control/tick_core.hpp"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "tests/host/verify/sim_arm.hpp"
+
+namespace liana {
+namespace {
+
+TEST(StopFlag, IsTakenOnceHoweverOftenItWasPressed) {
+  StopFlag flag;
+  EXPECT_FALSE(flag.take());
+  flag.press();
+  flag.press();
+  EXPECT_TRUE(flag.is_pressed());
+  EXPECT_TRUE(flag.take());
+  EXPECT_FALSE(flag.is_pressed());
+  EXPECT_FALSE(flag.take());
+}
+
+TEST(TickCore, AStopActsInTheNextTickThoughTheQueueOfRequestsIsFull) {
+  const auto arm = std::make_unique<SimArm>();
+  ASSERT_TRUE(arm->enable());
+  while (arm->link.requests.push(Request::kClear)) {
+  }
+  arm->link.stop.press();
+  arm->tick();
+  EXPECT_EQ(arm->now().state, OperatingState::kStopping);
+}
+
+TEST(TickCore, WhatWasAskedForBeforeAStopDoesNotFollowIt) {
+  const auto arm = std::make_unique<SimArm>();
+  for (int i = 0; i < 10; ++i) arm->interval();
+  arm->link.requests.push(Request::kEnable);
+  arm->link.stop.press();
+  for (int i = 0; i < 20; ++i) arm->interval();
+  EXPECT_EQ(arm->now().state, OperatingState::kDisabled);
+  EXPECT_EQ(arm->link.requests.front(), nullptr);
+  EXPECT_TRUE(arm->enable()) << "a request after the stop counts again";
+}
+
+}  // namespace
+}  // namespace liana
