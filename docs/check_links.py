@@ -25,7 +25,9 @@ def broken_in(page):
 def unlisted():
     """Pages that the index does not name."""
     index = (ROOT / "docs/index.md").read_text()
-    return [page.name for page in (ROOT / "docs").glob("*.md") if page.name != "index.md" and f"({page.name})" not in index]
+    return [
+        page.name for page in (ROOT / "docs").glob("*.md") if page.name != "index.md" and f"({page.name})" not in index
+    ]
 
 
 def main():

@@ -29,7 +29,7 @@ concept Arm = std::is_trivially_copyable_v<A> && ArmTable<typename A::Table> &&
     std::is_trivially_copyable_v<typename A::Report> && std::is_trivially_copyable_v<typename A::Sensors> &&
     std::is_constructible_v<A, const typename A::Table&> &&
     requires(A arm, const A& seen, const typename A::Table& table, const typename A::Setpoint& setpoint,
-             const typename A::Report& report, const typename A::Sensors& sensors, const DriveFeedbacks& feedback,
+             const typename A::Report& report, typename A::Report& told, const typename A::Sensors& sensors, const DriveFeedbacks& feedback,
              const DriveCommands& sent, DriveProposals& proposals, const Orders& orders, WatchScope scope, Watch& out,
              FaultList& faults, std::int32_t drive, std::uint64_t tick, bool flag) {
   { setpoint.kind } -> std::convertible_to<CommandKind>;
@@ -55,7 +55,7 @@ concept Arm = std::is_trivially_copyable_v<A> && ArmTable<typename A::Table> &&
   // 5. What each drive should do, in every phase (flag: no fault is latched). LimitBits that acted.
   { arm.propose(orders, sent, flag, proposals) } -> std::same_as<std::uint32_t>;
   // 6. What the world may know.
-  { seen.report() } -> std::same_as<typename A::Report>;
+  { seen.report(told) } -> std::same_as<void>;
   // The twin's nominal plant: torque that a drive which goes where it is told shows after this report.
   { A::planned_permille(table, report, drive) } -> std::same_as<std::int16_t>;
 };

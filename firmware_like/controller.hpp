@@ -162,7 +162,8 @@ void Controller<A>::command_drives(const Inputs<A>& inputs, const Orders& orders
 template <Arm A>
 Outputs<A> Controller<A>::report(const Inputs<A>& inputs, const Orders& orders) const noexcept {
   const ArmStatus arm = arm_.status();
-  Outputs<A> out{{}, arm_.report()};
+  Outputs<A> out;
+  arm_.report(out);
   out.tick = inputs.tick;
   out.state = orders.state;
   out.stop_category = orders.stop_category;

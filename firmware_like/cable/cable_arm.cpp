@@ -55,12 +55,6 @@ void CableArm::count_homing() noexcept {
   if (!all_fresh || residual_m > 4.0 * kHomingResidual_m) homing_ticks_ = 0;
 }
 
-void CableArm::watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept {
-  const Index c = as_index(drive);
-  const TensionReading now{tension_measured_N_[c], estimator_.tension_N[c], follows};
-  watch_tension(tension_watch_limits_, scope, now, drive, tension_watch_, out);
-}
-
 void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept {
   const CableReadings cables{payout_measured_m_, tension_measured_N_, model_.geometry.length_m, estimator_.residual_m};
   const bool usable = scope.prepared && feedback_age_ticks_ == 0 && faults.count == 0;
@@ -193,8 +187,7 @@ void CableArm::propose_payouts(DriveProposals& out) const noexcept {
   }
 }
 
-Report CableArm::report() const noexcept {
-  Report out;
+void CableArm::report(Report& out) const noexcept {
   out.held_mask = motion_.held_mask;
   out.held_at_target = motion_.held_at_target ? 1 : 0;
   out.theta_command_rad = motion_.limiter.theta_rad;
@@ -214,7 +207,6 @@ Report CableArm::report() const noexcept {
   out.ik_attitude_error_rad = motion_.ik.attitude_error_rad;
   out.ik_outcome = motion_.ik.outcome;
   out.ik_residual = motion_.ik.residual;
-  return out;
 }
 
 std::int16_t CableArm::planned_permille(const RobotTable& table, const Report& report, std::int32_t drive) noexcept {

@@ -42,7 +42,10 @@ class CableArm {
 
   // One tick, in the order of these functions; arm.hpp says what each has to do.
   void read(const DriveFeedbacks& drives, const NoSensors&) noexcept;
-  void watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept;
+  void watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept {
+    const TensionReading now{tension_measured_N_[as_index(drive)], estimator_.tension_N[as_index(drive)], follows};
+    watch_tension(tension_watch_limits_, scope, now, drive, tension_watch_, out);
+  }
   void watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept;
   ArmStatus status() const noexcept;
   bool accepts(const Setpoint& setpoint) const noexcept { return is_usable(table_, setpoint); }
@@ -52,7 +55,7 @@ class CableArm {
   void stand() noexcept;
   std::uint32_t advance(bool allowed) noexcept;
   std::uint32_t propose(const Orders& orders, const DriveCommands& sent, bool is_sound, DriveProposals& out) noexcept;
-  Report report() const noexcept;
+  void report(Report& out) const noexcept;
 
   // What the twin's drives show beside what they are told: the planned tension.
   static std::int16_t planned_permille(const RobotTable& table, const Report& report, std::int32_t drive) noexcept;

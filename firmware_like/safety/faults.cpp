@@ -71,7 +71,8 @@ constexpr std::array<FaultInfo, 22> kFaultTable{{
     {kTicksLost, "ticks_lost", kStop, true, "More control deadlines in a row were lost than the drives tolerate.",
      "Run liana doctor, free the computer's cores from other work, then clear and enable again."},
     {kJointOutOfRange, "joint_out_of_range", kStop, true, "A joint with power stands beyond the end of its range.",
-     "Look for what pushes it, and compare the drive's stored zero with the robot table; move it back by hand with the brakes' release "
+     "Look for what pushes it, and compare the drive's stored zero with the robot table; move it back by hand with the "
+     "brakes' release "
      "procedure, then clear."},
     {kJointJump, "joint_jump", kStop, true, "A joint's encoder changed faster than the joint can turn.",
      "Check the encoder and its cable; compare the joint's angle with the arm by eye, then clear and enable again."},

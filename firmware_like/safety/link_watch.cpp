@@ -34,11 +34,6 @@ void watch_state(WatchScope scope, const DriveFeedback& drive, std::int32_t i, L
   }
 }
 
-bool lags(std::int64_t window_counts, std::int32_t target_counts, std::int32_t position_counts) noexcept {
-  const std::int64_t lag = static_cast<std::int64_t>(target_counts) - position_counts;
-  return lag > window_counts || lag < -window_counts;
-}
-
 }  // namespace
 
 void Watch::wrong(FaultNumber number, std::int32_t index, std::uint16_t detail) noexcept {
@@ -69,13 +64,6 @@ void watch_drive(const LinkLimits& limits, WatchScope scope, const DriveFeedback
                  LinkWatchState& state, Watch& out) noexcept {
   watch_link(limits, drive, index, state, out);
   watch_state(scope, drive, index, state, out);
-}
-
-void watch_following(const LinkLimits& limits, WatchScope scope, const DriveFeedback& drive, const DriveCommand& sent,
-                     std::int32_t index, LinkWatchState& state, Watch& out) noexcept {
-  const std::size_t i = as_index(index);
-  const bool late = scope.powered && lags(limits.following_counts[i], sent.target_counts, drive.position_counts);
-  out.debounced(late, kFollowingDebounceTicks, state.following_ticks[i], FaultNumber::kFollowingError, index);
 }
 
 }  // namespace liana

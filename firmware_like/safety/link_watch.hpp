@@ -74,7 +74,16 @@ void watch_drive(const LinkLimits& limits, WatchScope scope, const DriveFeedback
                  LinkWatchState& state, Watch& out) noexcept;
 
 // Whether one drive follows what was `sent` to it in the last tick.
-void watch_following(const LinkLimits& limits, WatchScope scope, const DriveFeedback& drive, const DriveCommand& sent,
-                     std::int32_t index, LinkWatchState& state, Watch& out) noexcept;
+inline void watch_following(const LinkLimits& limits, WatchScope scope, const DriveFeedback& drive,
+                            const DriveCommand& sent, std::int32_t index, LinkWatchState& state, Watch& out) noexcept {
+  const std::size_t i = as_index(index);
+  const std::int64_t lag_counts = static_cast<std::int64_t>(sent.target_counts) - drive.position_counts;
+  const bool lags = lag_counts > limits.following_counts[i] || lag_counts < -limits.following_counts[i];
+  if (scope.powered && lags) {
+    out.debounced(true, kFollowingDebounceTicks, state.following_ticks[i], FaultNumber::kFollowingError, index);
+  } else {
+    state.following_ticks[i] = 0;
+  }
+}
 
 }  // namespace liana

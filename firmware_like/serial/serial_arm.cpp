@@ -50,8 +50,7 @@ std::uint32_t SerialArm::propose(const Orders& orders, const DriveCommands&, boo
   return 0;
 }
 
-Report SerialArm::report() const noexcept {
-  Report out;
+void SerialArm::report(Report& out) const noexcept {
   out.joint_command_rad = motion_.limiter.joint_rad;
   out.joint_rate_rad_s = motion_.limiter.rate_rad_s;
   out.joint_measured_rad = measured_rad();
@@ -65,7 +64,6 @@ Report SerialArm::report() const noexcept {
   out.ik_attitude_error_rad = motion_.ik.attitude_error_rad;
   out.ik_outcome = motion_.ik.outcome;
   out.ik_residual = motion_.ik.residual;
-  return out;
 }
 
 }  // namespace liana::serial

@@ -43,7 +43,7 @@ class SerialArm {
   void stand() noexcept { reset_motion(table_, measured_rad(), motion_); }
   std::uint32_t advance(bool allowed) noexcept;
   std::uint32_t propose(const Orders& orders, const DriveCommands& sent, bool is_sound, DriveProposals& out) noexcept;
-  Report report() const noexcept;
+  void report(Report& out) const noexcept;
 
   // What the twin's drives show beside what they are told: nothing, in orbit and without a load.
   static std::int16_t planned_permille(const RobotTable&, const Report&, std::int32_t) noexcept { return 0; }

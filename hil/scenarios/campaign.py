@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Random sequences of faults and of what an operator does about them, each from its seed, in lockstep; judged tick by tick (recorded_rules.py).
+"""Random sequences of faults and of what an operator does about them, each from its seed, in lockstep; judged tick by
+tick (recorded_rules.py).
 
 `./dev numbers faults` runs 500; `campaign.py --seed N` repeats one and tells what happened in it.
 """
@@ -9,11 +10,13 @@ import concurrent.futures
 import json
 import os
 import random
-import subprocess
 import sys
 
+import source_tree  # noqa: F401
 import trial
-from scenario import Failed, expect_that
+from liana.client import NotReached
+from run_scenario import kFailures
+from scenario_file import Failed, expect_that
 
 kDrives, kThetas = 15, 10
 kBootTicks, kEnabledTick = 130, 1000
@@ -25,18 +28,40 @@ kShort = 5  # sequences in ./dev hil
 
 # What a kind is told: field -> values to choose from; and whether it may end.
 kBenchKinds = {
-    "missing": ({}, True), "reboot": ({}, False), "silent": ({}, True), "late": ({"cycles": (1, 2, 3, 10)}, True), "stuck": ({}, True),
-    "noisy": ({"counts": (3, 300, 3000), "permille": (0, 20, 400)}, True), "wrong_pdo_length": ({"bytes": (0, 4, 6, 7)}, True),
-    "emcy": ({"code": (0x1000, 0x4210, 0x8110)}, False), "fault": ({"code": (0x2310, 0x3210, 0x7305)}, False), "sto": ({}, False),
-    "encoder_jump": ({"counts": (-60000, -5000, -300, 36, 700, 5000, 60000)}, False), "motor_saturation": ({"tension_N": (0, 5, 30, 200)}, True),
-    "slack": ({}, True), "cable_slip": ({"length_m": (0.0002, 0.002, 0.02)}, False), "cable_break": ({}, False),
-    "wrong_identity_after_reboot": ({}, False)}
-# Action of the bus script: ids it takes (None: the whole bus); for "send" the stranger's id. Ids of one drive (+ node): TPDO, RPDO, heartbeat.
+    "missing": ({}, True),
+    "reboot": ({}, False),
+    "silent": ({}, True),
+    "late": ({"cycles": (1, 2, 3, 10)}, True),
+    "stuck": ({}, True),
+    "noisy": ({"counts": (3, 300, 3000), "permille": (0, 20, 400)}, True),
+    "wrong_pdo_length": ({"bytes": (0, 4, 6, 7)}, True),
+    "emcy": ({"code": (0x1000, 0x4210, 0x8110)}, False),
+    "fault": ({"code": (0x2310, 0x3210, 0x7305)}, False),
+    "sto": ({}, False),
+    "encoder_jump": ({"counts": (-60000, -5000, -300, 36, 700, 5000, 60000)}, False),
+    "motor_saturation": ({"tension_N": (0, 5, 30, 200)}, True),
+    "slack": ({}, True),
+    "cable_slip": ({"length_m": (0.0002, 0.002, 0.02)}, False),
+    "cable_break": ({}, False),
+    "wrong_identity_after_reboot": ({}, False),
+}
+# Action of the bus script: ids it takes (None: the whole bus); for "send" the stranger's id. Ids of one drive (+ node):
+# TPDO, RPDO, heartbeat.
 kSync, kMaster, kBabble = 0x080, 0x77F, 0x001
 kOfOneDrive = (0x180, 0x200, 0x700)
 kAnyFrame = (None, kSync, kMaster, *kOfOneDrive)
-kBusActions = {"drop": kAnyFrame, "duplicate": kAnyFrame, "reorder": kAnyFrame, "disturb": kAnyFrame, "refuse": (None, kSync, kMaster, 0x200), "send": (kBabble,),
-               "cut": (), "down": (), "swap": (), "pause": ()}
+kBusActions = {
+    "drop": kAnyFrame,
+    "duplicate": kAnyFrame,
+    "reorder": kAnyFrame,
+    "disturb": kAnyFrame,
+    "refuse": (None, kSync, kMaster, 0x200),
+    "send": (kBabble,),
+    "cut": (),
+    "down": (),
+    "swap": (),
+    "pause": (),
+}
 kLoads_percent = (10, 60, 100)
 kShareOfBus = 0.4
 kForever, kLongestPause = 1000000, 300  # slots
@@ -47,9 +72,21 @@ kActions = {
     "BOOTING": {"enable": 1, "wait": 3},
     "DISABLED": {"enable": 12, "clear": 3, "move_jp": 1, "stop": 1, "acquire": 2, "wait": 1},
     "ENABLING": {"wait": 30, "disable": 1, "stop": 1, "enable": 1, "clear": 1},
-    "ENABLED": {"move_jp": 12, "move_cp": 8, "servo_cp": 3, "hold_theta": 1, "hold": 4, "retract": 1, "stop": 1, "disable": 1, "clear": 2, "enable": 1},
+    "ENABLED": {
+        "move_jp": 12,
+        "move_cp": 8,
+        "servo_cp": 3,
+        "hold_theta": 1,
+        "hold": 4,
+        "retract": 1,
+        "stop": 1,
+        "disable": 1,
+        "clear": 2,
+        "enable": 1,
+    },
     "STOPPING": {"wait": 4, "enable": 2, "clear": 2, "move_jp": 2},
-    "FAULT": {"clear": 8, "enable": 3, "move_jp": 1, "acquire": 1, "wait": 3}}
+    "FAULT": {"clear": 8, "enable": 3, "move_jp": 1, "acquire": 1, "wait": 3},
+}
 
 
 class Sequence:
@@ -68,20 +105,33 @@ class Sequence:
 
     def begin(self):
         """A slot: mostly with the arm enabled, sometimes while it boots or is enabled."""
-        low, high = self.draw.choice(((0, kBootTicks), (kBootTicks, kEnabledTick)) + 8 * ((kEnabledTick, self.last_tick - 200),))
+        low, high = self.draw.choice(
+            ((0, kBootTicks), (kBootTicks, kEnabledTick)) + 8 * ((kEnabledTick, self.last_tick - 200),)
+        )
         return self.draw.randrange(low, high)
 
     def bench_fault(self):
         kind = self.draw.choice(sorted(kBenchKinds))
         values, may_end = kBenchKinds[kind]
-        fault = {"kind": kind, "drive": self.draw.choice([self.draw.randrange(kDrives)] * 4 + [sorted(self.draw.sample(range(kDrives), 2))]),
-                 "at_slot": self.begin(), **{name: self.draw.choice(of) for name, of in values.items()}}
+        fault = {
+            "kind": kind,
+            "drive": self.draw.choice(
+                [self.draw.randrange(kDrives)] * 4 + [sorted(self.draw.sample(range(kDrives), 2))]
+            ),
+            "at_slot": self.begin(),
+            **{name: self.draw.choice(of) for name, of in values.items()},
+        }
         span = self.draw.choice(kSpans)
         return {**fault, "for_slots": span} if may_end and span is not None else fault
 
     def bus_fault(self):
         action = self.draw.choice(sorted(kBusActions))
-        ids, node, begin, span = kBusActions[action], self.draw.randrange(1, kDrives + 1), self.begin(), self.draw.choice(kSpans)
+        ids, node, begin, span = (
+            kBusActions[action],
+            self.draw.randrange(1, kDrives + 1),
+            self.begin(),
+            self.draw.choice(kSpans),
+        )
         bus = 0 if node <= 8 else 1
         rule = {"action": action, "from_slot": begin, "to_slot": begin + (span or kForever) - 1}
         if action != "pause":
@@ -108,7 +158,9 @@ class Sequence:
             return name, {"goal_deg": self.goal_deg(state)}
         if name in ("move_cp", "servo_cp"):
             pose = state.get("setpoint_cp", [0, 0, 4, 1, 0, 0, 0])
-            return name, {"goal": [value + self.draw.uniform(-0.02, 0.02) if i < 3 else value for i, value in enumerate(pose)]}
+            return name, {
+                "goal": [value + self.draw.uniform(-0.02, 0.02) if i < 3 else value for i, value in enumerate(pose)]
+            }
         if name == "hold_theta":
             return name, {"held": self.draw.choice(([], [{"theta": self.draw.randint(1, kThetas), "target_deg": 0}]))}
         return None if name == "wait" else (name, {})
@@ -124,7 +176,7 @@ class Sequence:
 
 
 class SequenceRun:
-    """A sequence under way; the fields are those of scenario.Run, and what is counted."""
+    """A sequence under way; the fields are those of run_scenario.Run, and what is counted."""
 
     def __init__(self, sequence):
         self.sequence, self.notes, self.violations = sequence, [], []
@@ -134,12 +186,14 @@ class SequenceRun:
         """Failed says how to repeat it, whatever went wrong."""
         try:
             self.go_once()
-        except (Failed, AssertionError, OSError, ValueError, KeyError, subprocess.SubprocessError) as error:
+        except kFailures as error:
             raise Failed(f"{error or type(error).__name__}; again: {again(self.sequence.seed)}") from error
 
     def go_once(self):
         replay = self.sequence.seed % kReplayEvery == 0
-        done = trial.Trial(self.sequence.bench_faults, self.sequence.bus_script, self.sequence.seed).go(self.operate, replay)
+        done = trial.Trial(self.sequence.bench_faults, self.sequence.bus_script, self.sequence.seed).go(
+            self.operate, replay
+        )
         self.violations += done.complaints
         self.count(done, replay)
         expect_that(not self.violations, "; ".join(self.violations))
@@ -154,7 +208,7 @@ class SequenceRun:
             client.until(lambda state: state["tick"] >= end)
         try:
             client.until(lambda state: state["state"] in ("DISABLED", "FAULT", "ENABLED"), kSettle_s)
-        except AssertionError as error:
+        except NotReached as error:
             raise Failed(f"it hangs: {error}") from None
 
     @staticmethod
@@ -166,13 +220,19 @@ class SequenceRun:
         answer = client.ask(op, **fields)
         self.counts["requests"] += 1
         self.counts["refused requests"] += answer["op"] == "error"
-        self.told.append(f"tick {client.state['tick']}: {op} {fields.get('command', '')} -> {answer.get('code', 'ok')}; {client.state['state']}")
+        self.told.append(
+            f"tick {client.state['tick']}: {op} {fields.get('command', '')} -> {answer.get('code', 'ok')};"
+            f" {client.state['state']}"
+        )
 
     def count(self, done, replay):
         self.counts["ticks"] += len(done.recording.ticks)
         self.counts["replayed"] += replay
         self.counts["boots that failed"] += not done.recording.ticks
-        self.counts["enabled"] += sum(now.state == "ENABLED" != before.state for before, now in zip(done.recording.ticks, done.recording.ticks[1:]))
+        self.counts["enabled"] += sum(
+            now.state == "ENABLED" != before.state
+            for before, now in zip(done.recording.ticks, done.recording.ticks[1:])
+        )
         self.counts["latched"] += len(done.latched())
         for course in done.courses:
             self.counts[f"begun: {course['kind']}"] += course["begun_slot"] is not None
@@ -180,7 +240,10 @@ class SequenceRun:
             self.counts[f"begun: bus {rule['action']}"] += rule["from_slot"] < len(done.truth.rows)
         for number in {fault[0] for fault in done.latched()}:
             self.counts[f"latched: {number}"] += 1
-        self.notes.append(f"{self.sequence.fault_count()} faults, latched {sorted({fault[0] for fault in done.latched()})}, {len(done.recording.ticks)} ticks")
+        self.notes.append(
+            f"{self.sequence.fault_count()} faults, latched {sorted({fault[0] for fault in done.latched()})},"
+            f" {len(done.recording.ticks)} ticks"
+        )
         self.told += [f"tick {fault[2]}: {fault[0]} of {fault[1]} is latched" for fault in done.latched()]
 
 
@@ -199,7 +262,9 @@ def run_seed(seed):
 
 
 def campaign(seeds, say=lambda text: print(text, file=sys.stderr, flush=True)):
-    """Counts over all seeds, and {seed: why} of those that failed twice: what a sequence does repeats to the bit, what a machine that stalls does to it does not."""
+    """Counts over all seeds, and {seed: why} of those that failed twice: what a sequence does repeats to the bit, what
+    a machine that stalls does to it does not.
+    """
     counts, failed = collections.Counter(), {}
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
         for seed, found, why in pool.map(run_seed, seeds):

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Which scenario or test shows each fault number: the second table of docs/faults.md. `--measured FILE` adds the ticks of a `./dev hil --json FILE`."""
+"""Which scenario or test shows each fault number: the second table of docs/faults.md. `--measured FILE` adds the ticks
+of a `./dev hil --json FILE`.
+"""
 import argparse
 import collections
 import json
@@ -8,15 +10,24 @@ import re
 import subprocess
 import sys
 
+import source_tree  # noqa: F401
 import scenario
 
 kShown = 2  # scenarios named for each number, the first in bring-up order
 
 # What no scenario can bring about: the test that does, by the file that holds it.
-kTests = {1001: ("Controller.ATelecommandThatIsNotANumberIsFault1001AndNeverFollowed", "tests/firmware_like/controller_test.cpp"),
-          2002: ("SerialController.AJointPushedOutOfItsRangeIsAFault", "tests/firmware_like/serial_controller_test.cpp"),
-          2003: ("SerialController.AnEncoderThatJumpsIsAFaultInTheSameTick", "tests/firmware_like/serial_controller_test.cpp"),
-          6001: ("Gate.ARefusalBecomesAFaultThatNamesDriveAndCheck", "tests/firmware_like/gate_test.cpp")}
+kTests = {
+    1001: (
+        "Controller.ATelecommandThatIsNotANumberIsFault1001AndNeverFollowed",
+        "tests/firmware_like/controller_test.cpp",
+    ),
+    2002: ("SerialController.AJointPushedOutOfItsRangeIsAFault", "tests/firmware_like/serial_controller_test.cpp"),
+    2003: (
+        "SerialController.AnEncoderThatJumpsIsAFaultInTheSameTick",
+        "tests/firmware_like/serial_controller_test.cpp",
+    ),
+    6001: ("Gate.ARefusalBecomesAFaultThatNamesDriveAndCheck", "tests/firmware_like/gate_test.cpp"),
+}
 
 
 def shown_by():
@@ -47,7 +58,10 @@ def row(number, scenarios, measured):
 
 
 def table(numbers, measured):
-    head = ["| number | shown by |" + (" measured ticks |" if measured else ""), "|---|---|" + ("---|" if measured else "")]
+    head = [
+        "| number | shown by |" + (" measured ticks |" if measured else ""),
+        "|---|---|" + ("---|" if measured else ""),
+    ]
     shown = shown_by()
     return "\n".join(head + [row(number, shown.get(number, []), measured) for number in numbers]) + "\n"
 
@@ -57,8 +71,13 @@ def main():
     parser.add_argument("--liana", default="build/bin/liana", help="the program that knows the numbers")
     parser.add_argument("--measured", type=pathlib.Path, help="results of ./dev hil --json")
     options = parser.parse_args()
-    known = json.loads(subprocess.run([options.liana, "faults", "--json"], capture_output=True, text=True, check=True).stdout)
-    print(table([fault["number"] for fault in known], measured_ticks(options.measured) if options.measured else {}), end="")
+    known = json.loads(
+        subprocess.run([options.liana, "faults", "--json"], capture_output=True, text=True, check=True).stdout
+    )
+    print(
+        table([fault["number"] for fault in known], measured_ticks(options.measured) if options.measured else {}),
+        end="",
+    )
     return 0
 
 

@@ -1,21 +1,28 @@
-"""Every pair of these faults, the second 0 to 50 ticks after the first, into a moving arm: what is latched first, what wins (docs/priorities.md), and that it ends at rest."""
+"""Every pair of these faults, the second 0 to 50 ticks after the first, into a moving arm: what is latched first, what
+wins (docs/priorities.md), and that it ends at rest.
+"""
 import collections
 import itertools
 
 import trial
-from liana_system import brief, must
-from scenario import Failed, expect_that, kMoveDeg, kRested
+from embedded import start_move
+from liana.client import NotReached, brief
+from run_scenario import expect_refused
+from scenario_file import Failed, expect_that
 
 kBeginTick = 2000  # the arm is enabled at about 900; by now the move is well under way
 kDelays = (0, 1, 2, 3, 5, 8, 13, 21, 34, 50)
 kForever = 1000000
+kRested_s = 1.0  # arm time for which the end state is watched
 kEnd_s = 60  # arm time; the slowest detection takes a third of it
 kSwingDeg = 2.0  # in the last half second: brakes hold the drums, but on its elastic cables the arm swings on
 kReduced = ({"silent", "fault"}, {"slack", "overload"}, {"bus_lost", "operator_stop"})
 
-# Fault of the bench or the bus; number and index it latches alone, and from how many ticks after its begin until how many. `or_else`: another number and index
-# that may be sooner, where two detectors see it nearly at once.
-Member = collections.namedtuple("Member", "name bench bus number index earliest latest travel_deg or_else", defaults=(2.0, None))
+# Fault of the bench or the bus; number and index it latches alone, and from how many ticks after its begin until how
+# many. `or_else`: another number and index that may be sooner, where two detectors see it nearly at once.
+Member = collections.namedtuple(
+    "Member", "name bench bus number index earliest latest travel_deg or_else", defaults=(2.0, None)
+)
 
 
 def bench(drive, kind, **values):
@@ -60,7 +67,9 @@ class Pair:
         return len(self.bench_faults()) + len(self.bus_script())
 
     def bench_faults(self):
-        return [{**member.bench, "at_slot": begin} for member, begin in zip(self.members, self.begins()) if member.bench]
+        return [
+            {**member.bench, "at_slot": begin} for member, begin in zip(self.members, self.begins()) if member.bench
+        ]
 
     def bus_script(self):
         return [{**member.bus, "from_slot": begin} for member, begin in zip(self.members, self.begins()) if member.bus]
@@ -70,13 +79,21 @@ class Pair:
         return next((begin for member, begin in zip(self.members, self.begins()) if member.number is None), None)
 
     def expected_first(self):
-        """(number, index) of those that may be latched first: both, where either could be. In one tick buses come first, then the lower index."""
-        faults = [(begin + member.earliest, begin + member.latest, member) for member, begin in zip(self.members, self.begins()) if member.number]
+        """(number, index) of those that may be latched first: both, where either could be. In one tick buses come
+        first, then the lower index.
+        """
+        faults = [
+            (begin + member.earliest, begin + member.latest, member)
+            for member, begin in zip(self.members, self.begins())
+            if member.number
+        ]
         soonest = min(latest for _, latest, _ in faults)
         able = [(earliest, latest, member) for earliest, latest, member in faults if earliest <= soonest]
         if len({(earliest, latest) for earliest, latest, _ in able}) == 1 and able[0][0] == able[0][1]:
             able = [min(able, key=lambda one: (one[2].number != 4001, one[2].index))]
-        return [(member.number, member.index) for _, _, member in able] + [member.or_else for _, _, member in able if member.or_else]
+        return [(member.number, member.index) for _, _, member in able] + [
+            member.or_else for _, _, member in able if member.or_else
+        ]
 
     def run(self):
         return PairRun(self)
@@ -96,7 +113,7 @@ def ended(state):
 
 
 class PairRun:
-    """A pair under way; the fields are those of scenario.Run."""
+    """A pair under way; the fields are those of run_scenario.Run."""
 
     def __init__(self, pair):
         self.pair, self.notes, self.violations = pair, [], []
@@ -108,48 +125,54 @@ class PairRun:
         expect_that(not self.violations, "; ".join(self.violations))
 
     def operate(self, client):
-        must(client.ask("acquire"))
+        client.call("acquire")
         client.until(lambda state: state["faults"] or (state["state"] != "BOOTING" and state["is_homed"]))
-        must(client.ask("state_command", command="enable"))
+        client.call("state_command", command="enable")
         client.until(lambda state: state["faults"] or state["state"] == "ENABLED")
         expect_that(not client.state["faults"], f"a fault before the first of the pair: {brief(client.state)}")
-        goal = list(client.state["setpoint_js_deg"])
-        goal[8] -= kMoveDeg
-        must(client.ask("move_jp", goal_deg=goal))
+        start_move(client)
         self.wait_for_the_end(client)
         self.stay(client)
         in_fault = client.state["state"] == "FAULT"
-        must(client.ask("state_command", command="clear"))
+        client.call("state_command", command="clear")
         client.until(lambda state: not in_fault or any("cleared" in event["text"] for event in state["events"]))
         client.go_on(1.0)
-        expect_that(client.state["state"] in ("FAULT", "DISABLED"), f"after the clear the state is not documented: {brief(client.state)}")
+        expect_that(
+            client.state["state"] in ("FAULT", "DISABLED"),
+            f"after the clear the state is not documented: {brief(client.state)}",
+        )
 
     def wait_for_the_end(self, client):
         stop = self.pair.stop_tick()
         if stop is not None:
             client.until(lambda state: state["tick"] >= stop, kEnd_s)
-            must(client.ask("stop", reason="one of a pair"))
+            client.call("stop", reason="one of a pair")
         try:
             client.until(ended, kEnd_s)
-        except AssertionError as error:
+        except NotReached as error:
             raise Failed(f"it does not come to an end: {error}") from None
 
     @staticmethod
     def stay(client):
         """Nothing clears itself, and nothing moves or enables without a clear."""
-        state, end = client.state["state"], client.state["tick"] + kRested
-        client.until(lambda state: state["tick"] >= end)
-        expect_that(client.state["state"] == state or client.state["state"] == "FAULT", f"{state} did not stay: {brief(client.state)}")
-        for op, words in (("state_command", {"command": "enable"}), ("move_jp", {"goal_deg": client.state["setpoint_js_deg"]})):
-            answer = client.ask(op, **words)
-            expect_that(answer["op"] == "error", f"{op} was accepted after the pair: {answer}")
+        state = client.state["state"]
+        client.go_on(kRested_s)
+        expect_that(
+            client.state["state"] == state or client.state["state"] == "FAULT",
+            f"{state} did not stay: {brief(client.state)}",
+        )
+        expect_refused(client, "after the pair")
 
     def judge(self, done):
         latched = done.latched()
         if latched:
             first = latched[0]
-            self.notes.append(f"{self.pair.delay} ticks apart, first {first[0]} of {first[1]} after {first[2] - kBeginTick} ticks")
-            expect_that(first[:2] in self.pair.expected_first(), f"first is {first[:2]}, expected {self.pair.expected_first()}")
+            self.notes.append(
+                f"{self.pair.delay} ticks apart, first {first[0]} of {first[1]} after {first[2] - kBeginTick} ticks"
+            )
+            expect_that(
+                first[:2] in self.pair.expected_first(), f"first is {first[:2]}, expected {self.pair.expected_first()}"
+            )
         expect_that(latched or self.pair.stop_tick() is not None, "no fault was latched")
         missing = [course["kind"] for course in done.courses if course["begun_slot"] is None]
         expect_that(not missing, f"never began: {', '.join(missing)}")

@@ -1,4 +1,6 @@
-"""Safety rules as checks over what a run left behind: the bus logs and truth.bin. Each gives a list of complaints, empty when the rule held."""
+"""Safety rules as checks over what a run left behind: the bus logs and truth.bin. Each gives a list of complaints,
+empty when the rule held.
+"""
 import collections
 import math
 import re
@@ -15,7 +17,7 @@ Report = collections.namedtuple("Report", "slot position")
 
 
 def little_endian(text, first, count, signed=False):
-    return int.from_bytes(bytes.fromhex(text)[first:first + count], "little", signed=signed)
+    return int.from_bytes(bytes.fromhex(text)[first : first + count], "little", signed=signed)
 
 
 class Traffic:
@@ -54,7 +56,10 @@ def target_steps(traffic, limit_counts):
             periods = max(1, now.slot - before.slot)
             step = abs(now.target - before.target)
             if is_enabling(before) and is_enabling(now) and step > limit_counts * periods:
-                complaints.append(f"node {node}, slot {now.slot}: the target changes by {step} counts, allowed are {limit_counts * periods:.0f}")
+                complaints.append(
+                    f"node {node}, slot {now.slot}: the target changes by {step} counts, allowed are"
+                    f" {limit_counts * periods:.0f}"
+                )
     return complaints
 
 
@@ -68,32 +73,44 @@ def enabling_commands(traffic, first_slot, end_slot):
 
 def enabling_without_clear(traffic, first_slot, end_slot):
     """Between the stop and the operator's clear and enable, no drive is told to enable operation."""
-    return [f"node {node}, slot {found[0].slot}: told to enable operation while the fault is latched ({len(found)} times)"
-            for node, found in enabling_commands(traffic, first_slot, end_slot)]
+    return [
+        f"node {node}, slot {found[0].slot}: told to enable operation while the fault is latched ({len(found)} times)"
+        for node, found in enabling_commands(traffic, first_slot, end_slot)
+    ]
 
 
 def targets_that_move(traffic, first_slot, end_slot):
-    """From the end of the path stop to the operator's clear, the targets of drives that still hold the arm stay as they are."""
+    """From the end of the path stop to the operator's clear, the targets of drives that still hold the arm stay as
+    they are.
+    """
     complaints = []
     for node, found in enabling_commands(traffic, first_slot, end_slot):
         targets = [command.target for command in found]
         if max(targets) != min(targets):
-            complaints.append(f"node {node}: the target moves by {max(targets) - min(targets)} counts while the fault is latched")
+            complaints.append(
+                f"node {node}: the target moves by {max(targets) - min(targets)} counts while the fault is latched"
+            )
     return complaints
 
 
 def drums_that_move(traffic, first_slot, end_slot, left_out=(), allowed_counts=1):
-    """Brakes hold: between the stop and the operator's enable, the drives report one place. `left_out`: nodes whose reports are the fault."""
+    """Brakes hold: between the stop and the operator's enable, the drives report one place. `left_out`: nodes whose
+    reports are the fault.
+    """
     complaints = []
     for node, reports in sorted(traffic.reports.items()):
         places = [report.position for report in reports if first_slot <= report.slot < end_slot]
         if node not in left_out and places and max(places) - min(places) > allowed_counts:
-            complaints.append(f"node {node}: the drum moves by {max(places) - min(places)} counts while the fault is latched")
+            complaints.append(
+                f"node {node}: the drum moves by {max(places) - min(places)} counts while the fault is latched"
+            )
     return complaints
 
 
 def drives_with_torque(enabled, first_slot, end_slot):
-    """From the end of the stop to the operator's enable, no drive is in Operation enabled; `enabled` is the column of truth.bin."""
+    """From the end of the stop to the operator's enable, no drive is in Operation enabled; `enabled` is the column of
+    truth.bin.
+    """
     found = [slot for slot, count in enumerate(enabled) if first_slot <= slot < end_slot and count > 0]
     return [f"slot {found[0]}: {enabled[found[0]]:.0f} drives are enabled while the fault is latched"] if found else []
 

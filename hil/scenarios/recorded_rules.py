@@ -1,6 +1,8 @@
-"""Safety rules over a recording (recording.py), tick by tick. Each gives a list of complaints, empty when the rule held; all_complaints() is all of them.
+"""Safety rules over a recording (liana.recordings), tick by tick. Each gives a list of complaints, empty when the rule
+held; all_complaints() is all of them.
 
-What is wrong is judged anew from what the drives reported; only the reaction to each number is read, from docs/faults.md.
+What is wrong is judged anew from what the drives reported; only the reaction to each number is read, from
+docs/faults.md.
 """
 import collections
 import math
@@ -14,8 +16,13 @@ FAULTS_PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "faults.md"
 kReactions = ("none", "hold", "stop", "stop at once", "off at once")  # a later one wins
 kNone, kHold, kStop, kAtOnce, kOff = range(5)
 kCategories = (0, 1, 2, 2, 3)  # stop category that the state shows for each
-kFollowers = {"DISABLED": ("ENABLING", "FAULT"), "ENABLING": ("ENABLED", "STOPPING"), "ENABLED": ("STOPPING",), "STOPPING": ("DISABLED", "FAULT"),
-              "FAULT": ("DISABLED",)}
+kFollowers = {
+    "DISABLED": ("ENABLING", "FAULT"),
+    "ENABLING": ("ENABLED", "STOPPING"),
+    "ENABLED": ("STOPPING",),
+    "STOPPING": ("DISABLED", "FAULT"),
+    "FAULT": ("DISABLED",),
+}
 kLatchedLast = (1001, 6001)  # found after the reaction of their tick was decided: they act from the next one on
 kQuickStop, kDisableVoltage, kFaultReset = 0x02, 0x00, 0x80
 kClearTicks = 260  # from a clear to its verdict
@@ -31,22 +38,39 @@ kSilentTicks, kHeartbeat_s, kLostTicks = 2, 0.3, 2
 kSlackTicks, kAlarmTicks, kOverloadTicks = 25, 25, 3
 kFollowing_m, kFollowingTicks = 1e-3, 6
 
-Limits = collections.namedtuple("Limits", "step_counts following_counts newtons_per_permille heartbeat_ticks slack_N alarm_N overload_N")
+Limits = collections.namedtuple(
+    "Limits", "step_counts following_counts newtons_per_permille heartbeat_ticks slack_N alarm_N overload_N"
+)
 
 
 def limits_of(robot, period_s):
     drives, tension = robot["drives"], robot["tension"]
     metres_per_count = 2 * math.pi * drives["drum_radius_m"] / (drives["counts_per_turn"] * drives.get("gear", 1))
-    return Limits(predicates.step_limit_counts(robot, period_s), kFollowing_m / metres_per_count, drives["rated_torque_Nm"] / 1000 / drives["drum_radius_m"],
-                  round(kHeartbeat_s / period_s), tension["floor_anywhere_N"], tension["alarm_N"], tension["hard_limit_N"])
+    return Limits(
+        predicates.step_limit_counts(robot, period_s),
+        kFollowing_m / metres_per_count,
+        drives["rated_torque_Nm"] / 1000 / drives["drum_radius_m"],
+        round(kHeartbeat_s / period_s),
+        tension["floor_anywhere_N"],
+        tension["alarm_N"],
+        tension["hard_limit_N"],
+    )
 
 
 def documented_reactions(text=None):
     """Fault number -> index into kReactions, from the table of docs/faults.md."""
-    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in (text or FAULTS_PAGE.read_text()).splitlines() if line.startswith("|")]
+    rows = [
+        [cell.strip() for cell in line.strip("|").split("|")]
+        for line in (text or FAULTS_PAGE.read_text()).splitlines()
+        if line.startswith("|")
+    ]
     head = next(row for row in rows if "number" in row)
     number, reaction = head.index("number"), head.index("stops by")
-    return {int(row[number]): kReactions.index(row[reaction]) for row in rows if len(row) == len(head) and re.fullmatch(r"\d{4}", row[number])}
+    return {
+        int(row[number]): kReactions.index(row[reaction])
+        for row in rows
+        if len(row) == len(head) and re.fullmatch(r"\d{4}", row[number])
+    }
 
 
 def is_enabling(word):
@@ -75,18 +99,31 @@ def neighbours(ticks):
 
 def missing_ticks(ticks):
     """Every tick is there."""
-    return [f"tick {now.tick} follows tick {before.tick}" for before, now in neighbours(ticks) if now.tick != before.tick + 1 + now.lost_ticks]
+    return [
+        f"tick {now.tick} follows tick {before.tick}"
+        for before, now in neighbours(ticks)
+        if now.tick != before.tick + 1 + now.lost_ticks
+    ]
 
 
 def target_steps(ticks, limits):
-    """No target of a drive told to enable operation changes more in a tick than the cable speed with the gate's margin."""
+    """No target of a drive told to enable operation changes more in a tick than the cable speed with the gate's
+    margin.
+    """
     complaints = []
     for before, now in neighbours(ticks):
         if now.target == before.target:
             continue
         for drive, (old, new) in enumerate(zip(before.target, now.target)):
-            if abs(new - old) > limits.step_counts and is_enabling(before.controlword[drive]) and is_enabling(now.controlword[drive]):
-                complaints.append(f"tick {now.tick}: the target of drive {drive} changes by {new - old} counts, allowed are {limits.step_counts:.0f}")
+            if (
+                abs(new - old) > limits.step_counts
+                and is_enabling(before.controlword[drive])
+                and is_enabling(now.controlword[drive])
+            ):
+                complaints.append(
+                    f"tick {now.tick}: the target of drive {drive} changes by {new - old} counts, allowed are"
+                    f" {limits.step_counts:.0f}"
+                )
     return complaints
 
 
@@ -99,7 +136,10 @@ def commands_out_of_time(ticks):
             continue
         first, expiry = offered.get(now.active_sequence, (math.inf, 0))
         if not first <= now.tick < expiry:
-            complaints.append(f"tick {now.tick}: telecommand {now.active_sequence} is in force, which holds from {first} until before {expiry}")
+            complaints.append(
+                f"tick {now.tick}: telecommand {now.active_sequence} is in force, which holds from {first} until before"
+                f" {expiry}"
+            )
     return complaints
 
 
@@ -114,16 +154,23 @@ def commands_while_latched(ticks):
     for now in ticks:
         held = acting(now)
         if held and now.active_sequence != 0:
-            complaints.append(f"tick {now.tick}: telecommand {now.active_sequence} is in force while {held[0].number} is latched")
+            complaints.append(
+                f"tick {now.tick}: telecommand {now.active_sequence} is in force while {held[0].number} is latched"
+            )
         if held and now.tick > held[0].tick + kPathStopTicks and max(map(abs, now.theta_rate)) > kStill_rad_s:
-            complaints.append(f"tick {now.tick}: the commanded arm still moves, {held[0].number} was latched in tick {held[0].tick}")
+            complaints.append(
+                f"tick {now.tick}: the commanded arm still moves, {held[0].number} was latched in tick {held[0].tick}"
+            )
     return complaints
 
 
 def states_not_documented(ticks, reactions):
     """States follow each other as documented, and every fault is one that has a page."""
-    complaints = [f"tick {now.tick}: {now.state} follows {before.state}" for before, now in neighbours(ticks)
-                  if now.state != before.state and now.state not in kFollowers[before.state]]
+    complaints = [
+        f"tick {now.tick}: {now.state} follows {before.state}"
+        for before, now in neighbours(ticks)
+        if now.state != before.state and now.state not in kFollowers[before.state]
+    ]
     unknown = {fault.number for now in ticks for fault in now.faults} - reactions.keys()
     return complaints + [f"fault {number} is not in docs/faults.md" for number in sorted(unknown)]
 
@@ -133,7 +180,9 @@ def enabling_unasked(ticks):
     complaints = []
     for before, now in neighbours(ticks):
         if now.state == "ENABLING" != before.state and (now.request != "enable" or now.faults):
-            complaints.append(f"tick {now.tick}: enabling begins, asked for is {now.request}, {len(now.faults)} faults are latched")
+            complaints.append(
+                f"tick {now.tick}: enabling begins, asked for is {now.request}, {len(now.faults)} faults are latched"
+            )
         if now.state in ("DISABLED", "FAULT") and any(map(is_enabling, now.controlword)):
             complaints.append(f"tick {now.tick}: a drive is told to enable operation in {now.state}")
     return complaints
@@ -171,13 +220,20 @@ def weakest_reaction_broken(before, now, highest, was, persisted):
     if highest == kAtOnce > was and had_torque(before):
         if any(is_enabled(status) and word != kQuickStop for status, word in zip(now.statusword, now.controlword)):
             return "a drive with torque is not told to quick stop"
-    if highest == kHold and before.state == "ENABLED" != now.state and now.request not in ("stop", "disable") and not persisted:
+    if (
+        highest == kHold
+        and before.state == "ENABLED" != now.state
+        and now.request not in ("stop", "disable")
+        and not persisted
+    ):
         return f"the state is {now.state}: a hold keeps the drives enabled"
     return None
 
 
 def weak_reactions(ticks, reactions):
-    """The highest reaction of all latched faults is what happens, in the tick in which they are latched (docs/priorities.md)."""
+    """The highest reaction of all latched faults is what happens, in the tick in which they are latched
+    (docs/priorities.md).
+    """
     complaints, was = [], kNone
     for before, now in neighbours(ticks):
         held = acting(now)
@@ -185,7 +241,10 @@ def weak_reactions(ticks, reactions):
         persisted = bool(held) and now.tick >= held[0].tick + kPersistTicks - kSettleTicks
         why = weakest_reaction_broken(before, now, highest, was, persisted) if held and not now.dropped else None
         if why:
-            complaints.append(f"tick {now.tick}: {kReactions[highest]} is asked for by {[tuple(fault[:2]) for fault in held]}, but {why}")
+            complaints.append(
+                f"tick {now.tick}: {kReactions[highest]} is asked for by {[tuple(fault[:2]) for fault in held]}, but"
+                f" {why}"
+            )
         was = highest
     return complaints
 
@@ -252,7 +311,9 @@ def faults_not_latched(ticks, limits):
 
 
 def quick_stops_cut_short(ticks, reactions):
-    """A drive that was told to quick stop keeps its torque until it stands: until it is off, its time is up, or a fault asks for off."""
+    """A drive that was told to quick stop keeps its torque until it stands: until it is off, its time is up, or a
+    fault asks for off.
+    """
     told_since, complaints = {}, []
     for now in ticks:
         off = any(reactions.get(fault.number, kOff) == kOff for fault in acting(now)) or now.dropped
@@ -261,8 +322,16 @@ def quick_stops_cut_short(ticks, reactions):
                 told_since.setdefault(drive, now.tick)
                 continue
             since = told_since.pop(drive, None)
-            if since is not None and has_torque(status) and now.age[drive] == 0 and not off and now.tick < since + kQuickStopTicks:
-                complaints.append(f"tick {now.tick}: drive {drive} is told 0x{word:02X} while its quick stop is under way")
+            if (
+                since is not None
+                and has_torque(status)
+                and now.age[drive] == 0
+                and not off
+                and now.tick < since + kQuickStopTicks
+            ):
+                complaints.append(
+                    f"tick {now.tick}: drive {drive} is told 0x{word:02X} while its quick stop is under way"
+                )
     return complaints
 
 
@@ -275,16 +344,22 @@ def stops_not_confirmed(ticks):
         for drive, status in enumerate(now.statusword):
             shown = now.age[drive] <= kSilentTicks and not has_torque(status)
             if not shown and (3008, drive) not in names(now):
-                complaints.append(f"tick {now.tick}: {now.state} is reached, but drive {drive} is not shown to be without torque, nor is 3008 latched")
+                complaints.append(
+                    f"tick {now.tick}: {now.state} is reached, but drive {drive} is not shown to be without torque, nor"
+                    " is 3008 latched"
+                )
     return complaints
 
 
 def faults_not_told(ticks, told):
-    """Every fault that a client was told of is in the recording, and every recorded one was told; `told`: (number, index, tick)."""
+    """Every fault that a client was told of is in the recording, and every recorded one was told; `told`: (number,
+    index, tick).
+    """
     recorded = {(fault.number, fault.index, fault.tick) for now in ticks for fault in now.faults}
     due = {fault for fault in recorded if fault[2] < ticks[-1].tick - kTellTicks}
-    return [f"fault {fault} was told to the client, but is not recorded" for fault in sorted(told - recorded)] + \
-           [f"fault {fault} is recorded, but the client was never told" for fault in sorted(due - told)]
+    return [f"fault {fault} was told to the client, but is not recorded" for fault in sorted(told - recorded)] + [
+        f"fault {fault} is recorded, but the client was never told" for fault in sorted(due - told)
+    ]
 
 
 def standing_ranges(ticks):
@@ -303,18 +378,25 @@ def standing_ranges(ticks):
 
 def torque_while_off(ticks, enabled):
     """In DISABLED and FAULT no drive has torque; `enabled` is the column of truth.bin."""
-    return [complaint for first, end in standing_ranges(ticks) for complaint in predicates.drives_with_torque(enabled, first, end)]
+    return [
+        complaint
+        for first, end in standing_ranges(ticks)
+        for complaint in predicates.drives_with_torque(enabled, first, end)
+    ]
 
 
 def drums_moving_while_off(ticks, left_out):
     """In DISABLED and FAULT brakes hold the drums; `left_out`: drives whose reports are the fault."""
     complaints, index = [], {now.tick: i for i, now in enumerate(ticks)}
     for first, end in standing_ranges(ticks):
-        rows = ticks[index.get(first, len(ticks)):index.get(end, len(ticks))]
+        rows = ticks[index.get(first, len(ticks)) : index.get(end, len(ticks))]
         for drive in range(len(ticks[0].position)):
             places = [row.position[drive] for row in rows if row.age[drive] == 0]
             if drive not in left_out and places and max(places) - min(places) > 1:
-                complaints.append(f"ticks {first} to {end}: the drum of drive {drive} moves by {max(places) - min(places)} counts while the arm is off")
+                complaints.append(
+                    f"ticks {first} to {end}: the drum of drive {drive} moves by {max(places) - min(places)} counts"
+                    " while the arm is off"
+                )
     return complaints
 
 
@@ -325,10 +407,29 @@ def all_complaints(recording, enabled, told, left_out=()):
         return [f"the recording is not complete: {end}, {len(recording.ticks)} ticks read"]
     ticks = recording.ticks
     if not ticks:
-        return [f"slot {slot}: {count:.0f} drives are enabled, and nothing was recorded" for slot, count in enumerate(enabled) if count > 0][:1]
-    limits, reactions = limits_of(recording.robot(), float(recording.metadata["run"]["period_s"])), documented_reactions()
-    found = (missing_ticks(ticks), target_steps(ticks, limits), commands_out_of_time(ticks), commands_while_latched(ticks),
-             states_not_documented(ticks, reactions), enabling_unasked(ticks), faults_gone_unasked(ticks), weak_reactions(ticks, reactions),
-             quick_stops_cut_short(ticks, reactions), stops_not_confirmed(ticks), faults_not_latched(ticks, limits), faults_not_told(ticks, told),
-             torque_while_off(ticks, enabled), drums_moving_while_off(ticks, left_out))
+        return [
+            f"slot {slot}: {count:.0f} drives are enabled, and nothing was recorded"
+            for slot, count in enumerate(enabled)
+            if count > 0
+        ][:1]
+    limits, reactions = (
+        limits_of(recording.robot(), float(recording.metadata["run"]["period_s"])),
+        documented_reactions(),
+    )
+    found = (
+        missing_ticks(ticks),
+        target_steps(ticks, limits),
+        commands_out_of_time(ticks),
+        commands_while_latched(ticks),
+        states_not_documented(ticks, reactions),
+        enabling_unasked(ticks),
+        faults_gone_unasked(ticks),
+        weak_reactions(ticks, reactions),
+        quick_stops_cut_short(ticks, reactions),
+        stops_not_confirmed(ticks),
+        faults_not_latched(ticks, limits),
+        faults_not_told(ticks, told),
+        torque_while_off(ticks, enabled),
+        drums_moving_while_off(ticks, left_out),
+    )
     return [complaint for complaints in found for complaint in complaints[:3]]

@@ -7,18 +7,15 @@ import json
 import os
 import pathlib
 import signal
-import subprocess
 import sys
-import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "can"))
-
+import source_tree  # noqa: F401
 import campaign
-import can_scenario
-import machine
 import pairs
-import real_drives
 import scenario
+from can import machine, real_drives
+from run_scenario import outcome
+from scenario_file import BadScenario
 
 kWhere = "embedded bus, lockstep"
 kLatencyRuns = {"250": 3, "500": 1}  # `./dev numbers latency` measures each three times
@@ -28,12 +25,32 @@ kParts = ("all", "embedded", "can")
 
 def arguments():
     parser = argparse.ArgumentParser(prog="dev hil", description="scenarios of the bench, in bring-up order")
-    parser.add_argument("--only", metavar="PATTERN", help="only scenarios whose name holds this text or matches it, e.g. 40_faults or '*/late*'")
+    parser.add_argument(
+        "--only",
+        metavar="PATTERN",
+        help="only scenarios whose name holds this text or matches it, e.g. 40_faults or '*/late*'",
+    )
     parser.add_argument("--json", metavar="FILE", type=pathlib.Path, help="write the results here")
-    parser.add_argument("--reduced", action="store_true", help="only the scenarios marked reduced (what ./dev test runs)")
-    parser.add_argument("--part", choices=kParts, default="all", help="only what runs on the embedded bus, or only what needs a machine with CAN")
-    parser.add_argument("--drives", metavar="BUSES", help="run the scenarios on CAN against real drives on the interfaces of this table, by name or file; THE ARM MOVES")
-    parser.add_argument("--calibration", metavar="FILE", help="with --drives: what liana calibrate measured of this arm")
+    parser.add_argument(
+        "--reduced", action="store_true", help="only the scenarios marked reduced (what ./dev test runs)"
+    )
+    parser.add_argument(
+        "--part",
+        choices=kParts,
+        default="all",
+        help="only what runs on the embedded bus, or only what needs a machine with CAN",
+    )
+    parser.add_argument(
+        "--drives",
+        metavar="BUSES",
+        help=(
+            "run the scenarios on CAN against real drives on the interfaces of this table, by name or file; THE ARM"
+            " MOVES"
+        ),
+    )
+    parser.add_argument(
+        "--calibration", metavar="FILE", help="with --drives: what liana calibrate measured of this arm"
+    )
     parser.add_argument("--check", action="store_true", help="read the scenarios and these options, run nothing")
     options = parser.parse_args()
     if options.calibration and not options.drives:
@@ -50,30 +67,32 @@ def chosen(options):
     if options.only:
         wanted = [one for one in wanted if options.only in one.name or fnmatch.fnmatch(one.name, options.only)]
     if not wanted:
-        raise scenario.BadScenario(f"--only: {options.only} names no scenario; they are in {', '.join(sorted({one.name.split('/')[0] for one in everything}))}")
+        raise BadScenario(
+            f"--only: {options.only} names no scenario; they are in"
+            f" {', '.join(sorted({one.name.split('/')[0] for one in everything}))}"
+        )
     return wanted
 
 
 def run_one(one):
-    run, start, why = one.run(), time.monotonic(), ""
-    try:
-        run.go()
-    except (scenario.Failed, AssertionError, OSError, ValueError, KeyError, subprocess.SubprocessError) as error:
-        why = f"{type(error).__name__}: {error}"
-    seconds = time.monotonic() - start
-    row = {"name": one.name, "where": kWhere, "outcome": "failed" if why else "passed", "seconds": round(seconds, 2), "why": why, "notes": run.notes}
-    return row, [{"scenario": one.name, "rule": rule} for rule in run.violations]
+    run = one.run()
+    return {"name": one.name, "where": kWhere, **outcome(run)}, [
+        {"scenario": one.name, "rule": rule} for rule in run.violations
+    ]
 
 
 def report(row):
-    print(f"{'FAILED' if row['outcome'] == 'failed' else row['outcome']}  {row['name']}  [{row['where']}]  {row['seconds']:.1f} s  {', '.join(row['notes'])}  {row['why']}",
-          flush=True)
+    result = "FAILED" if row["outcome"] == "failed" else row["outcome"]
+    words = (result, row["name"], f"[{row['where']}]", f"{row['seconds']:.1f} s", ", ".join(row["notes"]), row["why"])
+    print("  ".join(words), flush=True)
 
 
 def run_embedded(wanted):
     """Each in a system of its own, as many at a time as there are processors; rows and violations in bring-up order."""
     rows, violations = [], []
-    pool = concurrent.futures.ProcessPoolExecutor(os.cpu_count(), initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN))
+    pool = concurrent.futures.ProcessPoolExecutor(
+        os.cpu_count(), initializer=signal.signal, initargs=(signal.SIGINT, signal.SIG_IGN)
+    )
     try:
         for row, broken in pool.map(run_one, wanted):
             report(row)
@@ -101,7 +120,10 @@ def write_json(file, content):
         file.write_text(json.dumps(content, indent=1) + "\n")
         return True
     except OSError as error:
-        print(f"dev hil: --json: {file} cannot be written: {error.strerror}; make room or give another file", file=sys.stderr)
+        print(
+            f"dev hil: --json: {file} cannot be written: {error.strerror}; make room or give another file",
+            file=sys.stderr,
+        )
         return False
 
 
@@ -115,11 +137,15 @@ def main():
             machine.check_packages()
         if options.drives and not options.check:
             real_drives.check_buses(options.drives, options.calibration)
-    except (scenario.BadScenario, machine.NoMachine) as error:
+    except (BadScenario, machine.NoMachine) as error:
         print(f"dev hil: {error}", file=sys.stderr)
         return 2
     except OSError as error:
-        print(f"dev hil: --json: {options.json} cannot be written: {error.strerror}; give a file in a directory that exists", file=sys.stderr)
+        print(
+            f"dev hil: --json: {options.json} cannot be written: {error.strerror};"
+            " give a file in a directory that exists",
+            file=sys.stderr,
+        )
         return 2
     if options.check:
         return 0
@@ -132,10 +158,15 @@ def main():
         return 130
     failed, skipped = ([row["name"] for row in rows if row["outcome"] == outcome] for outcome in ("failed", "skipped"))
     passed = {row["name"] for row in rows if row["outcome"] == "passed"}  # in one that failed, nobody knows
-    faults, pair_count = sum(one.fault_count() for one in wanted if one.name in passed), sum(isinstance(one, pairs.Pair) for one in wanted)
+    faults, pair_count = sum(one.fault_count() for one in wanted if one.name in passed), sum(
+        isinstance(one, pairs.Pair) for one in wanted
+    )
     results = {"scenarios": rows, "faults": faults, "pairs": pair_count, "latency": latency, "violations": violations}
     written = not options.json or write_json(options.json, results)
-    print(f"{len(rows) - len(failed) - len(skipped)} passed, {len(failed)} failed, {len(skipped)} skipped; {faults} faults injected, {pair_count} pairs, {len(violations)} violations")
+    print(
+        f"{len(rows) - len(failed) - len(skipped)} passed, {len(failed)} failed, {len(skipped)} skipped;"
+        f" {faults} faults injected, {pair_count} pairs, {len(violations)} violations"
+    )
     print(f"where: {'; '.join(sorted({row['where'] for row in rows}))}")
     return 1 if failed or not written else 0
 

@@ -28,9 +28,19 @@ def read(path):
     return content
 
 
+kDuring = ("boot", "rest", "move")
+kTimeLimit_s = 300  # wall clock
 kStates = ("BOOTING", "DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT")
 # Numbers that mean something in a scenario of any kind: least and most.
-kRanges = {"within_ticks": (0, 1e6), "stopped_within_ticks": (0, 1e6), "travel_deg": (0.0, 360.0), "time_limit_s": (0.1, 86400), "index": (-1, 31), "fault": (1001, 6999), "overruns": (0, 1e6)}
+kRanges = {
+    "within_ticks": (0, 1e6),
+    "stopped_within_ticks": (0, 1e6),
+    "travel_deg": (0.0, 360.0),
+    "time_limit_s": (0.1, 86400),
+    "index": (-1, 31),
+    "fault": (1001, 6999),
+    "overruns": (0, 1e6),
+}
 
 
 def check_values(name, found):
@@ -55,6 +65,11 @@ def check_fields(name, found, allowed, required, readme="hil/scenarios/README.md
         if key not in found:
             raise BadScenario(f"{name}: {key} is missing; add it")
     check_values(name, found)
+
+
+def check_during(name, during):
+    if during not in kDuring:
+        raise BadScenario(f"{name}: during is {during}; allowed are {', '.join(kDuring)}")
 
 
 def expect_that(condition, message):

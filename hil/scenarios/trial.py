@@ -1,15 +1,10 @@
-"""One system in lockstep with faults of bench and bus, recorded whole, and every safety rule over what it left behind."""
+"""One system in lockstep with faults of bench and bus, recorded whole; every safety rule over what it left behind."""
 import json
-import pathlib
-import sys
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[1] / "tests" / "system"))
-
-import predicates  # noqa: E402
-import recorded_rules  # noqa: E402
-from liana_system import System, run  # noqa: E402
-from recording import Recording  # noqa: E402
+import predicates
+import recorded_rules
+from liana.recordings import Recording
+from liana.system import System, run
 
 kSelfReports = ("noisy", "encoder_jump", "late", "stuck")  # what these drives report is not where their drums are
 
@@ -24,11 +19,6 @@ def self_reporting(faults, count):
     return {drive for fault in faults if fault["kind"] in kSelfReports for drive in drives_of(fault, count)}
 
 
-def start_archive(system):
-    """Records the whole run; the system has to expect client and archive."""
-    system.start("liana-archive", "--api", system.api, "--record", system.directory)
-
-
 class Trial:
     """`complaints` says which rules were broken, `recording` what happened."""
 
@@ -39,7 +29,7 @@ class Trial:
     def go(self, act, replay=False):
         """Runs it: `act(client)` is the operator. With `replay` the recording must replay bit for bit."""
         with System(expect="client,archive", faults=self.faults, bus_script=self.bus_script, seed=self.seed) as system:
-            start_archive(system)
+            system.start_archive()
             client = system.client()
             act(client)
             codes = system.shut_down(client)
@@ -74,6 +64,8 @@ def replay_complaints(directory):
     done = run("liana", "replay", directory, "--json")
     said = json.loads(done.stdout) if done.returncode in (0, 1) and done.stdout else {}
     if done.returncode != 0 or said.get("differing_ticks") != 0 or said.get("missing_ticks") != 0:
-        return [f"the recording does not replay: exit {done.returncode}, {said.get('differing_ticks')} ticks differ, {said.get('missing_ticks')} are missing, "
-                f"{done.stderr.strip()}"]
+        return [
+            f"the recording does not replay: exit {done.returncode}, {said.get('differing_ticks')} ticks differ,"
+            f" {said.get('missing_ticks')} are missing, {done.stderr.strip()}"
+        ]
     return []

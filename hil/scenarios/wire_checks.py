@@ -1,4 +1,6 @@
-"""What tshark, a decoder that is not ours, reads in the bus logs of a run. Each gives a list of complaints, empty when all is well."""
+"""What tshark, a decoder that is not ours, reads in the bus logs of a run. Each gives a list of complaints, empty when
+all is well.
+"""
 import collections
 import shutil
 import subprocess
@@ -9,14 +11,26 @@ kIdentity = 0x1018
 
 # One decoded frame: line of the log, CAN identifier, NMT command and its node, state in a heartbeat, object of an SDO.
 Frame = collections.namedtuple("Frame", "line identifier command node state object")
-kFields = ("frame.number", "can.id", "canopen.nmt_ctrl.cd", "canopen.nmt_ctrl.node_id", "canopen.nmt_guard.state", "canopen.sdo.main_idx")
+kFields = (
+    "frame.number",
+    "can.id",
+    "canopen.nmt_ctrl.cd",
+    "canopen.nmt_ctrl.node_id",
+    "canopen.nmt_guard.state",
+    "canopen.sdo.main_idx",
+)
 
 
 def tshark(log, *words):
     """Lines of its output; ValueError when it cannot read the log."""
     if shutil.which("tshark") is None:
         raise ValueError("tshark is missing: apt-get install tshark")
-    done = subprocess.run(["tshark", "-r", str(log), "-d", "can.subdissector,canopen", *words], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        ["tshark", "-r", str(log), "-d", "can.subdissector,canopen", *words],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
     if done.returncode != 0:
         raise ValueError(f"tshark cannot read {log.name}: {done.stderr.strip()}")
     return done.stdout.splitlines()
@@ -59,21 +73,26 @@ def of_node(frames, node):
 
 
 def boot_order(frames, node):
-    """CiA 301: after the last reset boot-up, then SDO only, identity among the first, then NMT start; PDOs and operational only after it."""
+    """CiA 301: after the last reset boot-up, then SDO only, identity among the first, then NMT start; PDOs and
+    operational only after it.
+    """
     steps = list(of_node(frames, node))
     resets = [i for i, (step, _) in enumerate(steps) if step == "reset"]
     if not resets:
         return [f"node {node}: no reset communication"]
-    steps = steps[resets[-1] + 1:]
+    steps = steps[resets[-1] + 1 :]
     order = []
     for step, frame in steps:
         if not order or order[-1][0] != step:
             order.append((step, frame))
     names = [step for step, _ in order]
     if names[:4] not in (["boot-up", "SDO", "start", "operational"], ["boot-up", "SDO", "start", "PDO"]):
-        return [f"node {node}: after the reset come {', '.join(names[:5])}; CiA 301 asks for boot-up, SDO, start, then PDO and operational"]
+        return [
+            f"node {node}: after the reset come {', '.join(names[:5])}; CiA 301 asks for boot-up, SDO, start, then PDO"
+            " and operational"
+        ]
     objects = [frame.object for step, frame in steps if step == "SDO"]
     if kIdentity not in objects:
         return [f"node {node}: the identity (0x1018) was never read"]
-    written_first = [f"0x{found:04X}" for found in objects[:objects.index(kIdentity)] if found not in (0x1000, None)]
+    written_first = [f"0x{found:04X}" for found in objects[: objects.index(kIdentity)] if found not in (0x1000, None)]
     return [f"node {node}: {written_first[0]} comes before the identity was read"] if written_first else []

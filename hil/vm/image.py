@@ -9,7 +9,20 @@ import subprocess
 
 KERNEL_PACKAGE = "linux-image-rt-amd64"
 # What the guest loads; what these need is found by modprobe.
-MODULES = ["virtio_pci", "9pnet_virtio", "9p", "overlay", "can-raw", "can-bcm", "can-gw", "vcan", "kvaser_pci", "slcan", "sch_tbf", "sch_netem"]
+MODULES = [
+    "virtio_pci",
+    "9pnet_virtio",
+    "9p",
+    "overlay",
+    "can-raw",
+    "can-bcm",
+    "can-gw",
+    "vcan",
+    "kvaser_pci",
+    "slcan",
+    "sch_tbf",
+    "sch_netem",
+]
 # Program -> the Debian package it comes from.
 PROGRAMS = {
     "qemu-system-x86_64": "qemu-system-x86",
@@ -65,8 +78,7 @@ def kernel_package():
 
 def unpack_kernel(target):
     """Downloads and unpacks the kernel below `target`; nothing is installed and no boot loader is touched."""
-    partial = target.with_name(target.name + ".part")
-    shutil.rmtree(partial, ignore_errors=True)
+    partial = target.with_name(f"{target.name}-{os.getpid()}.part")  # guests start side by side
     partial.mkdir(parents=True)
     run(["apt-get", "download", kernel_package()], cwd=partial)
     package = next(partial.glob("*.deb"))
@@ -74,7 +86,12 @@ def unpack_kernel(target):
     package.unlink()
     release = next((partial / "root/lib/modules").iterdir()).name
     run([find_program("depmod"), "-b", partial / "root", release])
-    partial.rename(target)
+    try:
+        partial.rename(target)
+    except OSError:
+        shutil.rmtree(partial)
+        if not target.exists():  # else another guest was sooner
+            raise
 
 
 def kernel():
@@ -111,7 +128,11 @@ def fill(staging, modules):
 def start_file_system(root, release):
     """Path of the initramfs; made again when guest_init, the modules or busybox have changed."""
     modules = modules_in_order(root, release)
-    content = "\n".join(modules).encode() + (HERE / "guest_init").read_bytes() + pathlib.Path(find_program("busybox")).read_bytes()
+    content = (
+        "\n".join(modules).encode()
+        + (HERE / "guest_init").read_bytes()
+        + pathlib.Path(find_program("busybox")).read_bytes()
+    )
     target = cache_directory() / f"initramfs-{hashlib.sha256(content).hexdigest()[:16]}.cpio.gz"
     if target.exists():
         return target
@@ -119,7 +140,9 @@ def start_file_system(root, release):
     shutil.rmtree(staging, ignore_errors=True)
     fill(staging, modules)
     names = "\n".join(str(path.relative_to(staging)) for path in sorted(staging.rglob("*")))
-    archive = subprocess.run(["cpio", "-o", "-H", "newc", "--quiet"], cwd=staging, input=names.encode(), stdout=subprocess.PIPE, check=True).stdout
+    archive = subprocess.run(
+        ["cpio", "-o", "-H", "newc", "--quiet"], cwd=staging, input=names.encode(), stdout=subprocess.PIPE, check=True
+    ).stdout
     partial = target.with_name(target.name + f".{os.getpid()}")
     partial.write_bytes(gzip.compress(archive, 6))
     partial.rename(target)

@@ -1,5 +1,6 @@
-"""Files of the host for the guest's memory. Over 9p every open is a question to the host, and a guest that skips idle time skips the answer's
-time as well: minutes pass in it while a busy host reads a file, or finds that there is none. A sealed guest has nothing else, and asks nothing."""
+"""Files of the host for the guest's memory. Over 9p every open is a question to the host, and a guest that skips idle
+time skips the answer's time as well: minutes pass in it while a busy host reads a file, or finds that there is none. A
+sealed guest has nothing else, and asks nothing."""
 
 import os
 import pathlib

@@ -1,9 +1,9 @@
 #include "host/calibration/calibrate.hpp"
 
+#include <Eigen/Core>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 
@@ -15,7 +15,7 @@ namespace liana {
 namespace {
 
 using Index = std::size_t;
-using Changes = std::vector<double>;  // of one length, pose by pose, about their mean [m]
+using Changes = Eigen::Ref<const Eigen::VectorXd>;  // of one length, pose by pose, about their mean [m]
 
 constexpr double kLeastChange_m = 5e-3;  // between poses, to see a direction
 constexpr double kApart_m = 1e-3;        // between two cables, to tell them apart
@@ -28,47 +28,29 @@ std::string text(const char* format, auto... values) {
   return line;
 }
 
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
-Changes about_mean(std::vector<double> values) {
-  const double middle = mean(values);
-  for (double& value : values) value -= middle;
-  return values;
-}
-
-double product(const Changes& a, const Changes& b) { return std::inner_product(a.begin(), a.end(), b.begin(), 0.0); }
-
 // Largest |a scale - b| over the poses.
-double misfit_m(const Changes& a, double scale, const Changes& b) {
-  double largest = 0.0;
-  for (Index p = 0; p < a.size(); ++p) largest = std::fmax(largest, std::fabs(scale * a[p] - b[p]));
-  return largest;
-}
+double misfit_m(const Changes& a, double scale, const Changes& b) { return (scale * a - b).lpNorm<Eigen::Infinity>(); }
 
-// What the drives report and what the geometry says, as changes between poses.
+// What the drives report and what the geometry says: changes between poses, by drive and by cable, and the means they
+// are about.
 struct Lengths {
-  std::vector<Changes> reported, expected;  // by drive, by cable
-  std::vector<double> reported_mean_m, expected_mean_m;
+  Eigen::MatrixXd reported, expected;  // rows are poses
+  Eigen::RowVectorXd reported_mean_m, expected_mean_m;
 };
 
 Lengths lengths_of(const RobotConfig& robot, std::span<const CalibrationReading> readings) {
-  Lengths out;
-  std::vector<CableVector> expected;
-  for (const CalibrationReading& reading : readings)
-    expected.push_back(beyond_zero_m(robot.table, reading.theta_rad, reading.tension_N));
-  for (Index c = 0; c < as_index(robot.table.cable_count()); ++c) {
-    std::vector<double> own, wanted;
-    for (Index p = 0; p < readings.size(); ++p) {
-      own.push_back(readings[p].position_m[c]);
-      wanted.push_back(expected[p][c]);
-    }
-    out.reported_mean_m.push_back(mean(own));
-    out.expected_mean_m.push_back(mean(wanted));
-    out.reported.push_back(about_mean(own));
-    out.expected.push_back(about_mean(wanted));
+  const Eigen::Index cables = robot.table.cable_count(), poses = static_cast<Eigen::Index>(readings.size());
+  Lengths out{Eigen::MatrixXd(poses, cables), Eigen::MatrixXd(poses, cables), {}, {}};
+  for (Eigen::Index p = 0; p < poses; ++p) {
+    const CalibrationReading& reading = readings[static_cast<Index>(p)];
+    const CableVector expected_m = beyond_zero_m(robot.table, reading.theta_rad, reading.tension_N);
+    out.reported.row(p) = Eigen::Map<const Eigen::RowVectorXd>(reading.position_m.data(), cables);
+    out.expected.row(p) = Eigen::Map<const Eigen::RowVectorXd>(expected_m.data(), cables);
   }
+  out.reported_mean_m = out.reported.colwise().mean();
+  out.expected_mean_m = out.expected.colwise().mean();
+  out.reported.rowwise() -= out.reported_mean_m;
+  out.expected.rowwise() -= out.expected_mean_m;
   return out;
 }
 
@@ -79,8 +61,8 @@ struct Fit {
 };
 
 Fit fit(const Changes& reported, const Changes& expected) {
-  const double squares = product(reported, reported);
-  const double scale = squares > 0.0 ? product(reported, expected) / squares : 0.0;
+  const double squares = reported.squaredNorm();
+  const double scale = squares > 0.0 ? reported.dot(expected) / squares : 0.0;
   return {scale, misfit_m(reported, scale, expected)};
 }
 
@@ -92,8 +74,8 @@ bool is_drum(const Fit& found) {
 std::optional<Index> followed_by(const Lengths& lengths, Index drive) {
   std::optional<Index> best;
   double least_m = std::numeric_limits<double>::infinity();
-  for (Index cable = 0; cable < lengths.expected.size(); ++cable) {
-    const Fit found = fit(lengths.reported[drive], lengths.expected[cable]);
+  for (Index cable = 0; cable < Index(lengths.expected.cols()); ++cable) {
+    const Fit found = fit(lengths.reported.col(drive), lengths.expected.col(cable));
     if (!is_drum(found) || found.misfit_m >= least_m) continue;
     best = cable;
     least_m = found.misfit_m;
@@ -171,14 +153,14 @@ void check_poses(const RobotConfig& robot, std::span<const ThetaVector> poses_ra
   tension_N.fill(robot.table.tension.plan_N);
   std::vector<CalibrationReading> readings;
   for (const ThetaVector& theta_rad : poses_rad) readings.push_back({theta_rad, {}, tension_N});
-  const std::vector<Changes> cables = lengths_of(robot, readings).expected;
-  for (Index a = 0; a < cables.size(); ++a) {
-    if (misfit_m(cables[a], 0.0, cables[a]) < kLeastChange_m)
+  const Eigen::MatrixXd cables = lengths_of(robot, readings).expected;
+  for (Index a = 0; a < Index(cables.cols()); ++a) {
+    if (cables.col(a).lpNorm<Eigen::Infinity>() < kLeastChange_m)
       throw std::runtime_error(
           text("cable %d changes by less than %.0f mm between these poses: add one that bends its segment more",
                static_cast<int>(a), 1e3 * kLeastChange_m));
-    for (Index b = 0; b < cables.size(); ++b) {
-      const Fit alike = fit(cables[a], cables[b]);
+    for (Index b = 0; b < Index(cables.cols()); ++b) {
+      const Fit alike = fit(cables.col(a), cables.col(b));
       if (a != b && alike.misfit_m < kApart_m && std::fabs(std::fabs(alike.scale) - 1.0) <= 2.0 * kDrumShare)
         throw std::runtime_error(
             text("cables %d and %d change alike between these poses: add one that bends the arm another way",
@@ -193,7 +175,7 @@ CalibrationResult calibrate(const RobotConfig& robot, std::span<const Calibratio
   CalibrationResult out;
   out.calibration = {robot.name, sha256_hex(robot.canonical_json), date, {}};
   for (Index c = 0; c < as_index(robot.table.cable_count()); ++c) {
-    const Fit own = fit(lengths.reported[c], lengths.expected[c]);
+    const Fit own = fit(lengths.reported.col(c), lengths.expected.col(c));
     const std::string serial_problem = serial_problem_of(robot, readings, c);
     if (!serial_problem.empty()) out.problems.push_back(serial_problem);
     if (!is_drum(own)) {

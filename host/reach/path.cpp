@@ -1,10 +1,11 @@
 #include "host/reach/path.hpp"
 
+#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "host/reach/spectrum.hpp"
+#include "host/algebra/thetas.hpp"
 
 namespace liana {
 namespace {
@@ -14,17 +15,16 @@ bool is_held(std::uint32_t held_mask, std::size_t theta) { return (held_mask >> 
 void find_singular_values(const RobotTable& table, std::uint32_t held_mask, PathPoint& point) {
   const ArmKinematics arm = forward_kinematics(table, point.theta_rad);
   point.tip_in_base_m = arm.tip_in_base.position_m;
-  ThetaRows<6> rows{};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
-    if (is_held(held_mask, i)) continue;
-    for (std::size_t row = 0; row < 3; ++row) {
-      rows[row][i] = arm.tip_jacobian.linear[i][row];
-      rows[row + 3][i] = arm.tip_jacobian.angular[i][row];
-    }
+  const Eigen::Index n = theta_count(table);
+  Eigen::Matrix<double, 6, kMaxTheta> J = Eigen::Matrix<double, 6, kMaxTheta>::Zero();
+  J.topLeftCorner(3, n) = view(arm.tip_jacobian.linear, n);
+  J.bottomLeftCorner(3, n) = view(arm.tip_jacobian.angular, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (is_held(held_mask, static_cast<std::size_t>(i))) J.col(i).setZero();
   }
-  const Spectrum<6> s = spectrum(rows);
-  point.largest_singular_value = s.value.front();
-  point.least_singular_value = s.value.back();
+  const Eigen::Matrix<double, 6, 1> values = Eigen::JacobiSVD<decltype(J)>(J).singularValues();
+  point.largest_singular_value = values[0];
+  point.least_singular_value = values[5];
 }
 
 void find_nearest_limit(const RobotTable& table, std::uint32_t held_mask, PathPoint& point) {

@@ -1,10 +1,10 @@
 #include "host/reach/push.hpp"
 
+#include <Eigen/SVD>
 #include <cmath>
 
-#include "firmware_like/math/cholesky.hpp"
 #include "firmware_like/math/scalar.hpp"
-#include "host/reach/spectrum.hpp"
+#include "host/algebra/thetas.hpp"
 
 namespace liana {
 namespace {
@@ -15,24 +15,17 @@ constexpr double kLeastDamping = 1e-9;  // m2/rad2
 constexpr double kOnLimit_rad = 1e-9;
 
 using ThetaMask = std::uint32_t;
+using ThetaJacobian = Eigen::Matrix<double, 3, kMaxTheta>;
 
 // Step J^T (J J^T + mu I)^-1 error of the thetas in `active`.
 ThetaVector damped_step(const PointMotion& motion, ThetaMask active, const Vec3& error_m, double damping) {
-  SquareMatrix<3> A{};
-  for (std::size_t row = 0; row < 3; ++row) {
-    A[row][row] = damping;
-    for (std::size_t i = 0; i < kMaxTheta; ++i) {
-      if ((active >> i & 1u) == 0) continue;
-      for (std::size_t k = 0; k <= row; ++k) A[row][k] += motion.column[i][row] * motion.column[i][k];
-    }
+  SpaceColumns J = view(motion.column, kMaxTheta);
+  for (Eigen::Index i = 0; i < J.cols(); ++i) {
+    if ((active >> i & 1u) == 0) J.col(i).setZero();
   }
+  const Eigen::Matrix3d A = J * J.transpose() + damping * Eigen::Matrix3d::Identity();
   ThetaVector step{};
-  if (!cholesky_factor(A)) return step;
-  Vec3 x = error_m;
-  cholesky_solve(A, x);
-  for (std::size_t i = 0; i < kMaxTheta; ++i) {
-    if (active >> i & 1u) step[i] = dot(motion.column[i], x);
-  }
+  view(step, kMaxTheta) = J.transpose() * A.llt().solve(view(error_m));
   return step;
 }
 
@@ -76,18 +69,17 @@ void step_towards(const RobotTable& table, const PointMotion& motion, ThetaMask 
 
 // The direction that the thetas off their limits move the point least in, on the side of `direction`; `direction` where
 // there is none.
-Vec3 wall_normal(const RobotTable& table, const PointMotion& motion, std::size_t dimensions, const Vec3& direction,
+Vec3 wall_normal(const RobotTable& table, const PointMotion& motion, Eigen::Index dimensions, const Vec3& direction,
                  const ThetaVector& theta_rad) {
-  ThetaRows<3> rows{};
-  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
-    if (on_limit(table, theta_rad, i)) continue;
-    for (std::size_t row = 0; row < 3; ++row) rows[row][i] = motion.column[i][row];
+  ThetaJacobian J = view(motion.column, kMaxTheta);
+  for (std::size_t i = 0; i < kMaxTheta; ++i) {
+    if (on_limit(table, theta_rad, i)) J.col(static_cast<Eigen::Index>(i)).setZero();
   }
-  const Spectrum<3> s = spectrum(rows);
-  if (s.value[dimensions - 2] < 1e-6) return direction;  // too few ways to move: no wall
-  const Vec3& across = s.axis[dimensions - 1];           // a flat axis has the value 0 and comes behind
-  const double side = dot(across, direction);
-  return std::fabs(side) < 0.1 ? direction : scale(across, side > 0.0 ? 1.0 : -1.0);
+  const Eigen::JacobiSVD<ThetaJacobian> svd(J, Eigen::ComputeFullU);
+  if (svd.singularValues()[dimensions - 2] < 1e-6) return direction;  // too few ways to move: no wall
+  const Eigen::Vector3d across = svd.matrixU().col(dimensions - 1);   // a flat axis has the value 0 and comes behind
+  const double side = across.dot(view(direction));
+  return std::fabs(side) < 0.1 ? direction : scale({across[0], across[1], across[2]}, side > 0.0 ? 1.0 : -1.0);
 }
 
 }  // namespace

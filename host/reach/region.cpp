@@ -1,9 +1,10 @@
 #include "host/reach/region.hpp"
 
+#include <Eigen/SVD>
 #include <algorithm>
 
+#include "host/algebra/thetas.hpp"
 #include "host/operator/random.hpp"
-#include "host/reach/spectrum.hpp"
 
 namespace liana {
 namespace {
@@ -16,12 +17,10 @@ using Samples = std::vector<ReachSample>;
 
 ReachSample sample_at(const RaySearch& search, const ThetaVector& theta_rad) {
   const PointMotion motion = point_motion(search.table, search.point, theta_rad);
-  ThetaRows<3> rows{};
-  for (std::size_t i = 0; i < kMaxTheta; ++i) {
-    for (std::size_t row = 0; row < 3; ++row) rows[row][i] = motion.column[i][row];
-  }
+  using ThetaJacobian = Eigen::Matrix<double, 3, kMaxTheta>;
+  const Eigen::Vector3d travel = Eigen::JacobiSVD<ThetaJacobian>(view(motion.column, kMaxTheta)).singularValues();
   const double distance_m = norm(subtract(motion.point_in_base_m, search.origin_in_base_m));
-  return {theta_rad, motion.point_in_base_m, distance_m, spectrum(rows).value};
+  return {theta_rad, motion.point_in_base_m, distance_m, {travel[0], travel[1], travel[2]}};
 }
 
 ThetaVector draw(const RobotTable& table, const RegionRequest& request, std::int32_t index, RandomStream& random) {

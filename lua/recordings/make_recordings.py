@@ -73,7 +73,10 @@ class Waves:
 
     def __init__(self, rng, axes, low_hz, high_hz, count=3):
         two_pi = 2.0 * math.pi
-        self.waves = [[(two_pi * rng.uniform(low_hz, high_hz), rng.uniform(0.0, two_pi)) for _ in range(count)] for _ in range(axes)]
+        self.waves = [
+            [(two_pi * rng.uniform(low_hz, high_hz), rng.uniform(0.0, two_pi)) for _ in range(count)]
+            for _ in range(axes)
+        ]
         self.gain = math.sqrt(2.0 / count)
 
     def at(self, t):
@@ -116,7 +119,8 @@ class Handle:
         fade = math.sin(math.pi * share)
         tremor, drift = self.tremor.at(t), self.drift.at(t)
         position = [
-            self.rest[i] + share * self.way[i] + TREMOR_RMS_M * tremor[i] + DRIFT_M / math.sqrt(2.0) * fade * drift[i] for i in range(3)
+            self.rest[i] + share * self.way[i] + TREMOR_RMS_M * tremor[i] + DRIFT_M / math.sqrt(2.0) * fade * drift[i]
+            for i in range(3)
         ]
         shake = q_of([TREMOR_RMS_RAD * x for x in tremor[3:]])
         return position, q_multiply(shake, q_of([share * x for x in self.turn]))
@@ -155,7 +159,10 @@ def hand_lines():
         gripped = 0.8 <= t < 4.6 or 5.9 <= t < 9.6
         shake = [HAND_TREMOR_RMS_M * x for x in tremor.at(t)]
         position = (-0.025 + 0.05 * share + shake[0], shake[1], 0.01 * share + shake[2])
-        yield text(round(t * 1e6), ["1", str(int(gripped))] + pose_fields(position, q_of((0.0, 0.0, math.radians(10.0) * share))))
+        yield text(
+            round(t * 1e6),
+            ["1", str(int(gripped))] + pose_fields(position, q_of((0.0, 0.0, math.radians(10.0) * share))),
+        )
 
 
 def write(path, header, lines):

@@ -28,8 +28,17 @@ def instructions(*words):
     counts = collections.defaultdict(list)
     with tempfile.TemporaryDirectory() as folder:
         dump = pathlib.Path(folder) / "dump"
-        run(["valgrind", "--tool=callgrind", "--collect-atstart=no", "--combine-dumps=yes", "--dump-line=no",
-             f"--callgrind-out-file={dump}", *map(str, words)])
+        run(
+            [
+                "valgrind",
+                "--tool=callgrind",
+                "--collect-atstart=no",
+                "--combine-dumps=yes",
+                "--dump-line=no",
+                f"--callgrind-out-file={dump}",
+                *map(str, words),
+            ]
+        )
         label = None
         with dump.open(errors="replace") as lines:
             for line in lines:
@@ -58,12 +67,18 @@ def measure(program):
         entry = printed[label]
         parts = entry.get("parts", 1)
         measured[tuple(label.split(" "))] = {
-            "counts": counts, "instructions": round(statistics.median(counts) / parts), "worst_instructions": round(max(counts) / parts),
-            "ns": entry["median_ns"] / parts, "note": entry.get("note", "")}
+            "counts": counts,
+            "instructions": round(statistics.median(counts) / parts),
+            "worst_instructions": round(max(counts) / parts),
+            "ns": entry["median_ns"] / parts,
+            "note": entry.get("note", ""),
+        }
     return measured
 
 
 def ticks(counts):
-    """Of all ticks in which the controller moves or holds the arm the median; of every tick the worst. `counts`: phase -> instructions."""
+    """Of all ticks in which the controller moves or holds the arm the median; of every tick the worst. `counts`: phase
+    -> instructions.
+    """
     controlled = [count for phase, values in counts.items() if phase not in ("disabled", "fault") for count in values]
     return round(statistics.median(controlled)), max(max(values) for values in counts.values())

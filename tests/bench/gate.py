@@ -1,6 +1,8 @@
-"""ctest bench.instructions: the core's operations stay within their limits of instructions (plain -O2, callgrind: the same on every day).
+"""ctest bench.instructions: the core's operations stay within their limits of instructions (plain -O2, callgrind: the
+same on every day).
 
-gate.py BENCH_CORE BENCH_WORST CASES: the worst tick is that of the bench's phases, of the stored cases and of some random ones.
+gate.py BENCH_CORE BENCH_WORST CASES: the worst tick is that of the bench's phases, of the stored cases and of some
+random ones.
 """
 import pathlib
 import statistics
@@ -12,7 +14,8 @@ LIMITS = {
     "fk_jacobian": 8_000,
     "ik_step": 12_000,
     "cable_jacobian": 6_000,
-    "tick": 42_000,  # median; the aim of 40,000 is held where it was measured, but copies of the C library cost more on some processors
+    # Median; the aim of 40,000 is held where it was measured, but copies of the C library cost more on some processors.
+    "tick": 42_000,
 }
 WORST_TICK = 1.5  # times the median
 RANDOM_CASES = (3, 1)  # how many, and their seed
@@ -24,13 +27,18 @@ def worst_of(counts):
 
 
 def verdicts(counts, worst_cases):
-    """(what, holds, text) for every limit; `counts`: label -> instructions of each call, `worst_cases`: name -> the same."""
+    """(what, holds, text) for every limit; `counts`: label -> instructions of each call, `worst_cases`: name -> the
+    same.
+    """
+
     def at_most(what, value, limit):
         return what, value <= limit, f"{value:,} instructions, at most {limit:,}"
 
     for operation in ("fk_jacobian", "ik_step", "cable_jacobian"):
         yield at_most(operation, max(counts[f"{operation} ours"]), LIMITS[operation])
-    median, worst = callgrind.ticks({label.removeprefix("tick "): calls for label, calls in counts.items() if label.startswith("tick ")})
+    median, worst = callgrind.ticks(
+        {label.removeprefix("tick "): calls for label, calls in counts.items() if label.startswith("tick ")}
+    )
     yield at_most("tick", median, LIMITS["tick"])
     yield at_most("tick_worst", worst, round(WORST_TICK * median))
     for name, cases in worst_cases.items():
@@ -42,7 +50,10 @@ def verdicts(counts, worst_cases):
 
 def main():
     core, worst, cases = map(pathlib.Path, sys.argv[1:])
-    worst_cases = {"stored_cases": callgrind.instructions(worst, "stored", cases), "random_cases": callgrind.instructions(worst, "random", *RANDOM_CASES)}
+    worst_cases = {
+        "stored_cases": callgrind.instructions(worst, "stored", cases),
+        "random_cases": callgrind.instructions(worst, "random", *RANDOM_CASES),
+    }
     results = list(verdicts(callgrind.instructions(core), worst_cases))
     for what, holds, text in results:
         print(f"{'held' if holds else 'BROKEN':6} {what:20} {text}")

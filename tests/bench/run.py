@@ -30,33 +30,37 @@ MEANING = {
 }
 HEAD = """# Instructions and times beside peers
 
-Written by `./dev bench`; do not edit by hand. {date}, commit {commit}, {compiler} at plain -O2 throughout, {machine}, took {seconds:.0f} s.
+Written by `./dev bench`; do not edit by hand. {date}, commit {commit}, {compiler} at plain -O2 throughout, {machine},
+took {seconds:.0f} s.
 
-Instructions are counted by callgrind (valgrind) in each call on its own; a row shows the median over all calls. They repeat to within a few
-instructions and are what the tests hold (`tests/bench/gate.py`). Times are those of one run, on a machine that does other things as well: an
-order of magnitude. Before anything is counted, the same program checks that ours and the peer agree: poses, Jacobians and cable lengths to
-1e-9, solved goals to 1e-5 or better, FCL's distances to 2 mm.
+Instructions are counted by callgrind (valgrind) in each call on its own; a row shows the median over all calls. They
+repeat to within a few instructions and are what the tests hold (`tests/bench/gate.py`). Times are those of one run, on
+a machine that does other things as well: an order of magnitude. Before anything is counted, the same program checks
+that ours and the peer agree: poses, Jacobians and cable lengths to 1e-9, solved goals to 1e-5 or better, FCL's
+distances to 2 mm.
 """
 TAIL = """## What the peers are
 
-- `kdl`: Orocos KDL with 80 joints from the D-H rows of the source, columns summed to 6x10. It knows no coupled joints, so its inverse problems
-  are easier than ours and its solutions are not for this arm.
-- Pinocchio is not in Debian and not measured here. Version 3.7 at -O2 on the same 80 joints, summed to 6x10, once took 50,644 instructions for
-  `fk_jacobian`.
+- `kdl`: Orocos KDL with 80 joints from the D-H rows of the source, columns summed to 6x10. It knows no coupled
+  joints, so its inverse problems are easier than ours and its solutions are not for this arm.
+- Pinocchio is not in Debian and not measured here. Version 3.7 at -O2 on the same 80 joints, summed to 6x10, once
+  took 50,644 instructions for `fk_jacobian`.
 - `own_80`: our own loop over 80 hinges, without waste; for inverse problems all 80 are free and have no limits.
 - `textbook`: every hole of every disc, hole to hole; derivative by central differences.
 - `fcl`, `libccd`: no broad phase anywhere. All but `fcl` only say whether two bodies touch.
-- `ipopt_straight`: Ipopt with our problem, derivatives and rounds, but from the straight line in theta instead of our start paths. One call each,
-  the final check included, counted to within 0.01 %; the remark says how it ended.
+- `ipopt_straight`: Ipopt with our problem, derivatives and rounds, but from the straight line in theta instead of
+  our start paths. One call each, the final check included, counted to within 0.01 %; the remark says how it ended.
 
-Ticks are whole calls of `Controller::tick` with ideal drives, 100 in each phase. The median is over the phases in which the controller holds or
-moves the arm (all but disabled and fault), the worst over every tick.
+Ticks are whole calls of `Controller::tick` with ideal drives, 100 in each phase. The median is over the phases in
+which the controller holds or moves the arm (all but disabled and fault), the worst over every tick.
 """
 
 
 def arguments():
     parser = argparse.ArgumentParser(prog="./dev bench", description=__doc__)
-    parser.add_argument("--json", type=argparse.FileType("w"), metavar="FILE", help="also write what was measured as JSON")
+    parser.add_argument(
+        "--json", type=argparse.FileType("w"), metavar="FILE", help="also write what was measured as JSON"
+    )
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/dev/bin", help="where the programs are")
     return parser.parse_args()
 
@@ -67,7 +71,10 @@ def table(head, rows):
     widths = [max(len(line[i]) for line in lines) for i in range(len(head))]
     numeric = [all(line[i][:1].isdigit() for line in lines[1:]) for i in range(len(head))]
     rule = ["-" * (width - 1) + (":" if right else "-") for width, right in zip(widths, numeric)]
-    padded = [[cell.rjust(width) if right else cell.ljust(width) for cell, width, right in zip(line, widths, numeric)] for line in lines]
+    padded = [
+        [cell.rjust(width) if right else cell.ljust(width) for cell, width, right in zip(line, widths, numeric)]
+        for line in lines
+    ]
     return "\n".join("| " + " | ".join(line) + " |" for line in [padded[0], rule, *padded[1:]])
 
 
@@ -78,41 +85,100 @@ def compared(measured):
         if version == "ours" or operation == "tick":
             continue
         ours = measured[operation, "ours"]
-        entries.append({
-            "name": operation, "ours_instructions": ours["instructions"], "peer": version, "peer_instructions": peer["instructions"],
-            "ratio": round(peer["instructions"] / ours["instructions"], 2), "ours_worst_instructions": ours["worst_instructions"],
-            "ours_ns": round(ours["ns"], 1), "peer_ns": round(peer["ns"], 1), "ours_note": ours["note"], "peer_note": peer["note"]})
+        entries.append(
+            {
+                "name": operation,
+                "ours_instructions": ours["instructions"],
+                "peer": version,
+                "peer_instructions": peer["instructions"],
+                "ratio": round(peer["instructions"] / ours["instructions"], 2),
+                "ours_worst_instructions": ours["worst_instructions"],
+                "ours_ns": round(ours["ns"], 1),
+                "peer_ns": round(peer["ns"], 1),
+                "ours_note": ours["note"],
+                "peer_note": peer["note"],
+            }
+        )
     return sorted(entries, key=lambda entry: (list(MEANING).index(entry["name"]), entry["peer"]))
 
 
 def tick_entries(measured):
     """Median and worst tick; they have no peer."""
     nothing = {"peer": None, "peer_instructions": None, "ratio": None}
-    median, worst = callgrind.ticks({phase: entry["counts"] for (operation, phase), entry in measured.items() if operation == "tick"})
-    return [{"name": name, "ours_instructions": value, **nothing}
-            for name, value in (("tick", median), ("tick_median", median), ("tick_worst", worst))]
+    median, worst = callgrind.ticks(
+        {phase: entry["counts"] for (operation, phase), entry in measured.items() if operation == "tick"}
+    )
+    return [
+        {"name": name, "ours_instructions": value, **nothing}
+        for name, value in (("tick", median), ("tick_median", median), ("tick_worst", worst))
+    ]
 
 
 def phases(measured):
-    return [{"phase": phase, "median_instructions": entry["instructions"], "worst_instructions": entry["worst_instructions"],
-             "median_ns": round(entry["ns"], 1)} for (operation, phase), entry in measured.items() if operation == "tick"]
+    return [
+        {
+            "phase": phase,
+            "median_instructions": entry["instructions"],
+            "worst_instructions": entry["worst_instructions"],
+            "median_ns": round(entry["ns"], 1),
+        }
+        for (operation, phase), entry in measured.items()
+        if operation == "tick"
+    ]
 
 
 def page_text(report):
-    rows = [[e["name"], f"{e['ours_instructions']:,}", e["peer"], f"{e['peer_instructions']:,}", f"{e['ratio']:.1f}",
-             f"{e['ours_ns']:,.0f}", f"{e['peer_ns']:,.0f}", e["peer_note"]] for e in report["operations"] if e["peer"]]
+    rows = [
+        [
+            e["name"],
+            f"{e['ours_instructions']:,}",
+            e["peer"],
+            f"{e['peer_instructions']:,}",
+            f"{e['ratio']:.1f}",
+            f"{e['ours_ns']:,.0f}",
+            f"{e['peer_ns']:,.0f}",
+            e["peer_note"],
+        ]
+        for e in report["operations"]
+        if e["peer"]
+    ]
     notes = {(e["name"], e["ours_note"]) for e in report["operations"] if e.get("ours_note")}
-    ticks = [[t["phase"], f"{t['median_instructions']:,}", f"{t['worst_instructions']:,}", f"{t['median_ns']:,.0f}"] for t in report["ticks"]]
+    ticks = [
+        [t["phase"], f"{t['median_instructions']:,}", f"{t['worst_instructions']:,}", f"{t['median_ns']:,.0f}"]
+        for t in report["ticks"]
+    ]
     value = {e["name"]: e["ours_instructions"] for e in report["operations"]}
     limits = [[name, f"{value[name]:,}", f"{limit:,}"] for name, limit in LIMITS.items()]
-    limits.append(["tick_worst", f"{value['tick_worst']:,}", f"{WORST_TICK} x tick = {WORST_TICK * value['tick']:,.0f}"])
-    return "\n".join([
-        "## Operations\n",
-        table(["operation", "instructions, ours", "peer", "instructions, peer", "ratio", "ns, ours", "ns, peer", "remark"], rows), "",
-        *[f"- `{name}`: {meaning}." for name, meaning in MEANING.items()],
-        *[f"- `{name}`, ours: {note}." for name, note in sorted(notes)],
-        "\n## Ticks\n", table(["phase", "instructions, median", "worst", "ns, median"], ticks),
-        "\n## Limits held by the tests\n", table(["operation", "instructions", "limit"], limits), "", TAIL])
+    limits.append(
+        ["tick_worst", f"{value['tick_worst']:,}", f"{WORST_TICK} x tick = {WORST_TICK * value['tick']:,.0f}"]
+    )
+    return "\n".join(
+        [
+            "## Operations\n",
+            table(
+                [
+                    "operation",
+                    "instructions, ours",
+                    "peer",
+                    "instructions, peer",
+                    "ratio",
+                    "ns, ours",
+                    "ns, peer",
+                    "remark",
+                ],
+                rows,
+            ),
+            "",
+            *[f"- `{name}`: {meaning}." for name, meaning in MEANING.items()],
+            *[f"- `{name}`, ours: {note}." for name, note in sorted(notes)],
+            "\n## Ticks\n",
+            table(["phase", "instructions, median", "worst", "ns, median"], ticks),
+            "\n## Limits held by the tests\n",
+            table(["operation", "instructions", "limit"], limits),
+            "",
+            TAIL,
+        ]
+    )
 
 
 def main():
@@ -122,11 +188,19 @@ def main():
     for program in PROGRAMS:
         print(f"== bench: {program}", file=sys.stderr, flush=True)
         measured.update(callgrind.measure(options.bin / program))
-    report = {"commit": commit_of(ROOT), "operations": compared(measured) + tick_entries(measured), "ticks": phases(measured)}
+    report = {
+        "commit": commit_of(ROOT),
+        "operations": compared(measured) + tick_entries(measured),
+        "ticks": phases(measured),
+    }
     compiler = subprocess.run(["g++", "-dumpfullversion"], capture_output=True, text=True, check=False).stdout.strip()
-    head = HEAD.format(date=datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"), commit=report["commit"],
-                       compiler=f"g++ {compiler}", machine=f"{os.cpu_count()} processors, {platform.machine()}",
-                       seconds=time.monotonic() - start)
+    head = HEAD.format(
+        date=datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC"),
+        commit=report["commit"],
+        compiler=f"g++ {compiler}",
+        machine=f"{os.cpu_count()} processors, {platform.machine()}",
+        seconds=time.monotonic() - start,
+    )
     text = page_text(report)
     (ROOT / "docs/bench.md").write_text(f"{head}\n{text.rstrip()}\n")
     print(text)

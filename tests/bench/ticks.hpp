@@ -5,8 +5,6 @@
 
 namespace liana::bench {
 
-using namespace cable;
-
 // Counts each tick of each phase under the operation "tick", version = name of the phase; every phase has the same
 // number of ticks. Throws std::runtime_error when a phase did not bring the state it is named after.
 void measure_ticks(Meter& meter);

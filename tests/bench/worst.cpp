@@ -24,6 +24,8 @@
 #include "tests/bench/worst_cases.hpp"
 
 namespace liana::worst {
+
+using namespace cable;
 namespace {
 
 constexpr std::size_t kPool = 40;     // worst cases that are changed further

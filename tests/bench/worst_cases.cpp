@@ -9,6 +9,8 @@
 #include "tests/bits/what_ifs.hpp"
 
 namespace liana::worst {
+
+using namespace cable;
 namespace {
 
 constexpr std::int32_t kEnablingTicks = 1060;

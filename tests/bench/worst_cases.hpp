@@ -17,6 +17,8 @@
 
 namespace liana::worst {
 
+using namespace cable;
+
 constexpr std::size_t kGenes = 140;
 using Case = std::array<std::uint8_t, kGenes>;
 

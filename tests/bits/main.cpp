@@ -16,7 +16,7 @@ std::string tape_json(const TapeSummary& summary) {
   Json faults = Json::array(), missing = Json::array();
   for (const FaultInfo& info : all_faults()) {
     if (info.number != FaultNumber::kNone)
-      (summary.faults.contains(info.number) ? faults : missing).push_back(info.number);
+      (summary.faults.contains(info.number) ? faults : missing).push_back(static_cast<int>(info.number));
   }
   return Json{{"mission_ticks", summary.mission_ticks},
               {"what_if_ticks", summary.what_if_ticks},
@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
     if (cases->parsed()) {
       std::ifstream lines(case_file);
       std::ofstream tape(first, std::ios::binary), expected(second, std::ios::binary);
-      std::cout << Json{{"ticks", liana::bits::append_cases(lines, tape, expected)}}.dump() << "\n";
+      std::cout << liana::Json{{"ticks", liana::bits::append_cases(lines, tape, expected)}}.dump() << "\n";
       return 0;
     }
     std::ifstream one(first, std::ios::binary), other(second, std::ios::binary);

@@ -15,6 +15,8 @@
 #include "tests/bits/what_ifs.hpp"
 
 namespace liana::bits {
+
+using namespace cable;
 namespace {
 
 constexpr std::uint64_t kAtChange = 0,

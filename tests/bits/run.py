@@ -14,8 +14,21 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TARGETS = pathlib.Path(__file__).resolve().parent / "target"
-QEMU_M7 = ["qemu-system-arm", "-M", "mps2-an500", "-nographic", "-monitor", "none", "-serial", "none",
-        "-semihosting-config", "enable=on,target=native", "-icount", "shift=5", "-kernel"]
+QEMU_M7 = [
+    "qemu-system-arm",
+    "-M",
+    "mps2-an500",
+    "-nographic",
+    "-monitor",
+    "none",
+    "-serial",
+    "none",
+    "-semihosting-config",
+    "enable=on,target=native",
+    "-icount",
+    "shift=5",
+    "-kernel",
+]
 TOOLCHAINS = {
     "arm-none-eabi-g++": ("cortex_m7.cmake", "arm-none-eabi-"),
     "aarch64-linux-gnu-g++": ("aarch64.cmake", "aarch64-linux-gnu-"),
@@ -26,7 +39,12 @@ FUSED = re.compile(
     r":\s+(?:v4?fc?n?m(?:add|sub)|vfn?m[as]\b|vfm[as]l|fn?m(?:add?\b|sub\b|sb\b|l[as])|v?f?cmla)|\bR_\w+\s+fma[fl]?\b"
 )
 # Options under which the core must not compile, and what the message must name (firmware_like/math/arithmetic.hpp).
-REFUSED = {"-ffast-math": "-ffast-math", "-mfma": "-mno-fma", "-mavx512f -mno-fma": "-mno-avx512f", "-mfpmath=387": "x87"}
+REFUSED = {
+    "-ffast-math": "-ffast-math",
+    "-mfma": "-mno-fma",
+    "-mavx512f -mno-fma": "-mno-avx512f",
+    "-mfpmath=387": "x87",
+}
 WORST_CASES = ROOT / "tests/bench/worst_cases.txt"
 WORST_TICK = 1.5  # times the median of missions, which on the Cortex-M7 is
 M7_MEDIAN = 58_500  # where the whole slit crossing is not among them (./dev bits measures it)
@@ -60,13 +78,22 @@ class Target:
     def look_through(self, folder):
         """Counts fused operations in the disassembly of the core, of what includes its headers, of the planted file."""
         found = {}
-        for what, places in {"core": ["firmware_like", "CMakeFiles/player.dir"], "planted": ["CMakeFiles/planted.dir"]}.items():
+        for what, places in {
+            "core": ["firmware_like", "CMakeFiles/player.dir"],
+            "planted": ["CMakeFiles/planted.dir"],
+        }.items():
             objects = [file for place in places for file in sorted((folder / place).rglob("*.o*"))]
             text = run([self.objdump, "-dr", "--no-show-raw-insn", *objects], f"disassembling {self.name}")
             if not re.search(r":\s+ret|:\s+bx\s+lr|:\s+ldmia", text):
                 raise Failed(f"disassembling {self.name}: no code in {len(objects)} objects under {folder}")
             found[what] = len(FUSED.findall(text))
-        return {"name": self.name, "compiler": self.compiler, "options": self.options, "fused": found["core"], "fused_planted": found["planted"]}
+        return {
+            "name": self.name,
+            "compiler": self.compiler,
+            "options": self.options,
+            "fused": found["core"],
+            "fused_planted": found["planted"],
+        }
 
     def play(self, folder, tape, program="bits_ticks"):
         """Plays a tape and compares; what the Cortex-M7 counted comes along."""
@@ -75,8 +102,13 @@ class Target:
             os.symlink(tape.tape, answers / "tape.bits")
             begin = time.monotonic()
             run([*self.emulator, folder / program], f"playing on {self.name}", cwd=answers)
-            result = {"name": self.name, "compiler": self.compiler, "options": self.options, "seconds": round(time.monotonic() - begin, 1),
-                      **tape.tool("compare", tape.expected, answers / "outputs.bits")}
+            result = {
+                "name": self.name,
+                "compiler": self.compiler,
+                "options": self.options,
+                "seconds": round(time.monotonic() - begin, 1),
+                **tape.tool("compare", tape.expected, answers / "outputs.bits"),
+            }
             if self.is_m7:
                 result["meter"] = tape.tool("meter", answers / "outputs.bits", answers / "meter.bits")
         return result
@@ -115,7 +147,9 @@ MISSIONS = [
 def run(words, what, expected=0, **options):
     """A program to its end; returns its standard output."""
     try:
-        done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=PATIENCE_S, check=False, **options)
+        done = subprocess.run(
+            [str(word) for word in words], capture_output=True, text=True, timeout=PATIENCE_S, check=False, **options
+        )
     except FileNotFoundError as reason:
         raise Failed(f"{what}: {words[0]} is not there; ./dev bits installs it") from reason
     except subprocess.TimeoutExpired as reason:
@@ -129,8 +163,13 @@ def record(binaries, place, mission):
     """Runs a mission in virtual time; returns the directory of its recording."""
     what, options, expected = mission
     home = pathlib.Path(tempfile.mkdtemp(dir=place))
-    run([binaries / "liana", "run", what, "--time", "fast", *options, "--record", home / "recording"], f"mission {what}", expected,
-        cwd=ROOT, env={**os.environ, "XDG_RUNTIME_DIR": str(home)})
+    run(
+        [binaries / "liana", "run", what, "--time", "fast", *options, "--record", home / "recording"],
+        f"mission {what}",
+        expected,
+        cwd=ROOT,
+        env={**os.environ, "XDG_RUNTIME_DIR": str(home)},
+    )
     return home / "recording"
 
 
@@ -148,14 +187,28 @@ class Tape:
 
 def refusal(options, named):
     """True when the core's headers refuse to be compiled by g++ with these options, and say why."""
-    words = ["g++", "-std=c++20", "-fsyntax-only", *options.split(), "-I", ROOT, "-x", "c++", ROOT / "firmware_like/controller.hpp"]
-    done = subprocess.run([str(word) for word in words], capture_output=True, text=True, timeout=PATIENCE_S, check=False)
+    words = [
+        "g++",
+        "-std=c++20",
+        "-fsyntax-only",
+        *options.split(),
+        "-I",
+        ROOT,
+        "-x",
+        "c++",
+        ROOT / "firmware_like/controller.hpp",
+    ]
+    done = subprocess.run(
+        [str(word) for word in words], capture_output=True, text=True, timeout=PATIENCE_S, check=False
+    )
     return done.returncode != 0 and any("#error" in line and named in line for line in done.stderr.splitlines())
 
 
 def size_of(folder):
     """Bytes of flash and static RAM of the least program with the core in it."""
-    text, data, bss = run(["arm-none-eabi-size", folder / "bits_footprint"], "arm-none-eabi-size").splitlines()[1].split()[:3]
+    text, data, bss = (
+        run(["arm-none-eabi-size", folder / "bits_footprint"], "arm-none-eabi-size").splitlines()[1].split()[:3]
+    )
     return {"flash_bytes": int(text) + int(data), "static_ram_bytes": int(data) + int(bss)}
 
 
@@ -164,8 +217,13 @@ def figures(folder, meter, costly, quick):
     median = M7_MEDIAN if quick else meter["median_instructions"]
     worst = max(meter, costly, key=lambda each: each["worst_instructions"])
     stack = max(meter["worst_stack_bytes"], costly["worst_stack_bytes"])
-    return {**size_of(folder), **worst, "median_instructions": median, "worst_stack_bytes": stack,
-            "worst_over_median": round(worst["worst_instructions"] / median, 3)}
+    return {
+        **size_of(folder),
+        **worst,
+        "median_instructions": median,
+        "worst_stack_bytes": stack,
+        "worst_over_median": round(worst["worst_instructions"] / median, 3),
+    }
 
 
 def measure(options, place, pool):
@@ -178,7 +236,19 @@ def measure(options, place, pool):
     recordings = [each.result() for each in recorded]
     whole = Tape(options.bin, place, "whole", "make", recordings, "--apart", "5000")
     brief = Tape(options.bin, place, "brief", "make", recordings[-1:], "--apart", "5000", "--limit", "2500")
-    flipped = Tape(options.bin, place, "flipped", "make", recordings[-1:], "--apart", "5000", "--limit", "2500", "--flip-at", "1500")
+    flipped = Tape(
+        options.bin,
+        place,
+        "flipped",
+        "make",
+        recordings[-1:],
+        "--apart",
+        "5000",
+        "--limit",
+        "2500",
+        "--flip-at",
+        "1500",
+    )
     costly = Tape(options.bin, place, "costly", "cases", [WORST_CASES])
     for each in recordings:
         shutil.rmtree(each.parent)
@@ -186,15 +256,24 @@ def measure(options, place, pool):
     m7 = next(target for target in targets if target.is_m7)
     played = [pool.submit(target.play, built[target].result(), whole) for target in players]
     played_costly = [pool.submit(target.play, built[target].result(), costly) for target in players]
-    planted = {"fused multiply-add in one source file, on the Cortex-M7": pool.submit(m7.play, built[m7].result(), brief, "bits_fused"),
-               "one bit of one input": pool.submit(targets[0].play, built[targets[0]].result(), flipped)}
+    planted = {
+        "fused multiply-add in one source file, on the Cortex-M7": pool.submit(
+            m7.play, built[m7].result(), brief, "bits_fused"
+        ),
+        "one bit of one input": pool.submit(targets[0].play, built[targets[0]].result(), flipped),
+    }
     results = [each.result() for each in played]
     results_costly = [each.result() for each in played_costly]
     meters = [each[players.index(m7)].pop("meter") for each in (results, results_costly)]
-    return {"tape": whole.summary, "targets": results, "costly": results_costly,
-            "disassembly": [target.look_through(built[target].result()) for target in targets],
-            "refused": {flags: refusal(flags, named) for flags, named in REFUSED.items()}, "planted": {what: each.result() for what, each in planted.items()},
-            "cortex_m7": figures(options.work / m7.name, *meters, options.quick)}
+    return {
+        "tape": whole.summary,
+        "targets": results,
+        "costly": results_costly,
+        "disassembly": [target.look_through(built[target].result()) for target in targets],
+        "refused": {flags: refusal(flags, named) for flags, named in REFUSED.items()},
+        "planted": {what: each.result() for what, each in planted.items()},
+        "cortex_m7": figures(options.work / m7.name, *meters, options.quick),
+    }
 
 
 def first_of(result):
@@ -204,36 +283,70 @@ def first_of(result):
 
 def show(report):
     tape, m7 = report["tape"], report["cortex_m7"]
-    print(f"{tape['mission_ticks']} ticks of missions, {tape['what_if_ticks']} of {tape['what_ifs']} planted faults and commands")
-    print("faults among them: " + " ".join(map(str, tape["faults"])) + "; not reached: " + " ".join(map(str, tape["faults_not_reached"])))
+    print(
+        f"{tape['mission_ticks']} ticks of missions, {tape['what_if_ticks']} of {tape['what_ifs']} planted faults and commands"
+    )
+    print(
+        "faults among them: "
+        + " ".join(map(str, tape["faults"]))
+        + "; not reached: "
+        + " ".join(map(str, tape["faults_not_reached"]))
+    )
     for what in ("targets", "costly"):
         for result in report[what]:
-            print(f"{result['name']:16} {result['ticks']:8} ticks{' of costly cases' if what == 'costly' else ''}, {result['differing_ticks']} differ{first_of(result)}  ({result['seconds']} s)")
+            print(
+                f"{result['name']:16} {result['ticks']:8} ticks{' of costly cases' if what == 'costly' else ''}, {result['differing_ticks']} differ{first_of(result)}  ({result['seconds']} s)"
+            )
     for what, result in report["planted"].items():
-        print(f"{'found' if result['differing_ticks'] else 'NOT FOUND'}: {what}: {result['differing_ticks']} of {result['ticks']} ticks differ{first_of(result)}")
+        print(
+            f"{'found' if result['differing_ticks'] else 'NOT FOUND'}: {what}: {result['differing_ticks']} of {result['ticks']} ticks differ{first_of(result)}"
+        )
     for seen in report["disassembly"]:
-        print(f"{seen['name']:16} {seen['fused']} fused operations in the core; planted: {seen['fused_planted'] or 'NOT'} found  ({seen['options']})")
-    print("refused by the headers: " + ", ".join(f"{flags}: {'yes' if refused else 'NO'}" for flags, refused in report["refused"].items()))
-    print(f"Cortex-M7: flash {m7['flash_bytes']} bytes, RAM {m7['static_ram_bytes']} bytes and {m7['worst_stack_bytes']} of stack; instructions per tick: "
-          f"median {m7['median_instructions']:.0f} (enabled), worst {m7['worst_instructions']:.0f} (tick {m7['worst_tick']}, {m7['worst_state']}), "
-          f"{m7['worst_over_median']:.2f} times the median")
+        print(
+            f"{seen['name']:16} {seen['fused']} fused operations in the core; planted: {seen['fused_planted'] or 'NOT'} found  ({seen['options']})"
+        )
+    print(
+        "refused by the headers: "
+        + ", ".join(f"{flags}: {'yes' if refused else 'NO'}" for flags, refused in report["refused"].items())
+    )
+    print(
+        f"Cortex-M7: flash {m7['flash_bytes']} bytes, RAM {m7['static_ram_bytes']} bytes and {m7['worst_stack_bytes']} of stack; instructions per tick: "
+        f"median {m7['median_instructions']:.0f} (enabled), worst {m7['worst_instructions']:.0f} (tick {m7['worst_tick']}, {m7['worst_state']}), "
+        f"{m7['worst_over_median']:.2f} times the median"
+    )
 
 
 def holds(report):
     """No tick differs or costs too much, the comparison is one that finds differences, and every fault was among what was compared."""
-    same = all(result["ticks"] > 0 and result["differing_ticks"] == 0 for result in report["targets"] + report["costly"])
+    same = all(
+        result["ticks"] > 0 and result["differing_ticks"] == 0 for result in report["targets"] + report["costly"]
+    )
     found = all(result["differing_ticks"] > 0 for result in report["planted"].values())
-    unfused = all(seen["fused"] == 0 and seen["fused_planted"] > 0 for seen in report["disassembly"]) and all(report["refused"].values())
+    unfused = all(seen["fused"] == 0 and seen["fused_planted"] > 0 for seen in report["disassembly"]) and all(
+        report["refused"].values()
+    )
     bounded = report["cortex_m7"]["worst_over_median"] <= WORST_TICK
     return same and found and unfused and bounded and set(report["tape"]["faults_not_reached"]) <= NOT_REACHED
 
 
 def arguments():
     parser = argparse.ArgumentParser(prog="./dev bits", description=__doc__)
-    parser.add_argument("--json", type=argparse.FileType("w"), metavar="FILE", help="also write what was measured as JSON")
+    parser.add_argument(
+        "--json", type=argparse.FileType("w"), metavar="FILE", help="also write what was measured as JSON"
+    )
     parser.add_argument("--quick", action="store_true", help="a short mission, and fewer targets")
-    parser.add_argument("--bin", type=lambda path: pathlib.Path(path).resolve(), default=ROOT / "build/dev/bin", help="where the programs are")
-    parser.add_argument("--work", type=lambda path: pathlib.Path(path).resolve(), default=ROOT / "build/bits", help="where the targets are built")
+    parser.add_argument(
+        "--bin",
+        type=lambda path: pathlib.Path(path).resolve(),
+        default=ROOT / "build/dev/bin",
+        help="where the programs are",
+    )
+    parser.add_argument(
+        "--work",
+        type=lambda path: pathlib.Path(path).resolve(),
+        default=ROOT / "build/bits",
+        help="where the targets are built",
+    )
     return parser.parse_args()
 
 

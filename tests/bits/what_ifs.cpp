@@ -56,7 +56,7 @@ void nonsense(cable::Inputs& inputs, std::uint32_t age, std::size_t) {
   cable::Setpoint setpoint;
   setpoint.kind = CommandKind::kJoint;
   setpoint.joint_rad[3] = std::numeric_limits<double>::quiet_NaN();
-  inputs.telecommand = Release::make(kUnusedSequence + age, inputs.tick, inputs.tick + kLife_ticks, setpoint);
+  inputs.telecommand = Release::make(kUnusedSequence + age, inputs.tick, inputs.tick + kLife_ticks, 1, setpoint);
 }
 // Every tip command asks for a shape as well: a node drawn aside, a point to keep away from.
 void shaped(cable::Inputs& inputs, std::uint32_t, std::size_t) {
@@ -65,12 +65,12 @@ void shaped(cable::Inputs& inputs, std::uint32_t, std::size_t) {
   setpoint.node[0] = {2, {1.2, 0.3, 0.2}, 1.0, 0.0};
   setpoint.clear[0] = {{0.8, 0.1, 0.1}, 0.3, 1.0};
   inputs.telecommand = Release::make(inputs.telecommand.sequence(), inputs.telecommand.first_tick(),
-                                     inputs.telecommand.first_tick() + kLife_ticks, setpoint);
+                                     inputs.telecommand.first_tick() + kLife_ticks, 1, setpoint);
 }
 void straightened(cable::Inputs& inputs, std::uint32_t age, std::size_t) {
   cable::Setpoint setpoint;
   setpoint.kind = age == 0 ? CommandKind::kJoint : CommandKind::kNone;
-  inputs.telecommand = Release::make(kUnusedSequence, inputs.tick, inputs.tick + kLife_ticks, setpoint);
+  inputs.telecommand = Release::make(kUnusedSequence, inputs.tick, inputs.tick + kLife_ticks, 1, setpoint);
 }
 void no_telecommands(cable::Inputs& inputs, std::uint32_t, std::size_t) { inputs.telecommand = cable::Telecommand{}; }
 void stop(cable::Inputs& inputs, std::uint32_t age, std::size_t) {

@@ -4,24 +4,18 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "firmware_like/cable/arm/payout.hpp"
 #include "firmware_like/cable/motion/servo_ik.hpp"
+#include "firmware_like/command/release.hpp"
 #include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/trig.hpp"
 #include "fixture.hpp"
 
-namespace liana {
+namespace liana::closed_loop {
 
-// The release step of these tests: there is no verifier here, only the core and the arm.
-class Release {
- public:
-  static cable::Telecommand make(std::uint64_t sequence, std::uint64_t first_tick, std::uint64_t expiry_tick,
-                                 const cable::Setpoint& setpoint) {
-    return cable::Telecommand(sequence, first_tick, expiry_tick, 1, setpoint);
-  }
-};
+using namespace cable;
 
-namespace closed_loop {
 namespace {
 
 constexpr double kBootLimit_s = 10.0;
@@ -70,7 +64,7 @@ void ArmUnderControl::read_drives() {
   for (std::size_t c = 0; c < as_index(table_.cable_count()); ++c) {
     const cable::DriveTable& drive = table_.drive[c];
     answer(c, out_.drive[c].controlword);
-    in_.drive[c].position_counts = counts_at_payout(drive, zero_payout_m_[c], payout[c]).value;
+    in_.drive[c].position_counts = to_counts(counts_at_payout(drive, zero_payout_m_[c], payout[c])).value;
     in_.drive[c].torque_permille = narrow<std::int16_t>(to_counts(tension[c] / drive.newtons_per_permille).value);
   }
 }
@@ -106,7 +100,7 @@ void ArmUnderControl::follow(double seconds, const Path& path, const Observer& o
   const std::int32_t intervals = to_counts(seconds / (table_.tick_s * table_.interval_ticks)).value;
   for (std::int32_t k = 1; k <= intervals; ++k) {
     const std::uint64_t now = in_.tick + 1;
-    in_.telecommand = Release::make(++sequence_, now, now + 2 * narrow<std::uint64_t>(table_.interval_ticks),
+    in_.telecommand = Release::make(++sequence_, now, now + 2 * narrow<std::uint64_t>(table_.interval_ticks), 1,
                                     path(static_cast<double>(k) / static_cast<double>(intervals)));
     for (std::int32_t i = 0; i < table_.interval_ticks; ++i) {
       step();
@@ -141,5 +135,4 @@ TruthError ArmUnderControl::error_against(const cable::ThetaVector& theta_rad) c
           norm({error[3], error[4], error[5]}) / kDegree};
 }
 
-}  // namespace closed_loop
-}  // namespace liana
+}  // namespace liana::closed_loop

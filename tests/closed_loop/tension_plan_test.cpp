@@ -31,7 +31,7 @@ class TensionPlan : public ::testing::TestWithParam<const char*> {
 };
 
 // Half of what the study's table gives at 40 N, for its cable is half as stiff: 7 mm at prepare, 10 mm at panel edge.
-TEST_P(cable::TensionPlan, WithoutItAFrictionlessArmStandsMillimetresBesideItsPose) {
+TEST_P(TensionPlan, WithoutItAFrictionlessArmStandsMillimetresBesideItsPose) {
   const cable::RobotTable& table = robot_table("ideal");
   Plant plant(exact_plant(pose()));
   plant.set_joint_damping(15.0);  // only to come to rest sooner
@@ -45,7 +45,7 @@ TEST_P(cable::TensionPlan, WithoutItAFrictionlessArmStandsMillimetresBesideItsPo
   EXPECT_LT(miss_mm, 22.0);
 }
 
-TEST_P(cable::TensionPlan, WithItTheArmStandsWithinAMillimetre) {
+TEST_P(TensionPlan, WithItTheArmStandsWithinAMillimetre) {
   ArmUnderControl arm(exact_plant(pose()));
   arm.boot();
   arm.move_joints(named_pose_rad(pose()), 1.0);
@@ -57,7 +57,7 @@ TEST_P(cable::TensionPlan, WithItTheArmStandsWithinAMillimetre) {
 }
 
 // The published poses at which nothing touches the arm.
-INSTANTIATE_TEST_SUITE_P(AtPose, cable::TensionPlan, ::testing::Values("prepare", "panel_edge"));
+INSTANTIATE_TEST_SUITE_P(AtPose, TensionPlan, ::testing::Values("prepare", "panel_edge"));
 
 // The same after a whole motion in between, from prepare to panel edge.
 TEST(TensionPlanInMotion, AFrictionlessArmArrivesWithinAMillimetre) {

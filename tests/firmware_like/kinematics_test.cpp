@@ -4,16 +4,16 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
+
 #include <vector>
 
 #include "firmware_like/cable/arm/cables.hpp"
+#include "host/json/json.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {
 namespace {
 
-using nlohmann::json;
 using zhu2022::largest_difference;
 using zhu2022::Random;
 using Matrix4 = std::array<std::array<double, 4>, 4>;
@@ -24,7 +24,7 @@ const Json& golden() {
   return data;
 }
 
-ThetaVector golden_theta(const json& entry) { return zhu2022::radians(entry.at("theta_deg").get<zhu2022::Degrees>()); }
+ThetaVector golden_theta(const Json& entry) { return zhu2022::radians(entry.at("theta_deg").get<zhu2022::Degrees>()); }
 
 Vec3 axis_of(const Quat& q, std::size_t column) {
   Vec3 unit{};
@@ -126,7 +126,7 @@ Jacobian difference_jacobian(const RobotTable& robot, const ThetaVector& theta, 
 TEST(Kinematics, GoldenTipSegmentEndsAndJacobianAreMetTo1e9) {
   const RobotTable robot = zhu2022::table();
   ASSERT_GE(golden().at("cases").size(), 13u);
-  for (const json& entry : golden().at("cases")) {
+  for (const Json& entry : golden().at("cases")) {
     const ArmKinematics arm = forward_kinematics(robot, golden_theta(entry));
     EXPECT_LE(pose_difference(arm.tip_in_base, entry.at("tip_pose").get<Matrix4>()), 1e-9) << entry.at("name");
     const auto ends = entry.at("segment_ends_m").get<std::vector<Vec3>>();
@@ -145,7 +145,7 @@ TEST(Kinematics, GoldenTipSegmentEndsAndJacobianAreMetTo1e9) {
 TEST(Kinematics, GoldenCableLengthsAreMetTo1e9) {
   const RobotTable robot = zhu2022::table();
   const CableLayout layout = cable_layout(robot);
-  for (const json& entry : golden().at("cases")) {
+  for (const Json& entry : golden().at("cases")) {
     const CableGeometry geometry = cable_geometry(robot, layout, arm_trig(robot, golden_theta(entry)));
     const auto length = entry.at("cable_length_m").get<std::array<double, 15>>();
     const auto change = entry.at("cable_length_change_m").get<std::array<double, 15>>();

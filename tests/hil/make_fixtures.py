@@ -1,4 +1,6 @@
-"""Writes the robot, scene and bus fixtures of the bench tests; the slit comes from the press-rod angles. Usage: make_fixtures.py DIR"""
+"""Writes the robot, scene and bus fixtures of the bench tests; the slit comes from the press-rod angles. Usage:
+make_fixtures.py DIR
+"""
 import json
 import math
 import pathlib
@@ -17,7 +19,9 @@ def multiply(a, b):
 
 
 def tip_pose(theta_deg):
-    """Position and rotation of the tip: odd modules turn Rz(pitch) Ry(yaw), even ones Ry(yaw) Rz(pitch), then 0.1 m along x."""
+    """Position and rotation of the tip: odd modules turn Rz(pitch) Ry(yaw), even ones Ry(yaw) Rz(pitch), then 0.1 m
+    along x.
+    """
     rotation = [[1.0 if i == j else 0.0 for j in range(3)] for i in range(3)]
     position = [0.0, 0.0, 0.0]
     for segment in range(5):
@@ -55,14 +59,30 @@ def scene():
     middle = (1.75 + 3.70) / 2
 
     def box(name, across):
-        return {"name": name, "center_m": combine((middle, u), (offset + across, n)), "half_extent_m": [(3.70 - 1.75) / 2, 0.01, 2.0], "rotation": [u, n, w]}
+        return {
+            "name": name,
+            "center_m": combine((middle, u), (offset + across, n)),
+            "half_extent_m": [(3.70 - 1.75) / 2, 0.01, 2.0],
+            "rotation": [u, n, w],
+        }
 
     frame = [[u[i], n[i], w[i]] for i in range(3)]
     return {
-        "format": 1, "kind": "scene", "name": "panel_slit", "boxes": [box("panel", 0.06), box("wall", -0.06)],
+        "format": 1,
+        "kind": "scene",
+        "name": "panel_slit",
+        "boxes": [box("panel", 0.06), box("wall", -0.06)],
         "spheres": [{"name": "obstacle", "center_m": [-0.15, 0.28, 1.10], "radius_m": 0.25}],
-        "slit": {"normal": n, "offset_m": offset, "u_axis": u, "w_axis": w, "mouth_u_m": 1.75, "end_u_m": 3.70, "half_gap_m": 0.05,
-                 "frame": {"position_m": combine((1.75, u), (offset, n)), "quaternion_wxyz": quaternion(frame)}},
+        "slit": {
+            "normal": n,
+            "offset_m": offset,
+            "u_axis": u,
+            "w_axis": w,
+            "mouth_u_m": 1.75,
+            "end_u_m": 3.70,
+            "half_gap_m": 0.05,
+            "frame": {"position_m": combine((1.75, u), (offset, n)), "quaternion_wxyz": quaternion(frame)},
+        },
         "rod": {"position_m": rod, "quaternion_wxyz": quaternion(attitude), "radius_m": 0.010, "stiffness_N_per_m": 50},
         "camera": {"rate_hz": 25, "latency_s": 0.1, "noise_m": 0.0003, "noise_deg": 0.05, "range_m": 3.0},
         "contact": {"stiffness_N_per_m": 20000, "damping_Ns_per_m": 50, "friction": 0.2},
@@ -71,41 +91,100 @@ def scene():
 
 def robot():
     return {
-        "format": 1, "kind": "robot", "name": "zhu2022",
+        "format": 1,
+        "kind": "robot",
+        "name": "zhu2022",
         "segments": [{"modules": 8, "module_length_m": 0.1, "theta_limit_deg": 20}] * 5,
-        "module": {"mass_kg": 0.3, "radius_m": 0.03}, "joint": {"viscous_Nms_per_rad": 0.4},
-        "cables": {"hole_radius_m": 0.025, "face_offset_m": 0.010, "phase_deg": [[24 * m + 120 * c for c in range(3)] for m in range(5)],
-                   "EA_N": 240000, "lead_m": 0.5, "friction_mu": {"nominal": 0.05, "ideal": 0, "worn": 0.10}},
-        "drives": {"drum_radius_m": 0.015, "counts_per_turn": 65536, "gear": 1, "servo_time_constant_s": 0.03, "rated_torque_Nm": 9,
-                   "identity": {"vendor": 19529, "product": 1, "revision": 1}, "direction": [1, -1] * 7 + [1],
-                   "zero_counts": [1000000 + 1000 * i for i in range(15)]},
+        "module": {"mass_kg": 0.3, "radius_m": 0.03},
+        "joint": {"viscous_Nms_per_rad": 0.4},
+        "cables": {
+            "hole_radius_m": 0.025,
+            "face_offset_m": 0.010,
+            "phase_deg": [[24 * m + 120 * c for c in range(3)] for m in range(5)],
+            "EA_N": 240000,
+            "lead_m": 0.5,
+            "friction_mu": {"nominal": 0.05, "ideal": 0, "worn": 0.10},
+        },
+        "drives": {
+            "drum_radius_m": 0.015,
+            "counts_per_turn": 65536,
+            "gear": 1,
+            "servo_time_constant_s": 0.03,
+            "rated_torque_Nm": 9,
+            "identity": {"vendor": 19529, "product": 1, "revision": 1},
+            "direction": [1, -1] * 7 + [1],
+            "zero_counts": [1000000 + 1000 * i for i in range(15)],
+        },
         "named_poses_deg": POSES,
     }
 
 
 def buses():
-    return {"format": 1, "kind": "buses", "name": "embedded", "backend": "embedded", "rate_hz": 250, "command_interval_s": 0.02,
-            "buses": [{"name": "can0", "bitrate": 1000000, "nodes": list(range(1, 9))}, {"name": "can1", "bitrate": 1000000, "nodes": list(range(9, 16))}],
-            "heartbeat_ms": 100, "max_load": 0.75}
+    return {
+        "format": 1,
+        "kind": "buses",
+        "name": "embedded",
+        "backend": "embedded",
+        "rate_hz": 250,
+        "command_interval_s": 0.02,
+        "buses": [
+            {"name": "can0", "bitrate": 1000000, "nodes": list(range(1, 9))},
+            {"name": "can1", "bitrate": 1000000, "nodes": list(range(9, 16))},
+        ],
+        "heartbeat_ms": 100,
+        "max_load": 0.75,
+    }
 
 
 def micro():
     rows = [(90, 0, 0.28), (90, 0, 0.22), (0, 2.10, 0.20), (0, 2.10, 0), (90, 0, 0.20), (-90, 0, 0.22), (0, 0, 0.28)]
     return {
-        "format": 1, "kind": "serial", "name": "micro",
-        "joints": [{"alpha_deg": alpha, "a_m": a, "d_m": d, "low_deg": -270, "high_deg": 270, "rate_deg_s": 4, "accel_deg_s2": 4} for alpha, a, d in rows],
+        "format": 1,
+        "kind": "serial",
+        "name": "micro",
+        "joints": [
+            {
+                "alpha_deg": alpha,
+                "a_m": a,
+                "d_m": d,
+                "low_deg": -270,
+                "high_deg": 270,
+                "rate_deg_s": 4,
+                "accel_deg_s2": 4,
+            }
+            for alpha, a, d in rows
+        ],
         "mass": {"module_kg": 30, "module_radius_m": 0.15, "boom_kg": 25, "end_effector_kg": 40},
         "friction": {"coulomb_Nm": 8, "viscous_Nms_per_rad": 40, "rotor_inertia_kgm2": 10},
-        "drives": {"counts_per_turn": 1048576, "gear": 1, "servo_time_constant_s": 0.03, "rated_torque_Nm": 150,
-                   "identity": {"vendor": 19529, "product": 2, "revision": 1}, "direction": [1, -1, 1, -1, 1, -1, 1], "zero_counts": [1000000] * 7},
+        "drives": {
+            "counts_per_turn": 1048576,
+            "gear": 1,
+            "servo_time_constant_s": 0.03,
+            "rated_torque_Nm": 150,
+            "identity": {"vendor": 19529, "product": 2, "revision": 1},
+            "direction": [1, -1, 1, -1, 1, -1, 1],
+            "zero_counts": [1000000] * 7,
+        },
         "named_poses_deg": {"zero": [0] * 7, "prepare": [0, 60, -30, 100, -40, 60, 0]},
     }
 
 
 def micro_buses():
-    return {**buses(), "name": "embedded_micro",
-            "buses": [{"name": "can0", "bitrate": 1000000, "nodes": [1, 2, 3, 4]}, {"name": "can1", "bitrate": 1000000, "nodes": [5, 6, 7]}]}
+    return {
+        **buses(),
+        "name": "embedded_micro",
+        "buses": [
+            {"name": "can0", "bitrate": 1000000, "nodes": [1, 2, 3, 4]},
+            {"name": "can1", "bitrate": 1000000, "nodes": [5, 6, 7]},
+        ],
+    }
 
 
-for name, make in (("robot", robot), ("scene", scene), ("buses", buses), ("micro", micro), ("micro_buses", micro_buses)):
+for name, make in (
+    ("robot", robot),
+    ("scene", scene),
+    ("buses", buses),
+    ("micro", micro),
+    ("micro_buses", micro_buses),
+):
     (pathlib.Path(sys.argv[1]) / (name + ".json")).write_text(json.dumps(make(), indent=1, sort_keys=True) + "\n")

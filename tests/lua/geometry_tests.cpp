@@ -42,7 +42,8 @@ TEST(LuaGeometry, TipAndSegmentEndsAgreeWithTheGoldenValues) {
 }
 
 TEST(LuaGeometry, TipOfASerialArmAgreesWithTheGoldenValues) {
-  for (const auto& golden : Json::parse(read_file(LIANA_SOURCE_DIR "/tests/golden/micro.json"))["cases"]) {
+  const Json cases = Json::parse(read_file(LIANA_SOURCE_DIR "/tests/golden/micro.json"))["cases"];
+  for (const auto& golden : cases) {
     const auto tip = evaluate_lua(golden["joint_deg"], "geometry.tip(robot, theta_deg)", "micro");
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t k = 0; k < 3; ++k)

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Plants one bug after the other in a copy of the tree (mutations.json), builds lianad from it, and runs the scenarios that have to notice.
+"""Plants one bug after the other in a copy of the tree (mutations.json), builds lianad from it, and runs the scenarios
+that have to notice.
 
-`--check`: only that every line to be changed is there once, and that every scenario named exists. `./dev numbers mutations` runs all.
+`--check`: only that every line to be changed is there once, and that every scenario named exists. `./dev numbers
+mutations` runs all.
 """
 import argparse
 import collections
@@ -19,9 +21,17 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path.insert(0, str(ROOT / "hil" / "scenarios"))
 
+import source_tree  # noqa: E402,F401
+import campaign  # noqa: E402
+import pairs  # noqa: E402
+import scenario  # noqa: E402
+from liana import client as clients  # noqa: E402
+from run_scenario import kFailures  # noqa: E402
+
 kPatience_s = 60  # wall clock after which a program counts as hung; a mutant may hang
 
-# A bug: `edits` in `file`; `planted`: another bug that only the mutated line keeps from the drives; `caught_by`: scenarios of which one must fail.
+# A bug: `edits` in `file`; `planted`: another bug that only the mutated line keeps from the drives; `caught_by`:
+# scenarios of which one must fail.
 Mutation = collections.namedtuple("Mutation", "name edits planted caught_by")
 Edit = collections.namedtuple("Edit", "file line becomes")
 
@@ -33,8 +43,15 @@ class BadMutation(Exception):
 def mutations(path=HERE / "mutations.json"):
     content = json.loads(path.read_text())
     planted = {name: tuple(Edit(**edit) for edit in edits) for name, edits in content["planted"].items()}
-    return [Mutation(one["name"], (Edit(one["file"], one["line"], one["becomes"]),), planted[one["planted"]] if "planted" in one else (), one["caught_by"])
-            for one in content["mutations"]]
+    return [
+        Mutation(
+            one["name"],
+            (Edit(one["file"], one["line"], one["becomes"]),),
+            planted[one["planted"]] if "planted" in one else (),
+            one["caught_by"],
+        )
+        for one in content["mutations"]
+    ]
 
 
 def changed(text, edit):
@@ -42,18 +59,17 @@ def changed(text, edit):
     lines = text.split("\n")
     found = [i for i, line in enumerate(lines) if line.strip() == edit.line]
     if len(found) != 1:
-        raise BadMutation(f"{edit.file}: the line '{edit.line}' is there {len(found)} times, not once: bring mutations.json up to date")
-    indent = lines[found[0]][:len(lines[found[0]]) - len(lines[found[0]].lstrip())]
+        raise BadMutation(
+            f"{edit.file}: the line '{edit.line}' is there {len(found)} times, not once: bring mutations.json up to"
+            " date"
+        )
+    indent = lines[found[0]][: len(lines[found[0]]) - len(lines[found[0]].lstrip())]
     lines[found[0]] = indent + edit.becomes if edit.becomes else ""
     return "\n".join(lines)
 
 
 def scenarios():
     """Every scenario by name, those for planted bugs included."""
-    import campaign
-    import pairs
-    import scenario
-
     everything = scenario.all_scenarios() + scenario.all_scenarios(HERE) + pairs.all_pairs() + campaign.short_campaign()
     return {one.name: one for one in everything}
 
@@ -77,12 +93,30 @@ class Workshop:
         for program in binaries.glob("liana*"):
             if program.name != "lianad":
                 shutil.copy2(program, self.bin)
-        listed = subprocess.run(["git", "-C", str(ROOT), "ls-files", "--cached", "--others", "--exclude-standard"], capture_output=True, text=True, check=True)
+        listed = subprocess.run(
+            ["git", "-C", str(ROOT), "ls-files", "--cached", "--others", "--exclude-standard"],
+            capture_output=True,
+            text=True,
+            check=True,
+        )
         for name in listed.stdout.splitlines():
             if (ROOT / name).is_file():
                 self.write(name, (ROOT / name).read_bytes())
-        subprocess.run(["cmake", "-S", self.tree, "-B", self.build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo", "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2"],
-                       check=True, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            [
+                "cmake",
+                "-S",
+                self.tree,
+                "-B",
+                self.build,
+                "-G",
+                "Ninja",
+                "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+                "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2",
+            ],
+            check=True,
+            stdout=subprocess.DEVNULL,
+        )
 
     def write(self, name, content):
         """Touches the file only where it changes: what has not changed is not built again."""
@@ -112,12 +146,10 @@ class Workshop:
 
 def why_it_fails(scenario_object):
     """What the scenario complains about; empty when it passes."""
-    import scenario
-
     with contextlib.redirect_stderr(io.StringIO()):  # the last words of programs that were ended
         try:
             scenario_object.run().go()
-        except (scenario.Failed, AssertionError, OSError, ValueError, KeyError, subprocess.TimeoutExpired) as error:
+        except kFailures as error:
             return str(error) or type(error).__name__
     return ""
 
@@ -135,9 +167,7 @@ def controls(wanted, workshop, by_name, pool):
 def run(wanted, binaries, directory):
     """name -> (scenario that noticed, its complaint); (None, "") for a survivor."""
     os.environ["LIANA_BIN"] = str(directory / "bin")
-    import liana_system
-
-    liana_system.PATIENCE_S = kPatience_s
+    clients.PATIENCE_S = kPatience_s
     by_name = scenarios()
     check(wanted, by_name)
     workshop, outcomes = Workshop(directory, binaries), {}
@@ -148,7 +178,11 @@ def run(wanted, binaries, directory):
                 complaints = zip(one.caught_by, pool.map(why_it_fails, [by_name[name] for name in one.caught_by]))
                 killer, why = next(((name, why) for name, why in complaints if why), (None, ""))
             outcomes[one.name] = (killer, why)
-            print(f"{'caught' if killer else 'SURVIVED'}  {one.name}  {killer or ''}  {why[:120]}", file=sys.stderr, flush=True)
+            print(
+                f"{'caught' if killer else 'SURVIVED'}  {one.name}  {killer or ''}  {why[:120]}",
+                file=sys.stderr,
+                flush=True,
+            )
     return outcomes
 
 
@@ -159,7 +193,6 @@ def main():
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build" / "bin", help="where the programs are")
     options = parser.parse_args()
     wanted = [one for one in mutations() if options.only in one.name]
-    sys.path.insert(0, str(ROOT / "tests" / "system"))
     try:
         if options.check:
             check(wanted, scenarios())
@@ -170,7 +203,10 @@ def main():
         print(f"mutation: {error}", file=sys.stderr)
         return 2
     survivors = [name for name, (killer, _) in outcomes.items() if killer is None]
-    print(f"{len(outcomes) - len(survivors)} of {len(outcomes)} mutations caught" + (f"; survived: {', '.join(survivors)}" if survivors else ""))
+    print(
+        f"{len(outcomes) - len(survivors)} of {len(outcomes)} mutations caught"
+        + (f"; survived: {', '.join(survivors)}" if survivors else "")
+    )
     return 1 if survivors else 0
 
 

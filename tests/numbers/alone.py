@@ -3,10 +3,12 @@ import argparse
 import json
 import pathlib
 
+from folders import ROOT
+
 
 def run(measure, description):
     parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("--bin", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[2] / "build/bin", help="where the programs are")
+    parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/bin", help="where the programs are")
     parser.add_argument("--count", type=int, help="cases; full size without")
     parser.add_argument("--json", action="store_true")
     options = parser.parse_args()

@@ -1,37 +1,36 @@
-"""The campaign: random sequences of faults and operator's actions in lockstep, every tick judged by the safety rules (hil/scenarios/recorded_rules.py)."""
+"""The campaign: random sequences of faults and operator's actions in lockstep, every tick judged by the safety rules
+(hil/scenarios/recorded_rules.py).
+"""
 import os
-import pathlib
-import sys
 
+import folders  # noqa: F401
+import campaign
 from page import table
-
-SCENARIOS = pathlib.Path(__file__).resolve().parents[2] / "hil" / "scenarios"
 
 
 def listed(counts, kind):
-    """"name count" of every counter of a kind, most first."""
+    """ "name count" of every counter of a kind, most first."""
     found = {name.removeprefix(kind): count for name, count in counts.items() if name.startswith(kind)}
     return ", ".join(f"{name} {count}" for name, count in sorted(found.items(), key=lambda item: (-item[1], item[0])))
 
 
 def rows(counts, failed):
     begun = sum(count for name, count in counts.items() if name.startswith("begun: "))
-    return [["sequences", counts["sequences"]],
-            ["sequences that broke a rule", len(failed)],
-            ["sequences that failed once and not again (the machine stalled)", counts["failed once, not again"]],
-            ["ticks judged", counts["ticks"]],
-            ["faults begun", f"{begun}: {listed(counts, 'begun: ')}"],
-            ["sequences in which a fault was latched", listed(counts, "latched: ")],
-            ["times the arm was enabled", counts["enabled"]],
-            ["operator's requests, refused of them", f"{counts['requests']}, {counts['refused requests']}"],
-            ["recordings replayed, all the same bit for bit" if not failed else "recordings replayed", counts["replayed"]]]
+    return [
+        ["sequences", counts["sequences"]],
+        ["sequences that broke a rule", len(failed)],
+        ["sequences that failed once and not again (the machine stalled)", counts["failed once, not again"]],
+        ["ticks judged", counts["ticks"]],
+        ["faults begun", f"{begun}: {listed(counts, 'begun: ')}"],
+        ["sequences in which a fault was latched", listed(counts, "latched: ")],
+        ["times the arm was enabled", counts["enabled"]],
+        ["operator's requests, refused of them", f"{counts['requests']}, {counts['refused requests']}"],
+        ["recordings replayed, all the same bit for bit" if not failed else "recordings replayed", counts["replayed"]],
+    ]
 
 
 def measure(binaries, count=500):
     os.environ["LIANA_BIN"] = str(binaries)
-    sys.path.insert(0, str(SCENARIOS))
-    import campaign
-
     counts, failed = campaign.campaign(range(1, count + 1))
     text = table(["what", "measured"], rows(counts, failed))
     for seed, why in failed.items():

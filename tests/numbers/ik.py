@@ -1,11 +1,12 @@
-"""2000 random reachable goals (theta within +-15 deg) by `liana ik`, from zero and from nearby, free and with held pitches."""
+"""2000 random reachable goals (theta within +-15 deg) by `liana ik`, from zero and from nearby, free and with held
+pitches.
+"""
 import concurrent.futures
-import json
 import math
 import os
 import random
-import subprocess
 
+from asking import ask, joined, quaternion_of
 from page import table
 
 GOALS = 2000
@@ -13,31 +14,8 @@ NEAR_DEG = 3.0
 HELD = {"free": [], "X5 held": [9], "X4 and X5 held": [7, 9]}
 
 
-def call(binaries, *words):
-    done = subprocess.run([str(binaries / "liana"), *words, "--json"], capture_output=True, text=True, check=False)
-    return json.loads(done.stdout)
-
-
-def joined(numbers):
-    return ",".join(repr(x) for x in numbers)
-
-
-def quaternion_of(r):
-    """Quaternion (w, x, y, z) of a rotation matrix by its most stable form."""
-    q = [math.sqrt(max(0.0, 1 + s[0] * r[0][0] + s[1] * r[1][1] + s[2] * r[2][2])) / 2 for s in ((1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1))]
-    k = max(range(4), key=q.__getitem__)
-    v = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]]
-    if k == 0:
-        return [q[0]] + [x / (4 * q[0]) for x in v]
-    i = k - 1
-    out = [v[i] / (4 * q[k]), 0.0, 0.0, 0.0]
-    for j in range(3):
-        out[j + 1] = q[k] if j == i else (r[i][j] + r[j][i]) / (4 * q[k])
-    return out
-
-
 def tip_of(binaries, theta_deg):
-    pose = call(binaries, "pose", f"--theta-deg={joined(theta_deg)}")["tip_pose"]
+    pose = ask(binaries / "liana", "pose", f"--theta-deg={joined(theta_deg)}", "--json")["tip_pose"]
     return [row[3] for row in pose[:3]], quaternion_of(pose)
 
 
@@ -60,7 +38,7 @@ def one_goal(binaries, index):
     options = [f"--from-deg={joined(start)}", f"--tip={joined(tip[0] + tip[1])}"]
     if HELD[held]:
         options.append("--hold=" + ",".join(map(str, HELD[held])))
-    answer = call(binaries, "ik", *options)
+    answer = ask(binaries / "liana", "ik", *options, "--json")
     wrong = answer["converged"] and max(errors(tip_of(binaries, answer["theta_deg"]), tip)) > 1e-6
     return (held, "nearby" if near else "zero"), answer["converged"], wrong, answer["iterations"]
 
@@ -72,8 +50,17 @@ def measure(binaries):
     for kind in sorted({result[0] for result in results}):
         mine = [result for result in results if result[0] == kind]
         iterations = sorted(result[3] for result in mine)
-        rows.append([kind[0], kind[1], len(mine), f"{100 * sum(r[1] for r in mine) / len(mine):.1f} %", sum(r[2] for r in mine),
-                     iterations[len(iterations) // 2], iterations[-1]])
+        rows.append(
+            [
+                kind[0],
+                kind[1],
+                len(mine),
+                f"{100 * sum(r[1] for r in mine) / len(mine):.1f} %",
+                sum(r[2] for r in mine),
+                iterations[len(iterations) // 2],
+                iterations[-1],
+            ]
+        )
     total = sum(result[1] for result in results)
     wrong = sum(result[2] for result in results)
     text = f"{total} of {GOALS} goals found ({100 * total / GOALS:.2f} %); {wrong} wrongly called converged.\n\n"

@@ -1,21 +1,24 @@
-"""Planted bugs in detectors, watchdogs, supervisor and gate, one after the other: which scenario notices (tests/mutation)."""
+"""Planted bugs in detectors, watchdogs, supervisor and gate, one after the other: which scenario notices
+(tests/mutation).
+"""
 import pathlib
-import sys
 
+from folders import ROOT
+import mutation
 from page import table
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def measure(binaries, count=None):
-    sys.path[:0] = [str(ROOT / "tests" / "mutation"), str(ROOT / "tests" / "system")]
-    import mutation
-
     wanted = mutation.mutations()[:count]
     outcomes = mutation.run(wanted, binaries, ROOT / "build" / "mutation")
     caught = sum(killer is not None for killer, _ in outcomes.values())
-    rows = [[one.name, f"`{pathlib.Path(one.edits[0].file).name}`", outcomes[one.name][0] or "**nothing**"] for one in wanted]
-    return outcomes, f"{caught} of {len(wanted)} planted bugs are noticed.\n\n" + table(["planted bug", "in", "noticed by"], rows)
+    rows = [
+        [one.name, f"`{pathlib.Path(one.edits[0].file).name}`", outcomes[one.name][0] or "**nothing**"]
+        for one in wanted
+    ]
+    return outcomes, f"{caught} of {len(wanted)} planted bugs are noticed.\n\n" + table(
+        ["planted bug", "in", "noticed by"], rows
+    )
 
 
 if __name__ == "__main__":

@@ -7,16 +7,24 @@ import subprocess
 
 HEAD = """# Measured figures
 
-Written by `./dev numbers`; do not edit by hand. Each section says with which command, when, at which commit and on what it was measured.
+Written by `./dev numbers`; do not edit by hand. Each section says with which command, when, at which commit and
+on what it was measured.
 """
 
 
 def commit_of(root):
     """Short commit, with + when the working tree differs from it in more than the measured pages."""
-    def git(*words):
-        return subprocess.run(["git", "-C", str(root), *words], capture_output=True, text=True, check=False).stdout.strip()
 
-    return git("rev-parse", "--short", "HEAD") + ("+" if git("status", "--porcelain", "--untracked-files=no", "--", ":!docs/numbers.md", ":!docs/bench.md") else "")
+    def git(*words):
+        return subprocess.run(
+            ["git", "-C", str(root), *words], capture_output=True, text=True, check=False
+        ).stdout.strip()
+
+    return git("rev-parse", "--short", "HEAD") + (
+        "+"
+        if git("status", "--porcelain", "--untracked-files=no", "--", ":!docs/numbers.md", ":!docs/bench.md")
+        else ""
+    )
 
 
 def table(head, rows):
@@ -35,7 +43,9 @@ class Page:
         """Replaces the section of that name."""
         machine = f"{os.cpu_count()} processors, {platform.machine()}"
         date = datetime.datetime.now(datetime.timezone.utc).strftime("%Y-%m-%d %H:%M UTC")
-        self.sections[name] = f"`./dev numbers {name}`, {date}, commit {commit}, {machine}, took {seconds:.0f} s.\n\n{text.strip()}\n\n"
+        self.sections[
+            name
+        ] = f"`./dev numbers {name}`, {date}, commit {commit}, {machine}, took {seconds:.0f} s.\n\n{text.strip()}\n\n"
 
     def write(self):
         body = "".join(f"## {name}\n{text}" for name, text in sorted(self.sections.items()))

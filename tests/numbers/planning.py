@@ -1,7 +1,13 @@
 """Planning at full size: random goals, tip and shape together, teleoperation at its limits, offline plans."""
 import importlib
 
-PARTS = {"planning_goals": "Random goals", "planning_shape": "Tip and shape", "planning_teleop": "Teleoperation", "planning_plans": "Offline plans", "planning_follow": "Following the leader"}
+PARTS = {
+    "planning_goals": "Random goals",
+    "planning_shape": "Tip and shape",
+    "planning_teleop": "Teleoperation",
+    "planning_plans": "Offline plans",
+    "planning_follow": "Following the leader",
+}
 
 
 def measure(binaries):

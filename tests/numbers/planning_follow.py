@@ -1,14 +1,13 @@
-"""Following curves by `liana plan --follow` from the panel edge pose, beside plans that only have to arrive there, judged alike.
-Alone: planning_follow.py [--bin DIR] [--json]."""
-import argparse
+"""Following curves by `liana plan --follow` from the panel edge pose, beside plans that only have to arrive there,
+judged alike. Alone: planning_follow.py [--bin DIR] [--json]."""
 import json
 import math
 import pathlib
-import sys
 import tempfile
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from planning_plans import PANEL_EDGE, POINTS_PER_LINK, PRESS_ROD, ROOT, joined, link_points, run, tip_of  # noqa: E402 (found through the line above)
+from asking import ask, joined
+from page import table
+from planning_plans import PANEL_EDGE, POINTS_PER_LINK, PRESS_ROD, link_points, tip_of
 
 LOOKS = 8  # at a step between waypoints
 
@@ -24,7 +23,12 @@ def curves():
     yield "straight ahead", ahead(0.001), False
     yield "straight ahead", ahead(0.3), False
     yield "straight to (1.2, 0.05, 0.3)", [tip, [1.2, 0.05, 0.3]], True
-    yield "bend by (0.6, -0.15, 0.4), (1, -0.05, 0.35) to (1.4, 0, 0.4)", [tip, [0.6, -0.15, 0.4], [1.0, -0.05, 0.35], [1.4, 0.0, 0.4]], True
+    yield "bend by (0.6, -0.15, 0.4), (1, -0.05, 0.35) to (1.4, 0, 0.4)", [
+        tip,
+        [0.6, -0.15, 0.4],
+        [1.0, -0.05, 0.35],
+        [1.4, 0.0, 0.4],
+    ], True
     yield "`--follow=slit` to the press rod", None, True
 
 
@@ -38,7 +42,7 @@ def away(p, a, b):
 
 def body_off(waypoints):
     """Greatest and mean distance of the link ends from the arm's line at the start and the tip's path since."""
-    ends = lambda theta: [[0.0, 0.0, 0.0], *link_points(theta)[0][POINTS_PER_LINK - 1::POINTS_PER_LINK]]  # noqa: E731
+    ends = lambda theta: [[0.0, 0.0, 0.0], *link_points(theta)[0][POINTS_PER_LINK - 1 :: POINTS_PER_LINK]]  # noqa: E731
     line, offs = ends(waypoints[0]), []
     for before, after in zip(waypoints, waypoints[1:]):
         for look in range(1, LOOKS + 1):
@@ -49,7 +53,7 @@ def body_off(waypoints):
 
 
 def plan(binaries, *options):
-    answer = run([str(binaries / "liana"), "plan", f"--from-deg={joined(PANEL_EDGE)}", "--json", *options])
+    answer = ask(binaries / "liana", "plan", f"--from-deg={joined(PANEL_EDGE)}", "--json", *options)
     if answer["outcome"] != "solved":
         raise RuntimeError(f"{options}: {answer['outcome']}: {answer['reason']}")
     return answer
@@ -77,22 +81,34 @@ def study(binaries):
 
 
 def measure(binaries):
-    from page import table
-
     found = study(binaries)
-    rows = [[r["curve"], f"{r['curve_length_m']:.3f} m", f"{1000 * r['tip_off_m']:.1f} mm", f"{1000 * r['body_off_m']:.1f} mm", f"{1000 * r['mean_body_off_m']:.1f} mm", r["waypoints"],
-             ", ".join(f"{1000 * x:.0f} mm" for x in r.get("arriving_m", []))] for r in found]
-    return found, table(["from the panel edge pose", "curve", "tip within", "body within", "on average", "waypoints", "a plan that only has to arrive there: body within, on average"], rows)
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--json", action="store_true", help="print what was measured as JSON, not as a table")
-    parser.add_argument("--bin", default=str(ROOT / "build/bin"), help="where the programs are")
-    options = parser.parse_args()
-    found, text = measure(pathlib.Path(options.bin))
-    print(json.dumps(found) if options.json else text)
+    rows = [
+        [
+            r["curve"],
+            f"{r['curve_length_m']:.3f} m",
+            f"{1000 * r['tip_off_m']:.1f} mm",
+            f"{1000 * r['body_off_m']:.1f} mm",
+            f"{1000 * r['mean_body_off_m']:.1f} mm",
+            r["waypoints"],
+            ", ".join(f"{1000 * x:.0f} mm" for x in r.get("arriving_m", [])),
+        ]
+        for r in found
+    ]
+    return found, table(
+        [
+            "from the panel edge pose",
+            "curve",
+            "tip within",
+            "body within",
+            "on average",
+            "waypoints",
+            "a plan that only has to arrive there: body within, on average",
+        ],
+        rows,
+    )
 
 
 if __name__ == "__main__":
-    main()
+    import alone
+
+    alone.run(measure, __doc__)

@@ -10,6 +10,8 @@
 #include "tests/numbers/options.hpp"
 
 namespace liana::numbers {
+
+using namespace cable;
 namespace {
 
 struct Kind {

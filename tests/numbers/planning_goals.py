@@ -1,7 +1,8 @@
-"""20,000 random reachable goals of each kind by the goal IK, from the zero pose. Alone: planning_goals.py [--bin DIR] [--count N] [--json]."""
-import json
-import subprocess
+"""20,000 random reachable goals of each kind by the goal IK, from the zero pose. Alone: planning_goals.py [--bin DIR]
+[--count N] [--json].
+"""
 
+from asking import counted
 from page import table
 
 HEAD = ["held at 0", "theta within", "goals", "converged", "wrong", "iterations median", "p99", "most"]
@@ -9,13 +10,20 @@ HEAD = ["held at 0", "theta within", "goals", "converged", "wrong", "iterations 
 
 def row(kind):
     iterations = kind["iterations"]
-    return [kind["held"], f"{kind['range_deg']} deg", kind["goals"], f"{100 * kind['converged'] / kind['goals']:.3f} %", kind["wrong"],
-            iterations["median"], iterations["p99"], iterations["most"]]
+    return [
+        kind["held"],
+        f"{kind['range_deg']} deg",
+        kind["goals"],
+        f"{100 * kind['converged'] / kind['goals']:.3f} %",
+        kind["wrong"],
+        iterations["median"],
+        iterations["p99"],
+        iterations["most"],
+    ]
 
 
 def measure(binaries, count=20000):
-    call = [str(binaries / "planning_goals"), "--count", str(count), "--json"]
-    kinds = json.loads(subprocess.run(call, capture_output=True, text=True, check=True).stdout)
+    kinds = counted(binaries / "planning_goals", count)
     return kinds, table(HEAD, [row(kind) for kind in kinds])
 
 

@@ -9,6 +9,8 @@
 #include "tests/numbers/options.hpp"
 
 namespace liana::numbers {
+
+using namespace cable;
 namespace {
 
 using zhu2022::Random;

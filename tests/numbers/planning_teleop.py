@@ -1,23 +1,42 @@
-"""1000 random hand motions of 10 s at 250 Hz, judged tick by tick. Alone: planning_teleop.py [--bin DIR] [--count N] [--json]."""
+"""1000 random hand motions of 10 s at 250 Hz, judged tick by tick. Alone: planning_teleop.py [--bin DIR] [--count N]
+[--json].
+"""
 import collections
-import json
-import subprocess
 
+from asking import ask
 from page import table
 
-HEAD = ["hand", "motions", "with a broken promise", "most deg of a theta in one tick", "deg per mm", "back after s, mean", "most"]
+HEAD = [
+    "hand",
+    "motions",
+    "with a broken promise",
+    "most deg of a theta in one tick",
+    "deg per mm",
+    "back after s, mean",
+    "most",
+]
 
 
 def row(kind):
-    return [kind["hand"], kind["motions"], kind["broken"], f"{kind['step_deg']:.3f}", f"{kind['step_deg_per_mm']:.2f}", f"{kind['back_mean_s']:.1f}",
-            f"{kind['back_s']:.1f}"]
+    return [
+        kind["hand"],
+        kind["motions"],
+        kind["broken"],
+        f"{kind['step_deg']:.3f}",
+        f"{kind['step_deg_per_mm']:.2f}",
+        f"{kind['back_mean_s']:.1f}",
+        f"{kind['back_s']:.1f}",
+    ]
 
 
 def measure(binaries, count=1000):
-    call = [str(binaries / "planning_teleop"), "--count", str(count), "--json"]
-    found = json.loads(subprocess.run(call, capture_output=True, text=True, check=False).stdout)
+    found = ask(binaries / "planning_teleop", "--count", count, "--json")
     causes = collections.Counter(violation["cause"] for violation in found["violations"])
-    text = "Broken promises by cause: " + (", ".join(f"{cause} {number}" for cause, number in causes.most_common()) or "none") + ".\n\n"
+    text = (
+        "Broken promises by cause: "
+        + (", ".join(f"{cause} {number}" for cause, number in causes.most_common()) or "none")
+        + ".\n\n"
+    )
     return found, text + table(HEAD, [row(kind) for kind in found["hands"]])
 
 

@@ -9,7 +9,11 @@ from page import table
 
 
 def recorded_run(binaries, directory):
-    subprocess.run([str(binaries / "liana"), "run", "slit_crossing", "--seed", "1", "--record", str(directory)], capture_output=True, check=False)
+    subprocess.run(
+        [str(binaries / "liana"), "run", "slit_crossing", "--seed", "1", "--record", str(directory)],
+        capture_output=True,
+        check=False,
+    )
 
 
 def digest(path):
@@ -21,9 +25,13 @@ def measure(binaries):
         first, second = pathlib.Path(work) / "first", pathlib.Path(work) / "second"
         recorded_run(binaries, first)
         recorded_run(binaries, second)
-        done = subprocess.run([str(binaries / "liana"), "replay", str(first), "--json"], capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            [str(binaries / "liana"), "replay", str(first), "--json"], capture_output=True, text=True, check=False
+        )
         result = json.loads(done.stdout) if done.stdout else {"ticks": 0, "differing_ticks": -1}
         files = ["ticks.mcap", "images.mcap", "truth.bin", "can0.log", "can1.log"]
         same = {name: digest(first / name) == digest(second / name) != "missing" for name in files}
     text = f"Replay: {result['ticks']} ticks, {result['differing_ticks']} differ. Two fast runs with one seed:\n\n"
-    return {"replay": result, "identical": same}, text + table(["file", "identical"], [[n, "yes" if s else "no"] for n, s in same.items()])
+    return {"replay": result, "identical": same}, text + table(
+        ["file", "identical"], [[n, "yes" if s else "no"] for n, s in same.items()]
+    )

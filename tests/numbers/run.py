@@ -1,4 +1,6 @@
-"""Measures at full size and writes docs/numbers.md: `./dev numbers [NAME]`. A section is replaced by the newest measurement of its name."""
+"""Measures at full size and writes docs/numbers.md: `./dev numbers [NAME]`. A section is replaced by the newest
+measurement of its name.
+"""
 import argparse
 import importlib
 import json
@@ -6,9 +8,8 @@ import pathlib
 import sys
 import time
 
+from folders import ROOT
 from page import Page, commit_of
-
-ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 
 def arguments():

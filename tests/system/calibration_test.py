@@ -1,4 +1,6 @@
-"""Calibration as an operator does it: measured in fixtures, used by a run, and refused before motion when anything does not fit."""
+"""Calibration as an operator does it: measured in fixtures, used by a run, and refused before motion when anything
+does not fit.
+"""
 import hashlib
 import json
 import os
@@ -8,9 +10,8 @@ import subprocess
 import tempfile
 import unittest
 
-from liana_system import BIN, run, start_run
-
-MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
+from support import MISSIONS, start_run
+from liana.system import program, run
 
 
 def signed(content):
@@ -84,7 +85,13 @@ class Calibration(unittest.TestCase):
     def test_an_interrupt_ends_with_130_whatever_is_under_way_and_leaves_nothing(self):
         for says in ("pose 1", "pose 2"):
             with tempfile.TemporaryDirectory() as home:
-                running = subprocess.Popen([BIN / "liana", "calibrate"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, "TMPDIR": home})
+                running = subprocess.Popen(
+                    [program("liana"), "calibrate"],
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.PIPE,
+                    text=True,
+                    env={**os.environ, "TMPDIR": home},
+                )
                 error = ""
                 while says not in error:
                     error += running.stderr.readline()
@@ -107,7 +114,9 @@ class Calibration(unittest.TestCase):
         changed["cables"][2]["zero_counts"] += 1000
         self.refused(changed, "sha256", "changed or damaged", "liana calibrate")
         self.refused(signed({**self.content, "robot": "other"}), 'robot: "other"', "another robot")
-        self.refused(signed({**self.content, "date": "2020-01-01"}), 'date: "2020-01-01"', "365 days", "liana calibrate")
+        self.refused(
+            signed({**self.content, "date": "2020-01-01"}), 'date: "2020-01-01"', "365 days", "liana calibrate"
+        )
 
     def test_swapped_drives_are_named_and_the_arm_is_never_enabled(self):
         content = json.loads(self.file.read_text())

@@ -1,7 +1,9 @@
 """Drives that are missing, wrong, silent, in fault or without power: a named message and a safe arm (A28, C5)."""
 import unittest
 
-from liana_system import System, SystemTest, brief, must
+from support import SystemTest
+from liana.client import brief
+from liana.system import System
 
 kFaultSlot = 2500  # the move that start_moving begins is under way then; checked in each test
 kDrive, kNode = 3, 4
@@ -20,9 +22,11 @@ class DrivesThatDoNotBoot(SystemTest):
     def refused_boot(self, kind, number, *words):
         with System(faults=fault(kind, 0)) as system:
             client = system.client()
-            must(client.ask("acquire"))
+            client.call("acquire")
             state = client.until(lambda state: state["state"] == "FAULT")
-            self.assertTrue(any(all(word in event["text"] for word in words) for event in state["events"]), brief(state))
+            self.assertTrue(
+                any(all(word in event["text"] for word in words) for event in state["events"]), brief(state)
+            )
             self.assertEqual([(fault["number"], fault["index"]) for fault in state["faults"]], [(number, kDrive)])
             for word in words:
                 self.assertIn(word, state["faults"][0]["text"])
@@ -51,7 +55,11 @@ class DrivesThatFailInMotion(SystemTest):
         client.start_moving()
         self.assertLess(client.state["tick"], kFaultSlot - 5, "the move must be under way before the fault")
         client.until(lambda state: state["faults"])
-        self.assertLess(client.state["tick"], kFaultSlot + 250, "slack is debounced for 25 ticks, and the cable needs some to come loose")
+        self.assertLess(
+            client.state["tick"],
+            kFaultSlot + 250,
+            "slack is debounced for 25 ticks, and the cable needs some to come loose",
+        )
         return system, client
 
     def ended(self, system, client, stop_deg=1.0):
@@ -71,7 +79,7 @@ class DrivesThatFailInMotion(SystemTest):
         system, client = self.moving_into("silent")
         self.assert_fault(client.state, 3002, kDrive)
         self.in_fault(client)
-        must(client.ask("state_command", command="clear"))
+        client.call("state_command", command="clear")
         client.until(lambda state: says(state, "faults not cleared, not met: ", "; checked: "))
         client.go_on(1.0)
         self.assertEqual(client.state["state"], "FAULT")
@@ -91,12 +99,12 @@ class DrivesThatFailInMotion(SystemTest):
         self.in_fault(client)
         client.go_on(1.0)
         self.assertEqual(client.state["state"], "FAULT", "nothing clears itself")
-        must(client.ask("state_command", command="clear"))
+        client.call("state_command", command="clear")
         client.until(lambda state: says(state, "faults cleared; checked: "))
         client.until(lambda state: state["state"] == "DISABLED" and not state["faults"])
-        must(client.ask("state_command", command="enable"))
+        client.call("state_command", command="enable")
         client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
-        must(client.ask("state_command", command="disable"))
+        client.call("state_command", command="disable")
         client.until(lambda state: state["state"] == "DISABLED")
         self.ended(system, client)
         self.assertEqual(system.emergencies()[kNode][:2], [0x2310, 0])
@@ -116,9 +124,9 @@ class DrivesThatFailInMotion(SystemTest):
         system, client = self.moving_into("sto")
         self.assert_fault(client.state, 3004, kDrive)
         self.in_fault(client)
-        must(client.ask("state_command", command="clear"))
+        client.call("state_command", command="clear")
         client.until(lambda state: state["state"] == "DISABLED")
-        must(client.ask("state_command", command="enable"))
+        client.call("state_command", command="enable")
         client.until(lambda state: state["state"] == "FAULT")
         self.assert_fault(client.state, 3005, kDrive)
         self.ended(system, client)
@@ -137,7 +145,8 @@ class DrivesThatFailInMotion(SystemTest):
         self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
         truth = system.truth()
         self.assertEqual(truth.column("enabled")[-1], 0)
-        # 20 mm of cable at 25 mm from the axes of 8 joints let the segment give way by 5.7 deg; a swing about that place reaches twice as far.
+        # 20 mm of cable at 25 mm from the axes of 8 joints let the segment give way by 5.7 deg; a swing about that
+        # place reaches twice as far.
         self.assertLess(truth.travel_deg(kFaultSlot, None), 12.0)
 
 
@@ -166,7 +175,10 @@ class DrivesWithoutTargets(SystemTest):
             self.assert_fault(state, 3004, 8)
             client.go_on(1.0)
             system.shut_down(client)
-            self.assertEqual({node: codes[0] for node, codes in system.emergencies().items()}, {node: 0x8130 for node in range(9, 16)})
+            self.assertEqual(
+                {node: codes[0] for node, codes in system.emergencies().items()},
+                {node: 0x8130 for node in range(9, 16)},
+            )
             self.assert_stopped(system.truth(), kFaultSlot, stop_deg=2.0)
 
 

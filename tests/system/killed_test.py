@@ -1,4 +1,6 @@
-"""Programs that die in the middle of motion, by kill -9: the arm stops with a named reason, and the others go on (A30, C5)."""
+"""Programs that die in the middle of motion, by kill -9: the arm stops with a named reason, and the others go on (A30,
+C5).
+"""
 import os
 import pathlib
 import signal
@@ -6,10 +8,14 @@ import subprocess
 import sys
 import unittest
 
-from liana_system import SOURCE, System, SystemTest, brief, must, start_run, wait_until
+from support import MISSIONS, PYTHON, SystemTest, start_run
+from liana.client import brief, wait_until
+from liana.system import System
 
-MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
-WATCHER = "import sys; sys.path.insert(0, sys.argv[1]); from liana_system import Client; c = Client(sys.argv[2], 'watcher', 'observer')\nwhile True: c.step()"
+WATCHER = (
+    "import sys; sys.path.insert(0, sys.argv[1]); from liana import Client; c = Client(sys.argv[2], 'watcher',"
+    " 'observer')\nwhile True: c.step()"
+)
 
 
 def children_of(pid):
@@ -20,7 +26,7 @@ def children_of(pid):
             text = stat.read_text()
         except OSError:
             continue
-        name, rest = text[text.index("(") + 1:text.rindex(")")], text[text.rindex(")") + 2:].split()
+        name, rest = text[text.index("(") + 1 : text.rindex(")")], text[text.rindex(")") + 2 :].split()
         if int(rest[1]) == pid:
             found[name] = int(stat.parent.name)
     return found
@@ -29,7 +35,9 @@ def children_of(pid):
 class ClientsThatDie(SystemTest):
     def mission_under_way(self, mission="short", operator=False, lockstep=True):
         """A lianad that expects a mission ends with it; one that has to outlive it meets it outside lockstep."""
-        system = self.enterContext(System("client,mission,operator" if operator else "client,mission" if lockstep else "client"))
+        system = self.enterContext(
+            System("client,mission,operator" if operator else "client,mission" if lockstep else "client")
+        )
         client = system.client()
         if operator:
             system.start_operator()
@@ -40,7 +48,10 @@ class ClientsThatDie(SystemTest):
         self.assertTrue(any(all(word in event["text"] for word in words) for event in state["events"]), brief(state))
 
     def moving(self, client):
-        return client.until(lambda state: state["owner"] == "mission" and state["is_busy"] and state["step"] and not state["at_rest"], 120)
+        return client.until(
+            lambda state: state["owner"] == "mission" and state["is_busy"] and state["step"] and not state["at_rest"],
+            120,
+        )
 
     def test_when_the_mission_runner_dies_the_arm_holds_and_another_client_can_go_back(self):
         system, client = self.mission_under_way(lockstep=False)
@@ -54,11 +65,11 @@ class ClientsThatDie(SystemTest):
         client.go_on(0.5)
         self.assert_holds(client.state)
         self.assertLess(max(abs(a - b) for a, b in zip(client.state["setpoint_js_deg"], before)), 2.0)
-        must(client.ask("acquire"))
-        must(client.ask("retract", until_tick=0))
+        client.call("acquire")
+        client.call("retract", until_tick=0)
         client.until(lambda state: state["is_busy"] and not state["at_rest"])
         client.until(lambda state: state["at_rest"] and not state["is_busy"])
-        must(client.ask("hold"))
+        client.call("hold")
         self.assertEqual(client.state["faults"], [])
         system.shut_down(client)
         self.assert_stopped(system.truth(), len(system.truth().rows) - 130)
@@ -80,7 +91,9 @@ class ClientsThatDie(SystemTest):
         system, client = self.mission_under_way("steered", operator=True)
         client.until(lambda state: state["device_engaged"] and not state["at_rest"], 60)
         client.go_on(1.5)
-        self.assertTrue(client.state["device_engaged"] and not client.state["at_rest"], "the operator has to be steering")
+        self.assertTrue(
+            client.state["device_engaged"] and not client.state["at_rest"], "the operator has to be steering"
+        )
         tick = client.state["tick"]
         system.kill("liana-operator")
         state = client.until(lambda state: not state["device_engaged"])
@@ -99,7 +112,7 @@ class ClientsThatDie(SystemTest):
         system, client = self.mission_under_way()
         watchers = []
         for _ in range(2):
-            call = [sys.executable, "-c", WATCHER, str(SOURCE / "tests" / "system"), str(system.api)]
+            call = [sys.executable, "-c", WATCHER, str(PYTHON), str(system.api)]
             watchers.append(subprocess.Popen(call, stderr=subprocess.DEVNULL))
             self.addCleanup(watchers[-1].wait)
             self.addCleanup(watchers[-1].kill)
@@ -134,7 +147,9 @@ class BusSidesThatDie(SystemTest):
         self.assertLessEqual(last_slot, len(truth.rows) - 125 + 6, "three periods without a target are allowed")
         self.assertGreater(truth.travel_deg(len(truth.rows) - 126, len(truth.rows)), 0.0)
         for drive in system.json("bench_summary.json")["drives"]:
-            self.assertEqual((drive["quick_stops"], drive["emergencies"], drive["statusword"] & 0x6F), (1, 2, 0x40), drive)
+            self.assertEqual(
+                (drive["quick_stops"], drive["emergencies"], drive["statusword"] & 0x6F), (1, 2, 0x40), drive
+            )
         self.assertEqual(enabled[-1], 0)
         self.assertLess(truth.travel_deg(last_slot, None), 1.0)
         self.assert_still(truth, len(truth.rows) - 50)

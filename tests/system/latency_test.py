@@ -1,4 +1,6 @@
-"""`liana latency` as users call it: the shape of its report and its counts. Times are the machine's own and judged by nobody here."""
+"""`liana latency` as users call it: the shape of its report and its counts. Times are the machine's own and judged by
+nobody here.
+"""
 import json
 import os
 import shutil
@@ -6,15 +8,23 @@ import subprocess
 import tempfile
 import unittest
 
-from liana_system import PATIENCE_S, System, SystemTest, must, program
+from support import SystemTest
+from liana.client import PATIENCE_S
+from liana.system import System, program
 
 
 class Latency(unittest.TestCase):
     def liana_latency(self, *words):
         home = tempfile.mkdtemp(prefix="liana-home-")
         self.addCleanup(shutil.rmtree, home, ignore_errors=True)
-        done = subprocess.run([program("liana"), "latency", *words], capture_output=True, text=True, timeout=PATIENCE_S, check=False,
-                              env={**os.environ, "XDG_RUNTIME_DIR": home, "TMPDIR": home})
+        done = subprocess.run(
+            [program("liana"), "latency", *words],
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE_S,
+            check=False,
+            env={**os.environ, "XDG_RUNTIME_DIR": home, "TMPDIR": home},
+        )
         left = [name for name in os.listdir(home) if name.startswith("liana-run-")]
         self.assertEqual(left, [], "tables and logs are removed")
         return done
@@ -23,7 +33,9 @@ class Latency(unittest.TestCase):
         self.assertEqual(set(times), {"median", "p99", "worst", "buckets"})
         self.assertLessEqual(times["median"], times["p99"])
         self.assertLessEqual(times["p99"], times["worst"])
-        self.assertAlmostEqual(sum(count for _, count in times["buckets"]), ticks, delta=2)  # a tick may run at reset and at reading
+        self.assertAlmostEqual(
+            sum(count for _, count in times["buckets"]), ticks, delta=2
+        )  # a tick may run at reset and at reading
         bounds = [bound for bound, _ in times["buckets"]]
         self.assertEqual(bounds, sorted(set(bounds)))
         self.assertGreaterEqual(times["worst"], bounds[-1])
@@ -40,7 +52,9 @@ class Latency(unittest.TestCase):
         self.assertGreaterEqual(report["ticks"] + lost, 125)
         for key in ("wakeup_us", "tick_us"):
             self.check_times(report[key], report["ticks"])
-        self.assertEqual(report["overruns"], sum(report["overrun_causes"][cause] for cause in ("late_wake", "long_tick", "bus_wait")))
+        self.assertEqual(
+            report["overruns"], sum(report["overrun_causes"][cause] for cause in ("late_wake", "long_tick", "bus_wait"))
+        )
         self.assertEqual(done.returncode, 0 if report["overruns"] == 0 and report["enabled"] else 1)
         self.assertIn("real-time priority", [finding["name"] for finding in report["realtime"]])
         self.assertEqual(done.stderr, "")
@@ -51,7 +65,7 @@ class VirtualTime(SystemTest):
         with System() as system:
             client = system.client()
             self.assert_refused(client.ask("timing"), "refused", "time mode fast", "real")
-            must(client.ask("acquire"))
+            client.call("acquire")
 
 
 if __name__ == "__main__":

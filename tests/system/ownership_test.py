@@ -8,9 +8,9 @@ import tempfile
 import unittest
 import unittest.mock
 
-from liana_system import PATIENCE_S, System, SystemTest, brief, must, program, run, start_run, wait_until
-
-MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
+from support import MISSIONS, SystemTest, start_run
+from liana.client import PATIENCE_S, brief, wait_until
+from liana.system import System, program, run
 
 
 class OwnershipOfMotion(SystemTest):
@@ -24,9 +24,19 @@ class OwnershipOfMotion(SystemTest):
     def test_a_second_client_cannot_move_the_arm_and_the_mission_goes_on(self):
         system, client = self.mission_under_way()
         self.assert_refused(client.ask("acquire"), "not_owner", "mission")
-        requests = {"move_jp": {"goal_deg": [0] * 10}, "move_cp": {"goal": client.state["setpoint_cp"]}, "servo_cp": {"goal": [2, 0, 0, 1, 0, 0, 0]},
-                    "hold": {}, "retract": {}, "release": {}, "hold_theta": {"held": []}, "shape": {"nodes": []}, "tool": {"command": "x"},
-                    "use_device": {"device": "none"}, "state_command": {"command": "disable"}}
+        requests = {
+            "move_jp": {"goal_deg": [0] * 10},
+            "move_cp": {"goal": client.state["setpoint_cp"]},
+            "servo_cp": {"goal": [2, 0, 0, 1, 0, 0, 0]},
+            "hold": {},
+            "retract": {},
+            "release": {},
+            "hold_theta": {"held": []},
+            "shape": {"nodes": []},
+            "tool": {"command": "x"},
+            "use_device": {"device": "none"},
+            "state_command": {"command": "disable"},
+        }
         for op, fields in requests.items():
             self.assert_refused(client.ask(op, **fields), "not_owner", "mission")
         client.until(lambda state: state["owner"] == "", 60)
@@ -50,7 +60,12 @@ class OwnershipOfMotion(SystemTest):
             stopper.next_state()
         self.assertEqual(stopper.answers[number]["op"], "ok")
         self.assertTrue(any("hand on the red button" in event["text"] for event in client.state["events"]))
-        self.assertTrue(all(drive["state"] == "switch_on_disabled" for drive in client.until(lambda state: state["tick"] > tick + 25)["drives"]))
+        self.assertTrue(
+            all(
+                drive["state"] == "switch_on_disabled"
+                for drive in client.until(lambda state: state["tick"] > tick + 25)["drives"]
+            )
+        )
         client.until(lambda state: state["owner"] == "", 60)
         self.assertEqual(system.ended("liana-mission"), 1)
         report = system.json("mission.json")
@@ -68,7 +83,11 @@ class OwnershipOfMotion(SystemTest):
             start = client.until(lambda state: state["step"] and state["at_rest"], 60)["setpoint_js_deg"]
             client.until(lambda state: state["device_engaged"] and not state["at_rest"])
             client.until(lambda state: state["device"] == "none")
-            self.assertGreater(max(abs(a - b) for a, b in zip(client.state["setpoint_js_deg"], start)), 0.5, "there has to be a way back")
+            self.assertGreater(
+                max(abs(a - b) for a, b in zip(client.state["setpoint_js_deg"], start)),
+                0.5,
+                "there has to be a way back",
+            )
             client.until(lambda state: state["owner"] == "", 60)
             self.assertTrue(client.state["retracted"])
             client.go_on(0.5)
@@ -84,10 +103,10 @@ class OwnershipOfMotion(SystemTest):
             client = system.client()
             client.enable()
             client.start_moving()
-            must(client.ask("stop", reason="test"))
+            client.call("stop", reason="test")
             client.until(lambda state: state["state"] == "DISABLED")
             self.assert_refused(client.ask("move_jp", goal_deg=[0] * 10), "not_enabled")
-            must(client.ask("release"))
+            client.call("release")
             second = system.client("second", lockstep=False)
             second.request("acquire")
             client.until(lambda state: state["owner"] == "second")
@@ -100,7 +119,9 @@ class OwnershipOfMotion(SystemTest):
             watcher = system.client("watcher")
             owner = system.client("owner", lockstep=False)
             owner.request("acquire")
-            watcher.until(lambda state: state["owner"] == "owner" and state["state"] == "DISABLED" and state["is_homed"])
+            watcher.until(
+                lambda state: state["owner"] == "owner" and state["state"] == "DISABLED" and state["is_homed"]
+            )
             owner.request("state_command", command="enable")
             watcher.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
             goal = list(watcher.state["setpoint_js_deg"])
@@ -112,7 +133,7 @@ class OwnershipOfMotion(SystemTest):
             watcher.until(lambda state: state["at_rest"] and not state["is_busy"])
             self.assert_holds(watcher.state)
             self.assertGreater(abs(watcher.state["setpoint_js_deg"][8] - goal[8]), 1.0, "the move must not go on")
-            must(watcher.ask("acquire"))
+            watcher.call("acquire")
 
     def test_the_command_line_estop_stops_the_arm(self):
         with System() as system:
@@ -161,21 +182,23 @@ class StopsBeforeTheArmIsEnabled(SystemTest):
     def test_after_a_stop_motion_has_to_be_acquired_anew_or_cleared_before_anybody_enables(self):
         with System() as system:
             client = system.client()
-            must(client.ask("acquire"))
-            must(client.ask("stop", reason="look first"))
+            client.call("acquire")
+            client.call("stop", reason="look first")
             client.until(lambda state: state["state"] == "DISABLED" and state["is_homed"])
-            self.assert_refused(client.ask("state_command", command="enable"), "refused", "emergency stop by test: look first", "clear")
-            must(client.ask("state_command", command="clear"))
+            self.assert_refused(
+                client.ask("state_command", command="enable"), "refused", "emergency stop by test: look first", "clear"
+            )
+            client.call("state_command", command="clear")
             client.until(lambda state: state["stop"] is None)
-            must(client.ask("stop"))
-            must(client.ask("acquire"))
+            client.call("stop")
+            client.call("acquire")
             self.assertIsNone(client.step()["stop"])
-            must(client.ask("state_command", command="enable"))
+            client.call("state_command", command="enable")
             client.until(lambda state: state["state"] == "ENABLED")
 
 
 class StopsFromTheCommandLine(SystemTest):
-    """`liana status` and `estop` without --api deal with every running system of the user, `clear` with the only one."""
+    """Without --api, `liana status` and `estop` deal with every system of the user, `clear` with the only one."""
 
     def setUp(self):
         self.home = tempfile.mkdtemp(prefix="liana-home-")
@@ -191,7 +214,9 @@ class StopsFromTheCommandLine(SystemTest):
 
     def while_running(self, command, clients):
         """`liana COMMAND --json` while time goes on for all clients: exit code and a list of what it printed."""
-        process = subprocess.Popen([program("liana"), command, "--json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            [program("liana"), command, "--json"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
         while process.poll() is None:
             for client in clients:
                 client.step()
@@ -206,7 +231,9 @@ class StopsFromTheCommandLine(SystemTest):
         self.assertEqual({state["state"] for state in states}, {"ENABLED"})
         code, stops, error = self.while_running("estop", [client, other])
         self.assertEqual(code, 0, error)
-        self.assertEqual({(stop["api"], stop["stopped"]) for stop in stops}, {(str(first.api), True), (str(second.api), True)})
+        self.assertEqual(
+            {(stop["api"], stop["stopped"]) for stop in stops}, {(str(first.api), True), (str(second.api), True)}
+        )
         for each in (client, other):
             each.until(lambda state: state["state"] == "DISABLED")
             self.assertEqual(each.state["stop"]["by"], "liana estop")
@@ -236,12 +263,20 @@ class StopsFromTheCommandLine(SystemTest):
         self.assertIn("'test' owns motion", error)
         self.assertIn("'test' owns motion", refused[0]["said"])
         self.assertEqual((client.state["stop"]["by"], len(client.state["faults"])), ("liana estop", 1))
-        must(client.ask("release"))
+        client.call("release")
         code, cleared, error = self.while_running("clear", [client])
         self.assertEqual((code, error), (0, ""))
-        self.assertEqual((cleared[0]["cleared"], cleared[0]["stop"]["by"], cleared[0]["faults"][0]["number"]), (True, "liana estop", 3003))
+        self.assertEqual(
+            (cleared[0]["cleared"], cleared[0]["stop"]["by"], cleared[0]["faults"][0]["number"]),
+            (True, "liana estop", 3003),
+        )
         self.assertIn("faults cleared; checked: ", cleared[0]["said"])
-        client.until(lambda state: state["state"] == "DISABLED" and not state["faults"] and not state["stop"] and not state["owner"])
+        client.until(
+            lambda state: state["state"] == "DISABLED"
+            and not state["faults"]
+            and not state["stop"]
+            and not state["owner"]
+        )
         client.go_on(1.0)
         self.assertEqual(client.state["state"], "DISABLED")
         self.assertEqual(self.while_running("clear", [client])[1][0]["stop"], None)
@@ -250,7 +285,7 @@ class StopsFromTheCommandLine(SystemTest):
     def test_a_fault_that_is_still_there_is_not_cleared_and_several_systems_are_not_cleared_at_once(self):
         first, client = self.moving([{"drive": 3, "kind": "silent", "at_slot": 2500}])
         client.until(lambda state: state["state"] == "FAULT")
-        must(client.ask("release"))
+        client.call("release")
         code, cleared, error = self.while_running("clear", [client])
         self.assertEqual((code, cleared[0]["cleared"], cleared[0]["faults"][0]["number"]), (1, False, 3002))
         self.assertIn("faults not cleared, not met: ", error)

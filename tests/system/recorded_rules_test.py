@@ -1,22 +1,57 @@
-"""Each safety rule over a recording can fail: good ticks pass it, one thing changed breaks it. Pairs of faults: what is expected first."""
-import sys
+"""Each safety rule over a recording can fail: good ticks pass it, one thing changed breaks it. Pairs of faults: what
+is expected first.
+"""
 import unittest
 
-from liana_system import SOURCE
+import support  # noqa: F401
 
-sys.path.insert(0, str(SOURCE / "hil" / "scenarios"))
-
-import campaign  # noqa: E402
-import pairs  # noqa: E402
-import recorded_rules as rules  # noqa: E402
-from recording import Fault, Tick, offsets  # noqa: E402
+import campaign
+import pairs
+import recorded_rules as rules
+from liana.recordings import Fault, Tick, offsets
 
 kEnabled, kSwitchOnDisabled, kInFault = 0x1237, 0x0250, 0x0218
-kLimits = rules.Limits(step_counts=36, following_counts=700, newtons_per_permille=0.6, heartbeat_ticks=75, slack_N=1.0, alarm_N=400.0, overload_N=600.0)
-kReactions = {3002: rules.kAtOnce, 3003: rules.kAtOnce, 3004: rules.kAtOnce, 5001: rules.kHold, 5002: rules.kOff, 6001: rules.kAtOnce}
-kGood = Tick(tick=0, lost_ticks=0, lost_buses=0, request="none", sequence=7, first_tick=0, expiry_tick=10 ** 6, statusword=(kEnabled, kEnabled), torque=(70, 70),
-             position=(1000, 2000), age=(0, 0), heartbeat_age=(5, 5), operational=(1, 1), state="ENABLED", stop_category=0, at_rest=1, active_sequence=0, faults=(),
-             dropped=0, controlword=(0x0F, 0x0F), target=(1000, 2000), theta_rate=(0.0, 0.0))
+kLimits = rules.Limits(
+    step_counts=36,
+    following_counts=700,
+    newtons_per_permille=0.6,
+    heartbeat_ticks=75,
+    slack_N=1.0,
+    alarm_N=400.0,
+    overload_N=600.0,
+)
+kReactions = {
+    3002: rules.kAtOnce,
+    3003: rules.kAtOnce,
+    3004: rules.kAtOnce,
+    5001: rules.kHold,
+    5002: rules.kOff,
+    6001: rules.kAtOnce,
+}
+kGood = Tick(
+    tick=0,
+    lost_ticks=0,
+    lost_buses=0,
+    request="none",
+    sequence=7,
+    first_tick=0,
+    expiry_tick=10**6,
+    statusword=(kEnabled, kEnabled),
+    torque=(70, 70),
+    position=(1000, 2000),
+    age=(0, 0),
+    heartbeat_age=(5, 5),
+    operational=(1, 1),
+    state="ENABLED",
+    stop_category=0,
+    at_rest=1,
+    active_sequence=0,
+    faults=(),
+    dropped=0,
+    controlword=(0x0F, 0x0F),
+    target=(1000, 2000),
+    theta_rate=(0.0, 0.0),
+)
 
 
 def ticks(count, **fields):
@@ -32,7 +67,13 @@ def fault(number, index=1, tick=5):
     return Fault(number, index, 0, tick)
 
 
-kStopped = {"faults": (fault(3003),), "state": "STOPPING", "stop_category": 2, "controlword": (0x02, 0x00), "statusword": (kEnabled, kInFault)}
+kStopped = {
+    "faults": (fault(3003),),
+    "state": "STOPPING",
+    "stop_category": 2,
+    "controlword": (0x02, 0x00),
+    "statusword": (kEnabled, kInFault),
+}
 
 
 class Rules(unittest.TestCase):
@@ -61,7 +102,11 @@ class Rules(unittest.TestCase):
         held = (fault(5001),)
         self.assertEqual(rules.commands_while_latched(changed(5, faults=held)), [])
         self.broken(rules.commands_while_latched(changed(5, faults=held, active_sequence=7)), "tick 5")
-        self.assertEqual(rules.commands_while_latched(changed(5, 6, faults=(fault(6001),), active_sequence=7)), [], "the gate is last")
+        self.assertEqual(
+            rules.commands_while_latched(changed(5, 6, faults=(fault(6001),), active_sequence=7)),
+            [],
+            "the gate is last",
+        )
         long = changed(5, 600, faults=held, theta_rate=(0.0, 0.01))
         self.broken(rules.commands_while_latched(long), f"tick {5 + rules.kPathStopTicks + 1}", "still moves")
 
@@ -88,19 +133,34 @@ class Rules(unittest.TestCase):
 
     def test_a_reaction_weaker_than_the_highest_latched_fault_asks_for_is_found(self):
         self.assertEqual(rules.weak_reactions(changed(5, **kStopped), kReactions), [])
-        for weaker, said in (({"state": "ENABLED"}, "ENABLED"), ({"controlword": (0x0F, 0x00)}, "enable operation"), ({"controlword": (0x07, 0x00)}, "quick stop"),
-                             ({"stop_category": 1}, "category"), ({"faults": (fault(5001), fault(5002)), "stop_category": 3}, "disable voltage")):
+        for weaker, said in (
+            ({"state": "ENABLED"}, "ENABLED"),
+            ({"controlword": (0x0F, 0x00)}, "enable operation"),
+            ({"controlword": (0x07, 0x00)}, "quick stop"),
+            ({"stop_category": 1}, "category"),
+            ({"faults": (fault(5001), fault(5002)), "stop_category": 3}, "disable voltage"),
+        ):
             self.broken(rules.weak_reactions(changed(5, **{**kStopped, **weaker}), kReactions), said)
-        ramp = [tick._replace(state="ENABLING") for tick in ticks(5)] + [kGood._replace(tick=5, **{**kStopped, "controlword": (0x07, 0x00)})]
+        ramp = [tick._replace(state="ENABLING") for tick in ticks(5)] + [
+            kGood._replace(tick=5, **{**kStopped, "controlword": (0x07, 0x00)})
+        ]
         self.broken(rules.weak_reactions(ramp, kReactions), "quick stop")
         self.assertEqual(rules.weak_reactions(changed(5, faults=(fault(5001),), stop_category=1), kReactions), [])
-        self.broken(rules.weak_reactions(changed(5, **{**kStopped, "faults": (fault(5001),)}), kReactions), "a hold keeps the drives enabled")
+        self.broken(
+            rules.weak_reactions(changed(5, **{**kStopped, "faults": (fault(5001),)}), kReactions),
+            "a hold keeps the drives enabled",
+        )
 
     def test_a_quick_stop_that_is_cut_short_is_found(self):
         stopping = [*ticks(5), *(kGood._replace(tick=i, **kStopped) for i in range(5, 9))]
         cut = kGood._replace(tick=9, **{**kStopped, "controlword": (0x00, 0x00)})
         self.broken(rules.quick_stops_cut_short([*stopping, cut], kReactions), "drive 0", "0x00")
-        self.assertEqual(rules.quick_stops_cut_short([*stopping, cut._replace(statusword=(kSwitchOnDisabled, kInFault))], kReactions), [])
+        self.assertEqual(
+            rules.quick_stops_cut_short(
+                [*stopping, cut._replace(statusword=(kSwitchOnDisabled, kInFault))], kReactions
+            ),
+            [],
+        )
         self.assertEqual(rules.quick_stops_cut_short([*stopping, cut._replace(faults=(fault(5002),))], kReactions), [])
 
     def test_a_stop_that_no_drive_confirmed_is_found(self):
@@ -109,12 +169,22 @@ class Rules(unittest.TestCase):
         self.assertEqual(rules.stops_not_confirmed([stopping, ended]), [])
         self.broken(rules.stops_not_confirmed([stopping, ended._replace(age=(3, 0))]), "drive 0", "3008")
         self.broken(rules.stops_not_confirmed([stopping, ended._replace(statusword=(kEnabled, kInFault))]), "drive 0")
-        self.assertEqual(rules.stops_not_confirmed([stopping, ended._replace(age=(3, 0), faults=(fault(3003), fault(3008, 0)))]), [])
+        self.assertEqual(
+            rules.stops_not_confirmed([stopping, ended._replace(age=(3, 0), faults=(fault(3003), fault(3008, 0)))]), []
+        )
 
     def test_everything_that_reports_show_wrong_has_to_be_latched(self):
-        for number, wrong in ((3002, {"age": (0, 3)}), (3001, {"heartbeat_age": (0, 76)}), (3007, {"operational": (1, 0)}), (3003, {"statusword": (kEnabled, kInFault)}),
-                              (3004, {"statusword": (kEnabled, kSwitchOnDisabled)}), (5001, {"torque": (70, 1)}), (5002, {"torque": (70, 1001)}),
-                              (5003, {"torque": (70, 700)}), (3006, {"position": (1000, 2701)})):
+        for number, wrong in (
+            (3002, {"age": (0, 3)}),
+            (3001, {"heartbeat_age": (0, 76)}),
+            (3007, {"operational": (1, 0)}),
+            (3003, {"statusword": (kEnabled, kInFault)}),
+            (3004, {"statusword": (kEnabled, kSwitchOnDisabled)}),
+            (5001, {"torque": (70, 1)}),
+            (5002, {"torque": (70, 1001)}),
+            (5003, {"torque": (70, 700)}),
+            (3006, {"position": (1000, 2701)}),
+        ):
             found = rules.faults_not_latched(changed(5, 60, **wrong), kLimits)
             self.broken(found, f"({number}, 1)")
             every = tuple(fault(known) for known in (3001, 3002, 3003, 3004, 3006, 3007, 5001, 5002, 5003))
@@ -123,7 +193,9 @@ class Rules(unittest.TestCase):
         self.broken(rules.faults_not_latched(changed(5, lost_ticks=3), kLimits), "(2001, -1)")
 
     def test_a_drive_that_was_never_there_is_no_fault(self):
-        self.assertEqual(rules.faults_not_latched(ticks(10, age=(0, 3), heartbeat_age=(0, 99), operational=(1, 0)), kLimits), [])
+        self.assertEqual(
+            rules.faults_not_latched(ticks(10, age=(0, 3), heartbeat_age=(0, 99), operational=(1, 0)), kLimits), []
+        )
 
     def test_a_fault_that_was_told_but_not_recorded_or_the_other_way_round_is_found(self):
         latched = changed(5, 40, faults=(fault(3002),))
@@ -158,7 +230,9 @@ class Pairs(unittest.TestCase):
         found = pairs.all_pairs()
         count = len(pairs.kMembers)
         self.assertGreaterEqual(count, 12)
-        self.assertEqual(len({frozenset(member.name for member in pair.members) for pair in found}), count * (count - 1) // 2)
+        self.assertEqual(
+            len({frozenset(member.name for member in pair.members) for pair in found}), count * (count - 1) // 2
+        )
         self.assertEqual({pair.delay for pair in found}, set(pairs.kDelays))
         self.assertEqual(sum(pair.reduced for pair in found), len(pairs.kReduced))
 
@@ -180,8 +254,12 @@ class Campaign(unittest.TestCase):
         found = [faults(seed) for seed in range(1, 201)]
         self.assertEqual(found, [faults(seed) for seed in range(1, 201)])
         self.assertEqual({len(one) for one in found}, {1, 2, 3, 4})
-        self.assertEqual({fault["kind"] for one in found for fault in one if "kind" in fault}, set(campaign.kBenchKinds))
-        self.assertEqual({fault["action"] for one in found for fault in one if "action" in fault}, set(campaign.kBusActions))
+        self.assertEqual(
+            {fault["kind"] for one in found for fault in one if "kind" in fault}, set(campaign.kBenchKinds)
+        )
+        self.assertEqual(
+            {fault["action"] for one in found for fault in one if "action" in fault}, set(campaign.kBusActions)
+        )
         self.assertGreater(len({str(one) for one in found}), 190)
 
     def test_what_the_operator_does_depends_on_the_seed_and_the_state(self):

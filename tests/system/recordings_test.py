@@ -1,15 +1,16 @@
 """What a run leaves behind: repeatable, replayable, readable by others (A36)."""
 import collections
 import json
-import pathlib
 import random
 import shutil
 import subprocess
 import unittest
 
-from liana_system import SystemTest, Truth, run, start_run
+from support import MISSIONS, SystemTest, start_run
+from liana.recordings import Truth
+from liana.system import run
 
-MISSION = pathlib.Path(__file__).resolve().parent / "missions" / "short.lua"
+MISSION = MISSIONS / "short.lua"
 FILES = ("ticks.mcap", "truth.bin", "can0.log", "can1.log")
 
 
@@ -22,7 +23,13 @@ def record(test, seed):
 
 def decoded(log):
     """tshark's lines for a candump log."""
-    done = subprocess.run(["tshark", "-r", str(log), "-d", "can.subdissector,canopen"], capture_output=True, text=True, timeout=120, check=False)
+    done = subprocess.run(
+        ["tshark", "-r", str(log), "-d", "can.subdissector,canopen"],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
     return done.stdout.splitlines()
 
 
@@ -46,7 +53,10 @@ class Recordings(SystemTest):
 
     def test_another_seed_gives_another_run(self):
         for name in FILES:
-            self.assertFalse((self.first / name).read_bytes() == (self.other / name).read_bytes(), f"{name} does not depend on the seed")
+            self.assertFalse(
+                (self.first / name).read_bytes() == (self.other / name).read_bytes(),
+                f"{name} does not depend on the seed",
+            )
 
     def test_replay_finds_no_differing_tick(self):
         done = run("liana", "replay", self.first, "--json")
@@ -62,7 +72,9 @@ class Recordings(SystemTest):
         draw = random.Random(4)
         ends = [*range(10), *range(len(whole) - 50, len(whole), 7)]
         for at in ends + [draw.randrange(len(whole)) for _ in range(15)]:
-            (copy / "ticks.mcap").write_bytes(whole[:at] + bytes([whole[at] ^ (1 << draw.randrange(8))]) + whole[at + 1:])
+            (copy / "ticks.mcap").write_bytes(
+                whole[:at] + bytes([whole[at] ^ (1 << draw.randrange(8))]) + whole[at + 1 :]
+            )
             done = run("liana", "replay", copy)
             self.assertEqual(done.returncode, 1, f"byte {at} of {len(whole)}: {done.stdout}{done.stderr}")
             self.assertRegex(done.stderr, "damaged|cut short|not an MCAP file")
@@ -71,7 +83,7 @@ class Recordings(SystemTest):
         copy = self.second.parent / "short"
         copy.mkdir()
         whole = (self.first / "ticks.mcap").read_bytes()
-        (copy / "ticks.mcap").write_bytes(whole[:len(whole) // 2])
+        (copy / "ticks.mcap").write_bytes(whole[: len(whole) // 2])
         done = run("liana", "replay", copy, "--json")
         self.assertEqual(done.returncode, 1)
         self.assertIn("cut short", done.stderr)
@@ -90,7 +102,11 @@ class Recordings(SystemTest):
         shutil.copytree(self.first, copy)
         whole = (copy / "images.mcap").read_bytes()
         at = len(whole) // 2
-        for content, state in ((whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1:], "damaged"), (whole[:at], "cut short"), (b"other", "damaged")):
+        for content, state in (
+            (whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1 :], "damaged"),
+            (whole[:at], "cut short"),
+            (b"other", "damaged"),
+        ):
             (copy / "images.mcap").write_bytes(content)
             done = run("liana", "replay", copy, "--json")
             self.assertEqual((done.returncode, json.loads(done.stdout)["images"]["state"]), (1, state))

@@ -2,7 +2,8 @@
 import math
 import unittest
 
-from liana_system import System, SystemTest, must
+from support import SystemTest
+from liana.system import System
 
 kUpright = [1.0, 0.0, 0.0, 0.0]
 
@@ -46,7 +47,9 @@ class Requests(SystemTest):
                     goal = self.tip()
                     goal[i] = huge
                     self.assert_refused(self.client.ask(op, goal=goal), "out_of_range", f"goal[{i}]", "allowed")
-        self.assert_refused(self.client.ask("move_jp", goal_deg=[1e300] + [0.0] * 9), "out_of_range", "goal_deg[0]", "allowed")
+        self.assert_refused(
+            self.client.ask("move_jp", goal_deg=[1e300] + [0.0] * 9), "out_of_range", "goal_deg[0]", "allowed"
+        )
 
     def test_nan_and_infinity_are_not_json_and_are_refused(self):
         for op, field, count in (("move_cp", "goal", 7), ("servo_cp", "goal", 7), ("move_jp", "goal_deg", 10)):
@@ -65,11 +68,19 @@ class Requests(SystemTest):
 
     def test_words_instead_of_numbers_are_refused(self):
         for word in ("NaN", None, True, [], {}):
-            self.assert_refused(self.client.ask("move_cp", goal=[word] + self.tip()[1:]), "bad_request", "goal[0]", "number")
-            self.assert_refused(self.client.ask("move_jp", goal_deg=[0.0] * 9 + [word]), "bad_request", "goal_deg[9]", "number")
+            self.assert_refused(
+                self.client.ask("move_cp", goal=[word] + self.tip()[1:]), "bad_request", "goal[0]", "number"
+            )
+            self.assert_refused(
+                self.client.ask("move_jp", goal_deg=[0.0] * 9 + [word]), "bad_request", "goal_deg[9]", "number"
+            )
 
     def test_the_wrong_number_of_values_is_refused(self):
-        for op, field, counts in (("move_cp", "goal", (0, 6, 8)), ("servo_cp", "goal", (0, 6, 8)), ("move_jp", "goal_deg", (0, 9, 11, 80))):
+        for op, field, counts in (
+            ("move_cp", "goal", (0, 6, 8)),
+            ("servo_cp", "goal", (0, 6, 8)),
+            ("move_jp", "goal_deg", (0, 9, 11, 80)),
+        ):
             for count in counts:
                 self.assert_refused(self.client.ask(op, **{field: [0.1] * count}), "bad_request", field, "array of")
             self.assert_refused(self.client.ask(op), "bad_request", field, "missing")
@@ -77,38 +88,78 @@ class Requests(SystemTest):
     def test_a_quaternion_that_is_not_of_unit_length_is_refused(self):
         for op in ("move_cp", "servo_cp"):
             for quaternion in ([0.0] * 4, [1.0, 0.01, 0.0, 0.0], [0.5] * 3 + [0.4999]):
-                self.assert_refused(self.client.ask(op, goal=self.tip()[:3] + quaternion), "out_of_range", "quaternion", "1e-6")
+                self.assert_refused(
+                    self.client.ask(op, goal=self.tip()[:3] + quaternion), "out_of_range", "quaternion", "1e-6"
+                )
 
     def test_angles_over_the_limits_are_refused_with_the_limits(self):
         for i in range(10):
             for angle in (20.01, -20.01, 179.0):
                 goal = list(self.start_deg)
                 goal[i] = angle
-                self.assert_refused(self.client.ask("move_jp", goal_deg=goal), "out_of_range", f"goal_deg, theta {i + 1}", "20")
+                self.assert_refused(
+                    self.client.ask("move_jp", goal_deg=goal), "out_of_range", f"goal_deg, theta {i + 1}", "20"
+                )
 
     def test_rates_over_the_limit_are_refused(self):
         for rate in (2.1, 0.0, -1.0, 1e300):
-            self.assert_refused(self.client.ask("move_jp", goal_deg=self.start_deg, rate_deg_s=rate), "out_of_range", "rate_deg_s", "2")
+            self.assert_refused(
+                self.client.ask("move_jp", goal_deg=self.start_deg, rate_deg_s=rate), "out_of_range", "rate_deg_s", "2"
+            )
 
     def test_held_angles_and_nodes_out_of_range_are_refused(self):
-        self.assert_refused(self.client.ask("hold_theta", held=[{"theta": 11, "target_deg": 0}]), "out_of_range", "theta")
-        self.assert_refused(self.client.ask("hold_theta", held=[{"theta": 9, "target_deg": 21}]), "out_of_range", "target_deg")
+        self.assert_refused(
+            self.client.ask("hold_theta", held=[{"theta": 11, "target_deg": 0}]), "out_of_range", "theta"
+        )
+        self.assert_refused(
+            self.client.ask("hold_theta", held=[{"theta": 9, "target_deg": 21}]), "out_of_range", "target_deg"
+        )
         self.assert_refused(self.client.ask("hold_theta", held=[7]), "bad_request")
-        self.assert_refused(self.client.ask("shape", nodes=[{"node": 5, "position_m": [0, 0, 0]}]), "out_of_range", "node")
-        self.assert_refused(self.client.ask("shape", nodes=[{"node": 3, "position_m": [0, 0]}]), "bad_request", "position_m")
-        self.assert_refused(self.client.ask("shape", nodes=[{"node": 3, "position_m": [1, 0, 0], "wieght": 2}]), "bad_request", "wieght", "weight")
-        self.assert_refused(self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [0, 0, 99], "distance_m": 0.1}]), "out_of_range", "centre_m")
-        self.assert_refused(self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [1, 0, 0]}]), "bad_request", "distance_m")
-        self.assert_refused(self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [1, 0, 0], "distance_m": 0.1}] * 5), "bad_request", "keep_clear")
+        self.assert_refused(
+            self.client.ask("shape", nodes=[{"node": 5, "position_m": [0, 0, 0]}]), "out_of_range", "node"
+        )
+        self.assert_refused(
+            self.client.ask("shape", nodes=[{"node": 3, "position_m": [0, 0]}]), "bad_request", "position_m"
+        )
+        self.assert_refused(
+            self.client.ask("shape", nodes=[{"node": 3, "position_m": [1, 0, 0], "wieght": 2}]),
+            "bad_request",
+            "wieght",
+            "weight",
+        )
+        self.assert_refused(
+            self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [0, 0, 99], "distance_m": 0.1}]),
+            "out_of_range",
+            "centre_m",
+        )
+        self.assert_refused(
+            self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [1, 0, 0]}]), "bad_request", "distance_m"
+        )
+        self.assert_refused(
+            self.client.ask("shape", nodes=[], keep_clear=[{"centre_m": [1, 0, 0], "distance_m": 0.1}] * 5),
+            "bad_request",
+            "keep_clear",
+        )
 
     def test_an_unknown_op_is_named(self):
         self.assert_refused(self.client.ask("fly"), "bad_request", "fly")
         self.assert_refused(self.client.ask("x" * 5000), "bad_request", "op")
 
     def test_packets_that_are_no_request_get_one_clear_answer_each(self):
-        packets = {b"\x00\xff\xfe": "JSON", b"hello": "JSON", b"{": "JSON", b"[1,2]": "object", b"7": "object", b"{}": "op", b'{"op":7}': "op",
-                   b'{"op":"hello","name":"twice","role":"client"}': "already", b'{"op":"hold","id":"x"}': "id", b'{"op":"\xc3\x28"}': "JSON",
-                   b"[" * 60000: "JSON", b" " * 70000: "65536"}
+        packets = {
+            b"\x00\xff\xfe": "JSON",
+            b"hello": "JSON",
+            b"{": "JSON",
+            b"[1,2]": "object",
+            b"7": "object",
+            b"{}": "op",
+            b'{"op":7}': "op",
+            b'{"op":"hello","name":"twice","role":"client"}': "already",
+            b'{"op":"hold","id":"x"}': "id",
+            b'{"op":"\xc3\x28"}': "JSON",
+            b"[" * 60000: "JSON",
+            b" " * 70000: "65536",
+        }
         for packet, word in packets.items():
             self.client.send(packet)
             self.client.step()
@@ -117,9 +168,14 @@ class Requests(SystemTest):
             self.assert_refused(self.client.complaints.pop(), "bad_request", word)
 
     def test_who_does_not_say_hello_properly_is_told_how(self):
-        hellos = [({"op": "acquire"}, "hello"), ({"op": "hello", "role": "client"}, "name"), ({"op": "hello", "name": "x", "role": "king"}, "king"),
-                  ({"op": "hello", "name": "x", "role": "client", "subscribe": ["weather"]}, "subscribe"),
-                  ({"op": "hello", "name": 5, "role": "client"}, "name"), ({"op": "hello", "name": "x", "role": "client", "subscribe": 5}, "subscribe")]
+        hellos = [
+            ({"op": "acquire"}, "hello"),
+            ({"op": "hello", "role": "client"}, "name"),
+            ({"op": "hello", "name": "x", "role": "king"}, "king"),
+            ({"op": "hello", "name": "x", "role": "client", "subscribe": ["weather"]}, "subscribe"),
+            ({"op": "hello", "name": 5, "role": "client"}, "name"),
+            ({"op": "hello", "name": "x", "role": "client", "subscribe": 5}, "subscribe"),
+        ]
         for hello, word in hellos:
             stranger = self.system.stranger()
             stranger.send(hello)
@@ -137,13 +193,13 @@ class Requests(SystemTest):
         self.assert_refused(self.client.ask("use_device", device="piano"), "bad_request", "piano")
 
     def test_an_observer_that_asks_for_motion_does_not_get_it(self):
-        must(self.client.ask("release"))
+        self.client.call("release")
         number = self.other.request("acquire")
         self.client.go_on(0.1)
         while number not in self.other.answers:
             self.other.next_state()
         self.assert_refused(self.other.answers.pop(number), "not_owner", "observer")
-        must(self.client.ask("acquire"))
+        self.client.call("acquire")
 
 
 class TargetsTheArmCannotFollow(SystemTest):
@@ -160,15 +216,17 @@ class TargetsTheArmCannotFollow(SystemTest):
                 self.assertLessEqual({fault["name"] for fault in client.state["faults"]}, {"cable_slack"})
                 client.ask("hold")
                 client.until(lambda state: state["at_rest"])
-            must(client.ask("state_command", command="disable"))
+            client.call("state_command", command="disable")
             client.until(lambda state: state["state"] in ("DISABLED", "FAULT"))
             client.go_on(3.0)
             system.shut_down(client)
             truth = system.truth()
-            self.assertLess(max(abs(angle) for row in range(first, len(truth.rows), 25) for angle in truth.theta_deg(row)), 20.5)
+            self.assertLess(
+                max(abs(angle) for row in range(first, len(truth.rows), 25) for angle in truth.theta_deg(row)), 20.5
+            )
             self.assertLess(max(truth.column("contact_force_N")), 5.0)
-            # With cables slack little pulls the arm back, and nothing damps it: it swings for minutes, up to 0.03 deg in half a second
-            # and 0.16 deg since the brakes began to close. Drums that run free would show degrees.
+            # With cables slack little pulls the arm back, and nothing damps it: it swings for minutes, up to 0.03 deg
+            # in half a second and 0.16 deg since the brakes began to close. Drums that run free would show degrees.
             off = max(row for row, count in enumerate(truth.column("enabled")) if count > 0)
             self.assert_stopped(truth, off, stop_deg=0.5, swing_deg=0.1)
 
@@ -180,7 +238,7 @@ class Shapes(SystemTest):
             client.enable()
             tip, node = client.state["setpoint_cp"], client.state["node_m"][2]
             target = [node[0], node[1] + 0.1, node[2] + 0.1]
-            must(client.ask("shape", nodes=[{"node": 3, "position_m": target, "threshold_m": 0.0}], search=True))
+            client.call("shape", nodes=[{"node": 3, "position_m": target, "threshold_m": 0.0}], search=True)
             client.go_on(1.0)
             self.assert_refused(client.ask("shape", nodes=[], search=True), "busy", "rest")
             client.until(lambda state: math.dist(state["node_m"][2], target) < 0.005, limit_s=200.0)

@@ -1,13 +1,15 @@
-"""`liana run` with input that cannot work: one message, exit code 2 before anything moves or 1 after, and a safe arm (A35)."""
+"""`liana run` with input that cannot work: one message, exit code 2 before anything moves or 1 after, and a safe arm
+(A35).
+"""
 import json
 import pathlib
 import socket
 import tempfile
 import unittest
 
-from liana_system import SOURCE, SystemTest, Truth, start_run
+from support import MISSIONS, SOURCE, SystemTest, start_run
+from liana.recordings import Truth
 
-MISSIONS = pathlib.Path(__file__).resolve().parent / "missions"
 ATTACKS = SOURCE / "tests" / "lua" / "attacks"
 PATIENCE_S = 300
 
@@ -48,27 +50,46 @@ class RunsThatAreRefused(Runs):
         self.refused("nosuch", says=["nosuch"])
 
     def test_time_physics_and_seed_that_do_not_exist(self):
-        for option, value in (("--time", "soon"), ("--physics", "magic"), ("--seed", "-1"), ("--seed", "1.5"), ("--seed", "x"),
-                              ("--seed", "9007199254740992"), ("--seed", "18446744073709551616")):
+        for option, value in (
+            ("--time", "soon"),
+            ("--physics", "magic"),
+            ("--seed", "-1"),
+            ("--seed", "1.5"),
+            ("--seed", "x"),
+            ("--seed", "9007199254740992"),
+            ("--seed", "18446744073709551616"),
+        ):
             self.refused("slit_crossing", option, value, says=[option])
 
     def test_the_range_of_seeds_is_said(self):
         self.refused("slit_crossing", "--seed", "1e30", says=["--seed", "1e30", "0 to 9007199254740991"])
 
     def test_a_report_that_cannot_be_written(self):
-        self.refused("slit_crossing", "--json", "/nonexistent/report.json", says=["--json", "/nonexistent/report.json", "directory that exists"])
+        self.refused(
+            "slit_crossing",
+            "--json",
+            "/nonexistent/report.json",
+            says=["--json", "/nonexistent/report.json", "directory that exists"],
+        )
         self.refused("slit_crossing", "--json", "/nonexistent/report.json", "--record", "record", says=["--json"])
         self.refused("slit_crossing", "--json", "/", says=["--json", "directory"])
 
     def test_a_mission_that_the_robot_cannot_do(self):
         with tempfile.TemporaryDirectory() as folder:
             script = pathlib.Path(folder) / "far.lua"
-            script.write_text((MISSIONS / "short.lua").read_text().replace('liana.move_to "prepare"', 'liana.move_to "moon"'))
+            script.write_text(
+                (MISSIONS / "short.lua").read_text().replace('liana.move_to "prepare"', 'liana.move_to "moon"')
+            )
             self.refused(script, says=["far.lua", "step 1", "run: pose moon", "zhu2022"])
 
     def test_scripts_that_fail_before_they_are_missions(self):
-        for name, says in {"syntax_error": "syntax_error.lua:1", "endless_loop": "endless_loop", "endless_pcall": "endless_pcall",
-                           "memory_bomb": "memory", "nothing": "nothing.lua"}.items():
+        for name, says in {
+            "syntax_error": "syntax_error.lua:1",
+            "endless_loop": "endless_loop",
+            "endless_pcall": "endless_pcall",
+            "memory_bomb": "memory",
+            "nothing": "nothing.lua",
+        }.items():
             with self.subTest(name):
                 self.refused(ATTACKS / f"{name}.lua", says=[says])
 
@@ -87,7 +108,9 @@ class MissionsThatFailWhileTheArmMoves(Runs):
             self.assertIn(word, out + error)
         report = json.loads((directory / "report.json").read_text())
         self.assertEqual(report["outcome"], "failed")
-        self.assertEqual([report[key] for key in ("robot", "mission", "physics", "seed")], ["zhu2022", str(script), "nominal", 5])
+        self.assertEqual(
+            [report[key] for key in ("robot", "mission", "physics", "seed")], ["zhu2022", str(script), "nominal", 5]
+        )
         truth = Truth(directory / "record" / "truth.bin")
         enabled = truth.column("enabled")
         self.assertEqual(max(enabled), 15)

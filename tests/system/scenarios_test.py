@@ -1,4 +1,8 @@
-"""The scenarios of hil/scenarios are judged by rules that can fail: each rule against traffic that breaks it, each mistake in a scenario's file refused."""
+"""The scenarios of hil/scenarios are judged by rules that can fail: each rule against traffic that breaks it, each
+mistake in a scenario's file refused.
+"""
+import ast
+import graphlib
 import json
 import pathlib
 import struct
@@ -7,24 +11,41 @@ import sys
 import tempfile
 import unittest
 
-from liana_system import SOURCE, Refused
+from support import SCENARIOS, SOURCE
 
-FOLDER = SOURCE / "hil" / "scenarios"
-sys.path.insert(0, str(FOLDER))
-
-import coverage  # noqa: E402
-import predicates  # noqa: E402
-import recorded_rules  # noqa: E402
-import scenario  # noqa: E402
-import wire_checks  # noqa: E402
+import coverage
+import predicates
+import recorded_rules
+import scenario
+import wire_checks
+from liana.system import ProgramRefused, System
+from run_scenario import LimitedRun
+from scenario_file import BadScenario, Failed
 
 kPeriod_s = 0.004
 
 
+def imported_by(path):
+    """Modules that a file imports, as paths; of `from package import x` also package/x."""
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.Import):
+            yield from (name.name.replace(".", "/") for name in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            package = node.module.replace(".", "/")
+            yield package
+            yield from (f"{package}/{name.name}" for name in node.names)
+
+
 def traffic(commands=(), reports=()):
     """Node 4's (slot, controlword, target) and (slot, position) as liana-bus writes them."""
-    lines = [f"({slot * kPeriod_s + 0.002:.6f}) can0 204#{struct.pack('<Hi', word, target).hex().upper()}" for slot, word, target in commands]
-    lines += [f"({slot * kPeriod_s + 0.001:.6f}) can0 184#{struct.pack('<Hih', 0x1237, place, 60).hex().upper()}" for slot, place in reports]
+    lines = [
+        f"({slot * kPeriod_s + 0.002:.6f}) can0 204#{struct.pack('<Hi', word, target).hex().upper()}"
+        for slot, word, target in commands
+    ]
+    lines += [
+        f"({slot * kPeriod_s + 0.001:.6f}) can0 184#{struct.pack('<Hih', 0x1237, place, 60).hex().upper()}"
+        for slot, place in reports
+    ]
     return predicates.Traffic(["\n".join(lines)], kPeriod_s)
 
 
@@ -37,23 +58,34 @@ class Rules(unittest.TestCase):
         self.assertIn("node 4, slot 14", found[0])
 
     def test_a_target_of_a_drive_without_torque_may_follow_it_anywhere(self):
-        self.assertEqual(predicates.target_steps(traffic([(10, 0x00, 1000), (11, 0x06, 9000), (12, 0x0F, 20000)]), 36), [])
+        self.assertEqual(
+            predicates.target_steps(traffic([(10, 0x00, 1000), (11, 0x06, 9000), (12, 0x0F, 20000)]), 36), []
+        )
 
     def test_the_step_limit_is_the_cable_speed_with_the_gates_margin(self):
-        robot = {"drives": {"drum_radius_m": 0.015, "counts_per_turn": 65536, "gear": 1}, "limits": {"cable_speed_m_s": 0.010}}
+        robot = {
+            "drives": {"drum_radius_m": 0.015, "counts_per_turn": 65536, "gear": 1},
+            "limits": {"cable_speed_m_s": 0.010},
+        }
         self.assertAlmostEqual(predicates.step_limit_counts(robot, kPeriod_s), 36.8, 1)
 
     def test_enabling_while_the_fault_is_latched_is_found_and_after_the_operators_enable_it_is_not(self):
         commands = [(10, 0x0F, 0), (11, 0x00, 0), (20, 0x0F, 0), (30, 0x0F, 0)]
         self.assertEqual(len(predicates.enabling_without_clear(traffic(commands), 11, 30)), 1)
         self.assertEqual(predicates.enabling_without_clear(traffic(commands), 11, 20), [])
-        self.assertEqual(predicates.enabling_without_clear(traffic([(10, 0x8F, 0)]), 0, 20), [], "a fault reset enables nothing")
+        self.assertEqual(
+            predicates.enabling_without_clear(traffic([(10, 0x8F, 0)]), 0, 20), [], "a fault reset enables nothing"
+        )
 
     def test_a_target_that_moves_while_the_arm_holds_in_fault_is_found(self):
         commands = [(10, 0x0F, 1000), (20, 0x0F, 1030), (21, 0x0F, 1030), (30, 0x0F, 1031)]
         self.assertEqual(predicates.targets_that_move(traffic(commands), 20, 30), [])
         self.assertEqual(len(predicates.targets_that_move(traffic(commands), 20, 31)), 1)
-        self.assertEqual(predicates.targets_that_move(traffic([(20, 0x00, 5), (21, 0x00, 9)]), 20, 31), [], "without torque a target follows the drum")
+        self.assertEqual(
+            predicates.targets_that_move(traffic([(20, 0x00, 5), (21, 0x00, 9)]), 20, 31),
+            [],
+            "without torque a target follows the drum",
+        )
 
     def test_a_drum_that_moves_while_the_fault_is_latched_is_found(self):
         reports = [(10, 100), (11, 150), (12, 151), (13, 151), (20, 180)]
@@ -72,20 +104,35 @@ class Rules(unittest.TestCase):
 
 def frames(*steps):
     """Of node 4: reset, boot-up, SDO objects, start, operational, PDO."""
-    of = {"reset": (0, 130, 4, None, None), "start": (0, 1, 0, None, None), "boot-up": (0x704, None, None, 0, None), "operational": (0x704, None, None, 5, None),
-          "PDO": (0x184, None, None, None, None)}
+    of = {
+        "reset": (0, 130, 4, None, None),
+        "start": (0, 1, 0, None, None),
+        "boot-up": (0x704, None, None, 0, None),
+        "operational": (0x704, None, None, 5, None),
+        "PDO": (0x184, None, None, None, None),
+    }
     return [wire_checks.Frame(line, *of.get(step, (0x604, None, None, None, step))) for line, step in enumerate(steps)]
 
 
 class BootOrder(unittest.TestCase):
     def test_the_order_of_cia_301_is_accepted_after_the_last_reset(self):
-        self.assertEqual(wire_checks.boot_order(frames("boot-up", "reset", "reset", "boot-up", 0x1000, 0x1018, 0x1400, "start", "operational", "PDO"), 4), [])
+        self.assertEqual(
+            wire_checks.boot_order(
+                frames("boot-up", "reset", "reset", "boot-up", 0x1000, 0x1018, 0x1400, "start", "operational", "PDO"), 4
+            ),
+            [],
+        )
 
     def test_each_step_out_of_order_is_found(self):
-        for wrong, words in ((("boot-up", 0x1018, "start", "operational"), "no reset"), (("reset", 0x1018, "boot-up", "start", "PDO"), "boot-up, SDO"),
-                             (("reset", "boot-up", "PDO", 0x1018, "start"), "boot-up, SDO"), (("reset", "boot-up", 0x1018, "PDO", "start"), "boot-up, SDO"),
-                             (("reset", "boot-up", "start", 0x1018, "PDO"), "boot-up, SDO"), (("reset", "boot-up", 0x1400, 0x1018, "start", "PDO"), "0x1400"),
-                             (("reset", "boot-up", 0x1400, "start", "PDO"), "never read")):
+        for wrong, words in (
+            (("boot-up", 0x1018, "start", "operational"), "no reset"),
+            (("reset", 0x1018, "boot-up", "start", "PDO"), "boot-up, SDO"),
+            (("reset", "boot-up", "PDO", 0x1018, "start"), "boot-up, SDO"),
+            (("reset", "boot-up", 0x1018, "PDO", "start"), "boot-up, SDO"),
+            (("reset", "boot-up", "start", 0x1018, "PDO"), "boot-up, SDO"),
+            (("reset", "boot-up", 0x1400, 0x1018, "start", "PDO"), "0x1400"),
+            (("reset", "boot-up", 0x1400, "start", "PDO"), "never read"),
+        ):
             found = wire_checks.boot_order(frames(*wrong), 4)
             self.assertEqual(len(found), 1, wrong)
             self.assertIn(words, found[0])
@@ -98,15 +145,33 @@ class Wire(unittest.TestCase):
         return path
 
     def test_a_malformed_frame_is_found_and_what_is_no_log_refused(self):
-        good = "(0000000001.000000) can0 080#\n(0000000001.001000) can0 704#05\n(0000000001.002000) can0 20000004#0008000000008000\n"
+        good = (
+            "(0000000001.000000) can0 080#\n(0000000001.001000) can0 704#05\n(0000000001.002000) can0"
+            " 20000004#0008000000008000\n"
+        )
         self.assertEqual(wire_checks.malformed([self.log(good)]), [])
         self.assertIn("line 4", wire_checks.malformed([self.log(good + "(0000000001.003000) can0 604#4018\n")])[0])
         with self.assertRaises(ValueError):
             wire_checks.malformed([self.log("nothing of the kind")])
 
 
+class Modules(unittest.TestCase):
+    def test_scenarios_import_only_each_other_the_client_and_pythons_own_and_never_in_a_circle(self):
+        files = {path.relative_to(SCENARIOS).with_suffix("").as_posix(): path for path in SCENARIOS.rglob("*.py")}
+        graph = {name: set(imported_by(path)) for name, path in files.items()}
+        allowed = {name.split("/")[0] for name in files} | {"liana"} | sys.stdlib_module_names
+        for name, modules in graph.items():
+            self.assertEqual({module.split("/")[0] for module in modules} - allowed, set(), name)
+        graphlib.TopologicalSorter({name: modules & files.keys() for name, modules in graph.items()}).prepare()
+
+
 class Files(unittest.TestCase):
-    GOOD = {"about": "x", "during": "move", "faults": [], "expect": {"fault": 3002, "index": 3, "within_ticks": 5, "state": "FAULT", "stopped_within_ticks": 9}}
+    GOOD = {
+        "about": "x",
+        "during": "move",
+        "faults": [],
+        "expect": {"fault": 3002, "index": 3, "within_ticks": 5, "state": "FAULT", "stopped_within_ticks": 9},
+    }
 
     def read(self, **changed):
         folder = self.enterContext(tempfile.TemporaryDirectory())
@@ -115,7 +180,7 @@ class Files(unittest.TestCase):
         return scenario.Scenario(path)
 
     def refused(self, *words, **changed):
-        with self.assertRaises(scenario.BadScenario) as caught:
+        with self.assertRaises(BadScenario) as caught:
             self.read(**changed)
         for word in words:
             self.assertIn(word, str(caught.exception))
@@ -130,14 +195,28 @@ class Files(unittest.TestCase):
         self.refused("fault is missing", expect={"state": "FAULT"})
         self.refused("within_ticks", expect={"fault": 3002, "state": "FAULT"})
         self.refused("stopped_within_ticks", expect={"fault": 3002, "state": "FAULT", "index": 3, "within_ticks": 5})
-        self.refused("within_ticks is -1", "0 to", expect={"fault": 3002, "state": "FAULT", "index": 3, "within_ticks": -1})
-        self.refused("fault is 9999", "1001 to", expect={"fault": 9999, "state": "FAULT", "index": 3, "within_ticks": 1})
+        self.refused(
+            "within_ticks is -1", "0 to", expect={"fault": 3002, "state": "FAULT", "index": 3, "within_ticks": -1}
+        )
+        self.refused(
+            "fault is 9999", "1001 to", expect={"fault": 9999, "state": "FAULT", "index": 3, "within_ticks": 1}
+        )
         self.refused("state is SLEEPING", "FAULT", expect={"fault": None, "state": "SLEEPING"})
         self.refused("time_limit_s is -1", "86400", time_limit_s=-1)
 
     def test_a_start_is_told_to_lianad_and_bench(self):
-        read = self.read(during="boot", start={"pose": "fixture", "in_pose": "fixture", "cross_wired": [3, 4]}, expect={"fault": None, "state": "DISABLED", "refused": ["x"]})
-        self.assertEqual(read.words(), {"lianad": ["--in-pose", "fixture"], "bench": ["--start-pose", "fixture", "--fixture", "--cross-wired", "3,4"]})
+        read = self.read(
+            during="boot",
+            start={"pose": "fixture", "in_pose": "fixture", "cross_wired": [3, 4]},
+            expect={"fault": None, "state": "DISABLED", "refused": ["x"]},
+        )
+        self.assertEqual(
+            read.words(),
+            {
+                "lianad": ["--in-pose", "fixture"],
+                "bench": ["--start-pose", "fixture", "--fixture", "--cross-wired", "3,4"],
+            },
+        )
         self.assertEqual(read.fault_count(), 1)
         self.assertEqual(self.read().words(), {"lianad": [], "bench": []})
         self.refused("start: place is not known", start={"place": "fixture"})
@@ -150,21 +229,21 @@ class Files(unittest.TestCase):
         self.refused("program is missing", host={"action": "kill"}, expect={"outcome": "drives_stop"})
 
     def test_past_its_time_limit_a_scenario_has_failed_and_its_programs_are_dead(self):
-        class Endless(scenario.Run):
+        class Endless(LimitedRun):
             def act(self):
-                with scenario.System() as system, self.limited(system):
+                with System() as system, self.limited(system):
                     self.system = system
                     system.client().until(lambda state: False, 1e9)
 
         run = Endless(self.read(time_limit_s=0.5))
-        with self.assertRaises(scenario.Failed) as caught:
+        with self.assertRaises(Failed) as caught:
             run.go()
         self.assertIn("over its time limit of 0.5 s", str(caught.exception))
         self.assertTrue(all(child.returncode is not None for child in run.system.children.values()))
 
     def test_what_the_bench_refuses_ends_a_scenario_with_its_words(self):
         run = self.read(faults=[{"drive": 3, "kind": "silnt", "at_slot": 1}]).run()
-        with self.assertRaises(Refused) as caught:
+        with self.assertRaises(ProgramRefused) as caught:
             run.go()
         self.assertIn('kind: is "silnt"; allowed are', str(caught.exception))
 
@@ -173,20 +252,32 @@ class Files(unittest.TestCase):
         shown = coverage.shown_by()
         self.assertGreater(len(numbers), 15)
         for number in numbers:
-            self.assertTrue(shown[number] or number in coverage.kTests, f"fault {number}: no scenario expects it; add one")
+            self.assertTrue(
+                shown[number] or number in coverage.kTests, f"fault {number}: no scenario expects it; add one"
+            )
         for name, file in coverage.kTests.values():
             self.assertIn(f"{name.replace('.', ', ')})", (SOURCE / file).read_text())
-        self.assertIn(coverage.table(numbers, {}), (SOURCE / "docs" / "faults.md").read_text(), "put there what python3 hil/scenarios/coverage.py prints")
+        self.assertIn(
+            coverage.table(numbers, {}),
+            (SOURCE / "docs" / "faults.md").read_text(),
+            "put there what python3 hil/scenarios/coverage.py prints",
+        )
 
     def test_every_folder_of_scenarios_says_what_it_is(self):
-        folders = {FOLDER / one.name.split("/")[0] for one in scenario.all_scenarios()}
+        folders = {SCENARIOS / one.name.split("/")[0] for one in scenario.all_scenarios()}
         self.assertGreaterEqual(len(folders), 5)
         for folder in folders:
             self.assertTrue((folder / "README.md").is_file(), folder)
 
     def test_a_pattern_without_a_scenario_and_a_file_that_cannot_be_written_end_with_2(self):
-        for words, said in ((("--only", "nothing_like_it"), "names no scenario"), (("--json", "/no/such/folder/x"), "cannot be written"), (("--fast",), "--fast")):
-            done = subprocess.run([sys.executable, FOLDER / "run.py", *words], capture_output=True, text=True, check=False)
+        for words, said in (
+            (("--only", "nothing_like_it"), "names no scenario"),
+            (("--json", "/no/such/folder/x"), "cannot be written"),
+            (("--fast",), "--fast"),
+        ):
+            done = subprocess.run(
+                [sys.executable, SCENARIOS / "run.py", *words], capture_output=True, text=True, check=False
+            )
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(said, done.stderr)
 

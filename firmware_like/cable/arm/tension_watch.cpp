@@ -7,13 +7,9 @@ TensionWatchLimits make_tension_watch_limits(const RobotTable& table) noexcept {
           table.tension.hard_limit_N};
 }
 
-void watch_tension(const TensionWatchLimits& limits, WatchScope scope, const TensionReading& now, std::int32_t index,
-                   TensionWatchState& state, Watch& out) noexcept {
+void watch_doubtful_tension(const TensionWatchLimits& limits, WatchScope scope, const TensionReading& now,
+                            std::int32_t index, TensionWatchState& state, Watch& out) noexcept {
   const std::size_t i = as_index(index);
-  if (now.tension_N >= limits.slack_N && now.tension_N <= limits.alarm_N && now.tension_N <= limits.hard_limit_N) {
-    state.slack_ticks[i] = state.alarm_ticks[i] = state.overload_ticks[i] = 0;
-    return;
-  }
   const bool slack = scope.prepared && !(now.tension_N >= limits.slack_N);  // so written, NaN is slack
   out.debounced(slack, kSlackDebounceTicks, state.slack_ticks[i], FaultNumber::kCableSlack, index);
   // A motor that is not where it was told to be may have let the cable go itself.

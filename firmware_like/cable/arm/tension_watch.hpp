@@ -44,7 +44,16 @@ struct TensionReading {
 
 // Latches what is wrong with cable `index` in this tick. Slack is looked for once the arm is prepared, overload while
 // drives are powered.
-void watch_tension(const TensionWatchLimits& limits, WatchScope scope, const TensionReading& now, std::int32_t index,
-                   TensionWatchState& state, Watch& out) noexcept;
+void watch_doubtful_tension(const TensionWatchLimits& limits, WatchScope scope, const TensionReading& now,
+                            std::int32_t index, TensionWatchState& state, Watch& out) noexcept;
+inline void watch_tension(const TensionWatchLimits& limits, WatchScope scope, const TensionReading& now,
+                          std::int32_t index, TensionWatchState& state, Watch& out) noexcept {
+  if (now.tension_N >= limits.slack_N && now.tension_N <= limits.alarm_N && now.tension_N <= limits.hard_limit_N) {
+    const std::size_t i = as_index(index);
+    state.slack_ticks[i] = state.alarm_ticks[i] = state.overload_ticks[i] = 0;
+  } else {
+    watch_doubtful_tension(limits, scope, now, index, state, out);
+  }
+}
 
 }  // namespace liana::cable

@@ -1,9 +1,11 @@
-"""`liana calibrate` on CAN interfaces: a person puts the arm into one fixture after the other and presses Enter (field `calibrate`)."""
+"""`liana calibrate` on CAN interfaces: a person puts the arm into one fixture after the other and presses Enter (field
+`calibrate`).
+"""
 import contextlib
 import json
 import subprocess
 
-from liana_system import program
+from liana.system import program
 from scenario_file import expect_that
 
 kFields = {"poses": list, "cross_wired": list}
@@ -13,12 +15,12 @@ kExpected = {"code": int, "says": list}
 class CalibrateRun:
     """Nothing runs by itself: `liana calibrate` starts lianad, the person the bench."""
 
-    def __init__(self, scenario, make_system):
-        self.scenario, self.make_system, self.expect, self.notes = scenario, make_system, scenario.expect, []
+    def __init__(self, scenario, stand):
+        self.scenario, self.stand, self.expect, self.notes = scenario, stand, scenario.expect, []
 
     def go(self):
         with contextlib.ExitStack() as stack:
-            system = self.make_system()
+            system = self.stand.start(self.scenario)
             stack.push(system.__exit__)
             system.write_tables()
             file = system.directory / "arm.json"
@@ -31,10 +33,17 @@ class CalibrateRun:
                 self.judge_file(json.loads(file.read_text()))
 
     def calibrate(self, system, file):
-        """Answers each prompt with the arm in its fixture and Enter, as many as there are poses; exit code and all that was said."""
+        """Answers each prompt with the arm in its fixture and Enter, as many as there are poses; exit code and all
+        that was said.
+        """
         words = ["--bus", system.directory / "buses.json", "--physics", "ideal", "--out", file]
-        process = subprocess.Popen([program("liana"), "calibrate", *map(str, words)], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                   stderr=subprocess.STDOUT, text=True)
+        process = subprocess.Popen(
+            [program("liana"), "calibrate", *map(str, words)],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
         left, said = list(self.scenario.calibrate["poses"]), []
         for line in process.stdout:
             said.append(line)
@@ -55,7 +64,12 @@ class CalibrateRun:
         """The arm, anew, in a fixture."""
         expect_that(f"fixture {pose}," in prompt, f"fixture {pose} was expected, but: {prompt}")
         crossed = self.scenario.calibrate.get("cross_wired")
-        system.bench_words = ["--start-pose", pose, "--fixture", *(["--cross-wired", ",".join(map(str, crossed))] if crossed else [])]
+        system.bench_words = [
+            "--start-pose",
+            pose,
+            "--fixture",
+            *(["--cross-wired", ",".join(map(str, crossed))] if crossed else []),
+        ]
         system.start_bench()
 
     def end_bench(self, system):

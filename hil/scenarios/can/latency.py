@@ -1,33 +1,21 @@
-"""lianad's real-time thread measured by `liana latency`, idle and under load; runs on the machine that is measured.
-
-    python3 latency.py RESULTS RATE:LOAD [RATE:LOAD ...]        RATE 250 or 500, LOAD idle or loaded; one JSON row each in RESULTS"""
+"""lianad's real-time thread measured by `liana latency`, idle and under load; runs on the machine that is measured."""
 import json
 import os
-import socket
 import subprocess
 import sys
 import tempfile
 import time
 
-from system import HERE, program
+from liana.system import binaries, program, run
+from source_tree import SCENARIOS
 
 kSeconds = 3
 # What runs beside, at normal priority, each without end.
 kDisk = "while dd if=/dev/zero of=$LOAD_DIR/file bs=64k count=64 conv=fsync status=none; do rm -f $LOAD_DIR/file; done"
 kForks = "while /bin/true; do :; done"
 kClients = "while :; do $LOAD_BIN/liana status --json > /dev/null 2>&1; done"
-kFlood = [sys.executable, "-S", str(HERE / "latency.py"), "flood"]
+kFlood = [sys.executable, "-S", str(SCENARIOS / "can" / "flood.py")]
 kLoads = {"idle": [], "loaded": [["bash", "-c", kDisk], ["bash", "-c", kForks], ["bash", "-c", kClients], kFlood]}
-
-
-def flood():
-    """Datagrams to the machine itself, as fast as they go."""
-    end = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
-    end.bind(("127.0.0.1", 0))
-    while True:
-        for _ in range(100):
-            end.sendto(bytes(1000), end.getsockname())
-        end.recv(2000)
 
 
 def activity():
@@ -40,7 +28,7 @@ def activity():
 def wait_until_enabled(measuring):
     """The load is for an arm at work: it begins when the arm is enabled."""
     while measuring.poll() is None:
-        told = subprocess.run([program("liana"), "status", "--json"], capture_output=True, text=True, check=False).stdout
+        told = run("liana", "status", "--json").stdout
         if '"state":"ENABLED"' in told.replace(" ", ""):
             return
         time.sleep(0.05)
@@ -48,12 +36,19 @@ def wait_until_enabled(measuring):
 
 def measure(rate, load):
     with tempfile.TemporaryDirectory() as folder:
-        environment = {**os.environ, "LOAD_DIR": folder, "LOAD_BIN": os.path.dirname(program("liana"))}
-        measuring = subprocess.Popen([program("liana"), "latency", "--arm", "light", "--rate", rate, "--seconds", str(kSeconds), "--json"],
-                                     stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        environment = {**os.environ, "LOAD_DIR": folder, "LOAD_BIN": str(binaries())}
+        measuring = subprocess.Popen(
+            [program("liana"), "latency", "--arm", "light", "--rate", rate, "--seconds", str(kSeconds), "--json"],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         if kLoads[load]:
             wait_until_enabled(measuring)
-        beside = [subprocess.Popen(words, env=environment, stderr=subprocess.DEVNULL, start_new_session=True) for words in kLoads[load]]
+        beside = [
+            subprocess.Popen(words, env=environment, stderr=subprocess.DEVNULL, start_new_session=True)
+            for words in kLoads[load]
+        ]
         before = activity()
         try:
             out, error = measuring.communicate()
@@ -70,15 +65,9 @@ def measure(rate, load):
     return {**row, "rate_hz": float(rate), "load": load}
 
 
-def main():
-    if sys.argv[1:] == ["flood"]:
-        flood()
-    subprocess.run([program("liana"), "latency", "--arm", "light", "--seconds", "0.1", "--json"], capture_output=True, check=False)  # reads everything once
-    with open(sys.argv[1], "w", encoding="utf-8") as results:
-        for word in sys.argv[2:]:
-            results.write(json.dumps(measure(*word.split(":"))) + "\n")
-            results.flush()
-
-
-if __name__ == "__main__":
-    main()
+def rows(words):
+    """Measures what these words (RATE:LOAD) name, in turn."""
+    if words:  # once without judging it: everything is read then
+        run("liana", "latency", "--arm", "light", "--seconds", "0.1", "--json")
+    for word in words:
+        yield measure(*word.split(":"))

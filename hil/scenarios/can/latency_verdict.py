@@ -1,4 +1,6 @@
-"""What measurements of lianad's thread at one rate and load say together: verdict of each run, how far runs differ, the worst of all."""
+"""What measurements of lianad's thread at one rate and load say together: verdict of each run, how far runs differ,
+the worst of all.
+"""
 
 kWorstWakeup_us = {"idle": 25, "loaded": 50}
 kAgree_us = 10  # between any two runs, in every figure
@@ -12,8 +14,11 @@ def judge_run(run):
         return run["error"]
     half_us = 5e5 / run["rate_hz"]
     wrong = [] if run["enabled"] else [f"the arm was not enabled all the time; faults: {run.get('faults', [])}"]
-    for value, allowed, words in ((run["overruns"], 0, "overruns"), (run["wakeup_us"]["worst"], kWorstWakeup_us[run["load"]], "us worst wake-up"),
-                                  (run["tick_us"]["worst"], half_us, "us longest tick")):
+    for value, allowed, words in (
+        (run["overruns"], 0, "overruns"),
+        (run["wakeup_us"]["worst"], kWorstWakeup_us[run["load"]], "us worst wake-up"),
+        (run["tick_us"]["worst"], half_us, "us longest tick"),
+    ):
         if value > allowed:
             wrong.append(f"{value} {words}, allowed are {allowed:g}")
     return "; ".join(wrong)
@@ -24,20 +29,26 @@ def over_runs(runs, choose):
 
 
 def cell(rate_hz, load, runs):
-    """One row of the report: the largest of all runs in each figure, all overruns, the largest difference, and the runs with their verdicts."""
+    """One row of the report: the largest of all runs in each figure, all overruns, the largest difference, and the
+    runs with their verdicts.
+    """
     runs = [{**run, "verdict": judge_run(run) or "holds"} for run in runs]
     row = {"rate_hz": rate_hz, "load": load, "runs": runs}
     measured = [run for run in runs if "error" not in run]
     if measured:
         spread = over_runs(measured, lambda values: max(values) - min(values))
-        row |= over_runs(measured, max) | {"overruns": sum(run["overruns"] for run in measured),
-                                           "difference_us": max(value for time in kTimes for value in spread[time].values())}
+        row |= over_runs(measured, max) | {
+            "overruns": sum(run["overruns"] for run in measured),
+            "difference_us": max(value for time in kTimes for value in spread[time].values()),
+        }
     return row
 
 
 def judge(row):
     """What is wrong with a cell; empty when every run holds and they agree."""
-    wrong = [f"run {number}: {run['verdict']}" for number, run in enumerate(row["runs"], 1) if run["verdict"] != "holds"]
+    wrong = [
+        f"run {number}: {run['verdict']}" for number, run in enumerate(row["runs"], 1) if run["verdict"] != "holds"
+    ]
     if row.get("difference_us", 0) > kAgree_us:
         wrong.append(f"runs differ by {row['difference_us']} us, allowed are {kAgree_us}")
     return "; ".join(wrong)
@@ -47,4 +58,7 @@ def notes(row):
     if "wakeup_us" not in row:
         return []
     wakeup, tick = ("/".join(str(row[time][figure]) for figure in kFigures) for time in kTimes)
-    return [f"wake-up {wakeup} us, tick {tick} us (median/p99/worst of {len(row['runs'])} runs), {row['overruns']} overruns, difference {row['difference_us']} us"]
+    return [
+        f"wake-up {wakeup} us, tick {tick} us (median/p99/worst of {len(row['runs'])} runs),"
+        f" {row['overruns']} overruns, difference {row['difference_us']} us"
+    ]

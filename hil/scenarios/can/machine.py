@@ -1,4 +1,6 @@
-"""Where scenarios on CAN interfaces and latency measurements run: on this machine where it has CAN, else in virtual machines (hil/vm)."""
+"""Where scenarios on CAN interfaces and latency measurements run: on this machine where it has CAN, else in virtual
+machines (hil/vm).
+"""
 import concurrent.futures
 import json
 import os
@@ -9,21 +11,55 @@ import subprocess
 import sys
 import tempfile
 
-import can_scenario
-import latency_verdict
-from system import HERE, SOURCE, BIN, kInterfaces
+from can import can_scenario, latency_verdict
+from can.system import kInterfaces
+from liana.system import binaries
+from source_tree import SCENARIOS, SOURCE
 
-RUN_IN_VM = HERE.parents[1] / "vm" / "run_in_vm"
+HERE = SCENARIOS / "can"
+GUEST = SCENARIOS / "guest.py"
+RUN_IN_VM = SOURCE / "hil" / "vm" / "run_in_vm"
 kTimeout_s = 1500  # of wall time for one guest; half a minute to two minutes on a free machine
 kGuests = 2  # at a time; each takes one processor
 kMostPerGuest = 10  # scenarios in one boot
 # Program -> the Debian package it comes from; the guest sees this machine's files.
-kPrograms = {"tc": "iproute2", "cansend": "can-utils", "cangen": "can-utils", "cangw": "can-utils", "ip": "iproute2", "choom": "util-linux", "unshare": "util-linux"}
+kPrograms = {
+    "tc": "iproute2",
+    "cansend": "can-utils",
+    "cangen": "can-utils",
+    "cangw": "can-utils",
+    "ip": "iproute2",
+    "choom": "util-linux",
+    "unshare": "util-linux",
+}
+kLiana = ("liana", "lianad", "liana-bus", "liana-bench", "liana-mission", "liana-archive")
 kHere = ("vcan", "gateway")  # kinds of bus that a machine's own kernel makes in a network of its own
-kOwnNetwork = ("unshare", "--net")  # interfaces and gateway rules that nobody else on this machine sees, gone at the end
+kOwnNetwork = (
+    "unshare",
+    "--net",
+)  # interfaces and gateway rules that nobody else on this machine sees, gone at the end
 kPython = "/usr/bin/python3"  # Debian's own, whose files are known
-kTools = ("bash", "sh", "env", "date", "dd", "true", "tail", "seq", "sleep", "timeout", "mkdir", "mkfifo", "rm", "cat", "grep", "mount", "umount")
-# On a processor of 500 MIPS, verifying a move beside the controllers' interrupts takes longer than its command interval; at 1000 it does not.
+kTools = (
+    "bash",
+    "sh",
+    "env",
+    "date",
+    "dd",
+    "true",
+    "tail",
+    "seq",
+    "sleep",
+    "timeout",
+    "mkdir",
+    "mkfifo",
+    "rm",
+    "cat",
+    "grep",
+    "mount",
+    "umount",
+)
+# On a processor of 500 MIPS, verifying a move beside the controllers' interrupts takes longer than its command
+# interval; at 1000 it does not.
 kScenarioMachine = ("--controllers", "--instruction-ns", "1", "--memory", "1024")
 kBuses = {"vcan": "vcan", "gateway": "vcan and can-gw", "sja1000": "SJA1000", "serial": "slcan"}
 kLatency = [("250", "idle"), ("250", "loaded"), ("500", "idle"), ("500", "loaded")]
@@ -34,7 +70,9 @@ class NoMachine(Exception):
 
 
 class Item:
-    """What is run on CAN: a scenario on one kind of bus, or a latency measurement. `runs_here`: on this machine, if it has CAN."""
+    """What is run on CAN: a scenario on one kind of bus, or a latency measurement. `runs_here`: on this machine, if it
+    has CAN.
+    """
 
     def __init__(self, name, word, reduced, faults, runs_here):
         self.name, self.word, self.reduced, self.faults, self.runs_here = name, word, reduced, faults, runs_here
@@ -47,14 +85,33 @@ class Item:
 
 
 def all_items():
-    scenarios = [Item(f"{one.name}/{kind}", f"{one.name}@{kind}", one.reduced and kind == one.on[0], one.fault_count(), kind in kHere and not one.only_in_vm)
-                 for one in can_scenario.all_scenarios() for kind in one.on if kind in kInterfaces]
-    return scenarios + [Item(f"latency/{rate}_{load}", f"{rate}:{load}", rate == "250" and load == "idle", 0, False) for rate, load in kLatency]
+    scenarios = [
+        Item(
+            f"{one.name}/{kind}",
+            f"{one.name}@{kind}",
+            one.reduced and kind == one.on[0],
+            one.fault_count(),
+            kind in kHere and not one.only_in_vm,
+        )
+        for one in can_scenario.all_scenarios()
+        for kind in one.on
+        if kind in kInterfaces
+    ]
+    return scenarios + [
+        Item(f"latency/{rate}_{load}", f"{rate}:{load}", rate == "250" and load == "idle", 0, False)
+        for rate, load in kLatency
+    ]
 
 
 def check_packages():
     path = os.environ.get("PATH", "") + ":/usr/sbin:/sbin"
-    missing = sorted({package for program, package in {**kPrograms, kPython: "python3"}.items() if shutil.which(program, path=path) is None})
+    missing = sorted(
+        {
+            package
+            for program, package in {**kPrograms, kPython: "python3"}.items()
+            if shutil.which(program, path=path) is None
+        }
+    )
     if missing:
         raise NoMachine(f"missing packages: {' '.join(missing)}; install them: apt-get install {' '.join(missing)}")
 
@@ -65,7 +122,12 @@ def has_can():
         socket.socket(socket.AF_CAN, socket.SOCK_RAW, socket.CAN_RAW).close()
     except OSError:
         return False
-    return subprocess.run([*kOwnNetwork, "ip", "link", "add", "dev", "vcan0", "type", "vcan"], capture_output=True, check=False).returncode == 0
+    return (
+        subprocess.run(
+            [*kOwnNetwork, "ip", "link", "add", "dev", "vcan0", "type", "vcan"], capture_output=True, check=False
+        ).returncode
+        == 0
+    )
 
 
 def where_of(item, native):
@@ -78,26 +140,35 @@ def where_of(item, native):
 
 
 def guest_files():
-    """Options of a guest: it is sealed and has in memory what it reads, so that its clock never waits for this machine's files."""
-    ask = f"import sys; sys.path.insert(0, {str(HERE)!r}); import can_scenario, encodings, latency, serial_line; " \
-          "print(*{str(path) for each in list(sys.modules.values()) for path in (getattr(each, '__file__', 0), getattr(each, '__cached__', 0)) if path}, sep='\\n')"
+    """Options of a guest: it is sealed and has in memory what it reads, so that its clock never waits for this
+    machine's files.
+    """
+    ask = (
+        f"import sys; sys.path.insert(0, {str(SCENARIOS)!r}); import guest, encodings, can.serial_line;"
+        " print(*{str(path) for each in list(sys.modules.values()) for path in (getattr(each, '__file__', 0),"
+        " getattr(each, '__cached__', 0)) if path}, sep='\\n')"
+    )
     modules = subprocess.run([kPython, "-S", "-c", ask], capture_output=True, text=True, check=True).stdout.split()
-    encodings = [os.path.dirname(path) for path in modules if path.endswith("/encodings/__init__.py")]  # each is read when it is first used
+    encodings = [
+        os.path.dirname(path) for path in modules if path.endswith("/encodings/__init__.py")
+    ]  # each is read when it is first used
     files = [HERE, SOURCE / "lua", "/etc/ld.so.cache", *encodings, *[path for path in modules if os.path.exists(path)]]
-    programs = [str(BIN / name) for name in ("liana", "lianad", "liana-bus", "liana-bench", "liana-mission", "liana-archive")]
+    programs = [str(binaries() / name) for name in kLiana]
     words = ["--sealed", *[word for path in files for word in ("--preload", str(path))]]
     return words + [word for name in [kPython, *kTools, *kPrograms, *programs] for word in ("--preload-program", name)]
 
 
-def in_guest(program, what, native, machine=()):
-    """Runs `program` over what these words name, in a guest of its own or here; the rows it left, and what it said when it did not leave all."""
+def in_guest(what, native, machine=()):
+    """Runs guest.py over these words, in a guest of its own or here; the rows it left, and what it said when it did
+    not leave all.
+    """
     with tempfile.TemporaryDirectory(prefix="liana-can-") as folder:
-        words = [str(HERE / program)]
         if native:
-            call = [*kOwnNetwork, sys.executable, *words, f"{folder}/rows", *what]
+            call = [*kOwnNetwork, sys.executable, GUEST, f"{folder}/rows", *what]
         else:
-            call = [RUN_IN_VM, "--icount", *machine, *guest_files(), "--timeout", str(kTimeout_s), "--results", folder, "env", f"LIANA_BIN={BIN}", kPython, "-S", *words,
-                    "/run/liana-vm/results/rows", *what]
+            vm = [RUN_IN_VM, "--icount", *machine, *guest_files(), "--timeout", str(kTimeout_s), "--results", folder]
+            python = ["env", f"LIANA_BIN={binaries()}", kPython, "-S", GUEST]
+            call = [*vm, *python, "/run/liana-vm/results/rows", *what]
         done = subprocess.run(call, capture_output=True, text=True, check=False, cwd=HERE)
         path = pathlib.Path(folder) / "rows"
         rows = [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
@@ -105,38 +176,52 @@ def in_guest(program, what, native, machine=()):
 
 
 def scenario_rows(items, native):
-    rows, said = in_guest("can_scenario.py", [item.word for item in items], native, kScenarioMachine)
+    rows, said = in_guest([item.word for item in items], native, kScenarioMachine)
     found = {f"{row['name']}@{row['on']}": row for row in rows}
     for item in items:
         row = found.get(item.word, {"outcome": "failed", "seconds": 0.0, "why": f"the machine {said}", "notes": []})
-        yield {"name": item.name, "where": where_of(item, native), **{key: row[key] for key in ("outcome", "seconds", "why", "notes")}}
+        yield {
+            "name": item.name,
+            "where": where_of(item, native),
+            **{key: row[key] for key in ("outcome", "seconds", "why", "notes")},
+        }
 
 
 def latency_rows(items, runs):
     """(row of scenarios, row of latency) of each, measured so often in turn."""
-    rows, said = in_guest("latency.py", [item.word for item in items] * runs, False)
+    rows, said = in_guest([item.word for item in items] * runs, False)
     for item in items:
         rate, load = item.word.split(":")
         mine = [row for row in rows if (row["rate_hz"], row["load"]) == (float(rate), load)]
         mine += [{"error": f"the machine {said}"}] * (runs - len(mine))
         timing = latency_verdict.cell(float(rate), load, mine)
         why = latency_verdict.judge(timing)
-        yield {"name": item.name, "where": where_of(item, False), "outcome": "failed" if why else "passed", "seconds": round(sum(row.get("seconds", 0.0) for row in mine), 2),
-               "why": why, "notes": latency_verdict.notes(timing)}, timing
+        yield {
+            "name": item.name,
+            "where": where_of(item, False),
+            "outcome": "failed" if why else "passed",
+            "seconds": round(sum(row.get("seconds", 0.0) for row in mine), 2),
+            "why": why,
+            "notes": latency_verdict.notes(timing),
+        }, timing
 
 
 def chunks(items, size):
-    return [items[i:i + size] for i in range(0, len(items), size)]
+    return [items[i : i + size] for i in range(0, len(items), size)]
 
 
 def run_all(items, report, runs):
-    """Runs scenarios, and measures latency so often at each rate; calls report(row) as rows come; (rows, latency rows)."""
+    """Runs scenarios, and measures latency so often at each rate; calls report(row) as rows come; (rows, latency
+    rows).
+    """
     check_packages()
     native = has_can()
     here = [item for item in items if native and item.runs_here]
     in_vm = [item for item in items if not item.is_latency() and item not in here]
     guests = chunks(in_vm, min(kMostPerGuest, -(-len(in_vm) // kGuests) or 1))
-    measured = [([item for item in items if item.name.startswith(f"latency/{rate}_")], count) for rate, count in runs.items()]
+    measured = [
+        ([item for item in items if item.name.startswith(f"latency/{rate}_")], count) for rate, count in runs.items()
+    ]
     rows, latency = [], []
 
     def finish(pairs):
@@ -147,8 +232,14 @@ def run_all(items, report, runs):
                 latency.append(timing)
 
     with concurrent.futures.ThreadPoolExecutor(kGuests) as pool:
-        jobs = [pool.submit(lambda group=group, count=count: list(latency_rows(group, count))) for group, count in measured if group]
-        jobs += [pool.submit(lambda group=group: [(row, None) for row in scenario_rows(group, False)]) for group in guests]
+        jobs = [
+            pool.submit(lambda group=group, count=count: list(latency_rows(group, count)))
+            for group, count in measured
+            if group
+        ]
+        jobs += [
+            pool.submit(lambda group=group: [(row, None) for row in scenario_rows(group, False)]) for group in guests
+        ]
         if here:
             finish((row, None) for row in scenario_rows(here, True))
         for job in jobs:

@@ -1,10 +1,11 @@
-"""An adapter on a serial line at each end of a bus, as the kernel's slcan driver knows them: what one end sends, the other receives, and a controller's
-error states are told as adapters tell them. The interfaces vanish when this program ends.
+"""An adapter on a serial line at each end of a bus, as the kernel's slcan driver knows them: what one end sends, the
+other receives, and a controller's error states are told as adapters tell them. The interfaces vanish when this program
+ends.
 
     python3 serial_line.py COMMANDS NAME NAME [NAME NAME ...]        each pair of names is a bus
 
-COMMANDS is made, a named pipe; a line `0 sb256256` tells the driver behind the first name of pair 0: s, then a (active), w (warning), p (passive) or b
-(bus-off), then receive and transmit error counter, three digits each."""
+COMMANDS is made, a named pipe; a line `0 sb256256` tells the driver behind the first name of pair 0: s, then a
+(active), w (warning), p (passive) or b (bus-off), then receive and transmit error counter, three digits each."""
 import fcntl
 import os
 import pty

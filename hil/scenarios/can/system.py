@@ -1,24 +1,28 @@
 """lianad and the bench on CAN interfaces of the kernel, in real time, with the light arm."""
 import json
 import os
-import pathlib
 import socket
 import subprocess
 import sys
 
-HERE = pathlib.Path(__file__).resolve().parent
-sys.path.insert(0, str(HERE.parents[2] / "tests" / "system"))
+from liana.client import wait_until
+from liana.system import System, binaries, table
+from scenario_file import expect_that
+from source_tree import SCENARIOS
 
-from liana_system import BIN, SOURCE, System, program, table, wait_until  # noqa: E402
-
-kHardwarePriority = 70  # the bench stands for hardware, which is never late for want of a processor; under lianad's thread (80)
+# The bench stands for hardware, which is never late for want of a processor; under lianad's thread (80).
+kHardwarePriority = 70
 kLinePriority = 75  # of what stands for a wire
-# Kind of bus -> what lianad opens, what the bench opens: one virtual wire; two with a gateway between, which can lose and swap; the two
-# controllers of one emulated bus; or two adapters on a serial line.
-kInterfaces = {"vcan": (("vcan0", "vcan1"), ("vcan0", "vcan1")), "gateway": (("vcan0", "vcan1"), ("vcan2", "vcan3")),
-               "sja1000": (("can0", "can2"), ("can1", "can3")), "serial": (("serial0", "serial2"), ("serial1", "serial3"))}
-# The emulated controllers send in no time: the queue before them keeps the pace. The kernel counts 16 bytes for a frame, 128 us at this rate,
-# which is what one with 8 data bytes takes at 1 Mbit/s; there is room for 256.
+# Kind of bus -> what lianad opens, what the bench opens: one virtual wire; two with a gateway between, which can lose
+# and swap; the two controllers of one emulated bus; or two adapters on a serial line.
+kInterfaces = {
+    "vcan": (("vcan0", "vcan1"), ("vcan0", "vcan1")),
+    "gateway": (("vcan0", "vcan1"), ("vcan2", "vcan3")),
+    "sja1000": (("can0", "can2"), ("can1", "can3")),
+    "serial": (("serial0", "serial2"), ("serial1", "serial3")),
+}
+# The emulated controllers send in no time: the queue before them keeps the pace. The kernel counts 16 bytes for a
+# frame, 128 us at this rate, which is what one with 8 data bytes takes at 1 Mbit/s; there is room for 256.
 kWire = ("tbf", "rate", "1mbit", "burst", "32", "limit", "4096")
 
 
@@ -45,29 +49,41 @@ def reset_interfaces(kind):
 
 
 class CanSystem(System):
-    """lianad on the interfaces `ours`, whatever answers there; `options` are lianad's besides."""
+    """lianad on the interfaces `ours`, whatever answers there; `lianad`: its words besides."""
 
-    options = ()
+    ours = ()
 
-    def __enter__(self):
-        try:
-            self.write_tables()
-            self.start_lianad()
-            self.start_bench()
-            return self
-        except BaseException:
-            self.__exit__(*sys.exc_info())
-            raise
+    def start_programs(self):
+        self.start_lianad()
+        self.start_bench()
 
     def start_lianad(self):
         self.api.unlink(missing_ok=True)
-        self.start("lianad", *self.tables(), "--api", self.api, "--time", "real", "--physics", "ideal", *self.options)
+        words = ["--api", self.api, "--time", "real", "--physics", "ideal", *self.lianad_words]
+        self.start("lianad", *self.tables(), *words)
         wait_until(lambda: self.api.exists() or self.children["lianad"].poll() is not None, "lianad to listen")
+
+    def client(self, **options):
+        return super().client(lockstep=False, **options)
+
+    def end_drives(self):
+        """Ends what answers on the buses, if this system has started it; exit codes."""
+        return {}
+
+    def shut_down(self, client):
+        self.end_lianad(client)
+        return {"lianad": self.ended("lianad"), **self.end_drives()}
 
     def environment(self):
         """What the commands of a scenario may use."""
         names = {f"BUS{index}": name for index, name in enumerate(self.ours)}
-        return {**os.environ, **names, "LIANAD": str(self.children["lianad"].pid), "DIR": str(self.directory), "BIN": os.path.dirname(program("liana"))}
+        return {
+            **os.environ,
+            **names,
+            "LIANAD": str(self.children["lianad"].pid),
+            "DIR": str(self.directory),
+            "BIN": str(binaries()),
+        }
 
 
 class BenchOnCan(CanSystem):
@@ -85,7 +101,7 @@ class BenchOnCan(CanSystem):
         """serial_line.py, which makes the interfaces; `$DIR/line` takes its commands."""
         commands = self.directory / "line"
         names = [name for pair in zip(self.ours, self.theirs) for name in pair]
-        self.line = subprocess.Popen([sys.executable, "-S", HERE / "serial_line.py", commands, *names])
+        self.line = subprocess.Popen([sys.executable, "-S", SCENARIOS / "can" / "serial_line.py", commands, *names])
         wait_until(lambda: commands.exists() or self.line.poll() is not None, "the interfaces on serial lines")
         os.sched_setscheduler(self.line.pid, os.SCHED_FIFO, os.sched_param(kLinePriority))
 
@@ -103,12 +119,9 @@ class BenchOnCan(CanSystem):
         (self.directory / "buses.json").write_text(json.dumps(buses))
 
     def start_bench(self):
-        self.start("liana-bench", *self.tables(), "--can", ",".join(self.theirs), "--api", self.api, "--arm", "light", "--physics", "ideal",
-                   "--truth", self.directory / "truth.bin", "--summary", self.directory / "bench_summary.json", *self.bench_words)
+        words = ["--can", ",".join(self.theirs), "--api", self.api, "--arm", "light", "--physics", "ideal"]
+        self.start("liana-bench", *self.tables(), *words, *self.reports_of_bench(), *self.bench_words)
         os.sched_setscheduler(self.children["liana-bench"].pid, os.SCHED_FIFO, os.sched_param(kHardwarePriority))
-
-    def client(self, **options):
-        return super().client(lockstep=False, **options)
 
     def environment(self):
         names = {f"BENCH{index}": name for index, name in enumerate(self.theirs)}
@@ -120,9 +133,11 @@ class BenchOnCan(CanSystem):
         return {"liana-bench": self.ended("liana-bench")}
 
     def torque(self):
-        """(for each moment, whether some drive had torque; the largest change of any angle since the last of them, in degrees)."""
+        """(for each moment, whether some drive had torque; the largest change of any angle since the last of them, in
+        degrees).
+        """
         arm, truth = self.json("bench_summary.json")["arm"], self.truth()
-        assert arm == "light", f"the bench ran arm {arm}"
+        expect_that(arm == "light", f"the bench ran arm {arm}")
         with_torque = [count > 0 for count in truth.column("enabled")]
         last = max((slot for slot, torque in enumerate(with_torque) if torque), default=0)
         return with_torque, truth.travel_deg(last, None) if last else 0.0

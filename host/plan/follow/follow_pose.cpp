@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "host/plan/problem/arm_derivatives.hpp"
-#include "host/plan/problem/block_system.hpp"
 #include "host/plan/problem/pose_model.hpp"
 
 namespace liana {
@@ -28,53 +27,38 @@ constexpr double kTipThere_m = 1e-8;
 constexpr double kStepSettled_rad = 1e-6;
 
 struct Quadratic {
-  ThetaHessian hessian{};  // lower triangle
-  ThetaVector rhs{};       // minus the gradient
+  ThetaMatrix hessian;
+  ThetaColumn rhs;  // minus the gradient
+  explicit Quadratic(Eigen::Index thetas)
+      : hessian(ThetaMatrix::Zero(thetas, thetas)), rhs(ThetaColumn::Zero(thetas)) {}
 
   // Adds weight |J dtheta + error|^2 / 2, of the error's part across `along` when that is a unit vector.
-  void add(const std::array<Vec3, kMaxTheta>& by_theta, const Vec3& error, const Vec3& along, double weight) {
-    const auto across = [&](const Vec3& v) { return subtract(v, scale(along, dot(along, v))); };
-    const Vec3 off = across(error);
-    for (Index k = 0; k < by_theta.size(); ++k) {
-      const Vec3 column = across(by_theta[k]);
-      rhs[k] -= weight * dot(column, off);
-      for (Index j = 0; j <= k; ++j) hessian[k][j] += weight * dot(column, by_theta[j]);
-    }
+  void add(const Eigen::Ref<const Eigen::Matrix3Xd>& J, const Vec3& error, const Vec3& along, double weight) {
+    const SpaceColumns across = J - view(along) * (view(along).transpose() * J).eval();
+    rhs.noalias() -= weight * across.transpose() * view(error);
+    hessian.noalias() += weight * across.transpose() * J;
   }
 };
-
-// Takes theta k out of the system: it moves by `change`.
-void fix(Index k, Index n, double change, Quadratic& q) {
-  for (Index j = 0; j < n; ++j) {
-    if (j == k) continue;
-    double& entry = q.hessian[std::max(k, j)][std::min(k, j)];
-    q.rhs[j] -= entry * change;
-    entry = 0.0;
-  }
-  q.hessian[k][k] = 1.0;
-  q.rhs[k] = change;
-}
 
 // The least of a quadratic within the limits: thetas that would pass theirs are set onto them, and the rest is solved
 // again.
 ThetaVector bounded_step(const RobotTable& table, Quadratic q, double damping, const ThetaVector& theta,
                          std::uint32_t held_mask) {
-  const Index n = Index(table.theta_count());
-  for (Index k = 0; k < n; ++k) q.hessian[k][k] += damping;
-  for (Index k = 0; k < n; ++k) {
-    if (((held_mask >> k) & 1u) != 0) fix(k, n, 0.0, q);
+  const Eigen::Index n = theta_count(table);
+  q.hessian.diagonal().array() += damping;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (((held_mask >> k) & 1u) != 0) fix_theta(k, 0.0, q.hessian, q.rhs);
   }
-  for (Index pass = 0; pass <= n; ++pass) {
-    BlockSystem system(1);
-    system.own.front() = q.hessian;
-    system.rhs.front() = q.rhs;
-    if (!solve(system, n)) return {};
-    const ThetaVector& step = system.rhs.front();
+  for (Eigen::Index pass = 0; pass <= n; ++pass) {
+    const Eigen::LLT<ThetaMatrix> factor(q.hessian);
+    if (factor.info() != Eigen::Success) return {};
+    ThetaVector step{};
+    view(step, n) = factor.solve(q.rhs);
     bool within = true;
-    for (Index k = 0; k < n; ++k) {
+    for (Index k = 0; k < Index(n); ++k) {
       const double limit = table.segment[k / 2].theta_limit_rad, to = std::clamp(theta[k] + step[k], -limit, limit);
       if (std::fabs(theta[k] + step[k] - to) < 1e-12) continue;
-      fix(k, n, to - theta[k], q);
+      fix_theta(static_cast<Eigen::Index>(k), to - theta[k], q.hessian, q.rhs);
       within = false;
     }
     if (within) return step;
@@ -100,13 +84,13 @@ CurvePlace body_place(const FollowTrack& track, double along_m, double behind_m,
 
 Quadratic model(const Room& room, const FollowTrack& track, const FollowAim& aim, const ThetaVector& theta) {
   const RobotTable& table = room.table();
-  const Index n = Index(table.theta_count());
+  const Eigen::Index n = theta_count(table);
   const ArmDerivatives arm(table, theta);
   const ArmPoint tip_point = arm.node(table.segment_count);
   const PointDerivatives tip = arm.point(tip_point);
   const CurvePlace place = track.curve().at(aim.along_m);
-  Quadratic q;
-  q.add(tip.by_theta, subtract(tip.position_m, place.position_m), {}, kTipWeight);
+  Quadratic q(n);
+  q.add(view(tip.by_theta, n), subtract(tip.position_m, place.position_m), {}, kTipWeight);
   double behind_m = 0.0;
   Index m = Index(table.segment_count) - 1;
   std::int32_t modules = table.segment[m].modules;
@@ -116,8 +100,7 @@ Quadratic model(const Room& room, const FollowTrack& track, const FollowAim& aim
     if (--modules == 0 && m > 0) modules = table.segment[--m].modules;
     const PointDerivatives here = arm.point({end, 1.0});
     if (end == tip_point.link - 1) {  // the tip's direction
-      std::array<Vec3, kMaxTheta> turning{};
-      for (Index k = 0; k < n; ++k) turning[k] = scale(subtract(tip.by_theta[k], here.by_theta[k]), 1.0 / length_m);
+      const SpaceColumns turning = (view(tip.by_theta, n) - view(here.by_theta, n)) / length_m;
       const Vec3 link = scale(subtract(tip.position_m, here.position_m), 1.0 / length_m);
       const double facing =
           std::max(0.0, dot(link, place.tangent));  // a tip that would have to turn round goes sideways or backwards
@@ -126,15 +109,13 @@ Quadratic model(const Room& room, const FollowTrack& track, const FollowAim& aim
     }
     if (aim.body == 0.0) break;
     const CurvePlace on = body_place(track, aim.along_m, behind_m, here.position_m);
-    q.add(here.by_theta, subtract(here.position_m, on.position_m), on.tangent,
+    q.add(view(here.by_theta, n), subtract(here.position_m, on.position_m), on.tangent,
           aim.body * body_weight(aim.along_m, behind_m));
   }
   const PoseModel push = push_model(room, theta, aim.clearance_m, true);
-  for (Index k = 0; k < n; ++k) {
-    q.rhs[k] += aim.draw * (aim.drawn_to_rad[k] - theta[k]) - kPushWeight * push.gradient[k];
-    for (Index j = 0; j <= k; ++j) q.hessian[k][j] += kPushWeight * push.hessian[k][j];
-    q.hessian[k][k] += aim.draw;
-  }
+  q.rhs += aim.draw * (view(aim.drawn_to_rad, n) - view(theta, n)) - kPushWeight * push.gradient;
+  q.hessian += kPushWeight * push.hessian;
+  q.hessian.diagonal().array() += aim.draw;
   return q;
 }
 

@@ -1,23 +1,23 @@
 // Linear systems of start paths: symmetric, positive, a block per waypoint, each coupled with its neighbours only.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
-#include "host/plan/problem/arm_derivatives.hpp"
+#include "host/algebra/thetas.hpp"
 
 namespace liana {
 
 using namespace cable;  // this room serves the cable arm only
 
 struct BlockSystem {
-  std::vector<ThetaHessian> own;   // lower triangles
-  std::vector<ThetaHessian> next;  // [w]: rows of waypoint w + 1, columns of w
-  std::vector<ThetaVector> rhs;
-  explicit BlockSystem(std::size_t blocks) : own(blocks), next(blocks), rhs(blocks) {}
+  std::vector<ThetaMatrix> own;
+  std::vector<ThetaMatrix> next;  // [w]: rows of waypoint w + 1, columns of w
+  std::vector<ThetaColumn> rhs;
+  BlockSystem(std::size_t blocks, Eigen::Index thetas)
+      : own(blocks, ThetaMatrix::Zero(thetas, thetas)), next(own), rhs(blocks, ThetaColumn::Zero(thetas)) {}
 };
 
-// Solves in place of rhs by block Cholesky, the first n rows of each block; false when the matrix is not positive.
-bool solve(BlockSystem& system, std::size_t n);
+// Solves in place of rhs by block Cholesky; false when the matrix is not positive. `own` and `next` are used up.
+bool solve(BlockSystem& system);
 
 }  // namespace liana

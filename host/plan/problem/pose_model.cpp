@@ -2,12 +2,13 @@
 
 #include <vector>
 
+#include "host/plan/problem/arm_derivatives.hpp"
+
 namespace liana {
 
-using Index = std::size_t;
-
 PoseModel push_model(const Room& room, const ThetaVector& theta, double wanted_m, bool derivatives) {
-  PoseModel model;
+  const Eigen::Index n = theta_count(room.table());
+  PoseModel model(n);
   const LinkPoints points = link_points(room.table(), theta);
   std::vector<std::pair<Clearance, std::int32_t>> close;
   for (std::int32_t obstacle = 0; obstacle < obstacle_count(room.scene()); ++obstacle) {
@@ -21,12 +22,9 @@ PoseModel push_model(const Room& room, const ThetaVector& theta, double wanted_m
   const ArmDerivatives arm(room.table(), theta);
   for (const auto& [here, link] : close) {
     const PointDerivatives point = arm.point({link, here.share});
-    ThetaVector slope{};
-    for (Index k = 0; k < slope.size(); ++k) slope[k] = dot(here.normal, point.by_theta[k]);
-    for (Index k = 0; k < slope.size(); ++k) {
-      model.gradient[k] -= 2.0 * (wanted_m - here.distance_m) * slope[k];
-      for (Index j = 0; j <= k; ++j) model.hessian[k][j] += 2.0 * slope[k] * slope[j];
-    }
+    const ThetaColumn slope = view(point.by_theta, n).transpose() * view(here.normal);
+    model.gradient -= 2.0 * (wanted_m - here.distance_m) * slope;
+    model.hessian.noalias() += 2.0 * slope * slope.transpose();
   }
   return model;
 }

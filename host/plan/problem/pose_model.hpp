@@ -1,7 +1,7 @@
 // The push of obstacles on one pose, as start paths and single poses feel it.
 #pragma once
 
-#include "host/plan/problem/arm_derivatives.hpp"
+#include "host/algebra/thetas.hpp"
 #include "host/plan/start/room.hpp"
 
 namespace liana {
@@ -10,9 +10,11 @@ using namespace cable;  // this room serves the cable arm only
 
 // Gauss-Newton model of a cost at one pose.
 struct PoseModel {
+  explicit PoseModel(Eigen::Index thetas)
+      : gradient(ThetaColumn::Zero(thetas)), hessian(ThetaMatrix::Zero(thetas, thetas)) {}
   double cost = 0.0;
-  ThetaVector gradient{};
-  ThetaHessian hessian{};  // lower triangle
+  ThetaColumn gradient;
+  ThetaMatrix hessian;
 };
 
 // Cost [m^2]: sum over links and obstacles of (wanted - distance)^2 where positive. The derivatives only when asked

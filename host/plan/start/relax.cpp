@@ -12,7 +12,6 @@ namespace liana {
 namespace {
 
 using Index = std::size_t;
-using Matrix = ThetaHessian;
 
 constexpr double kPenalty = 2e4;           // 1/m^2
 constexpr double kSampleSpacing_m = 0.05;  // of motion between waypoints
@@ -21,7 +20,7 @@ constexpr std::int32_t kMaxSamples = 12;   // per interval
 class Relaxation {
  public:
   Relaxation(const Room& room, const PlanRequest& request, const Path& path)
-      : room_(room), request_(request), n_(Index(room.table().theta_count())) {
+      : room_(room), request_(request), n_(theta_count(room.table())) {
     wanted_m_ = request.margin_m + kRelaxReach_m;
     const std::int32_t count = static_cast<std::int32_t>(path.size());
     free_.assign(path.size(), 0);
@@ -42,7 +41,7 @@ class Relaxation {
   double cost(const Path& path) const {
     double smooth = 0.0, push = 0.0, nodes = 0.0;
     for (Index w = 0; w + 1 < path.size(); ++w) {
-      for (Index k = 0; k < n_; ++k) smooth += (path[w + 1][k] - path[w][k]) * (path[w + 1][k] - path[w][k]);
+      smooth += (view(path[w + 1], n_) - view(path[w], n_)).squaredNorm();
       const std::int32_t count = samples(path, w);
       for (std::int32_t s = 1; s <= count; ++s) {
         push += push_model(room_, between(path[w], path[w + 1], double(s) / count), wanted_m_, false).cost / count;
@@ -54,10 +53,10 @@ class Relaxation {
 
   // Newton step of the model with `damping` on its diagonal.
   bool step(const Path& path, double damping, Path& moved) const {
-    BlockSystem system(path.size());
+    BlockSystem system(path.size(), n_);
     const double stiffness = double(path.size() - 1);
     for (Index w = 0; w + 1 < path.size(); ++w) {
-      for (Index k = 0; k < n_; ++k) add_smooth(system, w, k, stiffness * (path[w + 1][k] - path[w][k]), stiffness);
+      add_smooth(system, w, stiffness * (view(path[w + 1], n_) - view(path[w], n_)), stiffness);
       const std::int32_t count = samples(path, w);
       for (std::int32_t s = 1; s <= count; ++s) {
         const double share = double(s) / count;
@@ -67,79 +66,69 @@ class Relaxation {
       if (!request_.control_points.empty()) add_push(system, w, 1.0, node_model(path[w + 1]), 1.0 / stiffness);
     }
     for (Index w = 0; w < path.size(); ++w) fix(system, w, damping);
-    if (!solve(system, n_)) return false;
+    if (!solve(system)) return false;
     moved = path;
     for (Index w = 0; w < path.size(); ++w) {
-      for (Index k = 0; k < n_; ++k) {
-        const double limit = room_.table().segment[k / 2].theta_limit_rad;
-        if (is_free(w, k)) moved[w][k] = std::clamp(path[w][k] + system.rhs[w][k], -limit, limit);
+      for (Eigen::Index k = 0; k < n_; ++k) {
+        const double limit = room_.table().segment[Index(k) / 2].theta_limit_rad;
+        if (is_free(w, k)) moved[w][Index(k)] = std::clamp(path[w][Index(k)] + system.rhs[w][k], -limit, limit);
       }
     }
     return true;
   }
 
  private:
-  bool is_free(Index w, Index k) const { return ((free_[w] >> k) & 1u) != 0; }
+  bool is_free(Index w, Eigen::Index k) const { return ((free_[w] >> k) & 1u) != 0; }
 
   // Weighted distances of nodes from their targets at one pose; each as the parabola that touches it here and has its
   // value at the target.
   PoseModel node_model(const ThetaVector& theta) const {
-    PoseModel model;
+    PoseModel model(n_);
     const ArmDerivatives arm(room_.table(), theta);
     for (const ControlPoint& target : request_.control_points) {
       const PointDerivatives node = arm.point(arm.node(target.node));
-      const Vec3 away = subtract(node.position_m, target.position_m);
-      const double distance_m = std::sqrt(dot(away, away) + kRound_m * kRound_m), weight = target.weight / distance_m;
+      const auto J = view(node.by_theta, n_);
+      const Eigen::Vector3d away = view(node.position_m) - view(target.position_m);
+      const double distance_m = std::sqrt(away.squaredNorm() + kRound_m * kRound_m),
+                   weight = target.weight / distance_m;
       model.cost += target.weight * distance_m;
-      for (Index k = 0; k < n_; ++k) {
-        model.gradient[k] += weight * dot(away, node.by_theta[k]);
-        for (Index j = 0; j <= k; ++j) model.hessian[k][j] += weight * dot(node.by_theta[k], node.by_theta[j]);
-      }
+      model.gradient.noalias() += weight * J.transpose() * away;
+      model.hessian.noalias() += weight * J.transpose() * J;
     }
     return model;
   }
 
-  static void add_smooth(BlockSystem& system, Index w, Index k, double slope, double stiffness) {
-    system.rhs[w][k] += slope;
-    system.rhs[w + 1][k] -= slope;
-    system.own[w][k][k] += stiffness;
-    system.own[w + 1][k][k] += stiffness;
-    system.next[w][k][k] -= stiffness;
+  static void add_smooth(BlockSystem& system, Index w, const ThetaColumn& slope, double stiffness) {
+    system.rhs[w] += slope;
+    system.rhs[w + 1] -= slope;
+    system.own[w].diagonal().array() += stiffness;
+    system.own[w + 1].diagonal().array() += stiffness;
+    system.next[w].diagonal().array() -= stiffness;
   }
 
-  void add_push(BlockSystem& system, Index w, double share, const PoseModel& model, double factor) const {
+  static void add_push(BlockSystem& system, Index w, double share, const PoseModel& model, double factor) {
     const double before = 1.0 - share;
-    for (Index k = 0; k < n_; ++k) {
-      system.rhs[w][k] -= factor * before * model.gradient[k];
-      system.rhs[w + 1][k] -= factor * share * model.gradient[k];
-      for (Index j = 0; j < n_; ++j) {
-        const double h = factor * model.hessian[std::max(k, j)][std::min(k, j)];
-        system.next[w][k][j] += share * before * h;
-        if (j > k) continue;
-        system.own[w][k][j] += before * before * h;
-        system.own[w + 1][k][j] += share * share * h;
-      }
-    }
+    system.rhs[w] -= factor * before * model.gradient;
+    system.rhs[w + 1] -= factor * share * model.gradient;
+    system.own[w] += factor * before * before * model.hessian;
+    system.own[w + 1] += factor * share * share * model.hessian;
+    system.next[w] += factor * share * before * model.hessian;
   }
 
-  // What is not free gets the equation "does not move".
+  // What is not free does not move.
   void fix(BlockSystem& system, Index w, double damping) const {
-    for (Index k = 0; k < n_; ++k) {
-      system.own[w][k][k] += damping;
+    system.own[w].diagonal().array() += damping;
+    for (Eigen::Index k = 0; k < n_; ++k) {
       if (is_free(w, k)) continue;
-      for (Index j = 0; j < n_; ++j) {
-        system.own[w][std::max(k, j)][std::min(k, j)] = 0.0;
-        system.next[w][j][k] = 0.0;
-        if (w > 0) system.next[w - 1][k][j] = 0.0;
-      }
-      system.own[w][k][k] = 1.0;
-      system.rhs[w][k] = 0.0;
+      fix_theta(k, 0.0, system.own[w], system.rhs[w]);
+      system.next[w].col(k).setZero();
+      if (w > 0) system.next[w - 1].row(k).setZero();
     }
   }
 
   const Room& room_;
   const PlanRequest& request_;
-  Index n_;
+  Eigen::Index n_;
   double wanted_m_;
   std::vector<std::uint32_t> free_;
 };
@@ -219,43 +208,52 @@ Path resample(const Room& room, const Path& path, std::int32_t count) {
   return out;
 }
 
-SettledPose settle(const Room& room, const PoseAim& aim, ThetaVector theta, std::int32_t iterations) {
+namespace {
+
+// Gauss-Newton equations of the tip's error at one pose; what the aim holds does not move.
+struct TipEquations {
+  ThetaMatrix A;
+  ThetaColumn b;
+};
+
+TipEquations tip_equations(const Room& room, const PoseAim& aim, const ThetaVector& theta) {
   constexpr double kTipWeight = 1e4, kTurnWeight = 1e4, kNearWeight = 0.1, kDamping = 1.0;
-  const Index n = Index(room.table().theta_count());
-  for (std::int32_t i = 0; i < iterations; ++i) {
-    const ArmKinematics arm = forward_kinematics(room.table(), theta);
-    const auto error = pose_error(aim.tip_in_base, arm.tip_in_base);
-    Vec3 turn{error[3], error[4], error[5]};
+  const Eigen::Index n = theta_count(room.table());
+  const ArmKinematics arm = forward_kinematics(room.table(), theta);
+  const auto error = pose_error(aim.tip_in_base, arm.tip_in_base);
+  const Vec3 way{error[0], error[1], error[2]};
+  Vec3 turn{error[3], error[4], error[5]};
+  const auto linear = view(arm.tip_jacobian.linear, n);
+  SpaceColumns turning = view(arm.tip_jacobian.angular, n);
+  if (aim.direction_only) {
     const Vec3 x_axis = rotate(arm.tip_in_base.quaternion, {1, 0, 0});
-    if (aim.direction_only) turn = cross(x_axis, rotate(aim.tip_in_base.quaternion, {1, 0, 0}));
-    PoseModel model = push_model(room, theta, aim.clearance_m, true);
-    BlockSystem system(1);
-    Matrix& A = system.own.front();
-    ThetaVector& b = system.rhs.front();
-    for (Index k = 0; k < n; ++k) {
-      const auto turning = [&](Index c) {
-        const Vec3& w = arm.tip_jacobian.angular[c];
-        return aim.direction_only ? subtract(w, scale(x_axis, dot(w, x_axis))) : w;
-      };
-      b[k] = kTipWeight * dot(arm.tip_jacobian.linear[k], {error[0], error[1], error[2]}) +
-             kTurnWeight * dot(turning(k), turn) - kPenalty * model.gradient[k] +
-             kNearWeight * (aim.near_rad[k] - theta[k]);
-      for (Index j = 0; j <= k; ++j) {
-        A[k][j] = kTipWeight * dot(arm.tip_jacobian.linear[k], arm.tip_jacobian.linear[j]) +
-                  kTurnWeight * dot(turning(k), turning(j)) + kPenalty * model.hessian[k][j];
-      }
-      A[k][k] += kNearWeight + kDamping;
-    }
-    for (Index k = 0; k < n; ++k) {
-      if (((aim.held_mask >> k) & 1u) == 0) continue;
-      for (Index j = 0; j < n; ++j) A[std::max(k, j)][std::min(k, j)] = 0.0;
-      A[k][k] = 1.0;
-      b[k] = 0.0;
-    }
-    if (!solve(system, n)) break;
-    for (Index k = 0; k < n; ++k) {
-      const double limit = room.table().segment[k / 2].theta_limit_rad;
-      theta[k] = std::clamp(theta[k] + std::clamp(b[k], -0.1, 0.1), -limit, limit);
+    turn = cross(x_axis, rotate(aim.tip_in_base.quaternion, {1, 0, 0}));
+    turning -= view(x_axis) * (view(x_axis).transpose() * turning).eval();
+  }
+  const PoseModel push = push_model(room, theta, aim.clearance_m, true);
+  TipEquations out;
+  out.A =
+      kTipWeight * linear.transpose() * linear + kTurnWeight * turning.transpose() * turning + kPenalty * push.hessian;
+  out.A.diagonal().array() += kNearWeight + kDamping;
+  out.b = kTipWeight * linear.transpose() * view(way) + kTurnWeight * turning.transpose() * view(turn) -
+          kPenalty * push.gradient + kNearWeight * (view(aim.near_rad, n) - view(theta, n));
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (((aim.held_mask >> k) & 1u) != 0) fix_theta(k, 0.0, out.A, out.b);
+  }
+  return out;
+}
+
+}  // namespace
+
+SettledPose settle(const Room& room, const PoseAim& aim, ThetaVector theta, std::int32_t iterations) {
+  for (std::int32_t i = 0; i < iterations; ++i) {
+    const TipEquations equations = tip_equations(room, aim, theta);
+    const Eigen::LLT<ThetaMatrix> factor(equations.A);
+    if (factor.info() != Eigen::Success) break;
+    const ThetaColumn step = factor.solve(equations.b);
+    for (Eigen::Index k = 0; k < step.size(); ++k) {
+      const double limit = room.table().segment[Index(k) / 2].theta_limit_rad;
+      theta[Index(k)] = std::clamp(theta[Index(k)] + std::clamp(step[k], -0.1, 0.1), -limit, limit);
     }
   }
   const auto error = pose_error(aim.tip_in_base, forward_kinematics(room.table(), theta).tip_in_base);

@@ -13,6 +13,8 @@
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 class Arbitration : public testing::Test {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 namespace liana {
+
 namespace {
 
 const Pose kTip{{1.0, -0.5, 0.3}, normalize({0.9, 0.1, -0.3, 0.2})};

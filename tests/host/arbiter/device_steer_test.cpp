@@ -6,6 +6,8 @@
 #include <cstring>
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 constexpr double kInterval_s = 0.02;

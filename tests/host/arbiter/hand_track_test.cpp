@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 namespace liana {
+
 namespace {
 
 HandSample sample(std::int64_t t_us, double x, bool valid = true, bool pressed = true) {

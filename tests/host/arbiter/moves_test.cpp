@@ -10,6 +10,8 @@
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 const RobotTable kTable = zhu2022::table();

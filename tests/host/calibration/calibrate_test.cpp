@@ -1,5 +1,7 @@
 #include "host/calibration/calibrate.hpp"
 
+#include "firmware_like/cable/arm/payout.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,6 +22,8 @@
 #include "tests/host/config/tables.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 constexpr const char* kDay = "2026-06-15";
@@ -91,7 +95,7 @@ TEST(Calibrate, ZerosAndDrumsAreFoundToAMicrometre) {
       const DriveTable& before = workshop.arm.table.drive[i];
       const double counts = before.zero_counts + reading.position_m[i] / (before.direction * before.metres_per_count);
       const auto whole = static_cast<std::int32_t>(std::lround(counts));
-      EXPECT_NEAR(payout_at_counts(calibrated.table.drive[i], 0.0, whole), wanted_m[i], 3e-6) << "cable " << i;
+      EXPECT_NEAR(cable::payout_at_counts(calibrated.table.drive[i], 0.0, whole), wanted_m[i], 3e-6) << "cable " << i;
     }
   }
 }

@@ -20,14 +20,18 @@ atexit.register(shutil.rmtree, os.environ["XDG_RUNTIME_DIR"])
 
 def liana(*arguments, timeout_s=120):
     """Runs `liana` and returns (exit code, standard output, standard error)."""
-    done = subprocess.run([str(BIN / "liana"), *map(str, arguments)], capture_output=True, text=True, timeout=timeout_s, check=False)
+    done = subprocess.run(
+        [str(BIN / "liana"), *map(str, arguments)], capture_output=True, text=True, timeout=timeout_s, check=False
+    )
     return done.returncode, done.stdout, done.stderr
 
 
 def liana_to_full_disk(*arguments):
     """Runs `liana` with a standard output that takes nothing, and returns (exit code, standard error)."""
     with open("/dev/full", "w", encoding="utf-8") as full:
-        done = subprocess.run([str(BIN / "liana"), *map(str, arguments)], stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run(
+            [str(BIN / "liana"), *map(str, arguments)], stdout=full, stderr=subprocess.PIPE, text=True, check=False
+        )
     return done.returncode, done.stderr
 
 
@@ -39,7 +43,9 @@ def liana_json(*arguments, expected=(0,), timeout_s=120):
 
 
 def interrupt(process):
-    """Sends SIGINT as soon as the program has a handler of it: before that the system's loader is at work, not `liana`."""
+    """Sends SIGINT as soon as the program has a handler of it: before that the system's loader is at work, not
+    `liana`.
+    """
     caught = 0
     while not caught & 1 << (signal.SIGINT - 1):
         status = pathlib.Path(f"/proc/{process.pid}/status").read_text(encoding="utf-8")
@@ -49,4 +55,6 @@ def interrupt(process):
 
 def start_liana(*arguments, **options):
     """Starts `liana` without waiting for it."""
-    return subprocess.Popen([str(BIN / "liana"), *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+    return subprocess.Popen(
+        [str(BIN / "liana"), *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options
+    )

@@ -31,7 +31,12 @@ def joined(numbers):
 def quaternion_of(rotation):
     """Quaternion (w, x, y, z) of a rotation matrix, by the largest of four squares."""
     r = rotation
-    squares = [1 + r[0][0] + r[1][1] + r[2][2], 1 + r[0][0] - r[1][1] - r[2][2], 1 - r[0][0] + r[1][1] - r[2][2], 1 - r[0][0] - r[1][1] + r[2][2]]
+    squares = [
+        1 + r[0][0] + r[1][1] + r[2][2],
+        1 + r[0][0] - r[1][1] - r[2][2],
+        1 - r[0][0] + r[1][1] - r[2][2],
+        1 - r[0][0] - r[1][1] + r[2][2],
+    ]
     k = max(range(4), key=squares.__getitem__)
     s = 2 * math.sqrt(squares[k])
     antisymmetric = [r[2][1] - r[1][2], r[0][2] - r[2][0], r[1][0] - r[0][1]]
@@ -52,12 +57,16 @@ class Pose(unittest.TestCase):
     def test_every_golden_case_agrees_to_1e_9(self):
         for case in GOLDEN:
             pose = liana_json("pose", "--robot", "zhu2022", f"--theta-deg={joined(case['theta_deg'])}")
-            self.assertEqual(set(pose), {"tip_pose", "segment_ends_m", "jacobian", "cable_length_m", "cable_length_change_m"})
+            self.assertEqual(
+                set(pose), {"tip_pose", "segment_ends_m", "jacobian", "cable_length_m", "cable_length_change_m"}
+            )
             for key in pose:
                 self.assertLess(largest_difference(pose[key], case[key]), 1e-9, f"{case['name']}: {key}")
 
     def test_a_pose_in_a_scene_says_what_its_slit_wants_planar(self):
-        slit = liana_json("pose", "--scene", "panel_slit", "--theta-deg=-2.641,-2.064,-1.81,-4.64,4.777,5.87,0,4.764,0,-0.543")["slit"]
+        slit = liana_json(
+            "pose", "--scene", "panel_slit", "--theta-deg=-2.641,-2.064,-1.81,-4.64,4.777,5.87,0,4.764,0,-0.543"
+        )["slit"]
         self.assertEqual((slit["planar_segments"], slit["held_theta"]), (2, [7, 9]))
         self.assertTrue(slit["yaw_range_deg"][0][0] < 4.764 < slit["yaw_range_deg"][0][1])
         self.assertEqual(len(slit["root"]), 7)
@@ -86,7 +95,9 @@ class SerialArm(unittest.TestCase):
 
     def test_what_only_cable_arms_have_is_refused(self):
         for option in ("--hold=1", "--control-point=1:0,0,1"):
-            code, out, error = liana("ik", "--robot", "micro", "--from-deg=0,0,0,0,0,0,0", "--tip=1,0,0,1,0,0,0", option)
+            code, out, error = liana(
+                "ik", "--robot", "micro", "--from-deg=0,0,0,0,0,0,0", "--tip=1,0,0,1,0,0,0", option
+            )
             self.assertEqual((code, out), (2, ""))
             self.assertIn("cable arms only", error)
 
@@ -166,9 +177,15 @@ class Tables(unittest.TestCase):
             self.assertEqual(liana_json("pose", theta, "--robot", file), liana_json("pose", theta))
 
     def test_a_run_of_something_that_does_not_exist_ends_with_2(self):
-        for arguments, named in [(["no_such_mission"], "no_such_mission"), (["slit_crossing", "--bus", "no_such_bus"], "no_such_bus"),
-                                 (["slit_crossing", "--time", "slow"], "slow"), (["slit_crossing", "--physics", "odd"], "odd"),
-                                 (["/tmp"], "mission: '/tmp': is a directory"), (["slit_crossing", "--seed", "many"], "many"), (["slit_crossing", "--bus", "vcan", "--time", "fast"], "vcan")]:
+        for arguments, named in [
+            (["no_such_mission"], "no_such_mission"),
+            (["slit_crossing", "--bus", "no_such_bus"], "no_such_bus"),
+            (["slit_crossing", "--time", "slow"], "slow"),
+            (["slit_crossing", "--physics", "odd"], "odd"),
+            (["/tmp"], "mission: '/tmp': is a directory"),
+            (["slit_crossing", "--seed", "many"], "many"),
+            (["slit_crossing", "--bus", "vcan", "--time", "fast"], "vcan"),
+        ]:
             code, _, error = liana("run", *arguments)
             self.assertEqual(code, 2, error)
             self.assertIn(named, error)
@@ -180,14 +197,16 @@ class Tables(unittest.TestCase):
             self.assertEqual(code, 2)
             self.assertIn("ticks.mcap", error)
 
-
     def test_what_is_no_table_of_the_wanted_kind_is_named_with_what_it_is(self):
         with tempfile.TemporaryDirectory() as directory:
             robot, empty = pathlib.Path(directory) / "robot.json", pathlib.Path(directory) / "empty.json"
             liana("robot", "export", "--out", robot)
             empty.write_text('{"format": 1}')
-            for options, named in [(["--robot", directory], "is a directory"), (["--robot", empty], "kind: missing"),
-                                   (["--scene", robot], 'kind: "robot": allowed scene')]:
+            for options, named in [
+                (["--robot", directory], "is a directory"),
+                (["--robot", empty], "kind: missing"),
+                (["--scene", robot], 'kind: "robot": allowed scene'),
+            ]:
                 code, out, error = liana("pose", f"--theta-deg={ZERO}", *options)
                 self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
                 self.assertIn(named, error)
@@ -195,15 +214,27 @@ class Tables(unittest.TestCase):
 
 class Output(unittest.TestCase):
     def test_what_standard_output_does_not_take_ends_with_1_and_the_reason(self):
-        for words in (["pose", f"--theta-deg={ZERO}"], ["pose", f"--theta-deg={ZERO}", "--json"], ["ik", f"--from-deg={ZERO}", f"--tip={REACHABLE}"],
-                      ["robot", "export"], ["reach", "--samples=1000", "--json"], ["plan", f"--from-deg={ZERO}", f"--to-deg={ZERO}", "--scene=none"],
-                      ["help"]):
+        for words in (
+            ["pose", f"--theta-deg={ZERO}"],
+            ["pose", f"--theta-deg={ZERO}", "--json"],
+            ["ik", f"--from-deg={ZERO}", f"--tip={REACHABLE}"],
+            ["robot", "export"],
+            ["reach", "--samples=1000", "--json"],
+            ["plan", f"--from-deg={ZERO}", f"--to-deg={ZERO}", "--scene=none"],
+            ["help"],
+        ):
             code, error = liana_to_full_disk(*words)
             self.assertEqual(code, 1, words)
-            self.assertRegex(error.splitlines()[-1], "standard output cannot be written: (No space left on device|is the disk full)")
+            self.assertRegex(
+                error.splitlines()[-1], "standard output cannot be written: (No space left on device|is the disk full)"
+            )
 
     def test_a_file_that_cannot_be_written_is_refused_before_the_work(self):
-        for words in (["robot", "export", "--out"], ["reach", "--svg"], ["plan", f"--from-deg={ZERO}", f"--to-deg={ZERO}", "--out"]):
+        for words in (
+            ["robot", "export", "--out"],
+            ["reach", "--svg"],
+            ["plan", f"--from-deg={ZERO}", f"--to-deg={ZERO}", "--out"],
+        ):
             for file, reason in (("/no/such/folder/file", "No such file"), ("/tmp", "Is a directory")):
                 code, out, error = liana(*words, file)
                 self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
@@ -218,13 +249,25 @@ class Output(unittest.TestCase):
 
 class Dev(unittest.TestCase):
     def test_what_dev_does_not_know_is_refused_before_any_work(self):
-        for words, named in [(["build", "now"], "not now"), (["docs", "x"], "not x"), (["help", "x"], "not x"), (["test", ""], "is empty"),
-                             (["test", "hil", "lua"], "hil lua"), (["test", "nosuch"], "tests/nosuch"), (["numbers", "ik", "nosuch"], "nosuch"),
-                             (["bench", "--json", "/no/such/file"], "/no/such/file"), (["format", "--check", "x"], "x"),
-                             (["completion", "bash", "x"], "bash x"), (["nosuch"], "nosuch"), (["test", "--jsn"], "--jsn: no such option"),
-                             (["numbers", "--jsn"], "--jsn: no such option"), (["mission", "x"], "mission: x: not known"),
-                             (["mission", "--sed=1"], "--sed: no such option"), (["mission", "--seed"], "--seed: its value"),
-                             (["bits", "--jsn"], "--json FILE")]:
+        for words, named in [
+            (["build", "now"], "not now"),
+            (["docs", "x"], "not x"),
+            (["help", "x"], "not x"),
+            (["test", ""], "is empty"),
+            (["test", "hil", "lua"], "hil lua"),
+            (["test", "nosuch"], "tests/nosuch"),
+            (["numbers", "ik", "nosuch"], "nosuch"),
+            (["bench", "--json", "/no/such/file"], "/no/such/file"),
+            (["format", "--check", "x"], "x"),
+            (["completion", "bash", "x"], "bash x"),
+            (["nosuch"], "nosuch"),
+            (["test", "--jsn"], "--jsn: no such option"),
+            (["numbers", "--jsn"], "--jsn: no such option"),
+            (["mission", "x"], "mission: x: not known"),
+            (["mission", "--sed=1"], "--sed: no such option"),
+            (["mission", "--seed"], "--seed: its value"),
+            (["bits", "--jsn"], "--json FILE"),
+        ]:
             done = subprocess.run([str(ROOT / "dev"), *words], capture_output=True, text=True, check=False)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), (words, done.stderr))
             self.assertIn(named, done.stderr)
@@ -234,17 +277,40 @@ class Help(unittest.TestCase):
     def test_help_names_every_command(self):
         code, out, _ = liana("help")
         self.assertEqual(code, 0)
-        for command in ["run", "pose", "ik", "reach", "plan", "status", "estop", "clear", "replay", "robot", "doctor", "completion"]:
+        for command in [
+            "run",
+            "pose",
+            "ik",
+            "reach",
+            "plan",
+            "status",
+            "estop",
+            "clear",
+            "replay",
+            "robot",
+            "doctor",
+            "completion",
+        ]:
             self.assertIn(f"\n  {command} ", out)
 
     def test_an_empty_argument_is_never_taken_for_a_missing_one(self):
-        for words in (["estop", "--api", ""], ["run", "slit_crossing", "--record", ""], ["run", "slit_crossing", "--json", ""], ["replay", ""]):
+        for words in (
+            ["estop", "--api", ""],
+            ["run", "slit_crossing", "--record", ""],
+            ["run", "slit_crossing", "--json", ""],
+            ["replay", ""],
+        ):
             code, out, error = liana(*words)
             self.assertEqual((code, out), (2, ""), words)
             self.assertIn("an argument is empty", error)
 
     def test_a_command_that_does_not_exist_is_named_and_those_that_exist_are_listed(self):
-        for words, named in [(["nosuch"], "'nosuch'"), (["help", "nosuch"], "'nosuch'"), ([], "no command"), (["robot", "dance"], "'robot dance'")]:
+        for words, named in [
+            (["nosuch"], "'nosuch'"),
+            (["help", "nosuch"], "'nosuch'"),
+            ([], "no command"),
+            (["robot", "dance"], "'robot dance'"),
+        ]:
             code, out, error = liana(*words)
             self.assertEqual((code, out), (2, ""), words)
             self.assertIn(named, error)
@@ -252,8 +318,11 @@ class Help(unittest.TestCase):
             self.assertEqual(error.count("\n"), 1, error)
 
     def test_an_option_that_a_command_does_not_have_is_named_whatever_else_is_missing(self):
-        for words, named in [(["pose", "--frob"], "--frob: liana pose has"), (["robot", "export", "--frob=1"], "--frob: liana robot export has"),
-                             (["--frob"], "--frob: liana has")]:
+        for words, named in [
+            (["pose", "--frob"], "--frob: liana pose has"),
+            (["robot", "export", "--frob=1"], "--frob: liana robot export has"),
+            (["--frob"], "--frob: liana has"),
+        ]:
             code, out, error = liana(*words)
             self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
             self.assertIn(named, error)
@@ -266,9 +335,14 @@ class Help(unittest.TestCase):
             self.assertEqual(finding["good"], finding["action"] == "", finding)
 
     def test_bad_input_of_latency_is_named_with_what_is_allowed(self):
-        for words, said in [(["--rate", "300"], "allowed 250 (buses embedded) or 500 (buses embedded_500)"), (["--rate", "fast"], "--rate: 'fast'"),
-                            (["--seconds", "nan"], "--seconds: 'nan'"), (["--seconds", "0"], "allowed: 0.1 to 86400 s"),
-                            (["--buses", "can9"], "can9: allowed embedded"), (["--rate", "500", "--buses", "embedded"], "embedded has 250 Hz")]:
+        for words, said in [
+            (["--rate", "300"], "allowed 250 (buses embedded) or 500 (buses embedded_500)"),
+            (["--rate", "fast"], "--rate: 'fast'"),
+            (["--seconds", "nan"], "--seconds: 'nan'"),
+            (["--seconds", "0"], "allowed: 0.1 to 86400 s"),
+            (["--buses", "can9"], "can9: allowed embedded"),
+            (["--rate", "500", "--buses", "embedded"], "embedded has 250 Hz"),
+        ]:
             code, out, error = liana("latency", *words)
             self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
             self.assertIn(said, error)
@@ -276,35 +350,68 @@ class Help(unittest.TestCase):
     def test_every_fault_is_told_with_its_detector_and_its_ticks(self):
         plain = liana("faults")[1]
         for fault in json.loads(liana("faults", "--json")[1]):
-            told = plain[plain.index(f"{fault['number']} {fault['name']} "):]
-            self.assertIn(f"\n     detected by {fault['detected_by']}\n     within ticks: {fault['within_ticks']}\n     {fault['remedy']}\n", told)
+            told = plain[plain.index(f"{fault['number']} {fault['name']} ") :]
+            self.assertIn(
+                (
+                    f"\n     detected by {fault['detected_by']}\n     within ticks: {fault['within_ticks']}\n    "
+                    f" {fault['remedy']}\n"
+                ),
+                told,
+            )
 
     def test_completion_knows_the_values_too(self):
-        for words, wanted in [("liana plan --scene pan", "panel_slit"), ("liana plan --scene no", "none"), ("liana pose --robot zh", "zhu2022"),
-                              ("liana run sli", "slit_crossing"), ("liana run --bus vc", "vcan"), ("liana plan --follow sl", "slit"),
-                              ("liana cl", "clear"), ("liana-mission eval sc", "scene"), ("liana-mission eval scene pa", "panel_slit")]:
+        for words, wanted in [
+            ("liana plan --scene pan", "panel_slit"),
+            ("liana plan --scene no", "none"),
+            ("liana pose --robot zh", "zhu2022"),
+            ("liana run sli", "slit_crossing"),
+            ("liana run --bus vc", "vcan"),
+            ("liana plan --follow sl", "slit"),
+            ("liana cl", "clear"),
+            ("liana-mission eval sc", "scene"),
+            ("liana-mission eval scene pa", "panel_slit"),
+        ]:
             program = words.split()[0]
             function = "_liana_mission" if program == "liana-mission" else "_liana"
-            script = f"source <({BIN}/liana completion bash); COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1)); {function}; echo ${{COMPREPLY[@]}}"
+            script = (
+                f"source <({BIN}/liana completion bash); COMP_WORDS=({words}); COMP_CWORD=$((${{#COMP_WORDS[@]}} - 1));"
+                f" {function}; echo ${{COMPREPLY[@]}}"
+            )
             done = subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=False, cwd="/")
             self.assertEqual((done.stdout.strip(), done.stderr), (wanted, ""), words)
 
     def test_a_word_too_many_is_named_with_its_command(self):
-        for words, command in ((["status", "x"], "liana status"), (["run", "slit_crossing", "x"], "liana run"), (["robot", "export", "a", "x"], "liana robot export")):
+        for words, command in (
+            (["status", "x"], "liana status"),
+            (["run", "slit_crossing", "x"], "liana run"),
+            (["robot", "export", "a", "x"], "liana robot export"),
+        ):
             code, out, error = liana(*words)
-            self.assertEqual((code, out, error), (2, "", f"liana: 'x': {command} takes no such word; leave it out, or see {command} --help\n"), words)
+            self.assertEqual(
+                (code, out, error),
+                (2, "", f"liana: 'x': {command} takes no such word; leave it out, or see {command} --help\n"),
+                words,
+            )
 
     def test_standard_output_is_no_file_to_write_to(self):
-        for words in (["plan", "--from-deg=0,0,0,0,0,0,0,0,0,0", "--to-deg=1,0,0,0,0,0,0,0,0,0", "--out", "-"], ["robot", "export", "--out=-"], ["reach", "--svg=-"]):
+        for words in (
+            ["plan", "--from-deg=0,0,0,0,0,0,0,0,0,0", "--to-deg=1,0,0,0,0,0,0,0,0,0", "--out", "-"],
+            ["robot", "export", "--out=-"],
+            ["reach", "--svg=-"],
+        ):
             code, out, error = liana(*words)
             self.assertEqual((code, out, error.count("\n")), (2, "", 1), words)
             self.assertIn("'-': allowed: a file", error)
 
     def test_a_scene_needs_a_slit_only_where_the_slit_is_used(self):
-        self.assertEqual(liana("plan", "--scene=none", "--from-deg=0,0,0,0,0,0,0,0,0,0", "--to-deg=1,0,0,0,0,0,0,0,0,0")[0], 0)
+        self.assertEqual(
+            liana("plan", "--scene=none", "--from-deg=0,0,0,0,0,0,0,0,0,0", "--to-deg=1,0,0,0,0,0,0,0,0,0")[0], 0
+        )
         self.assertEqual(liana("reach", "--scene=none", "--samples=1000")[0], 0)
         code, out, error = liana("pose", "--scene=none", "--theta-deg=0,0,0,0,0,0,0,0,0,0")
-        self.assertEqual((code, out, error), (2, "", "liana: --scene: 'none': has no slit; name a scene with one, or leave it out\n"))
+        self.assertEqual(
+            (code, out, error), (2, "", "liana: --scene: 'none': has no slit; name a scene with one, or leave it out\n")
+        )
         with tempfile.TemporaryDirectory() as folder:
             scene = pathlib.Path(folder) / "own.json"
             scene.write_text('{"format":1,"kind":"scene","name":"own","boxes":[],"spheres":[]}', encoding="utf-8")

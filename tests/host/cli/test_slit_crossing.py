@@ -18,7 +18,9 @@ DEG = 3.141592653589793 / 180
 
 def children_of(pid):
     """Names and process ids of the programs a run has started."""
-    out = subprocess.run(["ps", "--ppid", str(pid), "-o", "pid=,comm="], capture_output=True, text=True, check=False).stdout
+    out = subprocess.run(
+        ["ps", "--ppid", str(pid), "-o", "pid=,comm="], capture_output=True, text=True, check=False
+    ).stdout
     return {name: int(number) for number, name in (line.split() for line in out.splitlines())}
 
 
@@ -38,7 +40,9 @@ class WholeRun(unittest.TestCase):
         cls.directory = tempfile.mkdtemp(prefix="liana-test-")
         cls.record = os.path.join(cls.directory, "record")
         cls.report_file = os.path.join(cls.directory, "report.json")
-        cls.code, cls.out, cls.error = liana("run", "slit_crossing", "--seed", 1, "--record", cls.record, "--json", cls.report_file, timeout_s=600)
+        cls.code, cls.out, cls.error = liana(
+            "run", "slit_crossing", "--seed", 1, "--record", cls.record, "--json", cls.report_file, timeout_s=600
+        )
         cls.report = json.loads(pathlib.Path(cls.report_file).read_text())
 
     @classmethod

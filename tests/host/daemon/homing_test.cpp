@@ -6,6 +6,8 @@
 #include "tests/host/verify/sim_arm.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 // An arm in its fixture, as its drives report it.

@@ -6,6 +6,7 @@
 #include "host/api/request_error.hpp"
 
 namespace liana {
+
 namespace {
 
 TEST(Owner, OnlyOneClientOwnsMotion) {

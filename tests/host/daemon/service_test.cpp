@@ -11,6 +11,8 @@
 #include "tests/host/verify/sim_arm.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 ServiceConfig config_for(const SimArm& arm, TimeMode mode) {

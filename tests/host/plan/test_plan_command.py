@@ -15,7 +15,9 @@ BIN = pathlib.Path(sys.argv.pop(1))
 
 PREPARE = "-8.5,0,-12,0,8,-2,13,0,12,-2"
 PANEL_EDGE = "-6.14,-15,-3.29,-8.72,7.2,15,5.55,15,1,-2.8"
-TILTED = "-2.641,-2.064,-1.81,-4.64,4.777,5.87,0,4.764,8,-0.543"  # the press rod pose, with the last segment bent out of the slit
+TILTED = (  # the press rod pose, with the last segment bent out of the slit
+    "-2.641,-2.064,-1.81,-4.64,4.777,5.87,0,4.764,8,-0.543"
+)
 
 
 def words(*options):
@@ -66,9 +68,25 @@ class PlanCommand(unittest.TestCase):
 
     def test_bad_input_ends_with_2_and_one_message(self):
         ends = [f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}"]
-        for bad in (ends[:1], [*ends, "--tip=1,0,0,1,0,0,0"], [*ends, "--waypoints=1"], [*ends, "--waypoints=101"], [*ends, "--margin=-1"],
-                    [*ends, "--max-step-deg=0"], [*ends, "--max-step-deg=1e-300"], [*ends, "--margin=1e308"], [*ends, "--waypoints=1e3"], [*ends, "--iterations=0"], [*ends, "--hold=9"], [*ends, "--planar=6@0.5"], [*ends, "--planar=,"],
-                    [*ends, "--hold=9=1", "--planar=5@0.5"], [*ends, "--scene=nowhere"], [*ends, "--out=-"], [*ends, "--control-point=9:0,0,0"]):
+        for bad in (
+            ends[:1],
+            [*ends, "--tip=1,0,0,1,0,0,0"],
+            [*ends, "--waypoints=1"],
+            [*ends, "--waypoints=101"],
+            [*ends, "--margin=-1"],
+            [*ends, "--max-step-deg=0"],
+            [*ends, "--max-step-deg=1e-300"],
+            [*ends, "--margin=1e308"],
+            [*ends, "--waypoints=1e3"],
+            [*ends, "--iterations=0"],
+            [*ends, "--hold=9"],
+            [*ends, "--planar=6@0.5"],
+            [*ends, "--planar=,"],
+            [*ends, "--hold=9=1", "--planar=5@0.5"],
+            [*ends, "--scene=nowhere"],
+            [*ends, "--out=-"],
+            [*ends, "--control-point=9:0,0,0"],
+        ):
             done = call(*bad)
             self.assertEqual(done.returncode, 2, bad)
             self.assertEqual((done.stdout, done.stderr.count("\n")), ("", 1), bad)
@@ -76,8 +94,18 @@ class PlanCommand(unittest.TestCase):
     def test_following_a_file_s_curve_tells_how_well_the_body_followed(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "curve.json"
-            path.write_text(json.dumps({"points_m": [planning_plans.tip_of(planning_plans.PANEL_EDGE)[:3], [0.6, -0.15, 0.4], [1.0, -0.05, 0.35]]}),
-                            encoding="utf-8")
+            path.write_text(
+                json.dumps(
+                    {
+                        "points_m": [
+                            planning_plans.tip_of(planning_plans.PANEL_EDGE)[:3],
+                            [0.6, -0.15, 0.4],
+                            [1.0, -0.05, 0.35],
+                        ]
+                    }
+                ),
+                encoding="utf-8",
+            )
             done = call(f"--from-deg={PANEL_EDGE}", f"--follow={path}")
         self.assertEqual(done.returncode, 0, done.stderr)
         answer = json.loads(done.stdout)
@@ -88,22 +116,44 @@ class PlanCommand(unittest.TestCase):
     def test_a_curve_that_is_none_ends_with_2_and_one_message(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "curve.json"
-            for text in ("", "[]", "{}", '{"points_m": 3}', '{"points_m": [[0, 0, 0]]}', '{"points_m": [[0, 0, 0], [1, 0]]}', '{"points_m": [[0, 0, 0], [1, 0, "a"]]}',
-                         '{"points_m": [[0, 0, 0], [1, 0, 1e9]]}', '{"points_m": [[0, 0, 0], [0, 0, 0]]}',
-                         '{"points_m": [[0, 0, 0], [1, 0, 0]], "poins": 1}', '{"points_m": [[0, 0, 0], [1, 0, 0]], "points_m": [[0, 0, 0], [2, 0, 0]]}'):
+            for text in (
+                "",
+                "[]",
+                "{}",
+                '{"points_m": 3}',
+                '{"points_m": [[0, 0, 0]]}',
+                '{"points_m": [[0, 0, 0], [1, 0]]}',
+                '{"points_m": [[0, 0, 0], [1, 0, "a"]]}',
+                '{"points_m": [[0, 0, 0], [1, 0, 1e9]]}',
+                '{"points_m": [[0, 0, 0], [0, 0, 0]]}',
+                '{"points_m": [[0, 0, 0], [1, 0, 0]], "poins": 1}',
+                '{"points_m": [[0, 0, 0], [1, 0, 0]], "points_m": [[0, 0, 0], [2, 0, 0]]}',
+            ):
                 path.write_text(text, encoding="utf-8")
                 done = call(f"--from-deg={PANEL_EDGE}", f"--follow={path}")
                 self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), text)
                 self.assertIn(str(path), done.stderr)
-        for bad in (["--follow=/nowhere"], ["--follow=/dev/zero"], ["--follow=slit"], ["--follow=slit", f"--to-deg={PREPARE}", "--scene=none"],
-                    ["--follow=slit", f"--to-deg={PREPARE}", "--waypoints=20"], ["--follow=slit", f"--to-deg={PREPARE}", "--hold=9=1"],
-                    ["--follow=slit", f"--to-deg={PREPARE}", "--iterations=5"]):
+        for bad in (
+            ["--follow=/nowhere"],
+            ["--follow=/dev/zero"],
+            ["--follow=slit"],
+            ["--follow=slit", f"--to-deg={PREPARE}", "--scene=none"],
+            ["--follow=slit", f"--to-deg={PREPARE}", "--waypoints=20"],
+            ["--follow=slit", f"--to-deg={PREPARE}", "--hold=9=1"],
+            ["--follow=slit", f"--to-deg={PREPARE}", "--iterations=5"],
+        ):
             done = call(f"--from-deg={PANEL_EDGE}", *bad)
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), bad)
 
     def test_interrupting_ends_with_130_and_the_outcome_cancelled(self):
-        running = subprocess.Popen(words(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", "--waypoints=100", "--control-point=3:1.5,-0.5,0.8:1"),
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        running = subprocess.Popen(
+            words(
+                f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", "--waypoints=100", "--control-point=3:1.5,-0.5,0.8:1"
+            ),
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         for line in running.stderr:
             if "iteration" in line:
                 break
@@ -113,16 +163,24 @@ class PlanCommand(unittest.TestCase):
         self.assertEqual(json.loads(out)["outcome"], "cancelled")
 
     def test_an_interrupt_right_after_the_start_is_no_death_by_signal(self):
-        running = subprocess.Popen(words(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", "--waypoints=100"), stdout=subprocess.PIPE, text=True)
+        running = subprocess.Popen(
+            words(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", "--waypoints=100"),
+            stdout=subprocess.PIPE,
+            text=True,
+        )
         interrupt(running)
         out, _ = running.communicate()
         self.assertEqual(running.returncode, 130)
-        self.assertIn(out and json.loads(out)["outcome"], ("", "cancelled"))  # before the command began there is nothing to tell
+        self.assertIn(
+            out and json.loads(out)["outcome"], ("", "cancelled")
+        )  # before the command began there is nothing to tell
 
     def test_a_way_of_no_length_is_settled_at_once(self):
         done = call(f"--from-deg={PREPARE}", f"--to-deg={PREPARE}", "--scene=none")
         answer = json.loads(done.stdout)
-        self.assertEqual((answer["outcome"], answer["objective"], answer["settled"], answer["rounds"]), ("solved", 0.0, True, 1))
+        self.assertEqual(
+            (answer["outcome"], answer["objective"], answer["settled"], answer["rounds"]), ("solved", 0.0, True, 1)
+        )
         self.assertIn("nothing in the scene", done.stderr)
 
     def test_the_kept_file_has_the_plan_and_its_inputs(self):
@@ -138,20 +196,29 @@ class PlanCommand(unittest.TestCase):
     def test_an_edited_plan_is_not_carried_out(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "plan.json"
-            self.assertEqual(call(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", "--waypoints=3", f"--out={path}").returncode, 0)
+            self.assertEqual(
+                call(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", "--waypoints=3", f"--out={path}").returncode, 0
+            )
             written = json.loads(path.read_text(encoding="utf-8"))
 
             def edit(change):
                 plan = json.loads(json.dumps(written))
                 change(plan)
                 path.write_text(json.dumps(plan), encoding="utf-8")
-                done = subprocess.run([BIN / "liana", "run", path], capture_output=True, text=True, check=False, timeout=60)
+                done = subprocess.run(
+                    [BIN / "liana", "run", path], capture_output=True, text=True, check=False, timeout=60
+                )
                 self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
                 return done.stderr
 
             into_the_panel = [-2.641, -2.064, -1.81, -4.64, 4.777, 5.87, 4.0, 4.764, 5.0, -0.543]
-            self.assertIn("waypoints_deg: on the path found link", edit(lambda plan: plan["waypoints_deg"].__setitem__(1, into_the_panel)))
-            self.assertIn("waypoints_deg: a theta changes by", edit(lambda plan: plan["inputs"].__setitem__("max_step_deg", 1.0)))
+            self.assertIn(
+                "waypoints_deg: on the path found link",
+                edit(lambda plan: plan["waypoints_deg"].__setitem__(1, into_the_panel)),
+            )
+            self.assertIn(
+                "waypoints_deg: a theta changes by", edit(lambda plan: plan["inputs"].__setitem__("max_step_deg", 1.0))
+            )
             self.assertIn("inputs.margin_m", edit(lambda plan: plan["inputs"].pop("margin_m")))
             path.write_text(json.dumps(written)[:500], encoding="utf-8")
             cut = subprocess.run([BIN / "liana", "run", path], capture_output=True, text=True, check=False, timeout=60)

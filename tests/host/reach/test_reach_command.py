@@ -21,7 +21,7 @@ def picture(*options):
         file = pathlib.Path(directory) / "picture.svg"
         code, _, error = liana("reach", *options, "--svg", file)
         assert code == 0, error
-        assert "nan" not in file.read_text() and "inf\"" not in file.read_text()
+        assert "nan" not in file.read_text() and 'inf"' not in file.read_text()
         return xml.etree.ElementTree.parse(file).getroot()
 
 
@@ -52,7 +52,9 @@ class Region(unittest.TestCase):
 class Path(unittest.TestCase):
     def test_the_worst_places_are_those_of_the_points(self):
         answer = liana_json("reach", f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}")
-        self.assertEqual(answer["worst_conditioned"], min(answer["points"], key=lambda point: point["least_singular_value"]))
+        self.assertEqual(
+            answer["worst_conditioned"], min(answer["points"], key=lambda point: point["least_singular_value"])
+        )
         self.assertEqual(answer["nearest_limit"], min(answer["points"], key=lambda point: point["limit_margin_deg"]))
         self.assertAlmostEqual(answer["points"][0]["least_singular_value"], 4.10, delta=0.005)
         self.assertEqual(answer["nearest_limit"]["nearest_theta"], 2)
@@ -62,7 +64,10 @@ class Path(unittest.TestCase):
         with tempfile.TemporaryDirectory() as directory:
             file = pathlib.Path(directory) / "plan.json"
             file.write_text(json.dumps({"outcome": "solved", "waypoints_deg": rows}))
-            self.assertEqual(liana_json("reach", "--path", file), liana_json("reach", f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}"))
+            self.assertEqual(
+                liana_json("reach", "--path", file),
+                liana_json("reach", f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}"),
+            )
 
     def test_a_condition_without_bound_is_null(self):
         zero = ",".join(["0"] * 10)
@@ -72,24 +77,47 @@ class Path(unittest.TestCase):
 class Pictures(unittest.TestCase):
     def test_a_region_shows_three_views_with_axes_and_a_legend(self):
         words = texts(picture(FEW, "--scene=panel_slit", "--hold=7,9"))
-        for needed in ["Where the tip of zhu2022 can go", "held: theta 7 = 0, theta 9 = 0 deg", "top view, from +z", "side view, from -y",
-                       "front view, from +x", "x (m)", "y (m)", "z (m)", "obstacle", "press rod, inside the ring"]:
+        for needed in [
+            "Where the tip of zhu2022 can go",
+            "held: theta 7 = 0, theta 9 = 0 deg",
+            "top view, from +z",
+            "side view, from -y",
+            "front view, from +x",
+            "x (m)",
+            "y (m)",
+            "z (m)",
+            "obstacle",
+            "press rod, inside the ring",
+        ]:
             self.assertIn(needed, words)
 
     def test_the_scene_and_the_arm_are_to_scale(self):
         root = picture(FEW, "--scene=panel_slit")
-        ticks = {element.text: float(element.get("x")) for element in root.iter(SVG + "text")
-                 if element.get("text-anchor") == "middle" and element.text in ("1", "2")}
+        ticks = {
+            element.text: float(element.get("x"))
+            for element in root.iter(SVG + "text")
+            if element.get("text-anchor") == "middle" and element.text in ("1", "2")
+        }
         self.assertEqual(len(ticks), 2)
         pixels_per_m = ticks["2"] - ticks["1"]
         spheres = [float(element.get("r")) for element in root.iter(SVG + "circle") if element.get("opacity") == "0.55"]
         self.assertEqual(sum(abs(radius - 0.25 * pixels_per_m) < 0.15 for radius in spheres), 3)  # one a view
-        arms = [float(element.get("stroke-width")) for element in root.iter(SVG + "polyline") if element.get("stroke") == "#f28e2b"]
+        arms = [
+            float(element.get("stroke-width"))
+            for element in root.iter(SVG + "polyline")
+            if element.get("stroke") == "#f28e2b"
+        ]
         self.assertEqual(len(arms), 3)
         self.assertTrue(all(abs(width - 0.06 * pixels_per_m) < 0.15 for width in arms))
 
     def test_every_use_gives_a_picture(self):
-        for options in [("--node=1",), ("--node=3", "--hold=1,2"), ("--hold=1,2,3,4,5,6,7,8,9",), ("--hold=2,4,6,8,10",), ("--hold=1=20,2=-20",)]:
+        for options in [
+            ("--node=1",),
+            ("--node=3", "--hold=1,2"),
+            ("--hold=1,2,3,4,5,6,7,8,9",),
+            ("--hold=2,4,6,8,10",),
+            ("--hold=1=20,2=-20",),
+        ]:
             self.assertIn("In figures", texts(picture(FEW, *options)))
         for options in [(), ("--hold=7,9",), ("--hold=1,2,3,4,5",), ("--hold=1,2,3,4,5,6,7,8,9",)]:
             words = texts(picture(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}", *options))
@@ -121,26 +149,49 @@ class BadInput(unittest.TestCase):
     def test_every_wrong_option_ends_with_2_and_one_message(self):
         ends = (f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}")
         for options, named in [
-            (["--node=6"], "1 to 5"), (["--node=0"], "--node: '0': allowed: a whole number from 1 to 5"), (["--node=x"], "--node"),
-            (["--samples=999"], "1000 to 1000000"), (["--samples=1000001"], "1000 to 1000000"), (["--samples=nan"], "--samples"),
-            (["--seed=-1"], "--seed: '-1'"), ([f"--seed={2**64}"], "0 to 9007199254740991"), (["--hold=11"], "--hold"), (["--hold=7=21"], "20 deg"), (["--hold=7=nan"], "nan"),
-            (["--hold=1,2", "--node=1"], "free at least one of theta 1 to 2"), (["--hold=1,2,3,4,5,6,7,8,9,10"], "free at least one"),
-            (["--from-deg=0"], "10 numbers"), (["--robot=nobody"], "nobody"), (["--scene=nowhere"], "nowhere"),
-            ([FEW, "--svg=/no/such/directory/x.svg"], "--svg"), ([f"--to-deg={PREPARE}"], "--from-deg"),
-            ([*ends, "--hold=7=1"], "without values"), ([*ends, "--node=3"], "--node"), ([*ends, "--scene=panel_slit"], "--scene"),
-            ([*ends, "--hold=1,2,3,4,5,6,7,8,9,10"], "free at least one"), (["--path=/no/such/file"], "/no/such/file"),
-            (["--path=x.json", f"--to-deg={PREPARE}"], "--to-deg"), (["--path=x.json", f"--from-deg={PREPARE}"], "--from-deg"),
+            (["--node=6"], "1 to 5"),
+            (["--node=0"], "--node: '0': allowed: a whole number from 1 to 5"),
+            (["--node=x"], "--node"),
+            (["--samples=999"], "1000 to 1000000"),
+            (["--samples=1000001"], "1000 to 1000000"),
+            (["--samples=nan"], "--samples"),
+            (["--seed=-1"], "--seed: '-1'"),
+            ([f"--seed={2**64}"], "0 to 9007199254740991"),
+            (["--hold=11"], "--hold"),
+            (["--hold=7=21"], "20 deg"),
+            (["--hold=7=nan"], "nan"),
+            (["--hold=1,2", "--node=1"], "free at least one of theta 1 to 2"),
+            (["--hold=1,2,3,4,5,6,7,8,9,10"], "free at least one"),
+            (["--from-deg=0"], "10 numbers"),
+            (["--robot=nobody"], "nobody"),
+            (["--scene=nowhere"], "nowhere"),
+            ([FEW, "--svg=/no/such/directory/x.svg"], "--svg"),
+            ([f"--to-deg={PREPARE}"], "--from-deg"),
+            ([*ends, "--hold=7=1"], "without values"),
+            ([*ends, "--node=3"], "--node"),
+            ([*ends, "--scene=panel_slit"], "--scene"),
+            ([*ends, "--hold=1,2,3,4,5,6,7,8,9,10"], "free at least one"),
+            (["--path=/no/such/file"], "/no/such/file"),
+            (["--path=x.json", f"--to-deg={PREPARE}"], "--to-deg"),
+            (["--path=x.json", f"--from-deg={PREPARE}"], "--from-deg"),
         ]:
             self.expect_refusal(options, named)
 
     def test_every_wrong_file_of_waypoints_ends_with_2_and_one_message(self):
         with tempfile.TemporaryDirectory() as directory:
             file = pathlib.Path(directory) / "path.json"
-            for content, named in [("", "waypoints_deg"), ("[]", "waypoints_deg"), ("{}", "waypoints_deg"), ('{"waypoints_deg": []}', "1 to 2000"),
-                                   ('{"waypoints_deg": [1]}', "row 1"), ('{"waypoints_deg": [[1, "2"]]}', "row 1"),
-                                   ('{"waypoints_deg": [[1, 2]]}', "10 numbers"), ('{"waypoints_deg": [[]]}', "10 numbers"),
-                                   (f'{{"waypoints_deg": [[{PREPARE}], [21,0,0,0,0,0,0,0,0,0]]}}', "row 2"),
-                                   (json.dumps({"waypoints_deg": [[0.0] * 10] * 2001}), "1 to 2000")]:
+            for content, named in [
+                ("", "waypoints_deg"),
+                ("[]", "waypoints_deg"),
+                ("{}", "waypoints_deg"),
+                ('{"waypoints_deg": []}', "1 to 2000"),
+                ('{"waypoints_deg": [1]}', "row 1"),
+                ('{"waypoints_deg": [[1, "2"]]}', "row 1"),
+                ('{"waypoints_deg": [[1, 2]]}', "10 numbers"),
+                ('{"waypoints_deg": [[]]}', "10 numbers"),
+                (f'{{"waypoints_deg": [[{PREPARE}], [21,0,0,0,0,0,0,0,0,0]]}}', "row 2"),
+                (json.dumps({"waypoints_deg": [[0.0] * 10] * 2001}), "1 to 2000"),
+            ]:
                 file.write_text(content)
                 self.expect_refusal(["--path", file], named)
 

@@ -16,6 +16,8 @@
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 constexpr std::uint64_t kFirstTick = 40;

@@ -6,13 +6,15 @@
 #include <type_traits>
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 static_assert(!std::is_constructible_v<cable::Telecommand, std::uint64_t, std::uint64_t, std::uint64_t, std::uint32_t,
                                        const cable::Setpoint&>,
-              "nobody but Release and RecordingDecoder can make a telecommand");
+              "nobody but Release can make a telecommand");
 static_assert(!std::is_constructible_v<Candidate, const cable::Telecommand&>,
-              "nobody but Release can make a candidate");
+              "nobody but ReleaseStep can make a candidate");
 static_assert(!std::is_constructible_v<Candidate>);
 static_assert(!std::is_constructible_v<cable::Telecommand, const Candidate&>);
 static_assert(std::is_default_constructible_v<cable::Telecommand>, "an empty one, which commands nothing");
@@ -35,8 +37,8 @@ cable::Setpoint hold() {
   return setpoint;
 }
 
-TEST(Release, BothVerdictsReleaseWhatWasJudged) {
-  Release release;
+TEST(ReleaseStep, BothVerdictsReleaseWhatWasJudged) {
+  ReleaseStep release;
   const Candidate candidate = release.candidate(hold(), 7, 100, 5);
   const auto telecommand = release.release(candidate, execution(1), simulation(1));
   ASSERT_TRUE(telecommand);
@@ -47,15 +49,15 @@ TEST(Release, BothVerdictsReleaseWhatWasJudged) {
   EXPECT_EQ(telecommand->setpoint().kind, CommandKind::kHold);
 }
 
-TEST(Release, OneRefusalIsEnough) {
-  Release release;
+TEST(ReleaseStep, OneRefusalIsEnough) {
+  ReleaseStep release;
   const Candidate candidate = release.candidate(hold(), 7, 100, 5);
   EXPECT_FALSE(release.release(candidate, execution(1, Refusal::kGate), simulation(1)));
   EXPECT_FALSE(release.release(candidate, execution(1), simulation(1, Refusal::kTipSpeed)));
 }
 
-TEST(Release, VerdictsOnOtherCandidatesDoNotCount) {
-  Release release;
+TEST(ReleaseStep, VerdictsOnOtherCandidatesDoNotCount) {
+  ReleaseStep release;
   const Candidate old = release.candidate(hold(), 7, 100, 5);
   const Candidate candidate = release.candidate(hold(), 7, 105, 5);
   EXPECT_FALSE(release.release(candidate, execution(1), simulation(2)));
@@ -63,15 +65,15 @@ TEST(Release, VerdictsOnOtherCandidatesDoNotCount) {
   EXPECT_FALSE(release.release(old, execution(1), simulation(1))) << "a newer candidate exists";
 }
 
-TEST(Release, NothingIsReleasedTwice) {
-  Release release;
+TEST(ReleaseStep, NothingIsReleasedTwice) {
+  ReleaseStep release;
   const Candidate candidate = release.candidate(hold(), 7, 100, 5);
   EXPECT_TRUE(release.release(candidate, execution(1), simulation(1)));
   EXPECT_FALSE(release.release(candidate, execution(1), simulation(1)));
 }
 
-TEST(Release, AnEmptyVerdictIsNoVerdict) {
-  Release release;
+TEST(ReleaseStep, AnEmptyVerdictIsNoVerdict) {
+  ReleaseStep release;
   const Candidate candidate = release.candidate(hold(), 7, 100, 5);
   EXPECT_FALSE(release.release(candidate, ExecutionVerdict{}, SimulationVerdict{}));
 }

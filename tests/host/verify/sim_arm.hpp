@@ -4,17 +4,22 @@
 #include <cstdint>
 
 #include "firmware_like/cable/arm/cables.hpp"
-#include "firmware_like/math/convert.hpp"
+#include "firmware_like/cable/arm/payout.hpp"
 #include "host/control/tick_core.hpp"
-#include "host/verify/ideal_drives.hpp"
+#include "host/verify/nominal_drives.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
 
+using namespace cable;
+
 class SimArm {
  public:
   SimArm()
-      : table_(zhu2022::table()), link(table_), core_(table_, link), drives_(table_, start_inputs(), cable::Outputs{}) {
+      : table_(zhu2022::table()),
+        link(table_),
+        core_(table_, link),
+        drives_(table_, start_inputs().drive, cable::Outputs{}) {
     report_.boot = BootPhase::kDone;
     link.report.publish(report_);
     link.report.refresh();
@@ -58,7 +63,7 @@ class SimArm {
       drive.statusword = 0x0250;
       drive.operational = 1;
       drive.position_counts =
-          counts_at_payout(table_.drive[i], zero_payout_m, geometry.length_m[i] + table_.lead_m).value;
+          to_counts(counts_at_payout(table_.drive[i], zero_payout_m, geometry.length_m[i] + table_.lead_m)).value;
     }
     return inputs;
   }
@@ -70,7 +75,7 @@ class SimArm {
 
  private:
   TickCore core_;
-  IdealDrives drives_;
+  NominalDrives<cable::CableArm> drives_;
   CycleReport report_{};
   cable::Outputs outputs_{};
 };

@@ -9,11 +9,13 @@
 #include "tests/host/verify/sim_arm.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 class TwinOfAnArm : public testing::Test {
  protected:
-  TwinOfAnArm() : arm_(std::make_unique<SimArm>()), twin_(arm_->table()) {}
+  TwinOfAnArm() : arm_(std::make_unique<SimArm>()) {}
   void SetUp() override { ASSERT_TRUE(arm_->enable()) << "faults: " << arm_->now().faults.count; }
 
   cable::Setpoint shifted_tip(double way_m, double speed_m_s = 0.1) const {
@@ -29,7 +31,7 @@ class TwinOfAnArm : public testing::Test {
     return release_.candidate(setpoint, 1, arm_->link.image.value().next_tick + interval, interval);
   }
   Prediction predict(const Candidate& candidate) {
-    return twin_.run(arm_->link.image.value(), released_, candidate, max_stop_ticks(arm_->table()));
+    return Twin::run(arm_->link.image.value(), released_, candidate, max_stop_ticks(arm_->table()));
   }
   std::optional<cable::Telecommand> release(const Candidate& candidate, const Prediction& prediction) {
     return release_.release(candidate, judge_execution(arm_->table(), candidate, prediction),
@@ -37,8 +39,8 @@ class TwinOfAnArm : public testing::Test {
   }
 
   std::unique_ptr<SimArm> arm_;
-  Twin twin_;
-  Release release_;
+
+  ReleaseStep release_;
   std::vector<cable::Telecommand> released_;
 };
 

@@ -9,6 +9,8 @@
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 const cable::RobotTable kTable = zhu2022::table();
@@ -21,7 +23,7 @@ struct Judged {
 // A prediction of five quiet ticks and a stop, with `change` applied to one tick of the command (2) and one of the stop
 // (6).
 Judged judge(const std::function<void(cable::Outputs&)>& change, std::size_t at = 2, bool comes_to_rest = true) {
-  Release release;
+  ReleaseStep release;
   cable::Setpoint setpoint;
   setpoint.kind = CommandKind::kTip;
   const Candidate candidate = release.candidate(setpoint, 1, 100, 5);
@@ -108,7 +110,7 @@ TEST(Verify, ARefusalNamesWhatWhereAndTheLimit) {
 }
 
 TEST(Verify, AVerdictAfterTheIntervalBeganIsTooSlow) {
-  Release release;
+  ReleaseStep release;
   const Candidate candidate = release.candidate(cable::Setpoint{}, 1, 100, 5);
   ExecutionVerdict verdict;
   judge_time(candidate, 99, verdict);

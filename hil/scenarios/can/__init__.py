@@ -1,0 +1,1 @@
+"""Scenarios on CAN interfaces of the kernel, and where they run (README.md)."""

@@ -1,0 +1,18 @@
+"""Python client of Liana (docs/python.md): lianad's API, systems of processes, recordings. Standard library only."""
+from liana.client import Client, ConnectionClosed, LianaError, NotReached, RequestRefused, TimedOut
+from liana.recordings import BadRecording, Recording, Truth
+from liana.system import ProgramRefused, System
+
+__all__ = [
+    "BadRecording",
+    "Client",
+    "ConnectionClosed",
+    "LianaError",
+    "NotReached",
+    "ProgramRefused",
+    "Recording",
+    "RequestRefused",
+    "System",
+    "TimedOut",
+    "Truth",
+]

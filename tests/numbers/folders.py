@@ -1,0 +1,7 @@
+"""Folders of the tree; importing it makes what measurements use from them importable."""
+import pathlib
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BENCH = ROOT / "tests" / "bench"
+sys.path[:0] = [str(ROOT / folder) for folder in ("host/python", "hil/scenarios", "tests/bench", "tests/mutation")]
