@@ -38,7 +38,31 @@ class Controller {
   // What the last clear or enable looked at (bits of Condition).
   const SupervisorState& supervisor() const noexcept { return supervisor_; }
 
+  // Shows `v(name, member)` every member that the table alone does not give, in a fixed order: the one way in which a
+  // Controller is written and read back. Whoever writes to members must have checked what he writes.
+  template <class V>
+  void visit_state(V& v) {
+    visit_members(*this, v);
+  }
+  template <class V>
+  void visit_state(V& v) const {
+    visit_members(*this, v);
+  }
+
  private:
+  template <class Self, class V>
+  static void visit_members(Self& self, V& v) {
+    v("arm", self.arm_);
+    v("link", self.link_);
+    v("faults", self.faults_);
+    v("supervisor", self.supervisor_);
+    v("active", self.active_);
+    v("pending", self.pending_);
+    v("last_sequence", self.last_sequence_);
+    v("limits", self.limits_);
+    v("sent", self.sent_);
+  }
+
   using Command = Telecommand<typename A::Setpoint>;
 
   static bool is_stop(const Command& command) noexcept { return command.kind() == CommandKind::kStop; }

@@ -65,7 +65,39 @@ class CableArm {
   // Angles and contradictions that the drives' lengths show.
   const EstimatorState& estimator() const noexcept { return estimator_; }
 
+  // Shows `v(name, member)` every member that the table alone does not give, in a fixed order (controller.hpp).
+  template <class V>
+  void visit_state(V& v) {
+    visit_members(*this, v);
+  }
+  template <class V>
+  void visit_state(V& v) const {
+    visit_members(*this, v);
+  }
+
  private:
+  template <class Self, class V>
+  static void visit_members(Self& self, V& v) {
+    v("payout_measured_m", self.payout_measured_m_);
+    v("tension_measured_N", self.tension_measured_N_);
+    v("estimator", self.estimator_);
+    v("homing_ticks", self.homing_ticks_);
+    v("feedback_age_ticks", self.feedback_age_ticks_);
+    v("tension_watch", self.tension_watch_);
+    v("cable_watch", self.cable_watch_);
+    v("motion", self.motion_);
+    v("slip", self.slip_);
+    v("model", self.model_);
+    v("ratio", self.ratio_);
+    v("damping", self.damping_);
+    v("lift_N", self.lift_N_);
+    v("tension", self.tension_);
+    v("payout_command_m", self.payout_command_m_);
+    v("ramp_start_m", self.ramp_start_m_);
+    v("ramp", self.ramp_);
+    v("live", self.live_);
+  }
+
   using Index = std::size_t;
 
   bool is_homed() const noexcept { return homing_ticks_ >= kHomingTicks; }

@@ -51,7 +51,25 @@ class SerialArm {
   // Motion stage, for the verifier's predictions and for tests.
   const MotionState& motion() const noexcept { return motion_; }
 
+  // Shows `v(name, member)` every member that the table alone does not give, in a fixed order (controller.hpp).
+  template <class V>
+  void visit_state(V& v) {
+    visit_members(*this, v);
+  }
+  template <class V>
+  void visit_state(V& v) const {
+    visit_members(*this, v);
+  }
+
  private:
+  template <class Self, class V>
+  static void visit_members(Self& self, V& v) {
+    v("joints", self.joints_);
+    v("torque_measured_Nm", self.torque_measured_Nm_);
+    v("homing_ticks", self.homing_ticks_);
+    v("motion", self.motion_);
+  }
+
   JointVector measured_rad() const noexcept;
 
   RobotTable table_{};

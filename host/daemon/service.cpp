@@ -171,9 +171,8 @@ void Service::forward_ticks() {
   }
   if (boot_seen_ == BootPhase::kBooting || !wanted) return;
   if (image_sent_ && image.next_tick % kImageEveryTicks != 0) return;
-  const std::string_view memory(reinterpret_cast<const char*>(&image.controller), sizeof image.controller);
-  const std::string_view bytes = image.fresh ? std::string_view() : memory;
-  server_.publish(Topic::kTick, image_packet(image.next_tick, image.fresh, config_.robot.table, bytes));
+  server_.publish(Topic::kTick, image.fresh ? image_packet(image.next_tick, config_.robot.table)
+                                            : image_packet(image.next_tick, image.controller));
   image_sent_ = true;
 }
 

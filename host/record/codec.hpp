@@ -23,6 +23,8 @@ template <Scalar T>
 auto bits_of(T value) {
   if constexpr (std::is_same_v<T, double>) {
     return std::bit_cast<std::uint64_t>(value);
+  } else if constexpr (std::is_same_v<T, bool>) {
+    return static_cast<std::uint8_t>(value ? 1 : 0);
   } else if constexpr (std::is_enum_v<T>) {
     return static_cast<std::make_unsigned_t<std::underlying_type_t<T>>>(value);
   } else {
@@ -82,8 +84,9 @@ class Reader {
   template <class T>
   requires std::is_class_v<T>
   void operator()(const char*, T& value) { visit(*this, value); }
-  // Bytes read so far.
+  // Bytes read so far, and those that are left.
   std::size_t position() const { return at_; }
+  std::size_t left() const { return in_.size() - at_; }
 
  private:
   std::string_view in_;

@@ -2,6 +2,7 @@
 
 #include "host/record/build_id.hpp"
 #include "host/record/codec.hpp"
+#include "host/record/image.hpp"
 #include "host/record/serialise.hpp"
 #include "host/record/tick_packet.hpp"
 
@@ -10,7 +11,7 @@ namespace liana {
 namespace {
 
 constexpr const char* kEncoding = "liana-fields-1";
-constexpr const char* kImageEncoding = "liana-image-1";
+constexpr const char* kImageEncoding = "liana-image-2";
 
 // Lists the fields of one recorded structure, a line each: path and width in bytes.
 class FieldLister {
@@ -65,7 +66,7 @@ Recording::Recording(const std::string& directory, const RecordingInfo& info)
     : ticks_file_(directory + "/" + kRecordingFile, "liana " + build_id()),
       images_file_(directory + "/" + kImagesFile, "liana " + build_id()),
       period_s_(info.period_s) {
-  constexpr const char* kImageSchema = "next_tick 8, fresh 1, robot table, memory of the Controller";
+  constexpr const char* kImageSchema = "next_tick 8, fresh 1, robot table, fields of the Controller";
   start_ = ticks_file_.add_channel(kStartTopic, kImageEncoding, kImageSchema);
   inputs_ = ticks_file_.add_channel(kInputsTopic, kEncoding, inputs_schema());
   outputs_ = ticks_file_.add_channel(kOutputsTopic, kEncoding, outputs_schema());
@@ -104,15 +105,20 @@ void Recording::finish() {
   images_file_.finish();
 }
 
-ControllerImage parse_image(std::string_view data) {
+ControllerImage parse_image(std::string_view data, const std::string& source) {
   ControllerImage image;
   std::uint8_t fresh = 0;
   Reader reader(data);
   reader("next_tick", image.next_tick);
   reader("fresh", fresh);
-  reader("table", image.table);
+  if (fresh > 1)
+    throw std::runtime_error("recording " + source + ": controller image: field fresh: " + std::to_string(fresh) +
+                             "; allowed is 0..1; take a good copy of the file");
   image.fresh = fresh != 0;
-  image.controller_bytes = data.substr(reader.position());
+  const std::string_view rest = data.substr(reader.position());
+  std::size_t used = 0;
+  image.table = checked_table(rest, source, used);
+  image.state = rest.substr(used);
   return image;
 }
 

@@ -1,6 +1,6 @@
 // The recording of a run. DIR/ticks.mcap (channels start, inputs, outputs) holds all that a replay needs, and is the
 // same byte for byte when a run is repeated. DIR/images.mcap (channel controller_image), which makes it seekable, is
-// so, too: a Controller has no byte left to chance.
+// so, too: a Controller is written field by field.
 #pragma once
 
 #include <cstdint>
@@ -50,8 +50,9 @@ struct ControllerImage {
   std::uint64_t next_tick = 0;
   bool fresh = false;  // the Controller has not ticked yet: the table says all
   cable::RobotTable table{};
-  std::string_view controller_bytes;  // memory of the Controller, empty when fresh; only the same build can use it
+  std::string_view state;  // of the Controller (image.hpp), empty when fresh; only the same build can use it
 };
-ControllerImage parse_image(std::string_view data);
+// Throws std::runtime_error with file (`source`), field, value and what is allowed, when the table would harm the core.
+ControllerImage parse_image(std::string_view data, const std::string& source = kImagesFile);
 
 }  // namespace liana

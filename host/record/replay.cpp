@@ -1,6 +1,5 @@
 #include "host/record/replay.hpp"
 
-#include <cstring>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -8,7 +7,7 @@
 
 #include "firmware_like/cable_controller.hpp"
 #include "host/record/build_id.hpp"
-#include "host/record/codec.hpp"
+#include "host/record/image.hpp"
 #include "host/record/mcap.hpp"
 #include "host/record/recording.hpp"
 #include "host/record/serialise.hpp"
@@ -18,21 +17,6 @@ namespace liana {
 namespace {
 
 using Images = std::map<std::uint64_t, std::string>;  // controller_image messages by next tick
-
-// No checksum vouches for a file that was cut short: what sizes the core's loops is looked at before the core sees it.
-void require_plausible(const cable::RobotTable& table, const std::string& directory) {
-  const auto within = [](std::int32_t value, std::int32_t least, std::int32_t most) {
-    return value >= least && value <= most;
-  };
-  bool plausible = within(table.segment_count, 1, cable::kMaxSegments) && table.interval_ticks > 0;
-  for (std::size_t m = 0; plausible && m < static_cast<std::size_t>(table.segment_count); ++m) {
-    plausible = within(table.segment[m].modules, 1, cable::kMaxModules) &&
-                within(table.segment[m].cables, 3, cable::kMaxSegmentCables);
-  }
-  if (!plausible)
-    throw std::runtime_error("recording " + directory +
-                             ": damaged: its robot table makes no sense; take a good copy of the file");
-}
 
 // Throws std::runtime_error when a byte of the file is not as it was written; true when the file is whole, false when
 // it was cut short.
@@ -51,7 +35,7 @@ class Replayer {
   Replayer(ReplayResult& result, const std::string& directory) : result_(result), directory_(directory) {}
 
   void take(const std::string& topic, std::string_view data) {
-    if (topic == kStartTopic) start_from(data);
+    if (topic == kStartTopic) start_from(data, directory_ + "/" + kRecordingFile);
     if (topic == kInputsTopic) inputs(data);
     if (topic == kOutputsTopic) outputs(data);
   }
@@ -64,34 +48,32 @@ class Replayer {
   bool started() const { return controller_.has_value(); }
 
  private:
-  bool start_from(std::string_view data) {
-    const ControllerImage image = parse_image(data);
-    require_plausible(image.table, directory_);
-    const bool usable = result_.same_build && image.controller_bytes.size() == sizeof(cable::Controller);
-    if (!image.fresh && !usable) return false;
-    controller_.emplace(image.table);
-    if (!image.fresh)
-      std::memcpy(static_cast<void*>(&*controller_), image.controller_bytes.data(), sizeof(cable::Controller));
+  bool start_from(std::string_view data, const std::string& file) {
+    const ControllerImage image = parse_image(data, file);
+    if (!image.fresh && !result_.same_build) return false;
+    controller_.emplace(image.fresh ? cable::Controller(image.table)
+                                    : controller_from(image.state, image.table, file));
     next_tick_ = image.next_tick;
     return true;
   }
 
+  void read_images(const std::string& file) {
+    images_.emplace();
+    if (!std::filesystem::exists(file)) return;
+    require_undamaged(file);
+    McapVisitor visitor;
+    visitor.message = [this, &file](const std::string&, std::uint32_t, std::uint64_t, std::string_view data) {
+      (*images_)[parse_image(data, file).next_tick] = data;
+    };
+    read_mcap(file, visitor);
+  }
+
   // After a gap, or in mid-run: goes on where there is an image.
   bool resume_at(std::uint64_t tick) {
-    if (!images_) {
-      images_.emplace();
-      McapVisitor visitor;
-      visitor.message = [this](const std::string&, std::uint32_t, std::uint64_t, std::string_view data) {
-        (*images_)[parse_image(data).next_tick] = data;
-      };
-      const std::string file = directory_ + "/" + kImagesFile;
-      if (std::filesystem::exists(file)) {
-        require_undamaged(file);
-        read_mcap(file, visitor);
-      }
-    }
+    const std::string file = directory_ + "/" + kImagesFile;
+    if (!images_) read_images(file);
     const auto found = images_->find(tick);
-    return found != images_->end() && start_from(found->second);
+    return found != images_->end() && start_from(found->second, file);
   }
 
   void inputs(std::string_view data) {

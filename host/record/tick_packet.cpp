@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "host/record/codec.hpp"
+#include "host/record/image.hpp"
 #include "host/record/serialise.hpp"
 
 namespace liana {
@@ -18,15 +19,27 @@ std::string tick_packet(const TickRecord& record, std::uint64_t dropped) {
   return out;
 }
 
-std::string image_packet(std::uint64_t next_tick, bool fresh, const cable::RobotTable& table,
-                         std::string_view controller_bytes) {
+namespace {
+
+std::string image_head(std::uint64_t next_tick, bool fresh, const cable::RobotTable& table) {
   std::string out;
   Writer writer(out);
   writer("kind", TickPacket::kImage);
   writer("next_tick", next_tick);
   writer("fresh", static_cast<std::uint8_t>(fresh));
   append_serialised(out, table);
-  out += controller_bytes;
+  return out;
+}
+
+}  // namespace
+
+std::string image_packet(std::uint64_t next_tick, const cable::RobotTable& table) {
+  return image_head(next_tick, true, table);
+}
+
+std::string image_packet(std::uint64_t next_tick, const cable::Controller& controller) {
+  std::string out = image_head(next_tick, false, controller.table());
+  append_state(out, controller);
   return out;
 }
 

@@ -12,8 +12,7 @@ namespace liana {
 // First byte of a packet. JSON packets start with '{' and never collide.
 enum class TickPacket : std::uint8_t {
   kTick = 1,  // u64 dropped, Inputs, Outputs
-  kImage =
-      2,  // u64 next tick, u8 fresh (1: the Controller has not ticked yet), RobotTable, then the Controller's bytes
+  kImage = 2,  // u64 next tick, u8 fresh (1: the Controller has not ticked yet), RobotTable, the Controller's fields
 };
 
 struct TickRecord {
@@ -24,10 +23,10 @@ struct TickRecord {
 // One packet per tick; `dropped` counts ticks that were lost on the way so far.
 std::string tick_packet(const TickRecord& record, std::uint64_t dropped);
 
-// One packet before the first tick (fresh, `controller_bytes` empty) and every kImageEveryTicks.
+// One packet before the first tick (of the table alone: the Controller has not ticked yet) and every kImageEveryTicks.
 constexpr std::uint64_t kImageEveryTicks = 1000;
-std::string image_packet(std::uint64_t next_tick, bool fresh, const cable::RobotTable& table,
-                         std::string_view controller_bytes);
+std::string image_packet(std::uint64_t next_tick, const cable::RobotTable& table);
+std::string image_packet(std::uint64_t next_tick, const cable::Controller& controller);
 
 // Splits a kTick packet into serialised inputs and outputs; throws std::runtime_error when its length is wrong.
 struct TickParts {

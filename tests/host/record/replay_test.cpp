@@ -53,9 +53,7 @@ std::string record_run(const std::string& folder, std::uint64_t ticks, Change ch
   cable::Controller controller(zhu2022::table());
   for (std::uint64_t tick = kFirstTick; tick < kFirstTick + ticks; ++tick) {
     if (tick == image_at) {
-      const std::string_view memory(reinterpret_cast<const char*>(&controller), sizeof controller);
-      const bool fresh = tick == kFirstTick;
-      recording.take(image_packet(tick, fresh, zhu2022::table(), fresh ? std::string_view() : memory));
+      recording.take(tick == kFirstTick ? image_packet(tick, zhu2022::table()) : image_packet(tick, controller));
     }
     TickRecord record{inputs_of(tick), controller.tick(inputs_of(tick))};
     change(record);
@@ -102,7 +100,7 @@ TEST(Replay, DeadlinesThatWereLostAreNoGapInARecording) {
   const std::string folder = fresh_folder("lost");
   Recording recording(folder, {"hash", "{}", "{}", "{}", "real", 0.004});
   cable::Controller controller(zhu2022::table());
-  recording.take(image_packet(kFirstTick, true, zhu2022::table(), {}));
+  recording.take(image_packet(kFirstTick, zhu2022::table()));
   std::uint64_t tick = kFirstTick;
   for (const std::uint32_t lost : {0u, 0u, 4u, 0u, 1u, 0u}) {
     cable::Inputs inputs = inputs_of(tick += lost);

@@ -1,0 +1,26 @@
+// Which values of the core's enumerations have a meaning.
+#pragma once
+
+#include "firmware_like/command/request.hpp"
+#include "firmware_like/command/telecommand.hpp"
+#include "firmware_like/math/ik_outcome.hpp"
+#include "firmware_like/safety/faults.hpp"
+#include "firmware_like/safety/supervisor.hpp"
+
+namespace liana {
+
+// True from the first to the last of an enumeration without gaps that starts at 0.
+template <class E>
+constexpr bool is_up_to(E value, E last) {
+  return value >= E{} && value <= last;
+}
+
+constexpr bool is_known(CommandKind kind) { return is_up_to(kind, CommandKind::kStop); }
+constexpr bool is_known(StopCategory category) { return is_up_to(category, StopCategory::kOff); }
+constexpr bool is_known(Phase phase) { return is_up_to(phase, Phase::kResetting); }
+constexpr bool is_known(IkOutcome outcome) { return is_up_to(outcome, IkOutcome::kUnreachable); }
+constexpr bool is_known(Request request) { return is_up_to(request, Request::kStop); }
+constexpr bool is_known(OperatingState state) { return is_up_to(state, OperatingState::kFault); }
+inline bool is_known(FaultNumber number) { return fault_info(number).number == number; }
+
+}  // namespace liana

@@ -1,0 +1,175 @@
+// Field lists of what a cable arm keeps between ticks, for images of its Controller.
+#pragma once
+
+#include "host/record/visit_core_state.hpp"
+
+namespace liana {
+
+template <class A, Like<cable::EstimatorState> T>
+void visit(A& a, T& s) {
+  a("theta_rad", s.theta_rad);
+  a("tension_N", s.tension_N);
+  a("residual_m", s.residual_m);
+  a("largest_step_rad", s.largest_step_rad);
+  a("primed", s.primed);
+}
+
+template <class A, Like<cable::TensionWatchState> T>
+void visit(A& a, T& s) {
+  a("slack_ticks", s.slack_ticks);
+  a("alarm_ticks", s.alarm_ticks);
+  a("overload_ticks", s.overload_ticks);
+}
+
+template <class A, Like<cable::CableWatchState> T>
+void visit(A& a, T& s) {
+  a("watching", s.watching);
+  a("newest", s.newest);
+  a("level_N", s.level_N);
+  a("residual_m", s.residual_m);
+  a("segment", s.segment);
+  a("cable", s.cable);
+  a("contradicts_ticks", s.contradicts_ticks);
+  a("suspect", s.suspect);
+  a("suspect_ticks", s.suspect_ticks);
+  a("suspect_rose", s.suspect_rose);
+  a("suspect_from_N", s.suspect_from_N);
+  a("reversals", s.reversals);
+}
+
+template <class A, Like<cable::HeldProfile> T>
+void visit(A& a, T& s) {
+  a("value_rad", s.value_rad);
+  a("channel", s.channel);
+}
+
+template <class A, Like<cable::PullSum> T>
+void visit(A& a, T& s) {
+  a("curvature", s.curvature);
+  a("pull", s.pull);
+}
+
+template <class A, Like<cable::HeldBounds> T>
+void visit(A& a, T& s) {
+  a("low", s.low);
+  a("high", s.high);
+}
+
+template <class A, Like<cable::ShapeState> T>
+void visit(A& a, T& s) {
+  a("rate_rad_s", s.rate_rad_s);
+  a("wanted_rad_s", s.wanted_rad_s);
+  a("pulls", s.pulls);
+  a("weight", s.weight);
+  a("next_pull", s.next_pull);
+  a("wanted_held", s.wanted_held);
+  a("rate_held", s.rate_held);
+}
+
+template <class A, Like<cable::LimiterState> T>
+void visit(A& a, T& s) {
+  a("theta_rad", s.theta_rad);
+  a("rate_rad_s", s.rate_rad_s);
+  a("reference_rad", s.reference_rad);
+  a("limits", s.limits);
+}
+
+template <class A, Like<cable::SegmentTrig> T>
+void visit(A& a, T& s) {
+  a("sin_pitch", s.sin_pitch);
+  a("cos_pitch", s.cos_pitch);
+  a("sin_yaw", s.sin_yaw);
+  a("cos_yaw", s.cos_yaw);
+}
+
+template <class A, Like<cable::Jacobian> T>
+void visit(A& a, T& s) {
+  a("linear", s.linear);
+  a("angular", s.angular);
+}
+
+template <class A, Like<cable::ArmKinematics> T>
+void visit(A& a, T& s) {
+  a("node_in_base", s.node_in_base);
+  a("tip_in_base", s.tip_in_base);
+  a("tip_jacobian", s.tip_jacobian);
+}
+
+template <class A, Like<cable::IkReport> T>
+void visit(A& a, T& s) {
+  a("position_error_m", s.position_error_m);
+  a("attitude_error_rad", s.attitude_error_rad);
+  a("outcome", s.outcome);
+  a("residual", s.residual);
+  a("limit_mask", s.limit_mask);
+}
+
+template <class A, Like<cable::MotionState> T>
+void visit(A& a, T& s) {
+  a("from", s.from);
+  a("to", s.to);
+  a("turn_rad", s.turn_rad);
+  a("interval_tick", s.interval_tick);
+  a("braking", s.braking);
+  a("filter", s.filter);
+  a("ik_rad", s.ik_rad);
+  a("shape", s.shape);
+  a("held", s.held);
+  a("held_mask", s.held_mask);
+  a("held_at_target", s.held_at_target);
+  a("limiter", s.limiter);
+  a("trig", s.trig);
+  a("arm", s.arm);
+  a("ik", s.ik);
+  a("limits", s.limits);
+}
+
+template <class A, Like<cable::SlipState> T>
+void visit(A& a, T& s) {
+  a("sigma", s.sigma);
+  a("part_m", s.part_m);
+}
+
+template <class A, Like<cable::CableGeometry> T>
+void visit(A& a, T& s) {
+  a("length_m", s.length_m);
+  a("part_m", s.part_m);
+  a("jacobian_m_rad", s.jacobian_m_rad);
+}
+
+template <class A, Like<cable::CableSolver::Segment> T>
+void visit(A& a, T& s) {
+  a("pp", s.pp);
+  a("pq", s.pq);
+  a("qq", s.qq);
+  a("inverse_det", s.inverse_det);
+}
+
+template <class A, Like<cable::CableSolver> T>
+void visit(A& a, T& s) {
+  a("segment", s.segment);
+}
+
+template <class A, Like<cable::CableModel> T>
+void visit(A& a, T& s) {
+  a("theta_rad", s.theta_rad);
+  a("geometry", s.geometry);
+  a("solver", s.solver);
+}
+
+template <class A, Like<cable::DampingState> T>
+void visit(A& a, T& s) {
+  a("standing_rad", s.standing_rad);
+  a("shift_rad", s.shift_rad);
+  a("output_rad", s.output_rad);
+}
+
+template <class A, Like<cable::TensionPlan> T>
+void visit(A& a, T& s) {
+  a("motor_N", s.motor_N);
+  a("floor_acted", s.floor_acted);
+  a("ceiling_exceeded", s.ceiling_exceeded);
+  a("balanced", s.balanced);
+}
+
+}  // namespace liana

@@ -1,0 +1,75 @@
+// Field lists of a serial arm: what it is asked, and what it keeps between ticks.
+#pragma once
+
+#include "firmware_like/serial_controller.hpp"
+#include "host/record/visit_core_state.hpp"
+
+namespace liana {
+
+template <class A, Like<serial::Setpoint> T>
+void visit(A& a, T& s) {
+  a("kind", s.kind);
+  a("tip_in_base", s.tip_in_base);
+  a("joint_rad", s.joint_rad);
+  a("tip_speed_m_s", s.tip_speed_m_s);
+}
+
+template <class A, Like<serial::JointReading> T>
+void visit(A& a, T& s) {
+  a("joint_rad", s.joint_rad);
+  a("heard", s.heard);
+  a("jumped", s.jumped);
+}
+
+template <class A, Like<serial::JointWatchState> T>
+void visit(A& a, T& s) {
+  a("reading", s.reading);
+  a("outside_ticks", s.outside_ticks);
+}
+
+template <class A, Like<serial::LimiterState> T>
+void visit(A& a, T& s) {
+  a("joint_rad", s.joint_rad);
+  a("rate_rad_s", s.rate_rad_s);
+  a("reference_rad", s.reference_rad);
+  a("limits", s.limits);
+}
+
+template <class A, Like<serial::Jacobian> T>
+void visit(A& a, T& s) {
+  a("linear", s.linear);
+  a("angular", s.angular);
+}
+
+template <class A, Like<serial::ArmKinematics> T>
+void visit(A& a, T& s) {
+  a("point_in_base", s.point_in_base);
+  a("tip_in_base", s.tip_in_base);
+  a("tip_jacobian", s.tip_jacobian);
+}
+
+template <class A, Like<serial::IkReport> T>
+void visit(A& a, T& s) {
+  a("residual", s.residual);
+  a("position_error_m", s.position_error_m);
+  a("attitude_error_rad", s.attitude_error_rad);
+  a("outcome", s.outcome);
+  a("limit_mask", s.limit_mask);
+}
+
+template <class A, Like<serial::MotionState> T>
+void visit(A& a, T& s) {
+  a("from", s.from);
+  a("to", s.to);
+  a("turn_rad", s.turn_rad);
+  a("interval_tick", s.interval_tick);
+  a("braking", s.braking);
+  a("filter", s.filter);
+  a("ik_rad", s.ik_rad);
+  a("limiter", s.limiter);
+  a("arm", s.arm);
+  a("ik", s.ik);
+  a("limits", s.limits);
+}
+
+}  // namespace liana
