@@ -7,13 +7,13 @@
 #include <stdexcept>
 
 #include "firmware_like/cable/arm/tension.hpp"
+#include "firmware_like/math/trig.hpp"
 
 namespace liana {
 namespace {
 
 using Index = std::size_t;
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr double kApart = 3.0;  // times the tolerance: then a pose off by all of it still shows an exchange
 constexpr Index kNamed = 3;
 

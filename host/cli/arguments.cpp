@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numbers>
 
 #include "firmware_like/cable/arm/setpoint.hpp"
+#include "firmware_like/math/trig.hpp"
 #include "host/system/errors.hpp"
 
 namespace liana {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kFarthest_m = 1000.0;  // no arm reaches so far, and squares of it are no problem for anybody
 constexpr double kLargestWeight = 1000.0;
 constexpr std::int64_t kLargestSeed = (std::int64_t{1} << 53) - 1;

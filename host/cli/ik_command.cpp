@@ -1,6 +1,6 @@
 #include <cstdio>
-#include <numbers>
 
+#include "firmware_like/math/trig.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/serial_commands.hpp"
@@ -11,8 +11,6 @@
 
 namespace liana {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Fixes the held angles, at their own value where one was given.
 void hold(const std::string& text, const cable::RobotTable& robot, solve::GoalIkProblem& problem) {

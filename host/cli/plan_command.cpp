@@ -2,8 +2,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 
+#include "firmware_like/math/trig.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/curve_file.hpp"
@@ -17,7 +17,6 @@
 namespace liana {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kTransitionShare =
     1.0 / 3.0;  // of the way, in which a held angle with another value than the start's gets there
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 #include <optional>
 
+#include "firmware_like/math/trig.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/config/theta_numbers.hpp"
@@ -20,8 +20,6 @@
 
 namespace liana {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 // --- what is asked ---
 

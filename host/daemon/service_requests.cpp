@@ -1,6 +1,7 @@
 // What each request of docs/api.md does.
 #include <cmath>
 
+#include "firmware_like/math/trig.hpp"
 #include "host/api/fields.hpp"
 #include "host/api/request_error.hpp"
 #include "host/daemon/device_messages.hpp"
@@ -10,8 +11,6 @@
 namespace liana {
 
 namespace {
-constexpr double kDegree = 0.017453292519943295;
-
 // Limit of a theta, free of what the way through radians left of it.
 double limit_deg(const cable::RobotTable& table, std::size_t theta) {
   return std::round(table.segment[theta / 2].theta_limit_rad / kDegree * 1e9) / 1e9;

@@ -1,5 +1,6 @@
 #include "host/system/plan_file.hpp"
 
+#include "firmware_like/math/trig.hpp"
 #include "host/config/field.hpp"
 #include "host/json/json.hpp"
 #include "host/plan/check/plan_check.hpp"
@@ -10,7 +11,6 @@
 namespace liana {
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr std::size_t kMostWaypoints = 2000;  // a followed curve has as many as it needs
 constexpr double kRounding_m = 1e-9;          // of angles that became degrees in between
 

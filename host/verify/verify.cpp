@@ -9,9 +9,6 @@ namespace liana {
 namespace {
 
 constexpr double kRounding = 1.0 + 1e-6;  // limits that the limiter reaches exactly
-// The gate lets cables pass 1.25 times the table's speed so that rounding to counts and the pretension ramp fit; so
-// does verification.
-constexpr double kCableSpeedMargin = 1.25;
 // The filter bounds the target; the tip itself may lead it a little while the servo IK catches up.
 constexpr double kTipSpeedMargin = 1.05;
 
@@ -73,7 +70,7 @@ void judge_tension(const cable::RobotTable& table, const cable::Outputs& outputs
 
 void judge_cables(const cable::RobotTable& table, const cable::Outputs& before, const cable::Outputs& after,
                   Judge& judge) {
-  const double way_m = kCableSpeedMargin * table.limits.cable_speed_m_s * table.tick_s;
+  const double way_m = kTargetSpeedMargin * table.limits.cable_speed_m_s * table.tick_s;
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
     judge.check(Refusal::kCableSpeed, "travel per tick [m] of cable", static_cast<int>(i),
                 after.payout_command_m[i] - before.payout_command_m[i], way_m);
