@@ -77,9 +77,10 @@ void StateRecording::take_events(const Json& events) {
 }
 
 void StateRecording::take_verdict(std::uint64_t tick, const Json& verdict) {
-  Json with_tick = verdict;
+  const bool is_none = !verdict.value("released", false) && verdict.value("text", "").empty();
   std::string text = verdict.dump();
-  if (text == verdict_seen_) return;
+  if (is_none || text == verdict_seen_) return;
+  Json with_tick = verdict;
   verdict_seen_ = std::move(text);
   with_tick["tick"] = tick;
   write(verdict_, tick, with_tick.dump());
