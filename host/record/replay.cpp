@@ -52,8 +52,7 @@ class Replayer {
   bool start_from(std::string_view data, const std::string& file) {
     const ControllerImage image = parse_image(data, file);
     if (!image.fresh && !result_.same_build) return false;
-    controller_.emplace(image.fresh ? cable::Controller(image.table)
-                                    : controller_from(image.state, image.table, file));
+    controller_.emplace(image.fresh ? cable::Controller(image.table) : controller_from(image.state, image.table, file));
     next_tick_ = image.next_tick;
     counts_ = counts_of(image.table);
     return true;
