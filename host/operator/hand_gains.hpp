@@ -3,6 +3,7 @@
 
 namespace liana {
 
+
 // Defaults are a calm, practised operator. Positions at the arm's tip unless the name says hand.
 struct HandGains {
   // Seeing

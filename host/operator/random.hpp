@@ -7,6 +7,7 @@
 
 namespace liana {
 
+
 // SplitMix64 stream; one per purpose, so that adding a draw in one place moves nothing elsewhere.
 class RandomStream {
  public:

@@ -6,6 +6,7 @@
 
 namespace liana {
 
+
 // At most 299 characters.
 template <typename... Values>
 std::string text(const char* format, Values... values) {

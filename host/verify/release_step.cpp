@@ -5,12 +5,12 @@
 namespace liana {
 
 Candidate ReleaseStep::candidate(const cable::Setpoint& setpoint, std::uint32_t owner, std::uint64_t first_tick,
-                                 std::uint64_t interval_ticks) {
+                             std::uint64_t interval_ticks) {
   return Candidate(Release::make(++last_sequence_, first_tick, first_tick + interval_ticks, owner, setpoint));
 }
 
 std::optional<cable::Telecommand> ReleaseStep::release(const Candidate& candidate, const ExecutionVerdict& execution,
-                                                       const SimulationVerdict& simulation) {
+                                                   const SimulationVerdict& simulation) {
   const std::uint64_t sequence = candidate.sequence();
   const bool both =
       execution.sequence == sequence && execution.passed() && simulation.sequence == sequence && simulation.passed();

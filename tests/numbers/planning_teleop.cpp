@@ -228,7 +228,8 @@ class Trial {
     if (dot(residual, reported) < kSameDirection * norm(residual) * norm(reported))
       figures_.broken[kResidualDirection] = true;
     const bool too_far = norm(state_.filter.pose.position_m) > 4.0 + kResidual;
-    if (state_.ik.outcome == IkOutcome::kConverged || (too_far && state_.ik.outcome != IkOutcome::kUnreachable)) {
+    if (state_.ik.outcome == IkOutcome::kConverged ||
+        (too_far && state_.ik.outcome != IkOutcome::kUnreachable)) {
       figures_.broken[kUnnamed] = true;
     }
   }

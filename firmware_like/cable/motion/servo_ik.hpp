@@ -16,8 +16,8 @@
 #include <cstdint>
 
 #include "firmware_like/cable/arm/kinematics.hpp"
-#include "firmware_like/cable/setpoint.hpp"
 #include "firmware_like/math/ik_outcome.hpp"
+#include "firmware_like/cable/setpoint.hpp"
 
 namespace liana::cable {
 

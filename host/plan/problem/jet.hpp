@@ -9,6 +9,7 @@
 
 namespace liana {
 
+
 struct Jet {
   double value = 0.0;
   double a = 0.0, b = 0.0;              // by pitch, by yaw
