@@ -166,7 +166,7 @@ void Service::forward_ticks() {
   const std::uint64_t lost = link_.report.value().records_lost + server_.dropped_ticks();
   while (const TickRecord* record = link_.ticks.front()) {
     note_emergencies(record->inputs);
-    if (wanted) server_.publish(Topic::kTick, tick_packet(*record, lost));
+    if (wanted) server_.publish(Topic::kTick, tick_packet(*record, lost, counts_of(config_.robot.table)));
     link_.ticks.pop();
   }
   if (boot_seen_ == BootPhase::kBooting || !wanted) return;

@@ -6,6 +6,7 @@
 #include "host/command_line/command_line.hpp"
 #include "host/json/json.hpp"
 #include "host/record/recording.hpp"
+#include "host/record/state_recording.hpp"
 
 namespace {
 
@@ -19,7 +20,7 @@ liana::RecordingInfo info_from(const liana::Json& welcome) {
 }
 
 // Until lianad ends or a signal comes. A state is answered with done, so that in lockstep time no tick is ever lost.
-void record_until_end(liana::ApiClient& client, liana::Recording& recording) {
+void record_until_end(liana::ApiClient& client, liana::Recording& recording, liana::StateRecording& states) {
   std::string packet;
   while (g_stop == 0) {
     if (!client.receive_bytes(packet, 0.5)) continue;
@@ -28,7 +29,9 @@ void record_until_end(liana::ApiClient& client, liana::Recording& recording) {
       continue;
     }
     const liana::Json message = liana::Json::parse(packet);
-    if (message.value("op", "") == "state") client.send({{"op", "done"}, {"tick", message.at("tick")}});
+    if (message.value("op", "") != "state") continue;
+    client.send({{"op", "done"}, {"tick", message.at("tick")}});
+    states.take(packet, message);
   }
 }
 
@@ -41,13 +44,16 @@ int run(const std::string& api, const std::string& directory) {
                {"subscribe", {"tick", "state"}}});
   const std::optional<liana::Json> welcome = client.receive(30.0);
   if (!welcome) throw std::runtime_error("lianad did not answer the archive's hello within 30 s");
-  liana::Recording recording(directory, info_from(*welcome));
+  const liana::RecordingInfo info = info_from(*welcome);
+  liana::Recording recording(directory, info);
+  liana::StateRecording states(directory, info.period_s);
   try {
-    record_until_end(client, recording);
+    record_until_end(client, recording, states);
   } catch (const std::runtime_error& gone) {
     std::fprintf(stderr, "liana-archive: %s; finishing the recording\n", gone.what());
   }
   recording.finish();
+  states.finish();
   std::printf("liana-archive: %llu ticks in %s/%s, %llu dropped\n", static_cast<unsigned long long>(recording.ticks()),
               directory.c_str(), liana::kRecordingFile, static_cast<unsigned long long>(recording.dropped()));
   return 0;

@@ -35,7 +35,7 @@ auto bits_of(T value) {
 // Appends fields to a string.
 class Writer {
  public:
-  explicit Writer(std::string& out) : out_(out) {}
+  explicit Writer(std::string& out, const RecordedCounts& counts = {}) : out_(out), counts_(counts) {}
 
   template <Scalar T>
   void operator()(const char*, const T& value) {
@@ -52,15 +52,21 @@ class Writer {
   template <class T>
   requires std::is_class_v<T>
   void operator()(const char*, const T& value) { visit(*this, value); }
+  template <class T, std::size_t N>
+  void first(const char* name, const std::array<T, N>& values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) (*this)(name, values[i]);
+  }
+  const RecordedCounts& counts() const { return counts_; }
 
  private:
   std::string& out_;
+  RecordedCounts counts_;
 };
 
 // Reads fields back; throws std::runtime_error when the bytes end early.
 class Reader {
  public:
-  explicit Reader(std::string_view in) : in_(in) {}
+  explicit Reader(std::string_view in, const RecordedCounts& counts = {}) : in_(in), counts_(counts) {}
 
   template <Scalar T>
   void operator()(const char* name, T& value) {
@@ -84,19 +90,25 @@ class Reader {
   template <class T>
   requires std::is_class_v<T>
   void operator()(const char*, T& value) { visit(*this, value); }
+  template <class T, std::size_t N>
+  void first(const char* name, std::array<T, N>& values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) (*this)(name, values[i]);
+  }
+  const RecordedCounts& counts() const { return counts_; }
   // Bytes read so far, and those that are left.
   std::size_t position() const { return at_; }
   std::size_t left() const { return in_.size() - at_; }
 
  private:
   std::string_view in_;
+  RecordedCounts counts_;
   std::size_t at_ = 0;
 };
 
 // Finds which field a byte offset of the serialised form belongs to.
 class FieldNamer {
  public:
-  explicit FieldNamer(std::size_t offset) : offset_(offset) {}
+  explicit FieldNamer(std::size_t offset, const RecordedCounts& counts = {}) : offset_(offset), counts_(counts) {}
 
   template <Scalar T>
   void operator()(const char* name, const T& value) {
@@ -106,8 +118,14 @@ class FieldNamer {
   }
   template <class T, std::size_t N>
   void operator()(const char* name, const std::array<T, N>& values) {
-    for (std::size_t i = 0; i < N; ++i) (*this)((std::string(name) + "[" + std::to_string(i) + "]").c_str(), values[i]);
+    first(name, values, N);
   }
+  template <class T, std::size_t N>
+  void first(const char* name, const std::array<T, N>& values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+      (*this)((std::string(name) + "[" + std::to_string(i) + "]").c_str(), values[i]);
+  }
+  const RecordedCounts& counts() const { return counts_; }
   template <class T>
   requires std::is_class_v<T>
   void operator()(const char* name, const T& value) {
@@ -121,6 +139,7 @@ class FieldNamer {
 
  private:
   std::size_t offset_;
+  RecordedCounts counts_;
   std::size_t at_ = 0;
   std::string path_, found_;
 };

@@ -1,4 +1,5 @@
-// MCAP files: writer and reader of the uncompressed, unchunked subset that recordings use (https://mcap.dev/spec).
+// MCAP files (https://mcap.dev/spec): a writer of chunked, indexed and, where the build can, compressed files, and a
+// reader of those, and of files without chunks.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,14 @@
 #include <string_view>
 
 #include "host/record/crc32.hpp"
+#include "host/record/mcap_summary.hpp"
 
 namespace liana {
+
+// A channel and the schema of its messages.
+struct McapChannel {
+  std::string topic, message_encoding, schema_encoding, schema;
+};
 
 class McapWriter {
  public:
@@ -21,16 +28,19 @@ class McapWriter {
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
-  // Declares a channel with a schema of its own; returns its id (1, 2, ...).
-  std::uint16_t add_channel(const std::string& topic, const std::string& encoding, const std::string& schema_text);
+  // Declares a channel with a schema of its own, of the topic's name; returns its id (1, 2, ...).
+  std::uint16_t add_channel(const McapChannel& wanted);
   void add_metadata(const std::string& name, const std::map<std::string, std::string>& values);
   void write_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data);
+  // Hands all that was written so far to the system: it outlives the process.
+  void flush() { close_chunk(); }
   // Ends the file properly, with the checksums of the format (data section, summary); throws std::runtime_error when
   // the disk refused any write. A file without it can still be read.
   void finish();
 
  private:
-  void record(std::uint8_t opcode, std::string_view content);
+  std::uint64_t record(std::uint8_t opcode, std::string_view content);  // returns where it begins
+  void close_chunk();
   void write(std::string_view bytes);
 
   struct Close {
@@ -39,7 +49,10 @@ class McapWriter {
   std::unique_ptr<std::FILE, Close> file_;
   std::string path_;
   std::string buffer_;
-  Crc32 crc_;  // of all that was written
+  Crc32 crc_;                  // of all that was written
+  std::uint64_t written_ = 0;  // bytes
+  mcap::OpenChunk chunk_;
+  mcap::Summary summary_;
   std::uint16_t channels_ = 0;
   bool failed_ = false;
 };

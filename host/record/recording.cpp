@@ -10,20 +10,26 @@ namespace liana {
 
 namespace {
 
-constexpr const char* kEncoding = "liana-fields-1";
+constexpr const char* kEncoding = "liana-fields-2";
 constexpr const char* kImageEncoding = "liana-image-2";
 
 // Lists the fields of one recorded structure, a line each: path and width in bytes.
 class FieldLister {
  public:
+  explicit FieldLister(const RecordedCounts& counts) : counts_(counts) {}
   template <Scalar T>
   void operator()(const char* name, const T& value) {
     text_ += path_ + name + " " + std::to_string(sizeof(bits_of(value))) + "\n";
   }
   template <class T, std::size_t N>
   void operator()(const char* name, const std::array<T, N>& values) {
-    (*this)((std::string(name) + "[" + std::to_string(N) + "]").c_str(), values[0]);
+    first(name, values, N);
   }
+  template <class T, std::size_t N>
+  void first(const char* name, const std::array<T, N>& values, std::size_t count) {
+    (*this)((std::string(name) + "[" + std::to_string(count) + "]").c_str(), values[0]);
+  }
+  const RecordedCounts& counts() const { return counts_; }
   template <class T>
   requires std::is_class_v<T>
   void operator()(const char* name, const T& value) {
@@ -35,19 +41,21 @@ class FieldLister {
   const std::string& text() const { return text_; }
 
  private:
+  RecordedCounts counts_;
   std::string path_, text_;
 };
 
-std::string inputs_schema() {
-  FieldLister lister;
+std::string inputs_schema(const RecordedCounts& counts) {
+  FieldLister lister(counts);
   const cable::Inputs inputs;
   visit(lister, inputs);
+  lister("telecommand_present", std::uint8_t{0});  // 0: the message ends here
   lister("telecommand", TelecommandFields{});
   return lister.text();
 }
 
-std::string outputs_schema() {
-  FieldLister lister;
+std::string outputs_schema(const RecordedCounts& counts) {
+  FieldLister lister(counts);
   const cable::Outputs outputs;
   visit(lister, outputs);
   return lister.text();
@@ -67,10 +75,8 @@ Recording::Recording(const std::string& directory, const RecordingInfo& info)
       images_file_(directory + "/" + kImagesFile, "liana " + build_id()),
       period_s_(info.period_s) {
   constexpr const char* kImageSchema = "next_tick 8, fresh 1, robot table, fields of the Controller";
-  start_ = ticks_file_.add_channel(kStartTopic, kImageEncoding, kImageSchema);
-  inputs_ = ticks_file_.add_channel(kInputsTopic, kEncoding, inputs_schema());
-  outputs_ = ticks_file_.add_channel(kOutputsTopic, kEncoding, outputs_schema());
-  image_ = images_file_.add_channel(kImageTopic, kImageEncoding, kImageSchema);
+  start_ = ticks_file_.add_channel({kStartTopic, kImageEncoding, kImageEncoding, kImageSchema});
+  image_ = images_file_.add_channel({kImageTopic, kImageEncoding, kImageEncoding, kImageSchema});
   ticks_file_.add_metadata("run", {{"build_id", build_id()},
                                    {"config_hash", info.config_hash},
                                    {"robot", info.robot_json},
@@ -85,14 +91,23 @@ void Recording::write(McapWriter& file, std::uint16_t channel, std::uint64_t tic
   file.write_message(channel, static_cast<std::uint32_t>(tick), time_ns, data);
 }
 
+// Their schemas say how many of each the robot has, which the first tick tells.
+void Recording::add_tick_channels(const RecordedCounts& counts) {
+  inputs_ = ticks_file_.add_channel({kInputsTopic, kEncoding, kEncoding, inputs_schema(counts)});
+  outputs_ = ticks_file_.add_channel({kOutputsTopic, kEncoding, kEncoding, outputs_schema(counts)});
+}
+
 void Recording::take(std::string_view packet) {
   if (tick_packet_kind(packet) == TickPacket::kImage) {
     const ControllerImage image = parse_image(packet.substr(1));
-    write(image.fresh ? ticks_file_ : images_file_, image.fresh ? start_ : image_, image.next_tick, packet.substr(1));
+    McapWriter& file = image.fresh ? ticks_file_ : images_file_;
+    write(file, image.fresh ? start_ : image_, image.next_tick, packet.substr(1));
+    file.flush();
     return;
   }
   const TickParts parts = split_tick_packet(packet);
   const std::uint64_t tick = tick_of(parts.inputs);
+  if (inputs_ == 0) add_tick_channels(parts.counts);
   write(ticks_file_, inputs_, tick, parts.inputs);
   write(ticks_file_, outputs_, tick, parts.outputs);
   dropped_ = parts.dropped;

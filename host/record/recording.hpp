@@ -9,6 +9,7 @@
 
 #include "firmware_like/cable/arm/robot_table.hpp"
 #include "host/record/mcap.hpp"
+#include "host/record/visit.hpp"
 
 namespace liana {
 
@@ -38,10 +39,11 @@ class Recording {
 
  private:
   void write(McapWriter& file, std::uint16_t channel, std::uint64_t tick, std::string_view data);
+  void add_tick_channels(const RecordedCounts& counts);
 
   McapWriter ticks_file_, images_file_;
   double period_s_;
-  std::uint16_t start_, inputs_, outputs_, image_;
+  std::uint16_t start_, image_, inputs_ = 0, outputs_ = 0;
   std::uint64_t ticks_ = 0, dropped_ = 0;
 };
 

@@ -7,6 +7,7 @@
 
 #include "firmware_like/cable_controller.hpp"
 #include "host/record/build_id.hpp"
+#include "host/record/codec.hpp"
 #include "host/record/image.hpp"
 #include "host/record/mcap.hpp"
 #include "host/record/recording.hpp"
@@ -51,9 +52,9 @@ class Replayer {
   bool start_from(std::string_view data, const std::string& file) {
     const ControllerImage image = parse_image(data, file);
     if (!image.fresh && !result_.same_build) return false;
-    controller_.emplace(image.fresh ? cable::Controller(image.table)
-                                    : controller_from(image.state, image.table, file));
+    controller_.emplace(image.fresh ? cable::Controller(image.table) : controller_from(image.state, image.table, file));
     next_tick_ = image.next_tick;
+    counts_ = counts_of(image.table);
     return true;
   }
 
@@ -78,15 +79,19 @@ class Replayer {
 
   void inputs(std::string_view data) {
     expected_.clear();
-    const cable::Inputs in = RecordingDecoder::inputs(data);
-    const bool follows =
-        controller_ &&
-        in.tick == next_tick_ + in.lost_ticks;  // deadlines that were lost are no gap: the core had no tick
-    if (!follows && !resume_at(in.tick)) {
+    std::uint64_t tick = 0;
+    std::uint32_t lost_ticks = 0;
+    Reader head(data);
+    head("tick", tick);
+    head("lost_ticks", lost_ticks);
+    // Deadlines that were lost are no gap: the core had no tick.
+    const bool follows = controller_ && tick == next_tick_ + lost_ticks;
+    if (!follows && !resume_at(tick)) {
       ++result_.missing_ticks;
       return;
     }
-    append_serialised(expected_, controller_->tick(in));
+    const cable::Inputs in = RecordingDecoder::recorded_inputs(data, counts_);
+    append_recorded(expected_, controller_->tick(in), counts_);
     next_tick_ = in.tick + 1;
   }
 
@@ -98,13 +103,14 @@ class Replayer {
     result_.first_differing_tick = next_tick_ - 1;
     std::size_t at = 0;
     while (at < data.size() && at < expected_.size() && data[at] == expected_[at]) ++at;
-    result_.first_differing_field = outputs_field_at(at);
+    result_.first_differing_field = outputs_field_at(at, counts_);
   }
 
   ReplayResult& result_;
   std::string directory_;
   std::optional<Images> images_;
   std::optional<cable::Controller> controller_;
+  RecordedCounts counts_;
   std::uint64_t next_tick_ = 0;
   std::string expected_;
 };

@@ -14,9 +14,9 @@ void check_length(std::size_t used, std::size_t given, const char* what) {
 }
 
 template <class T>
-T read_all(std::string_view bytes, const char* what) {
+T read_all(std::string_view bytes, const char* what, const RecordedCounts& counts = {}) {
   T value{};
-  Reader reader(bytes);
+  Reader reader(bytes, counts);
   visit(reader, value);
   check_length(reader.position(), bytes.size(), what);
   return value;
@@ -29,7 +29,38 @@ std::size_t size_of() {
   return bytes.size();
 }
 
+TelecommandFields fields_of(const cable::Telecommand& t) {
+  return {t.sequence(), t.first_tick(), t.expiry_tick(), t.owner(), t.setpoint()};
+}
+
 }  // namespace
+
+cable::Inputs RecordingDecoder::recorded_inputs(std::string_view bytes, const RecordedCounts& counts) {
+  cable::Inputs inputs;
+  TelecommandFields fields;
+  std::uint8_t present = 0;
+  Reader reader(bytes, counts);
+  visit(reader, inputs);
+  reader("telecommand_present", present);
+  if (present != 0) visit(reader, fields);
+  check_length(reader.position(), bytes.size(), "inputs");
+  inputs.telecommand =
+      Release::make(fields.sequence, fields.first_tick, fields.expiry_tick, fields.owner, fields.setpoint);
+  return inputs;
+}
+
+void append_recorded(std::string& out, const cable::Inputs& inputs, const RecordedCounts& counts) {
+  Writer writer(out, counts);
+  visit(writer, inputs);
+  const bool present = inputs.telecommand.kind() != CommandKind::kNone;
+  writer("telecommand_present", static_cast<std::uint8_t>(present ? 1 : 0));
+  if (present) writer("telecommand", fields_of(inputs.telecommand));
+}
+
+void append_recorded(std::string& out, const cable::Outputs& outputs, const RecordedCounts& counts) {
+  Writer writer(out, counts);
+  visit(writer, outputs);
+}
 
 cable::Inputs RecordingDecoder::inputs(std::string_view bytes) {
   cable::Inputs inputs;
@@ -44,11 +75,9 @@ cable::Inputs RecordingDecoder::inputs(std::string_view bytes) {
 }
 
 void append_serialised(std::string& out, const cable::Inputs& inputs) {
-  const cable::Telecommand& t = inputs.telecommand;
-  const TelecommandFields fields{t.sequence(), t.first_tick(), t.expiry_tick(), t.owner(), t.setpoint()};
   Writer writer(out);
   visit(writer, inputs);
-  visit(writer, fields);
+  writer("telecommand", fields_of(inputs.telecommand));
 }
 
 void append_serialised(std::string& out, const cable::Outputs& outputs) {
@@ -61,7 +90,9 @@ void append_serialised(std::string& out, const cable::RobotTable& table) {
   visit(writer, table);
 }
 
-cable::Outputs outputs_from(std::string_view bytes) { return read_all<cable::Outputs>(bytes, "outputs"); }
+cable::Outputs outputs_from(std::string_view bytes, const RecordedCounts& counts) {
+  return read_all<cable::Outputs>(bytes, "outputs", counts);
+}
 cable::RobotTable robot_table_from(std::string_view bytes) { return read_all<cable::RobotTable>(bytes, "robot_table"); }
 
 std::size_t serialised_inputs_size() {
@@ -74,8 +105,8 @@ std::size_t serialised_outputs_size() {
   return kSize;
 }
 
-std::string outputs_field_at(std::size_t offset) {
-  FieldNamer namer(offset);
+std::string outputs_field_at(std::size_t offset, const RecordedCounts& counts) {
+  FieldNamer namer(offset, counts);
   const cable::Outputs outputs;
   visit(namer, outputs);
   return namer.found();

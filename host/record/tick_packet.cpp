@@ -8,14 +8,19 @@
 
 namespace liana {
 
-std::string tick_packet(const TickRecord& record, std::uint64_t dropped) {
-  std::string out;
-  out.reserve(16 + serialised_inputs_size() + serialised_outputs_size());
+std::string tick_packet(const TickRecord& record, std::uint64_t dropped, const RecordedCounts& counts) {
+  std::string inputs, out;
+  append_recorded(inputs, record.inputs, counts);
+  out.reserve(16 + inputs.size() + serialised_outputs_size());
   Writer writer(out);
   writer("kind", TickPacket::kTick);
   writer("dropped", dropped);
-  append_serialised(out, record.inputs);
-  append_serialised(out, record.outputs);
+  writer("drives", counts.drives);
+  writer("thetas", counts.thetas);
+  writer("segments", counts.segments);
+  writer("inputs_bytes", static_cast<std::uint32_t>(inputs.size()));
+  out += inputs;
+  append_recorded(out, record.outputs, counts);
   return out;
 }
 
@@ -44,16 +49,23 @@ std::string image_packet(std::uint64_t next_tick, const cable::Controller& contr
 }
 
 TickParts split_tick_packet(std::string_view packet) {
-  constexpr std::size_t kHead = 9;
-  if (packet.size() != kHead + serialised_inputs_size() + serialised_outputs_size()) {
+  TickParts parts;
+  std::uint32_t inputs_bytes = 0;
+  Reader reader(packet.substr(1));
+  reader("dropped", parts.dropped);
+  reader("drives", parts.counts.drives);
+  reader("thetas", parts.counts.thetas);
+  reader("segments", parts.counts.segments);
+  reader("inputs_bytes", inputs_bytes);
+  const bool fits = parts.counts.drives <= kMaxDrives && parts.counts.thetas <= cable::kMaxTheta &&
+                    parts.counts.segments <= cable::kMaxSegments && inputs_bytes < reader.left();
+  if (!fits) {
     throw std::runtime_error("tick packet of " + std::to_string(packet.size()) +
                              " bytes: lianad and archive are of different versions");
   }
-  TickParts parts;
-  Reader reader(packet.substr(1));
-  reader("dropped", parts.dropped);
-  parts.inputs = packet.substr(kHead, serialised_inputs_size());
-  parts.outputs = packet.substr(kHead + serialised_inputs_size());
+  const std::string_view content = packet.substr(1 + reader.position());
+  parts.inputs = content.substr(0, inputs_bytes);
+  parts.outputs = content.substr(inputs_bytes);
   return parts;
 }
 

@@ -12,6 +12,33 @@ namespace liana {
 template <class T, class Plain>
 concept Like = std::same_as<std::remove_const_t<T>, Plain>;
 
+// How many of each a robot has: what is written of arrays with more places. As made: all places.
+struct RecordedCounts {
+  std::uint8_t drives = kMaxDrives, thetas = cable::kMaxTheta, segments = cable::kMaxSegments;
+};
+
+inline RecordedCounts counts_of(const cable::RobotTable& table) {
+  return {static_cast<std::uint8_t>(table.drive_count()), static_cast<std::uint8_t>(table.theta_count()),
+          static_cast<std::uint8_t>(table.segment_count)};
+}
+
+// The counts that a visitor goes by; all places when it names none.
+template <class A>
+RecordedCounts counts_of_visitor(const A& a) {
+  if constexpr (requires { a.counts(); }) return a.counts();
+  return {};
+}
+
+// Visits the first `count` of an array; visitors without counts see the array.
+template <class A, class T>
+void visit_first(A& a, const char* name, T& values, std::size_t count) {
+  if constexpr (requires { a.first(name, values, count); }) {
+    a.first(name, values, count);
+  } else {
+    a(name, values);
+  }
+}
+
 // A telecommand's fields, in the open: Telecommand itself can be made only by Release and RecordingDecoder.
 struct TelecommandFields {
   std::uint64_t sequence = 0, first_tick = 0, expiry_tick = 0;
@@ -45,10 +72,10 @@ void visit(A& a, T& s) {
   a("kind", s.kind);
   a("tip_in_base", s.tip_in_base);
   a("held_mask", s.held_mask);
-  a("held_rad", s.held_rad);
+  visit_first(a, "held_rad", s.held_rad, counts_of_visitor(a).thetas);
   a("node", s.node);
   a("clear", s.clear);
-  a("joint_rad", s.joint_rad);
+  visit_first(a, "joint_rad", s.joint_rad, counts_of_visitor(a).thetas);
   a("tip_speed_m_s", s.tip_speed_m_s);
 }
 
@@ -79,7 +106,7 @@ void visit(A& a, T& i) {
   a("lost_ticks", i.lost_ticks);
   a("lost_bus_mask", i.lost_bus_mask);
   a("request", i.request);
-  a("drive", i.drive);
+  visit_first(a, "drive", i.drive, counts_of_visitor(a).drives);
 }
 
 template <class A, Like<Fault> T>
@@ -117,18 +144,18 @@ void visit(A& a, T& o) {
   a("homed", o.homed);
   a("active_sequence", o.active_sequence);
   a("faults", o.faults);
-  a("drive", o.drive);
-  a("theta_command_rad", o.theta_command_rad);
-  a("theta_rate_rad_s", o.theta_rate_rad_s);
-  a("theta_measured_rad", o.theta_measured_rad);
+  visit_first(a, "drive", o.drive, counts_of_visitor(a).drives);
+  visit_first(a, "theta_command_rad", o.theta_command_rad, counts_of_visitor(a).thetas);
+  visit_first(a, "theta_rate_rad_s", o.theta_rate_rad_s, counts_of_visitor(a).thetas);
+  visit_first(a, "theta_measured_rad", o.theta_measured_rad, counts_of_visitor(a).thetas);
   a("tip_goal", o.tip_goal);
   a("tip_command", o.tip_command);
   a("tip_speed_m_s", o.tip_speed_m_s);
   a("tip_rate_rad_s", o.tip_rate_rad_s);
-  a("node_command_m", o.node_command_m);
-  a("tension_plan_N", o.tension_plan_N);
-  a("tension_measured_N", o.tension_measured_N);
-  a("payout_command_m", o.payout_command_m);
+  visit_first(a, "node_command_m", o.node_command_m, counts_of_visitor(a).segments);
+  visit_first(a, "tension_plan_N", o.tension_plan_N, counts_of_visitor(a).drives);
+  visit_first(a, "tension_measured_N", o.tension_measured_N, counts_of_visitor(a).drives);
+  visit_first(a, "payout_command_m", o.payout_command_m, counts_of_visitor(a).drives);
   a("ik_position_error_m", o.ik_position_error_m);
   a("ik_attitude_error_rad", o.ik_attitude_error_rad);
   a("ik_outcome", o.ik_outcome);

@@ -23,6 +23,14 @@ constexpr std::uint64_t kAtChange = 0,
                         kAfterChange =
                             20;  // ticks after a change of state or of held variables: beginning, and in force
 
+// Recorded ticks hold only what the robot has; tapes hold every place of every array.
+template <class T>
+std::string whole(const T& value) {
+  std::string bytes;
+  append_serialised(bytes, value);
+  return bytes;
+}
+
 struct RecordedTick {
   std::string inputs, outputs;
 };
@@ -34,12 +42,15 @@ struct RecordedRun {
 
 RecordedRun read(const std::string& directory, std::uint64_t limit) {
   RecordedRun run;
+  RecordedCounts counts;
   McapVisitor visitor;
   visitor.message = [&](const std::string& topic, std::uint32_t, std::uint64_t, std::string_view data) {
     if (topic == kStartTopic) run.robot = parse_image(data).table;
-    if (topic == kInputsTopic && run.ticks.size() < limit) run.ticks.push_back({std::string(data), {}});
+    if (topic == kStartTopic) counts = counts_of(*run.robot);
+    if (topic == kInputsTopic && run.ticks.size() < limit)
+      run.ticks.push_back({whole(RecordingDecoder::recorded_inputs(data, counts)), {}});
     if (topic == kOutputsTopic && !run.ticks.empty() && run.ticks.back().outputs.empty())
-      run.ticks.back().outputs = data;
+      run.ticks.back().outputs = whole(outputs_from(data, counts));
   };
   const McapState state = read_mcap(directory + "/" + kRecordingFile, visitor);
   if (state != McapState::kWhole || !run.robot || run.ticks.empty()) {

@@ -135,6 +135,8 @@ class Picker:
 
     def pick(self, data: Bytes) -> list[Any]:
         """The wanted fields in their order; an array as a tuple."""
+        if len(data) < self.form.size:  # fields that are not there, as of no telecommand, are zero
+            data = bytes(data).ljust(self.form.size, b"\0")
         flat = self.form.unpack_from(data)
         return [get(flat) for get in self.getters]
 

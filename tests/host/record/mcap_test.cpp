@@ -19,7 +19,7 @@ std::string temporary(const std::string& name) {
 
 std::string write_small(const std::string& path, bool finish) {
   McapWriter file(path, "test");
-  const std::uint16_t channel = file.add_channel("inputs", "bytes", "a schema");
+  const std::uint16_t channel = file.add_channel({"inputs", "bytes", "text", "a schema"});
   file.add_metadata("run", {{"seed", "1"}, {"name", "x"}});
   file.write_message(channel, 7, 4000000, "hello");
   file.write_message(channel, 8, 8000000, std::string("\0z", 2));

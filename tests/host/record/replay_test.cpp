@@ -57,7 +57,7 @@ std::string record_run(const std::string& folder, std::uint64_t ticks, Change ch
     }
     TickRecord record{inputs_of(tick), controller.tick(inputs_of(tick))};
     change(record);
-    recording.take(tick_packet(record, 0));
+    recording.take(tick_packet(record, 0, counts_of(zhu2022::table())));
   }
   recording.finish();
   return folder;
@@ -105,7 +105,7 @@ TEST(Replay, DeadlinesThatWereLostAreNoGapInARecording) {
   for (const std::uint32_t lost : {0u, 0u, 4u, 0u, 1u, 0u}) {
     cable::Inputs inputs = inputs_of(tick += lost);
     inputs.lost_ticks = lost;
-    recording.take(tick_packet({inputs, controller.tick(inputs)}, 0));
+    recording.take(tick_packet({inputs, controller.tick(inputs)}, 0, counts_of(zhu2022::table())));
     ++tick;
   }
   recording.finish();
@@ -139,7 +139,7 @@ TEST(Replay, AFlippedByteAnywhereIsNoticedBeforeTheCoreSeesIt) {
 }
 
 TEST(Replay, ARecordingCutShortIsComparedAsFarAsItGoesAndNotCalledComplete) {
-  const std::string folder = record_run(fresh_folder("cut"), 100, [](TickRecord&) {});
+  const std::string folder = record_run(fresh_folder("cut"), 2000, [](TickRecord&) {});
   std::filesystem::resize_file(folder + "/" + kRecordingFile,
                                std::filesystem::file_size(folder + "/" + kRecordingFile) / 2);
   const ReplayResult result = replay(folder);
@@ -160,7 +160,7 @@ TEST(Replay, ARepeatedRunGivesTheSameFileByteForByte) {
   };
   const std::string first = recorded("one");
   EXPECT_EQ(first, recorded("two"));
-  EXPECT_GT(first.size(), 50u * 3000u);
+  EXPECT_GT(first.size(), 1000u);
 }
 
 TEST(Replay, AFolderWithoutARecordingIsRefused) {

@@ -1,0 +1,38 @@
+// What happened and why, for people and for tools that know no Liana: DIR/state.mcap with the JSON channels `state`
+// (as the API publishes it), `event` (each once) and `verdict` (each once), every one with a JSON Schema.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/json/json.hpp"
+#include "host/record/mcap.hpp"
+
+namespace liana {
+
+constexpr const char* kStateFile = "state.mcap";
+
+class StateRecording {
+ public:
+  // Creates the file (DIR must exist); throws std::runtime_error. `period_s` is that of the ticks.
+  StateRecording(const std::string& directory, double period_s);
+  // Takes one `state` message: `text` as it came, `state` parsed.
+  void take(std::string_view text, const Json& state);
+  // Ends the file; throws std::runtime_error when the disk refused any write.
+  void finish() { file_.finish(); }
+
+ private:
+  void write(std::uint16_t channel, std::uint64_t tick, std::string_view text);
+  void take_events(const Json& events);
+  void take_verdict(std::uint64_t tick, const Json& verdict);
+
+  McapWriter file_;
+  double period_s_;
+  std::uint16_t state_, event_, verdict_;
+  std::vector<std::string> events_seen_;  // those of the last message
+  std::string verdict_seen_;
+};
+
+}  // namespace liana
