@@ -304,7 +304,8 @@ class StopsFromTheCommandLine(SystemTest):
         code, stops, error = self.while_running("estop", [client])
         self.assertLess(time.monotonic() - start, 1.5)
         self.assertEqual(code, 1)
-        self.assertEqual({stop["api"]: stop["stopped"] for stop in stops}, {str(first.api): True, str(second.api): False})
+        stopped = {stop["api"]: stop["stopped"] for stop in stops}
+        self.assertEqual(stopped, {str(first.api): True, str(second.api): False})
         self.assertIn(str(second.api), error)
         self.assertIn("cut the power", error)
         client.until(lambda state: state["state"] == "DISABLED")
