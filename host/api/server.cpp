@@ -23,8 +23,16 @@ namespace {
 constexpr std::size_t kMaxInbox = 512;  // requests waiting for the next interval; beyond it the client's own sends wait
 constexpr std::size_t kMaxDroppable = 8;  // state or camera messages waiting for a slow subscriber
 constexpr std::size_t kMaxOutbox = 8192;  // packets of any kind waiting
-constexpr std::size_t kMaxClients = 32;
+constexpr std::size_t kMaxClients = 32;   // that have said hello
+// Connections that have not: so many at once, each for so long. They take no place from clients.
+constexpr std::size_t kMaxStrangers = 16;
+constexpr double kStrangerPatience_s = 2.0;
+// What clients outside lockstep get of one pump or dispatch together; each at least one packet. A stop is read within
+// this, however many send however much.
+constexpr double kShare_s = 0.002;
+constexpr double kMuch = 16384;                   // bytes lately, of clients that are read only while there is time
 constexpr std::size_t kLongestHeard = 16u << 20;  // of a packet that is too long a request; it may be a stop
+constexpr const char* kNoPlace = "32 clients are connected already; close one (a stop is heard all the same)";
 constexpr std::array<const char*, 6> kRoleNames{"mission", "operator", "camera", "archive", "client", "observer"};
 constexpr std::array<const char*, 3> kTopicNames{"state", "camera", "tick"};
 
@@ -62,6 +70,9 @@ struct ApiServer::Client {
   UniqueFd fd;
   ClientInfo info;
   bool greeted = false;
+  bool only_stops = false;  // said hello when no place was left
+  Clock::time_point since = Clock::now();
+  double load = 0.0;       // bytes read lately: who sends little is read first
   std::string why_closed;  // not empty: to be buried
   std::array<bool, kTopicNames.size()> subscribed{};
   std::uint64_t done_tick = 0;
@@ -74,6 +85,7 @@ struct ApiServer::Client {
 
   auto order() const { return std::tie(info.role, info.name, info.id); }
   bool wants(Topic topic) const { return greeted && why_closed.empty() && subscribed[static_cast<std::size_t>(topic)]; }
+  bool has_work() const { return !stops.empty() || !inbox.empty(); }
   bool in_lockstep() const { return greeted && info.lockstep && why_closed.empty(); }
   bool is_done(std::uint64_t tick) const { return has_done && done_tick == tick; }
   bool late_for(std::uint64_t tick) const { return in_lockstep() && awaited && !is_done(tick); }
@@ -92,36 +104,84 @@ void ApiServer::pump(double timeout_s) {
     const bool watched = client->why_closed.empty() && (in | out) != 0;  // a hang-up would wake us again and again
     polled.push_back({watched ? client->fd.get() : -1, static_cast<short>(in | out), 0});
   }
-  if (::poll(polled.data(), polled.size(), timeout_s > 0.0 ? static_cast<int>(timeout_s * 1e3) + 1 : 0) <= 0) return;
+  if (::poll(polled.data(), polled.size(), timeout_s > 0.0 ? static_cast<int>(timeout_s * 1e3) + 1 : 0) <= 0) {
+    drop_strangers();
+    return;
+  }
+  std::vector<Client*> talking;
   for (std::size_t i = 0; i < clients_.size(); ++i) {
     const short events = polled[i + 1].revents;
     if ((events & POLLOUT) != 0) flush(*clients_[i]);
-    if ((events & (POLLIN | POLLHUP | POLLERR)) != 0) read_from(*clients_[i]);
+    if ((events & (POLLIN | POLLHUP | POLLERR)) != 0) talking.push_back(clients_[i].get());
   }
+  read_from(talking);
   if (polled[0].revents != 0) accept_new();
+  drop_strangers();
 }
 
-void ApiServer::accept_new() {
-  const int fd = ::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-  if (fd < 0) return;
-  auto client = std::make_unique<Client>();
-  client->fd = UniqueFd(fd);
-  client->info.id = next_id_++;
-  if (clients_.size() >= kMaxClients) {
-    send_packet(fd, error_packet(Json(), "busy", "32 clients are connected already; close one"));
-    return;
+// Lockstep clients are read to the end, whatever the time: runs repeat. The others share a bounded time, one packet
+// each and those first that have sent little.
+void ApiServer::read_from(std::vector<Client*>& talking) {
+  const Clock::time_point start = Clock::now();
+  for (auto& client : clients_) client->load *= 0.5;
+  for (Client* client : talking) {
+    while (client->in_lockstep() && read_one(*client)) {
+    }
   }
-  clients_.push_back(std::move(client));
+  std::erase_if(talking, [](const Client* client) { return client->in_lockstep(); });
+  const auto has_had_enough = [start](const Client* client) {
+    return client->load > kMuch && seconds_since(start) > kShare_s;
+  };
+  do {
+    std::stable_sort(talking.begin(), talking.end(), [](auto* a, auto* b) { return a->load < b->load; });
+    std::erase_if(talking, [&](Client* client) { return has_had_enough(client) || !read_one(*client); });
+  } while (!talking.empty() && seconds_since(start) < kShare_s);
 }
 
-void ApiServer::read_from(Client& client) {
+// False when there is nothing more to read now.
+bool ApiServer::read_one(Client& client) {
+  if (!client.why_closed.empty() || !client.readable(lockstep_tick_)) return false;
   std::string packet;
-  while (client.why_closed.empty() && client.readable(lockstep_tick_)) {
-    const SocketResult result = receive_packet(client.fd.get(), packet, kLongestHeard);
-    if (result == SocketResult::kWouldBlock) return;
-    if (result == SocketResult::kClosed) return close(client, "connection closed");
-    take_packet(client, packet);
+  const SocketResult result = receive_packet(client.fd.get(), packet, kLongestHeard);
+  if (result == SocketResult::kClosed) close(client, "connection closed");
+  if (result != SocketResult::kDone) return false;
+  client.load += static_cast<double>(packet.size());
+  take_packet(client, packet);
+  return true;
+}
+
+// A newcomer has mostly said already what it wants. There is always a place to be heard from: strangers make room.
+void ApiServer::accept_new() {
+  for (std::size_t i = 0; i < kMaxStrangers; ++i) {
+    const int fd = ::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    if (fd < 0) return;
+    auto client = std::make_unique<Client>();
+    client->fd = UniqueFd(fd);
+    client->info.id = next_id_++;
+    while (read_one(*client)) {
+      if (client->load > kMaxPacketBytes) break;
+    }
+    flush(*client);
+    clients_.push_back(std::move(client));
   }
+}
+
+// Connections that have not said hello, and those that had no place when they did: the oldest go when there are too
+// many, and each goes when its time is over.
+void ApiServer::drop_strangers() {
+  std::vector<Client*> strangers;
+  for (auto& client : clients_) {
+    if (client->why_closed.empty() && (!client->greeted || client->only_stops)) strangers.push_back(client.get());
+  }
+  std::sort(strangers.begin(), strangers.end(), [](auto* a, auto* b) { return a->info.id < b->info.id; });
+  for (std::size_t i = 0; i < strangers.size(); ++i) {
+    if (strangers.size() - i > kMaxStrangers) close(*strangers[i], "made room for others before it said hello");
+    if (seconds_since(strangers[i]->since) > kStrangerPatience_s) close(*strangers[i], "did not say hello within 2 s");
+  }
+  // At once, also where nobody dispatches: descriptors are few. The handler has never heard of them.
+  std::erase_if(clients_, [](const auto& c) {
+    return !c->why_closed.empty() && !c->has_work() && (!c->greeted || c->only_stops);
+  });
 }
 
 void ApiServer::take_packet(Client& client, const std::string& packet) {
@@ -143,7 +203,9 @@ void ApiServer::take_packet(Client& client, const std::string& packet) {
       client.has_done = true;
       return;
     }
-    (op == "stop" ? client.stops : client.inbox).push_back(std::move(request));
+    if (op == "stop") return take_stop(client, std::move(request));
+    if (client.only_stops) throw RequestError("busy", kNoPlace);
+    client.inbox.push_back(std::move(request));
   } catch (const RequestError& error) {
     if (!take_bad_stop(client, packet, error.what()))
       enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
@@ -157,8 +219,16 @@ void ApiServer::take_packet(Client& client, const std::string& packet) {
 // A stop is taken however it is written; the answer says what was wrong with it.
 bool ApiServer::take_bad_stop(Client& client, const std::string& packet, const std::string& why) {
   const StopPacket stop = client.greeted ? read_stop(packet) : StopPacket{};
-  if (stop.is_stop) client.stops.push_back({{"op", "stop"}, {"reason", stop.reason}, {"remark", why}});
+  if (stop.is_stop) take_stop(client, {{"op", "stop"}, {"reason", stop.reason}, {"remark", why}});
   return stop.is_stop;
+}
+
+// At once, also while others are waited for. In lockstep time a client's stop has its place among its other requests.
+void ApiServer::take_stop(Client& client, Json stop) {
+  client.stops.push_back(std::move(stop));
+  if (client.in_lockstep() && lockstep_tick_ != UINT64_MAX) return;
+  serve_stops(client);
+  flush(client);
 }
 
 void ApiServer::greet(Client& client, const Json& request) {
@@ -174,6 +244,13 @@ void ApiServer::greet(Client& client, const Json& request) {
   }
   if (client.info.lockstep) client.subscribed[static_cast<std::size_t>(Topic::kState)] = true;
   client.greeted = true;
+  const auto has_place = [](const auto& c) { return c->greeted && !c->only_stops && c->why_closed.empty(); };
+  if (std::count_if(clients_.begin(), clients_.end(), has_place) >= static_cast<std::ptrdiff_t>(kMaxClients)) {
+    client.only_stops = true;
+    client.info.lockstep = false;
+    client.subscribed = {};
+    throw RequestError("busy", kNoPlace);
+  }
   Json welcome = handler_.welcome(client.info);
   if (request.contains("id")) welcome["id"] = request["id"];
   enqueue(client, Topic::kState, false, welcome.dump());
@@ -182,15 +259,23 @@ void ApiServer::greet(Client& client, const Json& request) {
 void ApiServer::dispatch() {
   std::sort(clients_.begin(), clients_.end(), [](const auto& a, const auto& b) { return a->order() < b->order(); });
   for (auto& client : clients_) serve_stops(*client);
+  const auto busy = std::count_if(clients_.begin(), clients_.end(), [](const auto& c) { return c->has_work(); });
   for (auto& client : clients_) {
-    while (!client->inbox.empty()) {
-      const Json request = std::move(client->inbox.front());
-      client->inbox.pop_front();
-      answer_one(*client, request);
-    }
+    serve(*client, kShare_s / static_cast<double>(busy + 1));
     flush(*client);
   }
   bury();
+}
+
+// What a client outside lockstep has beyond its share waits for the next call.
+void ApiServer::serve(Client& client, double share_s) {
+  const Clock::time_point start = Clock::now();
+  while (!client.inbox.empty()) {
+    const Json request = std::move(client.inbox.front());
+    client.inbox.pop_front();
+    answer_one(client, request);
+    if (!client.info.lockstep && seconds_since(start) > share_s) return;
+  }
 }
 
 void ApiServer::serve_stops(Client& client) {
@@ -285,7 +370,7 @@ void ApiServer::wait_done(std::uint64_t tick, double timeout_s) {
 
 bool ApiServer::has_role(Role role) const {
   return std::any_of(clients_.begin(), clients_.end(),
-                     [role](const auto& c) { return c->greeted && c->info.role == role; });
+                     [role](const auto& c) { return c->greeted && !c->only_stops && c->info.role == role; });
 }
 
 bool ApiServer::has_subscriber(Topic topic) const {
@@ -300,11 +385,11 @@ void ApiServer::close(Client& client, const std::string& why) {
 void ApiServer::bury() {
   std::vector<std::unique_ptr<Client>> dead;
   for (auto& client : clients_) {
-    if (!client->why_closed.empty()) dead.push_back(std::move(client));
+    if (!client->why_closed.empty() && !client->has_work()) dead.push_back(std::move(client));
   }
   std::erase(clients_, nullptr);
   for (const auto& client : dead) {
-    if (client->greeted) handler_.gone(client->info, client->why_closed);
+    if (client->greeted && !client->only_stops) handler_.gone(client->info, client->why_closed);
   }
 }
 

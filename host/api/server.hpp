@@ -42,10 +42,11 @@ class ApiServer {
   ApiServer(const std::string& path, ApiHandler& handler);
   ~ApiServer();
 
-  // Moves packets between sockets and queues, waiting up to `timeout_s` for something to do.
+  // Moves packets between sockets and queues, waiting up to `timeout_s` for something to do. A stop of a client outside
+  // lockstep is handed to the handler at once. Clients outside lockstep that send much are read for 2 ms in all.
   void pump(double timeout_s);
   // Hands every queued request to the handler: stops of all clients first, then the others by role and name of the
-  // client, each in its own order.
+  // client, each in its own order. Clients outside lockstep share 2 ms; what is left waits for the next call.
   void dispatch();
   // Sends to every subscriber of the topic. Slow subscribers lose their oldest state and camera messages, and newest
   // ticks (counted), but no message that was published as one to `keep`.
@@ -69,11 +70,15 @@ class ApiServer {
  private:
   struct Client;
   void accept_new();
-  void read_from(Client& client);
+  void drop_strangers();
+  void read_from(std::vector<Client*>& talking);
+  bool read_one(Client& client);
   void take_packet(Client& client, const std::string& packet);
   bool take_bad_stop(Client& client, const std::string& packet, const std::string& why);
   void greet(Client& client, const Json& request);
+  void take_stop(Client& client, Json stop);
   void serve_stops(Client& client);
+  void serve(Client& client, double share_s);
   void answer_one(Client& client, const Json& request);
   void enqueue(Client& client, Topic topic, bool droppable, const std::string& packet);
   void flush(Client& client);

@@ -87,7 +87,7 @@ UniqueFd listen_at(const std::string& option, const std::string& path) {
   ::unlink(before.c_str());
   UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (fd.get() < 0 || ::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      ::listen(fd.get(), 16) != 0 || ::rename(before.c_str(), path.c_str()) != 0) {
+      ::listen(fd.get(), 64) != 0 || ::rename(before.c_str(), path.c_str()) != 0) {
     fail(std::string("cannot listen: ") + std::strerror(errno) + "; give a path in a folder you may write");
   }
   return fd;

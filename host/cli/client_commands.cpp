@@ -101,19 +101,4 @@ int status_command(const ClientOptions& options) {
   return exit_code_of(talks);
 }
 
-int estop_command(const ClientOptions& options) {
-  const auto stop = [](ApiClient& client) { client.send({{"op", "stop"}, {"id", 1}}); };
-  std::vector<Talk> talks = begin_talks(options, "liana estop", Observer::kBlind, stop);
-  for (Talk& talk : talks) {
-    answer_of(talk, "ok", "lianad did not confirm the stop within 5 s; cut the power");
-    const bool stopped = talk.problem.empty();
-    if (options.json) {
-      std::puts(Json{{"api", talk.api}, {"stopped", stopped}}.dump().c_str());
-    } else if (stopped) {
-      std::printf("%s: stop, brakes, then disabled\n", talk.api.c_str());
-    }
-  }
-  return exit_code_of(talks);
-}
-
 }  // namespace liana

@@ -193,10 +193,10 @@ function Runner:fault_names()
   return #names > 0 and table.concat(names, ", ") or "none named"
 end
 
--- A reason that no limit on packets and no encoding can keep from lianad, which shows 200 bytes of it. The report has the
--- whole text.
+-- A reason that no limit on packets and no encoding can keep from lianad, which shows 200 bytes of it. The report has
+-- the whole text.
 local function short(reason)
-  return (reason:sub(1, 200):gsub("[^\32-\126]", "?"))
+  return (string.char(reason:byte(1, 200)):gsub("[^\32-\126]", "?"))
 end
 
 -- Ends the step with `outcome` and does what the step says; without a step, holds.

@@ -243,6 +243,19 @@ TEST(Mission, ATimeLimitThatPassesDuringAMoveSaysSo) {
       << run.ended.error;
 }
 
+TEST(Mission, AStopForAReasonTooLongForAPacketIsStillSent) {
+  const TemporaryFolder folder;
+  const MissionRun run = run_mission_against(
+      {}, folder.write("given.lua",
+                       "local liana = require 'liana'\nreturn liana.mission 'given' { liana.step 'only' {\n"
+                       "exit = liana.condition(('long '):rep(20000), function() return false end),\n"
+                       "device = 'none', time_limit_s = 1, on_fail = 'stop' } }\n"));
+  EXPECT_EQ(run.ended.code, 1);
+  ASSERT_EQ(run.ops("stop").size(), 1u) << run.ended.error.substr(0, 500);
+  EXPECT_EQ(run.last_command(), "stop");
+  EXPECT_LT(run.ops("stop")[0].size(), 300u);
+}
+
 TEST(Mission, AnErrorInAStepNamesFileAndLineAndHolds) {
   const TemporaryFolder folder;
   const MissionRun run = run_mission_against(

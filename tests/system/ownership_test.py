@@ -1,10 +1,14 @@
 """One owner of motion, and a stop that anybody may send (A29, C5)."""
+import contextlib
 import json
 import os
 import pathlib
 import shutil
+import signal
+import socket
 import subprocess
 import tempfile
+import time
 import unittest
 import unittest.mock
 
@@ -281,6 +285,45 @@ class StopsFromTheCommandLine(SystemTest):
         self.assertEqual(client.state["state"], "DISABLED")
         self.assertEqual(self.while_running("clear", [client])[1][0]["stop"], None)
         client.enable()
+
+    def test_one_system_that_stands_still_keeps_the_stop_from_no_other_and_is_named_within_a_second(self):
+        first, client = self.moving()
+        second, other = self.moving()
+        process = second.children["lianad"]
+        process.send_signal(signal.SIGSTOP)
+        self.addCleanup(process.send_signal, signal.SIGCONT)
+        strangers = []
+        for _ in range(80):  # more than its queue of connections holds
+            stranger = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+            self.addCleanup(stranger.close)
+            stranger.setblocking(False)
+            with contextlib.suppress(BlockingIOError):
+                stranger.connect(str(second.api))
+            strangers.append(stranger)
+        start = time.monotonic()
+        code, stops, error = self.while_running("estop", [client])
+        self.assertLess(time.monotonic() - start, 1.5)
+        self.assertEqual(code, 1)
+        stopped = {stop["api"]: stop["stopped"] for stop in stops}
+        self.assertEqual(stopped, {str(first.api): True, str(second.api): False})
+        self.assertIn(str(second.api), error)
+        self.assertIn("cut the power", error)
+        client.until(lambda state: state["state"] == "DISABLED")
+        process.send_signal(signal.SIGCONT)
+        for stranger in strangers:
+            stranger.close()
+        self.assertEqual(self.while_running("estop", [client, other])[0], 0)
+        other.until(lambda state: state["state"] == "DISABLED")
+
+    def test_silent_clients_do_not_lock_the_stop_out(self):
+        system, client = self.moving()
+        for _ in range(40):
+            stranger = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+            self.addCleanup(stranger.close)
+            stranger.connect(str(system.api))
+            client.step()
+        self.assertEqual(self.while_running("estop", [client])[0], 0)
+        client.until(lambda state: state["state"] == "DISABLED")
 
     def test_a_fault_that_is_still_there_is_not_cleared_and_several_systems_are_not_cleared_at_once(self):
         first, client = self.moving([{"drive": 3, "kind": "silent", "at_slot": 2500}])

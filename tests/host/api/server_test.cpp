@@ -201,6 +201,77 @@ TEST_F(Api, ASilentLockstepClientIsDroppedAndNamed) {
   EXPECT_THROW(client.receive(1.0), std::runtime_error);
 }
 
+TEST_F(Api, SilentConnectionsMakeRoomForTheNewest) {
+  std::vector<ApiClient> silent;
+  for (int i = 0; i < 100; ++i) {
+    silent.push_back(ApiClient::connect(path_));
+    server_.pump(0.001);
+  }
+  ApiClient client = join("liana estop", "observer");
+  EXPECT_EQ(raw(client, R"({"op":"stop","id":1})").value("op", ""), "ok");
+  EXPECT_THROW(silent.front().receive(1.0), std::runtime_error);
+  silent.back().send({{"op", "hello"}, {"name", "late"}, {"role", "client"}});
+  EXPECT_EQ(answer(silent.back()).value("op", ""), "welcome") << "the newest of the silent ones has its place";
+}
+
+TEST_F(Api, AConnectionThatNeverSaysHelloIsDropped) {
+  ApiClient silent = ApiClient::connect(path_);
+  for (int i = 0; i < 25; ++i) {
+    server_.pump(0.1);
+    ::usleep(100000);
+  }
+  EXPECT_THROW(silent.receive(0.0), std::runtime_error);
+}
+
+TEST_F(Api, AStopIsHeardThoughEveryPlaceIsTaken) {
+  std::vector<ApiClient> clients;
+  for (int i = 0; i < 32; ++i) clients.push_back(join("c" + std::to_string(i), "client"));
+  ApiClient late = ApiClient::connect(path_);
+  late.send({{"op", "hello"}, {"name", "late"}, {"role", "observer"}});
+  late.send({{"op", "move"}, {"id", 1}});
+  late.send({{"op", "stop"}, {"id", 2}});
+  EXPECT_EQ(answer(late).value("code", ""), "busy");
+  EXPECT_EQ(answer(late).value("code", ""), "busy");
+  EXPECT_EQ(answer(late), Json({{"op", "ok"}, {"id", 2}, {"extra", 1}}));
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"late:stop"}));
+}
+
+TEST_F(Api, AStopIsReadWhileOthersFlood) {
+  std::vector<ApiClient> flooding;
+  for (int i = 0; i < 28; ++i) flooding.push_back(join("f" + std::to_string(i), "observer"));
+  std::string numbers = "[0";
+  for (int i = 0; i < 30000; ++i) numbers += ",1";
+  const std::string large = R"({"op":"move","x":)" + numbers + "]}";
+  const auto flood = [&] {
+    for (const ApiClient& client : flooding) {
+      while (send_packet(client.fd(), large) == SocketResult::kDone) {
+      }
+    }
+  };
+  for (int i = 0; i < 20; ++i) {
+    flood();
+    server_.pump(0.001);
+    server_.dispatch();
+  }
+  flood();
+  ApiClient client = ApiClient::connect(path_);
+  client.send({{"op", "hello"}, {"name", "estop"}, {"role", "observer"}});
+  client.send({{"op", "stop"}, {"id", 1}});
+  const auto heard = [&] { return std::count(recorder_.log.begin(), recorder_.log.end(), "estop:stop") == 1; };
+  int pumps = 0;
+  for (; pumps < 3 && !heard(); ++pumps) server_.pump(0.001);
+  EXPECT_TRUE(heard()) << pumps;
+  server_.dispatch();
+  EXPECT_EQ(client.receive(1.0).value_or(Json()).value("op", ""), "welcome");
+}
+
+TEST_F(Api, AStopIsHandledWhileALockstepClientIsAwaited) {
+  ApiClient late = join("m", "mission", true), watcher = join("w", "observer");
+  watcher.send({{"op", "stop"}});
+  server_.wait_done(5, 0.05);
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"w:stop"}));
+}
+
 TEST_F(Api, ASecondServerOnTheSamePathIsRefused) {
   EXPECT_THROW(ApiServer(path_, recorder_), std::runtime_error);
   EXPECT_THROW(ApiServer(std::string(200, 'x'), recorder_), std::runtime_error);
