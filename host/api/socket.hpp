@@ -33,8 +33,8 @@ enum class SocketResult { kDone, kWouldBlock, kClosed };
 // Writes one packet without waiting; kClosed when the peer is gone.
 SocketResult send_packet(int fd, std::string_view packet);
 
-// Reads one packet without waiting; kClosed when the peer is gone. Packets over `most_bytes` arrive cut to that size plus
-// one. The text is only as large as the packet.
+// Reads one packet without waiting; kClosed when the peer is gone. Packets over `most_bytes` arrive cut to that size
+// plus one. The text is only as large as the packet.
 SocketResult receive_packet(int fd, std::string& packet, std::size_t most_bytes = kMaxPacketBytes);
 
 // Waits until `fd` is readable (or writable), at most `timeout_s`; true when it is.

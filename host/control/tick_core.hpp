@@ -10,8 +10,8 @@ class TickCore {
  public:
   TickCore(const cable::RobotTable& table, Link& link) : controller_(table), link_(link) {}
 
-  // One tick: adds a stop that was pressed, or else the next request, and the telecommand that is due to `inputs`, runs the Controller, and records the
-  // tick.
+  // One tick: adds a stop that was pressed, or else the next request, and the telecommand that is due to `inputs`, runs
+  // the Controller, and records the tick.
   const cable::Outputs& step(cable::Inputs& inputs);
   // Makes the state after this tick visible to the service; when a command interval has ended, the Controller's image,
   // too.

@@ -22,7 +22,8 @@ void ImageReader::refuse(const char* name, const std::string& value, const std::
 }
 
 void ImageReader::require_end() const {
-  if (reader_.left() > 0) refuse("end", std::to_string(reader_.left()) + " more bytes", "nothing behind the last field");
+  if (reader_.left() > 0)
+    refuse("end", std::to_string(reader_.left()) + " more bytes", "nothing behind the last field");
 }
 
 void ImageReader::check_number(std::string_view name, double value) const {

@@ -15,7 +15,7 @@
 
 namespace liana {
 
-constexpr double kLargestNumber = 1e12;  // of a state: far above any real one, and its products are still finite
+constexpr double kLargestNumber = 1e12;       // of a state: far above any real one, and its products are still finite
 constexpr double kLargestAngle_rad = 1000.0;  // what the core's sine is made for; fields that end in _rad
 
 // How many of each the robot has: what indices of its state are checked against.
