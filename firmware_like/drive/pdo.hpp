@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -16,7 +17,7 @@ constexpr std::int32_t kRpdo1Bytes = 6;
 constexpr std::int32_t kTpdo1Bytes = 8;
 
 // Node id of a drive, 1-based; drive i (0-based) drives cable i.
-constexpr std::uint32_t node_of_drive(std::int32_t drive) noexcept { return static_cast<std::uint32_t>(drive + 1); }
+constexpr std::uint32_t node_of_drive(std::size_t drive) noexcept { return static_cast<std::uint32_t>(drive + 1); }
 // COB-ID on which node 1..127 receives its command.
 constexpr std::uint32_t rpdo1_cob_id(std::uint32_t node) noexcept { return kRpdo1Base + node; }
 // COB-ID on which node 1..127 reports.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "firmware_like/drive/pdo.hpp"
+
 namespace liana {
 
 SendResult DriveBus::write_sync() noexcept {
   CanFrame sync;
-  sync.id = 0x080;
+  sync.id = kSyncCobId;
   SendResult worst = SendResult::kOk;
   for (int bus = 0; bus < bus_count(); ++bus) worst = std::max(worst, send(bus, sync));
   return worst;

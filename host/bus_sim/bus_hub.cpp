@@ -9,6 +9,7 @@
 #include <limits>
 #include <utility>
 
+#include "firmware_like/drive/pdo.hpp"
 #include "host/bus_sim/bus_listener.hpp"
 
 namespace liana {
@@ -99,7 +100,7 @@ void BusHub::frame_ended(const EndedFrame& ended) {
     if (static_cast<int>(i) == ended.sender || (is_controller && !ended.heard_by_controller)) continue;
     if (awake_from_ns(i) > now_ns && participants_[i].frames() >= wire::kMaxPacketFrames) continue;
     participants_[i].keep(wire::to_wire_frame(is_controller ? ended.controller_bus : ended.bus, ended.frame));
-    if (ended.frame.id == kSyncId) participants_[i].note_sync(now_ns);
+    if (ended.frame.id == kSyncCobId) participants_[i].note_sync(now_ns);
   }
 }
 

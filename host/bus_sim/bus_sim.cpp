@@ -1,4 +1,5 @@
 #include "host/bus_sim/bus_sim.hpp"
+#include "firmware_like/drive/pdo.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -126,8 +127,8 @@ std::uint64_t BusSim::next_end_ns() const {
 
 bool BusSim::is_sync_under_way() const {
   return std::any_of(lines_.begin(), lines_.end(), [](const Line& line) {
-    const auto holds_sync = [](const TransmitQueue& queue) { return queue.holds(kSyncId); };
-    return (line.busy && line.sending.frame.id == kSyncId) ||
+    const auto holds_sync = [](const TransmitQueue& queue) { return queue.holds(kSyncCobId); };
+    return (line.busy && line.sending.frame.id == kSyncCobId) ||
            std::any_of(line.queues.begin(), line.queues.end(), holds_sync);
   });
 }

@@ -14,7 +14,6 @@
 namespace liana {
 
 constexpr std::uint64_t kNeverNs = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint32_t kSyncId = 0x080;
 constexpr std::uint32_t kErrorFrameBits = 20;  // two superposed flags and the delimiter
 constexpr int kController = 0;                 // participant whose CAN controllers have error states
 constexpr int kStranger = -1;                  // sender of scripted frames

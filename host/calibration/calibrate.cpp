@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "host/calibration/fixture.hpp"
 #include "host/config/sha256.hpp"
@@ -85,7 +86,7 @@ std::optional<Index> followed_by(const Lengths& lengths, Index drive) {
 
 std::string problem_of(const RobotConfig& robot, const Lengths& lengths, Index drive, const Fit& own) {
   const std::optional<Index> other = followed_by(lengths, drive);
-  const int node = static_cast<int>(drive) + 1;
+  const int node = static_cast<int>(node_of_drive(drive));
   if (other && *other != drive) {
     return text(
         "drive %d (node %d) moves as cable %d does, not as its own: their cables are exchanged: wind each cable on its "
@@ -111,7 +112,7 @@ std::string problem_of(const RobotConfig& robot, const Lengths& lengths, Index d
 // Without a number of its own a drive cannot be told from another one when it is swapped later. Empty: it has one.
 std::string serial_problem_of(const RobotConfig& robot, std::span<const CalibrationReading> readings, Index drive) {
   const std::uint32_t serial = readings.front().serial[drive];
-  const int node = static_cast<int>(drive) + 1;
+  const int node = static_cast<int>(node_of_drive(drive));
   const std::string who =
       text("drive %d (node %d): serial number %u (object 0x1018:4)", static_cast<int>(drive), node, serial);
   if (serial == 0)

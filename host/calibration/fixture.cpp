@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "firmware_like/cable/arm/tension.hpp"
+#include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/trig.hpp"
 
 namespace liana {
@@ -91,7 +92,7 @@ std::string contradiction(const RobotConfig& robot, const std::string& name, con
   std::stable_sort(off.begin(), off.end(), [&](Index a, Index b) { return by_m(a) > by_m(b); });
   std::string out = "the arm does not lie in pose " + name + ": ";
   for (Index i = 0; i < std::min(off.size(), kNamed); ++i)
-    out += text("%sdrive %zu (node %zu) is off by %+.1f mm", i == 0 ? "" : ", ", off[i], off[i] + 1,
+    out += text("%sdrive %zu (node %u) is off by %+.1f mm", i == 0 ? "" : ", ", off[i], node_of_drive(off[i]),
                 1e3 * (paid_out_m[off[i]] - expected_m[off[i]]));
   if (off.size() > kNamed) out += text(" and %zu more", off.size() - kNamed);
   out += text(", allowed %.0f mm", 1e3 * kFixtureTolerance_m);

@@ -3,12 +3,13 @@
 
 #include <cstdint>
 
+#include "firmware_like/drive/pdo.hpp"
+
 namespace liana::canopen {
 
 constexpr std::uint8_t kMasterNode = 127;
 
 constexpr std::uint32_t kNmtId = 0x000;
-constexpr std::uint32_t kSyncId = 0x080;
 constexpr std::uint32_t kEmergencyBase = 0x080;
 constexpr std::uint32_t kTpdo1Base = 0x180;
 constexpr std::uint32_t kRpdo1Base = 0x200;
@@ -53,7 +54,7 @@ constexpr FrameRoute route(std::uint32_t id) noexcept {
   if (id > 0x7FF) return {};
   const auto node = static_cast<std::uint8_t>(id & 0x7F);
   if (id == kNmtId) return {FrameKind::kNmt, 0};
-  if (id == kSyncId) return {FrameKind::kSync, 0};
+  if (id == kSyncCobId) return {FrameKind::kSync, 0};
   if (node == 0) return {};
   switch (id & 0x780) {
     case kEmergencyBase:

@@ -1,4 +1,5 @@
 #include "host/canopen/drive_expectation.hpp"
+#include "firmware_like/drive/pdo.hpp"
 
 #include <cmath>
 #include <numeric>
@@ -49,7 +50,7 @@ std::vector<DriveExpectation> expectations(const Robot& robot, const std::vector
   const DriveExpectation common = common_expectation(robot, buses);
   std::vector<DriveExpectation> drives;
   for (std::size_t i = 0; i < window_counts.size(); ++i) {
-    const auto node = static_cast<std::int32_t>(i + 1);
+    const auto node = static_cast<std::int32_t>(node_of_drive(i));
     DriveExpectation drive = common;
     drive.node = static_cast<std::uint8_t>(node);
     drive.bus = buses.bus_of_node(node);

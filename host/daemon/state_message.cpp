@@ -3,6 +3,7 @@
 #include <array>
 
 #include "firmware_like/drive/cia402.hpp"
+#include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/safety/faults.hpp"
 #include "host/config/theta_numbers.hpp"
 #include "host/daemon/homing.hpp"
@@ -76,7 +77,7 @@ Json drives_json(const cable::RobotTable& table, const CycleReport& report, cons
                            tension_N = reported_tension_N(table, report.inputs);
   Json drives = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
-    drives.push_back({{"node", i + 1},
+    drives.push_back({{"node", node_of_drive(i)},
                       {"state", drive_state_name(decode(report.inputs.drive[i].statusword))},
                       {"position_m", position_m[i]},
                       {"tension_N", tension_N[i]},
