@@ -1,5 +1,6 @@
-// The one class that makes telecommands. Who may call it is held by tests/structure: the step after both verdicts
-// (host/verify), the reader of recordings, which gives back what was released then (host/record), and tests.
+// The one class that makes telecommands. tests/structure/rooms.ini holds who may include it: the step around both
+// verdicts (host/verify/release_step.cpp), which makes a candidate for the twin and lets it out only when both have
+// passed; the reader of recordings (host/record), which gives back what was released then; and tests.
 #pragma once
 
 #include <cstdint>

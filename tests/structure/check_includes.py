@@ -81,12 +81,13 @@ def file_of(target, file, root):
 def wrong_include(table, file, quoted, angled, root):
     """What is wrong with one include, or None."""
     room = room_of(file)
+    target = angled or file_of(quoted, file, root)
+    for library in table.libraries:
+        if target.startswith(library) and not table.knows(file, room, library):
+            included = f"<{angled}>" if angled else f'"{quoted}"'
+            return f"{included}: allowed in {' '.join(table.libraries[library]) or 'no folder'}"
     if angled:
-        for library in table.libraries:
-            if angled.startswith(library) and not table.knows(file, room, library):
-                return f"<{angled}>: allowed in {' '.join(table.libraries[library]) or 'no folder'}"
         return None
-    target = file_of(quoted, file, root)
     if room_of(target) == room or table.allows(file, room, target):
         return None
     return f'"{quoted}": {room} may include {" ".join([room, *table.rooms[room]])}'

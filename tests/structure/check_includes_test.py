@@ -63,6 +63,12 @@ class CheckIncludes(unittest.TestCase):
             problems(planted), ["firmware_like/arm/solve.cpp:1: includes <coin/IpTNLP.hpp>: allowed in host/plan"]
         )
 
+    def test_a_header_of_ours_that_few_may_include_is_held_too(self):
+        table = TABLE.replace("coin/: host/plan\n", "coin/: host/plan\nfirmware_like/math/key.hpp: host/plan\n")
+        planted = {"firmware_like/arm/maker.cpp": '#include "firmware_like/math/key.hpp"\n'}
+        expected = 'firmware_like/arm/maker.cpp:1: includes "firmware_like/math/key.hpp": allowed in host/plan'
+        self.assertIn(expected, problems(planted, table))
+
     def test_a_clock_outside_its_room_is_found_and_one_in_a_comment_is_not(self):
         planted = {"host/plan/slow.cpp": "// steady_clock\nclock_gettime(CLOCK_MONOTONIC, &now);\n"}
         self.assertEqual(len(problems(planted)), 1)
