@@ -110,9 +110,10 @@ void CableArm::start_ramp(const DriveCommands& sent) noexcept {
 std::uint32_t CableArm::plan_tensions(bool is_sound) noexcept {
   if (ramp_ >= 1.0 && is_sound) keep_taut(table_, estimator_.tension_N, lift_N_);
   tension_ = plan_tension(table_, model_.geometry, ratio_, lift_N_);
-  const std::uint32_t floor = tension_.floor_acted ? kLimitTensionFloor : 0u;
-  const std::uint32_t ceiling = tension_.ceiling_exceeded ? kLimitTensionCeiling : 0u;
-  return floor | ceiling;
+  std::uint32_t limits = 0;
+  if (tension_.floor_acted) limits |= kLimitTensionFloor;
+  if (tension_.ceiling_exceeded) limits |= kLimitTensionCeiling;
+  return limits;
 }
 
 // Damping, tension plan, cable map: commanded lengths. `is_sound`: no fault is latched.

@@ -3,10 +3,10 @@
 #include "firmware_like/cable_controller.hpp"
 
 namespace {
-liana::RobotTable table;
-liana::Controller controller(table);
-liana::Inputs inputs;
-liana::Outputs outputs;
+liana::cable::RobotTable table;
+liana::cable::Controller controller(table);
+liana::cable::Inputs inputs;
+liana::cable::Outputs outputs;
 }  // namespace
 
 int main() {
