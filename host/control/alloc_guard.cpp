@@ -1,5 +1,5 @@
-// Test build (LIANA_NO_ALLOC): stands in front of the C library and aborts when a tick allocates, locks or opens a
-// file.
+// For lianad_no_alloc (tests/CMakeLists.txt): stands in front of the C library and aborts when a tick allocates, locks
+// or opens a file.
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <pthread.h>
