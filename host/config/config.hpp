@@ -169,6 +169,6 @@ SceneConfig parse_scene(const std::string& text, const std::string& file);
 std::string check_table(const std::string& kind, const Json& table, const std::string& file);
 
 // SHA-256 (64 hex digits) over the canonical robot, scene and buses JSON, one line each.
-std::string config_hash(const RobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses);
+std::string config_hash(const std::string& robot_json, const std::string& scene_json, const std::string& buses_json);
 
 }  // namespace liana

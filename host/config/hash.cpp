@@ -3,8 +3,8 @@
 
 namespace liana {
 
-std::string config_hash(const RobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses) {
-  return sha256_hex(robot.canonical_json + "\n" + scene.canonical_json + "\n" + buses.canonical_json + "\n");
+std::string config_hash(const std::string& robot_json, const std::string& scene_json, const std::string& buses_json) {
+  return sha256_hex(robot_json + "\n" + scene_json + "\n" + buses_json + "\n");
 }
 
 }  // namespace liana

@@ -154,6 +154,8 @@ SerialRobotConfig parse_serial_robot(const std::string& text, const std::string&
   return out;
 }
 
+bool is_serial_robot(const std::string& path) { return robot_kind(read_text_file(path), path) == "serial"; }
+
 SerialRobotConfig load_serial_robot(const std::string& path, const BusesConfig& buses) {
   return parse_serial_robot(read_text_file(path), path, buses);
 }

@@ -32,6 +32,9 @@ std::string kind_of(const Json& table);
 // The same of JSON text that was checked once; throws when it is no JSON.
 std::string robot_kind(const std::string& text, const std::string& file);
 
+// Whether the file describes a serial robot; throws when it cannot be read or is no JSON.
+bool is_serial_robot(const std::string& path);
+
 // Loads and checks a serial robot for these buses (every drive on exactly one bus). Throws std::runtime_error
 // "file: field: value: allowed ...: what to do" on the first fault it finds.
 SerialRobotConfig load_serial_robot(const std::string& path, const BusesConfig& buses);

@@ -2,12 +2,15 @@
 
 #include <exception>
 
+#include "firmware_like/cable_controller.hpp"
+#include "firmware_like/serial_controller.hpp"
+
 namespace liana {
 
 namespace {
 
-bool is_off(const CycleReport& report) {
-  return report.outputs.state == OperatingState::kDisabled || report.outputs.state == OperatingState::kFault;
+bool is_off(const CycleOutputs& outputs) {
+  return outputs.state == OperatingState::kDisabled || outputs.state == OperatingState::kFault;
 }
 
 }  // namespace
@@ -23,15 +26,19 @@ void run_guarded(const std::function<void()>& body, ThreadEnd& end) noexcept {
   end.over = true;
 }
 
-void stop_without_service(Link& link, std::uint64_t limit_ticks, const std::function<bool()>& next) {
+template <class Arm>
+void stop_without_service(ArmLink<Arm>& link, std::uint64_t limit_ticks, const std::function<bool()>& next) {
   constexpr std::uint64_t kUntilTaken = 2;  // ticks: one may have begun before the stop was pressed
   link.stop.press();
   link.report.refresh();
   const std::uint64_t first = link.report.value().next_tick;
   for (std::uint64_t done = 0; done < limit_ticks && next(); done = link.report.value().next_tick - first) {
     link.report.refresh();
-    if (link.report.value().next_tick - first >= kUntilTaken && is_off(link.report.value())) return;
+    if (link.report.value().next_tick - first >= kUntilTaken && is_off(link.report.value().outputs)) return;
   }
 }
+
+template void stop_without_service(ArmLink<cable::CableArm>&, std::uint64_t, const std::function<bool()>&);
+template void stop_without_service(ArmLink<serial::SerialArm>&, std::uint64_t, const std::function<bool()>&);
 
 }  // namespace liana

@@ -22,6 +22,7 @@ void run_guarded(const std::function<void()>& body, ThreadEnd& end) noexcept;
 
 // For a service side that has failed: presses the stop and lets ticks go on until the drives are off, for at most
 // `limit_ticks`. `next` runs or awaits a tick and returns false when there will be no further one.
-void stop_without_service(Link& link, std::uint64_t limit_ticks, const std::function<bool()>& next);
+template <class Arm>
+void stop_without_service(ArmLink<Arm>& link, std::uint64_t limit_ticks, const std::function<bool()>& next);
 
 }  // namespace liana

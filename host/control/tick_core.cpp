@@ -3,9 +3,10 @@
 namespace liana {
 
 // The newest telecommand whose time has come; one that is overdue after lost ticks is still taken until it expires.
-cable::Telecommand TickCore::due_telecommand(std::uint64_t tick) {
-  cable::Telecommand due;
-  while (const cable::Telecommand* next = link_.released.front()) {
+template <class Arm>
+typename TickCore<Arm>::Command TickCore<Arm>::due_telecommand(std::uint64_t tick) {
+  Command due;
+  while (const Command* next = link_.released.front()) {
     if (next->first_tick() > tick) break;
     if (next->expiry_tick() > tick) due = *next;
     link_.released.pop();
@@ -14,7 +15,8 @@ cable::Telecommand TickCore::due_telecommand(std::uint64_t tick) {
 }
 
 // A stop overtakes what waits, and voids it: an enable that was asked for before it must not follow it.
-Request TickCore::due_request() {
+template <class Arm>
+Request TickCore<Arm>::due_request() {
   if (link_.stop.take()) {
     for (std::size_t i = 0; i < kMostRequests && link_.requests.front() != nullptr; ++i) link_.requests.pop();
     return Request::kStop;
@@ -26,7 +28,8 @@ Request TickCore::due_request() {
   return request;
 }
 
-const cable::Outputs& TickCore::step(cable::Inputs& inputs) {
+template <class Arm>
+const Outputs<Arm>& TickCore<Arm>::step(Inputs<Arm>& inputs) {
   inputs.telecommand = due_telecommand(inputs.tick);
   inputs.request = due_request();
   record_.inputs = inputs;
@@ -36,14 +39,15 @@ const cable::Outputs& TickCore::step(cable::Inputs& inputs) {
   return record_.outputs;
 }
 
-void TickCore::publish(CycleReport& report) {
+template <class Arm>
+void TickCore<Arm>::publish(ArmReport<Arm>& report) {
   report.outputs = record_.outputs;
   report.records_lost = records_lost_;
   link_.report.publish(report);
   const std::uint64_t interval = report.next_tick / static_cast<std::uint64_t>(controller_.table().interval_ticks);
   if (interval == imaged_interval_) return;
   imaged_interval_ = interval;
-  TwinImage& image = link_.image.draft();  // filled in place: it is large
+  TwinImage<Arm>& image = link_.image.draft();  // filled in place: it is large
   image.next_tick = report.next_tick;
   image.fresh = fresh_;
   image.controller = controller_;
@@ -51,5 +55,8 @@ void TickCore::publish(CycleReport& report) {
   image.last_outputs = record_.outputs;
   link_.image.publish();
 }
+
+template class TickCore<cable::CableArm>;
+template class TickCore<serial::SerialArm>;
 
 }  // namespace liana

@@ -75,7 +75,7 @@ Homing::Homing(const RobotConfig& robot, const std::string& in_pose) : robot_(ro
   if (!in_pose.empty()) check_tells_apart(robot, in_pose);
 }
 
-void Homing::look(const CycleReport& report, const cable::EstimatorState& estimator) {
+void Homing::look(const ArmReport<cable::CableArm>& report, const cable::EstimatorState& estimator) {
   const cable::RobotTable& table = robot_.table;
   for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i) {
     if (report.inputs.drive[i].feedback_age_ticks == 0xFFFF) return;

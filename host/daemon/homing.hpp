@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "firmware_like/cable_controller.hpp"
 #include "host/config/config.hpp"
 #include "host/control/link.hpp"
 
@@ -22,7 +23,7 @@ class Homing {
   Homing(const RobotConfig& robot, const std::string& in_pose);
 
   // Once per interval after booting. The pose is compared until it fits once: then the arm may leave it.
-  void look(const CycleReport& report, const cable::EstimatorState& estimator);
+  void look(const ArmReport<cable::CableArm>& report, const cable::EstimatorState& estimator);
 
   bool is_homed() const { return why_not_.empty(); }
   // What contradicts what and what to do; empty while homed.

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <sstream>
@@ -11,11 +12,16 @@
 
 #include "host/api/registry.hpp"
 #include "host/calibration/calibration.hpp"
+#include "host/canopen/drive_expectation.hpp"
 #include "host/command_line/command_line.hpp"
+#include "host/config/serial_robot.hpp"
 #include "host/control/last_stop.hpp"
 #include "host/control/realtime.hpp"
 #include "host/control/rt_cycle.hpp"
+#include "host/daemon/serial_desk.hpp"
 #include "host/daemon/service.hpp"
+
+#include "host/daemon/cable_desk.hpp"
 
 namespace {
 
@@ -60,9 +66,15 @@ void wait_for_dismissal(Service& service) {
   throw std::runtime_error(side + " failed, so the arm was stopped: " + problem);
 }
 
+// The real-time side as main needs it, whatever the arm.
+struct Ticks {
+  std::function<bool()> run_tick;
+  std::function<void(const std::function<bool()>& next)> stop_without_service;
+};
+
 // Fast and paced: one thread alternates service and real-time side, so that runs repeat bit for bit. False when the bus
 // has ended.
-bool alternate(Service& service, RtCycle& cycle) {
+bool alternate(Service& service, const Ticks& ticks) {
   for (;;) {
     if (g_signal != 0) service.begin_shutdown("signal");
     service.cycle();
@@ -71,16 +83,16 @@ bool alternate(Service& service, RtCycle& cycle) {
       return true;
     }
     do {
-      if (!cycle.run_tick()) return false;
+      if (!ticks.run_tick()) return false;
     } while (!service.interval_began());
   }
 }
 
-bool run_lockstep(Service& service, RtCycle& cycle, Link& link, std::uint64_t stop_limit_ticks) {
+bool run_lockstep(Service& service, const Ticks& ticks) {
   try {
-    return alternate(service, cycle);
+    return alternate(service, ticks);
   } catch (const std::exception& error) {
-    stop_without_service(link, stop_limit_ticks, [&] { return cycle.run_tick(); });
+    ticks.stop_without_service(ticks.run_tick);
     end_after_stop("the service side", error.what());
   }
 }
@@ -95,18 +107,18 @@ void serve_beside(const ThreadEnd& realtime, Service& service) {
 }
 
 // Real: two threads, each of which ends the motion when the other one fails.
-bool run_real(Service& service, RtCycle& cycle, Link& link, std::uint64_t stop_limit_ticks) {
+bool run_real(Service& service, const Ticks& ticks) {
   ThreadEnd end;
   const std::jthread realtime = start_realtime(
-      [&cycle](const std::stop_token& stop) {
-        while (!stop.stop_requested() && cycle.run_tick()) {
+      [&ticks](const std::stop_token& stop) {
+        while (!stop.stop_requested() && ticks.run_tick()) {
         }
       },
       end);
   try {
     serve_beside(end, service);
   } catch (const std::exception& error) {
-    stop_without_service(link, stop_limit_ticks, [&] {
+    ticks.stop_without_service([&] {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       return !end.over;
     });
@@ -130,42 +142,88 @@ std::optional<Registration> registered(const std::string& api) {
   }
 }
 
-int run(const Options& options) {
-  const std::optional<TimeMode> mode = time_mode_from(options.time);
-  if (!mode) throw std::runtime_error("--time " + options.time + ": allowed fast, paced, real");
-  const BusesConfig buses = load_buses(options.buses);
-  RobotConfig robot = load_robot(options.robot, options.physics, buses);
-  if (!options.calibration.empty()) apply(load_calibration(options.calibration, robot, today_utc()), robot);
-  const SceneConfig scene = load_scene(options.scene);
-  const std::vector<Role> expected = roles_in(options.expect);
+// What is the same for every robot.
+struct Setup {
+  const Options& options;
+  TimeMode mode;
+  BusesConfig buses;
+  SceneConfig scene;
+  std::vector<Role> expected;
+};
 
-  if (*mode == TimeMode::kReal) lock_memory();
-  // The API is there before the bus hears of us: the bench connects to it at its first wake-up.
-  const auto link = std::make_unique<Link>(robot.table);
-  std::unique_ptr<RtCycle> cycle;
-  const bool ends_with_mission =
-      *mode != TimeMode::kReal && std::find(expected.begin(), expected.end(), Role::kMission) != expected.end();
-  Service service({options.api, *mode, robot, scene, buses, options.in_pose, ends_with_mission,
-                   [&] { return cycle->boot_problems(); }, [&] { return cycle->serials(); }},
-                  *link);
-  const std::optional<Registration> registration = registered(options.api);
-  const std::unique_ptr<DriveBus> bus = open_drive_bus(buses, *mode, options.bus_socket);
-  cycle = std::make_unique<RtCycle>(robot, buses, *bus, *link);
+ServiceConfig service_config(const Setup& setup, const std::string& robot_json) {
+  ServiceConfig config;
+  config.api_path = setup.options.api;
+  config.time_mode = setup.mode;
+  config.robot_json = robot_json;
+  config.scene_json = setup.scene.canonical_json;
+  config.buses = setup.buses;
+  if (setup.scene.camera) config.camera_latency_s = setup.scene.camera->latency_s;
+  const auto mission = std::find(setup.expected.begin(), setup.expected.end(), Role::kMission);
+  config.ends_with_mission = setup.mode != TimeMode::kReal && mission != setup.expected.end();
+  return config;
+}
+
+// The API is there before the bus hears of us: the bench connects to it at its first wake-up.
+template <class Arm, class Robot>
+int serve(const Setup& setup, const Robot& robot, ArmLink<Arm>& link, Desk& desk) {
+  std::unique_ptr<RtCycle<Arm>> cycle;
+  ServiceConfig config = service_config(setup, robot.canonical_json);
+  config.boot_problems = [&] { return cycle->line().boot_problems(); };
+  config.serials = [&] { return cycle->line().serials(); };
+  Service service(config, desk);
+  const std::optional<Registration> registration = registered(setup.options.api);
+  const std::unique_ptr<DriveBus> bus = open_drive_bus(setup.buses, setup.mode, setup.options.bus_socket);
+  cycle = std::make_unique<RtCycle<Arm>>(robot.table, canopen::drive_expectations(robot, setup.buses), setup.buses,
+                                         *bus, link);
   handle_signals();
-  if (*mode != TimeMode::kReal) service.wait_for(expected, kExpectTimeout_s);
+  if (setup.mode != TimeMode::kReal) service.wait_for(setup.expected, kExpectTimeout_s);
   const auto stop_limit = static_cast<std::uint64_t>(kStopLimit_s / robot.table.tick_s);
-  const bool finished = *mode == TimeMode::kReal ? run_real(service, *cycle, *link, stop_limit)
-                                                 : run_lockstep(service, *cycle, *link, stop_limit);
+  const Ticks ticks{[&] { return cycle->run_tick(); },
+                    [&](const std::function<bool()>& next) { stop_without_service(link, stop_limit, next); }};
+  const bool finished = setup.mode == TimeMode::kReal ? run_real(service, ticks) : run_lockstep(service, ticks);
   service.take_leave();
   if (!finished) throw std::runtime_error("the bus has ended: liana-bus or the bench left");
   return 0;
+}
+
+int serve_cable_arm(const Setup& setup) {
+  const Options& options = setup.options;
+  RobotConfig robot = load_robot(options.robot, options.physics, setup.buses);
+  if (!options.calibration.empty()) apply(load_calibration(options.calibration, robot, today_utc()), robot);
+  const auto link = std::make_unique<ArmLink<cable::CableArm>>(robot.table);
+  CableDesk desk(robot, setup.scene, options.in_pose, setup.mode, *link);
+  return serve(setup, robot, *link, desk);
+}
+
+int serve_serial_arm(const Setup& setup) {
+  const Options& options = setup.options;
+  for (const auto& [name, value] : {std::pair{"--calibration", options.calibration}, {"--in-pose", options.in_pose}}) {
+    if (!value.empty())
+      throw std::runtime_error(std::string(name) +
+                               ": allowed with cable arms only: the encoders of a serial arm are "
+                               "absolute; leave it out");
+  }
+  const SerialRobotConfig robot = load_serial_robot(options.robot, setup.buses);
+  const auto link = std::make_unique<ArmLink<serial::SerialArm>>(robot.table);
+  SerialDesk desk(robot, setup.mode, *link);
+  return serve(setup, robot, *link, desk);
+}
+
+int run(const Options& options) {
+  const std::optional<TimeMode> mode = time_mode_from(options.time);
+  if (!mode) throw std::runtime_error("--time " + options.time + ": allowed fast, paced, real");
+  const Setup setup{options, *mode, load_buses(options.buses), load_scene(options.scene), roles_in(options.expect)};
+  const bool is_serial = is_serial_robot(options.robot);
+  if (*mode == TimeMode::kReal) lock_memory();
+  return is_serial ? serve_serial_arm(setup) : serve_cable_arm(setup);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Options options;
-  CommandLine line("lianad: control core, buses, verification and API of a cable-driven arm");
+  CommandLine line("lianad: control core, buses, verification and API of an arm");
   line.option("--robot", options.robot, "robot JSON (docs/formats.md)").required();
   line.option("--scene", options.scene, "scene JSON").required();
   line.option("--buses", options.buses, "buses JSON").required();

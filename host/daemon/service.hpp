@@ -11,20 +11,13 @@
 #include <vector>
 
 #include "host/api/server.hpp"
-#include "host/arbiter/arbiter.hpp"
-#include "host/arbiter/shape_progress.hpp"
 #include "host/config/config.hpp"
-#include "host/control/boot_problem.hpp"
-#include "host/control/link.hpp"
-#include "host/daemon/homing.hpp"
+#include "host/daemon/desk.hpp"
 #include "host/daemon/host_trouble.hpp"
 #include "host/daemon/owner.hpp"
 #include "host/daemon/state_message.hpp"
 #include "host/json/json.hpp"
 #include "host/time/time_mode.hpp"
-#include "host/verify/release_step.hpp"
-#include "host/verify/twin.hpp"
-#include "host/verify/verify.hpp"
 
 namespace liana {
 
@@ -32,19 +25,18 @@ namespace liana {
 struct ServiceConfig {
   std::string api_path;
   TimeMode time_mode = TimeMode::kFast;
-  RobotConfig robot;
-  SceneConfig scene;
+  std::string robot_json, scene_json;  // canonical
   BusesConfig buses;
-  std::string in_pose;             // named pose in which the arm lies at the start; empty: nobody knows
-  bool ends_with_mission = false;  // stop the arm once the mission has come and gone
+  double camera_latency_s = 0.0;
+  bool ends_with_mission = false;                           // stop the arm once the mission has come and gone
   std::function<std::vector<BootProblem>()> boot_problems;  // asked once, when booting has failed
   std::function<std::vector<std::uint32_t>()> serials;      // of the drives; asked once, when they are booted
 };
 
 class Service : private ApiHandler {
  public:
-  // Listens at config.api_path; throws std::runtime_error, also about config.in_pose (homing.hpp).
-  Service(const ServiceConfig& config, Link& link);
+  // Listens at config.api_path; throws std::runtime_error. `desk` must outlive this.
+  Service(const ServiceConfig& config, Desk& desk);
 
   // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after
   // `timeout_s`.
@@ -52,7 +44,7 @@ class Service : private ApiHandler {
   // One command interval. Lockstep time: returns after every lockstep client has answered.
   void cycle();
   // A new command interval has begun since the last cycle().
-  bool interval_began() const { return link_.image.has_new(); }
+  bool interval_began() const { return desk_.interval_began(); }
   // Between intervals, real time only: moves packets and acts on requests at once, waiting up to `timeout_s`.
   void idle(double timeout_s);
   // Stops the arm (stop category stop); finished() becomes true when drives are off, or after 10 s of arm time.
@@ -78,14 +70,6 @@ class Service : private ApiHandler {
   Json on_acquire(const ClientInfo& client, const Json& request);
   Json on_release(const ClientInfo& client, const Json& request);
   Json on_state_command(const ClientInfo& client, const Json& request);
-  Json on_move_jp(const ClientInfo& client, const Json& request);
-  Json on_move_cp(const ClientInfo& client, const Json& request);
-  Json on_servo_cp(const ClientInfo& client, const Json& request);
-  Json on_hold_theta(const ClientInfo& client, const Json& request);
-  Json on_shape(const ClientInfo& client, const Json& request);
-  Json on_use_device(const ClientInfo& client, const Json& request);
-  Json on_retract(const ClientInfo& client, const Json& request);
-  Json on_hold(const ClientInfo& client, const Json& request);
   Json on_tool(const ClientInfo& client, const Json& request);
   Json on_stop(const ClientInfo& client, const Json& request);
   Json on_shutdown(const ClientInfo& client, const Json& request);
@@ -96,35 +80,26 @@ class Service : private ApiHandler {
   Json on_timing(const ClientInfo& client, const Json& request);
 
   void require_homed() const;
-  const cable::Outputs& now() const { return link_.report.value().outputs; }
-  std::uint64_t tick() const { return link_.report.value().next_tick; }
+  const CycleOutputs& now() const { return desk_.outputs(); }
+  std::uint64_t tick() const { return desk_.report().next_tick; }
+  std::uint64_t ticks_in(double time_s) const;
   void note(const std::string& text);
   void request(Request what);
   void press_stop() noexcept;
   void drop_motion(const std::string& why);
   void watch_arm();
   void watch_homing();
-  void watch_slit();
-  void watch_shape();
   void note_clear();
-  void note_emergencies(const cable::Inputs& inputs);
+  void note_emergencies(const CycleInputs& inputs);
   void forward_ticks();
   void forward_camera();
   void publish_state();
   void release_next();
-  void verify_and_release(const cable::Setpoint& setpoint);
 
   ServiceConfig config_;
-  Link& link_;
-  double reach_m_;
+  Desk& desk_;
   Owner owner_;
-  Homing homing_;
   std::optional<std::uint64_t> homing_due_tick_;  // when an arm that is not homed says why
-  SpeedZone zone_;
-  Arbiter arbiter_;
-  ShapeProgress shape_progress_;
-  ReleaseStep release_;
-  std::vector<cable::Telecommand> released_;  // not yet due at the newest image
   Notes notes_;
   HostTrouble trouble_;
   BootPhase boot_seen_ = BootPhase::kBooting;

@@ -1,34 +1,17 @@
 // What each request of docs/api.md does.
 #include <cmath>
 
-#include "firmware_like/math/trig.hpp"
 #include "host/api/fields.hpp"
 #include "host/api/request_error.hpp"
-#include "host/daemon/device_messages.hpp"
 #include "host/daemon/service.hpp"
 #include "host/daemon/timing_message.hpp"
 
 namespace liana {
 
-namespace {
-// Limit of a theta, free of what the way through radians left of it.
-double limit_deg(const cable::RobotTable& table, std::size_t theta) {
-  return std::round(table.segment[theta / 2].theta_limit_rad / kDegree * 1e9) / 1e9;
-}
-}  // namespace
-
 const std::map<std::string, Service::Handler>& Service::handlers() {
   static const std::map<std::string, Handler> kHandlers{{"acquire", &Service::on_acquire},
                                                         {"release", &Service::on_release},
                                                         {"state_command", &Service::on_state_command},
-                                                        {"move_jp", &Service::on_move_jp},
-                                                        {"move_cp", &Service::on_move_cp},
-                                                        {"servo_cp", &Service::on_servo_cp},
-                                                        {"hold_theta", &Service::on_hold_theta},
-                                                        {"shape", &Service::on_shape},
-                                                        {"use_device", &Service::on_use_device},
-                                                        {"retract", &Service::on_retract},
-                                                        {"hold", &Service::on_hold},
                                                         {"tool", &Service::on_tool},
                                                         {"stop", &Service::on_stop},
                                                         {"shutdown", &Service::on_shutdown},
@@ -41,7 +24,12 @@ const std::map<std::string, Service::Handler>& Service::handlers() {
 }
 
 Json Service::handle(const ClientInfo& client, const Json& request) {
-  const auto found = handlers().find(text_field(request, "op", 32));
+  const std::string op = text_field(request, "op", 32);
+  if (desk_.knows(op)) {
+    owner_.require(client.id);
+    return desk_.ask({op, request, server_.has_role(Role::kOperator)});
+  }
+  const auto found = handlers().find(op);
   if (found == handlers().end()) throw RequestError("bad_request", "unknown op " + request["op"].dump());
   return (this->*found->second)(client, request);
 }
@@ -49,11 +37,11 @@ Json Service::handle(const ClientInfo& client, const Json& request) {
 Json Service::welcome(const ClientInfo&) {
   return {{"op", "welcome"},
           {"time_mode", time_mode_name(config_.time_mode)},
-          {"period_s", config_.robot.table.tick_s},
-          {"interval_ticks", config_.robot.table.interval_ticks},
-          {"config_hash", config_hash(config_.robot, config_.scene, config_.buses)},
-          {"robot", Json::parse(config_.robot.canonical_json)},
-          {"scene", Json::parse(config_.scene.canonical_json)},
+          {"period_s", config_.buses.tick_s()},
+          {"interval_ticks", config_.buses.interval_ticks()},
+          {"config_hash", config_hash(config_.robot_json, config_.scene_json, config_.buses.canonical_json)},
+          {"robot", Json::parse(config_.robot_json)},
+          {"scene", Json::parse(config_.scene_json)},
           {"buses", Json::parse(config_.buses.canonical_json)}};
 }
 
@@ -108,109 +96,7 @@ Json Service::on_state_command(const ClientInfo& client, const Json& request) {
 }
 
 void Service::require_homed() const {
-  if (!homing_.is_homed()) throw RequestError("refused", "not homed: " + homing_.why_not());
-}
-
-Json Service::on_move_jp(const ClientInfo& client, const Json& request) {
-  owner_.require(client.id);
-  const cable::RobotTable& table = config_.robot.table;
-  const auto count = static_cast<std::size_t>(table.theta_count());
-  const std::vector<double> goal_deg = numbers_field(request, "goal_deg", count, -180.0, 180.0);
-  const double most_deg_s = table.limits.theta_rate_rad_s / kDegree;
-  const double rate_deg_s = number_field_or(request, "rate_deg_s", 0.01, most_deg_s, most_deg_s);
-  cable::ThetaVector goal_rad{};
-  for (std::size_t i = 0; i < count; ++i) {
-    const double most_deg = limit_deg(table, i);
-    if (std::fabs(goal_deg[i]) > most_deg) {
-      const auto number = [](double value) { return Json(value).dump(); };
-      throw RequestError("out_of_range", "goal_deg, theta " + std::to_string(i + 1) + ": " + number(goal_deg[i]) +
-                                             ": allowed -" + number(most_deg) + " to " + number(most_deg) +
-                                             " deg: choose another goal");
-    }
-    goal_rad[i] = goal_deg[i] * kDegree;
-  }
-  arbiter_.move_joints(now(), goal_rad, rate_deg_s * kDegree);
-  return Json::object();
-}
-
-Json Service::on_move_cp(const ClientInfo& client, const Json& request) {
-  owner_.require(client.id);
-  const Pose goal = pose_field(request, "goal", reach_m_);
-  if (request.contains("hold")) on_hold_theta(client, {{"held", request["hold"]}});
-  arbiter_.move_line(now(), goal);
-  return Json::object();
-}
-
-Json Service::on_servo_cp(const ClientInfo& client, const Json& request) {
-  owner_.require(client.id);
-  arbiter_.servo_tip(now(), pose_field(request, "goal", reach_m_));
-  return Json::object();
-}
-
-Json Service::on_hold_theta(const ClientInfo& client, const Json& request) {
-  owner_.require(client.id);
-  const cable::RobotTable& table = config_.robot.table;
-  std::uint32_t mask = 0;
-  cable::ThetaVector held_rad{};
-  read_entries(request, "held", cable::kMaxTheta, [&](std::size_t, const Json& entry) {
-    only_fields(entry, {"theta", "target_deg"});
-    const auto i = static_cast<std::size_t>(integer_field(entry, "theta", 1, table.theta_count())) - 1;
-    held_rad[i] = number_field(entry, "target_deg", -limit_deg(table, i), limit_deg(table, i)) * kDegree;
-    mask |= 1u << i;
-  });
-  arbiter_.hold_theta(now(), mask, held_rad);
-  return Json::object();
-}
-
-Json Service::on_shape(const ClientInfo& client, const Json& request) {
-  owner_.require(client.id);
-  cable::NodeTargets nodes{};
-  read_entries(request, "nodes", nodes.size(), [&](std::size_t i, const Json& entry) {
-    only_fields(entry, {"node", "position_m", "weight", "threshold_m"});
-    const auto node = static_cast<std::int32_t>(integer_field(entry, "node", 1, config_.robot.table.segment_count - 1));
-    nodes[i] = {node, point_field(entry, "position_m", reach_m_),
-                number_field_or(entry, "weight", 0.0, 1000.0, default_node_weight(config_.robot.table, node)),
-                number_field_or(entry, "threshold_m", 0.0, reach_m_, kNodeThreshold_m)};
-  });
-  cable::KeepClearTargets clear{};
-  read_entries(request, "keep_clear", clear.size(), [&](std::size_t i, const Json& entry) {
-    only_fields(entry, {"centre_m", "distance_m", "weight"});
-    clear[i] = {point_field(entry, "centre_m", reach_m_), number_field(entry, "distance_m", 0.0, reach_m_),
-                number_field_or(entry, "weight", 0.0, 1000.0, 1.0)};
-  });
-  arbiter_.shape(now(), nodes, clear, request.contains("search") && flag_field(request, "search"));
-  shape_progress_.restart();
-  return Json::object();
-}
-
-Json Service::on_use_device(const ClientInfo& client, const Json& request) {
-  owner_.require(client.id);
-  const cable::RobotTable& table = config_.robot.table;
-  DeviceUse use;
-  use.kind = device_kind(text_field(request, "device", 16));
-  use.mapping.scale = number_field_or(request, "scale", 0.01, 100.0, 1.0);
-  use.mapping.rotation_scale = number_field_or(request, "rotation_scale", 0.0, 10.0, 1.0);
-  use.node = request.contains("node")
-                 ? static_cast<std::int32_t>(integer_field(request, "node", 0, table.segment_count - 1))
-                 : 0;
-  use.speed_m_s = number_field_or(request, "speed_m_s", 1e-4, table.limits.tip_speed_m_s, table.limits.tip_speed_m_s);
-  if (use.kind != DeviceKind::kNone && !server_.has_role(Role::kOperator))
-    throw RequestError("no_device", "no operator is connected");
-  arbiter_.use_device(use);
-  return Json::object();
-}
-
-Json Service::on_retract(const ClientInfo& client, const Json& request) {
-  owner_.require(client.id);
-  const std::int64_t until = request.contains("until_tick") ? integer_field(request, "until_tick", 0, 1LL << 53) : 0;
-  arbiter_.retract(now(), static_cast<std::uint64_t>(until));
-  return Json::object();
-}
-
-Json Service::on_hold(const ClientInfo& client, const Json&) {
-  owner_.require(client.id);
-  arbiter_.hold();
-  return Json::object();
+  if (!desk_.why_not_homed().empty()) throw RequestError("refused", "not homed: " + desk_.why_not_homed());
 }
 
 Json Service::on_tool(const ClientInfo& client, const Json& request) {
@@ -222,7 +108,7 @@ Json Service::on_tool(const ClientInfo& client, const Json& request) {
 // Never refused, and first of all the flag: nothing that may fail stands before it.
 Json Service::on_stop(const ClientInfo& client, const Json& request) {
   press_stop();
-  arbiter_.hold();
+  desk_.hold();
   const StopOrder order{printable(client.name), stop_reason(request.find("reason")), tick()};
   // A mission's own stop is how it ends; everybody else's stays in force, so that nothing enables the arm by itself
   // afterwards.
@@ -261,7 +147,7 @@ Json Service::on_operator_says(const ClientInfo& client, const Json& request) {
 
 Json Service::on_device(const ClientInfo& client, const Json& request) {
   if (client.role != Role::kOperator) throw RequestError("bad_request", "device samples are for role operator");
-  add_samples(request, arbiter_.device());
+  desk_.take_samples(request);
   return Json::object();
 }
 
@@ -271,8 +157,8 @@ Json Service::on_camera(const ClientInfo& client, const Json& request) {
   CameraFrame frame{0, request.dump()};
   if (config_.time_mode != TimeMode::kReal) {
     // Sent in the slot after capture plus latency, it is certainly here two slots later; one more for rounding.
-    const double ready_s = capture_s + config_.scene.camera.value_or(SceneCamera{}).latency_s;
-    frame.due_tick = static_cast<std::uint64_t>(std::ceil(ready_s / config_.robot.table.tick_s - 1e-6)) + 3;
+    const double ready_s = capture_s + config_.camera_latency_s;
+    frame.due_tick = static_cast<std::uint64_t>(std::ceil(ready_s / config_.buses.tick_s() - 1e-6)) + 3;
   }
   if (camera_.size() >= 64)
     throw RequestError("busy", "64 camera frames are waiting: their time stamps lie in the future");
@@ -286,13 +172,13 @@ Json Service::on_timing(const ClientInfo&, const Json& request) {
     throw RequestError("refused", "timing: time mode " + std::string(time_mode_name(config_.time_mode)) +
                                       " has no wake-ups to measure; only --time real has");
   }
-  link_.report.refresh();
-  const Overruns& overruns = link_.report.value().overruns;
-  Json answer =
-      timing_message(link_.timing.wakeup_us.counts(), link_.timing.tick_us.counts(), overruns.since(overruns_before_));
+  desk_.refresh_report();
+  const Overruns& overruns = desk_.report().overruns;
+  Json answer = timing_message(desk_.link().timing.wakeup_us.counts(), desk_.link().timing.tick_us.counts(),
+                               overruns.since(overruns_before_));
   if (!reset) return answer;
-  link_.timing.wakeup_us.reset();
-  link_.timing.tick_us.reset();
+  desk_.link().timing.wakeup_us.reset();
+  desk_.link().timing.tick_us.reset();
   overruns_before_ = overruns;
   return answer;
 }

@@ -5,6 +5,7 @@
 
 #include "host/record/image_reader.hpp"
 #include "host/record/visit_cable_state.hpp"
+#include "host/record/visit_serial_state.hpp"
 
 namespace liana {
 
@@ -66,7 +67,25 @@ void check(const ImageReader& in, const cable::RobotTable& table) {
   if (!(table.tick_s > 0.0)) in.refuse("tick_s", std::to_string(table.tick_s), "above 0");
 }
 
+void check(const ImageReader& in, const serial::IkReport& ik) {
+  in.require_mask("limit_mask", ik.limit_mask, in.bounds().joints);
+}
+
+void check(const ImageReader& in, const serial::MotionState& motion) {
+  in.require("interval_tick", motion.interval_tick, 0, in.bounds().interval_ticks);
+}
+
+void check(const ImageReader& in, const serial::RobotTable& table) {
+  in.require("joint_count", table.joint_count, 6, serial::kMaxJoints);
+  in.require("interval_ticks", table.interval_ticks, 1, 100000);
+  if (!(table.tick_s > 0.0)) in.refuse("tick_s", std::to_string(table.tick_s), "above 0");
+}
+
 namespace {
+
+StateBounds bounds_of(const serial::RobotTable& table) {
+  return {table.drive_count(), 0, table.joint_count, table.interval_ticks, {}};
+}
 
 StateBounds bounds_of(const cable::RobotTable& table) {
   StateBounds bounds{table.drive_count(), table.segment_count, table.theta_count(), table.interval_ticks, {}};
@@ -78,25 +97,36 @@ StateBounds bounds_of(const cable::RobotTable& table) {
 
 }  // namespace
 
-void append_state(std::string& out, const cable::Controller& controller) {
+template <class Arm>
+void append_state(std::string& out, const Controller<Arm>& controller) {
   Writer writer(out);
   visit(writer, controller);
 }
 
-cable::Controller controller_from(std::string_view state, const cable::RobotTable& table, const std::string& source) {
+template <class Arm>
+Controller<Arm> controller_from(std::string_view state, const typename Arm::Table& table, const std::string& source) {
   ImageReader reader(state, source, bounds_of(table));
-  cable::Controller controller(table);
+  Controller<Arm> controller(table);
   reader("controller", controller);
   reader.require_end();
   return controller;
 }
 
-cable::RobotTable checked_table(std::string_view bytes, const std::string& source, std::size_t& used) {
+template <class Table>
+Table checked_table(std::string_view bytes, const std::string& source, std::size_t& used) {
   ImageReader reader(bytes, source, {});
-  cable::RobotTable table;
+  Table table;
   reader("table", table);
   used = reader.position();
   return table;
 }
+
+#define LIANA_IMAGES(Arm)                                                                                 \
+  template void append_state(std::string&, const Controller<Arm>&);                                       \
+  template Controller<Arm> controller_from<Arm>(std::string_view, const Arm::Table&, const std::string&); \
+  template Arm::Table checked_table<Arm::Table>(std::string_view, const std::string&, std::size_t&);
+LIANA_IMAGES(cable::CableArm)
+LIANA_IMAGES(serial::SerialArm)
+#undef LIANA_IMAGES
 
 }  // namespace liana

@@ -1,10 +1,12 @@
 #include "host/record/recording.hpp"
 
+#include "host/json/json.hpp"
 #include "host/record/build_id.hpp"
 #include "host/record/codec.hpp"
 #include "host/record/image.hpp"
 #include "host/record/serialise.hpp"
 #include "host/record/tick_packet.hpp"
+#include "host/record/visit_serial.hpp"
 
 namespace liana {
 
@@ -45,18 +47,20 @@ class FieldLister {
   std::string path_, text_;
 };
 
+template <class Arm>
 std::string inputs_schema(const RecordedCounts& counts) {
   FieldLister lister(counts);
-  const cable::Inputs inputs;
+  const Inputs<Arm> inputs;
   visit(lister, inputs);
   lister("telecommand_present", std::uint8_t{0});  // 0: the message ends here
-  lister("telecommand", TelecommandFields{});
+  lister("telecommand", TelecommandFields<typename Arm::Setpoint>{});
   return lister.text();
 }
 
+template <class Arm>
 std::string outputs_schema(const RecordedCounts& counts) {
   FieldLister lister(counts);
-  const cable::Outputs outputs;
+  const Outputs<Arm> outputs;
   visit(lister, outputs);
   return lister.text();
 }
@@ -73,7 +77,8 @@ std::uint64_t tick_of(std::string_view inputs) {
 Recording::Recording(const std::string& directory, const RecordingInfo& info)
     : ticks_file_(directory + "/" + kRecordingFile, "liana " + build_id()),
       images_file_(directory + "/" + kImagesFile, "liana " + build_id()),
-      period_s_(info.period_s) {
+      period_s_(info.period_s),
+      is_serial_(is_of_serial_arm(info.robot_json)) {
   constexpr const char* kImageSchema = "next_tick 8, fresh 1, robot table, fields of the Controller";
   start_ = ticks_file_.add_channel({kStartTopic, kImageEncoding, kImageEncoding, kImageSchema});
   image_ = images_file_.add_channel({kImageTopic, kImageEncoding, kImageEncoding, kImageSchema});
@@ -92,14 +97,16 @@ void Recording::write(McapWriter& file, std::uint16_t channel, std::uint64_t tic
 }
 
 // Their schemas say how many of each the robot has, which the first tick tells.
+template <class Arm>
 void Recording::add_tick_channels(const RecordedCounts& counts) {
-  inputs_ = ticks_file_.add_channel({kInputsTopic, kEncoding, kEncoding, inputs_schema(counts)});
-  outputs_ = ticks_file_.add_channel({kOutputsTopic, kEncoding, kEncoding, outputs_schema(counts)});
+  inputs_ = ticks_file_.add_channel({kInputsTopic, kEncoding, kEncoding, inputs_schema<Arm>(counts)});
+  outputs_ = ticks_file_.add_channel({kOutputsTopic, kEncoding, kEncoding, outputs_schema<Arm>(counts)});
 }
 
-void Recording::take(std::string_view packet) {
+template <class Arm>
+void Recording::take_packet(std::string_view packet) {
   if (tick_packet_kind(packet) == TickPacket::kImage) {
-    const ControllerImage image = parse_image(packet.substr(1));
+    const auto image = parse_image<Arm>(packet.substr(1));
     McapWriter& file = image.fresh ? ticks_file_ : images_file_;
     write(file, image.fresh ? start_ : image_, image.next_tick, packet.substr(1));
     file.flush();
@@ -107,11 +114,15 @@ void Recording::take(std::string_view packet) {
   }
   const TickParts parts = split_tick_packet(packet);
   const std::uint64_t tick = tick_of(parts.inputs);
-  if (inputs_ == 0) add_tick_channels(parts.counts);
+  if (inputs_ == 0) add_tick_channels<Arm>(parts.counts);
   write(ticks_file_, inputs_, tick, parts.inputs);
   write(ticks_file_, outputs_, tick, parts.outputs);
   dropped_ = parts.dropped;
   ++ticks_;
+}
+
+void Recording::take(std::string_view packet) {
+  is_serial_ ? take_packet<serial::SerialArm>(packet) : take_packet<cable::CableArm>(packet);
 }
 
 void Recording::finish() {
@@ -120,8 +131,11 @@ void Recording::finish() {
   images_file_.finish();
 }
 
-ControllerImage parse_image(std::string_view data, const std::string& source) {
-  ControllerImage image;
+bool is_of_serial_arm(const std::string& robot_json) { return Json::parse(robot_json).value("kind", "") == "serial"; }
+
+template <class Arm>
+ControllerImage<Arm> parse_image(std::string_view data, const std::string& source) {
+  ControllerImage<Arm> image;
   std::uint8_t fresh = 0;
   Reader reader(data);
   reader("next_tick", image.next_tick);
@@ -132,9 +146,12 @@ ControllerImage parse_image(std::string_view data, const std::string& source) {
   image.fresh = fresh != 0;
   const std::string_view rest = data.substr(reader.position());
   std::size_t used = 0;
-  image.table = checked_table(rest, source, used);
+  image.table = checked_table<typename Arm::Table>(rest, source, used);
   image.state = rest.substr(used);
   return image;
 }
+
+template ControllerImage<cable::CableArm> parse_image(std::string_view, const std::string&);
+template ControllerImage<serial::SerialArm> parse_image(std::string_view, const std::string&);
 
 }  // namespace liana

@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
 #include "host/record/mcap.hpp"
 #include "host/record/visit.hpp"
 
@@ -39,22 +38,31 @@ class Recording {
 
  private:
   void write(McapWriter& file, std::uint16_t channel, std::uint64_t tick, std::string_view data);
+  template <class Arm>
+  void take_packet(std::string_view packet);
+  template <class Arm>
   void add_tick_channels(const RecordedCounts& counts);
 
   McapWriter ticks_file_, images_file_;
   double period_s_;
+  bool is_serial_;
   std::uint16_t start_, image_, inputs_ = 0, outputs_ = 0;
   std::uint64_t ticks_ = 0, dropped_ = 0;
 };
 
+// Which kind of arm a recording is of, by the table of its robot.
+bool is_of_serial_arm(const std::string& robot_json);
+
 // Content of a start or controller_image message.
+template <class Arm>
 struct ControllerImage {
   std::uint64_t next_tick = 0;
   bool fresh = false;  // the Controller has not ticked yet: the table says all
-  cable::RobotTable table{};
+  typename Arm::Table table{};
   std::string_view state;  // of the Controller (image.hpp), empty when fresh; only the same build can use it
 };
 // Throws std::runtime_error with file (`source`), field, value and what is allowed, when the table would harm the core.
-ControllerImage parse_image(std::string_view data, const std::string& source = kImagesFile);
+template <class Arm>
+ControllerImage<Arm> parse_image(std::string_view data, const std::string& source = kImagesFile);
 
 }  // namespace liana

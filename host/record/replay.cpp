@@ -6,12 +6,14 @@
 #include <stdexcept>
 
 #include "firmware_like/cable_controller.hpp"
+#include "firmware_like/serial_controller.hpp"
 #include "host/record/build_id.hpp"
 #include "host/record/codec.hpp"
 #include "host/record/image.hpp"
 #include "host/record/mcap.hpp"
 #include "host/record/recording.hpp"
 #include "host/record/serialise.hpp"
+#include "host/record/visit_serial.hpp"
 
 namespace liana {
 
@@ -21,8 +23,8 @@ using Images = std::map<std::uint64_t, std::string>;  // controller_image messag
 
 // Throws std::runtime_error when a byte of the file is not as it was written; true when the file is whole, false when
 // it was cut short.
-bool require_undamaged(const std::string& file) {
-  const McapState state = read_mcap(file, {});
+bool require_undamaged(const std::string& file, const McapVisitor& visitor = {}) {
+  const McapState state = read_mcap(file, visitor);
   if (state == McapState::kDamaged) {
     throw std::runtime_error(
         "recording " + file +
@@ -31,6 +33,7 @@ bool require_undamaged(const std::string& file) {
   return state == McapState::kWhole;
 }
 
+template <class Arm>
 class Replayer {
  public:
   Replayer(ReplayResult& result, const std::string& directory) : result_(result), directory_(directory) {}
@@ -50,9 +53,10 @@ class Replayer {
 
  private:
   bool start_from(std::string_view data, const std::string& file) {
-    const ControllerImage image = parse_image(data, file);
+    const ControllerImage<Arm> image = parse_image<Arm>(data, file);
     if (!image.fresh && !result_.same_build) return false;
-    controller_.emplace(image.fresh ? cable::Controller(image.table) : controller_from(image.state, image.table, file));
+    controller_.emplace(image.fresh ? Controller<Arm>(image.table)
+                                    : controller_from<Arm>(image.state, image.table, file));
     next_tick_ = image.next_tick;
     counts_ = counts_of(image.table);
     return true;
@@ -64,7 +68,7 @@ class Replayer {
     require_undamaged(file);
     McapVisitor visitor;
     visitor.message = [this, &file](const std::string&, std::uint32_t, std::uint64_t, std::string_view data) {
-      (*images_)[parse_image(data, file).next_tick] = data;
+      (*images_)[parse_image<Arm>(data, file).next_tick] = data;
     };
     read_mcap(file, visitor);
   }
@@ -90,7 +94,7 @@ class Replayer {
       ++result_.missing_ticks;
       return;
     }
-    const cable::Inputs in = RecordingDecoder::recorded_inputs(data, counts_);
+    const Inputs<Arm> in = RecordingDecoder::recorded_inputs<Arm>(data, counts_);
     append_recorded(expected_, controller_->tick(in), counts_);
     next_tick_ = in.tick + 1;
   }
@@ -103,25 +107,22 @@ class Replayer {
     result_.first_differing_tick = next_tick_ - 1;
     std::size_t at = 0;
     while (at < data.size() && at < expected_.size() && data[at] == expected_[at]) ++at;
-    result_.first_differing_field = outputs_field_at(at, counts_);
+    result_.first_differing_field = outputs_field_at<Arm>(at, counts_);
   }
 
   ReplayResult& result_;
   std::string directory_;
   std::optional<Images> images_;
-  std::optional<cable::Controller> controller_;
+  std::optional<Controller<Arm>> controller_;
   RecordedCounts counts_;
   std::uint64_t next_tick_ = 0;
   std::string expected_;
 };
 
-}  // namespace
-
-ReplayResult replay(const std::string& directory) {
-  const std::string file = directory + "/" + kRecordingFile;
-  ReplayResult result;
-  result.complete = require_undamaged(file);
-  Replayer replayer(result, directory);
+// The core again over the whole file.
+template <class Arm>
+void replay_as(const std::string& directory, ReplayResult& result) {
+  Replayer<Arm> replayer(result, directory);
   McapVisitor visitor;
   visitor.message = [&](const std::string& topic, std::uint32_t, std::uint64_t, std::string_view data) {
     replayer.take(topic, data);
@@ -129,11 +130,28 @@ ReplayResult replay(const std::string& directory) {
   visitor.metadata = [&](const std::string&, const std::map<std::string, std::string>& values) {
     replayer.metadata(values);
   };
-  read_mcap(file, visitor);
+  read_mcap(directory + "/" + kRecordingFile, visitor);
   if (!replayer.started())
     throw std::runtime_error("recording " + directory +
                              ": holds no start that this build can use: the run ended before the core started, or "
                              "another build recorded it in mid-run");
+}
+
+}  // namespace
+
+ReplayResult replay(const std::string& directory) {
+  ReplayResult result;
+  std::string robot_json = "{}";
+  McapVisitor head;
+  head.metadata = [&](const std::string&, const std::map<std::string, std::string>& values) {
+    if (const auto robot = values.find("robot"); robot != values.end()) robot_json = robot->second;
+  };
+  result.complete = require_undamaged(directory + "/" + kRecordingFile, head);
+  if (is_of_serial_arm(robot_json)) {
+    replay_as<serial::SerialArm>(directory, result);
+  } else {
+    replay_as<cable::CableArm>(directory, result);
+  }
   return result;
 }
 

@@ -8,10 +8,11 @@
 
 namespace liana {
 
-std::string tick_packet(const TickRecord& record, std::uint64_t dropped, const RecordedCounts& counts) {
+template <class Arm>
+std::string tick_packet(const TickRecord<Arm>& record, std::uint64_t dropped, const RecordedCounts& counts) {
   std::string inputs, out;
   append_recorded(inputs, record.inputs, counts);
-  out.reserve(16 + inputs.size() + serialised_outputs_size());
+  out.reserve(16 + inputs.size() + serialised_outputs_size<Arm>());
   Writer writer(out);
   writer("kind", TickPacket::kTick);
   writer("dropped", dropped);
@@ -26,7 +27,8 @@ std::string tick_packet(const TickRecord& record, std::uint64_t dropped, const R
 
 namespace {
 
-std::string image_head(std::uint64_t next_tick, bool fresh, const cable::RobotTable& table) {
+template <class Table>
+std::string image_head(std::uint64_t next_tick, bool fresh, const Table& table) {
   std::string out;
   Writer writer(out);
   writer("kind", TickPacket::kImage);
@@ -38,11 +40,13 @@ std::string image_head(std::uint64_t next_tick, bool fresh, const cable::RobotTa
 
 }  // namespace
 
-std::string image_packet(std::uint64_t next_tick, const cable::RobotTable& table) {
+template <class Arm>
+std::string image_packet(std::uint64_t next_tick, const typename Arm::Table& table) {
   return image_head(next_tick, true, table);
 }
 
-std::string image_packet(std::uint64_t next_tick, const cable::Controller& controller) {
+template <class Arm>
+std::string image_packet(std::uint64_t next_tick, const Controller<Arm>& controller) {
   std::string out = image_head(next_tick, false, controller.table());
   append_state(out, controller);
   return out;
@@ -76,5 +80,13 @@ TickPacket tick_packet_kind(std::string_view packet) {
   }
   return static_cast<TickPacket>(first);
 }
+
+#define LIANA_PACKETS(Arm)                                                                        \
+  template std::string tick_packet(const TickRecord<Arm>&, std::uint64_t, const RecordedCounts&); \
+  template std::string image_packet<Arm>(std::uint64_t, const Arm::Table&);                       \
+  template std::string image_packet<Arm>(std::uint64_t, const Controller<Arm>&);
+LIANA_PACKETS(cable::CableArm)
+LIANA_PACKETS(serial::SerialArm)
+#undef LIANA_PACKETS
 
 }  // namespace liana

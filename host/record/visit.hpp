@@ -1,6 +1,7 @@
 // The field lists of everything that is recorded, in recorded order. One list serves writing, reading and naming.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <type_traits>
 
@@ -33,17 +34,18 @@ RecordedCounts counts_of_visitor(const A& a) {
 template <class A, class T>
 void visit_first(A& a, const char* name, T& values, std::size_t count) {
   if constexpr (requires { a.first(name, values, count); }) {
-    a.first(name, values, count);
+    a.first(name, values, std::min(count, values.size()));
   } else {
     a(name, values);
   }
 }
 
 // A telecommand's fields, in the open: Telecommand itself can be made only by Release and RecordingDecoder.
+template <class Setpoint>
 struct TelecommandFields {
   std::uint64_t sequence = 0, first_tick = 0, expiry_tick = 0;
   std::uint32_t owner = 0;
-  cable::Setpoint setpoint{};
+  Setpoint setpoint{};
 };
 
 template <class A, Like<Pose> T>
@@ -79,13 +81,22 @@ void visit(A& a, T& s) {
   a("tip_speed_m_s", s.tip_speed_m_s);
 }
 
-template <class A, Like<TelecommandFields> T>
-void visit(A& a, T& t) {
+template <class A, class Fields>
+void visit_telecommand_fields(A& a, Fields& t) {
   a("sequence", t.sequence);
   a("first_tick", t.first_tick);
   a("expiry_tick", t.expiry_tick);
   a("owner", t.owner);
   a("setpoint", t.setpoint);
+}
+
+template <class A, class Setpoint>
+void visit(A& a, TelecommandFields<Setpoint>& t) {
+  visit_telecommand_fields(a, t);
+}
+template <class A, class Setpoint>
+void visit(A& a, const TelecommandFields<Setpoint>& t) {
+  visit_telecommand_fields(a, t);
 }
 
 template <class A, Like<DriveFeedback> T>
@@ -99,8 +110,9 @@ void visit(A& a, T& d) {
   a("operational", d.operational);
 }
 
-// All of Inputs but the telecommand, which follows as TelecommandFields.
-template <class A, Like<cable::Inputs> T>
+// All of Inputs but the telecommand, which follows as TelecommandFields. An arm with sensors of its own adds them here.
+template <class A, class T>
+requires std::derived_from<T, CycleInputs>
 void visit(A& a, T& i) {
   a("tick", i.tick);
   a("lost_ticks", i.lost_ticks);

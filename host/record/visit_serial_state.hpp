@@ -1,18 +1,10 @@
-// Field lists of a serial arm: what it is asked, and what it keeps between ticks.
+// Field lists of what a serial arm keeps between ticks, for images of a Controller.
 #pragma once
 
-#include "firmware_like/serial_controller.hpp"
 #include "host/record/visit_core_state.hpp"
+#include "host/record/visit_serial.hpp"
 
 namespace liana {
-
-template <class A, Like<serial::Setpoint> T>
-void visit(A& a, T& s) {
-  a("kind", s.kind);
-  a("tip_in_base", s.tip_in_base);
-  a("joint_rad", s.joint_rad);
-  a("tip_speed_m_s", s.tip_speed_m_s);
-}
 
 template <class A, Like<serial::JointReading> T>
 void visit(A& a, T& s) {

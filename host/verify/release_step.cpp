@@ -4,13 +4,16 @@
 
 namespace liana {
 
-Candidate ReleaseStep::candidate(const cable::Setpoint& setpoint, std::uint32_t owner, std::uint64_t first_tick,
-                                 std::uint64_t interval_ticks) {
-  return Candidate(Release::make(++last_sequence_, first_tick, first_tick + interval_ticks, owner, setpoint));
+template <class Arm>
+Candidate<Arm> ReleaseStep<Arm>::candidate(const typename Arm::Setpoint& setpoint, std::uint32_t owner,
+                                           std::uint64_t first_tick, std::uint64_t interval_ticks) {
+  return Candidate<Arm>(Release::make(++last_sequence_, first_tick, first_tick + interval_ticks, owner, setpoint));
 }
 
-std::optional<cable::Telecommand> ReleaseStep::release(const Candidate& candidate, const ExecutionVerdict& execution,
-                                                       const SimulationVerdict& simulation) {
+template <class Arm>
+std::optional<Telecommand<typename Arm::Setpoint>> ReleaseStep<Arm>::release(const Candidate<Arm>& candidate,
+                                                                             const ExecutionVerdict& execution,
+                                                                             const SimulationVerdict& simulation) {
   const std::uint64_t sequence = candidate.sequence();
   const bool both =
       execution.sequence == sequence && execution.passed() && simulation.sequence == sequence && simulation.passed();
@@ -18,5 +21,8 @@ std::optional<cable::Telecommand> ReleaseStep::release(const Candidate& candidat
   last_released_ = sequence;
   return candidate.telecommand_;
 }
+
+template class ReleaseStep<cable::CableArm>;
+template class ReleaseStep<serial::SerialArm>;
 
 }  // namespace liana

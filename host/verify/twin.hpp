@@ -4,34 +4,32 @@
 #include <span>
 #include <vector>
 
-#include "firmware_like/cable_controller.hpp"
 #include "host/verify/release_step.hpp"
+#include "host/verify/twin_image.hpp"
 
 namespace liana {
 
-// What the real-time thread publishes at the start of each command interval.
-struct TwinImage {
-  std::uint64_t next_tick = 0;  // the tick that the copy computes next
-  bool fresh = true;            // the copy has not computed any tick yet
-  cable::Controller controller;
-  cable::Inputs last_inputs{};
-  cable::Outputs last_outputs{};
-};
-
 // What the twin predicts for one candidate.
+template <class Arm>
 struct Prediction {
-  std::vector<cable::Outputs> ticks;  // the candidate's interval, then the stop after it
-  std::size_t command_ticks = 0;      // of these belong to the candidate's interval
-  bool comes_to_rest = false;         // within the allowed number of stop ticks
-  std::uint64_t faults_before = 0;    // latched at the start
+  std::vector<Outputs<Arm>> ticks;  // the candidate's interval, then the stop after it
+  std::size_t command_ticks = 0;    // of these belong to the candidate's interval
+  bool comes_to_rest = false;       // within the allowed number of stop ticks
+  std::uint64_t faults_before = 0;  // latched at the start
 };
 
+template <class Arm>
 class Twin {
  public:
+  using Command = Telecommand<typename Arm::Setpoint>;
+
   // Advances a copy through what is already released, then through the candidate, then through the stop that follows
   // when nothing else comes; at most `max_stop_ticks` of it.
-  static Prediction run(const TwinImage& start, std::span<const cable::Telecommand> released,
-                        const Candidate& candidate, std::size_t max_stop_ticks);
+  static Prediction<Arm> run(const TwinImage<Arm>& start, std::span<const Command> released,
+                             const Candidate<Arm>& candidate, std::size_t max_stop_ticks);
 };
+
+extern template class Twin<cable::CableArm>;
+extern template class Twin<serial::SerialArm>;
 
 }  // namespace liana

@@ -16,6 +16,7 @@ enum class Refusal : std::uint16_t {
   kCableSpeed = 104,   // a cable would move too fast
   kNotAccepted = 105,  // the controller would not take the command
   kTooSlow = 106,      // the verdict came after the command interval (real time only)
+  kJointTravel = 107,  // a serial arm's joint would be told to go further in a tick than its rate allows
   kJointAngle = 201,   // a joint angle would pass its limit
   kJointRate = 202,    // a joint would turn too fast
   kTipSpeed = 203,     // the tip would move or turn too fast

@@ -12,17 +12,20 @@ namespace liana {
 constexpr double kMaxStop_s = 3.0;
 
 // Ticks of kMaxStop_s.
-std::size_t max_stop_ticks(const cable::RobotTable& table);
+std::size_t max_stop_ticks(double tick_s);
 
-// The twin's outputs: accepted, no new fault, gate silent, tension plan and cable speed within limits.
-ExecutionVerdict judge_execution(const cable::RobotTable& table, const Candidate& candidate,
-                                 const Prediction& prediction);
+// The twin's outputs: accepted, no new fault, gate silent, planned forces and targets within limits (arm_limits.hpp).
+template <class Arm>
+ExecutionVerdict judge_execution(const typename Arm::Table& table, const Candidate<Arm>& candidate,
+                                 const Prediction<Arm>& prediction);
 
 // The motion: joint angles and rates, tip speed (in `zone` the zone's), and rest after the command.
-SimulationVerdict judge_motion(const cable::RobotTable& table, const Candidate& candidate, const Prediction& prediction,
-                               const SpeedZone& zone = {});
+template <class Arm>
+SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate<Arm>& candidate,
+                               const Prediction<Arm>& prediction, const SpeedZone& zone = {});
 
-// Real time only: refuses when the candidate's interval has begun already (`ticks_done` is what the arm has reached).
-void judge_time(const Candidate& candidate, std::uint64_t ticks_done, ExecutionVerdict& verdict);
+// Real time only: refuses when the interval that begins at `first_tick` has begun already (`ticks_done` is what the arm
+// has reached).
+void judge_time(std::uint64_t first_tick, std::uint64_t ticks_done, ExecutionVerdict& verdict);
 
 }  // namespace liana

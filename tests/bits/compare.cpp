@@ -9,7 +9,7 @@ namespace {
 
 // The next tick's Outputs; shorter where the file ends.
 std::string next_of(std::istream& file) {
-  std::string bytes(serialised_outputs_size(), '\0');
+  std::string bytes(serialised_outputs_size<cable::CableArm>(), '\0');
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   bytes.resize(static_cast<std::size_t>(file.gcount()));
   return bytes;
@@ -17,10 +17,12 @@ std::string next_of(std::istream& file) {
 
 void note_first(const std::string& expected, const std::string& answered, Comparison& result) {
   result.first_place = std::max<std::uint64_t>(result.ticks, 1) - 1;
-  if (expected.size() == serialised_outputs_size()) result.first_tick = outputs_from(expected).tick;
+  if (expected.size() == serialised_outputs_size<cable::CableArm>())
+    result.first_tick = outputs_from<cable::CableArm>(expected).tick;
   const auto [at, end] = std::mismatch(expected.begin(), expected.end(), answered.begin(), answered.end());
   const bool both = at != expected.end() && end != answered.end();
-  result.first_field = both ? outputs_field_at(static_cast<std::size_t>(at - expected.begin())) : "nothing";
+  result.first_field =
+      both ? outputs_field_at<cable::CableArm>(static_cast<std::size_t>(at - expected.begin())) : "nothing";
 }
 
 }  // namespace

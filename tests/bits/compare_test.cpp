@@ -32,15 +32,16 @@ TEST(BitsCompare, EqualTicksDoNotDiffer) {
 
 TEST(BitsCompare, EverySingleBitOfOutputsIsComparedAndItsFieldNamed) {
   const std::string run = outputs_of(7) + outputs_of(8);
-  for (std::size_t byte = 0; byte < serialised_outputs_size(); ++byte) {
+  for (std::size_t byte = 0; byte < serialised_outputs_size<cable::CableArm>(); ++byte) {
     for (int bit = 0; bit < 8; ++bit) {
       std::string other = run;
-      other[serialised_outputs_size() + byte] = static_cast<char>(other[serialised_outputs_size() + byte] ^ (1 << bit));
+      other[serialised_outputs_size<cable::CableArm>() + byte] =
+          static_cast<char>(other[serialised_outputs_size<cable::CableArm>() + byte] ^ (1 << bit));
       const Comparison result = compared(run, other);
       ASSERT_EQ(result.differing_ticks, 1u) << "byte " << byte;
       ASSERT_EQ(result.first_tick, 8u);
       ASSERT_EQ(result.first_place, 1u);
-      ASSERT_EQ(result.first_field, outputs_field_at(byte));
+      ASSERT_EQ(result.first_field, outputs_field_at<cable::CableArm>(byte));
       ASSERT_FALSE(result.first_field.empty());
     }
   }

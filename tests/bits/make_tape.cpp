@@ -45,12 +45,12 @@ RecordedRun read(const std::string& directory, std::uint64_t limit) {
   RecordedCounts counts;
   McapVisitor visitor;
   visitor.message = [&](const std::string& topic, std::uint32_t, std::uint64_t, std::string_view data) {
-    if (topic == kStartTopic) run.robot = parse_image(data).table;
+    if (topic == kStartTopic) run.robot = parse_image<cable::CableArm>(data).table;
     if (topic == kStartTopic) counts = counts_of(*run.robot);
     if (topic == kInputsTopic && run.ticks.size() < limit)
-      run.ticks.push_back({whole(RecordingDecoder::recorded_inputs(data, counts)), {}});
+      run.ticks.push_back({whole(RecordingDecoder::recorded_inputs<cable::CableArm>(data, counts)), {}});
     if (topic == kOutputsTopic && !run.ticks.empty() && run.ticks.back().outputs.empty())
-      run.ticks.back().outputs = whole(outputs_from(data, counts));
+      run.ticks.back().outputs = whole(outputs_from<cable::CableArm>(data, counts));
   };
   const McapState state = read_mcap(directory + "/" + kRecordingFile, visitor);
   if (state != McapState::kWhole || !run.robot || run.ticks.empty()) {
@@ -62,7 +62,7 @@ RecordedRun read(const std::string& directory, std::uint64_t limit) {
 
 // The same Inputs, but for the last bit of one motor position.
 std::string one_bit_off(const std::string& recorded) {
-  cable::Inputs inputs = RecordingDecoder::inputs(recorded);
+  cable::Inputs inputs = RecordingDecoder::inputs<cable::CableArm>(recorded);
   inputs.drive[0].position_counts ^= 1;
   std::string bytes;
   append_serialised(bytes, inputs);
@@ -93,9 +93,9 @@ class Maker {
     mark(Mark::kTick);
     tape_ << (summary_.mission_ticks == options_.flip_at ? one_bit_off(recorded.inputs) : recorded.inputs);
     expected_ << recorded.outputs;
-    out_ = outputs_from(recorded.outputs);
+    out_ = outputs_from<cable::CableArm>(recorded.outputs);
     note_faults(out_);
-    controller_->tick(RecordingDecoder::inputs(recorded.inputs));
+    controller_->tick(RecordingDecoder::inputs<cable::CableArm>(recorded.inputs));
     ++summary_.mission_ticks;
     const bool changed = out_.state != state_ || out_.held_mask != held_mask_;
     since_change_ = changed ? 0 : since_change_ + 1;
@@ -122,7 +122,7 @@ class Maker {
 
   void follow(const RecordedRun& run, std::size_t next, const WhatIf& what_if, std::size_t drive) {
     for (std::uint32_t age = 0; age < what_if.ticks && next + age < run.ticks.size(); ++age) {
-      cable::Inputs inputs = RecordingDecoder::inputs(run.ticks[next + age].inputs);
+      cable::Inputs inputs = RecordingDecoder::inputs<cable::CableArm>(run.ticks[next + age].inputs);
       what_if.change(inputs, age, drive);
       const cable::Outputs outputs = controller_->tick(inputs);
       note_faults(outputs);

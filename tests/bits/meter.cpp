@@ -51,10 +51,11 @@ MeterSummary summarise(std::istream& outputs, std::istream& meter) {
   const double per_clock = instructions_per_clock(next_of(meter, sizeof(Count)));
   std::vector<double> enabled;
   for (;;) {
-    const std::string answer = next_of(outputs, serialised_outputs_size()), counted = next_of(meter, sizeof(Count));
+    const std::string answer = next_of(outputs, serialised_outputs_size<cable::CableArm>()),
+                      counted = next_of(meter, sizeof(Count));
     if (answer.empty() != counted.empty()) throw std::runtime_error("meter: not one count for each tick");
     if (answer.empty()) break;
-    const cable::Outputs out = outputs_from(answer);
+    const cable::Outputs out = outputs_from<cable::CableArm>(answer);
     const Count count = count_from(counted);
     const double instructions = per_clock * count.clocks;
     ++result.ticks;

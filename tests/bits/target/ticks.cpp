@@ -48,20 +48,20 @@ class Player {
   }
   bool robot() {
     if (!read_all(tape_, table_)) return false;
-    controller_.emplace(robot_table_from(table_));
+    controller_.emplace(table_from<cable::CableArm>(table_));
     return true;
   }
   bool tick() {
     if (!read_all(tape_, inputs_)) return false;
     written_.clear();
-    append_serialised(written_, metered_tick(*controller_, RecordingDecoder::inputs(inputs_)));
+    append_serialised(written_, metered_tick(*controller_, RecordingDecoder::inputs<cable::CableArm>(inputs_)));
     return std::fwrite(written_.data(), 1, written_.size(), out_) == written_.size();
   }
 
   std::FILE* tape_;
   std::FILE* out_;
   std::string table_ = default_table();
-  std::string inputs_ = std::string(serialised_inputs_size(), '\0');
+  std::string inputs_ = std::string(serialised_inputs_size<cable::CableArm>(), '\0');
   std::string written_;
   std::optional<cable::Controller> controller_, kept_;
 };

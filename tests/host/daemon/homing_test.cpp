@@ -37,7 +37,7 @@ class HomingOfAnArm : public ::testing::Test {
   }
 
   RobotConfig robot_;
-  CycleReport report_;
+  ArmReport<cable::CableArm> report_;
   cable::EstimatorState estimator_;
 };
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "host/api/client.hpp"
+#include "host/daemon/cable_desk.hpp"
 #include "tests/host/verify/sim_arm.hpp"
 
 namespace liana {
@@ -19,11 +20,10 @@ ServiceConfig config_for(const SimArm& arm, TimeMode mode) {
   ServiceConfig config;
   config.time_mode = mode;
   config.api_path = testing::TempDir() + "liana_service_" + std::to_string(::getpid());
-  config.robot.table = arm.table();
-  config.robot.canonical_json = config.scene.canonical_json = config.buses.canonical_json = "{}";
-  config.scene.camera = SceneCamera{};
-  config.scene.camera->latency_s = 0.1;
-  config.buses.rate_hz = 250.0;
+  config.robot_json = config.scene_json = config.buses.canonical_json = "{}";
+  config.camera_latency_s = 0.1;
+  config.buses.rate_hz = 1.0 / arm.table().tick_s;
+  config.buses.command_interval_s = arm.table().interval_ticks * arm.table().tick_s;
   config.serials = [] { return std::vector<std::uint32_t>(15, 7); };
   config.boot_problems = [] {
     return std::vector<BootProblem>{{3, FaultNumber::kDriveMissing, "node 4 on can0: silent"}};
@@ -31,10 +31,19 @@ ServiceConfig config_for(const SimArm& arm, TimeMode mode) {
   return config;
 }
 
+RobotConfig robot_of(const SimArm& arm) {
+  RobotConfig robot;
+  robot.table = arm.table();
+  return robot;
+}
+
 class ServiceOverSocket : public testing::Test {
  protected:
   explicit ServiceOverSocket(TimeMode mode = TimeMode::kFast)
-      : arm_(std::make_unique<SimArm>()), config_(config_for(*arm_, mode)), service_(config_, arm_->link) {}
+      : arm_(std::make_unique<SimArm>()),
+        desk_(robot_of(*arm_), SceneConfig{}, "", mode, arm_->link),
+        config_(config_for(*arm_, mode)),
+        service_(config_, desk_) {}
   ~ServiceOverSocket() override { ::unlink(config_.api_path.c_str()); }
 
   ApiClient join(const std::string& role, Json topics = {"state"}) {
@@ -88,12 +97,13 @@ class ServiceOverSocket : public testing::Test {
     ASSERT_EQ(state(mission)["state"], "ENABLED");
   }
   Json move_request(double change_deg) const {
-    Json goal = degrees(arm_->table(), arm_->now().theta_command_rad);
+    Json goal = theta_deg(arm_->table(), arm_->now().theta_command_rad);
     goal[0] = goal[0].get<double>() + change_deg;
     return {{"op", "move_jp"}, {"goal_deg", goal}};
   }
 
   std::unique_ptr<SimArm> arm_;
+  CableDesk desk_;
   ServiceConfig config_;
   Service service_;
   int id_ = 0;
@@ -371,7 +381,7 @@ class ServiceInRealTime : public ServiceOverSocket {
 TEST_F(ServiceInRealTime, TimingTellsWhatTheRealTimeThreadRecordedSinceTheLastReset) {
   ApiClient watcher = join("observer");
   TickTiming& timing = arm_->link.timing;
-  CycleReport report = arm_->link.report.value();
+  ArmReport<cable::CableArm> report = arm_->link.report.value();
   const auto record = [&](std::uint32_t late_us, std::uint32_t tick_us, std::uint64_t overruns) {
     timing.wakeup_us.record(late_us);
     timing.tick_us.record(tick_us);

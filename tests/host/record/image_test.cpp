@@ -50,7 +50,7 @@ TEST(Image, AReplayFromTheMiddleGivesTheBitsOfOneFromTheStart) {
     cable::Rig whole = moving_rig(ticks);
     cable::Rig middle = whole;
     std::memset(static_cast<void*>(&middle.controller), 0x55, sizeof middle.controller);
-    middle.controller = controller_from(state_of(whole.controller), whole.robot, "test");
+    middle.controller = controller_from<cable::CableArm>(state_of(whole.controller), whole.robot, "test");
     for (int i = 0; i < 400; ++i) {
       if (i == 200) whole.drives.silence(3), middle.drives.silence(3);
       ASSERT_EQ(outputs_of(whole.tick()), outputs_of(middle.tick())) << "tick " << i << " after " << ticks;
@@ -77,7 +77,7 @@ TEST(Image, TwoControllersInDifferentMemoryGiveTheSameBytes) {
 // What is said about an image with one byte changed; empty when it is taken.
 std::string refusal_of(const std::string& state, const cable::RobotTable& table) {
   try {
-    controller_from(state, table, "images.mcap");
+    controller_from<cable::CableArm>(state, table, "images.mcap");
   } catch (const std::runtime_error& refused) {
     return refused.what();
   }
@@ -170,7 +170,7 @@ TEST(Image, ATableThatWouldLeadTheCoreOutOfItsArraysIsRefused) {
     append_serialised(bytes, table);
     std::size_t used = 0;
     try {
-      checked_table(bytes, "images.mcap", used);
+      checked_table<cable::RobotTable>(bytes, "images.mcap", used);
     } catch (const std::runtime_error& refused) {
       return refused.what();
     }
@@ -199,7 +199,7 @@ TEST(Image, AnImageWithFlippedBytesIsRefusedOrHarmless) {
     if (!refusal_of(bad, rig.robot).empty()) continue;
     ++taken;
     cable::Rig other = rig;
-    other.controller = controller_from(bad, rig.robot, "images.mcap");
+    other.controller = controller_from<cable::CableArm>(bad, rig.robot, "images.mcap");
     other.run(4);
   }
   EXPECT_GT(taken, 100);

@@ -55,7 +55,7 @@ std::string record_run(const std::string& folder, std::uint64_t ticks, Change ch
     if (tick == image_at) {
       recording.take(tick == kFirstTick ? image_packet(tick, zhu2022::table()) : image_packet(tick, controller));
     }
-    TickRecord record{inputs_of(tick), controller.tick(inputs_of(tick))};
+    TickRecord<cable::CableArm> record{inputs_of(tick), controller.tick(inputs_of(tick))};
     change(record);
     recording.take(tick_packet(record, 0, counts_of(zhu2022::table())));
   }
@@ -64,14 +64,14 @@ std::string record_run(const std::string& folder, std::uint64_t ticks, Change ch
 }
 
 TEST(Replay, ATrueRecordingHasNoDifferingTick) {
-  const ReplayResult result = replay(record_run(fresh_folder("true"), 200, [](TickRecord&) {}));
+  const ReplayResult result = replay(record_run(fresh_folder("true"), 200, [](TickRecord<cable::CableArm>&) {}));
   EXPECT_EQ(result.ticks, 200u);
   EXPECT_EQ(result.differing_ticks, 0u);
   EXPECT_TRUE(result.complete);
 }
 
 TEST(Replay, OneChangedBitIsFoundAndNamed) {
-  const ReplayResult result = replay(record_run(fresh_folder("bit"), 200, [](TickRecord& record) {
+  const ReplayResult result = replay(record_run(fresh_folder("bit"), 200, [](TickRecord<cable::CableArm>& record) {
     if (record.outputs.tick == 77) record.outputs.drive[5].target_counts ^= 1;
   }));
   EXPECT_EQ(result.ticks, 200u);
@@ -81,7 +81,7 @@ TEST(Replay, OneChangedBitIsFoundAndNamed) {
 }
 
 TEST(Replay, AChangedInputShowsInTheOutputs) {
-  const ReplayResult result = replay(record_run(fresh_folder("input"), 100, [](TickRecord& record) {
+  const ReplayResult result = replay(record_run(fresh_folder("input"), 100, [](TickRecord<cable::CableArm>& record) {
     if (record.inputs.tick == 60) record.inputs.drive[2].position_counts += 1000;
   }));
   EXPECT_GT(result.differing_ticks, 0u);
@@ -90,7 +90,7 @@ TEST(Replay, AChangedInputShowsInTheOutputs) {
 
 TEST(Replay, ARecordingThatStartsInMidRunGoesOnFromItsImage) {
   const ReplayResult result = replay(record_run(
-      fresh_folder("image"), 200, [](TickRecord&) {}, 150));
+      fresh_folder("image"), 200, [](TickRecord<cable::CableArm>&) {}, 150));
   EXPECT_EQ(result.ticks, kFirstTick + 200 - 150);
   EXPECT_EQ(result.missing_ticks, 150 - kFirstTick);
   EXPECT_EQ(result.differing_ticks, 0u);
@@ -121,7 +121,7 @@ std::string bytes_of(const std::string& file) {
 }
 
 TEST(Replay, AFlippedByteAnywhereIsNoticedBeforeTheCoreSeesIt) {
-  const std::string folder = record_run(fresh_folder("flipped"), 100, [](TickRecord&) {});
+  const std::string folder = record_run(fresh_folder("flipped"), 100, [](TickRecord<cable::CableArm>&) {});
   const std::string file = folder + "/" + kRecordingFile, good = bytes_of(file);
   std::mt19937 draw(5);
   for (int i = 0; i < 100; ++i) {
@@ -139,7 +139,7 @@ TEST(Replay, AFlippedByteAnywhereIsNoticedBeforeTheCoreSeesIt) {
 }
 
 TEST(Replay, ARecordingCutShortIsComparedAsFarAsItGoesAndNotCalledComplete) {
-  const std::string folder = record_run(fresh_folder("cut"), 2000, [](TickRecord&) {});
+  const std::string folder = record_run(fresh_folder("cut"), 2000, [](TickRecord<cable::CableArm>&) {});
   std::filesystem::resize_file(folder + "/" + kRecordingFile,
                                std::filesystem::file_size(folder + "/" + kRecordingFile) / 2);
   const ReplayResult result = replay(folder);
@@ -149,14 +149,14 @@ TEST(Replay, ARecordingCutShortIsComparedAsFarAsItGoesAndNotCalledComplete) {
 }
 
 TEST(Replay, ItIsKnownWhoRecorded) {
-  const ReplayResult result = replay(record_run(fresh_folder("build"), 5, [](TickRecord&) {}));
+  const ReplayResult result = replay(record_run(fresh_folder("build"), 5, [](TickRecord<cable::CableArm>&) {}));
   EXPECT_TRUE(result.same_build);
   EXPECT_EQ(result.recorded_by, build_id());
 }
 
 TEST(Replay, ARepeatedRunGivesTheSameFileByteForByte) {
   const auto recorded = [](const std::string& name) {
-    return bytes_of(record_run(fresh_folder(name), 50, [](TickRecord&) {}) + "/" + kRecordingFile);
+    return bytes_of(record_run(fresh_folder(name), 50, [](TickRecord<cable::CableArm>&) {}) + "/" + kRecordingFile);
   };
   const std::string first = recorded("one");
   EXPECT_EQ(first, recorded("two"));
@@ -166,7 +166,7 @@ TEST(Replay, ARepeatedRunGivesTheSameFileByteForByte) {
 TEST(Replay, AFolderWithoutARecordingIsRefused) {
   EXPECT_THROW(replay(fresh_folder("none")), std::runtime_error);
   EXPECT_THROW(replay(record_run(
-                   fresh_folder("no_image"), 5, [](TickRecord&) {}, 0)),
+                   fresh_folder("no_image"), 5, [](TickRecord<cable::CableArm>&) {}, 0)),
                std::runtime_error);
 }
 

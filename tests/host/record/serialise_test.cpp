@@ -33,12 +33,12 @@ std::string serialised(const T& value) {
 
 TEST(Serialise, OutputsComeBackBitForBit) {
   const std::string bytes = serialised(patterned<cable::Outputs>());
-  EXPECT_EQ(serialised(outputs_from(bytes)), bytes);
+  EXPECT_EQ(serialised(outputs_from<cable::CableArm>(bytes)), bytes);
 }
 
 TEST(Serialise, InputsComeBackBitForBitWithTheirTelecommand) {
   const cable::Inputs inputs = patterned<cable::Inputs>();
-  const cable::Inputs back = RecordingDecoder::inputs(serialised(inputs));
+  const cable::Inputs back = RecordingDecoder::inputs<cable::CableArm>(serialised(inputs));
   EXPECT_EQ(serialised(back), serialised(inputs));
   EXPECT_EQ(back.telecommand.sequence(), inputs.telecommand.sequence());
   EXPECT_EQ(back.telecommand.expiry_tick(), inputs.telecommand.expiry_tick());
@@ -46,7 +46,7 @@ TEST(Serialise, InputsComeBackBitForBitWithTheirTelecommand) {
 
 TEST(Serialise, TheRobotTableComesBack) {
   const std::string bytes = serialised(zhu2022::table());
-  EXPECT_EQ(serialised(robot_table_from(bytes)), bytes);
+  EXPECT_EQ(serialised(table_from<cable::CableArm>(bytes)), bytes);
 }
 
 TEST(Serialise, NumbersAreLittleEndian) {
@@ -57,20 +57,20 @@ TEST(Serialise, NumbersAreLittleEndian) {
 
 TEST(Serialise, ShortOrLongDataIsRefused) {
   const std::string bytes = serialised(cable::Outputs{});
-  EXPECT_THROW(outputs_from(bytes.substr(1)), std::runtime_error);
-  EXPECT_THROW(outputs_from(bytes + "x"), std::runtime_error);
+  EXPECT_THROW(outputs_from<cable::CableArm>(bytes.substr(1)), std::runtime_error);
+  EXPECT_THROW(outputs_from<cable::CableArm>(bytes + "x"), std::runtime_error);
 }
 
 TEST(Serialise, AByteOffsetNamesItsField) {
-  EXPECT_EQ(outputs_field_at(0), "tick");
-  EXPECT_EQ(outputs_field_at(8), "state");
+  EXPECT_EQ(outputs_field_at<cable::CableArm>(0), "tick");
+  EXPECT_EQ(outputs_field_at<cable::CableArm>(8), "state");
   cable::Outputs a, b;
   b.drive[3].target_counts = 7;
   const std::string x = serialised(a), y = serialised(b);
   std::size_t at = 0;
   while (x[at] == y[at]) ++at;
-  EXPECT_EQ(outputs_field_at(at), "drive[3].target_counts");
-  EXPECT_EQ(outputs_field_at(1u << 20), "");
+  EXPECT_EQ(outputs_field_at<cable::CableArm>(at), "drive[3].target_counts");
+  EXPECT_EQ(outputs_field_at<cable::CableArm>(1u << 20), "");
 }
 
 // Converts to any field; counts how many an aggregate has.

@@ -16,7 +16,7 @@ static_assert(!std::is_constructible_v<cable::Telecommand, std::uint64_t, std::u
 static_assert(!std::is_constructible_v<Candidate, const cable::Telecommand&>,
               "nobody but ReleaseStep can make a candidate");
 static_assert(!std::is_constructible_v<Candidate>);
-static_assert(!std::is_constructible_v<cable::Telecommand, const Candidate&>);
+static_assert(!std::is_constructible_v<cable::Telecommand, const Candidate<cable::CableArm>&>);
 static_assert(std::is_default_constructible_v<cable::Telecommand>, "an empty one, which commands nothing");
 
 ExecutionVerdict execution(std::uint64_t sequence, Refusal code = Refusal::kNone) {
@@ -38,8 +38,8 @@ cable::Setpoint hold() {
 }
 
 TEST(ReleaseStep, BothVerdictsReleaseWhatWasJudged) {
-  ReleaseStep release;
-  const Candidate candidate = release.candidate(hold(), 7, 100, 5);
+  ReleaseStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
   const auto telecommand = release.release(candidate, execution(1), simulation(1));
   ASSERT_TRUE(telecommand);
   EXPECT_EQ(telecommand->sequence(), 1u);
@@ -50,31 +50,31 @@ TEST(ReleaseStep, BothVerdictsReleaseWhatWasJudged) {
 }
 
 TEST(ReleaseStep, OneRefusalIsEnough) {
-  ReleaseStep release;
-  const Candidate candidate = release.candidate(hold(), 7, 100, 5);
+  ReleaseStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
   EXPECT_FALSE(release.release(candidate, execution(1, Refusal::kGate), simulation(1)));
   EXPECT_FALSE(release.release(candidate, execution(1), simulation(1, Refusal::kTipSpeed)));
 }
 
 TEST(ReleaseStep, VerdictsOnOtherCandidatesDoNotCount) {
-  ReleaseStep release;
-  const Candidate old = release.candidate(hold(), 7, 100, 5);
-  const Candidate candidate = release.candidate(hold(), 7, 105, 5);
+  ReleaseStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> old = release.candidate(hold(), 7, 100, 5);
+  const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 105, 5);
   EXPECT_FALSE(release.release(candidate, execution(1), simulation(2)));
   EXPECT_FALSE(release.release(candidate, execution(2), simulation(1)));
   EXPECT_FALSE(release.release(old, execution(1), simulation(1))) << "a newer candidate exists";
 }
 
 TEST(ReleaseStep, NothingIsReleasedTwice) {
-  ReleaseStep release;
-  const Candidate candidate = release.candidate(hold(), 7, 100, 5);
+  ReleaseStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
   EXPECT_TRUE(release.release(candidate, execution(1), simulation(1)));
   EXPECT_FALSE(release.release(candidate, execution(1), simulation(1)));
 }
 
 TEST(ReleaseStep, AnEmptyVerdictIsNoVerdict) {
-  ReleaseStep release;
-  const Candidate candidate = release.candidate(hold(), 7, 100, 5);
+  ReleaseStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
   EXPECT_FALSE(release.release(candidate, ExecutionVerdict{}, SimulationVerdict{}));
 }
 

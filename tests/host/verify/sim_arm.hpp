@@ -71,12 +71,12 @@ class SimArm {
   cable::RobotTable table_;
 
  public:
-  Link link;
+  ArmLink<cable::CableArm> link;
 
  private:
-  TickCore core_;
+  TickCore<cable::CableArm> core_;
   NominalDrives<cable::CableArm> drives_;
-  CycleReport report_{};
+  ArmReport<cable::CableArm> report_{};
   cable::Outputs outputs_{};
 };
 

@@ -26,30 +26,32 @@ class TwinOfAnArm : public testing::Test {
     setpoint.tip_speed_m_s = speed_m_s;
     return setpoint;
   }
-  Candidate candidate(const cable::Setpoint& setpoint) {
+  Candidate<cable::CableArm> candidate(const cable::Setpoint& setpoint) {
     const auto interval = static_cast<std::uint64_t>(arm_->table().interval_ticks);
     return release_.candidate(setpoint, 1, arm_->link.image.value().next_tick + interval, interval);
   }
-  Prediction predict(const Candidate& candidate) {
-    return Twin::run(arm_->link.image.value(), released_, candidate, max_stop_ticks(arm_->table()));
+  Prediction<cable::CableArm> predict(const Candidate<cable::CableArm>& candidate) {
+    return Twin<cable::CableArm>::run(arm_->link.image.value(), released_, candidate,
+                                      max_stop_ticks(arm_->table().tick_s));
   }
-  std::optional<cable::Telecommand> release(const Candidate& candidate, const Prediction& prediction) {
-    return release_.release(candidate, judge_execution(arm_->table(), candidate, prediction),
-                            judge_motion(arm_->table(), candidate, prediction));
+  std::optional<cable::Telecommand> release(const Candidate<cable::CableArm>& candidate,
+                                            const Prediction<cable::CableArm>& prediction) {
+    return release_.release(candidate, judge_execution<cable::CableArm>(arm_->table(), candidate, prediction),
+                            judge_motion<cable::CableArm>(arm_->table(), candidate, prediction));
   }
 
   std::unique_ptr<SimArm> arm_;
 
-  ReleaseStep release_;
+  ReleaseStep<cable::CableArm> release_;
   std::vector<cable::Telecommand> released_;
 };
 
 TEST_F(TwinOfAnArm, PredictsTheNextTicksExactlyWhenTheDrivesAreIdeal) {
-  const Candidate wanted = candidate(shifted_tip(0.01));
-  const Prediction prediction = predict(wanted);
+  const Candidate<cable::CableArm> wanted = candidate(shifted_tip(0.01));
+  const Prediction<cable::CableArm> prediction = predict(wanted);
   const auto telecommand = release(wanted, prediction);
-  ASSERT_TRUE(telecommand) << judge_execution(arm_->table(), wanted, prediction).text
-                           << judge_motion(arm_->table(), wanted, prediction).text;
+  ASSERT_TRUE(telecommand) << judge_execution<cable::CableArm>(arm_->table(), wanted, prediction).text
+                           << judge_motion<cable::CableArm>(arm_->table(), wanted, prediction).text;
   arm_->link.released.push(*telecommand);
   while (arm_->ticks_done() < wanted.first_tick()) arm_->tick();
   double moved = 0.0;
@@ -64,12 +66,12 @@ TEST_F(TwinOfAnArm, PredictsTheNextTicksExactlyWhenTheDrivesAreIdeal) {
 }
 
 TEST_F(TwinOfAnArm, GoesThroughWhatIsAlreadyReleased) {
-  const Candidate first = candidate(shifted_tip(0.01));
+  const Candidate<cable::CableArm> first = candidate(shifted_tip(0.01));
   const auto telecommand = release(first, predict(first));
   ASSERT_TRUE(telecommand);
   released_.push_back(*telecommand);
   const auto interval = static_cast<std::uint64_t>(arm_->table().interval_ticks);
-  const Candidate second = release_.candidate(shifted_tip(0.01), 1, first.expiry_tick(), interval);
+  const Candidate<cable::CableArm> second = release_.candidate(shifted_tip(0.01), 1, first.expiry_tick(), interval);
   EXPECT_GT(predict(second).ticks.front().tip_speed_m_s, 0.0) << "moving already because of the first";
 }
 

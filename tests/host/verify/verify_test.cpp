@@ -23,11 +23,11 @@ struct Judged {
 // A prediction of five quiet ticks and a stop, with `change` applied to one tick of the command (2) and one of the stop
 // (6).
 Judged judge(const std::function<void(cable::Outputs&)>& change, std::size_t at = 2, bool comes_to_rest = true) {
-  ReleaseStep release;
+  ReleaseStep<cable::CableArm> release;
   cable::Setpoint setpoint;
   setpoint.kind = CommandKind::kTip;
-  const Candidate candidate = release.candidate(setpoint, 1, 100, 5);
-  Prediction prediction;
+  const Candidate<cable::CableArm> candidate = release.candidate(setpoint, 1, 100, 5);
+  Prediction<cable::CableArm> prediction;
   prediction.command_ticks = 5;
   prediction.comes_to_rest = comes_to_rest;
   prediction.ticks.resize(8);
@@ -36,8 +36,8 @@ Judged judge(const std::function<void(cable::Outputs&)>& change, std::size_t at 
     outputs.tension_plan_N.fill(40.0);
   }
   change(prediction.ticks[at]);
-  const ExecutionVerdict execution = judge_execution(kTable, candidate, prediction);
-  const SimulationVerdict simulation = judge_motion(kTable, candidate, prediction);
+  const ExecutionVerdict execution = judge_execution<cable::CableArm>(kTable, candidate, prediction);
+  const SimulationVerdict simulation = judge_motion<cable::CableArm>(kTable, candidate, prediction);
   return {execution.code, simulation.code, execution.text + simulation.text};
 }
 
@@ -110,12 +110,12 @@ TEST(Verify, ARefusalNamesWhatWhereAndTheLimit) {
 }
 
 TEST(Verify, AVerdictAfterTheIntervalBeganIsTooSlow) {
-  ReleaseStep release;
-  const Candidate candidate = release.candidate(cable::Setpoint{}, 1, 100, 5);
+  ReleaseStep<cable::CableArm> release;
+  const Candidate<cable::CableArm> candidate = release.candidate(cable::Setpoint{}, 1, 100, 5);
   ExecutionVerdict verdict;
-  judge_time(candidate, 99, verdict);
+  judge_time(candidate.first_tick(), 99, verdict);
   EXPECT_TRUE(verdict.passed());
-  judge_time(candidate, 100, verdict);
+  judge_time(candidate.first_tick(), 100, verdict);
   EXPECT_EQ(verdict.code, Refusal::kTooSlow);
 }
 

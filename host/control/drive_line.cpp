@@ -1,0 +1,129 @@
+#include "host/control/drive_line.hpp"
+
+#include <algorithm>
+
+#include "firmware_like/drive/pdo.hpp"
+#include "firmware_like/math/convert.hpp"
+#include "firmware_like/safety/link_watch.hpp"
+#include "host/canopen/cob_id.hpp"
+
+namespace liana {
+
+namespace {
+
+std::vector<std::string> names_of(const BusesConfig& buses) {
+  std::vector<std::string> names;
+  for (const BusConfig& bus : buses.buses) names.push_back(bus.name);
+  return names;
+}
+
+// How long a bus on which nobody is heard still gets its commands: long enough for a quick stop to arrive. Then silence
+// makes drives that hear us but act on nothing (without SYNC they do not) stop by themselves, and no old command waits
+// in a queue for the bus to come back.
+constexpr std::uint16_t kFarewellTicks = 25;
+
+std::uint16_t older(std::uint16_t age) { return narrow<std::uint16_t>(static_cast<std::uint32_t>(age) + 1); }
+
+bool is_out(BusState state) { return state == BusState::kDown || state == BusState::kBusOff; }
+
+}  // namespace
+
+DriveLine::DriveLine(const std::vector<canopen::DriveExpectation>& drives, const BusesConfig& buses, DriveBus& bus)
+    : bus_(bus), drives_(drives), bus_names_(names_of(buses)), master_(drives_, buses) {
+  for (auto& nodes : drive_of_node_) nodes.fill(-1);
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    drive_of_node_[static_cast<std::size_t>(drives_[i].bus)][drives_[i].node] = static_cast<std::int8_t>(i);
+    has_drives_[static_cast<std::size_t>(drives_[i].bus)] = true;
+  }
+}
+
+// Everything that came in since the last tick; what did not come grows older.
+void DriveLine::collect(const TickStart& start, CycleInputs& inputs) noexcept {
+  inputs.tick = start.tick;
+  inputs.lost_ticks = start.lost_ticks;
+  inputs.request = Request::kNone;
+  for (std::size_t i = 0; i < drives_.size(); ++i)
+    inputs.drive[i].feedback_age_ticks = older(inputs.drive[i].feedback_age_ticks);
+  for (std::uint16_t& ticks : silent_ticks_) ticks = older(ticks);
+  ReceivedFrame received;
+  while (bus_.receive(received)) {
+    if (master_.on_frame(received.bus, received.frame, start.tick)) continue;
+    const canopen::FrameRoute route = canopen::route(received.frame.id);
+    if (route.kind != canopen::FrameKind::kTpdo1) continue;
+    const std::int8_t drive = drive_of_node_[static_cast<std::size_t>(received.bus)][route.node];
+    Tpdo1 report;
+    if (drive < 0 || !decode_tpdo1({received.frame.data.data(), received.frame.length}, report)) continue;
+    DriveFeedback& feedback = inputs.drive[static_cast<std::size_t>(drive)];
+    feedback.statusword = report.statusword;
+    feedback.position_counts = report.position_counts;
+    feedback.torque_permille = report.torque_permille;
+    feedback.feedback_age_ticks = 0;
+    silent_ticks_[static_cast<std::size_t>(received.bus)] = 0;
+  }
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    inputs.drive[i].heartbeat_age_ticks = narrow<std::uint16_t>(master_.heartbeats().age_ticks(drives_[i].node));
+    inputs.drive[i].operational = master_.heartbeats().state(drives_[i].node) == canopen::kStateOperational ? 1 : 0;
+  }
+  take_emergencies(inputs);
+  inputs.lost_bus_mask = lost_buses();
+}
+
+// An interface that is up proves nothing: with its cable off it goes on sending to nobody. A bus is also lost when none
+// of its drives is heard any more, as soon as one of them would be silent.
+std::uint32_t DriveLine::lost_buses() const noexcept {
+  std::uint32_t mask = 0;
+  for (int b = 0; b < bus_.bus_count(); ++b) {
+    const bool is_silent =
+        has_drives_[static_cast<std::size_t>(b)] && silent_ticks_[static_cast<std::size_t>(b)] > kFeedbackAgeTicks;
+    if (is_silent || is_out(bus_.stats(b).state)) mask |= 1u << b;
+  }
+  return mask;
+}
+
+void DriveLine::take_emergencies(CycleInputs& inputs) noexcept {
+  for (std::size_t i = 0; i < drives_.size(); ++i) inputs.drive[i].emergency_code = 0;
+  canopen::Emergency emergency;
+  while (master_.emergencies().take(emergency)) {
+    const std::int8_t drive = drive_of_node_[static_cast<std::size_t>(emergency.bus)][emergency.node];
+    if (drive >= 0) inputs.drive[static_cast<std::size_t>(drive)].emergency_code = emergency.code;
+  }
+}
+
+void DriveLine::command(const DriveCommands& commands) noexcept {
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    if (silent_ticks_[static_cast<std::size_t>(drives_[i].bus)] > kFarewellTicks) continue;
+    CanFrame frame;
+    frame.id = rpdo1_cob_id(drives_[i].node);
+    frame.length = kRpdo1Bytes;
+    const std::array<std::uint8_t, kRpdo1Bytes> bytes = encode_rpdo1(commands[i]);
+    std::copy(bytes.begin(), bytes.end(), frame.data.begin());
+    bus_.send(drives_[i].bus, frame);
+  }
+}
+
+BootPhase DriveLine::boot_phase() const noexcept {
+  const canopen::BootState boot = master_.boot().state();
+  if (boot == canopen::BootState::kRunning) return BootPhase::kBooting;
+  return boot == canopen::BootState::kOperational ? BootPhase::kDone : BootPhase::kFailed;
+}
+
+std::vector<BootProblem> DriveLine::boot_problems() const {
+  std::vector<BootProblem> problems;
+  for (std::size_t i = 0; i < master_.boot().node_count(); ++i) {
+    const canopen::BootMismatch& mismatch = master_.boot().mismatch(i);
+    if (mismatch.failure == canopen::BootFailure::kNone) continue;
+    const bool missing =
+        mismatch.failure == canopen::BootFailure::kNoBootUp || mismatch.failure == canopen::BootFailure::kNoAnswer;
+    problems.push_back({static_cast<int>(i), missing ? FaultNumber::kDriveMissing : FaultNumber::kDriveNotOperational,
+                        canopen::describe(mismatch, bus_names_[static_cast<std::size_t>(mismatch.bus)])});
+  }
+  return problems;
+}
+
+std::vector<std::uint32_t> DriveLine::serials() const {
+  std::vector<std::uint32_t> out;
+  for (std::size_t i = 0; i < master_.boot().node_count(); ++i) out.push_back(master_.boot().serial(i));
+  return out;
+}
+
+}  // namespace liana

@@ -1,0 +1,129 @@
+// What the desks of all kinds of arm have in common: the link, verification, and requests about plain motion.
+#pragma once
+
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "host/api/fields.hpp"
+#include "host/api/request_error.hpp"
+#include "host/daemon/desk.hpp"
+#include "host/json/json.hpp"
+#include "host/record/tick_packet.hpp"
+#include "host/record/visit_serial.hpp"
+#include "host/time/time_mode.hpp"
+#include "host/verify/release_step.hpp"
+#include "host/verify/verify.hpp"
+
+namespace liana {
+
+// `Steering` is the arm's arbiter.
+template <class Arm, class Steering>
+class ArmDesk : public Desk {
+ public:
+  Link& link() override { return link_; }
+  bool interval_began() const override { return link_.image.has_new(); }
+  void refresh() override {
+    link_.report.refresh();
+    link_.image.refresh();
+  }
+  void refresh_report() override { link_.report.refresh(); }
+  const ArmReport<Arm>& report() const override { return link_.report.value(); }
+  const liana::Inputs<Arm>& inputs() const override { return report().inputs; }
+  const liana::Outputs<Arm>& outputs() const override { return report().outputs; }
+  const SupervisorState& supervisor() const override { return link_.image.value().controller.supervisor(); }
+  void take_ticks(std::uint64_t dropped, const TickSink& sink) override;
+  std::uint64_t image_tick() const override { return link_.image.value().next_tick; }
+  std::string image_packet() const override;
+
+  bool knows(const std::string& op) const override { return handlers_.count(op) > 0; }
+  Json ask(const MotionRequest& request) override;
+  void hold() override { arbiter_.hold(); }
+  std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) override;
+  std::size_t drive_count() const override { return static_cast<std::size_t>(table_.drive_count()); }
+
+ protected:
+  using Table = typename Arm::Table;
+  using Handler = std::function<void(const MotionRequest&)>;
+
+  // The arbiter is made of the table, the zone and what else it needs.
+  template <class... Args>
+  ArmDesk(const Table& table, const SpeedZone& zone, TimeMode time_mode, ArmLink<Arm>& link, const Args&... args)
+      : table_(table), link_(link), arbiter_(table, zone, args...), zone_(zone), time_mode_(time_mode) {}
+
+  std::uint64_t tick() const { return report().next_tick; }
+  // The angles of the twin at the end of a candidate's interval, in degrees.
+  virtual std::vector<double> joints_deg(const liana::Outputs<Arm>& outputs) const = 0;
+
+  Table table_;
+  ArmLink<Arm>& link_;
+  Steering arbiter_;
+  SpeedZone zone_;
+  std::map<std::string, Handler> handlers_;  // by op
+
+ private:
+  using Command = liana::Telecommand<typename Arm::Setpoint>;
+
+  LastVerdict verify_and_release(const typename Arm::Setpoint& setpoint, std::uint32_t owner);
+
+  TimeMode time_mode_;
+  ReleaseStep<Arm> release_;
+  std::vector<Command> released_;  // not yet due at the newest image
+};
+
+template <class Arm, class Steering>
+void ArmDesk<Arm, Steering>::take_ticks(std::uint64_t dropped, const TickSink& sink) {
+  const std::uint64_t lost = report().records_lost + dropped;
+  while (const TickRecord<Arm>* record = link_.ticks.front()) {
+    sink(record->inputs, [&] { return tick_packet(*record, lost, counts_of(table_)); });
+    link_.ticks.pop();
+  }
+}
+
+template <class Arm, class Steering>
+std::string ArmDesk<Arm, Steering>::image_packet() const {
+  const TwinImage<Arm>& image = link_.image.value();
+  return image.fresh ? liana::image_packet<Arm>(image.next_tick, table_)
+                     : liana::image_packet(image.next_tick, image.controller);
+}
+
+template <class Arm, class Steering>
+Json ArmDesk<Arm, Steering>::ask(const MotionRequest& request) {
+  handlers_.at(request.op)(request);
+  return Json::object();
+}
+
+// While a stop is on its way to the next tick, the arm is given nothing else.
+template <class Arm, class Steering>
+std::optional<LastVerdict> ArmDesk<Arm, Steering>::release_next(bool may_release, std::uint32_t owner) {
+  const auto setpoint = arbiter_.next_setpoint(tick(), outputs());
+  const std::uint64_t next_tick = link_.image.value().next_tick;
+  std::erase_if(released_, [next_tick](const Command& t) { return t.first_tick() < next_tick; });
+  if (!setpoint || !may_release || link_.stop.is_pressed()) return std::nullopt;
+  return verify_and_release(*setpoint, owner);
+}
+
+template <class Arm, class Steering>
+LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpoint& setpoint, std::uint32_t owner) {
+  const TwinImage<Arm>& image = link_.image.value();
+  const auto interval = static_cast<std::uint64_t>(table_.interval_ticks);
+  const Candidate<Arm> candidate = release_.candidate(setpoint, owner, image.next_tick + interval, interval);
+  const Prediction<Arm> prediction = Twin<Arm>::run(image, released_, candidate, max_stop_ticks(table_.tick_s));
+  ExecutionVerdict execution = judge_execution<Arm>(table_, candidate, prediction);
+  const SimulationVerdict simulation = judge_motion<Arm>(table_, candidate, prediction, zone_);
+  if (time_mode_ == TimeMode::kReal) {
+    link_.report.refresh();
+    judge_time(candidate.first_tick(), tick(), execution);
+  }
+  const std::optional<Command> telecommand = release_.release(candidate, execution, simulation);
+  const bool released = telecommand && link_.released.push(*telecommand);
+  if (released) {
+    released_.push_back(*telecommand);
+  } else {
+    arbiter_.refused();
+  }
+  const Verdict& worst = execution.passed() ? static_cast<const Verdict&>(simulation) : execution;
+  return {candidate.sequence(), released, worst, joints_deg(prediction.ticks[prediction.command_ticks - 1])};
+}
+
+}  // namespace liana

@@ -1,0 +1,47 @@
+// The desk of a cable arm: homing by the lengths found, shapes, the slit, and operators' devices.
+#pragma once
+
+#include "host/daemon/arm_desk.hpp"
+
+#include "host/arbiter/arbiter.hpp"
+#include "host/arbiter/shape_progress.hpp"
+#include "host/config/config.hpp"
+#include "host/daemon/homing.hpp"
+
+namespace liana {
+
+// Angles in degrees, as many as the arm has.
+std::vector<double> theta_deg(const cable::RobotTable& table, const cable::ThetaVector& theta_rad);
+
+class CableDesk final : public ArmDesk<cable::CableArm, Arbiter> {
+ public:
+  // `in_pose`: the named pose in which the arm lies at the start; empty: nobody knows (homing.hpp, which throws).
+  CableDesk(const RobotConfig& robot, const SceneConfig& scene, const std::string& in_pose, TimeMode time_mode,
+            ArmLink<cable::CableArm>& link);
+
+  void watch(bool booted) override;
+  const std::string& why_not_homed() const override { return homing_.why_not(); }
+  void take_samples(const Json& message) override;
+  void drop_motion() override;
+  void add_state(Json& state) const override;
+  void add_drive_state(std::size_t drive, Json& state) const override;
+
+ private:
+  std::vector<double> joints_deg(const cable::Outputs& outputs) const override;
+  void on_move_jp(const MotionRequest& request);
+  void on_move_cp(const MotionRequest& request);
+  void on_servo_cp(const MotionRequest& request);
+  void on_hold_theta(const Json& request);
+  void on_shape(const MotionRequest& request);
+  void on_use_device(const MotionRequest& request);
+  void on_retract(const MotionRequest& request);
+
+  RobotConfig robot_;
+  SceneConfig scene_;
+  double reach_m_;
+  Homing homing_;
+  ShapeProgress shape_progress_;
+  std::int32_t planar_segments_ = 0;  // how many the slit asks for now (host/solve/dof_split.hpp)
+};
+
+}  // namespace liana

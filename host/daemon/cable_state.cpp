@@ -1,0 +1,68 @@
+// What a cable arm adds to the state message.
+#include "firmware_like/drive/cia402.hpp"
+#include "firmware_like/drive/pdo.hpp"
+#include "firmware_like/math/trig.hpp"
+#include "host/config/theta_numbers.hpp"
+#include "host/daemon/cable_desk.hpp"
+#include "host/daemon/state_parts.hpp"
+
+namespace liana {
+
+namespace {
+
+Json first(const cable::CableVector& values, std::int32_t count) {
+  return Json(std::vector<double>(values.begin(), values.begin() + count));
+}
+
+Json nodes_json(const cable::RobotTable& table, const cable::Outputs& outputs) {
+  Json nodes = Json::array();
+  for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m)
+    nodes.push_back(outputs.node_command_m[m]);
+  return nodes;
+}
+
+const char* device_name(DeviceKind kind) {
+  static constexpr std::array<const char*, 3> kNames{"none", "vr", "hand"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace
+
+std::vector<double> theta_deg(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i)
+    out.push_back(in_degrees(theta_rad[i]));
+  return out;
+}
+
+void CableDesk::add_state(Json& state) const {
+  const cable::Outputs& o = outputs();
+  const DeviceUse& device = arbiter_.device().in_use();
+  state["is_busy"] =
+      arbiter_.is_busy() || (o.state == OperatingState::kEnabled && (o.at_rest == 0 || o.held_at_target == 0));
+  state["retracted"] = arbiter_.has_retracted();
+  state["device"] = device_name(device.kind);
+  state["device_engaged"] = arbiter_.device().engaged();
+  state["device_reason"] = arbiter_.device().reason();
+  state["device_samples"] = arbiter_.device().samples();
+  state["mapping"] = {{"scale", device.mapping.scale}, {"rotation_scale", device.mapping.rotation_scale}};
+  state["shape"] = {{"missing_m", shape_progress_.missing_m()},
+                    {"settled", shape_progress_.is_settled() && !arbiter_.is_searching()},
+                    {"searching", arbiter_.is_searching()}};
+  state["planar_segments"] = planar_segments_;
+  state["measured_js_deg"] = theta_deg(table_, o.theta_measured_rad);
+  state["setpoint_js_deg"] = theta_deg(table_, o.theta_command_rad);
+  state["measured_cp"] = pose_json(tip_pose(table_, arm_trig(table_, o.theta_measured_rad)));
+  state["node_m"] = nodes_json(table_, o);
+  state["held"] = theta_numbers(o.held_mask);
+  state["held_at_target"] = o.held_at_target != 0;
+  state["tension_N"] = first(o.tension_measured_N, table_.cable_count());
+  add_tip(state, o);
+}
+
+void CableDesk::add_drive_state(std::size_t drive, Json& state) const {
+  state["position_m"] = paid_out_m(table_, inputs())[drive];
+  state["tension_N"] = reported_tension_N(table_, inputs())[drive];
+}
+
+}  // namespace liana

@@ -1,0 +1,76 @@
+// What the service asks of the arm it serves: everything whose type depends on the kind of arm is behind this.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware_like/controller_io.hpp"
+#include "host/control/link.hpp"
+#include "host/json/json_fwd.hpp"
+#include "host/verify/verdict.hpp"
+
+namespace liana {
+
+// How the last candidate fared.
+struct LastVerdict {
+  std::uint64_t sequence = 0;
+  bool released = false;
+  Verdict worst{};                  // the refusing end, or the tighter margin
+  std::vector<double> twin_js_deg;  // predicted at the end of the candidate's interval
+};
+
+// A request about motion, from the owner.
+struct MotionRequest {
+  const std::string& op;
+  const Json& body;
+  bool operator_is_here = false;  // a client with role operator is connected
+};
+
+class Desk {
+ public:
+  virtual ~Desk() = default;
+
+  // The real-time side. refresh() takes over what it has published; the references below show that until the next one.
+  virtual Link& link() = 0;
+  virtual bool interval_began() const = 0;
+  virtual void refresh() = 0;
+  virtual void refresh_report() = 0;  // not the image: the newest tick alone
+  virtual const CycleReport& report() const = 0;
+  virtual const CycleInputs& inputs() const = 0;
+  virtual const CycleOutputs& outputs() const = 0;
+  virtual const SupervisorState& supervisor() const = 0;
+  // Hands over every tick since the last call: what the drives said, and how to make its packet for the archive.
+  using TickSink = std::function<void(const CycleInputs&, const std::function<std::string()>& packet)>;
+  virtual void take_ticks(std::uint64_t dropped, const TickSink& sink) = 0;
+  // The Controller at the start of this interval, for the archive, and the tick that it computes next.
+  virtual std::uint64_t image_tick() const = 0;
+  virtual std::string image_packet() const = 0;
+
+  // Once per interval: what changes by itself. `booted`: the drives are.
+  virtual void watch(bool booted) = 0;
+  // Empty when homed; otherwise what contradicts what and what to do.
+  virtual const std::string& why_not_homed() const = 0;
+
+  // Requests about motion that this arm knows; ask() throws RequestError.
+  virtual bool knows(const std::string& op) const = 0;
+  virtual Json ask(const MotionRequest& request) = 0;
+  // Samples of an operator's device; throws RequestError.
+  virtual void take_samples(const Json& message) = 0;
+  // Nothing is asked for any more: stop along the path.
+  virtual void hold() = 0;
+  // The same, and nobody steers any more.
+  virtual void drop_motion() = 0;
+  // What the arm is asked to do next, verified twice and, unless it is refused, released; nothing when nothing is asked
+  // for, or `may_release` is false. `owner`: role number of who owns motion.
+  virtual std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) = 0;
+
+  // The arm's part of the state message (docs/api.md) and of its entry about one drive.
+  virtual void add_state(Json& state) const = 0;
+  virtual std::size_t drive_count() const = 0;
+  virtual void add_drive_state(std::size_t drive, Json& state) const = 0;
+};
+
+}  // namespace liana

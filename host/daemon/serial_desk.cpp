@@ -1,0 +1,111 @@
+#include "host/daemon/serial_desk.hpp"
+
+#include <algorithm>
+
+#include "firmware_like/math/trig.hpp"
+#include "firmware_like/serial/drive_units.hpp"
+#include "host/daemon/state_parts.hpp"
+
+namespace liana {
+
+namespace {
+
+std::vector<double> deg(const serial::RobotTable& table, const serial::JointVector& rad) {
+  std::vector<double> out;
+  for (std::size_t i = 0; i < table.joints(); ++i) out.push_back(in_degrees(rad[i]));
+  return out;
+}
+
+// A limit in degrees, free of what the way through radians left of it.
+double clean_deg(double rad) { return std::round(rad / kDegree * 1e9) / 1e9; }
+
+std::string number(double value) { return Json(std::round(value * 1e3) / 1e3).dump(); }
+
+// The first joint that keeps the arm from being homed.
+std::string why_not(const serial::RobotTable& table, const serial::Inputs& inputs) {
+  for (std::size_t i = 0; i < table.joints(); ++i) {
+    const std::string joint = "joint " + std::to_string(i + 1);
+    if (inputs.drive[i].feedback_age_ticks == 0xFFFF) return joint + ": its drive has not been heard yet";
+    const double angle_rad = serial::joint_at_counts(table.drive[i], inputs.drive[i].position_counts);
+    if (angle_rad < table.joint[i].low_rad - serial::kRangeMargin_rad ||
+        angle_rad > table.joint[i].high_rad + serial::kRangeMargin_rad) {
+      return joint + ": its encoder reads " + number(in_degrees(angle_rad)) + " deg; allowed " +
+             number(clean_deg(table.joint[i].low_rad)) + " to " + number(clean_deg(table.joint[i].high_rad)) +
+             ": check zero_counts and direction of the table";
+    }
+  }
+  return "the encoders have not been plausible for 25 ticks: one of them jumps";
+}
+
+}  // namespace
+
+SerialDesk::SerialDesk(const SerialRobotConfig& robot, TimeMode time_mode, ArmLink<serial::SerialArm>& link)
+    : ArmDesk(robot.table, SpeedZone{}, time_mode, link), reach_m_(serial::chain_length_m(robot.table)) {
+  handlers_ = {
+      {"move_jp", [this](const MotionRequest& r) { on_move_jp(r.body); }},
+      {"move_cp",
+       [this](const MotionRequest& r) { arbiter_.move_line(outputs(), pose_field(r.body, "goal", reach_m_)); }},
+      {"servo_cp",
+       [this](const MotionRequest& r) { arbiter_.servo_tip(outputs(), pose_field(r.body, "goal", reach_m_)); }},
+      {"retract", [this](const MotionRequest& r) { on_retract(r.body); }},
+      {"hold", [this](const MotionRequest&) { hold(); }}};
+}
+
+void SerialDesk::watch(bool booted) {
+  if (booted) why_not_homed_ = outputs().homed != 0 ? "" : why_not(table_, inputs());
+}
+
+std::vector<double> SerialDesk::joints_deg(const serial::Outputs& outputs) const {
+  return deg(table_, outputs.joint_command_rad);
+}
+
+void SerialDesk::on_move_jp(const Json& request) {
+  const std::vector<double> goal_deg = numbers_field(request, "goal_deg", table_.joints(), -720.0, 720.0);
+  double most_deg_s = 0.0;
+  serial::JointVector goal_rad{};
+  for (std::size_t i = 0; i < table_.joints(); ++i) {
+    const serial::JointTable& joint = table_.joint[i];
+    const double low_deg = clean_deg(joint.low_rad), high_deg = clean_deg(joint.high_rad);
+    most_deg_s = std::max(most_deg_s, clean_deg(joint.rate_rad_s));
+    if (goal_deg[i] < low_deg || goal_deg[i] > high_deg) {
+      throw RequestError("out_of_range", "goal_deg, joint " + std::to_string(i + 1) + ": " + number(goal_deg[i]) +
+                                             ": allowed " + number(low_deg) + " to " + number(high_deg) +
+                                             " deg: choose another goal");
+    }
+    goal_rad[i] = goal_deg[i] * kDegree;
+  }
+  const double rate_deg_s = number_field_or(request, "rate_deg_s", 0.01, most_deg_s, most_deg_s);
+  arbiter_.move_joints(outputs(), goal_rad, rate_deg_s * kDegree);
+}
+
+void SerialDesk::on_retract(const Json& request) {
+  const std::int64_t until = request.contains("until_tick") ? integer_field(request, "until_tick", 0, 1LL << 53) : 0;
+  arbiter_.retract(outputs(), static_cast<std::uint64_t>(until));
+}
+
+void SerialDesk::add_state(Json& state) const {
+  const serial::Outputs& o = outputs();
+  const serial::ArmKinematics arm = serial::forward_kinematics(table_, o.joint_command_rad);
+  Json points = Json::array(), torque_Nm = Json::array();
+  for (std::size_t i = 1; i <= table_.joints(); ++i) points.push_back(arm.point_in_base[i]);
+  for (std::size_t i = 0; i < table_.joints(); ++i) torque_Nm.push_back(o.torque_measured_Nm[i]);
+  state["is_busy"] = arbiter_.is_busy() || (o.state == OperatingState::kEnabled && o.at_rest == 0);
+  state["retracted"] = arbiter_.has_retracted();
+  state["measured_js_deg"] = deg(table_, o.joint_measured_rad);
+  state["setpoint_js_deg"] = deg(table_, o.joint_command_rad);
+  state["measured_cp"] = pose_json(serial::forward_kinematics(table_, o.joint_measured_rad).tip_in_base);
+  state["node_m"] = points;
+  state["held"] = Json::array();
+  state["held_at_target"] = true;
+  state["torque_Nm"] = torque_Nm;
+  state["device"] = "none";
+  add_tip(state, o);
+}
+
+void SerialDesk::add_drive_state(std::size_t drive, Json& state) const {
+  state["position_deg"] =
+      in_degrees(serial::joint_at_counts(table_.drive[drive], inputs().drive[drive].position_counts));
+  state["torque_Nm"] = outputs().torque_measured_Nm[drive];
+}
+
+}  // namespace liana

@@ -1,0 +1,14 @@
+// What one tick leaves for the recording.
+#pragma once
+
+#include "firmware_like/controller_io.hpp"
+
+namespace liana {
+
+template <class Arm>
+struct TickRecord {
+  Inputs<Arm> inputs{};
+  Outputs<Arm> outputs{};
+};
+
+}  // namespace liana
