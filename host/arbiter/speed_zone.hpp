@@ -9,8 +9,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 class SpeedZone {
  public:
   SpeedZone() = default;  // nowhere

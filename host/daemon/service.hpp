@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "host/api/server.hpp"
-#include "host/arbiter/arbiter.hpp"
+#include "host/arbiter/cable_arbiter.hpp"
 #include "host/arbiter/shape_progress.hpp"
 #include "host/config/config.hpp"
 #include "host/control/boot_problem.hpp"
@@ -121,7 +121,7 @@ class Service : private ApiHandler {
   Homing homing_;
   std::optional<std::uint64_t> homing_due_tick_;  // when an arm that is not homed says why
   SpeedZone zone_;
-  Arbiter arbiter_;
+  CableArbiter arbiter_;
   ShapeProgress shape_progress_;
   ReleaseStep release_;
   std::vector<cable::Telecommand> released_;  // not yet due at the newest image

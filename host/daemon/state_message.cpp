@@ -161,7 +161,7 @@ const char* state_name(const CycleReport& report) {
 }
 
 Json state_message(const cable::RobotTable& table, const BusesConfig& buses, const CycleReport& report,
-                   const Arbiter& arbiter, const Owner& owner, const Notes& notes) {
+                   const CableArbiter& arbiter, const Owner& owner, const Notes& notes) {
   const cable::Outputs& o = report.outputs;
   const DeviceUse& device = arbiter.device().in_use();
   const bool moving = o.state == OperatingState::kEnabled && (o.at_rest == 0 || o.held_at_target == 0);

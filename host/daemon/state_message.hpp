@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "host/arbiter/arbiter.hpp"
+#include "host/arbiter/cable_arbiter.hpp"
 #include "host/config/config.hpp"
 #include "host/control/boot_problem.hpp"
 #include "host/control/link.hpp"
@@ -56,6 +56,6 @@ Json degrees(const cable::RobotTable& table, const cable::ThetaVector& theta_rad
 
 // The whole message.
 Json state_message(const cable::RobotTable& table, const BusesConfig& buses, const CycleReport& report,
-                   const Arbiter& arbiter, const Owner& owner, const Notes& notes);
+                   const CableArbiter& arbiter, const Owner& owner, const Notes& notes);
 
 }  // namespace liana
