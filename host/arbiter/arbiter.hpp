@@ -1,111 +1,91 @@
-// One wish per command interval: the arbiter turns the owner's requests and the operator's hand into the setpoint to
-// verify next.
+// One wish per command interval: the arbiter chooses between the ways of moving, and makes the setpoint to verify next
+// of what the one under way asks for. What every arm has is here, compiled once for each kind; what a cable arm has
+// besides: cable_arbiter.hpp. Include with it the kind of the arm (cable_kind.hpp, serial_kind.hpp).
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <variant>
 
-#include "host/arbiter/device_steer.hpp"
-#include "host/arbiter/goal_search.hpp"
-#include "host/arbiter/moves.hpp"
+#include "host/arbiter/arm_kind.hpp"
+#include "host/arbiter/joint_move.hpp"
+#include "host/arbiter/path_memory.hpp"
 #include "host/arbiter/speed_zone.hpp"
+#include "host/arbiter/tip_line.hpp"
+#include "host/arbiter/tip_target.hpp"
+#include "host/arbiter/way_back.hpp"
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
-// Whether any entry is used.
-bool has_nodes(const NodeTargets& nodes);
-
-// When the result of a search for a shape is taken: in virtual time at the end of the interval that asked for it, so
-// that runs repeat bit for bit; in real time in the first interval that finds it there.
-enum class SearchResult { kInItsInterval, kWhenThere };
-
+template <class Arm>
 class Arbiter {
  public:
-  // In `zone` the tip is asked to go no faster than the zone says.
-  explicit Arbiter(const RobotTable& table, const SpeedZone& zone = {},
-                   SearchResult taken = SearchResult::kInItsInterval);
+  using Kind = ArmKind<Arm>;
+  using Table = typename Arm::Table;
+  using Setpoint = typename Arm::Setpoint;
+  using Now = liana::Outputs<Arm>;  // the newest tick of the arm
 
-  // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused). `now` is the newest tick of the
-  // arm.
-  void move_joints(const cable::Outputs& now, const ThetaVector& goal_rad, double rate_rad_s);
-  void move_line(const cable::Outputs& now, const Pose& goal);
-  void servo_tip(const cable::Outputs& now, const Pose& goal);
-  // Held variables: bit i of mask holds theta i at held_rad[i]; mask 0 releases all.
-  void hold_theta(const cable::Outputs& now, std::uint32_t mask, const ThetaVector& held_rad);
-  // Null-space targets; unused entries have node = 0. The core goes downhill from where it stands; with `search` (arm
-  // at rest) the goal IK looks for the best shape of all first, and the nodes are led there before the targets
-  // themselves are given.
-  void shape(const cable::Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear, bool search);
-  void use_device(const DeviceUse& use);
-  // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until
-  // use_device is asked for.
-  void retract(const cable::Outputs& now, std::uint64_t until_tick);
-  // Stop along the path: nothing is asked for any more. The operator has to let go and engage again.
-  void hold();
+  // In `zone` the tip is asked to go no faster than the zone says.
+  explicit Arbiter(const Table& table, const SpeedZone& zone = {});
+  Arbiter(const Arbiter&) = delete;  // ways of moving refer to its path and wishes
+  Arbiter& operator=(const Arbiter&) = delete;
+
+  // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused).
+  void move_joints(const Now& now, const Joints<Arm>& goal_rad, double rate_rad_s);
+  void move_line(const Now& now, const Pose& goal);
+  void servo_tip(const Now& now, const Pose& goal);
+  // Back along the verified path, not beyond `until_tick`: stops, then goes back, whatever is under way.
+  void retract(const Now& now, std::uint64_t until_tick);
+  // Stop along the path: nothing is asked for any more.
+  void hold() { way_.template emplace<Idle>(); }
 
   // Ends the interval: what to verify for the next one; nothing = the arm holds. `tick` counts the ticks done.
-  std::optional<Setpoint> next_setpoint(std::uint64_t tick, const cable::Outputs& now);
-  // The setpoint was refused: planned moves end, the operator's clutch takes new anchors. The way back stops and starts
-  // again, some times.
+  std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Now& now);
+  // The setpoint was refused: planned moves end. The way back stops and starts again, some times.
   void refused();
 
   // A planned move is under way.
-  bool is_busy() const { return mode_ == Mode::kLine || mode_ == Mode::kJoint || mode_ == Mode::kRetract; }
+  bool is_busy() const;
   // The last retract has gone back all the way.
   bool has_retracted() const { return has_retracted_; }
-  // A shape is looked for (the arm holds meanwhile), or the nodes are on their way to the one that was found; their own
-  // targets come after it.
-  bool is_searching() const { return search_.is_wanted() || has_nodes(lead_); }
-  // What the shape was last asked for.
-  const NodeTargets& nodes() const { return nodes_; }
-  const KeepClearTargets& keep_clear() const { return clear_; }
-  std::uint32_t held_mask() const { return held_mask_; }
-  DeviceSteer& device() { return device_; }
-  const DeviceSteer& device() const { return device_; }
+
+  // For what stands on top of it: the two halves of next_setpoint (false: the arm is not enabled, and all is
+  // forgotten), and a tip goal for one interval that no request has set.
+  bool begin_interval(std::uint64_t tick, const Now& now);
+  std::optional<Setpoint> ask(const Now& now);
+  Setpoint steer(const Now& now, const Pose& goal);
+  // The tip is asked to stay where the command stands now, if nothing else is asked for.
+  void stay_if_idle(const Now& now);
+  // What is wished besides a tip goal. Who changes it says so: the goal then counts as reached some intervals later.
+  typename Kind::Wishes& wishes() { return wishes_; }
+  const typename Kind::Wishes& wishes() const { return wishes_; }
+  void ask_anew();
+  void limit_tip_speed(double speed_m_s) { tip_speed_m_s_ = speed_m_s; }
+  // Throws RequestError not_enabled or fault; the second also busy.
+  void require_ready(const Now& now) const;
+  void require_free(const Now& now) const;
 
  private:
-  enum class Mode { kIdle, kTip, kLine, kJoint, kRetract };
+  // Nothing is asked for.
+  struct Idle {
+    static constexpr bool kIsPlanned = false;
+    Goal<Arm> next(const Now&) { return {}; }
+    bool is_over() const { return false; }
+    bool refused() { return false; }
+  };
 
-  void require_ready(const cable::Outputs& now) const;
-  void require_free(const cable::Outputs& now) const;
-  void stay_here(const cable::Outputs& now);
-  void take_device_away();
-  Setpoint tip_setpoint(const cable::Outputs& now) const;
-  Setpoint joint_setpoint(const ThetaVector& theta_rad) const;
-  bool has_arrived(const cable::Outputs& now) const;
-  bool awaits_search();
-  NodeTargets nodes_of(const solve::GoalIkResult& best) const;
-  void end_lead(const cable::Outputs& now);
-  std::optional<Setpoint> planned_setpoint(const cable::Outputs& now);
-  std::optional<Setpoint> way_back_setpoint(const cable::Outputs& now);
-  std::optional<Setpoint> steered_setpoint(const cable::Outputs& now, const SteerGoal& goal);
+  void end_way();
+  std::optional<Setpoint> setpoint_for(const Now& now, const Goal<Arm>& goal) const;
+  Setpoint tip_setpoint(const Now& now, const Pose& goal) const;
+  Setpoint joint_setpoint(const Joints<Arm>& joint_rad) const;
 
-  RobotTable table_;
+  Table table_;
   SpeedZone zone_;
-  double interval_s_;
-  Mode mode_ = Mode::kIdle;
-  double move_time_s_ = 0.0;
-  std::int32_t unchanged_intervals_ = 0;  // since the tip goal, held variables or nodes were set
-  std::optional<JointMove> joint_move_;
-  std::optional<TipLine> line_;
-  std::optional<WayBack> way_back_;
-  std::int32_t rest_intervals_ = 0;  // in a row at rest before the way back starts
-  bool has_retracted_ = false;
-  Pose tip_goal_{};
-  std::uint32_t held_mask_ = 0;
-  ThetaVector held_rad_{};
-  NodeTargets nodes_{};
-  KeepClearTargets clear_{};
-  SearchResult taken_;
-  GoalSearch search_;
-  NodeTargets lead_{};  // to the shape that a search has found; unused: the targets themselves are in force
-  NodeTarget device_node_{};
   double tip_speed_m_s_;
-  bool was_engaged_ = false;
-  PathMemory path_;
-  DeviceSteer device_;
+  typename Kind::Wishes wishes_{};
+  PathMemory<Joints<Arm>> path_;
+  bool has_retracted_ = false;
+  std::variant<Idle, TipTarget<Arm>, LineMove<Arm>, JointMove<Arm>, WayBack<Arm>> way_;
 };
 
 }  // namespace liana

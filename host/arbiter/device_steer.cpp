@@ -2,6 +2,8 @@
 
 namespace liana {
 
+using namespace cable;
+
 void DeviceSteer::use(const DeviceUse& use) {
   use_ = use;
   tip_ = HandTrack{};

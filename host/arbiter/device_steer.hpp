@@ -11,8 +11,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 enum class DeviceKind : std::uint8_t { kNone = 0, kVr = 1, kHand = 2 };
 
 // What use_device sets.
@@ -29,7 +27,7 @@ constexpr double kNodeThreshold_m = 0.01;  // a node target acts beyond this dis
 // One interval's wish of the operator.
 struct SteerGoal {
   Pose tip_in_base{};
-  NodeTarget node{};  // node = 0: none
+  cable::NodeTarget node{};  // node = 0: none
 };
 
 class DeviceSteer {
@@ -70,7 +68,7 @@ class DeviceSteer {
   ClutchAnchor anchor_{};
   Pose hand_{};  // newest averaged pose
   Vec3 node_hand_anchor_m_{}, node_anchor_m_{};
-  NodeTarget node_target_{};
+  cable::NodeTarget node_target_{};
 };
 
 }  // namespace liana

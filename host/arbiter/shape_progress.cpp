@@ -7,6 +7,8 @@
 #include "firmware_like/cable/shape/shape.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 double missing_now_m(const RobotTable& table, const ThetaVector& theta_rad, const NodeTargets& nodes,

@@ -9,19 +9,17 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // The shape has settled when what is missing has not changed by more than this for this long (arm time).
 constexpr double kShapeSettled_m = 0.0005;
 constexpr double kShapeSettled_s = 4.0;
 
 class ShapeProgress {
  public:
-  explicit ShapeProgress(const RobotTable& table);
+  explicit ShapeProgress(const cable::RobotTable& table);
 
   // One command interval of the arm and what its shape is asked for. Cost: one forward kinematics where something is
   // asked for.
-  void note(const cable::Outputs& now, const NodeTargets& nodes, const KeepClearTargets& clear);
+  void note(const cable::Outputs& now, const cable::NodeTargets& nodes, const cable::KeepClearTargets& clear);
   // New targets: what was missing of the old ones says nothing about them.
   void restart() { recent_m_.clear(), oldest_ = 0; }
 
@@ -32,7 +30,7 @@ class ShapeProgress {
   bool is_settled() const;
 
  private:
-  RobotTable table_;
+  cable::RobotTable table_;
   std::size_t window_;            // intervals in kShapeSettled_s
   std::size_t oldest_ = 0;        // place in recent_m_ that the next interval takes
   std::vector<double> recent_m_;  // missing_m of the last intervals, at most window_

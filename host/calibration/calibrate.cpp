@@ -13,6 +13,8 @@
 #include "host/config/sha256.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 using Index = std::size_t;

@@ -12,14 +12,12 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // The arm in a fixture at a known pose: what every drive reports, by the robot table.
 struct CalibrationReading {
-  ThetaVector theta_rad{};
-  CableVector position_m{};  // paid out beyond the table's zero
-  CableVector tension_N{};
-  std::array<std::uint32_t, kMaxCables> serial{};  // 0x1018:4
+  cable::ThetaVector theta_rad{};
+  cable::CableVector position_m{};  // paid out beyond the table's zero
+  cable::CableVector tension_N{};
+  std::array<std::uint32_t, cable::kMaxCables> serial{};  // 0x1018:4
 };
 
 struct CalibrationResult {
@@ -29,7 +27,7 @@ struct CalibrationResult {
 
 // The poses tell every two cables apart by at least 1 mm of change, and every cable changes enough to see its
 // direction; throws std::runtime_error naming what is missing. At least two poses.
-void check_poses(const RobotConfig& robot, std::span<const ThetaVector> poses_rad);
+void check_poses(const RobotConfig& robot, std::span<const cable::ThetaVector> poses_rad);
 
 // Fits a drum radius and a zero to every drive. A drive that counts backwards gets the other direction and is a problem
 // of nobody; cables that are wound on each other's drums, a drum that is off by over 2 %, readings that no drum

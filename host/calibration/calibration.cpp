@@ -8,6 +8,8 @@
 #include "host/config/sha256.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 using std::chrono::sys_days;

@@ -10,8 +10,6 @@
 
 namespace liana {
 
-using namespace cable;  // this room serves the cable arm only
-
 // One drive with its cable.
 struct CableCalibration {
   std::uint32_t serial = 0;      // 0x1018:4 of the drive

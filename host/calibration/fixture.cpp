@@ -11,6 +11,8 @@
 #include "firmware_like/math/trig.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 using Index = std::size_t;

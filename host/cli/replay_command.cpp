@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "firmware_like/cable_controller.hpp"
+#include "firmware_like/serial_controller.hpp"
 #include "host/cli/commands.hpp"
 #include "host/json/json.hpp"
 #include "host/record/mcap.hpp"
@@ -20,6 +22,7 @@ struct ImagesCheck {
   bool good() const { return state == "missing" || state == "whole"; }
 };
 
+template <class Arm>
 ImagesCheck check_images(const std::filesystem::path& file) {
   ImagesCheck check;
   if (!std::filesystem::exists(file)) return check;
@@ -30,7 +33,7 @@ ImagesCheck check_images(const std::filesystem::path& file) {
     if (state != McapState::kWhole) return check;
     McapVisitor visitor;
     visitor.message = [&](const std::string&, std::uint32_t, std::uint64_t, std::string_view data) {
-      parse_image(data);
+      parse_image<Arm>(data);
       ++check.count;
     };
     read_mcap(file, visitor);
@@ -81,7 +84,9 @@ int replay_command(const ReplayOptions& options) {
                    "; give a directory that liana run --record wrote");
   }
   const ReplayResult result = replay(options.directory);
-  const ImagesCheck images = check_images(std::filesystem::path(options.directory) / kImagesFile);
+  const std::filesystem::path images_file = std::filesystem::path(options.directory) / kImagesFile;
+  const ImagesCheck images =
+      result.is_serial ? check_images<serial::SerialArm>(images_file) : check_images<cable::CableArm>(images_file);
   if (options.json) {
     print_json(result, images);
   } else {

@@ -1,11 +1,10 @@
 // The desk of a cable arm: homing by the lengths found, shapes, the slit, and operators' devices.
 #pragma once
 
-#include "host/daemon/arm_desk.hpp"
-
-#include "host/arbiter/arbiter.hpp"
+#include "host/arbiter/cable_arbiter.hpp"
 #include "host/arbiter/shape_progress.hpp"
 #include "host/config/config.hpp"
+#include "host/daemon/arm_desk.hpp"
 #include "host/daemon/homing.hpp"
 
 namespace liana {
@@ -13,7 +12,7 @@ namespace liana {
 // Angles in degrees, as many as the arm has.
 std::vector<double> theta_deg(const cable::RobotTable& table, const cable::ThetaVector& theta_rad);
 
-class CableDesk final : public ArmDesk<cable::CableArm, Arbiter> {
+class CableDesk final : public ArmDesk<cable::CableArm, CableArbiter> {
  public:
   // `in_pose`: the named pose in which the arm lies at the start; empty: nobody knows (homing.hpp, which throws).
   CableDesk(const RobotConfig& robot, const SceneConfig& scene, const std::string& in_pose, TimeMode time_mode,

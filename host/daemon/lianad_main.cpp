@@ -18,10 +18,9 @@
 #include "host/control/last_stop.hpp"
 #include "host/control/realtime.hpp"
 #include "host/control/rt_cycle.hpp"
+#include "host/daemon/cable_desk.hpp"
 #include "host/daemon/serial_desk.hpp"
 #include "host/daemon/service.hpp"
-
-#include "host/daemon/cable_desk.hpp"
 
 namespace {
 

@@ -147,7 +147,8 @@ ReplayResult replay(const std::string& directory) {
     if (const auto robot = values.find("robot"); robot != values.end()) robot_json = robot->second;
   };
   result.complete = require_undamaged(directory + "/" + kRecordingFile, head);
-  if (is_of_serial_arm(robot_json)) {
+  result.is_serial = is_of_serial_arm(robot_json);
+  if (result.is_serial) {
     replay_as<serial::SerialArm>(directory, result);
   } else {
     replay_as<cable::CableArm>(directory, result);

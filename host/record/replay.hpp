@@ -12,6 +12,7 @@ struct ReplayResult {
   std::uint64_t first_differing_tick = 0;  // valid when differing_ticks > 0
   std::string first_differing_field;       // e.g. "drive[3].target_counts"
   std::uint64_t missing_ticks = 0;  // recorded ticks that could not be replayed: after a gap, before the next image
+  bool is_serial = false;           // the robot has a serial arm
   bool complete = false;            // the file was finished properly; otherwise it was cut short
   bool same_build = false;          // recorded by this build's core; another core may well differ
   std::string recorded_by;          // build id of the core that recorded

@@ -1,47 +1,33 @@
-// The arbiter: what the owner and the operator ask for becomes one setpoint per interval.
+// The arbiter of every arm, here of a serial one: it chooses between the ways of moving.
 #include "host/arbiter/arbiter.hpp"
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <cmath>
 #include <functional>
 #include <string>
-#include <thread>
-#include <vector>
 
-#include "firmware_like/cable/arm/kinematics.hpp"
 #include "host/api/request_error.hpp"
-#include "host/solve/goal_ik.hpp"
-#include "tests/firmware_like/zhu2022.hpp"
+#include "host/arbiter/serial_kind.hpp"
+#include "tests/firmware_like/micro_arm.hpp"
 
 namespace liana {
-
-using namespace cable;
 namespace {
 
-class Arbitration : public testing::Test {
+using serial::JointVector;
+
+class SerialArbitration : public testing::Test {
  protected:
-  Arbitration() : table_(zhu2022::table()), arbiter_(table_) {
+  SerialArbitration() {
     now_.state = OperatingState::kEnabled;
+    stand_at({0.1, 0.6, -0.2, 1.1, 0.3, 0.8, -0.1});
+  }
+  void stand_at(const JointVector& joint_rad) {
     now_.at_rest = 1;
-    stand_at(zhu2022::radians(zhu2022::kPrepare_deg));
+    now_.joint_command_rad = joint_rad;
+    now_.tip_command = serial::forward_kinematics(table_, joint_rad).tip_in_base;
   }
-  void stand_at(const ThetaVector& theta_rad) {
-    now_.theta_command_rad = theta_rad;
-    now_.tip_command = now_.tip_goal = forward_kinematics(table_, theta_rad).tip_in_base;
-  }
-  std::optional<Setpoint> next() { return arbiter_.next_setpoint(tick_ += 5, now_); }
-  std::optional<Setpoint> steered(double x, bool pressed = true) {
-    arbiter_.device().add_tip_sample(
-        {static_cast<std::int64_t>(tick_ * 4000 + 1), true, pressed, Pose{{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}});
-    return next();
-  }
-  void use_hand() {
-    DeviceUse use;
-    use.kind = DeviceKind::kHand;
-    use.speed_m_s = 0.03;
-    arbiter_.use_device(use);
-  }
+  std::optional<serial::Setpoint> next() { return arbiter_.next_setpoint(tick_ += 5, now_); }
   static std::string code_of(const std::function<void()>& request) {
     try {
       request();
@@ -51,330 +37,93 @@ class Arbitration : public testing::Test {
     return "accepted";
   }
 
-  RobotTable table_;
-  Arbiter arbiter_;
-  cable::Outputs now_{};
+  serial::RobotTable table_ = serial::micro::table();
+  Arbiter<serial::SerialArm> arbiter_{table_};
+  liana::Outputs<serial::SerialArm> now_{};
   std::uint64_t tick_ = 0;
 };
 
-TEST_F(Arbitration, WithoutARequestNothingIsAskedFor) { EXPECT_FALSE(next()); }
-
-TEST_F(Arbitration, NothingMovesUnlessEnabledAndWithoutFault) {
-  const ThetaVector goal{};
-  now_.state = OperatingState::kDisabled;
-  EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, goal, 0.03); }), "not_enabled");
-  now_.faults.count = 1;
-  EXPECT_EQ(code_of([&] { arbiter_.move_line(now_, now_.tip_command); }), "fault");
-}
-
-TEST_F(Arbitration, AJointMoveEndsAtItsGoalAndThenAsksForNothing) {
-  ThetaVector goal = now_.theta_command_rad;
-  goal[0] += 0.01;
-  arbiter_.move_joints(now_, goal, 0.03);
-  EXPECT_TRUE(arbiter_.is_busy());
-  EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, goal, 0.03); }), "busy");
-  ThetaVector last{};
-  for (int i = 0; i < 2000 && arbiter_.is_busy(); ++i) {
+TEST_F(SerialArbitration, AJointMoveKeepsRateAndAccelerationOfEveryJointAndEndsAtItsGoal) {
+  JointVector goal = now_.joint_command_rad;
+  goal[1] += 0.4;
+  goal[6] -= 0.1;
+  arbiter_.move_joints(now_, goal, 1.0);
+  EXPECT_EQ(code_of([&] { arbiter_.servo_tip(now_, now_.tip_command); }), "busy");
+  const double dt_s = interval_s(table_);
+  double fastest = 0.0;
+  JointVector last = now_.joint_command_rad, last_rate{};
+  while (arbiter_.is_busy()) {
     const auto setpoint = next();
     ASSERT_TRUE(setpoint);
     ASSERT_EQ(setpoint->kind, CommandKind::kJoint);
+    for (std::size_t i = 0; i < table_.joints(); ++i) {
+      const double rate = (setpoint->joint_rad[i] - last[i]) / dt_s;
+      fastest = std::max(fastest, std::fabs(rate) / table_.joint[i].rate_rad_s);
+      EXPECT_LE(std::fabs(rate - last_rate[i]) / dt_s, table_.joint[i].accel_rad_s2);
+      last_rate[i] = rate;
+    }
     last = setpoint->joint_rad;
   }
-  EXPECT_FALSE(arbiter_.is_busy());
   EXPECT_EQ(last, goal);
-  EXPECT_FALSE(next());
+  EXPECT_LE(fastest, 1.0);
+  EXPECT_GT(fastest, 0.2) << "and not idle";
 }
 
-TEST_F(Arbitration, AReachedGoalIsNoLongerAskedForSoThatTheArmRests) {
-  ThetaVector held{};
-  now_.held_at_target = 1;
-  arbiter_.hold_theta(now_, 1u << 8, held);
-  for (int i = 0; i < 10; ++i) EXPECT_TRUE(next()) << "the request does not show in the report at once";
-  now_.held_at_target = 0;
-  EXPECT_TRUE(next()) << "the held variable is on its way";
-  now_.held_at_target = 1;
-  now_.tip_command.position_m[0] += 1e-3;
-  EXPECT_TRUE(next()) << "the tip is away from its goal";
-  now_.tip_command.position_m[0] -= 1e-3;
-  EXPECT_FALSE(next());
-}
-
-TEST_F(Arbitration, ALineEndsAtItsGoalAndStaysThere) {
+TEST_F(SerialArbitration, ALineEndsAtItsGoalWhichIsAskedForUntilTheTipIsThere) {
   Pose goal = now_.tip_command;
-  goal.position_m[2] += 0.05;
+  goal.position_m[2] += 0.02;
   arbiter_.move_line(now_, goal);
-  std::optional<Setpoint> setpoint = next();
-  EXPECT_LT(norm(subtract(setpoint->tip_in_base.position_m, now_.tip_command.position_m)), 1e-3)
-      << "starts slowly from where the tip is";
-  for (int i = 0; i < 500; ++i) setpoint = next();
+  EXPECT_TRUE(arbiter_.is_busy());
+  std::optional<serial::Setpoint> setpoint;
+  while (arbiter_.is_busy()) setpoint = next();
+  for (int i = 0; i < 50; ++i) setpoint = next();
   ASSERT_TRUE(setpoint);
   EXPECT_EQ(setpoint->tip_in_base.position_m, goal.position_m);
-}
-
-TEST_F(Arbitration, HeldVariablesAndShapeTravelWithTheTipGoal) {
-  ThetaVector held{};
-  arbiter_.hold_theta(now_, 1u << 8, held);
-  std::array<NodeTarget, kMaxNodeTargets> nodes{};
-  nodes[0] = {2, {0.1, 0.2, 0.3}, 2.0, 0.02};
-  arbiter_.shape(now_, nodes, {}, false);
-  const auto setpoint = next();
-  ASSERT_TRUE(setpoint);
-  EXPECT_EQ(setpoint->kind, CommandKind::kTip);
-  EXPECT_EQ(setpoint->held_mask, 1u << 8);
-  EXPECT_EQ(setpoint->node[0].node, 2);
-  EXPECT_EQ(setpoint->tip_in_base.position_m, now_.tip_command.position_m) << "the tip stays";
-}
-
-TEST_F(Arbitration, ASearchLeadsTheNodesToTheBestShapeAndThenGivesTheTargetsThemselves) {
-  NodeTargets nodes{};
-  nodes[0] = {3, {0.7, 0.3, 0.3}, 1.0, 0.0};
-  const solve::GoalIkResult best =
-      solve::solve_goal(table_, {now_.tip_command, now_.theta_command_rad, 0, {}, nodes, {}});
-  ASSERT_TRUE(best.converged);
-  const ArmKinematics arm = forward_kinematics(table_, best.theta_rad);
-  arbiter_.shape(now_, nodes, {}, true);
-  now_.at_rest = 0;
-  const auto lead = next();
-  ASSERT_TRUE(lead);
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_EQ(lead->node[i].node, static_cast<std::int32_t>(i) + 1);
-    EXPECT_EQ(lead->node[i].position_m, arm.node_in_base[i + 1].position_m);
-    now_.node_command_m[i] = arm.node_in_base[i + 1].position_m;
-  }
-  const auto target = next();
-  ASSERT_TRUE(target);
-  EXPECT_EQ(target->node[0].position_m, nodes[0].position_m);
-  EXPECT_EQ(target->node[1].node, 0);
-}
-
-TEST_F(Arbitration, ASearchWhoseShapeCannotBeReachedEndsWhenTheArmHasComeToRest) {
-  NodeTargets nodes{};
-  nodes[0] = {3, {0.7, 0.3, 0.3}, 1.0, 0.0};
-  arbiter_.shape(now_, nodes, {}, true);
-  std::optional<Setpoint> setpoint;
-  std::int32_t intervals = 0;
-  do setpoint = next();
-  while (setpoint && setpoint->node[1].node != 0 && ++intervals < 100);
-  ASSERT_TRUE(setpoint);
-  EXPECT_EQ(setpoint->node[0].position_m, nodes[0].position_m);
-  EXPECT_GE(intervals, 5) << "a request needs some intervals to show in the arm's report";
-}
-
-TEST_F(Arbitration, InRealTimeTheArmHoldsUntilTheSearchHasItsResult) {
-  Arbiter arbiter(table_, {}, SearchResult::kWhenThere);
-  NodeTargets nodes{};
-  nodes[0] = {3, {0.7, 0.3, 0.3}, 1.0, 0.0};
-  arbiter.shape(now_, nodes, {}, true);
-  EXPECT_TRUE(arbiter.is_searching());
-  std::optional<Setpoint> lead;
-  for (int i = 0; i < 5000 && !lead; ++i) {
-    EXPECT_TRUE(arbiter.is_searching());
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    lead = arbiter.next_setpoint(tick_ += 5, now_);
-  }
-  arbiter_.shape(now_, nodes, {}, true);
-  const auto repeated = next();
-  ASSERT_TRUE(lead && repeated);
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(lead->node[i].position_m, repeated->node[i].position_m);
-}
-
-TEST_F(Arbitration, AHoldEndsASearchThatHasNoResultYet) {
-  Arbiter arbiter(table_, {}, SearchResult::kWhenThere);
-  NodeTargets nodes{};
-  nodes[0] = {3, {0.7, 0.3, 0.3}, 1.0, 0.0};
-  arbiter.shape(now_, nodes, {}, true);
-  arbiter.hold();
-  EXPECT_FALSE(arbiter.is_searching());
-  std::this_thread::sleep_for(std::chrono::milliseconds(200));
-  EXPECT_FALSE(arbiter.next_setpoint(tick_ += 5, now_));
-  EXPECT_FALSE(arbiter.is_searching());
-}
-
-TEST_F(Arbitration, ASearchIsRefusedWhileTheArmMoves) {
-  now_.at_rest = 0;
-  EXPECT_EQ(code_of([&] { arbiter_.shape(now_, {}, {}, true); }), "busy");
-}
-
-TEST_F(Arbitration, ASearchAndAPlannedMoveExcludeEachOther) {
-  NodeTargets nodes{};
-  nodes[0] = {3, {0.7, 0.3, 0.3}, 1.0, 0.0};
-  ThetaVector goal = now_.theta_command_rad;
-  goal[0] += 0.1;
-  arbiter_.move_joints(now_, goal, 0.03);
-  EXPECT_EQ(code_of([&] { arbiter_.shape(now_, nodes, {}, true); }), "busy")
-      << "the move has not begun to show in at_rest";
-  arbiter_.hold();
-  arbiter_.shape(now_, nodes, {}, true);
-  EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, goal, 0.03); }), "busy");
-  arbiter_.hold();
-  EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, goal, 0.03); }), "accepted");
-}
-
-TEST_F(Arbitration, TheOperatorSteersFromWhereTheTipIsWithTheSpeedOfTheDevice) {
-  use_hand();
-  const auto first = steered(0.2);
-  ASSERT_TRUE(first);
-  EXPECT_EQ(first->tip_in_base.position_m, now_.tip_command.position_m);
-  EXPECT_EQ(first->tip_speed_m_s, 0.03);
-  EXPECT_NEAR(steered(0.21)->tip_in_base.position_m[0], now_.tip_command.position_m[0] + 0.01, 1e-12);
-}
-
-TEST_F(Arbitration, LettingGoAsksForNothingSoThatTheArmStops) {
-  use_hand();
-  steered(0.2);
-  EXPECT_FALSE(steered(0.21, false));
-}
-
-TEST_F(Arbitration, AMoveWhileTheOperatorSteersIsRefused) {
-  use_hand();
-  steered(0.2);
-  EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, now_.theta_command_rad, 0.03); }), "busy");
-}
-
-TEST_F(Arbitration, AGripDuringAPlannedMoveStartsFromWhereTheMoveEnds) {
-  use_hand();
-  Pose goal = now_.tip_command;
-  goal.position_m[0] += 0.01;
-  arbiter_.move_line(now_, goal);
-  while (arbiter_.is_busy()) steered(0.2);
   now_.tip_command = goal;
-  EXPECT_EQ(steered(0.3)->tip_in_base.position_m, goal.position_m) << "hand motion during the move does not count";
-}
-
-TEST_F(Arbitration, ARefusalEndsThePlannedMove) {
-  Pose goal = now_.tip_command;
-  goal.position_m[0] += 0.1;
-  arbiter_.move_line(now_, goal);
-  next();
-  arbiter_.refused();
-  EXPECT_FALSE(arbiter_.is_busy());
   EXPECT_FALSE(next());
 }
 
-TEST_F(Arbitration, ARefusalGivesTheOperatorNewAnchors) {
-  use_hand();
-  steered(0.2);
-  steered(0.3);
-  arbiter_.refused();
-  EXPECT_EQ(steered(0.3)->tip_in_base.position_m, now_.tip_command.position_m);
+TEST_F(SerialArbitration, AServoGoalTakesTheLastOnesPlace) {
+  Pose goal = now_.tip_command;
+  for (int i = 0; i < 3; ++i) {
+    goal.position_m[0] += 0.001;
+    arbiter_.servo_tip(now_, goal);
+    EXPECT_EQ(next()->tip_in_base.position_m, goal.position_m);
+  }
 }
 
-// A way in along theta 1: 20 intervals of 1 mrad each.
-class WayOut : public Arbitration {
- protected:
-  static constexpr double kStep_rad = 0.001;
-
-  void go_in() {
-    for (int i = 0; i < 20; ++i) {
-      now_.theta_command_rad[0] += kStep_rad;
-      next();
-    }
-  }
-  // The arm follows each setpoint of the way back until there is none; how many there were.
-  int follow() {
-    int count = 0;
-    for (auto setpoint = next(); setpoint; setpoint = next(), ++count) {
-      EXPECT_EQ(setpoint->kind, CommandKind::kJoint);
-      const double step = setpoint->joint_rad[0] - now_.theta_command_rad[0];
-      EXPECT_LE(step, 0.0);
-      EXPECT_GE(step, -1.0001 * kWayBackPace * kStep_rad) << "slower than the way in";
-      now_.theta_command_rad = setpoint->joint_rad;
-    }
-    return count;
-  }
-  void wait_for_rest() {
-    for (int i = 0; i < 3; ++i) EXPECT_FALSE(next());
-  }
-
-  const double start_ = now_.theta_command_rad[0] + kStep_rad;
-};
-
-TEST_F(WayOut, LeadsBackAlongWhatWasCommandedAndSaysSo) {
-  EXPECT_EQ(code_of([&] { arbiter_.retract(now_, 0); }), "refused") << "nothing was stored yet";
-  go_in();
-  arbiter_.retract(now_, 0);
-  wait_for_rest();
-  EXPECT_GT(follow(), 25);
-  EXPECT_EQ(now_.theta_command_rad[0], start_);
-  EXPECT_FALSE(arbiter_.is_busy());
-  EXPECT_TRUE(arbiter_.has_retracted());
-}
-
-TEST_F(WayOut, BeginsWhereTheArmHasComeToRest) {
-  go_in();
-  now_.at_rest = 0;
-  arbiter_.retract(now_, 0);
-  for (int i = 0; i < 10; ++i) {
-    EXPECT_FALSE(next()) << "the arm stops along its path first";
-    EXPECT_TRUE(arbiter_.is_busy());
-    now_.theta_command_rad[0] += 0.1 * kStep_rad;
-  }
-  now_.at_rest = 1;
-  wait_for_rest();
-  const double rest = now_.theta_command_rad[0];
-  EXPECT_NEAR(next()->joint_rad[0], rest, 0.01 * kStep_rad);
-  follow();
-  EXPECT_EQ(now_.theta_command_rad[0], start_);
-}
-
-TEST_F(WayOut, EndsWhereTheCommandStoodAtTheTickAskedFor) {
+TEST_F(SerialArbitration, TheWayBackLeadsAlongWhatWasCommanded) {
+  const JointVector start = now_.joint_command_rad;
+  next();
   for (int i = 0; i < 20; ++i) {
-    now_.theta_command_rad[0] += kStep_rad;
+    now_.joint_command_rad[0] += 0.001;
     next();
   }
-  arbiter_.retract(now_, tick_ - 45);  // ten intervals before
-  wait_for_rest();
-  follow();
-  EXPECT_NEAR(now_.theta_command_rad[0], start_ + 10 * kStep_rad, 1e-12);
-}
-
-TEST_F(WayOut, StartsAgainFromRestWhenItIsRefusedAndGivesUpInTheEnd) {
-  go_in();
   arbiter_.retract(now_, 0);
-  int refusals = 0;
-  for (; arbiter_.is_busy() && refusals < 100; ++refusals) {
-    wait_for_rest();
-    EXPECT_TRUE(next());
-    arbiter_.refused();
-  }
-  EXPECT_EQ(refusals, 10);
-  EXPECT_FALSE(arbiter_.has_retracted());
-  EXPECT_FALSE(next());
-}
-
-TEST_F(WayOut, GoesAllTheWayAfterARefusal) {
-  go_in();
-  arbiter_.retract(now_, 0);
-  wait_for_rest();
-  for (int i = 0; i < 10; ++i) now_.theta_command_rad = next()->joint_rad;
-  next();
-  arbiter_.refused();
-  wait_for_rest();
-  follow();
-  EXPECT_EQ(now_.theta_command_rad[0], start_);
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(next()) << "it comes to rest first";
+  for (auto setpoint = next(); setpoint; setpoint = next()) now_.joint_command_rad = setpoint->joint_rad;
+  EXPECT_EQ(now_.joint_command_rad, start);
   EXPECT_TRUE(arbiter_.has_retracted());
+  EXPECT_FALSE(arbiter_.is_busy());
 }
 
-// Otherwise the operator grips again as soon as the way back ends, and steers in again.
-TEST_F(WayOut, TakesTheDeviceAwayFromTheOperator) {
-  use_hand();
-  steered(0.2);
-  go_in();
-  EXPECT_EQ(code_of([&] { arbiter_.retract(now_, 0); }), "accepted");
-  wait_for_rest();
-  follow();
-  EXPECT_FALSE(steered(0.3, false));
-  EXPECT_FALSE(steered(0.3, true));
-  EXPECT_FALSE(steered(0.4, true));
-  EXPECT_EQ(arbiter_.device().in_use().kind, DeviceKind::kNone);
-}
-
-TEST_F(Arbitration, DisablingForgetsHeldVariablesAndMotion) {
-  ThetaVector held{};
-  arbiter_.hold_theta(now_, 1u << 8, held);
-  now_.state = OperatingState::kDisabled;
+TEST_F(SerialArbitration, AHoldAndARefusalEndAMove) {
+  JointVector goal = now_.joint_command_rad;
+  goal[1] += 0.4;
+  arbiter_.move_joints(now_, goal, 1.0);
+  arbiter_.hold();
   EXPECT_FALSE(next());
-  EXPECT_EQ(arbiter_.held_mask(), 0u);
+  arbiter_.move_joints(now_, goal, 1.0);
+  EXPECT_TRUE(next());
+  arbiter_.refused();
+  EXPECT_FALSE(next());
+}
+
+TEST_F(SerialArbitration, NothingMovesUnlessEnabled) {
+  now_.state = OperatingState::kDisabled;
+  EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, {}, 1.0); }), "not_enabled");
+  EXPECT_EQ(code_of([&] { arbiter_.retract(now_, 0); }), "not_enabled");
+  EXPECT_FALSE(next());
 }
 
 }  // namespace

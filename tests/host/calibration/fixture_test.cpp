@@ -8,6 +8,8 @@
 #include "tests/host/config/tables.hpp"
 
 namespace liana {
+
+using namespace cable;
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;

@@ -33,8 +33,8 @@ TEST(ConfigHash, IsTheSameForTheSameTablesAndChangesWithAnyOfThem) {
     const BusesConfig buses = parse_buses(good_table("buses", buses_name).dump(), "b");
     Json scene = good_table("scene", "panel_slit");
     scene["spheres"][0]["radius_m"] = std::stod(radius);
-    return config_hash(parse_robot(good_table("robot", "zhu2022").dump(2), "r", "nominal", buses),
-                       parse_scene(scene.dump(), "s"), buses);
+    const RobotConfig robot = parse_robot(good_table("robot", "zhu2022").dump(2), "r", "nominal", buses);
+    return config_hash(robot.canonical_json, parse_scene(scene.dump(), "s").canonical_json, buses.canonical_json);
   };
   EXPECT_EQ(hash("embedded", "0.25"), hash("embedded", "0.250"));
   EXPECT_NE(hash("embedded", "0.25"), hash("embedded", "0.26"));

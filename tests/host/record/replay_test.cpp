@@ -53,11 +53,12 @@ std::string record_run(const std::string& folder, std::uint64_t ticks, Change ch
   cable::Controller controller(zhu2022::table());
   for (std::uint64_t tick = kFirstTick; tick < kFirstTick + ticks; ++tick) {
     if (tick == image_at) {
-      recording.take(tick == kFirstTick ? image_packet(tick, zhu2022::table()) : image_packet(tick, controller));
+      recording.take(tick == kFirstTick ? image_packet<cable::CableArm>(tick, zhu2022::table())
+                                        : image_packet<cable::CableArm>(tick, controller));
     }
     TickRecord<cable::CableArm> record{inputs_of(tick), controller.tick(inputs_of(tick))};
     change(record);
-    recording.take(tick_packet(record, 0, counts_of(zhu2022::table())));
+    recording.take(tick_packet<cable::CableArm>(record, 0, counts_of(zhu2022::table())));
   }
   recording.finish();
   return folder;
@@ -100,12 +101,12 @@ TEST(Replay, DeadlinesThatWereLostAreNoGapInARecording) {
   const std::string folder = fresh_folder("lost");
   Recording recording(folder, {"hash", "{}", "{}", "{}", "real", 0.004});
   cable::Controller controller(zhu2022::table());
-  recording.take(image_packet(kFirstTick, zhu2022::table()));
+  recording.take(image_packet<cable::CableArm>(kFirstTick, zhu2022::table()));
   std::uint64_t tick = kFirstTick;
   for (const std::uint32_t lost : {0u, 0u, 4u, 0u, 1u, 0u}) {
     cable::Inputs inputs = inputs_of(tick += lost);
     inputs.lost_ticks = lost;
-    recording.take(tick_packet({inputs, controller.tick(inputs)}, 0, counts_of(zhu2022::table())));
+    recording.take(tick_packet<cable::CableArm>({inputs, controller.tick(inputs)}, 0, counts_of(zhu2022::table())));
     ++tick;
   }
   recording.finish();

@@ -13,9 +13,9 @@ namespace {
 static_assert(!std::is_constructible_v<cable::Telecommand, std::uint64_t, std::uint64_t, std::uint64_t, std::uint32_t,
                                        const cable::Setpoint&>,
               "nobody but Release can make a telecommand");
-static_assert(!std::is_constructible_v<Candidate, const cable::Telecommand&>,
+static_assert(!std::is_constructible_v<Candidate<cable::CableArm>, const cable::Telecommand&>,
               "nobody but ReleaseStep can make a candidate");
-static_assert(!std::is_constructible_v<Candidate>);
+static_assert(!std::is_constructible_v<Candidate<cable::CableArm>>);
 static_assert(!std::is_constructible_v<cable::Telecommand, const Candidate<cable::CableArm>&>);
 static_assert(std::is_default_constructible_v<cable::Telecommand>, "an empty one, which commands nothing");
 

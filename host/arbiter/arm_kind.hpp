@@ -1,0 +1,80 @@
+// What ways of moving have to know of a kind of arm: ArmKind<Arm>, one small struct each (cable_kind.hpp,
+// serial_kind.hpp). Everything else about moving is the same for all arms.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <variant>
+
+#include "firmware_like/controller_io.hpp"
+#include "firmware_like/math/pose.hpp"
+#include "firmware_like/operator_input/tip_filter.hpp"
+
+namespace liana {
+
+// Bounds of the tip's motion [m, rad, s].
+struct TipBounds {
+  FilterBounds linear{};
+  FilterBounds angular{};
+};
+
+// Specialised for every arm that the host serves.
+template <class Arm>
+struct ArmKind;
+
+template <class Arm>
+using Joints = typename ArmKind<Arm>::Joints;
+
+// What a specialisation offers. `Wishes` is what may be asked for besides a tip goal and stays in force until it is
+// changed.
+template <class Arm>
+concept KnownArm = requires(const typename Arm::Table& table, const Joints<Arm>& joint_rad,
+                            const liana::Outputs<Arm>& now, const typename ArmKind<Arm>::Wishes& wishes,
+                            typename Arm::Setpoint& setpoint, std::size_t joint) {
+  { ArmKind<Arm>::joint_count(table) } -> std::same_as<std::size_t>;
+  { ArmKind<Arm>::rate_rad_s(table, joint) } -> std::same_as<double>;  // limit of a joint
+  // Acceleration of a joint that planned moves use.
+  { ArmKind<Arm>::move_accel_rad_s2(table, joint) } -> std::same_as<double>;
+  // How far any point of the arm can move for a radian of this joint [m].
+  { ArmKind<Arm>::lever_m(table, joint) } -> std::same_as<double>;
+  { ArmKind<Arm>::tip_bounds(table) } -> std::same_as<TipBounds>;
+  { ArmKind<Arm>::tip_at(table, joint_rad) } -> std::same_as<Pose>;
+  // Where the command stands.
+  { ArmKind<Arm>::command_rad(now) } -> std::same_as<const Joints<Arm>&>;
+  { ArmKind<Arm>::add_wishes(wishes, setpoint) } -> std::same_as<void>;
+  // Whether all that is wished has come to be (flag: the tip stands at its goal).
+  { ArmKind<Arm>::has_arrived(wishes, now, bool{}) } -> std::same_as<bool>;
+};
+
+// What a way of moving asks for in a command interval: a tip pose or joints; neither: the arm comes to rest on its
+// path.
+template <class Arm>
+using Goal = std::variant<std::monostate, Pose, Joints<Arm>>;
+
+// A way of moving, begun by its constructor. Once per command interval `next` is asked, and `is_over` after it.
+// `refused` follows when verification refuses what was asked for: true, the way goes on nevertheless. While a planned
+// one is under way, other requests are busy.
+template <class W, class Arm>
+concept WayOfMoving = requires(W way, const W& seen, const liana::Outputs<Arm>& now) {
+  { way.next(now) } -> std::same_as<Goal<Arm>>;
+  { seen.is_over() } -> std::same_as<bool>;
+  { way.refused() } -> std::same_as<bool>;
+  { W::kIsPlanned } -> std::convertible_to<bool>;
+};
+
+// Joints between two poses, share 0..1.
+template <class Vector>
+Vector between(const Vector& a, const Vector& b, double share) {
+  Vector joints{};
+  for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = a[i] + share * (b[i] - a[i]);
+  return joints;
+}
+
+// Duration of a command interval [s].
+template <class Table>
+double interval_s(const Table& table) {
+  return table.tick_s * table.interval_ticks;
+}
+
+}  // namespace liana

@@ -1,0 +1,140 @@
+#include "host/arbiter/cable_arbiter.hpp"
+
+#include "host/api/request_error.hpp"
+
+namespace liana {
+
+CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone, SearchResult taken)
+    : robot_speed_m_s_(table.limits.tip_speed_m_s),
+      interval_s_(interval_s(table)),
+      moves_(table, zone),
+      lead_(table, taken) {}
+
+void CableArbiter::require_free(const cable::Outputs& now) const {
+  moves_.require_ready(now);
+  if (is_searching())
+    throw RequestError("busy", "the shape that a search has found is gone to: wait until it has settled or send hold");
+  moves_.require_free(now);
+  if (device_.engaged()) throw RequestError("busy", "the operator steers: wait for the deadman to open");
+}
+
+void CableArbiter::move_joints(const cable::Outputs& now, const cable::ThetaVector& goal_rad, double rate_rad_s) {
+  require_free(now);
+  moves_.move_joints(now, goal_rad, rate_rad_s);
+}
+
+void CableArbiter::move_line(const cable::Outputs& now, const Pose& goal) {
+  require_free(now);
+  moves_.move_line(now, goal);
+}
+
+void CableArbiter::servo_tip(const cable::Outputs& now, const Pose& goal) {
+  require_free(now);
+  moves_.servo_tip(now, goal);
+}
+
+// The tip stays where it is, unless somebody moves it.
+void CableArbiter::ask_anew(const cable::Outputs& now) {
+  moves_.ask_anew();
+  lead_.ask_anew();
+  if (!device_.engaged()) moves_.stay_if_idle(now);
+}
+
+void CableArbiter::hold_theta(const cable::Outputs& now, std::uint32_t mask, const cable::ThetaVector& held_rad) {
+  moves_.require_ready(now);
+  moves_.wishes().held_mask = mask;
+  moves_.wishes().held_rad = held_rad;
+  ask_anew(now);
+}
+
+void CableArbiter::shape(const cable::Outputs& now, const cable::NodeTargets& nodes,
+                         const cable::KeepClearTargets& clear, bool search) {
+  moves_.require_ready(now);
+  if (search && is_busy())
+    throw RequestError("busy", "search needs an arm at rest, a planned move is under way: wait for it or send hold");
+  if (search && now.at_rest == 0)
+    throw RequestError("busy", "search looks for a shape of the arm at rest: wait for it or send hold");
+  lead_.forget();
+  const CableWishes& held = moves_.wishes();
+  if (search) lead_.look_for({now.tip_command, now.theta_command_rad, held.held_mask, held.held_rad, nodes, clear});
+  nodes_ = nodes;
+  moves_.wishes().clear = clear;
+  ask_anew(now);
+}
+
+void CableArbiter::use_device(const DeviceUse& use) {
+  if (is_busy()) throw RequestError("busy", "a planned move is under way: wait for it or send hold");
+  take_device_away();
+  device_.use(use);
+  moves_.limit_tip_speed(use.speed_m_s > 0.0 ? use.speed_m_s : robot_speed_m_s_);
+}
+
+void CableArbiter::take_device_away() {
+  device_.use(DeviceUse{});
+  device_node_ = {};
+  was_engaged_ = false;
+}
+
+// The way out takes over from whatever is under way. An operator who could grip again would steer back in as soon as it
+// ends.
+void CableArbiter::retract(const cable::Outputs& now, std::uint64_t until_tick) {
+  moves_.retract(now, until_tick);
+  lead_.forget();
+  take_device_away();
+}
+
+void CableArbiter::hold() {
+  moves_.hold();
+  lead_.forget();
+  device_.let_go();
+}
+
+void CableArbiter::refused() {
+  moves_.refused();
+  device_.drop_anchor();
+}
+
+std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, const cable::Outputs& now) {
+  const std::optional<SteerGoal> steer = device_.finish_interval(now, interval_s_);
+  if (!moves_.begin_interval(tick, now)) {
+    hold();
+    nodes_ = {};
+    return std::nullopt;
+  }
+  if (is_busy()) {
+    device_.drop_anchor();  // a hand that closes the deadman now starts from where the move ends
+    wish_nodes();
+    return moves_.ask(now);
+  }
+  const ShapeLead::Found found = lead_.look();
+  if (found == ShapeLead::Found::kNow) moves_.ask_anew();
+  if (steer) return steered_setpoint(now, *steer);
+  if (was_engaged_) moves_.hold();  // the operator let go: stop along the path
+  was_engaged_ = false;
+  if (found == ShapeLead::Found::kNotYet) return std::nullopt;
+  if (lead_.ends(now)) moves_.ask_anew();
+  wish_nodes();
+  return moves_.ask(now);
+}
+
+std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outputs& now, const SteerGoal& goal) {
+  was_engaged_ = true;
+  lead_.ask_anew();
+  device_node_ = goal.node;
+  wish_nodes();
+  return moves_.steer(now, goal.tip_in_base);
+}
+
+// The operator's node takes the place of its own target, or one that is free.
+void CableArbiter::wish_nodes() {
+  cable::NodeTargets& wished = moves_.wishes().nodes;
+  wished = is_searching() ? lead_.nodes() : nodes_;
+  if (device_node_.node == 0) return;
+  for (cable::NodeTarget& slot : wished) {
+    if (slot.node != 0 && slot.node != device_node_.node) continue;
+    slot = device_node_;
+    break;
+  }
+}
+
+}  // namespace liana

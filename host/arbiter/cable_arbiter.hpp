@@ -1,0 +1,80 @@
+// The arbiter of a cable arm: what every arm can be asked for, and besides it held variables, the shape, and an
+// operator who steers tip and nodes by hand.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "host/arbiter/arbiter.hpp"
+#include "host/arbiter/cable_kind.hpp"
+#include "host/arbiter/device_steer.hpp"
+#include "host/arbiter/shape_lead.hpp"
+#include "host/arbiter/speed_zone.hpp"
+
+namespace liana {
+
+extern template class Arbiter<cable::CableArm>;
+
+class CableArbiter {
+ public:
+  // In `zone` the tip is asked to go no faster than the zone says.
+  explicit CableArbiter(const cable::RobotTable& table, const SpeedZone& zone = {},
+                        SearchResult taken = SearchResult::kInItsInterval);
+
+  // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused). `now` is the newest tick of the
+  // arm.
+  void move_joints(const cable::Outputs& now, const cable::ThetaVector& goal_rad, double rate_rad_s);
+  void move_line(const cable::Outputs& now, const Pose& goal);
+  void servo_tip(const cable::Outputs& now, const Pose& goal);
+  // Held variables: bit i of mask holds theta i at held_rad[i]; mask 0 releases all.
+  void hold_theta(const cable::Outputs& now, std::uint32_t mask, const cable::ThetaVector& held_rad);
+  // Null-space targets; unused entries have node = 0. The core goes downhill from where it stands; with `search` (arm
+  // at rest) the goal IK looks for the best shape of all first, and the nodes are led there before the targets
+  // themselves are given.
+  void shape(const cable::Outputs& now, const cable::NodeTargets& nodes, const cable::KeepClearTargets& clear,
+             bool search);
+  void use_device(const DeviceUse& use);
+  // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until
+  // use_device is asked for.
+  void retract(const cable::Outputs& now, std::uint64_t until_tick);
+  // Stop along the path: nothing is asked for any more. The operator has to let go and engage again.
+  void hold();
+
+  // Ends the interval: what to verify for the next one; nothing = the arm holds. `tick` counts the ticks done.
+  std::optional<cable::Setpoint> next_setpoint(std::uint64_t tick, const cable::Outputs& now);
+  // The setpoint was refused: planned moves end, the operator's clutch takes new anchors. The way back stops and starts
+  // again, some times.
+  void refused();
+
+  // A planned move is under way.
+  bool is_busy() const { return moves_.is_busy(); }
+  // The last retract has gone back all the way.
+  bool has_retracted() const { return moves_.has_retracted(); }
+  // A shape is looked for (the arm holds meanwhile), or the nodes are on their way to the one that was found; their own
+  // targets come after it.
+  bool is_searching() const { return lead_.is_under_way(); }
+  // What the shape was last asked for.
+  const cable::NodeTargets& nodes() const { return nodes_; }
+  const cable::KeepClearTargets& keep_clear() const { return moves_.wishes().clear; }
+  std::uint32_t held_mask() const { return moves_.wishes().held_mask; }
+  DeviceSteer& device() { return device_; }
+  const DeviceSteer& device() const { return device_; }
+
+ private:
+  void require_free(const cable::Outputs& now) const;
+  void ask_anew(const cable::Outputs& now);
+  void take_device_away();
+  void wish_nodes();
+  std::optional<cable::Setpoint> steered_setpoint(const cable::Outputs& now, const SteerGoal& goal);
+
+  double robot_speed_m_s_;  // limit of the robot's tip
+  double interval_s_;
+  Arbiter<cable::CableArm> moves_;
+  ShapeLead lead_;
+  cable::NodeTargets nodes_{};
+  DeviceSteer device_;
+  cable::NodeTarget device_node_{};
+  bool was_engaged_ = false;
+};
+
+}  // namespace liana

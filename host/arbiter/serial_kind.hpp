@@ -1,0 +1,39 @@
+// The serial arm as ways of moving see it.
+#pragma once
+
+#include "firmware_like/serial_controller.hpp"
+#include "host/arbiter/arm_kind.hpp"
+
+namespace liana {
+
+// Share of a joint's acceleration limit that planned moves use; the rest is for the limiter that follows them.
+constexpr double kJointAccelShare = 0.5;
+
+// Besides the tip there is nothing to ask for.
+struct NoWishes {};
+
+template <>
+struct ArmKind<serial::SerialArm> {
+  using Joints = serial::JointVector;
+  using Wishes = NoWishes;
+
+  static std::size_t joint_count(const serial::RobotTable& table) { return table.joints(); }
+  static double rate_rad_s(const serial::RobotTable& table, std::size_t joint) { return table.joint[joint].rate_rad_s; }
+  static double move_accel_rad_s2(const serial::RobotTable& table, std::size_t joint) {
+    return kJointAccelShare * table.joint[joint].accel_rad_s2;
+  }
+  static double lever_m(const serial::RobotTable& table, std::size_t) { return serial::chain_length_m(table); }
+  static TipBounds tip_bounds(const serial::RobotTable& table) {
+    const serial::TipLimits& l = table.tip;
+    return {{l.speed_m_s, l.accel_m_s2, l.jerk_m_s3}, {l.rate_rad_s, l.angular_accel_rad_s2, l.angular_jerk_rad_s3}};
+  }
+  static Pose tip_at(const serial::RobotTable& table, const Joints& joint_rad) {
+    return serial::forward_kinematics(table, joint_rad).tip_in_base;
+  }
+  static const Joints& command_rad(const liana::Outputs<serial::SerialArm>& now) { return now.joint_command_rad; }
+  static void add_wishes(const Wishes&, serial::Setpoint&) {}
+  static bool has_arrived(const Wishes&, const liana::Outputs<serial::SerialArm>&, bool tip_there) { return tip_there; }
+};
+static_assert(KnownArm<serial::SerialArm>);
+
+}  // namespace liana

@@ -1,0 +1,43 @@
+// A way of moving: the tip along a straight line, turning about one axis, on one minimum-jerk law.
+#pragma once
+
+#include "host/arbiter/arm_kind.hpp"
+
+namespace liana {
+
+// The line itself; the same for every arm.
+class TipLine {
+ public:
+  // Within the bounds, and the tip not faster than `speed_m_s`.
+  TipLine(const TipBounds& bounds, const Pose& from, const Pose& to, double speed_m_s);
+  double duration_s() const { return duration_s_; }
+  Pose at(double time_s) const;
+
+ private:
+  Pose from_, to_;
+  Vec3 turn_rad_{};
+  double duration_s_ = 0.0;
+};
+
+// Over when the time is up; what then stays the goal is the line's end.
+template <class Arm>
+class LineMove {
+ public:
+  static constexpr bool kIsPlanned = true;
+
+  LineMove(const typename Arm::Table& table, const Pose& from, const Pose& to, double speed_m_s)
+      : line_(ArmKind<Arm>::tip_bounds(table), from, to, speed_m_s), interval_s_(interval_s(table)) {}
+
+  Pose end() const { return line_.at(line_.duration_s()); }
+
+  Goal<Arm> next(const liana::Outputs<Arm>&) { return line_.at(time_s_ += interval_s_); }
+  bool is_over() const { return time_s_ >= line_.duration_s(); }
+  bool refused() { return false; }
+
+ private:
+  TipLine line_;
+  double interval_s_;
+  double time_s_ = 0.0;
+};
+
+}  // namespace liana

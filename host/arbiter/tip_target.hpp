@@ -1,0 +1,51 @@
+// A way of moving: the tip goes to a pose as the core's filter takes it there, and the pose is asked for until all has
+// come to be; then nothing more is, and the null space comes to rest. For streams of goals, for steering by hand, and
+// for staying where a line has ended.
+#pragma once
+
+#include <cstdint>
+
+#include "host/arbiter/arm_kind.hpp"
+
+namespace liana {
+
+// A tip goal counts as reached within these, some intervals after it was set: a request needs two to show in the arm's
+// report.
+constexpr double kArrived_m = 1e-5;
+constexpr double kArrived_rad = 1e-5;
+constexpr std::int32_t kSettledIntervals = 10;
+
+template <class Arm>
+class TipTarget {
+ public:
+  static constexpr bool kIsPlanned = false;
+  using Wishes = typename ArmKind<Arm>::Wishes;
+
+  // `wishes` has to outlive this.
+  TipTarget(const Pose& goal, const Wishes& wishes) : goal_(goal), wishes_(wishes) {}
+
+  const Pose& goal() const { return goal_; }
+  // Something else was asked for besides the tip.
+  void ask_anew() { intervals_ = 0; }
+
+  Goal<Arm> next(const liana::Outputs<Arm>& now) {
+    is_over_ = intervals_ >= kSettledIntervals && ArmKind<Arm>::has_arrived(wishes_, now, is_near(now.tip_command));
+    ++intervals_;
+    return is_over_ ? Goal<Arm>{} : goal_;
+  }
+  bool is_over() const { return is_over_; }
+  bool refused() { return false; }
+
+ private:
+  bool is_near(const Pose& tip) const {
+    const Vec3 turn = rotation_vector(multiply(goal_.quaternion, conjugate(tip.quaternion)));
+    return norm(subtract(goal_.position_m, tip.position_m)) < kArrived_m && norm(turn) < kArrived_rad;
+  }
+
+  Pose goal_;
+  const Wishes& wishes_;
+  std::int32_t intervals_ = 0;  // since the goal or what is wished besides was set
+  bool is_over_ = false;
+};
+
+}  // namespace liana
