@@ -11,15 +11,23 @@ namespace liana {
 
 namespace {
 
-// Greatest tip travel per unit of s on the joint line, sampled densely enough for the smooth curve it is.
+// The tip's way on the joint line.
+struct TipWay {
+  double travel_m = 0.0;
+  double turn_rad = 0.0;
+};
+
+// Greatest travel and turn of the tip per unit of s, sampled densely enough for the smooth curve it is.
 template <class Arm>
-double steepest_tip_travel_m(const typename Arm::Table& table, const Joints<Arm>& from, const Joints<Arm>& to) {
+TipWay steepest_tip_way(const typename Arm::Table& table, const Joints<Arm>& from, const Joints<Arm>& to) {
   constexpr int kSteps = 100;
-  double steepest = 0.0;
-  Vec3 last = ArmKind<Arm>::tip_at(table, from).position_m;
+  TipWay steepest;
+  Pose last = ArmKind<Arm>::tip_at(table, from);
   for (int i = 1; i <= kSteps; ++i) {
-    const Vec3 tip = ArmKind<Arm>::tip_at(table, between(from, to, static_cast<double>(i) / kSteps)).position_m;
-    steepest = std::max(steepest, norm(subtract(tip, last)) * kSteps);
+    const Pose tip = ArmKind<Arm>::tip_at(table, between(from, to, static_cast<double>(i) / kSteps));
+    const Vec3 turn = rotation_vector(multiply(tip.quaternion, conjugate(last.quaternion)));
+    steepest.travel_m = std::max(steepest.travel_m, norm(subtract(tip.position_m, last.position_m)) * kSteps);
+    steepest.turn_rad = std::max(steepest.turn_rad, norm(turn) * kSteps);
     last = tip;
   }
   return steepest;
@@ -37,9 +45,10 @@ JointMove<Arm>::JointMove(const Table& table, const Joints<Arm>& from_rad, const
     duration_s_ = std::max({duration_s_, time_for_speed(way_rad, kMoveShare * rate),
                             time_for_accel(way_rad, Kind::move_accel_rad_s2(table, i))});
   }
-  const double tip_s = time_for_speed(steepest_tip_travel_m<Arm>(table, from_rad, to_rad),
-                                      kMoveShare * Kind::tip_bounds(table).linear.speed);
-  duration_s_ = std::max(duration_s_, tip_s);
+  const TipWay tip = steepest_tip_way<Arm>(table, from_rad, to_rad);
+  const TipBounds bounds = Kind::tip_bounds(table);
+  duration_s_ = std::max({duration_s_, time_for_speed(tip.travel_m, kMoveShare * bounds.linear.speed),
+                          time_for_speed(tip.turn_rad, kMoveShare * bounds.angular.speed)});
 }
 
 template <class Arm>

@@ -119,8 +119,11 @@ void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
   sub->add_option("mission", run.mission, "a name under lua/missions, a file, or a plan (JSON of liana plan --out)")
       ->required();
   sub->add_option("--robot", run.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
-  sub->add_option("--scene", run.scene, "scene table: a name under lua/scenes or a file")->capture_default_str();
-  sub->add_option("--bus", run.bus, "bus table: a name under lua/buses or a file")->capture_default_str();
+  sub->add_option("--scene", run.scene,
+                  "scene table: a name under lua/scenes or a file; panel_slit where not given, for a serial arm none");
+  sub->add_option("--bus", run.bus,
+                  "bus table: a name under lua/buses or a file; where not given embedded_ROBOT if there is such a "
+                  "table, else embedded");
   sub->add_option("--time", run.time, "fast, paced or real; fast where nothing is said, real on SocketCAN")
       ->check(CLI::IsMember({"fast", "paced", "real"}));
   sub->add_option("--physics", run.physics, "nominal, ideal or worn")

@@ -3,45 +3,15 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "firmware_like/cable_controller.hpp"
-#include "firmware_like/serial_controller.hpp"
 #include "host/cli/commands.hpp"
 #include "host/json/json.hpp"
-#include "host/record/mcap.hpp"
+#include "host/record/images_check.hpp"
 #include "host/record/recording.hpp"
 #include "host/record/replay.hpp"
 #include "host/system/errors.hpp"
 
 namespace liana {
 namespace {
-
-// What images.mcap is worth: replay itself reads it only where the recording has a gap.
-struct ImagesCheck {
-  std::string state = "missing";  // or whole, cut short, damaged
-  std::uint64_t count = 0;        // images that can be read; of a whole file only
-  bool good() const { return state == "missing" || state == "whole"; }
-};
-
-template <class Arm>
-ImagesCheck check_images(const std::filesystem::path& file) {
-  ImagesCheck check;
-  if (!std::filesystem::exists(file)) return check;
-  check.state = "damaged";
-  try {
-    const McapState state = read_mcap(file, {});
-    if (state == McapState::kCutShort) check.state = "cut short";
-    if (state != McapState::kWhole) return check;
-    McapVisitor visitor;
-    visitor.message = [&](const std::string&, std::uint32_t, std::uint64_t, std::string_view data) {
-      parse_image<Arm>(data);
-      ++check.count;
-    };
-    read_mcap(file, visitor);
-    check.state = "whole";
-  } catch (const std::runtime_error&) {  // not MCAP, or an image that ends too early
-  }
-  return check;
-}
 
 void print_json(const ReplayResult& result, const ImagesCheck& images) {
   std::puts(Json{{"ticks", result.ticks},
@@ -84,9 +54,7 @@ int replay_command(const ReplayOptions& options) {
                    "; give a directory that liana run --record wrote");
   }
   const ReplayResult result = replay(options.directory);
-  const std::filesystem::path images_file = std::filesystem::path(options.directory) / kImagesFile;
-  const ImagesCheck images =
-      result.is_serial ? check_images<serial::SerialArm>(images_file) : check_images<cable::CableArm>(images_file);
+  const ImagesCheck images = check_images(options.directory, result.is_serial);
   if (options.json) {
     print_json(result, images);
   } else {

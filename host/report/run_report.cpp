@@ -84,21 +84,8 @@ double angle_rad(const Pose& a, const Pose& b) {
   return norm(rotation_vector(multiply(conjugate(a.quaternion), b.quaternion)));
 }
 
-void add_truth(Json& report, const ReportSources& sources, const Window& window) {
-  const TruthLog truth = TruthLog::load(sources.truth_file);
-  if (truth.row_count() == 0) return;
-  const std::size_t first = truth.row_of_slot(window.first_tick);
-  const std::size_t last = truth.row_of_slot(window.last_tick);
-  const Pose tip = truth.tip(last);
-  if (sources.rod) {
-    const Pose rod{sources.rod->position_m, sources.rod->quaternion_wxyz};
-    report["tip_error_m"] = distance_m(tip, rod);
-    report["tip_attitude_error_rad"] = angle_rad(tip, rod);
-  }
-  if (const StateSample* state = sample_at(sources.states, window.last_tick)) {
-    report["open_loop_tip_error_m"] = distance_m(tip, state->commanded_tip);
-  }
-  report["final_theta_deg"] = truth.theta_deg(last);
+void add_cable_truth(Json& report, const TruthLog& truth, std::size_t first, std::size_t last) {
+  report["final_theta_deg"] = truth.angles_deg("theta_deg_", last);
   report["min_clearance_m"] = truth.smallest("clearance_m", first, last);
   report["min_slit_clearance_m"] = truth.smallest("slit_clearance_m", first, last);
   report["min_sphere_clearance_m"] = truth.smallest("sphere_clearance_m", first, last);
@@ -107,6 +94,38 @@ void add_truth(Json& report, const ReportSources& sources, const Window& window)
   report["cable_tension_N"] = {{"min", truth.smallest("tension_min_N", first, last)},
                                {"min_motor", truth.smallest("tension_motor_min_N", first, last)},
                                {"max", truth.largest("tension_motor_max_N", first, last)}};
+}
+
+void add_serial_truth(Json& report, const TruthLog& truth, std::size_t first, std::size_t last) {
+  double largest_Nm = 0.0;
+  for (int joint = 1; truth.has("torque_Nm_" + std::to_string(joint)); ++joint) {
+    const std::string column = "torque_Nm_" + std::to_string(joint);
+    largest_Nm =
+        std::fmax(largest_Nm, std::fmax(truth.largest(column, first, last), -truth.smallest(column, first, last)));
+  }
+  report["final_joint_deg"] = truth.angles_deg("joint_deg_", last);
+  report["max_joint_torque_Nm"] = largest_Nm;
+}
+
+void add_truth(Json& report, const ReportSources& sources, const Window& window) {
+  const TruthLog truth = TruthLog::load(sources.truth_file);
+  if (truth.row_count() == 0) return;
+  const std::size_t first = truth.row_of_slot(window.first_tick);
+  const std::size_t last = truth.row_of_slot(window.last_tick);
+  const Pose tip = truth.tip(last);
+  if (sources.rod && !truth.has("joint_deg_1")) {  // no serial arm presses a rod yet
+    const Pose rod{sources.rod->position_m, sources.rod->quaternion_wxyz};
+    report["tip_error_m"] = distance_m(tip, rod);
+    report["tip_attitude_error_rad"] = angle_rad(tip, rod);
+  }
+  if (const StateSample* state = sample_at(sources.states, window.last_tick)) {
+    report["open_loop_tip_error_m"] = distance_m(tip, state->commanded_tip);
+  }
+  if (truth.has("joint_deg_1")) {
+    add_serial_truth(report, truth, first, last);
+  } else {
+    add_cable_truth(report, truth, first, last);
+  }
 }
 
 // Per bus: loads and frames; the wire's own count (embedded bus) goes before lianad's.
@@ -197,6 +216,10 @@ std::string report_text(const Json& report) {
     text += clearance_text(report) + line("contact force %.2f N", report["max_contact_force_N"].get<double>()) +
             line(", cable tension %.1f", report["cable_tension_N"]["min"].get<double>()) +
             line(" to %.1f N\n", report["cable_tension_N"]["max"].get<double>());
+  }
+  if (report.contains("max_joint_torque_Nm")) {
+    text += line("open loop %.2f mm", 1e3 * report.value("open_loop_tip_error_m", 0.0)) +
+            line(", largest joint torque %.1f N m\n", report["max_joint_torque_Nm"].get<double>());
   }
   for (const Json& bus : report.value("buses", Json::array())) {
     text += "bus " + bus.value("name", "") + line(": %.0f frames", bus.value("frames", 0.0)) +

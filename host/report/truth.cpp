@@ -68,11 +68,10 @@ Pose TruthLog::tip(std::size_t row) const {
           {at(row, "tip_qw"), at(row, "tip_qx"), at(row, "tip_qy"), at(row, "tip_qz")}};
 }
 
-std::vector<double> TruthLog::theta_deg(std::size_t row) const {
-  std::vector<double> theta;
-  for (int i = 1; columns_.contains("theta_deg_" + std::to_string(i)); ++i)
-    theta.push_back(at(row, "theta_deg_" + std::to_string(i)));
-  return theta;
+std::vector<double> TruthLog::angles_deg(const std::string& prefix, std::size_t row) const {
+  std::vector<double> angles;
+  for (int i = 1; has(prefix + std::to_string(i)); ++i) angles.push_back(at(row, prefix + std::to_string(i)));
+  return angles;
 }
 
 }  // namespace liana

@@ -26,8 +26,10 @@ class TruthLog {
   double largest(const std::string& column, std::size_t first, std::size_t last) const;
   // Tip pose in the base frame.
   Pose tip(std::size_t row) const;
-  // Joint angles [deg], as many as the file has.
-  std::vector<double> theta_deg(std::size_t row) const;
+  // The file has such a column.
+  bool has(const std::string& column) const { return columns_.contains(column); }
+  // Angles [deg] in the columns `prefix`1, `prefix`2 ..., as many as the file has.
+  std::vector<double> angles_deg(const std::string& prefix, std::size_t row) const;
 
  private:
   std::map<std::string, std::size_t> columns_;

@@ -9,8 +9,8 @@ namespace liana {
 struct RunOptions {
   std::string mission;  // empty: none (liana latency)
   std::string robot = "zhu2022";
-  std::string scene = "panel_slit";
-  std::string bus = "embedded";
+  std::string scene;          // empty: panel_slit, for a serial arm none
+  std::string bus;            // empty: embedded_ROBOT where there is such a table, else embedded
   std::string time;           // empty: fast, or real on SocketCAN
   bool simulated_arm = true;  // false: real drives are on the buses, there is no bench
   std::string physics = "nominal";

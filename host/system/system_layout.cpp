@@ -14,6 +14,7 @@
 #include "host/calibration/calibration.hpp"
 #include "host/calibration/fixture.hpp"
 #include "host/config/field.hpp"
+#include "host/config/serial_robot.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/output.hpp"
 #include "host/system/plan_file.hpp"
@@ -102,7 +103,8 @@ ProgramCall bus_call(const SystemLayout& plan) {
 
 std::string expected_roles(const SystemLayout& plan, const RunOptions& options) {
   if (options.mission.empty()) return "client,camera";
-  return plan.keep_directory ? "mission,operator,camera,archive" : "mission,operator,camera";
+  std::string roles = plan.is_serial ? "mission,camera" : "mission,operator,camera";
+  return plan.keep_directory ? roles + ",archive" : roles;
 }
 
 ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
@@ -149,6 +151,34 @@ ProgramCall mission_call(const SystemLayout& plan, const RunOptions& options) {
            "--report", plan.file("mission.json"), "--lockstep", "--progress"}};
 }
 
+// A robot may have a bus table of its own, for its own drives.
+RunOptions with_defaults(RunOptions options, bool is_serial) {
+  if (options.scene.empty()) options.scene = is_serial ? "none" : "panel_slit";
+  if (options.bus.empty()) {
+    const std::string own = "embedded_" + options.robot;
+    options.bus = fs::exists(std::string(LIANA_LUA_DIR "/buses/") + own + ".lua") ? own : "embedded";
+  }
+  return options;
+}
+
+void check_options_of_cable_robot(const RunOptions& options, const std::string& text, const BusesConfig& buses) {
+  const RobotConfig robot = checked([&] { return parse_robot(text, options.robot, options.physics, buses); });
+  if (!options.calibration.empty()) checked([&] { return load_calibration(options.calibration, robot, today_utc()); });
+  if (!options.in_pose.empty()) check_in_pose(robot, options.in_pose);
+  check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
+}
+
+void check_options_of_serial_robot(const RunOptions& options, const std::string& text, const BusesConfig& buses) {
+  checked([&] { return parse_serial_robot(text, options.robot, buses); });
+  const auto refuse = [&](const char* option, bool given, const char* why) {
+    if (given) throw BadInput(std::string(option) + ": robot " + options.robot + " has a serial arm: " + why);
+  };
+  refuse("--calibration", !options.calibration.empty(), "its encoders are absolute; leave it out");
+  refuse("--in-pose", !options.in_pose.empty(), "its encoders are absolute; leave it out");
+  refuse("--cross-wired", !options.cross_wired.empty(), "it has no cables to swap; leave it out");
+  refuse("mission", options.mission.ends_with(".json"), "plans are for cable arms; give a mission");
+}
+
 void write_tables(const SystemLayout& plan, const std::string& robot, const std::string& scene,
                   const std::string& buses) {
   write_output(plan.file("robot.json"), robot);
@@ -158,17 +188,19 @@ void write_tables(const SystemLayout& plan, const std::string& robot, const std:
 
 }  // namespace
 
-SystemLayout make_layout(const RunOptions& options) {
-  const std::string buses_text = evaluate_table("buses", options.bus);
-  const std::string robot_text = evaluate_table("robot", options.robot);
-  const std::string scene_text = evaluate_table("scene", options.scene);
+SystemLayout make_layout(const RunOptions& given) {
+  const std::string robot_text = evaluate_table("robot", given.robot);
   SystemLayout plan;
+  plan.is_serial = checked([&] { return robot_kind(robot_text, given.robot); }) == "serial";
+  const RunOptions options = with_defaults(given, plan.is_serial);
+  const std::string buses_text = evaluate_table("buses", options.bus);
+  const std::string scene_text = evaluate_table("scene", options.scene);
   plan.buses = checked([&] { return parse_buses(buses_text, options.bus); });
-  const RobotConfig robot =
-      checked([&] { return parse_robot(robot_text, options.robot, options.physics, plan.buses); });
-  if (!options.calibration.empty()) checked([&] { return load_calibration(options.calibration, robot, today_utc()); });
-  if (!options.in_pose.empty()) check_in_pose(robot, options.in_pose);
-  check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
+  if (plan.is_serial) {
+    check_options_of_serial_robot(options, robot_text, plan.buses);
+  } else {
+    check_options_of_cable_robot(options, robot_text, plan.buses);
+  }
   const bool has_mission = !options.mission.empty();
   if (has_mission) check_mission(options.mission, options.robot);
   plan.scene = checked([&] { return parse_scene(scene_text, options.scene); });
@@ -191,7 +223,7 @@ SystemLayout make_layout(const RunOptions& options) {
   if (plan.keep_directory) plan.programs.push_back(archive_call(plan));
   if (options.simulated_arm) plan.programs.push_back(bench_call(plan, options, embedded));
   if (!has_mission) return plan;
-  plan.programs.push_back(operator_call(plan, options));
+  if (!plan.is_serial) plan.programs.push_back(operator_call(plan, options));  // no device steers a serial arm yet
   plan.programs.push_back(mission_call(plan, options));
   return plan;
 }

@@ -23,6 +23,7 @@ struct SystemLayout {
   std::string time_mode;
   BusesConfig buses;
   SceneConfig scene;
+  bool is_serial = false;             // the robot has a serial arm
   std::vector<ProgramCall> programs;  // in the order in which they start
 
   std::string file(const std::string& name) const { return directory + "/" + name; }
@@ -32,7 +33,7 @@ struct SystemLayout {
 
 // Evaluates and checks tables and mission, makes the directories, writes the tables there. Without a mission there is
 // no operator either. Throws BadInput.
-SystemLayout make_layout(const RunOptions& options);
+SystemLayout make_layout(const RunOptions& given);
 
 // Refuses anything but empty text or two different drives from 0 to `drives` - 1, e.g. 3,4. Throws BadInput.
 void check_cross_wired(const std::string& list, std::size_t drives);

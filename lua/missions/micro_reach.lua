@@ -57,7 +57,7 @@ return liana.mission "micro_reach" {
     enter = at_rest(),
     run = move_to "install",
     exit = all { at_pose "install", at_rest() },
-    time_limit_s = 120,
+    time_limit_s = 400, -- half a turn and more of most joints, at 3 deg/s of the tip
     on_fail = "stop",
   },
 }
