@@ -51,7 +51,7 @@ int latency_command(const LatencyOptions& options) {
   run.time = "real";
   run.arm = options.arm;
   if (options.arm == "light") run.physics = "ideal";
-  const SystemLayout plan = make_layout(run);
+  const SystemLayout plan = for_latency(make_layout(run));
   try {
     check_rate(options, plan.buses);
     Json report = latency_report(measured(plan, options.seconds), plan.buses, options.seconds, examine_realtime());

@@ -12,7 +12,8 @@ namespace {
 constexpr double kBoot_s = 20.0;  // of arm time; it takes about 1.5 s
 constexpr int kSilence_s = 30;
 constexpr double kEndGrace_s = 5.0;
-constexpr int kStates = 50;  // one each T_c: torque readings scatter by 0.3 %
+constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
+constexpr int kStates = 50;           // one each T_c: torque readings scatter by 0.3 %
 
 void add(const Json& state, CalibrationReading& sum) {
   std::size_t i = 0;
@@ -27,32 +28,20 @@ void add(const Json& state, CalibrationReading& sum) {
 }  // namespace
 
 CalibrateSession::CalibrateSession(const SystemLayout& plan, const InterruptGuard& interrupts)
-    : plan_(plan), interrupts_(interrupts) {}
+    : interrupts_(interrupts), system_(plan) {}
 
-CalibrateSession::~CalibrateSession() {
-  try {
-    if (api_) api_->send({{"op", "shutdown"}});
-  } catch (const std::runtime_error&) {  // lianad has left
-  }
-  api_.reset();
-  for (auto child = children_.rbegin(); child != children_.rend(); ++child) (*child)->end(kEndGrace_s);
-}
+CalibrateSession::~CalibrateSession() { system_.end(kEndGrace_s); }
 
 void CalibrateSession::start() {
-  for (const ProgramCall& call : plan_.programs) {
-    children_.push_back(std::make_unique<ChildProcess>(call.name, call.argv, plan_.file(call.name + ".log")));
-    if (call.name == "liana-bench") continue;
-    const std::string socket = call.name == "lianad" ? plan_.api_socket() : plan_.bus_socket();
-    if (!wait_for_socket(socket, *children_.back(), interrupts_.any())) give_up(call.name + " did not open its socket");
-  }
-  api_ = ApiClient::connect(plan_.api_socket());
-  api_->send(
-      {{"op", "hello"}, {"name", "liana calibrate"}, {"role", "client"}, {"lockstep", true}, {"subscribe", {"state"}}});
+  const Json hello{
+      {"op", "hello"}, {"name", "liana calibrate"}, {"role", "client"}, {"lockstep", true}, {"subscribe", {"state"}}};
+  const std::string problem = system_.start(hello, interrupts_.any());
+  if (!problem.empty()) give_up(problem);
 }
 
-void CalibrateSession::give_up(const std::string& why) {
+void CalibrateSession::give_up(const std::string& why, double settle_s) {
   if (interrupts_.count() > 0) throw Interrupted("interrupted: nothing was calibrated");
-  const auto worst = worst_end(children_, [](const ChildProcess&, const ChildEnd&) { return true; });
+  const auto worst = system_.worst_end([](const ChildProcess&, const ChildEnd&) { return true; }, settle_s);
   if (worst && worst->end.code == kExitBadInput) throw BadInput(worst->text);
   throw std::runtime_error(worst ? worst->text : why);
 }
@@ -61,14 +50,9 @@ Json CalibrateSession::next_state() {
   for (;;) {
     if (interrupts_.count() > 0) give_up("");
     std::optional<Json> message;
-    try {
-      for (int waited_s = 0; !message && waited_s < kSilence_s; ++waited_s) {
-        message = api_->receive(1.0);
-        if (!message && worst_end(children_, [](const ChildProcess&, const ChildEnd&) { return true; })) break;
-      }
-    } catch (const std::runtime_error& error) {
-      for (const auto& child : children_) child->wait(0.5);  // whoever ended first pulled lianad along
-      give_up(error.what());
+    for (int waited_s = 0; !message && waited_s < kSilence_s; ++waited_s) {
+      message = system_.receive(1.0);
+      if (!message && (!system_.is_connected() || system_.any_has_ended())) give_up("lianad has left", kAftermath_s);
     }
     if (!message) give_up("lianad says nothing");
     if (message->value("op", "") == "state") return *message;
@@ -90,7 +74,7 @@ CalibrationReading CalibrateSession::read() {
       add(state, sum);
       ++taken;
     }
-    api_->send({{"op", "done"}, {"tick", state.at("tick")}});
+    system_.send({{"op", "done"}, {"tick", state.at("tick")}});
   }
   return sum;
 }

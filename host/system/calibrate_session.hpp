@@ -1,16 +1,11 @@
 // lianad, and with a simulated arm bus and bench, with the drives off, read while the arm lies in a fixture.
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "host/api/client.hpp"
 #include "host/calibration/calibrate.hpp"
 #include "host/system/interrupt.hpp"
-#include "host/system/process.hpp"
-#include "host/system/system_layout.hpp"
+#include "host/system/system.hpp"
 
 namespace liana {
 
@@ -31,12 +26,10 @@ class CalibrateSession {
  private:
   void start();
   Json next_state();
-  [[noreturn]] void give_up(const std::string& why);
+  [[noreturn]] void give_up(const std::string& why, double settle_s = 0.0);
 
-  const SystemLayout& plan_;
   const InterruptGuard& interrupts_;
-  std::vector<std::unique_ptr<ChildProcess>> children_;
-  std::optional<ApiClient> api_;
+  System system_;
 };
 
 }  // namespace liana

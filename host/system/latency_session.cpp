@@ -19,6 +19,7 @@ constexpr double kReadyTimeout_s = 20.0;  // boot and enabling, each; they take 
 constexpr double kAnswerTimeout_s = 10.0;
 constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
 constexpr double kLook_s = 0.05;
+constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
 // Bus and bench stand for hardware, which is never late for want of a processor; under lianad's real-time thread (80).
 constexpr int kHardwarePriority = 70;
 
@@ -32,9 +33,18 @@ void show_progress(double passed_s, double seconds) {
 
 }  // namespace
 
-LatencySession::LatencySession(const SystemLayout& plan) : plan_(plan) {}
+SystemLayout for_latency(SystemLayout layout) {
+  for (ProgramCall& call : layout.programs) {
+    if (call.name != "lianad") call.realtime_priority = kHardwarePriority;
+  }
+  return layout;
+}
 
-LatencySession::~LatencySession() { shut_down(); }
+LatencySession::LatencySession(const SystemLayout& plan) : system_(plan) {}
+
+LatencySession::~LatencySession() {
+  system_.end(kEndGrace_s, [](const Json&) {});
+}
 
 LatencyMeasurement LatencySession::measure(double seconds) {
   start();
@@ -56,20 +66,10 @@ LatencyMeasurement LatencySession::measure(double seconds) {
 }
 
 void LatencySession::start() {
-  for (const ProgramCall& call : plan_.programs) {
-    children_.push_back(std::make_unique<ChildProcess>(call.name, call.argv, plan_.file(call.name + ".log"),
-                                                       call.name == "lianad" ? 0 : kHardwarePriority));
-    if (call.name == "liana-bench") continue;
-    const std::string socket = call.name == "lianad" ? plan_.api_socket() : plan_.bus_socket();
-    if (!wait_for_socket(socket, *children_.back(), interrupts_.any())) {
-      require_alive();
-      throw std::runtime_error(call.name + " did not open its socket within 30 s");
-    }
-    if (call.name == "lianad") {
-      api_ = ApiClient::connect(plan_.api_socket());
-      say_hello(*api_, "liana latency", Observer::kClient);
-    }
-  }
+  const std::string problem = system_.start(hello("liana latency", Observer::kClient), interrupts_.any());
+  if (problem.empty()) return;
+  require_alive();
+  throw std::runtime_error(problem);
 }
 
 bool LatencySession::enable() {
@@ -90,13 +90,10 @@ bool LatencySession::reaches(const std::string& state) {
 
 void LatencySession::look(double timeout_s) {
   require_alive();
-  std::optional<Json> message;
-  try {
-    message = api_->receive(timeout_s);
-  } catch (const std::runtime_error&) {
-    for (const auto& child : children_) child->wait(0.5);  // whoever ended first pulled lianad along
-    require_alive();
-    throw;
+  const std::optional<Json> message = system_.receive(timeout_s);
+  if (!message && !system_.is_connected()) {
+    require_alive(kAftermath_s);
+    throw std::runtime_error("lianad has left");
   }
   if (!message) return;
   const std::string op = message->value("op", "");
@@ -106,7 +103,7 @@ void LatencySession::look(double timeout_s) {
 
 Json LatencySession::ask(Json request) {
   request["id"] = ++last_id_;
-  api_->send(request);
+  system_.send(request);
   const double deadline_s = now_s() + kAnswerTimeout_s;
   while (answer_.value("id", 0) != last_id_) {
     if (now_s() > deadline_s)
@@ -116,26 +113,10 @@ Json LatencySession::ask(Json request) {
   return answer_;
 }
 
-void LatencySession::require_alive() {
+void LatencySession::require_alive(double settle_s) {
   if (interrupts_.count() > 0) throw Interrupted("interrupted: the arm is stopped, nothing was measured");
-  const auto worst = worst_end(children_, [](const ChildProcess&, const ChildEnd&) { return true; });
+  const auto worst = system_.worst_end([](const ChildProcess&, const ChildEnd&) { return true; }, settle_s);
   if (worst) throw std::runtime_error(worst->text);
-}
-
-// lianad stops the arm and leaves the bus; bus and bench then end by themselves.
-void LatencySession::shut_down() {
-  try {
-    if (api_) api_->send({{"op", "shutdown"}});
-    const double deadline_s = now_s() + kEndGrace_s;
-    const auto running = [](const auto& child) { return !child->poll(); };
-    while (now_s() < deadline_s && std::any_of(children_.begin(), children_.end(), running)) {
-      if (!api_) break;
-      api_->receive(kLook_s);
-    }
-  } catch (const std::runtime_error&) {  // lianad has left
-    for (const auto& child : children_) child->wait(kEndGrace_s / 2);
-  }
-  for (const auto& child : children_) child->end(1.0);
 }
 
 }  // namespace liana

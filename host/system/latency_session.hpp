@@ -1,23 +1,22 @@
 // lianad, a bus and the bench in real time, held at rest while the real-time thread is measured.
 #pragma once
 
-#include <memory>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "host/api/client.hpp"
 #include "host/json/json.hpp"
 #include "host/report/latency_measurement.hpp"
 #include "host/system/interrupt.hpp"
-#include "host/system/process.hpp"
-#include "host/system/system_layout.hpp"
+#include "host/system/system.hpp"
 
 namespace liana {
 
+// The layout for it: bus and bench stand for hardware, which is never late for want of a processor; they run in real
+// time, under lianad's real-time thread.
+SystemLayout for_latency(SystemLayout layout);
+
 class LatencySession {
  public:
-  // `plan`: without a mission, in real time. It must outlive this.
+  // `plan`: without a mission, in real time (for_latency). It must outlive this.
   explicit LatencySession(const SystemLayout& plan);
   // Stops the arm and ends the programs.
   ~LatencySession();
@@ -39,13 +38,10 @@ class LatencySession {
   bool reaches(const std::string& state);
   // Sends a request and waits for its answer, ok or error.
   Json ask(Json request);
-  void require_alive();
-  void shut_down();
+  void require_alive(double settle_s = 0.0);
 
-  const SystemLayout& plan_;
   InterruptGuard interrupts_;
-  std::vector<std::unique_ptr<ChildProcess>> children_;
-  std::optional<ApiClient> api_;
+  System system_;
   Json state_ = Json::object(), answer_ = Json::object();  // the last ones
   int last_id_ = 0;
 };

@@ -42,11 +42,13 @@ std::optional<Json> wait_for(ApiClient& client, const std::string& op, double ti
   return std::nullopt;
 }
 
-void say_hello(ApiClient& client, const std::string& name, Observer observer) {
+Json hello(const std::string& name, Observer observer) {
   const Json subscriptions = observer == Observer::kBlind ? Json::array() : Json::array({"state"});
   const char* role = observer == Observer::kClient ? "client" : "observer";
-  client.send({{"op", "hello"}, {"name", name}, {"role", role}, {"lockstep", false}, {"subscribe", subscriptions}});
+  return {{"op", "hello"}, {"name", name}, {"role", role}, {"lockstep", false}, {"subscribe", subscriptions}};
 }
+
+void say_hello(ApiClient& client, const std::string& name, Observer observer) { client.send(hello(name, observer)); }
 
 Json hello_as_observer(ApiClient& client, const std::string& name) {
   say_hello(client, name, Observer::kSeeing);

@@ -21,7 +21,10 @@ enum class Observer {
   kClient,  // sees states, and may own motion
 };
 
-// Says hello without waiting for the welcome; `name` is what a stop's reason names. Throws std::runtime_error when
+// The hello of such a command; `name` is what a stop's reason names.
+Json hello(const std::string& name, Observer observer);
+
+// Says hello without waiting for the welcome. Throws std::runtime_error when
 // lianad is gone.
 void say_hello(ApiClient& client, const std::string& name, Observer observer);
 

@@ -1,13 +1,10 @@
 #include "host/system/run_session.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <thread>
 
-#include "host/api/registry.hpp"
 #include "host/system/observer.hpp"
 
 namespace liana {
@@ -19,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* kName = "liana run";  // as the reason of a stop names it
 constexpr double kStopTimeout_s = 15.0;
 constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
-constexpr double kFinishGrace_s = 3.0;  // for the others to write their summaries after that
+constexpr double kFinishGrace_s = 3.0;  // for the mission runner, when another program has ended
 constexpr double kLook_s = 0.02;
 constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
 
@@ -37,43 +34,24 @@ Pose pose_of(const Json& numbers) {
 
 }  // namespace
 
-RunSession::RunSession(const SystemLayout& plan) : plan_(plan) {}
+RunSession::RunSession(const SystemLayout& plan) : plan_(plan), system_(plan) {}
 
 RunSession::~RunSession() = default;
 
 RunEnd RunSession::run() {
   std::signal(SIGPIPE, SIG_IGN);
   RunEnd end;
-  if (const auto failed = start()) {
-    end = *failed;
+  if (const std::string problem = system_.start(hello(kName, Observer::kSeeing), interrupts_.any()); !problem.empty()) {
+    end = dead_child(false).value_or(RunEnd{"failed", problem, false});
   } else {
     end = watch();
   }
-  shut_down();
+  system_.end(interrupts_.count() < 2 ? kEndGrace_s : 0.0, [this](const Json& message) { take(message); });
   return end;
 }
 
-std::optional<RunEnd> RunSession::start() {
-  for (const ProgramCall& call : plan_.programs) {
-    children_.push_back(std::make_unique<ChildProcess>(call.name, call.argv, plan_.file(call.name + ".log")));
-    const bool serves = call.name == "liana-bus" || call.name == "lianad";
-    if (serves && !wait_for_socket(call.name == "lianad" ? plan_.api_socket() : plan_.bus_socket(), *children_.back(),
-                                   interrupts_.any())) {
-      if (const auto dead = dead_child(false)) return dead;
-      return RunEnd{"failed", call.name + " did not open its socket within 30 s", false};
-    }
-    if (call.name == "lianad") {
-      api_ = ApiClient::connect(plan_.api_socket());
-      welcome_ = hello_as_observer(*api_, kName);
-    }
-  }
-  mission_ = children_.back().get();
-  return std::nullopt;
-}
-
 RunEnd RunSession::watch() {
-  const auto ended = [](const auto& child) { return child->poll().has_value(); };
-  while (std::none_of(children_.begin(), children_.end(), ended)) {
+  while (!system_.any_has_ended()) {
     look(kLook_s);
     if (interrupts_.count() > 0) return interrupted();
   }
@@ -83,10 +61,9 @@ RunEnd RunSession::watch() {
 // Somebody has ended. The others follow within moments, in any order: who failed by itself is seen only after that.
 // Once the mission has ended, the others end in order.
 RunEnd RunSession::conclusion() {
-  const auto end = mission_->wait(kFinishGrace_s);
+  const auto end = system_.last().wait(kFinishGrace_s);  // the mission runner
   if (!end || end->code != 0) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(kAftermath_s));
-    if (const auto failed = dead_child(true)) return *failed;
+    if (const auto failed = dead_child(true, kAftermath_s)) return *failed;
   }
   return end ? end_of_mission(*end) : *dead_child(false);
 }
@@ -96,25 +73,26 @@ RunEnd RunSession::end_of_mission(const ChildEnd& end) {
   if (end.signal == 0 && fs::exists(plan_.file("mission.json"))) return {};
   return {"failed",
           "the mission runner " + how(end) + "; lianad holds the arm when the owner of motion dies\n" +
-              mission_->last_lines(kShownLines),
+              system_.last().last_lines(kShownLines),
           end.code == 2};
 }
 
 // Of the programs beside the mission runner that have ended the one that ended worst: killed, failed or, unless
 // `failed_only`, in order. Exit code 2 means that it refused its input.
-std::optional<RunEnd> RunSession::dead_child(bool failed_only) {
-  const auto worst = worst_end(children_, [&](const ChildProcess& child, const ChildEnd& end) {
-    return &child != mission_ && !(failed_only && end.code == 0);
-  });
+std::optional<RunEnd> RunSession::dead_child(bool failed_only, double settle_s) {
+  const auto counts = [&](const ChildProcess& child, const ChildEnd& end) {
+    return child.name() != "liana-mission" && !(failed_only && end.code == 0);
+  };
+  const auto worst = system_.worst_end(counts, settle_s);
   if (!worst) return std::nullopt;
   return RunEnd{"failed", worst->text, worst->end.code == 2 && states_.empty()};
 }
 
 RunEnd RunSession::interrupted() {
   progress_.say("stopping (again Ctrl-C ends at once)");
-  request({{"op", "stop"}, {"reason", "interrupted"}});
+  system_.send({{"op", "stop"}, {"reason", "interrupted"}});
   const auto deadline = after(kStopTimeout_s);
-  while (api_ && interrupts_.count() < 2 && Clock::now() < deadline && !is_stopped()) look(kLook_s);
+  while (system_.is_connected() && interrupts_.count() < 2 && Clock::now() < deadline && !is_stopped()) look(kLook_s);
   return {"aborted", "interrupted: " + how_the_arm_was_left(), false};
 }
 
@@ -131,31 +109,22 @@ std::string RunSession::how_the_arm_was_left() const {
   if (is_stopped()) return "the arm was stopped and is " + last_state_.value("state", "");
   char time[32];
   std::snprintf(time, sizeof time, "%.2f s", last_state_.value("time_s", 0.0));
-  return std::string(api_ ? "lianad did not confirm the stop" : "lianad was gone before it confirmed the stop") +
+  return std::string(system_.is_connected() ? "lianad did not confirm the stop"
+                                            : "lianad was gone before it confirmed the stop") +
          "; the arm was last seen " + last_state_.value("state", "") + ", at " + time +
          "; drives without a master stop and brake by themselves";
 }
 
 // Takes in what lianad has sent; a closed socket is noticed through lianad's end.
 void RunSession::look(double timeout_s) {
-  if (!api_) {
-    std::this_thread::sleep_for(std::chrono::duration<double>(timeout_s));
-    return;
-  }
-  bool more = take(timeout_s);
-  while (more && (mission_ == nullptr || !mission_->poll())) more = take(0.0);
+  for (auto message = system_.receive(timeout_s); message && !system_.last().poll(); message = system_.receive(0.0))
+    take(*message);
 }
 
-// Takes in one message; false when none came or lianad is gone.
-bool RunSession::take(double timeout_s) {
-  try {
-    const auto message = api_ ? api_->receive(timeout_s) : std::nullopt;
-    if (message && message->value("op", "") == "state") keep(*message);
-    return message.has_value();
-  } catch (const std::runtime_error&) {
-    api_.reset();
-    return false;
-  }
+void RunSession::take(const Json& message) {
+  const std::string op = message.value("op", "");
+  if (op == "welcome") welcome_ = message;
+  if (op == "state") keep(message);
 }
 
 void RunSession::keep(const Json& state) {
@@ -170,46 +139,6 @@ void RunSession::keep(const Json& state) {
     announced_.push_back({index, step.value("name", ""), step.value("device", ""), tick, tick});
   }
   announced_.back().last_tick = tick;
-}
-
-void RunSession::request(const Json& message) {
-  try {
-    if (api_) api_->send(message);
-  } catch (const std::runtime_error&) {
-    api_.reset();
-  }
-}
-
-// A lianad that had to be killed leaves its entry among the running systems; looking at them removes it.
-void RunSession::remove_stale_entry() const {
-  const auto killed = [](const auto& child) {
-    return child->name() == "lianad" && child->poll() && child->poll()->signal != 0;
-  };
-  if (std::none_of(children_.begin(), children_.end(), killed)) return;
-  try {
-    running_systems();
-  } catch (const std::exception&) {
-    // a folder that is not ours has no entry of ours
-  }
-}
-
-// lianad stops the arm and leaves the bus; bus and bench then end by themselves and write their summaries.
-void RunSession::shut_down() {
-  request({{"op", "shutdown"}});
-  auto deadline = after(interrupts_.count() < 2 ? kEndGrace_s : 0.0);
-  const auto running = [](const auto& child) { return !child->poll(); };
-  while (Clock::now() < deadline && std::any_of(children_.begin(), children_.end(), running)) {
-    if (api_) {
-      look(kLook_s);
-      if (!api_) deadline = std::min(deadline, after(kFinishGrace_s));
-    } else {
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-  }
-  for (const auto& child : children_) child->end(1.0);
-  remove_stale_entry();
-  while (take(0.0)) {  // what lianad said last may not have been read yet
-  }
 }
 
 }  // namespace liana

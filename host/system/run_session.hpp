@@ -1,18 +1,15 @@
 // The processes of one run: started in order, watched, ended together.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "host/api/client.hpp"
 #include "host/json/json.hpp"
 #include "host/report/run_report.hpp"
 #include "host/system/interrupt.hpp"
-#include "host/system/process.hpp"
 #include "host/system/progress.hpp"
-#include "host/system/system_layout.hpp"
+#include "host/system/system.hpp"
 
 namespace liana {
 
@@ -39,27 +36,21 @@ class RunSession {
   const Json& last_state() const { return last_state_; }
 
  private:
-  std::optional<RunEnd> start();
   RunEnd watch();
   RunEnd conclusion();
-  std::optional<RunEnd> dead_child(bool failed_only);
+  std::optional<RunEnd> dead_child(bool failed_only, double settle_s = 0.0);
   RunEnd end_of_mission(const ChildEnd& end);
   RunEnd interrupted();
   void look(double timeout_s);
-  bool take(double timeout_s);
+  void take(const Json& message);
   void keep(const Json& state);
-  void request(const Json& message);
   bool is_stopped() const;
   std::string how_the_arm_was_left() const;
-  void shut_down();
-  void remove_stale_entry() const;
 
   const SystemLayout& plan_;
   InterruptGuard interrupts_;
   Progress progress_;
-  std::vector<std::unique_ptr<ChildProcess>> children_;
-  ChildProcess* mission_ = nullptr;
-  std::optional<ApiClient> api_;
+  System system_;
   Json welcome_;
   Json last_state_;
   std::vector<StateSample> states_;

@@ -13,6 +13,7 @@ namespace liana {
 struct ProgramCall {
   std::string name;
   std::vector<std::string> argv;
+  int realtime_priority = 0;  // over 0: SCHED_FIFO at that priority, where the machine grants it
 };
 
 // The files, sockets and programs of one run, all inputs checked.

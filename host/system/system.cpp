@@ -1,0 +1,108 @@
+#include "host/system/system.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <thread>
+
+#include "host/api/registry.hpp"
+
+namespace liana {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kFinishGrace_s = 3.0;  // for the others to write their summaries after lianad has left
+constexpr double kLook_s = 0.02;
+
+Clock::time_point after(double seconds) {
+  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
+
+void sleep(double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }
+
+}  // namespace
+
+System::~System() { end(0.0); }
+
+std::string System::start(const Json& hello, const std::atomic<bool>& stop) {
+  for (const ProgramCall& call : layout_.programs) {
+    children_.push_back(
+        std::make_unique<ChildProcess>(call.name, call.argv, layout_.file(call.name + ".log"), call.realtime_priority));
+    const bool is_daemon = call.name == "lianad";
+    if (!is_daemon && call.name != "liana-bus") continue;
+    const std::string socket = is_daemon ? layout_.api_socket() : layout_.bus_socket();
+    if (!wait_for_socket(socket, *children_.back(), stop)) return call.name + " did not open its socket within 30 s";
+    if (!is_daemon) continue;
+    api_ = ApiClient::connect(socket);
+    api_->send(hello);
+  }
+  return "";
+}
+
+std::optional<Json> System::receive(double timeout_s) {
+  if (!api_) {
+    sleep(std::min(timeout_s, kLook_s));
+    return std::nullopt;
+  }
+  try {
+    return api_->receive(timeout_s);
+  } catch (const std::runtime_error&) {
+    api_.reset();
+    return std::nullopt;
+  }
+}
+
+void System::send(const Json& message) {
+  try {
+    if (api_) api_->send(message);
+  } catch (const std::runtime_error&) {
+    api_.reset();
+  }
+}
+
+std::optional<NamedEnd> System::worst_end(const Counts& counts, double settle_s) {
+  const auto deadline = after(settle_s);
+  while (Clock::now() < deadline && !all_have_ended()) sleep(kLook_s);
+  return liana::worst_end(children_, counts);
+}
+
+bool System::any_has_ended() const {
+  return std::any_of(children_.begin(), children_.end(), [](const auto& child) { return child->poll().has_value(); });
+}
+
+bool System::all_have_ended() const {
+  return std::all_of(children_.begin(), children_.end(), [](const auto& child) { return child->poll().has_value(); });
+}
+
+void System::end(double grace_s, const Sink& sink) {
+  send({{"op", "shutdown"}});
+  if (!sink) api_.reset();  // a client in lockstep that no longer answers would hold lianad up
+  auto deadline = after(grace_s);
+  while (Clock::now() < deadline && !all_have_ended()) {
+    const bool was_connected = is_connected();
+    if (const auto message = receive(kLook_s); message && sink) sink(*message);
+    if (was_connected && !is_connected()) deadline = std::min(deadline, after(kFinishGrace_s));
+  }
+  for (const auto& child : children_) child->end(1.0);
+  remove_stale_entry();
+  while (const auto message = receive(0.0)) {  // what lianad said last may not have been read yet
+    if (sink) sink(*message);
+  }
+}
+
+// A lianad that had to be killed leaves its entry among the running systems; looking at them removes it.
+void System::remove_stale_entry() const {
+  const auto killed = [](const auto& child) {
+    return child->name() == "lianad" && child->poll() && child->poll()->signal != 0;
+  };
+  if (std::none_of(children_.begin(), children_.end(), killed)) return;
+  try {
+    running_systems();
+  } catch (const std::exception&) {
+    // a folder that is not ours has no entry of ours
+  }
+}
+
+}  // namespace liana
