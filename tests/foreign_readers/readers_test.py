@@ -1,0 +1,63 @@
+"""Readers of others (here @mcap/core, which Foxglove uses) list and decode what a run has recorded (req:A36)."""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+HERE = pathlib.Path(__file__).resolve().parent
+MISSION = HERE.parent / "system" / "missions" / "short.lua"
+
+
+def done(words, **options):
+    result = subprocess.run(words, capture_output=True, text=True, timeout=300, check=False, **options)
+    assert result.returncode == 0, f"{words}: {result.stdout}\n{result.stderr}"
+    return result.stdout
+
+
+def installed_reader(folder):
+    """The reader's packages as package-lock.json names them, in a folder of the build."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in ("package.json", "package-lock.json", "list_channels.mjs"):
+        shutil.copy(HERE / name, folder)
+    if not (folder / "node_modules").exists():
+        done(["npm", "ci", "--no-audit", "--no-fund"], cwd=folder)
+    return folder / "list_channels.mjs"
+
+
+class ForeignReaders(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        home = tempfile.TemporaryDirectory(prefix="liana-readers-")
+        cls.addClassCleanup(home.cleanup)
+        folder = pathlib.Path(home.name) / "record"
+        liana = pathlib.Path(os.environ["LIANA_BIN"]) / "liana"
+        done([liana, "run", MISSION, "--record", folder], env={**os.environ, "XDG_RUNTIME_DIR": home.name})
+        reader = installed_reader(pathlib.Path(os.environ["LIANA_READER"]))
+        files = [folder / name for name in ("ticks.mcap", "images.mcap", "state.mcap")]
+        cls.found = json.loads(done(["node", reader, *files]))
+
+    def test_every_file_of_a_recording_is_indexed(self):
+        self.assertEqual(set(self.found), {"ticks.mcap", "images.mcap", "state.mcap"})
+        for name, file in self.found.items():
+            self.assertTrue(file["indexed"], name)
+
+    def test_every_json_channel_decodes_and_keeps_its_schema(self):
+        channels = self.found["state.mcap"]["channels"]
+        self.assertEqual(set(channels), {"state", "event", "verdict"})
+        for topic, channel in channels.items():
+            self.assertEqual((channel["encoding"], channel["schema"]), ("json", "jsonschema"), topic)
+            self.assertGreater(channel["messages"], 0, topic)
+
+    def test_the_exact_channels_are_listed_with_a_message_for_every_tick(self):
+        channels = self.found["ticks.mcap"]["channels"]
+        self.assertEqual(set(channels), {"start", "inputs", "outputs"})
+        self.assertEqual(channels["inputs"]["messages"], channels["outputs"]["messages"])
+        self.assertGreater(channels["inputs"]["messages"], 1000)
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())
