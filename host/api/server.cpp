@@ -9,8 +9,9 @@
 #include <deque>
 #include <tuple>
 
-#include "host/api/fields.hpp"
+#include "host/api/request_check.hpp"
 #include "host/api/request_error.hpp"
+#include "host/api/request_text.hpp"
 #include "host/api/stop_packet.hpp"
 #include "host/json/json.hpp"
 
@@ -33,7 +34,6 @@ constexpr double kShare_s = 0.002;
 constexpr double kMuch = 16384;                   // bytes lately, of clients that are read only while there is time
 constexpr std::size_t kLongestHeard = 16u << 20;  // of a packet that is too long a request; it may be a stop
 constexpr const char* kNoPlace = "32 clients are connected already; close one (a stop is heard all the same)";
-constexpr std::array<const char*, 6> kRoleNames{"mission", "operator", "camera", "archive", "client", "observer"};
 constexpr std::array<const char*, 3> kTopicNames{"state", "camera", "tick"};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -49,17 +49,20 @@ std::string op_of(const Json& request) {
   return op != nullptr && op->is_string() ? op->get<std::string>() : std::string();
 }
 
+// Of hello and done, whose ranges are the same for every robot.
+Arguments session_fields(const Json& request) {
+  static const RequestBounds kNoRobot;
+  return checked(row_of(request), request, kNoRobot);
+}
+
 }  // namespace
 
 Role role_of(const std::string& name) {
   for (std::size_t i = 0; i < kRoleNames.size(); ++i) {
     if (name == kRoleNames[i]) return static_cast<Role>(i);
   }
-  throw RequestError("bad_request",
-                     "role '" + name + "': allowed mission, operator, camera, archive, client, observer");
+  throw RequestError("bad_request", "role '" + name + "': allowed " + roles_text(kAnyRole));
 }
-
-const char* role_name(Role role) { return kRoleNames[static_cast<std::size_t>(role)]; }
 
 struct ApiServer::Client {
   struct Packet {
@@ -199,7 +202,7 @@ void ApiServer::take_packet(Client& client, const std::string& packet) {
     if (!client.greeted)
       throw RequestError("bad_request", "say hello first: {\"op\":\"hello\",\"name\":...,\"role\":...}");
     if (op == "done") {
-      client.done_tick = static_cast<std::uint64_t>(integer_field(request, "tick", 0, 1LL << 53));
+      client.done_tick = static_cast<std::uint64_t>(session_fields(request).integer("tick"));
       client.has_done = true;
       return;
     }
@@ -233,12 +236,12 @@ void ApiServer::take_stop(Client& client, Json stop) {
 
 void ApiServer::greet(Client& client, const Json& request) {
   if (client.greeted) throw RequestError("bad_request", "hello was said already");
-  client.info.name = text_field(request, "name", 64);
-  client.info.role = role_of(text_field(request, "role", 32));
-  client.info.lockstep = request.contains("lockstep") && flag_field(request, "lockstep");
-  for (const Json& topic : array_field(request, "subscribe", 8)) {
-    const auto found =
-        std::find(kTopicNames.begin(), kTopicNames.end(), topic.is_string() ? topic.get<std::string>() : std::string());
+  const Arguments hello = session_fields(request);
+  client.info.name = hello.text("name");
+  client.info.role = role_of(hello.text("role"));
+  client.info.lockstep = hello.flag("lockstep");
+  for (const std::string& topic : hello.texts("subscribe")) {
+    const auto found = std::find(kTopicNames.begin(), kTopicNames.end(), topic);
     if (found == kTopicNames.end()) throw RequestError("bad_request", "subscribe: allowed state, camera, tick");
     client.subscribed[static_cast<std::size_t>(found - kTopicNames.begin())] = true;
   }

@@ -6,13 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "host/api/role.hpp"
 #include "host/api/socket.hpp"
 #include "host/json/json_fwd.hpp"
 
 namespace liana {
-
-// What a client is; also the order in which clients are served (smaller first).
-enum class Role : std::uint8_t { kMission, kOperator, kCamera, kArchive, kClient, kObserver };
 
 // One greeted client, as the handler sees it.
 struct ClientInfo {
@@ -95,7 +93,4 @@ class ApiServer {
 
 // Role of its name in docs/api.md; throws RequestError for others.
 Role role_of(const std::string& name);
-// The name of a role.
-const char* role_name(Role role);
-
 }  // namespace liana

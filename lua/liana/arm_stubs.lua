@@ -45,74 +45,191 @@ function arm.holds_what_it_should() end
 ---@return number
 function arm.elapsed_s(since) end
 
--- ---- commanding -------------------------------------------------------------------------------------------------
+-- ---- commanding, made by ./dev docs ----
 
----Owns motion. The mission runner does this by itself before the first step.
+---Own motion; one client at a time, and the death of the owner is a hold.
 ---@return integer id
 function arm.acquire() end
 
----Gives motion back.
+---Give motion back; the arm holds.
 ---@return integer id
 function arm.release() end
 
+---@class arm.state_command
+---what to do
+---@field command "enable"|"disable"|"clear"|"home"
+
 ---CRTK operating state.
----@param fields { command: string } enable, disable, clear or home
+---@param fields arm.state_command
 ---@return integer id
 function arm.state_command(fields) end
 
----Joint goal, all joints together on a minimum-jerk path.
----@param fields { goal_deg: number[], rate_deg_s?: number }
+---@class arm.move_jp
+---where to
+---@field goal_deg number[]
+---the most that any angle may turn at (else the robot's fastest angle rate)
+---@field rate_deg_s? number
+---grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused
+---@field sequence? integer
+---the client's clock when it made the setpoint; never goes back (in virtual time: arm time)
+---@field time_s? number
+---time to live: with `time_s`, a setpoint that comes so much later than the quickest is refused
+---@field ttl_s? number
+
+---Joint goal, all angles together on a minimum-jerk path.
+---@param fields arm.move_jp
 ---@return integer id
 function arm.move_jp(fields) end
 
----Tip goal [x,y,z,qw,qx,qy,qz] along a straight line; `hold` as `held` of hold_theta, in force from the start.
----@param fields { goal: number[], hold?: table[] }
+---@class arm.move_cp.hold
+---which
+---@field theta integer
+---where it is held
+---@field target_deg number
+
+---@class arm.move_cp
+---where to
+---@field goal number[]
+---as `held` of `hold_theta`, from the start of the line
+---@field hold? arm.move_cp.hold[]
+---grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused
+---@field sequence? integer
+---the client's clock when it made the setpoint; never goes back (in virtual time: arm time)
+---@field time_s? number
+---time to live: with `time_s`, a setpoint that comes so much later than the quickest is refused
+---@field ttl_s? number
+
+---Tip goal along a straight line at the tip limits.
+---@param fields arm.move_cp
 ---@return integer id
 function arm.move_cp(fields) end
 
----Stream of tip targets, at most one per command interval.
----@param fields { goal: number[] }
+---@class arm.servo_cp
+---where the tip should be next
+---@field goal number[]
+---grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused
+---@field sequence? integer
+---the client's clock when it made the setpoint; never goes back (in virtual time: arm time)
+---@field time_s? number
+---time to live: when no other follows in it the arm holds; with `time_s`, a setpoint that comes so much later
+---than the quickest is refused
+---@field ttl_s? number
+
+---One of a stream of tip goals, at most one per command interval.
+---@param fields arm.servo_cp
 ---@return integer id
 function arm.servo_cp(fields) end
 
----Holds variables { { theta = 9, target_deg = 0 }, ... }; an empty list releases all. Steps do this through their field `hold`.
----@param fields { held: table[] }
+---@class arm.hold_theta.held
+---which
+---@field theta integer
+---where it is held
+---@field target_deg number
+
+---@class arm.hold_theta
+---all that are held from now on; an empty list releases them
+---@field held arm.hold_theta.held[]
+
+---Held variables go to their targets at a bounded rate while the tip stays or follows. For cable arms only.
+---@param fields arm.hold_theta
 ---@return integer id
 function arm.hold_theta(fields) end
 
----Null-space targets of nodes { { node = 3, position_m = {x,y,z}, weight = 1, threshold_m = 0.01 }, ... } and points
----that the arm's middle keeps its distance from { { centre_m = {x,y,z}, distance_m = 0.3, weight = 1 }, ... }; an empty list clears them.
----With `search` the best of all shapes is looked for and gone to first (arm at rest).
----@param fields { nodes: table[], keep_clear?: table[], search?: boolean }
+---@class arm.shape.nodes
+---which, counted from the base; the tip has its own goal
+---@field node integer
+---where it should be, in the base frame
+---@field position_m number[]
+---1 for the arm's middle node and 0.25 for others when left out
+---@field weight? number
+---nearer than this nothing is done (else 0.01)
+---@field threshold_m? number
+
+---@class arm.shape.keep_clear
+---what to keep away from, in the base frame
+---@field centre_m number[]
+---how far away
+---@field distance_m number
+---against other wishes (else 1)
+---@field weight? number
+
+---@class arm.shape
+---where nodes should be; an empty list clears them
+---@field nodes arm.shape.nodes[]
+---points that the arm's axis is pushed away from as far as the tip allows
+---@field keep_clear? arm.shape.keep_clear[]
+---the best of all shapes is looked for first (arm at rest) (else false)
+---@field search? boolean
+
+---Null-space targets of nodes, and points that the arm keeps away from. For cable arms only.
+---@param fields arm.shape
 ---@return integer id
 function arm.shape(fields) end
 
----Who steers and how hand motion maps. Steps do this through their fields `device` and `steer`.
----@param fields { device: string, scale?: number, rotation_scale?: number, node?: integer, speed_m_s?: number }
+---@class arm.use_device
+---who steers; `none`: nobody
+---@field device "vr"|"hand"|"none"
+---way of the tip for a way of the hand (else 1)
+---@field scale? number
+---turn of the tip for a turn of the hand (else 1)
+---@field rotation_scale? number
+---node that the left hand of `vr` moves; 0: none (else 0)
+---@field node? integer
+---fastest that the tip follows (else the robot's tip speed)
+---@field speed_m_s? number
+
+---Who steers, and how hand motion maps to the tip. For cable arms only.
+---@param fields arm.use_device
 ---@return integer id
 function arm.use_device(fields) end
 
----Back along the verified path, as far as a tick.
----@param fields { until_tick?: integer }
+---@class arm.retract
+---not farther back than the arm was then (else 0)
+---@field until_tick? integer
+
+---Stop, then back along the verified path, a little slower than the way in.
+---@param fields arm.retract
 ---@return integer id
 function arm.retract(fields) end
 
----Stops along the path and stays enabled.
+---Stop along the path and stay enabled.
 ---@return integer id
 function arm.hold() end
 
+---@class arm.tool
+---what the tool should do
+---@field command string
+
 ---A command to the tool at the tip; logged.
----@param fields { command: string }
+---@param fields arm.tool
 ---@return integer id
 function arm.tool(fields) end
 
----Stop, brakes, disable.
----@param fields { reason: string }
+---@class arm.stop
+---shown by `state`; cut to 200 bytes
+---@field reason? string
+
+---Stop, brakes, disable; never refused.
+---@param fields arm.stop
 ---@return integer id
 function arm.stop(fields) end
 
----Tells the operator which step runs. The mission runner does this by itself.
----@param fields { step?: table }
+---@class arm.announce.step
+---of the step
+---@field index integer
+---of the step
+---@field name string
+---who steers
+---@field device string
+---what the operator should do
+---@field task? string
+
+---@class arm.announce
+---the step that begins; null or left out: the mission has ended
+---@field step? arm.announce.step
+
+---Tells the operator which step runs.
+---@param fields arm.announce
 ---@return integer id
 function arm.announce(fields) end
 

@@ -1,0 +1,275 @@
+#include "host/api/request_table.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace liana {
+
+namespace {
+
+constexpr Figure kReach = Figure::kReach;
+constexpr double kBiggestWhole = 9007199254740992.0;  // 2^53: a double holds every whole number up to it
+
+constexpr Field number(const char* name, Bound low, Bound high, const char* doc) {
+  return {name, FieldType::kNumber, doc, low, high};
+}
+constexpr Field integer(const char* name, Bound low, Bound high, const char* doc) {
+  return {name, FieldType::kInteger, doc, low, high};
+}
+constexpr Field flag(const char* name, const char* doc) { return {name, FieldType::kFlag, doc}; }
+constexpr Field text(const char* name, double most_bytes, const char* doc) {
+  return {name, FieldType::kText, doc, 1.0, most_bytes};
+}
+constexpr Field word(const char* name, Words words, const char* doc) {
+  return {name, FieldType::kWord, doc, {}, {}, words};
+}
+constexpr Field point(const char* name, const char* doc) { return {name, FieldType::kPoint, doc, {}, kReach}; }
+constexpr Field pose(const char* name, Bound within_m, const char* doc) {
+  return {name, FieldType::kPose, doc, {}, within_m};
+}
+constexpr Field object(const char* name, std::span<const Field> fields, const char* doc) {
+  return {name, FieldType::kObject, doc, {}, {}, {}, fields};
+}
+
+constexpr std::array kCommands{"enable", "disable", "clear", "home"};
+constexpr std::array kDevices{"vr", "hand", "none"};
+
+constexpr std::array kHello{
+    text("name", 64, "what owners and stops are called by"),
+    word("role", kRoleNames, "what the client is"),
+    flag("lockstep", "virtual time waits for this client's `done`").otherwise(0.0),
+    text("subscribe", 32, "topics it wants").optional().list(8),
+};
+constexpr std::array kDone{integer("tick", 0.0, kBiggestWhole, "of the state that is answered")};
+
+constexpr std::array kStateCommand{word("command", kCommands, "what to do")};
+
+// What a setpoint tells of itself.
+constexpr Field kSequence =
+    integer("sequence", 1.0, kBiggestWhole,
+            "grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused")
+        .optional();
+constexpr Field kTime =
+    number("time_s", -1e12, 1e12,
+           "the client's clock when it made the setpoint; never goes back (in virtual time: arm time)")
+        .optional();
+constexpr Field kTtl =
+    number("ttl_s", 0.05, 10.0,
+           "time to live: with `time_s`, a setpoint that comes so much later than the quickest is refused")
+        .optional();
+constexpr Field kStreamTtl =
+    number(
+        "ttl_s", 0.05, 10.0,
+        "time to live: when no other follows in it the arm holds; with `time_s`, a setpoint that comes so much later "
+        "than the quickest is refused")
+        .optional();
+
+constexpr std::array kHeld{
+    integer("theta", 1.0, Figure::kAngles, "which"),
+    Field{"target_deg", FieldType::kAngle, "where it is held"},
+};
+constexpr std::array kMoveJp{
+    Field{"goal_deg", FieldType::kAngles, "where to"},
+    number("rate_deg_s", 0.01, Figure::kAngleRate, "the most that any angle may turn at").otherwise(Figure::kAngleRate),
+    kSequence,
+    kTime,
+    kTtl,
+};
+constexpr std::array kMoveCp{
+    pose("goal", kReach, "where to"),
+    object("hold", kHeld, "as `held` of `hold_theta`, from the start of the line")
+        .optional()
+        .list(16)
+        .only_for(kCableArm),
+    kSequence,
+    kTime,
+    kTtl,
+};
+constexpr std::array kServoCp{
+    pose("goal", kReach, "where the tip should be next"),
+    kSequence,
+    kTime,
+    kStreamTtl,
+};
+constexpr std::array kHoldTheta{
+    object("held", kHeld, "all that are held from now on; an empty list releases them").list(16)};
+
+constexpr std::array kNode{
+    integer("node", 1.0, Figure::kNodes, "which, counted from the base; the tip has its own goal"),
+    point("position_m", "where it should be, in the base frame"),
+    number("weight", 0.0, 1000.0, "1 for the arm's middle node and 0.25 for others when left out").optional(),
+    number("threshold_m", 0.0, kReach, "nearer than this nothing is done").otherwise(0.01),
+};
+constexpr std::array kClear{
+    point("centre_m", "what to keep away from, in the base frame"),
+    number("distance_m", 0.0, kReach, "how far away"),
+    number("weight", 0.0, 1000.0, "against other wishes").otherwise(1.0),
+};
+constexpr std::array kShape{
+    object("nodes", kNode, "where nodes should be; an empty list clears them").list(4),
+    object("keep_clear", kClear, "points that the arm's axis is pushed away from as far as the tip allows")
+        .optional()
+        .list(4),
+    flag("search", "the best of all shapes is looked for first (arm at rest)").otherwise(0.0),
+};
+constexpr std::array kUseDevice{
+    word("device", kDevices, "who steers; `none`: nobody"),
+    number("scale", 0.01, 100.0, "way of the tip for a way of the hand").otherwise(1.0),
+    number("rotation_scale", 0.0, 10.0, "turn of the tip for a turn of the hand").otherwise(1.0),
+    integer("node", 0.0, Figure::kNodes, "node that the left hand of `vr` moves; 0: none").otherwise(0.0),
+    number("speed_m_s", 1e-4, Figure::kTipSpeed, "fastest that the tip follows").otherwise(Figure::kTipSpeed),
+};
+constexpr std::array kRetract{
+    integer("until_tick", 0.0, kBiggestWhole, "not farther back than the arm was then").otherwise(0.0)};
+constexpr std::array kTool{text("command", 64, "what the tool should do")};
+constexpr std::array kStop{text("reason", 200, "shown by `state`; cut to 200 bytes").optional()};
+constexpr std::array kTiming{flag("reset", "begin anew after this answer").otherwise(0.0)};
+
+constexpr std::array kStep{
+    integer("index", 0.0, 1000.0, "of the step"),
+    text("name", 120, "of the step"),
+    text("device", 16, "who steers"),
+    text("task", 40, "what the operator should do").optional(),
+};
+constexpr std::array kAnnounce{
+    object("step", kStep, "the step that begins; null or left out: the mission has ended").or_null()};
+constexpr std::array kOperatorSays{
+    text("what", 40, "what the operator would say aloud"),
+    integer("step", 0.0, 1000.0, "index of the step it is about").optional(),
+    number("time_s", 0.0, 1e9, "arm time").optional(),
+};
+
+constexpr double kDeviceRoom_m = 10.0;  // a device frame's size
+constexpr std::array kHandle{
+    flag("valid", "the device is tracked"),
+    number("trigger", 0.0, 1.0, "deadman; held from 0.5 on"),
+    pose("pose", kDeviceRoom_m, "of the handle in the device frame"),
+};
+constexpr std::array kSample{
+    integer("t_us", 0.0, kBiggestWhole, "when it was taken, by the device's clock"),
+    object("right", kHandle, "the hand that moves the tip").with_device("vr"),
+    object("left", kHandle, "the hand that moves a node").with_device("vr"),
+    flag("valid", "the device is tracked").with_device("hand"),
+    number("button", 0.0, 1.0, "deadman; held from 0.5 on").with_device("hand"),
+    pose("pose", kDeviceRoom_m, "of the hand in the device frame").with_device("hand"),
+};
+constexpr std::array kSources{"vr", "hand"};
+constexpr std::array kDevice{
+    word("device", kSources, "where the samples come from"),
+    object("samples", kSample, "since the last message, oldest first").list(256),
+};
+constexpr std::array kCamera{
+    number("capture_time_s", 0.0, 1e9, "arm time of the picture"),
+    pose("slit", 1000.0, "the slit's frame in the tip frame; null: not seen").or_null(),
+    pose("rod", 1000.0, "the rod's frame in the tip frame; null: not seen").or_null(),
+};
+
+constexpr Roles kMovers = only(Role::kMission) | only(Role::kClient);
+
+constexpr std::array kTable{
+    RequestRow{
+        .op = "hello", .doc = "Says who the client is; the first request of every connection.", .fields = kHello},
+    RequestRow{.op = "done", .doc = "Ends a lockstep client's interval, after its other messages.", .fields = kDone},
+    RequestRow{.op = "acquire",
+               .doc = "Own motion; one client at a time, and the death of the owner is a hold.",
+               .roles = kMovers,
+               .in_missions = true,
+               .motion = Motion::kReplaces},
+    RequestRow{.op = "release",
+               .doc = "Give motion back; the arm holds.",
+               .owner_only = true,
+               .in_missions = true,
+               .motion = Motion::kReplaces},
+    RequestRow{.op = "state_command",
+               .doc = "CRTK operating state.",
+               .fields = kStateCommand,
+               .owner_only = true,
+               .in_missions = true},
+    RequestRow{.op = "move_jp",
+               .doc = "Joint goal, all angles together on a minimum-jerk path.",
+               .fields = kMoveJp,
+               .owner_only = true,
+               .in_missions = true,
+               .motion = Motion::kReplaces},
+    RequestRow{.op = "move_cp",
+               .doc = "Tip goal along a straight line at the tip limits.",
+               .fields = kMoveCp,
+               .owner_only = true,
+               .in_missions = true,
+               .motion = Motion::kReplaces},
+    RequestRow{.op = "servo_cp",
+               .doc = "One of a stream of tip goals, at most one per command interval.",
+               .fields = kServoCp,
+               .owner_only = true,
+               .in_missions = true,
+               .motion = Motion::kStreams},
+    RequestRow{.op = "hold_theta",
+               .doc = "Held variables go to their targets at a bounded rate while the tip stays or follows.",
+               .fields = kHoldTheta,
+               .owner_only = true,
+               .arms = kCableArm,
+               .in_missions = true},
+    RequestRow{.op = "shape",
+               .doc = "Null-space targets of nodes, and points that the arm keeps away from.",
+               .fields = kShape,
+               .owner_only = true,
+               .arms = kCableArm,
+               .in_missions = true},
+    RequestRow{.op = "use_device",
+               .doc = "Who steers, and how hand motion maps to the tip.",
+               .fields = kUseDevice,
+               .owner_only = true,
+               .arms = kCableArm,
+               .in_missions = true,
+               .motion = Motion::kReplaces},
+    RequestRow{.op = "retract",
+               .doc = "Stop, then back along the verified path, a little slower than the way in.",
+               .fields = kRetract,
+               .owner_only = true,
+               .in_missions = true,
+               .motion = Motion::kReplaces},
+    RequestRow{.op = "hold",
+               .doc = "Stop along the path and stay enabled.",
+               .owner_only = true,
+               .in_missions = true,
+               .motion = Motion::kReplaces},
+    RequestRow{.op = "tool",
+               .doc = "A command to the tool at the tip; logged.",
+               .fields = kTool,
+               .owner_only = true,
+               .in_missions = true},
+    RequestRow{.op = "stop",
+               .doc = "Stop, brakes, disable; never refused.",
+               .fields = kStop,
+               .in_missions = true,
+               .motion = Motion::kReplaces,
+               .never_refused = true},
+    RequestRow{.op = "shutdown", .doc = "Ends lianad after a stop."},
+    RequestRow{.op = "timing", .doc = "Times of the real-time thread (real time only).", .fields = kTiming},
+    RequestRow{.op = "announce",
+               .doc = "Tells the operator which step runs.",
+               .fields = kAnnounce,
+               .roles = only(Role::kMission),
+               .in_missions = true},
+    RequestRow{.op = "operator_says",
+               .doc = "What the operator tells the mission.",
+               .fields = kOperatorSays,
+               .roles = only(Role::kOperator)},
+    RequestRow{.op = "device",
+               .doc = "Samples of a hand controller.",
+               .fields = kDevice,
+               .roles = only(Role::kOperator),
+               .arms = kCableArm},
+    RequestRow{.op = "camera", .doc = "What the tip camera has seen.", .fields = kCamera, .roles = only(Role::kCamera)},
+};
+
+}  // namespace
+
+std::span<const RequestRow> request_table() { return kTable; }
+
+const RequestRow* find_request(std::string_view op) {
+  const auto found = std::find_if(kTable.begin(), kTable.end(), [op](const RequestRow& row) { return row.op == op; });
+  return found != kTable.end() ? &*found : nullptr;
+}
+
+}  // namespace liana
