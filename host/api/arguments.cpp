@@ -12,8 +12,9 @@ Pose pose_of(const Json& numbers) {
   return {{p[0], p[1], p[2]}, {p[3], p[4], p[5], p[6]}};
 }
 
-const Field& Arguments::field(std::string_view name) const {
-  const auto found = std::find_if(fields_.begin(), fields_.end(), [name](const Field& f) { return name == f.name; });
+const RequestField& Arguments::field(std::string_view name) const {
+  const auto found =
+      std::find_if(fields_.begin(), fields_.end(), [name](const RequestField& f) { return name == f.name; });
   if (found == fields_.end()) throw std::logic_error("no field " + std::string(name) + " in the table of requests");
   return *found;
 }

@@ -20,7 +20,7 @@ Pose pose_of(const Json& numbers);
 // function throws std::logic_error for a field that is not in the table, or was left out and has no default.
 class Arguments {
  public:
-  Arguments(const Json& object, std::span<const Field> fields, const RequestBounds& bounds)
+  Arguments(const Json& object, std::span<const RequestField> fields, const RequestBounds& bounds)
       : object_(object), fields_(fields), bounds_(bounds) {}
 
   // It was given, and is not null.
@@ -40,12 +40,12 @@ class Arguments {
   const Json& json() const { return object_; }
 
  private:
-  const Field& field(std::string_view name) const;
+  const RequestField& field(std::string_view name) const;
   const Json* given(std::string_view name) const;
   const Json& value(std::string_view name) const;
 
   const Json& object_;
-  std::span<const Field> fields_;
+  std::span<const RequestField> fields_;
   const RequestBounds& bounds_;
 };
 

@@ -28,7 +28,7 @@ std::string brief(const Json& value) { return value.dump(-1, Json::BadUtf8::kRep
                                     " has another arm: leave it out");
 }
 
-bool applies(const Field& field, const Json& request) {
+bool applies(const RequestField& field, const Json& request) {
   const Json& device = request.member_or_null("device");
   return *field.device == '\0' || (device.is_string() && device.text() == field.device);
 }
@@ -49,9 +49,9 @@ class Check {
   Check(const Json& request, const RequestBounds* bounds, std::size_t first)
       : request_(request), bounds_(bounds), first_(first) {}
 
-  void fields_of(const Json& object, std::span<const Field> fields) const {
+  void fields_of(const Json& object, std::span<const RequestField> fields) const {
     only_known(object, fields);
-    for (const Field& field : fields) {
+    for (const RequestField& field : fields) {
       const Json* value = object.find(field.name);
       if (value != nullptr && value->is_null() && field.need == Need::kOrNull) continue;
       if (value != nullptr) {
@@ -63,16 +63,16 @@ class Check {
   }
 
  private:
-  void only_known(const Json& object, std::span<const Field> fields) const {
+  void only_known(const Json& object, std::span<const RequestField> fields) const {
     std::string names;
-    for (const Field& field : fields) {
+    for (const RequestField& field : fields) {
       if (applies(field, request_)) names += (names.empty() ? "" : ", ") + std::string(field.name);
     }
     for (const auto& member : object.items()) {
       const std::string& key = member.first;
       if (&object == &request_ && (key == "op" || key == "id")) continue;
       const auto found =
-          std::find_if(fields.begin(), fields.end(), [&](const Field& field) { return key == field.name; });
+          std::find_if(fields.begin(), fields.end(), [&](const RequestField& field) { return key == field.name; });
       if (found == fields.end() || !applies(*found, request_))
         refuse("bad_request", "unknown field " + key.substr(0, 60) + " = " + brief(member.second),
                names.empty() ? "none" : names, "correct its spelling or remove it");
@@ -80,7 +80,7 @@ class Check {
     }
   }
 
-  void given(const Field& field, const Json& value, const Json& beside) const {
+  void given(const RequestField& field, const Json& value, const Json& beside) const {
     if (field.most == 0) return single(field, field.name, value, beside);
     const std::string allowed = "an array of at most " + std::to_string(field.most) + " entries";
     if (!value.is_array()) wrong_type(field.name, value, allowed);
@@ -93,7 +93,7 @@ class Check {
     }
   }
 
-  void single(const Field& field, const std::string& name, const Json& value, const Json& beside) const {
+  void single(const RequestField& field, const std::string& name, const Json& value, const Json& beside) const {
     switch (field.type) {
       case FieldType::kNumber:
       case FieldType::kInteger:
@@ -124,7 +124,7 @@ class Check {
     }
   }
 
-  void number(const Field& field, const std::string& name, const Json& value) const {
+  void number(const RequestField& field, const std::string& name, const Json& value) const {
     const bool whole = field.type == FieldType::kInteger;
     if (!value.is_number() || (whole && !value.is_number_integer()))
       wrong_type(name, value, whole ? "a whole number" : "a number");
@@ -139,7 +139,7 @@ class Check {
            "choose another value");
   }
 
-  void text(const Field& field, const std::string& name, const Json& value) const {
+  void text(const RequestField& field, const std::string& name, const Json& value) const {
     const double most = field.high.factor;
     if (!value.is_string() || value.text().empty() || static_cast<double>(value.text().size()) > most)
       wrong_type(name, value, type_text(field));
@@ -179,13 +179,13 @@ class Check {
     }
   }
 
-  void coordinate(const Field& field, const std::string& name, const Json& value, std::size_t i) const {
+  void coordinate(const RequestField& field, const std::string& name, const Json& value, std::size_t i) const {
     if (bounds_ == nullptr) return;
     const double most = i < 3 ? bounds_->value_of(field.high) : kQuaternionEntry;
     in_range(name + entry_text(i), value[i].get<double>(), -most, most, i < 3 ? " m" : "");
   }
 
-  void pose(const Field& field, const std::string& name, const Json& value) const {
+  void pose(const RequestField& field, const std::string& name, const Json& value) const {
     array(name, value, 7);
     if (bounds_ == nullptr) return;
     for (std::size_t i = 0; i < 7; ++i) coordinate(field, name, value, i);

@@ -36,7 +36,7 @@ std::string bound_text(const Bound& bound) {
   return (bound.factor == 1.0 ? "" : text_of(bound.factor) + " x ") + name;
 }
 
-std::string range_text(const Field& field) {
+std::string range_text(const RequestField& field) {
   switch (field.type) {
     case FieldType::kNumber:
     case FieldType::kInteger:
@@ -54,14 +54,14 @@ std::string range_text(const Field& field) {
   }
 }
 
-std::string what_it_is(const Field& field) {
+std::string what_it_is(const RequestField& field) {
   const std::string one = type_text(field) + range_text(field);
   std::string out = field.most == 0 ? one : "up to " + std::to_string(field.most) + ", each " + one;
   if (*field.device != '\0') out += "; with device `" + std::string(field.device) + "`";
   return field.arms == kEveryArm ? out : out + "; " + arms_text(field.arms) + " only";
 }
 
-std::string left_out(const Field& field) {
+std::string left_out(const RequestField& field) {
   switch (field.need) {
     case Need::kRequired:
       return "required";
@@ -76,8 +76,8 @@ std::string left_out(const Field& field) {
   return bound_text(field.fallback);
 }
 
-void add_fields(std::span<const Field> fields, const std::string& before, std::ostream& out) {
-  for (const Field& field : fields) {
+void add_fields(std::span<const RequestField> fields, const std::string& before, std::ostream& out) {
+  for (const RequestField& field : fields) {
     out << "| `" << before << field.name << "` | " << what_it_is(field) << " | " << left_out(field) << " | "
         << field.doc << " |\n";
     add_fields(field.fields, before + field.name + (field.most > 0 ? "[]." : "."), out);
@@ -103,7 +103,7 @@ std::string comment(const std::string& before, const std::string& text) {
   return out + before + line + "\n";
 }
 
-std::string type_in_stub(const Field& field, const std::string& class_name) {
+std::string type_in_stub(const RequestField& field, const std::string& class_name) {
   std::string one = lua_type(field);
   if (field.type == FieldType::kObject) return class_name + "." + field.name + (field.most > 0 ? "[]" : "");
   if (field.type == FieldType::kWord) {
@@ -114,12 +114,12 @@ std::string type_in_stub(const Field& field, const std::string& class_name) {
 }
 
 // The class of the fields, after those of the objects in it.
-void add_class(const std::string& name, std::span<const Field> fields, std::ostream& out) {
-  for (const Field& field : fields) {
+void add_class(const std::string& name, std::span<const RequestField> fields, std::ostream& out) {
+  for (const RequestField& field : fields) {
     if (!field.fields.empty()) add_class(name + "." + field.name, field.fields, out);
   }
   out << "\n---@class " << name << "\n";
-  for (const Field& field : fields) {
+  for (const RequestField& field : fields) {
     const std::string default_text = field.need == Need::kFallback ? " (else " + left_out(field) + ")" : "";
     out << comment("---", field.doc + default_text) << "---@field " << field.name
         << (field.need == Need::kRequired ? " " : "? ") << type_in_stub(field, name) << "\n";
@@ -151,7 +151,7 @@ std::string request_section() {
   return out.str();
 }
 
-std::string lua_type(const Field& field) {
+std::string lua_type(const RequestField& field) {
   switch (field.type) {
     case FieldType::kNumber:
     case FieldType::kAngle:

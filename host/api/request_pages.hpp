@@ -19,7 +19,7 @@ struct MadeSection {
 std::string request_section();
 
 // What a field is in Lua: "number", "string", "number[]", "table[]" ...
-std::string lua_type(const Field& field);
+std::string lua_type(const RequestField& field);
 
 // Lua with annotations of LuaLS: the commands that missions can give.
 std::string command_stubs();

@@ -10,24 +10,24 @@ namespace {
 constexpr Figure kReach = Figure::kReach;
 constexpr double kBiggestWhole = 9007199254740992.0;  // 2^53: a double holds every whole number up to it
 
-constexpr Field number(const char* name, Bound low, Bound high, const char* doc) {
+constexpr RequestField number(const char* name, Bound low, Bound high, const char* doc) {
   return {name, FieldType::kNumber, doc, low, high};
 }
-constexpr Field integer(const char* name, Bound low, Bound high, const char* doc) {
+constexpr RequestField integer(const char* name, Bound low, Bound high, const char* doc) {
   return {name, FieldType::kInteger, doc, low, high};
 }
-constexpr Field flag(const char* name, const char* doc) { return {name, FieldType::kFlag, doc}; }
-constexpr Field text(const char* name, double most_bytes, const char* doc) {
+constexpr RequestField flag(const char* name, const char* doc) { return {name, FieldType::kFlag, doc}; }
+constexpr RequestField text(const char* name, double most_bytes, const char* doc) {
   return {name, FieldType::kText, doc, 1.0, most_bytes};
 }
-constexpr Field word(const char* name, Words words, const char* doc) {
+constexpr RequestField word(const char* name, Words words, const char* doc) {
   return {name, FieldType::kWord, doc, {}, {}, words};
 }
-constexpr Field point(const char* name, const char* doc) { return {name, FieldType::kPoint, doc, {}, kReach}; }
-constexpr Field pose(const char* name, Bound within_m, const char* doc) {
+constexpr RequestField point(const char* name, const char* doc) { return {name, FieldType::kPoint, doc, {}, kReach}; }
+constexpr RequestField pose(const char* name, Bound within_m, const char* doc) {
   return {name, FieldType::kPose, doc, {}, within_m};
 }
-constexpr Field object(const char* name, std::span<const Field> fields, const char* doc) {
+constexpr RequestField object(const char* name, std::span<const RequestField> fields, const char* doc) {
   return {name, FieldType::kObject, doc, {}, {}, {}, fields};
 }
 
@@ -45,19 +45,19 @@ constexpr std::array kDone{integer("tick", 0.0, kBiggestWhole, "of the state tha
 constexpr std::array kStateCommand{word("command", kCommands, "what to do")};
 
 // What a setpoint tells of itself.
-constexpr Field kSequence =
+constexpr RequestField kSequence =
     integer("sequence", 1.0, kBiggestWhole,
             "grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused")
         .optional();
-constexpr Field kTime =
+constexpr RequestField kTime =
     number("time_s", -1e12, 1e12,
            "the client's clock when it made the setpoint; never goes back (in virtual time: arm time)")
         .optional();
-constexpr Field kTtl =
+constexpr RequestField kTtl =
     number("ttl_s", 0.05, 10.0,
            "time to live: with `time_s`, a setpoint that comes so much later than the quickest is refused")
         .optional();
-constexpr Field kStreamTtl =
+constexpr RequestField kStreamTtl =
     number(
         "ttl_s", 0.05, 10.0,
         "time to live: when no other follows in it the arm holds; with `time_s`, a setpoint that comes so much later "
@@ -66,10 +66,10 @@ constexpr Field kStreamTtl =
 
 constexpr std::array kHeld{
     integer("theta", 1.0, Figure::kAngles, "which"),
-    Field{"target_deg", FieldType::kAngle, "where it is held"},
+    RequestField{"target_deg", FieldType::kAngle, "where it is held"},
 };
 constexpr std::array kMoveJp{
-    Field{"goal_deg", FieldType::kAngles, "where to"},
+    RequestField{"goal_deg", FieldType::kAngles, "where to"},
     number("rate_deg_s", 0.01, Figure::kAngleRate, "the most that any angle may turn at").otherwise(Figure::kAngleRate),
     kSequence,
     kTime,

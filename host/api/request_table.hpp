@@ -30,13 +30,13 @@ enum class Need : std::uint8_t { kRequired, kOptional, kOrNull, kFallback };
 using Words = std::span<const char* const>;
 
 // One field. Its functions return it changed, so that a row reads like a sentence.
-struct Field {
+struct RequestField {
   const char* name = "";
   FieldType type = FieldType::kNumber;
   const char* doc = "";  // what it means; the unit stands in the name, the range in the table
   Bound low{}, high{};
   Words words{};
-  std::span<const Field> fields{};
+  std::span<const RequestField> fields{};
   Need need = Need::kRequired;
   Bound fallback{};         // what it is when left out
   std::uint16_t most = 0;   // a list of so many; 0: a single value
@@ -44,37 +44,37 @@ struct Field {
   Arms arms = kEveryArm;
 
   // May be left out; without a value then, or an empty list.
-  constexpr Field optional() const {
-    Field out = *this;
+  constexpr RequestField optional() const {
+    RequestField out = *this;
     out.need = Need::kOptional;
     return out;
   }
   // May be left out or null.
-  constexpr Field or_null() const {
-    Field out = *this;
+  constexpr RequestField or_null() const {
+    RequestField out = *this;
     out.need = Need::kOrNull;
     return out;
   }
   // May be left out; is `value` then.
-  constexpr Field otherwise(Bound value) const {
-    Field out = *this;
+  constexpr RequestField otherwise(Bound value) const {
+    RequestField out = *this;
     out.need = Need::kFallback;
     out.fallback = value;
     return out;
   }
   // A list of at most so many such values.
-  constexpr Field list(std::uint16_t entries) const {
-    Field out = *this;
+  constexpr RequestField list(std::uint16_t entries) const {
+    RequestField out = *this;
     out.most = entries;
     return out;
   }
-  constexpr Field with_device(const char* name_of_device) const {
-    Field out = *this;
+  constexpr RequestField with_device(const char* name_of_device) const {
+    RequestField out = *this;
     out.device = name_of_device;
     return out;
   }
-  constexpr Field only_for(Arms kinds) const {
-    Field out = *this;
+  constexpr RequestField only_for(Arms kinds) const {
+    RequestField out = *this;
     out.arms = kinds;
     return out;
   }
@@ -95,7 +95,7 @@ constexpr double kJump_s = 0.5;
 struct RequestRow {
   const char* op = "";
   const char* doc = "";  // one sentence
-  std::span<const Field> fields{};
+  std::span<const RequestField> fields{};
   Roles roles = kAnyRole;
   bool owner_only = false;
   Arms arms = kEveryArm;

@@ -13,9 +13,9 @@ std::string joined(Words words) {
   return out;
 }
 
-std::string names_of(std::span<const Field> fields) {
+std::string names_of(std::span<const RequestField> fields) {
   std::string out;
-  for (const Field& field : fields) out += (out.empty() ? "" : ", ") + std::string(field.name);
+  for (const RequestField& field : fields) out += (out.empty() ? "" : ", ") + std::string(field.name);
   return out;
 }
 
@@ -35,7 +35,7 @@ const char* unit_of(std::string_view name) {
   return name.ends_with("_m") ? " m" : "";
 }
 
-std::string type_text(const Field& field) {
+std::string type_text(const RequestField& field) {
   switch (field.type) {
     case FieldType::kNumber:
     case FieldType::kAngle:

@@ -15,7 +15,7 @@ std::string text_of(double value);
 const char* unit_of(std::string_view name);
 
 // What a field may be, apart from its range: "a whole number", "[x,y,z]".
-std::string type_text(const Field& field);
+std::string type_text(const RequestField& field);
 
 // "mission, client"
 std::string roles_text(Roles roles);

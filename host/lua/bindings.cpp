@@ -4,6 +4,8 @@
 #include <exception>
 #include <stdexcept>
 
+#include "host/api/request_check.hpp"
+#include "host/api/request_error.hpp"
 #include "host/json/json.hpp"
 #include "host/lua/activity.hpp"
 #include "host/lua/json_bridge.hpp"
@@ -11,51 +13,7 @@
 namespace liana {
 namespace {
 
-constexpr std::array<BindingField, 1> kStateCommand = {{{"command", "string", true}}};
-constexpr std::array<BindingField, 2> kMoveJp = {{{"goal_deg", "number[]", true}, {"rate_deg_s", "number", false}}};
-constexpr std::array<BindingField, 2> kMoveCp = {{{"goal", "number[]", true}, {"hold", "table[]", false}}};
-constexpr std::array<BindingField, 1> kServoCp = {{{"goal", "number[]", true}}};
-constexpr std::array<BindingField, 1> kHoldTheta = {{{"held", "table[]", true}}};
-constexpr std::array<BindingField, 3> kShape = {
-    {{"nodes", "table[]", true}, {"keep_clear", "table[]", false}, {"search", "boolean", false}}};
-constexpr std::array<BindingField, 5> kUseDevice = {{{"device", "string", true},
-                                                     {"scale", "number", false},
-                                                     {"rotation_scale", "number", false},
-                                                     {"node", "integer", false},
-                                                     {"speed_m_s", "number", false}}};
-constexpr std::array<BindingField, 1> kRetract = {{{"until_tick", "integer", false}}};
-constexpr std::array<BindingField, 1> kTool = {{{"command", "string", true}}};
-constexpr std::array<BindingField, 1> kStop = {{{"reason", "string", true}}};
-constexpr std::array<BindingField, 1> kAnnounce = {{{"step", "table", false}}};
-
-constexpr std::array<Binding, 14> kBindings = {{{"acquire", {}},
-                                                {"release", {}},
-                                                {"state_command", kStateCommand},
-                                                {"move_jp", kMoveJp},
-                                                {"move_cp", kMoveCp},
-                                                {"servo_cp", kServoCp},
-                                                {"hold_theta", kHoldTheta},
-                                                {"shape", kShape},
-                                                {"use_device", kUseDevice},
-                                                {"retract", kRetract},
-                                                {"hold", {}},
-                                                {"tool", kTool},
-                                                {"stop", kStop},
-                                                {"announce", kAnnounce}}};
-
-bool has_type(const Json& value, const std::string& type) {
-  if (type == "number") return value.is_number();
-  if (type == "integer") return value.is_number_integer();
-  if (type == "boolean") return value.is_boolean();
-  if (type == "string") return value.is_string();
-  if (type == "table") return value.is_object();
-  if (!value.is_array()) return false;
-  const std::string element = type.substr(0, type.size() - 2);  // "number[]"
-  for (const auto& each : value) {
-    if (!has_type(each, element)) return false;
-  }
-  return true;
-}
+constexpr std::size_t kFirst = 1;  // Lua counts from 1
 
 // Runs `body` and turns its exception into a Lua error after every C++ object is gone.
 template <typename Body>
@@ -76,15 +34,46 @@ RequestSink& sink_of(lua_State* state) {
   return *static_cast<RequestSink*>(lua_touserdata(state, lua_upvalueindex(1)));
 }
 
+// The table of fields at `index`; an empty one is an array to to_json.
+Json fields_at(lua_State* state, int index, const RequestRow& row) {
+  Json fields = lua_isnoneornil(state, index) ? Json::object() : to_json(state, index, row.op);
+  if (fields.is_array() && fields.empty()) fields = Json::object();
+  if (!fields.is_object())
+    throw RequestError("bad_request",
+                       std::string("allowed a table with named fields: write arm.") + row.op + " { ... }");
+  return fields;
+}
+
+// Names and types are the script's own business; what the robot allows, lianad says.
 int send_command(lua_State* state) {
-  const auto& binding = *static_cast<const Binding*>(lua_touserdata(state, lua_upvalueindex(2)));
+  const auto& row = *static_cast<const RequestRow*>(lua_touserdata(state, lua_upvalueindex(2)));
   return guarded(state, [&] {
-    Json fields = lua_isnoneornil(state, 1) ? Json::object() : to_json(state, 1, binding.name);
-    if (fields.is_array() && fields.empty()) fields = Json::object();
-    check_fields(binding, fields);
-    lua_pushinteger(state, sink_of(state).request(binding, std::move(fields)));
-    return 1;
+    try {
+      Json fields = fields_at(state, 1, row);
+      check_fields(row, fields, nullptr, kFirst);
+      lua_pushinteger(state, sink_of(state).request(row, std::move(fields)));
+      return 1;
+    } catch (const RequestError& error) {
+      throw std::runtime_error(std::string(row.op) + ": " + error.what());
+    }
   });
+}
+
+// What is refused is the result and no error; the text is copied so that no C++ object is left when Lua raises one.
+int refusal(lua_State* state) {
+  const auto& bounds = *static_cast<const RequestBounds*>(lua_touserdata(state, lua_upvalueindex(1)));
+  std::array<char, 400> problem{};
+  try {
+    const char* op = lua_tostring(state, 1);
+    const RequestRow& row = row_of({{"op", op != nullptr ? op : ""}});
+    require_may(row, Role::kMission, bounds);
+    check_fields(row, fields_at(state, 2, row), &bounds, kFirst);
+  } catch (const std::exception& error) {
+    put_text(problem, error.what());
+  }
+  if (problem[0] == '\0') return 0;
+  lua_pushstring(state, problem.data());
+  return 1;
 }
 
 int send_progress(lua_State* state) {
@@ -109,37 +98,27 @@ void add_native(lua_State* state, RequestSink& sink, const char* name, lua_CFunc
 
 }  // namespace
 
-std::span<const Binding> bindings() { return kBindings; }
-
-void check_fields(const Binding& binding, const Json& fields) {
-  const std::string where = std::string(binding.name) + ": ";
-  if (!fields.is_object())
-    throw std::runtime_error(where + "allowed a table with named fields: write arm." + binding.name + " { ... }");
-  std::string known;
-  for (const BindingField& field : binding.fields) {
-    known += (known.empty() ? "" : ", ") + std::string(field.name);
-    const auto value = fields.find(field.name);
-    if (value == nullptr && field.required)
-      throw std::runtime_error(where + field.name + ": missing: allowed " + field.type + ": add it");
-    if (value != nullptr && !has_type(*value, field.type)) {
-      throw std::runtime_error(where + field.name + ": " + value->dump().substr(0, 60) + ": allowed " + field.type +
-                               ": correct it");
-    }
+std::vector<const RequestRow*> commands() {
+  std::vector<const RequestRow*> out;
+  for (const RequestRow& row : request_table()) {
+    if (row.in_missions) out.push_back(&row);
   }
-  std::size_t found = 0;
-  for (const BindingField& field : binding.fields) found += fields.contains(field.name) ? 1 : 0;
-  if (found != fields.size())
-    throw std::runtime_error(where + "unknown field: allowed " + (known.empty() ? "none" : known) + ": remove it");
+  return out;
+}
+
+void push_refusal(lua_State* state, const RequestBounds& bounds) {
+  lua_pushlightuserdata(state, const_cast<RequestBounds*>(&bounds));
+  lua_pushcclosure(state, refusal, 1);
 }
 
 void push_native(lua_State* state, RequestSink& sink) {
   lua_newtable(state);
   lua_newtable(state);
-  for (const Binding& binding : kBindings) {
+  for (const RequestRow* row : commands()) {
     lua_pushlightuserdata(state, &sink);
-    lua_pushlightuserdata(state, const_cast<Binding*>(&binding));
+    lua_pushlightuserdata(state, const_cast<RequestRow*>(row));
     lua_pushcclosure(state, send_command, 2);
-    lua_setfield(state, -2, binding.name);
+    lua_setfield(state, -2, row->op);
   }
   lua_setfield(state, -2, "commands");
   add_native(state, sink, "progress", send_progress);

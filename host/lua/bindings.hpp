@@ -1,39 +1,24 @@
-// The commands missions can give, in one table: registration, checks, stubs and documentation follow from it.
+// The commands missions can give: what the table of requests (host/api/request_table.hpp) marks as theirs.
 #pragma once
 
 #include <lua.hpp>
-#include <span>
-#include <string>
+#include <vector>
 
+#include "host/api/request_table.hpp"
 #include "host/json/json_fwd.hpp"
 
 namespace liana {
 
-// One field of a command's table argument.
-struct BindingField {
-  const char* name;
-  const char* type;  // as the stubs write it: number, integer, string, number[], table, table[]
-  bool required;
-};
-
-// One command: a function of one table that sends {"op": name, ...} (docs/api.md) and returns the request id.
-struct Binding {
-  const char* name;
-  std::span<const BindingField> fields;
-};
-
-// All commands, in the order of docs/api.md.
-std::span<const Binding> bindings();
-
-// Checks the names and types of a command's fields (ranges are lianad's business). Throws std::runtime_error.
-void check_fields(const Binding& binding, const Json& fields);
+// All commands, in the order of docs/api.md. Each is a function of one table that sends {"op": name, ...} and returns
+// the request id.
+std::vector<const RequestRow*> commands();
 
 // Where commands go.
 class RequestSink {
  public:
   virtual ~RequestSink() = default;
   // Sends a request and returns its id.
-  virtual std::int64_t request(const Binding& binding, Json fields) = 0;
+  virtual std::int64_t request(const RequestRow& row, Json fields) = 0;
   // Progress of the mission, see lua/liana/engine.lua.
   virtual void progress(const Json& event) = 0;
   // The report as far as it is known.
@@ -42,5 +27,9 @@ class RequestSink {
 
 // Pushes { commands = { name = function }, progress = function, report = function }; `sink` must outlive the state.
 void push_native(lua_State* state, RequestSink& sink);
+
+// Pushes a function (command, fields) -> what lianad would refuse about them with a robot of these bounds, or nil;
+// `bounds` must outlive the state.
+void push_refusal(lua_State* state, const RequestBounds& bounds);
 
 }  // namespace liana

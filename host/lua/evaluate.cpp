@@ -2,10 +2,12 @@
 
 #include <stdexcept>
 
+#include "host/api/request_bounds.hpp"
 #include "host/config/canonical.hpp"
 #include "host/config/config.hpp"
 #include "host/config/field.hpp"
 #include "host/json/json.hpp"
+#include "host/lua/bindings.hpp"
 #include "host/lua/json_bridge.hpp"
 
 namespace liana {
@@ -25,15 +27,9 @@ void naming_file(const std::string& display, const Action& action) {
   }
 }
 
-// Refuses the mission on the stack, which stays there, when the robot cannot do it.
-void check_against_robot(Script& script, const Json& robot) {
-  lua_State* state = script.state();
-  script.require("liana.check");
-  lua_getfield(state, -1, "against");
-  lua_pushvalue(state, -3);
-  push_in_protection(script, robot);
-  script.call(2, 0);
-  lua_pop(state, 1);
+int push_refusal_protected(lua_State* state) {
+  push_refusal(state, *static_cast<const RequestBounds*>(lua_touserdata(state, 1)));
+  return 1;
 }
 
 // Replaces the mission on the stack by its description; refuses anything that is no mission.
@@ -67,6 +63,20 @@ void check_robot_of_plan(const ScriptFile& file, const Json& robot) {
 }
 
 }  // namespace
+
+void check_against_robot(Script& script, const Json& robot) {
+  lua_State* state = script.state();
+  RequestBounds bounds = request_bounds(robot);
+  script.require("liana.check");
+  lua_getfield(state, -1, "against");
+  lua_pushvalue(state, -3);
+  push_in_protection(script, robot);
+  lua_pushcfunction(state, push_refusal_protected);
+  lua_pushlightuserdata(state, &bounds);
+  script.call(1, 1);
+  script.call(3, 0);
+  lua_pop(state, 1);
+}
 
 void load_mission(Script& script, const std::string& lua_dir, const std::string& name) {
   const ScriptFile file = find_script(lua_dir, "mission", name);

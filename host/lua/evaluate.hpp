@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "host/json/json_fwd.hpp"
 #include "host/lua/script.hpp"
 
 namespace liana {
@@ -17,5 +18,9 @@ std::string evaluate_mission(Script& script, const std::string& lua_dir, const s
 
 // Runs a mission file and leaves the checked mission on the stack. Throws as evaluate does.
 void load_mission(Script& script, const std::string& lua_dir, const std::string& name);
+
+// Refuses the checked mission on the stack, which stays there, when the robot (canonical JSON) cannot do it. Throws as
+// evaluate does.
+void check_against_robot(Script& script, const Json& robot);
 
 }  // namespace liana

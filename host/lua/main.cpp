@@ -3,6 +3,7 @@
 #include <exception>
 #include <functional>
 
+#include "host/api/request_pages.hpp"
 #include "host/command_line/command_line.hpp"
 #include "host/config/field.hpp"
 #include "host/json/json.hpp"
@@ -84,11 +85,14 @@ int run_command(const liana::MissionOptions& options) {
 
 int bindings_command() {
   liana::Json list = liana::Json::array();
-  for (const liana::Binding& binding : liana::bindings()) {
+  for (const liana::RequestRow* row : liana::commands()) {
     liana::Json fields = liana::Json::array();
-    for (const auto& field : binding.fields)
-      fields.push_back({{"name", field.name}, {"type", field.type}, {"required", field.required}});
-    list.push_back({{"name", binding.name}, {"fields", fields}});
+    for (const liana::RequestField& field : row->fields) {
+      const bool required = field.need == liana::Need::kRequired;
+      fields.push_back(
+          {{"name", field.name}, {"type", liana::lua_type(field)}, {"required", required}, {"doc", field.doc}});
+    }
+    list.push_back({{"name", row->op}, {"doc", row->doc}, {"fields", fields}});
   }
   std::printf("%s\n", list.dump().c_str());
   return 0;

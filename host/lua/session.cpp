@@ -69,10 +69,9 @@ void MissionSession::hold_quietly() {
   }
 }
 
-std::int64_t MissionSession::request(const Binding& binding, Json fields) {
-  fields["op"] = binding.name;
+std::int64_t MissionSession::request(const RequestRow& row, Json fields) {
+  fields["op"] = row.op;
   fields["id"] = ++last_id_;
-  if (std::string(binding.name) == "announce" && !fields.contains("step")) fields["step"] = nullptr;
   client_.send(fields);
   return last_id_;
 }

@@ -26,7 +26,7 @@ class MissionSession : public RequestSink {
   // Asks for a hold; says nothing when lianad is gone.
   void hold_quietly();
 
-  std::int64_t request(const Binding& binding, Json fields) override;
+  std::int64_t request(const RequestRow& row, Json fields) override;
   void progress(const Json& event) override;
   void report(const Json& report) override;
 

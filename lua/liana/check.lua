@@ -1,6 +1,4 @@
 -- Checks a mission's structure before anything moves; every refusal says step, field, value, what is allowed and what to do.
-local check_command = require "liana.check_command"
-local kind = require "liana.kind"
 local uses = require "liana.uses"
 
 local check = {}
@@ -19,10 +17,6 @@ local function seconds_up_to(most_s)
   return { allowed = "seconds over 0, up to " .. most_s, ok = function(v) return type(v) == "number" and v > 0 and v <= most_s end }
 end
 
-local function number_in(low, high)
-  return { allowed = ("%g to %g"):format(low, high), ok = function(v) return type(v) == "number" and v >= low and v <= high end }
-end
-
 local function one_of(words, text)
   return { allowed = text, ok = function(v) return words[v] == true end }
 end
@@ -30,34 +24,8 @@ end
 local condition_rule = { allowed = "a condition, such as at_rest() or all { ... }", ok = is_condition }
 local action_rule = { allowed = "an action such as move_to \"prepare\", or a function of arm", ok = function(v) return type(v) == "function" end }
 
--- What any robot could have; check.against knows the robot.
-local kHeldTarget = number_in(-60, 60)
-
-local function check_hold(where, held)
-  if type(held) ~= "table" then refuse(where, "hold", held, "{ [theta 1..16] = degrees }, such as { [9] = 0 }", "correct the step") end
-  for theta, target_deg in pairs(held) do
-    local field = "hold[" .. tostring(theta) .. "]"
-    if math.type(theta) ~= "integer" or theta < 1 or theta > 16 then refuse(where, field, target_deg, "theta 1 to 16", "correct the step") end
-    if not kHeldTarget.ok(target_deg) then refuse(where, field, target_deg, kHeldTarget.allowed .. " degrees", "correct the step") end
-  end
-end
-
--- Mapping of hand motion; the device fields of use_device in docs/api.md.
-local kSteer = {
-  scale = number_in(0.01, 100),
-  rotation_scale = number_in(0, 10),
-  node = { allowed = "0 (none) or a node 1 to 7", ok = function(v) return math.type(v) == "integer" and v >= 0 and v <= 7 end },
-  speed_m_s = number_in(1e-4, 2),
-}
-
-local function check_steer(where, steer)
-  if type(steer) ~= "table" then refuse(where, "steer", steer, "scale, rotation_scale, node, speed_m_s", "correct the step") end
-  for field, value in pairs(steer) do
-    local rule, path = kSteer[field], "steer." .. tostring(field)
-    if not rule then refuse(where, path, value, "only scale, rotation_scale, node, speed_m_s", "remove it or correct its spelling") end
-    if not rule.ok(value) then refuse(where, path, value, rule.allowed, "correct the step") end
-  end
-end
+-- What the entries may be depends on the robot: check.against asks lianad's own table of requests.
+local function is_table(value) return type(value) == "table" end
 
 local kStep = {
   name = { allowed = "a text of 1 to 60 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 60 end, required = true },
@@ -67,8 +35,8 @@ local kStep = {
   on_fail = { allowed = "\"retract\", \"hold\" or \"stop\"", ok = one_of(kOnFail).ok, required = true },
   enter = condition_rule,
   enter_limit_s = seconds_up_to(3600),
-  hold = { check = check_hold },
-  steer = { check = check_steer },
+  hold = { allowed = "{ [theta] = degrees }, such as { [9] = 0 }", ok = is_table },
+  steer = { allowed = "a table with fields of use_device, such as { scale = 4 }", ok = is_table },
   run = action_rule,
   task = { allowed = "a text of 1 to 40 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 40 end },
 }
@@ -79,17 +47,16 @@ local function check_step(where, fields)
   for field, value in pairs(fields) do
     local rule = kStep[field]
     if not rule then refuse(where, tostring(field), value, "no such field", "remove it or correct its spelling") end
-    if rule.check then
-      rule.check(where, value)
-    elseif not rule.ok(value) then
-      refuse(where, field, value, rule.allowed, "correct the step")
-    end
+    if not rule.ok(value) then refuse(where, field, value, rule.allowed, "correct the step") end
   end
   for field, rule in pairs(kStep) do
     if rule.required and fields[field] == nil then refuse(where, field, "missing", rule.allowed, "add the field") end
   end
   if fields.steer and fields.device == "none" then
     refuse(where, "steer", "given", "only with device vr or hand", "name the device or remove steer")
+  end
+  if fields.steer and fields.steer.device then
+    refuse(where, "steer.device", fields.steer.device, "nothing", "name the device in the step's own field")
   end
 end
 
@@ -140,39 +107,45 @@ local function has_poses(where, field, names, robot)
   end
 end
 
-local function action_suits(where, field, action, robot)
-  local use = uses.of(action)
-  has_poses(where, field, { use.pose }, robot)
-  check_command(where .. ": " .. field, use, robot)
+-- Raises what lianad would refuse about a command.
+local function accepted(where, robot, refusal_of, command, fields)
+  local refusal = refusal_of(command, fields)
+  if refusal then error(("%s: %s (robot %s)"):format(where, refusal, robot.name), 0) end
 end
 
-local function step_suits(where, step, robot)
-  local of_robot = " (robot " .. robot.name .. ")"
-  local held, nodes = kind.held_count(robot), kind.node_count(robot)
+local function action_suits(where, field, action, robot, refusal_of)
+  local use = uses.of(action)
+  has_poses(where, field, { use.pose }, robot)
+  if not use.command then return end
+  local fields = { goal_deg = use.pose and robot.named_poses_deg[use.pose] }
+  for field, value in pairs(use.fields) do fields[field] = value end
+  accepted(("%s: %s: %s"):format(where, field, use.action), robot, refusal_of, use.command, fields)
+end
+
+local function step_suits(where, step, robot, refusal_of)
   for theta, target_deg in pairs(step.hold) do
-    local field = "hold[" .. theta .. "]"
-    local known = held == 0 and "none" or "theta 1 to " .. held
-    if theta > held then refuse(where, field, target_deg, known .. of_robot, "correct the step") end
-    local low_deg, high_deg = kind.range_deg(robot, theta)
-    local allowed = ("%g to %g degrees"):format(low_deg, high_deg) .. of_robot
-    if target_deg < low_deg or target_deg > high_deg then refuse(where, field, target_deg, allowed, "correct the step") end
+    local held = { { theta = theta, target_deg = target_deg } }
+    accepted(("%s: hold[%s]"):format(where, theta), robot, refusal_of, "hold_theta", { held = held })
   end
-  local node, speed_m_s = step.steer.node or 0, step.steer.speed_m_s or 0
-  if node > nodes then refuse(where, "steer.node", node, "0 (none) to " .. nodes .. of_robot, "correct the step") end
-  if speed_m_s > robot.limits.tip_speed_m_s then
-    refuse(where, "steer.speed_m_s", speed_m_s, "up to " .. robot.limits.tip_speed_m_s .. of_robot, "correct the step")
+  if step.device ~= "none" then
+    local fields = { device = step.device }
+    for field, value in pairs(step.steer) do fields[field] = value end
+    accepted(where .. ": steer", robot, refusal_of, "use_device", fields)
   end
   has_poses(where, "enter", step.enter.poses or {}, robot)
-  action_suits(where, "run", step.run, robot)
+  action_suits(where, "run", step.run, robot, refusal_of)
   has_poses(where, "exit", step.exit.poses or {}, robot)
 end
 
--- Refuses what this robot (docs/formats.md) cannot do: angles and nodes it does not have, targets beyond its limits, poses it does not know.
-function check.against(mission, robot)
+-- Refuses what this robot (docs/formats.md) cannot do: angles and nodes it does not have, targets beyond its limits, poses
+-- it does not know. refusal_of(command, fields) says what lianad would refuse, or nothing.
+function check.against(mission, robot, refusal_of)
   require_mission(mission)
   local where = "mission " .. mission.name
-  for i, step in ipairs(mission.steps) do step_suits(where .. ": step " .. i .. " \"" .. step.name .. "\"", step, robot) end
-  action_suits(where, "finish", mission.finish, robot)
+  for i, step in ipairs(mission.steps) do
+    step_suits(where .. ": step " .. i .. " \"" .. step.name .. "\"", step, robot, refusal_of)
+  end
+  action_suits(where, "finish", mission.finish, robot, refusal_of)
 end
 
 local function sorted_held(hold)

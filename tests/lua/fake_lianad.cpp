@@ -141,7 +141,7 @@ void FakeLianad::obey(const Json& request) {
   if (op == "state_command" && request["command"] == "home") is_homed_ = true;
   if (op == "state_command" && request["command"] == "enable") state_ = "ENABLING";
   if (op == "move_jp") goal_deg_ = request["goal_deg"];
-  if (op == "announce" && request["step"].is_object()) step_ = request["step"]["index"];
+  if (op == "announce" && request.member_or_null("step").is_object()) step_ = request["step"]["index"];
   if (op == "stop") state_ = "STOPPING";
   if (op == "hold_theta") {
     held_ = Json::array();

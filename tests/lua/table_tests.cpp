@@ -103,17 +103,19 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "on_fail: pray: allowed \"retract\", \"hold\" or \"stop\""},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1 }", "on_fail: missing"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [17] = 0 } }",
-       "hold[17]: 0: allowed theta 1 to 16"},
+       "hold[17]: entry 1 of held: theta = 17: allowed 1 to 10"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', untill = 1 }",
        "untill: 1: allowed no such field"},
       {"step 'a' { device = 'none', steer = {}, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        "steer: given: allowed only with device"},
       {"step 'a' { device = 'vr', steer = { node = 9 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer.node: 9: allowed 0 (none) or a node 1 to 7"},
+       "steer: node = 9: allowed 0 to 4: choose another value (robot zhu2022)"},
       {"step 'a' { device = 'vr', steer = { sclae = 1 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer.sclae: 1: allowed only scale, rotation_scale, node, speed_m_s"},
+       "steer: unknown field sclae = 1: allowed device, scale, rotation_scale, node, speed_m_s"},
+      {"step 'a' { device = 'vr', steer = { device = 'hand' }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "steer.device: hand: allowed nothing: name the device in the step's own field"},
       {"step 'a' { device = 'vr', steer = { scale = 0 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer.scale: 0: allowed 0.01 to 100"},
+       "steer: scale = 0: allowed 0.01 to 100"},
       {"step 'a' { device = 'none', exit = liana.at_pose(nil), time_limit_s = 1, on_fail = 'hold' }",
        "given.lua:3: at_pose: name: nil: allowed a string"},
       {"step 'a' { device = 'none', exit = liana.all { at_rest }, time_limit_s = 1, on_fail = 'hold' }",
@@ -124,13 +126,13 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "needs_planar: count: nil: allowed a number"},
       // What only the robot (zhu2022: 5 segments, 20 deg) forbids.
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [11] = 0 } }",
-       "step 1 \"a\": hold[11]: 0: allowed theta 1 to 10 (robot zhu2022)"},
+       "step 1 \"a\": hold[11]: entry 1 of held: theta = 11: allowed 1 to 10: choose another value (robot zhu2022)"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [9] = 45 } }",
-       "hold[9]: 45: allowed -20 to 20 degrees (robot zhu2022)"},
+       "hold[9]: entry 1 of held: target_deg = 45: allowed -20 to 20 deg: choose another value (robot zhu2022)"},
       {"step 'a' { device = 'vr', steer = { node = 5 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer.node: 5: allowed 0 (none) to 4 (robot zhu2022)"},
+       "steer: node = 5: allowed 0 to 4: choose another value (robot zhu2022)"},
       {"step 'a' { device = 'vr', steer = { speed_m_s = 0.5 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer.speed_m_s: 0.5: allowed up to 0.1 (robot zhu2022)"},
+       "steer: speed_m_s = 0.5: allowed 1e-04 to 0.1 m/s: choose another value (robot zhu2022)"},
       {"step 'a' { device = 'none', run = liana.move_to 'nowhere', exit = at_rest(), time_limit_s = 1, on_fail = "
        "'hold' }",
        "run: pose nowhere: allowed fixture, panel_edge, prepare"},
@@ -143,22 +145,22 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
       {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 1, 0, 0 } }, { node = 5, position_m "
        "= { 1, 0, 0 } } }, "
        "exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "step 1 \"a\": run: shape: nodes: entry 2: node: 5: allowed 1 to 4 (the tip, 5, has its own goal)"},
+       "step 1 \"a\": run: shape: entry 2 of nodes: node = 5: allowed 1 to 4"},
       {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 9, 0, 0 } } }, exit = at_rest(), "
        "time_limit_s = 1, "
        "on_fail = 'hold' }",
-       "nodes: entry 1: position_m[1]: 9: allowed -4 to 4 m"},
+       "entry 1 of nodes: position_m[1] = 9: allowed -4 to 4 m"},
       {"step 'a' { device = 'none', run = liana.shape { { node = 3, position_m = { 1, 0, 0 }, wieght = 2 } }, exit = "
        "at_rest(), "
        "time_limit_s = 1, on_fail = 'hold' }",
-       "nodes: entry 1: wieght: 2: allowed only node, position_m, weight, threshold_m"},
+       "entry 1 of nodes: unknown field wieght = 2: allowed node, position_m, weight, threshold_m"},
       {"step 'a' { device = 'none', run = liana.shape({}, { { centre_m = { 1, 0, 0 } } }), exit = at_rest(), "
        "time_limit_s = 1, "
        "on_fail = 'hold' }",
-       "keep_clear: entry 1: distance_m: nil: allowed 0 to 4 m"},
+       "entry 1 of keep_clear: distance_m is missing: allowed a number"},
       {"step 'a' { device = 'none', run = liana.move_to('prepare', 3), exit = at_rest(), time_limit_s = 1, on_fail = "
        "'hold' }",
-       "run: move_to: rate_deg_s: 3: allowed 0.01 to 2 deg/s"},
+       "run: move_to: rate_deg_s = 3: allowed 0.01 to 2 deg/s"},
       {"finish = 3", "finish: 3: allowed an action"}};
   const TemporaryFolder folder;
   for (const BadMission& mission : missions) {
@@ -191,9 +193,9 @@ TEST(Eval, APlanIsAMissionWithAStepForEachWaypoint) {
   EXPECT_NE(unsolved.error.find("plan: outcome: limit: allowed solved"), std::string::npos) << unsolved.error;
   EXPECT_NE(run_program(plan("solved", zero, robot)).error.find("waypoints_deg: 1 waypoints: allowed 2 or more"),
             std::string::npos);
-  EXPECT_NE(
-      run_program(plan("solved", zero + ",[1]", robot)).error.find("waypoint 2 of 2: goal_deg: angles: 1: allowed 10"),
-      std::string::npos);
+  EXPECT_NE(run_program(plan("solved", zero + ",[1]", robot))
+                .error.find("waypoint 2 of 2: goal_deg = 1 entries: allowed an array of 10 numbers"),
+            std::string::npos);
   EXPECT_NE(run_program(plan("solved", zero + "," + zero, "{}")).error.find("inputs.robot: another robot than zhu2022"),
             std::string::npos);
 }
@@ -210,6 +212,26 @@ TEST(Eval, AMissionIsCheckedAgainstTheRobotThatIsNamed) {
       ended.error.find("pose panel_edge: allowed fixture, prepare, press_rod, segment5_in_slit, zero (robot short)"),
       std::string::npos)
       << ended.error;
+}
+
+TEST(Eval, WhatIsForCableArmsOnlyIsRefusedForOthersByName) {
+  const TemporaryFolder folder;
+  const auto eval = [&](const std::string& fields) {
+    return run_program("eval mission --robot micro " +
+                       folder.write("given.lua",
+                                    "local liana = require 'liana'\nreturn liana.mission 'm' { liana.step "
+                                    "'a' { exit = liana.at_rest(), time_limit_s = 1, on_fail = 'hold', " +
+                                        fields + " } }\n"))
+        .error;
+  };
+  EXPECT_EQ(eval("device = 'none', run = liana.move_to 'prepare'"), "");
+  for (const auto& [fields, op] :
+       std::vector<std::pair<std::string, std::string>>{{"device = 'vr'", "use_device"},
+                                                        {"device = 'none', hold = { [7] = 0 }", "hold_theta"},
+                                                        {"device = 'none', run = liana.shape {}", "shape"}}) {
+    EXPECT_NE(eval(fields).find(op + ": for cable arms only; robot micro has another arm"), std::string::npos)
+        << eval(fields);
+  }
 }
 
 TEST(Eval, RefusesAMissionFileThatReturnsSomethingElse) {
