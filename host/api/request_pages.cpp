@@ -36,11 +36,16 @@ std::string bound_text(const Bound& bound) {
   return (bound.factor == 1.0 ? "" : text_of(bound.factor) + " x ") + name;
 }
 
+std::string unit_text(const char* name) {
+  const std::string unit = unit_of(name);
+  return unit.empty() ? unit : " [" + unit.substr(1) + "]";
+}
+
 std::string range_text(const RequestField& field) {
   switch (field.type) {
     case FieldType::kNumber:
     case FieldType::kInteger:
-      return ", " + bound_text(field.low) + " to " + bound_text(field.high) + unit_of(field.name);
+      return ", " + bound_text(field.low) + " to " + bound_text(field.high) + unit_text(field.name);
     case FieldType::kAngle:
       return " in the range of this angle [deg]";
     case FieldType::kAngles:
@@ -147,6 +152,10 @@ std::string request_section() {
     if (row.fields.empty()) continue;
     out << "\n### Fields of `" << row.op << "`\n| field | what it is | left out | meaning |\n|---|---|---|---|\n";
     add_fields(row.fields, "", out);
+    if (row.motion == Motion::kStreams)
+      out << "\nA `goal` that is farther than the tip comes in " << text_of(kJump_s)
+          << " s at the robot's tip speed and tip rate, both from the `goal` before it and from where the tip is "
+             "commanded, is refused: `move_cp` goes there.\n";
   }
   return out.str();
 }

@@ -27,6 +27,8 @@ enum class FieldType : std::uint8_t {
 
 enum class Need : std::uint8_t { kRequired, kOptional, kOrNull, kFallback };
 
+constexpr double kBiggestWhole = 9007199254740992.0;  // 2^53: a double holds every whole number up to it
+
 using Words = std::span<const char* const>;
 
 // One field. Its functions return it changed, so that a row reads like a sentence.

@@ -56,7 +56,7 @@ function arm.acquire() end
 function arm.release() end
 
 ---@class arm.state_command
----what to do
+---what the arm should do
 ---@field command "enable"|"disable"|"clear"|"home"
 
 ---CRTK operating state.
@@ -65,7 +65,7 @@ function arm.release() end
 function arm.state_command(fields) end
 
 ---@class arm.move_jp
----where to
+---angle that each joint or theta goes to
 ---@field goal_deg number[]
 ---the most that any angle may turn at (else the robot's fastest angle rate)
 ---@field rate_deg_s? number
@@ -82,13 +82,13 @@ function arm.state_command(fields) end
 function arm.move_jp(fields) end
 
 ---@class arm.move_cp.hold
----which
+---number of the angle, 1 at the base
 ---@field theta integer
----where it is held
+---angle at which it is held
 ---@field target_deg number
 
 ---@class arm.move_cp
----where to
+---pose that the tip goes to, in the base frame
 ---@field goal number[]
 ---as `held` of `hold_theta`, from the start of the line
 ---@field hold? arm.move_cp.hold[]
@@ -105,7 +105,7 @@ function arm.move_jp(fields) end
 function arm.move_cp(fields) end
 
 ---@class arm.servo_cp
----where the tip should be next
+---pose that the tip should have next, in the base frame
 ---@field goal number[]
 ---grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused
 ---@field sequence? integer
@@ -121,9 +121,9 @@ function arm.move_cp(fields) end
 function arm.servo_cp(fields) end
 
 ---@class arm.hold_theta.held
----which
+---number of the angle, 1 at the base
 ---@field theta integer
----where it is held
+---angle at which it is held
 ---@field target_deg number
 
 ---@class arm.hold_theta
@@ -148,9 +148,9 @@ function arm.hold_theta(fields) end
 ---@class arm.shape.keep_clear
 ---what to keep away from, in the base frame
 ---@field centre_m number[]
----how far away
+---how far away from it the axis should stay
 ---@field distance_m number
----against other wishes (else 1)
+---of this wish against the others (else 1)
 ---@field weight? number
 
 ---@class arm.shape
@@ -206,7 +206,7 @@ function arm.hold() end
 function arm.tool(fields) end
 
 ---@class arm.stop
----shown by `state`; cut to 200 bytes
+---why, shown by `state`: any JSON value, cut to 200 bytes
 ---@field reason? string
 
 ---Stop, brakes, disable; never refused.
@@ -215,9 +215,9 @@ function arm.tool(fields) end
 function arm.stop(fields) end
 
 ---@class arm.announce.step
----of the step
+---number of the step
 ---@field index integer
----of the step
+---what the step is called
 ---@field name string
 ---who steers
 ---@field device string

@@ -1,0 +1,166 @@
+// The fields of every request; rows of the table (request_table.cpp) say whose they are.
+#pragma once
+
+#include <array>
+
+#include "host/api/request_table.hpp"
+
+namespace liana::request_fields {
+
+constexpr Figure kReach = Figure::kReach;
+
+constexpr RequestField number(const char* name, Bound low, Bound high, const char* doc) {
+  return {name, FieldType::kNumber, doc, low, high};
+}
+constexpr RequestField integer(const char* name, Bound low, Bound high, const char* doc) {
+  return {name, FieldType::kInteger, doc, low, high};
+}
+constexpr RequestField flag(const char* name, const char* doc) { return {name, FieldType::kFlag, doc}; }
+constexpr RequestField text(const char* name, double most_bytes, const char* doc) {
+  return {name, FieldType::kText, doc, 1.0, most_bytes};
+}
+constexpr RequestField word(const char* name, Words words, const char* doc) {
+  return {name, FieldType::kWord, doc, {}, {}, words};
+}
+constexpr RequestField point(const char* name, const char* doc) { return {name, FieldType::kPoint, doc, {}, kReach}; }
+constexpr RequestField pose(const char* name, Bound within_m, const char* doc) {
+  return {name, FieldType::kPose, doc, {}, within_m};
+}
+constexpr RequestField object(const char* name, std::span<const RequestField> fields, const char* doc) {
+  return {name, FieldType::kObject, doc, {}, {}, {}, fields};
+}
+
+constexpr std::array kCommands{"enable", "disable", "clear", "home"};
+constexpr std::array kDevices{"vr", "hand", "none"};
+
+constexpr std::array kHello{
+    text("name", 64, "what lianad calls the client: as owner, in events, as who stopped the arm"),
+    word("role", kRoleNames, "what the client is, and with it what it may ask for"),
+    flag("lockstep", "virtual time waits for this client's `done`").otherwise(0.0),
+    text("subscribe", 32, "topics that it wants to hear").optional().list(8),
+};
+constexpr std::array kDone{integer("tick", 0.0, kBiggestWhole, "of the state that is answered")};
+
+constexpr std::array kStateCommand{word("command", kCommands, "what the arm should do")};
+
+// What a setpoint tells of itself.
+constexpr RequestField kSequence =
+    integer("sequence", 1.0, kBiggestWhole,
+            "grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused")
+        .optional();
+constexpr RequestField kTime =
+    number("time_s", -1e12, 1e12,
+           "the client's clock when it made the setpoint; never goes back (in virtual time: arm time)")
+        .optional();
+constexpr RequestField kTtl =
+    number("ttl_s", 0.05, 10.0,
+           "time to live: with `time_s`, a setpoint that comes so much later than the quickest is refused")
+        .optional();
+constexpr RequestField kStreamTtl =
+    number(
+        "ttl_s", 0.05, 10.0,
+        "time to live: when no other follows in it the arm holds; with `time_s`, a setpoint that comes so much later "
+        "than the quickest is refused")
+        .optional();
+
+constexpr std::array kHeld{
+    integer("theta", 1.0, Figure::kAngles, "number of the angle, 1 at the base"),
+    RequestField{"target_deg", FieldType::kAngle, "angle at which it is held"},
+};
+constexpr std::array kMoveJp{
+    RequestField{"goal_deg", FieldType::kAngles, "angle that each joint or theta goes to"},
+    number("rate_deg_s", 0.01, Figure::kAngleRate, "the most that any angle may turn at").otherwise(Figure::kAngleRate),
+    kSequence,
+    kTime,
+    kTtl,
+};
+constexpr std::array kMoveCp{
+    pose("goal", kReach, "pose that the tip goes to, in the base frame"),
+    object("hold", kHeld, "as `held` of `hold_theta`, from the start of the line")
+        .optional()
+        .list(16)
+        .only_for(kCableArm),
+    kSequence,
+    kTime,
+    kTtl,
+};
+constexpr std::array kServoCp{
+    pose("goal", kReach, "pose that the tip should have next, in the base frame"),
+    kSequence,
+    kTime,
+    kStreamTtl,
+};
+constexpr std::array kHoldTheta{
+    object("held", kHeld, "all that are held from now on; an empty list releases them").list(16)};
+
+constexpr std::array kNode{
+    integer("node", 1.0, Figure::kNodes, "which, counted from the base; the tip has its own goal"),
+    point("position_m", "where it should be, in the base frame"),
+    number("weight", 0.0, 1000.0, "1 for the arm's middle node and 0.25 for others when left out").optional(),
+    number("threshold_m", 0.0, kReach, "nearer than this nothing is done").otherwise(0.01),
+};
+constexpr std::array kClear{
+    point("centre_m", "what to keep away from, in the base frame"),
+    number("distance_m", 0.0, kReach, "how far away from it the axis should stay"),
+    number("weight", 0.0, 1000.0, "of this wish against the others").otherwise(1.0),
+};
+constexpr std::array kShape{
+    object("nodes", kNode, "where nodes should be; an empty list clears them").list(4),
+    object("keep_clear", kClear, "points that the arm's axis is pushed away from as far as the tip allows")
+        .optional()
+        .list(4),
+    flag("search", "the best of all shapes is looked for first (arm at rest)").otherwise(0.0),
+};
+constexpr std::array kUseDevice{
+    word("device", kDevices, "who steers; `none`: nobody"),
+    number("scale", 0.01, 100.0, "way of the tip for a way of the hand").otherwise(1.0),
+    number("rotation_scale", 0.0, 10.0, "turn of the tip for a turn of the hand").otherwise(1.0),
+    integer("node", 0.0, Figure::kNodes, "node that the left hand of `vr` moves; 0: none").otherwise(0.0),
+    number("speed_m_s", 1e-4, Figure::kTipSpeed, "fastest that the tip follows").otherwise(Figure::kTipSpeed),
+};
+constexpr std::array kRetract{
+    integer("until_tick", 0.0, kBiggestWhole, "not farther back than the arm was then").otherwise(0.0)};
+constexpr std::array kTool{text("command", 64, "what the tool should do")};
+constexpr std::array kStop{text("reason", 200, "why, shown by `state`: any JSON value, cut to 200 bytes").optional()};
+constexpr std::array kTiming{flag("reset", "all counts begin anew after this answer").otherwise(0.0)};
+
+constexpr std::array kStep{
+    integer("index", 0.0, 1000.0, "number of the step"),
+    text("name", 120, "what the step is called"),
+    text("device", 16, "who steers"),
+    text("task", 40, "what the operator should do").optional(),
+};
+constexpr std::array kAnnounce{
+    object("step", kStep, "the step that begins; null or left out: the mission has ended").or_null()};
+constexpr std::array kOperatorSays{
+    text("what", 40, "what the operator would say aloud"),
+    integer("step", 0.0, 1000.0, "index of the step it is about").optional(),
+    number("time_s", 0.0, 1e9, "arm time at which it is said").optional(),
+};
+
+constexpr double kDeviceRoom_m = 10.0;  // a device frame's size
+constexpr std::array kHandle{
+    flag("valid", "the device is tracked"),
+    number("trigger", 0.0, 1.0, "deadman; held from 0.5 on"),
+    pose("pose", kDeviceRoom_m, "of the handle in the device frame"),
+};
+constexpr std::array kSample{
+    integer("t_us", 0.0, kBiggestWhole, "when it was taken, by the device's clock"),
+    object("right", kHandle, "the hand that moves the tip").with_device("vr"),
+    object("left", kHandle, "the hand that moves a node").with_device("vr"),
+    flag("valid", "the device is tracked").with_device("hand"),
+    number("button", 0.0, 1.0, "deadman; held from 0.5 on").with_device("hand"),
+    pose("pose", kDeviceRoom_m, "of the hand in the device frame").with_device("hand"),
+};
+constexpr std::array kSources{"vr", "hand"};
+constexpr std::array kDevice{
+    word("device", kSources, "where the samples come from"),
+    object("samples", kSample, "since the last message, oldest first").list(256),
+};
+constexpr std::array kCamera{
+    number("capture_time_s", 0.0, 1e9, "arm time of the picture"),
+    pose("slit", 1000.0, "the slit's frame in the tip frame; null: not seen").or_null(),
+    pose("rod", 1000.0, "the rod's frame in the tip frame; null: not seen").or_null(),
+};
+
+}  // namespace liana::request_fields
