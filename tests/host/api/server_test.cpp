@@ -89,6 +89,8 @@ TEST_F(Api, NothingIsDoneBeforeHello) {
   EXPECT_EQ(raw(client, R"({"op":"stop"})").value("code", ""), "bad_request");
   EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"king"})").value("code", ""), "bad_request");
   EXPECT_EQ(raw(client, R"({"op":"hello","role":"client"})").value("code", ""), "bad_request");
+  EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"client","lockstp":true})").value("code", ""),
+            "bad_request");
   EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"client","subscribe":["weather"]})").value("code", ""),
             "bad_request");
   EXPECT_TRUE(recorder_.log.empty());
