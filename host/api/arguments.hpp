@@ -27,7 +27,7 @@ class Arguments {
   bool has(std::string_view name) const { return given(name) != nullptr; }
   double number(std::string_view name) const;
   std::int64_t integer(std::string_view name) const { return static_cast<std::int64_t>(number(name)); }
-  bool flag(std::string_view name) const { return number(name) != 0.0; }
+  bool flag(std::string_view name) const { return number(name) >= 0.5; }
   std::string text(std::string_view name) const;
   std::vector<double> numbers(std::string_view name) const;
   Vec3 point(std::string_view name) const;

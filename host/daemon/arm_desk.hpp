@@ -1,11 +1,10 @@
 // What the desks of all kinds of arm have in common: the link, verification, and requests about plain motion.
 #pragma once
 
-#include <cmath>
 #include <map>
 #include <vector>
 
-#include "host/api/fields.hpp"
+#include "firmware_like/math/trig.hpp"
 #include "host/api/request_error.hpp"
 #include "host/daemon/desk.hpp"
 #include "host/json/json.hpp"
@@ -36,6 +35,7 @@ class ArmDesk : public Desk {
   std::uint64_t image_tick() const override { return link_.image.value().next_tick; }
   std::string image_packet() const override;
 
+  const Pose& tip_command() const override { return outputs().tip_command; }
   bool knows(const std::string& op) const override { return handlers_.count(op) > 0; }
   Json ask(const MotionRequest& request) override;
   void hold() override { arbiter_.hold(); }
@@ -49,7 +49,13 @@ class ArmDesk : public Desk {
   // The arbiter is made of the table, the zone and what else it needs.
   template <class... Args>
   ArmDesk(const Table& table, const SpeedZone& zone, TimeMode time_mode, ArmLink<Arm>& link, const Args&... args)
-      : table_(table), link_(link), arbiter_(table, zone, args...), zone_(zone), time_mode_(time_mode) {}
+      : table_(table), link_(link), arbiter_(table, zone, args...), zone_(zone), time_mode_(time_mode) {
+    handlers_ = {{"move_jp", [this](const MotionRequest& r) { move_joints(r.fields); }},
+                 {"move_cp", [this](const auto& r) { arbiter_.move_line(outputs(), r.fields.pose("goal")); }},
+                 {"servo_cp", [this](const auto& r) { arbiter_.servo_tip(outputs(), r.fields.pose("goal")); }},
+                 {"retract", [this](const MotionRequest& r) { retract(r.fields); }},
+                 {"hold", [this](const MotionRequest&) { hold(); }}};
+  }
 
   std::uint64_t tick() const { return report().next_tick; }
   // The angles of the twin at the end of a candidate's interval, in degrees.
@@ -64,6 +70,8 @@ class ArmDesk : public Desk {
  private:
   using Command = liana::Telecommand<typename Arm::Setpoint>;
 
+  void move_joints(const Arguments& fields);
+  void retract(const Arguments& fields);
   LastVerdict verify_and_release(const typename Arm::Setpoint& setpoint, std::uint32_t owner);
 
   TimeMode time_mode_;
@@ -91,6 +99,19 @@ template <class Arm, class Steering>
 Json ArmDesk<Arm, Steering>::ask(const MotionRequest& request) {
   handlers_.at(request.op)(request);
   return Json::object();
+}
+
+template <class Arm, class Steering>
+void ArmDesk<Arm, Steering>::move_joints(const Arguments& fields) {
+  const std::vector<double> goal_deg = fields.numbers("goal_deg");
+  Joints<Arm> goal_rad{};
+  for (std::size_t i = 0; i < goal_deg.size(); ++i) goal_rad[i] = goal_deg[i] * kDegree;
+  arbiter_.move_joints(outputs(), goal_rad, fields.number("rate_deg_s") * kDegree);
+}
+
+template <class Arm, class Steering>
+void ArmDesk<Arm, Steering>::retract(const Arguments& fields) {
+  arbiter_.retract(outputs(), static_cast<std::uint64_t>(fields.integer("until_tick")));
 }
 
 // While a stop is on its way to the next tick, the arm is given nothing else.

@@ -20,24 +20,20 @@ class CableDesk final : public ArmDesk<cable::CableArm, CableArbiter> {
 
   void watch(bool booted) override;
   const std::string& why_not_homed() const override { return homing_.why_not(); }
-  void take_samples(const Json& message) override;
+  void take_samples(const Arguments& message) override;
   void drop_motion() override;
   void add_state(Json& state) const override;
   void add_drive_state(std::size_t drive, Json& state) const override;
 
  private:
   std::vector<double> joints_deg(const cable::Outputs& outputs) const override;
-  void on_move_jp(const MotionRequest& request);
-  void on_move_cp(const MotionRequest& request);
-  void on_servo_cp(const MotionRequest& request);
-  void on_hold_theta(const Json& request);
-  void on_shape(const MotionRequest& request);
-  void on_use_device(const MotionRequest& request);
-  void on_retract(const MotionRequest& request);
+  void move_line(const Arguments& fields);
+  void hold_theta(const std::vector<Arguments>& held);
+  void shape(const Arguments& fields);
+  void use_device(const MotionRequest& request);
 
   RobotConfig robot_;
   SceneConfig scene_;
-  double reach_m_;
   Homing homing_;
   ShapeProgress shape_progress_;
   std::int32_t planar_segments_ = 0;  // how many the slit asks for now (host/solve/dof_split.hpp)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "firmware_like/controller_io.hpp"
+#include "host/api/arguments.hpp"
 #include "host/control/link.hpp"
 #include "host/json/json_fwd.hpp"
 #include "host/verify/verdict.hpp"
@@ -22,10 +23,10 @@ struct LastVerdict {
   std::vector<double> twin_js_deg;  // predicted at the end of the candidate's interval
 };
 
-// A request about motion, from the owner.
+// A request about motion, from the owner, that the table of requests has let through.
 struct MotionRequest {
-  const std::string& op;
-  const Json& body;
+  const char* op;
+  const Arguments& fields;
   bool operator_is_here = false;  // a client with role operator is connected
 };
 
@@ -54,11 +55,13 @@ class Desk {
   // Empty when homed; otherwise what contradicts what and what to do.
   virtual const std::string& why_not_homed() const = 0;
 
+  // Where the tip is commanded to be now.
+  virtual const Pose& tip_command() const = 0;
   // Requests about motion that this arm knows; ask() throws RequestError.
   virtual bool knows(const std::string& op) const = 0;
   virtual Json ask(const MotionRequest& request) = 0;
   // Samples of an operator's device; throws RequestError.
-  virtual void take_samples(const Json& message) = 0;
+  virtual void take_samples(const Arguments& message) = 0;
   // Nothing is asked for any more: stop along the path.
   virtual void hold() = 0;
   // The same, and nobody steers any more.

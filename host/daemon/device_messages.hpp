@@ -3,16 +3,15 @@
 
 #include <string>
 
+#include "host/api/arguments.hpp"
 #include "host/arbiter/device_steer.hpp"
-#include "host/json/json_fwd.hpp"
 
 namespace liana {
 
-// "vr", "hand" or "none"; throws RequestError for others.
+// Of "vr", "hand" or "none".
 DeviceKind device_kind(const std::string& name);
 
-// Hands the samples of a `device` message to the steering; samples of a device that is not in use are checked and left
-// out. Throws RequestError and takes none of them when one is malformed.
-void add_samples(const Json& message, DeviceSteer& steer);
+// Hands the samples of a `device` message to the steering; those of a device that is not in use are left out.
+void add_samples(const Arguments& message, DeviceSteer& steer);
 
 }  // namespace liana

@@ -40,16 +40,7 @@ std::string why_not(const serial::RobotTable& table, const serial::Inputs& input
 }  // namespace
 
 SerialDesk::SerialDesk(const SerialRobotConfig& robot, TimeMode time_mode, ArmLink<serial::SerialArm>& link)
-    : ArmDesk(robot.table, SpeedZone{}, time_mode, link), reach_m_(serial::chain_length_m(robot.table)) {
-  handlers_ = {
-      {"move_jp", [this](const MotionRequest& r) { on_move_jp(r.body); }},
-      {"move_cp",
-       [this](const MotionRequest& r) { arbiter_.move_line(outputs(), pose_field(r.body, "goal", reach_m_)); }},
-      {"servo_cp",
-       [this](const MotionRequest& r) { arbiter_.servo_tip(outputs(), pose_field(r.body, "goal", reach_m_)); }},
-      {"retract", [this](const MotionRequest& r) { on_retract(r.body); }},
-      {"hold", [this](const MotionRequest&) { hold(); }}};
-}
+    : ArmDesk(robot.table, SpeedZone{}, time_mode, link) {}
 
 void SerialDesk::watch(bool booted) {
   if (booted) why_not_homed_ = outputs().homed != 0 ? "" : why_not(table_, inputs());
@@ -57,30 +48,6 @@ void SerialDesk::watch(bool booted) {
 
 std::vector<double> SerialDesk::joints_deg(const serial::Outputs& outputs) const {
   return deg(table_, outputs.joint_command_rad);
-}
-
-void SerialDesk::on_move_jp(const Json& request) {
-  const std::vector<double> goal_deg = numbers_field(request, "goal_deg", table_.joints(), -720.0, 720.0);
-  double most_deg_s = 0.0;
-  serial::JointVector goal_rad{};
-  for (std::size_t i = 0; i < table_.joints(); ++i) {
-    const serial::JointTable& joint = table_.joint[i];
-    const double low_deg = clean_deg(joint.low_rad), high_deg = clean_deg(joint.high_rad);
-    most_deg_s = std::max(most_deg_s, clean_deg(joint.rate_rad_s));
-    if (goal_deg[i] < low_deg || goal_deg[i] > high_deg) {
-      throw RequestError("out_of_range", "goal_deg, joint " + std::to_string(i + 1) + ": " + number(goal_deg[i]) +
-                                             ": allowed " + number(low_deg) + " to " + number(high_deg) +
-                                             " deg: choose another goal");
-    }
-    goal_rad[i] = goal_deg[i] * kDegree;
-  }
-  const double rate_deg_s = number_field_or(request, "rate_deg_s", 0.01, most_deg_s, most_deg_s);
-  arbiter_.move_joints(outputs(), goal_rad, rate_deg_s * kDegree);
-}
-
-void SerialDesk::on_retract(const Json& request) {
-  const std::int64_t until = request.contains("until_tick") ? integer_field(request, "until_tick", 0, 1LL << 53) : 0;
-  arbiter_.retract(outputs(), static_cast<std::uint64_t>(until));
 }
 
 void SerialDesk::add_state(Json& state) const {

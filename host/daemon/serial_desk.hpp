@@ -15,17 +15,14 @@ class SerialDesk final : public ArmDesk<serial::SerialArm, Arbiter<serial::Seria
   void watch(bool booted) override;
   const std::string& why_not_homed() const override { return why_not_homed_; }
   // No device steers this arm yet: the samples are left out.
-  void take_samples(const Json&) override {}
+  void take_samples(const Arguments&) override {}
   void drop_motion() override { arbiter_.hold(); }
   void add_state(Json& state) const override;
   void add_drive_state(std::size_t drive, Json& state) const override;
 
  private:
   std::vector<double> joints_deg(const serial::Outputs& outputs) const override;
-  void on_move_jp(const Json& request);
-  void on_retract(const Json& request);
 
-  double reach_m_;
   std::string why_not_homed_ = "the drives have not been heard yet";
 };
 

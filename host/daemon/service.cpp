@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "host/api/request_error.hpp"
+#include "host/api/request_text.hpp"
 #include "host/canopen/emergency.hpp"
 #include "host/record/tick_packet.hpp"
 
@@ -22,7 +23,11 @@ constexpr double kShutdownLimit_s = 10.0;     // of arm time, until the drives a
 }  // namespace
 
 Service::Service(const ServiceConfig& config, Desk& desk)
-    : config_(config), desk_(desk), server_(config.api_path, *this) {}
+    : config_(config),
+      desk_(desk),
+      bounds_(request_bounds(Json::parse(config.robot_json))),
+      stream_(bounds_),
+      server_(config.api_path, *this) {}
 
 std::uint64_t Service::ticks_in(double time_s) const {
   return static_cast<std::uint64_t>(std::lround(time_s / config_.buses.tick_s()));
@@ -52,6 +57,7 @@ void Service::cycle() {
   publish_state();
   if (config_.time_mode != TimeMode::kReal) server_.wait_done(tick(), kLockstepPatience_s);
   server_.dispatch();
+  watch_stream();
   release_next();
 }
 
@@ -90,6 +96,16 @@ void Service::watch_homing() {
   if (!homing_due_tick_ || tick() < *homing_due_tick_) return;
   homing_due_tick_.reset();
   if (!desk_.why_not_homed().empty()) note("not homed: " + desk_.why_not_homed());
+}
+
+// An owner that streams tip goals with a time to live and stands still: nobody stands behind its last goal any more.
+void Service::watch_stream() {
+  const double next_s = time_s() + config_.buses.interval_ticks() * config_.buses.tick_s();
+  const std::optional<double> ttl_s = stream_.overdue(next_s, desk_.tip_command());
+  if (!ttl_s || now().state != OperatingState::kEnabled) return;
+  desk_.hold();
+  note("owner '" + owner_.name() + "' stands still: no servo_cp for " + text_of(*ttl_s) +
+       " s, its ttl_s: the arm holds");
 }
 
 // What changes by itself: the end of booting, the end of the run after the mission.
@@ -177,6 +193,7 @@ void Service::press_stop() noexcept {
 
 // Nobody asks for motion any more: the command in force expires and the arm holds.
 void Service::drop_motion(const std::string& why) {
+  stream_.end();
   desk_.drop_motion();
   note(why + ": the arm holds");
 }

@@ -15,6 +15,7 @@
 #include "host/daemon/desk.hpp"
 #include "host/daemon/host_trouble.hpp"
 #include "host/daemon/owner.hpp"
+#include "host/daemon/setpoint_stream.hpp"
 #include "host/daemon/state_message.hpp"
 #include "host/json/json.hpp"
 #include "host/time/time_mode.hpp"
@@ -60,28 +61,30 @@ class Service : private ApiHandler {
   bool dismissed() const { return dismissed_; }
 
  private:
-  using Handler = Json (Service::*)(const ClientInfo&, const Json&);
+  using Handler = Json (Service::*)(const ClientInfo&, const Arguments&);
 
   Json welcome(const ClientInfo& client) override;
   Json handle(const ClientInfo& client, const Json& request) override;
   void gone(const ClientInfo& client, const std::string& why) override;
+  Json answer_to(const RequestRow& row, const ClientInfo& client, const Arguments& fields);
   static const std::map<std::string, Handler>& handlers();
 
-  Json on_acquire(const ClientInfo& client, const Json& request);
-  Json on_release(const ClientInfo& client, const Json& request);
-  Json on_state_command(const ClientInfo& client, const Json& request);
-  Json on_tool(const ClientInfo& client, const Json& request);
-  Json on_stop(const ClientInfo& client, const Json& request);
-  Json on_shutdown(const ClientInfo& client, const Json& request);
-  Json on_announce(const ClientInfo& client, const Json& request);
-  Json on_operator_says(const ClientInfo& client, const Json& request);
-  Json on_device(const ClientInfo& client, const Json& request);
-  Json on_camera(const ClientInfo& client, const Json& request);
-  Json on_timing(const ClientInfo& client, const Json& request);
+  Json on_acquire(const ClientInfo& client, const Arguments& fields);
+  Json on_release(const ClientInfo& client, const Arguments& fields);
+  Json on_state_command(const ClientInfo& client, const Arguments& fields);
+  Json on_tool(const ClientInfo& client, const Arguments& fields);
+  Json on_stop(const ClientInfo& client, const Arguments& fields);
+  Json on_shutdown(const ClientInfo& client, const Arguments& fields);
+  Json on_announce(const ClientInfo& client, const Arguments& fields);
+  Json on_operator_says(const ClientInfo& client, const Arguments& fields);
+  Json on_device(const ClientInfo& client, const Arguments& fields);
+  Json on_camera(const ClientInfo& client, const Arguments& fields);
+  Json on_timing(const ClientInfo& client, const Arguments& fields);
 
   void require_homed() const;
   const CycleOutputs& now() const { return desk_.outputs(); }
   std::uint64_t tick() const { return desk_.report().next_tick; }
+  double time_s() const { return static_cast<double>(tick()) * config_.buses.tick_s(); }
   std::uint64_t ticks_in(double time_s) const;
   void note(const std::string& text);
   void request(Request what);
@@ -89,6 +92,7 @@ class Service : private ApiHandler {
   void drop_motion(const std::string& why);
   void watch_arm();
   void watch_homing();
+  void watch_stream();
   void note_clear();
   void note_emergencies(const CycleInputs& inputs);
   void forward_ticks();
@@ -98,7 +102,9 @@ class Service : private ApiHandler {
 
   ServiceConfig config_;
   Desk& desk_;
+  RequestBounds bounds_;
   Owner owner_;
+  SetpointStream stream_;
   std::optional<std::uint64_t> homing_due_tick_;  // when an arm that is not homed says why
   Notes notes_;
   HostTrouble trouble_;

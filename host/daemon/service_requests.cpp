@@ -1,7 +1,7 @@
 // What each request of docs/api.md does.
 #include <cmath>
 
-#include "host/api/fields.hpp"
+#include "host/api/request_check.hpp"
 #include "host/api/request_error.hpp"
 #include "host/daemon/service.hpp"
 #include "host/daemon/timing_message.hpp"
@@ -24,14 +24,21 @@ const std::map<std::string, Service::Handler>& Service::handlers() {
 }
 
 Json Service::handle(const ClientInfo& client, const Json& request) {
-  const std::string op = text_field(request, "op", 32);
-  if (desk_.knows(op)) {
-    owner_.require(client.id);
-    return desk_.ask({op, request, server_.has_role(Role::kOperator)});
-  }
-  const auto found = handlers().find(op);
-  if (found == handlers().end()) throw RequestError("bad_request", "unknown op " + request["op"].dump());
-  return (this->*found->second)(client, request);
+  const RequestRow& row = row_of(request);
+  require_may(row, client.role, bounds_);
+  if (row.owner_only) owner_.require(client.id);
+  const Arguments fields = checked(row, request, bounds_);
+  stream_.check(row, fields, time_s(), desk_.tip_command());
+  Json answer = answer_to(row, client, fields);
+  stream_.note(row, fields, time_s());
+  return answer;
+}
+
+Json Service::answer_to(const RequestRow& row, const ClientInfo& client, const Arguments& fields) {
+  if (desk_.knows(row.op)) return desk_.ask({row.op, fields, server_.has_role(Role::kOperator)});
+  const auto found = handlers().find(row.op);
+  if (found == handlers().end()) throw RequestError("refused", std::string(row.op) + ": not now: leave it out");
+  return (this->*found->second)(client, fields);
 }
 
 Json Service::welcome(const ClientInfo&) {
@@ -51,25 +58,21 @@ void Service::gone(const ClientInfo& client, const std::string& why) {
   if (config_.ends_with_mission && client.role == Role::kMission) mission_end_tick_ = tick();
 }
 
-Json Service::on_acquire(const ClientInfo& client, const Json&) {
-  if (client.role != Role::kMission && client.role != Role::kClient) {
-    throw RequestError("not_owner",
-                       "role '" + std::string(role_name(client.role)) + "' cannot own motion; mission and client can");
-  }
+Json Service::on_acquire(const ClientInfo& client, const Arguments&) {
   owner_.acquire(client.id, static_cast<std::uint32_t>(client.role) + 1, client.name);
+  stream_.restart();
   if (client.role == Role::kClient) notes_.stop.release();  // a mission may have asked before it saw the stop
   return Json::object();
 }
 
-Json Service::on_release(const ClientInfo& client, const Json&) {
+Json Service::on_release(const ClientInfo& client, const Arguments&) {
   owner_.release(client.id);
   drop_motion("'" + client.name + "' released motion");
   return Json::object();
 }
 
-Json Service::on_state_command(const ClientInfo& client, const Json& request) {
-  owner_.require(client.id);
-  const std::string command = text_field(request, "command", 16);
+Json Service::on_state_command(const ClientInfo&, const Arguments& fields) {
+  const std::string command = fields.text("command");
   if (boot_seen_ == BootPhase::kFailed) throw RequestError("fault", "booting failed: " + text_of(notes_.boot_problems));
   if (boot_seen_ == BootPhase::kBooting) throw RequestError("busy", "the drives are still booting");
   if (command == "enable") {
@@ -87,10 +90,8 @@ Json Service::on_state_command(const ClientInfo& client, const Json& request) {
   } else if (command == "clear") {
     notes_.stop.release();
     this->request(Request::kClear);
-  } else if (command == "home") {
-    require_homed();  // encoders are absolute: nothing has to be done
   } else {
-    throw RequestError("bad_request", "command '" + command + "': allowed enable, disable, clear, home");
+    require_homed();  // "home": encoders are absolute, nothing has to be done
   }
   return Json::object();
 }
@@ -99,17 +100,16 @@ void Service::require_homed() const {
   if (!desk_.why_not_homed().empty()) throw RequestError("refused", "not homed: " + desk_.why_not_homed());
 }
 
-Json Service::on_tool(const ClientInfo& client, const Json& request) {
-  owner_.require(client.id);
-  note("tool: " + text_field(request, "command", 64));
+Json Service::on_tool(const ClientInfo&, const Arguments& fields) {
+  note("tool: " + fields.text("command"));
   return {{"tick", tick()}};
 }
 
 // Never refused, and first of all the flag: nothing that may fail stands before it.
-Json Service::on_stop(const ClientInfo& client, const Json& request) {
+Json Service::on_stop(const ClientInfo& client, const Arguments& fields) {
   press_stop();
   desk_.hold();
-  const StopOrder order{printable(client.name), stop_reason(request.find("reason")), tick()};
+  const StopOrder order{printable(client.name), stop_reason(fields.json().find("reason")), tick()};
   // A mission's own stop is how it ends; everybody else's stays in force, so that nothing enables the arm by itself
   // afterwards.
   if (client.role != Role::kMission) notes_.stop.press(order);
@@ -119,45 +119,36 @@ Json Service::on_stop(const ClientInfo& client, const Json& request) {
 
 // Acted on at the next interval: where the end of the mission stops the arm, and the mission has just ended, its
 // (repeatable) time counts.
-Json Service::on_shutdown(const ClientInfo& client, const Json&) {
+Json Service::on_shutdown(const ClientInfo& client, const Arguments&) {
   dismissed_ = true;
   note("shutdown asked for by '" + client.name + "'");
   return Json::object();
 }
 
-Json Service::on_announce(const ClientInfo& client, const Json& request) {
-  if (client.role != Role::kMission) throw RequestError("bad_request", "announce is for role mission");
-  const Json step = request.value("step", Json());
-  if (!step.is_null() && !step.is_object())
-    throw RequestError("bad_request", "field 'step': must be an object or null");
+Json Service::on_announce(const ClientInfo&, const Arguments& fields) {
   notes_.step = nullptr;
-  if (step.is_null()) return Json::object();
-  notes_.step = {{"index", integer_field(step, "index", 0, 1000)},
-                 {"name", text_field(step, "name", 120)},
-                 {"device", text_field(step, "device", 16)}};
-  note("step " + std::to_string(notes_.step["index"].get<int>()) + ": " + notes_.step["name"].get<std::string>());
+  if (!fields.has("step")) return Json::object();
+  const Arguments step = fields.object("step");
+  notes_.step = {{"index", step.integer("index")}, {"name", step.text("name")}, {"device", step.text("device")}};
+  note("step " + std::to_string(step.integer("index")) + ": " + step.text("name"));
   return {{"tick", tick()}};
 }
 
-Json Service::on_operator_says(const ClientInfo& client, const Json& request) {
-  if (client.role != Role::kOperator) throw RequestError("bad_request", "operator_says is for role operator");
-  notes_.operator_says = {{"what", text_field(request, "what", 40)}, {"tick", tick()}};
+Json Service::on_operator_says(const ClientInfo&, const Arguments& fields) {
+  notes_.operator_says = {{"what", fields.text("what")}, {"tick", tick()}};
   return Json::object();
 }
 
-Json Service::on_device(const ClientInfo& client, const Json& request) {
-  if (client.role != Role::kOperator) throw RequestError("bad_request", "device samples are for role operator");
-  desk_.take_samples(request);
+Json Service::on_device(const ClientInfo&, const Arguments& fields) {
+  desk_.take_samples(fields);
   return Json::object();
 }
 
-Json Service::on_camera(const ClientInfo& client, const Json& request) {
-  if (client.role != Role::kCamera) throw RequestError("bad_request", "camera frames are for role camera");
-  const double capture_s = number_field(request, "capture_time_s", 0.0, 1e9);
-  CameraFrame frame{0, request.dump()};
+Json Service::on_camera(const ClientInfo&, const Arguments& fields) {
+  CameraFrame frame{0, fields.json().dump()};
   if (config_.time_mode != TimeMode::kReal) {
     // Sent in the slot after capture plus latency, it is certainly here two slots later; one more for rounding.
-    const double ready_s = capture_s + config_.camera_latency_s;
+    const double ready_s = fields.number("capture_time_s") + config_.camera_latency_s;
     frame.due_tick = static_cast<std::uint64_t>(std::ceil(ready_s / config_.buses.tick_s() - 1e-6)) + 3;
   }
   if (camera_.size() >= 64)
@@ -166,8 +157,7 @@ Json Service::on_camera(const ClientInfo& client, const Json& request) {
   return Json::object();
 }
 
-Json Service::on_timing(const ClientInfo&, const Json& request) {
-  const bool reset = request.contains("reset") && flag_field(request, "reset");
+Json Service::on_timing(const ClientInfo&, const Arguments& fields) {
   if (config_.time_mode != TimeMode::kReal) {
     throw RequestError("refused", "timing: time mode " + std::string(time_mode_name(config_.time_mode)) +
                                       " has no wake-ups to measure; only --time real has");
@@ -176,7 +166,7 @@ Json Service::on_timing(const ClientInfo&, const Json& request) {
   const Overruns& overruns = desk_.report().overruns;
   Json answer = timing_message(desk_.link().timing.wakeup_us.counts(), desk_.link().timing.tick_us.counts(),
                                overruns.since(overruns_before_));
-  if (!reset) return answer;
+  if (!fields.flag("reset")) return answer;
   desk_.link().timing.wakeup_us.reset();
   desk_.link().timing.tick_us.reset();
   overruns_before_ = overruns;

@@ -83,20 +83,21 @@ void SetpointStream::note(const RequestRow& row, const Arguments& setpoint, doub
   }
   if (row.motion != Motion::kStreams) return;
   goal_ = setpoint.pose("goal");
-  ends_s_.reset();
-  if (setpoint.has("ttl_s")) ends_s_ = now_s + setpoint.number("ttl_s");
+  goal_s_ = now_s;
+  ttl_s_.reset();
+  if (setpoint.has("ttl_s")) ttl_s_ = setpoint.number("ttl_s");
 }
 
 void SetpointStream::end() {
   goal_.reset();
-  ends_s_.reset();
+  ttl_s_.reset();
 }
 
-bool SetpointStream::is_overdue(double next_s, const Pose& tip) {
-  if (!ends_s_ || next_s <= *ends_s_ + kRounding_s) return false;
-  const bool reached = is_near(*goal_, tip, kReached_m, kReached_deg);
+std::optional<double> SetpointStream::overdue(double next_s, const Pose& tip) {
+  if (!ttl_s_ || next_s <= goal_s_ + *ttl_s_ + kRounding_s) return std::nullopt;
+  const std::optional<double> ttl_s = is_near(*goal_, tip, kReached_m, kReached_deg) ? std::nullopt : ttl_s_;
   end();
-  return !reached;
+  return ttl_s;
 }
 
 }  // namespace liana

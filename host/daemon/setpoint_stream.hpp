@@ -24,9 +24,9 @@ class SetpointStream {
   void note(const RequestRow& row, const Arguments& setpoint, double now_s);
   // Nobody streams any more.
   void end();
-  // The time to live of the stream's last goal will have passed by `next_s`, when it is looked at next; the stream is
-  // over then. True when the owner stands still: the tip has not reached the goal.
-  bool is_overdue(double next_s, const Pose& tip);
+  // The time to live of the stream's last goal when it will have passed by `next_s`, the time of the next look, and the
+  // tip has not reached that goal: the owner stands still. The stream is over then, reached or not.
+  std::optional<double> overdue(double next_s, const Pose& tip);
 
  private:
   void check_stamp(const Arguments& setpoint, double now_s) const;
@@ -38,7 +38,8 @@ class SetpointStream {
   double lag_s_ = 0.0;             // arm time less the client's clock, of the quickest setpoint lately
   double noted_s_ = 0.0;           // when that setpoint came
   std::optional<Pose> goal_;       // of the stream; nothing: there is none
-  std::optional<double> ends_s_;   // when that goal has lived long enough
+  double goal_s_ = 0.0;            // when that goal came
+  std::optional<double> ttl_s_;    // of that goal
 };
 
 }  // namespace liana

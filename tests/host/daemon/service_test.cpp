@@ -4,11 +4,15 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <map>
 #include <memory>
 #include <thread>
 
 #include "host/api/client.hpp"
+#include "host/api/request_table.hpp"
+#include "host/api/request_text.hpp"
 #include "host/daemon/cable_desk.hpp"
+#include "tests/host/api/robots.hpp"
 #include "tests/host/verify/sim_arm.hpp"
 
 namespace liana {
@@ -20,7 +24,8 @@ ServiceConfig config_for(const SimArm& arm, TimeMode mode) {
   ServiceConfig config;
   config.time_mode = mode;
   config.api_path = testing::TempDir() + "liana_service_" + std::to_string(::getpid());
-  config.robot_json = config.scene_json = config.buses.canonical_json = "{}";
+  config.robot_json = zhu2022_json().dump();
+  config.scene_json = config.buses.canonical_json = "{}";
   config.camera_latency_s = 0.1;
   config.buses.rate_hz = 1.0 / arm.table().tick_s;
   config.buses.command_interval_s = arm.table().interval_ticks * arm.table().tick_s;
@@ -301,11 +306,67 @@ TEST_F(ServiceOverSocket, BadMotionRequestsAreRefusedWithTheirReason) {
       {{{"op", "device"}, {"device", "vr"}, {"samples", Json::array()}}, "bad_request"},
       {{{"op", "camera"}, {"capture_time_s", 0}}, "bad_request"},
       {{{"op", 7}}, "bad_request"},
+      {{{"op", "hold"}, {"now", true}}, "bad_request"},
+      {{{"op", "move_jp"}, {"goal_deg", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}}, {"rate", 1}}, "bad_request"},
   };
   for (const auto& [request, code] : table) EXPECT_EQ(ask(mission, request), code) << request.dump();
   intervals(20);
   EXPECT_TRUE(arm_->now().at_rest);
   EXPECT_EQ(arm_->now().faults.count, 0);
+}
+
+TEST_F(ServiceOverSocket, EveryOperationOfTheTableIsServed) {
+  std::map<std::string, ApiClient> clients;
+  for (const char* role : kRoleNames) clients.emplace(role, join(role));
+  for (const RequestRow& row : request_table()) {
+    if (row.op == std::string("hello") || row.op == std::string("done")) continue;  // the server's own
+    const std::string role = row.owner_only ? "client" : roles_text(row.roles);
+    ApiClient& client = clients.at(role.substr(0, role.find(',')));
+    ASSERT_EQ(ask(clients.at("client"), {{"op", "acquire"}}), "ok");
+    const Json answer = full_answer(client, {{"op", row.op}});
+    EXPECT_EQ(answer.value("message", "").find("not now"), std::string::npos) << row.op << answer;
+    EXPECT_EQ(answer.value("message", "").find("unknown"), std::string::npos) << row.op << answer;
+    ask(clients.at("client"), {{"op", "release"}});
+    ask(clients.at("mission"), {{"op", "release"}});
+  }
+}
+
+TEST_F(ServiceOverSocket, AnOwnerThatStandsStillInAStreamIsNamedAndTheArmHoldsWithinTheTimeToLive) {
+  ApiClient mission = join("mission");
+  enable(mission);
+  Json goal = state(mission)["setpoint_cp"];
+  goal[2] = goal[2].get<double>() + 0.04;
+  const auto servo = [&](int sequence) -> Json {
+    return {{"op", "servo_cp"}, {"goal", goal}, {"ttl_s", 0.1}, {"sequence", sequence}};
+  };
+  for (int i = 1; i <= 20; ++i) {
+    ASSERT_EQ(ask(mission, servo(i)), "ok");
+    intervals(1);
+  }
+  ASSERT_EQ(arm_->now().at_rest, 0);
+  const std::uint64_t last_tick = arm_->ticks_done();
+  intervals(5);
+  const Json events = state(mission)["events"];
+  ASSERT_EQ(events.back()["text"], "owner 'mission' stands still: no servo_cp for 0.1 s, its ttl_s: the arm holds")
+      << events;
+  EXPECT_LE((events.back()["tick"].get<double>() - static_cast<double>(last_tick)) * arm_->table().tick_s, 0.1);
+  EXPECT_EQ(ask(mission, servo(20)), "refused") << "a repeated number";
+  intervals(100);
+  EXPECT_TRUE(arm_->now().at_rest);
+  EXPECT_GT(norm(subtract(Vec3{goal[0], goal[1], goal[2]}, arm_->now().tip_command.position_m)), 1e-3);
+}
+
+TEST_F(ServiceOverSocket, AGoalOfAStreamThatJumpsIsRefusedAndAMoveIsNot) {
+  ApiClient mission = join("mission");
+  enable(mission);
+  Json goal = state(mission)["setpoint_cp"];
+  goal[2] = goal[2].get<double>() + 0.06;
+  const Json refused = full_answer(mission, {{"op", "servo_cp"}, {"goal", goal}});
+  EXPECT_EQ(refused["code"], "out_of_range");
+  EXPECT_NE(refused["message"].get<std::string>().find("allowed 0 to 0.05 m in one servo_cp: use move_cp"),
+            std::string::npos)
+      << refused;
+  EXPECT_EQ(ask(mission, {{"op", "move_cp"}, {"goal", goal}}), "ok");
 }
 
 TEST_F(ServiceOverSocket, TheOperatorSteersAndLettingGoIsAHold) {

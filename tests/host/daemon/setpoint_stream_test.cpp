@@ -90,24 +90,24 @@ TEST_F(Stream, ATurnIsBoundedToo) {
 }
 
 TEST_F(Stream, AnOwnerStandsStillWhenItsTimeToLiveIsOverAndItsGoalIsNotReached) {
-  EXPECT_FALSE(stream_.is_overdue(1e9, tip_)) << "nobody streams";
+  EXPECT_FALSE(stream_.overdue(1e9, tip_)) << "nobody streams";
   servo(1.02, 10.0, {{"ttl_s", 0.2}});
-  EXPECT_FALSE(stream_.is_overdue(10.2, tip_));
-  EXPECT_TRUE(stream_.is_overdue(10.22, tip_));
-  EXPECT_FALSE(stream_.is_overdue(10.24, tip_)) << "told once";
+  EXPECT_FALSE(stream_.overdue(10.2, tip_));
+  EXPECT_EQ(stream_.overdue(10.22, tip_), 0.2);
+  EXPECT_FALSE(stream_.overdue(10.24, tip_)) << "told once";
   servo(1.02, 10.0, {{"ttl_s", 0.2}});
   servo(1.02, 10.1, {{"ttl_s", 0.2}});
-  EXPECT_FALSE(stream_.is_overdue(10.3, tip_)) << "the next one came";
+  EXPECT_FALSE(stream_.overdue(10.3, tip_)) << "the next one came";
 }
 
 TEST_F(Stream, NobodyIsMissedAtTheGoalAfterAMoveOrWithoutATimeToLive) {
   servo(1.0, 10.0, {{"ttl_s", 0.2}});
-  EXPECT_FALSE(stream_.is_overdue(11.0, tip_)) << "the tip is there";
+  EXPECT_FALSE(stream_.overdue(11.0, tip_)) << "the tip is there";
   servo(1.02, 10.0, {{"ttl_s", 0.2}});
   send("move_cp", 1.3, 10.1);
-  EXPECT_FALSE(stream_.is_overdue(11.0, tip_)) << "a move needs nobody";
+  EXPECT_FALSE(stream_.overdue(11.0, tip_)) << "a move needs nobody";
   servo(1.02, 10.0);
-  EXPECT_FALSE(stream_.is_overdue(11.0, tip_));
+  EXPECT_FALSE(stream_.overdue(11.0, tip_));
 }
 
 }  // namespace
