@@ -24,8 +24,9 @@ std::string brief(const Json& value) { return value.dump(-1, Json::BadUtf8::kRep
 
 // The robot has another kind of arm than this is for.
 [[noreturn]] void wrong_arm(const std::string& what, Arms for_arms, const RequestBounds& bounds) {
-  throw RequestError("refused", what + ": for " + arms_text(for_arms) + " only; robot " + bounds.robot +
-                                    " has another arm: leave it out");
+  const std::string one_arm = bounds.arm == kCableArm ? "cable arm" : "serial arm";
+  throw RequestError("refused", what + ": for " + arms_text(for_arms) + " only; robot " + bounds.robot + " has a " +
+                                    one_arm + ": leave it out");
 }
 
 bool applies(const RequestField& field, const Json& request) {
@@ -196,7 +197,7 @@ class Check {
              "scale it");
     if (far_m <= most_m) return;
     const bool of_arm = field.high.figure == Figure::kReach;
-    throw RequestError("out_of_range", name + " = " + text_of(far_m) + " m from the " +
+    throw RequestError("out_of_range", name + " = " + roughly(far_m) + " m from the " +
                                            (of_arm ? "base: the arm reaches " : "origin: allowed ") + text_of(most_m) +
                                            " m: choose a nearer one");
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 
 namespace liana {
 
@@ -25,6 +26,8 @@ std::string text_of(double value) {
   std::array<char, 32> text;
   return {text.data(), std::to_chars(text.data(), text.data() + text.size(), value).ptr};
 }
+
+std::string roughly(double value) { return text_of(std::round(value * 1e6) / 1e6); }
 
 const char* unit_of(std::string_view name) {
   if (name.ends_with("_deg_s")) return " deg/s";

@@ -11,6 +11,9 @@ namespace liana {
 // Shortest text of a number: "20", "0.01", "1e+300".
 std::string text_of(double value);
 
+// The same to a millionth, for what was computed.
+std::string roughly(double value);
+
 // The unit that a name ends in: " deg/s" of rate_deg_s; empty without one.
 const char* unit_of(std::string_view name);
 

@@ -37,7 +37,8 @@ Json Service::handle(const ClientInfo& client, const Json& request) {
 Json Service::answer_to(const RequestRow& row, const ClientInfo& client, const Arguments& fields) {
   if (desk_.knows(row.op)) return desk_.ask({row.op, fields, server_.has_role(Role::kOperator)});
   const auto found = handlers().find(row.op);
-  if (found == handlers().end()) throw RequestError("refused", std::string(row.op) + ": not now: leave it out");
+  if (found == handlers().end())
+    throw RequestError("refused", std::string(row.op) + " is not served here: leave it out");
   return (this->*found->second)(client, fields);
 }
 

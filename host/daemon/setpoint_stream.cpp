@@ -25,7 +25,7 @@ bool is_near(const Pose& a, const Pose& b, double most_m, double most_deg) {
 }
 
 [[noreturn]] void too_far(double far, double most, const std::string& unit, const std::string& from) {
-  throw RequestError("out_of_range", "goal = " + text_of(far) + unit + " from " + from + ": allowed 0 to " +
+  throw RequestError("out_of_range", "goal = " + roughly(far) + unit + " from " + from + ": allowed 0 to " +
                                          text_of(most) + unit + " in one servo_cp: use move_cp, or smaller steps");
 }
 
@@ -56,7 +56,7 @@ void SetpointStream::check_stamp(const Arguments& setpoint, double now_s) const 
   }
   const double late_s = now_s - clock_s - (lag_s_ + kDrift * (now_s - noted_s_));
   if (setpoint.has("ttl_s") && late_s > setpoint.number("ttl_s") + kRounding_s) {
-    throw RequestError("refused", "time_s = " + text_of(clock_s) + ": this setpoint comes " + text_of(late_s) +
+    throw RequestError("refused", "time_s = " + text_of(clock_s) + ": this setpoint comes " + roughly(late_s) +
                                       " s later than the quickest: allowed 0 to " + text_of(setpoint.number("ttl_s")) +
                                       " s, its ttl_s: send newer ones");
   }

@@ -118,7 +118,7 @@ local function action_suits(where, field, action, robot, refusal_of)
   has_poses(where, field, { use.pose }, robot)
   if not use.command then return end
   local fields = { goal_deg = use.pose and robot.named_poses_deg[use.pose] }
-  for field, value in pairs(use.fields) do fields[field] = value end
+  for key, value in pairs(use.fields) do fields[key] = value end
   accepted(("%s: %s: %s"):format(where, field, use.action), robot, refusal_of, use.command, fields)
 end
 

@@ -229,7 +229,7 @@ TEST(Eval, WhatIsForCableArmsOnlyIsRefusedForOthersByName) {
        std::vector<std::pair<std::string, std::string>>{{"device = 'vr'", "use_device"},
                                                         {"device = 'none', hold = { [7] = 0 }", "hold_theta"},
                                                         {"device = 'none', run = liana.shape {}", "shape"}}) {
-    EXPECT_NE(eval(fields).find(op + ": for cable arms only; robot micro has another arm"), std::string::npos)
+    EXPECT_NE(eval(fields).find(op + ": for cable arms only; robot micro has a serial arm"), std::string::npos)
         << eval(fields);
   }
 }

@@ -56,7 +56,7 @@ TEST(RequestCheck, RefusesByFieldValueAllowedRangeAndWhatToDo) {
       {R"({"op":"move_jp","goal_deg":[null,0,0,0,0,0,0,0,0,0]})",
        "bad_request: goal_deg[0] = null: allowed a number: correct it", "no number"},
       {R"({"op":"move_cp","goal":[3,3,0,1,0,0,0]})",
-       "out_of_range: goal = 4.242640687119285 m from the base: the arm reaches 4 m: choose a nearer one",
+       "out_of_range: goal = 4.242641 m from the base: the arm reaches 4 m: choose a nearer one",
        "each coordinate is within"},
       {R"({"op":"move_cp","goal":[1e300,0,0,1,0,0,0]})",
        "out_of_range: goal[0] = 1e+300: allowed -4 to 4 m: choose another value", "its square would overflow"},
@@ -96,7 +96,7 @@ TEST(RequestCheck, RangesAreThoseOfTheRobotThatIsServed) {
   EXPECT_EQ(said_about({{"op", "move_jp"}, {"goal_deg", {271, 0, 0, 0, 0, 0, 0}}}, &kMicro),
             "out_of_range: goal_deg[0] (joint 1) = 271: allowed -270 to 270 deg: choose another value");
   EXPECT_EQ(said_about({{"op", "move_cp"}, {"goal", {1, 0, 0, 1, 0, 0, 0}}, {"hold", Json::array()}}, &kMicro),
-            "refused: hold: for cable arms only; robot micro has another arm: leave it out");
+            "refused: hold: for cable arms only; robot micro has a serial arm: leave it out");
 }
 
 TEST(RequestCheck, WhoMayAskAndForWhichArmStandsInTheTable) {
@@ -116,7 +116,7 @@ TEST(RequestCheck, WhoMayAskAndForWhichArmStandsInTheTable) {
   for (const char* op : {"hold_theta", "shape", "use_device"}) {
     EXPECT_EQ(said(op, Role::kMission, kZhu), "accepted");
     EXPECT_EQ(said(op, Role::kMission, kMicro),
-              std::string("refused: ") + op + ": for cable arms only; robot micro has another arm: leave it out");
+              std::string("refused: ") + op + ": for cable arms only; robot micro has a serial arm: leave it out");
   }
 }
 

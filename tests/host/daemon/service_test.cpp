@@ -324,7 +324,7 @@ TEST_F(ServiceOverSocket, EveryOperationOfTheTableIsServed) {
     ApiClient& client = clients.at(role.substr(0, role.find(',')));
     ASSERT_EQ(ask(clients.at("client"), {{"op", "acquire"}}), "ok");
     const Json answer = full_answer(client, {{"op", row.op}});
-    EXPECT_EQ(answer.value("message", "").find("not now"), std::string::npos) << row.op << answer;
+    EXPECT_EQ(answer.value("message", "").find("not served"), std::string::npos) << row.op << answer;
     EXPECT_EQ(answer.value("message", "").find("unknown"), std::string::npos) << row.op << answer;
     ask(clients.at("client"), {{"op", "release"}});
     ask(clients.at("mission"), {{"op", "release"}});
