@@ -16,7 +16,7 @@ std::string bound_text(const Bound& bound) {
   const char* name = "";
   switch (bound.figure) {
     case Figure::kOne:
-      return text_of(bound.factor);
+      return bound.factor == kBiggestWhole ? "2^53" : text_of(bound.factor);
     case Figure::kReach:
       name = "the arm's reach";
       break;

@@ -84,7 +84,7 @@ struct RequestField {
 
 // What a request does to the motion that is under way.
 enum class Motion : std::uint8_t {
-  kNone,      // nothing, or it says itself when it waits
+  kNone,      // nothing that a stream of tip goals has to know
   kReplaces,  // ends a stream of tip goals
   kStreams,   // is one of a stream of tip goals: its jumps are bounded, and its time to live is watched
 };
