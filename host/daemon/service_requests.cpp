@@ -24,6 +24,16 @@ const std::map<std::string, Service::Handler>& Service::handlers() {
 }
 
 Json Service::handle(const ClientInfo& client, const Json& request) {
+  try {
+    return act_on(client, request);
+  } catch (const RequestError& error) {
+    const Json& op = request.member_or_null("op");
+    note(refusal_event(client.name, op.is_string() ? printable(op.text()) : "", error.code(), error.what()));
+    throw;
+  }
+}
+
+Json Service::act_on(const ClientInfo& client, const Json& request) {
   const std::string op = text_field(request, "op", 32);
   if (desk_.knows(op)) {
     owner_.require(client.id);
@@ -46,8 +56,10 @@ Json Service::welcome(const ClientInfo&) {
 }
 
 void Service::gone(const ClientInfo& client, const std::string& why) {
-  note(std::string(role_name(client.role)) + " '" + client.name + "' is gone (" + why + ")");
-  if (owner_.gone(client.id)) drop_motion("the owner of motion died");
+  note({.kind = EventKind::kClient,
+        .subject = client.name,
+        .text = std::string(role_name(client.role)) + " '" + client.name + "' is gone (" + why + ")"});
+  if (owner_.gone(client.id)) drop_motion(OwnerEvent::kGone, client.name);
   if (config_.ends_with_mission && client.role == Role::kMission) mission_end_tick_ = tick();
 }
 
@@ -56,14 +68,16 @@ Json Service::on_acquire(const ClientInfo& client, const Json&) {
     throw RequestError("not_owner",
                        "role '" + std::string(role_name(client.role)) + "' cannot own motion; mission and client can");
   }
+  const bool is_new = owner_.client() != client.id;
   owner_.acquire(client.id, static_cast<std::uint32_t>(client.role) + 1, client.name);
+  if (is_new) note(owner_event(OwnerEvent::kAcquired, client.name));
   if (client.role == Role::kClient) notes_.stop.release();  // a mission may have asked before it saw the stop
   return Json::object();
 }
 
 Json Service::on_release(const ClientInfo& client, const Json&) {
   owner_.release(client.id);
-  drop_motion("'" + client.name + "' released motion");
+  drop_motion(OwnerEvent::kReleased, client.name);
   return Json::object();
 }
 
@@ -101,7 +115,7 @@ void Service::require_homed() const {
 
 Json Service::on_tool(const ClientInfo& client, const Json& request) {
   owner_.require(client.id);
-  note("tool: " + text_field(request, "command", 64));
+  note({.kind = EventKind::kTool, .subject = client.name, .text = "tool: " + text_field(request, "command", 64)});
   return {{"tick", tick()}};
 }
 
@@ -113,7 +127,7 @@ Json Service::on_stop(const ClientInfo& client, const Json& request) {
   // A mission's own stop is how it ends; everybody else's stays in force, so that nothing enables the arm by itself
   // afterwards.
   if (client.role != Role::kMission) notes_.stop.press(order);
-  note(text_of(order));
+  note(stop_event(order));
   return Json::object();
 }
 
@@ -121,7 +135,7 @@ Json Service::on_stop(const ClientInfo& client, const Json& request) {
 // (repeatable) time counts.
 Json Service::on_shutdown(const ClientInfo& client, const Json&) {
   dismissed_ = true;
-  note("shutdown asked for by '" + client.name + "'");
+  note({.kind = EventKind::kShutdown, .subject = client.name, .text = "shutdown asked for by '" + client.name + "'"});
   return Json::object();
 }
 
@@ -135,13 +149,15 @@ Json Service::on_announce(const ClientInfo& client, const Json& request) {
   notes_.step = {{"index", integer_field(step, "index", 0, 1000)},
                  {"name", text_field(step, "name", 120)},
                  {"device", text_field(step, "device", 16)}};
-  note("step " + std::to_string(notes_.step["index"].get<int>()) + ": " + notes_.step["name"].get<std::string>());
+  note(step_event(notes_.step["index"], notes_.step["name"]));
   return {{"tick", tick()}};
 }
 
 Json Service::on_operator_says(const ClientInfo& client, const Json& request) {
   if (client.role != Role::kOperator) throw RequestError("bad_request", "operator_says is for role operator");
-  notes_.operator_says = {{"what", text_field(request, "what", 40)}, {"tick", tick()}};
+  const std::string what = text_field(request, "what", 40);
+  notes_.operator_says = {{"what", what}, {"tick", tick()}};
+  note({.kind = EventKind::kOperator, .subject = client.name, .text = what});
   return Json::object();
 }
 

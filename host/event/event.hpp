@@ -25,7 +25,7 @@ enum class EventKind : std::uint8_t {
   kOperator,     // subject the operator's name; what he says
   kTool,         // subject the client's name; the command for the repair tool
   kRefusal,      // a request was answered with an error; number: RefusalEvent; subject the client's name
-  kVerdict,      // verification refused a command: number M_e; subject which of the two ends; `command`, its sequence
+  kVerdict,      // verification refused a command: number M_e; subject which of the two ends; `command`, `share`
   kStop,         // number: stop category (docs/priorities.md); subject who asked for it
   kShutdown,     // subject who asked for it, or nothing
   kLeftOut,      // subject: a kind of which too many came within one interval; `count` of those without a number

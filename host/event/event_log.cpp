@@ -3,8 +3,12 @@
 namespace liana {
 namespace {
 
-bool is_shown(EventKind kind) {
-  return kind != EventKind::kFault && kind != EventKind::kBootProblem && kind != EventKind::kRefusal;
+// What a state tells elsewhere, or its client was told, pushes nothing else out of the few that are shown.
+bool is_shown(const Event& event) {
+  if (event.kind == EventKind::kOwner) return event.number != number_of(OwnerEvent::kAcquired);
+  if (event.kind == EventKind::kHoming) return event.number != number_of(HomingEvent::kHomed);
+  return event.kind != EventKind::kFault && event.kind != EventKind::kBootProblem &&
+         event.kind != EventKind::kRefusal && event.kind != EventKind::kOperator;
 }
 
 }  // namespace
@@ -12,7 +16,7 @@ bool is_shown(EventKind kind) {
 void EventLog::number_and_hand_on(std::uint64_t tick, Event event) {
   event.sequence = ++newest_;
   event.tick = tick;
-  if (is_shown(event.kind)) shown_.push_back(event);
+  if (is_shown(event)) shown_.push_back(event);
   if (shown_.size() > kShown) shown_.pop_front();
   sink_(event);
 }

@@ -24,8 +24,9 @@ class EventLog {
   // A command interval begins: one event for each kind of which some were left out in the one before.
   void begin_interval(std::uint64_t tick);
 
-  // The newest events for people, at most kShown, oldest first: without those that a state lists elsewhere (faults) and
-  // those that their client was told (refused requests).
+  // The newest events for people, at most kShown, oldest first: without what a state tells elsewhere (faults, boot
+  // problems, the owner, that the arm is homed, what the operator says) and refused requests, which their client was
+  // told.
   const std::deque<Event>& shown() const { return shown_; }
 
  private:
