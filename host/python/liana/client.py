@@ -120,8 +120,8 @@ class Client(Connection):
         check: Callable[[], None] = nothing,
         events_from: int = 1,
     ) -> None:
-        """Says hello; `welcome` is the answer. RequestRefused when lianad does not take this client. Who comes back gives
-        the sequence after the last event that he has seen.
+        """Says hello; `welcome` is the answer. RequestRefused when lianad does not take this client. Who comes back
+        gives the sequence after the last event that he has seen.
         """
         super().__init__(path, check)
         self.lockstep = lockstep

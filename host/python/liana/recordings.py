@@ -77,7 +77,7 @@ class Event(NamedTuple):
 
 
 def read_events(path: Path) -> list[Event]:
-    """The events of a run's events.txt; BadRecording for a line that is none. A last line without its end is left out."""
+    """The events of a run's events.txt, without a last line that has no end; BadRecording for a line that is none."""
     events = []
     for line in pathlib.Path(path).read_text(errors="replace").split("\n")[:-1]:
         if line.startswith("#"):

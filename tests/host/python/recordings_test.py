@@ -175,7 +175,8 @@ class Events(Files):
         return read_events(path)
 
     def test_a_line_is_an_event_and_a_comment_is_none(self):
-        line = "      12\t   4.936\t    1234\tverdict     \t   104\texecution\tcable 7 \u2028\x85: too fast\tcommand=17 share=nan"
+        line = "      12\t   4.936\t    1234\tverdict     \t   104\texecution\t"
+        line += "cable 7 \u2028\x85: too fast\tcommand=17 share=nan"
         (event,) = self.read("#sequence\ttime_s", line, "# 3 events are missing so far", "      13\t 4.9")
         self.assertEqual(event[:6], (12, 4.936, 1234, "verdict", 104, "execution"))
         self.assertEqual(event.text, "cable 7 \u2028\x85: too fast")
