@@ -37,7 +37,9 @@ constexpr std::array kHello{
     text("name", 64, "what lianad calls the client: as owner, in events, as who stopped the arm"),
     word("role", kRoleNames, "what the client is, and with it what it may ask for"),
     flag("lockstep", "virtual time waits for this client's `done`").otherwise(0.0),
-    text("subscribe", 32, "topics that it wants to hear").optional().list(8),
+    text("subscribe", 32, "topics that it wants to hear: state, camera, tick, event").optional().list(8),
+    integer("events_from", 1.0, kBiggestWhole, "sequence of the first event that it wants; left out: from now on")
+        .optional(),
 };
 constexpr std::array kDone{integer("tick", 0.0, kBiggestWhole, "of the state that is answered")};
 

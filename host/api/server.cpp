@@ -9,6 +9,7 @@
 #include <deque>
 #include <tuple>
 
+#include "host/api/outbox.hpp"
 #include "host/api/request_check.hpp"
 #include "host/api/request_error.hpp"
 #include "host/api/request_text.hpp"
@@ -22,9 +23,8 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr std::size_t kMaxInbox = 512;  // requests waiting for the next interval; beyond it the client's own sends wait
-constexpr std::size_t kMaxDroppable = 8;  // state or camera messages waiting for a slow subscriber
-constexpr std::size_t kMaxOutbox = 8192;  // packets of any kind waiting
-constexpr std::size_t kMaxClients = 32;   // that have said hello
+constexpr std::size_t kMaxWaitingEvents = 64;  // of one subscriber; the others wait in the history
+constexpr std::size_t kMaxClients = 32;        // that have said hello
 // Connections that have not: so many at once, each for so long. They take no place from clients.
 constexpr std::size_t kMaxStrangers = 16;
 constexpr double kStrangerPatience_s = 2.0;
@@ -34,7 +34,6 @@ constexpr double kShare_s = 0.002;
 constexpr double kMuch = 16384;                   // bytes lately, of clients that are read only while there is time
 constexpr std::size_t kLongestHeard = 16u << 20;  // of a packet that is too long a request; it may be a stop
 constexpr const char* kNoPlace = "32 clients are connected already; close one (a stop is heard all the same)";
-constexpr std::array<const char*, 3> kTopicNames{"state", "camera", "tick"};
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -42,6 +41,11 @@ std::string error_packet(const Json& request, const std::string& code, const std
   Json answer{{"op", "error"}, {"code", code}, {"message", message}};
   if (request.is_object() && request.contains("id")) answer["id"] = request["id"];
   return answer.dump(-1, Json::BadUtf8::kReplace);
+}
+
+// To a reader of events that were not kept for it.
+std::string lost_packet(std::uint64_t first, std::uint64_t last) {
+  return Json{{"op", "events_lost"}, {"from", first}, {"to", last}, {"count", last - first + 1}}.dump();
 }
 
 std::string op_of(const Json& request) {
@@ -65,11 +69,6 @@ Role role_of(const std::string& name) {
 }
 
 struct ApiServer::Client {
-  struct Packet {
-    Topic topic;
-    bool droppable;
-    std::string bytes;
-  };
   UniqueFd fd;
   ClientInfo info;
   bool greeted = false;
@@ -83,11 +82,11 @@ struct ApiServer::Client {
   bool awaited = false;  // was there when waiting began: who joins meanwhile cannot answer a state it never got
   std::deque<Json> inbox;
   std::deque<Json> stops;  // served before everybody's inbox
-  std::deque<Packet> outbox;
-  std::array<std::size_t, kTopicNames.size()> waiting{};
+  Outbox outbox;
+  std::uint64_t next_event = 0;  // number of the next one to put into the outbox
 
   auto order() const { return std::tie(info.role, info.name, info.id); }
-  bool wants(Topic topic) const { return greeted && why_closed.empty() && subscribed[static_cast<std::size_t>(topic)]; }
+  bool wants(Topic topic) const { return greeted && why_closed.empty() && subscribed[index_of(topic)]; }
   bool has_work() const { return !stops.empty() || !inbox.empty(); }
   bool in_lockstep() const { return greeted && info.lockstep && why_closed.empty(); }
   bool is_done(std::uint64_t tick) const { return has_done && done_tick == tick; }
@@ -240,12 +239,7 @@ void ApiServer::greet(Client& client, const Json& request) {
   client.info.name = hello.text("name");
   client.info.role = role_of(hello.text("role"));
   client.info.lockstep = hello.flag("lockstep");
-  for (const std::string& topic : hello.texts("subscribe")) {
-    const auto found = std::find(kTopicNames.begin(), kTopicNames.end(), topic);
-    if (found == kTopicNames.end()) throw RequestError("bad_request", "subscribe: allowed state, camera, tick");
-    client.subscribed[static_cast<std::size_t>(found - kTopicNames.begin())] = true;
-  }
-  if (client.info.lockstep) client.subscribed[static_cast<std::size_t>(Topic::kState)] = true;
+  subscribe(client, hello);
   client.greeted = true;
   const auto has_place = [](const auto& c) { return c->greeted && !c->only_stops && c->why_closed.empty(); };
   if (std::count_if(clients_.begin(), clients_.end(), has_place) >= static_cast<std::ptrdiff_t>(kMaxClients)) {
@@ -255,8 +249,29 @@ void ApiServer::greet(Client& client, const Json& request) {
     throw RequestError("busy", kNoPlace);
   }
   Json welcome = handler_.welcome(client.info);
+  welcome["events"] = {{"oldest", events_.oldest()}, {"next", events_.next()}};
   if (request.contains("id")) welcome["id"] = request["id"];
   enqueue(client, Topic::kState, false, welcome.dump());
+}
+
+// Numbers begin anew with every lianad: one that is not there yet was learned from another.
+void ApiServer::subscribe(Client& client, const Arguments& hello) const {
+  client.subscribed = {};
+  for (const std::string& topic : hello.texts("subscribe")) {
+    const auto found = std::find(kTopicNames.begin(), kTopicNames.end(), topic);
+    if (found == kTopicNames.end()) throw RequestError("bad_request", "subscribe: allowed state, camera, tick, event");
+    client.subscribed[static_cast<std::size_t>(found - kTopicNames.begin())] = true;
+  }
+  if (client.info.lockstep) client.subscribed[index_of(Topic::kState)] = true;
+  client.next_event = events_.next();
+  if (!hello.has("events_from")) return;
+  const auto from = static_cast<std::uint64_t>(hello.integer("events_from"));
+  if (from > events_.next()) {
+    throw RequestError("out_of_range", "events_from = " + std::to_string(from) + ": allowed 1 to " +
+                                           std::to_string(events_.next()) +
+                                           ": lianad began anew and counts from 1; ask from there");
+  }
+  client.next_event = from;
 }
 
 void ApiServer::dispatch() {
@@ -306,37 +321,37 @@ void ApiServer::answer_one(Client& client, const Json& request) {
 }
 
 void ApiServer::enqueue(Client& client, Topic topic, bool droppable, const std::string& packet) {
-  const auto t = static_cast<std::size_t>(topic);
-  if (droppable && !client.info.lockstep && client.waiting[t] >= kMaxDroppable) {
-    const auto oldest = std::find_if(client.outbox.begin(), client.outbox.end(),
-                                     [&](const Client::Packet& p) { return p.droppable && p.topic == topic; });
-    client.outbox.erase(oldest);
-    --client.waiting[t];
-    ++dropped_;
+  const std::uint64_t before = client.outbox.dropped();
+  const bool taken = client.outbox.add(topic, droppable && !client.info.lockstep, packet);
+  dropped_ += client.outbox.dropped() - before;
+  if (taken) return;
+  if (topic != Topic::kTick) return close(client, "does not read its socket");
+  ++dropped_;
+  ++dropped_ticks_;
+}
+
+// As far as there is room: others wait in the history, and what is forgotten there is said to be lost. In lockstep time
+// nothing is, and events have their place among the other packets whatever the moment at which they are read.
+void ApiServer::feed_events(Client& client) {
+  if (!client.wants(Topic::kEvent)) return;
+  if (client.next_event < events_.oldest() && client.outbox.waiting(Topic::kEvent) == 0) {
+    enqueue(client, Topic::kEvent, false, lost_packet(client.next_event, events_.oldest() - 1));
+    client.next_event = events_.oldest();
   }
-  if (client.outbox.size() >= kMaxOutbox) {
-    if (topic != Topic::kTick) return close(client, "does not read its socket");
-    ++dropped_;
-    ++dropped_ticks_;
-    return;
+  while (client.next_event >= events_.oldest() && client.next_event < events_.next()) {
+    if (!client.info.lockstep && client.outbox.waiting(Topic::kEvent) >= kMaxWaitingEvents) return;
+    enqueue(client, Topic::kEvent, false, events_.packet(client.next_event++));
   }
-  if (droppable) ++client.waiting[t];
-  client.outbox.push_back({topic, droppable, packet});
 }
 
 // That a client has left is found by reading alone: its last requests come before its end, and in lockstep time both
 // wait for the next interval, whatever the moment at which a packet to it fails.
 void ApiServer::flush(Client& client) {
-  while (!client.outbox.empty() && client.why_closed.empty()) {
-    const SocketResult result = send_packet(client.fd.get(), client.outbox.front().bytes);
+  for (feed_events(client); !client.outbox.empty() && client.why_closed.empty(); feed_events(client)) {
+    const SocketResult result = send_packet(client.fd.get(), client.outbox.front());
     if (result == SocketResult::kWouldBlock) return;
-    if (result == SocketResult::kClosed) {
-      client.outbox.clear();
-      client.waiting = {};
-      return;
-    }
-    if (client.outbox.front().droppable) --client.waiting[static_cast<std::size_t>(client.outbox.front().topic)];
-    client.outbox.pop_front();
+    if (result == SocketResult::kClosed) return client.outbox.clear();
+    client.outbox.pop();
   }
 }
 
@@ -346,6 +361,11 @@ void ApiServer::publish(Topic topic, const std::string& packet, bool keep) {
     enqueue(*client, topic, topic != Topic::kTick && !keep, packet);
     flush(*client);
   }
+}
+
+void ApiServer::publish_event(const std::string& packet) {
+  events_.push(packet);
+  for (auto& client : clients_) flush(*client);
 }
 
 void ApiServer::deliver(double timeout_s) {

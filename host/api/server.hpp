@@ -6,8 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "host/api/arguments.hpp"
+#include "host/api/packet_history.hpp"
 #include "host/api/role.hpp"
 #include "host/api/socket.hpp"
+#include "host/api/topic.hpp"
 #include "host/json/json_fwd.hpp"
 
 namespace liana {
@@ -19,8 +22,6 @@ struct ClientInfo {
   Role role = Role::kObserver;
   bool lockstep = false;
 };
-
-enum class Topic : std::uint8_t { kState, kCamera, kTick };
 
 // What the daemon does with requests.
 class ApiHandler {
@@ -49,6 +50,9 @@ class ApiServer {
   // Sends to every subscriber of the topic. Slow subscribers lose their oldest state and camera messages, and newest
   // ticks (counted), but no message that was published as one to `keep`.
   void publish(Topic topic, const std::string& packet, bool keep = false);
+  // Sends the next event (1, 2, ...) to subscribers of `event`. Who reads too slowly gets it later, while it is among
+  // the newest PacketHistory::kKept; after that a packet events_lost says which ones are gone.
+  void publish_event(const std::string& packet);
   // Sends what waits for slow readers, at most for `timeout_s`; for the end.
   void deliver(double timeout_s);
   // Pumps until every lockstep client has answered the state of `tick` with done; drops those silent for `timeout_s`.
@@ -74,11 +78,13 @@ class ApiServer {
   void take_packet(Client& client, const std::string& packet);
   bool take_bad_stop(Client& client, const std::string& packet, const std::string& why);
   void greet(Client& client, const Json& request);
+  void subscribe(Client& client, const Arguments& hello) const;
   void take_stop(Client& client, Json stop);
   void serve_stops(Client& client);
   void serve(Client& client, double share_s);
   void answer_one(Client& client, const Json& request);
   void enqueue(Client& client, Topic topic, bool droppable, const std::string& packet);
+  void feed_events(Client& client);
   void flush(Client& client);
   void close(Client& client, const std::string& why);
   void bury();
@@ -87,6 +93,7 @@ class ApiServer {
   ApiHandler& handler_;
   std::vector<std::unique_ptr<Client>> clients_;  // in serving order
   std::uint32_t next_id_ = 1;
+  PacketHistory events_;
   std::uint64_t lockstep_tick_ = 0;
   std::uint64_t dropped_ = 0, dropped_ticks_ = 0;
 };

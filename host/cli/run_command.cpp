@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <filesystem>
 
 #include "host/cli/commands.hpp"
 #include "host/report/run_report.hpp"
@@ -52,6 +53,12 @@ bool publish_report(const RunOptions& options, const SystemLayout& plan, const J
   return written;
 }
 
+// Without lianad there are logs only.
+std::string where_to_look(const SystemLayout& plan) {
+  if (!std::filesystem::exists(plan.events_file())) return "its logs are kept in " + plan.directory;
+  return "what happened and why is in " + plan.events_file() + ", its logs are beside it";
+}
+
 }  // namespace
 
 int run_command(const RunOptions& options) {
@@ -67,8 +74,8 @@ int run_command(const RunOptions& options) {
   const bool success = report.value("outcome", "") == "success";
   if (!end.message.empty()) std::fprintf(stderr, "liana: %s\n", end.message.c_str());
   if (!success) {
-    std::fprintf(stderr, "liana: the run did not succeed; its logs are kept in %s%s\n", plan.directory.c_str(),
-                 plan.keep_directory ? "" : "; delete it when you have looked");
+    std::fprintf(stderr, "liana: the run did not succeed; %s%s\n", where_to_look(plan).c_str(),
+                 plan.keep_directory ? "" : "; delete the folder when you have looked");
   }
   clean_up(plan, success);
   return success && written ? kExitOk : kExitFailure;

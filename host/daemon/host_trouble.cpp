@@ -20,6 +20,11 @@ const char* advice(BusState state) {
 
 std::string number(std::uint64_t value) { return std::to_string(value); }
 
+Event trouble(HostTroubleEvent what, const std::string& subject, const EventValue& value, const std::string& text) {
+  return {
+      .kind = EventKind::kHostTrouble, .number = number_of(what), .subject = subject, .values = {value}, .text = text};
+}
+
 }  // namespace
 
 const char* bus_state_name(BusState state) {
@@ -28,31 +33,39 @@ const char* bus_state_name(BusState state) {
 }
 
 void HostTrouble::look_at(const std::string& name, const DriveBusStats& now, Seen& seen,
-                          std::vector<std::string>& out) const {
+                          std::vector<Event>& out) const {
   const std::string bus = "bus " + name;
-  if (now.state != seen.stats.state) out.push_back(bus + " is " + bus_state_name(now.state) + advice(now.state));
-  if (now.state == seen.stats.state && now.errors != seen.stats.errors)
-    out.push_back(bus + " reported " + number(now.errors - seen.stats.errors) + " error frames and is " +
-                  bus_state_name(now.state));
-  if (now.dropped != seen.stats.dropped)
-    out.push_back(bus + ": " + number(now.dropped - seen.stats.dropped) + " received frames lost");
-  const bool refuses = now.refused > seen.stats.refused;
-  if (refuses && !seen.refuses) {
+  const auto say = [&](HostTroubleEvent what, std::uint64_t count, const std::string& text) {
+    out.push_back(trouble(what, bus, {"count", static_cast<double>(count)}, bus + text));
+  };
+  const std::string state = bus_state_name(now.state);
+  if (now.state != seen.stats.state)
+    out.push_back(trouble(HostTroubleEvent::kBusState, bus, {"state", static_cast<double>(now.state)},
+                          bus + " is " + state + advice(now.state)));
+  const std::uint64_t errors = now.errors - seen.stats.errors, dropped = now.dropped - seen.stats.dropped;
+  if (now.state == seen.stats.state && errors != 0)
+    say(HostTroubleEvent::kErrorFrames, errors, " reported " + number(errors) + " error frames and is " + state);
+  if (dropped != 0) say(HostTroubleEvent::kFramesLost, dropped, ": " + number(dropped) + " received frames lost");
+  const std::uint64_t refused = now.refused - seen.stats.refused;
+  if (refused > 0 && !seen.refuses) {
     seen.refused_before = seen.stats.refused;
-    out.push_back(bus + " refuses frames: its transmit queue is full");
+    say(HostTroubleEvent::kFramesRefused, refused, " refuses frames: its transmit queue is full");
   }
-  if (!refuses && seen.refuses)
-    out.push_back(bus + " takes frames again; " + number(now.refused - seen.refused_before) + " were refused");
-  seen.refuses = refuses;
+  const std::uint64_t in_all = now.refused - seen.refused_before;
+  if (refused == 0 && seen.refuses)
+    say(HostTroubleEvent::kFramesTaken, in_all, " takes frames again; " + number(in_all) + " were refused");
+  seen.refuses = refused > 0;
   seen.stats = now;
 }
 
-std::vector<std::string> HostTrouble::changes(const BusesConfig& buses, const CycleReport& report) {
-  std::vector<std::string> out;
+std::vector<Event> HostTrouble::changes(const BusesConfig& buses, const CycleReport& report) {
+  std::vector<Event> out;
   for (std::size_t b = 0; b < buses.buses.size(); ++b) look_at(buses.buses[b].name, report.bus[b], seen_[b], out);
-  const std::uint64_t lost = report.overruns.lost_ticks;
-  if (lost != lost_ticks_) out.push_back(number(lost - lost_ticks_) + " control deadlines were lost");
-  lost_ticks_ = lost;
+  const std::uint64_t lost = report.overruns.lost_ticks - lost_ticks_;
+  if (lost != 0)
+    out.push_back(trouble(HostTroubleEvent::kTicksLost, "control thread", {"count", static_cast<double>(lost)},
+                          number(lost) + " control deadlines were lost"));
+  lost_ticks_ = report.overruns.lost_ticks;
   return out;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/control/link.hpp"
+#include "host/event/event.hpp"
 
 namespace liana {
 
@@ -14,9 +15,9 @@ const char* bus_state_name(BusState state);
 // Compares each report with the one before.
 class HostTrouble {
  public:
-  // What has changed since the last call, one sentence each: state of an interface, error frames, frames it refuses,
-  // frames lost in the receive buffer, lost control deadlines.
-  std::vector<std::string> changes(const BusesConfig& buses, const CycleReport& report);
+  // What has changed since the last call: state of an interface, error frames, frames it refuses, frames lost in the
+  // receive buffer, lost control deadlines.
+  std::vector<Event> changes(const BusesConfig& buses, const CycleReport& report);
 
  private:
   struct Seen {
@@ -24,7 +25,7 @@ class HostTrouble {
     std::uint64_t refused_before = 0;  // when it began to refuse
     bool refuses = false;
   };
-  void look_at(const std::string& name, const DriveBusStats& now, Seen& seen, std::vector<std::string>& out) const;
+  void look_at(const std::string& name, const DriveBusStats& now, Seen& seen, std::vector<Event>& out) const;
 
   std::array<Seen, kMaxDriveBuses> seen_{};
   std::uint64_t lost_ticks_ = 0;

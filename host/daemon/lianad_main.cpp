@@ -42,7 +42,8 @@ void handle_signals() {
 }
 
 struct Options {
-  std::string robot, scene, buses, api, time = "fast", physics = "nominal", bus_socket, expect, calibration, in_pose;
+  std::string robot, scene, buses, api, time = "fast", physics = "nominal", bus_socket, expect, calibration, in_pose,
+                                        events;
 };
 
 std::vector<Role> roles_in(const std::string& list) {
@@ -157,6 +158,7 @@ ServiceConfig service_config(const Setup& setup, const std::string& robot_json) 
   config.robot_json = robot_json;
   config.scene_json = setup.scene.canonical_json;
   config.buses = setup.buses;
+  config.events_file = setup.options.events;
   if (setup.scene.camera) config.camera_latency_s = setup.scene.camera->latency_s;
   const auto mission = std::find(setup.expected.begin(), setup.expected.end(), Role::kMission);
   config.ends_with_mission = setup.mode != TimeMode::kReal && mission != setup.expected.end();
@@ -234,6 +236,7 @@ int main(int argc, char** argv) {
               "what liana calibrate measured of this arm's drives; the robot table's values without");
   line.option("--in-pose", options.in_pose,
               "named pose in which the arm lies in its fixture: unless every cable says so, the arm is not enabled");
+  line.option("--events", options.events, "file for what happened and why, a line for each event");
   line.option("--expect", options.expect, "roles that must have connected before virtual time starts, comma separated");
   if (const auto code = line.parse(argc, argv)) return *code;
   try {

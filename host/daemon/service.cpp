@@ -2,13 +2,12 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 #include <string_view>
 
 #include "host/api/request_error.hpp"
 #include "host/api/request_text.hpp"
-#include "host/canopen/emergency.hpp"
+#include "host/event/event_json.hpp"
 #include "host/record/tick_packet.hpp"
 
 namespace liana {
@@ -27,7 +26,13 @@ Service::Service(const ServiceConfig& config, Desk& desk)
       desk_(desk),
       bounds_(request_bounds(Json::parse(config.robot_json))),
       stream_(bounds_),
-      server_(config.api_path, *this) {}
+      log_([this](const Event& event) {
+        server_.publish_event(event_json(event).dump(-1, Json::BadUtf8::kReplace));
+        if (file_) file_->append(event);
+      }),
+      server_(config.api_path, *this) {
+  if (!config.events_file.empty()) file_.emplace(config.events_file, config.buses.tick_s());
+}
 
 std::uint64_t Service::ticks_in(double time_s) const {
   return static_cast<std::uint64_t>(std::lround(time_s / config_.buses.tick_s()));
@@ -48,6 +53,8 @@ void Service::wait_for(const std::vector<Role>& roles, double timeout_s) {
 
 void Service::cycle() {
   desk_.refresh();
+  log_.begin_interval(tick());
+  watch_events_file();
   watch_arm();
   desk_.watch(boot_seen_ == BootPhase::kDone);
   watch_homing();
@@ -68,7 +75,7 @@ void Service::idle(double timeout_s) {
 
 void Service::publish_state() {
   if (!server_.has_subscriber(Topic::kState)) return;
-  const Json state = state_message(config_.buses, desk_, owner_, notes_);
+  const Json state = state_message(config_.buses, desk_, owner_, notes_, log_.shown());
   const char* name = state_name(desk_);
   server_.publish(Topic::kState, state.dump(),
                   name != published_);  // a slow reader may lose states, but no change of state
@@ -80,22 +87,18 @@ void Service::note_clear() {
   const ClearReport& clear = desk_.supervisor().clear;
   if (clear.tick == clear_seen_tick_) return;
   clear_seen_tick_ = clear.tick;
-  const auto names = [](std::uint32_t conditions) {
-    std::string text;
-    for (std::uint32_t bit = 1; bit != 0; bit <<= 1) {
-      if ((conditions & bit) != 0) text += (text.empty() ? "" : ", ") + std::string(condition_name(bit));
-    }
-    return text;
-  };
-  note((clear.missing == 0 ? "faults cleared" : "faults not cleared, not met: " + names(clear.missing)) +
-       "; checked: " + names(clear.checked));
+  note(clear_event(clear));
 }
 
 // An arm that is not homed some time after booting says why, once; the refusal to enable it says how it stands.
 void Service::watch_homing() {
+  if (boot_seen_ == BootPhase::kDone && !homed_told_ && desk_.why_not_homed().empty()) {
+    homed_told_ = true;
+    note(homed_event());
+  }
   if (!homing_due_tick_ || tick() < *homing_due_tick_) return;
   homing_due_tick_.reset();
-  if (!desk_.why_not_homed().empty()) note("not homed: " + desk_.why_not_homed());
+  if (!desk_.why_not_homed().empty()) note(not_homed_event(desk_.why_not_homed()));
 }
 
 // An owner that streams tip goals with a time to live and stands still: nobody stands behind its last goal any more.
@@ -104,14 +107,14 @@ void Service::watch_stream() {
   const std::optional<double> ttl_s = stream_.overdue(next_s, desk_.tip_command());
   if (!ttl_s || now().state != OperatingState::kEnabled) return;
   desk_.hold();
-  note("owner '" + owner_.name() + "' stands still: no servo_cp for " + text_of(*ttl_s) +
-       " s, its ttl_s: the arm holds");
+  note(stands_still_event(owner_.name(), *ttl_s));
 }
 
 // What changes by itself: the end of booting, the end of the run after the mission.
 void Service::watch_arm() {
   note_clear();
-  for (const std::string& change : trouble_.changes(config_.buses, desk_.report())) note(change);
+  note(trouble_.changes(config_.buses, desk_.report()));
+  note(faults_.changes(now().faults));
   if (mission_end_tick_) {
     const double since_s = static_cast<double>(tick() - *mission_end_tick_) * config_.buses.tick_s();
     if (since_s > kAfterMission_s) begin_shutdown("the mission has ended");
@@ -122,13 +125,13 @@ void Service::watch_arm() {
   if (boot == boot_seen_) return;
   boot_seen_ = boot;
   if (boot == BootPhase::kDone) {
-    note("all drives are booted");
+    note(booted_event());
     notes_.serials = config_.serials();
     homing_due_tick_ = tick() + ticks_in(kHoming_s);
   }
   if (boot != BootPhase::kFailed) return;
   notes_.boot_problems = config_.boot_problems();
-  note("booting failed: " + text_of(notes_.boot_problems));
+  note(boot_failed_events(notes_.boot_problems));
 }
 
 // What a drive reports beside its statusword; whether it is a fault, its statusword says.
@@ -136,10 +139,7 @@ void Service::note_emergencies(const CycleInputs& inputs) {
   for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
     const std::uint16_t code = inputs.drive[i].emergency_code;
     if (code == 0) continue;
-    char text[96];
-    std::snprintf(text, sizeof text, "drive %zu sent emergency 0x%04X: %s", i, static_cast<unsigned>(code),
-                  canopen::emergency_text(code));
-    note(text);
+    note(emergency_event(i, code));
   }
 }
 
@@ -170,13 +170,19 @@ void Service::release_next() {
   notes_.verdict = *verdict;
   if (verdict->released) return;
   ++notes_.refusals;
-  note("refused " + std::to_string(verdict->sequence) + ", M_e " +
-       std::to_string(static_cast<int>(verdict->worst.code)) + ": " + verdict->worst.text);
+  note(verdict_event(verdict->sequence, verdict->worst));
 }
 
-void Service::note(const std::string& text) {
-  notes_.events.push_back({{"tick", tick()}, {"text", text}});
-  if (notes_.events.size() > Notes::kKeptEvents) notes_.events.pop_front();
+void Service::note(Event event) { log_.add(tick(), std::move(event)); }
+
+void Service::note(std::vector<Event> events) {
+  for (Event& event : events) note(std::move(event));
+}
+
+// A disk that takes no events is trouble of the host, and no reason to stop the arm.
+void Service::watch_events_file() {
+  if (!file_) return;
+  if (auto change = file_->change()) note(std::move(*change));
 }
 
 void Service::request(Request what) {
@@ -192,10 +198,10 @@ void Service::press_stop() noexcept {
 }
 
 // Nobody asks for motion any more: the command in force expires and the arm holds.
-void Service::drop_motion(const std::string& why) {
+void Service::drop_motion(OwnerEvent why, const std::string& owner) {
   stream_.end();
   desk_.drop_motion();
-  note(why + ": the arm holds");
+  note(owner_event(why, owner));
 }
 
 void Service::begin_shutdown(const std::string& reason) {
@@ -203,14 +209,14 @@ void Service::begin_shutdown(const std::string& reason) {
   shutdown_tick_ = tick();
   notes_.stopping = true;
   press_stop();
-  note("shutdown: " + reason);
+  note({.kind = EventKind::kShutdown, .text = "shutdown: " + reason});
 }
 
 void Service::stop_by_itself(const std::string& reason) {
   press_stop();
   const StopOrder order{"lianad", printable(reason), tick()};
   notes_.stop.press(order);
-  note(text_of(order));
+  note(stop_event(order));
   publish_state();
 }
 

@@ -15,8 +15,11 @@
 #include "host/daemon/desk.hpp"
 #include "host/daemon/host_trouble.hpp"
 #include "host/daemon/owner.hpp"
+#include "host/daemon/service_events.hpp"
 #include "host/daemon/setpoint_stream.hpp"
 #include "host/daemon/state_message.hpp"
+#include "host/event/event_file.hpp"
+#include "host/event/event_log.hpp"
 #include "host/json/json.hpp"
 #include "host/time/time_mode.hpp"
 
@@ -29,6 +32,7 @@ struct ServiceConfig {
   std::string robot_json, scene_json;  // canonical
   BusesConfig buses;
   double camera_latency_s = 0.0;
+  std::string events_file;                                  // path; empty: events are not written
   bool ends_with_mission = false;                           // stop the arm once the mission has come and gone
   std::function<std::vector<BootProblem>()> boot_problems;  // asked once, when booting has failed
   std::function<std::vector<std::uint32_t>()> serials;      // of the drives; asked once, when they are booted
@@ -36,7 +40,7 @@ struct ServiceConfig {
 
 class Service : private ApiHandler {
  public:
-  // Listens at config.api_path; throws std::runtime_error. `desk` must outlive this.
+  // Listens at config.api_path; throws std::runtime_error, also about config.events_file. `desk` must outlive this.
   Service(const ServiceConfig& config, Desk& desk);
 
   // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after
@@ -66,6 +70,7 @@ class Service : private ApiHandler {
   Json welcome(const ClientInfo& client) override;
   Json handle(const ClientInfo& client, const Json& request) override;
   void gone(const ClientInfo& client, const std::string& why) override;
+  Json act_on(const ClientInfo& client, const Json& request);
   Json answer_to(const RequestRow& row, const ClientInfo& client, const Arguments& fields);
   static const std::map<std::string, Handler>& handlers();
 
@@ -86,10 +91,12 @@ class Service : private ApiHandler {
   std::uint64_t tick() const { return desk_.report().next_tick; }
   double time_s() const { return static_cast<double>(tick()) * config_.buses.tick_s(); }
   std::uint64_t ticks_in(double time_s) const;
-  void note(const std::string& text);
+  void note(Event event);
+  void note(std::vector<Event> events);
   void request(Request what);
   void press_stop() noexcept;
-  void drop_motion(const std::string& why);
+  void drop_motion(OwnerEvent why, const std::string& owner);
+  void watch_events_file();
   void watch_arm();
   void watch_homing();
   void watch_stream();
@@ -108,7 +115,11 @@ class Service : private ApiHandler {
   std::optional<std::uint64_t> homing_due_tick_;  // when an arm that is not homed says why
   Notes notes_;
   HostTrouble trouble_;
+  FaultWatch faults_;
+  EventLog log_;
+  std::optional<EventFile> file_;
   BootPhase boot_seen_ = BootPhase::kBooting;
+  bool homed_told_ = false;
   bool image_sent_ = false;
   std::string published_;  // operating state of the last state message
   struct CameraFrame {

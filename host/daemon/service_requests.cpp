@@ -24,6 +24,16 @@ const std::map<std::string, Service::Handler>& Service::handlers() {
 }
 
 Json Service::handle(const ClientInfo& client, const Json& request) {
+  try {
+    return act_on(client, request);
+  } catch (const RequestError& error) {
+    const Json& op = request.member_or_null("op");
+    note(refusal_event(client.name, op.is_string() ? printable(op.text()) : "", error.code(), error.what()));
+    throw;
+  }
+}
+
+Json Service::act_on(const ClientInfo& client, const Json& request) {
   const RequestRow& row = row_of(request);
   require_may(row, client.role, bounds_);
   if (row.owner_only) owner_.require(client.id);
@@ -54,13 +64,17 @@ Json Service::welcome(const ClientInfo&) {
 }
 
 void Service::gone(const ClientInfo& client, const std::string& why) {
-  note(std::string(role_name(client.role)) + " '" + client.name + "' is gone (" + why + ")");
-  if (owner_.gone(client.id)) drop_motion("the owner of motion died");
+  note({.kind = EventKind::kClient,
+        .subject = client.name,
+        .text = std::string(role_name(client.role)) + " '" + client.name + "' is gone (" + why + ")"});
+  if (owner_.gone(client.id)) drop_motion(OwnerEvent::kGone, client.name);
   if (config_.ends_with_mission && client.role == Role::kMission) mission_end_tick_ = tick();
 }
 
 Json Service::on_acquire(const ClientInfo& client, const Arguments&) {
+  const bool is_new = owner_.client() != client.id;
   owner_.acquire(client.id, static_cast<std::uint32_t>(client.role) + 1, client.name);
+  if (is_new) note(owner_event(OwnerEvent::kAcquired, client.name));
   stream_.restart();
   if (client.role == Role::kClient) notes_.stop.release();  // a mission may have asked before it saw the stop
   return Json::object();
@@ -68,7 +82,7 @@ Json Service::on_acquire(const ClientInfo& client, const Arguments&) {
 
 Json Service::on_release(const ClientInfo& client, const Arguments&) {
   owner_.release(client.id);
-  drop_motion("'" + client.name + "' released motion");
+  drop_motion(OwnerEvent::kReleased, client.name);
   return Json::object();
 }
 
@@ -101,8 +115,8 @@ void Service::require_homed() const {
   if (!desk_.why_not_homed().empty()) throw RequestError("refused", "not homed: " + desk_.why_not_homed());
 }
 
-Json Service::on_tool(const ClientInfo&, const Arguments& fields) {
-  note("tool: " + fields.text("command"));
+Json Service::on_tool(const ClientInfo& client, const Arguments& fields) {
+  note({.kind = EventKind::kTool, .subject = client.name, .text = "tool: " + fields.text("command")});
   return {{"tick", tick()}};
 }
 
@@ -114,7 +128,7 @@ Json Service::on_stop(const ClientInfo& client, const Arguments& fields) {
   // A mission's own stop is how it ends; everybody else's stays in force, so that nothing enables the arm by itself
   // afterwards.
   if (client.role != Role::kMission) notes_.stop.press(order);
-  note(text_of(order));
+  note(stop_event(order));
   return Json::object();
 }
 
@@ -122,7 +136,7 @@ Json Service::on_stop(const ClientInfo& client, const Arguments& fields) {
 // (repeatable) time counts.
 Json Service::on_shutdown(const ClientInfo& client, const Arguments&) {
   dismissed_ = true;
-  note("shutdown asked for by '" + client.name + "'");
+  note({.kind = EventKind::kShutdown, .subject = client.name, .text = "shutdown asked for by '" + client.name + "'"});
   return Json::object();
 }
 
@@ -131,12 +145,14 @@ Json Service::on_announce(const ClientInfo&, const Arguments& fields) {
   if (!fields.has("step")) return Json::object();
   const Arguments step = fields.object("step");
   notes_.step = {{"index", step.integer("index")}, {"name", step.text("name")}, {"device", step.text("device")}};
-  note("step " + std::to_string(step.integer("index")) + ": " + step.text("name"));
+  note(step_event(static_cast<int>(step.integer("index")), step.text("name")));
   return {{"tick", tick()}};
 }
 
-Json Service::on_operator_says(const ClientInfo&, const Arguments& fields) {
-  notes_.operator_says = {{"what", fields.text("what")}, {"tick", tick()}};
+Json Service::on_operator_says(const ClientInfo& client, const Arguments& fields) {
+  const std::string what = fields.text("what");
+  notes_.operator_says = {{"what", what}, {"tick", tick()}};
+  note({.kind = EventKind::kOperator, .subject = client.name, .text = what});
   return Json::object();
 }
 

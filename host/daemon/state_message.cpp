@@ -98,6 +98,12 @@ Json verdict_json(const LastVerdict& v) {
           {"text", v.worst.text},   {"margin", v.worst.margin}, {"twin_js_deg", v.twin_js_deg}};
 }
 
+Json events_json(const std::deque<Event>& events) {
+  Json list = Json::array();
+  for (const Event& event : events) list.push_back({{"tick", event.tick}, {"text", event.text}});
+  return list;
+}
+
 }  // namespace
 
 const char* state_name(const Desk& desk) {
@@ -107,7 +113,8 @@ const char* state_name(const Desk& desk) {
   return kNames[static_cast<std::size_t>(desk.outputs().state)];
 }
 
-Json state_message(const BusesConfig& buses, const Desk& desk, const Owner& owner, const Notes& notes) {
+Json state_message(const BusesConfig& buses, const Desk& desk, const Owner& owner, const Notes& notes,
+                   const std::deque<Event>& events) {
   const CycleReport& report = desk.report();
   const CycleOutputs& o = desk.outputs();
   Json state{{"op", "state"},
@@ -124,7 +131,7 @@ Json state_message(const BusesConfig& buses, const Desk& desk, const Owner& owne
              {"verdict", verdict_json(notes.verdict)},
              {"drives", drives_json(desk, notes.serials)},
              {"buses", buses_json(buses, desk)},
-             {"events", notes.events},
+             {"events", events_json(events)},
              {"stop", stop_json(notes.stop)},
              {"stopping", notes.stopping},
              {"stop_category", stop_name(o.stop_category)},

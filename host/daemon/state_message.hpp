@@ -9,16 +9,15 @@
 #include "host/daemon/desk.hpp"
 #include "host/daemon/emergency_stop.hpp"
 #include "host/daemon/owner.hpp"
+#include "host/event/event.hpp"
 #include "host/json/json.hpp"
 
 namespace liana {
 
 // What the service adds to the arm's own report.
 struct Notes {
-  static constexpr std::size_t kKeptEvents = 10;
   Json step = nullptr;           // announced by the mission
   Json operator_says = nullptr;  // with the tick
-  std::deque<Json> events;       // newest last, at most kKeptEvents
   LastVerdict verdict{};
   std::uint64_t refusals = 0;
   std::vector<BootProblem> boot_problems;  // faults of drives that did not boot
@@ -30,7 +29,8 @@ struct Notes {
 // Name of the operating state in the API.
 const char* state_name(const Desk& desk);
 
-// The whole message.
-Json state_message(const BusesConfig& buses, const Desk& desk, const Owner& owner, const Notes& notes);
+// The whole message; `events`: those it shows.
+Json state_message(const BusesConfig& buses, const Desk& desk, const Owner& owner, const Notes& notes,
+                   const std::deque<Event>& events);
 
 }  // namespace liana

@@ -29,7 +29,9 @@ void record_until_end(liana::ApiClient& client, liana::Recording& recording, lia
       continue;
     }
     const liana::Json message = liana::Json::parse(packet);
-    if (message.value("op", "") != "state") continue;
+    const std::string op = message.value("op", "");
+    if (op == "event" || op == "events_lost") states.take_event(packet, message);
+    if (op != "state") continue;
     client.send({{"op", "done"}, {"tick", message.at("tick")}});
     states.take(packet, message);
   }
@@ -41,7 +43,8 @@ int run(const std::string& api, const std::string& directory) {
                {"name", "archive"},
                {"role", "archive"},
                {"lockstep", true},
-               {"subscribe", {"tick", "state"}}});
+               {"subscribe", {"tick", "state", "event"}},
+               {"events_from", 1}});
   const std::optional<liana::Json> welcome = client.receive(30.0);
   if (!welcome) throw std::runtime_error("lianad did not answer the archive's hello within 30 s");
   const liana::RecordingInfo info = info_from(*welcome);
@@ -54,8 +57,10 @@ int run(const std::string& api, const std::string& directory) {
   }
   recording.finish();
   states.finish();
-  std::printf("liana-archive: %llu ticks in %s/%s, %llu dropped\n", static_cast<unsigned long long>(recording.ticks()),
-              directory.c_str(), liana::kRecordingFile, static_cast<unsigned long long>(recording.dropped()));
+  std::printf("liana-archive: %llu ticks in %s/%s, %llu dropped, %llu events lost\n",
+              static_cast<unsigned long long>(recording.ticks()), directory.c_str(), liana::kRecordingFile,
+              static_cast<unsigned long long>(recording.dropped()),
+              static_cast<unsigned long long>(states.events_lost()));
   return 0;
 }
 

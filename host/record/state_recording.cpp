@@ -1,7 +1,6 @@
 #include "host/record/state_recording.hpp"
 
-#include <algorithm>
-
+#include "host/event/event_json.hpp"
 #include "host/record/build_id.hpp"
 
 namespace liana {
@@ -27,25 +26,10 @@ constexpr const char* kStateSchema = R"({"title":"state","description":"docs/api
 "buses":{"type":"array","items":{"type":"object","properties":{"name":{"type":"string"},"frames":{"type":"integer"},
 "errors":{"type":"integer"},"state":{"type":"string"},"lost":{"type":"boolean"},"measured_load":{"type":"number"}}}}}})";
 
-constexpr const char* kEventSchema = R"({"title":"event","description":"something that happened, once","type":"object",
-"required":["tick","text"],"properties":{"tick":{"type":"integer"},"text":{"type":"string"}}})";
-
 constexpr const char* kVerdictSchema = R"({"title":"verdict","description":"what verification said of a setpoint",
 "type":"object","required":["tick","sequence","released"],"properties":{"tick":{"type":"integer"},
 "sequence":{"type":"integer"},"released":{"type":"boolean"},"code":{"type":"integer"},"text":{"type":"string"},
 "margin":{"type":"number"},"twin_js_deg":{"type":"array","items":{"type":"number"}}}})";
-
-// How many of `now` stood in the last message already: lists show the newest few, so the front of `now` is the back of
-// what was seen.
-std::size_t known_of(const std::vector<std::string>& seen, const std::vector<std::string>& now) {
-  for (std::size_t dropped = 0; dropped < seen.size(); ++dropped) {
-    const std::size_t kept = seen.size() - dropped;
-    if (kept <= now.size() && std::equal(now.begin(), now.begin() + static_cast<std::ptrdiff_t>(kept),
-                                         seen.begin() + static_cast<std::ptrdiff_t>(dropped)))
-      return kept;
-  }
-  return 0;
-}
 
 }  // namespace
 
@@ -64,16 +48,16 @@ void StateRecording::write(std::uint16_t channel, std::uint64_t tick, std::strin
 void StateRecording::take(std::string_view text, const Json& state) {
   const std::uint64_t tick = state.at("tick");
   write(state_, tick, text);
-  if (state.contains("events")) take_events(state.at("events"));
   if (state.contains("verdict")) take_verdict(tick, state.at("verdict"));
 }
 
-void StateRecording::take_events(const Json& events) {
-  std::vector<std::string> now;
-  for (const Json& event : events) now.push_back(event.dump());
-  for (std::size_t i = known_of(events_seen_, now); i < now.size(); ++i)
-    write(event_, Json::parse(now[i]).at("tick"), now[i]);
-  events_seen_ = std::move(now);
+void StateRecording::take_event(std::string_view text, const Json& event) {
+  if (event.value("op", "") == "events_lost") {
+    events_lost_ += event.at("count").get<std::uint64_t>();
+    return;
+  }
+  write(event_, event.at("tick"), text);
+  ++events_;
 }
 
 void StateRecording::take_verdict(std::uint64_t tick, const Json& verdict) {
@@ -84,6 +68,11 @@ void StateRecording::take_verdict(std::uint64_t tick, const Json& verdict) {
   verdict_seen_ = std::move(text);
   with_tick["tick"] = tick;
   write(verdict_, tick, with_tick.dump());
+}
+
+void StateRecording::finish() {
+  file_.add_metadata("end", {{"events", std::to_string(events_)}, {"events_lost", std::to_string(events_lost_)}});
+  file_.finish();
 }
 
 }  // namespace liana

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdio>
 #include <filesystem>
 #include <optional>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include "host/config/field.hpp"
 #include "host/config/serial_robot.hpp"
 #include "host/system/errors.hpp"
+#include "host/system/kept_events.hpp"
 #include "host/system/output.hpp"
 #include "host/system/plan_file.hpp"
 #include "host/system/process.hpp"
@@ -108,10 +110,11 @@ std::string expected_roles(const SystemLayout& plan, const RunOptions& options) 
 }
 
 ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
-  ProgramCall call{"lianad",
-                   {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"),
-                    "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode,
-                    "--physics", options.physics, "--expect", expected_roles(plan, options)}};
+  ProgramCall call{
+      "lianad",
+      {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"), "--buses",
+       plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode, "--physics", options.physics,
+       "--expect", expected_roles(plan, options), "--events", plan.events_file()}};
   if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});
   if (!options.in_pose.empty()) append(call.argv, {"--in-pose", options.in_pose});
   if (embedded) append(call.argv, {"--bus-socket", plan.bus_socket()});
@@ -186,6 +189,14 @@ void write_tables(const SystemLayout& plan, const std::string& robot, const std:
   write_output(plan.file("buses.json"), buses);
 }
 
+void save_events(const SystemLayout& plan) {
+  try {
+    keep_events(plan.events_file(), fs::path(plan.directory).filename(), kept_events_folder());
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "liana: the events of this run are lost: %s\n", error.what());
+  }
+}
+
 }  // namespace
 
 SystemLayout make_layout(const RunOptions& given) {
@@ -250,6 +261,7 @@ void clean_up(const SystemLayout& plan, bool success) {
   std::error_code error;
   fs::remove(plan.api_socket(), error);
   fs::remove(plan.bus_socket(), error);
+  if (!plan.keep_directory && success && fs::exists(plan.events_file(), error)) save_events(plan);
   if (plan.keep_directory || success) fs::remove_all(plan.socket_dir, error);
 }
 

@@ -29,6 +29,7 @@ struct SystemLayout {
 
   std::string file(const std::string& name) const { return directory + "/" + name; }
   std::string api_socket() const { return socket_dir + "/api"; }
+  std::string events_file() const { return file("events.txt"); }
   std::string bus_socket() const { return socket_dir + "/bus"; }
 };
 
@@ -39,7 +40,8 @@ SystemLayout make_layout(const RunOptions& given);
 // Refuses anything but empty text or two different drives from 0 to `drives` - 1, e.g. 3,4. Throws BadInput.
 void check_cross_wired(const std::string& list, std::size_t drives);
 
-// Removes what the run does not keep.
+// Removes what the run does not keep. Of a folder that is removed the events go to kept_events_folder(); that they
+// could not is said on standard error.
 void clean_up(const SystemLayout& plan, bool success);
 
 }  // namespace liana

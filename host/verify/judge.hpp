@@ -19,8 +19,8 @@ class Judge {
   void check(Refusal code, const char* what, int index, double value, double limit) {
     if (!std::isfinite(value)) return refuse(Refusal::kNotFinite, describe(what, index) + " is not a finite number");
     const double share = std::fabs(value) / limit;
-    if (share > tightest_) {
-      tightest_ = share;
+    if (share > verdict_.share) {
+      verdict_.share = share;
       char text[32];
       std::snprintf(text, sizeof text, "%.3f", share);
       verdict_.margin = describe(what, index) + ": " + text + " of the limit";
@@ -48,7 +48,6 @@ class Judge {
   }
 
   Verdict& verdict_;
-  double tightest_ = 0.0;
 };
 
 }  // namespace liana

@@ -31,6 +31,7 @@ struct Verdict {
   Refusal code = Refusal::kNone;
   std::string text;    // why it was refused; empty when passed
   std::string margin;  // where the motion comes nearest to a limit, e.g. "theta 3: 0.8 of the rate limit"
+  double share = 0.0;  // of that limit; over 1 refuses
   bool passed() const { return code == Refusal::kNone; }
 };
 

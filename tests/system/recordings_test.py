@@ -25,6 +25,8 @@ def content(folder, name):
     if name == "state.mcap":
         texts = [(message.channel.topic, bytes(message.data).decode()) for message in Mcap(folder / name).messages()]
         return list(itertools.takewhile(lambda message: END not in message[1], texts))
+    if name == "events.txt":
+        return list(itertools.takewhile(lambda line: END not in line, (folder / name).read_text().splitlines()))
     return (folder / name).read_bytes()
 
 
@@ -62,7 +64,7 @@ class Recordings(SystemTest):
     def test_two_runs_with_one_seed_are_identical_file_by_file(self):
         names, others = (sorted(file.name for file in folder.iterdir()) for folder in (self.first, self.second))
         self.assertEqual(names, others)
-        self.assertLessEqual({*FILES, "images.mcap", "state.mcap"}, set(names))
+        self.assertLessEqual({*FILES, "images.mcap", "state.mcap", "events.txt"}, set(names))
         for name in names:
             first, second = (content(folder, name) for folder in (self.first, self.second))
             if name == "state.mcap":

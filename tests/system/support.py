@@ -32,7 +32,7 @@ def start_run(test, *words):
         stderr=subprocess.PIPE,
         text=True,
         cwd=home,
-        env={**os.environ, "XDG_RUNTIME_DIR": home, "TMPDIR": home},
+        env={**os.environ, "XDG_RUNTIME_DIR": home, "XDG_STATE_HOME": home, "TMPDIR": home},
     )
     process.home = pathlib.Path(home)
     test.addCleanup(process.communicate)

@@ -1,12 +1,13 @@
 """Python client of Liana (docs/python.md): lianad's API, systems of processes, recordings. Standard library only."""
 from liana.client import Client, ConnectionClosed, LianaError, NotReached, RequestRefused, TimedOut
-from liana.recordings import BadRecording, Recording, Truth
+from liana.recordings import BadRecording, Event, Recording, Truth, read_events
 from liana.system import ProgramRefused, System
 
 __all__ = [
     "BadRecording",
     "Client",
     "ConnectionClosed",
+    "Event",
     "LianaError",
     "NotReached",
     "ProgramRefused",
@@ -15,4 +16,5 @@ __all__ = [
     "System",
     "TimedOut",
     "Truth",
+    "read_events",
 ]

@@ -108,7 +108,7 @@ class Connection:
 
 
 class Client(Connection):
-    """A named client. `state` is the newest state, `events` every event that states told, oldest first."""
+    """A named client. `state` is the newest state, `events` every event of the run that came, oldest first."""
 
     def __init__(
         self,
@@ -116,19 +116,26 @@ class Client(Connection):
         name: str = "python",
         role: str = "client",
         lockstep: bool = False,
-        subscribe: Iterable[str] = ("state",),
+        subscribe: Iterable[str] = ("state", "event"),
         check: Callable[[], None] = nothing,
+        events_from: int = 1,
     ) -> None:
-        """Says hello; `welcome` is the answer. RequestRefused when lianad does not take this client."""
+        """Says hello; `welcome` is the answer. RequestRefused when lianad does not take this client. Who comes back
+        gives the sequence after the last event that he has seen.
+        """
         super().__init__(path, check)
         self.lockstep = lockstep
         self.state: Message = {}
         self.answers: dict[int, Message] = {}  # by request, until they are asked for
         self.complaints: list[Message] = []  # what came without a number: errors about packets that had none
-        self.events: list[Message] = []
+        self.events: list[Message] = []  # docs/formats.md, Events; subscribers of `event` have them
+        self.events_lost = 0  # of which lianad no longer had the text when this client read on
         self.faults_told: set[tuple[int, int, int]] = set()  # (number, index, tick) of every fault in any state
         self.last_id = 0
-        hello = {"op": "hello", "name": name, "role": role, "lockstep": lockstep, "subscribe": list(subscribe)}
+        topics = list(subscribe)
+        hello = {"op": "hello", "name": name, "role": role, "lockstep": lockstep, "subscribe": topics}
+        if "event" in topics:
+            hello["events_from"] = events_from
         try:
             self.send(hello)
             self.welcome = self.receive()
@@ -155,7 +162,11 @@ class Client(Connection):
             if message["op"] == "state":
                 self._keep_state(message)
                 return message
-            if "id" in message:
+            if message["op"] == "event":
+                self.events.append(message)
+            elif message["op"] == "events_lost":
+                self.events_lost += message["count"]
+            elif "id" in message:
                 self.answers[message["id"]] = message
             else:
                 self.complaints.append(message)
@@ -163,7 +174,6 @@ class Client(Connection):
     def _keep_state(self, state: Message) -> None:
         self.state = state
         self.faults_told.update((fault["number"], fault["index"], fault["tick"]) for fault in state["faults"])
-        self.events += [event for event in state["events"] if event not in self.events]
 
     def step(self) -> Message:
         """The next state; in lockstep the present one is answered first, which lets time go on."""

@@ -1,4 +1,4 @@
-"""What a run leaves behind (docs/formats.md): recordings (ticks.mcap) tick by tick, the bench's truth (truth.bin)."""
+"""What a run leaves behind (docs/formats.md): recordings (ticks.mcap) tick by tick, the bench's truth, events."""
 from __future__ import annotations
 
 import collections
@@ -15,7 +15,7 @@ from typing import Any, Iterable, NamedTuple, Optional, Sequence, Union
 from liana.client import Path
 from liana.mcap import BadRecording, Bytes, Mcap
 
-__all__ = ["BadRecording", "Fault", "Mcap", "Recording", "Tick", "Truth", "offsets"]
+__all__ = ["BadRecording", "Event", "Fault", "Mcap", "Recording", "Tick", "Truth", "offsets", "read_events"]
 
 # Field: its type (struct), and how many of an array's elements belong to this arm ("drives", "thetas"); None: all.
 Wanted = dict[str, tuple[str, Union[int, str, None]]]
@@ -61,6 +61,35 @@ class Fault(NamedTuple):
     index: int  # type: ignore[assignment]  # of drive or bus; hides the tuple's own index()
     detail: int
     tick: int
+
+
+class Event(NamedTuple):
+    """Why something happened: a line of events.txt. The kinds, and what they number: docs/formats.md, Events."""
+
+    sequence: int  # 1, 2, ... without gaps
+    time_s: float  # arm time
+    tick: int
+    kind: str
+    number: int
+    subject: str
+    text: str
+    values: dict[str, float]
+
+
+def read_events(path: Path) -> list[Event]:
+    """The events of a run's events.txt, without a last line that has no end; BadRecording for a line that is none."""
+    events = []
+    for line in pathlib.Path(path).read_text(errors="replace").split("\n")[:-1]:
+        if line.startswith("#"):
+            continue
+        try:
+            sequence, time_s, tick, kind, number, subject, text, values = line.split("\t")
+            figures = {name: float(value) for name, value in (pair.split("=") for pair in values.split())}
+            head = (int(sequence), float(time_s), int(tick), kind.strip(), int(number))
+        except ValueError as error:
+            raise BadRecording(f"{path}: {line!r} is no event: {error}") from error
+        events.append(Event(*head, subject, text, figures))
+    return events
 
 
 class Tick(NamedTuple):

@@ -19,7 +19,7 @@ from typing import Any, Iterable, Optional
 
 from liana import client as clients
 from liana.client import Client, Connection, LianaError, Message, wait_until
-from liana.recordings import Truth
+from liana.recordings import Event, Truth, read_events
 
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
 BAD_INPUT = 2  # exit code of every program that refuses what it was given
@@ -57,7 +57,8 @@ def table(kind: str, name: str) -> str:
 class System:
     """All programs of one run; `with System() as system:` starts them, and ends them when the block ends.
 
-    `directory` holds what they write: NAME.log of each program, tables, truth.bin, bench_summary.json, bus logs.
+    `directory` holds what they write: NAME.log of each program, tables, events.txt, truth.bin, bench_summary.json, bus
+    logs.
     """
 
     def __init__(
@@ -71,12 +72,14 @@ class System:
         bench: Iterable[Any] = (),
         robot: str = "zhu2022",
         scene: str = "panel_slit",
+        events: Optional[clients.Path] = None,
     ) -> None:
         """`expect`: roles whom virtual time waits for; `faults`, `bus_script`: docs/hil.md; `lianad`, `bench`: further
-        words for these programs.
+        words for these programs; `events`: the file of events, events.txt in `directory` unless given.
         """
         self.directory = pathlib.Path(tempfile.mkdtemp(prefix="liana-sys-"))
         self.api, self.bus_socket = self.directory / "api", self.directory / "bus"
+        self.events_file = pathlib.Path(events or self.directory / "events.txt")
         self.children: dict[str, subprocess.Popen[bytes]] = {}
         self.clients: list[Client] = []
         self.expect, self.faults, self.script, self.seed = expect, faults, bus_script, seed
@@ -132,6 +135,7 @@ class System:
 
     def start_lianad(self) -> None:
         words = ["--api", self.api, "--bus-socket", self.bus_socket, "--time", "fast", "--expect", self.expect]
+        words += ["--events", self.events_file]
         self.start("lianad", *self.tables(), *words, *self.lianad_words)
         wait_until(self.api.exists, "lianad to listen", self.check_refused)
 
@@ -229,6 +233,10 @@ class System:
     def truth(self) -> Truth:
         """What really happened to the arm; whole when liana-bench has ended."""
         return Truth(self.directory / "truth.bin")
+
+    def events(self) -> list[Event]:
+        """What happened and why, as lianad wrote it; whole when lianad has ended."""
+        return read_events(self.events_file)
 
     def bus_logs(self) -> list[pathlib.Path]:
         """Every frame of every bus; whole when liana-bus has ended."""

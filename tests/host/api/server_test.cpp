@@ -141,6 +141,115 @@ TEST_F(Api, ASlowObserverLosesOldStatesAndHoldsNobodyUp) {
   EXPECT_EQ(ticks.back(), 999) << "the newest state arrives";
 }
 
+class ApiEvents : public Api {
+ protected:
+  void publish(int count, std::size_t filler = 0) {
+    for (int i = 0; i < count; ++i) {
+      const Json event{{"op", "event"}, {"sequence", ++published_}, {"text", std::string(filler, 'x')}};
+      server_.publish_event(event.dump());
+    }
+  }
+  ApiClient reader(Json from = nullptr) {
+    ApiClient client = ApiClient::connect(path_);
+    Json hello{{"op", "hello"}, {"name", "r"}, {"role", "observer"}, {"subscribe", {"event"}}};
+    if (!from.is_null()) hello["events_from"] = from;
+    client.send(hello);
+    welcome_ = answer(client);
+    return client;
+  }
+  // All that a reader gets by the end of it.
+  std::vector<Json> read_all(ApiClient& client) {
+    std::vector<Json> out;
+    for (int silent = 0; silent < 3; ++silent) {
+      server_.pump(0.0);
+      while (auto message = client.receive(0.0)) {
+        out.push_back(*message);
+        silent = 0;
+        server_.pump(0.0);
+      }
+    }
+    return out;
+  }
+  // Every event from `first` on, in order and once; `lost` of them, as the reader is told.
+  void expect_all_from(int first, const std::vector<Json>& heard, int& lost) const {
+    int next = first;
+    lost = 0;
+    for (const Json& message : heard) {
+      if (message.value("op", "") == "events_lost") {
+        EXPECT_EQ(message["from"], next);
+        EXPECT_EQ(message["count"], message["to"].get<int>() - next + 1);
+        lost += message["count"].get<int>();
+        next = message["to"].get<int>() + 1;
+      } else {
+        ASSERT_EQ(message.value("sequence", 0), next);
+        ++next;
+      }
+    }
+    EXPECT_EQ(next, published_ + 1) << "the newest arrives";
+  }
+
+  int published_ = 0;
+  Json welcome_;
+};
+
+TEST_F(ApiEvents, ASubscriberGetsEachOnceAndOthersNone) {
+  publish(3);
+  ApiClient first = reader();
+  EXPECT_EQ(welcome_["events"], Json({{"oldest", 1}, {"next", 4}}));
+  ApiClient other = join("other", "observer", false, {"state"});
+  publish(50);
+  int lost = 0;
+  expect_all_from(4, read_all(first), lost);
+  EXPECT_EQ(lost, 0);
+  EXPECT_FALSE(other.receive(0.0));
+}
+
+TEST_F(ApiEvents, AReaderThatIsSlowForLongLosesNoneThatAreKept) {
+  ApiClient slow = reader();
+  publish(4000, 300);
+  int lost = 0;
+  expect_all_from(1, read_all(slow), lost);
+  EXPECT_EQ(lost, 0);
+  EXPECT_EQ(server_.dropped(), 0u);
+}
+
+TEST_F(ApiEvents, AReaderThatIsSlowForTooLongIsToldHowManyAreGone) {
+  ApiClient slow = reader();
+  publish(20000, 300);
+  const std::vector<Json> heard = read_all(slow);
+  int lost = 0;
+  expect_all_from(1, heard, lost);
+  EXPECT_GT(lost, 10000);
+  EXPECT_LE(lost, 20000 - static_cast<int>(PacketHistory::kKept));
+  publish(5);
+  EXPECT_EQ(read_all(slow).size(), 5u) << "it goes on where it is";
+}
+
+TEST_F(ApiEvents, WhoComesBackAsksForWhatItHasNotSeen) {
+  publish(100);
+  ApiClient again = reader(41);
+  int lost = 0;
+  expect_all_from(41, read_all(again), lost);
+  EXPECT_EQ(lost, 0);
+  publish(5000);
+  ApiClient late = reader(41);
+  expect_all_from(41, read_all(late), lost);
+  EXPECT_EQ(lost, 5100 - static_cast<int>(PacketHistory::kKept) - 40);
+}
+
+TEST_F(ApiEvents, ANumberThatIsNotThereYetWasLearnedFromAnotherLianad) {
+  publish(10);
+  ApiClient next = reader(11);
+  EXPECT_EQ(welcome_.value("op", ""), "welcome");
+  ApiClient beyond = reader(12);
+  EXPECT_EQ(welcome_.value("code", ""), "out_of_range");
+  EXPECT_NE(welcome_.value("message", "").find("events_from"), std::string::npos);
+  for (const Json& wrong : {Json(0), Json(-1), Json("all"), Json(1.5)}) {
+    ApiClient client = reader(wrong);
+    EXPECT_EQ(welcome_.value("op", ""), "error") << wrong;
+  }
+}
+
 TEST_F(Api, LockstepWaitsForDoneOfThisTick) {
   ApiClient client = join("m", "mission", true);
   std::thread answering([&] {

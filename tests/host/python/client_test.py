@@ -62,6 +62,11 @@ class Requests(unittest.TestCase):
         wanted = {"op": "hello", "name": "me", "role": "observer", "lockstep": False, "subscribe": ["state", "camera"]}
         self.assertEqual((self.daemon.received, client.welcome), ([wanted], WELCOME))
 
+    def test_who_comes_back_asks_for_the_events_that_he_has_not_seen(self):
+        self.client(lambda packet: [], events_from=57)
+        self.assertEqual(self.daemon.received[0]["subscribe"], ["state", "event"])
+        self.assertEqual(self.daemon.received[0]["events_from"], 57)
+
     def test_a_hello_that_is_refused_raises_the_daemons_words(self):
         daemon = Daemon(self, lambda packet: [{"op": "error", "code": "bad_request", "message": "role: king"}])
         with self.assertRaises(RequestRefused) as caught:
@@ -122,11 +127,18 @@ class States(unittest.TestCase):
             client.until(lambda now: now["tick"] >= tick)
             self.assertEqual(client.go_on(0.06)["tick"], tick + 3)
 
-    def test_events_and_faults_are_kept_once_though_many_states_tell_them(self):
-        event, fault = {"tick": 1, "text": "x"}, {"number": 3002, "index": 3, "tick": 1}
-        client = self.client([state(tick, events=[event], faults=[fault]) for tick in (1, 2)] + [state(3)])
+    def test_every_event_is_kept_and_faults_once_though_many_states_tell_them(self):
+        events = [{"op": "event", "sequence": number, "tick": 1, "text": "x"} for number in (1, 2)]
+        fault = {"number": 3002, "index": 3, "tick": 1}
+        client = self.client([events[0], state(1, faults=[fault]), events[1], state(2, faults=[fault]), state(3)])
         client.go_on(0.04)
-        self.assertEqual((client.events, client.faults_told), ([event], {(3002, 3, 1)}))
+        self.assertEqual((client.events, client.faults_told), (events, {(3002, 3, 1)}))
+        self.assertEqual(client.events_lost, 0)
+
+    def test_events_that_the_daemon_no_longer_had_are_counted(self):
+        client = self.client([{"op": "events_lost", "from": 1, "to": 7, "count": 7}, state(1)])
+        client.step()
+        self.assertEqual((client.events, client.events_lost, client.complaints), ([], 7, []))
 
     def test_a_daemon_that_ends_is_a_closed_connection(self):
         client = self.client([state(1), None])

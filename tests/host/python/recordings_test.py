@@ -10,7 +10,7 @@ import unittest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[3] / "host" / "python"))
 
 from liana import mcap, recordings  # noqa: E402
-from liana.recordings import BadRecording, Mcap, Recording, Truth  # noqa: E402
+from liana.recordings import BadRecording, Mcap, Recording, Truth, read_events  # noqa: E402
 
 ROBOT = {"drives": {"zero_counts": [0, 0]}, "segments": [{}]}
 
@@ -166,6 +166,33 @@ class Ticks(Files):
 
     def test_a_run_that_never_ticked_has_no_ticks(self):
         self.assertEqual(Recording(self.file(END)).ticks, [])
+
+
+class Events(Files):
+    def read(self, *lines):
+        path = self.file()
+        path.write_bytes("\n".join(lines).encode())
+        return read_events(path)
+
+    def test_a_line_is_an_event_and_a_comment_is_none(self):
+        line = "      12\t   4.936\t    1234\tverdict     \t   104\texecution\t"
+        line += "cable 7 \u2028\x85: too fast\tcommand=17 share=nan"
+        (event,) = self.read("#sequence\ttime_s", line, "# 3 events are missing so far", "      13\t 4.9")
+        self.assertEqual(event[:6], (12, 4.936, 1234, "verdict", 104, "execution"))
+        self.assertEqual(event.text, "cable 7 \u2028\x85: too fast")
+        self.assertEqual(event.values["command"], 17)
+        self.assertNotEqual(event.values["share"], event.values["share"])
+
+    def test_what_is_no_event_is_refused_by_its_line(self):
+        for line in (
+            "hello",
+            "1\t2\t3\tstop\tfour\tx\ty\t",
+            "1\t2\t3\tstop\t4\tx\ty\tz",
+            "1\t2\t3\tstop\t4\tx\ty\tz=z",
+        ):
+            with self.assertRaises(BadRecording) as caught:
+                self.read(line, "")
+            self.assertIn(line[:5], str(caught.exception).replace("\\t", "\t"))
 
 
 class Truths(Files):

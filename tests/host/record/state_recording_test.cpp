@@ -1,4 +1,4 @@
-// The JSON channels of a recording: every state, every event once, every verdict once.
+// The JSON channels of a recording: every state, every event, every verdict once.
 #include "host/record/state_recording.hpp"
 
 #include <gtest/gtest.h>
@@ -6,51 +6,63 @@
 
 #include <filesystem>
 
+#include "host/event/event_json.hpp"
+
 namespace liana {
 namespace {
 
-Json state_at(std::uint64_t tick, const std::vector<std::string>& events, std::uint64_t verdict) {
-  Json list = Json::array();
-  for (const std::string& text : events) list.push_back({{"tick", tick}, {"text", text}});
-  return {{"op", "state"}, {"tick", tick}, {"events", list}, {"verdict", {{"sequence", verdict}, {"released", true}}}};
+Json state_at(std::uint64_t tick, std::uint64_t verdict) {
+  return {{"op", "state"}, {"tick", tick}, {"verdict", {{"sequence", verdict}, {"released", true}}}};
 }
 
-std::map<std::string, std::vector<Json>> recorded(const std::vector<Json>& states) {
+Json event_at(std::uint64_t tick, std::uint64_t sequence) {
+  return event_json({.kind = EventKind::kTool, .text = "tool: weld", .sequence = sequence, .tick = tick});
+}
+
+struct Recorded {
+  std::map<std::string, std::vector<Json>> seen;  // by channel
+  std::map<std::string, std::string> end;         // metadata
+};
+
+Recorded recorded(const std::vector<Json>& messages) {
   const std::string folder = testing::TempDir() + "liana_state_" + std::to_string(::getpid());
   std::filesystem::create_directories(folder);
   StateRecording recording(folder, 0.004);
-  for (const Json& state : states) recording.take(state.dump(), state);
+  for (const Json& message : messages) {
+    if (message["op"] == "state") recording.take(message.dump(), message);
+    if (message["op"] != "state") recording.take_event(message.dump(), message);
+  }
   recording.finish();
-  std::map<std::string, std::vector<Json>> seen;
+  Recorded found;
   McapVisitor visitor;
   visitor.message = [&](const std::string& topic, std::uint32_t, std::uint64_t time_ns, std::string_view data) {
-    seen[topic].push_back(Json::parse(data));
-    EXPECT_EQ(time_ns, seen[topic].back().at("tick").get<std::uint64_t>() * 4000000u);
+    found.seen[topic].push_back(Json::parse(data));
+    EXPECT_EQ(time_ns, found.seen[topic].back().at("tick").get<std::uint64_t>() * 4000000u);
+  };
+  visitor.metadata = [&](const std::string& name, const std::map<std::string, std::string>& values) {
+    EXPECT_EQ(name, "end");
+    found.end = values;
   };
   EXPECT_EQ(read_mcap(folder + "/" + kStateFile, visitor), McapState::kWhole);
-  return seen;
+  return found;
 }
 
-TEST(StateRecording, EveryStateIsThereAsItCame) {
-  const std::vector<Json> states{state_at(5, {}, 0), state_at(10, {"a"}, 1)};
-  EXPECT_EQ(recorded(states).at("state"), states);
+TEST(StateRecording, EveryStateAndEveryEventIsThereAsItCame) {
+  const std::vector<Json> states{state_at(5, 0), state_at(10, 1)},
+      events{event_at(5, 1), event_at(5, 2), event_at(9, 3)};
+  const Recorded found = recorded({events[0], states[0], events[1], events[2], states[1]});
+  EXPECT_EQ(found.seen.at("state"), states);
+  EXPECT_EQ(found.seen.at("event"), events);
 }
 
-TEST(StateRecording, AnEventOfTheSlidingListIsWrittenOnce) {
-  const auto texts = [](const std::vector<std::vector<std::string>>& lists) {
-    std::vector<Json> states;
-    for (const std::vector<std::string>& list : lists) states.push_back(state_at(0, list, 0));
-    std::string text;
-    for (const Json& event : recorded(states)["event"]) text += event.at("text").get<std::string>();
-    return text;
-  };
-  EXPECT_EQ(texts({{"a"}, {"a"}, {"a", "b"}, {"b", "c"}, {"c", "d", "e"}}), "abcde");
-  EXPECT_EQ(texts({{"a", "a"}, {"a", "b"}}), "aab");
-  EXPECT_EQ(texts({{"a", "b"}, {"x", "y"}}), "abxy");
+TEST(StateRecording, ItsEndSaysHowManyEventsThereAreAndHowManyAreMissing) {
+  const Json lost{{"op", "events_lost"}, {"from", 1}, {"to", 7}, {"count", 7}};
+  EXPECT_EQ(recorded({lost, event_at(5, 8)}).end,
+            (std::map<std::string, std::string>{{"events", "1"}, {"events_lost", "7"}}));
 }
 
 TEST(StateRecording, AVerdictIsWrittenWhenItIsNew) {
-  const auto seen = recorded({state_at(5, {}, 1), state_at(10, {}, 1), state_at(15, {}, 2)});
+  const auto seen = recorded({state_at(5, 1), state_at(10, 1), state_at(15, 2)}).seen;
   ASSERT_EQ(seen.at("verdict").size(), 2u);
   EXPECT_EQ(seen.at("verdict")[1].at("tick").get<int>(), 15);
   EXPECT_EQ(seen.at("verdict")[1].at("sequence").get<int>(), 2);

@@ -1,0 +1,36 @@
+#include "host/api/outbox.hpp"
+
+#include <algorithm>
+
+namespace liana {
+
+bool Outbox::add(Topic topic, bool droppable, std::string packet) {
+  if (droppable && waiting_droppable_[index_of(topic)] >= kMaxDroppable) forget_oldest(topic);
+  if (packets_.size() >= kMaxPackets) return false;
+  packets_.push_back({topic, droppable, std::move(packet)});
+  ++waiting_[index_of(topic)];
+  if (droppable) ++waiting_droppable_[index_of(topic)];
+  return true;
+}
+
+void Outbox::forget_oldest(Topic topic) {
+  packets_.erase(std::find_if(packets_.begin(), packets_.end(),
+                              [topic](const Packet& p) { return p.droppable && p.topic == topic; }));
+  --waiting_[index_of(topic)];
+  --waiting_droppable_[index_of(topic)];
+  ++dropped_;
+}
+
+void Outbox::pop() {
+  const Packet& oldest = packets_.front();
+  --waiting_[index_of(oldest.topic)];
+  if (oldest.droppable) --waiting_droppable_[index_of(oldest.topic)];
+  packets_.pop_front();
+}
+
+void Outbox::clear() {
+  packets_.clear();
+  waiting_ = waiting_droppable_ = {};
+}
+
+}  // namespace liana

@@ -1,0 +1,16 @@
+// What a client can subscribe to.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace liana {
+
+enum class Topic : std::uint8_t { kState, kCamera, kTick, kEvent };
+// As in hello, in the order of Topic.
+constexpr std::array<const char*, 4> kTopicNames{"state", "camera", "tick", "event"};
+
+constexpr std::size_t index_of(Topic topic) { return static_cast<std::size_t>(topic); }
+
+}  // namespace liana

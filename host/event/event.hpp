@@ -1,0 +1,98 @@
+// Why something happened, as data: what the operator's log, recordings, clients and files show is a view of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace liana {
+
+// What an event is about. `number`, `subject` and the names in `values` mean what stands beside the kind.
+enum class EventKind : std::uint8_t {
+  kBoot,         // number: BootEvent
+  kBootProblem,  // number of the fault (docs/faults.md), subject the drive, value `drive`
+  kHoming,       // number: HomingEvent
+  kFault,        // number of the fault, 0: faults that found no place; subject drive, bus or nothing; `detail`, `tick`
+  kEmergency,    // number: emergency error code of CiA 301; subject the drive, value `drive`
+  kClear,        // number: conditions that were not met, as bits, 0: cleared; value `checked`, as bits
+  kHostTrouble,  // number: HostTroubleEvent; subject the bus, or what else of the host; `count`
+  kClient,       // a client is gone; subject its name
+  kOwner,        // number: OwnerEvent; subject the client's name; `ttl_s` of one that stands still
+  kStep,         // number of the step that begins; subject its name
+  kOperator,     // subject the operator's name; what he says
+  kTool,         // subject the client's name; the command for the repair tool
+  kRefusal,      // a request was answered with an error; number: RefusalEvent; subject the client's name
+  kVerdict,      // verification refused a command: number M_e; subject which of the two ends; `command`, `share`
+  kStop,         // number: stop category (docs/priorities.md); subject who asked for it
+  kShutdown,     // subject who asked for it, or nothing
+  kLeftOut,      // subject: a kind of which too many came within one interval; `count` of those without a number
+};
+constexpr std::size_t kEventKinds = 17;
+
+enum class BootEvent : std::uint8_t { kFailed = 0, kDone = 1 };
+enum class HomingEvent : std::uint8_t { kContradicted = 0, kHomed = 1 };
+enum class OwnerEvent : std::uint8_t { kAcquired = 1, kReleased = 2, kGone = 3, kStandsStill = 4 };
+enum class HostTroubleEvent : std::uint8_t {
+  kBusState = 1,       // an interface changed its state; `state`: 0 active, 1 error passive, 2 bus off, 3 down
+  kErrorFrames = 2,    // an interface reported `count` error frames
+  kFramesLost = 3,     // `count` received frames were not fetched in time
+  kFramesRefused = 4,  // a transmit queue is full
+  kFramesTaken = 5,    // it takes frames again; `count` were refused
+  kTicksLost = 6,      // `count` control deadlines were lost
+  kEventFile = 7,      // the file of events takes no more
+  kEventFileGood = 8,  // it takes events again; `count` are missing in it
+};
+// In the order of the codes in docs/api.md.
+enum class RefusalEvent : std::uint8_t {
+  kOther = 0,
+  kBadRequest = 1,
+  kNotOwner = 2,
+  kNotEnabled = 3,
+  kFault = 4,
+  kBusy = 5,
+  kOutOfRange = 6,
+  kRefused = 7,
+  kNoDevice = 8,
+};
+
+// snake_case, the same in files, recordings, API and docs.
+const char* event_kind_name(EventKind kind);
+// The kind of that name, or nothing.
+std::optional<EventKind> event_kind_from(std::string_view name);
+// The number of an error code of the API, kOther for one that is not listed.
+RefusalEvent refusal_event(std::string_view code);
+
+// A figure of an event. The unit is in the name.
+struct EventValue {
+  std::string name;
+  double value = 0.0;
+  bool operator==(const EventValue&) const = default;
+};
+
+struct Event {
+  EventKind kind = EventKind::kBoot;
+  std::int64_t number = 0;
+  std::string subject{};
+  std::vector<EventValue> values{};
+  std::string text{};          // one sentence for people
+  std::uint64_t sequence = 0;  // 1, 2, ... within one life of lianad, without gaps; EventLog gives it
+  std::uint64_t tick = 0;      // when it was noted; never less than that of the event before
+
+  bool operator==(const Event&) const = default;
+};
+
+// An enumerator as the number of an event.
+template <class Number>
+requires std::is_enum_v<Number>
+constexpr std::int64_t number_of(Number value) { return static_cast<std::int64_t>(value); }
+
+// The heading of a file of such lines.
+extern const char* const kEventLineHeading;
+// One line without its end: columns as in the heading, separated by tabs and padded with blanks, values as name=number.
+// Control characters become blanks. `period_s` is that of the ticks.
+std::string event_line(const Event& event, double period_s);
+
+}  // namespace liana

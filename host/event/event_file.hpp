@@ -1,0 +1,58 @@
+// The events of a run as a text file. A thread of its own writes it: whoever notes an event never waits for a disk.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include "host/event/event.hpp"
+
+namespace liana {
+
+class EventFile {
+ public:
+  static constexpr std::size_t kMostWaiting = 1u << 20;    // bytes for the disk; beyond it events are missing
+  static constexpr std::uint64_t kMostBytes = 256u << 20;  // of the file: nobody fills a disk by talking
+
+  // Makes the file, or empties it; its first line is kEventLineHeading. Throws std::runtime_error when it cannot be
+  // opened; a disk that is full by then is no reason not to run.
+  EventFile(const std::string& path, double period_s);
+  // Writes what waits.
+  ~EventFile();
+  EventFile(const EventFile&) = delete;
+  EventFile& operator=(const EventFile&) = delete;
+
+  // Hands the event's line (event_line) to the thread.
+  void append(const Event& event);
+  // What has changed since the last call, for the log: the disk takes no more, or it takes events again. Both are of
+  // kind host_trouble. Events that were lost on the way are missing in the file; a line beginning with # says how many
+  // so far.
+  std::optional<Event> change();
+
+ private:
+  void work();
+  std::size_t write_all(std::string_view text, int& reason);
+  void take_result(std::string_view text, std::size_t done, int reason);
+  void say_missing();
+
+  std::string path_;
+  double period_s_;
+  int fd_;
+  std::uint64_t bytes_ = 0;  // in the file; of the thread alone
+
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable wake_;
+  std::string waiting_;
+  std::uint64_t missing_ = 0;                          // events that are not in the file
+  std::uint64_t missing_said_ = 0, missing_told_ = 0;  // of them: in the file, and by change()
+  bool failing_ = false, failing_told_ = false;
+  std::string why_;  // of the last failure
+  bool ending_ = false;
+  std::thread thread_;  // last: it uses all of the above
+};
+
+}  // namespace liana
