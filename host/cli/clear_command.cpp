@@ -5,6 +5,7 @@
 
 #include "host/api/client.hpp"
 #include "host/cli/commands.hpp"
+#include "host/event/event_json.hpp"
 #include "host/json/json.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/observer.hpp"
@@ -57,14 +58,12 @@ void ask(ApiClient& client, Json request, int id) {
     throw std::runtime_error("lianad did not answer " + request.value("op", "") + " within 5 s");
 }
 
-// What lianad says after `tick` of the faults it was to clear.
-std::string verdict_after(ApiClient& client, std::uint64_t tick) {
+// What lianad says of the faults it was to clear.
+Event verdict(ApiClient& client) {
   const auto deadline = Clock::now() + std::chrono::duration<double>(kVerdictTimeout_s);
   while (Clock::now() < deadline) {
-    for (const Json& event : state_of(client).value("events", Json::array())) {
-      const std::string text = event.value("text", "");
-      if (event.value("tick", std::uint64_t{0}) >= tick && text.starts_with("faults ")) return text;
-    }
+    const auto message = wait_for(client, "event", kAnswerTimeout_s);
+    if (message && message->value("kind", "") == event_kind_name(EventKind::kClear)) return event_from_json(*message);
   }
   throw std::runtime_error("lianad did not say within 15 s whether the faults are cleared; look with liana status");
 }
@@ -78,8 +77,11 @@ void clear(ApiClient& client, Clearing& clearing) {
   require_settled(clearing, state);
   ask(client, {{"op", "acquire"}}, 1);
   ask(client, {{"op", "state_command"}, {"command", "clear"}}, 2);
-  if (!clearing.faults.empty()) clearing.said = verdict_after(client, state.value("tick", std::uint64_t{0}));
-  clearing.good = !clearing.said.starts_with("faults not cleared");
+  if (!clearing.faults.empty()) {
+    const Event result = verdict(client);
+    clearing.said = result.text;
+    clearing.good = result.number == 0;
+  }
   ask(client, {{"op", "release"}}, 3);
 }
 

@@ -43,7 +43,9 @@ std::optional<Json> wait_for(ApiClient& client, const std::string& op, double ti
 }
 
 Json hello(const std::string& name, Observer observer) {
-  const Json subscriptions = observer == Observer::kBlind ? Json::array() : Json::array({"state"});
+  Json subscriptions = Json::array();
+  if (observer != Observer::kBlind) subscriptions.push_back("state");
+  if (observer == Observer::kClient) subscriptions.push_back("event");
   const char* role = observer == Observer::kClient ? "client" : "observer";
   return {{"op", "hello"}, {"name", name}, {"role", role}, {"lockstep", false}, {"subscribe", subscriptions}};
 }

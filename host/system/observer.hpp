@@ -18,7 +18,7 @@ std::vector<std::string> systems_to_ask(const std::string& given);
 enum class Observer {
   kBlind,   // sees no states
   kSeeing,  // sees states
-  kClient,  // sees states, and may own motion
+  kClient,  // sees states and events, and may own motion
 };
 
 // The hello of such a command; `name` is what a stop's reason names.
