@@ -11,6 +11,7 @@
 #include "host/daemon/host_trouble.hpp"
 #include "host/daemon/service.hpp"
 #include "host/event/event_json.hpp"
+#include "tests/host/api/robots.hpp"
 #include "tests/host/verify/sim_arm.hpp"
 
 namespace liana {
@@ -94,6 +95,13 @@ TEST(Events, AVerdictSaysWhichEndRefusedAndHowNearTheLimitIs) {
   EXPECT_EQ(verdict_event(18, verdict).subject, "execution");
 }
 
+TEST(Events, AnOwnerThatStandsStillIsNamedWithItsTimeToLive) {
+  const Event event = stands_still_event("robot hand", 0.25);
+  EXPECT_EQ(summaries({event}), (std::vector<std::string>{"owner 4 robot hand"}));
+  EXPECT_EQ(event.values, (std::vector<EventValue>{{"ttl_s", 0.25}}));
+  EXPECT_NE(event.text.find("no servo_cp for 0.25 s"), std::string::npos) << event.text;
+}
+
 // A service in real time, its arm and one client, who reads events.
 class ServiceTellsEvents : public testing::Test {
  protected:
@@ -112,7 +120,8 @@ class ServiceTellsEvents : public testing::Test {
     ServiceConfig config;
     config.time_mode = TimeMode::kReal;
     config.api_path = path();
-    config.robot_json = config.scene_json = config.buses.canonical_json = "{}";
+    config.robot_json = zhu2022_json().dump();
+    config.scene_json = config.buses.canonical_json = "{}";
     config.buses.rate_hz = 1.0 / arm_.table().tick_s;
     config.buses.command_interval_s = arm_.table().interval_ticks * arm_.table().tick_s;
     config.serials = [] { return std::vector<std::uint32_t>(15, 7); };
