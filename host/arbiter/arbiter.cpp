@@ -76,27 +76,29 @@ std::optional<PathProgress> Arbiter<Arm>::path() const {
   return move != nullptr ? std::optional(move->progress()) : std::nullopt;
 }
 
+template <class Arm>
+void Arbiter<Arm>::tell(PathEvent what, const PathMove<Arm>& move, const std::string& rest) {
+  const PathProgress path = move.progress();
+  path_news_.push_back({what, path, move.duration_s(table_), "path " + path.hash + rest});
+}
+
 // A path that is cut short says how far it has come.
 template <class Arm>
 void Arbiter<Arm>::hold() {
   const auto* move = std::get_if<PathMove<Arm>>(&way_);
   if (move != nullptr && !move->is_over()) {
     const int percent = static_cast<int>(100.0 * move->progress().share);
-    path_news_.push_back(
-        {false, "path " + move->progress().hash + " stops at " + std::to_string(percent) + " % of its time"});
+    tell(PathEvent::kStops, *move, " stops at " + std::to_string(percent) + " % of its time");
   }
   way_.template emplace<Idle>();
 }
 
 template <class Arm>
 void Arbiter<Arm>::tell_of_outlook(const PathMove<Arm>& move) {
-  const std::string name = "path " + move.progress().hash;
-  if (!move.outlook()->refusal.empty()) {
-    path_news_.push_back({true, name + " is refused: " + move.outlook()->refusal});
-    return;
-  }
-  const double time_s = static_cast<double>(move.outlook()->along_rad.size()) * interval_s(table_);
-  path_news_.push_back({false, name + " begins, " + std::to_string(static_cast<int>(std::ceil(time_s))) + " s"});
+  if (!move.outlook()->refusal.empty())
+    return tell(PathEvent::kRefused, move, " is refused: " + move.outlook()->refusal);
+  const int time_s = static_cast<int>(std::ceil(move.duration_s(table_)));
+  tell(PathEvent::kBegins, move, " begins, " + std::to_string(time_s) + " s");
 }
 
 template <class Arm>
@@ -161,8 +163,7 @@ void Arbiter<Arm>::end_way() {
   }
   if (std::holds_alternative<WayBack<Arm>>(way_)) has_retracted_ = true;
   const auto* path = std::get_if<PathMove<Arm>>(&way_);
-  if (path != nullptr && path->outlook()->refusal.empty())
-    path_news_.push_back({false, "path " + path->progress().hash + " has arrived"});
+  if (path != nullptr && path->outlook()->refusal.empty()) tell(PathEvent::kArrives, *path, " has arrived");
   hold();
 }
 

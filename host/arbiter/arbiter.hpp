@@ -86,6 +86,7 @@ class Arbiter {
     bool refused() { return false; }
   };
 
+  void tell(PathEvent what, const PathMove<Arm>& move, const std::string& rest);
   void tell_of_outlook(const PathMove<Arm>& move);
   void end_way();
   std::optional<Setpoint> setpoint_for(const Now& now, const Goal<Arm>& goal) const;

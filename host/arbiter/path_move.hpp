@@ -60,8 +60,12 @@ class PathMove {
   PathMove& operator=(const PathMove&) = delete;
 
   PathProgress progress() const {
-    const double all = static_cast<double>(outlook_ ? outlook_->along_rad.size() : 1);
-    return {hash_, static_cast<double>(next_) / all};
+    if (next_ == 0) return {hash_, 0.0};
+    return {hash_, static_cast<double>(next_) / static_cast<double>(outlook_->along_rad.size())};
+  }
+  // Of the whole path; 0 while it is looked at, and when it is refused.
+  double duration_s(const typename Arm::Table& table) const {
+    return outlook_ ? static_cast<double>(outlook_->along_rad.size()) * interval_s(table) : 0.0;
   }
   // What looking at it has come to; nothing yet.
   const std::optional<PathOutlook<Arm>>& outlook() const { return outlook_; }

@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "host/event/event.hpp"
+
 namespace liana {
 
 // A path under way: share of its time, 0 while it is looked at.
@@ -11,10 +13,12 @@ struct PathProgress {
   double share = 0.0;
 };
 
-// What has become of a path, for events.
+// What has become of a path.
 struct PathNews {
-  bool is_refusal = false;  // it does not start
-  std::string text;
+  PathEvent what = PathEvent::kBegins;
+  PathProgress path{};
+  double duration_s = 0.0;  // of the whole path; 0 when it does not begin
+  std::string text;         // one sentence for people
 };
 
 }  // namespace liana

@@ -426,7 +426,10 @@ TEST_F(Paths, APathGoesThroughItsPointsWithoutAStopAndSaysSo) {
   const auto news = arbiter.take_path_news();
   ASSERT_EQ(news.size(), 2u);
   EXPECT_NE(news[0].text.find("path abc begins"), std::string::npos);
+  EXPECT_EQ(news[1].what, PathEvent::kArrives);
   EXPECT_EQ(news[1].text, "path abc has arrived");
+  EXPECT_EQ(news[1].path.share, 1.0);
+  EXPECT_GT(news[1].duration_s, 1.0);
   EXPECT_TRUE(arbiter.take_path_news().empty());
 }
 
@@ -437,7 +440,7 @@ TEST_F(Paths, APathThatTheCheckRefusesDoesNotMoveTheArm) {
   EXPECT_FALSE(arbiter.is_busy());
   const auto news = arbiter.take_path_news();
   ASSERT_EQ(news.size(), 1u);
-  EXPECT_TRUE(news[0].is_refusal);
+  EXPECT_EQ(news[0].what, PathEvent::kRefused);
   EXPECT_EQ(news[0].text, "path abc is refused: between points 1 and 2: link 9 is 1 mm from 'panel'");
 }
 
