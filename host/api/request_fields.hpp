@@ -76,6 +76,15 @@ constexpr std::array kMoveJp{
     kTime,
     kTtl,
 };
+constexpr std::array kMovePath{
+    RequestField{"points_deg", FieldType::kAngles, "points to go through; the first at most 1 deg from the command"}
+        .list(500),
+    number("rate_deg_s", 0.01, Figure::kAngleRate, "the most that any angle may turn at").otherwise(Figure::kAngleRate),
+    number("margin_m", 0.001, 0.5, "clearance that the straight pieces between points have to have").otherwise(0.001),
+    kSequence,
+    kTime,
+    kTtl,
+};
 constexpr std::array kMoveCp{
     pose("goal", kReach, "pose that the tip goes to, in the base frame"),
     object("hold", kHeld, "as `held` of `hold_theta`, from the start of the line")

@@ -1,5 +1,6 @@
 #include "host/arbiter/arbiter.hpp"
 
+#include <cmath>
 #include <string>
 
 #include "firmware_like/safety/faults.hpp"
@@ -10,8 +11,12 @@
 namespace liana {
 
 template <class Arm>
-Arbiter<Arm>::Arbiter(const Table& table, const SpeedZone& zone)
-    : table_(table), zone_(zone), tip_speed_m_s_(Kind::tip_bounds(table).linear.speed) {}
+Arbiter<Arm>::Arbiter(const Table& table, const SpeedZone& zone, SearchResult taken, PathCheck<Arm> check)
+    : table_(table),
+      zone_(zone),
+      tip_speed_m_s_(Kind::tip_bounds(table).linear.speed),
+      taken_(taken),
+      path_check_(std::move(check)) {}
 
 template <class Arm>
 void Arbiter<Arm>::require_ready(const Now& now) const {
@@ -51,6 +56,49 @@ template <class Arm>
 void Arbiter<Arm>::servo_tip(const Now& now, const Pose& goal) {
   require_free(now);
   way_.template emplace<TipTarget<Arm>>(goal, wishes_);
+}
+
+template <class Arm>
+void Arbiter<Arm>::move_path(const Now& now, const PathRequest<Arm>& request) {
+  require_free(now);
+  if (now.at_rest == 0) throw RequestError("busy", "a path starts from rest: wait for it or send hold");
+  const PathRequest<Arm> admitted = admit_path<Arm>(table_, Kind::command_rad(now), request);
+  hold();
+  path_work_.start([table = table_, zone = zone_, check = path_check_, from = Kind::command_rad(now), admitted] {
+    return look_at_path<Arm>(table, zone, check, from, admitted);
+  });
+  way_.template emplace<PathMove<Arm>>(path_work_, taken_, request.hash);
+}
+
+template <class Arm>
+std::optional<PathProgress> Arbiter<Arm>::path() const {
+  const auto* move = std::get_if<PathMove<Arm>>(&way_);
+  return move != nullptr ? std::optional(move->progress()) : std::nullopt;
+}
+
+template <class Arm>
+void Arbiter<Arm>::tell(PathEvent what, const PathMove<Arm>& move, const std::string& rest) {
+  const PathProgress path = move.progress();
+  path_news_.push_back({what, path, move.duration_s(table_), "path " + path.hash + rest});
+}
+
+// A path that is cut short says how far it has come.
+template <class Arm>
+void Arbiter<Arm>::hold() {
+  const auto* move = std::get_if<PathMove<Arm>>(&way_);
+  if (move != nullptr && !move->is_over()) {
+    const int percent = static_cast<int>(100.0 * move->progress().share);
+    tell(PathEvent::kStops, *move, " stops at " + std::to_string(percent) + " % of its time");
+  }
+  way_.template emplace<Idle>();
+}
+
+template <class Arm>
+void Arbiter<Arm>::tell_of_outlook(const PathMove<Arm>& move) {
+  if (!move.outlook()->refusal.empty())
+    return tell(PathEvent::kRefused, move, " is refused: " + move.outlook()->refusal);
+  const int time_s = static_cast<int>(std::ceil(move.duration_s(table_)));
+  tell(PathEvent::kBegins, move, " begins, " + std::to_string(time_s) + " s");
 }
 
 template <class Arm>
@@ -97,7 +145,10 @@ bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
 
 template <class Arm>
 std::optional<typename Arm::Setpoint> Arbiter<Arm>::ask(const Now& now) {
+  const auto* path = std::get_if<PathMove<Arm>>(&way_);
+  const bool awaits = path != nullptr && !path->outlook();
   const Goal<Arm> goal = std::visit([&](auto& way) { return way.next(now); }, way_);
+  if (awaits && path->outlook()) tell_of_outlook(*path);
   if (std::visit([](const auto& way) { return way.is_over(); }, way_)) end_way();
   return setpoint_for(now, goal);
 }
@@ -111,6 +162,8 @@ void Arbiter<Arm>::end_way() {
     return;
   }
   if (std::holds_alternative<WayBack<Arm>>(way_)) has_retracted_ = true;
+  const auto* path = std::get_if<PathMove<Arm>>(&way_);
+  if (path != nullptr && path->outlook()->refusal.empty()) tell(PathEvent::kArrives, *path, " has arrived");
   hold();
 }
 

@@ -5,11 +5,15 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "host/arbiter/arm_kind.hpp"
 #include "host/arbiter/joint_move.hpp"
 #include "host/arbiter/path_memory.hpp"
+#include "host/arbiter/path_move.hpp"
 #include "host/arbiter/speed_zone.hpp"
 #include "host/arbiter/tip_line.hpp"
 #include "host/arbiter/tip_target.hpp"
@@ -25,19 +29,23 @@ class Arbiter {
   using Setpoint = typename Arm::Setpoint;
   using Now = liana::Outputs<Arm>;  // the newest tick of the arm
 
-  // In `zone` the tip is asked to go no faster than the zone says.
-  explicit Arbiter(const Table& table, const SpeedZone& zone = {});
+  // In `zone` the tip is asked to go no faster than the zone says. `check` looks at the straight pieces of a path.
+  explicit Arbiter(const Table& table, const SpeedZone& zone = {}, SearchResult taken = SearchResult::kInItsInterval,
+                   PathCheck<Arm> check = {});
   Arbiter(const Arbiter&) = delete;  // ways of moving refer to its path and wishes
   Arbiter& operator=(const Arbiter&) = delete;
 
-  // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused).
+  // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused, out_of_range).
   void move_joints(const Now& now, const Joints<Arm>& goal_rad, double rate_rad_s);
   void move_line(const Now& now, const Pose& goal);
   void servo_tip(const Now& now, const Pose& goal);
+  // From rest through all points without a stop, within kPathOff_m of the straight pieces between them; the first point
+  // within kPathStart_deg of the command. Looked at as a whole first: until then the arm holds.
+  void move_path(const Now& now, const PathRequest<Arm>& request);
   // Back along the verified path, not beyond `until_tick`: stops, then goes back, whatever is under way.
   void retract(const Now& now, std::uint64_t until_tick);
   // Stop along the path: nothing is asked for any more.
-  void hold() { way_.template emplace<Idle>(); }
+  void hold();
 
   // Ends the interval: what to verify for the next one; nothing = the arm holds. `tick` counts the ticks done.
   std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Now& now);
@@ -48,6 +56,10 @@ class Arbiter {
   bool is_busy() const;
   // The last retract has gone back all the way.
   bool has_retracted() const { return has_retracted_; }
+  // The path under way; none.
+  std::optional<PathProgress> path() const;
+  // What has become of paths since the last call.
+  std::vector<PathNews> take_path_news() { return std::exchange(path_news_, {}); }
 
   // For what stands on top of it: the two halves of next_setpoint (false: the arm is not enabled, and all is
   // forgotten), and a tip goal for one interval that no request has set.
@@ -74,6 +86,8 @@ class Arbiter {
     bool refused() { return false; }
   };
 
+  void tell(PathEvent what, const PathMove<Arm>& move, const std::string& rest);
+  void tell_of_outlook(const PathMove<Arm>& move);
   void end_way();
   std::optional<Setpoint> setpoint_for(const Now& now, const Goal<Arm>& goal) const;
   Setpoint tip_setpoint(const Now& now, const Pose& goal) const;
@@ -85,7 +99,11 @@ class Arbiter {
   typename Kind::Wishes wishes_{};
   PathMemory<Joints<Arm>> path_;
   bool has_retracted_ = false;
-  std::variant<Idle, TipTarget<Arm>, LineMove<Arm>, JointMove<Arm>, WayBack<Arm>> way_;
+  SearchResult taken_;
+  PathCheck<Arm> path_check_;
+  typename PathMove<Arm>::Work path_work_;
+  std::vector<PathNews> path_news_;
+  std::variant<Idle, TipTarget<Arm>, LineMove<Arm>, JointMove<Arm>, PathMove<Arm>, WayBack<Arm>> way_;
 };
 
 }  // namespace liana

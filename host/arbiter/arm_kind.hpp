@@ -19,6 +19,11 @@ struct TipBounds {
   FilterBounds angular{};
 };
 
+struct JointRange {
+  double low_rad = 0.0;
+  double high_rad = 0.0;
+};
+
 // Specialised for every arm that the host serves.
 template <class Arm>
 struct ArmKind;
@@ -36,8 +41,12 @@ concept KnownArm = requires(const typename Arm::Table& table, const Joints<Arm>&
   { ArmKind<Arm>::rate_rad_s(table, joint) } -> std::same_as<double>;  // limit of a joint
   // Acceleration of a joint that planned moves use.
   { ArmKind<Arm>::move_accel_rad_s2(table, joint) } -> std::same_as<double>;
-  // How far any point of the arm can move for a radian of this joint [m].
-  { ArmKind<Arm>::lever_m(table, joint) } -> std::same_as<double>;
+  { ArmKind<Arm>::range_rad(table, joint) } -> std::same_as<JointRange>;
+  { ArmKind<Arm>::kJointName } -> std::convertible_to<const char*>;  // for messages
+  // Greatest distance [m] of any node, or joint, and the tip between two poses.
+  { ArmKind<Arm>::apart_m(table, joint_rad, joint_rad) } -> std::same_as<double>;
+  // Shortest time [s] that drives need from one pose to the other, where they have limits besides those of the joints.
+  { ArmKind<Arm>::drive_time_s(table, joint_rad, joint_rad) } -> std::same_as<double>;
   { ArmKind<Arm>::tip_bounds(table) } -> std::same_as<TipBounds>;
   { ArmKind<Arm>::tip_at(table, joint_rad) } -> std::same_as<Pose>;
   // Where the command stands.

@@ -1,13 +1,16 @@
 #include "host/arbiter/cable_arbiter.hpp"
 
+#include <utility>
+
 #include "host/api/request_error.hpp"
 
 namespace liana {
 
-CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone, SearchResult taken)
+CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone, SearchResult taken,
+                           PathCheck<cable::CableArm> check)
     : robot_speed_m_s_(table.limits.tip_speed_m_s),
       interval_s_(interval_s(table)),
-      moves_(table, zone),
+      moves_(table, zone, taken, std::move(check)),
       lead_(table, taken) {}
 
 void CableArbiter::require_free(const cable::Outputs& now) const {
@@ -26,6 +29,11 @@ void CableArbiter::move_joints(const cable::Outputs& now, const cable::ThetaVect
 void CableArbiter::move_line(const cable::Outputs& now, const Pose& goal) {
   require_free(now);
   moves_.move_line(now, goal);
+}
+
+void CableArbiter::move_path(const cable::Outputs& now, const PathRequest<cable::CableArm>& request) {
+  require_free(now);
+  moves_.move_path(now, request);
 }
 
 void CableArbiter::servo_tip(const cable::Outputs& now, const Pose& goal) {

@@ -17,15 +17,16 @@ extern template class Arbiter<cable::CableArm>;
 
 class CableArbiter {
  public:
-  // In `zone` the tip is asked to go no faster than the zone says.
+  // In `zone` the tip is asked to go no faster than the zone says. `check` looks at the straight pieces of a path.
   explicit CableArbiter(const cable::RobotTable& table, const SpeedZone& zone = {},
-                        SearchResult taken = SearchResult::kInItsInterval);
+                        SearchResult taken = SearchResult::kInItsInterval, PathCheck<cable::CableArm> check = {});
 
   // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused). `now` is the newest tick of the
   // arm.
   void move_joints(const cable::Outputs& now, const cable::ThetaVector& goal_rad, double rate_rad_s);
   void move_line(const cable::Outputs& now, const Pose& goal);
   void servo_tip(const cable::Outputs& now, const Pose& goal);
+  void move_path(const cable::Outputs& now, const PathRequest<cable::CableArm>& request);
   // Held variables: bit i of mask holds theta i at held_rad[i]; mask 0 releases all.
   void hold_theta(const cable::Outputs& now, std::uint32_t mask, const cable::ThetaVector& held_rad);
   // Null-space targets; unused entries have node = 0. The core goes downhill from where it stands; with `search` (arm
@@ -50,6 +51,9 @@ class CableArbiter {
   bool is_busy() const { return moves_.is_busy(); }
   // The last retract has gone back all the way.
   bool has_retracted() const { return moves_.has_retracted(); }
+  // The path under way, and what has become of paths since the last call.
+  std::optional<PathProgress> path() const { return moves_.path(); }
+  std::vector<PathNews> take_path_news() { return moves_.take_path_news(); }
   // A shape is looked for (the arm holds meanwhile), or the nodes are on their way to the one that was found; their own
   // targets come after it.
   bool is_searching() const { return lead_.is_under_way(); }

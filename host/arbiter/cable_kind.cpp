@@ -1,6 +1,9 @@
 #include "host/arbiter/cable_kind.hpp"
 
 #include <algorithm>
+#include <cmath>
+
+#include "firmware_like/cable/arm/cables.hpp"
 
 namespace liana {
 
@@ -11,17 +14,22 @@ bool has_nodes(const cable::NodeTargets& nodes) {
   return std::any_of(nodes.begin(), nodes.end(), [](const cable::NodeTarget& target) { return target.node != 0; });
 }
 
-// Every module of the segment turns by theta; each moves what lies beyond it.
-double Kind::lever_m(const cable::RobotTable& table, std::size_t theta) {
-  double sum_m = 0.0, beyond_m = 0.0;
-  for (std::size_t m = static_cast<std::size_t>(table.segment_count); m-- > theta / 2;) {
-    const cable::SegmentTable& segment = table.segment[m];
-    for (std::int32_t module = 0; module < segment.modules; ++module) {
-      beyond_m += segment.module_length_m;
-      if (m == theta / 2) sum_m += beyond_m;
-    }
-  }
-  return sum_m;
+double Kind::apart_m(const cable::RobotTable& table, const Joints& a, const Joints& b) {
+  const cable::ArmKinematics from = cable::forward_kinematics(table, a), to = cable::forward_kinematics(table, b);
+  double most_m = 0.0;
+  for (std::size_t node = 1; node <= static_cast<std::size_t>(table.segment_count); ++node)
+    most_m = std::max(most_m, norm(subtract(to.node_in_base[node].position_m, from.node_in_base[node].position_m)));
+  return most_m;
+}
+
+double Kind::drive_time_s(const cable::RobotTable& table, const Joints& a, const Joints& b) {
+  const cable::CableLayout layout = cable::cable_layout(table);
+  const auto from = cable::cable_geometry(table, layout, cable::arm_trig(table, a)).length_m;
+  const auto to = cable::cable_geometry(table, layout, cable::arm_trig(table, b)).length_m;
+  double most_m = 0.0;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(layout.cable_count); ++i)
+    most_m = std::max(most_m, std::fabs(to[i] - from[i]));
+  return most_m / table.limits.cable_speed_m_s;
 }
 
 void Kind::add_wishes(const Wishes& wishes, cable::Setpoint& setpoint) {

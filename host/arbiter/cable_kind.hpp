@@ -35,7 +35,14 @@ struct ArmKind<cable::CableArm> {
   static double move_accel_rad_s2(const cable::RobotTable& table, std::size_t) {
     return kThetaAccelShare * table.limits.theta_accel_rad_s2;
   }
-  static double lever_m(const cable::RobotTable& table, std::size_t theta);
+  static JointRange range_rad(const cable::RobotTable& table, std::size_t theta) {
+    const double most_rad = table.segment[theta / 2].theta_limit_rad;
+    return {-most_rad, most_rad};
+  }
+  static constexpr const char* kJointName = "theta";
+  static double apart_m(const cable::RobotTable& table, const Joints& a, const Joints& b);
+  // Of the cables, by their lengths along the arm.
+  static double drive_time_s(const cable::RobotTable& table, const Joints& a, const Joints& b);
   static TipBounds tip_bounds(const cable::RobotTable& table) {
     const cable::MotionLimits& l = table.limits;
     return {{l.tip_speed_m_s, l.tip_accel_m_s2, l.tip_jerk_m_s3},

@@ -1,10 +1,7 @@
-// The goal IK in a thread of its own, one job at a time: a search of some milliseconds, or of many on a slow machine,
-// must not keep a stop from being read.
+// The goal IK as long work.
 #pragma once
 
-#include <future>
-#include <optional>
-
+#include "host/arbiter/long_work.hpp"
 #include "host/solve/goal_ik.hpp"
 
 namespace liana {
@@ -13,22 +10,17 @@ class GoalSearch {
  public:
   explicit GoalSearch(const cable::RobotTable& table) : table_(table) {}
 
-  // Begins to look for a solution; an earlier one is not wanted any more, and what it still computes delays this one.
-  void start(const solve::GoalIkProblem& problem);
-  // Nobody wants the result any more.
-  void forget();
-  // Started, and neither taken nor forgotten.
-  bool is_wanted() const { return wanted_; }
-  // The result, once, as soon as it is there; with `wait` it is waited for.
-  std::optional<solve::GoalIkResult> take(bool wait);
+  // Begins to look for a solution.
+  void start(const solve::GoalIkProblem& problem) {
+    work_.start([table = table_, problem] { return solve::solve_goal(table, problem); });
+  }
+  void forget() { work_.forget(); }
+  bool is_wanted() const { return work_.is_wanted(); }
+  std::optional<solve::GoalIkResult> take(bool wait) { return work_.take(wait); }
 
  private:
-  void launch(bool wait);
-
   cable::RobotTable table_;
-  std::optional<solve::GoalIkProblem> waiting_;  // until the job before it, which nobody wants, has ended
-  bool wanted_ = false;
-  std::future<solve::GoalIkResult> running_;  // last: its destructor waits for the thread, which reads the table
+  LongWork<solve::GoalIkResult> work_;
 };
 
 }  // namespace liana

@@ -1,6 +1,8 @@
 // The serial arm as ways of moving see it.
 #pragma once
 
+#include <algorithm>
+
 #include "firmware_like/serial_controller.hpp"
 #include "host/arbiter/arm_kind.hpp"
 
@@ -22,7 +24,18 @@ struct ArmKind<serial::SerialArm> {
   static double move_accel_rad_s2(const serial::RobotTable& table, std::size_t joint) {
     return kJointAccelShare * table.joint[joint].accel_rad_s2;
   }
-  static double lever_m(const serial::RobotTable& table, std::size_t) { return serial::chain_length_m(table); }
+  static JointRange range_rad(const serial::RobotTable& table, std::size_t joint) {
+    return {table.joint[joint].low_rad, table.joint[joint].high_rad};
+  }
+  static constexpr const char* kJointName = "joint";
+  static double apart_m(const serial::RobotTable& table, const Joints& a, const Joints& b) {
+    const serial::ArmKinematics from = serial::forward_kinematics(table, a), to = serial::forward_kinematics(table, b);
+    double most_m = 0.0;
+    for (std::size_t i = 0; i <= table.joints(); ++i)
+      most_m = std::max(most_m, norm(subtract(to.point_in_base[i], from.point_in_base[i])));
+    return most_m;
+  }
+  static double drive_time_s(const serial::RobotTable&, const Joints&, const Joints&) { return 0.0; }
   static TipBounds tip_bounds(const serial::RobotTable& table) {
     const serial::TipLimits& l = table.tip;
     return {{l.speed_m_s, l.accel_m_s2, l.jerk_m_s3}, {l.rate_rad_s, l.angular_accel_rad_s2, l.angular_jerk_rad_s3}};

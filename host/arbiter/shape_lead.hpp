@@ -8,10 +8,6 @@
 
 namespace liana {
 
-// When the result of a search for a shape is taken: in virtual time at the end of the interval that asked for it, so
-// that runs repeat bit for bit; in real time in the first interval that finds it there.
-enum class SearchResult { kInItsInterval, kWhenThere };
-
 class ShapeLead {
  public:
   ShapeLead(const cable::RobotTable& table, SearchResult taken) : table_(table), taken_(taken), search_(table) {}

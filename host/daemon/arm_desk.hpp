@@ -7,6 +7,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/api/request_error.hpp"
 #include "host/daemon/desk.hpp"
+#include "host/daemon/path_message.hpp"
 #include "host/json/json.hpp"
 #include "host/record/tick_packet.hpp"
 #include "host/record/visit_serial.hpp"
@@ -40,6 +41,7 @@ class ArmDesk : public Desk {
   Json ask(const MotionRequest& request) override;
   void hold() override { arbiter_.hold(); }
   std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) override;
+  std::vector<PathNews> take_path_news() override { return arbiter_.take_path_news(); }
   std::size_t drive_count() const override { return static_cast<std::size_t>(table_.drive_count()); }
 
  protected:
@@ -51,10 +53,15 @@ class ArmDesk : public Desk {
   ArmDesk(const Table& table, const SpeedZone& zone, TimeMode time_mode, ArmLink<Arm>& link, const Args&... args)
       : table_(table), link_(link), arbiter_(table, zone, args...), zone_(zone), time_mode_(time_mode) {
     handlers_ = {{"move_jp", [this](const MotionRequest& r) { move_joints(r.fields); }},
+                 {"move_path", [this](const auto& r) { arbiter_.move_path(outputs(), path_request<Arm>(r.fields)); }},
                  {"move_cp", [this](const auto& r) { arbiter_.move_line(outputs(), r.fields.pose("goal")); }},
                  {"servo_cp", [this](const auto& r) { arbiter_.servo_tip(outputs(), r.fields.pose("goal")); }},
                  {"retract", [this](const MotionRequest& r) { retract(r.fields); }},
                  {"hold", [this](const MotionRequest&) { hold(); }}};
+  }
+
+  static SearchResult taken(TimeMode time_mode) {
+    return time_mode == TimeMode::kReal ? SearchResult::kWhenThere : SearchResult::kInItsInterval;
   }
 
   std::uint64_t tick() const { return report().next_tick; }

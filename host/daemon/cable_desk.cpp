@@ -3,24 +3,28 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/config/slit_mouth.hpp"
 #include "host/daemon/device_messages.hpp"
+#include "host/plan/check/way_check.hpp"
 
 namespace liana {
 
 namespace {
 
-SearchResult taken(TimeMode time_mode) {
-  return time_mode == TimeMode::kReal ? SearchResult::kWhenThere : SearchResult::kInItsInterval;
-}
-
 SpeedZone zone_of(const RobotConfig& robot, const SceneConfig& scene) {
   return {scene.slit, robot.table.limits.tip_speed_slit_m_s};
+}
+
+// Called in another thread: it has all it needs with it.
+PathCheck<cable::CableArm> path_check(const RobotConfig& robot, const SceneConfig& scene) {
+  return [robot, scene](const std::vector<cable::ThetaVector>& points_rad, double margin_m) {
+    return refusal_of_way(robot, scene, points_rad, margin_m, kPathOff_m);
+  };
 }
 
 }  // namespace
 
 CableDesk::CableDesk(const RobotConfig& robot, const SceneConfig& scene, const std::string& in_pose, TimeMode time_mode,
                      ArmLink<cable::CableArm>& link)
-    : ArmDesk(robot.table, zone_of(robot, scene), time_mode, link, taken(time_mode)),
+    : ArmDesk(robot.table, zone_of(robot, scene), time_mode, link, taken(time_mode), path_check(robot, scene)),
       robot_(robot),
       scene_(scene),
       homing_(robot_, in_pose),

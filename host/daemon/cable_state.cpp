@@ -41,6 +41,7 @@ void CableDesk::add_state(Json& state) const {
   state["is_busy"] =
       arbiter_.is_busy() || (o.state == OperatingState::kEnabled && (o.at_rest == 0 || o.held_at_target == 0));
   state["retracted"] = arbiter_.has_retracted();
+  state["path"] = path_json(arbiter_.path());
   state["device"] = device_name(device.kind);
   state["device_engaged"] = arbiter_.device().engaged();
   state["device_reason"] = arbiter_.device().reason();

@@ -40,7 +40,7 @@ std::string why_not(const serial::RobotTable& table, const serial::Inputs& input
 }  // namespace
 
 SerialDesk::SerialDesk(const SerialRobotConfig& robot, TimeMode time_mode, ArmLink<serial::SerialArm>& link)
-    : ArmDesk(robot.table, SpeedZone{}, time_mode, link) {}
+    : ArmDesk(robot.table, SpeedZone{}, time_mode, link, taken(time_mode)) {}
 
 void SerialDesk::watch(bool booted) {
   if (booted) why_not_homed_ = outputs().homed != 0 ? "" : why_not(table_, inputs());
@@ -58,6 +58,7 @@ void SerialDesk::add_state(Json& state) const {
   for (std::size_t i = 0; i < table_.joints(); ++i) torque_Nm.push_back(o.torque_measured_Nm[i]);
   state["is_busy"] = arbiter_.is_busy() || (o.state == OperatingState::kEnabled && o.at_rest == 0);
   state["retracted"] = arbiter_.has_retracted();
+  state["path"] = path_json(arbiter_.path());
   state["measured_js_deg"] = deg(table_, o.joint_measured_rad);
   state["setpoint_js_deg"] = deg(table_, o.joint_command_rad);
   state["measured_cp"] = pose_json(serial::forward_kinematics(table_, o.joint_measured_rad).tip_in_base);

@@ -166,11 +166,24 @@ void Service::forward_camera() {
 
 void Service::release_next() {
   const std::optional<LastVerdict> verdict = desk_.release_next(owner_.client() != 0, owner_.role_number());
+  tell_of_paths();
   if (!verdict) return;
   notes_.verdict = *verdict;
   if (verdict->released) return;
   ++notes_.refusals;
   note(verdict_event(verdict->sequence, verdict->worst));
+}
+
+// A path that does not begin is a refusal as that of a command is: who asked for it looks there.
+void Service::tell_of_paths() {
+  for (const PathNews& news : desk_.take_path_news()) {
+    note(path_event(news));
+    if (news.what != PathEvent::kRefused) continue;
+    ++notes_.refusals;
+    notes_.verdict.released = false;
+    notes_.verdict.worst.code = Refusal::kPath;
+    notes_.verdict.worst.text = news.text;
+  }
 }
 
 void Service::note(Event event) { log_.add(tick(), std::move(event)); }

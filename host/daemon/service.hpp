@@ -106,6 +106,7 @@ class Service : private ApiHandler {
   void forward_camera();
   void publish_state();
   void release_next();
+  void tell_of_paths();
 
   ServiceConfig config_;
   Desk& desk_;

@@ -102,6 +102,14 @@ Event verdict_event(std::uint64_t command, const Verdict& verdict) {
                   verdict.text};
 }
 
+Event path_event(const PathNews& news) {
+  return {.kind = EventKind::kPath,
+          .number = number_of(news.what),
+          .subject = news.path.hash,
+          .values = {{"share", news.path.share}, {"duration_s", news.duration_s}},
+          .text = news.text};
+}
+
 Event refusal_event(const std::string& client, const std::string& op, const std::string& code, const std::string& why) {
   return {.kind = EventKind::kRefusal,
           .number = number_of(refusal_event(code)),

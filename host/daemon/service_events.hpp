@@ -7,6 +7,7 @@
 
 #include "firmware_like/safety/faults.hpp"
 #include "firmware_like/safety/supervisor.hpp"
+#include "host/arbiter/path_news.hpp"
 #include "host/control/boot_problem.hpp"
 #include "host/daemon/emergency_stop.hpp"
 #include "host/event/event.hpp"
@@ -24,6 +25,8 @@ Event clear_event(const ClearReport& clear);
 Event emergency_event(std::size_t drive, std::uint16_t code);
 // A command that verification refused.
 Event verdict_event(std::uint64_t command, const Verdict& verdict);
+// A path that begins, has come to an end or is refused.
+Event path_event(const PathNews& news);
 // A request that is answered with this error.
 Event refusal_event(const std::string& client, const std::string& op, const std::string& code, const std::string& why);
 Event owner_event(OwnerEvent what, const std::string& client);

@@ -26,11 +26,12 @@ enum class EventKind : std::uint8_t {
   kTool,         // subject the client's name; the command for the repair tool
   kRefusal,      // a request was answered with an error; number: RefusalEvent; subject the client's name
   kVerdict,      // verification refused a command: number M_e; subject which of the two ends; `command`, `share`
+  kPath,         // number: PathEvent; subject the path's hash; `share` of its time, `duration_s`
   kStop,         // number: stop category (docs/priorities.md); subject who asked for it
   kShutdown,     // subject who asked for it, or nothing
   kLeftOut,      // subject: a kind of which too many came within one interval; `count` of those without a number
 };
-constexpr std::size_t kEventKinds = 17;
+constexpr std::size_t kEventKinds = 18;
 
 enum class BootEvent : std::uint8_t { kFailed = 0, kDone = 1 };
 enum class HomingEvent : std::uint8_t { kContradicted = 0, kHomed = 1 };
@@ -45,6 +46,7 @@ enum class HostTroubleEvent : std::uint8_t {
   kEventFile = 7,      // the file of events takes no more
   kEventFileGood = 8,  // it takes events again; `count` are missing in it
 };
+enum class PathEvent : std::uint8_t { kRefused = 0, kBegins = 1, kArrives = 2, kStops = 3 };
 // In the order of the codes in docs/api.md.
 enum class RefusalEvent : std::uint8_t {
   kOther = 0,

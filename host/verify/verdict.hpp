@@ -23,6 +23,7 @@ enum class Refusal : std::uint16_t {
   kNoRest = 204,       // the stop after the command would take too long
   kNotFinite = 205,    // a predicted number is not finite
   kUnreachable = 206,  // the arm cannot take the tip there: the servo IK would fall behind its target
+  kPath = 207,         // the whole of a path was looked at, and it is not begun
 };
 
 // One end's judgement of one candidate.

@@ -81,6 +81,25 @@ function arm.state_command(fields) end
 ---@return integer id
 function arm.move_jp(fields) end
 
+---@class arm.move_path
+---points to go through; the first at most 1 deg from the command
+---@field points_deg number[][]
+---the most that any angle may turn at (else the robot's fastest angle rate)
+---@field rate_deg_s? number
+---clearance that the straight pieces between points have to have (else 0.001)
+---@field margin_m? number
+---grows from setpoint to setpoint of one owner: repeated and overtaken ones are refused
+---@field sequence? integer
+---the client's clock when it made the setpoint; never goes back (in virtual time: arm time)
+---@field time_s? number
+---time to live: with `time_s`, a setpoint that comes so much later than the quickest is refused
+---@field ttl_s? number
+
+---From rest through points on one time law, without a stop; looked at as a whole first.
+---@param fields arm.move_path
+---@return integer id
+function arm.move_path(fields) end
+
 ---@class arm.move_cp.hold
 ---number of the angle, 1 at the base
 ---@field theta integer

@@ -1,12 +1,14 @@
--- A plan of `liana plan --out` as a mission: the arm goes from waypoint to waypoint, straight in theta and at rest at each, which is the
--- way that the planner has checked. It has to stand at the start of the plan: the way from anywhere else is not checked.
+-- A plan of `liana plan --out` as a mission of one step: the arm goes through the waypoints on one time law, at rest at
+-- the ends only, which is the way that the planner has checked (docs/planning.md). It has to stand at the start of the
+-- plan: the way from anywhere else is not checked.
 local check = require "liana.check"
 local conditions = require "liana.conditions"
 local uses = require "liana.uses"
 
 local kAtStart_deg = 1.0 -- of every theta from the first waypoint
 local kArrived_deg = 0.02
-local kTimeLimit_s = 300 -- of one waypoint; 40 deg take 54 s
+local kTimeLimit_s = 3600 -- lianad refuses longer paths
+local kLeastMargin_m = 0.001 -- which the motion may use up
 
 local function refuse(field, value, allowed, advice)
   error(("plan: %s: %s: allowed %s: %s"):format(field, tostring(value), allowed, advice), 0)
@@ -21,25 +23,44 @@ local function within(waypoint_deg, tolerance_deg, text)
   end)
 end
 
-local function step_to(index, count, waypoint_deg)
-  local name, fields = ("waypoint %d of %d"):format(index, count), { goal_deg = waypoint_deg }
-  return {
-    name = name, device = "none", time_limit_s = kTimeLimit_s, on_fail = "hold",
-    enter = index == 1 and within(waypoint_deg, kAtStart_deg, ("arm within %g deg of the plan's start"):format(kAtStart_deg)) or nil,
-    run = uses.noted(function(arm) arm.move_jp(fields) end, { action = name, command = "move_jp", fields = fields }),
-    exit = conditions.all { within(waypoint_deg, kArrived_deg, "at the waypoint"), conditions.at_rest() },
-  }
+local path_ended = conditions.condition("path ended", function(arm) return arm.state.path == nil end)
+
+-- Short enough for a request: 1e-7 deg are 20 nm at the tip.
+local function rounded(waypoints_deg)
+  local out = {}
+  for k, waypoint_deg in ipairs(waypoints_deg) do
+    out[k] = {}
+    for i, angle_deg in ipairs(waypoint_deg) do out[k][i] = math.floor(angle_deg * 1e7 + 0.5) / 1e7 end
+  end
+  return out
+end
+
+local function name_of(plan, count)
+  local hash = type(plan.hash) == "string" and (" %.12s"):format(plan.hash) or ""
+  return ("plan%s, %d waypoints"):format(hash, count)
 end
 
 -- The checked mission of a plan (docs/formats.md).
 return function(plan)
   if type(plan) ~= "table" or plan.outcome ~= "solved" then
-    refuse("outcome", type(plan) == "table" and plan.outcome or plan, "solved", "give a file that liana plan --out has written")
+    local found = type(plan) == "table" and plan.outcome or plan
+    refuse("outcome", found, "solved", "give a file that liana plan --out has written")
   end
   local waypoints = plan.waypoints_deg
   local count = type(waypoints) == "table" and #waypoints or 0
-  if count < 2 then refuse("waypoints_deg", count .. " waypoints", "2 or more", "plan a way, not only its end (--waypoints)") end
-  local steps = {}
-  for i, waypoint_deg in ipairs(waypoints) do steps[i] = step_to(i, count, waypoint_deg) end
-  return check.mission("plan", steps)
+  if count < 2 then
+    refuse("waypoints_deg", count .. " waypoints", "2 or more", "plan a way, not only its end (--waypoints)")
+  end
+  local margin_m = math.max(kLeastMargin_m, plan.inputs and plan.inputs.margin_m or 0)
+  local fields = { points_deg = rounded(waypoints), margin_m = margin_m }
+  local name = name_of(plan, count)
+  local at_start = ("arm within %g deg of the plan's start"):format(kAtStart_deg)
+  return check.mission("plan", { {
+    name = name, device = "none", time_limit_s = kTimeLimit_s, on_fail = "hold",
+    enter = within(waypoints[1], kAtStart_deg, at_start),
+    run = uses.noted(function(arm) arm.move_path(fields) end, { action = name, command = "move_path", fields = fields }),
+    exit = conditions.all {
+      within(waypoints[count], kArrived_deg, "at the last waypoint"), path_ended, conditions.at_rest(),
+    },
+  } })
 end

@@ -18,6 +18,7 @@ namespace {
 constexpr int kTicksPerInterval = 5;
 constexpr int kMostIntervals = 40000;
 constexpr int kMotionIntervals = 20;
+constexpr int kPathIntervals = 60;  // longer: the arm also rests on the way
 
 Json table(const std::string& kind, const std::string& name) {
   Activity activity;
@@ -141,6 +142,10 @@ void FakeLianad::obey(const Json& request) {
   if (op == "state_command" && request["command"] == "home") is_homed_ = true;
   if (op == "state_command" && request["command"] == "enable") state_ = "ENABLING";
   if (op == "move_jp") goal_deg_ = request["goal_deg"];
+  if (op == "move_path") {
+    goal_deg_ = request["points_deg"][request["points_deg"].size() - 1];
+    path_intervals_ = kPathIntervals;
+  }
   if (op == "announce" && request.member_or_null("step").is_object()) step_ = request["step"]["index"];
   if (op == "stop") state_ = "STOPPING";
   if (op == "hold_theta") {
@@ -153,7 +158,7 @@ void FakeLianad::obey(const Json& request) {
     intervals_with_device_ = 0;
   }
   if (op == "retract") retracted_ = !behaviour_.way_back_ends_early;
-  if (op == "move_jp" || op == "hold_theta" || op == "retract") busy_intervals_ = kMotionIntervals;
+  if (op == "move_jp" || op == "move_path" || op == "hold_theta" || op == "retract") busy_intervals_ = kMotionIntervals;
 }
 
 // One command interval: motions end, the operator steers to where the step should end, lets go and says so.
@@ -161,6 +166,7 @@ void FakeLianad::advance() {
   tick_ += kTicksPerInterval;
   if (state_ == "BOOTING" && tick_ > 50) state_ = "DISABLED";
   if (state_ == "ENABLING" && tick_ > 200) state_ = "ENABLED";
+  if (path_intervals_ > 0) --path_intervals_;
   if (busy_intervals_ > 0 && --busy_intervals_ == 0) {
     js_deg_ = goal_deg_;
     if (step_ == 1) tip_ = tip_of(js_deg_);
@@ -199,6 +205,7 @@ Json FakeLianad::state() const {
           {"stop_category", fault || stopped ? "stop" : "none"},
           {"is_homed", is_homed_},
           {"is_busy", busy_intervals_ > 0},
+          {"path", path_intervals_ > 0 ? Json{{"hash", "0"}, {"share", 0.5}} : Json()},
           {"retracted", retracted_ && busy_intervals_ == 0},
           {"at_rest", busy_intervals_ == 0 && !engaged_},
           {"owner", stolen ? "somebody" : owner_},

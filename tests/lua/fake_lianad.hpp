@@ -76,7 +76,7 @@ class FakeLianad {
   std::string device_ = "none";
   bool engaged_ = false;
   int intervals_with_device_ = 0;
-  int busy_intervals_ = 0;
+  int busy_intervals_ = 0, path_intervals_ = 0;
   int step_ = 0;
   Json goal_deg_;
   Json js_deg_;

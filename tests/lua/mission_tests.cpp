@@ -356,21 +356,26 @@ TEST(Mission, AShapeThatHasSettledEndsItsStepUnlessTooMuchIsMissing) {
       << run.ended.error;
 }
 
-TEST(Mission, APlanIsCarriedOutWaypointByWaypoint) {
+TEST(Mission, APlanIsOneMotionThroughAllItsWaypoints) {
   const TemporaryFolder folder;
   const std::string start = "[-8.5,0,-12,0,8,-2,13,0,12,-2]", next = "[-7.5,0,-12,0,8,-2,13,0,12,-1]",
                     far = "[0,0,0,0,0,0,0,0,0,0]";
   const auto plan = [&](const std::string& waypoints) {
-    return folder.write("plan.json", R"({"outcome":"solved","waypoints_deg":[)" + waypoints + "]}");
+    return folder.write("plan.json",
+                        R"({"outcome":"solved","inputs":{"margin_m":0.004},"waypoints_deg":[)" + waypoints + "]}");
   };
-  const MissionRun run = run_mission_against({}, plan(start + "," + next));
+  // Back where it began: the arm is at the last waypoint long before the path has ended.
+  const std::string there_and_back = start + "," + next + "," + start;
+  const MissionRun run = run_mission_against({}, plan(there_and_back));
   EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
-  const auto moves = run.ops("move_jp");
-  ASSERT_EQ(moves.size(), 2u);
-  EXPECT_EQ(Json::parse(moves[1])["goal_deg"], Json::parse(next));
+  const auto moves = run.ops("move_path");
+  ASSERT_EQ(moves.size(), 1u);
+  EXPECT_EQ(Json::parse(moves[0])["points_deg"], Json::parse("[" + there_and_back + "]"));
+  EXPECT_EQ(Json::parse(moves[0])["margin_m"], 0.004);
+  EXPECT_GT(run.report["duration_s"].get<double>(), 1.1) << "it has waited for the end of the path";
   const MissionRun elsewhere = run_mission_against({}, plan(far + "," + start));
   EXPECT_EQ(elsewhere.report["outcome"], "failed");
-  EXPECT_TRUE(elsewhere.ops("move_jp").empty());
+  EXPECT_TRUE(elsewhere.ops("move_path").empty());
   EXPECT_NE(elsewhere.ended.error.find("cannot enter, not met: arm within 1 deg of the plan's start"),
             std::string::npos)
       << elsewhere.ended.error;

@@ -175,18 +175,20 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
   }
 }
 
-TEST(Eval, APlanIsAMissionWithAStepForEachWaypoint) {
+TEST(Eval, APlanIsAMissionOfOneStepThatNamesIt) {
   const TemporaryFolder folder;
   const std::string zero = "[0,0,0,0,0,0,0,0,0,0]";
   const std::string robot = run_program("eval robot zhu2022").out;
   const auto plan = [&](const std::string& outcome, const std::string& waypoints, const std::string& of) {
-    return "eval mission " + folder.write("plan.json", R"({"outcome":")" + outcome + R"(","waypoints_deg":[)" +
-                                                           waypoints + R"(],"inputs":{"robot":)" + of + "}}");
+    return "eval mission " +
+           folder.write("plan.json", R"({"hash":"0123456789abcdef","outcome":")" + outcome + R"(","waypoints_deg":[)" +
+                                         waypoints + R"(],"inputs":{"robot":)" + of + "}}");
   };
   const Ended good = run_program(plan("solved", zero + ",[1,0,0,0,0,0,0,0,0,0]", robot));
   ASSERT_EQ(good.code, 0) << good.error;
   const auto mission = Json::parse(good.out);
-  ASSERT_EQ(mission["steps"].size(), 2u);
+  ASSERT_EQ(mission["steps"].size(), 1u);
+  EXPECT_EQ(mission["steps"][0]["name"], "plan 0123456789ab, 2 waypoints");
   EXPECT_EQ(mission["steps"][0]["enter"], "arm within 1 deg of the plan's start");
   const Ended unsolved = run_program(plan("limit", zero + "," + zero, robot));
   EXPECT_EQ(unsolved.code, 2);
@@ -194,7 +196,7 @@ TEST(Eval, APlanIsAMissionWithAStepForEachWaypoint) {
   EXPECT_NE(run_program(plan("solved", zero, robot)).error.find("waypoints_deg: 1 waypoints: allowed 2 or more"),
             std::string::npos);
   EXPECT_NE(run_program(plan("solved", zero + ",[1]", robot))
-                .error.find("waypoint 2 of 2: goal_deg = 1 entries: allowed an array of 10 numbers"),
+                .error.find("entry 2 of points_deg: entry 2 = 1 entries: allowed an array of 10 numbers"),
             std::string::npos);
   EXPECT_NE(run_program(plan("solved", zero + "," + zero, "{}")).error.find("inputs.robot: another robot than zhu2022"),
             std::string::npos);

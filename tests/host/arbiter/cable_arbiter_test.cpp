@@ -369,6 +369,112 @@ TEST_F(WayOut, TakesTheDeviceAwayFromTheOperator) {
   EXPECT_EQ(arbiter_.device().in_use().kind, DeviceKind::kNone);
 }
 
+// Paths, with a check that says what it is told to.
+class Paths : public Arbitration {
+ protected:
+  using Request = PathRequest<CableArm>;
+
+  CableArbiter& with(const std::string& refusal, SearchResult taken = SearchResult::kInItsInterval) {
+    checked_.emplace(table_, SpeedZone{}, taken, [this, refusal](const auto& points, double margin_m) {
+      looked_at_ = points.size();
+      margin_m_ = margin_m;
+      return refusal;
+    });
+    return *checked_;
+  }
+  Request path() const {
+    Request request{{now_.theta_command_rad, now_.theta_command_rad}, 0.03, 0.005, "abc"};
+    request.points_rad[1][0] += 0.01;
+    return request;
+  }
+  static std::string text_of(const std::function<void()>& request) {
+    try {
+      request();
+    } catch (const RequestError& error) {
+      return error.code() + std::string(": ") + error.what();
+    }
+    return "accepted";
+  }
+
+  std::optional<CableArbiter> checked_;
+  std::size_t looked_at_ = 0;
+  double margin_m_ = 0.0;
+};
+
+TEST_F(Paths, APathGoesThroughItsPointsWithoutAStopAndSaysSo) {
+  CableArbiter& arbiter = with("");
+  const Request request = path();
+  arbiter.move_path(now_, request);
+  EXPECT_TRUE(arbiter.is_busy());
+  EXPECT_EQ(text_of([&] { arbiter.move_path(now_, request); }).substr(0, 4), "busy");
+  ThetaVector last = now_.theta_command_rad;
+  double share = 0.0;
+  while (arbiter.is_busy()) {
+    const auto setpoint = arbiter.next_setpoint(tick_ += 5, now_);
+    ASSERT_TRUE(setpoint);
+    ASSERT_EQ(setpoint->kind, CommandKind::kJoint);
+    EXPECT_GE(setpoint->joint_rad[0], last[0]);
+    last = setpoint->joint_rad;
+    if (!arbiter.path()) break;
+    EXPECT_EQ(arbiter.path()->hash, "abc");
+    EXPECT_GE(arbiter.path()->share, share);
+    share = arbiter.path()->share;
+  }
+  EXPECT_EQ(last, request.points_rad[1]);
+  EXPECT_EQ(looked_at_, 3u) << "from where the command stands";
+  EXPECT_EQ(margin_m_, 0.005);
+  const auto news = arbiter.take_path_news();
+  ASSERT_EQ(news.size(), 2u);
+  EXPECT_NE(news[0].text.find("path abc begins"), std::string::npos);
+  EXPECT_EQ(news[1].what, PathEvent::kArrives);
+  EXPECT_EQ(news[1].text, "path abc has arrived");
+  EXPECT_EQ(news[1].path.share, 1.0);
+  EXPECT_GT(news[1].duration_s, 1.0);
+  EXPECT_TRUE(arbiter.take_path_news().empty());
+}
+
+TEST_F(Paths, APathThatTheCheckRefusesDoesNotMoveTheArm) {
+  CableArbiter& arbiter = with("between points 1 and 2: link 9 is 1 mm from 'panel'");
+  arbiter.move_path(now_, path());
+  EXPECT_FALSE(arbiter.next_setpoint(tick_ += 5, now_));
+  EXPECT_FALSE(arbiter.is_busy());
+  const auto news = arbiter.take_path_news();
+  ASSERT_EQ(news.size(), 1u);
+  EXPECT_EQ(news[0].what, PathEvent::kRefused);
+  EXPECT_EQ(news[0].text, "path abc is refused: between points 1 and 2: link 9 is 1 mm from 'panel'");
+}
+
+TEST_F(Paths, APathIsRefusedByTheNumberOfItsPoint) {
+  CableArbiter& arbiter = with("");
+  Request request = path();
+  request.points_rad[1][2] = 1.0;
+  EXPECT_NE(text_of([&] { arbiter.move_path(now_, request); }).find("out_of_range: point 2, theta 3: 57.2958 deg"),
+            std::string::npos);
+  request = path();
+  request.points_rad[0][3] += 0.02;
+  EXPECT_NE(text_of([&] { arbiter.move_path(now_, request); }).find("refused: point 1, theta 4: 1.14592 deg from"),
+            std::string::npos);
+  now_.at_rest = 0;
+  EXPECT_EQ(text_of([&] { arbiter.move_path(now_, path()); }).substr(0, 4), "busy");
+  EXPECT_FALSE(arbiter.is_busy());
+}
+
+TEST_F(Paths, AHoldEndsAPathAlsoWhileItIsLookedAt) {
+  CableArbiter& arbiter = with("", SearchResult::kWhenThere);
+  arbiter.move_path(now_, path());
+  arbiter.hold();
+  EXPECT_FALSE(arbiter.is_busy());
+  EXPECT_FALSE(arbiter.next_setpoint(tick_ += 5, now_));
+  EXPECT_EQ(arbiter.take_path_news().at(0).text, "path abc stops at 0 % of its time");
+  arbiter.move_path(now_, path());
+  std::optional<Setpoint> setpoint;
+  for (int i = 0; i < 5000 && !setpoint; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    setpoint = arbiter.next_setpoint(tick_ += 5, now_);
+  }
+  EXPECT_TRUE(setpoint);
+}
+
 TEST_F(Arbitration, DisablingForgetsHeldVariablesAndMotion) {
   ThetaVector held{};
   arbiter_.hold_theta(now_, 1u << 8, held);

@@ -130,6 +130,42 @@ TEST_F(ServiceOverSocket, AMoveGoesThroughVerificationToTheArm) {
   EXPECT_TRUE(done["at_rest"]);
 }
 
+TEST_F(ServiceOverSocket, APathIsOneMotionThroughItsPointsAndNamesItself) {
+  ApiClient mission = join("mission");
+  enable(mission);
+  Json points = Json::array();
+  for (const double change_deg : {0.0, 0.2, 0.1}) points.push_back(move_request(change_deg)["goal_deg"]);
+  ASSERT_EQ(ask(mission, {{"op", "move_path"}, {"points_deg", points}}), "ok");
+  const Json moving = state(mission);
+  EXPECT_EQ(moving["path"]["hash"].get<std::string>().size(), 64u);
+  EXPECT_LT(moving["path"]["share"].get<double>(), 0.1);
+  for (int i = 0; i < 2000 && state(mission)["is_busy"]; ++i) {
+  }
+  const Json done = state(mission);
+  EXPECT_EQ(done["path"], Json());
+  EXPECT_EQ(done["refusals"], 0);
+  EXPECT_NEAR(done["setpoint_js_deg"][0].get<double>(), points[2][0].get<double>(), 1e-6);
+  const std::string events = done["events"].dump();
+  EXPECT_NE(events.find("path " + moving["path"]["hash"].get<std::string>() + " begins"), std::string::npos) << events;
+  EXPECT_NE(events.find("has arrived"), std::string::npos) << events;
+}
+
+TEST_F(ServiceOverSocket, APathThatLeadsTheArmIntoItselfIsRefusedBeforeAnythingMoves) {
+  ApiClient mission = join("mission");
+  enable(mission);
+  const Json start = move_request(0.0)["goal_deg"];
+  const Json curled{18, 0, 18, 0, 18, 0, 18, 0, 18, 0};
+  ASSERT_EQ(ask(mission, {{"op", "move_path"}, {"points_deg", {start, curled}}}), "ok");
+  state(mission);
+  const Json refused = state(mission);
+  EXPECT_EQ(refused["refusals"], 1);
+  EXPECT_EQ(refused["verdict"]["code"], 207);
+  EXPECT_NE(refused["verdict"]["text"].get<std::string>().find("between points 1 and 2"), std::string::npos);
+  EXPECT_EQ(refused["path"], Json());
+  EXPECT_FALSE(refused["is_busy"]);
+  EXPECT_EQ(refused["setpoint_js_deg"], start);
+}
+
 TEST_F(ServiceOverSocket, ALineMayHoldVariablesAsHoldThetaWritesThem) {
   ApiClient mission = join("mission");
   enable(mission);
@@ -290,6 +326,10 @@ TEST_F(ServiceOverSocket, BadMotionRequestsAreRefusedWithTheirReason) {
       {{{"op", "move_jp"}, {"goal_deg", {25, 0, 0, 0, 0, 0, 0, 0, 0, 0}}}, "out_of_range"},
       {{{"op", "move_jp"}, {"goal_deg", {nullptr, 0, 0, 0, 0, 0, 0, 0, 0, 0}}}, "bad_request"},
       {{{"op", "move_jp"}, {"goal_deg", {0, 0, 0, 0, 0, 0, 0, 0, 0, 0}}, {"rate_deg_s", 50}}, "out_of_range"},
+      {{{"op", "move_path"}, {"points_deg", {{1, 2, 3}}}}, "bad_request"},
+      {{{"op", "move_path"}, {"points_deg", Json::array()}}, "out_of_range"},
+      {{{"op", "move_path"}, {"points_deg", {{25, 0, 0, 0, 0, 0, 0, 0, 0, 0}}}}, "out_of_range"},
+      {{{"op", "move_path"}, {"points_deg", {{0, 20, 0, 0, 0, 0, 0, 0, 0, 0}}}}, "refused"},
       {{{"op", "move_cp"}, {"goal", pose(1e30, 1)}}, "out_of_range"},
       {{{"op", "move_cp"}, {"goal", pose(4.5, 1)}}, "out_of_range"},
       {{{"op", "move_cp"}, {"goal", pose(1, 0.5)}}, "out_of_range"},
