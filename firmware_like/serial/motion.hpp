@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "firmware_like/operator_input/tip_filter.hpp"
+#include "firmware_like/operator_input/tip_interval.hpp"
 #include "firmware_like/serial/kinematics.hpp"
 #include "firmware_like/serial/limiter.hpp"
 #include "firmware_like/serial/servo_ik.hpp"

@@ -48,29 +48,12 @@ void advance_held(const RobotTable& table, MotionState& state) noexcept {
   }
 }
 
-// Share of the way from `from` to `to` that is over.
 double interval_share(const RobotTable& table, const MotionState& state) noexcept {
-  return state.interval_tick >= table.interval_ticks ? 1.0
-                                                     : static_cast<double>(state.interval_tick) / table.interval_ticks;
+  return liana::interval_share(state.interval_tick, table.interval_ticks);
 }
 
 Pose interpolated_target(const RobotTable& table, const MotionState& state) noexcept {
-  const double share = interval_share(table, state);
-  const Pose& a = state.from.tip_in_base;
-  return {add(a.position_m, scale(subtract(state.to.tip_in_base.position_m, a.position_m), share)),
-          normalize(multiply(quaternion_of(scale(state.turn_rad, share)), a.quaternion))};
-}
-
-// Between two poses that are one tick apart.
-Pose pose_between(const Pose& a, const Pose& b, double share) noexcept {
-  Quat q{};
-  for (Index i = 0; i < 4; ++i) q[i] = a.quaternion[i] + share * (b.quaternion[i] - a.quaternion[i]);
-  return {add(a.position_m, scale(subtract(b.position_m, a.position_m), share)), normalize(q)};
-}
-
-void slow_channel(double share, ChannelState& channel) noexcept {
-  channel.velocity = scale(channel.velocity, share);
-  channel.acceleration = scale(channel.acceleration, share);
+  return interpolated_pose(state.from.tip_in_base, state.to.tip_in_base, state.turn_rad, interval_share(table, state));
 }
 
 // What servo IK reported, for the pose and angles now.
@@ -87,11 +70,8 @@ void report_again(const RobotTable& table, MotionState& state) noexcept {
 // leave it.
 void slow_down(const RobotTable& table, double share, const Pose& target_before, const ThetaVector& ik_before,
                MotionState& state) noexcept {
-  if (state.ik.position_error_m + state.ik.attitude_error_rad < kBehind) {
-    state.filter.pose = pose_between(target_before, state.filter.pose, share);
-    slow_channel(share, state.filter.linear);
-    slow_channel(share, state.filter.angular);
-  }
+  if (state.ik.position_error_m + state.ik.attitude_error_rad < kBehind)
+    slow_filter(target_before, share, state.filter);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     state.ik_rad[k] = ik_before[k] + share * (state.ik_rad[k] - ik_before[k]);
     state.shape.rate_rad_s[k] *= share;

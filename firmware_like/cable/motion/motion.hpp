@@ -8,7 +8,7 @@
 #include "firmware_like/cable/motion/limiter.hpp"
 #include "firmware_like/cable/motion/servo_ik.hpp"
 #include "firmware_like/cable/shape/shape.hpp"
-#include "firmware_like/operator_input/tip_filter.hpp"
+#include "firmware_like/operator_input/tip_interval.hpp"
 
 namespace liana::cable {
 
