@@ -117,8 +117,12 @@ std::string RunSession::how_the_arm_was_left() const {
 
 // Takes in what lianad has sent; a closed socket is noticed through lianad's end.
 void RunSession::look(double timeout_s) {
-  for (auto message = system_.receive(timeout_s); message && !system_.last().poll(); message = system_.receive(0.0))
+  auto message = system_.receive(timeout_s);
+  while (message) {
     take(*message);
+    if (system_.last().poll()) return;  // that is acted on before more is read
+    message = system_.receive(0.0);
+  }
 }
 
 void RunSession::take(const Json& message) {
