@@ -9,7 +9,7 @@ from support import MISSIONS, SystemTest, start_run
 from liana.recordings import Mcap, read_events
 from liana.system import System, run, table
 
-DRIVE, FAULT_SLOT = 3, 2500
+DRIVE, FAULT_SLOT = 3, 4000
 STEP = {"index": 2, "name": "around the obstacle", "device": "none"}
 FULL_QUEUE = [{"action": "refuse", "bus": 0, "count": 1, "from_slot": 2000, "to_slot": 2010}]
 
@@ -46,6 +46,9 @@ class EventsOfARun(SystemTest):
         operator.request("operator_says", what="arrived")
         client.call("tool", command="weld")
         client.ask("move_jp", goal_deg=[1, 2, 3])
+        here_deg = client.state["setpoint_js_deg"]
+        client.call("move_path", points_deg=[here_deg, [angle + 0.1 for angle in here_deg]])
+        client.until(lambda state: any("path" in event["text"] for event in state["events"]) and not state["is_busy"])
         for _ in range(100):
             client.request("tool", command="again and again")
         client.go_on(0.1)
@@ -116,6 +119,12 @@ class EventsOfARun(SystemTest):
         self.assertEqual((refusal.number, refusal.subject), (1, "test"))
         self.assertIn("goal_deg", refusal.text)
         self.assertEqual([(event.number, event.subject) for event in self.told("owner")], [(1, "test"), (2, "test")])
+        begins, arrives = self.told("path")
+        self.assertEqual((begins.number, arrives.number), (1, 2))
+        self.assertEqual(begins.subject, arrives.subject)
+        self.assertRegex(begins.subject, "^[0-9a-f]{64}$")
+        self.assertLess(begins.values["share"], 0.1, "its first interval has begun")
+        self.assertEqual(arrives.values["share"], 1)
         (clear,) = self.told("clear")
         self.assertEqual(clear.number, 0)
         self.assertGreater(clear.values["checked"], 0)
