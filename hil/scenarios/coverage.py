@@ -22,10 +22,6 @@ kTests = {
         "tests/firmware_like/controller_test.cpp",
     ),
     2002: ("SerialController.AJointPushedOutOfItsRangeIsAFault", "tests/firmware_like/serial_controller_test.cpp"),
-    2003: (
-        "SerialController.AnEncoderThatJumpsIsAFaultInTheSameTick",
-        "tests/firmware_like/serial_controller_test.cpp",
-    ),
     6001: ("Gate.ARefusalBecomesAFaultThatNamesDriveAndCheck", "tests/firmware_like/gate_test.cpp"),
 }
 

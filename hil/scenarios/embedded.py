@@ -1,4 +1,5 @@
 """The embedded bus in virtual time, in lockstep, with faults of bench and bus; judged by truth, logs and recording."""
+import arms
 import predicates
 import trial
 import wire_checks
@@ -9,22 +10,26 @@ from stand import Stand
 kMoveDeg = 6.0
 kPathStop = 500  # ticks; twice what rest from full speed takes
 kTravelDeg = 1.0  # of any angle from the fault to the end, where a scenario says nothing else
-kDrives = 15
+kJoint = arms.ARMS[arms.CABLE_ARM].joint
 
 
 class EmbeddedStand(Stand):
     faults_are_scheduled = True
 
+    def __init__(self, robot=arms.CABLE_ARM):
+        self.robot = robot
+
     def start(self, scenario):
         faults, script = scenario.faults, scenario.bus_script
-        return System(expect="client,archive", faults=faults, bus_script=script, **scenario.words())
+        words = {**scenario.words(), **arms.tables(self.robot)}
+        return System(expect="client,archive", faults=faults, bus_script=script, **words)
 
     def client(self, system):
         system.start_archive()
         return system.client()
 
     def start_move(self, client):
-        start_move(client)
+        start_move(client, arms.ARMS[self.robot].joint)
 
     def judge(self, run, system, client):
         judge_run(run, system)
@@ -34,10 +39,10 @@ class EmbeddedStand(Stand):
         run.violations += recorded.complaints
 
 
-def start_move(client):
-    """A move of the ninth theta that lasts some seconds; does not wait for it to begin."""
+def start_move(client, joint=kJoint):
+    """A move of one angle (from 0; the ninth theta) that lasts some seconds; does not wait for it to begin."""
     goal_deg = list(client.state["setpoint_js_deg"])
-    goal_deg[8] -= kMoveDeg
+    goal_deg[joint] -= kMoveDeg
     client.call("move_jp", goal_deg=goal_deg)
 
 
@@ -88,7 +93,7 @@ def judge_stop(run, truth, traffic, end):
     enabled = truth.column("enabled")
     last = max((slot for slot in range(run.latched, end) if enabled[slot] > 0), default=run.latched)
     run.notes.append(f"without torque after {last - run.latched} ticks")
-    nodes = [1 + drive for drive in trial.self_reporting(run.scenario.faults or [], kDrives)]
+    nodes = [1 + drive for drive in trial.self_reporting(run.scenario.faults or [], len(traffic.reports))]
     run.violations += predicates.drives_with_torque(enabled, stopped, end)
     if not run.expect.get("late_commands"):  # those that waited in a transmit queue switch nothing on, as truth shows
         run.violations += predicates.enabling_without_clear(traffic, stopped, end)

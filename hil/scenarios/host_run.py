@@ -4,6 +4,7 @@ import pathlib
 import resource
 import signal
 
+import arms
 import predicates
 from embedded import kTravelDeg
 from liana.client import brief
@@ -44,7 +45,8 @@ class HostRun(LimitedRun):
 
     def act(self):
         host, outcome = self.scenario.host, self.expect["outcome"]
-        with System(expect=kRoles.get(host["program"], "client")) as system:
+        expected = kRoles.get(host["program"], "client")
+        with System(expect=expected, **arms.tables(self.scenario.robot)) as system:
             with self.limited(system):
                 if host["action"] == "full_disk":
                     fill_disk(system)
@@ -62,12 +64,12 @@ class HostRun(LimitedRun):
 
     def begin(self, system, client):
         """The arm moves: by this client, or by a mission or an operator that is to die."""
-        program = self.scenario.host["program"]
+        program, arm = self.scenario.host["program"], arms.ARMS[self.scenario.robot]
         if program in ("liana-mission", "liana-operator"):
             steers = program == "liana-operator"
             if steers:
                 system.start_operator()
-            system.start_mission(MISSIONS / ("steered.lua" if steers else "short.lua"), lockstep=steers)
+            system.start_mission(MISSIONS / ("steered.lua" if steers else arm.mission), lockstep=steers)
             client.until(
                 lambda state: state["owner"] == "mission"
                 and (state["device_engaged"] if steers else state["is_busy"])
@@ -76,7 +78,7 @@ class HostRun(LimitedRun):
             )
         else:
             client.enable()
-            client.start_moving()
+            client.start_moving(joint=arm.joint)
         client.go_on(kMove_s)
         expect_that(
             client.state["state"] == "ENABLED" and not client.state["faults"],
@@ -130,7 +132,7 @@ class HostRun(LimitedRun):
     def holds(self, system, client):
         """Who steered is gone: the arm comes to rest on its path, keeps its tension, and moves for a new owner only."""
         before = client.state["tick"]
-        client.until(lambda state: not state["device_engaged"] and state["at_rest"], 60)
+        client.until(lambda state: not state.get("device_engaged") and state["at_rest"], 60)
         client.go_on(kHold_s)
         expect_that(
             client.state["state"] == "ENABLED" and not client.state["faults"],

@@ -41,11 +41,18 @@ def is_enabling(command):
     return command.controlword & 0x8F == kEnableOperation
 
 
+def counts_per_turn(robot):
+    """Counts of one turn of what a drive turns: a drum, or a joint of a serial arm."""
+    return robot["drives"]["counts_per_turn"] * robot["drives"].get("gear", 1)
+
+
 def step_limit_counts(robot, period_s):
     """Largest change of a target in one period that the gate may let pass."""
-    drives = robot["drives"]
-    metres_per_count = 2 * math.pi * drives["drum_radius_m"] / (drives["counts_per_turn"] * drives.get("gear", 1))
-    return robot["limits"]["cable_speed_m_s"] * period_s * kSpeedMargin / metres_per_count + kRoundingCounts
+    if robot.get("kind") == "serial":
+        turns_per_s = max(joint["rate_deg_s"] for joint in robot["joints"]) / 360.0
+    else:
+        turns_per_s = robot["limits"]["cable_speed_m_s"] / (2 * math.pi * robot["drives"]["drum_radius_m"])
+    return turns_per_s * period_s * kSpeedMargin * counts_per_turn(robot) + kRoundingCounts
 
 
 def target_steps(traffic, limit_counts):

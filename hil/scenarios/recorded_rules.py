@@ -8,6 +8,7 @@ import collections
 import math
 import pathlib
 import re
+import typing
 
 import predicates
 
@@ -37,24 +38,55 @@ kSettleTicks = 5  # from the state on: drives have heard the last command, their
 kSilentTicks, kHeartbeat_s, kLostTicks = 2, 0.3, 2
 kSlackTicks, kAlarmTicks, kOverloadTicks = 25, 25, 3
 kFollowing_m, kFollowingTicks = 1e-3, 6
+kFollowing_deg = 0.5  # of a serial arm's joint: 0.1 deg, and its way at full rate while drive and bus lag
+kJump_deg, kOutside_deg, kOutsideTicks = 0.2, 1.01, 2
 
-Limits = collections.namedtuple(
-    "Limits", "step_counts following_counts newtons_per_permille heartbeat_ticks slack_N alarm_N overload_N"
-)
+
+class Limits(typing.NamedTuple):
+    """What reports are judged by: of every arm, of cables, and of a serial arm's joints."""
+
+    step_counts: float
+    following_counts: float
+    heartbeat_ticks: int
+    newtons_per_permille: float = 0.0
+    slack_N: float = -math.inf
+    alarm_N: float = math.inf
+    overload_N: float = math.inf
+    jump_counts: float = math.inf
+    ranges_counts: tuple = ()  # least and most of each joint
 
 
 def limits_of(robot, period_s):
-    drives, tension = robot["drives"], robot["tension"]
-    metres_per_count = 2 * math.pi * drives["drum_radius_m"] / (drives["counts_per_turn"] * drives.get("gear", 1))
+    serial = robot.get("kind") == "serial"
     return Limits(
-        predicates.step_limit_counts(robot, period_s),
-        kFollowing_m / metres_per_count,
-        drives["rated_torque_Nm"] / 1000 / drives["drum_radius_m"],
-        round(kHeartbeat_s / period_s),
-        tension["floor_anywhere_N"],
-        tension["alarm_N"],
-        tension["hard_limit_N"],
+        step_counts=predicates.step_limit_counts(robot, period_s),
+        heartbeat_ticks=round(kHeartbeat_s / period_s),
+        **(joint_limits(robot) if serial else cable_limits(robot)),
     )
+
+
+def cable_limits(robot):
+    drives, tension = robot["drives"], robot["tension"]
+    return {
+        "following_counts": kFollowing_m * predicates.counts_per_turn(robot) / (2 * math.pi * drives["drum_radius_m"]),
+        "newtons_per_permille": drives["rated_torque_Nm"] / 1000 / drives["drum_radius_m"],
+        "slack_N": tension["floor_anywhere_N"],
+        "alarm_N": tension["alarm_N"],
+        "overload_N": tension["hard_limit_N"],
+    }
+
+
+def joint_limits(robot):
+    drives, counts_per_deg = robot["drives"], predicates.counts_per_turn(robot) / 360.0
+    ranges = []
+    for joint, zero, direction in zip(robot["joints"], drives["zero_counts"], drives["direction"]):
+        ends = joint["low_deg"] - kOutside_deg, joint["high_deg"] + kOutside_deg
+        ranges.append(tuple(sorted(zero + direction * end * counts_per_deg for end in ends)))
+    return {
+        "following_counts": kFollowing_deg * counts_per_deg,
+        "jump_counts": kJump_deg * counts_per_deg,
+        "ranges_counts": tuple(ranges),
+    }
 
 
 def documented_reactions(text=None):
@@ -271,7 +303,8 @@ class Watch:
                 found.append((3003, drive))
             elif powered and not is_enabled(status):
                 found.append((3004, drive))
-            found += ((number, drive) for number in self.of_cable(before, now, drive, powered))
+            found += ((number, drive) for number in self.of_cable(now, drive, powered))
+            found += ((number, drive) for number in self.of_joint(before, now, drive, powered))
         return found
 
     def of_link(self, now, drive):
@@ -286,7 +319,18 @@ class Watch:
             if not now.operational[drive]:
                 yield 3007
 
-    def of_cable(self, before, now, drive, powered):
+    def of_joint(self, before, now, drive, powered):
+        position, both_new = now.position[drive], now.age[drive] == 0 == before.age[drive]
+        lag = abs(before.target[drive] - position)
+        if self.lasting((3006, drive), powered and lag > self.limits.following_counts, kFollowingTicks):
+            yield 3006
+        if both_new and abs(position - before.position[drive]) > self.limits.jump_counts:
+            yield 2003
+        for least, most in self.limits.ranges_counts[drive : drive + 1]:
+            if self.lasting((2002, drive), powered and not least <= position <= most, kOutsideTicks):
+                yield 2002
+
+    def of_cable(self, now, drive, powered):
         limits, tension_N = self.limits, now.torque[drive] * self.limits.newtons_per_permille
         if self.lasting((5001, drive), powered and tension_N < limits.slack_N, kSlackTicks):
             yield 5001
@@ -294,9 +338,6 @@ class Watch:
             yield 5003
         if self.lasting((5002, drive), powered and tension_N > limits.overload_N, kOverloadTicks):
             yield 5002
-        lag = abs(before.target[drive] - now.position[drive])
-        if self.lasting((3006, drive), powered and lag > limits.following_counts, kFollowingTicks):
-            yield 3006
 
 
 def faults_not_latched(ticks, limits):

@@ -84,6 +84,7 @@ class Run(LimitedRun):
         self.bring_up(client)
         self.overruns = client.state["overruns"] if client.state else 0
         client = self.stand.strike(self, system, client)
+        self.stop(client)
         self.watch(client)
         self.stay(client)
         self.count_overruns(client)
@@ -109,6 +110,15 @@ class Run(LimitedRun):
         expect_that(scheduled or not client.state["faults"], f"the arm could not be enabled: {brief(client.state)}")
         if self.scenario.during == "move" and not client.state["faults"]:
             self.stand.start_move(client)
+
+    def stop(self, client):
+        """The operator's stop, where the scenario has one; the arm has to move until then if it was told to."""
+        if getattr(self.scenario, "stop_after_s", None) is None:
+            return
+        client.go_on(self.scenario.stop_after_s)
+        moving = client.state["is_busy"] and not client.state["at_rest"]
+        expect_that(moving or self.scenario.during != "move", f"the arm has to move: {brief(client.state)}")
+        client.call("stop", reason="scenario")
 
     def is_ready(self, state):
         """Booted, and homed where the scenario lets it be."""
@@ -187,6 +197,9 @@ class Run(LimitedRun):
         if self.scenario.numbers:
             client.call("state_command", command="clear")
             client.until(lambda state: any("cleared" in event["text"] for event in state["events"]), reach_s)
+        elif client.state["stop"]:
+            client.call("state_command", command="clear")
+            client.until(lambda state: not state["stop"], reach_s)
         if wanted != "FAULT":
             client.until(lambda state: state["state"] == "DISABLED" and not state["faults"], reach_s)
         if wanted == "ENABLED":

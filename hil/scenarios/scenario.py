@@ -1,4 +1,5 @@
 """Scenarios on the embedded bus: their files (README.md), and what runs each."""
+from arms import ARMS, CABLE_ARM
 from embedded import EmbeddedStand
 from host_run import HostRun
 from run_scenario import Run
@@ -13,7 +14,9 @@ kFields = {
     "expect": dict,
     "reduced": bool,
     "host": dict,
+    "robot": str,
     "start": dict,
+    "stop_after_s": (int, float),
     "time_limit_s": (int, float),
 }
 kStart = {"pose": str, "in_pose": str, "cross_wired": list}
@@ -51,6 +54,11 @@ class Scenario:
             check_fields(f"{self.name}: expect", expect, kHostExpected, ("outcome",))
         self.start = content.get("start", {})
         check_fields(f"{self.name}: start", self.start, kStart, ())
+        self.robot, self.stop_after_s = content.get("robot", CABLE_ARM), content.get("stop_after_s")
+        if self.robot not in ARMS:
+            raise BadScenario(f"{self.name}: robot is {self.robot}; allowed are {', '.join(ARMS)}")
+        if self.stop_after_s is not None and content["during"] == "boot":
+            raise BadScenario(f"{self.name}: stop_after_s is of an arm that is enabled: during has to be rest or move")
         if "refused" in expect and content["during"] != "boot":
             raise BadScenario(f"{self.name}: expect: refused is of an arm that is never enabled: during has to be boot")
         check_during(self.name, content["during"])
@@ -66,7 +74,7 @@ class Scenario:
             raise BadScenario(f"{self.name}: expect: a fault of an enabled arm needs stopped_within_ticks")
 
     def run(self):
-        return Run(self, EmbeddedStand()) if self.host is None else HostRun(self)
+        return Run(self, EmbeddedStand(self.robot)) if self.host is None else HostRun(self)
 
     def strangers_nodes(self):
         """Nodes in whose name a scripted stranger speaks: what the log says of them is not what controller and drive

@@ -37,6 +37,7 @@ kRanges = {
     "stopped_within_ticks": (0, 1e6),
     "travel_deg": (0.0, 360.0),
     "time_limit_s": (0.1, 86400),
+    "stop_after_s": (0.0, 60.0),
     "index": (-1, 31),
     "fault": (1001, 6999),
     "overruns": (0, 1e6),

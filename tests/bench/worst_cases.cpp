@@ -186,7 +186,7 @@ Story story_of(const Case& one) {
 
 // Half of the kinds are no fault.
 void plant(const FaultGenes& fault, std::int32_t age, cable::Inputs& inputs) {
-  const auto all = bits::what_ifs_enabled();
+  const auto all = bits::what_ifs_enabled<cable::CableArm>();
   const std::size_t kind = fault.kind;
   if (kind >= all.size() || age < fault.at) return;
   const auto since = static_cast<std::uint32_t>(age - fault.at);

@@ -12,6 +12,12 @@
 namespace liana::bits {
 namespace {
 
+struct Words {
+  std::string arm = "cable", first, second, cases;
+  std::vector<std::string> recordings;
+  TapeOptions options;
+};
+
 std::string tape_json(const TapeSummary& summary) {
   Json faults = Json::array(), missing = Json::array();
   for (const FaultInfo& info : all_faults()) {
@@ -44,54 +50,67 @@ std::string meter_json(const MeterSummary& meter) {
       .dump();
 }
 
+template <class Arm>
+std::string made(const Words& words) {
+  TapeSummary summary;
+  std::ofstream tape(words.first, std::ios::binary), expected(words.second, std::ios::binary);
+  for (const std::string& directory : words.recordings)
+    append_recording<Arm>(directory, words.options, tape, expected, summary);
+  return tape_json(summary);
+}
+
+std::string cases_made(const Words& words) {
+  std::ifstream lines(words.cases);
+  std::ofstream tape(words.first, std::ios::binary), expected(words.second, std::ios::binary);
+  return Json{{"ticks", append_cases(lines, tape, expected)}}.dump();
+}
+
+template <class Arm>
+std::string answer(const std::string& command, const Words& words) {
+  if (command == "make") return made<Arm>(words);
+  std::ifstream one(words.first, std::ios::binary), other(words.second, std::ios::binary);
+  return command == "compare" ? comparison_json(compare<Arm>(one, other)) : meter_json(summarise<Arm>(one, other));
+}
+
+void declare(CLI::App& app, Words& words) {
+  app.require_subcommand(1);
+  CLI::App* const make = app.add_subcommand("make", "write a tape and the Outputs expected of it");
+  make->add_option("--apart", words.options.apart, "ticks between branches")->check(CLI::PositiveNumber);
+  make->add_option("--limit", words.options.limit, "most ticks of each recording");
+  make->add_option("--flip-at", words.options.flip_at, "falsify one bit of this recorded tick");
+  make->add_option("tape", words.first)->required();
+  make->add_option("expected", words.second)->required();
+  make->add_option("recordings", words.recordings)->required();
+  CLI::App* const cases = app.add_subcommand(
+      "cases", "write a tape of costly cases (tests/bench/worst_cases.hpp) and the Outputs expected of it");
+  cases->add_option("tape", words.first)->required();
+  cases->add_option("expected", words.second)->required();
+  cases->add_option("cases", words.cases)->required()->check(CLI::ExistingFile);
+  CLI::App* const compare = app.add_subcommand("compare", "compare answered with expected Outputs");
+  compare->add_option("expected", words.first)->required()->check(CLI::ExistingFile);
+  compare->add_option("answered", words.second)->required()->check(CLI::ExistingFile);
+  CLI::App* const meter = app.add_subcommand("meter", "what the Cortex-M7 counted");
+  meter->add_option("outputs", words.first)->required()->check(CLI::ExistingFile);
+  meter->add_option("meter", words.second)->required()->check(CLI::ExistingFile);
+  for (CLI::App* const command : {make, compare, meter})
+    command->add_option("--arm", words.arm, "kind of arm")
+        ->check(CLI::IsMember({"cable", "serial"}))
+        ->capture_default_str();
+}
+
 }  // namespace
 }  // namespace liana::bits
 
 int main(int argc, char** argv) {
   CLI::App app("tapes for ./dev bits");
-  app.require_subcommand(1);
-  std::vector<std::string> recordings;
-  std::string first, second;
-  liana::bits::TapeOptions options;
-  CLI::App* const make = app.add_subcommand("make", "write a tape and the Outputs expected of it");
-  make->add_option("--apart", options.apart, "ticks between branches")->check(CLI::PositiveNumber);
-  make->add_option("--limit", options.limit, "most ticks of each recording");
-  make->add_option("--flip-at", options.flip_at, "falsify one bit of this recorded tick");
-  make->add_option("tape", first)->required();
-  make->add_option("expected", second)->required();
-  make->add_option("recordings", recordings)->required();
-  CLI::App* const cases = app.add_subcommand(
-      "cases", "write a tape of costly cases (tests/bench/worst_cases.hpp) and the Outputs expected of it");
-  std::string case_file;
-  cases->add_option("tape", first)->required();
-  cases->add_option("expected", second)->required();
-  cases->add_option("cases", case_file)->required()->check(CLI::ExistingFile);
-  CLI::App* const compare = app.add_subcommand("compare", "compare answered with expected Outputs");
-  compare->add_option("expected", first)->required()->check(CLI::ExistingFile);
-  compare->add_option("answered", second)->required()->check(CLI::ExistingFile);
-  CLI::App* const meter = app.add_subcommand("meter", "what the Cortex-M7 counted");
-  meter->add_option("outputs", first)->required()->check(CLI::ExistingFile);
-  meter->add_option("meter", second)->required()->check(CLI::ExistingFile);
+  liana::bits::Words words;
+  liana::bits::declare(app, words);
   CLI11_PARSE(app, argc, argv);
   try {
-    if (make->parsed()) {
-      liana::bits::TapeSummary summary;
-      std::ofstream tape(first, std::ios::binary), expected(second, std::ios::binary);
-      for (const std::string& directory : recordings)
-        liana::bits::append_recording(directory, options, tape, expected, summary);
-      std::cout << liana::bits::tape_json(summary) << "\n";
-      return 0;
-    }
-    if (cases->parsed()) {
-      std::ifstream lines(case_file);
-      std::ofstream tape(first, std::ios::binary), expected(second, std::ios::binary);
-      std::cout << liana::Json{{"ticks", liana::bits::append_cases(lines, tape, expected)}}.dump() << "\n";
-      return 0;
-    }
-    std::ifstream one(first, std::ios::binary), other(second, std::ios::binary);
-    std::cout << (compare->parsed() ? liana::bits::comparison_json(liana::bits::compare(one, other))
-                                    : liana::bits::meter_json(liana::bits::summarise(one, other)))
-              << "\n";
+    const std::string command = app.get_subcommands().front()->get_name();
+    const auto answer = words.arm == "serial" ? liana::bits::answer<liana::serial::SerialArm>
+                                              : liana::bits::answer<liana::cable::CableArm>;
+    std::cout << (command == "cases" ? liana::bits::cases_made(words) : answer(command, words)) << "\n";
     return 0;
   } catch (const std::exception& reason) {
     std::cerr << "bits_tape: " << reason.what() << "\n";

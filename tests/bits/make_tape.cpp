@@ -6,22 +6,23 @@
 #include <stdexcept>
 #include <vector>
 
-#include "firmware_like/cable_controller.hpp"
 #include "host/record/mcap.hpp"
 #include "host/record/recording.hpp"
 #include "host/record/serialise.hpp"
+#include "host/record/visit_serial.hpp"
 #include "tests/bench/worst_cases.hpp"
 #include "tests/bits/tape.hpp"
 #include "tests/bits/what_ifs.hpp"
 
 namespace liana::bits {
-
-using namespace cable;
 namespace {
 
-constexpr std::uint64_t kAtChange = 0,
-                        kAfterChange =
-                            20;  // ticks after a change of state or of held variables: beginning, and in force
+// Ticks after a change of state or of held variables: beginning, and in force.
+constexpr std::uint64_t kAtChange = 0, kAfterChange = 20;
+
+// The variables that are held; no other arm than a cable arm holds any.
+std::uint32_t held_of(const cable::Outputs& outputs) { return outputs.held_mask; }
+std::uint32_t held_of(const serial::Outputs&) { return 0; }
 
 // Recorded ticks hold only what the robot has; tapes hold every place of every array.
 template <class T>
@@ -35,22 +36,24 @@ struct RecordedTick {
   std::string inputs, outputs;
 };
 
+template <class Arm>
 struct RecordedRun {
-  std::optional<cable::RobotTable> robot;
+  std::optional<typename Arm::Table> robot;
   std::vector<RecordedTick> ticks;
 };
 
-RecordedRun read(const std::string& directory, std::uint64_t limit) {
-  RecordedRun run;
+template <class Arm>
+RecordedRun<Arm> read(const std::string& directory, std::uint64_t limit) {
+  RecordedRun<Arm> run;
   RecordedCounts counts;
   McapVisitor visitor;
   visitor.message = [&](const std::string& topic, std::uint32_t, std::uint64_t, std::string_view data) {
-    if (topic == kStartTopic) run.robot = parse_image<cable::CableArm>(data).table;
+    if (topic == kStartTopic) run.robot = parse_image<Arm>(data).table;
     if (topic == kStartTopic) counts = counts_of(*run.robot);
     if (topic == kInputsTopic && run.ticks.size() < limit)
-      run.ticks.push_back({whole(RecordingDecoder::recorded_inputs<cable::CableArm>(data, counts)), {}});
+      run.ticks.push_back({whole(RecordingDecoder::recorded_inputs<Arm>(data, counts)), {}});
     if (topic == kOutputsTopic && !run.ticks.empty() && run.ticks.back().outputs.empty())
-      run.ticks.back().outputs = whole(outputs_from<cable::CableArm>(data, counts));
+      run.ticks.back().outputs = whole(outputs_from<Arm>(data, counts));
   };
   const McapState state = read_mcap(directory + "/" + kRecordingFile, visitor);
   if (state != McapState::kWhole || !run.robot || run.ticks.empty()) {
@@ -61,21 +64,23 @@ RecordedRun read(const std::string& directory, std::uint64_t limit) {
 }
 
 // The same Inputs, but for the last bit of one motor position.
+template <class Arm>
 std::string one_bit_off(const std::string& recorded) {
-  cable::Inputs inputs = RecordingDecoder::inputs<cable::CableArm>(recorded);
+  Inputs<Arm> inputs = RecordingDecoder::inputs<Arm>(recorded);
   inputs.drive[0].position_counts ^= 1;
   std::string bytes;
   append_serialised(bytes, inputs);
   return bytes;
 }
 
+template <class Arm>
 class Maker {
  public:
   Maker(const TapeOptions& options, std::ostream& tape, std::ostream& expected, TapeSummary& summary)
       : options_(options), tape_(tape), expected_(expected), summary_(summary) {}
 
-  void append(const RecordedRun& run) {
-    mark(Mark::kRobot);
+  void append(const RecordedRun<Arm>& run) {
+    mark(kRobotMark<Arm>);
     std::string table;
     append_serialised(table, *run.robot);
     tape_ << table;
@@ -91,40 +96,41 @@ class Maker {
 
   void tick(const RecordedTick& recorded) {
     mark(Mark::kTick);
-    tape_ << (summary_.mission_ticks == options_.flip_at ? one_bit_off(recorded.inputs) : recorded.inputs);
+    tape_ << (summary_.mission_ticks == options_.flip_at ? one_bit_off<Arm>(recorded.inputs) : recorded.inputs);
     expected_ << recorded.outputs;
-    out_ = outputs_from<cable::CableArm>(recorded.outputs);
+    out_ = outputs_from<Arm>(recorded.outputs);
     note_faults(out_);
-    controller_->tick(RecordingDecoder::inputs<cable::CableArm>(recorded.inputs));
+    controller_->tick(RecordingDecoder::inputs<Arm>(recorded.inputs));
     ++summary_.mission_ticks;
-    const bool changed = out_.state != state_ || out_.held_mask != held_mask_;
+    const bool changed = out_.state != state_ || held_of(out_) != held_mask_;
     since_change_ = changed ? 0 : since_change_ + 1;
     state_ = out_.state;
-    held_mask_ = out_.held_mask;
+    held_mask_ = held_of(out_);
   }
 
-  bool is_branch(const RecordedRun& run, std::size_t i) const {
+  bool is_branch(const RecordedRun<Arm>& run, std::size_t i) const {
     return i + 1 < run.ticks.size() &&
            (since_change_ == kAtChange || since_change_ == kAfterChange || (i + 1) % options_.apart == 0);
   }
 
   // What could have happened from recorded tick `next` on, as one branch each.
-  void branch(const RecordedRun& run, std::size_t next) {
+  void branch(const RecordedRun<Arm>& run, std::size_t next) {
     mark(Mark::kKeep);
-    const cable::Controller kept = *controller_;
-    for (const WhatIf& what_if : out_.state == OperatingState::kEnabled ? what_ifs_enabled() : what_ifs_enabling()) {
-      const std::size_t drive = summary_.what_ifs++ % static_cast<std::size_t>(run.robot->cable_count());
+    const Controller<Arm> kept = *controller_;
+    const bool enabled = out_.state == OperatingState::kEnabled;
+    for (const WhatIf<Arm>& what_if : enabled ? what_ifs_enabled<Arm>() : what_ifs_enabling<Arm>()) {
+      const std::size_t drive = summary_.what_ifs++ % static_cast<std::size_t>(run.robot->drive_count());
       follow(run, next, what_if, drive);
       mark(Mark::kReturn);
       controller_ = kept;
     }
   }
 
-  void follow(const RecordedRun& run, std::size_t next, const WhatIf& what_if, std::size_t drive) {
+  void follow(const RecordedRun<Arm>& run, std::size_t next, const WhatIf<Arm>& what_if, std::size_t drive) {
     for (std::uint32_t age = 0; age < what_if.ticks && next + age < run.ticks.size(); ++age) {
-      cable::Inputs inputs = RecordingDecoder::inputs<cable::CableArm>(run.ticks[next + age].inputs);
+      Inputs<Arm> inputs = RecordingDecoder::inputs<Arm>(run.ticks[next + age].inputs);
       what_if.change(inputs, age, drive);
-      const cable::Outputs outputs = controller_->tick(inputs);
+      const Outputs<Arm> outputs = controller_->tick(inputs);
       note_faults(outputs);
       std::string asked, answered;
       append_serialised(asked, inputs);
@@ -136,7 +142,7 @@ class Maker {
     }
   }
 
-  void note_faults(const cable::Outputs& outputs) {
+  void note_faults(const Outputs<Arm>& outputs) {
     for (std::int32_t i = 0; i < outputs.faults.count; ++i)
       summary_.faults.insert(outputs.faults.fault[static_cast<std::size_t>(i)].number);
   }
@@ -145,8 +151,8 @@ class Maker {
   std::ostream& tape_;
   std::ostream& expected_;
   TapeSummary& summary_;
-  std::optional<cable::Controller> controller_;
-  cable::Outputs out_{};  // of the last recorded tick
+  std::optional<Controller<Arm>> controller_;
+  Outputs<Arm> out_{};  // of the last recorded tick
   OperatingState state_ = OperatingState::kDisabled;
   std::uint32_t held_mask_ = 0;
   std::uint64_t since_change_ = 0;
@@ -154,11 +160,17 @@ class Maker {
 
 }  // namespace
 
+template <class Arm>
 void append_recording(const std::string& directory, const TapeOptions& options, std::ostream& tape,
                       std::ostream& expected, TapeSummary& summary) {
-  Maker(options, tape, expected, summary).append(read(directory, options.limit));
+  Maker<Arm>(options, tape, expected, summary).append(read<Arm>(directory, options.limit));
   if (!tape || !expected) throw std::runtime_error("tape: could not be written; is the disk full?");
 }
+
+template void append_recording<cable::CableArm>(const std::string&, const TapeOptions&, std::ostream&, std::ostream&,
+                                                TapeSummary&);
+template void append_recording<serial::SerialArm>(const std::string&, const TapeOptions&, std::ostream&, std::ostream&,
+                                                  TapeSummary&);
 
 std::uint64_t append_cases(std::istream& lines, std::ostream& tape, std::ostream& expected) {
   std::uint64_t ticks = 0;
@@ -173,7 +185,7 @@ std::uint64_t append_cases(std::istream& lines, std::ostream& tape, std::ostream
     return outputs;
   };
   std::string table;
-  append_serialised(table, zhu2022::table());
+  append_serialised(table, cable::zhu2022::table());
   for (const worst::Case& one : worst::read_cases(lines)) {
     tape.put(static_cast<char>(Mark::kRobot)) << table;
     worst::play(one, worst::started(one, tick), tick);

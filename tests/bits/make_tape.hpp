@@ -7,7 +7,8 @@
 #include <set>
 #include <string>
 
-#include "firmware_like/safety/faults.hpp"
+#include "firmware_like/cable_controller.hpp"
+#include "firmware_like/serial_controller.hpp"
 
 namespace liana::bits {
 
@@ -27,7 +28,8 @@ struct TapeOptions {
 // Appends a recording to a tape. Branches leave it at and shortly after every change of the operating state and of the
 // held variables, and every `apart` ticks. `expected` gets the recorded Outputs, in branches those of the core that
 // this program is built with. Throws std::runtime_error when the recording is not whole or does not begin at the start
-// of a run.
+// of a run. The arm is that of the recording.
+template <class Arm>
 void append_recording(const std::string& directory, const TapeOptions& options, std::ostream& tape,
                       std::ostream& expected, TapeSummary& summary);
 

@@ -46,16 +46,17 @@ double instructions_per_clock(const std::string& bytes) {
 
 }  // namespace
 
+template <class Arm>
 MeterSummary summarise(std::istream& outputs, std::istream& meter) {
   MeterSummary result;
   const double per_clock = instructions_per_clock(next_of(meter, sizeof(Count)));
   std::vector<double> enabled;
   for (;;) {
-    const std::string answer = next_of(outputs, serialised_outputs_size<cable::CableArm>()),
+    const std::string answer = next_of(outputs, serialised_outputs_size<Arm>()),
                       counted = next_of(meter, sizeof(Count));
     if (answer.empty() != counted.empty()) throw std::runtime_error("meter: not one count for each tick");
     if (answer.empty()) break;
-    const cable::Outputs out = outputs_from<cable::CableArm>(answer);
+    const Outputs<Arm> out = outputs_from<Arm>(answer);
     const Count count = count_from(counted);
     const double instructions = per_clock * count.clocks;
     ++result.ticks;
@@ -72,5 +73,8 @@ MeterSummary summarise(std::istream& outputs, std::istream& meter) {
   result.median_instructions = *middle;
   return result;
 }
+
+template MeterSummary summarise<cable::CableArm>(std::istream&, std::istream&);
+template MeterSummary summarise<serial::SerialArm>(std::istream&, std::istream&);
 
 }  // namespace liana::bits

@@ -16,8 +16,9 @@ struct MeterSummary {
   std::uint32_t worst_stack_bytes = 0;
 };
 
-// `outputs` as the target wrote them, `meter` beside it. Throws std::runtime_error when the files do not belong
-// together, or the counter did not count instructions.
+// `outputs` as the target wrote them, of this kind of arm, `meter` beside it. Throws std::runtime_error when the files
+// do not belong together, or the counter did not count instructions.
+template <class Arm>
 MeterSummary summarise(std::istream& outputs, std::istream& meter);
 
 }  // namespace liana::bits

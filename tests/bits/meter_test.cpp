@@ -40,7 +40,7 @@ std::string ticks_in(const std::vector<OperatingState>& states) {
 
 MeterSummary summary_of(const std::vector<OperatingState>& states, const std::vector<Count>& counts) {
   std::istringstream outputs(ticks_in(states)), meter(bytes_of(counts));
-  return summarise(outputs, meter);
+  return summarise<cable::CableArm>(outputs, meter);
 }
 
 constexpr OperatingState kOn = OperatingState::kEnabled, kFault = OperatingState::kFault;

@@ -1,8 +1,12 @@
 // The files between the programs of `./dev bits`. A tape is what every build of the core is fed with: one byte says
-// what follows, fields are written as in host/record/serialise.hpp.
+// what follows, fields are written as in host/record/serialise.hpp. All of a tape is of one kind of arm, which its
+// first byte says.
 #pragma once
 
 #include <cstdint>
+
+#include "firmware_like/cable_controller.hpp"
+#include "firmware_like/serial_controller.hpp"
 
 namespace liana::bits {
 
@@ -12,11 +16,18 @@ constexpr const char* kOutputsFile =
 constexpr const char* kMeterFile = "meter.bits";  // Cortex-M7: a Count of the calibration loop, then one of every tick
 
 enum class Mark : std::uint8_t {
-  kRobot = 1,   // a robot table follows: a new Controller
-  kTick = 2,    // Inputs follow: one tick
-  kKeep = 3,    // remember a copy of the Controller
-  kReturn = 4,  // go on from that copy
+  kRobot = 1,        // the table of a cable arm follows: a new Controller
+  kTick = 2,         // Inputs follow: one tick
+  kKeep = 3,         // remember a copy of the Controller
+  kReturn = 4,       // go on from that copy
+  kSerialRobot = 5,  // the table of a serial arm follows: a new Controller
 };
+
+// The mark before a table of this kind of arm.
+template <class Arm>
+constexpr Mark kRobotMark = Mark::kRobot;
+template <>
+constexpr Mark kRobotMark<serial::SerialArm> = Mark::kSerialRobot;
 
 struct Count {
   std::uint32_t clocks;       // of SysTick

@@ -192,6 +192,24 @@ class Rules(unittest.TestCase):
         self.broken(rules.faults_not_latched(changed(5, lost_buses=2), kLimits), "(4001, 1)")
         self.broken(rules.faults_not_latched(changed(5, lost_ticks=3), kLimits), "(2001, -1)")
 
+    def test_a_serial_arms_encoder_that_jumps_and_a_joint_out_of_its_range_have_to_be_latched(self):
+        limits = kLimits._replace(jump_counts=500, ranges_counts=((0, 5000), (0, 5000)), following_counts=10**6)
+        jumped = changed(5, position=(1000, 2501))
+        self.broken(rules.faults_not_latched(jumped, limits), "(2003, 1)")
+        self.assertEqual(rules.faults_not_latched(changed(5, position=(1000, 2500)), limits), [])
+        self.assertEqual(rules.faults_not_latched(changed(5, position=(1000, 2501), faults=(fault(2003),)), limits), [])
+        pushed = [tick._replace(position=(1000, 4000 + 400 * tick.tick)) for tick in ticks(5)]
+        self.broken(rules.faults_not_latched(pushed, limits), "tick 4", "(2002, 1)")
+        self.assertEqual(rules.faults_not_latched(pushed[:4], limits), [], "one reading is no joint out of its range")
+
+    def test_limits_of_a_serial_arm_are_its_joints_and_no_cables(self):
+        joint = {"low_deg": -90.0, "high_deg": 180.0, "rate_deg_s": 4.0}
+        drives = {"counts_per_turn": 3600, "gear": 1, "zero_counts": [100, 100], "direction": [1, -1]}
+        limits = rules.limits_of({"kind": "serial", "joints": [joint, joint], "drives": drives}, 0.004)
+        self.assertEqual([[round(end) for end in ends] for ends in limits.ranges_counts], [[-810, 1910], [-1710, 1010]])
+        self.assertAlmostEqual(limits.step_counts, 4.0 * 0.004 * 1.25 * 10 + 2)
+        self.assertEqual((limits.slack_N, limits.overload_N), (-float("inf"), float("inf")))
+
     def test_a_drive_that_was_never_there_is_no_fault(self):
         self.assertEqual(
             rules.faults_not_latched(ticks(10, age=(0, 3), heartbeat_age=(0, 99), operational=(1, 0)), kLimits), []

@@ -222,6 +222,13 @@ class Files(unittest.TestCase):
         self.refused("start: place is not known", start={"place": "fixture"})
         self.refused("refused", "boot", expect={"fault": None, "state": "DISABLED", "refused": ["x"]})
 
+    def test_the_robot_is_one_that_scenarios_know_and_a_stop_is_of_an_arm_that_is_enabled(self):
+        self.assertEqual((self.read().robot, self.read(robot="micro").robot), ("zhu2022", "micro"))
+        self.assertEqual(self.read(stop_after_s=0.5).stop_after_s, 0.5)
+        self.refused("robot is r2d2", "micro", robot="r2d2")
+        self.refused("stop_after_s", "during", during="boot", stop_after_s=0.5)
+        self.refused("stop_after_s is -1", "0 to 60", stop_after_s=-1)
+
     def test_a_fault_of_the_host_has_fields_of_its_own(self):
         read = self.read(host={"action": "kill", "program": "lianad"}, expect={"outcome": "drives_stop"})
         self.assertEqual((read.host["program"], read.fault_count()), ("lianad", 1))

@@ -224,9 +224,9 @@ class Client(Connection):
         self.call("state_command", command="enable")
         return self.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
 
-    def start_moving(self, change_deg: float = 6.0) -> Message:
-        """A move of the ninth theta by minus `change_deg`, well under way when this returns."""
-        goal_deg, joint = list(self.state["setpoint_js_deg"]), JOINT_OF_TEST_MOVE
+    def start_moving(self, change_deg: float = 6.0, joint: int = JOINT_OF_TEST_MOVE) -> Message:
+        """A move of one theta (from 0; the ninth) by minus `change_deg`, well under way when this returns."""
+        goal_deg = list(self.state["setpoint_js_deg"])
         begin_deg = goal_deg[joint]
         goal_deg[joint] -= change_deg
         self.call("move_jp", goal_deg=goal_deg)

@@ -17,7 +17,7 @@ from liana.mcap import BadRecording, Bytes, Mcap
 
 __all__ = ["BadRecording", "Event", "Fault", "Mcap", "Recording", "Tick", "Truth", "offsets", "read_events"]
 
-# Field: its type (struct), and how many of an array's elements belong to this arm ("drives", "thetas"); None: all.
+# Field: its type (struct), and how many of an array's elements belong to this arm ("drives", "angles"); None: all.
 Wanted = dict[str, tuple[str, Union[int, str, None]]]
 INPUTS: Wanted = {
     "tick": ("Q", 1),
@@ -47,8 +47,8 @@ OUTPUTS: Wanted = {
     "faults.dropped": ("I", 1),
     "drive.controlword": ("H", "drives"),
     "drive.target_counts": ("i", "drives"),
-    "theta_rate_rad_s": ("d", "thetas"),
 }
+ANGLE_COLUMN = re.compile(r"(?:theta|joint)_deg_\d+")  # of truth.bin
 STATES = ("DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT")
 REQUESTS = ("none", "enable", "disable", "clear", "stop")
 FIELD_NAME = re.compile(r"(\w+)((?:\[\d+\])*)$")
@@ -93,7 +93,9 @@ def read_events(path: Path) -> list[Event]:
 
 
 class Tick(NamedTuple):
-    """One tick of the core: what it was told and what it did. Arrays have an element per drive, rates one per theta."""
+    """One tick of the core: what it was told and what it did. Arrays have an element per drive, rates one per theta, or
+    joint of a serial arm.
+    """
 
     tick: int
     lost_ticks: int
@@ -195,15 +197,26 @@ class Recording(Mcap):
 
     @functools.cached_property
     def _outputs(self) -> Picker:
-        return Picker(self.channels["outputs"].schema, OUTPUTS, self._sizes())
+        return Picker(self.channels["outputs"].schema, outputs_of(self.robot()), self._sizes())
 
     def _sizes(self) -> dict[str, int]:
         robot = self.robot()
-        return {"drives": len(robot["drives"]["zero_counts"]), "thetas": 2 * len(robot["segments"])}
+        angles = len(robot["joints"]) if is_serial(robot) else 2 * len(robot["segments"])
+        return {"drives": len(robot["drives"]["zero_counts"]), "angles": angles}
+
+
+def is_serial(robot: dict[str, Any]) -> bool:
+    """True for the table of a serial arm."""
+    return robot.get("kind") == "serial"
+
+
+def outputs_of(robot: dict[str, Any]) -> Wanted:
+    """OUTPUTS, and the rates of this arm's angles."""
+    return {**OUTPUTS, "joint_rate_rad_s" if is_serial(robot) else "theta_rate_rad_s": ("d", "angles")}
 
 
 def tick_of(inputs: list[Any], outputs: list[Any]) -> Tick:
-    """One tick of the fields of INPUTS and OUTPUTS, in their order."""
+    """One tick of the fields of INPUTS and outputs_of(), in their order."""
     state, category, at_rest, active, numbers, indices, details, ticks, count, dropped, *commands = outputs
     faults = tuple(itertools.starmap(Fault, zip(numbers[:count], indices, details, ticks)))
     asked = (*inputs[:3], REQUESTS[inputs[3]], *inputs[4:])
@@ -221,18 +234,22 @@ class Truth:
         whole = (len(data) - end) // form.size  # a run that was killed may leave a part of a row
         self.rows = [form.unpack_from(data, end + i * form.size) for i in range(whole)]
 
+    @functools.cached_property
+    def _angles(self) -> slice:
+        found = [i for i, name in enumerate(self.columns) if ANGLE_COLUMN.fullmatch(name)]
+        return slice(found[0], found[-1] + 1)
+
     def column(self, name: str) -> list[float]:
         """One quantity over all slots."""
         i = self.columns.index(name)
         return [row[i] for row in self.rows]
 
     def theta_deg(self, row: int) -> tuple[float, ...]:
-        """The ten thetas of a row."""
-        first = self.columns.index("theta_deg_1")
-        return self.rows[row][first : first + 10]
+        """The ten thetas of a row; of a serial arm its joints."""
+        return self.rows[row][self._angles]
 
     def travel_deg(self, first: int, last: Optional[int]) -> float:
-        """Largest change of any theta between any row from `first` until before `last` and the first of them."""
+        """Largest change of any theta or joint between any row from `first` until before `last` and the first of them."""
         start = self.theta_deg(first)
         rows = range(len(self.rows))[first:last]
         return max(abs(a - b) for row in rows for a, b in zip(self.theta_deg(row), start))

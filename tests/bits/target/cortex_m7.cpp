@@ -49,19 +49,22 @@ struct Start {
 
 }  // namespace
 
-__attribute__((noinline)) cable::Outputs metered_tick(cable::Controller& controller,
-                                                      const cable::Inputs& inputs) noexcept {
+template <class Arm>
+__attribute__((noinline)) Outputs<Arm> metered_tick(Controller<Arm>& controller, const Inputs<Arm>& inputs) noexcept {
   volatile std::uint32_t* stack_pointer = nullptr;
   asm volatile("mov %0, sp" : "=r"(stack_pointer));
   volatile std::uint32_t* lowest = stack_pointer - kWatchedWords;
   for (volatile std::uint32_t* word = lowest; word != stack_pointer; ++word) *word = kPaint;
   const std::uint32_t before = sys_tick->value;
-  const cable::Outputs outputs = controller.tick(inputs);
+  const Outputs<Arm> outputs = controller.tick(inputs);
   const std::uint32_t clocks = clocks_since(before);
   while (*lowest == kPaint) ++lowest;
   write({clocks, static_cast<std::uint32_t>(stack_pointer - lowest) * sizeof(std::uint32_t)});
   return outputs;
 }
+
+template Outputs<cable::CableArm> metered_tick(cable::Controller&, const cable::Inputs&) noexcept;
+template Outputs<serial::SerialArm> metered_tick(serial::Controller&, const serial::Inputs&) noexcept;
 
 bool close_meter() { return meter != nullptr && std::ferror(meter) == 0 && std::fclose(meter) == 0; }
 

@@ -1,12 +1,13 @@
-// The least program with the core in it, for its size: one Controller, Inputs and Outputs in memory, nothing else. It
-// is never run.
+// The least program with the core of one kind of arm in it (BITS_ARM: its namespace), for its size: one Controller,
+// Inputs and Outputs in memory, nothing else. It is never run.
 #include "firmware_like/cable_controller.hpp"
+#include "firmware_like/serial_controller.hpp"
 
 namespace {
-liana::cable::RobotTable table;
-liana::cable::Controller controller(table);
-liana::cable::Inputs inputs;
-liana::cable::Outputs outputs;
+liana::BITS_ARM::RobotTable table;
+liana::BITS_ARM::Controller controller(table);
+liana::BITS_ARM::Inputs inputs;
+liana::BITS_ARM::Outputs outputs;
 }  // namespace
 
 int main() {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "firmware_like/cable_controller.hpp"
+#include "firmware_like/serial_controller.hpp"
 
 namespace liana::bits {
 
 // One tick; a target that can count does it here.
-cable::Outputs metered_tick(cable::Controller& controller, const cable::Inputs& inputs) noexcept;
+template <class Arm>
+Outputs<Arm> metered_tick(Controller<Arm>& controller, const Inputs<Arm>& inputs) noexcept;
 
 // Ends the file of what was counted, if anything was; false when the disk has refused any of it.
 bool close_meter();

@@ -3,9 +3,13 @@
 
 namespace liana::bits {
 
-cable::Outputs metered_tick(cable::Controller& controller, const cable::Inputs& inputs) noexcept {
+template <class Arm>
+Outputs<Arm> metered_tick(Controller<Arm>& controller, const Inputs<Arm>& inputs) noexcept {
   return controller.tick(inputs);
 }
+
+template Outputs<cable::CableArm> metered_tick(cable::Controller&, const cable::Inputs&) noexcept;
+template Outputs<serial::SerialArm> metered_tick(serial::Controller&, const serial::Inputs&) noexcept;
 
 bool close_meter() { return true; }
 

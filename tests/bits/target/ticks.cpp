@@ -14,9 +14,10 @@ namespace {
 
 constexpr std::size_t kFileBuffer = 1 << 16;
 
+template <class Arm>
 std::string default_table() {
   std::string bytes;
-  append_serialised(bytes, cable::RobotTable{});
+  append_serialised(bytes, typename Arm::Table{});
   return bytes;
 }
 
@@ -25,7 +26,8 @@ bool read_all(std::FILE* file, std::string& bytes) {
   return std::fread(bytes.data(), 1, bytes.size(), file) == bytes.size();
 }
 
-// Plays a tape; false when it makes no sense or the disk refuses.
+// Plays a tape of one kind of arm; false when it makes no sense or the disk refuses.
+template <class Arm>
 class Player {
  public:
   Player(std::FILE* tape, std::FILE* outputs) : tape_(tape), out_(outputs) {}
@@ -39,7 +41,7 @@ class Player {
 
  private:
   bool take(Mark mark) {
-    if (mark == Mark::kRobot) return robot();
+    if (mark == kRobotMark<Arm>) return robot();
     if (!controller_) return false;
     if (mark == Mark::kTick) return tick();
     if (mark == Mark::kKeep) kept_ = controller_;
@@ -48,23 +50,31 @@ class Player {
   }
   bool robot() {
     if (!read_all(tape_, table_)) return false;
-    controller_.emplace(table_from<cable::CableArm>(table_));
+    controller_.emplace(table_from<Arm>(table_));
     return true;
   }
   bool tick() {
     if (!read_all(tape_, inputs_)) return false;
     written_.clear();
-    append_serialised(written_, metered_tick(*controller_, RecordingDecoder::inputs<cable::CableArm>(inputs_)));
+    append_serialised(written_, metered_tick(*controller_, RecordingDecoder::inputs<Arm>(inputs_)));
     return std::fwrite(written_.data(), 1, written_.size(), out_) == written_.size();
   }
 
   std::FILE* tape_;
   std::FILE* out_;
-  std::string table_ = default_table();
-  std::string inputs_ = std::string(serialised_inputs_size<cable::CableArm>(), '\0');
+  std::string table_ = default_table<Arm>();
+  std::string inputs_ = std::string(serialised_inputs_size<Arm>(), '\0');
   std::string written_;
-  std::optional<cable::Controller> controller_, kept_;
+  std::optional<Controller<Arm>> controller_, kept_;
 };
+
+// The arm is the one whose table the tape begins with.
+bool play(std::FILE* tape, std::FILE* outputs) {
+  const int first = std::fgetc(tape);
+  if (std::ungetc(first, tape) == EOF) return false;
+  if (static_cast<Mark>(first) == Mark::kSerialRobot) return Player<serial::SerialArm>(tape, outputs).play();
+  return Player<cable::CableArm>(tape, outputs).play();
+}
 
 int run() {
   std::FILE* const tape = std::fopen(kTapeFile, "rb");
@@ -75,7 +85,7 @@ int run() {
   }
   std::setvbuf(tape, nullptr, _IOFBF, kFileBuffer);
   std::setvbuf(outputs, nullptr, _IOFBF, kFileBuffer);
-  const bool played = Player(tape, outputs).play();
+  const bool played = play(tape, outputs);
   if (!played) std::fprintf(stderr, "bits_ticks: %s is no tape, or ends early, or the disk is full\n", kTapeFile);
   const bool closed = std::fclose(outputs) == 0 && std::fclose(tape) == 0;
   return played && closed && close_meter() ? 0 : 1;

@@ -128,8 +128,8 @@ def fields(wanted, arrays):
 
 
 class Ticks(Files):
-    def recording(self, inputs, outputs):
-        parts = [metadata("run", robot=json.dumps(ROBOT))]
+    def recording(self, inputs, outputs, robot=ROBOT):
+        parts = [metadata("run", robot=json.dumps(robot))]
         for number, (topic, (lines, data)) in enumerate((("inputs", inputs), ("outputs", outputs)), 1):
             parts += [schema(number, topic, "liana-fields-1", lines), channel(number, topic, "liana-fields-1", number)]
             parts.append(message(number, data))
@@ -146,21 +146,28 @@ class Ticks(Files):
             "drive.target_counts": (-5, 6, 7),
             "theta_rate_rad_s": (0.5, -0.25, 9.0),
         }
-        read = self.recording(fields(recordings.INPUTS, inputs), fields(recordings.OUTPUTS, outputs))
+        read = self.recording(fields(recordings.INPUTS, inputs), fields(recordings.outputs_of(ROBOT), outputs))
         self.assertEqual(len(read.ticks), 1)
         tick = read.ticks[0]
         self.assertEqual((tick.tick, tick.request, tick.state), (42, "clear", "FAULT"))
         self.assertEqual((tick.statusword, tick.target, tick.theta_rate), ((0x1237, 0x0250), (-5, 6), (0.5, -0.25)))
         self.assertEqual(tick.faults, (recordings.Fault(3002, -1, 0, 40),))
 
+    def test_of_a_serial_arm_a_tick_has_the_rates_of_its_joints(self):
+        robot = {"kind": "serial", "drives": {"zero_counts": [0, 0]}, "joints": [{}, {}, {}]}
+        outputs = {"state": (2,), "drive.target_counts": (-5, 6, 7), "joint_rate_rad_s": (0.5, -0.25, 0.125)}
+        written = fields(recordings.outputs_of(robot), outputs)
+        tick = self.recording(fields(recordings.INPUTS, {"tick": (42,)}), written, robot).ticks[0]
+        self.assertEqual((tick.state, tick.target, tick.theta_rate), ("ENABLED", (-5, 6), (0.5, -0.25, 0.125)))
+
     def test_a_field_of_another_width_is_refused_by_name(self):
-        inputs, outputs = fields(recordings.INPUTS, {}), fields(recordings.OUTPUTS, {})
+        inputs, outputs = fields(recordings.INPUTS, {}), fields(recordings.outputs_of(ROBOT), {})
         changed = inputs[0].replace("tick 8", "tick 4"), inputs[1]
         with self.assertRaisesRegex(BadRecording, "field tick is not 8 bytes"):
             self.recording(changed, outputs).ticks
 
     def test_a_schema_that_is_none_is_refused(self):
-        inputs, outputs = fields(recordings.INPUTS, {}), fields(recordings.OUTPUTS, {})
+        inputs, outputs = fields(recordings.INPUTS, {}), fields(recordings.outputs_of(ROBOT), {})
         with self.assertRaisesRegex(BadRecording, "a field , which is no name"):
             self.recording(("tick..x 8\n", inputs[1]), outputs).ticks
 
@@ -207,6 +214,15 @@ class Truths(Files):
         self.assertEqual(
             (truth.travel_deg(0, 2), truth.travel_deg(0, None), truth.travel_deg(1, None)), (1.0, 2.0, 3.0)
         )
+
+    def test_travel_of_a_serial_arm_is_of_its_joints_and_of_nothing_else(self):
+        columns = ["slot", *(f"joint_deg_{n}" for n in range(1, 8)), "tip_x_m"]
+        rows = [[slot, *[0.0] * 6, 0.5 * slot, 100.0 * slot] for slot in range(3)]
+        path = self.file()
+        data = b"".join(struct.pack("<9d", *row) for row in rows)
+        path.write_bytes(json.dumps({"columns": columns}).encode() + b"\n" + data)
+        truth = Truth(path)
+        self.assertEqual((truth.theta_deg(1), truth.travel_deg(0, None)), ((0.0,) * 6 + (0.5,), 1.0))
 
 
 if __name__ == "__main__":

@@ -6,24 +6,14 @@
 #include <cstring>
 #include <limits>
 #include <new>
-#include <optional>
 #include <random>
 
-#include "host/record/codec.hpp"
 #include "host/record/serialise.hpp"
-#include "host/record/visit_cable_state.hpp"
-#include "host/record/visit_serial_state.hpp"
 #include "tests/firmware_like/ideal_drives.hpp"
-#include "tests/firmware_like/serial_rig.hpp"
+#include "tests/host/record/field_finder.hpp"
 
 namespace liana {
 namespace {
-
-std::string state_of(const cable::Controller& controller) {
-  std::string bytes;
-  append_state(bytes, controller);
-  return bytes;
-}
 
 std::string outputs_of(const cable::Outputs& outputs) {
   std::string bytes;
@@ -96,50 +86,10 @@ TEST(Image, OneThatIsCutShortOrTooLongIsRefusedWithTheField) {
   EXPECT_NE(refusal_of(good + "x", rig.robot).find("1 more bytes"), std::string::npos);
 }
 
-// Sets one field of a Controller by its path, in its bytes.
-class FieldFinder {
- public:
-  explicit FieldFinder(std::string wanted) : wanted_(std::move(wanted)) {}
-  template <Scalar T>
-  void operator()(const char* name, const T& value) {
-    if (path_ + name == wanted_) found_ = at_;
-    at_ += sizeof(bits_of(value));
-  }
-  template <class T, std::size_t N>
-  void operator()(const char* name, const std::array<T, N>& values) {
-    for (std::size_t i = 0; i < N; ++i) (*this)((std::string(name) + "[" + std::to_string(i) + "]").c_str(), values[i]);
-  }
-  template <class T>
-  requires std::is_class_v<T>
-  void operator()(const char* name, const T& value) {
-    const std::size_t length = path_.size();
-    path_ += std::string(name) + ".";
-    visit(*this, value);
-    path_.resize(length);
-  }
-  std::optional<std::size_t> found() const { return found_; }
-
- private:
-  std::string wanted_, path_;
-  std::size_t at_ = 0;
-  std::optional<std::size_t> found_;
-};
-
-template <class T>
-std::string with(const cable::Controller& controller, const std::string& field, T value) {
-  FieldFinder finder(field);
-  finder("controller", controller);
-  std::string bytes = state_of(controller), written;
-  Writer writer(written);
-  writer("", value);
-  if (!finder.found()) throw std::logic_error("there is no field " + field);
-  return bytes.replace(*finder.found(), written.size(), written);
-}
-
 TEST(Image, WhatWouldLeadTheCoreOutOfItsArraysIsRefusedAndNamed) {
   const cable::Rig rig = moving_rig(50);
   const auto expect_refused = [&](const std::string& field, auto value, const std::string& allowed) {
-    const std::string said = refusal_of(with(rig.controller, "controller." + field, value), rig.robot);
+    const std::string said = refusal_of(with_field(rig.controller, field, value), rig.robot);
     EXPECT_NE(said.find("field controller." + field + ": "), std::string::npos) << field << ": " << said;
     EXPECT_NE(said.find("allowed is " + allowed), std::string::npos) << said;
   };
@@ -204,31 +154,6 @@ TEST(Image, AnImageWithFlippedBytesIsRefusedOrHarmless) {
   }
   EXPECT_GT(taken, 100);
   EXPECT_LT(taken, 4000);
-}
-
-TEST(Image, TheStateOfASerialArmComesBackAndGoesOnWithTheSameBits) {
-  serial::micro::Rig whole;
-  whole.enable();
-  whole.tick(Request::kNone, whole.release(whole.tip_by({0.02, 0.01, 0.0})));
-  whole.run(40);
-  std::string bytes, first, second;
-  Writer writer(bytes);
-  writer("controller", whole.controller);
-  serial::micro::Rig middle = whole;
-  middle.controller = serial::Controller(whole.robot);
-  Reader reader(bytes);
-  reader("controller", middle.controller);
-  EXPECT_EQ(reader.left(), 0u);
-  for (int i = 0; i < 200; ++i) {
-    const serial::Outputs a = whole.tick(), b = middle.tick();
-    for (std::size_t d = 0; d < 7; ++d) ASSERT_EQ(a.drive[d].target_counts, b.drive[d].target_counts) << i;
-    ASSERT_EQ(a.joint_command_rad, b.joint_command_rad) << i;
-    ASSERT_EQ(a.tip_goal.position_m, b.tip_goal.position_m) << i;
-  }
-  Writer one(first), two(second);
-  one("", whole.controller);
-  two("", middle.controller);
-  EXPECT_EQ(first, second);
 }
 
 }  // namespace

@@ -1,37 +1,65 @@
-// An arm without buses: the Controller behind its link, with ideal drives that start at the prepare pose.
+// An arm without buses: the Controller behind its link, with ideal drives that start at a pose of the test's choice.
 #pragma once
 
 #include <cstdint>
 
 #include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/cable/arm/payout.hpp"
+#include "firmware_like/serial/drive_units.hpp"
 #include "host/control/tick_core.hpp"
 #include "host/verify/nominal_drives.hpp"
+#include "tests/firmware_like/micro_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana {
 
-using namespace cable;
+// What a drive shows that is switched on and waits, at this position.
+inline DriveFeedback waiting_drive(std::int32_t position_counts) {
+  DriveFeedback drive;
+  drive.statusword = 0x0250;
+  drive.operational = 1;
+  drive.position_counts = position_counts;
+  return drive;
+}
 
-class SimArm {
+// The cable arm's drives at the prepare pose.
+inline DriveFeedbacks drives_at_start(const cable::RobotTable& table) {
+  DriveFeedbacks drives{};
+  const cable::CableLayout layout = cable_layout(table);
+  const cable::CableGeometry geometry =
+      cable_geometry(table, layout, arm_trig(table, cable::zhu2022::radians(cable::zhu2022::kPrepare_deg)));
+  for (std::size_t i = 0; i < cable::zhu2022::kCables; ++i) {
+    const double zero_payout_m = layout.zero_length_m[i] + table.lead_m, payout_m = geometry.length_m[i] + table.lead_m;
+    drives[i] = waiting_drive(to_counts(counts_at_payout(table.drive[i], zero_payout_m, payout_m)).value);
+  }
+  return drives;
+}
+
+// The small arm's drives at these joint angles.
+inline DriveFeedbacks drives_at(const serial::RobotTable& table, const serial::JointVector& joint_rad) {
+  DriveFeedbacks drives{};
+  for (std::size_t i = 0; i < table.joints(); ++i)
+    drives[i] = waiting_drive(to_counts(counts_at_joint(table.drive[i], joint_rad[i])).value);
+  return drives;
+}
+
+template <class Arm>
+class ArmWithoutBuses {
  public:
-  SimArm()
-      : table_(zhu2022::table()),
-        link(table_),
-        core_(table_, link),
-        drives_(table_, start_inputs().drive, cable::Outputs{}) {
+  ArmWithoutBuses(const typename Arm::Table& table, const DriveFeedbacks& drives)
+      : table_(table), link(table_), core_(table_, link), drives_(table_, drives, Outputs<Arm>{}) {
     report_.boot = BootPhase::kDone;
     link.report.publish(report_);
     link.report.refresh();
     link.image.refresh();
   }
 
-  const cable::RobotTable& table() const { return table_; }
-  const cable::Outputs& now() const { return outputs_; }
+  const typename Arm::Table& table() const { return table_; }
+  const Outputs<Arm>& now() const { return outputs_; }
   std::uint64_t ticks_done() const { return report_.next_tick; }
 
   void tick() {
-    cable::Inputs inputs = drives_.next_inputs(report_.next_tick);
+    Inputs<Arm> inputs = drives_.next_inputs(report_.next_tick);
     outputs_ = core_.step(inputs);
     report_.inputs = inputs;
     drives_.command(outputs_);
@@ -52,32 +80,27 @@ class SimArm {
   }
 
  private:
-  cable::Inputs start_inputs() const {
-    cable::Inputs inputs;
-    const cable::CableLayout layout = cable_layout(table_);
-    const cable::CableGeometry geometry =
-        cable_geometry(table_, layout, arm_trig(table_, zhu2022::radians(zhu2022::kPrepare_deg)));
-    for (std::size_t i = 0; i < zhu2022::kCables; ++i) {
-      const double zero_payout_m = layout.zero_length_m[i] + table_.lead_m;
-      DriveFeedback& drive = inputs.drive[i];
-      drive.statusword = 0x0250;
-      drive.operational = 1;
-      drive.position_counts =
-          to_counts(counts_at_payout(table_.drive[i], zero_payout_m, geometry.length_m[i] + table_.lead_m)).value;
-    }
-    return inputs;
-  }
-
-  cable::RobotTable table_;
+  typename Arm::Table table_;
 
  public:
-  ArmLink<cable::CableArm> link;
+  ArmLink<Arm> link;
 
  private:
-  TickCore<cable::CableArm> core_;
-  NominalDrives<cable::CableArm> drives_;
-  ArmReport<cable::CableArm> report_{};
-  cable::Outputs outputs_{};
+  TickCore<Arm> core_;
+  NominalDrives<Arm> drives_;
+  ArmReport<Arm> report_{};
+  Outputs<Arm> outputs_{};
+};
+
+// The cable arm at its prepare pose.
+struct SimArm : ArmWithoutBuses<cable::CableArm> {
+  SimArm() : ArmWithoutBuses(cable::zhu2022::table(), drives_at_start(cable::zhu2022::table())) {}
+};
+
+// The small arm at these joint angles.
+struct SimSerialArm : ArmWithoutBuses<serial::SerialArm> {
+  explicit SimSerialArm(const serial::JointVector& joint_rad)
+      : ArmWithoutBuses(serial::micro::table(), drives_at(serial::micro::table(), joint_rad)) {}
 };
 
 }  // namespace liana

@@ -1,0 +1,122 @@
+// What both verification ends refuse of a serial arm: just outside each limit, and not just inside it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "firmware_like/math/braking.hpp"
+#include "host/verify/verify.hpp"
+#include "tests/firmware_like/micro_arm.hpp"
+
+namespace liana {
+namespace {
+
+using serial::SerialArm;
+using Change = std::function<void(serial::Outputs&)>;
+
+// Its third joint's range is not symmetric, so that a limit on the angle alone would be the wrong one.
+serial::RobotTable uneven_table() {
+  serial::RobotTable table = serial::micro::table();
+  table.joint[2].low_rad = -0.2;
+  table.joint[2].high_rad = 1.0;
+  return table;
+}
+const serial::RobotTable kTable = uneven_table();
+
+struct Judged {
+  Refusal execution, simulation;
+  std::string text;
+};
+
+// A prediction of five quiet ticks and a stop of three, with one tick changed.
+Judged judge(const Change& change, std::size_t at) {
+  ReleaseStep<SerialArm> release;
+  serial::Setpoint setpoint;
+  setpoint.kind = CommandKind::kTip;
+  const Candidate<SerialArm> candidate = release.candidate(setpoint, 1, 100, 5);
+  Prediction<SerialArm> prediction;
+  prediction.command_ticks = 5;
+  prediction.comes_to_rest = true;
+  prediction.ticks.resize(8);
+  for (serial::Outputs& outputs : prediction.ticks) outputs.active_sequence = candidate.sequence();
+  change(prediction.ticks[at]);
+  const ExecutionVerdict execution = judge_execution<SerialArm>(kTable, candidate, prediction);
+  const SimulationVerdict simulation = judge_motion<SerialArm>(kTable, candidate, prediction);
+  return {execution.code, simulation.code, execution.text + simulation.text};
+}
+
+constexpr double kOver = 1.00001;  // more than rounding is granted
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+struct Row {
+  const char* why;
+  Change refused, passed;  // just outside and just inside
+  Refusal code;
+  const char* words;  // that the refusal has to hold
+};
+
+const double kRate = kTable.joint[4].rate_rad_s, kWay = kTargetSpeedMargin * kRate * kTable.tick_s;
+
+const Row kRows[] = {
+    {"107: a joint told to go further in one tick than its rate allows would be refused by the gate",
+     [](serial::Outputs& o) { o.joint_command_rad[4] = kWay * kOver; },
+     [](serial::Outputs& o) { o.joint_command_rad[4] = kWay; }, Refusal::kJointTravel,
+     "travel per tick [rad] of joint 5"},
+    {"107: backwards, too", [](serial::Outputs& o) { o.joint_command_rad[4] = -kWay * kOver; },
+     [](serial::Outputs& o) { o.joint_command_rad[4] = -kWay; }, Refusal::kJointTravel, "joint 5"},
+    {"202: the limiter may turn a joint at its rate and no faster",
+     [](serial::Outputs& o) { o.joint_rate_rad_s[4] = -kRate * kOver; },
+     [](serial::Outputs& o) { o.joint_rate_rad_s[4] = -kRate; }, Refusal::kJointRate, "rate [rad/s] of joint 5"},
+    {"203: near a station the tip is slow; 5 % are granted while the IK catches up",
+     [](serial::Outputs& o) { o.tip_speed_m_s = 1.06 * kTable.tip.speed_m_s; },
+     [](serial::Outputs& o) { o.tip_speed_m_s = 1.04 * kTable.tip.speed_m_s; }, Refusal::kTipSpeed, "tip speed [m/s]"},
+    {"203: and turns slowly", [](serial::Outputs& o) { o.tip_rate_rad_s = 1.06 * kTable.tip.rate_rad_s; },
+     [](serial::Outputs& o) { o.tip_rate_rad_s = 1.04 * kTable.tip.rate_rad_s; }, Refusal::kTipSpeed, "tip turn rate"},
+    {"205: a number that is none compares with nothing, and must not pass for it",
+     [](serial::Outputs& o) { o.tip_speed_m_s = kNone; }, [](serial::Outputs&) {}, Refusal::kNotFinite, "not a finite"},
+    {"205: of a joint as well", [](serial::Outputs& o) { o.joint_rate_rad_s[6] = kNone; }, [](serial::Outputs&) {},
+     Refusal::kNotFinite, "joint 7"},
+    {"206: a tip that falls behind its target by more than 5 mm cannot get there",
+     [](serial::Outputs& o) { o.ik_position_error_m = 0.0051; },
+     [](serial::Outputs& o) { o.ik_position_error_m = 0.0049; }, Refusal::kUnreachable, "distance of the tip"},
+    {"206: or by more than 0.01 rad of attitude", [](serial::Outputs& o) { o.ik_attitude_error_rad = 0.0101; },
+     [](serial::Outputs& o) { o.ik_attitude_error_rad = 0.0099; }, Refusal::kUnreachable, "angle of the tip"},
+};
+
+TEST(VerifyASerialArm, EveryLimitRefusesWhatIsJustOutsideAndPassesWhatIsJustInside) {
+  for (const Row& row : kRows) {
+    const Judged out = judge(row.refused, 2), in = judge(row.passed, 2);
+    EXPECT_EQ(row.code, out.execution != Refusal::kNone ? out.execution : out.simulation) << row.why;
+    EXPECT_NE(out.text.find(row.words), std::string::npos) << row.why << ": " << out.text;
+    EXPECT_EQ(in.execution, Refusal::kNone) << row.why << ": " << in.text;
+    EXPECT_EQ(in.simulation, Refusal::kNone) << row.why << ": " << in.text;
+  }
+}
+
+TEST(VerifyASerialArm, TheStopAfterTheCommandIsJudgedByTheSameLimits) {
+  for (const Row& row : kRows) {
+    const Judged out = judge(row.refused, 7);
+    EXPECT_EQ(row.code, out.execution != Refusal::kNone ? out.execution : out.simulation) << row.why;
+  }
+}
+
+// 201: where a range is not symmetric, both its ends count, not the larger one.
+TEST(VerifyASerialArm, AJointStaysBetweenTheTwoEndsOfItsRange) {
+  const auto at = [](double joint_rad) {
+    return judge([&](serial::Outputs& o) { o.joint_command_rad[2] = joint_rad; }, 2).simulation;
+  };
+  EXPECT_EQ(at(1.0), Refusal::kNone);
+  EXPECT_EQ(at(1.0 + 1e-5), Refusal::kJointAngle);
+  EXPECT_EQ(at(-0.2), Refusal::kNone);
+  EXPECT_EQ(at(-0.2 - 1e-5), Refusal::kJointAngle);
+  EXPECT_EQ(at(-0.9), Refusal::kJointAngle) << "inside the larger end's distance from zero";
+}
+
+TEST(VerifyASerialArm, AJointThatTheArmHasNotIsNotJudged) {
+  EXPECT_EQ(judge([](serial::Outputs& o) { o.joint_command_rad[7] = 100.0; }, 2).simulation, Refusal::kNone);
+}
+
+}  // namespace
+}  // namespace liana

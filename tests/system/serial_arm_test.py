@@ -1,0 +1,127 @@
+"""A mission of the serial arm as users run it: repeatable, replayable, readable; and what a serial arm refuses (A36)."""
+import json
+import pathlib
+import tempfile
+import unittest
+
+from recordings_test import content
+from support import MISSIONS, SystemTest, start_run
+from liana.recordings import Mcap, Recording, Truth
+from liana.system import run
+
+SHORT = MISSIONS / "short_micro.lua"
+FILES = ("ticks.mcap", "images.mcap", "state.mcap", "truth.bin", "can0.log", "can1.log")
+PATIENCE_S = 300
+
+
+class SerialRuns(SystemTest):
+    def runTest(self):
+        """Lets setUpClass make an instance whose clean-ups outlive single tests."""
+
+    def record(self, mission, seed):
+        words = ("--robot", "micro", "--time", "fast", "--seed", seed, "--record", "record", "--json", "report.json")
+        process = start_run(self, mission, *words)
+        _, error = process.communicate(timeout=PATIENCE_S)
+        self.assertEqual(process.returncode, 0, error)
+        return process.home / "record"
+
+    def assert_replays(self, folder, ticks):
+        done = run("liana", "replay", folder, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        result = json.loads(done.stdout)
+        self.assertEqual((result["differing_ticks"], result["missing_ticks"], result["complete"]), (0, 0, True))
+        self.assertEqual((result["same_build"], result["images"]["state"]), (True, "whole"))
+        self.assertGreater(result["ticks"], ticks)
+
+
+class AShortMission(SerialRuns):
+    """Three runs, two with one seed; their directories live as long as the class."""
+
+    @classmethod
+    def setUpClass(cls):
+        keeper = cls()
+        cls.addClassCleanup(keeper.doCleanups)
+        cls.first, cls.second, cls.other = (keeper.record(SHORT, seed) for seed in (3, 3, 4))
+
+    def test_two_runs_with_one_seed_are_identical_file_by_file(self):
+        names, others = (sorted(file.name for file in folder.iterdir()) for folder in (self.first, self.second))
+        self.assertEqual(names, others)
+        self.assertLessEqual(set(FILES), set(names))
+        for name in names:
+            first, second = (content(folder, name) for folder in (self.first, self.second))
+            if name == "state.mcap":
+                first, second = (found[: min(len(first), len(second))] for found in (first, second))
+                self.assertGreater(len(first), 500)
+            self.assertTrue(first == second, f"{name} differs")
+
+    def test_another_seed_gives_another_arm(self):
+        for name in ("ticks.mcap", "truth.bin", "can0.log", "can1.log"):
+            self.assertFalse((self.first / name).read_bytes() == (self.other / name).read_bytes(), name)
+
+    def test_it_replays_bit_for_bit(self):
+        self.assert_replays(self.first, 2500)
+
+    def test_a_flipped_bit_in_the_recording_is_noticed(self):
+        whole = bytearray((self.first / "ticks.mcap").read_bytes())
+        whole[len(whole) // 2] ^= 1
+        copy = self.second.parent / "flipped"
+        copy.mkdir()
+        (copy / "ticks.mcap").write_bytes(whole)
+        self.assertEqual(run("liana", "replay", copy).returncode, 1)
+
+    def test_the_recording_has_seven_drives_and_seven_joints(self):
+        ticks = Recording(self.first / "ticks.mcap").ticks
+        enabled = [tick for tick in ticks if tick.state == "ENABLED"]
+        self.assertGreater(len(enabled), 2000)
+        self.assertEqual({(len(tick.position), len(tick.target), len(tick.theta_rate)) for tick in ticks}, {(7, 7, 7)})
+        self.assertGreater(max(abs(rate) for tick in enabled for rate in tick.theta_rate), 0.01)
+        self.assertTrue(all(not tick.faults for tick in ticks))
+        states = [message.json() for message in Mcap(self.first / "state.mcap").messages("state")]
+        self.assertEqual({len(state["setpoint_js_deg"]) for state in states}, {7})
+
+    def test_the_report_says_what_ran_and_that_the_arm_stands_safe(self):
+        report = json.loads((self.first / "report.json").read_text())
+        self.assertEqual([report[key] for key in ("robot", "outcome", "faults", "seed")], ["micro", "success", [], 3])
+        truth = Truth(self.first / "truth.bin")
+        self.assertEqual(max(truth.column("enabled")), 7)
+        self.assert_stopped(truth, len(truth.rows) - 130)
+        self.assertGreater(truth.travel_deg(0, None), 2.0)
+
+
+class TheWholeMission(SerialRuns):
+    def test_micro_reach_succeeds_and_replays(self):
+        folder = self.record("micro_reach", 1)
+        report = json.loads((folder / "report.json").read_text())
+        self.assertEqual((report["outcome"], report["faults"], len(report["steps"])), ("success", [], 4))
+        self.assertLess(report["open_loop_tip_error_m"], 0.02)
+        self.assertLess(report["max_joint_torque_Nm"], 150.0)
+        self.assert_replays(folder, 10000)
+
+
+class WhatASerialArmRefuses(SystemTest):
+    def refused(self, *words, says):
+        process = start_run(self, *words)
+        out, error = process.communicate(timeout=PATIENCE_S)
+        self.assertEqual((process.returncode, out), (2, ""), error)
+        for word in says:
+            self.assertIn(word, error)
+        self.assertEqual(list(process.home.iterdir()), [], "nothing may be left behind")
+
+    def test_options_that_are_about_cables(self):
+        with tempfile.NamedTemporaryFile(suffix=".json") as file:
+            for option, value in (("--calibration", file.name), ("--in-pose", "prepare"), ("--cross-wired", "1,2")):
+                with self.subTest(option):
+                    self.refused(SHORT, "--robot", "micro", option, value, says=[option, "micro", "serial"])
+
+    def test_a_plan_for_a_cable_arm(self):
+        with tempfile.TemporaryDirectory() as folder:
+            plan = pathlib.Path(folder) / "plan.json"
+            plan.write_text(json.dumps({"format": 1, "kind": "plan", "outcome": "solved", "waypoints_deg": [[0] * 10]}))
+            self.refused(plan, "--robot", "micro", says=["plan", "micro"])
+
+    def test_a_mission_of_the_cable_arm(self):
+        self.refused(MISSIONS / "steered.lua", "--robot", "micro", says=["steered.lua"])
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
