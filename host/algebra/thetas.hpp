@@ -9,7 +9,7 @@
 #include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
 
-namespace liana {
+namespace liana::algebra {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -39,4 +39,4 @@ inline void fix_theta(Eigen::Index k, double value, ThetaMatrix& A, ThetaColumn&
   b[k] = value;
 }
 
-}  // namespace liana
+}  // namespace liana::algebra

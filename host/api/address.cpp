@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace liana {
+namespace liana::api {
 
 sockaddr_un unix_address(const std::string& path) {
   sockaddr_un address{};
@@ -18,4 +18,4 @@ sockaddr_un unix_address(const std::string& path) {
   return address;
 }
 
-}  // namespace liana
+}  // namespace liana::api

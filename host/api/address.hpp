@@ -5,9 +5,9 @@
 
 #include <string>
 
-namespace liana {
+namespace liana::api {
 
 // Address for `path`; throws std::runtime_error when it is empty or longer than the system allows (107 bytes).
 sockaddr_un unix_address(const std::string& path);
 
-}  // namespace liana
+}  // namespace liana::api

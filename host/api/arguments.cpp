@@ -5,7 +5,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::api {
 
 Pose pose_of(const Json& numbers) {
   const auto p = numbers.get<std::array<double, 7>>();
@@ -53,4 +53,4 @@ std::vector<std::string> Arguments::texts(std::string_view name) const {
   return has(name) ? value(name).get<std::vector<std::string>>() : std::vector<std::string>();
 }
 
-}  // namespace liana
+}  // namespace liana::api

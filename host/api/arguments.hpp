@@ -11,7 +11,7 @@
 #include "host/api/request_table.hpp"
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
+namespace liana::api {
 
 // The seven numbers of a pose.
 Pose pose_of(const Json& numbers);
@@ -49,4 +49,4 @@ class Arguments {
   const RequestBounds& bounds_;
 };
 
-}  // namespace liana
+}  // namespace liana::api

@@ -11,7 +11,7 @@
 #include "host/api/address.hpp"
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::api {
 
 namespace {
 constexpr double kSendTimeout_s = 10.0;
@@ -64,4 +64,4 @@ std::optional<Json> ApiClient::receive(double timeout_s) {
   return Json::parse(packet);
 }
 
-}  // namespace liana
+}  // namespace liana::api

@@ -7,7 +7,7 @@
 #include "host/api/socket.hpp"
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
+namespace liana::api {
 
 class ApiClient {
  public:
@@ -31,4 +31,4 @@ class ApiClient {
   UniqueFd fd_;
 };
 
-}  // namespace liana
+}  // namespace liana::api

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace liana {
+namespace liana::api {
 
 bool Outbox::add(Topic topic, bool droppable, std::string packet) {
   if (droppable && waiting_droppable_[index_of(topic)] >= kMaxDroppable) forget_oldest(topic);
@@ -33,4 +33,4 @@ void Outbox::clear() {
   waiting_ = waiting_droppable_ = {};
 }
 
-}  // namespace liana
+}  // namespace liana::api

@@ -8,7 +8,7 @@
 
 #include "host/api/topic.hpp"
 
-namespace liana {
+namespace liana::api {
 
 class Outbox {
  public:
@@ -41,4 +41,4 @@ class Outbox {
   std::uint64_t dropped_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::api

@@ -5,7 +5,7 @@
 #include <deque>
 #include <string>
 
-namespace liana {
+namespace liana::api {
 
 class PacketHistory {
  public:
@@ -31,4 +31,4 @@ class PacketHistory {
   std::uint64_t next_ = 1;
 };
 
-}  // namespace liana
+}  // namespace liana::api

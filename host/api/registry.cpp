@@ -12,7 +12,7 @@
 
 #include "host/api/socket.hpp"
 
-namespace liana {
+namespace liana::api {
 namespace {
 
 namespace fs = std::filesystem;
@@ -72,4 +72,4 @@ std::vector<std::string> running_systems() {
   return sockets;
 }
 
-}  // namespace liana
+}  // namespace liana::api

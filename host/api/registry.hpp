@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace liana {
+namespace liana::api {
 
 // $XDG_RUNTIME_DIR/liana-UID; without that variable the same under /run/user/UID or, where there is none, /tmp.
 std::string registry_folder();
@@ -27,4 +27,4 @@ class Registration {
 // std::runtime_error when the folder is somebody else's.
 std::vector<std::string> running_systems();
 
-}  // namespace liana
+}  // namespace liana::api

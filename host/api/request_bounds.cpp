@@ -5,7 +5,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::api {
 
 namespace {
 
@@ -63,4 +63,4 @@ RequestBounds request_bounds(const Json& robot) {
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::api

@@ -7,7 +7,7 @@
 
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
+namespace liana::api {
 
 // Kinds of arm, one bit each; a set of them says for which an operation exists.
 using Arms = std::uint8_t;
@@ -52,4 +52,4 @@ struct RequestBounds {
 // JsonError when a figure is missing.
 RequestBounds request_bounds(const Json& robot);
 
-}  // namespace liana
+}  // namespace liana::api

@@ -6,7 +6,7 @@
 #include "host/api/request_text.hpp"
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::api {
 
 namespace {
 
@@ -237,4 +237,4 @@ Arguments checked(const RequestRow& row, const Json& request, const RequestBound
   return {request, row.fields, bounds};
 }
 
-}  // namespace liana
+}  // namespace liana::api

@@ -7,7 +7,7 @@
 #include "host/api/request_table.hpp"
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
+namespace liana::api {
 
 // The row of a request; throws RequestError bad_request about an op that is missing, no text, or not in the table.
 const RequestRow& row_of(const Json& request);
@@ -24,4 +24,4 @@ void check_fields(const RequestRow& row, const Json& request, const RequestBound
 // The same, and the arguments.
 Arguments checked(const RequestRow& row, const Json& request, const RequestBounds& bounds);
 
-}  // namespace liana
+}  // namespace liana::api

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace liana {
+namespace liana::api {
 
 // Codes of docs/api.md: bad_request, not_owner, not_enabled, fault, busy, out_of_range, refused, no_device.
 class RequestError : public std::runtime_error {
@@ -16,4 +16,4 @@ class RequestError : public std::runtime_error {
   std::string code_;
 };
 
-}  // namespace liana
+}  // namespace liana::api

@@ -5,7 +5,7 @@
 
 #include "host/api/request_table.hpp"
 
-namespace liana::request_fields {
+namespace liana::api::request_fields {
 
 constexpr Figure kReach = Figure::kReach;
 
@@ -174,4 +174,4 @@ constexpr std::array kCamera{
     pose("rod", 1000.0, "the rod's frame in the tip frame; null: not seen").or_null(),
 };
 
-}  // namespace liana::request_fields
+}  // namespace liana::api::request_fields

@@ -6,7 +6,7 @@
 
 #include "host/api/request_text.hpp"
 
-namespace liana {
+namespace liana::api {
 
 namespace {
 
@@ -203,4 +203,4 @@ std::string with_section(const MadeSection& section, const std::string& text, co
   return text.substr(0, begin) + made + text.substr(end);
 }
 
-}  // namespace liana
+}  // namespace liana::api

@@ -5,7 +5,7 @@
 
 #include "host/api/request_table.hpp"
 
-namespace liana {
+namespace liana::api {
 
 // A file with a section that is made, between the lines `begin` and `end`.
 struct MadeSection {
@@ -34,4 +34,4 @@ constexpr MadeSection kCommandStubs{"lua/liana/arm_stubs.lua", "-- ---- commandi
 std::string section_of(const MadeSection& section, const std::string& text);
 std::string with_section(const MadeSection& section, const std::string& text, const std::string& made);
 
-}  // namespace liana
+}  // namespace liana::api

@@ -8,11 +8,11 @@
 
 namespace {
 
-void write(const std::string& folder, const liana::MadeSection& section) {
+void write(const std::string& folder, const liana::api::MadeSection& section) {
   const std::string file = folder + "/" + section.file;
   std::ifstream in(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(in), {}};
-  const std::string made = liana::with_section(section, text, section.make());
+  const std::string made = liana::api::with_section(section, text, section.make());
   std::ofstream(file, std::ios::binary) << made;
 }
 
@@ -24,8 +24,8 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    write(argv[1], liana::kRequestSection);
-    write(argv[1], liana::kCommandStubs);
+    write(argv[1], liana::api::kRequestSection);
+    write(argv[1], liana::api::kCommandStubs);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "request_pages: %s\n", error.what());
     return 1;

@@ -4,7 +4,7 @@
 
 #include "host/api/request_fields.hpp"
 
-namespace liana {
+namespace liana::api {
 
 namespace {
 
@@ -124,4 +124,4 @@ const RequestRow* find_request(std::string_view op) {
   return found != kTable.end() ? &*found : nullptr;
 }
 
-}  // namespace liana
+}  // namespace liana::api

@@ -10,7 +10,7 @@
 #include "host/api/request_bounds.hpp"
 #include "host/api/role.hpp"
 
-namespace liana {
+namespace liana::api {
 
 enum class FieldType : std::uint8_t {
   kNumber,   // in [low, high]
@@ -112,4 +112,4 @@ std::span<const RequestRow> request_table();
 // The row of an operation, or nullptr.
 const RequestRow* find_request(std::string_view op);
 
-}  // namespace liana
+}  // namespace liana::api

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-namespace liana {
+namespace liana::api {
 
 namespace {
 
@@ -75,4 +75,4 @@ std::string arms_text(Arms arms) {
   return arms == kEveryArm ? "every arm" : arms == kCableArm ? "cable arms" : "serial arms";
 }
 
-}  // namespace liana
+}  // namespace liana::api

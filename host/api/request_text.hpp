@@ -6,7 +6,7 @@
 
 #include "host/api/request_table.hpp"
 
-namespace liana {
+namespace liana::api {
 
 // Shortest text of a number: "20", "0.01", "1e+300".
 std::string text_of(double value);
@@ -26,4 +26,4 @@ std::string roles_text(Roles roles);
 // "cable arms", "serial arms" or "every arm".
 std::string arms_text(Arms arms);
 
-}  // namespace liana
+}  // namespace liana::api

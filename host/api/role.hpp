@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace liana {
+namespace liana::api {
 
 // What a client is; also the order in which clients are served (smaller first).
 enum class Role : std::uint8_t { kMission, kOperator, kCamera, kArchive, kClient, kObserver };
@@ -20,4 +20,4 @@ using Roles = std::uint8_t;
 constexpr Roles only(Role role) { return static_cast<Roles>(1u << static_cast<unsigned>(role)); }
 constexpr Roles kAnyRole = (1u << kRoleNames.size()) - 1;
 
-}  // namespace liana
+}  // namespace liana::api

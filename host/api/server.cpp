@@ -16,7 +16,7 @@
 #include "host/api/stop_packet.hpp"
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::api {
 
 using Clock = std::chrono::steady_clock;
 
@@ -416,4 +416,4 @@ void ApiServer::bury() {
   }
 }
 
-}  // namespace liana
+}  // namespace liana::api

@@ -13,7 +13,7 @@
 #include "host/api/topic.hpp"
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
+namespace liana::api {
 
 // One greeted client, as the handler sees it.
 struct ClientInfo {
@@ -100,4 +100,4 @@ class ApiServer {
 
 // Role of its name in docs/api.md; throws RequestError for others.
 Role role_of(const std::string& name);
-}  // namespace liana
+}  // namespace liana::api

@@ -15,7 +15,7 @@
 
 #include "host/api/address.hpp"
 
-namespace liana {
+namespace liana::api {
 
 UniqueFd& UniqueFd::operator=(UniqueFd&& other) noexcept {
   if (this != &other) {
@@ -93,4 +93,4 @@ UniqueFd listen_at(const std::string& option, const std::string& path) {
   return fd;
 }
 
-}  // namespace liana
+}  // namespace liana::api

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-namespace liana {
+namespace liana::api {
 
 // Largest packet of the API in bytes; longer ones are refused by both ends.
 constexpr std::size_t kMaxPacketBytes = 65536;
@@ -49,4 +49,4 @@ bool is_listening(const std::string& path);
 // it never waits. Throws std::runtime_error when the path is in use, no socket, too long or not writable.
 UniqueFd listen_at(const std::string& option, const std::string& path);
 
-}  // namespace liana
+}  // namespace liana::api

@@ -1,6 +1,6 @@
 #include "host/api/stop_packet.hpp"
 
-namespace liana {
+namespace liana::api {
 
 namespace {
 
@@ -91,4 +91,4 @@ StopPacket read_stop(std::string_view packet) {
   return found;
 }
 
-}  // namespace liana
+}  // namespace liana::api

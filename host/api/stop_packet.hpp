@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace liana {
+namespace liana::api {
 
 struct StopPacket {
   bool is_stop = false;
@@ -16,4 +16,4 @@ struct StopPacket {
 // One pass over the bytes, no recursion.
 StopPacket read_stop(std::string_view packet);
 
-}  // namespace liana
+}  // namespace liana::api

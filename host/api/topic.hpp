@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace liana {
+namespace liana::api {
 
 enum class Topic : std::uint8_t { kState, kCamera, kTick, kEvent };
 // As in hello, in the order of Topic.
@@ -13,4 +13,4 @@ constexpr std::array<const char*, 4> kTopicNames{"state", "camera", "tick", "eve
 
 constexpr std::size_t index_of(Topic topic) { return static_cast<std::size_t>(topic); }
 
-}  // namespace liana
+}  // namespace liana::api

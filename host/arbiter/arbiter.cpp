@@ -8,7 +8,7 @@
 #include "host/arbiter/cable_kind.hpp"
 #include "host/arbiter/serial_kind.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 template <class Arm>
 Arbiter<Arm>::Arbiter(const Table& table, const SpeedZone& zone, SearchResult taken, PathCheck<Arm> check)
@@ -21,16 +21,16 @@ Arbiter<Arm>::Arbiter(const Table& table, const SpeedZone& zone, SearchResult ta
 template <class Arm>
 void Arbiter<Arm>::require_ready(const Now& now) const {
   if (now.faults.count > 0) {
-    throw RequestError(
+    throw api::RequestError(
         "fault", std::string("fault ") + fault_info(now.faults.fault[0].number).name + " is latched: clear it first");
   }
-  if (now.state != OperatingState::kEnabled) throw RequestError("not_enabled", "the arm is not enabled");
+  if (now.state != OperatingState::kEnabled) throw api::RequestError("not_enabled", "the arm is not enabled");
 }
 
 template <class Arm>
 void Arbiter<Arm>::require_free(const Now& now) const {
   require_ready(now);
-  if (is_busy()) throw RequestError("busy", "a planned move is under way: wait for it or send hold");
+  if (is_busy()) throw api::RequestError("busy", "a planned move is under way: wait for it or send hold");
 }
 
 template <class Arm>
@@ -61,7 +61,7 @@ void Arbiter<Arm>::servo_tip(const Now& now, const Pose& goal) {
 template <class Arm>
 void Arbiter<Arm>::move_path(const Now& now, const PathRequest<Arm>& request) {
   require_free(now);
-  if (now.at_rest == 0) throw RequestError("busy", "a path starts from rest: wait for it or send hold");
+  if (now.at_rest == 0) throw api::RequestError("busy", "a path starts from rest: wait for it or send hold");
   const PathRequest<Arm> admitted = admit_path<Arm>(table_, Kind::command_rad(now), request);
   hold();
   path_work_.start([table = table_, zone = zone_, check = path_check_, from = Kind::command_rad(now), admitted] {
@@ -77,7 +77,7 @@ std::optional<PathProgress> Arbiter<Arm>::path() const {
 }
 
 template <class Arm>
-void Arbiter<Arm>::tell(PathEvent what, const PathMove<Arm>& move, const std::string& rest) {
+void Arbiter<Arm>::tell(event::PathEvent what, const PathMove<Arm>& move, const std::string& rest) {
   const PathProgress path = move.progress();
   path_news_.push_back({what, path, move.duration_s(table_), "path " + path.hash + rest});
 }
@@ -88,7 +88,7 @@ void Arbiter<Arm>::hold() {
   const auto* move = std::get_if<PathMove<Arm>>(&way_);
   if (move != nullptr && !move->is_over()) {
     const int percent = static_cast<int>(100.0 * move->progress().share);
-    tell(PathEvent::kStops, *move, " stops at " + std::to_string(percent) + " % of its time");
+    tell(event::PathEvent::kStops, *move, " stops at " + std::to_string(percent) + " % of its time");
   }
   way_.template emplace<Idle>();
 }
@@ -96,15 +96,15 @@ void Arbiter<Arm>::hold() {
 template <class Arm>
 void Arbiter<Arm>::tell_of_outlook(const PathMove<Arm>& move) {
   if (!move.outlook()->refusal.empty())
-    return tell(PathEvent::kRefused, move, " is refused: " + move.outlook()->refusal);
+    return tell(event::PathEvent::kRefused, move, " is refused: " + move.outlook()->refusal);
   const int time_s = static_cast<int>(std::ceil(move.duration_s(table_)));
-  tell(PathEvent::kBegins, move, " begins, " + std::to_string(time_s) + " s");
+  tell(event::PathEvent::kBegins, move, " begins, " + std::to_string(time_s) + " s");
 }
 
 template <class Arm>
 void Arbiter<Arm>::retract(const Now& now, std::uint64_t until_tick) {
   require_ready(now);
-  if (path_.empty()) throw RequestError("refused", "there is no stored path to go back along");
+  if (path_.empty()) throw api::RequestError("refused", "there is no stored path to go back along");
   has_retracted_ = false;
   way_.template emplace<WayBack<Arm>>(path_, until_tick);
 }
@@ -163,7 +163,7 @@ void Arbiter<Arm>::end_way() {
   }
   if (std::holds_alternative<WayBack<Arm>>(way_)) has_retracted_ = true;
   const auto* path = std::get_if<PathMove<Arm>>(&way_);
-  if (path != nullptr && path->outlook()->refusal.empty()) tell(PathEvent::kArrives, *path, " has arrived");
+  if (path != nullptr && path->outlook()->refusal.empty()) tell(event::PathEvent::kArrives, *path, " has arrived");
   hold();
 }
 
@@ -206,4 +206,4 @@ static_assert(WayOfMoving<TipTarget<cable::CableArm>, cable::CableArm>);
 static_assert(WayOfMoving<LineMove<cable::CableArm>, cable::CableArm>);
 static_assert(WayOfMoving<WayBack<cable::CableArm>, cable::CableArm>);
 
-}  // namespace liana
+}  // namespace liana::arbiter

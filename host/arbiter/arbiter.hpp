@@ -19,7 +19,7 @@
 #include "host/arbiter/tip_target.hpp"
 #include "host/arbiter/way_back.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 template <class Arm>
 class Arbiter {
@@ -86,7 +86,7 @@ class Arbiter {
     bool refused() { return false; }
   };
 
-  void tell(PathEvent what, const PathMove<Arm>& move, const std::string& rest);
+  void tell(event::PathEvent what, const PathMove<Arm>& move, const std::string& rest);
   void tell_of_outlook(const PathMove<Arm>& move);
   void end_way();
   std::optional<Setpoint> setpoint_for(const Now& now, const Goal<Arm>& goal) const;
@@ -106,4 +106,4 @@ class Arbiter {
   std::variant<Idle, TipTarget<Arm>, LineMove<Arm>, JointMove<Arm>, PathMove<Arm>, WayBack<Arm>> way_;
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

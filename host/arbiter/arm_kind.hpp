@@ -11,7 +11,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "firmware_like/operator_input/tip_filter.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 // Bounds of the tip's motion [m, rad, s].
 struct TipBounds {
@@ -86,4 +86,4 @@ double interval_s(const Table& table) {
   return table.tick_s * table.interval_ticks;
 }
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -4,7 +4,7 @@
 
 #include "host/api/request_error.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone, SearchResult taken,
                            PathCheck<cable::CableArm> check)
@@ -16,9 +16,10 @@ CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone
 void CableArbiter::require_free(const cable::Outputs& now) const {
   moves_.require_ready(now);
   if (is_searching())
-    throw RequestError("busy", "the shape that a search has found is gone to: wait until it has settled or send hold");
+    throw api::RequestError("busy",
+                            "the shape that a search has found is gone to: wait until it has settled or send hold");
   moves_.require_free(now);
-  if (device_.engaged()) throw RequestError("busy", "the operator steers: wait for the deadman to open");
+  if (device_.engaged()) throw api::RequestError("busy", "the operator steers: wait for the deadman to open");
 }
 
 void CableArbiter::move_joints(const cable::Outputs& now, const cable::ThetaVector& goal_rad, double rate_rad_s) {
@@ -59,9 +60,10 @@ void CableArbiter::shape(const cable::Outputs& now, const cable::NodeTargets& no
                          const cable::KeepClearTargets& clear, bool search) {
   moves_.require_ready(now);
   if (search && is_busy())
-    throw RequestError("busy", "search needs an arm at rest, a planned move is under way: wait for it or send hold");
+    throw api::RequestError("busy",
+                            "search needs an arm at rest, a planned move is under way: wait for it or send hold");
   if (search && now.at_rest == 0)
-    throw RequestError("busy", "search looks for a shape of the arm at rest: wait for it or send hold");
+    throw api::RequestError("busy", "search looks for a shape of the arm at rest: wait for it or send hold");
   lead_.forget();
   const CableWishes& held = moves_.wishes();
   if (search) lead_.look_for({now.tip_command, now.theta_command_rad, held.held_mask, held.held_rad, nodes, clear});
@@ -71,7 +73,7 @@ void CableArbiter::shape(const cable::Outputs& now, const cable::NodeTargets& no
 }
 
 void CableArbiter::use_device(const DeviceUse& use) {
-  if (is_busy()) throw RequestError("busy", "a planned move is under way: wait for it or send hold");
+  if (is_busy()) throw api::RequestError("busy", "a planned move is under way: wait for it or send hold");
   take_device_away();
   device_.use(use);
   moves_.limit_tip_speed(use.speed_m_s > 0.0 ? use.speed_m_s : robot_speed_m_s_);
@@ -145,4 +147,4 @@ void CableArbiter::wish_nodes() {
   }
 }
 
-}  // namespace liana
+}  // namespace liana::arbiter

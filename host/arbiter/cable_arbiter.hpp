@@ -11,7 +11,7 @@
 #include "host/arbiter/shape_lead.hpp"
 #include "host/arbiter/speed_zone.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 extern template class Arbiter<cable::CableArm>;
 
@@ -81,4 +81,4 @@ class CableArbiter {
   bool was_engaged_ = false;
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -5,7 +5,7 @@
 
 #include "firmware_like/cable/arm/cables.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 using Kind = ArmKind<cable::CableArm>;
 static_assert(KnownArm<cable::CableArm>);
@@ -45,4 +45,4 @@ bool Kind::has_arrived(const Wishes& wishes, const liana::Outputs<cable::CableAr
   return shape_wanted ? now.at_rest != 0 : tip_there;
 }
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -6,7 +6,7 @@
 #include "firmware_like/cable_controller.hpp"
 #include "host/arbiter/arm_kind.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 // Share of the theta acceleration limit that planned moves use. All thetas together swing the whole arm: 1 deg/s2 would
 // take 100 N off a cable.
@@ -57,4 +57,4 @@ struct ArmKind<cable::CableArm> {
   static bool has_arrived(const Wishes& wishes, const liana::Outputs<cable::CableArm>& now, bool tip_there);
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -1,6 +1,6 @@
 #include "host/arbiter/clutch.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 Vec3 clutch_point(double scale_factor, const Vec3& hand_anchor_m, const Vec3& point_anchor_m, const Vec3& hand_m) {
   return add(point_anchor_m, scale(subtract(hand_m, hand_anchor_m), scale_factor));
@@ -13,4 +13,4 @@ Pose clutch_goal(const ClutchMapping& mapping, const ClutchAnchor& anchor, const
           normalize(multiply(turned, anchor.tip_in_base.quaternion))};
 }
 
-}  // namespace liana
+}  // namespace liana::arbiter

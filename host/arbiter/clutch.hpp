@@ -3,7 +3,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 // How hand motion maps to tip motion.
 struct ClutchMapping {
@@ -24,4 +24,4 @@ Pose clutch_goal(const ClutchMapping& mapping, const ClutchAnchor& anchor, const
 // The same for a point (node control, left VR hand): only translation counts.
 Vec3 clutch_point(double scale, const Vec3& hand_anchor_m, const Vec3& point_anchor_m, const Vec3& hand_m);
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -1,6 +1,6 @@
 #include "host/arbiter/device_steer.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 using namespace cable;
 
@@ -62,4 +62,4 @@ std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now,
   return SteerGoal{clutch_goal(use_.mapping, anchor_, hand_), node_target_};
 }
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -9,7 +9,7 @@
 #include "host/arbiter/clutch.hpp"
 #include "host/arbiter/hand_track.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 enum class DeviceKind : std::uint8_t { kNone = 0, kVr = 1, kHand = 2 };
 
@@ -71,4 +71,4 @@ class DeviceSteer {
   cable::NodeTarget node_target_{};
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -4,7 +4,7 @@
 #include "host/arbiter/long_work.hpp"
 #include "host/solve/goal_ik.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 class GoalSearch {
  public:
@@ -23,4 +23,4 @@ class GoalSearch {
   LongWork<solve::GoalIkResult> work_;
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace liana {
+namespace liana::arbiter {
 
 namespace {
 double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
@@ -68,4 +68,4 @@ HandReading HandTrack::finish_interval() {
   return reading;
 }
 
-}  // namespace liana
+}  // namespace liana::arbiter

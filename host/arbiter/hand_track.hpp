@@ -5,7 +5,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 // One sample of a device.
 struct HandSample {
@@ -51,4 +51,4 @@ class HandTrack {
   bool any_ = false, any_good_ = false;
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -7,7 +7,7 @@
 #include "host/arbiter/serial_kind.hpp"
 #include "host/arbiter/time_law.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 namespace {
 
@@ -68,4 +68,4 @@ template class JointMove<serial::SerialArm>;
 static_assert(WayOfMoving<JointMove<cable::CableArm>, cable::CableArm>);
 static_assert(WayOfMoving<JointMove<serial::SerialArm>, serial::SerialArm>);
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -3,7 +3,7 @@
 
 #include "host/arbiter/arm_kind.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 template <class Arm>
 class JointMove {
@@ -32,4 +32,4 @@ class JointMove {
   bool is_over_ = false;
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

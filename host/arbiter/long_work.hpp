@@ -8,7 +8,7 @@
 #include <optional>
 #include <system_error>
 
-namespace liana {
+namespace liana::arbiter {
 
 // When the result of long work is taken: in virtual time at the end of the interval that asked for it, so that runs
 // repeat bit for bit; in real time in the first interval that finds it there.
@@ -61,4 +61,4 @@ class LongWork {
   std::future<Result> running_;  // last: its destructor waits for the thread
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -7,7 +7,7 @@
 #include "host/arbiter/serial_kind.hpp"
 #include "host/arbiter/time_law.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 namespace {
 
@@ -216,4 +216,4 @@ template std::vector<double> path_law<cable::CableArm>(const cable::RobotTable&,
 template std::vector<double> path_law<serial::SerialArm>(const serial::RobotTable&, const SpeedZone&,
                                                          const RoundedPath<serial::SerialArm>&, double);
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -6,7 +6,7 @@
 #include "host/arbiter/rounded_path.hpp"
 #include "host/arbiter/speed_zone.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 // Place on the path [rad] at the end of each command interval; the last is its end. As fast as joint rates (and
 // `rate_rad_s`), the joints' acceleration for moves, drives, tip speed (in `zone` the zone's) and tip rate allow, with
@@ -16,4 +16,4 @@ template <class Arm>
 std::vector<double> path_law(const typename Arm::Table& table, const SpeedZone& zone, const RoundedPath<Arm>& path,
                              double rate_rad_s);
 
-}  // namespace liana
+}  // namespace liana::arbiter

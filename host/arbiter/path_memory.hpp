@@ -7,7 +7,7 @@
 #include <deque>
 #include <optional>
 
-namespace liana {
+namespace liana::arbiter {
 
 template <class Joints>
 class PathMemory {
@@ -46,4 +46,4 @@ class PathMemory {
   std::deque<Point> points_;
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

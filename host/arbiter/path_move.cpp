@@ -10,7 +10,7 @@
 #include "host/arbiter/cable_kind.hpp"
 #include "host/arbiter/serial_kind.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 namespace {
 
@@ -34,9 +34,9 @@ void require_start(const typename Arm::Table& table, const Joints<Arm>& command_
   for (std::size_t i = 0; i < ArmKind<Arm>::joint_count(table); ++i) {
     const double off_rad = std::fabs(first_rad[i] - command_rad[i]);
     if (off_rad <= kPathStart_deg * kDegree) continue;
-    throw RequestError("refused", place<Arm>(0, i) + degrees_text(off_rad) +
-                                      " from where the command stands: allowed " +
-                                      degrees_text(kPathStart_deg * kDegree) + ": go there first with move_jp");
+    throw api::RequestError("refused", place<Arm>(0, i) + degrees_text(off_rad) +
+                                           " from where the command stands: allowed " +
+                                           degrees_text(kPathStart_deg * kDegree) + ": go there first with move_jp");
   }
 }
 
@@ -47,17 +47,17 @@ PathRequest<Arm> admit_path(const typename Arm::Table& table, const Joints<Arm>&
                             PathRequest<Arm> request) {
   const std::size_t count = request.points_rad.size();
   if (count == 0 || count > kMaxPathPoints) {
-    throw RequestError("out_of_range", "a path of " + std::to_string(count) + " points: allowed 1 to " +
-                                           std::to_string(kMaxPathPoints));
+    throw api::RequestError("out_of_range", "a path of " + std::to_string(count) + " points: allowed 1 to " +
+                                                std::to_string(kMaxPathPoints));
   }
   for (std::size_t k = 0; k < count; ++k) {
     for (std::size_t i = 0; i < ArmKind<Arm>::joint_count(table); ++i) {
       double& at_rad = request.points_rad[k][i];
       const JointRange range = ArmKind<Arm>::range_rad(table, i);
       if (!(at_rad >= range.low_rad - kRounding_rad && at_rad <= range.high_rad + kRounding_rad)) {
-        throw RequestError("out_of_range", place<Arm>(k, i) + degrees_text(at_rad) + ": allowed " +
-                                               degrees_text(range.low_rad) + " to " + degrees_text(range.high_rad) +
-                                               ": choose another point");
+        throw api::RequestError("out_of_range", place<Arm>(k, i) + degrees_text(at_rad) + ": allowed " +
+                                                    degrees_text(range.low_rad) + " to " +
+                                                    degrees_text(range.high_rad) + ": choose another point");
       }
       at_rad = std::clamp(at_rad, range.low_rad, range.high_rad);
     }
@@ -100,4 +100,4 @@ template PathOutlook<serial::SerialArm> look_at_path<serial::SerialArm>(const se
 static_assert(WayOfMoving<PathMove<cable::CableArm>, cable::CableArm>);
 static_assert(WayOfMoving<PathMove<serial::SerialArm>, serial::SerialArm>);
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -11,7 +11,7 @@
 #include "host/arbiter/path_law.hpp"
 #include "host/arbiter/path_news.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 constexpr double kPathStart_deg = 1.0;       // of every joint, how far the first point may be from the command
 constexpr std::size_t kMaxPathPoints = 500;  // more than any plan has
@@ -91,4 +91,4 @@ class PathMove {
   bool is_over_ = false;
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -5,7 +5,7 @@
 
 #include "host/event/event.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 // A path under way: share of its time, 0 while it is looked at.
 struct PathProgress {
@@ -15,10 +15,10 @@ struct PathProgress {
 
 // What has become of a path.
 struct PathNews {
-  PathEvent what = PathEvent::kBegins;
+  event::PathEvent what = event::PathEvent::kBegins;
   PathProgress path{};
   double duration_s = 0.0;  // of the whole path; 0 when it does not begin
   std::string text;         // one sentence for people
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

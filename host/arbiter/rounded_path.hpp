@@ -11,7 +11,7 @@
 
 #include "host/arbiter/arm_kind.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 constexpr double kPathOff_m = 0.001;
 
@@ -101,4 +101,4 @@ class RoundedPath {
   std::vector<Corner> corner_;          // between the pieces
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

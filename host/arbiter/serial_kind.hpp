@@ -6,7 +6,7 @@
 #include "firmware_like/serial_controller.hpp"
 #include "host/arbiter/arm_kind.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 // Share of a joint's acceleration limit that planned moves use; the rest is for the limiter that follows them.
 constexpr double kJointAccelShare = 0.5;
@@ -49,4 +49,4 @@ struct ArmKind<serial::SerialArm> {
 };
 static_assert(KnownArm<serial::SerialArm>);
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -6,7 +6,7 @@
 #include "host/arbiter/cable_kind.hpp"
 #include "host/arbiter/tip_target.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 namespace {
 
@@ -61,4 +61,4 @@ bool ShapeLead::ends(const cable::Outputs& now) {
   return true;
 }
 
-}  // namespace liana
+}  // namespace liana::arbiter

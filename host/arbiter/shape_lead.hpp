@@ -6,7 +6,7 @@
 #include "firmware_like/cable_controller.hpp"
 #include "host/arbiter/goal_search.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 class ShapeLead {
  public:
@@ -40,4 +40,4 @@ class ShapeLead {
   std::int32_t intervals_ = 0;  // since something was asked of the arm
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -6,7 +6,7 @@
 #include "firmware_like/cable/shape/keep_clear.hpp"
 #include "firmware_like/cable/shape/shape.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 using namespace cable;
 namespace {
@@ -42,4 +42,4 @@ bool ShapeProgress::is_settled() const {
   return *most - *least < kShapeSettled_m;
 }
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -7,7 +7,7 @@
 
 #include "firmware_like/cable_controller.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 // The shape has settled when what is missing has not changed by more than this for this long (arm time).
 constexpr double kShapeSettled_m = 0.0005;
@@ -37,4 +37,4 @@ class ShapeProgress {
   double missing_m_ = 0.0;
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

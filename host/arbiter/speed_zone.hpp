@@ -7,12 +7,12 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/config/config.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 class SpeedZone {
  public:
   SpeedZone() = default;  // nowhere
-  SpeedZone(const std::optional<SceneSlit>& slit, double speed_m_s) : slit_(slit), speed_m_s_(speed_m_s) {}
+  SpeedZone(const std::optional<config::SceneSlit>& slit, double speed_m_s) : slit_(slit), speed_m_s_(speed_m_s) {}
 
   // Highest tip speed allowed at a point in the base frame [m/s]; `otherwise` outside the slit.
   double limit_at(const Vec3& tip_m, double otherwise) const {
@@ -33,8 +33,8 @@ class SpeedZone {
            std::fabs(dot(slit_->normal, point_m) - slit_->offset_m) <= slit_->half_gap_m;
   }
 
-  std::optional<SceneSlit> slit_;
+  std::optional<config::SceneSlit> slit_;
   double speed_m_s_ = 0.0;
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

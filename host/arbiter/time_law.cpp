@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana {
+namespace liana::arbiter {
 
 namespace {
 
@@ -27,4 +27,4 @@ double time_within(double way, const FilterBounds& bounds) {
       {time_for_speed(way, bounds.speed), time_for_accel(way, bounds.accel), std::cbrt(kPeakJerk * way / bounds.jerk)});
 }
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -3,7 +3,7 @@
 
 #include "firmware_like/operator_input/tip_filter.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 // Share of the limits that planned moves use; the rest is for the filters that follow them.
 constexpr double kMoveShare = 0.9;
@@ -17,4 +17,4 @@ double time_for_speed(double way, double speed);
 double time_for_accel(double way, double accel);
 double time_within(double way, const FilterBounds& bounds);
 
-}  // namespace liana
+}  // namespace liana::arbiter

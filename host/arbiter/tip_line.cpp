@@ -4,7 +4,7 @@
 
 #include "host/arbiter/time_law.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 TipLine::TipLine(const TipBounds& bounds, const Pose& from, const Pose& to, double speed_m_s) : from_(from), to_(to) {
   const auto share = [](FilterBounds b) {
@@ -24,4 +24,4 @@ Pose TipLine::at(double time_s) const {
           normalize(multiply(quaternion_of(scale(turn_rad_, s)), from_.quaternion))};
 }
 
-}  // namespace liana
+}  // namespace liana::arbiter

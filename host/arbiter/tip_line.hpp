@@ -3,7 +3,7 @@
 
 #include "host/arbiter/arm_kind.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 // The line itself; the same for every arm.
 class TipLine {
@@ -40,4 +40,4 @@ class LineMove {
   double time_s_ = 0.0;
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

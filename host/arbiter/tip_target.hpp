@@ -7,7 +7,7 @@
 
 #include "host/arbiter/arm_kind.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 // A tip goal counts as reached within these, some intervals after it was set: a request needs two to show in the arm's
 // report.
@@ -48,4 +48,4 @@ class TipTarget {
   bool is_over_ = false;
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -9,7 +9,7 @@
 #include "host/arbiter/arm_kind.hpp"
 #include "host/arbiter/path_memory.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 // Path points per command interval on the way back: slower than the way in, so that what passed verification then
 // passes it again.
@@ -80,4 +80,4 @@ class WayBack {
   std::optional<Joints<Arm>> to_rad_;
 };
 
-}  // namespace liana
+}  // namespace liana::arbiter

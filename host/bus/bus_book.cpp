@@ -4,7 +4,7 @@
 
 #include "host/bus/frame_bits.hpp"
 
-namespace liana {
+namespace liana::bus {
 
 void BusBook::store(int bus, const CanFrame& frame) noexcept {
   DriveBusStats& book = stats(bus);
@@ -52,4 +52,4 @@ void BusBook::count_refused(int bus, const CanFrame& frame, bool was_counted) no
   book.bits -= frame_bits(frame);
 }
 
-}  // namespace liana
+}  // namespace liana::bus

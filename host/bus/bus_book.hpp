@@ -7,7 +7,7 @@
 #include "host/bus/rx_ring.hpp"
 #include "host/bus/wire_packets.hpp"
 
-namespace liana {
+namespace liana::bus {
 
 class BusBook {
  public:
@@ -35,4 +35,4 @@ class BusBook {
   int feedback_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::bus

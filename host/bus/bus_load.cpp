@@ -9,13 +9,13 @@
 #include "host/bus/drive_bus.hpp"
 #include "host/bus/frame_bits.hpp"
 
-namespace liana {
+namespace liana::bus {
 namespace {
 
 constexpr std::size_t kMaxNameLength = 11;  // 12 bytes with the final zero in WELCOME
 constexpr int kMaxDriveNode = 126;          // 127 is the master
 
-[[noreturn]] void refuse(const BusesConfig& config, const std::string& field, const std::string& value,
+[[noreturn]] void refuse(const config::BusesConfig& config, const std::string& field, const std::string& value,
                          const std::string& allowed) {
   throw std::runtime_error("bus table " + config.name + ": " + field + ": " + value + ": " + allowed);
 }
@@ -26,10 +26,10 @@ std::string shortest(double value) {
   return text;
 }
 
-void check_timing(const BusesConfig& config) {
+void check_timing(const config::BusesConfig& config) {
   const double period_us = 1e6 / config.rate_hz;
   const bool whole = config.rate_hz > 0.0 && std::fabs(period_us - std::round(period_us)) < 1e-6;
-  if (!whole || interpolation_period(static_cast<std::int32_t>(std::lround(period_us))).value == 0) {
+  if (!whole || config::interpolation_period(static_cast<std::int32_t>(std::lround(period_us))).value == 0) {
     refuse(config, "rate_hz", shortest(config.rate_hz),
            "object 60C2 of the drives cannot express this period; allowed are rates whose period is 1 to 255 times a "
            "power of ten seconds, "
@@ -44,8 +44,8 @@ void check_timing(const BusesConfig& config) {
     refuse(config, "heartbeat_ms", std::to_string(config.heartbeat_ms), "allowed is 1 or more");
 }
 
-void check_nodes(const BusesConfig& config, std::size_t b, std::set<int>& used) {
-  const BusConfig& bus = config.buses[b];
+void check_nodes(const config::BusesConfig& config, std::size_t b, std::set<int>& used) {
+  const config::BusConfig& bus = config.buses[b];
   const std::string field = "buses[" + std::to_string(b) + "].";
   if (bus.name.empty() || bus.name.size() > kMaxNameLength)
     refuse(config, field + "name", "'" + bus.name + "'", "allowed are 1 to 11 letters");
@@ -61,7 +61,7 @@ void check_nodes(const BusesConfig& config, std::size_t b, std::set<int>& used) 
   }
 }
 
-void check_load(const BusesConfig& config, std::size_t b) {
+void check_load(const config::BusesConfig& config, std::size_t b) {
   const double load = worst_load_with_sdo(config, b);
   if (load <= config.max_load) return;
   refuse(config, "buses[" + std::to_string(b) + "].nodes",
@@ -81,7 +81,7 @@ double worst_bits_per_second(const LoadTerms& terms) {
          2.0 * terms.sdo_pairs_per_s * worst_frame_bits(8);
 }
 
-LoadTerms load_terms(const BusesConfig& config, std::size_t bus) {
+LoadTerms load_terms(const config::BusesConfig& config, std::size_t bus) {
   LoadTerms terms;
   terms.rate_hz = config.rate_hz;
   terms.drives = static_cast<int>(config.buses[bus].nodes.size());
@@ -89,11 +89,11 @@ LoadTerms load_terms(const BusesConfig& config, std::size_t bus) {
   return terms;
 }
 
-double worst_load_with_sdo(const BusesConfig& config, std::size_t bus) {
+double worst_load_with_sdo(const config::BusesConfig& config, std::size_t bus) {
   return worst_bits_per_second(load_terms(config, bus)) / config.buses[bus].bitrate;
 }
 
-void check_buses(const BusesConfig& config) {
+void check_buses(const config::BusesConfig& config) {
   if (config.buses.empty() || config.buses.size() > static_cast<std::size_t>(kMaxDriveBuses)) {
     refuse(config, "buses", std::to_string(config.buses.size()), "allowed are 1 to 8 buses");
   }
@@ -105,4 +105,4 @@ void check_buses(const BusesConfig& config) {
   }
 }
 
-}  // namespace liana
+}  // namespace liana::bus

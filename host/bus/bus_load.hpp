@@ -5,7 +5,7 @@
 
 #include "host/config/config.hpp"
 
-namespace liana {
+namespace liana::bus {
 
 // What goes over one bus.
 struct LoadTerms {
@@ -21,14 +21,14 @@ struct LoadTerms {
 double worst_bits_per_second(const LoadTerms& terms);
 
 // The terms of bus `bus` of the table: every drive and the master send heartbeats.
-LoadTerms load_terms(const BusesConfig& config, std::size_t bus);
+LoadTerms load_terms(const config::BusesConfig& config, std::size_t bus);
 
 // Worst-case share of the wire of bus `bus`, SDO traffic included; over 1 it can not work.
-double worst_load_with_sdo(const BusesConfig& config, std::size_t bus);
+double worst_load_with_sdo(const config::BusesConfig& config, std::size_t bus);
 
 // Throws std::runtime_error when a bus exceeds max_load, 60C2 cannot express the period, T_c is not a whole number of
 // ticks, a node id is used twice or out of 1..126, or a bus has no name or too long a one. Messages name file (the
 // table), field, value and what is allowed.
-void check_buses(const BusesConfig& config);
+void check_buses(const config::BusesConfig& config);
 
-}  // namespace liana
+}  // namespace liana::bus

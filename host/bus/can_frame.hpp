@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace liana {
+namespace liana::bus {
 
 // Flags in CanFrame::id, as in linux/can.h.
 constexpr std::uint32_t kCanExtendedFlag = 0x80000000;
@@ -21,4 +21,4 @@ struct CanFrame {
   std::uint64_t time_us = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::bus

@@ -15,7 +15,7 @@
 #include <fstream>
 #include <stdexcept>
 
-namespace liana {
+namespace liana::bus {
 namespace {
 
 constexpr int kArpHardwareCan = 280;  // ARPHRD_CAN
@@ -110,4 +110,4 @@ int open_can_interface(const std::string& name) {
   return descriptor;
 }
 
-}  // namespace liana
+}  // namespace liana::bus

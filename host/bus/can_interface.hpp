@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace liana {
+namespace liana::bus {
 
 // Names of the CAN interfaces this machine has, sorted.
 std::vector<std::string> can_interfaces();
@@ -14,4 +14,4 @@ std::vector<std::string> can_interfaces();
 // queue) and what to do.
 int open_can_interface(const std::string& name);
 
-}  // namespace liana
+}  // namespace liana::bus

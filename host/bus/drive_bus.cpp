@@ -4,7 +4,7 @@
 
 #include "firmware_like/drive/pdo.hpp"
 
-namespace liana {
+namespace liana::bus {
 
 SendResult DriveBus::write_sync() noexcept {
   CanFrame sync;
@@ -20,4 +20,4 @@ double DriveBus::measured_load(int bus, std::int32_t bitrate) const noexcept {
   return 1e6 * static_cast<double>(stats(bus).bits) / (static_cast<double>(bitrate) * static_cast<double>(elapsed_us));
 }
 
-}  // namespace liana
+}  // namespace liana::bus

@@ -18,7 +18,7 @@
 #include "host/time/tick_start.hpp"
 #include "host/time/time_mode.hpp"
 
-namespace liana {
+namespace liana::bus {
 
 constexpr int kMaxDriveBuses = 8;
 
@@ -57,10 +57,10 @@ class DriveBus {
   DriveBus& operator=(const DriveBus&) = delete;
 
   virtual int bus_count() const noexcept = 0;
-  virtual TimeMode time_mode() const noexcept = 0;
+  virtual timing::TimeMode time_mode() const noexcept = 0;
   // Waits for the start of tick `tick` (they start at 0 and grow). In real time a tick whose deadline has passed is not
   // caught up with.
-  virtual TickStart begin_tick(std::uint64_t tick) noexcept = 0;
+  virtual timing::TickStart begin_tick(std::uint64_t tick) noexcept = 0;
   // Queues a frame on bus 0..bus_count()-1.
   virtual SendResult send(int bus, const CanFrame& frame) noexcept = 0;
   // Waits until `expected_tpdos` PDO frames (COB-ID 0x181..0x1FF) have come in since begin_tick, or half the period has
@@ -85,6 +85,7 @@ class DriveBus {
 // Throws std::runtime_error saying what is missing and what to do: no such interface (and which exist), interface down,
 // kernel without CAN, transmit queue too short, virtual time asked of SocketCAN, nobody listening at bus_socket, or a
 // bus process that runs another table.
-std::unique_ptr<DriveBus> open_drive_bus(const BusesConfig& config, TimeMode mode, const std::string& bus_socket);
+std::unique_ptr<DriveBus> open_drive_bus(const config::BusesConfig& config, timing::TimeMode mode,
+                                         const std::string& bus_socket);
 
-}  // namespace liana
+}  // namespace liana::bus

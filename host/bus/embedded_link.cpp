@@ -8,12 +8,12 @@
 
 #include "host/api/address.hpp"
 
-namespace liana {
+namespace liana::bus {
 namespace {
 
-UniqueFd connect_to(const std::string& path) {
-  const sockaddr_un address = unix_address(path);
-  UniqueFd fd(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+api::UniqueFd connect_to(const std::string& path) {
+  const sockaddr_un address = api::unix_address(path);
+  api::UniqueFd fd(socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
   if (fd.get() < 0 || connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     throw std::runtime_error("bus socket " + path + ": " + std::strerror(errno) + "; start liana-bus with --socket " +
                              path + " first");
@@ -55,7 +55,7 @@ std::string describe(const wire::Welcome& welcome) {
   return text;
 }
 
-wire::Welcome expected_welcome(const BusesConfig& config) {
+wire::Welcome expected_welcome(const config::BusesConfig& config) {
   wire::Welcome expected;
   expected.period_us = static_cast<std::uint32_t>(config.period_us());
   expected.bus_count = static_cast<std::uint8_t>(config.buses.size());
@@ -68,7 +68,7 @@ wire::Welcome expected_welcome(const BusesConfig& config) {
 
 }  // namespace
 
-EmbeddedLink::EmbeddedLink(const std::string& path, const BusesConfig& config)
+EmbeddedLink::EmbeddedLink(const std::string& path, const config::BusesConfig& config)
     : socket_(connect_to(path)), welcome_(greet(socket_.get(), path)) {
   const std::string runs = describe(welcome_);
   const std::string expected = describe(expected_welcome(config));
@@ -97,4 +97,4 @@ EmbeddedLink::Received EmbeddedLink::receive(wire::Wake& wake, bool block) noexc
   }
 }
 
-}  // namespace liana
+}  // namespace liana::bus

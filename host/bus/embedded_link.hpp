@@ -7,13 +7,13 @@
 #include "host/bus/wire_packets.hpp"
 #include "host/config/config.hpp"
 
-namespace liana {
+namespace liana::bus {
 
 class EmbeddedLink {
  public:
   // Connects to `path` and exchanges HELLO and WELCOME, as liana-bus answers at once. Throws std::runtime_error when
   // nobody listens there, the bus refuses, or it runs other buses than `config`.
-  EmbeddedLink(const std::string& path, const BusesConfig& config);
+  EmbeddedLink(const std::string& path, const config::BusesConfig& config);
 
   int descriptor() const noexcept { return socket_.get(); }
   const wire::Welcome& welcome() const noexcept { return welcome_; }
@@ -24,8 +24,8 @@ class EmbeddedLink {
   Received receive(wire::Wake& wake, bool block) noexcept;
 
  private:
-  UniqueFd socket_;
+  api::UniqueFd socket_;
   wire::Welcome welcome_;
 };
 
-}  // namespace liana
+}  // namespace liana::bus

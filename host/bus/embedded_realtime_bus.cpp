@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace liana {
+namespace liana::bus {
 
 EmbeddedRealtimeBus::EmbeddedRealtimeBus(std::unique_ptr<EmbeddedLink> link)
     : RealtimeBus(link->welcome().period_us), link_(std::move(link)) {
@@ -45,4 +45,4 @@ void EmbeddedRealtimeBus::end() noexcept {
   for (int bus = 0; bus < bus_count(); ++bus) book().stats(bus).state = BusState::kDown;
 }
 
-}  // namespace liana
+}  // namespace liana::bus

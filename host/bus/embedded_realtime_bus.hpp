@@ -6,7 +6,7 @@
 #include "host/bus/embedded_link.hpp"
 #include "host/bus/realtime_bus.hpp"
 
-namespace liana {
+namespace liana::bus {
 
 class EmbeddedRealtimeBus final : public RealtimeBus {
  public:
@@ -26,4 +26,4 @@ class EmbeddedRealtimeBus final : public RealtimeBus {
   bool ended_ = false;
 };
 
-}  // namespace liana
+}  // namespace liana::bus

@@ -1,6 +1,6 @@
 #include "host/bus/frame_bits.hpp"
 
-namespace liana {
+namespace liana::bus {
 namespace {
 
 // Feeds the bits of a frame in wire order through CRC and bit stuffing.
@@ -85,4 +85,4 @@ std::uint32_t arbitration_key(const CanFrame& frame) noexcept {
   return ((id >> 18) << 21) | (3U << 19) | ((id & 0x3FFFFU) << 1) | remote;
 }
 
-}  // namespace liana
+}  // namespace liana::bus

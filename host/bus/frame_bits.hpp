@@ -5,7 +5,7 @@
 
 #include "host/bus/can_frame.hpp"
 
-namespace liana {
+namespace liana::bus {
 
 // CRC delimiter 1, ACK 2, end of frame 7, interframe space 3: never stuffed.
 constexpr std::uint32_t kUnstuffedTailBits = 13;
@@ -23,4 +23,4 @@ constexpr std::uint32_t worst_frame_bits(std::uint32_t bytes) noexcept { return 
 // Arbitration field as a number: of two frames the lower one wins the wire.
 std::uint32_t arbitration_key(const CanFrame& frame) noexcept;
 
-}  // namespace liana
+}  // namespace liana::bus

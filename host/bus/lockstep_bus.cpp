@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace liana {
+namespace liana::bus {
 namespace {
 
 constexpr int kTransmitQueue = 64;  // frames per bus, docs/bus-protocol.md
@@ -17,7 +17,7 @@ LockstepBus::~LockstepBus() {
   if (awake_ && !ended_) link_->send(yield_, false);
 }
 
-TickStart LockstepBus::begin_tick(std::uint64_t tick) noexcept {
+timing::TickStart LockstepBus::begin_tick(std::uint64_t tick) noexcept {
   tick_ = tick;
   book_.begin_tick();
   if (!awake_) wait_wake();
@@ -29,7 +29,7 @@ TickStart LockstepBus::begin_tick(std::uint64_t tick) noexcept {
 }
 
 // A controller that a script has paused goes on at the next deadline, as in real time.
-TickStart LockstepBus::skip_passed(std::uint64_t tick) noexcept {
+timing::TickStart LockstepBus::skip_passed(std::uint64_t tick) noexcept {
   const std::uint64_t late_us = now_us_ - tick * period_us_;
   if (ended_ || late_us == 0) return {tick, 0, 0, ended_};
   tick_ = (now_us_ + period_us_ - 1) / period_us_;
@@ -89,4 +89,4 @@ void LockstepBus::end() noexcept {
   for (int bus = 0; bus < bus_count(); ++bus) book_.stats(bus).state = BusState::kDown;
 }
 
-}  // namespace liana
+}  // namespace liana::bus

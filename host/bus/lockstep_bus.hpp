@@ -6,7 +6,7 @@
 #include "host/bus/bus_book.hpp"
 #include "host/bus/embedded_link.hpp"
 
-namespace liana {
+namespace liana::bus {
 
 class LockstepBus final : public DriveBus {
  public:
@@ -14,8 +14,10 @@ class LockstepBus final : public DriveBus {
   ~LockstepBus() override;
 
   int bus_count() const noexcept override { return link_->welcome().bus_count; }
-  TimeMode time_mode() const noexcept override { return static_cast<TimeMode>(link_->welcome().time_mode); }
-  TickStart begin_tick(std::uint64_t tick) noexcept override;
+  timing::TimeMode time_mode() const noexcept override {
+    return static_cast<timing::TimeMode>(link_->welcome().time_mode);
+  }
+  timing::TickStart begin_tick(std::uint64_t tick) noexcept override;
   SendResult send(int bus, const CanFrame& frame) noexcept override;
   // Always half a period: virtual time costs nothing, and a constant moment keeps runs repeatable.
   void wait_feedback(int expected_tpdos) noexcept override;
@@ -25,7 +27,7 @@ class LockstepBus final : public DriveBus {
   std::uint64_t now_us() const noexcept override { return now_us_; }
 
  private:
-  TickStart skip_passed(std::uint64_t tick) noexcept;
+  timing::TickStart skip_passed(std::uint64_t tick) noexcept;
   void yield_until(std::uint64_t until_us) noexcept;
   void wait_wake() noexcept;
   void end() noexcept;
@@ -42,4 +44,4 @@ class LockstepBus final : public DriveBus {
   bool ended_ = false;
 };
 
-}  // namespace liana
+}  // namespace liana::bus

@@ -2,10 +2,10 @@
 
 #include <ctime>
 
-namespace liana {
+namespace liana::bus {
 
-TickStart RealtimeBus::begin_tick(std::uint64_t tick) noexcept {
-  TickStart start = clock_.wait(tick);
+timing::TickStart RealtimeBus::begin_tick(std::uint64_t tick) noexcept {
+  timing::TickStart start = clock_.wait(tick);
   book_.begin_tick();
   start.ended = ended();
   return start;
@@ -33,4 +33,4 @@ bool RealtimeBus::any_failed() const noexcept {
 
 void RealtimeBus::watch(int descriptor) noexcept { watched_[watched_count_++] = {descriptor, POLLIN, 0}; }
 
-}  // namespace liana
+}  // namespace liana::bus

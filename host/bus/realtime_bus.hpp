@@ -6,14 +6,14 @@
 #include "host/bus/bus_book.hpp"
 #include "host/time/tick_clock.hpp"
 
-namespace liana {
+namespace liana::bus {
 
 class RealtimeBus : public DriveBus {
  public:
   explicit RealtimeBus(std::uint32_t period_us) noexcept : clock_(period_us) {}
 
-  TimeMode time_mode() const noexcept override { return TimeMode::kReal; }
-  TickStart begin_tick(std::uint64_t tick) noexcept override;
+  timing::TimeMode time_mode() const noexcept override { return timing::TimeMode::kReal; }
+  timing::TickStart begin_tick(std::uint64_t tick) noexcept override;
   void wait_feedback(int expected_tpdos) noexcept override;
   bool receive(ReceivedFrame& received) noexcept override { return book_.fetch(received); }
   void end_tick() noexcept override { flush(); }
@@ -34,10 +34,10 @@ class RealtimeBus : public DriveBus {
  private:
   bool any_failed() const noexcept;
 
-  TickClock clock_;
+  timing::TickClock clock_;
   BusBook book_;
   std::array<pollfd, kMaxDriveBuses> watched_{};
   nfds_t watched_count_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::bus

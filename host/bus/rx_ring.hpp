@@ -6,7 +6,7 @@
 
 #include "host/bus/drive_bus.hpp"
 
-namespace liana {
+namespace liana::bus {
 
 class RxRing {
  public:
@@ -34,4 +34,4 @@ class RxRing {
   std::size_t count_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::bus

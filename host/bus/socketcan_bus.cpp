@@ -8,7 +8,7 @@
 
 #include "host/bus/can_interface.hpp"
 
-namespace liana {
+namespace liana::bus {
 namespace {
 
 can_frame to_kernel(const CanFrame& frame) noexcept {
@@ -30,9 +30,10 @@ CanFrame from_kernel(const can_frame& raw, std::uint64_t time_us) noexcept {
 
 }  // namespace
 
-SocketCanBus::SocketCanBus(const BusesConfig& config) : RealtimeBus(static_cast<std::uint32_t>(config.period_us())) {
+SocketCanBus::SocketCanBus(const config::BusesConfig& config)
+    : RealtimeBus(static_cast<std::uint32_t>(config.period_us())) {
   try {
-    for (const BusConfig& bus : config.buses) {
+    for (const config::BusConfig& bus : config.buses) {
       descriptor_[static_cast<std::size_t>(bus_count_)] = open_can_interface(bus.name);
       watch(descriptor_[static_cast<std::size_t>(bus_count_++)]);
     }
@@ -76,4 +77,4 @@ void SocketCanBus::drain_bus(int bus) noexcept {
   }
 }
 
-}  // namespace liana
+}  // namespace liana::bus

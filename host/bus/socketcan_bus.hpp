@@ -3,13 +3,13 @@
 
 #include "host/bus/realtime_bus.hpp"
 
-namespace liana {
+namespace liana::bus {
 
 class SocketCanBus final : public RealtimeBus {
  public:
   // Throws std::runtime_error: kernel without CAN, interface missing, not CAN, down, or with too short a transmit
   // queue.
-  explicit SocketCanBus(const BusesConfig& config);
+  explicit SocketCanBus(const config::BusesConfig& config);
   ~SocketCanBus() override;
 
   int bus_count() const noexcept override { return bus_count_; }
@@ -25,4 +25,4 @@ class SocketCanBus final : public RealtimeBus {
   int bus_count_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::bus

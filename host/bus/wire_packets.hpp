@@ -89,10 +89,10 @@ static_assert(offsetof(Yield, frame) == 16);
 constexpr std::size_t kHeaderBytes = 16;  // of WAKE and YIELD
 
 // The frame without what only the bus needs.
-inline CanFrame to_can_frame(const Frame& frame) { return {frame.id, frame.length, frame.data, frame.time_us}; }
+inline bus::CanFrame to_can_frame(const Frame& frame) { return {frame.id, frame.length, frame.data, frame.time_us}; }
 
 // The frame on `bus`, ready to be sent.
-inline Frame to_wire_frame(int bus, const CanFrame& frame) {
+inline Frame to_wire_frame(int bus, const bus::CanFrame& frame) {
   return {frame.time_us, frame.id, static_cast<std::uint8_t>(bus), frame.length, 0, 0, frame.data};
 }
 

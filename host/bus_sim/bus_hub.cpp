@@ -12,7 +12,7 @@
 #include "firmware_like/drive/pdo.hpp"
 #include "host/bus_sim/bus_listener.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 
 BusHub::BusHub(const BusHubOptions& options, std::vector<Participant> participants)
     : participants_(std::move(participants)),
@@ -104,7 +104,7 @@ void BusHub::frame_ended(const EndedFrame& ended) {
   }
 }
 
-void BusHub::error_state_changed(int bus, const CanFrame& error_frame) {
+void BusHub::error_state_changed(int bus, const bus::CanFrame& error_frame) {
   if (!logs_.empty()) logs_[static_cast<std::size_t>(bus)].write(error_frame);
   participants_[kController].keep(wire::to_wire_frame(bus, error_frame));
 }
@@ -124,4 +124,4 @@ std::uint64_t BusHub::awake_from_ns(std::size_t index) const {
   return from_slot == slot() ? now_ns : from_slot * period_us_ * 1000;
 }
 
-}  // namespace liana
+}  // namespace liana::bus_sim

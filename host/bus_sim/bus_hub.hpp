@@ -10,10 +10,10 @@
 #include "host/bus_sim/participant.hpp"
 #include "host/time/time_mode.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 
 struct BusHubOptions {
-  TimeMode time_mode = TimeMode::kFast;
+  timing::TimeMode time_mode = timing::TimeMode::kFast;
   std::vector<WireConfig> wires;  // 1..8
   std::uint32_t period_us = 0;
   FaultScript script;
@@ -55,7 +55,7 @@ class BusHub final : private FrameSink {
 
  private:
   void frame_ended(const EndedFrame& ended) override;
-  void error_state_changed(int bus, const CanFrame& error_frame) override;
+  void error_state_changed(int bus, const bus::CanFrame& error_frame) override;
   void link_changed(int bus, bool is_up) override;
 
   std::vector<Participant> participants_;
@@ -71,4 +71,4 @@ void run_lockstep(BusHub& hub, bool paced);
 // The monotonic clock rules. Returns when the bus has ended.
 void run_real(BusHub& hub);
 
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -9,7 +9,7 @@
 #include <csignal>
 #include <optional>
 
-namespace liana {
+namespace liana::bus_sim {
 namespace {
 
 volatile std::sig_atomic_t g_stop = 0;
@@ -41,7 +41,7 @@ std::string objection(const wire::Hello& hello, const std::vector<Participant>& 
 }
 
 void admit_one(int listener, const wire::Welcome& welcome, std::vector<Participant>& present) {
-  UniqueFd socket(accept4(listener, nullptr, nullptr, SOCK_CLOEXEC));
+  api::UniqueFd socket(accept4(listener, nullptr, nullptr, SOCK_CLOEXEC));
   if (socket.get() < 0) return;
   const std::optional<wire::Hello> hello = read_hello(socket.get());
   if (!hello) return;
@@ -68,7 +68,7 @@ void request_bus_stop() { g_stop = 1; }
 bool bus_stop_requested() { return g_stop != 0; }
 
 std::vector<Participant> admit_participants(const std::string& socket_path, const wire::Welcome& welcome) {
-  const UniqueFd listener = listen_at("--socket", socket_path);
+  const api::UniqueFd listener = api::listen_at("--socket", socket_path);
   std::vector<Participant> present;
   while (present.size() < 2 && !bus_stop_requested()) {
     pollfd ready{listener.get(), POLLIN, 0};
@@ -82,4 +82,4 @@ std::vector<Participant> admit_participants(const std::string& socket_path, cons
   return present;
 }
 
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -6,7 +6,7 @@
 
 #include "host/bus_sim/participant.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 
 // Asks the bus process to end soon; for signal handlers.
 void request_bus_stop();
@@ -17,4 +17,4 @@ bool bus_stop_requested();
 // Throws std::runtime_error when it cannot listen.
 std::vector<Participant> admit_participants(const std::string& socket_path, const wire::Welcome& welcome);
 
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -7,7 +7,7 @@
 #include "host/bus/wire_packets.hpp"
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 namespace {
 
 [[noreturn]] void refuse(const std::string& path, const std::string& field, const Json& value,
@@ -74,4 +74,4 @@ void write_bus_stats(const std::string& path, const BusHub& hub) {
   if (!file) throw std::runtime_error(path + ": cannot be written; give --stats a file in a directory you may write");
 }
 
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -5,7 +5,7 @@
 
 #include "host/bus_sim/bus_hub.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 
 // Wires and period from the bus table (docs/formats.md); nothing else in it matters here. Throws std::runtime_error
 // with file and field.
@@ -15,4 +15,4 @@ void load_wires(const std::string& path, BusHubOptions& options);
 // be written.
 void write_bus_stats(const std::string& path, const BusHub& hub);
 
-}  // namespace liana
+}  // namespace liana::bus_sim

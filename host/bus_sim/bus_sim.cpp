@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace liana {
+namespace liana::bus_sim {
 
 BusSim::BusSim(std::vector<WireConfig> wires, std::uint32_t period_us, int participants, FaultScript script,
                FrameSink& sink)
@@ -20,7 +20,7 @@ BusSim::BusSim(std::vector<WireConfig> wires, std::uint32_t period_us, int parti
   }
 }
 
-bool BusSim::queue(int participant, int bus, const CanFrame& frame, std::uint64_t now_ns) {
+bool BusSim::queue(int participant, int bus, const bus::CanFrame& frame, std::uint64_t now_ns) {
   const std::uint64_t slot = slot_at(now_ns);
   const int across = script_.across(bus, slot);
   Line& line = lines_[static_cast<std::size_t>(participant == kController ? across : bus)];
@@ -66,7 +66,7 @@ std::uint32_t BusSim::strangers_frames(const BusFault& fault) const {
   const std::uint64_t bits =
       std::uint64_t{wires_[static_cast<std::size_t>(fault.bus)].bitrate} * period_us_ / 1'000'000;
   return static_cast<std::uint32_t>(bits * static_cast<std::uint64_t>(fault.load_percent) / 100 /
-                                    frame_bits(fault.frame));
+                                    bus::frame_bits(fault.frame));
 }
 
 // What was queued is gone, and the error counters begin anew.
@@ -77,7 +77,7 @@ void BusSim::set_link(int bus, bool is_up) {
   sink_.link_changed(bus, is_up);
 }
 
-void BusSim::report(int connector, std::optional<CanFrame> error_frame) {
+void BusSim::report(int connector, std::optional<bus::CanFrame> error_frame) {
   if (!error_frame) return;
   error_frame->time_us = now_us_;
   sink_.error_state_changed(connector, *error_frame);
@@ -92,7 +92,7 @@ void BusSim::start_next(std::size_t bus, std::uint64_t now_ns) {
     line.sender = static_cast<int>(&queue - line.queues.data());
   }
   for (Stranger& stranger : strangers_) {
-    const std::uint32_t key = arbitration_key(stranger.frame);
+    const std::uint32_t key = bus::arbitration_key(stranger.frame);
     if (stranger.bus != static_cast<int>(bus) || stranger.pending == 0 ||
         (winner != nullptr && winner->next_key() <= key))
       continue;
@@ -107,10 +107,10 @@ void BusSim::start_next(std::size_t bus, std::uint64_t now_ns) {
 }
 
 void BusSim::start(Line& line, const WireConfig& wire, std::uint64_t now_ns) {
-  const CanFrame& frame = line.sending.frame;
+  const bus::CanFrame& frame = line.sending.frame;
   const auto bus = static_cast<int>(&line - lines_.data());
   line.disturbed = line.sender != kStranger && script_.takes(BusAction::kDisturb, bus, frame.id, slot_at(now_ns));
-  const std::uint32_t bits = frame_bits(frame) + (line.disturbed ? kErrorFrameBits : 0);
+  const std::uint32_t bits = bus::frame_bits(frame) + (line.disturbed ? kErrorFrameBits : 0);
   line.end_ns = now_ns + std::uint64_t{bits} * 1'000'000'000 / wire.bitrate;
   line.busy = true;
   ++line.stats.frames;
@@ -185,4 +185,4 @@ void BusSim::hand_over(Line& line, const EndedFrame& ended) {
   line.held.clear();
 }
 
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -11,7 +11,7 @@
 #include "host/bus_sim/fault_script.hpp"
 #include "host/bus_sim/transmit_queue.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 
 constexpr std::uint64_t kNeverNs = std::numeric_limits<std::uint64_t>::max();
 constexpr std::uint32_t kErrorFrameBits = 20;  // two superposed flags and the delimiter
@@ -37,7 +37,7 @@ struct WireStats {
 struct EndedFrame {
   int bus = 0;             // wire
   int sender = kStranger;  // participant
-  CanFrame frame;          // time_us = its end
+  bus::CanFrame frame;     // time_us = its end
   bool dropped = false;
   bool heard_by_controller = true;
   int controller_bus = 0;  // at which connector of the controller
@@ -49,7 +49,7 @@ class FrameSink {
  public:
   virtual ~FrameSink() = default;
   virtual void frame_ended(const EndedFrame& ended) = 0;
-  virtual void error_state_changed(int bus, const CanFrame& error_frame) = 0;
+  virtual void error_state_changed(int bus, const bus::CanFrame& error_frame) = 0;
   virtual void link_changed(int bus, bool is_up) = 0;
 };
 
@@ -58,7 +58,7 @@ class BusSim {
   BusSim(std::vector<WireConfig> wires, std::uint32_t period_us, int participants, FaultScript script, FrameSink& sink);
 
   // Puts a frame into the queue of `participant` on `bus`; false when it is full.
-  bool queue(int participant, int bus, const CanFrame& frame, std::uint64_t now_ns);
+  bool queue(int participant, int bus, const bus::CanFrame& frame, std::uint64_t now_ns);
   // Begins the slots up to `now_ns`; every idle wire takes the pending frame of highest priority.
   void arbitrate(std::uint64_t now_ns);
   // When the next frame ends; kNeverNs when all wires are idle.
@@ -91,7 +91,7 @@ class BusSim {
   // Scripted frames that still compete for the wire in this slot.
   struct Stranger {
     int bus = 0;
-    CanFrame frame;
+    bus::CanFrame frame;
     std::uint32_t pending = 0;
   };
 
@@ -105,7 +105,7 @@ class BusSim {
   void fail(Line& line, int connector, bool was_acknowledged);
   void hand_over(Line& line, const EndedFrame& ended);
   bool takes_part(int connector) const;
-  void report(int connector, std::optional<CanFrame> error_frame);
+  void report(int connector, std::optional<bus::CanFrame> error_frame);
 
   std::vector<WireConfig> wires_;
   std::vector<Line> lines_;
@@ -118,4 +118,4 @@ class BusSim {
   std::uint64_t slots_begun_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::bus_sim

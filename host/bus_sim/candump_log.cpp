@@ -5,7 +5,7 @@
 #include <cstring>
 #include <stdexcept>
 
-namespace liana {
+namespace liana::bus_sim {
 namespace {
 
 constexpr std::size_t kBufferBytes = 1 << 16;
@@ -23,7 +23,7 @@ char* put_hex(char* to, std::uint32_t value, int digits) {
 
 }  // namespace
 
-std::size_t format_candump(const std::string& interface, const CanFrame& frame,
+std::size_t format_candump(const std::string& interface, const bus::CanFrame& frame,
                            std::array<char, kLongestLogLine>& line) {
   char* to = line.data();
   *to++ = '(';
@@ -34,14 +34,14 @@ std::size_t format_candump(const std::string& interface, const CanFrame& frame,
   *to++ = ' ';
   to = std::copy_n(interface.begin(), std::min<std::size_t>(interface.size(), 15), to);
   *to++ = ' ';
-  const bool is_error = (frame.id & kCanErrorFlag) != 0;
-  const bool extended = (frame.id & kCanExtendedFlag) != 0;
-  const std::uint32_t mask = is_error   ? kCanErrorFlag | kCanExtendedMask
-                             : extended ? kCanExtendedMask
-                                        : kCanStandardMask;
+  const bool is_error = (frame.id & bus::kCanErrorFlag) != 0;
+  const bool extended = (frame.id & bus::kCanExtendedFlag) != 0;
+  const std::uint32_t mask = is_error   ? bus::kCanErrorFlag | bus::kCanExtendedMask
+                             : extended ? bus::kCanExtendedMask
+                                        : bus::kCanStandardMask;
   to = put_hex(to, frame.id & mask, extended || is_error ? 8 : 3);
   *to++ = '#';
-  const bool remote = (frame.id & kCanRemoteFlag) != 0;
+  const bool remote = (frame.id & bus::kCanRemoteFlag) != 0;
   if (remote) *to++ = 'R';
   for (std::size_t i = 0; !remote && i < frame.length; ++i) to = put_hex(to, frame.data[i], 2);
   *to++ = '\n';
@@ -57,10 +57,10 @@ CandumpLog::CandumpLog(const std::string& directory, const std::string& interfac
   std::setvbuf(file_.get(), nullptr, _IOFBF, kBufferBytes);
 }
 
-void CandumpLog::write(const CanFrame& frame) {
+void CandumpLog::write(const bus::CanFrame& frame) {
   std::array<char, kLongestLogLine> line;
   const std::size_t size = format_candump(interface_, frame, line);
   if (std::fwrite(line.data(), 1, size, file_.get()) != size) ++lost_;
 }
 
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -10,12 +10,12 @@
 
 #include "host/bus/can_frame.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 
 constexpr std::size_t kLongestLogLine = 64;
 
 // Formats "(seconds.microseconds) interface id#data\n" into `line`; its length.
-std::size_t format_candump(const std::string& interface, const CanFrame& frame,
+std::size_t format_candump(const std::string& interface, const bus::CanFrame& frame,
                            std::array<char, kLongestLogLine>& line);
 
 class CandumpLog {
@@ -23,7 +23,7 @@ class CandumpLog {
   // Creates DIR/<interface>.log; throws std::runtime_error when that is not possible.
   CandumpLog(const std::string& directory, const std::string& interface);
   // Appends a frame at its time_us.
-  void write(const CanFrame& frame);
+  void write(const bus::CanFrame& frame);
   // Frames lost because the disk did not take them.
   std::uint64_t lost() const { return lost_; }
 
@@ -36,4 +36,4 @@ class CandumpLog {
   std::uint64_t lost_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace liana {
+namespace liana::bus_sim {
 namespace {
 
 constexpr int kFailedTransmission = 8;
@@ -21,37 +21,37 @@ ErrorState state_for(int transmit, int receive) noexcept {
 
 }  // namespace
 
-std::optional<CanFrame> ErrorCounters::transmitted() noexcept {
+std::optional<bus::CanFrame> ErrorCounters::transmitted() noexcept {
   transmit_ = std::max(0, transmit_ - 1);
   return judge();
 }
 
-std::optional<CanFrame> ErrorCounters::received() noexcept {
+std::optional<bus::CanFrame> ErrorCounters::received() noexcept {
   receive_ = receive_ > kAfterPassiveReceiver ? kAfterPassiveReceiver : std::max(0, receive_ - 1);
   return judge();
 }
 
-std::optional<CanFrame> ErrorCounters::transmit_failed() noexcept {
+std::optional<bus::CanFrame> ErrorCounters::transmit_failed() noexcept {
   transmit_ += kFailedTransmission;
   return judge();
 }
 
-std::optional<CanFrame> ErrorCounters::unacknowledged() noexcept {
+std::optional<bus::CanFrame> ErrorCounters::unacknowledged() noexcept {
   return state_ == ErrorState::kPassive ? std::nullopt : transmit_failed();
 }
 
-std::optional<CanFrame> ErrorCounters::receive_failed() noexcept {
+std::optional<bus::CanFrame> ErrorCounters::receive_failed() noexcept {
   receive_ = std::min(kMostReceiveErrors, receive_ + 1);
   return judge();
 }
 
-std::optional<CanFrame> ErrorCounters::restart() noexcept {
+std::optional<bus::CanFrame> ErrorCounters::restart() noexcept {
   if (state_ != ErrorState::kBusOff) return std::nullopt;
   *this = ErrorCounters{};
   return report(CAN_ERR_RESTARTED, 0);
 }
 
-std::optional<CanFrame> ErrorCounters::judge() noexcept {
+std::optional<bus::CanFrame> ErrorCounters::judge() noexcept {
   const ErrorState next = state_for(transmit_, receive_);
   if (next == state_ || state_ == ErrorState::kBusOff) return std::nullopt;
   state_ = next;
@@ -69,8 +69,8 @@ std::optional<CanFrame> ErrorCounters::judge() noexcept {
   return std::nullopt;
 }
 
-CanFrame ErrorCounters::report(std::uint32_t error_class, std::uint8_t controller) const noexcept {
-  CanFrame frame;
+bus::CanFrame ErrorCounters::report(std::uint32_t error_class, std::uint8_t controller) const noexcept {
+  bus::CanFrame frame;
   frame.id = CAN_ERR_FLAG | error_class;
   frame.length = CAN_ERR_DLC;
   frame.data[1] = controller;
@@ -79,4 +79,4 @@ CanFrame ErrorCounters::report(std::uint32_t error_class, std::uint8_t controlle
   return frame;
 }
 
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -8,7 +8,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 namespace {
 
 bool covers(const BusFault& fault, std::uint64_t slot) { return slot >= fault.from_slot && slot <= fault.to_slot; }
@@ -89,10 +89,10 @@ std::optional<std::uint32_t> read_id(const Entry& entry) {
 }
 
 // The frame a stranger sends: an 11-bit id and up to 8 bytes in hex.
-CanFrame read_frame(const Entry& entry, const std::optional<std::uint32_t>& id) {
-  if (!id || *id > kCanStandardMask)
+bus::CanFrame read_frame(const Entry& entry, const std::optional<std::uint32_t>& id) {
+  if (!id || *id > bus::kCanStandardMask)
     entry.refuse("id", "is the 11-bit identifier of the frame to send, like \"0x000\"");
-  CanFrame frame;
+  bus::CanFrame frame;
   frame.id = *id;
   const std::string text =
       entry.has("data") && entry.json.at("data").is_string() ? entry.json.at("data").get<std::string>() : "";
@@ -176,4 +176,4 @@ FaultScript load_fault_script(const std::string& path, int bus_count) {
   return FaultScript(std::move(faults));
 }
 
-}  // namespace liana
+}  // namespace liana::bus_sim

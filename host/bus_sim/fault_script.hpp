@@ -9,7 +9,7 @@
 
 #include "host/bus/can_frame.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 
 constexpr std::uint64_t kLastSlot = std::numeric_limits<std::uint32_t>::max();
 
@@ -36,7 +36,7 @@ struct BusFault {
   std::optional<std::uint32_t> id = std::nullopt;                   // of the frames meant; nothing = every frame
   std::uint32_t count = std::numeric_limits<std::uint32_t>::max();  // most frames it takes
   int with_bus = 0;                                                 // kSwap: the other one
-  CanFrame frame{};                                                 // kSend
+  bus::CanFrame frame{};                                            // kSend
   int load_percent = 0;                                             // kSend: of the wire; 0 = one frame in each slot
 };
 
@@ -62,4 +62,4 @@ class FaultScript {
 // Reads a script; throws std::runtime_error naming file, entry, field and what is allowed. Buses are 0..bus_count-1.
 FaultScript load_fault_script(const std::string& path, int bus_count);
 
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -8,6 +8,8 @@
 #include "host/bus_sim/bus_process.hpp"
 #include "host/command_line/command_line.hpp"
 
+using namespace liana::bus_sim;
+
 namespace {
 
 struct Arguments {
@@ -21,28 +23,27 @@ struct Arguments {
 
 void end_on_signals() {
   struct sigaction action {};
-  action.sa_handler = [](int) { liana::request_bus_stop(); };  // without SA_RESTART: blocking calls return
+  action.sa_handler = [](int) { request_bus_stop(); };  // without SA_RESTART: blocking calls return
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
 }
 
 void run(const Arguments& arguments) {
-  liana::BusHubOptions options;
-  options.time_mode = *liana::time_mode_from(arguments.time);
+  BusHubOptions options;
+  options.time_mode = *liana::timing::time_mode_from(arguments.time);
   options.log_directory = arguments.log_directory;
-  liana::load_wires(arguments.buses, options);
+  load_wires(arguments.buses, options);
   if (!arguments.script.empty())
-    options.script = liana::load_fault_script(arguments.script, static_cast<int>(options.wires.size()));
-  std::vector<liana::Participant> participants =
-      liana::admit_participants(arguments.socket, liana::welcome_of(options));
+    options.script = load_fault_script(arguments.script, static_cast<int>(options.wires.size()));
+  std::vector<Participant> participants = admit_participants(arguments.socket, welcome_of(options));
   if (participants.size() < 2) return;
-  liana::BusHub hub(options, std::move(participants));
-  if (options.time_mode == liana::TimeMode::kReal) {
-    liana::run_real(hub);
+  BusHub hub(options, std::move(participants));
+  if (options.time_mode == liana::timing::TimeMode::kReal) {
+    run_real(hub);
   } else {
-    liana::run_lockstep(hub, options.time_mode == liana::TimeMode::kPaced);
+    run_lockstep(hub, options.time_mode == liana::timing::TimeMode::kPaced);
   }
-  if (!arguments.stats.empty()) liana::write_bus_stats(arguments.stats, hub);
+  if (!arguments.stats.empty()) write_bus_stats(arguments.stats, hub);
   std::fprintf(stderr, "liana-bus: %s after %.3f s\n", hub.end_reason().c_str(),
                static_cast<double>(hub.now_ns) * 1e-9);
 }
@@ -50,7 +51,7 @@ void run(const Arguments& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  liana::CommandLine line(
+  liana::command_line::CommandLine line(
       "The embedded CAN bus: exact bit timing, arbitration and bounded queues between lianad and the bench, and "
       "virtual time.",
       "liana-bus");

@@ -7,9 +7,9 @@
 #include <cstring>
 #include <utility>
 
-namespace liana {
+namespace liana::bus_sim {
 
-Participant::Participant(UniqueFd socket, const wire::Hello& hello)
+Participant::Participant(api::UniqueFd socket, const wire::Hello& hello)
     : socket_(std::move(socket)),
       name_(hello.name.data(), strnlen(hello.name.data(), hello.name.size())),
       role_(hello.role) {
@@ -49,4 +49,4 @@ void Participant::refuse(const std::string& reason) {
   send(socket_.get(), packet.data(), packet.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
 }
 
-}  // namespace liana
+}  // namespace liana::bus_sim

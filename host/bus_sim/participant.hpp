@@ -8,11 +8,11 @@
 #include "host/api/socket.hpp"
 #include "host/bus/wire_packets.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 
 class Participant {
  public:
-  Participant(UniqueFd socket, const wire::Hello& hello);
+  Participant(api::UniqueFd socket, const wire::Hello& hello);
 
   const std::string& name() const { return name_; }
   wire::Role role() const { return role_; }
@@ -45,7 +45,7 @@ class Participant {
   bool wake_on_sync = false;
 
  private:
-  UniqueFd socket_;
+  api::UniqueFd socket_;
   std::string name_;
   wire::Role role_;
   std::vector<wire::Frame> inbox_;
@@ -55,4 +55,4 @@ class Participant {
   std::unique_ptr<wire::Yield> yield_ = std::make_unique<wire::Yield>();
 };
 
-}  // namespace liana
+}  // namespace liana::bus_sim

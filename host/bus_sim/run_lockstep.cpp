@@ -3,7 +3,7 @@
 
 #include "host/bus_sim/bus_hub.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 namespace {
 
 constexpr std::uint64_t kForeverNs = std::numeric_limits<std::uint64_t>::max();
@@ -133,4 +133,4 @@ void run_lockstep(BusHub& hub, bool paced) {
   }
 }
 
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -5,7 +5,7 @@
 
 #include "host/bus_sim/bus_hub.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 namespace {
 
 constexpr std::uint64_t kLookUpNs = 100'000'000;  // how often a stop is noticed at least
@@ -55,4 +55,4 @@ void run_real(BusHub& hub) {
   }
 }
 
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -7,23 +7,23 @@
 
 #include "host/bus/frame_bits.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 
 constexpr std::size_t kTransmitQueueFrames = 64;
 
 // A frame that waits for the wire.
 struct WaitingFrame {
   std::uint32_t key = 0;  // arbitration
-  CanFrame frame;
+  bus::CanFrame frame;
   bool sent_before = false;
 };
 
 class TransmitQueue {
  public:
   // False when full.
-  bool push(const CanFrame& frame) {
+  bool push(const bus::CanFrame& frame) {
     if (count_ >= kTransmitQueueFrames) return false;
-    const WaitingFrame waiting{arbitration_key(frame), frame, false};
+    const WaitingFrame waiting{bus::arbitration_key(frame), frame, false};
     // Kept in falling order, so that the next frame to go is the last.
     insert(waiting, [&](const WaitingFrame& other) { return other.key <= waiting.key; });
     return true;
@@ -60,4 +60,4 @@ class TransmitQueue {
   std::size_t count_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -12,7 +12,7 @@
 #include "host/calibration/fixture.hpp"
 #include "host/config/sha256.hpp"
 
-namespace liana {
+namespace liana::calibration {
 
 using namespace cable;
 namespace {
@@ -41,7 +41,7 @@ struct Lengths {
   Eigen::RowVectorXd reported_mean_m, expected_mean_m;
 };
 
-Lengths lengths_of(const RobotConfig& robot, std::span<const CalibrationReading> readings) {
+Lengths lengths_of(const config::RobotConfig& robot, std::span<const CalibrationReading> readings) {
   const Eigen::Index cables = robot.table.cable_count(), poses = static_cast<Eigen::Index>(readings.size());
   Lengths out{Eigen::MatrixXd(poses, cables), Eigen::MatrixXd(poses, cables), {}, {}};
   for (Eigen::Index p = 0; p < poses; ++p) {
@@ -86,7 +86,7 @@ std::optional<Index> followed_by(const Lengths& lengths, Index drive) {
   return best;
 }
 
-std::string problem_of(const RobotConfig& robot, const Lengths& lengths, Index drive, const Fit& own) {
+std::string problem_of(const config::RobotConfig& robot, const Lengths& lengths, Index drive, const Fit& own) {
   const std::optional<Index> other = followed_by(lengths, drive);
   const int node = static_cast<int>(node_of_drive(drive));
   if (other && *other != drive) {
@@ -112,7 +112,8 @@ std::string problem_of(const RobotConfig& robot, const Lengths& lengths, Index d
 }
 
 // Without a number of its own a drive cannot be told from another one when it is swapped later. Empty: it has one.
-std::string serial_problem_of(const RobotConfig& robot, std::span<const CalibrationReading> readings, Index drive) {
+std::string serial_problem_of(const config::RobotConfig& robot, std::span<const CalibrationReading> readings,
+                              Index drive) {
   const std::uint32_t serial = readings.front().serial[drive];
   const int node = static_cast<int>(node_of_drive(drive));
   const std::string who =
@@ -133,7 +134,7 @@ std::string serial_problem_of(const RobotConfig& robot, std::span<const Calibrat
   return "";
 }
 
-CableCalibration cable_of(const RobotConfig& robot, const Lengths& lengths, Index c, double scale,
+CableCalibration cable_of(const config::RobotConfig& robot, const Lengths& lengths, Index c, double scale,
                           const CalibrationReading& first) {
   const DriveTable& table = robot.table.drive[c];
   // expected = scale reported + zero; reported is what the table's drum and direction make of the counts.
@@ -150,7 +151,7 @@ CableCalibration cable_of(const RobotConfig& robot, const Lengths& lengths, Inde
 
 }  // namespace
 
-void check_poses(const RobotConfig& robot, std::span<const ThetaVector> poses_rad) {
+void check_poses(const config::RobotConfig& robot, std::span<const ThetaVector> poses_rad) {
   if (poses_rad.size() < 2) throw std::runtime_error("one pose says nothing of drums and directions: give two or more");
   CableVector tension_N;
   tension_N.fill(robot.table.tension.plan_N);
@@ -172,11 +173,11 @@ void check_poses(const RobotConfig& robot, std::span<const ThetaVector> poses_ra
   }
 }
 
-CalibrationResult calibrate(const RobotConfig& robot, std::span<const CalibrationReading> readings,
+CalibrationResult calibrate(const config::RobotConfig& robot, std::span<const CalibrationReading> readings,
                             const std::string& date) {
   const Lengths lengths = lengths_of(robot, readings);
   CalibrationResult out;
-  out.calibration = {robot.name, sha256_hex(robot.canonical_json), date, {}};
+  out.calibration = {robot.name, config::sha256_hex(robot.canonical_json), date, {}};
   for (Index c = 0; c < as_index(robot.table.cable_count()); ++c) {
     const Fit own = fit(lengths.reported.col(c), lengths.expected.col(c));
     const std::string serial_problem = serial_problem_of(robot, readings, c);
@@ -190,4 +191,4 @@ CalibrationResult calibrate(const RobotConfig& robot, std::span<const Calibratio
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::calibration

@@ -10,7 +10,7 @@
 
 #include "host/calibration/calibration.hpp"
 
-namespace liana {
+namespace liana::calibration {
 
 // The arm in a fixture at a known pose: what every drive reports, by the robot table.
 struct CalibrationReading {
@@ -27,12 +27,12 @@ struct CalibrationResult {
 
 // The poses tell every two cables apart by at least 1 mm of change, and every cable changes enough to see its
 // direction; throws std::runtime_error naming what is missing. At least two poses.
-void check_poses(const RobotConfig& robot, std::span<const cable::ThetaVector> poses_rad);
+void check_poses(const config::RobotConfig& robot, std::span<const cable::ThetaVector> poses_rad);
 
 // Fits a drum radius and a zero to every drive. A drive that counts backwards gets the other direction and is a problem
 // of nobody; cables that are wound on each other's drums, a drum that is off by over 2 %, readings that no drum
 // explains, and a drive without a serial number of its own are problems.
-CalibrationResult calibrate(const RobotConfig& robot, std::span<const CalibrationReading> readings,
+CalibrationResult calibrate(const config::RobotConfig& robot, std::span<const CalibrationReading> readings,
                             const std::string& date);
 
-}  // namespace liana
+}  // namespace liana::calibration

@@ -7,7 +7,7 @@
 #include "host/config/field.hpp"
 #include "host/config/sha256.hpp"
 
-namespace liana {
+namespace liana::calibration {
 
 using namespace cable;
 namespace {
@@ -20,7 +20,7 @@ constexpr const char* kAgain = "run liana calibrate again";
 
 std::string checksum(Json content) {
   content.erase("sha256");
-  return sha256_hex(canonical_json(content));
+  return config::sha256_hex(config::canonical_json(content));
 }
 
 Json content_of(const Calibration& calibration) {
@@ -42,7 +42,7 @@ Json content_of(const Calibration& calibration) {
 }
 
 // Days since 1970-01-01.
-sys_days read_date(const Field& field) {
+sys_days read_date(const config::Field& field) {
   int year = 0;
   unsigned month = 0, day = 0;
   char end = 0;
@@ -53,15 +53,15 @@ sys_days read_date(const Field& field) {
   return date;
 }
 
-void check_age(const Field& field, const RobotConfig& robot, const std::string& today) {
+void check_age(const config::Field& field, const config::RobotConfig& robot, const std::string& today) {
   const Json now = today;
-  const auto days = (read_date(Field(now, "clock", "today")) - read_date(field)).count();
+  const auto days = (read_date(config::Field(now, "clock", "today")) - read_date(field)).count();
   const std::string allowed = "0 to " + std::to_string(robot.calibration_days) + " days before today, " + today;
   if (days < 0) field.refuse(allowed, "set the clock of this computer, or " + std::string(kAgain));
   if (days > robot.calibration_days) field.refuse(allowed + " (drives.calibration_days of the robot table)", kAgain);
 }
 
-CableCalibration read_cable(const Field& field, const RobotConfig& robot) {
+CableCalibration read_cable(const config::Field& field, const config::RobotConfig& robot) {
   field.only({"serial", "direction", "zero_counts", "drum_radius_m", "pretension_N", "offset_m"});
   CableCalibration cable;
   cable.serial = static_cast<std::uint32_t>(field.at("serial").integer(0, 0xffffffff));
@@ -89,16 +89,16 @@ std::string today_utc() {
 std::string calibration_json(const Calibration& calibration) {
   Json content = content_of(calibration);
   content["sha256"] = checksum(content);
-  return canonical_json(content) + "\n";
+  return config::canonical_json(content) + "\n";
 }
 
-Calibration parse_calibration(const std::string& text, const std::string& file, const RobotConfig& robot,
+Calibration parse_calibration(const std::string& text, const std::string& file, const config::RobotConfig& robot,
                               const std::string& today) {
-  const Json content = parse_json(text, file, kAgain);
-  const Field table(content, file, "");
+  const Json content = config::parse_json(text, file, kAgain);
+  const config::Field table(content, file, "");
   if (!content.is_object()) table.refuse("a calibration file", "give a file that liana calibrate --out has written");
-  check_kind(table, "calibration");
-  const Field sum = table.at("sha256");
+  config::check_kind(table, "calibration");
+  const config::Field sum = table.at("sha256");
   if (sum.json() != checksum(content)) {
     sum.refuse(checksum(content),
                "the file was changed or damaged after it was written; take a good copy, or " + std::string(kAgain));
@@ -109,25 +109,25 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
   if (out.robot != robot.name)
     table.at("robot").refuse("\"" + robot.name + "\"", "it is the calibration of another robot; take that of this one");
   out.robot_sha256 = table.at("robot_sha256").name(64);
-  if (out.robot_sha256 != sha256_hex(robot.canonical_json)) {
+  if (out.robot_sha256 != config::sha256_hex(robot.canonical_json)) {
     table.at("robot_sha256")
-        .refuse("\"" + sha256_hex(robot.canonical_json) + "\"",
+        .refuse("\"" + config::sha256_hex(robot.canonical_json) + "\"",
                 "the robot table was changed since; " + std::string(kAgain));
   }
   check_age(table.at("date"), robot, today);
   out.date = table.at("date").json().get<std::string>();
   const auto count = static_cast<std::size_t>(robot.table.cable_count());
-  const Field cables = table.at("cables");
+  const config::Field cables = table.at("cables");
   cables.size(count, count, "one entry per cable, segment 1 cable 0 first");
   for (std::size_t i = 0; i < count; ++i) out.cables.push_back(read_cable(cables.element(i), robot));
   return out;
 }
 
-Calibration load_calibration(const std::string& path, const RobotConfig& robot, const std::string& today) {
-  return parse_calibration(read_text_file(path), path, robot, today);
+Calibration load_calibration(const std::string& path, const config::RobotConfig& robot, const std::string& today) {
+  return parse_calibration(config::read_text_file(path), path, robot, today);
 }
 
-void apply(const Calibration& calibration, RobotConfig& robot) {
+void apply(const Calibration& calibration, config::RobotConfig& robot) {
   robot.drive_serials.clear();
   for (std::size_t i = 0; i < calibration.cables.size(); ++i) {
     const CableCalibration& cable = calibration.cables[i];
@@ -139,4 +139,4 @@ void apply(const Calibration& calibration, RobotConfig& robot) {
   }
 }
 
-}  // namespace liana
+}  // namespace liana::calibration

@@ -8,7 +8,7 @@
 
 #include "host/config/config.hpp"
 
-namespace liana {
+namespace liana::calibration {
 
 // One drive with its cable.
 struct CableCalibration {
@@ -36,11 +36,11 @@ std::string calibration_json(const Calibration& calibration);
 // Reads a calibration for `robot` as of `today`. Throws std::runtime_error "file: field: value: allowed ...: what to
 // do" when the checksum is wrong, it is for another robot or table, older than drives.calibration_days of the robot
 // table, from the future, or holds a value out of range.
-Calibration parse_calibration(const std::string& text, const std::string& file, const RobotConfig& robot,
+Calibration parse_calibration(const std::string& text, const std::string& file, const config::RobotConfig& robot,
                               const std::string& today);
-Calibration load_calibration(const std::string& path, const RobotConfig& robot, const std::string& today);
+Calibration load_calibration(const std::string& path, const config::RobotConfig& robot, const std::string& today);
 
 // The robot with the calibration's drums, directions, zeros and drive serial numbers in place of its table's.
-void apply(const Calibration& calibration, RobotConfig& robot);
+void apply(const Calibration& calibration, config::RobotConfig& robot);
 
-}  // namespace liana
+}  // namespace liana::calibration

@@ -10,7 +10,7 @@
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/trig.hpp"
 
-namespace liana {
+namespace liana::calibration {
 
 using namespace cable;
 namespace {
@@ -43,7 +43,7 @@ std::string exchanged(const std::vector<Index>& off, const CableVector& reported
 
 }  // namespace
 
-ThetaVector named_pose_rad(const RobotConfig& robot, const std::string& name) {
+ThetaVector named_pose_rad(const config::RobotConfig& robot, const std::string& name) {
   const auto found = robot.named_poses_deg.find(name);
   if (found == robot.named_poses_deg.end()) {
     std::string known;
@@ -65,7 +65,7 @@ CableVector beyond_zero_m(const RobotTable& table, const ThetaVector& theta_rad,
   return out;
 }
 
-void check_tells_apart(const RobotConfig& robot, const std::string& name) {
+void check_tells_apart(const config::RobotConfig& robot, const std::string& name) {
   CableVector tension_N;
   tension_N.fill(robot.table.tension.plan_N);
   const CableVector expected_m = beyond_zero_m(robot.table, named_pose_rad(robot, name), tension_N);
@@ -82,7 +82,7 @@ void check_tells_apart(const RobotConfig& robot, const std::string& name) {
   }
 }
 
-std::string contradiction(const RobotConfig& robot, const std::string& name, const CableVector& paid_out_m,
+std::string contradiction(const config::RobotConfig& robot, const std::string& name, const CableVector& paid_out_m,
                           const CableVector& tension_N) {
   const CableVector expected_m = beyond_zero_m(robot.table, named_pose_rad(robot, name), tension_N);
   std::vector<Index> off;
@@ -103,4 +103,4 @@ std::string contradiction(const RobotConfig& robot, const std::string& name, con
          "calibrate";
 }
 
-}  // namespace liana
+}  // namespace liana::calibration

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-namespace liana {
+namespace liana::calibration {
 
 void wait_for_fixture(std::istream& in, std::ostream& out, const std::string& pose, std::size_t number,
                       std::size_t count) {
@@ -14,4 +14,4 @@ void wait_for_fixture(std::istream& in, std::ostream& out, const std::string& po
                              ": nothing was calibrated: begin again at a terminal, and press Enter at each fixture");
 }
 
-}  // namespace liana
+}  // namespace liana::calibration

@@ -33,7 +33,7 @@ void BootNode::allow_start() noexcept {
   if (phase_ == NodePhase::kConfigured) enter(NodePhase::kStart);
 }
 
-bool BootNode::step(CanFrame& frame) noexcept {
+bool BootNode::step(bus::CanFrame& frame) noexcept {
   sdo_.tick();
   advance();
   if (!out_waiting_) out_waiting_ = sdo_.take_request(out_);
@@ -144,7 +144,7 @@ void BootNode::restart(bool all_were_operational) noexcept {
   begin_object();
 }
 
-void BootNode::on_sdo_response(const CanFrame& frame) noexcept {
+void BootNode::on_sdo_response(const bus::CanFrame& frame) noexcept {
   if (phase_ == NodePhase::kObjects) sdo_.on_response(frame);
 }
 

@@ -47,13 +47,13 @@ class BootNode {
   // All nodes are configured: this one may be started.
   void allow_start() noexcept;
   // One tick has passed; true when `frame` is to be sent, which sent() confirms.
-  bool step(CanFrame& frame) noexcept;
+  bool step(bus::CanFrame& frame) noexcept;
   // The frame of the last step() has (or has not) been taken by the bus; if not, it comes again.
   void sent(bool accepted) noexcept;
   // A boot-up message of an operational node begins its plan again, and, when `all_were_operational`, that of a failed
   // one, too: the drive has come back.
   void on_heartbeat(std::uint8_t state, bool all_were_operational) noexcept;
-  void on_sdo_response(const CanFrame& frame) noexcept;
+  void on_sdo_response(const bus::CanFrame& frame) noexcept;
 
  private:
   void enter(NodePhase phase) noexcept;
@@ -81,7 +81,7 @@ class BootNode {
   int restarts_ = 0;
   bool reading_back_ = false;
   std::uint8_t last_state_ = 0xFF;  // NMT state last heard, 0xFF = none
-  CanFrame out_;
+  bus::CanFrame out_;
   bool out_waiting_ = false;
 };
 

@@ -11,16 +11,16 @@ BootSequence::BootSequence(const std::vector<DriveExpectation>& drives, const Bo
   for (const DriveExpectation& drive : drives) nodes_.emplace_back(drive, timing);
 }
 
-void BootSequence::step(DriveBus& bus) noexcept {
+void BootSequence::step(bus::DriveBus& bus) noexcept {
   if (state_ != BootState::kRunning) return;
   for (BootNode& node : nodes_) {
-    CanFrame frame;
-    if (node.step(frame)) node.sent(bus.send(node.bus(), frame) == SendResult::kOk);
+    bus::CanFrame frame;
+    if (node.step(frame)) node.sent(bus.send(node.bus(), frame) == bus::SendResult::kOk);
   }
   update_state();
 }
 
-void BootSequence::on_frame(int bus, const CanFrame& frame) noexcept {
+void BootSequence::on_frame(int bus, const bus::CanFrame& frame) noexcept {
   const FrameRoute from = route(frame.id);
   if (from.kind != FrameKind::kHeartbeat && from.kind != FrameKind::kSdoResponse) return;
   for (BootNode& node : nodes_) {

@@ -27,11 +27,11 @@ class BootSequence {
   // Once per tick, after the received frames have been passed to on_frame(): sends what each node needs next.
   // No node is started before all are configured; when one fails, the others go on to the end of their plan and none is
   // started.
-  void step(DriveBus& bus) noexcept;
+  void step(bus::DriveBus& bus) noexcept;
   // Boot-up messages, heartbeats and SDO responses; other frames are ignored. When all were operational once and one
   // restarts, it alone is booted again (CiA 302-2, boot of a slave that comes back): the state is kRunning until it is
   // done.
-  void on_frame(int bus, const CanFrame& frame) noexcept;
+  void on_frame(int bus, const bus::CanFrame& frame) noexcept;
 
   BootState state() const noexcept { return state_; }
   BootProgress progress() const noexcept;

@@ -28,7 +28,7 @@ void set_gear(DriveExpectation& drive, double gear) {
 
 // What all drives of a robot have in common.
 template <class Robot>
-DriveExpectation common_expectation(const Robot& robot, const BusesConfig& buses) {
+DriveExpectation common_expectation(const Robot& robot, const config::BusesConfig& buses) {
   DriveExpectation common;
   common.vendor = robot.identity.vendor;
   common.product = robot.identity.product;
@@ -36,7 +36,7 @@ DriveExpectation common_expectation(const Robot& robot, const BusesConfig& buses
   common.counts_per_turn = robot.counts_per_turn;
   common.rated_torque_mNm = rounded(robot.rated_torque_Nm * 1000.0);
   set_gear(common, robot.gear);
-  common.period = interpolation_period(buses.period_us());
+  common.period = config::interpolation_period(buses.period_us());
   common.rpdo_deadline_ms = static_cast<std::uint16_t>((kDeadlinePeriods * buses.period_us() + 999) / 1000);
   common.heartbeat_ms = static_cast<std::uint16_t>(buses.heartbeat_ms);
   common.master_timeout_ms = static_cast<std::uint16_t>(kMasterHeartbeatsMissed * buses.heartbeat_ms);
@@ -46,7 +46,7 @@ DriveExpectation common_expectation(const Robot& robot, const BusesConfig& buses
 // One drive per window of following error [counts].
 template <class Robot>
 std::vector<DriveExpectation> expectations(const Robot& robot, const std::vector<double>& window_counts,
-                                           const BusesConfig& buses) {
+                                           const config::BusesConfig& buses) {
   const DriveExpectation common = common_expectation(robot, buses);
   std::vector<DriveExpectation> drives;
   for (std::size_t i = 0; i < window_counts.size(); ++i) {
@@ -67,14 +67,15 @@ std::vector<DriveExpectation> expectations(const Robot& robot, const std::vector
 
 }  // namespace
 
-std::vector<DriveExpectation> drive_expectations(const RobotConfig& robot, const BusesConfig& buses) {
+std::vector<DriveExpectation> drive_expectations(const config::RobotConfig& robot, const config::BusesConfig& buses) {
   std::vector<double> window_counts;
   for (std::size_t i = 0; i < static_cast<std::size_t>(robot.table.cable_count()); ++i)
     window_counts.push_back(kFollowingWindow_m / robot.table.drive[i].metres_per_count);
   return expectations(robot, window_counts, buses);
 }
 
-std::vector<DriveExpectation> drive_expectations(const SerialRobotConfig& robot, const BusesConfig& buses) {
+std::vector<DriveExpectation> drive_expectations(const config::SerialRobotConfig& robot,
+                                                 const config::BusesConfig& buses) {
   std::vector<double> window_counts;
   for (std::size_t i = 0; i < robot.table.joints(); ++i)
     window_counts.push_back(kFollowingWindow_rad / robot.table.drive[i].rad_per_count);

@@ -23,7 +23,7 @@ struct DriveExpectation {
   std::uint32_t rated_torque_mNm = 0;   // 6076
   std::optional<std::uint32_t> serial;  // 1018:4; without it, any: but the one found first has to stay
   // Is written.
-  InterpolationPeriod period{};               // 60C2, the SYNC period
+  config::InterpolationPeriod period{};       // 60C2, the SYNC period
   std::uint16_t rpdo_deadline_ms = 0;         // 1400:5
   std::uint16_t heartbeat_ms = 100;           // 1017
   std::uint16_t master_timeout_ms = 300;      // 1016:1
@@ -33,7 +33,8 @@ struct DriveExpectation {
 };
 
 // One expectation per drive, in the order of the cables or joints. Throws std::runtime_error when a node is on no bus.
-std::vector<DriveExpectation> drive_expectations(const RobotConfig& robot, const BusesConfig& buses);
-std::vector<DriveExpectation> drive_expectations(const SerialRobotConfig& robot, const BusesConfig& buses);
+std::vector<DriveExpectation> drive_expectations(const config::RobotConfig& robot, const config::BusesConfig& buses);
+std::vector<DriveExpectation> drive_expectations(const config::SerialRobotConfig& robot,
+                                                 const config::BusesConfig& buses);
 
 }  // namespace liana::canopen

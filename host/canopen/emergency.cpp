@@ -43,7 +43,7 @@ const char* emergency_text(std::uint16_t code) noexcept {
   return found == kCodeNames.end() ? "unknown" : found->text;
 }
 
-void EmergencyLog::on_frame(int bus, std::uint8_t node, const CanFrame& frame, std::uint64_t tick) noexcept {
+void EmergencyLog::on_frame(int bus, std::uint8_t node, const bus::CanFrame& frame, std::uint64_t tick) noexcept {
   if (frame.length != 8) return;
   if (count_ == kCapacity) {
     first_ = (first_ + 1) % kCapacity;

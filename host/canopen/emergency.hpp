@@ -24,7 +24,7 @@ class EmergencyLog {
  public:
   // A frame with COB-ID 0x080 + node; shorter than 8 bytes is ignored. The oldest is dropped, and counted, when 64 are
   // waiting.
-  void on_frame(int bus, std::uint8_t node, const CanFrame& frame, std::uint64_t tick) noexcept;
+  void on_frame(int bus, std::uint8_t node, const bus::CanFrame& frame, std::uint64_t tick) noexcept;
   // Fetches the oldest; false when there is none.
   bool take(Emergency& emergency) noexcept;
   // The last code of node 1..127, 0 when none or cleared.

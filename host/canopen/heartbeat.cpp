@@ -15,7 +15,7 @@ double ticks(std::int32_t time_ms, double rate_hz) noexcept { return time_ms * r
 HeartbeatProducer::HeartbeatProducer(std::int32_t period_ms, double rate_hz) noexcept
     : period_ticks_(static_cast<std::uint32_t>(std::max(1.0, std::floor(ticks(period_ms, rate_hz))))) {}
 
-void HeartbeatProducer::step(DriveBus& bus) noexcept {
+void HeartbeatProducer::step(bus::DriveBus& bus) noexcept {
   if (until_next_ > 0) {
     --until_next_;
     return;

@@ -14,7 +14,7 @@ class HeartbeatProducer {
   // Every `period_ms` at `rate_hz` ticks a second, rounded down to whole ticks.
   HeartbeatProducer(std::int32_t period_ms, double rate_hz) noexcept;
   // Once per tick.
-  void step(DriveBus& bus) noexcept;
+  void step(bus::DriveBus& bus) noexcept;
 
  private:
   std::uint32_t period_ticks_;

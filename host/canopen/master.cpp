@@ -9,12 +9,12 @@ constexpr std::int32_t kHeartbeatsMissed = 3;
 
 }  // namespace
 
-Master::Master(const std::vector<DriveExpectation>& drives, const BusesConfig& buses)
+Master::Master(const std::vector<DriveExpectation>& drives, const config::BusesConfig& buses)
     : boot_(drives, boot_timing(buses.rate_hz)),
       producer_(buses.heartbeat_ms, buses.rate_hz),
       monitor_(kHeartbeatsMissed * buses.heartbeat_ms, buses.rate_hz) {}
 
-bool Master::on_frame(int bus, const CanFrame& frame, std::uint64_t tick) noexcept {
+bool Master::on_frame(int bus, const bus::CanFrame& frame, std::uint64_t tick) noexcept {
   const FrameRoute from = route(frame.id);
   switch (from.kind) {
     case FrameKind::kHeartbeat:
@@ -32,13 +32,13 @@ bool Master::on_frame(int bus, const CanFrame& frame, std::uint64_t tick) noexce
   }
 }
 
-void Master::step(DriveBus& bus) noexcept {
+void Master::step(bus::DriveBus& bus) noexcept {
   monitor_.step();
   producer_.step(bus);
   boot_.step(bus);
 }
 
-void Master::command_all(DriveBus& bus, std::uint8_t nmt_command) noexcept {
+void Master::command_all(bus::DriveBus& bus, std::uint8_t nmt_command) noexcept {
   for (int i = 0; i < bus.bus_count(); ++i) bus.send(i, nmt_frame(nmt_command, 0));
 }
 

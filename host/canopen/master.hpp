@@ -12,14 +12,14 @@ namespace liana::canopen {
 class Master {
  public:
   // Node ids, buses and rate come from the tables; setup only, may throw.
-  Master(const std::vector<DriveExpectation>& drives, const BusesConfig& buses);
+  Master(const std::vector<DriveExpectation>& drives, const config::BusesConfig& buses);
 
   // True when the frame was the master's business (boot-up, heartbeat, emergency, SDO response).
-  bool on_frame(int bus, const CanFrame& frame, std::uint64_t tick) noexcept;
+  bool on_frame(int bus, const bus::CanFrame& frame, std::uint64_t tick) noexcept;
   // Once per tick, after the frames of the tick: heartbeat out, ages up, next SDO requests of the boot.
-  void step(DriveBus& bus) noexcept;
+  void step(bus::DriveBus& bus) noexcept;
   // NMT command to all drives of all buses, as kNmtStop.
-  static void command_all(DriveBus& bus, std::uint8_t nmt_command) noexcept;
+  static void command_all(bus::DriveBus& bus, std::uint8_t nmt_command) noexcept;
 
   const BootSequence& boot() const noexcept { return boot_; }
   const HeartbeatMonitor& heartbeats() const noexcept { return monitor_; }

@@ -7,12 +7,12 @@
 namespace liana::canopen {
 
 // NMT command for `node`, 0 = all.
-constexpr CanFrame nmt_frame(std::uint8_t command, std::uint8_t node) noexcept {
+constexpr bus::CanFrame nmt_frame(std::uint8_t command, std::uint8_t node) noexcept {
   return {kNmtId, 2, {command, node}, 0};
 }
 
 // Heartbeat of `node` in `state`.
-constexpr CanFrame heartbeat_frame(std::uint8_t node, std::uint8_t state) noexcept {
+constexpr bus::CanFrame heartbeat_frame(std::uint8_t node, std::uint8_t state) noexcept {
   return {kHeartbeatBase + node, 1, {state}, 0};
 }
 

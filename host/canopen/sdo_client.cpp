@@ -66,18 +66,18 @@ void SdoClient::start_download(std::uint16_t index, std::uint8_t sub, std::span<
   put_u32(&request_.data[4], 4, static_cast<std::uint32_t>(size_));
 }
 
-bool SdoClient::take_request(CanFrame& frame) noexcept {
+bool SdoClient::take_request(bus::CanFrame& frame) noexcept {
   if (!pending_) return false;
   frame = request_;
   pending_ = false;
   return true;
 }
 
-bool SdoClient::answers_this_object(const CanFrame& frame) const noexcept {
+bool SdoClient::answers_this_object(const bus::CanFrame& frame) const noexcept {
   return get_u32(&frame.data[1], 2) == index_ && frame.data[3] == sub_;
 }
 
-void SdoClient::on_response(const CanFrame& frame) noexcept {
+void SdoClient::on_response(const bus::CanFrame& frame) noexcept {
   if (status_ != SdoStatus::kBusy || pending_ || frame.length != 8) return;
   waited_ticks_ = 0;
   if (frame.data[0] == kAbortCommandByte) {
@@ -92,7 +92,7 @@ void SdoClient::on_response(const CanFrame& frame) noexcept {
   on_upload_segment(frame);
 }
 
-void SdoClient::on_upload_initiated(const CanFrame& frame) noexcept {
+void SdoClient::on_upload_initiated(const bus::CanFrame& frame) noexcept {
   const std::uint8_t command = frame.data[0];
   if ((command & 0xE0) != 0x40) return fail(kAbortCommand);
   const bool sized = (command & 1) != 0;
@@ -110,7 +110,7 @@ void SdoClient::on_upload_initiated(const CanFrame& frame) noexcept {
 
 void SdoClient::request_upload_segment() noexcept { request(static_cast<std::uint8_t>(0x60 | toggle_bit(toggle_))); }
 
-void SdoClient::on_upload_segment(const CanFrame& frame) noexcept {
+void SdoClient::on_upload_segment(const bus::CanFrame& frame) noexcept {
   const std::uint8_t command = frame.data[0];
   if ((command & 0xE0) != 0x00) return fail(kAbortCommand);
   if ((command & kToggleBit) != toggle_bit(toggle_)) return fail(kAbortToggle);
@@ -124,7 +124,7 @@ void SdoClient::on_upload_segment(const CanFrame& frame) noexcept {
   status_ = SdoStatus::kDone;
 }
 
-void SdoClient::on_download_answer(const CanFrame& frame) noexcept {
+void SdoClient::on_download_answer(const bus::CanFrame& frame) noexcept {
   const std::uint8_t command = frame.data[0];
   if (phase_ == Phase::kInitiate) {
     if (command != 0x60) return fail(kAbortCommand);

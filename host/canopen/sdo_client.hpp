@@ -41,9 +41,9 @@ class SdoClient {
   // Begins to write 1..kSdoBufferBytes bytes (more are refused with kAborted, kAbortMemory).
   void start_download(std::uint16_t index, std::uint8_t sub, std::span<const std::uint8_t> bytes) noexcept;
   // The next frame to send, if there is one.
-  bool take_request(CanFrame& frame) noexcept;
+  bool take_request(bus::CanFrame& frame) noexcept;
   // A frame with COB-ID 0x580 + node.
-  void on_response(const CanFrame& frame) noexcept;
+  void on_response(const bus::CanFrame& frame) noexcept;
   // One tick has passed.
   void tick() noexcept;
 
@@ -59,12 +59,12 @@ class SdoClient {
   enum class Phase : std::uint8_t { kInitiate, kSegments };
   void begin(bool download, std::uint16_t index, std::uint8_t sub) noexcept;
   void request(std::uint8_t command) noexcept;
-  void on_upload_initiated(const CanFrame& frame) noexcept;
-  void on_upload_segment(const CanFrame& frame) noexcept;
-  void on_download_answer(const CanFrame& frame) noexcept;
+  void on_upload_initiated(const bus::CanFrame& frame) noexcept;
+  void on_upload_segment(const bus::CanFrame& frame) noexcept;
+  void on_download_answer(const bus::CanFrame& frame) noexcept;
   void request_upload_segment() noexcept;
   void request_download_segment() noexcept;
-  bool answers_this_object(const CanFrame& frame) const noexcept;
+  bool answers_this_object(const bus::CanFrame& frame) const noexcept;
   void fail(std::uint32_t code) noexcept;
 
   std::uint8_t node_;
@@ -83,7 +83,7 @@ class SdoClient {
   std::size_t size_ = 0;       // bytes in buffer_
   std::size_t announced_ = 0;  // upload: size the server announced, 0 = none
   std::size_t at_ = 0;         // download: bytes already sent
-  CanFrame request_;
+  bus::CanFrame request_;
 };
 
 }  // namespace liana::canopen

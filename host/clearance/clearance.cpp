@@ -5,7 +5,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana {
+namespace liana::clearance {
 namespace {
 
 using Index = std::size_t;
@@ -19,7 +19,7 @@ struct BoxSegment {
   Vec3 at(double t) const { return add(start, scale(direction, t)); }
 };
 
-BoxSegment into_frame(const Capsule& link, const SceneBox& box) {
+BoxSegment into_frame(const Capsule& link, const config::SceneBox& box) {
   const Vec3 start = subtract(link.from_m, box.center_m), direction = subtract(link.to_m, link.from_m);
   BoxSegment segment;
   for (Index i = 0; i < 3; ++i) {
@@ -115,7 +115,7 @@ double deepest_inside(const BoxSegment& s, const Part& part) {
 }
 
 // A point of the box's frame, and a direction, in the base frame.
-Vec3 direction_in_base(const SceneBox& box, const Vec3& v) {
+Vec3 direction_in_base(const config::SceneBox& box, const Vec3& v) {
   Vec3 out{};
   for (Index i = 0; i < 3; ++i) out = add(out, scale(box.rotation[i], v[i]));
   return out;
@@ -123,7 +123,7 @@ Vec3 direction_in_base(const SceneBox& box, const Vec3& v) {
 
 }  // namespace
 
-Clearance clearance(const Capsule& link, const SceneSphere& sphere) noexcept {
+Clearance clearance(const Capsule& link, const config::SceneSphere& sphere) noexcept {
   const Vec3 axis = subtract(link.to_m, link.from_m);
   const double length2 = dot(axis, axis);
   Clearance out;
@@ -138,7 +138,7 @@ Clearance clearance(const Capsule& link, const SceneSphere& sphere) noexcept {
   return out;
 }
 
-Clearance clearance(const Capsule& link, const SceneBox& box) noexcept {
+Clearance clearance(const Capsule& link, const config::SceneBox& box) noexcept {
   const BoxSegment segment = into_frame(link, box);
   const Part inside = part_inside(segment);
   Clearance out;
@@ -163,16 +163,16 @@ Clearance clearance(const Capsule& link, const SceneBox& box) noexcept {
   return out;
 }
 
-std::int32_t obstacle_count(const SceneConfig& scene) noexcept {
+std::int32_t obstacle_count(const config::SceneConfig& scene) noexcept {
   return static_cast<std::int32_t>(scene.spheres.size() + scene.boxes.size());
 }
 
-const std::string& obstacle_name(const SceneConfig& scene, std::int32_t obstacle) noexcept {
+const std::string& obstacle_name(const config::SceneConfig& scene, std::int32_t obstacle) noexcept {
   const Index i = static_cast<Index>(obstacle);
   return i < scene.spheres.size() ? scene.spheres[i].name : scene.boxes[i - scene.spheres.size()].name;
 }
 
-Clearance clearance(const Capsule& link, const SceneConfig& scene, std::int32_t obstacle) noexcept {
+Clearance clearance(const Capsule& link, const config::SceneConfig& scene, std::int32_t obstacle) noexcept {
   const Index i = static_cast<Index>(obstacle);
   return i < scene.spheres.size() ? clearance(link, scene.spheres[i])
                                   : clearance(link, scene.boxes[i - scene.spheres.size()]);
@@ -183,7 +183,7 @@ Capsule link_capsule(const LinkPoints& points, std::int32_t link, double radius_
   return {points.point_in_base[i], points.point_in_base[i + 1], radius_m};
 }
 
-ArmClearance arm_clearance(const LinkPoints& points, double radius_m, const SceneConfig& scene) noexcept {
+ArmClearance arm_clearance(const LinkPoints& points, double radius_m, const config::SceneConfig& scene) noexcept {
   ArmClearance out;
   out.nearest.distance_m = kNoObstacle_m;
   for (std::int32_t obstacle = 0; obstacle < obstacle_count(scene); ++obstacle) {
@@ -195,4 +195,4 @@ ArmClearance arm_clearance(const LinkPoints& points, double radius_m, const Scen
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::clearance

@@ -13,7 +13,7 @@
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "host/config/config.hpp"
 
-namespace liana {
+namespace liana::clearance {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -36,18 +36,18 @@ struct Clearance {
 };
 
 // Capsule to sphere: about 40 flops and two square roots.
-Clearance clearance(const Capsule& link, const SceneSphere& sphere) noexcept;
+Clearance clearance(const Capsule& link, const config::SceneSphere& sphere) noexcept;
 
 // Capsule to oriented box, exact also at edges and corners: the axis is split where it passes the planes of the faces
 // (at most 6 places), between which the squared distance is quadratic. Inside the box it is the depth to the nearest
 // face, minimised over the axis.
-Clearance clearance(const Capsule& link, const SceneBox& box) noexcept;
+Clearance clearance(const Capsule& link, const config::SceneBox& box) noexcept;
 
 // Obstacles are numbered: the scene's spheres first, then its boxes.
-std::int32_t obstacle_count(const SceneConfig& scene) noexcept;
-const std::string& obstacle_name(const SceneConfig& scene, std::int32_t obstacle) noexcept;
+std::int32_t obstacle_count(const config::SceneConfig& scene) noexcept;
+const std::string& obstacle_name(const config::SceneConfig& scene, std::int32_t obstacle) noexcept;
 // The same for obstacle 0..obstacle_count - 1.
-Clearance clearance(const Capsule& link, const SceneConfig& scene, std::int32_t obstacle) noexcept;
+Clearance clearance(const Capsule& link, const config::SceneConfig& scene, std::int32_t obstacle) noexcept;
 
 // Link 0..links - 1 (link i ends at point i + 1) as a capsule.
 Capsule link_capsule(const LinkPoints& points, std::int32_t link, double radius_m) noexcept;
@@ -62,6 +62,6 @@ constexpr double kNoObstacle_m = 1e3;
 
 // Every link against every obstacle; on equal distances the first obstacle, then the first link, wins. 40 links and 3
 // obstacles: about 5 us.
-ArmClearance arm_clearance(const LinkPoints& points, double radius_m, const SceneConfig& scene) noexcept;
+ArmClearance arm_clearance(const LinkPoints& points, double radius_m, const config::SceneConfig& scene) noexcept;
 
-}  // namespace liana
+}  // namespace liana::clearance

@@ -8,7 +8,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/system/errors.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 constexpr double kFarthest_m = 1000.0;  // no arm reaches so far, and squares of it are no problem for anybody
@@ -16,7 +16,7 @@ constexpr double kLargestWeight = 1000.0;
 constexpr std::int64_t kLargestSeed = (std::int64_t{1} << 53) - 1;
 
 [[noreturn]] void refuse(std::string_view option, std::string_view value, const std::string& allowed) {
-  throw BadInput(std::string(option) + ": '" + std::string(value) + "': allowed: " + allowed);
+  throw system::BadInput(std::string(option) + ": '" + std::string(value) + "': allowed: " + allowed);
 }
 
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -182,4 +182,4 @@ ControlPointArgument parse_control_point(std::string_view text, const cable::Rob
   return point;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

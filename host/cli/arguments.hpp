@@ -11,7 +11,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "firmware_like/serial/robot_table.hpp"
 
-namespace liana {
+namespace liana::cli {
 
 // One held variable: theta counted from 1, and its value where one was given [deg].
 struct HoldArgument {
@@ -62,4 +62,4 @@ std::vector<HoldArgument> parse_hold(std::string_view text, const cable::RobotTa
 // 3:x,y,z:weight: metres within +-1000; the weight, over 0 up to 1000, may be left out.
 ControlPointArgument parse_control_point(std::string_view text, const cable::RobotTable& robot);
 
-}  // namespace liana
+}  // namespace liana::cli

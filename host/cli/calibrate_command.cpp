@@ -15,7 +15,7 @@
 #include "host/system/system_layout.hpp"
 #include "host/system/tables.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 std::vector<std::string> names_in(const std::string& list) {
@@ -26,8 +26,8 @@ std::vector<std::string> names_in(const std::string& list) {
 }
 
 // What runs while the arm lies in a fixture.
-SystemLayout plan_for(const CalibrateOptions& options, bool simulated, const std::string& pose) {
-  RunOptions run;
+system::SystemLayout plan_for(const CalibrateOptions& options, bool simulated, const std::string& pose) {
+  system::RunOptions run;
   run.robot = options.robot;
   run.bus = options.bus;
   run.physics = options.physics;
@@ -35,44 +35,44 @@ SystemLayout plan_for(const CalibrateOptions& options, bool simulated, const std
   run.seed = options.seed;
   run.fixture = pose;
   run.cross_wired = options.cross_wired;
-  return make_layout(run);
+  return system::make_layout(run);
 }
 
-CalibrationReading read_with(const SystemLayout& plan, const InterruptGuard& interrupts) {
+calibration::CalibrationReading read_with(const system::SystemLayout& plan, const system::InterruptGuard& interrupts) {
   try {
-    const CalibrationReading reading = CalibrateSession(plan, interrupts).read();
-    clean_up(plan, true);
+    const calibration::CalibrationReading reading = system::CalibrateSession(plan, interrupts).read();
+    system::clean_up(plan, true);
     return reading;
   } catch (...) {
-    clean_up(plan, true);
+    system::clean_up(plan, true);
     throw;
   }
 }
 
 // Ctrl-C counts at any time, while the programs start and end, too; it is why they then fail.
-CalibrationReading read_in(const CalibrateOptions& options, bool simulated, const std::string& pose) {
-  const InterruptGuard interrupts;
-  CalibrationReading reading;
+calibration::CalibrationReading read_in(const CalibrateOptions& options, bool simulated, const std::string& pose) {
+  const system::InterruptGuard interrupts;
+  calibration::CalibrationReading reading;
   try {
     reading = read_with(plan_for(options, simulated, pose), interrupts);
   } catch (const std::runtime_error&) {
     if (interrupts.count() == 0) throw;
   }
-  if (interrupts.count() > 0) throw Interrupted("interrupted: nothing was calibrated");
+  if (interrupts.count() > 0) throw system::Interrupted("interrupted: nothing was calibrated");
   return reading;
 }
 
 // One fixture after the other; the drives are off all the time. Between the fixtures nothing runs: whoever moves the
 // arm has it for himself.
-std::vector<CalibrationReading> read_all(const CalibrateOptions& options, bool simulated,
-                                         const std::vector<std::string>& poses,
-                                         const std::vector<cable::ThetaVector>& thetas_rad) {
-  std::vector<CalibrationReading> readings;
+std::vector<calibration::CalibrationReading> read_all(const CalibrateOptions& options, bool simulated,
+                                                      const std::vector<std::string>& poses,
+                                                      const std::vector<cable::ThetaVector>& thetas_rad) {
+  std::vector<calibration::CalibrationReading> readings;
   if (!simulated)
-    clean_up(plan_for(options, simulated, poses.front()),
-             true);  // what is missing is said before anybody lifts the arm
+    system::clean_up(plan_for(options, simulated, poses.front()),
+                     true);  // what is missing is said before anybody lifts the arm
   for (std::size_t p = 0; p < poses.size(); ++p) {
-    if (!simulated) wait_for_fixture(std::cin, std::cerr, poses[p], p + 1, poses.size());
+    if (!simulated) calibration::wait_for_fixture(std::cin, std::cerr, poses[p], p + 1, poses.size());
     std::fprintf(stderr, "pose %zu of %zu, %s: reading the drives\n", p + 1, poses.size(), poses[p].c_str());
     readings.push_back(read_in(options, simulated, poses[p]));
     readings.back().theta_rad = thetas_rad[p];
@@ -80,10 +80,10 @@ std::vector<CalibrationReading> read_all(const CalibrateOptions& options, bool s
   return readings;
 }
 
-void show(const CalibrationResult& result, bool as_json) {
+void show(const calibration::CalibrationResult& result, bool as_json) {
   if (as_json) {
     Json report{{"problems", result.problems}, {"calibration", nullptr}};
-    if (result.problems.empty()) report["calibration"] = Json::parse(calibration_json(result.calibration));
+    if (result.problems.empty()) report["calibration"] = Json::parse(calibration::calibration_json(result.calibration));
     std::printf("%s\n", report.dump().c_str());
     return;
   }
@@ -91,7 +91,7 @@ void show(const CalibrationResult& result, bool as_json) {
   if (!result.problems.empty()) return;
   std::printf("drive  serial  direction      zero  drum radius mm  offset mm  tension N\n");
   for (std::size_t i = 0; i < result.calibration.cables.size(); ++i) {
-    const CableCalibration& cable = result.calibration.cables[i];
+    const calibration::CableCalibration& cable = result.calibration.cables[i];
     std::printf("%5zu  %6u  %9d  %8d  %14.4f  %9.3f  %9.1f\n", i, cable.serial, cable.direction, cable.zero_counts,
                 1e3 * cable.drum_radius_m, 1e3 * cable.offset_m, cable.pretension_N);
   }
@@ -100,28 +100,32 @@ void show(const CalibrationResult& result, bool as_json) {
 }  // namespace
 
 int calibrate_command(const CalibrateOptions& options) {
-  const std::string text = evaluate_table("robot", options.robot);
-  const BusesConfig buses = checked([&] { return parse_buses(evaluate_table("buses", options.bus), options.bus); });
+  const std::string text = system::evaluate_table("robot", options.robot);
+  const config::BusesConfig buses =
+      system::checked([&] { return config::parse_buses(system::evaluate_table("buses", options.bus), options.bus); });
   const bool simulated = buses.backend == "embedded";
   if (!simulated && !options.cross_wired.empty())
-    throw BadInput("--cross-wired: '" + options.cross_wired + "': bus table " + options.bus +
-                   " has real drives: allowed with the simulated arm only, --bus=embedded: leave it out");
-  const RobotConfig robot = checked([&] { return parse_robot(text, options.robot, options.physics, buses); });
-  check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
-  if (!options.out_file.empty()) check_output("--out", options.out_file);
+    throw system::BadInput("--cross-wired: '" + options.cross_wired + "': bus table " + options.bus +
+                           " has real drives: allowed with the simulated arm only, --bus=embedded: leave it out");
+  const config::RobotConfig robot =
+      system::checked([&] { return config::parse_robot(text, options.robot, options.physics, buses); });
+  system::check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
+  if (!options.out_file.empty()) system::check_output("--out", options.out_file);
   const std::vector<std::string> poses = names_in(options.poses);
   std::vector<cable::ThetaVector> thetas_rad;
   try {
-    for (const std::string& pose : poses) thetas_rad.push_back(named_pose_rad(robot, pose));
-    check_poses(robot, thetas_rad);
+    for (const std::string& pose : poses) thetas_rad.push_back(calibration::named_pose_rad(robot, pose));
+    calibration::check_poses(robot, thetas_rad);
   } catch (const std::runtime_error& error) {
-    throw BadInput("--poses: '" + options.poses + "': " + error.what());
+    throw system::BadInput("--poses: '" + options.poses + "': " + error.what());
   }
-  const CalibrationResult result = calibrate(robot, read_all(options, simulated, poses, thetas_rad), today_utc());
+  const calibration::CalibrationResult result =
+      calibration::calibrate(robot, read_all(options, simulated, poses, thetas_rad), calibration::today_utc());
   show(result, options.json);
-  if (!result.problems.empty()) return kExitFailure;
-  if (!options.out_file.empty()) write_output(options.out_file, calibration_json(result.calibration));
-  return kExitOk;
+  if (!result.problems.empty()) return system::kExitFailure;
+  if (!options.out_file.empty())
+    system::write_output(options.out_file, calibration::calibration_json(result.calibration));
+  return system::kExitOk;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -10,7 +10,7 @@
 #include "host/system/errors.hpp"
 #include "host/system/observer.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -29,15 +29,15 @@ struct Clearing {
 };
 
 std::string only_system(const std::string& given) {
-  const std::vector<std::string> systems = systems_to_ask(given);
+  const std::vector<std::string> systems = system::systems_to_ask(given);
   if (systems.size() == 1) return systems.front();
   std::string names;
   for (const std::string& system : systems) names += (names.empty() ? "" : ", ") + system;
-  throw BadInput("clear: several systems run: " + names + "; name the one you have looked at with --api");
+  throw system::BadInput("clear: several systems run: " + names + "; name the one you have looked at with --api");
 }
 
-Json state_of(ApiClient& client) {
-  auto state = wait_for(client, "state", kAnswerTimeout_s);
+Json state_of(api::ApiClient& client) {
+  auto state = system::wait_for(client, "state", kAnswerTimeout_s);
   if (!state) throw std::runtime_error("lianad runs but sent no state within 5 s");
   return *state;
 }
@@ -51,25 +51,26 @@ void require_settled(const Clearing& before, const Json& state) {
                              "; wait until liana status says DISABLED or FAULT");
 }
 
-void ask(ApiClient& client, Json request, int id) {
+void ask(api::ApiClient& client, Json request, int id) {
   request["id"] = id;
   client.send(request);
-  if (!wait_for(client, "ok", kAnswerTimeout_s))
+  if (!system::wait_for(client, "ok", kAnswerTimeout_s))
     throw std::runtime_error("lianad did not answer " + request.value("op", "") + " within 5 s");
 }
 
 // What lianad says of the faults it was to clear.
-Event verdict(ApiClient& client) {
+event::Event verdict(api::ApiClient& client) {
   const auto deadline = Clock::now() + std::chrono::duration<double>(kVerdictTimeout_s);
   while (Clock::now() < deadline) {
-    const auto message = wait_for(client, "event", kAnswerTimeout_s);
-    if (message && message->value("kind", "") == event_kind_name(EventKind::kClear)) return event_from_json(*message);
+    const auto message = system::wait_for(client, "event", kAnswerTimeout_s);
+    if (message && message->value("kind", "") == event::event_kind_name(event::EventKind::kClear))
+      return event::event_from_json(*message);
   }
   throw std::runtime_error("lianad did not say within 15 s whether the faults are cleared; look with liana status");
 }
 
-void clear(ApiClient& client, Clearing& clearing) {
-  say_hello(client, "liana clear", Observer::kClient);
+void clear(api::ApiClient& client, Clearing& clearing) {
+  system::say_hello(client, "liana clear", system::Observer::kClient);
   const Json state = state_of(client);
   clearing.stop = state.value("stop", Json());
   clearing.faults = state.value("faults", Json::array());
@@ -78,7 +79,7 @@ void clear(ApiClient& client, Clearing& clearing) {
   ask(client, {{"op", "acquire"}}, 1);
   ask(client, {{"op", "state_command"}, {"command", "clear"}}, 2);
   if (!clearing.faults.empty()) {
-    const Event result = verdict(client);
+    const event::Event result = verdict(client);
     clearing.said = result.text;
     clearing.good = result.number == 0;
   }
@@ -109,7 +110,7 @@ int clear_command(const ClientOptions& options) {
   Clearing clearing;
   std::string problem;  // that kept it from its end
   try {
-    ApiClient client = ApiClient::connect(api, kConnectTimeout_s);
+    api::ApiClient client = api::ApiClient::connect(api, kConnectTimeout_s);
     clear(client, clearing);
   } catch (const std::exception& error) {
     clearing.good = false;
@@ -127,7 +128,7 @@ int clear_command(const ClientOptions& options) {
     print_text(api, clearing);
   }
   if (!clearing.good) std::fprintf(stderr, "liana: %s: %s\n", api.c_str(), clearing.said.c_str());
-  return clearing.good ? kExitOk : kExitFailure;
+  return clearing.good ? system::kExitOk : system::kExitFailure;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -8,7 +8,7 @@
 #include "host/system/errors.hpp"
 #include "host/system/observer.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 constexpr double kConnectTimeout_s = 1.0;
@@ -17,7 +17,7 @@ constexpr double kAnswerTimeout_s = 5.0;
 // One running system while a command deals with it.
 struct Talk {
   std::string api;
-  std::optional<ApiClient> client;
+  std::optional<api::ApiClient> client;
   std::string problem;  // empty: none so far
 };
 
@@ -35,14 +35,15 @@ void attempt(Talk& talk, const Action& action) {
 
 // Greets every system before anything is waited for: one that hangs must not keep a stop from the others.
 template <typename Action>
-std::vector<Talk> begin_talks(const ClientOptions& options, const char* name, Observer observer, const Action& action) {
+std::vector<Talk> begin_talks(const ClientOptions& options, const char* name, system::Observer observer,
+                              const Action& action) {
   std::vector<Talk> talks;
-  for (const std::string& api : systems_to_ask(options.api)) {
+  for (const std::string& api : system::systems_to_ask(options.api)) {
     Talk& talk = talks.emplace_back();
     talk.api = api;
     attempt(talk, [&] {
-      talk.client.emplace(ApiClient::connect(api, kConnectTimeout_s));
-      say_hello(*talk.client, name, observer);
+      talk.client.emplace(api::ApiClient::connect(api, kConnectTimeout_s));
+      system::say_hello(*talk.client, name, observer);
       action(*talk.client);
     });
   }
@@ -53,7 +54,7 @@ std::vector<Talk> begin_talks(const ClientOptions& options, const char* name, Ob
 Json answer_of(Talk& talk, const char* op, const char* missing) {
   Json answer;
   attempt(talk, [&] {
-    auto message = wait_for(*talk.client, op, kAnswerTimeout_s);
+    auto message = system::wait_for(*talk.client, op, kAnswerTimeout_s);
     if (!message) throw std::runtime_error(missing);
     answer = std::move(*message);
   });
@@ -64,8 +65,9 @@ int exit_code_of(const std::vector<Talk>& talks) {
   for (const Talk& talk : talks) {
     if (!talk.problem.empty()) std::fprintf(stderr, "liana: %s: %s\n", talk.api.c_str(), talk.problem.c_str());
   }
-  return std::all_of(talks.begin(), talks.end(), [](const Talk& talk) { return talk.problem.empty(); }) ? kExitOk
-                                                                                                        : kExitFailure;
+  return std::all_of(talks.begin(), talks.end(), [](const Talk& talk) { return talk.problem.empty(); })
+             ? system::kExitOk
+             : system::kExitFailure;
 }
 
 void print_state(const std::string& api, const Json& state) {
@@ -87,7 +89,7 @@ void print_state(const std::string& api, const Json& state) {
 }  // namespace
 
 int status_command(const ClientOptions& options) {
-  std::vector<Talk> talks = begin_talks(options, "liana status", Observer::kSeeing, [](ApiClient&) {});
+  std::vector<Talk> talks = begin_talks(options, "liana status", system::Observer::kSeeing, [](api::ApiClient&) {});
   for (Talk& talk : talks) {
     Json state = answer_of(talk, "state", "lianad runs but sent no state within 5 s");
     if (!talk.problem.empty()) continue;
@@ -101,4 +103,4 @@ int status_command(const ClientOptions& options) {
   return exit_code_of(talks);
 }
 
-}  // namespace liana
+}  // namespace liana::cli

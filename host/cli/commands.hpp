@@ -7,7 +7,7 @@
 
 #include "host/system/run_options.hpp"
 
-namespace liana {
+namespace liana::cli {
 
 struct PoseOptions {
   std::string robot = "zhu2022";
@@ -66,7 +66,7 @@ struct PlanOptions {
 int plan_command(const PlanOptions& options);
 
 // Starts the whole system, runs one mission, reports; exit code 0 only on success.
-int run_command(const RunOptions& options);
+int run_command(const system::RunOptions& options);
 
 struct CalibrateOptions {
   std::string robot = "zhu2022";
@@ -135,4 +135,4 @@ int doctor_command(bool json);
 // Bash completion of `liana` on standard output.
 int completion_command(const std::string& shell);
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -3,7 +3,7 @@
 #include "host/cli/commands.hpp"
 #include "host/system/errors.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 // Names of tables and missions are looked up when they are asked for. A value that may be a file, too, is completed as
@@ -75,10 +75,10 @@ complete -F _liana_mission liana-mission
 }  // namespace
 
 int completion_command(const std::string& shell) {
-  if (shell != "bash") throw BadInput("completion: '" + shell + "': allowed: bash");
+  if (shell != "bash") throw system::BadInput("completion: '" + shell + "': allowed: bash");
   std::printf("_liana_lua='%s'\n", LIANA_LUA_DIR);
   std::fputs(kBash, stdout);
-  return kExitOk;
+  return system::kExitOk;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

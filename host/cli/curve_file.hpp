@@ -6,10 +6,10 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana {
+namespace liana::cli {
 
 // The points of a curve's file (docs/formats.md): 2 to 1000, base frame, m, neighbours at least 1 mm apart. Throws
 // BadInput, which names the point, counted from 1.
 std::vector<Vec3> read_curve(const std::string& path);
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -4,11 +4,11 @@
 #include "host/json/json.hpp"
 #include "host/report/doctor.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
-void print_text(const std::vector<Finding>& findings) {
-  for (const Finding& one : findings) {
+void print_text(const std::vector<report::Finding>& findings) {
+  for (const report::Finding& one : findings) {
     std::printf("%s %-20s %s\n", one.good ? "yes" : " no", one.name.c_str(), one.found.c_str());
     std::printf("    what for: %s\n", one.meaning.c_str());
     if (!one.good) std::printf("    to do:    %s\n", one.action.c_str());
@@ -19,13 +19,13 @@ void print_text(const std::vector<Finding>& findings) {
 }  // namespace
 
 int doctor_command(bool json) {
-  const auto findings = examine_host();
+  const auto findings = report::examine_host();
   if (json) {
-    std::puts(Json{{"findings", findings_json(findings)}}.dump().c_str());
+    std::puts(Json{{"findings", report::findings_json(findings)}}.dump().c_str());
   } else {
     print_text(findings);
   }
   return 0;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

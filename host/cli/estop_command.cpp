@@ -16,7 +16,7 @@
 #include "host/system/errors.hpp"
 #include "host/system/observer.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -54,8 +54,8 @@ class StopCall {
 
   // A lianad that stands still has a full queue of connections: trying again costs nothing, waiting would cost all.
   void connect() {
-    const sockaddr_un address = unix_address(api_);
-    UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+    const sockaddr_un address = api::unix_address(api_);
+    api::UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
     if (fd.get() >= 0 && ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
       fd_ = std::move(fd);
       stage_ = Stage::kSending;
@@ -68,9 +68,9 @@ class StopCall {
         Json{{"op", "hello"}, {"name", "liana estop"}, {"role", "observer"}, {"lockstep", false}}.dump();
     static const std::string kStop = Json{{"op", "stop"}, {"id", 1}}.dump();
     while (sent_ < 2) {
-      const SocketResult result = send_packet(fd_.get(), sent_ == 0 ? kHello : kStop);
-      if (result == SocketResult::kWouldBlock) return;
-      if (result == SocketResult::kClosed) return start_again();
+      const api::SocketResult result = api::send_packet(fd_.get(), sent_ == 0 ? kHello : kStop);
+      if (result == api::SocketResult::kWouldBlock) return;
+      if (result == api::SocketResult::kClosed) return start_again();
       ++sent_;
     }
     stage_ = Stage::kSent;
@@ -78,25 +78,25 @@ class StopCall {
   // Where every place is taken hello is refused, but not the stop: only its own answer counts.
   void listen() {
     std::string packet;
-    SocketResult result = SocketResult::kDone;
-    while ((result = receive_packet(fd_.get(), packet)) == SocketResult::kDone) {
+    api::SocketResult result = api::SocketResult::kDone;
+    while ((result = api::receive_packet(fd_.get(), packet)) == api::SocketResult::kDone) {
       const Json answer = Json::parse(packet);
       if (answer.value("id", 0) != 1) continue;
       if (answer.value("op", "") == "ok") stage_ = Stage::kConfirmed;
       if (answer.value("op", "") == "error") failed_ = "lianad: " + answer.value("message", answer.dump());
       return;
     }
-    if (result == SocketResult::kClosed) start_again();
+    if (result == api::SocketResult::kClosed) start_again();
   }
   void start_again() {
     hindrance_ = "lianad closed the connection";
-    fd_ = UniqueFd();
+    fd_ = api::UniqueFd();
     sent_ = 0;
     stage_ = Stage::kOutside;
   }
 
   std::string api_;
-  UniqueFd fd_;
+  api::UniqueFd fd_;
   Stage stage_ = Stage::kOutside;
   int sent_ = 0;  // packets
   std::string hindrance_, failed_;
@@ -127,11 +127,11 @@ void print(const StopCall& call, bool json) {
 
 int estop_command(const ClientOptions& options) {
   std::vector<StopCall> calls;
-  for (const std::string& api : systems_to_ask(options.api)) calls.emplace_back(api);
+  for (const std::string& api : system::systems_to_ask(options.api)) calls.emplace_back(api);
   stop_all(calls);
   for (const StopCall& call : calls) print(call, options.json);
   const bool all = std::all_of(calls.begin(), calls.end(), [](const StopCall& call) { return call.is_confirmed(); });
-  return all ? kExitOk : kExitFailure;
+  return all ? system::kExitOk : system::kExitFailure;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -4,17 +4,17 @@
 #include "host/system/output.hpp"
 #include "host/system/tables.hpp"
 
-namespace liana {
+namespace liana::cli {
 
 int export_command(const ExportOptions& options) {
-  if (!options.file.empty()) check_output("--out", options.file);
-  const std::string table = evaluate_table("robot", options.robot);
+  if (!options.file.empty()) system::check_output("--out", options.file);
+  const std::string table = system::evaluate_table("robot", options.robot);
   if (options.file.empty()) {
     std::fputs(table.c_str(), stdout);
   } else {
-    write_output(options.file, table);
+    system::write_output(options.file, table);
   }
-  return kExitOk;
+  return system::kExitOk;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

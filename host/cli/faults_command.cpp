@@ -6,12 +6,12 @@
 #include "host/system/errors.hpp"
 #include "host/system/tables.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
-Json json_of(const std::vector<FaultRow>& rows) {
+Json json_of(const std::vector<report::FaultRow>& rows) {
   Json list = Json::array();
-  for (const FaultRow& row : rows) {
+  for (const report::FaultRow& row : rows) {
     list.push_back({{"number", static_cast<int>(row.info.number)},
                     {"name", row.info.name},
                     {"detected_by", row.detector},
@@ -23,8 +23,8 @@ Json json_of(const std::vector<FaultRow>& rows) {
   return list;
 }
 
-void print_text(const std::vector<FaultRow>& rows) {
-  for (const FaultRow& row : rows) {
+void print_text(const std::vector<report::FaultRow>& rows) {
+  for (const report::FaultRow& row : rows) {
     std::printf("%d %s (%s): %s\n", static_cast<int>(row.info.number), row.info.name, row.stops_by.c_str(),
                 row.info.text);
     std::printf("     detected by %s\n", row.detector);
@@ -36,16 +36,16 @@ void print_text(const std::vector<FaultRow>& rows) {
 }  // namespace
 
 int faults_command(const FaultsOptions& options) {
-  if (options.json && options.markdown) throw BadInput("--json, --markdown: give one of them");
-  const std::vector<FaultRow> rows = fault_rows(robot_for_kinematics(options.robot).table);
+  if (options.json && options.markdown) throw system::BadInput("--json, --markdown: give one of them");
+  const std::vector<report::FaultRow> rows = report::fault_rows(system::robot_for_kinematics(options.robot).table);
   if (options.json) {
     std::puts(json_of(rows).dump(1).c_str());
   } else if (options.markdown) {
-    std::fputs(markdown_of(rows).c_str(), stdout);
+    std::fputs(report::markdown_of(rows).c_str(), stdout);
   } else {
     print_text(rows);
   }
-  return kExitOk;
+  return system::kExitOk;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

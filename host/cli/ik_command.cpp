@@ -9,7 +9,7 @@
 #include "host/system/errors.hpp"
 #include "host/system/tables.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 // Fixes the held angles, at their own value where one was given.
@@ -25,8 +25,8 @@ void hold(const std::string& text, const cable::RobotTable& robot, solve::GoalIk
 
 void aim_nodes(const std::vector<std::string>& texts, const cable::RobotTable& robot, solve::GoalIkProblem& problem) {
   if (texts.size() > problem.node.size()) {
-    throw BadInput("--control-point: " + std::to_string(texts.size()) + " given: allowed: at most " +
-                   std::to_string(problem.node.size()));
+    throw system::BadInput("--control-point: " + std::to_string(texts.size()) + " given: allowed: at most " +
+                           std::to_string(problem.node.size()));
   }
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const ControlPointArgument point = parse_control_point(texts[i], robot);
@@ -62,8 +62,9 @@ void print_text(const Json& answer) {
 }  // namespace
 
 int ik_command(const IkOptions& options) {
-  if (const auto serial = serial_robot_for_kinematics(options.robot)) return serial_ik_command(*serial, options);
-  const cable::RobotTable robot = robot_for_kinematics(options.robot).table;
+  if (const auto serial = system::serial_robot_for_kinematics(options.robot))
+    return serial_ik_command(*serial, options);
+  const cable::RobotTable robot = system::robot_for_kinematics(options.robot).table;
   solve::GoalIkProblem problem;
   problem.from_rad = parse_theta_deg("--from-deg", options.from_deg, robot);
   problem.tip_in_base = parse_pose("--tip", options.tip);
@@ -76,7 +77,7 @@ int ik_command(const IkOptions& options) {
   } else {
     print_text(answer);
   }
-  return result.converged ? kExitOk : kExitNotConverged;
+  return result.converged ? system::kExitOk : system::kExitNotConverged;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

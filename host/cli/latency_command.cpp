@@ -9,7 +9,7 @@
 #include "host/system/latency_session.hpp"
 #include "host/system/system_layout.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 // The project's embedded tables by rate: which rate a table can carry is a matter of its buses.
@@ -25,44 +25,46 @@ std::string table_of(const LatencyOptions& options) {
   for (const RateTable& table : kTables) {
     if (parse_number("--rate", options.rate_hz) == parse_number("--rate", table.rate_hz)) return table.name;
   }
-  throw BadInput("--rate: " + options.rate_hz +
-                 " Hz: allowed 250 (buses embedded) or 500 (buses embedded_500); for another rate name a table that "
-                 "carries it with --buses");
+  throw system::BadInput(
+      "--rate: " + options.rate_hz +
+      " Hz: allowed 250 (buses embedded) or 500 (buses embedded_500); for another rate name a table that "
+      "carries it with --buses");
 }
 
-void check_rate(const LatencyOptions& options, const BusesConfig& buses) {
+void check_rate(const LatencyOptions& options, const config::BusesConfig& buses) {
   if (options.rate_hz.empty() || parse_number("--rate", options.rate_hz) == buses.rate_hz) return;
   char rate[32];
   std::snprintf(rate, sizeof rate, "%g Hz", buses.rate_hz);
-  throw BadInput("--rate: " + options.rate_hz + " Hz: bus table " + buses.name + " has " + rate +
-                 "; leave --rate out or take another table");
+  throw system::BadInput("--rate: " + options.rate_hz + " Hz: bus table " + buses.name + " has " + rate +
+                         "; leave --rate out or take another table");
 }
 
-LatencyMeasurement measured(const SystemLayout& plan, double seconds) {
-  LatencySession session(plan);
+report::LatencyMeasurement measured(const system::SystemLayout& plan, double seconds) {
+  system::LatencySession session(plan);
   return session.measure(seconds);
 }
 
 }  // namespace
 
 int latency_command(const LatencyOptions& options) {
-  RunOptions run;
+  system::RunOptions run;
   run.bus = table_of(options);
   run.time = "real";
   run.arm = options.arm;
   if (options.arm == "light") run.physics = "ideal";
-  const SystemLayout plan = for_latency(make_layout(run));
+  const system::SystemLayout plan = system::for_latency(system::make_layout(run));
   try {
     check_rate(options, plan.buses);
-    Json report = latency_report(measured(plan, options.seconds), plan.buses, options.seconds, examine_realtime());
+    Json report = report::latency_report(measured(plan, options.seconds), plan.buses, options.seconds,
+                                         report::examine_realtime());
     report["arm"] = options.arm;
-    clean_up(plan, true);
-    std::fputs((options.json ? report.dump() + "\n" : latency_text(report)).c_str(), stdout);
-    return report.value("overruns", 1) == 0 && report.value("enabled", false) ? kExitOk : kExitFailure;
+    system::clean_up(plan, true);
+    std::fputs((options.json ? report.dump() + "\n" : report::latency_text(report)).c_str(), stdout);
+    return report.value("overruns", 1) == 0 && report.value("enabled", false) ? system::kExitOk : system::kExitFailure;
   } catch (...) {
-    clean_up(plan, true);
+    system::clean_up(plan, true);
     throw;
   }
 }
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -11,9 +11,11 @@
 #include "host/system/interrupt.hpp"
 #include "host/system/output.hpp"
 
+using namespace liana::cli;
+
 namespace {
 
-using liana::ExitCode;
+using liana::system::ExitCode;
 using Action = std::function<int()>;
 
 constexpr const char* kFooter =
@@ -33,21 +35,21 @@ CLI::App* add(CLI::App& app, Action& action, const char* name, const char* text,
 
 void add_seed(CLI::App& sub, std::uint64_t& seed, const std::string& what) {
   sub.add_option_function<std::string>(
-         "--seed", [&seed](const std::string& text) { seed = liana::parse_seed("--seed", text); },
+         "--seed", [&seed](const std::string& text) { seed = parse_seed("--seed", text); },
          what + "; 0 to 9007199254740991")
       ->default_str("1");
 }
 
-void add_kinematics(CLI::App& app, Action& action, liana::PoseOptions& pose, liana::IkOptions& ik) {
+void add_kinematics(CLI::App& app, Action& action, PoseOptions& pose, IkOptions& ik) {
   CLI::App* sub = add(app, action, "pose", "tip pose, segment ends, Jacobian and cable lengths of joint angles", pose,
-                      liana::pose_command);
+                      pose_command);
   sub->add_option("--robot", pose.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
   sub->add_option("--theta-deg", pose.theta_deg, "joint angles t1,t2,... (pitch, yaw per segment)")->required();
   sub->add_option("--scene", pose.scene,
                   "scene: which segments its slit wants planar, where they begin, what their yaws may be");
   sub->add_flag("--json", pose.json, "print JSON");
 
-  sub = add(app, action, "ik", "joint angles of a tip pose (goal solver)", ik, liana::ik_command);
+  sub = add(app, action, "ik", "joint angles of a tip pose (goal solver)", ik, ik_command);
   sub->add_option("--robot", ik.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
   sub->add_option("--from-deg", ik.from_deg, "joint angles to start from")->required();
   sub->add_option("--tip", ik.tip, "goal x,y,z,qw,qx,qy,qz")->required();
@@ -61,9 +63,9 @@ void add_kinematics(CLI::App& app, Action& action, liana::PoseOptions& pose, lia
   sub->add_flag("--json", ik.json, "print JSON");
 }
 
-void add_reach(CLI::App& app, Action& action, liana::ReachOptions& reach) {
-  CLI::App* sub = add(app, action, "reach", "where tip or node can go; conditioning and limits along a path", reach,
-                      liana::reach_command);
+void add_reach(CLI::App& app, Action& action, ReachOptions& reach) {
+  CLI::App* sub =
+      add(app, action, "reach", "where tip or node can go; conditioning and limits along a path", reach, reach_command);
   sub->add_option("--robot", reach.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
   sub->add_option("--scene", reach.scene, "scene table drawn to scale; takes nothing away from the region");
   sub->add_option("--hold", reach.hold,
@@ -79,9 +81,9 @@ void add_reach(CLI::App& app, Action& action, liana::ReachOptions& reach) {
   sub->add_flag("--json", reach.json, "print JSON");
 }
 
-void add_plan(CLI::App& app, Action& action, liana::PlanOptions& plan) {
+void add_plan(CLI::App& app, Action& action, PlanOptions& plan) {
   CLI::App* sub = add(app, action, "plan", "joint angles or a tip pose reached past the scene (offline planner)", plan,
-                      liana::plan_command);
+                      plan_command);
   sub->add_option("--robot", plan.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
   sub->add_option("--scene", plan.scene, "scene table: a name under lua/scenes, a file, or none")
       ->capture_default_str();
@@ -114,8 +116,8 @@ void add_plan(CLI::App& app, Action& action, liana::PlanOptions& plan) {
   sub->add_flag("--json", plan.json, "print JSON");
 }
 
-void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
-  CLI::App* sub = add(app, action, "run", "start the whole system and run a mission", run, liana::run_command);
+void add_run(CLI::App& app, Action& action, liana::system::RunOptions& run) {
+  CLI::App* sub = add(app, action, "run", "start the whole system and run a mission", run, run_command);
   sub->add_option("mission", run.mission, "a name under lua/missions, a file, or a plan (JSON of liana plan --out)")
       ->required();
   sub->add_option("--robot", run.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
@@ -140,10 +142,10 @@ void add_run(CLI::App& app, Action& action, liana::RunOptions& run) {
   add_seed(*sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
 }
 
-void add_calibrate(CLI::App& app, Action& action, liana::CalibrateOptions& calibrate) {
+void add_calibrate(CLI::App& app, Action& action, CalibrateOptions& calibrate) {
   CLI::App* sub =
       add(app, action, "calibrate", "zeros, drums, directions and wiring of all drives, with the arm in fixtures",
-          calibrate, liana::calibrate_command);
+          calibrate, calibrate_command);
   sub->add_option("--robot", calibrate.robot, "robot table")->capture_default_str();
   sub->add_option("--bus", calibrate.bus, "bus table")->capture_default_str();
   sub->add_option("--poses", calibrate.poses, "named poses of the robot for which there are fixtures, two or more")
@@ -159,15 +161,15 @@ void add_calibrate(CLI::App& app, Action& action, liana::CalibrateOptions& calib
   sub->add_flag("--json", calibrate.json, "print JSON");
 }
 
-void add_latency(CLI::App& app, Action& action, liana::LatencyOptions& latency) {
+void add_latency(CLI::App& app, Action& action, LatencyOptions& latency) {
   CLI::App* sub =
       add(app, action, "latency", "how late this machine wakes lianad's real-time thread, and how long its ticks take",
-          latency, liana::latency_command);
+          latency, latency_command);
   sub->add_option("--rate", latency.rate_hz, "250 or 500 Hz")->default_str("250");
   sub->add_option_function<std::string>(
          "--seconds",
          [&latency](const std::string& text) {
-           latency.seconds = liana::parse_number_in("--seconds", text, 0.1, 86400.0, "s");
+           latency.seconds = parse_number_in("--seconds", text, 0.1, 86400.0, "s");
          },
          "how long to measure; 0.1 to 86400")
       ->default_str("10");
@@ -180,16 +182,16 @@ void add_latency(CLI::App& app, Action& action, liana::LatencyOptions& latency) 
   sub->add_flag("--json", latency.json, "print JSON");
 }
 
-void add_faults(CLI::App& app, Action& action, liana::FaultsOptions& faults) {
+void add_faults(CLI::App& app, Action& action, FaultsOptions& faults) {
   CLI::App* sub = add(app, action, "faults", "every fault number: how it is detected, what it stops, what to do",
-                      faults, liana::faults_command);
+                      faults, faults_command);
   sub->add_option("--robot", faults.robot, "robot table whose tick counts")->capture_default_str();
   sub->add_flag("--markdown", faults.markdown, "print the table of docs/faults.md");
   sub->add_flag("--json", faults.json, "print JSON");
 }
 
-void add_client(CLI::App& app, Action& action, const char* name, const char* text, liana::ClientOptions& client,
-                int (*command)(const liana::ClientOptions&), bool one = false) {
+void add_client(CLI::App& app, Action& action, const char* name, const char* text, ClientOptions& client,
+                int (*command)(const ClientOptions&), bool one = false) {
   CLI::App* sub = add(app, action, name, text, client, command);
   sub->add_option("--api", client.api,
                   one ? "API socket of the lianad; where not given, that of the one running system of this user "
@@ -199,16 +201,16 @@ void add_client(CLI::App& app, Action& action, const char* name, const char* tex
                 one ? "print JSON, also when nothing could be cleared" : "print JSON, one line for each system");
 }
 
-void add_tools(CLI::App& app, Action& action, liana::ReplayOptions& replay, liana::ExportOptions& exported,
-               bool& doctor_json, std::string& shell) {
+void add_tools(CLI::App& app, Action& action, ReplayOptions& replay, ExportOptions& exported, bool& doctor_json,
+               std::string& shell) {
   CLI::App* sub = add(app, action, "replay", "run a recording through the core again and compare every output", replay,
-                      liana::replay_command);
+                      replay_command);
   sub->add_option("directory", replay.directory, "what `liana run --record` wrote")->required();
   sub->add_flag("--json", replay.json, "print JSON");
 
   CLI::App* robot = app.add_subcommand("robot", "robot tables");
   robot->require_subcommand(1);
-  sub = add(*robot, action, "export", "a robot table as canonical JSON", exported, liana::export_command);
+  sub = add(*robot, action, "export", "a robot table as canonical JSON", exported, export_command);
   sub->add_option("robot", exported.robot, "a name under lua/robots or a file")->capture_default_str();
   sub->add_option("--robot", exported.robot, "the same as an option");
   sub->add_option("--out", exported.file, "file to write; standard output where not given");
@@ -216,11 +218,11 @@ void add_tools(CLI::App& app, Action& action, liana::ReplayOptions& replay, lian
 
   sub = app.add_subcommand("doctor", "what this host can and cannot do, and what to do about it");
   sub->add_flag("--json", doctor_json, "print JSON");
-  sub->callback([&] { action = [&] { return liana::doctor_command(doctor_json); }; });
+  sub->callback([&] { action = [&] { return doctor_command(doctor_json); }; });
 
   sub = app.add_subcommand("completion", "tab completion: source <(liana completion bash)");
   sub->add_option("shell", shell, "bash")->capture_default_str();
-  sub->callback([&] { action = [&] { return liana::completion_command(shell); }; });
+  sub->callback([&] { action = [&] { return completion_command(shell); }; });
   app.add_subcommand("help", "this text, or `liana help COMMAND`");
 }
 
@@ -228,9 +230,9 @@ void add_tools(CLI::App& app, Action& action, liana::ReplayOptions& replay, lian
 // "everything" or "nothing".
 void check_values(const std::vector<std::string>& words) {
   for (const std::string& word : words) {
-    if (word.empty()) throw liana::BadInput("an argument is empty (''); give a value, or leave the option out");
+    if (word.empty()) throw liana::system::BadInput("an argument is empty (''); give a value, or leave the option out");
     if (word.starts_with("--") && word.ends_with('='))
-      throw liana::BadInput(word + ": no value after =; give one, or leave the option out");
+      throw liana::system::BadInput(word + ": no value after =; give one, or leave the option out");
   }
 }
 
@@ -241,7 +243,8 @@ void check_options(const CLI::App& command, const std::string& before, std::span
     if (word == "--") return;
     const std::string option = word.substr(0, word.find('='));
     if (word.starts_with("--") && option != "--help" && command.get_option_no_throw(option) == nullptr)
-      throw liana::BadInput(option + ": liana " + before + "has no such option; see liana " + before + "--help");
+      throw liana::system::BadInput(option + ": liana " + before + "has no such option; see liana " + before +
+                                    "--help");
   }
 }
 
@@ -255,7 +258,7 @@ void check_command(const CLI::App& app, const std::string& before, std::span<con
   }
   if (names.empty() || (!words.empty() && words.front().starts_with('-'))) return check_options(app, before, words);
   const std::string problem = words.empty() ? "no command given" : "'" + before + words.front() + "': no such command";
-  throw liana::BadInput(problem + "; liana " + before + "knows: " + names + "; see liana help");
+  throw liana::system::BadInput(problem + "; liana " + before + "knows: " + names + "; see liana help");
 }
 
 // `help` and `help COMMAND` are `--help` and `COMMAND --help`.
@@ -286,10 +289,10 @@ std::string extra_word_text(const CLI::App& app) {
 int perform(const Action& action) {
   try {
     return action();
-  } catch (const liana::BadInput& error) {
+  } catch (const liana::system::BadInput& error) {
     std::fprintf(stderr, "liana: %s\n", error.what());
     return ExitCode::kExitBadInput;
-  } catch (const liana::Interrupted& error) {
+  } catch (const liana::system::Interrupted& error) {
     std::fprintf(stderr, "liana: %s\n", error.what());
     return ExitCode::kExitInterrupted;
   } catch (const std::exception& error) {
@@ -303,36 +306,36 @@ int run(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(kFooter);
   Action action;
-  liana::PoseOptions pose;
-  liana::IkOptions ik;
-  liana::ReachOptions reach;
-  liana::PlanOptions plan;
-  liana::RunOptions run;
-  liana::CalibrateOptions calibrate;
-  liana::LatencyOptions latency;
-  liana::ClientOptions client;
-  liana::FaultsOptions faults;
-  liana::ReplayOptions replay;
-  liana::ExportOptions exported;
+  PoseOptions pose;
+  IkOptions ik;
+  ReachOptions reach;
+  PlanOptions plan;
+  liana::system::RunOptions run;
+  CalibrateOptions calibrate;
+  LatencyOptions latency;
+  ClientOptions client;
+  FaultsOptions faults;
+  ReplayOptions replay;
+  ExportOptions exported;
   bool doctor_json = false;
   std::string shell = "bash";
   add_kinematics(app, action, pose, ik);
   add_reach(app, action, reach);
   add_plan(app, action, plan);
   add_run(app, action, run);
-  add_client(app, action, "status", "state of every running system", client, liana::status_command);
+  add_client(app, action, "status", "state of every running system", client, status_command);
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client,
-             liana::estop_command);
+             estop_command);
   add_client(app, action, "clear",
              "clear an emergency stop and the latched faults of one running system; enables nothing", client,
-             liana::clear_command, true);
+             clear_command, true);
   add_calibrate(app, action, calibrate);
   add_latency(app, action, latency);
   add_faults(app, action, faults);
   add_tools(app, action, replay, exported, doctor_json, shell);
   try {
     app.parse(arguments_of(app, argc, argv));
-  } catch (const liana::BadInput& error) {
+  } catch (const liana::system::BadInput& error) {
     std::fprintf(stderr, "liana: %s\n", error.what());
     return ExitCode::kExitBadInput;
   } catch (const CLI::ExtrasError&) {
@@ -349,6 +352,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  liana::end_on_interrupt();
-  return liana::after_standard_output(run(argc, argv));
+  liana::system::end_on_interrupt();
+  return liana::system::after_standard_output(run(argc, argv));
 }

@@ -14,21 +14,21 @@
 #include "host/system/output.hpp"
 #include "host/system/tables.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 constexpr double kTransitionShare =
     1.0 / 3.0;  // of the way, in which a held angle with another value than the start's gets there
 
-void add_phase(const HeldPhase& phase, const PlanOptions& options, PlanRequest& request) {
-  for (const HeldPhase& other : request.held) {
+void add_phase(const plan::HeldPhase& phase, const PlanOptions& options, plan::PlanRequest& request) {
+  for (const plan::HeldPhase& other : request.held) {
     if (other.theta == phase.theta)
-      throw BadInput("--planar: '" + options.planar + "': allowed: angles that --hold and --planar name once");
+      throw system::BadInput("--planar: '" + options.planar + "': allowed: angles that --hold and --planar name once");
   }
   request.held.push_back(phase);
 }
 
-void read_hold(const PlanOptions& options, PlanRequest& request) {
+void read_hold(const PlanOptions& options, plan::PlanRequest& request) {
   if (options.hold.empty()) return;
   for (const HoldArgument& held : parse_hold(options.hold, request.robot.table)) {
     const double at_start = request.from_rad[static_cast<std::size_t>(held.theta - 1)];
@@ -38,7 +38,7 @@ void read_hold(const PlanOptions& options, PlanRequest& request) {
 }
 
 // SEGMENT@SHARE,... : the segment's pitch is 0 from that share of the way on.
-void read_planar(const PlanOptions& options, PlanRequest& request) {
+void read_planar(const PlanOptions& options, plan::PlanRequest& request) {
   std::string_view rest = options.planar;
   while (!rest.empty()) {
     const std::size_t comma = std::min(rest.find(','), rest.size());
@@ -50,32 +50,32 @@ void read_planar(const PlanOptions& options, PlanRequest& request) {
     const bool good = segment >= 1 && segment <= request.robot.table.segment_count && segment == std::floor(segment) &&
                       share >= 0 && share <= 1;
     if (!good)
-      throw BadInput("--planar: '" + std::string(part) +
-                     "': allowed: SEGMENT@SHARE, a segment of the robot and a share from 0 to 1");
+      throw system::BadInput("--planar: '" + std::string(part) +
+                             "': allowed: SEGMENT@SHARE, a segment of the robot and a share from 0 to 1");
     add_phase({2 * static_cast<std::int32_t>(segment) - 2, 0.0, share}, options, request);
   }
 }
 
 // The end of a held angle must be the goal's.
-void check_held_goal(const PlanRequest& request) {
-  for (const HeldPhase& phase : request.held) {
+void check_held_goal(const plan::PlanRequest& request) {
+  for (const plan::HeldPhase& phase : request.held) {
     const auto k = static_cast<std::size_t>(phase.theta);
     const std::string name = "theta " + std::to_string(phase.theta + 1);
     if (request.to_rad && std::fabs((*request.to_rad)[k] - phase.value_rad) > 1e-12) {
-      throw BadInput("--to-deg: " + name + " is " + std::to_string((*request.to_rad)[k] / kDegree) +
-                     ": allowed: the value at which it is held, " + std::to_string(phase.value_rad / kDegree));
+      throw system::BadInput("--to-deg: " + name + " is " + std::to_string((*request.to_rad)[k] / kDegree) +
+                             ": allowed: the value at which it is held, " + std::to_string(phase.value_rad / kDegree));
     }
     if (phase.from_share == 0.0 && std::fabs(request.from_rad[k] - phase.value_rad) > 1e-12) {
-      throw BadInput("--planar: " + name + " is " + std::to_string(request.from_rad[k] / kDegree) +
-                     " at the start: allowed: a share over 0, in which it can reach 0");
+      throw system::BadInput("--planar: " + name + " is " + std::to_string(request.from_rad[k] / kDegree) +
+                             " at the start: allowed: a share over 0, in which it can reach 0");
     }
   }
 }
 
-void read_follow(const PlanOptions& options, PlanRequest& request) {
+void read_follow(const PlanOptions& options, plan::PlanRequest& request) {
   if (options.follow.empty()) return;
   const auto refuse = [](const std::string& option, const char* why) {
-    throw BadInput(option + ": not with --follow: " + why);
+    throw system::BadInput(option + ": not with --follow: " + why);
   };
   if (!options.planar.empty()) refuse("--planar", "the curve says where the arm is; leave it out");
   if (!options.control_points.empty()) refuse("--control-point", "the curve says where the arm is; leave it out");
@@ -89,38 +89,40 @@ void read_follow(const PlanOptions& options, PlanRequest& request) {
       refuse("--to-deg, --tip", "the curve's end is the goal; leave them out");
     request.follow->points_m = read_curve(options.follow);
   } else if (!request.scene.slit) {
-    throw BadInput("--follow: slit: the scene '" + options.scene +
-                   "' has none; give a --scene with a slit, or a curve's file");
+    throw system::BadInput("--follow: slit: the scene '" + options.scene +
+                           "' has none; give a --scene with a slit, or a curve's file");
   }
 }
 
-void read_goal(const PlanOptions& options, PlanRequest& request) {
+void read_goal(const PlanOptions& options, plan::PlanRequest& request) {
   read_follow(options, request);
   if (request.follow && !request.follow->points_m.empty()) return;
-  if (options.to_deg.empty() == options.tip.empty()) throw BadInput("--to-deg, --tip: allowed: exactly one of them");
+  if (options.to_deg.empty() == options.tip.empty())
+    throw system::BadInput("--to-deg, --tip: allowed: exactly one of them");
   if (!options.to_deg.empty()) request.to_rad = parse_theta_deg("--to-deg", options.to_deg, request.robot.table);
   if (!options.tip.empty()) request.tip_in_base = parse_pose("--tip", options.tip);
   if (request.tip_in_base) request.tip_in_base->quaternion = normalize(request.tip_in_base->quaternion);
 }
 
-void read_sizes(const PlanOptions& options, PlanRequest& request) {
+void read_sizes(const PlanOptions& options, plan::PlanRequest& request) {
   constexpr double kLeastStep_deg = 0.001;
   const std::int64_t fewest = request.tip_in_base ? 1 : 2;
   const char* note = request.tip_in_base ? "; 1: the end pose alone" : "; 1, the end pose alone, is for --tip";
   if (!options.waypoints.empty())
     request.waypoints =
-        static_cast<std::int32_t>(parse_whole("--waypoints", options.waypoints, fewest, kMaxWaypoints, note));
+        static_cast<std::int32_t>(parse_whole("--waypoints", options.waypoints, fewest, plan::kMaxWaypoints, note));
   request.margin_m = parse_number_in("--margin", options.margin_m, 0.0, 0.5, "m");
   request.max_step_rad =
       options.max_step_deg.empty()
-          ? (request.follow ? kFollowMaxStep_rad : default_max_step_rad(request.robot.table, request.waypoints))
+          ? (request.follow ? plan::kFollowMaxStep_rad
+                            : plan::default_max_step_rad(request.robot.table, request.waypoints))
           : parse_number_in("--max-step-deg", options.max_step_deg, kLeastStep_deg, 180.0, "deg") * kDegree;
 }
 
-void read_control_points(const PlanOptions& options, PlanRequest& request) {
-  if (options.control_points.size() > kMaxControlPoints) {
-    throw BadInput("--control-point: " + std::to_string(options.control_points.size()) + " given: allowed: at most " +
-                   std::to_string(kMaxControlPoints));
+void read_control_points(const PlanOptions& options, plan::PlanRequest& request) {
+  if (options.control_points.size() > plan::kMaxControlPoints) {
+    throw system::BadInput("--control-point: " + std::to_string(options.control_points.size()) +
+                           " given: allowed: at most " + std::to_string(plan::kMaxControlPoints));
   }
   for (const std::string& text : options.control_points) {
     const ControlPointArgument point = parse_control_point(text, request.robot.table);
@@ -128,10 +130,10 @@ void read_control_points(const PlanOptions& options, PlanRequest& request) {
   }
 }
 
-PlanRequest request_of(const PlanOptions& options) {
-  PlanRequest request;
-  request.robot = robot_for_kinematics(options.robot);
-  request.scene = scene_of(options.scene);
+plan::PlanRequest request_of(const PlanOptions& options) {
+  plan::PlanRequest request;
+  request.robot = system::robot_for_kinematics(options.robot);
+  request.scene = system::scene_of(options.scene);
   request.from_rad = parse_theta_deg("--from-deg", options.from_deg, request.robot.table);
   read_goal(options, request);
   read_hold(options, request);
@@ -142,7 +144,7 @@ PlanRequest request_of(const PlanOptions& options) {
   return request;
 }
 
-Json to_json(const PlanRequest& request, const PlanResult& result, double time_s) {
+Json to_json(const plan::PlanRequest& request, const plan::PlanResult& result, double time_s) {
   Json waypoints = Json::array();
   for (const cable::ThetaVector& theta : result.waypoints_rad) {
     Json row = Json::array();
@@ -150,7 +152,7 @@ Json to_json(const PlanRequest& request, const PlanResult& result, double time_s
       row.push_back(theta[static_cast<std::size_t>(k)] / kDegree);
     waypoints.push_back(row);
   }
-  Json answer{{"outcome", name_of(result.outcome)},
+  Json answer{{"outcome", plan::name_of(result.outcome)},
               {"waypoints_deg", waypoints},
               {"objective", result.objective},
               {"iterations", result.iterations},
@@ -159,9 +161,9 @@ Json to_json(const PlanRequest& request, const PlanResult& result, double time_s
               {"time_s", time_s},
               {"start", result.start},
               {"checked", nullptr},
-              {"hash", plan_hash(request, result)}};
+              {"hash", plan::plan_hash(request, result)}};
   if (result.checked) {
-    const PlanCheck& check = *result.checked;
+    const plan::PlanCheck& check = *result.checked;
     answer["checked"] = {{"min_clearance_m", check.min_clearance_m},
                          {"nearest", check.nearest},
                          {"nearest_link", check.nearest_link},
@@ -178,7 +180,7 @@ Json to_json(const PlanRequest& request, const PlanResult& result, double time_s
                          {"poses", check.poses}};
   }
   if (result.follow) {
-    const FollowFigures& figures = *result.follow;
+    const plan::FollowFigures& figures = *result.follow;
     answer["follow"] = {{"curve_length_m", figures.curve_length_m}, {"tip_off_m", figures.tip_off_m},
                         {"body_off_m", figures.body_off_m},         {"mean_body_off_m", figures.mean_body_off_m},
                         {"worst_link", figures.worst_link},         {"worst_tip_along_m", figures.worst_tip_along_m}};
@@ -188,13 +190,13 @@ Json to_json(const PlanRequest& request, const PlanResult& result, double time_s
   return answer;
 }
 
-Json follow_json(const PlanRequest& request) {
+Json follow_json(const plan::PlanRequest& request) {
   if (!request.follow) return nullptr;
   return request.follow->points_m.empty() ? Json("slit") : Json{{"points_m", request.follow->points_m}};
 }
 
 // What the plan was asked for, as it was given.
-Json inputs(const PlanOptions& options, const PlanRequest& request) {
+Json inputs(const PlanOptions& options, const plan::PlanRequest& request) {
   return {{"robot", Json::parse(request.robot.canonical_json)},
           {"scene", Json::parse(request.scene.canonical_json)},
           {"from_deg", options.from_deg},
@@ -238,24 +240,24 @@ void print_text(const Json& answer) {
       1000.0 * follow["body_off_m"].get<double>(), 1000.0 * follow["mean_body_off_m"].get<double>());
 }
 
-int exit_code(PlanOutcome outcome) {
-  if (outcome == PlanOutcome::solved) return kExitOk;
-  return outcome == PlanOutcome::cancelled ? kExitInterrupted : kExitNotConverged;
+int exit_code(plan::PlanOutcome outcome) {
+  if (outcome == plan::PlanOutcome::solved) return system::kExitOk;
+  return outcome == plan::PlanOutcome::cancelled ? system::kExitInterrupted : system::kExitNotConverged;
 }
 
 }  // namespace
 
 int plan_command(const PlanOptions& options) {
-  const InterruptGuard interrupt;
-  PlanControl control;
+  const system::InterruptGuard interrupt;
+  plan::PlanControl control;
   if (!options.max_iterations.empty())
     control.max_iterations = static_cast<std::int32_t>(parse_whole("--iterations", options.max_iterations, 1, 100000));
-  if (!options.out_file.empty()) check_output("--out", options.out_file);
-  const PlanRequest request = request_of(options);
+  if (!options.out_file.empty()) system::check_output("--out", options.out_file);
+  const plan::PlanRequest request = request_of(options);
   control.progress = [](const std::string& line) { std::fprintf(stderr, "plan: %s\n", line.c_str()); };
   control.cancelled = &interrupt.any();
   const auto begin = std::chrono::steady_clock::now();
-  const PlanResult result = plan(request, control);
+  const plan::PlanResult result = plan::plan(request, control);
   const double time_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   Json answer = to_json(request, result, time_s);
   if (options.json) {
@@ -264,14 +266,14 @@ int plan_command(const PlanOptions& options) {
     print_text(answer);
   }
   if (!options.out_file.empty() &&
-      result.outcome != PlanOutcome::solved) {  // an earlier plan in the file is worth more
+      result.outcome != plan::PlanOutcome::solved) {  // an earlier plan in the file is worth more
     std::fprintf(stderr, "plan: --out: nothing was written to %s: the outcome is %s\n", options.out_file.c_str(),
-                 name_of(result.outcome));
+                 plan::name_of(result.outcome));
   } else if (!options.out_file.empty()) {
     answer["inputs"] = inputs(options, request);
-    write_output(options.out_file, answer.dump(1) + "\n");
+    system::write_output(options.out_file, answer.dump(1) + "\n");
   }
   return exit_code(result.outcome);
 }
 
-}  // namespace liana
+}  // namespace liana::cli

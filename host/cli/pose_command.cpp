@@ -10,7 +10,7 @@
 #include "host/json/json.hpp"
 #include "host/system/tables.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 Json pose_of(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
@@ -50,14 +50,15 @@ void print_summary(const Json& pose) {
 }  // namespace
 
 int pose_command(const PoseOptions& options) {
-  if (const auto serial = serial_robot_for_kinematics(options.robot)) return serial_pose_command(*serial, options);
-  const RobotConfig robot = robot_for_kinematics(options.robot);
+  if (const auto serial = system::serial_robot_for_kinematics(options.robot))
+    return serial_pose_command(*serial, options);
+  const config::RobotConfig robot = system::robot_for_kinematics(options.robot);
   const cable::ThetaVector theta_rad = parse_theta_deg("--theta-deg", options.theta_deg, robot.table);
   Json pose = pose_of(robot.table, theta_rad);
   if (!options.scene.empty()) {
-    const SceneConfig scene = scene_of(options.scene);
+    const config::SceneConfig scene = system::scene_of(options.scene);
     if (!scene.slit)
-      throw BadInput("--scene: '" + options.scene + "': has no slit; name a scene with one, or leave it out");
+      throw system::BadInput("--scene: '" + options.scene + "': has no slit; name a scene with one, or leave it out");
     pose["slit"] = slit_part(robot, scene, theta_rad);
   }
   if (options.json) {
@@ -68,4 +69,4 @@ int pose_command(const PoseOptions& options) {
   return 0;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -1,6 +1,6 @@
 #include "host/cli/pose_json.hpp"
 
-namespace liana {
+namespace liana::cli {
 
 Json homogeneous(const Pose& pose) {
   Json rows = Json::array();
@@ -29,4 +29,4 @@ Json jacobian_rows(std::span<const Vec3> linear, std::span<const Vec3> angular, 
   return rows;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -7,7 +7,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::cli {
 
 // The 4 x 4 matrix of a pose, row by row.
 Json homogeneous(const Pose& pose);
@@ -15,4 +15,4 @@ Json homogeneous(const Pose& pose);
 // The 6 x `columns` Jacobian, row by row: linear first.
 Json jacobian_rows(std::span<const Vec3> linear, std::span<const Vec3> angular, std::int32_t columns);
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -18,7 +18,7 @@
 #include "host/system/output.hpp"
 #include "host/system/tables.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 // --- what is asked ---
@@ -36,19 +36,19 @@ std::vector<cable::ThetaVector> read_waypoints(const std::string& path, const ca
   std::ifstream file;
   if (std::filesystem::is_regular_file(path, unreadable)) file.open(path, std::ios::binary);
   if (!file.is_open())
-    throw BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
+    throw system::BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
   const Json document = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
   const Json rows = document.is_object() ? document.value("waypoints_deg", Json()) : Json();
-  if (!rows.is_array() || rows.empty() || rows.size() > kMaxWaypoints) {
-    throw BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " +
-                   std::to_string(kMaxWaypoints) + " rows of joint angles under this key");
+  if (!rows.is_array() || rows.empty() || rows.size() > reach::kMaxWaypoints) {
+    throw system::BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " +
+                           std::to_string(reach::kMaxWaypoints) + " rows of joint angles under this key");
   }
   std::vector<cable::ThetaVector> waypoints;
   for (const Json& row : rows) {
     const std::string name = "--path: " + path + ": waypoints_deg row " + std::to_string(waypoints.size() + 1);
     const auto is_number = [](const Json& value) { return value.is_number(); };
     if (!row.is_array() || !std::all_of(row.begin(), row.end(), is_number))
-      throw BadInput(name + ": allowed: an array of numbers");
+      throw system::BadInput(name + ": allowed: an array of numbers");
     waypoints.push_back(parse_theta_deg(name, number_list(row.get<std::vector<double>>()), robot));
   }
   return waypoints;
@@ -58,7 +58,7 @@ bool is_path(const ReachOptions& options) { return !options.path.empty() || !opt
 
 // Options that only one of the two uses have no silent effect on the other.
 void refuse_contradictions(const ReachOptions& options) {
-  const auto refuse = [](const char* text) { throw BadInput(text); };
+  const auto refuse = [](const char* text) { throw system::BadInput(text); };
   if (!options.path.empty() && !options.to_deg.empty()) refuse("--path: not together with --to-deg; give one of them");
   if (!options.path.empty() && !options.from_deg.empty())
     refuse("--path: not together with --from-deg; the file's first waypoint is the start");
@@ -81,15 +81,16 @@ std::vector<HoldArgument> holds_of(const ReachOptions& options, const cable::Rob
 void require_free(std::uint32_t held_mask, std::int32_t theta_count, const std::string& what) {
   const std::uint32_t all = (1u << theta_count) - 1u;
   if ((held_mask & all) == all)
-    throw BadInput("--hold: nothing is left that moves " + what + "; free at least one of theta 1 to " +
-                   std::to_string(theta_count));
+    throw system::BadInput("--hold: nothing is left that moves " + what + "; free at least one of theta 1 to " +
+                           std::to_string(theta_count));
 }
 
-RegionRequest region_request(const ReachOptions& options, const cable::RobotTable& robot,
-                             const cable::ThetaVector& pose_rad) {
-  RegionRequest request;
+reach::RegionRequest region_request(const ReachOptions& options, const cable::RobotTable& robot,
+                                    const cable::ThetaVector& pose_rad) {
+  reach::RegionRequest request;
   request.point.node = options.node.empty() ? robot.segment_count : parse_node("--node", options.node, robot);
-  request.samples = static_cast<std::int32_t>(parse_whole("--samples", options.samples, kMinSamples, kMaxSamples));
+  request.samples =
+      static_cast<std::int32_t>(parse_whole("--samples", options.samples, reach::kMinSamples, reach::kMaxSamples));
   request.held_rad = pose_rad;
   const auto holds = holds_of(options, robot);
   request.point.held_mask = mask_of(holds);
@@ -110,7 +111,7 @@ Json degrees(const cable::ThetaVector& theta_rad, const cable::RobotTable& robot
   return list;
 }
 
-Json held_json(const RegionRequest& request, const cable::RobotTable& robot) {
+Json held_json(const reach::RegionRequest& request, const cable::RobotTable& robot) {
   Json held = Json::object();
   for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i) {
     if (request.point.held_mask >> i & 1u) held[std::to_string(i + 1)] = request.held_rad[i] / kDegree;
@@ -118,16 +119,16 @@ Json held_json(const RegionRequest& request, const cable::RobotTable& robot) {
   return held;
 }
 
-Json end_json(const BoundaryPoint& end, const cable::RobotTable& robot) {
+Json end_json(const reach::BoundaryPoint& end, const cable::RobotTable& robot) {
   return {{"distance_m", end.distance_m},
           {"point_m", end.point_in_base_m},
           {"theta_deg", degrees(end.theta_rad, robot)},
-          {"binding_theta", theta_numbers(end.binding)}};
+          {"binding_theta", config::theta_numbers(end.binding)}};
 }
 
-Json bins_json(const Region& region, const cable::RobotTable& robot) {
+Json bins_json(const reach::Region& region, const cable::RobotTable& robot) {
   Json bins = Json::array();
-  for (const DirectionBin& bin : region.bins) {
+  for (const reach::DirectionBin& bin : region.bins) {
     Json row = {{"polar_deg", bin.polar_rad / kDegree},
                 {"azimuth_deg", bin.azimuth_rad / kDegree},
                 {"polar_width_deg", bin.polar_width_rad / kDegree},
@@ -144,24 +145,24 @@ Json bins_json(const Region& region, const cable::RobotTable& robot) {
   return bins;
 }
 
-Json shells_json(const Region& region) {
+Json shells_json(const reach::Region& region) {
   Json shells = Json::array();
-  const double width_m = region.length_m / kRadialShells;
-  for (std::size_t i = 0; i < kRadialShells; ++i) {
+  const double width_m = region.length_m / reach::kRadialShells;
+  for (std::size_t i = 0; i < reach::kRadialShells; ++i) {
     const double from_m = static_cast<double>(i) * width_m;
     shells.push_back({{"from_m", from_m}, {"to_m", from_m + width_m}, {"share", region.shell_share[i]}});
   }
   return shells;
 }
 
-Json binding_json(const Region& region, const cable::RobotTable& robot) {
+Json binding_json(const reach::Region& region, const cable::RobotTable& robot) {
   Json shares = Json::array();
   for (std::size_t i = 0; i < static_cast<std::size_t>(robot.theta_count()); ++i)
     shares.push_back(region.outer_binding_share[i]);
   return {{"theta_share", shares}, {"no_limit_share", region.outer_stretched_share}};
 }
 
-Json region_json(const RegionRequest& request, const Region& region, const RobotConfig& robot) {
+Json region_json(const reach::RegionRequest& request, const reach::Region& region, const config::RobotConfig& robot) {
   Json extent = Json::object();
   for (std::size_t axis = 0; axis < 3; ++axis) {
     extent[std::string(1, "xyz"[axis])] = {region.extent_m[0][axis], region.extent_m[1][axis]};
@@ -182,8 +183,8 @@ Json region_json(const RegionRequest& request, const Region& region, const Robot
           {"boundary", bins_json(region, robot.table)}};
 }
 
-Json point_json(const PathPoint& point, const cable::RobotTable& robot) {
-  const double condition = condition_number(point);
+Json point_json(const reach::PathPoint& point, const cable::RobotTable& robot) {
+  const double condition = reach::condition_number(point);
   return {{"way", point.way},
           {"theta_deg", degrees(point.theta_rad, robot)},
           {"tip_m", point.tip_in_base_m},
@@ -193,11 +194,11 @@ Json point_json(const PathPoint& point, const cable::RobotTable& robot) {
           {"nearest_theta", point.nearest_theta}};
 }
 
-Json path_json(const PathReport& report, std::uint32_t held_mask, const RobotConfig& robot) {
+Json path_json(const reach::PathReport& report, std::uint32_t held_mask, const config::RobotConfig& robot) {
   Json points = Json::array();
-  for (const PathPoint& point : report.points) points.push_back(point_json(point, robot.table));
+  for (const reach::PathPoint& point : report.points) points.push_back(point_json(point, robot.table));
   return {{"robot", robot.name},
-          {"held_theta", theta_numbers(held_mask)},
+          {"held_theta", config::theta_numbers(held_mask)},
           {"joint_travel_deg", report.joint_travel_rad / kDegree},
           {"waypoint_way", report.waypoint_way},
           {"worst_conditioned", point_json(report.points[report.worst_conditioned], robot.table)},
@@ -205,9 +206,9 @@ Json path_json(const PathReport& report, std::uint32_t held_mask, const RobotCon
           {"points", points}};
 }
 
-void print_region(const RegionRequest& request, const Region& region, const cable::RobotTable& robot) {
+void print_region(const reach::RegionRequest& request, const reach::Region& region, const cable::RobotTable& robot) {
   std::printf("node %d, held: %s\n", request.point.node,
-              held_text(robot, request.point.held_mask, request.held_rad).c_str());
+              reach::held_text(robot, request.point.held_mask, request.held_rad).c_str());
   for (std::size_t axis = 0; axis < 3; ++axis) {
     std::printf("%c: %.3f .. %.3f m\n", "xyz"[axis], region.extent_m[0][axis], region.extent_m[1][axis]);
   }
@@ -222,17 +223,17 @@ void print_region(const RegionRequest& request, const Region& region, const cabl
   std::printf("\n");
 }
 
-void print_path(const PathReport& report) {
-  const PathPoint& worst = report.points[report.worst_conditioned];
-  const PathPoint& nearest = report.points[report.nearest_limit];
+void print_path(const reach::PathReport& report) {
+  const reach::PathPoint& worst = report.points[report.worst_conditioned];
+  const reach::PathPoint& nearest = report.points[report.nearest_limit];
   std::printf("%zu points over %.1f deg of joint travel\n", report.points.size(), report.joint_travel_rad / kDegree);
   std::printf("least singular value %.4f at %.1f %% of the way, condition %.1f\n", worst.least_singular_value,
-              100.0 * worst.way, condition_number(worst));
+              100.0 * worst.way, reach::condition_number(worst));
   std::printf("nearest limit: theta %d, %.3f deg left at %.1f %% of the way\n", nearest.nearest_theta,
               nearest.limit_margin_rad / kDegree, 100.0 * nearest.way);
 }
 
-int reach_along_path(const ReachOptions& options, const RobotConfig& robot) {
+int reach_along_path(const ReachOptions& options, const config::RobotConfig& robot) {
   std::vector<cable::ThetaVector> waypoints_rad;
   if (options.path.empty()) {
     waypoints_rad = {parse_theta_deg("--from-deg", options.from_deg, robot.table),
@@ -243,50 +244,51 @@ int reach_along_path(const ReachOptions& options, const RobotConfig& robot) {
   const auto holds = holds_of(options, robot.table);
   for (const HoldArgument& hold : holds) {
     if (hold.has_value)
-      throw BadInput("--hold: a path gives every angle; name the held thetas without values, e.g. 7,9");
+      throw system::BadInput("--hold: a path gives every angle; name the held thetas without values, e.g. 7,9");
   }
   const std::uint32_t held_mask = mask_of(holds);
   require_free(held_mask, robot.table.theta_count(), "the tip");
-  const PathReport report = examine_path(robot.table, waypoints_rad, held_mask);
-  if (!options.svg_file.empty()) write_output(options.svg_file, path_picture(robot, report, held_mask));
+  const reach::PathReport report = reach::examine_path(robot.table, waypoints_rad, held_mask);
+  if (!options.svg_file.empty()) system::write_output(options.svg_file, reach::path_picture(robot, report, held_mask));
   if (options.json) {
     std::puts(path_json(report, held_mask, robot).dump().c_str());
   } else {
     print_path(report);
   }
-  return kExitOk;
+  return system::kExitOk;
 }
 
-int reach_region(const ReachOptions& options, const RobotConfig& robot) {
-  std::optional<SceneConfig> scene;
+int reach_region(const ReachOptions& options, const config::RobotConfig& robot) {
+  std::optional<config::SceneConfig> scene;
   if (!options.scene.empty()) {
-    scene = scene_of(options.scene);
+    scene = system::scene_of(options.scene);
   }
   cable::ThetaVector pose_rad{};
   if (!options.from_deg.empty()) pose_rad = parse_theta_deg("--from-deg", options.from_deg, robot.table);
-  const RegionRequest request = region_request(options, robot.table, pose_rad);
+  const reach::RegionRequest request = region_request(options, robot.table, pose_rad);
   for (std::size_t i = 0; i < cable::kMaxTheta; ++i) {
     if (request.point.held_mask >> i & 1u) pose_rad[i] = request.held_rad[i];
   }
-  const Region region = explore_region(robot.table, request);
+  const reach::Region region = reach::explore_region(robot.table, request);
   if (!options.svg_file.empty()) {
-    write_output(options.svg_file, region_picture(robot, scene ? &*scene : nullptr, request, region, pose_rad));
+    system::write_output(options.svg_file,
+                         reach::region_picture(robot, scene ? &*scene : nullptr, request, region, pose_rad));
   }
   if (options.json) {
     std::puts(region_json(request, region, robot).dump().c_str());
   } else {
     print_region(request, region, robot.table);
   }
-  return kExitOk;
+  return system::kExitOk;
 }
 
 }  // namespace
 
 int reach_command(const ReachOptions& options) {
   refuse_contradictions(options);
-  if (!options.svg_file.empty()) check_output("--svg", options.svg_file);
-  const RobotConfig robot = robot_for_kinematics(options.robot);
+  if (!options.svg_file.empty()) system::check_output("--svg", options.svg_file);
+  const config::RobotConfig robot = system::robot_for_kinematics(options.robot);
   return is_path(options) ? reach_along_path(options, robot) : reach_region(options, robot);
 }
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -10,10 +10,10 @@
 #include "host/record/replay.hpp"
 #include "host/system/errors.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
-void print_json(const ReplayResult& result, const ImagesCheck& images) {
+void print_json(const record::ReplayResult& result, const record::ImagesCheck& images) {
   std::puts(Json{{"ticks", result.ticks},
                  {"differing_ticks", result.differing_ticks},
                  {"missing_ticks", result.missing_ticks},
@@ -22,25 +22,25 @@ void print_json(const ReplayResult& result, const ImagesCheck& images) {
                  {"recorded_by", result.recorded_by},
                  {"first_differing_tick", result.differing_ticks > 0 ? Json(result.first_differing_tick) : nullptr},
                  {"first_differing_field", result.first_differing_field},
-                 {"compared", {kRecordingFile}},
-                 {"images", {{"file", kImagesFile}, {"state", images.state}, {"count", images.count}}}}
+                 {"compared", {record::kRecordingFile}},
+                 {"images", {{"file", record::kImagesFile}, {"state", images.state}, {"count", images.count}}}}
                 .dump()
                 .c_str());
 }
 
-void print_text(const ReplayResult& result, const ImagesCheck& images) {
+void print_text(const record::ReplayResult& result, const record::ImagesCheck& images) {
   std::printf("%" PRIu64 " ticks, %" PRIu64 " differ\n", result.ticks, result.differing_ticks);
   if (result.differing_ticks > 0) {
     std::printf("first: tick %" PRIu64 ", field %s\n", result.first_differing_tick,
                 result.first_differing_field.c_str());
   }
   if (result.missing_ticks > 0) std::printf("%" PRIu64 " ticks are missing in the recording\n", result.missing_ticks);
-  std::printf("compared: %s, every field of Outputs\n", kRecordingFile);
+  std::printf("compared: %s, every field of Outputs\n", record::kRecordingFile);
   if (images.state == "whole") {
-    std::printf("checked: %s, its checksums, and that each of its %" PRIu64 " images can be read\n", kImagesFile,
-                images.count);
+    std::printf("checked: %s, its checksums, and that each of its %" PRIu64 " images can be read\n",
+                record::kImagesFile, images.count);
   } else if (images.good()) {
-    std::printf("not there, so not checked: %s\n", kImagesFile);
+    std::printf("not there, so not checked: %s\n", record::kImagesFile);
   }
   std::printf("recorded by %s build (%s)\n", result.same_build ? "this" : "another", result.recorded_by.c_str());
 }
@@ -48,13 +48,13 @@ void print_text(const ReplayResult& result, const ImagesCheck& images) {
 }  // namespace
 
 int replay_command(const ReplayOptions& options) {
-  const std::filesystem::path file = std::filesystem::path(options.directory) / kRecordingFile;
+  const std::filesystem::path file = std::filesystem::path(options.directory) / record::kRecordingFile;
   if (!std::filesystem::exists(file)) {
-    throw BadInput("replay: '" + options.directory + "': holds no " + kRecordingFile +
-                   "; give a directory that liana run --record wrote");
+    throw system::BadInput("replay: '" + options.directory + "': holds no " + record::kRecordingFile +
+                           "; give a directory that liana run --record wrote");
   }
-  const ReplayResult result = replay(options.directory);
-  const ImagesCheck images = check_images(options.directory, result.is_serial);
+  const record::ReplayResult result = record::replay(options.directory);
+  const record::ImagesCheck images = record::check_images(options.directory, result.is_serial);
   if (options.json) {
     print_json(result, images);
   } else {
@@ -75,9 +75,10 @@ int replay_command(const ReplayOptions& options) {
   }
   if (!images.good()) {
     std::fprintf(stderr, "liana: %s/%s: %s; take a good copy of the file: a replay from mid-run needs it\n",
-                 options.directory.c_str(), kImagesFile, images.state.c_str());
+                 options.directory.c_str(), record::kImagesFile, images.state.c_str());
   }
-  return result.complete && images.good() && result.ticks > 0 && result.differing_ticks == 0 ? kExitOk : kExitFailure;
+  return result.complete && images.good() && result.ticks > 0 && result.differing_ticks == 0 ? system::kExitOk
+                                                                                             : system::kExitFailure;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -8,13 +8,13 @@
 #include "host/solve/serial_goal_ik.hpp"
 #include "host/system/errors.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
-void refuse_cable_option(const char* option, bool given, const SerialRobotConfig& robot) {
+void refuse_cable_option(const char* option, bool given, const config::SerialRobotConfig& robot) {
   if (given) {
-    throw BadInput(std::string(option) + ": allowed with cable arms only: robot " + robot.name +
-                   " has a serial arm; leave it out");
+    throw system::BadInput(std::string(option) + ": allowed with cable arms only: robot " + robot.name +
+                           " has a serial arm; leave it out");
   }
 }
 
@@ -55,7 +55,7 @@ void print_ik(const Json& answer) {
 
 }  // namespace
 
-int serial_pose_command(const SerialRobotConfig& robot, const PoseOptions& options) {
+int serial_pose_command(const config::SerialRobotConfig& robot, const PoseOptions& options) {
   refuse_cable_option("--scene", !options.scene.empty(), robot);
   const Json pose = pose_of(robot.table, parse_joint_deg("--theta-deg", options.theta_deg, robot.table));
   if (options.json) {
@@ -63,10 +63,10 @@ int serial_pose_command(const SerialRobotConfig& robot, const PoseOptions& optio
   } else {
     print_pose(pose);
   }
-  return kExitOk;
+  return system::kExitOk;
 }
 
-int serial_ik_command(const SerialRobotConfig& robot, const IkOptions& options) {
+int serial_ik_command(const config::SerialRobotConfig& robot, const IkOptions& options) {
   refuse_cable_option("--hold", !options.hold.empty(), robot);
   refuse_cable_option("--control-point", !options.control_points.empty(), robot);
   const solve::SerialGoal goal{parse_pose("--tip", options.tip),
@@ -78,7 +78,7 @@ int serial_ik_command(const SerialRobotConfig& robot, const IkOptions& options) 
   } else {
     print_ik(answer);
   }
-  return result.converged ? kExitOk : kExitNotConverged;
+  return result.converged ? system::kExitOk : system::kExitNotConverged;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -4,12 +4,12 @@
 #include "host/cli/commands.hpp"
 #include "host/config/serial_robot.hpp"
 
-namespace liana {
+namespace liana::cli {
 
 // Forward kinematics of one pose. A scene is refused: serial arms have no slit to look at.
-int serial_pose_command(const SerialRobotConfig& robot, const PoseOptions& options);
+int serial_pose_command(const config::SerialRobotConfig& robot, const PoseOptions& options);
 
 // The goal solver; exit code 3 when it did not converge. Held variables and control points are refused.
-int serial_ik_command(const SerialRobotConfig& robot, const IkOptions& options);
+int serial_ik_command(const config::SerialRobotConfig& robot, const IkOptions& options);
 
-}  // namespace liana
+}  // namespace liana::cli

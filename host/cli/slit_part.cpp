@@ -5,7 +5,7 @@
 #include "host/config/slit_mouth.hpp"
 #include "host/config/theta_numbers.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 Json range_deg(const solve::YawInterval& interval) {
@@ -16,14 +16,15 @@ Json range_deg(const solve::YawInterval& interval) {
 
 }  // namespace
 
-Json slit_part(const RobotConfig& robot, const SceneConfig& scene, const cable::ThetaVector& theta_rad) {
+Json slit_part(const config::RobotConfig& robot, const config::SceneConfig& scene,
+               const cable::ThetaVector& theta_rad) {
   const cable::RobotTable& table = robot.table;
-  const solve::SlitMouth mouth = slit_mouth(*scene.slit, robot.module_radius_m);
+  const solve::SlitMouth mouth = config::slit_mouth(*scene.slit, robot.module_radius_m);
   const std::int32_t segments =
       solve::planar_segments(table, link_points(table, theta_rad), mouth, solve::PlanarSwitch{}, 0);
   const solve::PlanarPart part{segments, forward_kinematics(table, theta_rad).tip_in_base, theta_rad};
   Json out{{"planar_segments", segments},
-           {"held_theta", theta_numbers(solve::planar_pitches(table, segments))},
+           {"held_theta", config::theta_numbers(solve::planar_pitches(table, segments))},
            {"root", nullptr},
            {"yaw_range_deg", Json::array()}};
   if (segments == 0) return out;
@@ -37,4 +38,4 @@ Json slit_part(const RobotConfig& robot, const SceneConfig& scene, const cable::
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::cli

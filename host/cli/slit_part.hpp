@@ -4,11 +4,11 @@
 #include "host/config/config.hpp"
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::cli {
 
 // The scene has to have a slit. `planar_segments`, `held_theta`, `root` (x,y,z,qw,qx,qy,qz of the planar part, base
 // frame; null without one) and `yaw_range_deg` (per segment of it: [lowest, highest], or null where it fits nowhere);
 // see host/solve/dof_split.hpp.
-Json slit_part(const RobotConfig& robot, const SceneConfig& scene, const cable::ThetaVector& theta_rad);
+Json slit_part(const config::RobotConfig& robot, const config::SceneConfig& scene, const cable::ThetaVector& theta_rad);
 
-}  // namespace liana
+}  // namespace liana::cli

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-namespace liana {
+namespace liana::command_line {
 
 Option& Option::required() {
   option_->required();
@@ -56,4 +56,4 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
   return std::nullopt;
 }
 
-}  // namespace liana
+}  // namespace liana::command_line

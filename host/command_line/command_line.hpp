@@ -12,7 +12,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace liana {
+namespace liana::command_line {
 
 // One option, for what is to be said about it besides its name. Cheap to copy; good while its CommandLine lives.
 class Option {
@@ -65,4 +65,4 @@ class CommandLine : public Command {
   std::optional<int> parse(int argc, const char* const* argv);
 };
 
-}  // namespace liana
+}  // namespace liana::command_line

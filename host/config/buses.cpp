@@ -6,7 +6,7 @@
 #include "host/config/config.hpp"
 #include "host/config/field.hpp"
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 constexpr double kMicrosecondsPerSecond = 1e6;
@@ -126,4 +126,4 @@ BusesConfig parse_buses(const std::string& text, const std::string& file) {
 
 BusesConfig load_buses(const std::string& path) { return parse_buses(read_text_file(path), path); }
 
-}  // namespace liana
+}  // namespace liana::config

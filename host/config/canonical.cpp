@@ -7,7 +7,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 void write(const Json& value, std::string& out);
@@ -57,4 +57,4 @@ std::string canonical_json(const Json& value) {
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::config

@@ -13,7 +13,7 @@
 #include "firmware_like/cable/arm/robot_table.hpp"
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
+namespace liana::config {
 
 // One CAN bus and the drives on it.
 struct BusConfig {
@@ -171,4 +171,4 @@ std::string check_table(const std::string& kind, const Json& table, const std::s
 // SHA-256 (64 hex digits) over the canonical robot, scene and buses JSON, one line each.
 std::string config_hash(const std::string& robot_json, const std::string& scene_json, const std::string& buses_json);
 
-}  // namespace liana
+}  // namespace liana::config

@@ -4,7 +4,7 @@
 
 #include "host/config/robot_parts.hpp"
 
-namespace liana {
+namespace liana::config {
 
 DriveIdentity read_identity(const Field& field) {
   field.only({"vendor", "product", "revision"});
@@ -53,4 +53,4 @@ void check_nodes(const std::string& robot, std::int32_t drives, const std::strin
   }
 }
 
-}  // namespace liana
+}  // namespace liana::config

@@ -8,7 +8,7 @@
 
 #include "host/config/canonical.hpp"
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 constexpr std::size_t kLongestValueShown = 60;
@@ -125,4 +125,4 @@ void check_kind(const Field& table, const std::string& kind) {
   if (found.json() != kind) found.refuse(kind, "give a table of this kind");
 }
 
-}  // namespace liana
+}  // namespace liana::config

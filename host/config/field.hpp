@@ -9,7 +9,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::config {
 
 // Allowed range of a number, both ends included unless `above` excludes the lower one.
 struct Range {
@@ -76,4 +76,4 @@ std::string read_text_file(const std::string& path);
 // Checks `format` = 1 and `kind`, which every table begins with.
 void check_kind(const Field& table, const std::string& kind);
 
-}  // namespace liana
+}  // namespace liana::config

@@ -3,7 +3,7 @@
 #include "host/config/robot_parts.hpp"
 #include "host/config/serial_robot.hpp"
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 // The robot without what the buses decide (tick, T_c).
@@ -47,4 +47,4 @@ std::string check_table(const std::string& kind, const Json& table, const std::s
   throw std::runtime_error("kind: " + kind + ": allowed robot, scene, buses: use one of these words");
 }
 
-}  // namespace liana
+}  // namespace liana::config

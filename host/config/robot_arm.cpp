@@ -4,7 +4,7 @@
 
 #include "host/config/robot_parts.hpp"
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 void read_segment(const Field& field, double mass_kg, cable::SegmentTable& segment) {
@@ -96,4 +96,4 @@ void read_named_poses(const Field& field, RobotConfig& out) {
   }
 }
 
-}  // namespace liana
+}  // namespace liana::config

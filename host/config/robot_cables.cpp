@@ -5,7 +5,7 @@
 #include "host/config/canonical.hpp"
 #include "host/config/robot_parts.hpp"
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 constexpr double kTwoPi = 6.28318530717958647692;
@@ -90,4 +90,4 @@ void read_drives(const Field& table, RobotConfig& out) {
   out.drive_serials = read_serials(drives, static_cast<std::size_t>(out.table.cable_count()));
 }
 
-}  // namespace liana
+}  // namespace liana::config

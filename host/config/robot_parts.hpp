@@ -4,7 +4,7 @@
 #include "host/config/config.hpp"
 #include "host/config/field.hpp"
 
-namespace liana {
+namespace liana::config {
 
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
 
@@ -36,4 +36,4 @@ void read_limits(const Field& field, cable::MotionLimits& limits);
 // Named poses within the theta limits; "zero" must be there.
 void read_named_poses(const Field& field, RobotConfig& out);
 
-}  // namespace liana
+}  // namespace liana::config

@@ -5,7 +5,7 @@
 #include "host/config/config.hpp"
 #include "host/config/field.hpp"
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 constexpr double kUnitTolerance = 1e-9;
@@ -140,4 +140,4 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
 
 SceneConfig load_scene(const std::string& path) { return parse_scene(read_text_file(path), path); }
 
-}  // namespace liana
+}  // namespace liana::config

@@ -6,7 +6,7 @@
 #include "host/config/canonical.hpp"
 #include "host/config/robot_parts.hpp"
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 using serial::JointTable;
@@ -164,4 +164,4 @@ std::string check_serial_robot(const Json& table, const std::string& file) {
   return read_serial_robot(table, file).canonical_json;
 }
 
-}  // namespace liana
+}  // namespace liana::config

@@ -10,7 +10,7 @@
 #include "firmware_like/serial/robot_table.hpp"
 #include "host/config/config.hpp"
 
-namespace liana {
+namespace liana::config {
 
 // What the core needs (table) and what only the host needs.
 struct SerialRobotConfig {
@@ -48,4 +48,4 @@ SerialRobotConfig parse_serial_robot(const std::string& text, const std::string&
 // Checks the table by itself, without buses, and returns its canonical JSON.
 std::string check_serial_robot(const Json& table, const std::string& file);
 
-}  // namespace liana
+}  // namespace liana::config

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 // FIPS 180-4 section 4.2.2: first 32 bits of the fractional parts of the cube roots of the first 64 primes.
@@ -73,4 +73,4 @@ std::string sha256_hex(std::string_view text) {
   return hex;
 }
 
-}  // namespace liana
+}  // namespace liana::config

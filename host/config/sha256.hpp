@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-namespace liana {
+namespace liana::config {
 
 // SHA-256 of the bytes of `text` as 64 lower-case hex digits.
 std::string sha256_hex(std::string_view text);
 
-}  // namespace liana
+}  // namespace liana::config

@@ -4,7 +4,7 @@
 #include "host/config/config.hpp"
 #include "host/solve/dof_split.hpp"
 
-namespace liana {
+namespace liana::config {
 
 // Room for link axes: the gap less the module's radius on either side. A scene's slit is open along its width.
 inline solve::SlitMouth slit_mouth(const SceneSlit& slit, double module_radius_m) {
@@ -15,4 +15,4 @@ inline solve::SlitMouth slit_mouth(const SceneSlit& slit, double module_radius_m
           kOpen_m};
 }
 
-}  // namespace liana
+}  // namespace liana::config

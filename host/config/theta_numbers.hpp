@@ -6,7 +6,7 @@
 
 #include "firmware_like/cable/arm/robot_table.hpp"
 
-namespace liana {
+namespace liana::config {
 
 // The numbers, rising, of the thetas whose bit is set (bit 0: theta 1).
 inline std::vector<int> theta_numbers(std::uint32_t mask) {
@@ -17,4 +17,4 @@ inline std::vector<int> theta_numbers(std::uint32_t mask) {
   return numbers;
 }
 
-}  // namespace liana
+}  // namespace liana::config

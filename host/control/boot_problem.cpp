@@ -1,6 +1,6 @@
 #include "host/control/boot_problem.hpp"
 
-namespace liana {
+namespace liana::control {
 
 std::string text_of(const std::vector<BootProblem>& problems) {
   std::string text;
@@ -8,4 +8,4 @@ std::string text_of(const std::vector<BootProblem>& problems) {
   return text.empty() ? "no drive named a reason" : text;
 }
 
-}  // namespace liana
+}  // namespace liana::control

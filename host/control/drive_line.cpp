@@ -7,13 +7,13 @@
 #include "firmware_like/safety/link_watch.hpp"
 #include "host/canopen/cob_id.hpp"
 
-namespace liana {
+namespace liana::control {
 
 namespace {
 
-std::vector<std::string> names_of(const BusesConfig& buses) {
+std::vector<std::string> names_of(const config::BusesConfig& buses) {
   std::vector<std::string> names;
-  for (const BusConfig& bus : buses.buses) names.push_back(bus.name);
+  for (const config::BusConfig& bus : buses.buses) names.push_back(bus.name);
   return names;
 }
 
@@ -24,11 +24,12 @@ constexpr std::uint16_t kFarewellTicks = 25;
 
 std::uint16_t older(std::uint16_t age) { return narrow<std::uint16_t>(static_cast<std::uint32_t>(age) + 1); }
 
-bool is_out(BusState state) { return state == BusState::kDown || state == BusState::kBusOff; }
+bool is_out(bus::BusState state) { return state == bus::BusState::kDown || state == bus::BusState::kBusOff; }
 
 }  // namespace
 
-DriveLine::DriveLine(const std::vector<canopen::DriveExpectation>& drives, const BusesConfig& buses, DriveBus& bus)
+DriveLine::DriveLine(const std::vector<canopen::DriveExpectation>& drives, const config::BusesConfig& buses,
+                     bus::DriveBus& bus)
     : bus_(bus), drives_(drives), bus_names_(names_of(buses)), master_(drives_, buses) {
   for (auto& nodes : drive_of_node_) nodes.fill(-1);
   for (std::size_t i = 0; i < drives_.size(); ++i) {
@@ -38,14 +39,14 @@ DriveLine::DriveLine(const std::vector<canopen::DriveExpectation>& drives, const
 }
 
 // Everything that came in since the last tick; what did not come grows older.
-void DriveLine::collect(const TickStart& start, CycleInputs& inputs) noexcept {
+void DriveLine::collect(const timing::TickStart& start, CycleInputs& inputs) noexcept {
   inputs.tick = start.tick;
   inputs.lost_ticks = start.lost_ticks;
   inputs.request = Request::kNone;
   for (std::size_t i = 0; i < drives_.size(); ++i)
     inputs.drive[i].feedback_age_ticks = older(inputs.drive[i].feedback_age_ticks);
   for (std::uint16_t& ticks : silent_ticks_) ticks = older(ticks);
-  ReceivedFrame received;
+  bus::ReceivedFrame received;
   while (bus_.receive(received)) {
     if (master_.on_frame(received.bus, received.frame, start.tick)) continue;
     const canopen::FrameRoute route = canopen::route(received.frame.id);
@@ -92,7 +93,7 @@ void DriveLine::take_emergencies(CycleInputs& inputs) noexcept {
 void DriveLine::command(const DriveCommands& commands) noexcept {
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     if (silent_ticks_[static_cast<std::size_t>(drives_[i].bus)] > kFarewellTicks) continue;
-    CanFrame frame;
+    bus::CanFrame frame;
     frame.id = rpdo1_cob_id(drives_[i].node);
     frame.length = kRpdo1Bytes;
     const std::array<std::uint8_t, kRpdo1Bytes> bytes = encode_rpdo1(commands[i]);
@@ -126,4 +127,4 @@ std::vector<std::uint32_t> DriveLine::serials() const {
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::control

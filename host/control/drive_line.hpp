@@ -12,17 +12,17 @@
 #include "host/config/config.hpp"
 #include "host/control/boot_problem.hpp"
 
-namespace liana {
+namespace liana::control {
 
 enum class BootPhase : std::uint8_t { kBooting = 0, kDone = 1, kFailed = 2 };
 
 class DriveLine {
  public:
   // Setup: may allocate and throw. `bus` must outlive this.
-  DriveLine(const std::vector<canopen::DriveExpectation>& drives, const BusesConfig& buses, DriveBus& bus);
+  DriveLine(const std::vector<canopen::DriveExpectation>& drives, const config::BusesConfig& buses, bus::DriveBus& bus);
 
   // Everything that came in since the last tick, into the inputs of this one; what did not come grows older.
-  void collect(const TickStart& start, CycleInputs& inputs) noexcept;
+  void collect(const timing::TickStart& start, CycleInputs& inputs) noexcept;
   // Heartbeat out; while booting, the next SDO requests.
   void step_master() noexcept { master_.step(bus_); }
   // Targets to every drive that may still hear them.
@@ -40,13 +40,13 @@ class DriveLine {
   void take_emergencies(CycleInputs& inputs) noexcept;
   std::uint32_t lost_buses() const noexcept;
 
-  DriveBus& bus_;
+  bus::DriveBus& bus_;
   std::vector<canopen::DriveExpectation> drives_;  // bus and node of every drive, in the order of the table
   std::vector<std::string> bus_names_;
   canopen::Master master_;
-  std::array<std::array<std::int8_t, 128>, kMaxDriveBuses> drive_of_node_{};  // -1: not ours
-  std::array<bool, kMaxDriveBuses> has_drives_{};
-  std::array<std::uint16_t, kMaxDriveBuses> silent_ticks_{};  // in a row without a report of any drive of the bus
+  std::array<std::array<std::int8_t, 128>, bus::kMaxDriveBuses> drive_of_node_{};  // -1: not ours
+  std::array<bool, bus::kMaxDriveBuses> has_drives_{};
+  std::array<std::uint16_t, bus::kMaxDriveBuses> silent_ticks_{};  // in a row without a report of any drive of the bus
 };
 
-}  // namespace liana
+}  // namespace liana::control

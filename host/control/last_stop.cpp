@@ -5,7 +5,7 @@
 #include "firmware_like/cable_controller.hpp"
 #include "firmware_like/serial_controller.hpp"
 
-namespace liana {
+namespace liana::control {
 
 namespace {
 
@@ -41,4 +41,4 @@ void stop_without_service(ArmLink<Arm>& link, std::uint64_t limit_ticks, const s
 template void stop_without_service(ArmLink<cable::CableArm>&, std::uint64_t, const std::function<bool()>&);
 template void stop_without_service(ArmLink<serial::SerialArm>&, std::uint64_t, const std::function<bool()>&);
 
-}  // namespace liana
+}  // namespace liana::control

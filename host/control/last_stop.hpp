@@ -9,7 +9,7 @@
 
 #include "host/control/link.hpp"
 
-namespace liana {
+namespace liana::control {
 
 // How a thread ended. `problem` is written before `over`: read it only when `over` is true.
 struct ThreadEnd {
@@ -25,4 +25,4 @@ void run_guarded(const std::function<void()>& body, ThreadEnd& end) noexcept;
 template <class Arm>
 void stop_without_service(ArmLink<Arm>& link, std::uint64_t limit_ticks, const std::function<bool()>& next);
 
-}  // namespace liana
+}  // namespace liana::control

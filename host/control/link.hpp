@@ -14,14 +14,14 @@
 #include "host/record/tick_record.hpp"
 #include "host/verify/twin_image.hpp"
 
-namespace liana {
+namespace liana::control {
 
 // What the real-time side reports after every tick, of any robot.
 struct CycleReport {
   std::uint64_t next_tick = 0;  // ticks done so far
   BootPhase boot = BootPhase::kBooting;
   Overruns overruns{};
-  std::array<DriveBusStats, kMaxDriveBuses> bus{};
+  std::array<bus::DriveBusStats, bus::kMaxDriveBuses> bus{};
   std::uint64_t records_lost = 0;  // tick records that found the ring full
 };
 
@@ -46,14 +46,14 @@ struct Link {
 // All that crosses for one kind of arm.
 template <class Arm>
 struct ArmLink : Link {
-  explicit ArmLink(const typename Arm::Table& table) : image(TwinImage<Arm>(table)), report(ArmReport<Arm>{}) {}
+  explicit ArmLink(const typename Arm::Table& table) : image(verify::TwinImage<Arm>(table)), report(ArmReport<Arm>{}) {}
 
   // Service to real time.
   SpscRing<Telecommand<typename Arm::Setpoint>, 16> released;
   // Real time to service.
-  SpscRing<TickRecord<Arm>, 512> ticks;
-  LatestValue<TwinImage<Arm>> image;   // at the start of each command interval
-  LatestValue<ArmReport<Arm>> report;  // after each tick
+  SpscRing<record::TickRecord<Arm>, 512> ticks;
+  LatestValue<verify::TwinImage<Arm>> image;  // at the start of each command interval
+  LatestValue<ArmReport<Arm>> report;         // after each tick
 };
 
-}  // namespace liana
+}  // namespace liana::control

@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace liana {
+namespace liana::control {
 
 namespace {
 
@@ -64,4 +64,4 @@ std::jthread start_realtime(std::function<void(const std::stop_token&)> body, Th
                            "; see `liana doctor`, or use --time fast or paced");
 }
 
-}  // namespace liana
+}  // namespace liana::control

@@ -7,7 +7,7 @@
 
 #include "host/control/last_stop.hpp"
 
-namespace liana {
+namespace liana::control {
 
 constexpr int kRealtimePriority = 80;  // over drivers' interrupt threads (50), under the kernel's own watchdogs (99)
 
@@ -18,4 +18,4 @@ void lock_memory();
 // which must outlive the thread. Throws std::runtime_error naming the missing privilege.
 std::jthread start_realtime(std::function<void(const std::stop_token&)> body, ThreadEnd& end);
 
-}  // namespace liana
+}  // namespace liana::control

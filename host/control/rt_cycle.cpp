@@ -2,11 +2,11 @@
 
 #include "host/control/tick_guard.hpp"
 
-namespace liana {
+namespace liana::control {
 
 template <class Arm>
 RtCycle<Arm>::RtCycle(const typename Arm::Table& table, const std::vector<canopen::DriveExpectation>& drives,
-                      const BusesConfig& buses, DriveBus& bus, ArmLink<Arm>& link)
+                      const config::BusesConfig& buses, bus::DriveBus& bus, ArmLink<Arm>& link)
     : bus_(bus),
       line_(drives, buses, bus),
       times_(buses.period_us(), link.timing),
@@ -15,7 +15,7 @@ RtCycle<Arm>::RtCycle(const typename Arm::Table& table, const std::vector<canope
 
 template <class Arm>
 bool RtCycle<Arm>::run_tick() noexcept {
-  const TickStart start = bus_.begin_tick(report_.next_tick);  // the deadline
+  const timing::TickStart start = bus_.begin_tick(report_.next_tick);  // the deadline
   if (start.ended) return false;
   const TickGuard nothing_allocates_from_here;
   times_.begin(start, bus_.now_us(), report_.overruns);
@@ -33,7 +33,7 @@ bool RtCycle<Arm>::run_tick() noexcept {
 
 // The Controller starts at the beginning of a command interval, so that recordings and twin images start there, too.
 template <class Arm>
-void RtCycle<Arm>::finish_tick(const TickStart& start) noexcept {
+void RtCycle<Arm>::finish_tick(const timing::TickStart& start) noexcept {
   report_.next_tick = start.tick + 1;
   if (report_.boot == BootPhase::kBooting && report_.next_tick % interval_ticks_ == 0)
     report_.boot = line_.boot_phase();
@@ -44,4 +44,4 @@ void RtCycle<Arm>::finish_tick(const TickStart& start) noexcept {
 template class RtCycle<cable::CableArm>;
 template class RtCycle<serial::SerialArm>;
 
-}  // namespace liana
+}  // namespace liana::control

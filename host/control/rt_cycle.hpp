@@ -8,14 +8,14 @@
 #include "host/control/tick_core.hpp"
 #include "host/control/tick_times.hpp"
 
-namespace liana {
+namespace liana::control {
 
 template <class Arm>
 class RtCycle {
  public:
   // Setup: may allocate and throw. `drives` in the order of the table; `bus` and `link` must outlive this.
   RtCycle(const typename Arm::Table& table, const std::vector<canopen::DriveExpectation>& drives,
-          const BusesConfig& buses, DriveBus& bus, ArmLink<Arm>& link);
+          const config::BusesConfig& buses, bus::DriveBus& bus, ArmLink<Arm>& link);
 
   // Waits for the next deadline and runs one tick; false when the other side of the bus has left. After construction
   // nothing here allocates, waits for a lock, or makes a system call that the bus and the timer do not need.
@@ -25,9 +25,9 @@ class RtCycle {
   const DriveLine& line() const { return line_; }
 
  private:
-  void finish_tick(const TickStart& start) noexcept;
+  void finish_tick(const timing::TickStart& start) noexcept;
 
-  DriveBus& bus_;
+  bus::DriveBus& bus_;
   DriveLine line_;
   TickTimes times_;
   TickCore<Arm> core_;
@@ -38,4 +38,4 @@ class RtCycle {
 extern template class RtCycle<cable::CableArm>;
 extern template class RtCycle<serial::SerialArm>;
 
-}  // namespace liana
+}  // namespace liana::control

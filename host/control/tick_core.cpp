@@ -1,6 +1,6 @@
 #include "host/control/tick_core.hpp"
 
-namespace liana {
+namespace liana::control {
 
 // The newest telecommand whose time has come; one that is overdue after lost ticks is still taken until it expires.
 template <class Arm>
@@ -47,7 +47,7 @@ void TickCore<Arm>::publish(ArmReport<Arm>& report) {
   const std::uint64_t interval = report.next_tick / static_cast<std::uint64_t>(controller_.table().interval_ticks);
   if (interval == imaged_interval_) return;
   imaged_interval_ = interval;
-  TwinImage<Arm>& image = link_.image.draft();  // filled in place: it is large
+  verify::TwinImage<Arm>& image = link_.image.draft();  // filled in place: it is large
   image.next_tick = report.next_tick;
   image.fresh = fresh_;
   image.controller = controller_;
@@ -59,4 +59,4 @@ void TickCore<Arm>::publish(ArmReport<Arm>& report) {
 template class TickCore<cable::CableArm>;
 template class TickCore<serial::SerialArm>;
 
-}  // namespace liana
+}  // namespace liana::control

@@ -5,7 +5,7 @@
 #include "firmware_like/serial_controller.hpp"
 #include "host/control/link.hpp"
 
-namespace liana {
+namespace liana::control {
 
 template <class Arm>
 class TickCore {
@@ -27,7 +27,7 @@ class TickCore {
 
   Controller<Arm> controller_;
   ArmLink<Arm>& link_;
-  TickRecord<Arm> record_{};
+  record::TickRecord<Arm> record_{};
   std::uint64_t imaged_interval_ = 0;
   std::uint64_t records_lost_ = 0;
   bool fresh_ = true;
@@ -36,4 +36,4 @@ class TickCore {
 extern template class TickCore<cable::CableArm>;
 extern template class TickCore<serial::SerialArm>;
 
-}  // namespace liana
+}  // namespace liana::control

@@ -1,8 +1,8 @@
 #include "host/control/tick_times.hpp"
 
-namespace liana {
+namespace liana::control {
 
-void TickTimes::begin(const TickStart& start, std::uint64_t now_us, Overruns& overruns) noexcept {
+void TickTimes::begin(const timing::TickStart& start, std::uint64_t now_us, Overruns& overruns) noexcept {
   const std::uint64_t waited_us = heard_us_ - began_us_, took_us = ended_us_ - began_us_;
   began_us_ = now_us;
   if (start.lost_ticks == 0) return;
@@ -16,10 +16,10 @@ void TickTimes::begin(const TickStart& start, std::uint64_t now_us, Overruns& ov
   }
 }
 
-void TickTimes::end(const TickStart& start, std::uint64_t now_us) noexcept {
+void TickTimes::end(const timing::TickStart& start, std::uint64_t now_us) noexcept {
   ended_us_ = now_us;
   timing_.wakeup_us.record(start.lateness_us);
   timing_.tick_us.record(static_cast<std::uint32_t>(ended_us_ - heard_us_));
 }
 
-}  // namespace liana
+}  // namespace liana::control

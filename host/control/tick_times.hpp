@@ -6,7 +6,7 @@
 #include "host/bus/drive_bus.hpp"
 #include "host/control/latency_histogram.hpp"
 
-namespace liana {
+namespace liana::control {
 
 // Deadlines that were missed, by cause.
 struct Overruns {
@@ -30,11 +30,11 @@ class TickTimes {
 
   // A tick begins. Where deadlines were missed, names why: the tick before took too long (its own work, or waiting for
   // the bus), or the thread woke up late.
-  void begin(const TickStart& start, std::uint64_t now_us, Overruns& overruns) noexcept;
+  void begin(const timing::TickStart& start, std::uint64_t now_us, Overruns& overruns) noexcept;
   // The wait for feedback is over.
   void heard(std::uint64_t now_us) noexcept { heard_us_ = now_us; }
   // The tick has ended, its reports are published.
-  void end(const TickStart& start, std::uint64_t now_us) noexcept;
+  void end(const timing::TickStart& start, std::uint64_t now_us) noexcept;
 
  private:
   std::uint64_t period_us_;
@@ -42,4 +42,4 @@ class TickTimes {
   std::uint64_t began_us_ = 0, heard_us_ = 0, ended_us_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::control

@@ -15,20 +15,20 @@
 #include "host/verify/release_step.hpp"
 #include "host/verify/verify.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 // `Steering` is the arm's arbiter.
 template <class Arm, class Steering>
 class ArmDesk : public Desk {
  public:
-  Link& link() override { return link_; }
+  control::Link& link() override { return link_; }
   bool interval_began() const override { return link_.image.has_new(); }
   void refresh() override {
     link_.report.refresh();
     link_.image.refresh();
   }
   void refresh_report() override { link_.report.refresh(); }
-  const ArmReport<Arm>& report() const override { return link_.report.value(); }
+  const control::ArmReport<Arm>& report() const override { return link_.report.value(); }
   const liana::Inputs<Arm>& inputs() const override { return report().inputs; }
   const liana::Outputs<Arm>& outputs() const override { return report().outputs; }
   const SupervisorState& supervisor() const override { return link_.image.value().controller.supervisor(); }
@@ -41,7 +41,7 @@ class ArmDesk : public Desk {
   Json ask(const MotionRequest& request) override;
   void hold() override { arbiter_.hold(); }
   std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) override;
-  std::vector<PathNews> take_path_news() override { return arbiter_.take_path_news(); }
+  std::vector<arbiter::PathNews> take_path_news() override { return arbiter_.take_path_news(); }
   std::size_t drive_count() const override { return static_cast<std::size_t>(table_.drive_count()); }
 
  protected:
@@ -50,7 +50,8 @@ class ArmDesk : public Desk {
 
   // The arbiter is made of the table, the zone and what else it needs.
   template <class... Args>
-  ArmDesk(const Table& table, const SpeedZone& zone, TimeMode time_mode, ArmLink<Arm>& link, const Args&... args)
+  ArmDesk(const Table& table, const arbiter::SpeedZone& zone, timing::TimeMode time_mode, control::ArmLink<Arm>& link,
+          const Args&... args)
       : table_(table), link_(link), arbiter_(table, zone, args...), zone_(zone), time_mode_(time_mode) {
     handlers_ = {{"move_jp", [this](const MotionRequest& r) { move_joints(r.fields); }},
                  {"move_path", [this](const auto& r) { arbiter_.move_path(outputs(), path_request<Arm>(r.fields)); }},
@@ -60,8 +61,9 @@ class ArmDesk : public Desk {
                  {"hold", [this](const MotionRequest&) { hold(); }}};
   }
 
-  static SearchResult taken(TimeMode time_mode) {
-    return time_mode == TimeMode::kReal ? SearchResult::kWhenThere : SearchResult::kInItsInterval;
+  static arbiter::SearchResult taken(timing::TimeMode time_mode) {
+    return time_mode == timing::TimeMode::kReal ? arbiter::SearchResult::kWhenThere
+                                                : arbiter::SearchResult::kInItsInterval;
   }
 
   std::uint64_t tick() const { return report().next_tick; }
@@ -69,37 +71,37 @@ class ArmDesk : public Desk {
   virtual std::vector<double> joints_deg(const liana::Outputs<Arm>& outputs) const = 0;
 
   Table table_;
-  ArmLink<Arm>& link_;
+  control::ArmLink<Arm>& link_;
   Steering arbiter_;
-  SpeedZone zone_;
+  arbiter::SpeedZone zone_;
   std::map<std::string, Handler> handlers_;  // by op
 
  private:
   using Command = liana::Telecommand<typename Arm::Setpoint>;
 
-  void move_joints(const Arguments& fields);
-  void retract(const Arguments& fields);
+  void move_joints(const api::Arguments& fields);
+  void retract(const api::Arguments& fields);
   LastVerdict verify_and_release(const typename Arm::Setpoint& setpoint, std::uint32_t owner);
 
-  TimeMode time_mode_;
-  ReleaseStep<Arm> release_;
+  timing::TimeMode time_mode_;
+  verify::ReleaseStep<Arm> release_;
   std::vector<Command> released_;  // not yet due at the newest image
 };
 
 template <class Arm, class Steering>
 void ArmDesk<Arm, Steering>::take_ticks(std::uint64_t dropped, const TickSink& sink) {
   const std::uint64_t lost = report().records_lost + dropped;
-  while (const TickRecord<Arm>* record = link_.ticks.front()) {
-    sink(record->inputs, [&] { return tick_packet(*record, lost, counts_of(table_)); });
+  while (const record::TickRecord<Arm>* record = link_.ticks.front()) {
+    sink(record->inputs, [&] { return record::tick_packet(*record, lost, record::counts_of(table_)); });
     link_.ticks.pop();
   }
 }
 
 template <class Arm, class Steering>
 std::string ArmDesk<Arm, Steering>::image_packet() const {
-  const TwinImage<Arm>& image = link_.image.value();
-  return image.fresh ? liana::image_packet<Arm>(image.next_tick, table_)
-                     : liana::image_packet(image.next_tick, image.controller);
+  const verify::TwinImage<Arm>& image = link_.image.value();
+  return image.fresh ? liana::record::image_packet<Arm>(image.next_tick, table_)
+                     : liana::record::image_packet(image.next_tick, image.controller);
 }
 
 template <class Arm, class Steering>
@@ -109,15 +111,15 @@ Json ArmDesk<Arm, Steering>::ask(const MotionRequest& request) {
 }
 
 template <class Arm, class Steering>
-void ArmDesk<Arm, Steering>::move_joints(const Arguments& fields) {
+void ArmDesk<Arm, Steering>::move_joints(const api::Arguments& fields) {
   const std::vector<double> goal_deg = fields.numbers("goal_deg");
-  Joints<Arm> goal_rad{};
+  arbiter::Joints<Arm> goal_rad{};
   for (std::size_t i = 0; i < goal_deg.size(); ++i) goal_rad[i] = goal_deg[i] * kDegree;
   arbiter_.move_joints(outputs(), goal_rad, fields.number("rate_deg_s") * kDegree);
 }
 
 template <class Arm, class Steering>
-void ArmDesk<Arm, Steering>::retract(const Arguments& fields) {
+void ArmDesk<Arm, Steering>::retract(const api::Arguments& fields) {
   arbiter_.retract(outputs(), static_cast<std::uint64_t>(fields.integer("until_tick")));
 }
 
@@ -133,15 +135,16 @@ std::optional<LastVerdict> ArmDesk<Arm, Steering>::release_next(bool may_release
 
 template <class Arm, class Steering>
 LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpoint& setpoint, std::uint32_t owner) {
-  const TwinImage<Arm>& image = link_.image.value();
+  const verify::TwinImage<Arm>& image = link_.image.value();
   const auto interval = static_cast<std::uint64_t>(table_.interval_ticks);
-  const Candidate<Arm> candidate = release_.candidate(setpoint, owner, image.next_tick + interval, interval);
-  const Prediction<Arm> prediction = Twin<Arm>::run(image, released_, candidate, max_stop_ticks(table_.tick_s));
-  ExecutionVerdict execution = judge_execution<Arm>(table_, candidate, prediction);
-  const SimulationVerdict simulation = judge_motion<Arm>(table_, candidate, prediction, zone_);
-  if (time_mode_ == TimeMode::kReal) {
+  const verify::Candidate<Arm> candidate = release_.candidate(setpoint, owner, image.next_tick + interval, interval);
+  const verify::Prediction<Arm> prediction =
+      verify::Twin<Arm>::run(image, released_, candidate, verify::max_stop_ticks(table_.tick_s));
+  verify::ExecutionVerdict execution = verify::judge_execution<Arm>(table_, candidate, prediction);
+  const verify::SimulationVerdict simulation = verify::judge_motion<Arm>(table_, candidate, prediction, zone_);
+  if (time_mode_ == timing::TimeMode::kReal) {
     link_.report.refresh();
-    judge_time(candidate.first_tick(), tick(), execution);
+    verify::judge_time(candidate.first_tick(), tick(), execution);
   }
   const std::optional<Command> telecommand = release_.release(candidate, execution, simulation);
   const bool released = telecommand && link_.released.push(*telecommand);
@@ -150,8 +153,8 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
   } else {
     arbiter_.refused();
   }
-  const Verdict& worst = execution.passed() ? static_cast<const Verdict&>(simulation) : execution;
+  const verify::Verdict& worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation) : execution;
   return {candidate.sequence(), released, worst, joints_deg(prediction.ticks[prediction.command_ticks - 1])};
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -5,25 +5,25 @@
 #include "host/daemon/device_messages.hpp"
 #include "host/plan/check/way_check.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 namespace {
 
-SpeedZone zone_of(const RobotConfig& robot, const SceneConfig& scene) {
+arbiter::SpeedZone zone_of(const config::RobotConfig& robot, const config::SceneConfig& scene) {
   return {scene.slit, robot.table.limits.tip_speed_slit_m_s};
 }
 
 // Called in another thread: it has all it needs with it.
-PathCheck<cable::CableArm> path_check(const RobotConfig& robot, const SceneConfig& scene) {
+arbiter::PathCheck<cable::CableArm> path_check(const config::RobotConfig& robot, const config::SceneConfig& scene) {
   return [robot, scene](const std::vector<cable::ThetaVector>& points_rad, double margin_m) {
-    return refusal_of_way(robot, scene, points_rad, margin_m, kPathOff_m);
+    return plan::refusal_of_way(robot, scene, points_rad, margin_m, arbiter::kPathOff_m);
   };
 }
 
 }  // namespace
 
-CableDesk::CableDesk(const RobotConfig& robot, const SceneConfig& scene, const std::string& in_pose, TimeMode time_mode,
-                     ArmLink<cable::CableArm>& link)
+CableDesk::CableDesk(const config::RobotConfig& robot, const config::SceneConfig& scene, const std::string& in_pose,
+                     timing::TimeMode time_mode, control::ArmLink<cable::CableArm>& link)
     : ArmDesk(robot.table, zone_of(robot, scene), time_mode, link, taken(time_mode), path_check(robot, scene)),
       robot_(robot),
       scene_(scene),
@@ -41,30 +41,30 @@ void CableDesk::watch(bool booted) {
   if (booted) homing_.look(report(), link_.image.value().controller.arm().estimator());
   if (!scene_.slit) return;
   const cable::LinkPoints links = link_points(table_, outputs().theta_command_rad);
-  const solve::SlitMouth mouth = slit_mouth(*scene_.slit, robot_.module_radius_m);
+  const solve::SlitMouth mouth = config::slit_mouth(*scene_.slit, robot_.module_radius_m);
   planar_segments_ = solve::planar_segments(table_, links, mouth, solve::PlanarSwitch{}, planar_segments_);
 }
 
-void CableDesk::take_samples(const Arguments& message) { add_samples(message, arbiter_.device()); }
+void CableDesk::take_samples(const api::Arguments& message) { add_samples(message, arbiter_.device()); }
 
 void CableDesk::drop_motion() {
   arbiter_.hold();
-  arbiter_.use_device(DeviceUse{});
+  arbiter_.use_device(arbiter::DeviceUse{});
 }
 
 std::vector<double> CableDesk::joints_deg(const cable::Outputs& outputs) const {
   return theta_deg(table_, outputs.theta_command_rad);
 }
 
-void CableDesk::move_line(const Arguments& fields) {
+void CableDesk::move_line(const api::Arguments& fields) {
   if (fields.has("hold")) hold_theta(fields.entries("hold"));
   arbiter_.move_line(outputs(), fields.pose("goal"));
 }
 
-void CableDesk::hold_theta(const std::vector<Arguments>& held) {
+void CableDesk::hold_theta(const std::vector<api::Arguments>& held) {
   std::uint32_t mask = 0;
   cable::ThetaVector held_rad{};
-  for (const Arguments& entry : held) {
+  for (const api::Arguments& entry : held) {
     const auto i = static_cast<std::size_t>(entry.integer("theta")) - 1;
     held_rad[i] = entry.number("target_deg") * kDegree;
     mask |= 1u << i;
@@ -72,33 +72,33 @@ void CableDesk::hold_theta(const std::vector<Arguments>& held) {
   arbiter_.hold_theta(outputs(), mask, held_rad);
 }
 
-void CableDesk::shape(const Arguments& fields) {
+void CableDesk::shape(const api::Arguments& fields) {
   cable::NodeTargets nodes{};
   std::size_t count = 0;
-  for (const Arguments& entry : fields.entries("nodes")) {
+  for (const api::Arguments& entry : fields.entries("nodes")) {
     const auto node = static_cast<std::int32_t>(entry.integer("node"));
     const double weight = entry.has("weight") ? entry.number("weight") : default_node_weight(table_, node);
     nodes[count++] = {node, entry.point("position_m"), weight, entry.number("threshold_m")};
   }
   cable::KeepClearTargets clear{};
   count = 0;
-  for (const Arguments& entry : fields.entries("keep_clear"))
+  for (const api::Arguments& entry : fields.entries("keep_clear"))
     clear[count++] = {entry.point("centre_m"), entry.number("distance_m"), entry.number("weight")};
   arbiter_.shape(outputs(), nodes, clear, fields.flag("search"));
   shape_progress_.restart();
 }
 
 void CableDesk::use_device(const MotionRequest& request) {
-  const Arguments& fields = request.fields;
-  DeviceUse use;
+  const api::Arguments& fields = request.fields;
+  arbiter::DeviceUse use;
   use.kind = device_kind(fields.text("device"));
   use.mapping.scale = fields.number("scale");
   use.mapping.rotation_scale = fields.number("rotation_scale");
   use.node = static_cast<std::int32_t>(fields.integer("node"));
   use.speed_m_s = fields.number("speed_m_s");
-  if (use.kind != DeviceKind::kNone && !request.operator_is_here)
-    throw RequestError("no_device", "no operator is connected");
+  if (use.kind != arbiter::DeviceKind::kNone && !request.operator_is_here)
+    throw api::RequestError("no_device", "no operator is connected");
   arbiter_.use_device(use);
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -7,36 +7,36 @@
 #include "host/daemon/arm_desk.hpp"
 #include "host/daemon/homing.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 // Angles in degrees, as many as the arm has.
 std::vector<double> theta_deg(const cable::RobotTable& table, const cable::ThetaVector& theta_rad);
 
-class CableDesk final : public ArmDesk<cable::CableArm, CableArbiter> {
+class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
  public:
   // `in_pose`: the named pose in which the arm lies at the start; empty: nobody knows (homing.hpp, which throws).
-  CableDesk(const RobotConfig& robot, const SceneConfig& scene, const std::string& in_pose, TimeMode time_mode,
-            ArmLink<cable::CableArm>& link);
+  CableDesk(const config::RobotConfig& robot, const config::SceneConfig& scene, const std::string& in_pose,
+            timing::TimeMode time_mode, control::ArmLink<cable::CableArm>& link);
 
   void watch(bool booted) override;
   const std::string& why_not_homed() const override { return homing_.why_not(); }
-  void take_samples(const Arguments& message) override;
+  void take_samples(const api::Arguments& message) override;
   void drop_motion() override;
   void add_state(Json& state) const override;
   void add_drive_state(std::size_t drive, Json& state) const override;
 
  private:
   std::vector<double> joints_deg(const cable::Outputs& outputs) const override;
-  void move_line(const Arguments& fields);
-  void hold_theta(const std::vector<Arguments>& held);
-  void shape(const Arguments& fields);
+  void move_line(const api::Arguments& fields);
+  void hold_theta(const std::vector<api::Arguments>& held);
+  void shape(const api::Arguments& fields);
   void use_device(const MotionRequest& request);
 
-  RobotConfig robot_;
-  SceneConfig scene_;
+  config::RobotConfig robot_;
+  config::SceneConfig scene_;
   Homing homing_;
-  ShapeProgress shape_progress_;
+  arbiter::ShapeProgress shape_progress_;
   std::int32_t planar_segments_ = 0;  // how many the slit asks for now (host/solve/dof_split.hpp)
 };
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -6,7 +6,7 @@
 #include "host/daemon/cable_desk.hpp"
 #include "host/daemon/state_parts.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 namespace {
 
@@ -21,7 +21,7 @@ Json nodes_json(const cable::RobotTable& table, const cable::Outputs& outputs) {
   return nodes;
 }
 
-const char* device_name(DeviceKind kind) {
+const char* device_name(arbiter::DeviceKind kind) {
   static constexpr std::array<const char*, 3> kNames{"none", "vr", "hand"};
   return kNames[static_cast<std::size_t>(kind)];
 }
@@ -37,7 +37,7 @@ std::vector<double> theta_deg(const cable::RobotTable& table, const cable::Theta
 
 void CableDesk::add_state(Json& state) const {
   const cable::Outputs& o = outputs();
-  const DeviceUse& device = arbiter_.device().in_use();
+  const arbiter::DeviceUse& device = arbiter_.device().in_use();
   state["is_busy"] =
       arbiter_.is_busy() || (o.state == OperatingState::kEnabled && (o.at_rest == 0 || o.held_at_target == 0));
   state["retracted"] = arbiter_.has_retracted();
@@ -55,7 +55,7 @@ void CableDesk::add_state(Json& state) const {
   state["setpoint_js_deg"] = theta_deg(table_, o.theta_command_rad);
   state["measured_cp"] = pose_json(tip_pose(table_, arm_trig(table_, o.theta_measured_rad)));
   state["node_m"] = nodes_json(table_, o);
-  state["held"] = theta_numbers(o.held_mask);
+  state["held"] = config::theta_numbers(o.held_mask);
   state["held_at_target"] = o.held_at_target != 0;
   state["tension_N"] = first(o.tension_measured_N, table_.cable_count());
   add_tip(state, o);
@@ -66,4 +66,4 @@ void CableDesk::add_drive_state(std::size_t drive, Json& state) const {
   state["tension_N"] = reported_tension_N(table_, inputs())[drive];
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

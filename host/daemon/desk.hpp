@@ -14,20 +14,20 @@
 #include "host/json/json_fwd.hpp"
 #include "host/verify/verdict.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 // How the last candidate fared.
 struct LastVerdict {
   std::uint64_t sequence = 0;
   bool released = false;
-  Verdict worst{};                  // the refusing end, or the tighter margin
+  verify::Verdict worst{};          // the refusing end, or the tighter margin
   std::vector<double> twin_js_deg;  // predicted at the end of the candidate's interval
 };
 
 // A request about motion, from the owner, that the table of requests has let through.
 struct MotionRequest {
   const char* op;
-  const Arguments& fields;
+  const api::Arguments& fields;
   bool operator_is_here = false;  // a client with role operator is connected
 };
 
@@ -36,11 +36,11 @@ class Desk {
   virtual ~Desk() = default;
 
   // The real-time side. refresh() takes over what it has published; the references below show that until the next one.
-  virtual Link& link() = 0;
+  virtual control::Link& link() = 0;
   virtual bool interval_began() const = 0;
   virtual void refresh() = 0;
   virtual void refresh_report() = 0;  // not the image: the newest tick alone
-  virtual const CycleReport& report() const = 0;
+  virtual const control::CycleReport& report() const = 0;
   virtual const CycleInputs& inputs() const = 0;
   virtual const CycleOutputs& outputs() const = 0;
   virtual const SupervisorState& supervisor() const = 0;
@@ -62,7 +62,7 @@ class Desk {
   virtual bool knows(const std::string& op) const = 0;
   virtual Json ask(const MotionRequest& request) = 0;
   // Samples of an operator's device; throws RequestError.
-  virtual void take_samples(const Arguments& message) = 0;
+  virtual void take_samples(const api::Arguments& message) = 0;
   // Nothing is asked for any more: stop along the path.
   virtual void hold() = 0;
   // The same, and nobody steers any more.
@@ -71,7 +71,7 @@ class Desk {
   // for, or `may_release` is false. `owner`: role number of who owns motion.
   virtual std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) = 0;
   // What has become of paths since the last call.
-  virtual std::vector<PathNews> take_path_news() = 0;
+  virtual std::vector<arbiter::PathNews> take_path_news() = 0;
 
   // The arm's part of the state message (docs/api.md) and of its entry about one drive.
   virtual void add_state(Json& state) const = 0;
@@ -79,4 +79,4 @@ class Desk {
   virtual void add_drive_state(std::size_t drive, Json& state) const = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::daemon

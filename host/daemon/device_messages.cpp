@@ -1,13 +1,13 @@
 #include "host/daemon/device_messages.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 namespace {
 
 constexpr double kPressed = 0.5;  // of trigger or button
 
-HandSample hand_sample(const Arguments& fields, const char* deadman, std::int64_t t_us) {
-  HandSample sample;
+arbiter::HandSample hand_sample(const api::Arguments& fields, const char* deadman, std::int64_t t_us) {
+  arbiter::HandSample sample;
   sample.t_us = t_us;
   sample.valid = fields.flag("valid");
   sample.pressed = fields.number(deadman) >= kPressed;
@@ -17,17 +17,17 @@ HandSample hand_sample(const Arguments& fields, const char* deadman, std::int64_
 
 }  // namespace
 
-DeviceKind device_kind(const std::string& name) {
-  if (name == "vr") return DeviceKind::kVr;
-  return name == "hand" ? DeviceKind::kHand : DeviceKind::kNone;
+arbiter::DeviceKind device_kind(const std::string& name) {
+  if (name == "vr") return arbiter::DeviceKind::kVr;
+  return name == "hand" ? arbiter::DeviceKind::kHand : arbiter::DeviceKind::kNone;
 }
 
-void add_samples(const Arguments& message, DeviceSteer& steer) {
-  const DeviceKind kind = device_kind(message.text("device"));
+void add_samples(const api::Arguments& message, arbiter::DeviceSteer& steer) {
+  const arbiter::DeviceKind kind = device_kind(message.text("device"));
   if (kind != steer.in_use().kind) return;
-  for (const Arguments& entry : message.entries("samples")) {
+  for (const api::Arguments& entry : message.entries("samples")) {
     const std::int64_t t_us = entry.integer("t_us");
-    if (kind == DeviceKind::kHand) {
+    if (kind == arbiter::DeviceKind::kHand) {
       steer.add_tip_sample(hand_sample(entry, "button", t_us));
       continue;
     }
@@ -36,4 +36,4 @@ void add_samples(const Arguments& message, DeviceSteer& steer) {
   }
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -6,12 +6,12 @@
 #include "host/api/arguments.hpp"
 #include "host/arbiter/device_steer.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 // Of "vr", "hand" or "none".
-DeviceKind device_kind(const std::string& name);
+arbiter::DeviceKind device_kind(const std::string& name);
 
 // Hands the samples of a `device` message to the steering; those of a device that is not in use are left out.
-void add_samples(const Arguments& message, DeviceSteer& steer);
+void add_samples(const api::Arguments& message, arbiter::DeviceSteer& steer);
 
-}  // namespace liana
+}  // namespace liana::daemon

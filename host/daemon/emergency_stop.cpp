@@ -2,7 +2,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 namespace {
 
@@ -52,4 +52,4 @@ std::string text_of(const StopOrder& order) {
   return "emergency stop by " + order.by + (order.reason.empty() ? "" : ": " + order.reason);
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -8,8 +8,10 @@
 #include <string_view>
 
 namespace liana {
-
 class Json;
+}  // namespace liana
+
+namespace liana::daemon {
 
 constexpr std::size_t kMostReasonBytes = 200;  // of a stop's reason; longer ones are cut
 
@@ -45,4 +47,4 @@ class EmergencyStop {
   std::optional<StopOrder> order_;
 };
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -7,7 +7,7 @@
 
 #include "host/calibration/fixture.hpp"
 
-namespace liana {
+namespace liana::daemon {
 namespace {
 
 using Index = std::size_t;
@@ -71,22 +71,22 @@ cable::CableVector reported_tension_N(const cable::RobotTable& table, const cabl
   return out;
 }
 
-Homing::Homing(const RobotConfig& robot, const std::string& in_pose) : robot_(robot), in_pose_(in_pose) {
-  if (!in_pose.empty()) check_tells_apart(robot, in_pose);
+Homing::Homing(const config::RobotConfig& robot, const std::string& in_pose) : robot_(robot), in_pose_(in_pose) {
+  if (!in_pose.empty()) calibration::check_tells_apart(robot, in_pose);
 }
 
-void Homing::look(const ArmReport<cable::CableArm>& report, const cable::EstimatorState& estimator) {
+void Homing::look(const control::ArmReport<cable::CableArm>& report, const cable::EstimatorState& estimator) {
   const cable::RobotTable& table = robot_.table;
   for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i) {
     if (report.inputs.drive[i].feedback_age_ticks == 0xFFFF) return;
   }
   why_not_.clear();
   if (!in_pose_.empty()) {
-    why_not_ =
-        contradiction(robot_, in_pose_, paid_out_m(table, report.inputs), reported_tension_N(table, report.inputs));
+    why_not_ = calibration::contradiction(robot_, in_pose_, paid_out_m(table, report.inputs),
+                                          reported_tension_N(table, report.inputs));
     if (why_not_.empty() && report.outputs.homed != 0) in_pose_.clear();
   }
   if (why_not_.empty() && report.outputs.homed == 0) why_not_ = why_lengths_do_not_fit(table, estimator);
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -8,7 +8,7 @@
 #include "host/config/config.hpp"
 #include "host/control/link.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 // Cable that every drive reports as paid out beyond its zero [m].
 cable::CableVector paid_out_m(const cable::RobotTable& table, const cable::Inputs& inputs);
@@ -20,19 +20,19 @@ class Homing {
  public:
   // `in_pose`: the named pose in which the arm lies in its fixture at the start; empty: nobody knows. Throws
   // std::runtime_error when there is no such pose, or when it does not tell every two cables apart.
-  Homing(const RobotConfig& robot, const std::string& in_pose);
+  Homing(const config::RobotConfig& robot, const std::string& in_pose);
 
   // Once per interval after booting. The pose is compared until it fits once: then the arm may leave it.
-  void look(const ArmReport<cable::CableArm>& report, const cable::EstimatorState& estimator);
+  void look(const control::ArmReport<cable::CableArm>& report, const cable::EstimatorState& estimator);
 
   bool is_homed() const { return why_not_.empty(); }
   // What contradicts what and what to do; empty while homed.
   const std::string& why_not() const { return why_not_; }
 
  private:
-  const RobotConfig& robot_;
+  const config::RobotConfig& robot_;
   std::string in_pose_;  // still to be found
   std::string why_not_ = "the drives have not been heard yet";
 };
 
-}  // namespace liana
+}  // namespace liana::daemon

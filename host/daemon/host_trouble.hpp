@@ -7,28 +7,29 @@
 #include "host/control/link.hpp"
 #include "host/event/event.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 // "active", "error_passive", "bus_off" or "down", as the API names the state of a bus.
-const char* bus_state_name(BusState state);
+const char* bus_state_name(bus::BusState state);
 
 // Compares each report with the one before.
 class HostTrouble {
  public:
   // What has changed since the last call: state of an interface, error frames, frames it refuses, frames lost in the
   // receive buffer, lost control deadlines.
-  std::vector<Event> changes(const BusesConfig& buses, const CycleReport& report);
+  std::vector<event::Event> changes(const config::BusesConfig& buses, const control::CycleReport& report);
 
  private:
   struct Seen {
-    DriveBusStats stats;
+    bus::DriveBusStats stats;
     std::uint64_t refused_before = 0;  // when it began to refuse
     bool refuses = false;
   };
-  void look_at(const std::string& name, const DriveBusStats& now, Seen& seen, std::vector<Event>& out) const;
+  void look_at(const std::string& name, const bus::DriveBusStats& now, Seen& seen,
+               std::vector<event::Event>& out) const;
 
-  std::array<Seen, kMaxDriveBuses> seen_{};
+  std::array<Seen, bus::kMaxDriveBuses> seen_{};
   std::uint64_t lost_ticks_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::daemon

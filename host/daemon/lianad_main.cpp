@@ -46,15 +46,15 @@ struct Options {
                                         events;
 };
 
-std::vector<Role> roles_in(const std::string& list) {
-  std::vector<Role> roles;
+std::vector<liana::api::Role> roles_in(const std::string& list) {
+  std::vector<liana::api::Role> roles;
   std::istringstream in(list);
-  for (std::string name; std::getline(in, name, ',');) roles.push_back(role_of(name));
+  for (std::string name; std::getline(in, name, ',');) roles.push_back(liana::api::role_of(name));
   return roles;
 }
 
 // Virtual time stands still now. Clients may read the last state until somebody sends shutdown.
-void wait_for_dismissal(Service& service) {
+void wait_for_dismissal(liana::daemon::Service& service) {
   constexpr double kPatience_s = 30.0, kLook_s = 0.05;
   service.end_lockstep();
   for (double waited_s = 0.0; waited_s < kPatience_s && !service.dismissed() && g_signal == 0; waited_s += kLook_s)
@@ -74,7 +74,7 @@ struct Ticks {
 
 // Fast and paced: one thread alternates service and real-time side, so that runs repeat bit for bit. False when the bus
 // has ended.
-bool alternate(Service& service, const Ticks& ticks) {
+bool alternate(liana::daemon::Service& service, const Ticks& ticks) {
   for (;;) {
     if (g_signal != 0) service.begin_shutdown("signal");
     service.cycle();
@@ -88,7 +88,7 @@ bool alternate(Service& service, const Ticks& ticks) {
   }
 }
 
-bool run_lockstep(Service& service, const Ticks& ticks) {
+bool run_lockstep(liana::daemon::Service& service, const Ticks& ticks) {
   try {
     return alternate(service, ticks);
   } catch (const std::exception& error) {
@@ -98,7 +98,7 @@ bool run_lockstep(Service& service, const Ticks& ticks) {
 }
 
 // The service runs once per command interval, when the real-time thread has published its image.
-void serve_beside(const ThreadEnd& realtime, Service& service) {
+void serve_beside(const liana::control::ThreadEnd& realtime, liana::daemon::Service& service) {
   while (!realtime.over && !service.finished()) {
     if (g_signal != 0) service.begin_shutdown("signal");
     if (service.interval_began()) service.cycle();
@@ -107,9 +107,9 @@ void serve_beside(const ThreadEnd& realtime, Service& service) {
 }
 
 // Real: two threads, each of which ends the motion when the other one fails.
-bool run_real(Service& service, const Ticks& ticks) {
-  ThreadEnd end;
-  const std::jthread realtime = start_realtime(
+bool run_real(liana::daemon::Service& service, const Ticks& ticks) {
+  liana::control::ThreadEnd end;
+  const std::jthread realtime = liana::control::start_realtime(
       [&ticks](const std::stop_token& stop) {
         while (!stop.stop_requested() && ticks.run_tick()) {
         }
@@ -132,9 +132,9 @@ bool run_real(Service& service, const Ticks& ticks) {
 }
 
 // That status and estop do not find it by themselves is no reason not to run.
-std::optional<Registration> registered(const std::string& api) {
+std::optional<liana::api::Registration> registered(const std::string& api) {
   try {
-    return std::optional<Registration>(std::in_place, api);
+    return std::optional<liana::api::Registration>(std::in_place, api);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "lianad: liana status and estop find this system only with --api %s: %s\n", api.c_str(),
                  error.what());
@@ -145,14 +145,14 @@ std::optional<Registration> registered(const std::string& api) {
 // What is the same for every robot.
 struct Setup {
   const Options& options;
-  TimeMode mode;
-  BusesConfig buses;
-  SceneConfig scene;
-  std::vector<Role> expected;
+  liana::timing::TimeMode mode;
+  liana::config::BusesConfig buses;
+  liana::config::SceneConfig scene;
+  std::vector<liana::api::Role> expected;
 };
 
-ServiceConfig service_config(const Setup& setup, const std::string& robot_json) {
-  ServiceConfig config;
+liana::daemon::ServiceConfig service_config(const Setup& setup, const std::string& robot_json) {
+  liana::daemon::ServiceConfig config;
   config.api_path = setup.options.api;
   config.time_mode = setup.mode;
   config.robot_json = robot_json;
@@ -160,29 +160,32 @@ ServiceConfig service_config(const Setup& setup, const std::string& robot_json) 
   config.buses = setup.buses;
   config.events_file = setup.options.events;
   if (setup.scene.camera) config.camera_latency_s = setup.scene.camera->latency_s;
-  const auto mission = std::find(setup.expected.begin(), setup.expected.end(), Role::kMission);
-  config.ends_with_mission = setup.mode != TimeMode::kReal && mission != setup.expected.end();
+  const auto mission = std::find(setup.expected.begin(), setup.expected.end(), liana::api::Role::kMission);
+  config.ends_with_mission = setup.mode != liana::timing::TimeMode::kReal && mission != setup.expected.end();
   return config;
 }
 
 // The API is there before the bus hears of us: the bench connects to it at its first wake-up.
 template <class Arm, class Robot>
-int serve(const Setup& setup, const Robot& robot, ArmLink<Arm>& link, Desk& desk) {
-  std::unique_ptr<RtCycle<Arm>> cycle;
-  ServiceConfig config = service_config(setup, robot.canonical_json);
+int serve(const Setup& setup, const Robot& robot, liana::control::ArmLink<Arm>& link, liana::daemon::Desk& desk) {
+  std::unique_ptr<liana::control::RtCycle<Arm>> cycle;
+  liana::daemon::ServiceConfig config = service_config(setup, robot.canonical_json);
   config.boot_problems = [&] { return cycle->line().boot_problems(); };
   config.serials = [&] { return cycle->line().serials(); };
-  Service service(config, desk);
-  const std::optional<Registration> registration = registered(setup.options.api);
-  const std::unique_ptr<DriveBus> bus = open_drive_bus(setup.buses, setup.mode, setup.options.bus_socket);
-  cycle = std::make_unique<RtCycle<Arm>>(robot.table, canopen::drive_expectations(robot, setup.buses), setup.buses,
-                                         *bus, link);
+  liana::daemon::Service service(config, desk);
+  const std::optional<liana::api::Registration> registration = registered(setup.options.api);
+  const std::unique_ptr<liana::bus::DriveBus> bus =
+      liana::bus::open_drive_bus(setup.buses, setup.mode, setup.options.bus_socket);
+  cycle = std::make_unique<liana::control::RtCycle<Arm>>(robot.table, canopen::drive_expectations(robot, setup.buses),
+                                                         setup.buses, *bus, link);
   handle_signals();
-  if (setup.mode != TimeMode::kReal) service.wait_for(setup.expected, kExpectTimeout_s);
+  if (setup.mode != liana::timing::TimeMode::kReal) service.wait_for(setup.expected, kExpectTimeout_s);
   const auto stop_limit = static_cast<std::uint64_t>(kStopLimit_s / robot.table.tick_s);
-  const Ticks ticks{[&] { return cycle->run_tick(); },
-                    [&](const std::function<bool()>& next) { stop_without_service(link, stop_limit, next); }};
-  const bool finished = setup.mode == TimeMode::kReal ? run_real(service, ticks) : run_lockstep(service, ticks);
+  const Ticks ticks{
+      [&] { return cycle->run_tick(); },
+      [&](const std::function<bool()>& next) { liana::control::stop_without_service(link, stop_limit, next); }};
+  const bool finished =
+      setup.mode == liana::timing::TimeMode::kReal ? run_real(service, ticks) : run_lockstep(service, ticks);
   service.take_leave();
   if (!finished) throw std::runtime_error("the bus has ended: liana-bus or the bench left");
   return 0;
@@ -190,10 +193,12 @@ int serve(const Setup& setup, const Robot& robot, ArmLink<Arm>& link, Desk& desk
 
 int serve_cable_arm(const Setup& setup) {
   const Options& options = setup.options;
-  RobotConfig robot = load_robot(options.robot, options.physics, setup.buses);
-  if (!options.calibration.empty()) apply(load_calibration(options.calibration, robot, today_utc()), robot);
-  const auto link = std::make_unique<ArmLink<cable::CableArm>>(robot.table);
-  CableDesk desk(robot, setup.scene, options.in_pose, setup.mode, *link);
+  liana::config::RobotConfig robot = liana::config::load_robot(options.robot, options.physics, setup.buses);
+  if (!options.calibration.empty())
+    liana::calibration::apply(
+        liana::calibration::load_calibration(options.calibration, robot, liana::calibration::today_utc()), robot);
+  const auto link = std::make_unique<liana::control::ArmLink<cable::CableArm>>(robot.table);
+  liana::daemon::CableDesk desk(robot, setup.scene, options.in_pose, setup.mode, *link);
   return serve(setup, robot, *link, desk);
 }
 
@@ -205,18 +210,19 @@ int serve_serial_arm(const Setup& setup) {
                                ": allowed with cable arms only: the encoders of a serial arm are "
                                "absolute; leave it out");
   }
-  const SerialRobotConfig robot = load_serial_robot(options.robot, setup.buses);
-  const auto link = std::make_unique<ArmLink<serial::SerialArm>>(robot.table);
-  SerialDesk desk(robot, setup.mode, *link);
+  const liana::config::SerialRobotConfig robot = liana::config::load_serial_robot(options.robot, setup.buses);
+  const auto link = std::make_unique<liana::control::ArmLink<serial::SerialArm>>(robot.table);
+  liana::daemon::SerialDesk desk(robot, setup.mode, *link);
   return serve(setup, robot, *link, desk);
 }
 
 int run(const Options& options) {
-  const std::optional<TimeMode> mode = time_mode_from(options.time);
+  const std::optional<liana::timing::TimeMode> mode = liana::timing::time_mode_from(options.time);
   if (!mode) throw std::runtime_error("--time " + options.time + ": allowed fast, paced, real");
-  const Setup setup{options, *mode, load_buses(options.buses), load_scene(options.scene), roles_in(options.expect)};
-  const bool is_serial = is_serial_robot(options.robot);
-  if (*mode == TimeMode::kReal) lock_memory();
+  const Setup setup{options, *mode, liana::config::load_buses(options.buses), liana::config::load_scene(options.scene),
+                    roles_in(options.expect)};
+  const bool is_serial = liana::config::is_serial_robot(options.robot);
+  if (*mode == liana::timing::TimeMode::kReal) liana::control::lock_memory();
   return is_serial ? serve_serial_arm(setup) : serve_cable_arm(setup);
 }
 
@@ -224,7 +230,7 @@ int run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CommandLine line("lianad: control core, buses, verification and API of an arm");
+  liana::command_line::CommandLine line("lianad: control core, buses, verification and API of an arm");
   line.option("--robot", options.robot, "robot JSON (docs/formats.md)").required();
   line.option("--scene", options.scene, "scene JSON").required();
   line.option("--buses", options.buses, "buses JSON").required();

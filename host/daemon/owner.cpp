@@ -2,11 +2,11 @@
 
 #include "host/api/request_error.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 void Owner::acquire(std::uint32_t client, std::uint32_t role_number, const std::string& name) {
   if (client_ != 0 && client_ != client)
-    throw RequestError("not_owner", "'" + name_ + "' owns motion; it must release first");
+    throw api::RequestError("not_owner", "'" + name_ + "' owns motion; it must release first");
   client_ = client;
   role_number_ = role_number;
   name_ = name;
@@ -27,8 +27,8 @@ bool Owner::gone(std::uint32_t client) {
 
 void Owner::require(std::uint32_t client) const {
   if (client_ == client && client != 0) return;
-  throw RequestError("not_owner",
-                     client_ == 0 ? "nobody owns motion: acquire it first" : "'" + name_ + "' owns motion");
+  throw api::RequestError("not_owner",
+                          client_ == 0 ? "nobody owns motion: acquire it first" : "'" + name_ + "' owns motion");
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace liana {
+namespace liana::daemon {
 
 class Owner {
  public:
@@ -28,4 +28,4 @@ class Owner {
   std::string name_;
 };
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -3,13 +3,13 @@
 #include "host/config/canonical.hpp"
 #include "host/config/sha256.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
-std::string path_hash(const Json& points_deg) { return sha256_hex(canonical_json(points_deg)); }
+std::string path_hash(const Json& points_deg) { return config::sha256_hex(config::canonical_json(points_deg)); }
 
-Json path_json(const std::optional<PathProgress>& path) {
+Json path_json(const std::optional<arbiter::PathProgress>& path) {
   if (!path) return nullptr;
   return {{"hash", path->hash}, {"share", path->share}};
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

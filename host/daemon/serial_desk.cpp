@@ -6,7 +6,7 @@
 #include "firmware_like/serial/drive_units.hpp"
 #include "host/daemon/state_parts.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 namespace {
 
@@ -39,8 +39,9 @@ std::string why_not(const serial::RobotTable& table, const serial::Inputs& input
 
 }  // namespace
 
-SerialDesk::SerialDesk(const SerialRobotConfig& robot, TimeMode time_mode, ArmLink<serial::SerialArm>& link)
-    : ArmDesk(robot.table, SpeedZone{}, time_mode, link, taken(time_mode)) {}
+SerialDesk::SerialDesk(const config::SerialRobotConfig& robot, timing::TimeMode time_mode,
+                       control::ArmLink<serial::SerialArm>& link)
+    : ArmDesk(robot.table, arbiter::SpeedZone{}, time_mode, link, taken(time_mode)) {}
 
 void SerialDesk::watch(bool booted) {
   if (booted) why_not_homed_ = outputs().homed != 0 ? "" : why_not(table_, inputs());
@@ -76,4 +77,4 @@ void SerialDesk::add_drive_state(std::size_t drive, Json& state) const {
   state["torque_Nm"] = outputs().torque_measured_Nm[drive];
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

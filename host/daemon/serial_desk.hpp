@@ -6,16 +6,17 @@
 #include "host/config/serial_robot.hpp"
 #include "host/daemon/arm_desk.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
-class SerialDesk final : public ArmDesk<serial::SerialArm, Arbiter<serial::SerialArm>> {
+class SerialDesk final : public ArmDesk<serial::SerialArm, arbiter::Arbiter<serial::SerialArm>> {
  public:
-  SerialDesk(const SerialRobotConfig& robot, TimeMode time_mode, ArmLink<serial::SerialArm>& link);
+  SerialDesk(const config::SerialRobotConfig& robot, timing::TimeMode time_mode,
+             control::ArmLink<serial::SerialArm>& link);
 
   void watch(bool booted) override;
   const std::string& why_not_homed() const override { return why_not_homed_; }
   // No device steers this arm yet: the samples are left out.
-  void take_samples(const Arguments&) override {}
+  void take_samples(const api::Arguments&) override {}
   void drop_motion() override { arbiter_.hold(); }
   void add_state(Json& state) const override;
   void add_drive_state(std::size_t drive, Json& state) const override;
@@ -26,4 +27,4 @@ class SerialDesk final : public ArmDesk<serial::SerialArm, Arbiter<serial::Seria
   std::string why_not_homed_ = "the drives have not been heard yet";
 };
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -10,7 +10,7 @@
 #include "host/event/event_json.hpp"
 #include "host/record/tick_packet.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 namespace {
 
@@ -24,10 +24,10 @@ constexpr double kShutdownLimit_s = 10.0;     // of arm time, until the drives a
 Service::Service(const ServiceConfig& config, Desk& desk)
     : config_(config),
       desk_(desk),
-      bounds_(request_bounds(Json::parse(config.robot_json))),
+      bounds_(api::request_bounds(Json::parse(config.robot_json))),
       stream_(bounds_),
-      log_([this](const Event& event) {
-        server_.publish_event(event_json(event).dump(-1, Json::BadUtf8::kReplace));
+      log_([this](const event::Event& event) {
+        server_.publish_event(event::event_json(event).dump(-1, Json::BadUtf8::kReplace));
         if (file_) file_->append(event);
       }),
       server_(config.api_path, *this) {
@@ -38,14 +38,14 @@ std::uint64_t Service::ticks_in(double time_s) const {
   return static_cast<std::uint64_t>(std::lround(time_s / config_.buses.tick_s()));
 }
 
-void Service::wait_for(const std::vector<Role>& roles, double timeout_s) {
+void Service::wait_for(const std::vector<api::Role>& roles, double timeout_s) {
   using Clock = std::chrono::steady_clock;
   const auto deadline = Clock::now() + std::chrono::duration<double>(timeout_s);
-  for (const Role role : roles) {
+  for (const api::Role role : roles) {
     while (!server_.has_role(role)) {
       server_.pump(0.05);
       if (Clock::now() > deadline)
-        throw std::runtime_error("--expect: a client with role '" + std::string(role_name(role)) +
+        throw std::runtime_error("--expect: a client with role '" + std::string(api::role_name(role)) +
                                  "' did not come within the time");
     }
   }
@@ -56,13 +56,13 @@ void Service::cycle() {
   log_.begin_interval(tick());
   watch_events_file();
   watch_arm();
-  desk_.watch(boot_seen_ == BootPhase::kDone);
+  desk_.watch(boot_seen_ == control::BootPhase::kDone);
   watch_homing();
   forward_ticks();
   idle(0.0);  // what came from clients outside lockstep
   forward_camera();
   publish_state();
-  if (config_.time_mode != TimeMode::kReal) server_.wait_done(tick(), kLockstepPatience_s);
+  if (config_.time_mode != timing::TimeMode::kReal) server_.wait_done(tick(), kLockstepPatience_s);
   server_.dispatch();
   watch_stream();
   release_next();
@@ -74,10 +74,10 @@ void Service::idle(double timeout_s) {
 }
 
 void Service::publish_state() {
-  if (!server_.has_subscriber(Topic::kState)) return;
+  if (!server_.has_subscriber(api::Topic::kState)) return;
   const Json state = state_message(config_.buses, desk_, owner_, notes_, log_.shown());
   const char* name = state_name(desk_);
-  server_.publish(Topic::kState, state.dump(),
+  server_.publish(api::Topic::kState, state.dump(),
                   name != published_);  // a slow reader may lose states, but no change of state
   published_ = name;
 }
@@ -92,7 +92,7 @@ void Service::note_clear() {
 
 // An arm that is not homed some time after booting says why, once; the refusal to enable it says how it stands.
 void Service::watch_homing() {
-  if (boot_seen_ == BootPhase::kDone && !homed_told_ && desk_.why_not_homed().empty()) {
+  if (boot_seen_ == control::BootPhase::kDone && !homed_told_ && desk_.why_not_homed().empty()) {
     homed_told_ = true;
     note(homed_event());
   }
@@ -121,15 +121,15 @@ void Service::watch_arm() {
   } else if (dismissed_) {
     begin_shutdown("asked for");
   }
-  const BootPhase boot = desk_.report().boot;
+  const control::BootPhase boot = desk_.report().boot;
   if (boot == boot_seen_) return;
   boot_seen_ = boot;
-  if (boot == BootPhase::kDone) {
+  if (boot == control::BootPhase::kDone) {
     note(booted_event());
     notes_.serials = config_.serials();
     homing_due_tick_ = tick() + ticks_in(kHoming_s);
   }
-  if (boot != BootPhase::kFailed) return;
+  if (boot != control::BootPhase::kFailed) return;
   notes_.boot_problems = config_.boot_problems();
   note(boot_failed_events(notes_.boot_problems));
 }
@@ -145,21 +145,21 @@ void Service::note_emergencies(const CycleInputs& inputs) {
 
 // Tick records and controller images for the archive. The image before the first tick makes a recording complete.
 void Service::forward_ticks() {
-  const bool wanted = server_.has_subscriber(Topic::kTick);
+  const bool wanted = server_.has_subscriber(api::Topic::kTick);
   desk_.take_ticks(server_.dropped_ticks(), [&](const CycleInputs& inputs, const std::function<std::string()>& packet) {
     note_emergencies(inputs);
-    if (wanted) server_.publish(Topic::kTick, packet());
+    if (wanted) server_.publish(api::Topic::kTick, packet());
   });
-  if (boot_seen_ == BootPhase::kBooting || !wanted) return;
-  if (image_sent_ && desk_.image_tick() % kImageEveryTicks != 0) return;
-  server_.publish(Topic::kTick, desk_.image_packet());
+  if (boot_seen_ == control::BootPhase::kBooting || !wanted) return;
+  if (image_sent_ && desk_.image_tick() % record::kImageEveryTicks != 0) return;
+  server_.publish(api::Topic::kTick, desk_.image_packet());
   image_sent_ = true;
 }
 
 // In lockstep time a frame waits until every run has certainly received it, so that runs repeat; see on_camera.
 void Service::forward_camera() {
   while (!camera_.empty() && camera_.front().due_tick <= tick()) {
-    server_.publish(Topic::kCamera, camera_.front().packet);
+    server_.publish(api::Topic::kCamera, camera_.front().packet);
     camera_.pop_front();
   }
 }
@@ -176,20 +176,20 @@ void Service::release_next() {
 
 // A path that does not begin is a refusal as that of a command is: who asked for it looks there.
 void Service::tell_of_paths() {
-  for (const PathNews& news : desk_.take_path_news()) {
+  for (const arbiter::PathNews& news : desk_.take_path_news()) {
     note(path_event(news));
-    if (news.what != PathEvent::kRefused) continue;
+    if (news.what != event::PathEvent::kRefused) continue;
     ++notes_.refusals;
     notes_.verdict.released = false;
-    notes_.verdict.worst.code = Refusal::kPath;
+    notes_.verdict.worst.code = verify::Refusal::kPath;
     notes_.verdict.worst.text = news.text;
   }
 }
 
-void Service::note(Event event) { log_.add(tick(), std::move(event)); }
+void Service::note(event::Event event) { log_.add(tick(), std::move(event)); }
 
-void Service::note(std::vector<Event> events) {
-  for (Event& event : events) note(std::move(event));
+void Service::note(std::vector<event::Event> events) {
+  for (event::Event& event : events) note(std::move(event));
 }
 
 // A disk that takes no events is trouble of the host, and no reason to stop the arm.
@@ -199,19 +199,20 @@ void Service::watch_events_file() {
 }
 
 void Service::request(Request what) {
-  if (boot_seen_ != BootPhase::kDone)
+  if (boot_seen_ != control::BootPhase::kDone)
     return;  // drives that are not booted have no power, and a stop in force keeps it so
-  if (!desk_.link().requests.push(what)) throw RequestError("busy", "too many requests are waiting for the next ticks");
+  if (!desk_.link().requests.push(what))
+    throw api::RequestError("busy", "too many requests are waiting for the next ticks");
 }
 
 // Drives that are not booted have no power.
 void Service::press_stop() noexcept {
   stop_tick_ = tick();
-  if (boot_seen_ == BootPhase::kDone) desk_.link().stop.press();
+  if (boot_seen_ == control::BootPhase::kDone) desk_.link().stop.press();
 }
 
 // Nobody asks for motion any more: the command in force expires and the arm holds.
-void Service::drop_motion(OwnerEvent why, const std::string& owner) {
+void Service::drop_motion(event::OwnerEvent why, const std::string& owner) {
   stream_.end();
   desk_.drop_motion();
   note(owner_event(why, owner));
@@ -222,7 +223,7 @@ void Service::begin_shutdown(const std::string& reason) {
   shutdown_tick_ = tick();
   notes_.stopping = true;
   press_stop();
-  note({.kind = EventKind::kShutdown, .text = "shutdown: " + reason});
+  note({.kind = event::EventKind::kShutdown, .text = "shutdown: " + reason});
 }
 
 void Service::stop_by_itself(const std::string& reason) {
@@ -241,4 +242,4 @@ bool Service::finished() const {
   return (off && told) || waited_s > kShutdownLimit_s;
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -23,29 +23,29 @@
 #include "host/json/json.hpp"
 #include "host/time/time_mode.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 // What the service needs to know about the run.
 struct ServiceConfig {
   std::string api_path;
-  TimeMode time_mode = TimeMode::kFast;
+  timing::TimeMode time_mode = timing::TimeMode::kFast;
   std::string robot_json, scene_json;  // canonical
-  BusesConfig buses;
+  config::BusesConfig buses;
   double camera_latency_s = 0.0;
-  std::string events_file;                                  // path; empty: events are not written
-  bool ends_with_mission = false;                           // stop the arm once the mission has come and gone
-  std::function<std::vector<BootProblem>()> boot_problems;  // asked once, when booting has failed
-  std::function<std::vector<std::uint32_t>()> serials;      // of the drives; asked once, when they are booted
+  std::string events_file;                                           // path; empty: events are not written
+  bool ends_with_mission = false;                                    // stop the arm once the mission has come and gone
+  std::function<std::vector<control::BootProblem>()> boot_problems;  // asked once, when booting has failed
+  std::function<std::vector<std::uint32_t>()> serials;               // of the drives; asked once, when they are booted
 };
 
-class Service : private ApiHandler {
+class Service : private api::ApiHandler {
  public:
   // Listens at config.api_path; throws std::runtime_error, also about config.events_file. `desk` must outlive this.
   Service(const ServiceConfig& config, Desk& desk);
 
   // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after
   // `timeout_s`.
-  void wait_for(const std::vector<Role>& roles, double timeout_s);
+  void wait_for(const std::vector<api::Role>& roles, double timeout_s);
   // One command interval. Lockstep time: returns after every lockstep client has answered.
   void cycle();
   // A new command interval has begun since the last cycle().
@@ -65,37 +65,37 @@ class Service : private ApiHandler {
   bool dismissed() const { return dismissed_; }
 
  private:
-  using Handler = Json (Service::*)(const ClientInfo&, const Arguments&);
+  using Handler = Json (Service::*)(const api::ClientInfo&, const api::Arguments&);
 
-  Json welcome(const ClientInfo& client) override;
-  Json handle(const ClientInfo& client, const Json& request) override;
-  void gone(const ClientInfo& client, const std::string& why) override;
-  Json act_on(const ClientInfo& client, const Json& request);
-  Json answer_to(const RequestRow& row, const ClientInfo& client, const Arguments& fields);
+  Json welcome(const api::ClientInfo& client) override;
+  Json handle(const api::ClientInfo& client, const Json& request) override;
+  void gone(const api::ClientInfo& client, const std::string& why) override;
+  Json act_on(const api::ClientInfo& client, const Json& request);
+  Json answer_to(const api::RequestRow& row, const api::ClientInfo& client, const api::Arguments& fields);
   static const std::map<std::string, Handler>& handlers();
 
-  Json on_acquire(const ClientInfo& client, const Arguments& fields);
-  Json on_release(const ClientInfo& client, const Arguments& fields);
-  Json on_state_command(const ClientInfo& client, const Arguments& fields);
-  Json on_tool(const ClientInfo& client, const Arguments& fields);
-  Json on_stop(const ClientInfo& client, const Arguments& fields);
-  Json on_shutdown(const ClientInfo& client, const Arguments& fields);
-  Json on_announce(const ClientInfo& client, const Arguments& fields);
-  Json on_operator_says(const ClientInfo& client, const Arguments& fields);
-  Json on_device(const ClientInfo& client, const Arguments& fields);
-  Json on_camera(const ClientInfo& client, const Arguments& fields);
-  Json on_timing(const ClientInfo& client, const Arguments& fields);
+  Json on_acquire(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_release(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_state_command(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_tool(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_stop(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_shutdown(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_announce(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_operator_says(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_device(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_camera(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_timing(const api::ClientInfo& client, const api::Arguments& fields);
 
   void require_homed() const;
   const CycleOutputs& now() const { return desk_.outputs(); }
   std::uint64_t tick() const { return desk_.report().next_tick; }
   double time_s() const { return static_cast<double>(tick()) * config_.buses.tick_s(); }
   std::uint64_t ticks_in(double time_s) const;
-  void note(Event event);
-  void note(std::vector<Event> events);
+  void note(event::Event event);
+  void note(std::vector<event::Event> events);
   void request(Request what);
   void press_stop() noexcept;
-  void drop_motion(OwnerEvent why, const std::string& owner);
+  void drop_motion(event::OwnerEvent why, const std::string& owner);
   void watch_events_file();
   void watch_arm();
   void watch_homing();
@@ -110,16 +110,16 @@ class Service : private ApiHandler {
 
   ServiceConfig config_;
   Desk& desk_;
-  RequestBounds bounds_;
+  api::RequestBounds bounds_;
   Owner owner_;
   SetpointStream stream_;
   std::optional<std::uint64_t> homing_due_tick_;  // when an arm that is not homed says why
   Notes notes_;
   HostTrouble trouble_;
   FaultWatch faults_;
-  EventLog log_;
-  std::optional<EventFile> file_;
-  BootPhase boot_seen_ = BootPhase::kBooting;
+  event::EventLog log_;
+  std::optional<event::EventFile> file_;
+  control::BootPhase boot_seen_ = control::BootPhase::kBooting;
   bool homed_told_ = false;
   bool image_sent_ = false;
   std::string published_;  // operating state of the last state message
@@ -129,11 +129,11 @@ class Service : private ApiHandler {
   };
   std::deque<CameraFrame> camera_;
   std::uint64_t clear_seen_tick_ = 0;
-  Overruns overruns_before_;  // at the last reset of the timing
+  control::Overruns overruns_before_;  // at the last reset of the timing
   std::optional<std::uint64_t> mission_end_tick_, shutdown_tick_;
   std::optional<std::uint64_t> stop_tick_;  // of the last stop, whoever asked for it
   bool dismissed_ = false;
-  ApiServer server_;  // last: its destructor may call gone()
+  api::ApiServer server_;  // last: its destructor may call gone()
 };
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -13,36 +13,37 @@
 #include "host/event/event.hpp"
 #include "host/verify/verdict.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
-Event booted_event();
+event::Event booted_event();
 // One for each drive that did not boot, and one for all of them.
-std::vector<Event> boot_failed_events(const std::vector<BootProblem>& problems);
-Event homed_event();
-Event not_homed_event(const std::string& why);
-Event clear_event(const ClearReport& clear);
+std::vector<event::Event> boot_failed_events(const std::vector<control::BootProblem>& problems);
+event::Event homed_event();
+event::Event not_homed_event(const std::string& why);
+event::Event clear_event(const ClearReport& clear);
 // `drive`: 0-based.
-Event emergency_event(std::size_t drive, std::uint16_t code);
+event::Event emergency_event(std::size_t drive, std::uint16_t code);
 // A command that verification refused.
-Event verdict_event(std::uint64_t command, const Verdict& verdict);
+event::Event verdict_event(std::uint64_t command, const verify::Verdict& verdict);
 // A path that begins, has come to an end or is refused.
-Event path_event(const PathNews& news);
+event::Event path_event(const arbiter::PathNews& news);
 // A request that is answered with this error.
-Event refusal_event(const std::string& client, const std::string& op, const std::string& code, const std::string& why);
-Event owner_event(OwnerEvent what, const std::string& client);
+event::Event refusal_event(const std::string& client, const std::string& op, const std::string& code,
+                           const std::string& why);
+event::Event owner_event(event::OwnerEvent what, const std::string& client);
 // An owner that streamed tip goals sent none for this long, its own time to live.
-Event stands_still_event(const std::string& client, double ttl_s);
-Event stop_event(const StopOrder& order);
-Event step_event(int index, const std::string& name);
+event::Event stands_still_event(const std::string& client, double ttl_s);
+event::Event stop_event(const StopOrder& order);
+event::Event step_event(int index, const std::string& name);
 
 // Which faults of the core are new.
 class FaultWatch {
  public:
   // Events of what `now` has and the list of the last call had not.
-  std::vector<Event> changes(const FaultList& now);
+  std::vector<event::Event> changes(const FaultList& now);
 
  private:
   FaultList seen_;
 };
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -6,7 +6,7 @@
 #include "host/daemon/service.hpp"
 #include "host/daemon/timing_message.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 const std::map<std::string, Service::Handler>& Service::handlers() {
   static const std::map<std::string, Handler> kHandlers{{"acquire", &Service::on_acquire},
@@ -23,81 +23,82 @@ const std::map<std::string, Service::Handler>& Service::handlers() {
   return kHandlers;
 }
 
-Json Service::handle(const ClientInfo& client, const Json& request) {
+Json Service::handle(const api::ClientInfo& client, const Json& request) {
   try {
     return act_on(client, request);
-  } catch (const RequestError& error) {
+  } catch (const api::RequestError& error) {
     const Json& op = request.member_or_null("op");
     note(refusal_event(client.name, op.is_string() ? printable(op.text()) : "", error.code(), error.what()));
     throw;
   }
 }
 
-Json Service::act_on(const ClientInfo& client, const Json& request) {
-  const RequestRow& row = row_of(request);
-  require_may(row, client.role, bounds_);
+Json Service::act_on(const api::ClientInfo& client, const Json& request) {
+  const api::RequestRow& row = api::row_of(request);
+  api::require_may(row, client.role, bounds_);
   if (row.owner_only) owner_.require(client.id);
-  const Arguments fields = checked(row, request, bounds_);
+  const api::Arguments fields = api::checked(row, request, bounds_);
   stream_.check(row, fields, time_s(), desk_.tip_command());
   Json answer = answer_to(row, client, fields);
   stream_.note(row, fields, time_s());
   return answer;
 }
 
-Json Service::answer_to(const RequestRow& row, const ClientInfo& client, const Arguments& fields) {
-  if (desk_.knows(row.op)) return desk_.ask({row.op, fields, server_.has_role(Role::kOperator)});
+Json Service::answer_to(const api::RequestRow& row, const api::ClientInfo& client, const api::Arguments& fields) {
+  if (desk_.knows(row.op)) return desk_.ask({row.op, fields, server_.has_role(api::Role::kOperator)});
   const auto found = handlers().find(row.op);
   if (found == handlers().end())
-    throw RequestError("refused", std::string(row.op) + " is not served here: leave it out");
+    throw api::RequestError("refused", std::string(row.op) + " is not served here: leave it out");
   return (this->*found->second)(client, fields);
 }
 
-Json Service::welcome(const ClientInfo&) {
+Json Service::welcome(const api::ClientInfo&) {
   return {{"op", "welcome"},
-          {"time_mode", time_mode_name(config_.time_mode)},
+          {"time_mode", timing::time_mode_name(config_.time_mode)},
           {"period_s", config_.buses.tick_s()},
           {"interval_ticks", config_.buses.interval_ticks()},
-          {"config_hash", config_hash(config_.robot_json, config_.scene_json, config_.buses.canonical_json)},
+          {"config_hash", config::config_hash(config_.robot_json, config_.scene_json, config_.buses.canonical_json)},
           {"robot", Json::parse(config_.robot_json)},
           {"scene", Json::parse(config_.scene_json)},
           {"buses", Json::parse(config_.buses.canonical_json)}};
 }
 
-void Service::gone(const ClientInfo& client, const std::string& why) {
-  note({.kind = EventKind::kClient,
+void Service::gone(const api::ClientInfo& client, const std::string& why) {
+  note({.kind = event::EventKind::kClient,
         .subject = client.name,
-        .text = std::string(role_name(client.role)) + " '" + client.name + "' is gone (" + why + ")"});
-  if (owner_.gone(client.id)) drop_motion(OwnerEvent::kGone, client.name);
-  if (config_.ends_with_mission && client.role == Role::kMission) mission_end_tick_ = tick();
+        .text = std::string(api::role_name(client.role)) + " '" + client.name + "' is gone (" + why + ")"});
+  if (owner_.gone(client.id)) drop_motion(event::OwnerEvent::kGone, client.name);
+  if (config_.ends_with_mission && client.role == api::Role::kMission) mission_end_tick_ = tick();
 }
 
-Json Service::on_acquire(const ClientInfo& client, const Arguments&) {
+Json Service::on_acquire(const api::ClientInfo& client, const api::Arguments&) {
   const bool is_new = owner_.client() != client.id;
   owner_.acquire(client.id, static_cast<std::uint32_t>(client.role) + 1, client.name);
-  if (is_new) note(owner_event(OwnerEvent::kAcquired, client.name));
+  if (is_new) note(owner_event(event::OwnerEvent::kAcquired, client.name));
   stream_.restart();
-  if (client.role == Role::kClient) notes_.stop.release();  // a mission may have asked before it saw the stop
+  if (client.role == api::Role::kClient) notes_.stop.release();  // a mission may have asked before it saw the stop
   return Json::object();
 }
 
-Json Service::on_release(const ClientInfo& client, const Arguments&) {
+Json Service::on_release(const api::ClientInfo& client, const api::Arguments&) {
   owner_.release(client.id);
-  drop_motion(OwnerEvent::kReleased, client.name);
+  drop_motion(event::OwnerEvent::kReleased, client.name);
   return Json::object();
 }
 
-Json Service::on_state_command(const ClientInfo&, const Arguments& fields) {
+Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fields) {
   const std::string command = fields.text("command");
-  if (boot_seen_ == BootPhase::kFailed) throw RequestError("fault", "booting failed: " + text_of(notes_.boot_problems));
-  if (boot_seen_ == BootPhase::kBooting) throw RequestError("busy", "the drives are still booting");
+  if (boot_seen_ == control::BootPhase::kFailed)
+    throw api::RequestError("fault", "booting failed: " + control::text_of(notes_.boot_problems));
+  if (boot_seen_ == control::BootPhase::kBooting) throw api::RequestError("busy", "the drives are still booting");
   if (command == "enable") {
     if (const auto& stop = notes_.stop.order()) {
-      throw RequestError("refused",
-                         text_of(*stop) + " is in force: a client has to acquire motion anew, or to send clear");
+      throw api::RequestError("refused",
+                              text_of(*stop) + " is in force: a client has to acquire motion anew, or to send clear");
     }
-    if (stop_tick_ == tick()) throw RequestError("refused", "a stop was asked for in the same command interval");
-    if (now().faults.count > 0) throw RequestError("fault", "a fault is latched: clear it first");
-    if (shutdown_tick_) throw RequestError("refused", "lianad is stopping");
+    if (stop_tick_ == tick()) throw api::RequestError("refused", "a stop was asked for in the same command interval");
+    if (now().faults.count > 0) throw api::RequestError("fault", "a fault is latched: clear it first");
+    if (shutdown_tick_) throw api::RequestError("refused", "lianad is stopping");
     require_homed();
     this->request(Request::kEnable);
   } else if (command == "disable") {
@@ -112,75 +113,77 @@ Json Service::on_state_command(const ClientInfo&, const Arguments& fields) {
 }
 
 void Service::require_homed() const {
-  if (!desk_.why_not_homed().empty()) throw RequestError("refused", "not homed: " + desk_.why_not_homed());
+  if (!desk_.why_not_homed().empty()) throw api::RequestError("refused", "not homed: " + desk_.why_not_homed());
 }
 
-Json Service::on_tool(const ClientInfo& client, const Arguments& fields) {
-  note({.kind = EventKind::kTool, .subject = client.name, .text = "tool: " + fields.text("command")});
+Json Service::on_tool(const api::ClientInfo& client, const api::Arguments& fields) {
+  note({.kind = event::EventKind::kTool, .subject = client.name, .text = "tool: " + fields.text("command")});
   return {{"tick", tick()}};
 }
 
 // Never refused, and first of all the flag: nothing that may fail stands before it.
-Json Service::on_stop(const ClientInfo& client, const Arguments& fields) {
+Json Service::on_stop(const api::ClientInfo& client, const api::Arguments& fields) {
   press_stop();
   desk_.hold();
   const StopOrder order{printable(client.name), stop_reason(fields.json().find("reason")), tick()};
   // A mission's own stop is how it ends; everybody else's stays in force, so that nothing enables the arm by itself
   // afterwards.
-  if (client.role != Role::kMission) notes_.stop.press(order);
+  if (client.role != api::Role::kMission) notes_.stop.press(order);
   note(stop_event(order));
   return Json::object();
 }
 
 // Acted on at the next interval: where the end of the mission stops the arm, and the mission has just ended, its
 // (repeatable) time counts.
-Json Service::on_shutdown(const ClientInfo& client, const Arguments&) {
+Json Service::on_shutdown(const api::ClientInfo& client, const api::Arguments&) {
   dismissed_ = true;
-  note({.kind = EventKind::kShutdown, .subject = client.name, .text = "shutdown asked for by '" + client.name + "'"});
+  note({.kind = event::EventKind::kShutdown,
+        .subject = client.name,
+        .text = "shutdown asked for by '" + client.name + "'"});
   return Json::object();
 }
 
-Json Service::on_announce(const ClientInfo&, const Arguments& fields) {
+Json Service::on_announce(const api::ClientInfo&, const api::Arguments& fields) {
   notes_.step = nullptr;
   if (!fields.has("step")) return Json::object();
-  const Arguments step = fields.object("step");
+  const api::Arguments step = fields.object("step");
   notes_.step = {{"index", step.integer("index")}, {"name", step.text("name")}, {"device", step.text("device")}};
   note(step_event(static_cast<int>(step.integer("index")), step.text("name")));
   return {{"tick", tick()}};
 }
 
-Json Service::on_operator_says(const ClientInfo& client, const Arguments& fields) {
+Json Service::on_operator_says(const api::ClientInfo& client, const api::Arguments& fields) {
   const std::string what = fields.text("what");
   notes_.operator_says = {{"what", what}, {"tick", tick()}};
-  note({.kind = EventKind::kOperator, .subject = client.name, .text = what});
+  note({.kind = event::EventKind::kOperator, .subject = client.name, .text = what});
   return Json::object();
 }
 
-Json Service::on_device(const ClientInfo&, const Arguments& fields) {
+Json Service::on_device(const api::ClientInfo&, const api::Arguments& fields) {
   desk_.take_samples(fields);
   return Json::object();
 }
 
-Json Service::on_camera(const ClientInfo&, const Arguments& fields) {
+Json Service::on_camera(const api::ClientInfo&, const api::Arguments& fields) {
   CameraFrame frame{0, fields.json().dump()};
-  if (config_.time_mode != TimeMode::kReal) {
+  if (config_.time_mode != timing::TimeMode::kReal) {
     // Sent in the slot after capture plus latency, it is certainly here two slots later; one more for rounding.
     const double ready_s = fields.number("capture_time_s") + config_.camera_latency_s;
     frame.due_tick = static_cast<std::uint64_t>(std::ceil(ready_s / config_.buses.tick_s() - 1e-6)) + 3;
   }
   if (camera_.size() >= 64)
-    throw RequestError("busy", "64 camera frames are waiting: their time stamps lie in the future");
+    throw api::RequestError("busy", "64 camera frames are waiting: their time stamps lie in the future");
   camera_.push_back(frame);
   return Json::object();
 }
 
-Json Service::on_timing(const ClientInfo&, const Arguments& fields) {
-  if (config_.time_mode != TimeMode::kReal) {
-    throw RequestError("refused", "timing: time mode " + std::string(time_mode_name(config_.time_mode)) +
-                                      " has no wake-ups to measure; only --time real has");
+Json Service::on_timing(const api::ClientInfo&, const api::Arguments& fields) {
+  if (config_.time_mode != timing::TimeMode::kReal) {
+    throw api::RequestError("refused", "timing: time mode " + std::string(timing::time_mode_name(config_.time_mode)) +
+                                           " has no wake-ups to measure; only --time real has");
   }
   desk_.refresh_report();
-  const Overruns& overruns = desk_.report().overruns;
+  const control::Overruns& overruns = desk_.report().overruns;
   Json answer = timing_message(desk_.link().timing.wakeup_us.counts(), desk_.link().timing.tick_us.counts(),
                                overruns.since(overruns_before_));
   if (!fields.flag("reset")) return answer;
@@ -190,4 +193,4 @@ Json Service::on_timing(const ClientInfo&, const Arguments& fields) {
   return answer;
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

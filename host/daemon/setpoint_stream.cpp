@@ -6,7 +6,7 @@
 #include "host/api/request_error.hpp"
 #include "host/api/request_text.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 namespace {
 
@@ -25,45 +25,48 @@ bool is_near(const Pose& a, const Pose& b, double most_m, double most_deg) {
 }
 
 [[noreturn]] void too_far(double far, double most, const std::string& unit, const std::string& from) {
-  throw RequestError("out_of_range", "goal = " + roughly(far) + unit + " from " + from + ": allowed 0 to " +
-                                         text_of(most) + unit + " in one servo_cp: use move_cp, or smaller steps");
+  throw api::RequestError("out_of_range", "goal = " + api::roughly(far) + unit + " from " + from + ": allowed 0 to " +
+                                              api::text_of(most) + unit +
+                                              " in one servo_cp: use move_cp, or smaller steps");
 }
 
-bool is_setpoint(const RequestRow& row) {
+bool is_setpoint(const api::RequestRow& row) {
   return std::any_of(row.fields.begin(), row.fields.end(),
-                     [](const RequestField& field) { return std::string_view(field.name) == "sequence"; });
+                     [](const api::RequestField& field) { return std::string_view(field.name) == "sequence"; });
 }
 
 }  // namespace
 
-void SetpointStream::check(const RequestRow& row, const Arguments& setpoint, double now_s, const Pose& tip) const {
+void SetpointStream::check(const api::RequestRow& row, const api::Arguments& setpoint, double now_s,
+                           const Pose& tip) const {
   if (is_setpoint(row)) check_stamp(setpoint, now_s);
-  if (row.motion == Motion::kStreams) check_jump(setpoint.pose("goal"), tip);
+  if (row.motion == api::Motion::kStreams) check_jump(setpoint.pose("goal"), tip);
 }
 
-void SetpointStream::check_stamp(const Arguments& setpoint, double now_s) const {
+void SetpointStream::check_stamp(const api::Arguments& setpoint, double now_s) const {
   if (setpoint.has("sequence") && setpoint.integer("sequence") <= sequence_) {
-    throw RequestError("refused", "sequence = " + std::to_string(setpoint.integer("sequence")) + ": allowed " +
-                                      std::to_string(sequence_ + 1) + " and more, as the owner's last one was " +
-                                      std::to_string(sequence_) + ": give every setpoint a greater number");
+    throw api::RequestError("refused", "sequence = " + std::to_string(setpoint.integer("sequence")) + ": allowed " +
+                                           std::to_string(sequence_ + 1) + " and more, as the owner's last one was " +
+                                           std::to_string(sequence_) + ": give every setpoint a greater number");
   }
   if (!setpoint.has("time_s") || !clock_s_) return;
   const double clock_s = setpoint.number("time_s");
   if (clock_s < *clock_s_) {
-    throw RequestError("refused", "time_s = " + text_of(clock_s) + ": allowed " + text_of(*clock_s_) +
-                                      " and more, as the owner's last one was that: give times of a clock that never "
-                                      "goes back");
+    throw api::RequestError("refused",
+                            "time_s = " + api::text_of(clock_s) + ": allowed " + api::text_of(*clock_s_) +
+                                " and more, as the owner's last one was that: give times of a clock that never "
+                                "goes back");
   }
   const double late_s = now_s - clock_s - (lag_s_ + kDrift * (now_s - noted_s_));
   if (setpoint.has("ttl_s") && late_s > setpoint.number("ttl_s") + kRounding_s) {
-    throw RequestError("refused", "time_s = " + text_of(clock_s) + ": this setpoint comes " + roughly(late_s) +
-                                      " s later than the quickest: allowed 0 to " + text_of(setpoint.number("ttl_s")) +
-                                      " s, its ttl_s: send newer ones");
+    throw api::RequestError("refused", "time_s = " + api::text_of(clock_s) + ": this setpoint comes " +
+                                           api::roughly(late_s) + " s later than the quickest: allowed 0 to " +
+                                           api::text_of(setpoint.number("ttl_s")) + " s, its ttl_s: send newer ones");
   }
 }
 
 void SetpointStream::check_jump(const Pose& goal, const Pose& tip) const {
-  const double most_m = kJump_s * bounds_.tip_speed_m_s, most_deg = kJump_s * bounds_.tip_rate_deg_s;
+  const double most_m = api::kJump_s * bounds_.tip_speed_m_s, most_deg = api::kJump_s * bounds_.tip_rate_deg_s;
   const Pose& before = goal_.value_or(tip);
   if (is_near(goal, before, most_m, most_deg) || is_near(goal, tip, most_m, most_deg)) return;
   const std::string from = goal_ ? "the goal before it" : "where the tip is commanded";
@@ -71,8 +74,8 @@ void SetpointStream::check_jump(const Pose& goal, const Pose& tip) const {
   too_far(turn_deg(goal, before), most_deg, " deg", from);
 }
 
-void SetpointStream::note(const RequestRow& row, const Arguments& setpoint, double now_s) {
-  if (row.motion == Motion::kReplaces) end();
+void SetpointStream::note(const api::RequestRow& row, const api::Arguments& setpoint, double now_s) {
+  if (row.motion == api::Motion::kReplaces) end();
   if (!is_setpoint(row)) return;
   if (setpoint.has("sequence")) sequence_ = setpoint.integer("sequence");
   if (setpoint.has("time_s")) {
@@ -81,7 +84,7 @@ void SetpointStream::note(const RequestRow& row, const Arguments& setpoint, doub
     clock_s_ = setpoint.number("time_s");
     noted_s_ = now_s;
   }
-  if (row.motion != Motion::kStreams) return;
+  if (row.motion != api::Motion::kStreams) return;
   goal_ = setpoint.pose("goal");
   goal_s_ = now_s;
   ttl_s_.reset();
@@ -100,4 +103,4 @@ std::optional<double> SetpointStream::overdue(double next_s, const Pose& tip) {
   return ttl_s;
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -8,20 +8,20 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/api/arguments.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 class SetpointStream {
  public:
-  explicit SetpointStream(const RequestBounds& bounds) : bounds_(bounds) {}
+  explicit SetpointStream(const api::RequestBounds& bounds) : bounds_(bounds) {}
 
   // Motion has another owner: numbers and clock begin anew.
   void restart() { *this = SetpointStream(bounds_); }
   // Throws RequestError about a setpoint that comes at `now_s`: `refused` when its sequence does not grow, its clock
   // goes back, or it comes later than its ttl_s; `out_of_range` when the goal of a stream is farther than kJump_s of
   // the tip's limits both from the goal before it and from `tip`, where the tip is commanded.
-  void check(const RequestRow& row, const Arguments& setpoint, double now_s, const Pose& tip) const;
+  void check(const api::RequestRow& row, const api::Arguments& setpoint, double now_s, const Pose& tip) const;
   // It was accepted. One that is no goal of a stream ends the stream.
-  void note(const RequestRow& row, const Arguments& setpoint, double now_s);
+  void note(const api::RequestRow& row, const api::Arguments& setpoint, double now_s);
   // Nobody streams any more.
   void end();
   // The time to live of the stream's last goal when it will have passed by `next_s`, the time of the next look, and the
@@ -29,10 +29,10 @@ class SetpointStream {
   std::optional<double> overdue(double next_s, const Pose& tip);
 
  private:
-  void check_stamp(const Arguments& setpoint, double now_s) const;
+  void check_stamp(const api::Arguments& setpoint, double now_s) const;
   void check_jump(const Pose& goal, const Pose& tip) const;
 
-  RequestBounds bounds_;
+  api::RequestBounds bounds_;
   std::int64_t sequence_ = 0;      // of the last setpoint that had one
   std::optional<double> clock_s_;  // the client's, of the last setpoint that had one
   double lag_s_ = 0.0;             // arm time less the client's clock, of the quickest setpoint lately
@@ -42,4 +42,4 @@ class SetpointStream {
   std::optional<double> ttl_s_;    // of that goal
 };
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -7,7 +7,7 @@
 #include "firmware_like/safety/faults.hpp"
 #include "host/daemon/host_trouble.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 namespace {
 
@@ -28,8 +28,8 @@ Json faults_json(const FaultList& list) {
 }
 
 // Of drives that did not boot: the core has not run, and knows nothing of them. The text is about this drive.
-void add_boot_faults(Json& state, const std::vector<BootProblem>& problems) {
-  for (const BootProblem& problem : problems) {
+void add_boot_faults(Json& state, const std::vector<control::BootProblem>& problems) {
+  for (const control::BootProblem& problem : problems) {
     const FaultInfo& info = fault_info(problem.number);
     state["faults"].push_back({{"number", static_cast<int>(problem.number)},
                                {"name", info.name},
@@ -64,12 +64,12 @@ Json drives_json(const Desk& desk, const std::vector<std::uint32_t>& serials) {
   return drives;
 }
 
-Json buses_json(const BusesConfig& buses, const Desk& desk) {
-  const CycleReport& report = desk.report();
+Json buses_json(const config::BusesConfig& buses, const Desk& desk) {
+  const control::CycleReport& report = desk.report();
   const double time_s = static_cast<double>(report.next_tick) * buses.tick_s();
   Json list = Json::array();
   for (std::size_t b = 0; b < buses.buses.size(); ++b) {
-    const DriveBusStats& bus = report.bus[b];
+    const bus::DriveBusStats& bus = report.bus[b];
     list.push_back(
         {{"name", buses.buses[b].name},
          {"frames", bus.sent + bus.received},
@@ -77,7 +77,7 @@ Json buses_json(const BusesConfig& buses, const Desk& desk) {
          {"errors", bus.errors},
          {"state", bus_state_name(bus.state)},
          {"lost", (desk.inputs().lost_bus_mask >> b & 1u) != 0},
-         {"worst_load", worst_case_load(buses, b)},
+         {"worst_load", config::worst_case_load(buses, b)},
          {"measured_load", time_s > 0.0 ? static_cast<double>(bus.bits) / (time_s * buses.buses[b].bitrate) : 0.0}});
   }
   return list;
@@ -98,9 +98,9 @@ Json verdict_json(const LastVerdict& v) {
           {"text", v.worst.text},   {"margin", v.worst.margin}, {"twin_js_deg", v.twin_js_deg}};
 }
 
-Json events_json(const std::deque<Event>& events) {
+Json events_json(const std::deque<event::Event>& events) {
   Json list = Json::array();
-  for (const Event& event : events) list.push_back({{"tick", event.tick}, {"text", event.text}});
+  for (const event::Event& event : events) list.push_back({{"tick", event.tick}, {"text", event.text}});
   return list;
 }
 
@@ -108,14 +108,14 @@ Json events_json(const std::deque<Event>& events) {
 
 const char* state_name(const Desk& desk) {
   static constexpr std::array<const char*, 5> kNames{"DISABLED", "ENABLING", "ENABLED", "STOPPING", "FAULT"};
-  if (desk.report().boot == BootPhase::kBooting) return "BOOTING";
-  if (desk.report().boot == BootPhase::kFailed) return "FAULT";
+  if (desk.report().boot == control::BootPhase::kBooting) return "BOOTING";
+  if (desk.report().boot == control::BootPhase::kFailed) return "FAULT";
   return kNames[static_cast<std::size_t>(desk.outputs().state)];
 }
 
-Json state_message(const BusesConfig& buses, const Desk& desk, const Owner& owner, const Notes& notes,
-                   const std::deque<Event>& events) {
-  const CycleReport& report = desk.report();
+Json state_message(const config::BusesConfig& buses, const Desk& desk, const Owner& owner, const Notes& notes,
+                   const std::deque<event::Event>& events) {
+  const control::CycleReport& report = desk.report();
   const CycleOutputs& o = desk.outputs();
   Json state{{"op", "state"},
              {"tick", report.next_tick},
@@ -142,4 +142,4 @@ Json state_message(const BusesConfig& buses, const Desk& desk, const Owner& owne
   return state;
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -12,7 +12,7 @@
 #include "host/event/event.hpp"
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 // What the service adds to the arm's own report.
 struct Notes {
@@ -20,7 +20,7 @@ struct Notes {
   Json operator_says = nullptr;  // with the tick
   LastVerdict verdict{};
   std::uint64_t refusals = 0;
-  std::vector<BootProblem> boot_problems;  // faults of drives that did not boot
+  std::vector<control::BootProblem> boot_problems;  // faults of drives that did not boot
   EmergencyStop stop;
   bool stopping = false;
   std::vector<std::uint32_t> serials;  // of the drives, once they are booted
@@ -30,7 +30,7 @@ struct Notes {
 const char* state_name(const Desk& desk);
 
 // The whole message; `events`: those it shows.
-Json state_message(const BusesConfig& buses, const Desk& desk, const Owner& owner, const Notes& notes,
-                   const std::deque<Event>& events);
+Json state_message(const config::BusesConfig& buses, const Desk& desk, const Owner& owner, const Notes& notes,
+                   const std::deque<event::Event>& events);
 
-}  // namespace liana
+}  // namespace liana::daemon

@@ -4,7 +4,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 constexpr double in_degrees(double rad) { return rad * 57.29577951308232; }
 
@@ -24,4 +24,4 @@ void add_tip(Json& state, const Outputs& o) {
                  {"residual_rad", {o.ik_residual[3], o.ik_residual[4], o.ik_residual[5]}}};
 }
 
-}  // namespace liana
+}  // namespace liana::daemon

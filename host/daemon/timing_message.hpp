@@ -5,9 +5,10 @@
 #include "host/control/link.hpp"
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 // `overruns`: those of the same time as the counts. At most 64 KiB as text up to 9 999 999 ticks in every bucket.
-Json timing_message(const LatencyCounts& wakeup, const LatencyCounts& tick, const Overruns& overruns);
+Json timing_message(const control::LatencyCounts& wakeup, const control::LatencyCounts& tick,
+                    const control::Overruns& overruns);
 
-}  // namespace liana
+}  // namespace liana::daemon

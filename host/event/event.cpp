@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cstdio>
 
-namespace liana {
+namespace liana::event {
 namespace {
 
 constexpr std::array<const char*, kEventKinds> kNames{
@@ -61,4 +61,4 @@ std::string event_line(const Event& event, double period_s) {
   return head.data() + on_one_line(event.subject) + "\t" + on_one_line(event.text) + "\t" + values_text(event.values);
 }
 
-}  // namespace liana
+}  // namespace liana::event

@@ -8,7 +8,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace liana {
+namespace liana::event {
 
 // What an event is about. `number`, `subject` and the names in `values` mean what stands beside the kind.
 enum class EventKind : std::uint8_t {
@@ -97,4 +97,4 @@ extern const char* const kEventLineHeading;
 // Control characters become blanks. `period_s` is that of the ticks.
 std::string event_line(const Event& event, double period_s);
 
-}  // namespace liana
+}  // namespace liana::event

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace liana {
+namespace liana::event {
 namespace {
 
 std::uint64_t lines_of_events(std::string_view text) {
@@ -122,4 +122,4 @@ void EventFile::take_result(std::string_view text, std::size_t done, int reason)
   missing_said_ = 0;  // the line that said so may be lost, too
 }
 
-}  // namespace liana
+}  // namespace liana::event

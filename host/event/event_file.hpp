@@ -11,7 +11,7 @@
 
 #include "host/event/event.hpp"
 
-namespace liana {
+namespace liana::event {
 
 class EventFile {
  public:
@@ -55,4 +55,4 @@ class EventFile {
   std::thread thread_;  // last: it uses all of the above
 };
 
-}  // namespace liana
+}  // namespace liana::event

@@ -5,7 +5,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::event {
 
 const char* const kEventSchema = R"({"$schema":"https://json-schema.org/draft/2020-12/schema","title":"event",
 "description":"why something happened, once; docs/formats.md, Events","type":"object","additionalProperties":false,
@@ -47,4 +47,4 @@ Event event_from_json(const Json& json) {
   return event;
 }
 
-}  // namespace liana
+}  // namespace liana::event

@@ -4,7 +4,7 @@
 #include "host/event/event.hpp"
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
+namespace liana::event {
 
 // JSON Schema of one event; what event_json() gives is valid against it.
 extern const char* const kEventSchema;
@@ -17,4 +17,4 @@ Json event_json(const Event& event);
 // name.
 Event event_from_json(const Json& json);
 
-}  // namespace liana
+}  // namespace liana::event

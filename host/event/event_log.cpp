@@ -1,6 +1,6 @@
 #include "host/event/event_log.hpp"
 
-namespace liana {
+namespace liana::event {
 namespace {
 
 // What a state tells elsewhere, or its client was told, pushes nothing else out of the few that are shown.
@@ -42,4 +42,4 @@ void EventLog::begin_interval(std::uint64_t tick) {
   }
 }
 
-}  // namespace liana
+}  // namespace liana::event

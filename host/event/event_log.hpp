@@ -7,7 +7,7 @@
 
 #include "host/event/event.hpp"
 
-namespace liana {
+namespace liana::event {
 
 class EventLog {
  public:
@@ -38,4 +38,4 @@ class EventLog {
   std::deque<Event> shown_;
 };
 
-}  // namespace liana
+}  // namespace liana::event

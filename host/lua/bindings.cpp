@@ -10,7 +10,7 @@
 #include "host/lua/activity.hpp"
 #include "host/lua/json_bridge.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 constexpr std::size_t kFirst = 1;  // Lua counts from 1
@@ -35,25 +35,25 @@ RequestSink& sink_of(lua_State* state) {
 }
 
 // The table of fields at `index`; an empty one is an array to to_json.
-Json fields_at(lua_State* state, int index, const RequestRow& row) {
+Json fields_at(lua_State* state, int index, const api::RequestRow& row) {
   Json fields = lua_isnoneornil(state, index) ? Json::object() : to_json(state, index, row.op);
   if (fields.is_array() && fields.empty()) fields = Json::object();
   if (!fields.is_object())
-    throw RequestError("bad_request",
-                       std::string("allowed a table with named fields: write arm.") + row.op + " { ... }");
+    throw api::RequestError("bad_request",
+                            std::string("allowed a table with named fields: write arm.") + row.op + " { ... }");
   return fields;
 }
 
 // Names and types are the script's own business; what the robot allows, lianad says.
 int send_command(lua_State* state) {
-  const auto& row = *static_cast<const RequestRow*>(lua_touserdata(state, lua_upvalueindex(2)));
+  const auto& row = *static_cast<const api::RequestRow*>(lua_touserdata(state, lua_upvalueindex(2)));
   return guarded(state, [&] {
     try {
       Json fields = fields_at(state, 1, row);
-      check_fields(row, fields, nullptr, kFirst);
+      api::check_fields(row, fields, nullptr, kFirst);
       lua_pushinteger(state, sink_of(state).request(row, std::move(fields)));
       return 1;
-    } catch (const RequestError& error) {
+    } catch (const api::RequestError& error) {
       throw std::runtime_error(std::string(row.op) + ": " + error.what());
     }
   });
@@ -61,13 +61,13 @@ int send_command(lua_State* state) {
 
 // What is refused is the result and no error; the text is copied so that no C++ object is left when Lua raises one.
 int refusal(lua_State* state) {
-  const auto& bounds = *static_cast<const RequestBounds*>(lua_touserdata(state, lua_upvalueindex(1)));
+  const auto& bounds = *static_cast<const api::RequestBounds*>(lua_touserdata(state, lua_upvalueindex(1)));
   std::array<char, 400> problem{};
   try {
     const char* op = lua_tostring(state, 1);
-    const RequestRow& row = row_of({{"op", op != nullptr ? op : ""}});
-    require_may(row, Role::kMission, bounds);
-    check_fields(row, fields_at(state, 2, row), &bounds, kFirst);
+    const api::RequestRow& row = api::row_of({{"op", op != nullptr ? op : ""}});
+    api::require_may(row, api::Role::kMission, bounds);
+    api::check_fields(row, fields_at(state, 2, row), &bounds, kFirst);
   } catch (const std::exception& error) {
     put_text(problem, error.what());
   }
@@ -98,25 +98,25 @@ void add_native(lua_State* state, RequestSink& sink, const char* name, lua_CFunc
 
 }  // namespace
 
-std::vector<const RequestRow*> commands() {
-  std::vector<const RequestRow*> out;
-  for (const RequestRow& row : request_table()) {
+std::vector<const api::RequestRow*> commands() {
+  std::vector<const api::RequestRow*> out;
+  for (const api::RequestRow& row : api::request_table()) {
     if (row.in_missions) out.push_back(&row);
   }
   return out;
 }
 
-void push_refusal(lua_State* state, const RequestBounds& bounds) {
-  lua_pushlightuserdata(state, const_cast<RequestBounds*>(&bounds));
+void push_refusal(lua_State* state, const api::RequestBounds& bounds) {
+  lua_pushlightuserdata(state, const_cast<api::RequestBounds*>(&bounds));
   lua_pushcclosure(state, refusal, 1);
 }
 
 void push_native(lua_State* state, RequestSink& sink) {
   lua_newtable(state);
   lua_newtable(state);
-  for (const RequestRow* row : commands()) {
+  for (const api::RequestRow* row : commands()) {
     lua_pushlightuserdata(state, &sink);
-    lua_pushlightuserdata(state, const_cast<RequestRow*>(row));
+    lua_pushlightuserdata(state, const_cast<api::RequestRow*>(row));
     lua_pushcclosure(state, send_command, 2);
     lua_setfield(state, -2, row->op);
   }
@@ -125,4 +125,4 @@ void push_native(lua_State* state, RequestSink& sink) {
   add_native(state, sink, "report", send_report);
 }
 
-}  // namespace liana
+}  // namespace liana::script

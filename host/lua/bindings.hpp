@@ -7,18 +7,18 @@
 #include "host/api/request_table.hpp"
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
+namespace liana::script {
 
 // All commands, in the order of docs/api.md. Each is a function of one table that sends {"op": name, ...} and returns
 // the request id.
-std::vector<const RequestRow*> commands();
+std::vector<const api::RequestRow*> commands();
 
 // Where commands go.
 class RequestSink {
  public:
   virtual ~RequestSink() = default;
   // Sends a request and returns its id.
-  virtual std::int64_t request(const RequestRow& row, Json fields) = 0;
+  virtual std::int64_t request(const api::RequestRow& row, Json fields) = 0;
   // Progress of the mission, see lua/liana/engine.lua.
   virtual void progress(const Json& event) = 0;
   // The report as far as it is known.
@@ -30,6 +30,6 @@ void push_native(lua_State* state, RequestSink& sink);
 
 // Pushes a function (command, fields) -> what lianad would refuse about them with a robot of these bounds, or nil;
 // `bounds` must outlive the state.
-void push_refusal(lua_State* state, const RequestBounds& bounds);
+void push_refusal(lua_State* state, const api::RequestBounds& bounds);
 
-}  // namespace liana
+}  // namespace liana::script

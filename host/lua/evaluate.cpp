@@ -10,7 +10,7 @@
 #include "host/lua/bindings.hpp"
 #include "host/lua/json_bridge.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 constexpr const char* kPlanAdvice = "give a file that liana plan --out has written";
@@ -28,7 +28,7 @@ void naming_file(const std::string& display, const Action& action) {
 }
 
 int push_refusal_protected(lua_State* state) {
-  push_refusal(state, *static_cast<const RequestBounds*>(lua_touserdata(state, 1)));
+  push_refusal(state, *static_cast<const api::RequestBounds*>(lua_touserdata(state, 1)));
   return 1;
 }
 
@@ -46,7 +46,7 @@ Json describe(Script& script, const std::string& display) {
 // Leaves the mission of a script on the stack, or of a plan that `liana plan --out` has written.
 void push_mission(Script& script, const ScriptFile& file) {
   if (!file.display.ends_with(".json")) return script.run(file);
-  const Json plan = parse_json(file.text, file.display, kPlanAdvice);
+  const Json plan = config::parse_json(file.text, file.display, kPlanAdvice);
   script.require("liana.plan_mission");
   push_in_protection(script, plan);
   script.call(1, 1);
@@ -55,7 +55,7 @@ void push_mission(Script& script, const ScriptFile& file) {
 // A plan is a way of the robot that it was made for, and of no other.
 void check_robot_of_plan(const ScriptFile& file, const Json& robot) {
   if (!file.display.ends_with(".json")) return;
-  const Json plan = parse_json(file.text, file.display, kPlanAdvice);
+  const Json plan = config::parse_json(file.text, file.display, kPlanAdvice);
   if (plan.member_or_null("inputs").member_or_null("robot") == robot) return;
   throw std::runtime_error(
       "inputs.robot: another robot than " + robot.value("name", "") +
@@ -66,7 +66,7 @@ void check_robot_of_plan(const ScriptFile& file, const Json& robot) {
 
 void check_against_robot(Script& script, const Json& robot) {
   lua_State* state = script.state();
-  RequestBounds bounds = request_bounds(robot);
+  api::RequestBounds bounds = api::request_bounds(robot);
   script.require("liana.check");
   lua_getfield(state, -1, "against");
   lua_pushvalue(state, -3);
@@ -93,7 +93,7 @@ std::string evaluate(Script& script, const std::string& lua_dir, const std::stri
     script.run(file);
     result = to_json(script.state(), -1, file.display);
   });
-  return check_table(kind, result, file.display);
+  return config::check_table(kind, result, file.display);
 }
 
 std::string evaluate_mission(Script& script, const std::string& lua_dir, const std::string& name,
@@ -107,7 +107,7 @@ std::string evaluate_mission(Script& script, const std::string& lua_dir, const s
     check_against_robot(script, robot);
     result = describe(script, file.display);
   });
-  return canonical_json(result);
+  return config::canonical_json(result);
 }
 
-}  // namespace liana
+}  // namespace liana::script

@@ -6,7 +6,7 @@
 #include "host/json/json_fwd.hpp"
 #include "host/lua/script.hpp"
 
-namespace liana {
+namespace liana::script {
 
 // Canonical JSON of a robot, scene or buses table. Throws std::runtime_error with one message.
 std::string evaluate(Script& script, const std::string& lua_dir, const std::string& kind, const std::string& name);
@@ -23,4 +23,4 @@ void load_mission(Script& script, const std::string& lua_dir, const std::string&
 // evaluate does.
 void check_against_robot(Script& script, const Json& robot);
 
-}  // namespace liana
+}  // namespace liana::script

@@ -6,7 +6,7 @@
 #include "host/json/json.hpp"
 #include "host/lua/script.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 constexpr int kDeepest = 24;
@@ -146,4 +146,4 @@ void push_in_protection(Script& script, const Json& value) {
   script.call(1, 1);
 }
 
-}  // namespace liana
+}  // namespace liana::script

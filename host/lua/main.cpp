@@ -12,6 +12,8 @@
 #include "host/lua/mission_run.hpp"
 #include "host/lua/watchdog.hpp"
 
+using namespace liana::script;
+
 namespace {
 
 // Runs `body`; bad input becomes one message on standard error and exit code 2.
@@ -20,7 +22,7 @@ int with_message(const std::function<int()>& body) {
     return body();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "liana-mission: %s\n", error.what());
-    return liana::kExitBadInput;
+    return kExitBadInput;
   }
 }
 
@@ -28,51 +30,49 @@ struct EvalOptions {
   std::string lua_dir, kind, name, robot = "zhu2022";
 };
 
-std::string robot_json(const EvalOptions& options, liana::Activity& activity) {
-  if (options.robot.ends_with(".json")) return liana::read_text_file(options.robot);
-  liana::Script script(liana::ScriptLimits{}, options.lua_dir, activity);
-  return liana::evaluate(script, options.lua_dir, "robot", options.robot);
+std::string robot_json(const EvalOptions& options, Activity& activity) {
+  if (options.robot.ends_with(".json")) return liana::config::read_text_file(options.robot);
+  Script script(ScriptLimits{}, options.lua_dir, activity);
+  return evaluate(script, options.lua_dir, "robot", options.robot);
 }
 
-int evaluate_and_print(const EvalOptions& options, liana::Activity& activity) {
-  liana::Script script(liana::ScriptLimits{}, options.lua_dir, activity);
-  const std::string text =
-      options.kind == "mission"
-          ? liana::evaluate_mission(script, options.lua_dir, options.name, robot_json(options, activity))
-          : liana::evaluate(script, options.lua_dir, options.kind, options.name);
+int evaluate_and_print(const EvalOptions& options, Activity& activity) {
+  Script script(ScriptLimits{}, options.lua_dir, activity);
+  const std::string text = options.kind == "mission"
+                               ? evaluate_mission(script, options.lua_dir, options.name, robot_json(options, activity))
+                               : evaluate(script, options.lua_dir, options.kind, options.name);
   std::printf("%s\n", text.c_str());
   return 0;
 }
 
 // What the watchdog's kill means for the user, in one message.
-std::string killed_text(const std::string& name, const liana::Activity& activity) {
+std::string killed_text(const std::string& name, const Activity& activity) {
   return name + ": computed for more than 2 s without giving back control and was killed, last seen at " +
-         liana::last_seen(activity) + ": look for an endless loop";
+         last_seen(activity) + ": look for an endless loop";
 }
 
 int eval_command(const EvalOptions& options) {
   const std::string& name = options.name;
-  liana::Activity& activity = liana::shared_activity();
-  const liana::WatchedEnd end = liana::run_watched(
-      activity, {}, [&] { return with_message([&] { return evaluate_and_print(options, activity); }); });
+  Activity& activity = shared_activity();
+  const WatchedEnd end =
+      run_watched(activity, {}, [&] { return with_message([&] { return evaluate_and_print(options, activity); }); });
   if (end.killed_by_watchdog) std::fprintf(stderr, "liana-mission: %s\n", killed_text(name, activity).c_str());
   if (end.signal != 0)
     std::fprintf(stderr, "liana-mission: %s: the script's process was killed by signal %d\n", name.c_str(), end.signal);
-  return end.killed_by_watchdog ? liana::kExitBadInput : end.exit_code;
+  return end.killed_by_watchdog ? kExitBadInput : end.exit_code;
 }
 
 // Reports for a script's process that can no longer do it.
-int report_death(const liana::MissionOptions& options, const liana::Activity& activity, const std::string& reason) {
+int report_death(const MissionOptions& options, const Activity& activity, const std::string& reason) {
   std::fprintf(stderr, "liana-mission: %s\n", reason.c_str());
-  if (!options.report_file.empty())
-    liana::write_report(options.report_file, liana::failed_report(activity, options.mission, reason));
-  return liana::kExitWatchdog;
+  if (!options.report_file.empty()) write_report(options.report_file, failed_report(activity, options.mission, reason));
+  return kExitWatchdog;
 }
 
-int run_command(const liana::MissionOptions& options) {
-  liana::Activity& activity = liana::shared_activity();
-  const liana::WatchedEnd end = liana::run_watched(
-      activity, {}, [&] { return with_message([&] { return liana::run_mission(options, activity); }); });
+int run_command(const MissionOptions& options) {
+  Activity& activity = shared_activity();
+  const WatchedEnd end =
+      run_watched(activity, {}, [&] { return with_message([&] { return run_mission(options, activity); }); });
   if (end.killed_by_watchdog)
     return report_death(options, activity, killed_text(options.mission, activity) + "; the arm holds");
   if (end.signal != 0) {
@@ -85,12 +85,12 @@ int run_command(const liana::MissionOptions& options) {
 
 int bindings_command() {
   liana::Json list = liana::Json::array();
-  for (const liana::RequestRow* row : liana::commands()) {
+  for (const liana::api::RequestRow* row : commands()) {
     liana::Json fields = liana::Json::array();
-    for (const liana::RequestField& field : row->fields) {
-      const bool required = field.need == liana::Need::kRequired;
+    for (const liana::api::RequestField& field : row->fields) {
+      const bool required = field.need == liana::api::Need::kRequired;
       fields.push_back(
-          {{"name", field.name}, {"type", liana::lua_type(field)}, {"required", required}, {"doc", field.doc}});
+          {{"name", field.name}, {"type", liana::api::lua_type(field)}, {"required", required}, {"doc", field.doc}});
     }
     list.push_back({{"name", row->op}, {"doc", row->doc}, {"fields", fields}});
   }
@@ -101,17 +101,17 @@ int bindings_command() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  liana::CommandLine line("Evaluates Liana's Lua tables and runs missions");
-  liana::MissionOptions options;
+  liana::command_line::CommandLine line("Evaluates Liana's Lua tables and runs missions");
+  MissionOptions options;
   options.lua_dir = LIANA_LUA_DIR;
   EvalOptions evaluated;
-  liana::Command eval = line.command("eval", "check a table and print it as canonical JSON");
+  liana::command_line::Command eval = line.command("eval", "check a table and print it as canonical JSON");
   eval.option("kind", evaluated.kind, "robot, scene, buses or mission").required();
   eval.option("name", evaluated.name, "a name in the Lua folder or a file").required();
   eval.option("--robot", evaluated.robot, "robot a mission is checked against: a name or exported JSON")
       .with_default_shown();
   eval.option("--lua-dir", options.lua_dir, "the Lua folder");
-  liana::Command run = line.command(
+  liana::command_line::Command run = line.command(
       "run", "run a mission; exit 0 on success, 1 when not, 2 for bad input, 4 when the script had to be killed");
   run.option("--api", options.api, "socket of lianad").required();
   run.option("--mission", options.mission, "a name in lua/missions or a file").required();
@@ -120,8 +120,8 @@ int main(int argc, char** argv) {
   run.flag("--lockstep", options.lockstep, "let virtual time wait for this mission");
   run.flag("--progress", options.progress, "print a line when a step begins and ends");
   run.flag("--json", options.json, "print progress and report as JSON lines");
-  liana::Command list = line.command("bindings", "print the commands a mission can give, as JSON");
-  if (const auto code = line.parse(argc, argv)) return *code == 0 ? 0 : liana::kExitBadInput;
+  liana::command_line::Command list = line.command("bindings", "print the commands a mission can give, as JSON");
+  if (const auto code = line.parse(argc, argv)) return *code == 0 ? 0 : kExitBadInput;
   return with_message([&] {
     evaluated.lua_dir = options.lua_dir;
     if (eval.chosen()) return eval_command(evaluated);

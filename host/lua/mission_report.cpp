@@ -7,7 +7,7 @@
 
 #include "host/lua/mission_run.hpp"
 
-namespace liana {
+namespace liana::script {
 
 namespace {
 
@@ -46,4 +46,4 @@ std::string failed_report(const Activity& activity, const std::string& mission, 
   return report.dump();
 }
 
-}  // namespace liana
+}  // namespace liana::script

@@ -8,7 +8,7 @@
 #include "host/lua/json_bridge.hpp"
 #include "host/lua/session.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 constexpr const char* kClientName = "mission";  // as said in hello; lianad's state names the owner so
@@ -106,4 +106,4 @@ int run_mission(const MissionOptions& options, Activity& activity) {
   return run_connected(options, activity, script);
 }
 
-}  // namespace liana
+}  // namespace liana::script

@@ -6,7 +6,7 @@
 
 #include "host/lua/script.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 constexpr const char* kGlobals = "liana.globals";  // registry: what every environment falls back to
@@ -213,4 +213,4 @@ int require_module(lua_State* state) {
   return 1;
 }
 
-}  // namespace liana
+}  // namespace liana::script

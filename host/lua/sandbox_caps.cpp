@@ -5,7 +5,7 @@
 
 #include "host/lua/sandbox.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 constexpr lua_Integer kLongestSubject = 4096;  // of a pattern match [bytes]
@@ -120,4 +120,4 @@ int print_to_stderr(lua_State* state) {
   return 0;
 }
 
-}  // namespace liana
+}  // namespace liana::script

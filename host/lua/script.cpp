@@ -5,7 +5,7 @@
 
 #include "host/lua/sandbox.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 constexpr int kHookInstructions = 1000;
@@ -105,4 +105,4 @@ void Script::call(int arguments, int results) {
 
 Script::Budget& script_budget(lua_State* state) { return **static_cast<Script::Budget**>(lua_getextraspace(state)); }
 
-}  // namespace liana
+}  // namespace liana::script

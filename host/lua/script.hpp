@@ -11,7 +11,7 @@
 #include "host/lua/activity.hpp"
 #include "host/lua/script_files.hpp"
 
-namespace liana {
+namespace liana::script {
 
 // What a script may use up.
 struct ScriptLimits {
@@ -55,4 +55,4 @@ class Script {
 // The accounting of the script that runs in this state (or in a coroutine of it).
 Script::Budget& script_budget(lua_State* state);
 
-}  // namespace liana
+}  // namespace liana::script

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 namespace fs = std::filesystem;
@@ -71,4 +71,4 @@ ScriptFile find_module(const std::string& lua_dir, const std::string& name) {
   return read_script(fs::path(lua_dir) / (relative + ".lua"), relative + ".lua");
 }
 
-}  // namespace liana
+}  // namespace liana::script

@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace liana {
+namespace liana::script {
 
 // A script's text and its name in messages.
 struct ScriptFile {
@@ -19,4 +19,4 @@ ScriptFile find_script(const std::string& lua_dir, const std::string& kind, cons
 // below the Lua folder.
 ScriptFile find_module(const std::string& lua_dir, const std::string& name);
 
-}  // namespace liana
+}  // namespace liana::script

@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 constexpr double kWelcome_s = 30.0;
@@ -28,7 +28,7 @@ std::string progress_line(const Json& event) {
 }  // namespace
 
 MissionSession::MissionSession(const MissionOptions& options, Activity& activity)
-    : options_(options), activity_(activity), client_(ApiClient::connect(options.api, kWelcome_s)) {
+    : options_(options), activity_(activity), client_(api::ApiClient::connect(options.api, kWelcome_s)) {
   client_.send({{"op", "hello"},
                 {"name", "mission"},
                 {"role", "mission"},
@@ -69,7 +69,7 @@ void MissionSession::hold_quietly() {
   }
 }
 
-std::int64_t MissionSession::request(const RequestRow& row, Json fields) {
+std::int64_t MissionSession::request(const api::RequestRow& row, Json fields) {
   fields["op"] = row.op;
   fields["id"] = ++last_id_;
   client_.send(fields);
@@ -88,4 +88,4 @@ void MissionSession::report(const Json& report) {
   if (text.size() < activity_.report.size()) put_text(activity_.report, text);
 }
 
-}  // namespace liana
+}  // namespace liana::script

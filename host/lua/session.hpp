@@ -8,7 +8,7 @@
 #include "host/lua/bindings.hpp"
 #include "host/lua/mission_run.hpp"
 
-namespace liana {
+namespace liana::script {
 
 // Speaks to lianad for one mission; commands of the script go out through it.
 class MissionSession : public RequestSink {
@@ -26,17 +26,17 @@ class MissionSession : public RequestSink {
   // Asks for a hold; says nothing when lianad is gone.
   void hold_quietly();
 
-  std::int64_t request(const RequestRow& row, Json fields) override;
+  std::int64_t request(const api::RequestRow& row, Json fields) override;
   void progress(const Json& event) override;
   void report(const Json& report) override;
 
  private:
   const MissionOptions& options_;
   Activity& activity_;
-  ApiClient client_;
+  api::ApiClient client_;
   Json welcome_;
   Json report_;
   std::int64_t last_id_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::script

@@ -13,7 +13,7 @@
 #include <new>
 #include <stdexcept>
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 constexpr long kPoll_ns = 20'000'000;
@@ -103,4 +103,4 @@ std::string last_seen(const Activity& activity) {
   return std::string(activity.file.data()) + ":" + std::to_string(activity.line.load(std::memory_order_relaxed));
 }
 
-}  // namespace liana
+}  // namespace liana::script

@@ -5,7 +5,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 namespace {
 
 // Rounded to what such devices resolve, which also keeps packets short.
@@ -61,4 +61,4 @@ Json device_message(const std::vector<ControllerSample>& samples) {
 
 TipSighting sighting_of(const Json& message) { return {pose_of(message, "slit"), pose_of(message, "rod")}; }
 
-}  // namespace liana
+}  // namespace liana::operator_side

@@ -7,7 +7,7 @@
 #include "host/operator/samples.hpp"
 #include "host/operator/slit_view.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 
 // `device` messages of one packet each.
 Json device_message(const std::vector<VrSample>& samples);
@@ -17,4 +17,4 @@ Json device_message(const std::vector<ControllerSample>& samples);
 // quaternion.
 TipSighting sighting_of(const Json& message);
 
-}  // namespace liana
+}  // namespace liana::operator_side

@@ -1,7 +1,7 @@
 // The simulated person at the hand controller: every number that shapes how they see, decide and move.
 #pragma once
 
-namespace liana {
+namespace liana::operator_side {
 
 // Defaults are a calm, practised operator. Positions at the arm's tip unless the name says hand.
 struct HandGains {
@@ -61,4 +61,4 @@ struct HandGains {
   double relent_most = 1.15;  // times the tolerances above, at most
 };
 
-}  // namespace liana
+}  // namespace liana::operator_side

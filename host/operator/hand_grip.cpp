@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana {
+namespace liana::operator_side {
 namespace {
 
 constexpr double kLeastReturn_s = 0.3;
@@ -63,4 +63,4 @@ bool HandGrip::out_of_reach(const PoseStep& ahead, double stop_m) const {
   return (outward && norm(stop_at) > gains_.reach_m) || (turning_on && turned > gains_.reach_rad);
 }
 
-}  // namespace liana
+}  // namespace liana::operator_side

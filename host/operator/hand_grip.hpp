@@ -5,7 +5,7 @@
 #include "host/operator/hand_gains.hpp"
 #include "host/operator/slit_view.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 
 // How hand motion maps to the tip: P_r = a P_m from the clutch pose (docs/api.md).
 struct HandMapping {
@@ -49,4 +49,4 @@ class HandGrip {
   double return_time_s_ = 1.0;
 };
 
-}  // namespace liana
+}  // namespace liana::operator_side

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana {
+namespace liana::operator_side {
 namespace {
 
 constexpr std::uint64_t kTremorPurpose = 21;
@@ -209,4 +209,4 @@ ControllerSample HandPerson::sample(double now_s) {
   return {std::llround(now_s * 1e6), true, button(), tremor_.apply(grip_.pose(), now_s)};
 }
 
-}  // namespace liana
+}  // namespace liana::operator_side

@@ -11,7 +11,7 @@
 #include "host/operator/samples.hpp"
 #include "host/operator/tremor.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 
 // What the person has been asked to do.
 enum class HandTask : std::uint8_t {
@@ -92,4 +92,4 @@ class HandPerson {
   PoseStep judged_{};
 };
 
-}  // namespace liana
+}  // namespace liana::operator_side

@@ -7,7 +7,7 @@
 
 #include "host/operator/samples.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 
 using VrRecording = std::vector<VrSample>;
 using HandRecording = std::vector<ControllerSample>;
@@ -20,4 +20,4 @@ std::variant<VrRecording, HandRecording> read_hand_recording(const std::string& 
 VrRecording read_vr_recording(const std::string& path);
 HandRecording read_hand_controller_recording(const std::string& path);
 
-}  // namespace liana
+}  // namespace liana::operator_side

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana {
+namespace liana::operator_side {
 
 namespace {
 constexpr double kArrived_m = 1e-5;  // closer than this a leg ends, or braking would creep for ever
@@ -43,4 +43,4 @@ Pose Leg::pose() const {
 
 PoseStep Leg::remaining() const { return step_between(pose(), goal_); }
 
-}  // namespace liana
+}  // namespace liana::operator_side

@@ -3,7 +3,7 @@
 
 #include "host/operator/slit_view.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 
 // How fast a leg is walked.
 struct LegPace {
@@ -47,4 +47,4 @@ class Leg {
   double speed_m_s_ = 0.0;
 };
 
-}  // namespace liana
+}  // namespace liana::operator_side

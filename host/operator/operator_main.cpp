@@ -8,7 +8,7 @@
 #include "host/json/json.hpp"
 #include "host/operator/operator_session.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 namespace {
 
 constexpr double kWelcomeTimeout_s = 30.0;
@@ -23,15 +23,15 @@ struct OperatorOptions {
   bool lockstep = false;
 };
 
-Pose pose_of(const ScenePose& pose) { return {pose.position_m, pose.quaternion_wxyz}; }
+Pose pose_of(const config::ScenePose& pose) { return {pose.position_m, pose.quaternion_wxyz}; }
 
 // Without a slit or a rod there is nothing to steer into by hand: the camera never shows it, and the person waits.
-SlitDrawing drawing_of(const SceneConfig& scene) {
+SlitDrawing drawing_of(const config::SceneConfig& scene) {
   if (!scene.slit || !scene.rod) return {};
   return slit_drawing(pose_of(scene.slit->frame), pose_of(scene.rod->pose));
 }
 
-Json greet(ApiClient& client, const OperatorOptions& options) {
+Json greet(api::ApiClient& client, const OperatorOptions& options) {
   client.send({{"op", "hello"},
                {"name", "operator"},
                {"role", "operator"},
@@ -46,7 +46,7 @@ Json greet(ApiClient& client, const OperatorOptions& options) {
 }
 
 // One message in, the answers out; false when lianad stops.
-bool answer(ApiClient& client, OperatorSession& session, const Json& message, bool lockstep) {
+bool answer(api::ApiClient& client, OperatorSession& session, const Json& message, bool lockstep) {
   const std::string op = message.value("op", "");
   if (op == "camera") session.on_camera(message);
   if (op == "error") std::fprintf(stderr, "liana-operator: refused: %s\n", message.value("message", "").c_str());
@@ -57,10 +57,11 @@ bool answer(ApiClient& client, OperatorSession& session, const Json& message, bo
 }
 
 int operate(const OperatorOptions& options) {
-  ApiClient client = ApiClient::connect(options.api, kWelcomeTimeout_s);
+  api::ApiClient client = api::ApiClient::connect(options.api, kWelcomeTimeout_s);
   const Json welcome = greet(client, options);
-  const SceneConfig scene = options.scene.empty() ? parse_scene(welcome.at("scene").dump(), "scene of " + options.api)
-                                                  : load_scene(options.scene);
+  const config::SceneConfig scene = options.scene.empty()
+                                        ? config::parse_scene(welcome.at("scene").dump(), "scene of " + options.api)
+                                        : config::load_scene(options.scene);
   OperatorSession session(options.recordings, drawing_of(scene), HandGains{}, options.seed);
   for (bool running = true; running;) {
     const auto message = client.receive(kPoll_s);
@@ -70,11 +71,11 @@ int operate(const OperatorOptions& options) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::operator_side
 
 int main(int argc, char** argv) {
-  liana::OperatorOptions options;
-  liana::CommandLine line(
+  liana::operator_side::OperatorOptions options;
+  liana::command_line::CommandLine line(
       "The operator as data and as a model that looks: recorded VR handles, simulated hand controller");
   line.option("--api", options.api, "API socket of lianad").required();
   line.option("--recordings", options.recordings, "folder of the .hand files").required();
@@ -83,7 +84,7 @@ int main(int argc, char** argv) {
   line.flag("--lockstep", options.lockstep, "answer every state, so that fast runs repeat");
   if (const auto code = line.parse(argc, argv)) return *code;
   try {
-    return liana::operate(options);
+    return liana::operator_side::operate(options);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "liana-operator: %s\n", error.what());
     return 1;

@@ -6,7 +6,7 @@
 #include "host/json/json.hpp"
 #include "host/operator/device_messages.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 namespace {
 
 constexpr double kSamplePeriod_s = 0.001;
@@ -107,4 +107,4 @@ void OperatorSession::report_arrival(std::vector<Json>& messages, bool arrived, 
 
 void OperatorSession::on_camera(const Json& message) { person_.look(sighting_of(message), std::max(now_s_, 0.0)); }
 
-}  // namespace liana
+}  // namespace liana::operator_side

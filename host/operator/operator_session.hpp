@@ -11,7 +11,7 @@
 #include "host/operator/hand_person.hpp"
 #include "host/operator/recorded_vr.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 
 // The step the mission has announced, as far as the person is concerned.
 struct AnnouncedStep {
@@ -55,4 +55,4 @@ AnnouncedStep announced_step(const Json& state);
 // Mapping of the device in use; 1:1 where the state does not say.
 HandMapping announced_mapping(const Json& state);
 
-}  // namespace liana
+}  // namespace liana::operator_side

@@ -5,7 +5,7 @@
 
 #include "host/operator/random.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 
 namespace {
 constexpr std::uint64_t kRightPurpose = 11;
@@ -75,4 +75,4 @@ void RecordedVr::feel(bool engaged, double now_s) {
   }
 }
 
-}  // namespace liana
+}  // namespace liana::operator_side

@@ -7,7 +7,7 @@
 #include "host/operator/hand_recording.hpp"
 #include "host/operator/tremor.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 
 // What the seed adds to a recording.
 struct VrDisturbance {
@@ -52,4 +52,4 @@ class RecordedVr {
   bool gripping_ = false;
 };
 
-}  // namespace liana
+}  // namespace liana::operator_side

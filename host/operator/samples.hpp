@@ -6,7 +6,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 
 // Hand controller, about 1 kHz; pose in the device frame (parallel to the arm's base frame), metres.
 struct ControllerSample {
@@ -30,4 +30,4 @@ struct VrSample {
   VrHandle left{};
 };
 
-}  // namespace liana
+}  // namespace liana::operator_side

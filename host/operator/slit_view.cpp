@@ -1,6 +1,6 @@
 #include "host/operator/slit_view.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 
 SlitDrawing slit_drawing(const Pose& slit_in_base, const Pose& rod_in_base) {
   return {slit_in_base, compose(inverse(slit_in_base), rod_in_base)};
@@ -21,4 +21,4 @@ Pose moved(const Pose& pose, const PoseStep& step) {
   return {add(pose.position_m, step.shift_m), normalize(multiply(quaternion_of(step.turn_rad), pose.quaternion))};
 }
 
-}  // namespace liana
+}  // namespace liana::operator_side

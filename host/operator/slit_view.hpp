@@ -5,7 +5,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 
 // One picture of the tip camera (docs/api.md): frames as seen from the tip; nothing when out of sight.
 struct TipSighting {
@@ -37,4 +37,4 @@ PoseStep step_between(const Pose& from, const Pose& to);
 // `pose` moved by `step`: the turn is applied in the outer frame.
 Pose moved(const Pose& pose, const PoseStep& step);
 
-}  // namespace liana
+}  // namespace liana::operator_side

@@ -5,7 +5,7 @@
 
 #include "host/operator/random.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 
 namespace {
 constexpr double kLowest_hz = 8.0;
@@ -36,4 +36,4 @@ Pose Tremor::apply(const Pose& pose, double t_s) const {
           multiply(quaternion_of(scale(turn, rotation_rad_)), pose.quaternion)};
 }
 
-}  // namespace liana
+}  // namespace liana::operator_side

@@ -14,7 +14,7 @@
 #include "host/plan/start/start_path.hpp"
 #include "host/plan/text.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -53,7 +53,7 @@ void validate(const PlanRequest& request) {
 // Where the arm is nearest, as one clause.
 std::string nearest_text(const Room& room, double clearance_m, std::int32_t link, std::int32_t obstacle) {
   return text("link %d ", static_cast<int>(link) + 1) +
-         distance_text(clearance_m, "'" + obstacle_name(room.scene(), obstacle) + "'");
+         distance_text(clearance_m, "'" + clearance::obstacle_name(room.scene(), obstacle) + "'");
 }
 
 class Planner {
@@ -93,7 +93,7 @@ class Planner {
   }
 
   bool pose_is_good(const ThetaVector& theta, const char* which) {
-    const ArmClearance here = room_.look(theta);
+    const clearance::ArmClearance here = room_.look(theta);
     if (here.nearest.distance_m < request_.margin_m) {
       return fail(PlanOutcome::infeasible, which,
                   text("at the %s %s; the margin is %.1f mm", which,
@@ -189,13 +189,13 @@ class Planner {
     if (control_.straight_start_only || request_.waypoints <= 2)
       return improve(straight_path(request_, ends), "straight");
     Path best;
-    double best_m = -kNoObstacle_m;
+    double best_m = -clearance::kNoObstacle_m;
     for (const StartKind kind : kStartKinds) {
       const Path path = start_path(room_, request_, ends, kind, control_);
       if (cancelled()) return !fail(PlanOutcome::cancelled, "", "cancelled");
       if (path.empty()) continue;
       const PathLook look = look_along(room_, path, kStartSpacing_m);
-      tell(look.distance_m < kNoObstacle_m
+      tell(look.distance_m < clearance::kNoObstacle_m
                ? text("start %s: clearance %.1f mm", name_of(kind), 1000.0 * look.distance_m)
                : text("start %s: nothing in the scene", name_of(kind)));
       if (look.distance_m >= request_.margin_m && improve(path, name_of(kind))) return true;
@@ -345,4 +345,4 @@ PlanResult plan(const PlanRequest& request, const PlanControl& control) {
   return Planner(request, control).run();
 }
 
-}  // namespace liana
+}  // namespace liana::plan

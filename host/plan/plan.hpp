@@ -18,7 +18,7 @@
 #include "host/plan/check/plan_check.hpp"
 #include "host/plan/follow/follow_figures.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -51,8 +51,8 @@ constexpr std::size_t kMaxControlPoints = 4;
 constexpr double kDefaultMargin_m = 0.005;
 
 struct PlanRequest {
-  RobotConfig robot;
-  SceneConfig scene;
+  config::RobotConfig robot;
+  config::SceneConfig scene;
   ThetaVector from_rad{};
   std::optional<ThetaVector> to_rad;    // either this
   std::optional<Pose> tip_in_base;      // or this, or
@@ -113,4 +113,4 @@ PlanResult plan(const PlanRequest& request, const PlanControl& control);
 // SHA-256 over robot, scene, request and waypoints: two plans with the same hash are the same plan of the same problem.
 std::string plan_hash(const PlanRequest& request, const PlanResult& result);
 
-}  // namespace liana
+}  // namespace liana::plan

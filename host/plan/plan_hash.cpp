@@ -4,7 +4,7 @@
 #include "host/json/json.hpp"
 #include "host/plan/plan.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 Json angles(const ThetaVector& theta_rad, std::int32_t count) {
@@ -36,8 +36,8 @@ std::string plan_hash(const PlanRequest& request, const PlanResult& result) {
   for (const ThetaVector& theta : result.waypoints_rad)
     waypoints.push_back(angles(theta, request.robot.table.theta_count()));
   const Json outcome{{"outcome", name_of(result.outcome)}, {"waypoints_rad", waypoints}};
-  return sha256_hex(request.robot.canonical_json + "\n" + request.scene.canonical_json + "\n" +
-                    canonical_json(inputs(request)) + "\n" + canonical_json(outcome) + "\n");
+  return config::sha256_hex(request.robot.canonical_json + "\n" + request.scene.canonical_json + "\n" +
+                            config::canonical_json(inputs(request)) + "\n" + config::canonical_json(outcome) + "\n");
 }
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -3,7 +3,7 @@
 #include "firmware_like/math/trig.hpp"
 #include "host/plan/text.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 constexpr double kTipTolerance = 1e-6;  // m and rad
@@ -47,4 +47,4 @@ std::optional<PlanRefusal> refusal_of(const PlanRequest& request, const PlanChec
   return {};
 }
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace liana {
+namespace liana::reach {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -124,4 +124,4 @@ Outline find_outline(const RaySearch& search, std::int32_t flat_axis, const std:
   return outline;
 }
 
-}  // namespace liana
+}  // namespace liana::reach

@@ -8,7 +8,7 @@
 
 #include "host/reach/push.hpp"
 
-namespace liana {
+namespace liana::reach {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -73,4 +73,4 @@ std::vector<DirectionBin> find_boundary(const RaySearch& search, const std::vect
 // The outline seen along base axis `flat_axis`.
 Outline find_outline(const RaySearch& search, std::int32_t flat_axis, const std::vector<ReachSample>& samples);
 
-}  // namespace liana
+}  // namespace liana::reach

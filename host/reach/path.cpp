@@ -7,7 +7,7 @@
 
 #include "host/algebra/thetas.hpp"
 
-namespace liana {
+namespace liana::reach {
 namespace {
 
 bool is_held(std::uint32_t held_mask, std::size_t theta) { return (held_mask >> theta & 1u) != 0; }
@@ -15,10 +15,10 @@ bool is_held(std::uint32_t held_mask, std::size_t theta) { return (held_mask >> 
 void find_singular_values(const RobotTable& table, std::uint32_t held_mask, PathPoint& point) {
   const ArmKinematics arm = forward_kinematics(table, point.theta_rad);
   point.tip_in_base_m = arm.tip_in_base.position_m;
-  const Eigen::Index n = theta_count(table);
+  const Eigen::Index n = algebra::theta_count(table);
   Eigen::Matrix<double, 6, kMaxTheta> J = Eigen::Matrix<double, 6, kMaxTheta>::Zero();
-  J.topLeftCorner(3, n) = view(arm.tip_jacobian.linear, n);
-  J.bottomLeftCorner(3, n) = view(arm.tip_jacobian.angular, n);
+  J.topLeftCorner(3, n) = algebra::view(arm.tip_jacobian.linear, n);
+  J.bottomLeftCorner(3, n) = algebra::view(arm.tip_jacobian.angular, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     if (is_held(held_mask, static_cast<std::size_t>(i))) J.col(i).setZero();
   }
@@ -101,4 +101,4 @@ PathReport examine_path(const RobotTable& table, const std::vector<ThetaVector>&
   return report;
 }
 
-}  // namespace liana
+}  // namespace liana::reach

@@ -9,7 +9,7 @@
 
 #include "firmware_like/cable/arm/kinematics.hpp"
 
-namespace liana {
+namespace liana::reach {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -44,4 +44,4 @@ double condition_number(const PathPoint& point);
 PathReport examine_path(const RobotTable& table, const std::vector<ThetaVector>& waypoints_rad,
                         std::uint32_t held_mask);
 
-}  // namespace liana
+}  // namespace liana::reach

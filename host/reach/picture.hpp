@@ -7,20 +7,20 @@
 #include "host/reach/path.hpp"
 #include "host/reach/region.hpp"
 
-namespace liana {
+namespace liana::reach {
 
 using namespace cable;  // this room serves the cable arm only
 
 // Top (x, y), side (x, z) and front (y, z) view of the region at one scale, in the base frame. The colour of a cell is
 // the mean mobility of the samples in it, over the whole depth of the view; the arm in `pose_rad` and the scene (may be
 // null) are drawn to scale over it.
-std::string region_picture(const RobotConfig& robot, const SceneConfig* scene, const RegionRequest& request,
-                           const Region& region, const ThetaVector& pose_rad);
+std::string region_picture(const config::RobotConfig& robot, const config::SceneConfig* scene,
+                           const RegionRequest& request, const Region& region, const ThetaVector& pose_rad);
 
 // Least singular value, condition number and limit margins over the way, the worst places marked.
-std::string path_picture(const RobotConfig& robot, const PathReport& report, std::uint32_t held_mask);
+std::string path_picture(const config::RobotConfig& robot, const PathReport& report, std::uint32_t held_mask);
 
 // "theta 7 = 0.5, theta 9 = 0 deg", or "none".
 std::string held_text(const RobotTable& table, std::uint32_t held_mask, const ThetaVector& held_rad);
 
-}  // namespace liana
+}  // namespace liana::reach

@@ -6,7 +6,7 @@
 #include "firmware_like/math/scalar.hpp"
 #include "host/algebra/thetas.hpp"
 
-namespace liana {
+namespace liana::reach {
 namespace {
 
 constexpr int kReachIterations = 30;
@@ -19,13 +19,13 @@ using ThetaJacobian = Eigen::Matrix<double, 3, kMaxTheta>;
 
 // Step J^T (J J^T + mu I)^-1 error of the thetas in `active`.
 ThetaVector damped_step(const PointMotion& motion, ThetaMask active, const Vec3& error_m, double damping) {
-  SpaceColumns J = view(motion.column, kMaxTheta);
+  algebra::SpaceColumns J = algebra::view(motion.column, kMaxTheta);
   for (Eigen::Index i = 0; i < J.cols(); ++i) {
     if ((active >> i & 1u) == 0) J.col(i).setZero();
   }
   const Eigen::Matrix3d A = J * J.transpose() + damping * Eigen::Matrix3d::Identity();
   ThetaVector step{};
-  view(step, kMaxTheta) = J.transpose() * A.llt().solve(view(error_m));
+  algebra::view(step, kMaxTheta) = J.transpose() * A.llt().solve(algebra::view(error_m));
   return step;
 }
 
@@ -71,14 +71,14 @@ void step_towards(const RobotTable& table, const PointMotion& motion, ThetaMask 
 // there is none.
 Vec3 wall_normal(const RobotTable& table, const PointMotion& motion, Eigen::Index dimensions, const Vec3& direction,
                  const ThetaVector& theta_rad) {
-  ThetaJacobian J = view(motion.column, kMaxTheta);
+  ThetaJacobian J = algebra::view(motion.column, kMaxTheta);
   for (std::size_t i = 0; i < kMaxTheta; ++i) {
     if (on_limit(table, theta_rad, i)) J.col(static_cast<Eigen::Index>(i)).setZero();
   }
   const Eigen::JacobiSVD<ThetaJacobian> svd(J, Eigen::ComputeFullU);
   if (svd.singularValues()[dimensions - 2] < 1e-6) return direction;  // too few ways to move: no wall
   const Eigen::Vector3d across = svd.matrixU().col(dimensions - 1);   // a flat axis has the value 0 and comes behind
-  const double side = across.dot(view(direction));
+  const double side = across.dot(algebra::view(direction));
   return std::fabs(side) < 0.1 ? direction : scale({across[0], across[1], across[2]}, side > 0.0 ? 1.0 : -1.0);
 }
 
@@ -175,4 +175,4 @@ std::uint32_t binding_limits(const RobotTable& table, const PointOnArm& point, c
   return mask;
 }
 
-}  // namespace liana
+}  // namespace liana::reach

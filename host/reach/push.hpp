@@ -5,7 +5,7 @@
 
 #include "firmware_like/cable/arm/kinematics.hpp"
 
-namespace liana {
+namespace liana::reach {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -56,4 +56,4 @@ void climb(const RobotTable& table, const PointOnArm& point, const Vec3& directi
 std::uint32_t binding_limits(const RobotTable& table, const PointOnArm& point, const Vec3& direction,
                              const ThetaVector& theta_rad);
 
-}  // namespace liana
+}  // namespace liana::reach

@@ -6,7 +6,7 @@
 #include "host/algebra/thetas.hpp"
 #include "host/operator/random.hpp"
 
-namespace liana {
+namespace liana::reach {
 namespace {
 
 constexpr double kRankLimit_m_per_rad = 1e-6;
@@ -18,12 +18,14 @@ using Samples = std::vector<ReachSample>;
 ReachSample sample_at(const RaySearch& search, const ThetaVector& theta_rad) {
   const PointMotion motion = point_motion(search.table, search.point, theta_rad);
   using ThetaJacobian = Eigen::Matrix<double, 3, kMaxTheta>;
-  const Eigen::Vector3d travel = Eigen::JacobiSVD<ThetaJacobian>(view(motion.column, kMaxTheta)).singularValues();
+  const Eigen::Vector3d travel =
+      Eigen::JacobiSVD<ThetaJacobian>(algebra::view(motion.column, kMaxTheta)).singularValues();
   const double distance_m = norm(subtract(motion.point_in_base_m, search.origin_in_base_m));
   return {theta_rad, motion.point_in_base_m, distance_m, {travel[0], travel[1], travel[2]}};
 }
 
-ThetaVector draw(const RobotTable& table, const RegionRequest& request, std::int32_t index, RandomStream& random) {
+ThetaVector draw(const RobotTable& table, const RegionRequest& request, std::int32_t index,
+                 operator_side::RandomStream& random) {
   const double factor = index == 0 ? 0.0 : index % 2 == 1 ? 1.0 : random.uniform(0.0, 1.0);
   ThetaVector theta_rad = request.held_rad;
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
@@ -33,7 +35,7 @@ ThetaVector draw(const RobotTable& table, const RegionRequest& request, std::int
 }
 
 Samples draw_samples(const RaySearch& search, const RegionRequest& request) {
-  RandomStream random(request.seed, kSampleStream);
+  operator_side::RandomStream random(request.seed, kSampleStream);
   Samples samples;
   samples.reserve(static_cast<std::size_t>(request.samples));
   for (std::int32_t i = 0; i < request.samples; ++i)
@@ -167,4 +169,4 @@ Region explore_region(const RobotTable& table, const RegionRequest& request) {
   return region;
 }
 
-}  // namespace liana
+}  // namespace liana::reach

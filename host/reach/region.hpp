@@ -18,7 +18,7 @@
 
 #include "host/reach/boundary.hpp"
 
-namespace liana {
+namespace liana::reach {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -59,4 +59,4 @@ struct Region {
 // on one core.
 Region explore_region(const RobotTable& table, const RegionRequest& request);
 
-}  // namespace liana
+}  // namespace liana::reach

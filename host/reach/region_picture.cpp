@@ -5,7 +5,7 @@
 #include "host/reach/picture.hpp"
 #include "host/reach/views.hpp"
 
-namespace liana {
+namespace liana::reach {
 namespace {
 
 constexpr double kPerDegree = 180.0 / std::numbers::pi;
@@ -15,7 +15,7 @@ constexpr double kLeft_px = 70.0, kTop_px = 80.0, kGap_px = 80.0, kBottom_px = 6
 constexpr double kLegendWidth_px = 480.0, kLegendHeight_px = 470.0;
 constexpr double kRow_px = 21.0;
 
-using Space = std::array<AxisRange, 3>;
+using Space = std::array<draw::AxisRange, 3>;
 
 void include(Space& space, const Vec3& low_m, const Vec3& high_m) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -25,7 +25,7 @@ void include(Space& space, const Vec3& low_m, const Vec3& high_m) {
 }
 
 // What the views must show: base, region, arm and scene.
-Space shown_space(const RobotConfig& robot, const SceneConfig* scene, const Region& region,
+Space shown_space(const config::RobotConfig& robot, const config::SceneConfig* scene, const Region& region,
                   const ThetaVector& pose_rad) {
   Space space;
   space.fill({-kBorder_m, kBorder_m});
@@ -36,10 +36,10 @@ Space shown_space(const RobotConfig& robot, const SceneConfig* scene, const Regi
     include(space, point, point);
   }
   if (scene == nullptr) return space;
-  for (const SceneBox& box : scene->boxes) {
+  for (const config::SceneBox& box : scene->boxes) {
     for (const Vec3& corner : box_corners(box)) include(space, corner, corner);
   }
-  for (const SceneSphere& sphere : scene->spheres) {
+  for (const config::SceneSphere& sphere : scene->spheres) {
     const Vec3 radius{sphere.radius_m, sphere.radius_m, sphere.radius_m};
     include(space, subtract(sphere.center_m, radius), add(sphere.center_m, radius));
   }
@@ -47,13 +47,13 @@ Space shown_space(const RobotConfig& robot, const SceneConfig* scene, const Regi
   return space;
 }
 
-double length(const AxisRange& range) { return range.high - range.low; }
+double length(const draw::AxisRange& range) { return range.high - range.low; }
 
 // Top view above the side view, front view right of it, as in a technical drawing.
 struct Layout {
   View top, side, front;
   double width_px = 0.0, height_px = 0.0;
-  Pixel legend;
+  draw::Pixel legend;
 };
 
 Layout lay_out(const Space& space) {
@@ -75,7 +75,7 @@ std::string point_name(const RobotTable& table, const PointOnArm& point) {
   return point.node == table.segment_count ? "the tip" : "node " + std::to_string(point.node);
 }
 
-std::string metres(double value_m) { return short_number(value_m, 3); }
+std::string metres(double value_m) { return draw::short_number(value_m, 3); }
 
 std::string origin_text(const Region& region) {
   const Vec3& origin = region.origin_in_base_m;
@@ -104,15 +104,15 @@ std::string binding_text(const RobotTable& table, const Region& region) {
   std::string text;
   for (std::size_t k = 0; k < std::min<std::size_t>(order.size(), 3); ++k) {
     text += "theta " + std::to_string(order[k] + 1) + " " +
-            short_number(100.0 * region.outer_binding_share[order[k]], 0) + " %, ";
+            draw::short_number(100.0 * region.outer_binding_share[order[k]], 0) + " %, ";
   }
-  return text + "no limit " + short_number(100.0 * region.outer_stretched_share, 0) + " %";
+  return text + "no limit " + draw::short_number(100.0 * region.outer_stretched_share, 0) + " %";
 }
 
 // Rows of the legend from above; each call writes one and moves on.
 class Legend {
  public:
-  Legend(Svg& svg, Pixel corner) : svg_(svg), at_(corner) {}
+  Legend(draw::Svg& svg, draw::Pixel corner) : svg_(svg), at_(corner) {}
 
   void heading(std::string_view words) {
     at_.y += 8.0;
@@ -123,20 +123,20 @@ class Legend {
     svg_.text(at_, words, {.size = 12.0});
     at_.y += kRow_px - 2.0;
   }
-  void swatch(const Look& look, std::string_view words) {
+  void swatch(const draw::Look& look, std::string_view words) {
     svg_.rectangle({at_.x, at_.y - 11.0}, 26.0, 13.0, look);
     svg_.text({at_.x + 36.0, at_.y}, words, {.size = 12.0});
     at_.y += kRow_px - 2.0;
   }
-  void dot(const Look& look, double radius, std::string_view words) {
+  void dot(const draw::Look& look, double radius, std::string_view words) {
     svg_.circle({at_.x + 13.0, at_.y - 4.5}, radius, look);
     svg_.text({at_.x + 36.0, at_.y}, words, {.size = 12.0});
     at_.y += kRow_px - 2.0;
   }
 
  private:
-  Svg& svg_;
-  Pixel at_;
+  draw::Svg& svg_;
+  draw::Pixel at_;
 };
 
 void describe_heat(Legend& legend, double top) {
@@ -146,8 +146,8 @@ void describe_heat(Legend& legend, double top) {
   legend.words("cells: travel in the worst direction (m/rad), mean over the depth");
   for (std::size_t i = 0; i < kHeatClasses; ++i) {
     const double step = top / kHeatClasses;
-    legend.swatch({.fill = kHeatColours[i]}, short_number(static_cast<double>(i) * step, 2) + " .. " +
-                                                 short_number(static_cast<double>(i + 1) * step, 2));
+    legend.swatch({.fill = kHeatColours[i]}, draw::short_number(static_cast<double>(i) * step, 2) + " .. " +
+                                                 draw::short_number(static_cast<double>(i + 1) * step, 2));
   }
 }
 
@@ -164,7 +164,7 @@ void describe_binding(Legend& legend, const Region& region) {
   }
 }
 
-void describe_objects(Legend& legend, const SceneConfig* scene, const std::string& point) {
+void describe_objects(Legend& legend, const config::SceneConfig* scene, const std::string& point) {
   legend.heading("Drawn to scale");
   legend.swatch({.fill = kArmColour}, "arm, nodes as dots; black square: base");
   legend.dot({.fill = kMarkColour}, 4.5, point);
@@ -174,7 +174,7 @@ void describe_objects(Legend& legend, const SceneConfig* scene, const std::strin
     legend.swatch({.fill = colour, .stroke = colour, .opacity = 0.5},
                   scene->boxes[i].name + (i == 0 && scene->slit ? " (the slit is between the plates)" : ""));
   }
-  for (const SceneSphere& sphere : scene->spheres)
+  for (const config::SceneSphere& sphere : scene->spheres)
     legend.dot({.fill = kSphereColour, .opacity = 0.55}, 7.0, sphere.name);
   if (scene->rod) legend.dot({.stroke = kRodColour, .width = 2.0}, 7.0, "press rod, inside the ring");
 }
@@ -196,18 +196,18 @@ std::string held_text(const RobotTable& table, std::uint32_t held_mask, const Th
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
     if ((held_mask >> i & 1u) == 0) continue;
     text += (text.empty() ? "" : ", ") + ("theta " + std::to_string(i + 1)) + " = " +
-            short_number(held_rad[i] * kPerDegree, 3);
+            draw::short_number(held_rad[i] * kPerDegree, 3);
   }
   return text.empty() ? "none" : text + " deg";
 }
 
-std::string region_picture(const RobotConfig& robot, const SceneConfig* scene, const RegionRequest& request,
-                           const Region& region, const ThetaVector& pose_rad) {
+std::string region_picture(const config::RobotConfig& robot, const config::SceneConfig* scene,
+                           const RegionRequest& request, const Region& region, const ThetaVector& pose_rad) {
   const Space space = shown_space(robot, scene, region, pose_rad);
   const Layout layout = lay_out(space);
   const std::string point = point_name(robot.table, request.point);
   const std::string title = "Where " + point + " of " + robot.name + " can go";
-  Svg svg(layout.width_px, layout.height_px, title);
+  draw::Svg svg(layout.width_px, layout.height_px, title);
   svg.text({kLeft_px - 40.0, 34.0}, title, {.size = 20.0, .bold = true});
   svg.text({kLeft_px - 40.0, 56.0}, "held: " + held_text(robot.table, request.point.held_mask, request.held_rad),
            {.size = 13.0});
@@ -224,7 +224,7 @@ std::string region_picture(const RobotConfig& robot, const SceneConfig* scene, c
   }
   for (std::size_t i = 0; i < 3; ++i) {
     const View& view = *views[i];
-    draw_axes(svg, view.axes, kAxisTitles[view.right], kAxisTitles[view.up]);
+    draw::draw_axes(svg, view.axes, kAxisTitles[view.right], kAxisTitles[view.up]);
     draw_outline(svg, view, region.outline[i], {.fill = kRegionColour});
     draw_heat(svg, view, cells[i], top);
     draw_outline(svg, view, region.outline[i], {.stroke = kOutlineColour, .width = 1.6});
@@ -242,4 +242,4 @@ std::string region_picture(const RobotConfig& robot, const SceneConfig* scene, c
   return svg.document();
 }
 
-}  // namespace liana
+}  // namespace liana::reach

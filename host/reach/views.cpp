@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana {
+namespace liana::reach {
 namespace {
 
 constexpr double kLeastArm_px = 3.0;
@@ -15,16 +15,16 @@ constexpr std::array<std::string_view, 10> kThetaColours{"#5b6fd6", "#bcbd22", "
 double pixels_per_m(const View& view) { return view.axes.width / (view.axes.x.high - view.axes.x.low); }
 
 // Corners of the convex hull, in order (Andrew's monotone chain).
-std::vector<Pixel> convex_hull(std::vector<Pixel> points) {
+std::vector<draw::Pixel> convex_hull(std::vector<draw::Pixel> points) {
   std::sort(points.begin(), points.end(),
-            [](const Pixel& a, const Pixel& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
-  const auto left_turn = [](const Pixel& a, const Pixel& b, const Pixel& c) {
+            [](const draw::Pixel& a, const draw::Pixel& b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
+  const auto left_turn = [](const draw::Pixel& a, const draw::Pixel& b, const draw::Pixel& c) {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0.0;
   };
-  std::vector<Pixel> hull;
+  std::vector<draw::Pixel> hull;
   for (int side = 0; side < 2; ++side) {
     const std::size_t start = hull.size();
-    for (const Pixel& point : points) {
+    for (const draw::Pixel& point : points) {
       while (hull.size() >= start + 2 && !left_turn(hull[hull.size() - 2], hull.back(), point)) hull.pop_back();
       hull.push_back(point);
     }
@@ -45,7 +45,7 @@ std::string_view theta_colour(std::int32_t theta) {
   return kThetaColours[static_cast<std::size_t>(theta - 1) % kThetaColours.size()];
 }
 
-std::array<Vec3, 8> box_corners(const SceneBox& box) {
+std::array<Vec3, 8> box_corners(const config::SceneBox& box) {
   std::array<Vec3, 8> corners;
   for (std::size_t i = 0; i < 8; ++i) {
     corners[i] = box.center_m;
@@ -60,7 +60,7 @@ std::array<Vec3, 8> box_corners(const SceneBox& box) {
 std::map<Cell, double> heat_cells(const View& view, const std::vector<ReachedPoint>& samples) {
   std::map<Cell, std::pair<double, std::size_t>> sums;
   for (const ReachedPoint& sample : samples) {
-    const Pixel at = view.at(sample.point_in_base_m);
+    const draw::Pixel at = view.at(sample.point_in_base_m);
     const Cell cell{static_cast<int>(std::floor((view.axes.corner.y + view.axes.height - at.y) / kHeatCell_px)),
                     static_cast<int>(std::floor((at.x - view.axes.corner.x) / kHeatCell_px))};
     auto& [sum, count] = sums[cell];
@@ -74,8 +74,8 @@ std::map<Cell, double> heat_cells(const View& view, const std::vector<ReachedPoi
   return means;
 }
 
-void draw_heat(Svg& svg, const View& view, const std::map<Cell, double>& cells, double top_m_per_rad) {
-  std::array<std::vector<Svg::Bar>, kHeatClasses> bars;
+void draw_heat(draw::Svg& svg, const View& view, const std::map<Cell, double>& cells, double top_m_per_rad) {
+  std::array<std::vector<draw::Svg::Bar>, kHeatClasses> bars;
   for (auto cell = cells.begin(); cell != cells.end();) {
     const auto [row, first] = cell->first;
     const std::size_t kind = heat_class(cell->second, top_m_per_rad);
@@ -89,13 +89,13 @@ void draw_heat(Svg& svg, const View& view, const std::map<Cell, double>& cells, 
   for (std::size_t kind = 0; kind < kHeatClasses; ++kind) svg.bars(bars[kind], kHeatCell_px, kHeatColours[kind]);
 }
 
-void draw_outline(Svg& svg, const View& view, const Outline& outline, const Look& look) {
+void draw_outline(draw::Svg& svg, const View& view, const Outline& outline, const draw::Look& look) {
   const auto pixel = [&](const std::array<double, 2>& place_m) { return view.axes.at(place_m[0], place_m[1]); };
   const auto gap = static_cast<std::size_t>(
       std::find_if(outline.begin(), outline.end(), [](auto& s) { return !s.seen; }) - outline.begin());
   // Runs of neighbouring sectors: out along the outer ends, back along the inner ones. Counting starts behind a gap, if
   // there is one.
-  std::vector<Pixel> there, back;
+  std::vector<draw::Pixel> there, back;
   const auto close_run = [&] {
     there.insert(there.end(), back.rbegin(), back.rend());
     if (there.size() >= 3) svg.polygon(there, look);
@@ -115,7 +115,7 @@ void draw_outline(Svg& svg, const View& view, const Outline& outline, const Look
   close_run();
 }
 
-void draw_binding(Svg& svg, const View& view, const Outline& outline) {
+void draw_binding(draw::Svg& svg, const View& view, const Outline& outline) {
   const auto pixel = [&](const OutlineSector& sector) { return view.axes.at(sector.outer_m[0], sector.outer_m[1]); };
   for (std::size_t k = 0; k < kOutlineSectors; ++k) {
     const OutlineSector &here = outline[k], &next = outline[(k + 1) % kOutlineSectors];
@@ -130,39 +130,39 @@ void draw_binding(Svg& svg, const View& view, const Outline& outline) {
   }
 }
 
-void draw_scene(Svg& svg, const View& view, const SceneConfig& scene) {
+void draw_scene(draw::Svg& svg, const View& view, const config::SceneConfig& scene) {
   for (std::size_t i = 0; i < scene.boxes.size(); ++i) {
-    std::vector<Pixel> corners;
+    std::vector<draw::Pixel> corners;
     for (const Vec3& corner : box_corners(scene.boxes[i])) corners.push_back(view.at(corner));
     const std::string_view colour = kBoxColours[std::min(i, kBoxColours.size() - 1)];
     svg.polygon(convex_hull(corners), {.fill = colour, .opacity = 0.25});
     svg.polygon(convex_hull(corners), {.stroke = colour, .width = 1.2});
   }
-  for (const SceneSphere& sphere : scene.spheres) {
+  for (const config::SceneSphere& sphere : scene.spheres) {
     svg.circle(view.at(sphere.center_m), sphere.radius_m * pixels_per_m(view),
                {.fill = kSphereColour, .opacity = 0.55});
   }
   if (!scene.rod) return;
-  const Pixel rod = view.at(scene.rod->pose.position_m);
+  const draw::Pixel rod = view.at(scene.rod->pose.position_m);
   svg.circle(rod, scene.rod->radius_m * pixels_per_m(view), {.fill = kRodColour});
   svg.circle(rod, kRing_px, {.stroke = kRodColour, .width = 2.0});
 }
 
-void draw_arm(Svg& svg, const View& view, const RobotConfig& robot, const ThetaVector& theta_rad,
+void draw_arm(draw::Svg& svg, const View& view, const config::RobotConfig& robot, const ThetaVector& theta_rad,
               std::int32_t marked_node) {
   const LinkPoints links = link_points(robot.table, theta_rad);
-  std::vector<Pixel> line;
+  std::vector<draw::Pixel> line;
   for (std::int32_t i = 0; i < links.count; ++i)
     line.push_back(view.at(links.point_in_base[static_cast<std::size_t>(i)]));
   const double width_px = std::max(kLeastArm_px, 2.0 * robot.module_radius_m * pixels_per_m(view));
   svg.polyline(line, {.stroke = kArmColour, .width = width_px});
   const ArmKinematics arm = forward_kinematics(robot.table, theta_rad);
   for (std::int32_t m = 1; m <= robot.table.segment_count; ++m) {
-    const Pixel node = view.at(arm.node_in_base[static_cast<std::size_t>(m)].position_m);
+    const draw::Pixel node = view.at(arm.node_in_base[static_cast<std::size_t>(m)].position_m);
     svg.circle(node, m == marked_node ? 4.5 : 2.5, {.fill = m == marked_node ? kMarkColour : kNodeColour});
   }
-  const Pixel base = view.at({0.0, 0.0, 0.0});
+  const draw::Pixel base = view.at({0.0, 0.0, 0.0});
   svg.rectangle({base.x - 5.0, base.y - 5.0}, 10.0, 10.0, {.fill = "#222222"});
 }
 
-}  // namespace liana
+}  // namespace liana::reach

@@ -13,14 +13,15 @@ namespace {
 volatile std::sig_atomic_t g_stop = 0;
 void on_signal(int) { g_stop = 1; }
 
-liana::RecordingInfo info_from(const liana::Json& welcome) {
+liana::record::RecordingInfo info_from(const liana::Json& welcome) {
   if (welcome.value("op", "") != "welcome") throw std::runtime_error("lianad refused the archive: " + welcome.dump());
   return {welcome.at("config_hash"),  welcome.at("robot").dump(), welcome.at("scene").dump(),
           welcome.at("buses").dump(), welcome.at("time_mode"),    welcome.at("period_s")};
 }
 
 // Until lianad ends or a signal comes. A state is answered with done, so that in lockstep time no tick is ever lost.
-void record_until_end(liana::ApiClient& client, liana::Recording& recording, liana::StateRecording& states) {
+void record_until_end(liana::api::ApiClient& client, liana::record::Recording& recording,
+                      liana::record::StateRecording& states) {
   std::string packet;
   while (g_stop == 0) {
     if (!client.receive_bytes(packet, 0.5)) continue;
@@ -38,7 +39,7 @@ void record_until_end(liana::ApiClient& client, liana::Recording& recording, lia
 }
 
 int run(const std::string& api, const std::string& directory) {
-  liana::ApiClient client = liana::ApiClient::connect(api, 10.0);
+  liana::api::ApiClient client = liana::api::ApiClient::connect(api, 10.0);
   client.send({{"op", "hello"},
                {"name", "archive"},
                {"role", "archive"},
@@ -47,9 +48,9 @@ int run(const std::string& api, const std::string& directory) {
                {"events_from", 1}});
   const std::optional<liana::Json> welcome = client.receive(30.0);
   if (!welcome) throw std::runtime_error("lianad did not answer the archive's hello within 30 s");
-  const liana::RecordingInfo info = info_from(*welcome);
-  liana::Recording recording(directory, info);
-  liana::StateRecording states(directory, info.period_s);
+  const liana::record::RecordingInfo info = info_from(*welcome);
+  liana::record::Recording recording(directory, info);
+  liana::record::StateRecording states(directory, info.period_s);
   try {
     record_until_end(client, recording, states);
   } catch (const std::runtime_error& gone) {
@@ -58,7 +59,7 @@ int run(const std::string& api, const std::string& directory) {
   recording.finish();
   states.finish();
   std::printf("liana-archive: %llu ticks in %s/%s, %llu dropped, %llu events lost\n",
-              static_cast<unsigned long long>(recording.ticks()), directory.c_str(), liana::kRecordingFile,
+              static_cast<unsigned long long>(recording.ticks()), directory.c_str(), liana::record::kRecordingFile,
               static_cast<unsigned long long>(recording.dropped()),
               static_cast<unsigned long long>(states.events_lost()));
   return 0;
@@ -68,7 +69,7 @@ int run(const std::string& api, const std::string& directory) {
 
 int main(int argc, char** argv) {
   std::string api, directory;
-  liana::CommandLine line("Writes the recording of a run (ticks.mcap)");
+  liana::command_line::CommandLine line("Writes the recording of a run (ticks.mcap)");
   line.option("--api", api, "API socket of lianad").required();
   line.option("--record", directory, "folder for ticks.mcap").required().existing_folder();
   if (const auto code = line.parse(argc, argv)) return *code;

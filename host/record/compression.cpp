@@ -6,7 +6,7 @@
 #include <zstd.h>
 #endif
 
-namespace liana {
+namespace liana::record {
 
 namespace {
 
@@ -56,4 +56,4 @@ std::string decompress(std::string_view compressed, std::string_view compression
   return std::string(compressed);
 }
 
-}  // namespace liana
+}  // namespace liana::record

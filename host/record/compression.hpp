@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace liana {
+namespace liana::record {
 
 // Name of what compress() does, as MCAP spells it: "zstd", or "" for none.
 const char* compression_name();
@@ -17,4 +17,4 @@ std::string compress(std::string_view plain);
 // this build does not know, or are not `size` bytes.
 std::string decompress(std::string_view compressed, std::string_view compression, std::uint64_t size);
 
-}  // namespace liana
+}  // namespace liana::record

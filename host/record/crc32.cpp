@@ -3,7 +3,7 @@
 #include <array>
 #include <cstddef>
 
-namespace liana {
+namespace liana::record {
 namespace {
 
 constexpr std::uint32_t kReflectedPolynomial = 0xEDB88320u;
@@ -49,4 +49,4 @@ void Crc32::add(std::string_view bytes) noexcept {
   state_ = crc;
 }
 
-}  // namespace liana
+}  // namespace liana::record

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-namespace liana {
+namespace liana::record {
 
 // Takes bytes in any number of pieces; O(bytes).
 class Crc32 {
@@ -17,4 +17,4 @@ class Crc32 {
   std::uint32_t state_ = 0xFFFFFFFFu;
 };
 
-}  // namespace liana
+}  // namespace liana::record

@@ -7,7 +7,7 @@
 #include "host/record/visit_cable_state.hpp"
 #include "host/record/visit_serial_state.hpp"
 
-namespace liana {
+namespace liana::record {
 
 // What no type alone can say. Each is found by ImageReader when it has read such a structure.
 
@@ -129,4 +129,4 @@ LIANA_IMAGES(cable::CableArm)
 LIANA_IMAGES(serial::SerialArm)
 #undef LIANA_IMAGES
 
-}  // namespace liana
+}  // namespace liana::record

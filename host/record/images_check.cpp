@@ -8,7 +8,7 @@
 #include "host/record/mcap.hpp"
 #include "host/record/recording.hpp"
 
-namespace liana {
+namespace liana::record {
 
 namespace {
 
@@ -40,4 +40,4 @@ ImagesCheck check_images(const std::string& directory, bool is_serial) {
   return is_serial ? check_file<serial::SerialArm>(file) : check_file<cable::CableArm>(file);
 }
 
-}  // namespace liana
+}  // namespace liana::record

@@ -7,7 +7,7 @@
 #include "firmware_like/safety/faults.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 
-namespace liana {
+namespace liana::record {
 
 // True from the first to the last of an enumeration without gaps that starts at 0.
 template <class E>
@@ -23,4 +23,4 @@ constexpr bool is_known(Request request) { return is_up_to(request, Request::kSt
 constexpr bool is_known(OperatingState state) { return is_up_to(state, OperatingState::kFault); }
 inline bool is_known(FaultNumber number) { return fault_info(number).number == number; }
 
-}  // namespace liana
+}  // namespace liana::record

@@ -13,7 +13,7 @@
 #include "host/record/crc32.hpp"
 #include "host/record/mcap_summary.hpp"
 
-namespace liana {
+namespace liana::record {
 
 // A channel and the schema of its messages.
 struct McapChannel {
@@ -74,4 +74,4 @@ enum class McapState : std::uint8_t {
 // opened, is no MCAP file, or is damaged so that its records cannot be told apart.
 McapState read_mcap(const std::string& path, const McapVisitor& visitor);
 
-}  // namespace liana
+}  // namespace liana::record

@@ -34,14 +34,14 @@ constexpr std::size_t kRecordHeadBytes = 9;  // operation code and length
 constexpr std::size_t kFooterBytes = 20;     // summary start, summary offset start, summary CRC
 
 inline std::uint32_t crc_of(std::string_view bytes) {
-  Crc32 crc;
+  record::Crc32 crc;
   crc.add(bytes);
   return crc.value();
 }
 
-template <Scalar T>
+template <record::Scalar T>
 void put(std::string& out, T value) {
-  Writer writer(out);
+  record::Writer writer(out);
   writer("", value);
 }
 

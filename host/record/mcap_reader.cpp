@@ -8,7 +8,7 @@
 #include "host/record/mcap.hpp"
 #include "host/record/mcap_format.hpp"
 
-namespace liana {
+namespace liana::record {
 
 namespace {
 
@@ -189,4 +189,4 @@ McapState read_mcap(const std::string& path, const McapVisitor& visitor) {
   return McapState::kCutShort;
 }
 
-}  // namespace liana
+}  // namespace liana::record

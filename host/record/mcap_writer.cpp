@@ -5,7 +5,7 @@
 #include "host/record/mcap.hpp"
 #include "host/record/mcap_format.hpp"
 
-namespace liana {
+namespace liana::record {
 
 using namespace mcap;
 
@@ -116,4 +116,4 @@ void McapWriter::finish() {
   if (failed_) throw std::runtime_error("recording " + path_ + ": a write failed (disk full?); the file is incomplete");
 }
 
-}  // namespace liana
+}  // namespace liana::record

@@ -8,7 +8,7 @@
 #include "host/record/tick_packet.hpp"
 #include "host/record/visit_serial.hpp"
 
-namespace liana {
+namespace liana::record {
 
 namespace {
 
@@ -154,4 +154,4 @@ ControllerImage<Arm> parse_image(std::string_view data, const std::string& sourc
 template ControllerImage<cable::CableArm> parse_image(std::string_view, const std::string&);
 template ControllerImage<serial::SerialArm> parse_image(std::string_view, const std::string&);
 
-}  // namespace liana
+}  // namespace liana::record

@@ -10,7 +10,7 @@
 #include "host/record/mcap.hpp"
 #include "host/record/visit.hpp"
 
-namespace liana {
+namespace liana::record {
 
 constexpr const char* kRecordingFile = "ticks.mcap";
 constexpr const char* kImagesFile = "images.mcap";
@@ -65,4 +65,4 @@ struct ControllerImage {
 template <class Arm>
 ControllerImage<Arm> parse_image(std::string_view data, const std::string& source = kImagesFile);
 
-}  // namespace liana
+}  // namespace liana::record

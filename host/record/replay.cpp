@@ -15,7 +15,7 @@
 #include "host/record/serialise.hpp"
 #include "host/record/visit_serial.hpp"
 
-namespace liana {
+namespace liana::record {
 
 namespace {
 
@@ -156,4 +156,4 @@ ReplayResult replay(const std::string& directory) {
   return result;
 }
 
-}  // namespace liana
+}  // namespace liana::record

@@ -4,7 +4,7 @@
 #include "host/record/codec.hpp"
 #include "host/record/visit_serial.hpp"
 
-namespace liana {
+namespace liana::record {
 
 namespace {
 
@@ -155,4 +155,4 @@ LIANA_SERIALISED(cable::CableArm)
 LIANA_SERIALISED(serial::SerialArm)
 #undef LIANA_SERIALISED
 
-}  // namespace liana
+}  // namespace liana::record

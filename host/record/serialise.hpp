@@ -8,7 +8,7 @@
 #include "firmware_like/serial_controller.hpp"
 #include "host/record/visit.hpp"
 
-namespace liana {
+namespace liana::record {
 
 // Rebuilds telecommands that were released and recorded; nothing else but Release can make one.
 class RecordingDecoder {
@@ -51,4 +51,4 @@ std::size_t serialised_outputs_size();
 template <class Arm>
 std::string outputs_field_at(std::size_t offset, const RecordedCounts& counts = {});
 
-}  // namespace liana
+}  // namespace liana::record

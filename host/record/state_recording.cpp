@@ -3,7 +3,7 @@
 #include "host/event/event_json.hpp"
 #include "host/record/build_id.hpp"
 
-namespace liana {
+namespace liana::record {
 
 namespace {
 
@@ -37,7 +37,7 @@ StateRecording::StateRecording(const std::string& directory, double period_s)
     : file_(directory + "/" + kStateFile, "liana " + build_id()),
       period_s_(period_s),
       state_(file_.add_channel({"state", "json", "jsonschema", kStateSchema})),
-      event_(file_.add_channel({"event", "json", "jsonschema", kEventSchema})),
+      event_(file_.add_channel({"event", "json", "jsonschema", event::kEventSchema})),
       verdict_(file_.add_channel({"verdict", "json", "jsonschema", kVerdictSchema})) {}
 
 void StateRecording::write(std::uint16_t channel, std::uint64_t tick, std::string_view text) {
@@ -75,4 +75,4 @@ void StateRecording::finish() {
   file_.finish();
 }
 
-}  // namespace liana
+}  // namespace liana::record

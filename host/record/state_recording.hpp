@@ -9,7 +9,7 @@
 #include "host/json/json.hpp"
 #include "host/record/mcap.hpp"
 
-namespace liana {
+namespace liana::record {
 
 constexpr const char* kStateFile = "state.mcap";
 
@@ -38,4 +38,4 @@ class StateRecording {
   std::string verdict_seen_;
 };
 
-}  // namespace liana
+}  // namespace liana::record

@@ -9,7 +9,7 @@
 #include "host/record/tick_record.hpp"
 #include "host/record/visit.hpp"
 
-namespace liana {
+namespace liana::record {
 
 // First byte of a packet. JSON packets start with '{' and never collide.
 enum class TickPacket : std::uint8_t {
@@ -40,4 +40,4 @@ TickParts split_tick_packet(std::string_view packet);
 // Which packet this is; throws std::runtime_error when it is none.
 TickPacket tick_packet_kind(std::string_view packet);
 
-}  // namespace liana
+}  // namespace liana::record

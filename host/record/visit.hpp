@@ -7,7 +7,7 @@
 
 #include "firmware_like/cable_controller.hpp"
 
-namespace liana {
+namespace liana::record {
 
 // T or const T: writers visit constants, readers visit variables.
 template <class T, class Plain>
@@ -240,4 +240,4 @@ void visit(A& a, T& r) {
   a("drive", r.drive);
 }
 
-}  // namespace liana
+}  // namespace liana::record

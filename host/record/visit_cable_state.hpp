@@ -3,7 +3,7 @@
 
 #include "host/record/visit_core_state.hpp"
 
-namespace liana {
+namespace liana::record {
 
 template <class A, Like<cable::EstimatorState> T>
 void visit(A& a, T& s) {
@@ -172,4 +172,4 @@ void visit(A& a, T& s) {
   a("balanced", s.balanced);
 }
 
-}  // namespace liana
+}  // namespace liana::record

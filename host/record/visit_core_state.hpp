@@ -6,7 +6,7 @@
 #include "firmware_like/operator_input/tip_filter.hpp"
 #include "host/record/visit.hpp"
 
-namespace liana {
+namespace liana::record {
 
 // A Controller or an arm: it shows its own members.
 template <class A, class T>
@@ -79,4 +79,4 @@ void visit(A& a, T& s) {
   a("accel_limited", s.accel_limited);
 }
 
-}  // namespace liana
+}  // namespace liana::record

@@ -5,7 +5,7 @@
 #include "firmware_like/serial_controller.hpp"
 #include "host/record/visit.hpp"
 
-namespace liana {
+namespace liana::record {
 
 inline RecordedCounts counts_of(const serial::RobotTable& table) {
   const auto joints = static_cast<std::uint8_t>(table.joint_count);
@@ -92,4 +92,4 @@ void visit(A& a, T& r) {
   a("interval_ticks", r.interval_ticks);
 }
 
-}  // namespace liana
+}  // namespace liana::record

@@ -4,7 +4,7 @@
 #include "host/record/visit_core_state.hpp"
 #include "host/record/visit_serial.hpp"
 
-namespace liana {
+namespace liana::record {
 
 template <class A, Like<serial::JointReading> T>
 void visit(A& a, T& s) {
@@ -64,4 +64,4 @@ void visit(A& a, T& s) {
   a("limits", s.limits);
 }
 
-}  // namespace liana
+}  // namespace liana::record

@@ -15,7 +15,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::report {
 namespace {
 
 constexpr rlim_t kWantedPriority = 80;
@@ -152,4 +152,4 @@ Json findings_json(const std::vector<Finding>& findings) {
   return list;
 }
 
-}  // namespace liana
+}  // namespace liana::report

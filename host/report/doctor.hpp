@@ -6,7 +6,7 @@
 
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
+namespace liana::report {
 
 // One thing looked at: whether it is as Liana wants it, what was found, what it is for, and what to do when it is not.
 struct Finding {
@@ -26,4 +26,4 @@ std::vector<Finding> examine_host();
 // The findings as a JSON list of objects with the names above.
 Json findings_json(const std::vector<Finding>& findings);
 
-}  // namespace liana
+}  // namespace liana::report

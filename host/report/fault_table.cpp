@@ -8,7 +8,7 @@
 #include "firmware_like/safety/supervisor.hpp"
 #include "firmware_like/serial/joint_watch.hpp"
 
-namespace liana {
+namespace liana::report {
 namespace {
 
 constexpr double kHeartbeatPeriod_s = 0.1;  // of every drive (docs/drives.md)
@@ -106,4 +106,4 @@ std::string markdown_of(const std::vector<FaultRow>& rows) {
   return text;
 }
 
-}  // namespace liana
+}  // namespace liana::report

@@ -8,7 +8,7 @@
 #include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/safety/faults.hpp"
 
-namespace liana {
+namespace liana::report {
 
 struct FaultRow {
   FaultInfo info;
@@ -23,4 +23,4 @@ std::vector<FaultRow> fault_rows(const cable::RobotTable& table);
 // The table as it stands in docs/faults.md.
 std::string markdown_of(const std::vector<FaultRow>& rows);
 
-}  // namespace liana
+}  // namespace liana::report

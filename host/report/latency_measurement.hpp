@@ -3,7 +3,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::report {
 
 // What lianad measured, and how it went meanwhile.
 struct LatencyMeasurement {
@@ -12,4 +12,4 @@ struct LatencyMeasurement {
   bool enabled = false;  // from before its begin to its end
 };
 
-}  // namespace liana
+}  // namespace liana::report

@@ -9,7 +9,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::report {
 namespace {
 
 constexpr std::size_t kBins = 13;  // the last one: 2048 us or more, which lianad counts together
@@ -80,7 +80,7 @@ std::string missing(const Json& findings) {
 
 }  // namespace
 
-Json latency_report(const LatencyMeasurement& measured, const BusesConfig& buses, double seconds,
+Json latency_report(const LatencyMeasurement& measured, const config::BusesConfig& buses, double seconds,
                     const std::vector<Finding>& realtime) {
   Json report = measured.timing;
   report.erase("op");
@@ -125,4 +125,4 @@ std::string latency_text(const Json& report) {
   return text + verdict(report) + missing(report["realtime"]);
 }
 
-}  // namespace liana
+}  // namespace liana::report

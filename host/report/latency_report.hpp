@@ -7,11 +7,11 @@
 #include "host/report/doctor.hpp"
 #include "host/report/latency_measurement.hpp"
 
-namespace liana {
+namespace liana::report {
 
 // The measurement as JSON: rate_hz, seconds, buses, enabled, ticks, wakeup_us, tick_us, overruns, overrun_causes,
 // realtime.
-Json latency_report(const LatencyMeasurement& measured, const BusesConfig& buses, double seconds,
+Json latency_report(const LatencyMeasurement& measured, const config::BusesConfig& buses, double seconds,
                     const std::vector<Finding>& realtime);
 
 // The report for people: table, histogram, verdict, and what the machine lacks.
@@ -21,4 +21,4 @@ std::string latency_text(const Json& report);
 // the count, so that one late wake-up in a million is seen. Empty bins at both ends are left out.
 std::string histogram_text(const Json& buckets);
 
-}  // namespace liana
+}  // namespace liana::report

@@ -8,7 +8,7 @@
 #include "host/json/json.hpp"
 #include "host/report/truth.hpp"
 
-namespace liana {
+namespace liana::report {
 namespace {
 
 Json read_json(const std::string& path) {
@@ -229,4 +229,4 @@ std::string report_text(const Json& report) {
   return text;
 }
 
-}  // namespace liana
+}  // namespace liana::report

@@ -10,7 +10,7 @@
 #include "host/config/config.hpp"
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
+namespace liana::report {
 
 // What is kept of every state message.
 struct StateSample {
@@ -37,10 +37,10 @@ struct ReportSources {
   std::string mission_report_file;  // of liana-mission
   std::string bus_stats_file;       // of liana-bus
   std::vector<StateSample> states;
-  std::vector<ReportedStep> announced;  // stands in for the steps of a mission runner that left no report
-  const Json* welcome = nullptr;        // of lianad
-  const Json* last_state = nullptr;     // of lianad
-  std::optional<ScenePose> rod;         // none: the scene has none
+  std::vector<ReportedStep> announced;   // stands in for the steps of a mission runner that left no report
+  const Json* welcome = nullptr;         // of lianad
+  const Json* last_state = nullptr;      // of lianad
+  std::optional<config::ScenePose> rod;  // none: the scene has none
 };
 
 // The report with the keys of docs/command-line.md.
@@ -49,4 +49,4 @@ Json make_report(const ReportSources& sources);
 // A few lines for people.
 std::string report_text(const Json& report);
 
-}  // namespace liana
+}  // namespace liana::report

@@ -11,7 +11,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::report {
 
 static_assert(std::endian::native == std::endian::little, "truth.bin is little-endian and read as it is");
 
@@ -74,4 +74,4 @@ std::vector<double> TruthLog::angles_deg(const std::string& prefix, std::size_t 
   return angles;
 }
 
-}  // namespace liana
+}  // namespace liana::report

@@ -8,7 +8,7 @@
 
 #include "firmware_like/math/pose.hpp"
 
-namespace liana {
+namespace liana::report {
 
 class TruthLog {
  public:
@@ -36,4 +36,4 @@ class TruthLog {
   std::vector<double> values_;  // row after row
 };
 
-}  // namespace liana
+}  // namespace liana::report

@@ -6,7 +6,7 @@
 #include "host/system/errors.hpp"
 #include "host/system/observer.hpp"
 
-namespace liana {
+namespace liana::system {
 namespace {
 
 constexpr double kBoot_s = 20.0;  // of arm time; it takes about 1.5 s
@@ -15,7 +15,7 @@ constexpr double kEndGrace_s = 5.0;
 constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
 constexpr int kStates = 50;           // one each T_c: torque readings scatter by 0.3 %
 
-void add(const Json& state, CalibrationReading& sum) {
+void add(const Json& state, calibration::CalibrationReading& sum) {
   std::size_t i = 0;
   for (const Json& drive : state.at("drives")) {
     sum.position_m[i] += drive.at("position_m").get<double>() / kStates;
@@ -60,9 +60,9 @@ Json CalibrateSession::next_state() {
   }
 }
 
-CalibrationReading CalibrateSession::read() {
+calibration::CalibrationReading CalibrateSession::read() {
   start();
-  CalibrationReading sum;
+  calibration::CalibrationReading sum;
   for (int taken = 0; taken < kStates;) {
     const Json state = next_state();
     const std::string name = state.value("state", "");
@@ -79,4 +79,4 @@ CalibrationReading CalibrateSession::read() {
   return sum;
 }
 
-}  // namespace liana
+}  // namespace liana::system

@@ -7,7 +7,7 @@
 #include "host/system/interrupt.hpp"
 #include "host/system/system.hpp"
 
-namespace liana {
+namespace liana::system {
 
 class CalibrateSession {
  public:
@@ -21,7 +21,7 @@ class CalibrateSession {
   // Boots the drives and averages what they report for a second; the pose of the result is left empty. Throws
   // std::runtime_error when a drive does not boot or a program ends; Interrupted at Ctrl-C; BadInput when a program
   // refused what it was given.
-  CalibrationReading read();
+  calibration::CalibrationReading read();
 
  private:
   void start();
@@ -32,4 +32,4 @@ class CalibrateSession {
   System system_;
 };
 
-}  // namespace liana
+}  // namespace liana::system

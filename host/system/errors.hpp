@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-namespace liana {
+namespace liana::system {
 
 // Exit codes of `liana`; the same for every command.
 enum ExitCode : int { kExitOk = 0, kExitFailure = 1, kExitBadInput = 2, kExitNotConverged = 3, kExitInterrupted = 130 };
@@ -20,4 +20,4 @@ struct Interrupted : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-}  // namespace liana
+}  // namespace liana::system

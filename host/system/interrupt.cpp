@@ -6,7 +6,7 @@
 
 #include "host/system/errors.hpp"
 
-namespace liana {
+namespace liana::system {
 namespace {
 
 std::atomic<int> interrupts = 0;
@@ -45,4 +45,4 @@ InterruptGuard::~InterruptGuard() {
 int InterruptGuard::count() const { return interrupts; }
 const std::atomic<bool>& InterruptGuard::any() const { return interrupted; }
 
-}  // namespace liana
+}  // namespace liana::system

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace liana {
+namespace liana::system {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,4 +47,4 @@ void keep_events(const std::string& file, const std::string& name, const std::st
   }
 }
 
-}  // namespace liana
+}  // namespace liana::system

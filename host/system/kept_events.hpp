@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-namespace liana {
+namespace liana::system {
 
 constexpr std::size_t kKeptRuns = 20;
 
@@ -15,4 +15,4 @@ std::string kept_events_folder();
 // beyond kKeptRuns. Throws std::runtime_error with file and reason.
 void keep_events(const std::string& file, const std::string& name, const std::string& folder);
 
-}  // namespace liana
+}  // namespace liana::system

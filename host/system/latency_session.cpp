@@ -10,7 +10,7 @@
 #include "host/system/errors.hpp"
 #include "host/system/observer.hpp"
 
-namespace liana {
+namespace liana::system {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -46,9 +46,9 @@ LatencySession::~LatencySession() {
   system_.end(kEndGrace_s, [](const Json&) {});
 }
 
-LatencyMeasurement LatencySession::measure(double seconds) {
+report::LatencyMeasurement LatencySession::measure(double seconds) {
   start();
-  LatencyMeasurement measured;
+  report::LatencyMeasurement measured;
   measured.enabled = enable();
   ask({{"op", "timing"}, {"reset", true}});
   const double begin_s = now_s();
@@ -119,4 +119,4 @@ void LatencySession::require_alive(double settle_s) {
   if (worst) throw std::runtime_error(worst->text);
 }
 
-}  // namespace liana
+}  // namespace liana::system

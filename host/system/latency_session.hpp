@@ -8,7 +8,7 @@
 #include "host/system/interrupt.hpp"
 #include "host/system/system.hpp"
 
-namespace liana {
+namespace liana::system {
 
 // The layout for it: bus and bench stand for hardware, which is never late for want of a processor; they run in real
 // time, under lianad's real-time thread.
@@ -26,7 +26,7 @@ class LatencySession {
   // Starts the programs, enables the arm, waits for it to rest, measures for `seconds`; an arm that cannot be enabled
   // is measured as it is. Throws std::runtime_error with what a program that ended said last, or when it was
   // interrupted.
-  LatencyMeasurement measure(double seconds);
+  report::LatencyMeasurement measure(double seconds);
 
  private:
   void start();
@@ -46,4 +46,4 @@ class LatencySession {
   int last_id_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::system

@@ -9,7 +9,7 @@
 #include "host/json/json.hpp"
 #include "host/system/errors.hpp"
 
-namespace liana {
+namespace liana::system {
 
 std::vector<std::string> systems_to_ask(const std::string& given) {
   if (!given.empty()) {
@@ -21,15 +21,15 @@ std::vector<std::string> systems_to_ask(const std::string& given) {
       throw BadInput("--api: '" + given + "': is no socket; give the API socket of a lianad");
     return {given};
   }
-  std::vector<std::string> systems = running_systems();
+  std::vector<std::string> systems = api::running_systems();
   if (systems.empty()) {
-    throw BadInput("no system of this user is running (looked in " + registry_folder() +
+    throw BadInput("no system of this user is running (looked in " + api::registry_folder() +
                    "); start one with liana run, or name its socket with --api");
   }
   return systems;
 }
 
-std::optional<Json> wait_for(ApiClient& client, const std::string& op, double timeout_s) {
+std::optional<Json> wait_for(api::ApiClient& client, const std::string& op, double timeout_s) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
   while (std::chrono::steady_clock::now() < deadline) {
     const auto left = std::chrono::duration<double>(deadline - std::chrono::steady_clock::now()).count();
@@ -50,13 +50,15 @@ Json hello(const std::string& name, Observer observer) {
   return {{"op", "hello"}, {"name", name}, {"role", role}, {"lockstep", false}, {"subscribe", subscriptions}};
 }
 
-void say_hello(ApiClient& client, const std::string& name, Observer observer) { client.send(hello(name, observer)); }
+void say_hello(api::ApiClient& client, const std::string& name, Observer observer) {
+  client.send(hello(name, observer));
+}
 
-Json hello_as_observer(ApiClient& client, const std::string& name) {
+Json hello_as_observer(api::ApiClient& client, const std::string& name) {
   say_hello(client, name, Observer::kSeeing);
   const auto welcome = wait_for(client, "welcome", 5.0);
   if (!welcome) throw std::runtime_error("lianad does not answer on its API socket");
   return *welcome;
 }
 
-}  // namespace liana
+}  // namespace liana::system

@@ -7,9 +7,11 @@
 
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
-
+namespace liana::api {
 class ApiClient;
+}  // namespace liana::api
+
+namespace liana::system {
 
 // API sockets: `given` alone, or those of all running systems of this user; throws BadInput when there is none.
 std::vector<std::string> systems_to_ask(const std::string& given);
@@ -26,13 +28,13 @@ Json hello(const std::string& name, Observer observer);
 
 // Says hello without waiting for the welcome. Throws std::runtime_error when
 // lianad is gone.
-void say_hello(ApiClient& client, const std::string& name, Observer observer);
+void say_hello(api::ApiClient& client, const std::string& name, Observer observer);
 
 // Says hello, subscribes to states, returns the welcome. Throws std::runtime_error when lianad refuses or does not
 // answer within 5 s.
-Json hello_as_observer(ApiClient& client, const std::string& name);
+Json hello_as_observer(api::ApiClient& client, const std::string& name);
 
 // Waits for a message whose `op` is given, at most `timeout_s`; an error message of lianad throws std::runtime_error.
-std::optional<Json> wait_for(ApiClient& client, const std::string& op, double timeout_s);
+std::optional<Json> wait_for(api::ApiClient& client, const std::string& op, double timeout_s);
 
-}  // namespace liana
+}  // namespace liana::system

@@ -11,7 +11,7 @@
 
 #include "host/system/errors.hpp"
 
-namespace liana {
+namespace liana::system {
 namespace {
 
 bool can_be_written(const std::string& path) {
@@ -54,4 +54,4 @@ int after_standard_output(int code) {
   return kExitFailure;
 }
 
-}  // namespace liana
+}  // namespace liana::system

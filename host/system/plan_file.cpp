@@ -8,13 +8,13 @@
 #include "host/system/errors.hpp"
 #include "host/system/tables.hpp"
 
-namespace liana {
+namespace liana::system {
 namespace {
 
 constexpr std::size_t kMostWaypoints = 2000;  // a followed curve has as many as it needs
 constexpr double kRounding_m = 1e-9;          // of angles that became degrees in between
 
-void check_scene(const std::string& file, const Json& plan, const SceneConfig& scene) {
+void check_scene(const std::string& file, const Json& plan, const config::SceneConfig& scene) {
   const Json& of_plan = plan.member_or_null("inputs").member_or_null("scene");
   if (of_plan == Json::parse(scene.canonical_json)) return;
   throw BadInput("--scene: '" + scene.name + "': the plan " + file + " was made for another scene" +
@@ -22,10 +22,10 @@ void check_scene(const std::string& file, const Json& plan, const SceneConfig& s
                  "; run it in that one, or plan again");
 }
 
-Path read_waypoints(const Field& plan, const cable::RobotTable& table) {
+plan::Path read_waypoints(const config::Field& plan, const cable::RobotTable& table) {
   const auto count = static_cast<std::size_t>(table.theta_count());
-  const Field rows = plan.at("waypoints_deg");
-  Path path(rows.size(2, kMostWaypoints, "plan a way, not only its end (--waypoints)"));
+  const config::Field rows = plan.at("waypoints_deg");
+  plan::Path path(rows.size(2, kMostWaypoints, "plan a way, not only its end (--waypoints)"));
   for (std::size_t w = 0; w < path.size(); ++w) {
     rows.element(w).size(count, count, "give an angle for every theta of the robot");
     for (std::size_t k = 0; k < count; ++k) path[w][k] = kDegree * rows.element(w).element(k).number({-180, 180});
@@ -35,26 +35,28 @@ Path read_waypoints(const Field& plan, const cable::RobotTable& table) {
 
 }  // namespace
 
-void check_plan_file(const std::string& file, const RobotConfig& robot, const SceneConfig& scene) {
-  const Json content =
-      checked([&] { return parse_json(read_text_file(file), file, "give a file that liana plan --out has written"); });
+void check_plan_file(const std::string& file, const config::RobotConfig& robot, const config::SceneConfig& scene) {
+  const Json content = checked([&] {
+    return config::parse_json(config::read_text_file(file), file, "give a file that liana plan --out has written");
+  });
   check_scene(file, content, scene);
-  const Field plan(content, file, "");
-  PlanRequest limits;
+  const config::Field plan(content, file, "");
+  plan::PlanRequest limits;
   limits.robot = robot;
   limits.scene = scene;
-  Path path;
+  plan::Path path;
   checked([&] {
-    const Field inputs = plan.at("inputs");
+    const config::Field inputs = plan.at("inputs");
     limits.margin_m = inputs.at("margin_m").number({0, 0.5}) - kRounding_m;
     limits.max_step_rad = kDegree * inputs.at("max_step_deg").number({0, 180, true});
     path = read_waypoints(plan, robot.table);
     return 0;
   });
-  const auto refused = refusal_of(limits, check_plan(robot, scene, path, plain_tip(robot.table, path.back())));
+  const auto refused =
+      plan::refusal_of(limits, plan::check_plan(robot, scene, path, plan::plain_tip(robot.table, path.back())));
   if (refused)
     throw BadInput(file + ": waypoints_deg: " + refused->reason +
                    ": the file is not what liana plan wrote: plan again");
 }
 
-}  // namespace liana
+}  // namespace liana::system

@@ -5,11 +5,11 @@
 
 #include "host/config/config.hpp"
 
-namespace liana {
+namespace liana::system {
 
 // The plan's way, put to the independent check again (docs/planning.md): its clearance is still inputs.margin_m, its
 // steps are within inputs.max_step_deg. `robot`: as for planning. Throws BadInput naming file, field and what is wrong:
 // also when the plan was made for another scene. Cost: about 0.1 s for 20 waypoints past a slit.
-void check_plan_file(const std::string& file, const RobotConfig& robot, const SceneConfig& scene);
+void check_plan_file(const std::string& file, const config::RobotConfig& robot, const config::SceneConfig& scene);
 
-}  // namespace liana
+}  // namespace liana::system

@@ -19,7 +19,7 @@
 #include <thread>
 #include <utility>
 
-namespace liana {
+namespace liana::system {
 namespace {
 
 constexpr int kExecFailed = 127;
@@ -184,4 +184,4 @@ std::string sibling_program(const std::string& name) {
   return path.string();
 }
 
-}  // namespace liana
+}  // namespace liana::system

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace liana {
+namespace liana::system {
 
 // How a child ended: its exit code, or 128 + the signal that killed it.
 struct ChildEnd {
@@ -78,4 +78,4 @@ Captured run_and_capture(const std::vector<std::string>& argv);
 // Path of a program that lies beside the running one; throws std::runtime_error when it is not there.
 std::string sibling_program(const std::string& name);
 
-}  // namespace liana
+}  // namespace liana::system

@@ -6,7 +6,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::system {
 namespace {
 constexpr double kLivePeriod_s = 0.5;  // of arm time
 }  // namespace
@@ -51,4 +51,4 @@ void Progress::clear_live() {
   live_ = false;
 }
 
-}  // namespace liana
+}  // namespace liana::system

@@ -5,7 +5,7 @@
 
 #include "host/json/json_fwd.hpp"
 
-namespace liana {
+namespace liana::system {
 
 class Progress {
  public:
@@ -26,4 +26,4 @@ class Progress {
   double next_live_s_ = 0.0;
 };
 
-}  // namespace liana
+}  // namespace liana::system

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace liana {
+namespace liana::system {
 
 struct RunOptions {
   std::string mission;  // empty: none (liana latency)
@@ -25,4 +25,4 @@ struct RunOptions {
   std::uint64_t seed = 1;
 };
 
-}  // namespace liana
+}  // namespace liana::system

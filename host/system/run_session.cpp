@@ -7,7 +7,7 @@
 
 #include "host/system/observer.hpp"
 
-namespace liana {
+namespace liana::system {
 namespace {
 
 namespace fs = std::filesystem;
@@ -145,4 +145,4 @@ void RunSession::keep(const Json& state) {
   announced_.back().last_tick = tick;
 }
 
-}  // namespace liana
+}  // namespace liana::system

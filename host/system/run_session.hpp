@@ -11,7 +11,7 @@
 #include "host/system/progress.hpp"
 #include "host/system/system.hpp"
 
-namespace liana {
+namespace liana::system {
 
 // How a run ended, as far as the processes tell.
 struct RunEnd {
@@ -30,8 +30,8 @@ class RunSession {
   // Starts everything, waits until the mission has ended, ends everything. Ctrl-C is a stop; a second one ends at once.
   RunEnd run();
 
-  const std::vector<StateSample>& states() const { return states_; }
-  const std::vector<ReportedStep>& announced() const { return announced_; }
+  const std::vector<report::StateSample>& states() const { return states_; }
+  const std::vector<report::ReportedStep>& announced() const { return announced_; }
   const Json& welcome() const { return welcome_; }
   const Json& last_state() const { return last_state_; }
 
@@ -53,8 +53,8 @@ class RunSession {
   System system_;
   Json welcome_;
   Json last_state_;
-  std::vector<StateSample> states_;
-  std::vector<ReportedStep> announced_;
+  std::vector<report::StateSample> states_;
+  std::vector<report::ReportedStep> announced_;
 };
 
-}  // namespace liana
+}  // namespace liana::system

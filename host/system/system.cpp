@@ -7,7 +7,7 @@
 
 #include "host/api/registry.hpp"
 
-namespace liana {
+namespace liana::system {
 
 namespace {
 
@@ -35,7 +35,7 @@ std::string System::start(const Json& hello, const std::atomic<bool>& stop) {
     const std::string socket = is_daemon ? layout_.api_socket() : layout_.bus_socket();
     if (!wait_for_socket(socket, *children_.back(), stop)) return call.name + " did not open its socket within 30 s";
     if (!is_daemon) continue;
-    api_ = ApiClient::connect(socket);
+    api_ = api::ApiClient::connect(socket);
     api_->send(hello);
   }
   return "";
@@ -65,7 +65,7 @@ void System::send(const Json& message) {
 std::optional<NamedEnd> System::worst_end(const Counts& counts, double settle_s) {
   const auto deadline = after(settle_s);
   while (Clock::now() < deadline && !all_have_ended()) sleep(kLook_s);
-  return liana::worst_end(children_, counts);
+  return liana::system::worst_end(children_, counts);
 }
 
 bool System::any_has_ended() const {
@@ -99,10 +99,10 @@ void System::remove_stale_entry() const {
   };
   if (std::none_of(children_.begin(), children_.end(), killed)) return;
   try {
-    running_systems();
+    api::running_systems();
   } catch (const std::exception&) {
     // a folder that is not ours has no entry of ours
   }
 }
 
-}  // namespace liana
+}  // namespace liana::system

@@ -12,7 +12,7 @@
 #include "host/system/process.hpp"
 #include "host/system/system_layout.hpp"
 
-namespace liana {
+namespace liana::system {
 
 class System {
  public:
@@ -57,7 +57,7 @@ class System {
 
   const SystemLayout& layout_;
   std::vector<std::unique_ptr<ChildProcess>> children_;
-  std::optional<ApiClient> api_;
+  std::optional<api::ApiClient> api_;
 };
 
-}  // namespace liana
+}  // namespace liana::system

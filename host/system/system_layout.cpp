@@ -23,7 +23,7 @@
 #include "host/system/process.hpp"
 #include "host/system/tables.hpp"
 
-namespace liana {
+namespace liana::system {
 namespace {
 
 namespace fs = std::filesystem;
@@ -53,14 +53,14 @@ void check_report_file(const std::string& path, const std::string& record_dir) {
 }
 
 // Every interface of a SocketCAN table must exist here and now.
-void check_interfaces(const BusesConfig& buses) {
+void check_interfaces(const config::BusesConfig& buses) {
   if (buses.backend != "socketcan") return;
   const int fd = socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, 1);
   if (fd < 0)
     throw BadInput("buses: '" + buses.name +
                    "': this kernel has no CAN; load can and can-raw, or take table embedded; see liana doctor");
   close(fd);
-  for (const BusConfig& bus : buses.buses) {
+  for (const config::BusConfig& bus : buses.buses) {
     if (if_nametoindex(bus.name.c_str()) == 0) {
       throw BadInput("buses: '" + buses.name + "': interface " + bus.name +
                      " does not exist; make it (ip link add dev " + bus.name + " type vcan; ip link set " + bus.name +
@@ -69,15 +69,15 @@ void check_interfaces(const BusesConfig& buses) {
   }
 }
 
-void check_in_pose(const RobotConfig& robot, const std::string& pose) {
+void check_in_pose(const config::RobotConfig& robot, const std::string& pose) {
   try {
-    check_tells_apart(robot, pose);
+    calibration::check_tells_apart(robot, pose);
   } catch (const std::runtime_error& error) {
     throw BadInput("--in-pose: " + std::string(error.what()));
   }
 }
 
-std::string time_mode_of(const RunOptions& options, const BusesConfig& buses) {
+std::string time_mode_of(const RunOptions& options, const config::BusesConfig& buses) {
   const bool wall_clock_only = buses.backend == "socketcan";
   if (options.time.empty()) return wall_clock_only ? "real" : "fast";
   if (wall_clock_only && options.time != "real") {
@@ -87,9 +87,9 @@ std::string time_mode_of(const RunOptions& options, const BusesConfig& buses) {
   return options.time;
 }
 
-std::string interface_names(const BusesConfig& buses) {
+std::string interface_names(const config::BusesConfig& buses) {
   std::string names;
-  for (const BusConfig& bus : buses.buses) names += (names.empty() ? "" : ",") + bus.name;
+  for (const config::BusConfig& bus : buses.buses) names += (names.empty() ? "" : ",") + bus.name;
   return names;
 }
 
@@ -164,15 +164,19 @@ RunOptions with_defaults(RunOptions options, bool is_serial) {
   return options;
 }
 
-void check_options_of_cable_robot(const RunOptions& options, const std::string& text, const BusesConfig& buses) {
-  const RobotConfig robot = checked([&] { return parse_robot(text, options.robot, options.physics, buses); });
-  if (!options.calibration.empty()) checked([&] { return load_calibration(options.calibration, robot, today_utc()); });
+void check_options_of_cable_robot(const RunOptions& options, const std::string& text,
+                                  const config::BusesConfig& buses) {
+  const config::RobotConfig robot =
+      checked([&] { return config::parse_robot(text, options.robot, options.physics, buses); });
+  if (!options.calibration.empty())
+    checked([&] { return calibration::load_calibration(options.calibration, robot, calibration::today_utc()); });
   if (!options.in_pose.empty()) check_in_pose(robot, options.in_pose);
   check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
 }
 
-void check_options_of_serial_robot(const RunOptions& options, const std::string& text, const BusesConfig& buses) {
-  checked([&] { return parse_serial_robot(text, options.robot, buses); });
+void check_options_of_serial_robot(const RunOptions& options, const std::string& text,
+                                   const config::BusesConfig& buses) {
+  checked([&] { return config::parse_serial_robot(text, options.robot, buses); });
   const auto refuse = [&](const char* option, bool given, const char* why) {
     if (given) throw BadInput(std::string(option) + ": robot " + options.robot + " has a serial arm: " + why);
   };
@@ -202,11 +206,11 @@ void save_events(const SystemLayout& plan) {
 SystemLayout make_layout(const RunOptions& given) {
   const std::string robot_text = evaluate_table("robot", given.robot);
   SystemLayout plan;
-  plan.is_serial = checked([&] { return robot_kind(robot_text, given.robot); }) == "serial";
+  plan.is_serial = checked([&] { return config::robot_kind(robot_text, given.robot); }) == "serial";
   const RunOptions options = with_defaults(given, plan.is_serial);
   const std::string buses_text = evaluate_table("buses", options.bus);
   const std::string scene_text = evaluate_table("scene", options.scene);
-  plan.buses = checked([&] { return parse_buses(buses_text, options.bus); });
+  plan.buses = checked([&] { return config::parse_buses(buses_text, options.bus); });
   if (plan.is_serial) {
     check_options_of_serial_robot(options, robot_text, plan.buses);
   } else {
@@ -214,7 +218,7 @@ SystemLayout make_layout(const RunOptions& given) {
   }
   const bool has_mission = !options.mission.empty();
   if (has_mission) check_mission(options.mission, options.robot);
-  plan.scene = checked([&] { return parse_scene(scene_text, options.scene); });
+  plan.scene = checked([&] { return config::parse_scene(scene_text, options.scene); });
   if (!plan.scene.camera || !plan.scene.contact)
     throw BadInput("--scene: '" + options.scene + "': has no " + (plan.scene.camera ? "contact" : "camera") +
                    ", which the bench needs; add it (docs/formats.md)");
@@ -265,4 +269,4 @@ void clean_up(const SystemLayout& plan, bool success) {
   if (plan.keep_directory || success) fs::remove_all(plan.socket_dir, error);
 }
 
-}  // namespace liana
+}  // namespace liana::system

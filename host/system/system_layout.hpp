@@ -7,7 +7,7 @@
 #include "host/config/config.hpp"
 #include "host/system/run_options.hpp"
 
-namespace liana {
+namespace liana::system {
 
 // One program to start.
 struct ProgramCall {
@@ -22,8 +22,8 @@ struct SystemLayout {
   std::string socket_dir;  // short temporary path: socket names are limited to 107 bytes
   bool keep_directory = false;
   std::string time_mode;
-  BusesConfig buses;
-  SceneConfig scene;
+  config::BusesConfig buses;
+  config::SceneConfig scene;
   bool is_serial = false;             // the robot has a serial arm
   std::vector<ProgramCall> programs;  // in the order in which they start
 
@@ -44,4 +44,4 @@ void check_cross_wired(const std::string& list, std::size_t drives);
 // could not is said on standard error.
 void clean_up(const SystemLayout& plan, bool success);
 
-}  // namespace liana
+}  // namespace liana::system

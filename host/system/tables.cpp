@@ -6,7 +6,7 @@
 
 #include "host/system/process.hpp"
 
-namespace liana {
+namespace liana::system {
 namespace {
 
 // The evaluator's first line, without its program name: one message for the user.
@@ -51,23 +51,23 @@ void check_mission(const std::string& name, const std::string& robot) {
   evaluate({"--robot=" + robot, "--", "mission", name});
 }
 
-SceneConfig scene_of(const std::string& name) {
+config::SceneConfig scene_of(const std::string& name) {
   const std::string scene = evaluate_table("scene", name);
-  return checked([&] { return parse_scene(scene, name); });
+  return checked([&] { return config::parse_scene(scene, name); });
 }
 
-RobotConfig robot_for_kinematics(const std::string& name) {
+config::RobotConfig robot_for_kinematics(const std::string& name) {
   const std::string robot = evaluate_table("robot", name);
   const std::string buses = evaluate_table("buses", "embedded");
-  return checked([&] { return parse_robot(robot, name, "nominal", parse_buses(buses, "embedded")); });
+  return checked([&] { return config::parse_robot(robot, name, "nominal", config::parse_buses(buses, "embedded")); });
 }
 
-std::optional<SerialRobotConfig> serial_robot_for_kinematics(const std::string& name) {
+std::optional<config::SerialRobotConfig> serial_robot_for_kinematics(const std::string& name) {
   const std::string robot = evaluate_table("robot", name);
-  return checked([&]() -> std::optional<SerialRobotConfig> {
-    if (robot_kind(robot, name) != "serial") return std::nullopt;
-    return parse_serial_robot(robot, name);
+  return checked([&]() -> std::optional<config::SerialRobotConfig> {
+    if (config::robot_kind(robot, name) != "serial") return std::nullopt;
+    return config::parse_serial_robot(robot, name);
   });
 }
 
-}  // namespace liana
+}  // namespace liana::system

@@ -9,7 +9,7 @@
 #include "host/config/serial_robot.hpp"
 #include "host/system/errors.hpp"
 
-namespace liana {
+namespace liana::system {
 
 // Canonical JSON of a table; kind is robot, scene or buses, `name` a name under lua/ or a file (.lua, or .json as
 // exported). Throws BadInput with the evaluator's one message.
@@ -30,12 +30,12 @@ auto checked(const Loader& loader) {
 }
 
 // A scene, checked.
-SceneConfig scene_of(const std::string& name);
+config::SceneConfig scene_of(const std::string& name);
 
 // The robot as pose and ik need it, on the default buses.
-RobotConfig robot_for_kinematics(const std::string& name);
+config::RobotConfig robot_for_kinematics(const std::string& name);
 
 // The same for a serial arm, without buses; empty when the robot is of another kind.
-std::optional<SerialRobotConfig> serial_robot_for_kinematics(const std::string& name);
+std::optional<config::SerialRobotConfig> serial_robot_for_kinematics(const std::string& name);
 
-}  // namespace liana
+}  // namespace liana::system

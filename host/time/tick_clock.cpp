@@ -3,7 +3,7 @@
 #include <cerrno>
 #include <ctime>
 
-namespace liana {
+namespace liana::timing {
 namespace {
 
 constexpr std::uint64_t kNanosecondsPerSecond = 1'000'000'000;
@@ -49,4 +49,4 @@ std::uint64_t TickClock::now_us() const noexcept {
   return epoch_ns_ != 0 && now_ns > epoch_ns_ ? (now_ns - epoch_ns_) / 1000 : 0;
 }
 
-}  // namespace liana
+}  // namespace liana::timing

@@ -5,7 +5,7 @@
 
 #include "host/time/tick_start.hpp"
 
-namespace liana {
+namespace liana::timing {
 
 class TickClock {
  public:
@@ -25,4 +25,4 @@ class TickClock {
   std::uint64_t deadline_ns_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::timing

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace liana {
+namespace liana::timing {
 
 // How a tick began.
 struct TickStart {
@@ -13,4 +13,4 @@ struct TickStart {
   bool ended = false;             // the other side has left; there will be no further tick
 };
 
-}  // namespace liana
+}  // namespace liana::timing

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-namespace liana {
+namespace liana::timing {
 
 // As numbered in the WELCOME packet (docs/bus-protocol.md).
 enum class TimeMode : std::uint8_t { kFast = 0, kPaced = 1, kReal = 2 };
@@ -24,4 +24,4 @@ constexpr std::optional<TimeMode> time_mode_from(std::string_view name) {
   return std::nullopt;
 }
 
-}  // namespace liana
+}  // namespace liana::timing

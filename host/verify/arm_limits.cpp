@@ -2,7 +2,7 @@
 
 #include "firmware_like/serial/drive_units.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 namespace {
 
@@ -60,4 +60,4 @@ void judge_joints(const serial::RobotTable& table, const serial::Outputs& output
   }
 }
 
-}  // namespace liana
+}  // namespace liana::verify

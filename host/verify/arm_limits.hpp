@@ -5,7 +5,7 @@
 #include "firmware_like/serial_controller.hpp"
 #include "host/verify/judge.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 // Execution: a tick's planned forces, and its targets against those of the tick before (nullptr: there is none).
 void judge_targets(const cable::RobotTable& table, const cable::Outputs* before, const cable::Outputs& after,
@@ -27,4 +27,4 @@ inline TipRates tip_rates(const cable::RobotTable& table) {
 }
 inline TipRates tip_rates(const serial::RobotTable& table) { return {table.tip.speed_m_s, table.tip.rate_rad_s}; }
 
-}  // namespace liana
+}  // namespace liana::verify

@@ -7,7 +7,7 @@
 
 #include "host/verify/verdict.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 constexpr double kRounding = 1.0 + 1e-6;  // limits that the limiter reaches exactly
 
@@ -50,4 +50,4 @@ class Judge {
   Verdict& verdict_;
 };
 
-}  // namespace liana
+}  // namespace liana::verify

@@ -7,7 +7,7 @@
 #include "firmware_like/drive/ideal_drive.hpp"
 #include "firmware_like/math/convert.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 template <class Arm>
 class NominalDrives {
@@ -38,4 +38,4 @@ class NominalDrives {
   liana::Outputs<Arm> told_;
 };
 
-}  // namespace liana
+}  // namespace liana::verify

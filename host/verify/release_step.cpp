@@ -2,7 +2,7 @@
 
 #include "firmware_like/command/release.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 template <class Arm>
 Candidate<Arm> ReleaseStep<Arm>::candidate(const typename Arm::Setpoint& setpoint, std::uint32_t owner,
@@ -25,4 +25,4 @@ std::optional<Telecommand<typename Arm::Setpoint>> ReleaseStep<Arm>::release(con
 template class ReleaseStep<cable::CableArm>;
 template class ReleaseStep<serial::SerialArm>;
 
-}  // namespace liana
+}  // namespace liana::verify

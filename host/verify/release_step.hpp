@@ -8,7 +8,7 @@
 #include "firmware_like/serial_controller.hpp"
 #include "host/verify/verdict.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 template <class Arm>
 class Twin;
@@ -53,4 +53,4 @@ class ReleaseStep {
 extern template class ReleaseStep<cable::CableArm>;
 extern template class ReleaseStep<serial::SerialArm>;
 
-}  // namespace liana
+}  // namespace liana::verify

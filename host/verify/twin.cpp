@@ -2,7 +2,7 @@
 
 #include "host/verify/nominal_drives.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 namespace {
 
@@ -52,4 +52,4 @@ Prediction<Arm> Twin<Arm>::run(const TwinImage<Arm>& start, std::span<const Comm
 template class Twin<cable::CableArm>;
 template class Twin<serial::SerialArm>;
 
-}  // namespace liana
+}  // namespace liana::verify

@@ -7,7 +7,7 @@
 #include "host/verify/release_step.hpp"
 #include "host/verify/twin_image.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 // What the twin predicts for one candidate.
 template <class Arm>
@@ -32,4 +32,4 @@ class Twin {
 extern template class Twin<cable::CableArm>;
 extern template class Twin<serial::SerialArm>;
 
-}  // namespace liana
+}  // namespace liana::verify

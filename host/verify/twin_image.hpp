@@ -5,7 +5,7 @@
 
 #include "firmware_like/controller.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 template <class Arm>
 struct TwinImage {
@@ -18,4 +18,4 @@ struct TwinImage {
   Outputs<Arm> last_outputs{};
 };
 
-}  // namespace liana
+}  // namespace liana::verify

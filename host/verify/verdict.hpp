@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace liana {
+namespace liana::verify {
 
 // Error codes M_e: 1xx execution capability (the controller's own outputs), 2xx simulation (the motion). Numbers never
 // change meaning.
@@ -39,4 +39,4 @@ struct Verdict {
 struct ExecutionVerdict : Verdict {};
 struct SimulationVerdict : Verdict {};
 
-}  // namespace liana
+}  // namespace liana::verify

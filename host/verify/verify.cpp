@@ -2,7 +2,7 @@
 
 #include "host/verify/arm_limits.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 namespace {
 
@@ -17,7 +17,8 @@ constexpr double kIkAngle_rad = 0.01;
 
 // The tip against its limits and its target.
 template <class Arm>
-void judge_tip(const typename Arm::Table& table, const Outputs<Arm>& outputs, const SpeedZone& zone, Judge& judge) {
+void judge_tip(const typename Arm::Table& table, const Outputs<Arm>& outputs, const arbiter::SpeedZone& zone,
+               Judge& judge) {
   const TipRates most = tip_rates(table);
   const double speed_m_s = zone.limit_at(outputs.tip_command.position_m, most.speed_m_s);
   judge.check(Refusal::kTipSpeed, "tip speed [m/s]", -1, outputs.tip_speed_m_s, kTipSpeedMargin * speed_m_s);
@@ -60,7 +61,7 @@ void judge_time(std::uint64_t first_tick, std::uint64_t ticks_done, ExecutionVer
 
 template <class Arm>
 SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate<Arm>& candidate,
-                               const Prediction<Arm>& prediction, const SpeedZone& zone) {
+                               const Prediction<Arm>& prediction, const arbiter::SpeedZone& zone) {
   SimulationVerdict verdict;
   verdict.sequence = candidate.sequence();
   Judge judge(verdict);
@@ -77,9 +78,9 @@ SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate
 #define LIANA_JUDGES(Arm)                                                                                           \
   template ExecutionVerdict judge_execution<Arm>(const Arm::Table&, const Candidate<Arm>&, const Prediction<Arm>&); \
   template SimulationVerdict judge_motion<Arm>(const Arm::Table&, const Candidate<Arm>&, const Prediction<Arm>&,    \
-                                               const SpeedZone&);
+                                               const arbiter::SpeedZone&);
 LIANA_JUDGES(cable::CableArm)
 LIANA_JUDGES(serial::SerialArm)
 #undef LIANA_JUDGES
 
-}  // namespace liana
+}  // namespace liana::verify

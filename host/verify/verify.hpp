@@ -5,7 +5,7 @@
 #include "host/verify/twin.hpp"
 #include "host/verify/verdict.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 // Longest stop that is accepted: full speed to rest takes about 2 s with the limits of the arm (v/a + a/j + filter
 // lag).
@@ -22,10 +22,10 @@ ExecutionVerdict judge_execution(const typename Arm::Table& table, const Candida
 // The motion: joint angles and rates, tip speed (in `zone` the zone's), and rest after the command.
 template <class Arm>
 SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate<Arm>& candidate,
-                               const Prediction<Arm>& prediction, const SpeedZone& zone = {});
+                               const Prediction<Arm>& prediction, const arbiter::SpeedZone& zone = {});
 
 // Real time only: refuses when the interval that begins at `first_tick` has begun already (`ticks_done` is what the arm
 // has reached).
 void judge_time(std::uint64_t first_tick, std::uint64_t ticks_done, ExecutionVerdict& verdict);
 
-}  // namespace liana
+}  // namespace liana::verify

@@ -20,8 +20,8 @@ constexpr std::size_t kBoxes = 6;
 constexpr double kPeerError_m = 2e-3;  // FCL's distance comes from an iteration, and it knows no depth
 
 struct Scenario {
-  std::vector<Capsule> links;
-  std::vector<SceneBox> boxes;
+  std::vector<clearance::Capsule> links;
+  std::vector<config::SceneBox> boxes;
 };
 
 // An arm at a random pose among boxes of 0.1 to 0.6 m.
@@ -29,7 +29,7 @@ Scenario scenario(const cable::RobotTable& robot, const cable::ThetaVector& thet
   Scenario out;
   const cable::LinkPoints points = link_points(robot, theta);
   for (std::int32_t link = 0; link + 1 < points.count; ++link)
-    out.links.push_back(link_capsule(points, link, kLinkRadius_m));
+    out.links.push_back(clearance::link_capsule(points, link, kLinkRadius_m));
   while (out.boxes.size() < kBoxes) {
     const Quat turn = quaternion_of(random.vector(1.5));
     const Vec3 from_middle = random.vector(1.5), half = random.vector(0.125);
@@ -58,7 +58,7 @@ struct FclScenario {
 };
 
 // A capsule of FCL lies along z around its middle.
-fcl::CollisionObjectd fcl_link(const Capsule& link) {
+fcl::CollisionObjectd fcl_link(const clearance::Capsule& link) {
   const Vec3 axis = subtract(link.to_m, link.from_m), middle = scale(add(link.from_m, link.to_m), 0.5);
   const Eigen::Vector3d along(axis[0], axis[1], axis[2]);
   fcl::Transform3d at = fcl::Transform3d::Identity();
@@ -67,7 +67,7 @@ fcl::CollisionObjectd fcl_link(const Capsule& link) {
   return {std::make_shared<fcl::Capsuled>(link.radius_m, along.norm()), at};
 }
 
-fcl::CollisionObjectd fcl_box(const SceneBox& box) {
+fcl::CollisionObjectd fcl_box(const config::SceneBox& box) {
   fcl::Transform3d at = fcl::Transform3d::Identity();
   for (int i = 0; i < 3; ++i) {
     const Vec3& axis = box.rotation[static_cast<std::size_t>(i)];
@@ -80,8 +80,8 @@ fcl::CollisionObjectd fcl_box(const SceneBox& box) {
 
 FclScenario fcl_scenario(const Scenario& from) {
   FclScenario out;
-  for (const Capsule& link : from.links) out.links.push_back(fcl_link(link));
-  for (const SceneBox& box : from.boxes) out.boxes.push_back(fcl_box(box));
+  for (const clearance::Capsule& link : from.links) out.links.push_back(fcl_link(link));
+  for (const config::SceneBox& box : from.boxes) out.boxes.push_back(fcl_box(box));
   return out;
 }
 
@@ -98,7 +98,7 @@ bool fcl_touch(const fcl::CollisionObjectd& link, const fcl::CollisionObjectd& b
 // --- libccd: bodies by their furthest point in a direction ---
 
 void link_support(const void* body, const ccd_vec3_t* direction, ccd_vec3_t* furthest) {
-  const Capsule& link = *static_cast<const Capsule*>(body);
+  const clearance::Capsule& link = *static_cast<const clearance::Capsule*>(body);
   const Vec3 d{direction->v[0], direction->v[1], direction->v[2]};
   const Vec3& end = dot(d, subtract(link.to_m, link.from_m)) > 0.0 ? link.to_m : link.from_m;
   const Vec3 p = add(end, scale(d, link.radius_m / std::sqrt(dot(d, d))));
@@ -106,7 +106,7 @@ void link_support(const void* body, const ccd_vec3_t* direction, ccd_vec3_t* fur
 }
 
 void box_support(const void* body, const ccd_vec3_t* direction, ccd_vec3_t* furthest) {
-  const SceneBox& box = *static_cast<const SceneBox*>(body);
+  const config::SceneBox& box = *static_cast<const config::SceneBox*>(body);
   const Vec3 d{direction->v[0], direction->v[1], direction->v[2]};
   Vec3 p = box.center_m;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -117,13 +117,13 @@ void box_support(const void* body, const ccd_vec3_t* direction, ccd_vec3_t* furt
 }
 
 void link_center(const void* body, ccd_vec3_t* center) {
-  const Capsule& link = *static_cast<const Capsule*>(body);
+  const clearance::Capsule& link = *static_cast<const clearance::Capsule*>(body);
   const Vec3 p = scale(add(link.from_m, link.to_m), 0.5);
   ccdVec3Set(center, p[0], p[1], p[2]);
 }
 
 void box_center(const void* body, ccd_vec3_t* center) {
-  const Vec3& p = static_cast<const SceneBox*>(body)->center_m;
+  const Vec3& p = static_cast<const config::SceneBox*>(body)->center_m;
   ccdVec3Set(center, p[0], p[1], p[2]);
 }
 
@@ -145,7 +145,7 @@ ccd_t ccd_settings() {
 void compare(const Scenario& ours, const FclScenario& fcl, const ccd_t& ccd) {
   for (std::size_t l = 0; l < ours.links.size(); ++l) {
     for (std::size_t b = 0; b < kBoxes; ++b) {
-      const double distance_m = clearance(ours.links[l], ours.boxes[b]).distance_m;
+      const double distance_m = clearance::clearance(ours.links[l], ours.boxes[b]).distance_m;
       if (distance_m > kPeerError_m)
         require_agreement("distance of FCL", std::fabs(fcl_distance(fcl.links[l], fcl.boxes[b]) - distance_m),
                           kPeerError_m);
@@ -176,14 +176,17 @@ void measure(Meter& meter, const cable::RobotTable& robot) {
   };
   const auto touch_of = [&](auto&& intersect) {
     return [&ours, &ccd, intersect](std::size_t i) {
-      return sum_over_pairs(ours[i].links, ours[i].boxes, [&](const Capsule& link, const SceneBox& box) {
-        return static_cast<double>(intersect(&link, &box, &ccd));
-      });
+      return sum_over_pairs(ours[i].links, ours[i].boxes,
+                            [&](const clearance::Capsule& link, const config::SceneBox& box) {
+                              return static_cast<double>(intersect(&link, &box, &ccd));
+                            });
     };
   };
   count("ours", [&](std::size_t i) {
     return sum_over_pairs(ours[i].links, ours[i].boxes,
-                          [](const Capsule& link, const SceneBox& box) { return clearance(link, box).distance_m; });
+                          [](const clearance::Capsule& link, const config::SceneBox& box) {
+                            return clearance::clearance(link, box).distance_m;
+                          });
   });
   count("fcl", [&](std::size_t i) { return sum_over_pairs(fcl[i].links, fcl[i].boxes, fcl_distance); });
   count("fcl_collide", [&](std::size_t i) { return sum_over_pairs(fcl[i].links, fcl[i].boxes, fcl_touch); });
@@ -201,7 +204,7 @@ void measure(Meter& meter, const cable::RobotTable& robot) {
 
 int main() try {
   liana::bench::Meter meter;
-  liana::bench::measure(meter, liana::zhu2022::table());
+  liana::bench::measure(meter, liana::cable::zhu2022::table());
   meter.print();
   return 0;
 } catch (const std::exception& error) {

@@ -7,35 +7,42 @@
 #include "tests/host/plan/requests.hpp"
 
 namespace liana::bench {
+
+using namespace cable;
 namespace {
 
 constexpr std::int32_t kWaypoints = 12;
 
-PlanRequest past_a_ball() {
-  SceneConfig scene;
+plan::PlanRequest past_a_ball() {
+  config::SceneConfig scene;
   scene.spheres.push_back({"ball", {2.5, 0.0, 0.1}, 0.2});
-  return request_between({0, -5, 0, -5, 0, -5, 0, 0, 0, 0}, {0, 5, 0, 5, 0, 5, 0, 0, 0, 0}, scene);
+  return plan::request_between({0, -5, 0, -5, 0, -5, 0, 0, 0, 0}, {0, 5, 0, 5, 0, 5, 0, 0, 0, 0}, scene);
 }
 
-PlanRequest to_the_edge() { return request_between(zhu2022::kPrepare_deg, zhu2022::kPanelEdge_deg, panel_slit()); }
+plan::PlanRequest to_the_edge() {
+  return plan::request_between(zhu2022::kPrepare_deg, zhu2022::kPanelEdge_deg, plan::panel_slit());
+}
 
-PlanRequest into_the_slit() { return request_between(zhu2022::kPanelEdge_deg, zhu2022::kPressRod_deg, panel_slit()); }
+plan::PlanRequest into_the_slit() {
+  return plan::request_between(zhu2022::kPanelEdge_deg, zhu2022::kPressRod_deg, plan::panel_slit());
+}
 
-void measure(Meter& meter, const std::string& operation, PlanRequest request) {
+void measure(Meter& meter, const std::string& operation, plan::PlanRequest request) {
   request.waypoints = kWaypoints;
-  request.max_step_rad = default_max_step_rad(request.robot.table, kWaypoints);
+  request.max_step_rad = plan::default_max_step_rad(request.robot.table, kWaypoints);
   for (const bool straight : {false, true}) {
-    PlanControl control;
+    plan::PlanControl control;
     control.straight_start_only = straight;
-    PlanResult result;
+    plan::PlanResult result;
     const std::string version = straight ? "ipopt_straight" : "ours";
     meter.once(operation, version, [&] {
-      result = plan(request, control);
+      result = plan::plan(request, control);
       return result.objective;
     });
-    if (!straight && result.outcome != PlanOutcome::solved) throw std::runtime_error(operation + ": " + result.reason);
+    if (!straight && result.outcome != plan::PlanOutcome::solved)
+      throw std::runtime_error(operation + ": " + result.reason);
     meter.note(operation, version,
-               std::string(name_of(result.outcome)) + ", " + std::to_string(result.iterations) + " iterations");
+               std::string(plan::name_of(result.outcome)) + ", " + std::to_string(result.iterations) + " iterations");
   }
 }
 

@@ -13,12 +13,12 @@
 namespace liana::closed_loop {
 namespace {
 
-const RobotConfig& robot(const std::string& physics) {
-  static std::map<std::string, RobotConfig> loaded;
+const config::RobotConfig& robot(const std::string& physics) {
+  static std::map<std::string, config::RobotConfig> loaded;
   const auto found = loaded.find(physics);
   if (found != loaded.end()) return found->second;
-  const BusesConfig buses = load_buses(CLOSED_LOOP_DATA "/buses.json");
-  return loaded.emplace(physics, load_robot(CLOSED_LOOP_DATA "/robot.json", physics, buses)).first->second;
+  const config::BusesConfig buses = config::load_buses(CLOSED_LOOP_DATA "/buses.json");
+  return loaded.emplace(physics, config::load_robot(CLOSED_LOOP_DATA "/robot.json", physics, buses)).first->second;
 }
 
 }  // namespace
@@ -36,8 +36,8 @@ Pose tip_at(const std::string& pose_name) {
   return forward_kinematics(robot_table(), named_pose_rad(pose_name)).tip_in_base;
 }
 
-const SceneConfig& scene() {
-  static const SceneConfig loaded = load_scene(CLOSED_LOOP_DATA "/scene.json");
+const config::SceneConfig& scene() {
+  static const config::SceneConfig loaded = config::load_scene(CLOSED_LOOP_DATA "/scene.json");
   return loaded;
 }
 

@@ -16,7 +16,7 @@ cable::ThetaVector named_pose_rad(const std::string& name);
 // Tip pose at a named pose, by the core's kinematics.
 Pose tip_at(const std::string& pose_name);
 // The scene, read once per process.
-const SceneConfig& scene();
+const config::SceneConfig& scene();
 
 // Largest |a - b| over all angles [deg].
 double largest_difference_deg(const cable::ThetaVector& a_rad, const cable::ThetaVector& b_rad);

@@ -17,7 +17,7 @@ constexpr std::uint32_t kHoldX4X5 = kHoldX5 | 1u << kX4;
 
 // In the slit plane, `u_m` along the arm's way and `w_m` across it, in the attitude of the rod.
 Pose in_slit(double u_m, double w_m) {
-  const SceneSlit& slit = *scene().slit;
+  const config::SceneSlit& slit = *scene().slit;
   const Vec3 position = add(add(scale(slit.u_axis, u_m), scale(slit.w_axis, w_m)), scale(slit.normal, slit.offset_m));
   return {position, scene().rod->pose.quaternion_wxyz};
 }

@@ -4,7 +4,7 @@
 #include "host/lua/bindings.hpp"
 #include "tests/lua/program.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 TEST(Bindings, PrintAsJsonForTools) {
@@ -16,7 +16,7 @@ TEST(Bindings, PrintAsJsonForTools) {
 // Calls the command as a script would and returns what it raises.
 std::string raised_by(const std::string& call) {
   struct Sink : RequestSink {
-    std::int64_t request(const RequestRow&, Json) override { return 1; }
+    std::int64_t request(const api::RequestRow&, Json) override { return 1; }
     void progress(const Json&) override {}
     void report(const Json&) override {}
   } sink;
@@ -45,4 +45,4 @@ TEST(Bindings, RefuseFieldsOfOtherTypesAndNamesAtTheLineOfTheScript) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::script

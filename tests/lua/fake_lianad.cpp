@@ -12,7 +12,7 @@
 #include "host/lua/evaluate.hpp"
 #include "host/lua/json_bridge.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 constexpr int kTicksPerInterval = 5;
@@ -233,4 +233,4 @@ int FakeLianad::planar_segments() const {
 
 Json FakeLianad::named_pose(const char* name) const { return robot_["named_poses_deg"][name]; }
 
-}  // namespace liana
+}  // namespace liana::script

@@ -10,7 +10,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::script {
 
 // What goes wrong, and how the operator behaves.
 struct FakeBehaviour {
@@ -85,4 +85,4 @@ class FakeLianad {
   Json said_;
 };
 
-}  // namespace liana
+}  // namespace liana::script

@@ -7,7 +7,7 @@
 #include "host/lua/script.hpp"
 #include "tests/lua/program.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 constexpr double kTolerance = 1e-9;
@@ -72,4 +72,4 @@ TEST(LuaGeometry, QuaternionIsTheRotationAndHasUnitLength) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::script

@@ -4,7 +4,7 @@
 #include "tests/lua/fake_lianad.hpp"
 #include "tests/lua/program.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 // How one mission against the fake ended.
@@ -398,4 +398,4 @@ TEST(Mission, StepsRunInTheOrderInWhichTheyAreWritten) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::script

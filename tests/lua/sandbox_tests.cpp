@@ -5,7 +5,7 @@
 #include "host/lua/script.hpp"
 #include "tests/lua/program.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 struct Attack {
@@ -125,4 +125,4 @@ TEST(Sandbox, GivesWhatLuacheckAllowsAndNoDoorOutside) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::script

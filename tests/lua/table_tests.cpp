@@ -4,7 +4,7 @@
 
 #include "tests/lua/program.hpp"
 
-namespace liana {
+namespace liana::script {
 namespace {
 
 TEST(Eval, PrintsTheSameCanonicalTextTwice) {
@@ -244,4 +244,4 @@ TEST(Eval, RefusesAMissionFileThatReturnsSomethingElse) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::script

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -52,4 +52,4 @@ void PathSearch::search(const Piece& whole) {
   }
 }
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -8,7 +8,7 @@
 
 #include "firmware_like/cable/arm/robot_table.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -41,4 +41,4 @@ class PathSearch {
   std::int64_t poses_ = 0;
 };
 
-}  // namespace liana
+}  // namespace liana::plan

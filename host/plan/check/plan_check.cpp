@@ -7,7 +7,7 @@
 #include "firmware_like/cable/arm/tension.hpp"
 #include "host/plan/check/path_search.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -97,11 +97,11 @@ std::vector<double> cable_lengths_m(const RobotTable& table, const ThetaVector& 
   return lengths;
 }
 
-double point_distance_m(const Vector& p, const SceneSphere& sphere) {
+double point_distance_m(const Vector& p, const config::SceneSphere& sphere) {
   return distance(p, sphere.center_m) - sphere.radius_m;
 }
 
-double point_distance_m(const Vector& p, const SceneBox& box) {
+double point_distance_m(const Vector& p, const config::SceneBox& box) {
   double outside2 = 0.0, inside = -1e300;
   for (Index i = 0; i < 3; ++i) {
     double along = 0.0;
@@ -153,7 +153,7 @@ void look_at(const Chain& chain, double radius_m, const std::vector<Obstacle>& o
   }
 }
 
-Nearest nearest_at(const RobotConfig& robot, const SceneConfig& scene, const ThetaVector& theta_rad) {
+Nearest nearest_at(const config::RobotConfig& robot, const config::SceneConfig& scene, const ThetaVector& theta_rad) {
   Nearest nearest;
   const Chain chain = chain_of(robot.table, theta_rad);
   look_at(chain, robot.module_radius_m, scene.spheres, nearest);
@@ -161,8 +161,8 @@ Nearest nearest_at(const RobotConfig& robot, const SceneConfig& scene, const The
   return nearest;
 }
 
-void check_clearance(const RobotConfig& robot, const SceneConfig& scene, const std::vector<ThetaVector>& path,
-                     PlanCheck& out) {
+void check_clearance(const config::RobotConfig& robot, const config::SceneConfig& scene,
+                     const std::vector<ThetaVector>& path, PlanCheck& out) {
   out.min_clearance_m = kNothingNear_m;
   if (scene.spheres.empty() && scene.boxes.empty()) return;
   Nearest nearest;
@@ -234,8 +234,8 @@ std::vector<std::array<double, 3>> plain_axis(const RobotTable& table, const The
   return chain_of(table, theta_rad).link_end_m;
 }
 
-PlanCheck check_plan(const RobotConfig& robot, const SceneConfig& scene, const std::vector<ThetaVector>& waypoints_rad,
-                     const CheckedTip& goal) {
+PlanCheck check_plan(const config::RobotConfig& robot, const config::SceneConfig& scene,
+                     const std::vector<ThetaVector>& waypoints_rad, const CheckedTip& goal) {
   PlanCheck out;
   check_clearance(robot, scene, waypoints_rad, out);
   out.self = self_clearance_along(robot, waypoints_rad);
@@ -253,4 +253,4 @@ PlanCheck check_plan(const RobotConfig& robot, const SceneConfig& scene, const s
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

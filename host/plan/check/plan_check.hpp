@@ -15,7 +15,7 @@
 #include "host/config/config.hpp"
 #include "host/plan/check/self_check.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -45,8 +45,8 @@ struct CheckedTip {
 
 // Checks waypoints [rad] against the scene. `goal` is where the tip has to end. A path of one waypoint is a single
 // pose.
-PlanCheck check_plan(const RobotConfig& robot, const SceneConfig& scene, const std::vector<ThetaVector>& waypoints_rad,
-                     const CheckedTip& goal);
+PlanCheck check_plan(const config::RobotConfig& robot, const config::SceneConfig& scene,
+                     const std::vector<ThetaVector>& waypoints_rad, const CheckedTip& goal);
 
 // Tip of joint angles by the plain product of joints.
 CheckedTip plain_tip(const RobotTable& table, const ThetaVector& theta_rad);
@@ -54,4 +54,4 @@ CheckedTip plain_tip(const RobotTable& table, const ThetaVector& theta_rad);
 // The same way: ends of all links, base frame; the base comes first.
 std::vector<std::array<double, 3>> plain_axis(const RobotTable& table, const ThetaVector& theta_rad);
 
-}  // namespace liana
+}  // namespace liana::plan

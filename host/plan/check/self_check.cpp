@@ -8,7 +8,7 @@
 #include "host/plan/check/plan_check.hpp"
 #include "host/plan/text.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -44,7 +44,7 @@ Index least_gap(const RobotTable& table) {
 
 }  // namespace
 
-SelfClearance self_clearance(const RobotConfig& robot, const ThetaVector& theta_rad) {
+SelfClearance self_clearance(const config::RobotConfig& robot, const ThetaVector& theta_rad) {
   const std::vector<Vector> end = plain_axis(robot.table, theta_rad);
   const Index gap = least_gap(robot.table);
   SelfClearance least;
@@ -64,7 +64,7 @@ std::string nearest_text(const SelfClearance& self) {
          distance_text(self.clearance_m, text("link %d of the arm itself", static_cast<int>(self.link[0])));
 }
 
-SelfClearance self_clearance_along(const RobotConfig& robot, const std::vector<ThetaVector>& path) {
+SelfClearance self_clearance_along(const config::RobotConfig& robot, const std::vector<ThetaVector>& path) {
   SelfClearance least;
   least.link = {0, 0};
   const auto look = [&](const ThetaVector& theta_rad) {
@@ -76,4 +76,4 @@ SelfClearance self_clearance_along(const RobotConfig& robot, const std::vector<T
   return least;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

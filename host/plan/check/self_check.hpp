@@ -8,7 +8,7 @@
 
 #include "host/config/config.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -27,11 +27,11 @@ std::string nearest_text(const SelfClearance& self);
 constexpr double kSelfMargin_m = 0.001;
 
 // At one pose. Cost: about 500 pairs of links, 40 us.
-SelfClearance self_clearance(const RobotConfig& robot, const ThetaVector& theta_rad);
+SelfClearance self_clearance(const config::RobotConfig& robot, const ThetaVector& theta_rad);
 
 // Along a path, certain to kUnseen_m where it is below kSelfNear_m; above, the least of the waypoints and the poses
 // looked at.
 constexpr double kSelfNear_m = 0.05;
-SelfClearance self_clearance_along(const RobotConfig& robot, const std::vector<ThetaVector>& path);
+SelfClearance self_clearance_along(const config::RobotConfig& robot, const std::vector<ThetaVector>& path);
 
-}  // namespace liana
+}  // namespace liana::plan

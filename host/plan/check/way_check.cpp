@@ -5,7 +5,7 @@
 #include "host/plan/check/plan_check.hpp"
 #include "host/plan/text.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 constexpr double kRounding_m = 1e-6;  // of points that became degrees in between
@@ -15,8 +15,8 @@ struct Allowed {
   double self_m;
 };
 
-std::string refusal(const RobotConfig& robot, const SceneConfig& scene, const std::vector<ThetaVector>& way,
-                    const Allowed& allowed) {
+std::string refusal(const config::RobotConfig& robot, const config::SceneConfig& scene,
+                    const std::vector<ThetaVector>& way, const Allowed& allowed) {
   const PlanCheck check = check_plan(robot, scene, way, plain_tip(robot.table, way.back()));
   const TensionLimits& tension = robot.table.tension;
   if (check.min_clearance_m < allowed.clearance_m - kRounding_m) {
@@ -34,8 +34,8 @@ std::string refusal(const RobotConfig& robot, const SceneConfig& scene, const st
 
 }  // namespace
 
-std::string refusal_of_way(const RobotConfig& robot, const SceneConfig& scene, const std::vector<ThetaVector>& points,
-                           double margin_m, double off_m) {
+std::string refusal_of_way(const config::RobotConfig& robot, const config::SceneConfig& scene,
+                           const std::vector<ThetaVector>& points, double margin_m, double off_m) {
   const Allowed allowed{margin_m, std::max(kSelfMargin_m, 2.0 * off_m)};
   const std::string lead = refusal(robot, scene, {points[0], points[1]}, {2.0 * off_m, allowed.self_m});
   if (!lead.empty()) return "between where the arm stands and point 1 " + lead;
@@ -48,4 +48,4 @@ std::string refusal_of_way(const RobotConfig& robot, const SceneConfig& scene, c
   return whole;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -9,7 +9,7 @@
 #include "host/plan/start/relax.hpp"
 #include "host/plan/text.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -93,11 +93,12 @@ class Follower {
                              norm(here), at(along_m).c_str(), length_m));
         return false;
       }
-      for (std::int32_t i = 0; i < obstacle_count(room_.scene()); ++i) {
-        const double left_m = clearance({here, here, room_.link_radius_m()}, room_.scene(), i).distance_m;
+      for (std::int32_t i = 0; i < clearance::obstacle_count(room_.scene()); ++i) {
+        const double left_m = clearance::clearance({here, here, room_.link_radius_m()}, room_.scene(), i).distance_m;
         if (left_m >= request_.margin_m) continue;
         failed("curve", text("the curve leaves the tip %.1f mm from '%s' %s; the margin is %.1f mm", 1000.0 * left_m,
-                             obstacle_name(room_.scene(), i).c_str(), at(along_m).c_str(), 1000.0 * request_.margin_m));
+                             clearance::obstacle_name(room_.scene(), i).c_str(), at(along_m).c_str(),
+                             1000.0 * request_.margin_m));
         return false;
       }
     }
@@ -140,10 +141,10 @@ class Follower {
         if (largest_change(way.back().theta_rad, before) < kSettled_rad) break;
       }
       if (tip_off_m(room_, curve_, along_m, way.back().theta_rad) < kTipTolerance_m) continue;
-      const ArmClearance near = room_.look(way.back().theta_rad);
+      const clearance::ArmClearance near = room_.look(way.back().theta_rad);
       const bool pushed = near.nearest.distance_m < request_.margin_m + kRelaxReach_m;
       const std::string what =
-          pushed ? "'" + obstacle_name(room_.scene(), near.obstacle) + "'" : "the limits of the joints";
+          pushed ? "'" + clearance::obstacle_name(room_.scene(), near.obstacle) + "'" : "the limits of the joints";
       failed(pushed ? "clearance" : "tip", text("%s keep the tip off the curve %s", what.c_str(), at(along_m).c_str()));
       return false;
     }
@@ -226,7 +227,7 @@ FollowPath follow_path(const Room& room, const PlanRequest& request, const Curve
 
 FollowCurve slit_curve(const Room& room, const ThetaVector& from_rad, const ThetaVector& goal_rad) {
   if (!room.scene().slit) return {{}, text("the scene '%s' has no slit", room.scene().name.c_str())};
-  const SceneSlit& slit = *room.scene().slit;
+  const config::SceneSlit& slit = *room.scene().slit;
   const auto depth_m = [&](const Vec3& p) { return dot(slit.u_axis, p) - slit.mouth_u_m; };
   const LinkPoints line = link_points(room.table(), goal_rad);
   Index first = Index(line.count) - 1;
@@ -251,4 +252,4 @@ FollowCurve slit_curve(const Room& room, const ThetaVector& from_rad, const Thet
   return curve;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -4,7 +4,7 @@
 
 #include "host/plan/check/plan_check.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -66,4 +66,4 @@ FollowFigures follow_figures(const RobotTable& table, const std::vector<ThetaVec
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

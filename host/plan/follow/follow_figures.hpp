@@ -7,7 +7,7 @@
 #include "host/config/config.hpp"
 #include "host/plan/follow/curve.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -26,4 +26,4 @@ struct FollowFigures {
 FollowFigures follow_figures(const RobotTable& table, const std::vector<ThetaVector>& waypoints_rad,
                              const Curve& curve);
 
-}  // namespace liana
+}  // namespace liana::plan

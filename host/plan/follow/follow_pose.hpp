@@ -6,7 +6,7 @@
 #include "host/plan/follow/follow_track.hpp"
 #include "host/plan/problem/room.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -32,4 +32,4 @@ double misfit_m2(const Room& room, const FollowTrack& track, double along_m, con
 // Distance of the tip from its place.
 double tip_off_m(const Room& room, const Curve& curve, double along_m, const ThetaVector& theta_rad);
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -4,7 +4,7 @@
 #include "host/plan/follow/curve.hpp"
 #include "host/plan/problem/room.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -24,4 +24,4 @@ class FollowTrack {
   Curve curve_;
 };
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -1,6 +1,6 @@
 #include "host/plan/problem/arm_derivatives.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -192,4 +192,4 @@ CableDerivatives cable_derivatives(const RobotTable& table, const ThetaVector& t
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -15,7 +15,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/plan/problem/jet.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -84,4 +84,4 @@ struct CableDerivatives {
 };
 CableDerivatives cable_derivatives(const RobotTable& table, const ThetaVector& theta_rad);
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -5,19 +5,21 @@
 
 #include "host/algebra/thetas.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
 struct BlockSystem {
-  std::vector<ThetaMatrix> own;
-  std::vector<ThetaMatrix> next;  // [w]: rows of waypoint w + 1, columns of w
-  std::vector<ThetaColumn> rhs;
+  std::vector<algebra::ThetaMatrix> own;
+  std::vector<algebra::ThetaMatrix> next;  // [w]: rows of waypoint w + 1, columns of w
+  std::vector<algebra::ThetaColumn> rhs;
   BlockSystem(std::size_t blocks, Eigen::Index thetas)
-      : own(blocks, ThetaMatrix::Zero(thetas, thetas)), next(own), rhs(blocks, ThetaColumn::Zero(thetas)) {}
+      : own(blocks, algebra::ThetaMatrix::Zero(thetas, thetas)),
+        next(own),
+        rhs(blocks, algebra::ThetaColumn::Zero(thetas)) {}
 };
 
 // Solves in place of rhs by block Cholesky; false when the matrix is not positive. `own` and `next` are used up.
 bool solve(BlockSystem& system);
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <stdexcept>
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Ipopt::Index;
@@ -158,4 +158,4 @@ Solution solve(PlanProblem& problem, const PlanControl& control) {
   return adapter->solution;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -5,7 +5,7 @@
 #include "host/plan/problem/plan_problem.hpp"
 #include "host/plan/problem/point_distance.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 constexpr double kPer_N = 1e-3;  // of tension rows
@@ -36,7 +36,7 @@ NodeDistance node_distance(const Vec3& node_m, const Vec3& target_m) {
   return {rounded_m - kRound_m, scale(away, 1.0 / rounded_m), rounded_m};
 }
 
-PointDistance row_distance(const ClearanceRow& row, const Vec3& point, const SceneConfig& scene) {
+PointDistance row_distance(const ClearanceRow& row, const Vec3& point, const config::SceneConfig& scene) {
   if (!row.plane) return point_distance(point, scene, row.obstacle);
   return {dot(row.plane->normal, point) - row.plane->offset_m, row.plane->normal, {}};
 }
@@ -286,4 +286,4 @@ void PlanProblem::hessian(const double* x, double objective_factor, const double
   add_tension_hessians(multipliers + first_tension_, out);
 }
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 constexpr std::int32_t kTipRows = 6;
@@ -166,4 +166,4 @@ Path PlanProblem::path_of(const double* x) const {
   return path;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -23,7 +23,7 @@
 #include "host/plan/problem/arm_derivatives.hpp"
 #include "host/plan/problem/planned_tension.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -157,4 +157,4 @@ class PlanProblem {
   std::vector<CableDerivatives> cables_;  // per waypoint; empty without cable rows
 };
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -22,7 +22,7 @@ constexpr double kSamePlane = 1.0 - 1e-9;  // cosine between normals
 
 // Keeps both ends of a link before the plane that touches the box at its nearest point. The end that the link before
 // shares is left out when that link has the same plane.
-void add_planes(const PathPlace& place, std::int32_t link, std::int32_t obstacle, const Clearance& here,
+void add_planes(const PathPlace& place, std::int32_t link, std::int32_t obstacle, const clearance::Clearance& here,
                 std::vector<ClearanceRow>& rows) {
   const Plane plane{here.normal, dot(here.normal, here.on_obstacle_m)};
   const ClearanceRow* last = rows.empty() ? nullptr : &rows.back();
@@ -32,8 +32,8 @@ void add_planes(const PathPlace& place, std::int32_t link, std::int32_t obstacle
   rows.push_back({place, {link, 1.0}, obstacle, plane});
 }
 
-void add_rows(const Room& room, std::int32_t obstacle, const PathPlace& place, std::int32_t link, const Clearance& here,
-              std::vector<ClearanceRow>& rows) {
+void add_rows(const Room& room, std::int32_t obstacle, const PathPlace& place, std::int32_t link,
+              const clearance::Clearance& here, std::vector<ClearanceRow>& rows) {
   const bool box = Index(obstacle) >= room.scene().spheres.size();
   const bool axis_outside = here.distance_m + room.link_radius_m() > 0.0;
   if (box && axis_outside) return add_planes(place, link, obstacle, here, rows);
@@ -41,16 +41,17 @@ void add_rows(const Room& room, std::int32_t obstacle, const PathPlace& place, s
 }
 
 // Clearances of all links from one obstacle.
-std::vector<Clearance> clearances(const Room& room, const LinkPoints& points, std::int32_t obstacle) {
-  std::vector<Clearance> out;
+std::vector<clearance::Clearance> clearances(const Room& room, const LinkPoints& points, std::int32_t obstacle) {
+  std::vector<clearance::Clearance> out;
   for (std::int32_t link = 0; link + 1 < points.count; ++link) {
-    out.push_back(clearance(link_capsule(points, link, room.link_radius_m()), room.scene(), obstacle));
+    out.push_back(
+        clearance::clearance(clearance::link_capsule(points, link, room.link_radius_m()), room.scene(), obstacle));
   }
   return out;
 }
 
 // No neighbouring link is nearer.
-bool is_nearest(const std::vector<Clearance>& links, Index i) {
+bool is_nearest(const std::vector<clearance::Clearance>& links, Index i) {
   return (i == 0 || links[i].distance_m < links[i - 1].distance_m) &&
          (i + 1 == links.size() || links[i].distance_m <= links[i + 1].distance_m);
 }
@@ -59,8 +60,8 @@ bool is_nearest(const std::vector<Clearance>& links, Index i) {
 void add_place(const Room& room, const PlanRequest& request, const Path& path, const PathPlace& place,
                const std::vector<RowSite>& sites, std::vector<ClearanceRow>& rows) {
   const LinkPoints points = link_points(room.table(), theta_at(path, place));
-  for (std::int32_t obstacle = 0; obstacle < obstacle_count(room.scene()); ++obstacle) {
-    const std::vector<Clearance> links = clearances(room, points, obstacle);
+  for (std::int32_t obstacle = 0; obstacle < clearance::obstacle_count(room.scene()); ++obstacle) {
+    const std::vector<clearance::Clearance> links = clearances(room, points, obstacle);
     for (Index i = 0; i < links.size(); ++i) {
       const std::int32_t link = static_cast<std::int32_t>(i);
       const bool near = links[i].distance_m < request.margin_m + (is_nearest(links, i) ? kNear_m : kTight_m);
@@ -140,8 +141,8 @@ std::vector<RowSite> sites_below(const Room& room, const PlanRequest& request, c
   std::vector<RowSite> out;
   const auto add_sites = [&](const PathPlace& place) {
     const LinkPoints points = link_points(room.table(), theta_at(path, place));
-    for (std::int32_t obstacle = 0; obstacle < obstacle_count(room.scene()); ++obstacle) {
-      const std::vector<Clearance> links = clearances(room, points, obstacle);
+    for (std::int32_t obstacle = 0; obstacle < clearance::obstacle_count(room.scene()); ++obstacle) {
+      const std::vector<clearance::Clearance> links = clearances(room, points, obstacle);
       for (Index i = 0; i < links.size(); ++i) {
         if (links[i].distance_m < clearance_m && is_nearest(links, i))
           out.push_back({place, static_cast<std::int32_t>(i), obstacle});
@@ -177,4 +178,4 @@ bool tensions_hold(const PlanRequest& request, const Path& path) {
                       [&](const ThetaVector& theta) { return tension.excess_N(theta) > 0.0; });
 }
 
-}  // namespace liana
+}  // namespace liana::plan

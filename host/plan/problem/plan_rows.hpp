@@ -11,7 +11,7 @@
 #include "host/plan/problem/plan_problem.hpp"
 #include "host/plan/problem/room.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -36,4 +36,4 @@ bool steps_hold(const PlanRequest& request, const Path& path);
 // At no waypoint a cable is below its floor or over its ceiling.
 bool tensions_hold(const PlanRequest& request, const Path& path);
 
-}  // namespace liana
+}  // namespace liana::plan

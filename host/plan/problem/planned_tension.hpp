@@ -12,7 +12,7 @@
 #include "firmware_like/cable/arm/tension.hpp"
 #include "host/plan/problem/arm_derivatives.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -36,4 +36,4 @@ class PlannedTension {
   CableLayout layout_;
 };
 
-}  // namespace liana
+}  // namespace liana::plan

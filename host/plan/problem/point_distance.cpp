@@ -5,7 +5,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/clearance/clearance.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -26,8 +26,8 @@ Matrix3 curvature(const Matrix3& free, const Vec3& normal, double distance_m) {
 
 }  // namespace
 
-PointDistance point_distance(const Vec3& point, const SceneConfig& scene, std::int32_t obstacle) {
-  const Clearance found = clearance({point, point, 0.0}, scene, obstacle);
+PointDistance point_distance(const Vec3& point, const config::SceneConfig& scene, std::int32_t obstacle) {
+  const clearance::Clearance found = clearance::clearance({point, point, 0.0}, scene, obstacle);
   PointDistance out{found.distance_m, found.normal, {}};
   const Index i = static_cast<Index>(obstacle);
   if (i < scene.spheres.size()) {
@@ -37,7 +37,7 @@ PointDistance point_distance(const Vec3& point, const SceneConfig& scene, std::i
     return out;
   }
   if (!(found.distance_m > 0.0)) return out;
-  const SceneBox& box = scene.boxes[i - scene.spheres.size()];
+  const config::SceneBox& box = scene.boxes[i - scene.spheres.size()];
   Matrix3 across{};  // axes along which the point is beyond the box
   for (Index k = 0; k < 3; ++k) {
     if (std::fabs(dot(box.rotation[k], subtract(point, box.center_m))) > box.half_extent_m[k])
@@ -47,4 +47,4 @@ PointDistance point_distance(const Vec3& point, const SceneConfig& scene, std::i
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

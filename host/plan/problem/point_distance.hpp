@@ -6,7 +6,7 @@
 
 #include "host/config/config.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -18,6 +18,6 @@ struct PointDistance {
 };
 
 // Obstacles are numbered as in clearance.hpp.
-PointDistance point_distance(const Vec3& point, const SceneConfig& scene, std::int32_t obstacle);
+PointDistance point_distance(const Vec3& point, const config::SceneConfig& scene, std::int32_t obstacle);
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -4,16 +4,17 @@
 
 #include "host/plan/problem/arm_derivatives.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 PoseModel push_model(const Room& room, const ThetaVector& theta, double wanted_m, bool derivatives) {
-  const Eigen::Index n = theta_count(room.table());
+  const Eigen::Index n = algebra::theta_count(room.table());
   PoseModel model(n);
   const LinkPoints points = link_points(room.table(), theta);
-  std::vector<std::pair<Clearance, std::int32_t>> close;
-  for (std::int32_t obstacle = 0; obstacle < obstacle_count(room.scene()); ++obstacle) {
+  std::vector<std::pair<clearance::Clearance, std::int32_t>> close;
+  for (std::int32_t obstacle = 0; obstacle < clearance::obstacle_count(room.scene()); ++obstacle) {
     for (std::int32_t link = 0; link + 1 < points.count; ++link) {
-      const Clearance here = clearance(link_capsule(points, link, room.link_radius_m()), room.scene(), obstacle);
+      const clearance::Clearance here =
+          clearance::clearance(clearance::link_capsule(points, link, room.link_radius_m()), room.scene(), obstacle);
       if (here.distance_m < wanted_m) close.push_back({here, link});
     }
   }
@@ -22,11 +23,11 @@ PoseModel push_model(const Room& room, const ThetaVector& theta, double wanted_m
   const ArmDerivatives arm(room.table(), theta);
   for (const auto& [here, link] : close) {
     const PointDerivatives point = arm.point({link, here.share});
-    const ThetaColumn slope = view(point.by_theta, n).transpose() * view(here.normal);
+    const algebra::ThetaColumn slope = algebra::view(point.by_theta, n).transpose() * algebra::view(here.normal);
     model.gradient -= 2.0 * (wanted_m - here.distance_m) * slope;
     model.hessian.noalias() += 2.0 * slope * slope.transpose();
   }
   return model;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -4,21 +4,21 @@
 #include "host/algebra/thetas.hpp"
 #include "host/plan/problem/room.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
 // Gauss-Newton model of a cost at one pose.
 struct PoseModel {
   explicit PoseModel(Eigen::Index thetas)
-      : gradient(ThetaColumn::Zero(thetas)), hessian(ThetaMatrix::Zero(thetas, thetas)) {}
+      : gradient(algebra::ThetaColumn::Zero(thetas)), hessian(algebra::ThetaMatrix::Zero(thetas, thetas)) {}
   double cost = 0.0;
-  ThetaColumn gradient;
-  ThetaMatrix hessian;
+  algebra::ThetaColumn gradient;
+  algebra::ThetaMatrix hessian;
 };
 
 // Cost [m^2]: sum over links and obstacles of (wanted - distance)^2 where positive. The derivatives only when asked
 // for.
 PoseModel push_model(const Room& room, const ThetaVector& theta_rad, double wanted_m, bool derivatives);
 
-}  // namespace liana
+}  // namespace liana::plan

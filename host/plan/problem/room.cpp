@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -12,8 +12,8 @@ constexpr double kLeastAdvance_m = 0.004;  // near the margin poses are looked a
 
 }  // namespace
 
-ArmClearance Room::look(const ThetaVector& theta_rad) const {
-  return arm_clearance(link_points(robot_.table, theta_rad), robot_.module_radius_m, scene_);
+clearance::ArmClearance Room::look(const ThetaVector& theta_rad) const {
+  return clearance::arm_clearance(link_points(robot_.table, theta_rad), robot_.module_radius_m, scene_);
 }
 
 double Room::motion_m(const ThetaVector& a, const ThetaVector& b) const {
@@ -50,4 +50,4 @@ ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share) {
   return theta;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -6,21 +6,21 @@
 #include "host/clearance/clearance.hpp"
 #include "host/plan/plan.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
 class Room {
  public:
   // Both must outlive the room.
-  Room(const RobotConfig& robot, const SceneConfig& scene) : robot_(robot), scene_(scene) {}
+  Room(const config::RobotConfig& robot, const config::SceneConfig& scene) : robot_(robot), scene_(scene) {}
 
   const RobotTable& table() const { return robot_.table; }
-  const SceneConfig& scene() const { return scene_; }
+  const config::SceneConfig& scene() const { return scene_; }
   double link_radius_m() const { return robot_.module_radius_m; }
 
   // Least clearance of one pose.
-  ArmClearance look(const ThetaVector& theta_rad) const;
+  clearance::ArmClearance look(const ThetaVector& theta_rad) const;
 
   // Bound on how far any point of the arm moves when the thetas change from a to b [m].
   double motion_m(const ThetaVector& a, const ThetaVector& b) const;
@@ -30,8 +30,8 @@ class Room {
   bool is_free(const ThetaVector& a, const ThetaVector& b, double margin_m) const;
 
  private:
-  const RobotConfig& robot_;
-  const SceneConfig& scene_;
+  const config::RobotConfig& robot_;
+  const config::SceneConfig& scene_;
 };
 
 // From the base to the tip of the straight arm [m].
@@ -40,4 +40,4 @@ double arm_length_m(const RobotTable& table);
 // Pose at `share` (0..1) between a and b.
 ThetaVector between(const ThetaVector& a, const ThetaVector& b, double share);
 
-}  // namespace liana
+}  // namespace liana::plan

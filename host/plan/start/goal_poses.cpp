@@ -6,7 +6,7 @@
 #include "host/plan/start/relax.hpp"
 #include "host/solve/goal_ik.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -52,16 +52,17 @@ solve::GoalIkProblem with_clear_spheres(solve::GoalIkProblem problem, const Room
   const LinkPoints points = link_points(room.table(), theta);
   std::vector<std::pair<double, Index>> near;
   for (Index i = 0; i < room.scene().spheres.size(); ++i) {
-    double least_m = kNoObstacle_m;
+    double least_m = clearance::kNoObstacle_m;
     for (std::int32_t link = 0; link + 1 < points.count; ++link) {
-      least_m = std::min(
-          least_m, clearance(link_capsule(points, link, room.link_radius_m()), room.scene().spheres[i]).distance_m);
+      least_m = std::min(least_m, clearance::clearance(clearance::link_capsule(points, link, room.link_radius_m()),
+                                                       room.scene().spheres[i])
+                                      .distance_m);
     }
     near.push_back({least_m, i});
   }
   std::sort(near.begin(), near.end());
   for (Index i = 0; i < std::min(near.size(), problem.clear.size()); ++i) {
-    const SceneSphere& sphere = room.scene().spheres[near[i].second];
+    const config::SceneSphere& sphere = room.scene().spheres[near[i].second];
     problem.clear[i] = {sphere.center_m, sphere.radius_m + room.link_radius_m() + clearance_m, kClearWeight};
   }
   return problem;
@@ -70,7 +71,7 @@ solve::GoalIkProblem with_clear_spheres(solve::GoalIkProblem problem, const Room
 // A pose and its clearance.
 struct Candidate {
   ThetaVector theta_rad{};
-  double clearance_m = -kNoObstacle_m;
+  double clearance_m = -clearance::kNoObstacle_m;
 };
 
 // The pose that goal IK finds, pushed off obstacles where that helps; false when it finds none.
@@ -114,7 +115,7 @@ GoalPoses goal_poses(const Room& room, const PlanRequest& request) {
     for (const std::int32_t axis : {0, 1})
       problems.push_back(with_planar_end(problems.front(), room.table(), segments, axis));
   }
-  double most_clearance = -kNoObstacle_m;
+  double most_clearance = -clearance::kNoObstacle_m;
   const auto try_problem = [&](const solve::GoalIkProblem& problem) {
     Candidate pose;
     if (!find_pose(room, request, problem, pose)) return;
@@ -134,4 +135,4 @@ GoalPoses goal_poses(const Room& room, const PlanRequest& request) {
   return out;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

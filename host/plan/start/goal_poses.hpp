@@ -3,7 +3,7 @@
 
 #include "host/plan/problem/room.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -26,4 +26,4 @@ GoalPoses goal_poses(const Room& room, const PlanRequest& request);
 // Seed 0 is `from_rad`, 1 the straight arm, then patterns of signs at half the limits.
 ThetaVector seed_pose(const RobotTable& table, const ThetaVector& from_rad, std::int32_t seed);
 
-}  // namespace liana
+}  // namespace liana::plan

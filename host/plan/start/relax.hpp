@@ -8,7 +8,7 @@
 
 #include "host/plan/problem/room.hpp"
 
-namespace liana {
+namespace liana::plan {
 
 using namespace cable;  // this room serves the cable arm only
 
@@ -21,7 +21,7 @@ Path relax(const Room& room, const PlanRequest& request, Path path);
 
 // Least clearance over a path looked at every `spacing_m` of motion, and where.
 struct PathLook {
-  double distance_m = kNoObstacle_m;
+  double distance_m = clearance::kNoObstacle_m;
   std::int32_t interval = 0;
   double share = 0.0;
   std::int32_t link = -1;
@@ -48,4 +48,4 @@ struct SettledPose {
 // Gauss-Newton from `theta_rad`, `iterations` steps.
 SettledPose settle(const Room& room, const PoseAim& aim, ThetaVector theta_rad, std::int32_t iterations);
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -6,7 +6,7 @@
 #include "firmware_like/cable/motion/servo_ik.hpp"
 #include "host/plan/start/relax.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -52,4 +52,4 @@ Path retract(const Room& room, const ThetaVector& theta_rad, std::uint32_t held_
   return path;
 }
 
-}  // namespace liana
+}  // namespace liana::plan

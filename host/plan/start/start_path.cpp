@@ -7,7 +7,7 @@
 #include "host/plan/start/relax.hpp"
 #include "host/plan/start/retract.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -102,4 +102,4 @@ Path start_path(const Room& room, const PlanRequest& request, const PathEnds& en
   return relax(room, request, path);
 }
 
-}  // namespace liana
+}  // namespace liana::plan

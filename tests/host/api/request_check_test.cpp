@@ -10,7 +10,7 @@
 #include "host/api/request_text.hpp"
 #include "tests/host/api/robots.hpp"
 
-namespace liana {
+namespace liana::api {
 namespace {
 
 const RequestBounds kZhu = request_bounds(zhu2022_json()), kMicro = request_bounds(micro_json());
@@ -197,4 +197,4 @@ TEST(RequestTable, EveryRowAndFieldHasASentenceAndAUniqueName) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::api

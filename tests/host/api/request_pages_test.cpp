@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-namespace liana {
+namespace liana::api {
 namespace {
 
 class RequestPages : public testing::TestWithParam<MadeSection> {};
@@ -26,4 +26,4 @@ TEST(RequestPagesText, AFileWithoutItsLinesIsRefusedAndTheRestOfOneIsKept) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::api

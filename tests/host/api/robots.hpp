@@ -4,7 +4,7 @@
 #include "host/api/request_bounds.hpp"
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::api {
 
 // What request_bounds reads of zhu2022: five segments of eight modules of 0.1 m.
 inline Json zhu2022_json() {
@@ -26,4 +26,4 @@ inline Json micro_json() {
           {"limits", {{"tip_speed_m_s", 0.1}, {"tip_rate_deg_s", 3}}}};
 }
 
-}  // namespace liana
+}  // namespace liana::api

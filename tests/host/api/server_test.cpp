@@ -15,7 +15,7 @@
 #include "host/api/request_error.hpp"
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::api {
 namespace {
 
 class Recorder : public ApiHandler {
@@ -402,4 +402,4 @@ TEST_F(Api, AClientWithoutAServerIsToldSo) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::api

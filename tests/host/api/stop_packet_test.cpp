@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana {
+namespace liana::api {
 namespace {
 
 TEST(StopPacket, IsRecognisedInWhatIsNoJson) {
@@ -33,4 +33,4 @@ TEST(StopPacket, KeepsTheReasonAsItWasWritten) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::api

@@ -11,7 +11,7 @@
 #include "host/arbiter/serial_kind.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 namespace {
 
 using serial::JointVector;
@@ -31,7 +31,7 @@ class SerialArbitration : public testing::Test {
   static std::string code_of(const std::function<void()>& request) {
     try {
       request();
-    } catch (const RequestError& error) {
+    } catch (const api::RequestError& error) {
       return error.code();
     }
     return "accepted";
@@ -127,4 +127,4 @@ TEST_F(SerialArbitration, NothingMovesUnlessEnabled) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::arbiter

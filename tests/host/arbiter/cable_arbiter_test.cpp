@@ -14,7 +14,7 @@
 #include "host/solve/goal_ik.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 using namespace cable;
 namespace {
@@ -45,7 +45,7 @@ class Arbitration : public testing::Test {
   static std::string code_of(const std::function<void()>& request) {
     try {
       request();
-    } catch (const RequestError& error) {
+    } catch (const api::RequestError& error) {
       return error.code();
     }
     return "accepted";
@@ -390,7 +390,7 @@ class Paths : public Arbitration {
   static std::string text_of(const std::function<void()>& request) {
     try {
       request();
-    } catch (const RequestError& error) {
+    } catch (const api::RequestError& error) {
       return error.code() + std::string(": ") + error.what();
     }
     return "accepted";
@@ -426,7 +426,7 @@ TEST_F(Paths, APathGoesThroughItsPointsWithoutAStopAndSaysSo) {
   const auto news = arbiter.take_path_news();
   ASSERT_EQ(news.size(), 2u);
   EXPECT_NE(news[0].text.find("path abc begins"), std::string::npos);
-  EXPECT_EQ(news[1].what, PathEvent::kArrives);
+  EXPECT_EQ(news[1].what, event::PathEvent::kArrives);
   EXPECT_EQ(news[1].text, "path abc has arrived");
   EXPECT_EQ(news[1].path.share, 1.0);
   EXPECT_GT(news[1].duration_s, 1.0);
@@ -440,7 +440,7 @@ TEST_F(Paths, APathThatTheCheckRefusesDoesNotMoveTheArm) {
   EXPECT_FALSE(arbiter.is_busy());
   const auto news = arbiter.take_path_news();
   ASSERT_EQ(news.size(), 1u);
-  EXPECT_EQ(news[0].what, PathEvent::kRefused);
+  EXPECT_EQ(news[0].what, event::PathEvent::kRefused);
   EXPECT_EQ(news[0].text, "path abc is refused: between points 1 and 2: link 9 is 1 mm from 'panel'");
 }
 
@@ -484,4 +484,4 @@ TEST_F(Arbitration, DisablingForgetsHeldVariablesAndMotion) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::arbiter

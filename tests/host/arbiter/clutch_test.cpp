@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace liana {
+namespace liana::arbiter {
 
 namespace {
 
@@ -54,4 +54,4 @@ TEST(Clutch, ReindexingAddsUpWhatTheHandDidWhileEngaged) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -5,7 +5,7 @@
 
 #include <cstring>
 
-namespace liana {
+namespace liana::arbiter {
 
 using namespace cable;
 namespace {
@@ -116,4 +116,4 @@ TEST_F(Steering, EverySampleIsCounted) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::arbiter

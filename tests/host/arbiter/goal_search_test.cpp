@@ -8,7 +8,7 @@
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 using namespace cable;
 
@@ -63,4 +63,4 @@ TEST(GoalSearch, WhatWasForgottenDoesNotComeBack) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::arbiter

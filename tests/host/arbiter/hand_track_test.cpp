@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana {
+namespace liana::arbiter {
 
 namespace {
 
@@ -91,4 +91,4 @@ TEST(HandTrack, WhatWasMovedWithAnOpenDeadmanDoesNotCount) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::arbiter

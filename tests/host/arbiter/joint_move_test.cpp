@@ -9,7 +9,7 @@
 #include "host/arbiter/cable_kind.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 using namespace cable;
 namespace {
@@ -54,4 +54,4 @@ TEST(JointMove, NoWayTakesNoTime) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -5,7 +5,7 @@
 
 #include "firmware_like/cable_controller.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 using namespace cable;
 namespace {
@@ -34,4 +34,4 @@ TEST(PathMemory, StandingStillAddsNothing) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::arbiter

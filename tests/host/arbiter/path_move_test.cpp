@@ -14,7 +14,7 @@
 #include "tests/firmware_like/micro_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 namespace {
 
 // Points that wander by a few degrees from one another, with corners of every size.
@@ -132,7 +132,7 @@ TEST(PathLaw, DoesNotStopAtPointsThatLieOnOneLine) {
 }
 
 TEST(PathLaw, SlowsTheTipDownWhereTheSceneWantsIt) {
-  SceneSlit everywhere;
+  config::SceneSlit everywhere;
   everywhere.u_axis = {1.0, 0.0, 0.0};
   everywhere.normal = {0.0, 0.0, 1.0};
   everywhere.mouth_u_m = 0.0;
@@ -160,4 +160,4 @@ TEST(PathLaw, NoWayIsOverAtOnce) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::arbiter

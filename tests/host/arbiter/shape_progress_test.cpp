@@ -6,7 +6,7 @@
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 using namespace cable;
 namespace {
@@ -69,4 +69,4 @@ TEST_F(Progress, APointToKeepClearOfCountsWithWhatIsMissing) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -8,7 +8,7 @@
 #include "host/arbiter/cable_kind.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::arbiter {
 
 using namespace cable;
 namespace {
@@ -28,4 +28,4 @@ TEST(TipLine, IsStraightKeepsTheSpeedAndArrivesExactly) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::arbiter

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace liana {
+namespace liana::bus {
 namespace {
 
 struct LoadRow {
@@ -36,8 +36,8 @@ TEST(BusLoad, AgreesWithTheIndependentTable) {
 }
 
 // The default: 15 drives on two buses at 250 Hz.
-BusesConfig two_buses() {
-  BusesConfig config;
+config::BusesConfig two_buses() {
+  config::BusesConfig config;
   config.name = "test";
   config.backend = "embedded";
   config.rate_hz = 250;
@@ -48,7 +48,7 @@ BusesConfig two_buses() {
   return config;
 }
 
-std::string refusal(const BusesConfig& config) {
+std::string refusal(const config::BusesConfig& config) {
   try {
     check_buses(config);
   } catch (const std::runtime_error& error) {
@@ -61,13 +61,13 @@ TEST(BusLoad, TheDefaultTableIsAcceptedAndItsLoadCountsTheMastersHeartbeatToo) {
   EXPECT_EQ(refusal(two_buses()), "");
   EXPECT_NEAR(worst_load_with_sdo(two_buses(), 0), 0.525, 1e-9);
   for (const std::size_t bus : {0u, 1u}) {
-    EXPECT_NEAR(worst_case_load(two_buses(), bus), worst_load_with_sdo(two_buses(), bus), 1e-12)
+    EXPECT_NEAR(config::worst_case_load(two_buses(), bus), worst_load_with_sdo(two_buses(), bus), 1e-12)
         << "what lianad reports and what liana-bus checks";
   }
 }
 
 TEST(BusLoad, AllDrivesOnOneBusAt250HzAreRefusedWithTheLoad) {
-  BusesConfig config = two_buses();
+  config::BusesConfig config = two_buses();
   for (int node = 9; node <= 15; ++node) config.buses[0].nodes.push_back(node);
   config.buses.pop_back();
   const std::string message = refusal(config);
@@ -78,7 +78,7 @@ TEST(BusLoad, AllDrivesOnOneBusAt250HzAreRefusedWithTheLoad) {
 }
 
 TEST(BusLoad, PeriodsThatObject60C2CannotExpressAreRefused) {
-  BusesConfig config = two_buses();
+  config::BusesConfig config = two_buses();
   for (const double rate_hz : {150.0, 300.0, 333.0, 0.0, -100.0}) {
     config.rate_hz = rate_hz;
     EXPECT_NE(refusal(config).find("60C2"), std::string::npos) << rate_hz;
@@ -91,7 +91,7 @@ TEST(BusLoad, PeriodsThatObject60C2CannotExpressAreRefused) {
 }
 
 TEST(BusLoad, ACommandIntervalThatIsNotWholeTicksIsRefused) {
-  BusesConfig config = two_buses();
+  config::BusesConfig config = two_buses();
   config.command_interval_s = 0.018;
   EXPECT_NE(refusal(config).find("command_interval_s: 0.018"), std::string::npos);
   config.command_interval_s = 0.001;
@@ -99,7 +99,7 @@ TEST(BusLoad, ACommandIntervalThatIsNotWholeTicksIsRefused) {
 }
 
 TEST(BusLoad, NodesThatDoNotExistOrExistTwiceAreRefused) {
-  BusesConfig config = two_buses();
+  config::BusesConfig config = two_buses();
   config.buses[1].nodes[0] = 8;
   EXPECT_NE(refusal(config).find("buses[1].nodes: 8"), std::string::npos);
   config.buses[1].nodes[0] = 127;
@@ -107,7 +107,7 @@ TEST(BusLoad, NodesThatDoNotExistOrExistTwiceAreRefused) {
 }
 
 TEST(BusLoad, NamesAndBitRatesThatCannotBeAreRefused) {
-  BusesConfig config = two_buses();
+  config::BusesConfig config = two_buses();
   config.buses[0].name = "a_name_too_long";
   EXPECT_NE(refusal(config).find("buses[0].name"), std::string::npos);
   config = two_buses();
@@ -119,4 +119,4 @@ TEST(BusLoad, NamesAndBitRatesThatCannotBeAreRefused) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::bus

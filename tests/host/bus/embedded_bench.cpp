@@ -14,8 +14,8 @@
 
 namespace liana::test {
 
-BusesConfig small_table() {
-  BusesConfig config;
+config::BusesConfig small_table() {
+  config::BusesConfig config;
   config.name = "small";
   config.backend = "embedded";
   config.rate_hz = 250;
@@ -26,21 +26,23 @@ BusesConfig small_table() {
   return config;
 }
 
-BusThread::BusThread(const BusesConfig& table, TimeMode mode, const std::string& log_directory, FaultScript script) {
+BusThread::BusThread(const config::BusesConfig& table, timing::TimeMode mode, const std::string& log_directory,
+                     bus_sim::FaultScript script) {
   static std::atomic<int> count = 0;
   path_ = "/tmp/liana-bus-test-" + std::to_string(getpid()) + "-" + std::to_string(count++);
-  BusHubOptions options;
+  bus_sim::BusHubOptions options;
   options.time_mode = mode;
   options.period_us = static_cast<std::uint32_t>(table.period_us());
   options.script = std::move(script);
   options.log_directory = log_directory;
-  for (const BusConfig& bus : table.buses) options.wires.push_back({bus.name, static_cast<std::uint32_t>(bus.bitrate)});
+  for (const config::BusConfig& bus : table.buses)
+    options.wires.push_back({bus.name, static_cast<std::uint32_t>(bus.bitrate)});
   thread_ = std::thread([this, options] {
-    BusHub hub(options, admit_participants(path_, welcome_of(options)));
-    if (options.time_mode == TimeMode::kReal) {
-      run_real(hub);
+    bus_sim::BusHub hub(options, bus_sim::admit_participants(path_, bus_sim::welcome_of(options)));
+    if (options.time_mode == timing::TimeMode::kReal) {
+      bus_sim::run_real(hub);
     } else {
-      run_lockstep(hub, options.time_mode == TimeMode::kPaced);
+      bus_sim::run_lockstep(hub, options.time_mode == timing::TimeMode::kPaced);
     }
     outcome_ = {hub.end_reason(), hub.now_ns, {}};
     for (std::size_t b = 0; b < options.wires.size(); ++b) outcome_.stats.push_back(hub.sim().stats(b));

@@ -12,19 +12,20 @@
 namespace liana::test {
 
 // Two buses at 250 Hz with one node on each.
-BusesConfig small_table();
+config::BusesConfig small_table();
 
 // What the bus did, once it has ended.
 struct BusOutcome {
   std::string end_reason;
   std::uint64_t now_ns = 0;
-  std::vector<WireStats> stats;
+  std::vector<bus_sim::WireStats> stats;
 };
 
 // A bus process without the process. Ends, and is joined, when its participants have left.
 class BusThread {
  public:
-  BusThread(const BusesConfig& table, TimeMode mode, const std::string& log_directory = "", FaultScript script = {});
+  BusThread(const config::BusesConfig& table, timing::TimeMode mode, const std::string& log_directory = "",
+            bus_sim::FaultScript script = {});
   ~BusThread();
   const std::string& socket_path() const { return path_; }
   // Waits for the end.

@@ -3,13 +3,13 @@
 namespace liana::test {
 namespace {
 
-std::uint32_t little_endian(const CanFrame& frame, std::size_t from, int bytes) {
+std::uint32_t little_endian(const bus::CanFrame& frame, std::size_t from, int bytes) {
   std::uint32_t value = 0;
   for (int i = bytes - 1; i >= 0; --i) value = value << 8 | frame.data[from + static_cast<std::size_t>(i)];
   return value;
 }
 
-void put(CanFrame& frame, std::size_t from, std::uint32_t value) {
+void put(bus::CanFrame& frame, std::size_t from, std::uint32_t value) {
   for (std::size_t i = 0; i < 4; ++i) frame.data[from + i] = static_cast<std::uint8_t>(value >> (8 * i));
 }
 
@@ -70,9 +70,9 @@ FakeDrive::FakeDrive(const canopen::DriveExpectation& is) : node(is.node) {
   add(0x6502, 0, 4, 0x3A1);
 }
 
-CanFrame FakeDrive::boot_up() const { return {0x700U + node, 1, {0}, 0}; }
+bus::CanFrame FakeDrive::boot_up() const { return {0x700U + node, 1, {0}, 0}; }
 
-std::vector<CanFrame> FakeDrive::receive(const CanFrame& frame) {
+std::vector<bus::CanFrame> FakeDrive::receive(const bus::CanFrame& frame) {
   if (dead) return {};
   if (frame.id == 0 && (frame.data[1] == node || frame.data[1] == 0)) {
     if (frame.data[0] == 0x82) {
@@ -87,15 +87,15 @@ std::vector<CanFrame> FakeDrive::receive(const CanFrame& frame) {
   return {};
 }
 
-std::vector<CanFrame> FakeDrive::heartbeat() const {
+std::vector<bus::CanFrame> FakeDrive::heartbeat() const {
   if (dead || objects.at(key(0x1017, 0)).value == 0) return {};
   return {{0x700U + node, 1, {state}, 0}};
 }
 
-std::vector<CanFrame> FakeDrive::answer_sdo(const CanFrame& request) {
+std::vector<bus::CanFrame> FakeDrive::answer_sdo(const bus::CanFrame& request) {
   const std::uint32_t object_key = key(little_endian(request, 1, 2), request.data[3]);
   if (object_key == deaf_from) return {};
-  CanFrame answer{0x580U + node, 8, {0, request.data[1], request.data[2], request.data[3]}, 0};
+  bus::CanFrame answer{0x580U + node, 8, {0, request.data[1], request.data[2], request.data[3]}, 0};
   const auto abort = aborts.find(object_key);
   const auto found = objects.find(object_key);
   const bool write = (request.data[0] & 0xE0) == 0x20;

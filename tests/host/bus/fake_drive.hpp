@@ -17,9 +17,9 @@ class FakeDrive {
   explicit FakeDrive(const canopen::DriveExpectation& is);
 
   // What the drive answers.
-  std::vector<CanFrame> receive(const CanFrame& frame);
+  std::vector<bus::CanFrame> receive(const bus::CanFrame& frame);
   // The heartbeat, if the drive has been told to send one.
-  std::vector<CanFrame> heartbeat() const;
+  std::vector<bus::CanFrame> heartbeat() const;
 
   // Object index << 8 | sub.
   static constexpr std::uint32_t key(std::uint32_t index, std::uint32_t sub) { return index << 8 | sub; }
@@ -40,8 +40,8 @@ class FakeDrive {
   std::uint8_t state = 0x7F;
 
  private:
-  CanFrame boot_up() const;
-  std::vector<CanFrame> answer_sdo(const CanFrame& request);
+  bus::CanFrame boot_up() const;
+  std::vector<bus::CanFrame> answer_sdo(const bus::CanFrame& request);
 };
 
 // An expectation with every field set.

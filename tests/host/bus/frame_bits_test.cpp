@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-namespace liana {
+namespace liana::bus {
 namespace {
 
 template <std::size_t kBits>
@@ -112,4 +112,4 @@ TEST(Arbitration, TheLowerIdentifierWinsAndStandardBeatsExtendedWithTheSameBase)
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::bus

@@ -11,14 +11,15 @@
 #include "host/bus/frame_bits.hpp"
 #include "tests/host/bus/embedded_bench.hpp"
 
-namespace liana {
+namespace liana::bus {
 namespace {
 
 using test::BusThread;
 using test::PlantThread;
 using test::small_table;
 
-std::unique_ptr<DriveBus> open_patiently(const BusesConfig& table, TimeMode mode, const std::string& path) {
+std::unique_ptr<DriveBus> open_patiently(const config::BusesConfig& table, timing::TimeMode mode,
+                                         const std::string& path) {
   for (int attempt = 0;; ++attempt) {
     try {
       return open_drive_bus(table, mode, path);
@@ -57,13 +58,13 @@ std::string logs_of_a_run(const std::string& name, unsigned jitter) {
     if (jitter != 0 && random() % 20 == 0) usleep(static_cast<unsigned>(random() % 2000));
   };
   {
-    BusThread bus_thread(small_table(), TimeMode::kFast, directory);
+    BusThread bus_thread(small_table(), timing::TimeMode::kFast, directory);
     std::mt19937 plant_random(jitter);
     PlantThread plant(bus_thread.socket_path(), [&](const wire::Wake& wake) {
       dawdle(plant_random);
       return tpdos_for(wake);
     });
-    auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
+    auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
     std::mt19937 random(jitter + 1);
     for (std::uint64_t tick = 0; tick < 300; ++tick) {
       bus->begin_tick(tick);
@@ -86,13 +87,13 @@ TEST(Lockstep, TwoRunsWithDifferentTimingWriteTheSameLogs) {
 }
 
 TEST(Lockstep, EachTickGetsTheFeedbackOfItsOwnSyncAtTheTimesOfTheWire) {
-  BusThread bus_thread(small_table(), TimeMode::kFast);
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast);
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
-  auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
+  auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
   ASSERT_EQ(bus->bus_count(), 2);
   const std::uint64_t sync_bits = frame_bits(CanFrame{0x080, 0, {}, 0});
   for (std::uint64_t tick = 0; tick < 50; ++tick) {
-    const TickStart start = bus->begin_tick(tick);
+    const timing::TickStart start = bus->begin_tick(tick);
     EXPECT_EQ(start.tick, tick);
     EXPECT_EQ(start.lost_ticks, 0U);
     EXPECT_FALSE(start.ended);
@@ -117,11 +118,11 @@ TEST(Lockstep, EachTickGetsTheFeedbackOfItsOwnSyncAtTheTimesOfTheWire) {
 }
 
 TEST(Lockstep, BothEndsCountTheSameFramesAndBits) {
-  BusThread bus_thread(small_table(), TimeMode::kFast);
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast);
   DriveBusStats stats;
   {
     PlantThread plant(bus_thread.socket_path(), tpdos_for);
-    auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
+    auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
     for (std::uint64_t tick = 0; tick < 20; ++tick) {
       bus->begin_tick(tick);
       bus->write_sync();
@@ -139,11 +140,12 @@ TEST(Lockstep, BothEndsCountTheSameFramesAndBits) {
 }
 
 TEST(Lockstep, AScriptedPauseCostsTheControllerItsDeadlinesAndTheBusGoesOn) {
-  BusThread bus_thread(small_table(), TimeMode::kFast, "", FaultScript({{BusAction::kPause, 0, 3, 5}}));
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast, "",
+                       bus_sim::FaultScript({{bus_sim::BusAction::kPause, 0, 3, 5}}));
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
-  auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
+  auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
   for (std::uint64_t tick = 0; tick < 10; ++tick) {
-    const TickStart start = bus->begin_tick(tick);
+    const timing::TickStart start = bus->begin_tick(tick);
     EXPECT_EQ(start.lost_ticks, tick == 3 ? 3U : 0U);
     EXPECT_EQ(start.tick, tick + start.lost_ticks);
     EXPECT_EQ(bus->now_us(), start.tick * 4000);
@@ -155,11 +157,12 @@ TEST(Lockstep, AScriptedPauseCostsTheControllerItsDeadlinesAndTheBusGoesOn) {
 }
 
 TEST(Lockstep, TheControllersInterfaceSaysWhatSocketCanWouldSay) {
-  BusThread bus_thread(
-      small_table(), TimeMode::kFast, "",
-      FaultScript({{BusAction::kDown, 0, 2, 3}, {BusAction::kDisturb, 1, 2, 3}, {BusAction::kRestart, 1, 6, 6}}));
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast, "",
+                       bus_sim::FaultScript({{bus_sim::BusAction::kDown, 0, 2, 3},
+                                             {bus_sim::BusAction::kDisturb, 1, 2, 3},
+                                             {bus_sim::BusAction::kRestart, 1, 6, 6}}));
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
-  auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
+  auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
   std::vector<BusState> down, off;
   for (std::uint64_t tick = 0; tick < 9; ++tick) {
     bus->begin_tick(tick);
@@ -179,9 +182,10 @@ TEST(Lockstep, TheControllersInterfaceSaysWhatSocketCanWouldSay) {
 }
 
 TEST(Lockstep, AScriptedLossReachesTheControllerAsAMissingTpdo) {
-  BusThread bus_thread(small_table(), TimeMode::kFast, "", FaultScript({{BusAction::kDrop, 0, 3, 4, 0x181}}));
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast, "",
+                       bus_sim::FaultScript({{bus_sim::BusAction::kDrop, 0, 3, 4, 0x181}}));
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
-  auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
+  auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
   for (std::uint64_t tick = 0; tick < 8; ++tick) {
     bus->begin_tick(tick);
     bus->write_sync();
@@ -196,13 +200,13 @@ TEST(Lockstep, AScriptedLossReachesTheControllerAsAMissingTpdo) {
 
 TEST(Lockstep, ThePlantStillRunsWhenNoSyncComes) {
   std::atomic<int> wakes = 0;
-  BusThread bus_thread(small_table(), TimeMode::kFast);
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast);
   {
     PlantThread plant(bus_thread.socket_path(), [&](const wire::Wake&) {
       ++wakes;
       return std::vector<wire::Frame>{};
     });
-    auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
+    auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
     for (std::uint64_t tick = 0; tick < 20; ++tick) {
       bus->begin_tick(tick);
       bus->wait_feedback(0);
@@ -214,9 +218,10 @@ TEST(Lockstep, ThePlantStillRunsWhenNoSyncComes) {
 }
 
 TEST(Lockstep, TheSyncFrameThatGetsLostOnOneBusStillLetsTheOtherRun) {
-  BusThread bus_thread(small_table(), TimeMode::kFast, "", FaultScript({{BusAction::kDrop, 1, 0, 100, 0x080}}));
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast, "",
+                       bus_sim::FaultScript({{bus_sim::BusAction::kDrop, 1, 0, 100, 0x080}}));
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
-  auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
+  auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
   for (std::uint64_t tick = 0; tick < 5; ++tick) {
     bus->begin_tick(tick);
     bus->write_sync();
@@ -230,9 +235,9 @@ TEST(Lockstep, TheSyncFrameThatGetsLostOnOneBusStillLetsTheOtherRun) {
 }
 
 TEST(Lockstep, AFullTransmitQueueRefusesAndCounts) {
-  BusThread bus_thread(small_table(), TimeMode::kFast);
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast);
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
-  auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
+  auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
   bus->begin_tick(0);
   for (int i = 0; i < 64; ++i) EXPECT_EQ(bus->send(0, rpdo_of(0, 0)), SendResult::kOk);
   EXPECT_EQ(bus->send(0, rpdo_of(0, 0)), SendResult::kQueueFull);
@@ -246,11 +251,11 @@ TEST(Lockstep, AFullTransmitQueueRefusesAndCounts) {
 }
 
 TEST(Lockstep, TheControllerLearnsThatThePlantHasLeft) {
-  BusThread bus_thread(small_table(), TimeMode::kFast);
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast);
   {
     PlantThread plant(bus_thread.socket_path(), tpdos_for, 5);
-    auto bus = open_patiently(small_table(), TimeMode::kFast, bus_thread.socket_path());
-    TickStart start;
+    auto bus = open_patiently(small_table(), timing::TimeMode::kFast, bus_thread.socket_path());
+    timing::TickStart start;
     std::uint64_t tick = 0;
     for (; tick < 100 && !start.ended; ++tick) {
       start = bus->begin_tick(tick);
@@ -266,9 +271,9 @@ TEST(Lockstep, TheControllerLearnsThatThePlantHasLeft) {
 }
 
 TEST(Lockstep, PacedTimeNeverRunsAheadOfTheWallClock) {
-  BusThread bus_thread(small_table(), TimeMode::kPaced);
+  BusThread bus_thread(small_table(), timing::TimeMode::kPaced);
   PlantThread plant(bus_thread.socket_path(), tpdos_for);
-  auto bus = open_patiently(small_table(), TimeMode::kPaced, bus_thread.socket_path());
+  auto bus = open_patiently(small_table(), timing::TimeMode::kPaced, bus_thread.socket_path());
   bus->begin_tick(0);
   const auto start = std::chrono::steady_clock::now();
   for (std::uint64_t tick = 0; tick < 50; ++tick) {
@@ -282,14 +287,14 @@ TEST(Lockstep, PacedTimeNeverRunsAheadOfTheWallClock) {
 }
 
 TEST(RealTime, FramesGoBothWaysWithoutAnybodyWaiting) {
-  BusThread bus_thread(small_table(), TimeMode::kReal);
+  BusThread bus_thread(small_table(), timing::TimeMode::kReal);
   {
     PlantThread plant(bus_thread.socket_path(), tpdos_for);
-    auto bus = open_patiently(small_table(), TimeMode::kReal, bus_thread.socket_path());
+    auto bus = open_patiently(small_table(), timing::TimeMode::kReal, bus_thread.socket_path());
     int tpdos = 0;
     std::uint64_t tick = 0;
     for (int i = 0; i < 50; ++i) {
-      const TickStart start = bus->begin_tick(tick);
+      const timing::TickStart start = bus->begin_tick(tick);
       EXPECT_EQ(start.tick, tick + start.lost_ticks);
       tick = start.tick + 1;
       bus->write_sync();
@@ -305,4 +310,4 @@ TEST(RealTime, FramesGoBothWaysWithoutAnybodyWaiting) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::bus

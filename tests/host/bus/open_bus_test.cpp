@@ -6,14 +6,14 @@
 #include "host/bus/can_interface.hpp"
 #include "tests/host/bus/embedded_bench.hpp"
 
-namespace liana {
+namespace liana::bus {
 namespace {
 
 using test::BusThread;
 using test::PlantThread;
 using test::small_table;
 
-std::string refusal(const BusesConfig& config, TimeMode mode, const std::string& socket) {
+std::string refusal(const config::BusesConfig& config, timing::TimeMode mode, const std::string& socket) {
   try {
     open_drive_bus(config, mode, socket);
   } catch (const std::runtime_error& error) {
@@ -27,19 +27,20 @@ void expect_says(const std::string& message, const std::string& part) {
 }
 
 TEST(OpenDriveBus, SaysWhichProgramToStartWhenNobodyListens) {
-  expect_says(refusal(small_table(), TimeMode::kFast, "/tmp/no-such-liana-bus"),
+  expect_says(refusal(small_table(), timing::TimeMode::kFast, "/tmp/no-such-liana-bus"),
               "start liana-bus with --socket /tmp/no-such-liana-bus");
-  expect_says(refusal(small_table(), TimeMode::kFast, ""), "--bus-socket");
-  expect_says(refusal(small_table(), TimeMode::kFast, std::string(200, 'x')), "allowed are paths of 1 to 107 bytes");
+  expect_says(refusal(small_table(), timing::TimeMode::kFast, ""), "--bus-socket");
+  expect_says(refusal(small_table(), timing::TimeMode::kFast, std::string(200, 'x')),
+              "allowed are paths of 1 to 107 bytes");
 }
 
 TEST(OpenDriveBus, ChecksTheTableFirst) {
-  BusesConfig config = small_table();
+  config::BusesConfig config = small_table();
   config.rate_hz = 150;
-  expect_says(refusal(config, TimeMode::kFast, "/tmp/no-such-liana-bus"), "60C2");
+  expect_says(refusal(config, timing::TimeMode::kFast, "/tmp/no-such-liana-bus"), "60C2");
   config = small_table();
   config.backend = "pigeons";
-  expect_says(refusal(config, TimeMode::kFast, ""), "'pigeons': allowed are embedded and socketcan");
+  expect_says(refusal(config, timing::TimeMode::kFast, ""), "'pigeons': allowed are embedded and socketcan");
 }
 
 // Both participants come and leave, so that the bus ends.
@@ -56,11 +57,12 @@ void meet_and_part(const std::string& path) {
 }
 
 TEST(OpenDriveBus, RefusesABusProcessWithAnotherTable) {
-  BusThread bus_thread(small_table(), TimeMode::kFast);
-  BusesConfig other = small_table();
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast);
+  config::BusesConfig other = small_table();
   other.buses[1].bitrate = 1000000;
   std::string message;
-  while ((message = refusal(other, TimeMode::kFast, bus_thread.socket_path())).find("first") != std::string::npos)
+  while ((message = refusal(other, timing::TimeMode::kFast, bus_thread.socket_path())).find("first") !=
+         std::string::npos)
     usleep(10000);
   expect_says(message, "can1 at 500000");
   expect_says(message, "can1 at 1000000");
@@ -68,9 +70,9 @@ TEST(OpenDriveBus, RefusesABusProcessWithAnotherTable) {
 }
 
 TEST(OpenDriveBus, RefusesABusProcessInAnotherTimeMode) {
-  BusThread bus_thread(small_table(), TimeMode::kFast);
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast);
   std::string message;
-  while ((message = refusal(small_table(), TimeMode::kPaced, bus_thread.socket_path())).find("first") !=
+  while ((message = refusal(small_table(), timing::TimeMode::kPaced, bus_thread.socket_path())).find("first") !=
          std::string::npos)
     usleep(10000);
   expect_says(message, "runs in fast time, asked was paced");
@@ -78,16 +80,16 @@ TEST(OpenDriveBus, RefusesABusProcessInAnotherTimeMode) {
 }
 
 TEST(OpenDriveBus, SocketCanHasNoVirtualTime) {
-  BusesConfig config = small_table();
+  config::BusesConfig config = small_table();
   config.backend = "socketcan";
-  expect_says(refusal(config, TimeMode::kFast, ""), "SocketCAN has no virtual time");
+  expect_says(refusal(config, timing::TimeMode::kFast, ""), "SocketCAN has no virtual time");
 }
 
 TEST(OpenDriveBus, NamesAMissingInterfaceOrAMissingKernelPart) {
-  BusesConfig config = small_table();
+  config::BusesConfig config = small_table();
   config.backend = "socketcan";
   config.buses[0].name = "nocan7";
-  const std::string message = refusal(config, TimeMode::kReal, "");
+  const std::string message = refusal(config, timing::TimeMode::kReal, "");
   const int probe = socket(PF_CAN, SOCK_RAW, 1);
   if (probe < 0) {
     expect_says(message, "this kernel has no CAN");
@@ -99,7 +101,7 @@ TEST(OpenDriveBus, NamesAMissingInterfaceOrAMissingKernelPart) {
 }
 
 TEST(BusListener, RefusesASecondPlantByName) {
-  BusThread bus_thread(small_table(), TimeMode::kFast);
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast);
   const int first = test::connect_patiently(bus_thread.socket_path());
   test::say_hello(first, wire::Role::kPlant);
   const int second = test::connect_patiently(bus_thread.socket_path());
@@ -120,7 +122,7 @@ TEST(BusListener, RefusesASecondPlantByName) {
 
 // A controller that answers the first WAKE with `yield`; what the bus says about it.
 std::string complaint_about(const void* packet, std::size_t size) {
-  BusThread bus_thread(small_table(), TimeMode::kFast);
+  BusThread bus_thread(small_table(), timing::TimeMode::kFast);
   PlantThread plant(bus_thread.socket_path(), [](const wire::Wake&) { return std::vector<wire::Frame>{}; });
   const int controller = test::connect_patiently(bus_thread.socket_path());
   test::say_hello(controller, wire::Role::kController);
@@ -151,4 +153,4 @@ TEST(BusListener, EndsWithAReasonWhenAParticipantTalksNonsense) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::bus

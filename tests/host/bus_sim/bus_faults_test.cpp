@@ -5,14 +5,14 @@
 
 #include "host/bus_sim/bus_sim.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 namespace {
 
 constexpr std::uint64_t kSlotNs = 4'000'000;
 constexpr int kPlant = 1;
 
-CanFrame frame_of(std::uint32_t id, std::uint8_t length = 8) {
-  CanFrame frame;
+bus::CanFrame frame_of(std::uint32_t id, std::uint8_t length = 8) {
+  bus::CanFrame frame;
   frame.id = id;
   frame.length = length;
   return frame;
@@ -45,7 +45,7 @@ class Wires : private FrameSink {
     return ids([=](const EndedFrame& each) { return each.sender != kPlant && each.bus == bus; });
   }
 
-  std::vector<CanFrame> errors;
+  std::vector<bus::CanFrame> errors;
   std::vector<bool> links;
   BusSim sim;
   std::uint64_t now_ns = 0;
@@ -60,7 +60,7 @@ class Wires : private FrameSink {
     return found;
   }
   void frame_ended(const EndedFrame& ended) override { ended_.push_back(ended); }
-  void error_state_changed(int, const CanFrame& frame) override { errors.push_back(frame); }
+  void error_state_changed(int, const bus::CanFrame& frame) override { errors.push_back(frame); }
   void link_changed(int, bool is_up) override { links.push_back(is_up); }
 
   std::vector<EndedFrame> ended_;
@@ -99,7 +99,7 @@ TEST(BusFaults, ADisturbedFrameIsSentAgainAndCosts20BitsMore) {
   wires.send(kController, 0, 0x201);
   wires.run_to(1);
   EXPECT_EQ(wires.heard_by_plant(0), Ids{0x201});
-  EXPECT_EQ(wires.sim.stats(0).bits, 2 * frame_bits(frame_of(0x201)) + kErrorFrameBits);
+  EXPECT_EQ(wires.sim.stats(0).bits, 2 * bus::frame_bits(frame_of(0x201)) + kErrorFrameBits);
   EXPECT_TRUE(wires.errors.empty()) << "8 is far from the warning at 96";
 }
 
@@ -113,7 +113,7 @@ TEST(BusFaults, SixteenDestroyedFramesMakeTheControllerPassiveAnd32MakeItBusOff)
   EXPECT_EQ(wires.errors[0].data[6], 96);
   EXPECT_EQ(wires.errors[1].data[1], CAN_ERR_CRTL_TX_PASSIVE);
   EXPECT_EQ(wires.errors[1].data[6], 128);
-  EXPECT_EQ(wires.errors[2].id, kCanErrorFlag | CAN_ERR_BUSOFF);
+  EXPECT_EQ(wires.errors[2].id, bus::kCanErrorFlag | CAN_ERR_BUSOFF);
   EXPECT_EQ(wires.sim.stats(0).disturbed, 32U);
   EXPECT_EQ(wires.heard_by_plant(1), Ids{0x080}) << "the other bus is well";
   EXPECT_TRUE(wires.send(kController, 0, 0x201)) << "Linux takes frames in bus-off, and forgets them";
@@ -127,7 +127,7 @@ TEST(BusFaults, ARestartEndsBusOff) {
   Wires wires({on_bus_0(BusAction::kDisturb, 0, 2), on_bus_0(BusAction::kRestart, 5, 5)});
   wires.send(kController, 0, 0x080);
   wires.run_to(6);
-  EXPECT_EQ(wires.errors.back().id, kCanErrorFlag | CAN_ERR_RESTARTED);
+  EXPECT_EQ(wires.errors.back().id, bus::kCanErrorFlag | CAN_ERR_RESTARTED);
   wires.send(kController, 0, 0x201);
   wires.run_to(7);
   EXPECT_EQ(wires.heard_by_plant(0), Ids{0x201});
@@ -191,7 +191,7 @@ TEST(BusFaults, AStrangerTakesItsShareOfTheWireByPriority) {
   for (const std::uint32_t id : {0x080U, 0x100U, 0x101U}) wires.send(kController, 0, id);
   wires.run_to(2);
   const Ids heard = wires.heard_by_plant(0);
-  const std::size_t strangers = 4000 / 2 / frame_bits(babble.frame);
+  const std::size_t strangers = 4000 / 2 / bus::frame_bits(babble.frame);
   ASSERT_EQ(heard.size(), strangers + 3);
   EXPECT_EQ(heard.front(), 0x080U);
   EXPECT_EQ(heard[1], 0x100U) << "of equals a participant is first";
@@ -208,4 +208,4 @@ TEST(BusFaults, APausedControllerGoesOnWithTheFirstSlotAfterThePause) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::bus_sim

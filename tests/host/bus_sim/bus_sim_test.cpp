@@ -5,20 +5,20 @@
 
 #include <fstream>
 
-namespace liana {
+namespace liana::bus_sim {
 namespace {
 
 struct Recorder : FrameSink {
   std::vector<EndedFrame> ended;
-  std::vector<CanFrame> errors;
+  std::vector<bus::CanFrame> errors;
   std::vector<bool> links;
   void frame_ended(const EndedFrame& frame) override { ended.push_back(frame); }
-  void error_state_changed(int, const CanFrame& frame) override { errors.push_back(frame); }
+  void error_state_changed(int, const bus::CanFrame& frame) override { errors.push_back(frame); }
   void link_changed(int, bool is_up) override { links.push_back(is_up); }
 };
 
-CanFrame frame_of(std::uint32_t id, std::uint8_t length = 0) {
-  CanFrame frame;
+bus::CanFrame frame_of(std::uint32_t id, std::uint8_t length = 0) {
+  bus::CanFrame frame;
   frame.id = id;
   frame.length = length;
   return frame;
@@ -37,7 +37,9 @@ struct Bench {
     }
   }
 
-  bool queue(int participant, int bus, const CanFrame& frame) { return sim.queue(participant, bus, frame, now_ns); }
+  bool queue(int participant, int bus, const bus::CanFrame& frame) {
+    return sim.queue(participant, bus, frame, now_ns);
+  }
 
   Recorder recorder;
   BusSim sim;
@@ -49,8 +51,8 @@ TEST(BusSim, AFrameOccupiesTheWireForExactlyItsBits) {
   bench.queue(0, 0, frame_of(0x201, 6));
   bench.run_until_idle();
   ASSERT_EQ(bench.recorder.ended.size(), 1U);
-  EXPECT_EQ(bench.recorder.ended[0].frame.time_us, 2U * frame_bits(frame_of(0x201, 6)));
-  EXPECT_EQ(bench.sim.stats(0).bits, frame_bits(frame_of(0x201, 6)));
+  EXPECT_EQ(bench.recorder.ended[0].frame.time_us, 2U * bus::frame_bits(frame_of(0x201, 6)));
+  EXPECT_EQ(bench.sim.stats(0).bits, bus::frame_bits(frame_of(0x201, 6)));
 }
 
 TEST(BusSim, PendingFramesGoInTheOrderOfTheirIdentifiersWhoeverSendsThem) {
@@ -76,7 +78,7 @@ TEST(BusSim, AFrameOnTheWireIsNotInterruptedByAHigherPriority) {
 TEST(BusSim, FramesWithEqualIdentifiersKeepTheirOrder) {
   Bench bench;
   for (std::uint8_t i = 0; i < 5; ++i) {
-    CanFrame frame = frame_of(0x601, 1);
+    bus::CanFrame frame = frame_of(0x601, 1);
     frame.data[0] = i;
     bench.queue(0, 0, frame);
   }
@@ -183,4 +185,4 @@ TEST(FaultScript, RefusesWhatItDoesNotUnderstandAndNamesIt) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -11,10 +11,10 @@
 #include "tests/host/bus/embedded_bench.hpp"
 #include "tests/host/bus/fake_drive.hpp"
 
-namespace liana {
+namespace liana::bus_sim {
 namespace {
 
-std::string line_of(const CanFrame& frame) {
+std::string line_of(const bus::CanFrame& frame) {
   std::array<char, kLongestLogLine> line;
   return {line.data(), format_candump("can0", frame, line)};
 }
@@ -23,8 +23,8 @@ TEST(CandumpLog, WritesLinesAsCandumpDoes) {
   EXPECT_EQ(line_of({0x080, 0, {}, 4000}), "(0000000000.004000) can0 080#\n");
   EXPECT_EQ(line_of({0x201, 6, {0x0F, 0, 0xDE, 0xAD, 0xBE, 0xEF}, 123456789}),
             "(0000000123.456789) can0 201#0F00DEADBEEF\n");
-  EXPECT_EQ(line_of({0x1ABCDEF | kCanExtendedFlag, 1, {7}, 0}), "(0000000000.000000) can0 01ABCDEF#07\n");
-  EXPECT_EQ(line_of({0x701 | kCanRemoteFlag, 1, {}, 0}), "(0000000000.000000) can0 701#R\n");
+  EXPECT_EQ(line_of({0x1ABCDEF | bus::kCanExtendedFlag, 1, {7}, 0}), "(0000000000.000000) can0 01ABCDEF#07\n");
+  EXPECT_EQ(line_of({0x701 | bus::kCanRemoteFlag, 1, {}, 0}), "(0000000000.000000) can0 701#R\n");
 }
 
 TEST(CandumpLog, SaysWhichDirectoryCannotBeWritten) {
@@ -38,30 +38,30 @@ TEST(CandumpLog, SaysWhichDirectoryCannotBeWritten) {
 
 // Boots two fake drives over the embedded bus, stops one of them with an emergency, and leaves the logs in `directory`.
 void record_a_boot(const std::string& directory) {
-  const BusesConfig table = test::small_table();
+  const config::BusesConfig table = test::small_table();
   std::vector<canopen::DriveExpectation> expected{test::expectation(0, 1), test::expectation(1, 2)};
   std::vector<test::FakeDrive> drives(expected.begin(), expected.end());
-  test::BusThread bus_thread(table, TimeMode::kFast, directory);
+  test::BusThread bus_thread(table, timing::TimeMode::kFast, directory);
   int wakes = 0;
   test::PlantThread plant(bus_thread.socket_path(), [&](const wire::Wake& wake) {
     std::vector<wire::Frame> out;
     for (std::size_t i = 0; i < wake.frame_count; ++i) {
-      for (const CanFrame& answer : drives[wake.frame[i].bus].receive(wire::to_can_frame(wake.frame[i]))) {
+      for (const bus::CanFrame& answer : drives[wake.frame[i].bus].receive(wire::to_can_frame(wake.frame[i]))) {
         out.push_back(wire::to_wire_frame(wake.frame[i].bus, answer));
       }
     }
     for (std::size_t d = 0; d < 2 && wakes % 25 == 0; ++d) {
-      for (const CanFrame& heartbeat : drives[d].heartbeat())
+      for (const bus::CanFrame& heartbeat : drives[d].heartbeat())
         out.push_back(wire::to_wire_frame(static_cast<int>(d), heartbeat));
     }
     if (wakes == 150) out.push_back(wire::to_wire_frame(0, {0x081, 8, {0x50, 0x82, 0x10}, 0}));
     ++wakes;
     return out;
   });
-  std::unique_ptr<DriveBus> bus;
+  std::unique_ptr<bus::DriveBus> bus;
   for (int attempt = 0; !bus && attempt < 100; ++attempt) {
     try {
-      bus = open_drive_bus(table, TimeMode::kFast, bus_thread.socket_path());
+      bus = bus::open_drive_bus(table, timing::TimeMode::kFast, bus_thread.socket_path());
     } catch (const std::runtime_error&) {
       usleep(10000);
     }
@@ -72,7 +72,7 @@ void record_a_boot(const std::string& directory) {
     bus->begin_tick(tick);
     bus->write_sync();
     bus->wait_feedback(2);
-    for (ReceivedFrame received; bus->receive(received);) master.on_frame(received.bus, received.frame, tick);
+    for (bus::ReceivedFrame received; bus->receive(received);) master.on_frame(received.bus, received.frame, tick);
     master.step(*bus);
     for (int b = 0; b < 2 && master.boot().state() == canopen::BootState::kOperational; ++b)
       bus->send(b, {0x201U + static_cast<std::uint32_t>(b), 6, {6}, 0});
@@ -125,4 +125,4 @@ TEST(CandumpLog, TsharkFindsAMalformedFrameWhenThereIsOne) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::bus_sim

@@ -21,22 +21,22 @@
 #include "host/json/json.hpp"
 #include "tests/host/config/tables.hpp"
 
-namespace liana {
+namespace liana::calibration {
 
 using namespace cable;
 namespace {
 
 constexpr const char* kDay = "2026-06-15";
 
-RobotConfig robot() {
-  const BusesConfig buses = parse_buses(good_table("buses", "embedded").dump(), "b");
-  return parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
+config::RobotConfig robot() {
+  const config::BusesConfig buses = config::parse_buses(config::good_table("buses", "embedded").dump(), "b");
+  return config::parse_robot(config::good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
 }
 
 // What the drives of an arm report that is as its table says, but for cables exchanged, drives that count backwards,
 // and drums.
 struct Workshop {
-  RobotConfig arm = robot();
+  config::RobotConfig arm = robot();
   std::vector<std::size_t> cable_of;  // on each drum
   CableVector factor{};               // of each report: -1 counts backwards, 1.01 a drum of 1 % less
   CableVector off_m{};                // of each zero
@@ -87,7 +87,7 @@ TEST(Calibrate, ZerosAndDrumsAreFoundToAMicrometre) {
   }
   const CalibrationResult found = workshop.result();
   ASSERT_EQ(found.problems, std::vector<std::string>{});
-  RobotConfig calibrated = workshop.arm;
+  config::RobotConfig calibrated = workshop.arm;
   apply(found.calibration, calibrated);
   for (const CalibrationReading& reading : workshop.readings()) {
     const CableVector wanted_m = beyond_zero_m(workshop.arm.table, reading.theta_rad, reading.tension_N);
@@ -179,7 +179,7 @@ TEST(FixturePrompt, AnInputThatEndsIsNoConsent) {
 }
 
 TEST(Calibrate, PosesThatDoNotTellEnoughAreRefused) {
-  const RobotConfig arm = robot();
+  const config::RobotConfig arm = robot();
   const auto message = [&](const std::vector<std::string>& names) -> std::string {
     std::vector<ThetaVector> poses;
     for (const std::string& name : names) poses.push_back(named_pose_rad(arm, name));
@@ -197,7 +197,7 @@ TEST(Calibrate, PosesThatDoNotTellEnoughAreRefused) {
 
 // Homing itself, without fixtures: at prepare, an arm whose two cables are exchanged contradicts itself.
 TEST(Calibrate, HomingAloneSeesExchangedCablesOfDifferentSegments) {
-  const RobotConfig arm = robot();
+  const config::RobotConfig arm = robot();
   const RobotTable& table = arm.table;
   const CableLayout layout = cable_layout(table);
   const ThetaVector truth = named_pose_rad(arm, "prepare");
@@ -248,7 +248,7 @@ class CalibrationFile : public ::testing::Test {
   }
   static std::string signed_again(Json content) {
     content.erase("sha256");
-    content["sha256"] = sha256_hex(canonical_json(content));
+    content["sha256"] = config::sha256_hex(config::canonical_json(content));
     return content.dump();
   }
 };
@@ -257,7 +257,7 @@ TEST_F(CalibrationFile, IsReadAsItWasWritten) {
   const Calibration written = Workshop().result().calibration;
   const Calibration read = parse_calibration(calibration_json(written), "arm.json", robot(), kDay);
   EXPECT_EQ(calibration_json(read), calibration_json(written));
-  RobotConfig arm = robot();
+  config::RobotConfig arm = robot();
   apply(read, arm);
   EXPECT_EQ(arm.drive_serials[3], Workshop().serial[3]);
   EXPECT_EQ(arm.table.drive[3].zero_counts, written.cables[3].zero_counts);
@@ -285,4 +285,4 @@ TEST_F(CalibrationFile, IsRefusedWithFieldValueAllowedAndAdvice) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::calibration

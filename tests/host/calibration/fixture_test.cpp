@@ -7,7 +7,7 @@
 
 #include "tests/host/config/tables.hpp"
 
-namespace liana {
+namespace liana::calibration {
 
 using namespace cable;
 namespace {
@@ -18,8 +18,8 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 class Fixture : public ::testing::Test {
  protected:
   Fixture() {
-    const BusesConfig buses = parse_buses(good_table("buses", "embedded").dump(), "b");
-    robot_ = parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
+    const config::BusesConfig buses = config::parse_buses(config::good_table("buses", "embedded").dump(), "b");
+    robot_ = config::parse_robot(config::good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
     tension_N_.fill(30.0);
     reported_m_ = beyond_zero_m(robot_.table, named_pose_rad(robot_, "fixture"), tension_N_);
   }
@@ -33,7 +33,7 @@ class Fixture : public ::testing::Test {
     return "";
   }
 
-  RobotConfig robot_;
+  config::RobotConfig robot_;
   CableVector tension_N_{}, reported_m_{};
 };
 
@@ -91,4 +91,4 @@ TEST_F(Fixture, APoseInWhichAnExchangeWouldGoUnnoticedIsRefused) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::calibration

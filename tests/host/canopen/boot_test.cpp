@@ -22,28 +22,28 @@ using test::expectation;
 using test::FakeDrive;
 
 // Two buses in memory: frames sent in one tick are answered before the next.
-class MemoryBus final : public DriveBus {
+class MemoryBus final : public bus::DriveBus {
  public:
   int bus_count() const noexcept override { return 2; }
-  TimeMode time_mode() const noexcept override { return TimeMode::kFast; }
-  TickStart begin_tick(std::uint64_t tick) noexcept override { return {tick, 0, 0, false}; }
-  SendResult send(int bus, const CanFrame& frame) noexcept override {
-    if (refuse_next > 0 && refuse_next-- > 0) return SendResult::kQueueFull;
+  timing::TimeMode time_mode() const noexcept override { return timing::TimeMode::kFast; }
+  timing::TickStart begin_tick(std::uint64_t tick) noexcept override { return {tick, 0, 0, false}; }
+  bus::SendResult send(int bus, const bus::CanFrame& frame) noexcept override {
+    if (refuse_next > 0 && refuse_next-- > 0) return bus::SendResult::kQueueFull;
     sent[count++] = {bus, frame};
-    return SendResult::kOk;
+    return bus::SendResult::kOk;
   }
   void wait_feedback(int) noexcept override {}
-  bool receive(ReceivedFrame&) noexcept override { return false; }
+  bool receive(bus::ReceivedFrame&) noexcept override { return false; }
   void end_tick() noexcept override {}
-  const DriveBusStats& stats(int) const noexcept override { return stats_; }
+  const bus::DriveBusStats& stats(int) const noexcept override { return stats_; }
   std::uint64_t now_us() const noexcept override { return 0; }
 
-  std::array<ReceivedFrame, 256> sent{};
+  std::array<bus::ReceivedFrame, 256> sent{};
   std::size_t count = 0;
   int refuse_next = 0;
 
  private:
-  DriveBusStats stats_;
+  bus::DriveBusStats stats_;
 };
 
 constexpr BootTiming kTiming{20, 60, 5, 30, 80};
@@ -58,8 +58,8 @@ struct BootBench {
 
   FakeDrive& drive(int node) { return drives[static_cast<std::size_t>(node - 1)]; }
 
-  void deliver(const std::vector<CanFrame>& frames, std::size_t drive) {
-    for (const CanFrame& frame : frames) {
+  void deliver(const std::vector<bus::CanFrame>& frames, std::size_t drive) {
+    for (const bus::CanFrame& frame : frames) {
       AllocationCount::start();
       boot->on_frame(expected[drive].bus, frame);
       AllocationCount::stop();
@@ -388,9 +388,9 @@ TEST(Boot, FramesFromTheWrongBusDoNotCount) {
   bench.drives[0].dead = true;
   bench.boot = std::make_unique<BootSequence>(bench.expected, kTiming);
   bench.boot->step(bench.bus);
-  bench.boot->on_frame(0, CanFrame{0x701, 1, {0}, 0});
+  bench.boot->on_frame(0, bus::CanFrame{0x701, 1, {0}, 0});
   EXPECT_EQ(bench.boot->phase(0), NodePhase::kWaitBootUp);
-  bench.boot->on_frame(1, CanFrame{0x701, 1, {0}, 0});
+  bench.boot->on_frame(1, bus::CanFrame{0x701, 1, {0}, 0});
   EXPECT_EQ(bench.boot->phase(0), NodePhase::kObjects);
 }
 

@@ -13,8 +13,8 @@ namespace {
 constexpr std::uint8_t kNode = 5;
 constexpr std::uint32_t kTimeoutTicks = 4;
 
-CanFrame response(std::initializer_list<int> bytes) {
-  CanFrame frame;
+bus::CanFrame response(std::initializer_list<int> bytes) {
+  bus::CanFrame frame;
   frame.id = 0x580 + kNode;
   frame.length = 8;
   std::size_t at = 0;
@@ -24,7 +24,7 @@ CanFrame response(std::initializer_list<int> bytes) {
 
 // The request that is waiting; its data.
 std::vector<int> request_of(SdoClient& client) {
-  CanFrame frame;
+  bus::CanFrame frame;
   if (!client.take_request(frame)) return {};
   EXPECT_EQ(frame.id, 0x600U + kNode);
   EXPECT_EQ(frame.length, 8);

@@ -10,24 +10,24 @@ namespace liana::canopen {
 namespace {
 
 // Keeps what is sent.
-class RecordingBus final : public DriveBus {
+class RecordingBus final : public bus::DriveBus {
  public:
   int bus_count() const noexcept override { return 2; }
-  TimeMode time_mode() const noexcept override { return TimeMode::kFast; }
-  TickStart begin_tick(std::uint64_t tick) noexcept override { return {tick, 0, 0, false}; }
-  SendResult send(int bus, const CanFrame& frame) noexcept override {
+  timing::TimeMode time_mode() const noexcept override { return timing::TimeMode::kFast; }
+  timing::TickStart begin_tick(std::uint64_t tick) noexcept override { return {tick, 0, 0, false}; }
+  bus::SendResult send(int bus, const bus::CanFrame& frame) noexcept override {
     sent.push_back({bus, frame});
-    return SendResult::kOk;
+    return bus::SendResult::kOk;
   }
   void wait_feedback(int) noexcept override {}
-  bool receive(ReceivedFrame&) noexcept override { return false; }
+  bool receive(bus::ReceivedFrame&) noexcept override { return false; }
   void end_tick() noexcept override {}
-  const DriveBusStats& stats(int) const noexcept override { return stats_; }
+  const bus::DriveBusStats& stats(int) const noexcept override { return stats_; }
   std::uint64_t now_us() const noexcept override { return 0; }
-  std::vector<ReceivedFrame> sent;
+  std::vector<bus::ReceivedFrame> sent;
 
  private:
-  DriveBusStats stats_;
+  bus::DriveBusStats stats_;
 };
 
 TEST(Heartbeat, TheMasterSendsOnEveryBusEvery100Milliseconds) {
@@ -73,7 +73,7 @@ TEST(Heartbeat, BootUpMessagesAreCountedSoThatARestartShows) {
   EXPECT_EQ(monitor.boot_ups(5), 0U);
 }
 
-CanFrame emergency_frame(std::uint16_t code) {
+bus::CanFrame emergency_frame(std::uint16_t code) {
   return {0x083, 8, {static_cast<std::uint8_t>(code), static_cast<std::uint8_t>(code >> 8), 0x11, 1, 2, 3, 4, 5}, 0};
 }
 
@@ -130,12 +130,12 @@ TEST(Routing, EveryIdentifierOfThePredefinedSetFindsItsKindAndNode) {
   check(0x100, FrameKind::kOther, 0);
   check(0x281, FrameKind::kOther, 0);
   check(0x180, FrameKind::kOther, 0);
-  check(0x181 | kCanExtendedFlag, FrameKind::kOther, 0);
-  check(0x181 | kCanRemoteFlag, FrameKind::kOther, 0);
+  check(0x181 | bus::kCanExtendedFlag, FrameKind::kOther, 0);
+  check(0x181 | bus::kCanRemoteFlag, FrameKind::kOther, 0);
 }
 
-BusesConfig buses_at(double rate_hz) {
-  BusesConfig buses;
+config::BusesConfig buses_at(double rate_hz) {
+  config::BusesConfig buses;
   buses.name = "test";
   buses.rate_hz = rate_hz;
   buses.heartbeat_ms = 100;
@@ -143,8 +143,8 @@ BusesConfig buses_at(double rate_hz) {
   return buses;
 }
 
-RobotConfig robot_with_three_cables() {
-  RobotConfig robot;
+config::RobotConfig robot_with_three_cables() {
+  config::RobotConfig robot;
   robot.name = "test";
   robot.table.segment_count = 1;
   robot.table.segment[0].cables = 3;
@@ -164,7 +164,7 @@ TEST(Expectations, FollowFromRobotAndBusTable) {
   EXPECT_EQ(drives[1].bus, 1);
   EXPECT_EQ(drives[2].bus, 0);
   EXPECT_EQ(drives[2].serial, 1003U);
-  RobotConfig unknown = robot_with_three_cables();
+  config::RobotConfig unknown = robot_with_three_cables();
   unknown.drive_serials.clear();
   EXPECT_EQ(drive_expectations(unknown, buses_at(250))[2].serial, std::nullopt);
   EXPECT_EQ(drives[0].rated_torque_mNm, 9000U);
@@ -180,7 +180,7 @@ TEST(Expectations, FollowFromRobotAndBusTable) {
 }
 
 TEST(Expectations, ADriveOnNoBusIsNamed) {
-  BusesConfig buses = buses_at(250);
+  config::BusesConfig buses = buses_at(250);
   buses.buses.pop_back();
   try {
     drive_expectations(robot_with_three_cables(), buses);
@@ -192,10 +192,10 @@ TEST(Expectations, ADriveOnNoBusIsNamed) {
 
 TEST(Master, TakesItsOwnFramesAndLeavesProcessDataToTheCaller) {
   Master master(drive_expectations(robot_with_three_cables(), buses_at(250)), buses_at(250));
-  EXPECT_TRUE(master.on_frame(0, CanFrame{0x701, 1, {0x05}, 0}, 1));
-  EXPECT_TRUE(master.on_frame(0, CanFrame{0x581, 8, {}, 0}, 1));
+  EXPECT_TRUE(master.on_frame(0, bus::CanFrame{0x701, 1, {0x05}, 0}, 1));
+  EXPECT_TRUE(master.on_frame(0, bus::CanFrame{0x581, 8, {}, 0}, 1));
   EXPECT_TRUE(master.on_frame(0, emergency_frame(0x8130), 1));
-  EXPECT_FALSE(master.on_frame(0, CanFrame{0x181, 8, {}, 0}, 1));
+  EXPECT_FALSE(master.on_frame(0, bus::CanFrame{0x181, 8, {}, 0}, 1));
   EXPECT_EQ(master.heartbeats().state(1), 0x05);
   EXPECT_EQ(master.emergencies().last_code(3), 0x8130);
 }

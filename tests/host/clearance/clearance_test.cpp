@@ -8,7 +8,7 @@
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/config/tables.hpp"
 
-namespace liana {
+namespace liana::clearance {
 namespace {
 
 constexpr int kCases = 3000;
@@ -24,8 +24,8 @@ class Draw {
     const Vec3 from = place(0.6);
     return {from, add(from, place(0.3)), number(0.0, 0.05)};
   }
-  SceneSphere sphere() { return {"sphere", place(0.5), number(0.01, 0.5)}; }
-  SceneBox box() {
+  config::SceneSphere sphere() { return {"sphere", place(0.5), number(0.01, 0.5)}; }
+  config::SceneBox box() {
     const Quat q = quaternion_of(place(2.0));
     return {"box",
             place(0.5),
@@ -37,11 +37,11 @@ class Draw {
   std::mt19937 generator_;
 };
 
-double point_distance_m(const Vec3& p, const SceneSphere& sphere) {
+double point_distance_m(const Vec3& p, const config::SceneSphere& sphere) {
   return norm(subtract(p, sphere.center_m)) - sphere.radius_m;
 }
 
-double point_distance_m(const Vec3& p, const SceneBox& box) {
+double point_distance_m(const Vec3& p, const config::SceneBox& box) {
   double outside2 = 0.0, inside = -1e300;
   for (std::size_t i = 0; i < 3; ++i) {
     const double face = std::fabs(dot(box.rotation[i], subtract(p, box.center_m))) - box.half_extent_m[i];
@@ -88,7 +88,7 @@ TEST(Clearance, OfABoxIsTheLeastOfDenseSamplesInsideAndOutside) {
   int inside = 0;
   for (int i = 0; i < kCases; ++i) {
     const Capsule link = draw.link();
-    const SceneBox box = draw.box();
+    const config::SceneBox box = draw.box();
     expect_least(link, box);
     inside += clearance(link, box).distance_m < -link.radius_m ? 1 : 0;
   }
@@ -107,14 +107,14 @@ TEST(Clearance, OfAPointIsTheOneOfTheSamples) {
 }
 
 TEST(Clearance, OfALinkParallelToAFaceIsTheGap) {
-  SceneBox plate{"plate", {0, 0, 0}, {1, 0.01, 2}, {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}};
+  config::SceneBox plate{"plate", {0, 0, 0}, {1, 0.01, 2}, {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}};
   const Clearance found = clearance({{-0.2, 0.06, 0.3}, {0.2, 0.06, 0.3}, 0.03}, plate);
   EXPECT_NEAR(found.distance_m, 0.02, 1e-15);
   EXPECT_NEAR(found.normal[1], 1.0, 1e-15);
 }
 
 TEST(Clearance, OfALinkThroughAThinPlateIsHalfItsThicknessDeep) {
-  SceneBox plate{"plate", {0, 0, 0}, {1, 0.01, 2}, {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}};
+  config::SceneBox plate{"plate", {0, 0, 0}, {1, 0.01, 2}, {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}};
   const Clearance found = clearance({{0, -0.05, 0}, {0, 0.05, 0}, 0.03}, plate);
   EXPECT_NEAR(found.distance_m, -0.01 - 0.03, 1e-15);
   EXPECT_NEAR(found.share, 0.5, 1e-12);
@@ -149,7 +149,7 @@ TEST(Clearance, ChangesAsItsNormalSays) {
 }
 
 TEST(Clearance, OfTheArmNamesTheLinkAndTheObstacle) {
-  const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
+  const config::SceneConfig scene = config::parse_scene(config::good_table("scene", "panel_slit").dump(), "s");
   ThetaVector theta{};
   for (std::size_t i = 0; i < zhu2022::kThetas; ++i) theta[i] = zhu2022::kPressRod_deg[i] * kDegree;
   const ArmClearance found = arm_clearance(link_points(zhu2022::table(), theta), 0.03, scene);
@@ -159,10 +159,10 @@ TEST(Clearance, OfTheArmNamesTheLinkAndTheObstacle) {
 }
 
 TEST(Clearance, OfAnEmptySceneIsFarAndNamesNothing) {
-  const ArmClearance found = arm_clearance(link_points(zhu2022::table(), ThetaVector{}), 0.03, SceneConfig{});
+  const ArmClearance found = arm_clearance(link_points(zhu2022::table(), ThetaVector{}), 0.03, config::SceneConfig{});
   EXPECT_EQ(found.link, -1);
   EXPECT_EQ(found.nearest.distance_m, kNoObstacle_m);
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::clearance

@@ -6,7 +6,7 @@
 
 #include "host/system/errors.hpp"
 
-namespace liana {
+namespace liana::cli {
 namespace {
 
 cable::RobotTable two_segments() {
@@ -19,7 +19,7 @@ cable::RobotTable two_segments() {
 std::string refusal(const std::function<void()>& call) {
   try {
     call();
-  } catch (const BadInput& error) {
+  } catch (const system::BadInput& error) {
     return error.what();
   }
   return "";
@@ -81,4 +81,4 @@ TEST(Arguments, AControlPointHasANodeAPlaceAndAPositiveWeight) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::cli

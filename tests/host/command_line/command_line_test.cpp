@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana {
+namespace liana::command_line {
 namespace {
 
 // A program with one command, and what a command line made of it.
@@ -58,4 +58,4 @@ TEST(CommandLine, WhatBreaksARuleIsRefused) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::command_line

@@ -1,7 +1,7 @@
 #include "host/config/config.hpp"
 #include "tests/host/config/tables.hpp"
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 TEST(Buses, KnowPeriodIntervalAndTheBusOfANode) {
@@ -65,4 +65,4 @@ TEST(Buses, AreRefusedWithFileFieldValueRangeAndAdvice) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::config

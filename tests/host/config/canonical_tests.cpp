@@ -7,7 +7,7 @@
 
 #include "tests/host/config/tables.hpp"
 
-namespace liana {
+namespace liana::config {
 
 TEST(CanonicalJson, WritesEveryNumberInOneWay) {
   EXPECT_EQ(canonical_number(-0.0), "0");
@@ -42,4 +42,4 @@ TEST(ConfigHash, IsTheSameForTheSameTablesAndChangesWithAnyOfThem) {
   EXPECT_EQ(hash("embedded", "0.25").size(), 64u);
 }
 
-}  // namespace liana
+}  // namespace liana::config

@@ -3,7 +3,7 @@
 #include "host/config/config.hpp"
 #include "tests/host/config/tables.hpp"
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 constexpr double kDeg = 3.14159265358979323846 / 180.0;
@@ -97,4 +97,4 @@ TEST(Robot, AMissingFileIsNamed) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::config

@@ -4,7 +4,7 @@
 #include "host/config/slit_mouth.hpp"
 #include "tests/host/config/tables.hpp"
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -77,4 +77,4 @@ TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::config

@@ -4,7 +4,7 @@
 
 #include "tests/host/config/tables.hpp"
 
-namespace liana {
+namespace liana::config {
 namespace {
 
 constexpr double kDeg = 3.14159265358979323846 / 180.0;
@@ -87,4 +87,4 @@ TEST(SerialRobot, TheTwoKindsAreNotTakenForEachOther) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::config

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana {
+namespace liana::config {
 
 // Vectors of FIPS 180-4 (NIST examples): empty, one block, two blocks, many blocks.
 TEST(Sha256, AgreesWithTheStandardsExamples) {
@@ -13,4 +13,4 @@ TEST(Sha256, AgreesWithTheStandardsExamples) {
   EXPECT_EQ(sha256_hex(std::string(1000000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
-}  // namespace liana
+}  // namespace liana::config

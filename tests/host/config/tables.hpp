@@ -10,13 +10,13 @@
 #include "host/json/json.hpp"
 #include "host/lua/evaluate.hpp"
 
-namespace liana {
+namespace liana::config {
 
 // The project's own table, evaluated.
 inline Json good_table(const std::string& kind, const std::string& name) {
-  Activity activity;
-  Script script(ScriptLimits{}, LIANA_LUA_DIR, activity);
-  return Json::parse(evaluate(script, LIANA_LUA_DIR, kind, name));
+  script::Activity activity;
+  script::Script script(script::ScriptLimits{}, LIANA_LUA_DIR, activity);
+  return Json::parse(script::evaluate(script, LIANA_LUA_DIR, kind, name));
 }
 
 // One way to spoil a table and what the message must contain.
@@ -61,4 +61,4 @@ inline void expect_refused(const Json& table, const Spoiled& spoiled,
   EXPECT_NE(message.find(spoiled.expected_advice), std::string::npos) << message;
 }
 
-}  // namespace liana
+}  // namespace liana::config

@@ -9,7 +9,7 @@
 #include "host/control/tick_guard.hpp"
 #include "tests/host/verify/sim_arm.hpp"
 
-namespace liana {
+namespace liana::control {
 namespace {
 
 std::unique_ptr<int> g_planted;  // global, so that no compiler can leave the allocation out
@@ -60,7 +60,7 @@ TEST(AllocGuard, OutsideATickEverythingIsAllowed) {
 
 // A thousand ticks with enabling, motion requests, a silent drive, a fault and its clearing.
 TEST(AllocGuard, TicksAllocateNothingAlsoWhenThingsGoWrong) {
-  auto arm = std::make_unique<SimArm>();
+  auto arm = std::make_unique<verify::SimArm>();
   const auto run = [&](int ticks) {
     for (int i = 0; i < ticks; ++i) {
       const TickGuard inside;
@@ -78,4 +78,4 @@ TEST(AllocGuard, TicksAllocateNothingAlsoWhenThingsGoWrong) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::control

@@ -7,11 +7,11 @@
 
 #include "tests/host/verify/sim_arm.hpp"
 
-namespace liana {
+namespace liana::control {
 namespace {
 
 TEST(LastStop, AnArmWhoseServiceFailedIsSwitchedOff) {
-  const auto arm = std::make_unique<SimArm>();
+  const auto arm = std::make_unique<verify::SimArm>();
   ASSERT_TRUE(arm->enable());
   int ticks = 0;
   stop_without_service(arm->link, 2500, [&] {
@@ -23,7 +23,7 @@ TEST(LastStop, AnArmWhoseServiceFailedIsSwitchedOff) {
 }
 
 TEST(LastStop, EndsAtItsLimitAndWhenThereAreNoTicks) {
-  const auto arm = std::make_unique<SimArm>();
+  const auto arm = std::make_unique<verify::SimArm>();
   ASSERT_TRUE(arm->enable());
   int ticks = 0;
   stop_without_service(arm->link, 3, [&] {
@@ -47,4 +47,4 @@ TEST(LastStop, WhatAThreadThrowsIsKeptAsItsProblem) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::control

@@ -6,7 +6,7 @@
 #include "host/control/latest_value.hpp"
 #include "host/control/spsc_ring.hpp"
 
-namespace liana {
+namespace liana::control {
 namespace {
 
 TEST(SpscRing, KeepsOrderAndRefusesWhenFull) {
@@ -89,4 +89,4 @@ TEST(LatestValue, ValuesAreNeverTornAndNeverGoBack) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::control

@@ -7,7 +7,7 @@
 
 #include "tests/host/verify/sim_arm.hpp"
 
-namespace liana {
+namespace liana::control {
 namespace {
 
 TEST(StopFlag, IsTakenOnceHoweverOftenItWasPressed) {
@@ -22,7 +22,7 @@ TEST(StopFlag, IsTakenOnceHoweverOftenItWasPressed) {
 }
 
 TEST(TickCore, AStopActsInTheNextTickThoughTheQueueOfRequestsIsFull) {
-  const auto arm = std::make_unique<SimArm>();
+  const auto arm = std::make_unique<verify::SimArm>();
   ASSERT_TRUE(arm->enable());
   while (arm->link.requests.push(Request::kClear)) {
   }
@@ -32,7 +32,7 @@ TEST(TickCore, AStopActsInTheNextTickThoughTheQueueOfRequestsIsFull) {
 }
 
 TEST(TickCore, WhatWasAskedForBeforeAStopDoesNotFollowIt) {
-  const auto arm = std::make_unique<SimArm>();
+  const auto arm = std::make_unique<verify::SimArm>();
   for (int i = 0; i < 10; ++i) arm->interval();
   arm->link.requests.push(Request::kEnable);
   arm->link.stop.press();
@@ -43,4 +43,4 @@ TEST(TickCore, WhatWasAskedForBeforeAStopDoesNotFollowIt) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::control

@@ -4,7 +4,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::daemon {
 namespace {
 
 std::string reason_of(const Json& reason) { return stop_reason(&reason); }
@@ -42,4 +42,4 @@ TEST(EmergencyStop, AReasonIsShownOnOneLineWithoutTerminalEscapes) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::daemon

@@ -5,7 +5,7 @@
 #include "host/calibration/fixture.hpp"
 #include "tests/host/verify/sim_arm.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 using namespace cable;
 namespace {
@@ -14,11 +14,12 @@ namespace {
 class HomingOfAnArm : public ::testing::Test {
  protected:
   HomingOfAnArm() {
-    robot_.table = SimArm().table();
+    robot_.table = verify::SimArm().table();
     robot_.named_poses_deg["fixture"] = {12, -9, 7, -8, 12, -3, 12, -10, -12, -2};
     cable::CableVector tension_N{};
     tension_N.fill(30.0);
-    const cable::CableVector out_m = beyond_zero_m(robot_.table, named_pose_rad(robot_, "fixture"), tension_N);
+    const cable::CableVector out_m =
+        calibration::beyond_zero_m(robot_.table, calibration::named_pose_rad(robot_, "fixture"), tension_N);
     for (std::size_t i = 0; i < 15; ++i) {
       const cable::DriveTable& drive = robot_.table.drive[i];
       DriveFeedback& report = report_.inputs.drive[i];
@@ -36,8 +37,8 @@ class HomingOfAnArm : public ::testing::Test {
         static_cast<std::int32_t>(change_m / (drive.direction * drive.metres_per_count));
   }
 
-  RobotConfig robot_;
-  ArmReport<cable::CableArm> report_;
+  config::RobotConfig robot_;
+  control::ArmReport<cable::CableArm> report_;
   cable::EstimatorState estimator_;
 };
 
@@ -88,4 +89,4 @@ TEST_F(HomingOfAnArm, IsRefusedUntilThePoseFitsOnceThenTheArmMayLeaveIt) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::daemon

@@ -5,19 +5,19 @@
 
 #include "host/api/request_error.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 namespace {
 
 TEST(Owner, OnlyOneClientOwnsMotion) {
   Owner owner;
-  EXPECT_THROW(owner.require(1), RequestError) << "nobody owns motion at the start";
+  EXPECT_THROW(owner.require(1), api::RequestError) << "nobody owns motion at the start";
   owner.acquire(1, 1, "mission");
   owner.acquire(1, 1, "mission");
   EXPECT_NO_THROW(owner.require(1));
-  EXPECT_THROW(owner.acquire(2, 5, "second"), RequestError);
-  EXPECT_THROW(owner.require(2), RequestError);
-  EXPECT_THROW(owner.release(2), RequestError);
+  EXPECT_THROW(owner.acquire(2, 5, "second"), api::RequestError);
+  EXPECT_THROW(owner.require(2), api::RequestError);
+  EXPECT_THROW(owner.release(2), api::RequestError);
   EXPECT_EQ(owner.name(), "mission");
   owner.release(1);
   EXPECT_NO_THROW(owner.acquire(2, 5, "second"));
@@ -38,11 +38,11 @@ TEST(Owner, TheRefusalNamesTheOwner) {
   try {
     owner.acquire(2, 5, "second");
     FAIL();
-  } catch (const RequestError& error) {
+  } catch (const api::RequestError& error) {
     EXPECT_EQ(error.code(), "not_owner");
     EXPECT_NE(std::string(error.what()).find("mission"), std::string::npos);
   }
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::daemon

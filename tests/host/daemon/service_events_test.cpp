@@ -14,13 +14,14 @@
 #include "tests/host/api/robots.hpp"
 #include "tests/host/verify/sim_arm.hpp"
 
-namespace liana {
+namespace liana::daemon {
 namespace {
 
-std::vector<std::string> summaries(const std::vector<Event>& events) {
+std::vector<std::string> summaries(const std::vector<event::Event>& events) {
   std::vector<std::string> out;
-  for (const Event& event : events)
-    out.push_back(std::string(event_kind_name(event.kind)) + " " + std::to_string(event.number) + " " + event.subject);
+  for (const event::Event& event : events)
+    out.push_back(std::string(event::event_kind_name(event.kind)) + " " + std::to_string(event.number) + " " +
+                  event.subject);
   return out;
 }
 
@@ -30,9 +31,9 @@ TEST(Faults, EachIsAnEventWhenItAppearsAndAgainAfterAClear) {
   EXPECT_TRUE(watch.changes(list).empty());
   latch(list, {FaultNumber::kDriveFault, 3, 0x2310, 100});
   latch(list, {FaultNumber::kBusLost, 0, 0, 100});
-  const std::vector<Event> first = watch.changes(list);
+  const std::vector<event::Event> first = watch.changes(list);
   EXPECT_EQ(summaries(first), (std::vector<std::string>{"fault 3003 drive 3", "fault 4001 bus 0"}));
-  EXPECT_EQ(first[0].values, (std::vector<EventValue>{{"detail", 0x2310}, {"tick", 100.0}}));
+  EXPECT_EQ(first[0].values, (std::vector<event::EventValue>{{"detail", 0x2310}, {"tick", 100.0}}));
   EXPECT_NE(first[0].text.find(fault_info(FaultNumber::kDriveFault).name), std::string::npos);
   EXPECT_TRUE(watch.changes(list).empty()) << "it is still there";
   latch(list, {FaultNumber::kGateRefused, -1, 0, 101});
@@ -48,84 +49,85 @@ TEST(Faults, ThoseWithoutAPlaceAreCounted) {
   FaultList list;
   for (std::int16_t drive = 0; drive < FaultList::kCapacity + 5; ++drive)
     latch(list, {FaultNumber::kDriveSilent, drive, 0, 7});
-  const std::vector<Event> events = watch.changes(list);
+  const std::vector<event::Event> events = watch.changes(list);
   ASSERT_EQ(events.size(), FaultList::kCapacity + 1u);
   EXPECT_EQ(events.back().number, 0);
-  EXPECT_EQ(events.back().values, (std::vector<EventValue>{{"count", 5.0}}));
+  EXPECT_EQ(events.back().values, (std::vector<event::EventValue>{{"count", 5.0}}));
   EXPECT_TRUE(watch.changes(list).empty());
 }
 
 TEST(HostTroubles, EachChangeSaysWhichBusAndHowMuch) {
-  BusesConfig buses;
+  config::BusesConfig buses;
   buses.buses.resize(2);
   buses.buses[0].name = "can0";
   buses.buses[1].name = "can1";
   HostTrouble trouble;
-  CycleReport report;
+  control::CycleReport report;
   EXPECT_TRUE(trouble.changes(buses, report).empty());
-  report.bus[0].state = BusState::kErrorPassive;
+  report.bus[0].state = bus::BusState::kErrorPassive;
   report.bus[1].errors = 4;
   report.bus[1].dropped = 2;
   report.overruns.lost_ticks = 3;
-  const std::vector<Event> events = trouble.changes(buses, report);
+  const std::vector<event::Event> events = trouble.changes(buses, report);
   EXPECT_EQ(summaries(events), (std::vector<std::string>{"host_trouble 1 bus can0", "host_trouble 2 bus can1",
                                                          "host_trouble 3 bus can1", "host_trouble 6 control thread"}));
-  EXPECT_EQ(events[0].values, (std::vector<EventValue>{{"state", 1.0}}));
-  EXPECT_EQ(events[1].values, (std::vector<EventValue>{{"count", 4.0}}));
+  EXPECT_EQ(events[0].values, (std::vector<event::EventValue>{{"state", 1.0}}));
+  EXPECT_EQ(events[1].values, (std::vector<event::EventValue>{{"count", 4.0}}));
   EXPECT_EQ(events[1].text, "bus can1 reported 4 error frames and is active");
-  EXPECT_EQ(events[3].values, (std::vector<EventValue>{{"count", 3.0}}));
+  EXPECT_EQ(events[3].values, (std::vector<event::EventValue>{{"count", 3.0}}));
   EXPECT_TRUE(trouble.changes(buses, report).empty());
   report.bus[0].refused = 6;
   EXPECT_EQ(summaries(trouble.changes(buses, report)), (std::vector<std::string>{"host_trouble 4 bus can0"}));
-  const std::vector<Event> over = trouble.changes(buses, report);
+  const std::vector<event::Event> over = trouble.changes(buses, report);
   EXPECT_EQ(summaries(over), (std::vector<std::string>{"host_trouble 5 bus can0"}));
-  EXPECT_EQ(over[0].values, (std::vector<EventValue>{{"count", 6.0}}));
+  EXPECT_EQ(over[0].values, (std::vector<event::EventValue>{{"count", 6.0}}));
 }
 
 TEST(Events, AVerdictSaysWhichEndRefusedAndHowNearTheLimitIs) {
-  Verdict verdict;
-  verdict.code = Refusal::kTipSpeed;
+  verify::Verdict verdict;
+  verdict.code = verify::Refusal::kTipSpeed;
   verdict.text = "too fast";
   verdict.share = 1.25;
-  const Event event = verdict_event(17, verdict);
+  const event::Event event = verdict_event(17, verdict);
   EXPECT_EQ(summaries({event}), (std::vector<std::string>{"verdict 203 simulation"}));
-  EXPECT_EQ(event.values, (std::vector<EventValue>{{"command", 17.0}, {"share", 1.25}}));
+  EXPECT_EQ(event.values, (std::vector<event::EventValue>{{"command", 17.0}, {"share", 1.25}}));
   EXPECT_EQ(event.text, "refused 17, M_e 203: too fast");
-  verdict.code = Refusal::kTooSlow;
+  verdict.code = verify::Refusal::kTooSlow;
   EXPECT_EQ(verdict_event(18, verdict).subject, "execution");
 }
 
 TEST(Events, AnOwnerThatStandsStillIsNamedWithItsTimeToLive) {
-  const Event event = stands_still_event("robot hand", 0.25);
+  const event::Event event = stands_still_event("robot hand", 0.25);
   EXPECT_EQ(summaries({event}), (std::vector<std::string>{"owner 4 robot hand"}));
-  EXPECT_EQ(event.values, (std::vector<EventValue>{{"ttl_s", 0.25}}));
+  EXPECT_EQ(event.values, (std::vector<event::EventValue>{{"ttl_s", 0.25}}));
   EXPECT_NE(event.text.find("no servo_cp for 0.25 s"), std::string::npos) << event.text;
 }
 
 // A service in real time, its arm and one client, who reads events.
 class ServiceTellsEvents : public testing::Test {
  protected:
-  ServiceTellsEvents() : desk_(robot(), SceneConfig{}, "", TimeMode::kReal, arm_.link), service_(config(), desk_) {
+  ServiceTellsEvents()
+      : desk_(robot(), config::SceneConfig{}, "", timing::TimeMode::kReal, arm_.link), service_(config(), desk_) {
     client_.send({{"op", "hello"}, {"name", "c"}, {"role", "client"}, {"subscribe", {"event"}}, {"events_from", 1}});
   }
   ~ServiceTellsEvents() override { ::unlink(path().c_str()); }
 
   static std::string path() { return testing::TempDir() + "liana_service_events_" + std::to_string(::getpid()); }
-  RobotConfig robot() const {
-    RobotConfig robot;
+  config::RobotConfig robot() const {
+    config::RobotConfig robot;
     robot.table = arm_.table();
     return robot;
   }
   ServiceConfig config() const {
     ServiceConfig config;
-    config.time_mode = TimeMode::kReal;
+    config.time_mode = timing::TimeMode::kReal;
     config.api_path = path();
-    config.robot_json = zhu2022_json().dump();
+    config.robot_json = api::zhu2022_json().dump();
     config.scene_json = config.buses.canonical_json = "{}";
     config.buses.rate_hz = 1.0 / arm_.table().tick_s;
     config.buses.command_interval_s = arm_.table().interval_ticks * arm_.table().tick_s;
     config.serials = [] { return std::vector<std::uint32_t>(15, 7); };
-    config.boot_problems = [] { return std::vector<BootProblem>{}; };
+    config.boot_problems = [] { return std::vector<control::BootProblem>{}; };
     return config;
   }
   void intervals(int count) {
@@ -137,12 +139,12 @@ class ServiceTellsEvents : public testing::Test {
   }
   void hear() {
     for (auto message = client_.receive(0.0); message; message = client_.receive(0.0)) {
-      if (message->value("op", "") == "event") heard_.push_back(event_from_json(*message));
+      if (message->value("op", "") == "event") heard_.push_back(event::event_from_json(*message));
     }
   }
-  std::vector<Event> heard(EventKind kind) const {
-    std::vector<Event> out;
-    for (const Event& event : heard_) {
+  std::vector<event::Event> heard(event::EventKind kind) const {
+    std::vector<event::Event> out;
+    for (const event::Event& event : heard_) {
       if (event.kind == kind) out.push_back(event);
     }
     return out;
@@ -162,25 +164,25 @@ class ServiceTellsEvents : public testing::Test {
     intervals(20);
   }
 
-  SimArm arm_;
+  verify::SimArm arm_;
   CableDesk desk_;
   Service service_;
-  ApiClient client_ = ApiClient::connect(path());
-  std::vector<Event> heard_;
+  api::ApiClient client_ = api::ApiClient::connect(path());
+  std::vector<event::Event> heard_;
 };
 
 TEST_F(ServiceTellsEvents, ARefusedVerdictIsAnEventAndAReleasedOneIsNone) {
   move();
   ASSERT_GT(arm_.now().active_sequence, 0u) << "commands were released";
-  EXPECT_TRUE(heard(EventKind::kVerdict).empty());
+  EXPECT_TRUE(heard(event::EventKind::kVerdict).empty());
   auto late = arm_.link.report.value();  // the verdict comes when its interval is over
   late.next_tick += 100;
   arm_.link.report.publish(late);
   service_.cycle();
   hear();
-  const std::vector<Event> verdicts = heard(EventKind::kVerdict);
+  const std::vector<event::Event> verdicts = heard(event::EventKind::kVerdict);
   ASSERT_EQ(verdicts.size(), 1u);
-  EXPECT_EQ(verdicts[0].number, number_of(Refusal::kTooSlow));
+  EXPECT_EQ(verdicts[0].number, event::number_of(verify::Refusal::kTooSlow));
   EXPECT_EQ(verdicts[0].subject, "execution");
   EXPECT_GT(verdicts[0].values[0].value, 0.0);
 }
@@ -190,11 +192,11 @@ TEST_F(ServiceTellsEvents, TheyAreNumberedWithoutGapsWhateverComesFirst) {
   for (int i = 0; i < 60; ++i) client_.send({{"op", "stop"}});
   client_.send({{"op", "release"}});
   intervals(5);
-  EXPECT_EQ(heard(EventKind::kStop).size(), EventLog::kMostPerInterval);
-  EXPECT_EQ(heard(EventKind::kLeftOut).size(), 1u);
-  EXPECT_EQ(heard(EventKind::kOwner).back().number, number_of(OwnerEvent::kReleased));
+  EXPECT_EQ(heard(event::EventKind::kStop).size(), event::EventLog::kMostPerInterval);
+  EXPECT_EQ(heard(event::EventKind::kLeftOut).size(), 1u);
+  EXPECT_EQ(heard(event::EventKind::kOwner).back().number, event::number_of(event::OwnerEvent::kReleased));
   for (std::size_t i = 0; i < heard_.size(); ++i) EXPECT_EQ(heard_[i].sequence, i + 1);
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::daemon

@@ -15,44 +15,44 @@
 #include "tests/host/api/robots.hpp"
 #include "tests/host/verify/sim_arm.hpp"
 
-namespace liana {
+namespace liana::daemon {
 
 using namespace cable;
 namespace {
 
-ServiceConfig config_for(const SimArm& arm, TimeMode mode) {
+ServiceConfig config_for(const verify::SimArm& arm, timing::TimeMode mode) {
   ServiceConfig config;
   config.time_mode = mode;
   config.api_path = testing::TempDir() + "liana_service_" + std::to_string(::getpid());
-  config.robot_json = zhu2022_json().dump();
+  config.robot_json = api::zhu2022_json().dump();
   config.scene_json = config.buses.canonical_json = "{}";
   config.camera_latency_s = 0.1;
   config.buses.rate_hz = 1.0 / arm.table().tick_s;
   config.buses.command_interval_s = arm.table().interval_ticks * arm.table().tick_s;
   config.serials = [] { return std::vector<std::uint32_t>(15, 7); };
   config.boot_problems = [] {
-    return std::vector<BootProblem>{{3, FaultNumber::kDriveMissing, "node 4 on can0: silent"}};
+    return std::vector<control::BootProblem>{{3, FaultNumber::kDriveMissing, "node 4 on can0: silent"}};
   };
   return config;
 }
 
-RobotConfig robot_of(const SimArm& arm) {
-  RobotConfig robot;
+config::RobotConfig robot_of(const verify::SimArm& arm) {
+  config::RobotConfig robot;
   robot.table = arm.table();
   return robot;
 }
 
 class ServiceOverSocket : public testing::Test {
  protected:
-  explicit ServiceOverSocket(TimeMode mode = TimeMode::kFast)
-      : arm_(std::make_unique<SimArm>()),
-        desk_(robot_of(*arm_), SceneConfig{}, "", mode, arm_->link),
+  explicit ServiceOverSocket(timing::TimeMode mode = timing::TimeMode::kFast)
+      : arm_(std::make_unique<verify::SimArm>()),
+        desk_(robot_of(*arm_), config::SceneConfig{}, "", mode, arm_->link),
         config_(config_for(*arm_, mode)),
         service_(config_, desk_) {}
   ~ServiceOverSocket() override { ::unlink(config_.api_path.c_str()); }
 
-  ApiClient join(const std::string& role, Json topics = {"state"}) {
-    ApiClient client = ApiClient::connect(config_.api_path);
+  api::ApiClient join(const std::string& role, Json topics = {"state"}) {
+    api::ApiClient client = api::ApiClient::connect(config_.api_path);
     client.send({{"op", "hello"}, {"name", role}, {"role", role}, {"subscribe", topics}});
     service_.idle(0.01);
     service_.idle(0.0);
@@ -66,11 +66,11 @@ class ServiceOverSocket : public testing::Test {
     }
   }
   // The answer to a request; "ok" or an error code.
-  std::string ask(ApiClient& client, Json request) {
+  std::string ask(api::ApiClient& client, Json request) {
     const Json answer = full_answer(client, std::move(request));
     return answer["op"] == "ok" ? "ok" : answer.value("code", "no answer");
   }
-  Json full_answer(ApiClient& client, Json request) {
+  Json full_answer(api::ApiClient& client, Json request) {
     request["id"] = ++id_;
     client.send(request);
     for (int i = 0; i < 500; ++i) {
@@ -80,7 +80,7 @@ class ServiceOverSocket : public testing::Test {
     }
     return {{"op", "none"}};
   }
-  Json state(ApiClient& client) {
+  Json state(api::ApiClient& client) {
     intervals(1);
     Json newest;
     for (int idle = 0; idle < 2;
@@ -93,7 +93,7 @@ class ServiceOverSocket : public testing::Test {
     }
     return newest;
   }
-  void enable(ApiClient& mission) {
+  void enable(api::ApiClient& mission) {
     ASSERT_EQ(ask(mission, {{"op", "acquire"}}), "ok");
     intervals(10);
     ASSERT_EQ(ask(mission, {{"op", "state_command"}, {"command", "enable"}}), "ok");
@@ -107,7 +107,7 @@ class ServiceOverSocket : public testing::Test {
     return {{"op", "move_jp"}, {"goal_deg", goal}};
   }
 
-  std::unique_ptr<SimArm> arm_;
+  std::unique_ptr<verify::SimArm> arm_;
   CableDesk desk_;
   ServiceConfig config_;
   Service service_;
@@ -115,7 +115,7 @@ class ServiceOverSocket : public testing::Test {
 };
 
 TEST_F(ServiceOverSocket, AMoveGoesThroughVerificationToTheArm) {
-  ApiClient mission = join("mission");
+  api::ApiClient mission = join("mission");
   enable(mission);
   const double before = arm_->now().theta_command_rad[0];
   ASSERT_EQ(ask(mission, move_request(0.2)), "ok");
@@ -131,7 +131,7 @@ TEST_F(ServiceOverSocket, AMoveGoesThroughVerificationToTheArm) {
 }
 
 TEST_F(ServiceOverSocket, APathIsOneMotionThroughItsPointsAndNamesItself) {
-  ApiClient mission = join("mission");
+  api::ApiClient mission = join("mission");
   enable(mission);
   Json points = Json::array();
   for (const double change_deg : {0.0, 0.2, 0.1}) points.push_back(move_request(change_deg)["goal_deg"]);
@@ -151,7 +151,7 @@ TEST_F(ServiceOverSocket, APathIsOneMotionThroughItsPointsAndNamesItself) {
 }
 
 TEST_F(ServiceOverSocket, APathThatLeadsTheArmIntoItselfIsRefusedBeforeAnythingMoves) {
-  ApiClient mission = join("mission");
+  api::ApiClient mission = join("mission");
   enable(mission);
   const Json start = move_request(0.0)["goal_deg"];
   const Json curled{18, 0, 18, 0, 18, 0, 18, 0, 18, 0};
@@ -167,7 +167,7 @@ TEST_F(ServiceOverSocket, APathThatLeadsTheArmIntoItselfIsRefusedBeforeAnythingM
 }
 
 TEST_F(ServiceOverSocket, ALineMayHoldVariablesAsHoldThetaWritesThem) {
-  ApiClient mission = join("mission");
+  api::ApiClient mission = join("mission");
   enable(mission);
   const Json before = state(mission);
   const Json held{{{"theta", 9}, {"target_deg", before["setpoint_js_deg"][8]}}};
@@ -178,8 +178,8 @@ TEST_F(ServiceOverSocket, ALineMayHoldVariablesAsHoldThetaWritesThem) {
 }
 
 TEST_F(ServiceOverSocket, TheDeathOfTheMissionIsAHold) {
-  auto mission = std::make_unique<ApiClient>(join("mission"));
-  ApiClient watcher = join("observer");
+  auto mission = std::make_unique<api::ApiClient>(join("mission"));
+  api::ApiClient watcher = join("observer");
   enable(*mission);
   ASSERT_EQ(ask(*mission, move_request(5.0)), "ok");
   intervals(40);
@@ -196,7 +196,7 @@ TEST_F(ServiceOverSocket, TheDeathOfTheMissionIsAHold) {
 }
 
 TEST_F(ServiceOverSocket, OnlyOneClientMovesTheArm) {
-  ApiClient mission = join("mission"), second = join("client"), watcher = join("observer");
+  api::ApiClient mission = join("mission"), second = join("client"), watcher = join("observer");
   enable(mission);
   EXPECT_EQ(ask(second, {{"op", "acquire"}}), "not_owner");
   EXPECT_EQ(ask(second, move_request(0.1)), "not_owner");
@@ -208,7 +208,7 @@ TEST_F(ServiceOverSocket, OnlyOneClientMovesTheArm) {
 }
 
 TEST_F(ServiceOverSocket, AnyoneMayStop) {
-  ApiClient mission = join("mission"), watcher = join("observer");
+  api::ApiClient mission = join("mission"), watcher = join("observer");
   enable(mission);
   ask(mission, move_request(5.0));
   intervals(30);
@@ -218,7 +218,7 @@ TEST_F(ServiceOverSocket, AnyoneMayStop) {
 }
 
 TEST_F(ServiceOverSocket, AStopIsTakenWhateverItsReasonOrItsSpelling) {
-  ApiClient watcher = join("observer"), other = join("client");
+  api::ApiClient watcher = join("observer"), other = join("client");
   intervals(2);
   const std::string filler(60000, 'x'), deep(5000, '[');
   const std::vector<std::pair<std::string, std::string>> table{
@@ -238,7 +238,7 @@ TEST_F(ServiceOverSocket, AStopIsTakenWhateverItsReasonOrItsSpelling) {
   };
   for (const auto& [packet, reason] : table) {
     SCOPED_TRACE(packet.substr(0, 60));
-    ASSERT_EQ(send_packet(watcher.fd(), packet), SocketResult::kDone);
+    ASSERT_EQ(api::send_packet(watcher.fd(), packet), api::SocketResult::kDone);
     service_.idle(0.01);
     EXPECT_TRUE(arm_->link.stop.take());
     while (const auto heard = watcher.receive(0.0)) {
@@ -253,7 +253,7 @@ TEST_F(ServiceOverSocket, AStopIsTakenWhateverItsReasonOrItsSpelling) {
 }
 
 TEST_F(ServiceOverSocket, AStopActsInTheNextTickThoughNoOtherRequestHasRoom) {
-  ApiClient mission = join("mission"), watcher = join("observer");
+  api::ApiClient mission = join("mission"), watcher = join("observer");
   enable(mission);
   for (int i = 0; i < 40; ++i) ask(mission, {{"op", "state_command"}, {"command", "clear"}});
   ASSERT_EQ(ask(mission, {{"op", "state_command"}, {"command", "clear"}}), "busy");
@@ -263,7 +263,7 @@ TEST_F(ServiceOverSocket, AStopActsInTheNextTickThoughNoOtherRequestHasRoom) {
 }
 
 TEST_F(ServiceOverSocket, AStopIsServedBeforeWhatOthersAskedForEarlier) {
-  ApiClient mission = join("mission"), watcher = join("observer");
+  api::ApiClient mission = join("mission"), watcher = join("observer");
   enable(mission);
   for (int i = 0; i < 100; ++i) mission.send({{"op", "tool"}, {"command", std::to_string(i)}});
   mission.send(move_request(5.0));
@@ -278,7 +278,7 @@ TEST_F(ServiceOverSocket, AStopIsServedBeforeWhatOthersAskedForEarlier) {
 }
 
 TEST_F(ServiceOverSocket, WhatAMissionAskedForBesideItsOwnStopDoesNotEnableTheArm) {
-  ApiClient mission = join("mission");
+  api::ApiClient mission = join("mission");
   ASSERT_EQ(ask(mission, {{"op", "acquire"}}), "ok");
   intervals(10);
   mission.send({{"op", "state_command"}, {"command", "enable"}, {"id", 900}});
@@ -289,7 +289,7 @@ TEST_F(ServiceOverSocket, WhatAMissionAskedForBesideItsOwnStopDoesNotEnableTheAr
 }
 
 TEST_F(ServiceOverSocket, AStopOfLianadItselfIsToldToEverybody) {
-  ApiClient watcher = join("observer");
+  api::ApiClient watcher = join("observer");
   intervals(2);
   service_.stop_by_itself("the real-time thread failed");
   const auto last = watcher.receive(1.0);
@@ -302,7 +302,7 @@ TEST_F(ServiceOverSocket, AStopOfLianadItselfIsToldToEverybody) {
 }
 
 TEST_F(ServiceOverSocket, AShutdownStopsTheArmThoughTheQueueOfRequestsIsFull) {
-  ApiClient mission = join("mission");
+  api::ApiClient mission = join("mission");
   enable(mission);
   while (arm_->link.requests.push(Request::kClear)) {
   }
@@ -312,7 +312,7 @@ TEST_F(ServiceOverSocket, AShutdownStopsTheArmThoughTheQueueOfRequestsIsFull) {
 }
 
 TEST_F(ServiceOverSocket, BadMotionRequestsAreRefusedWithTheirReason) {
-  ApiClient mission = join("mission");
+  api::ApiClient mission = join("mission");
   ask(mission, {{"op", "acquire"}});
   intervals(2);
   EXPECT_EQ(ask(mission, move_request(0.1)), "not_enabled");
@@ -356,12 +356,12 @@ TEST_F(ServiceOverSocket, BadMotionRequestsAreRefusedWithTheirReason) {
 }
 
 TEST_F(ServiceOverSocket, EveryOperationOfTheTableIsServed) {
-  std::map<std::string, ApiClient> clients;
-  for (const char* role : kRoleNames) clients.emplace(role, join(role));
-  for (const RequestRow& row : request_table()) {
+  std::map<std::string, api::ApiClient> clients;
+  for (const char* role : api::kRoleNames) clients.emplace(role, join(role));
+  for (const api::RequestRow& row : api::request_table()) {
     if (row.op == std::string("hello") || row.op == std::string("done")) continue;  // the server's own
-    const std::string role = row.owner_only ? "client" : roles_text(row.roles);
-    ApiClient& client = clients.at(role.substr(0, role.find(',')));
+    const std::string role = row.owner_only ? "client" : api::roles_text(row.roles);
+    api::ApiClient& client = clients.at(role.substr(0, role.find(',')));
     ASSERT_EQ(ask(clients.at("client"), {{"op", "acquire"}}), "ok");
     const Json answer = full_answer(client, {{"op", row.op}});
     EXPECT_EQ(answer.value("message", "").find("not served"), std::string::npos) << row.op << answer;
@@ -372,7 +372,7 @@ TEST_F(ServiceOverSocket, EveryOperationOfTheTableIsServed) {
 }
 
 TEST_F(ServiceOverSocket, AnOwnerThatStandsStillInAStreamIsNamedAndTheArmHoldsWithinTheTimeToLive) {
-  ApiClient mission = join("mission");
+  api::ApiClient mission = join("mission");
   enable(mission);
   Json goal = state(mission)["setpoint_cp"];
   goal[2] = goal[2].get<double>() + 0.04;
@@ -397,7 +397,7 @@ TEST_F(ServiceOverSocket, AnOwnerThatStandsStillInAStreamIsNamedAndTheArmHoldsWi
 }
 
 TEST_F(ServiceOverSocket, AGoalOfAStreamThatJumpsIsRefusedAndAMoveIsNot) {
-  ApiClient mission = join("mission");
+  api::ApiClient mission = join("mission");
   enable(mission);
   Json goal = state(mission)["setpoint_cp"];
   goal[2] = goal[2].get<double>() + 0.06;
@@ -410,7 +410,7 @@ TEST_F(ServiceOverSocket, AGoalOfAStreamThatJumpsIsRefusedAndAMoveIsNot) {
 }
 
 TEST_F(ServiceOverSocket, TheOperatorSteersAndLettingGoIsAHold) {
-  ApiClient mission = join("mission"), person = join("operator");
+  api::ApiClient mission = join("mission"), person = join("operator");
   enable(mission);
   ASSERT_EQ(ask(mission, {{"op", "use_device"}, {"device", "hand"}, {"scale", 1.0}, {"speed_m_s", 0.03}}), "ok");
   const Vec3 start = arm_->now().tip_command.position_m;
@@ -435,7 +435,7 @@ TEST_F(ServiceOverSocket, TheOperatorSteersAndLettingGoIsAHold) {
 }
 
 TEST_F(ServiceOverSocket, WhatMissionAndOperatorTellEachOtherIsRepeated) {
-  ApiClient mission = join("mission"), person = join("operator");
+  api::ApiClient mission = join("mission"), person = join("operator");
   EXPECT_EQ(ask(mission, {{"op", "announce"}, {"step", {{"index", 2}, {"name", "around"}, {"device", "vr"}}}}), "ok");
   EXPECT_EQ(ask(person, {{"op", "operator_says"}, {"what", "arrived"}}), "ok");
   EXPECT_EQ(ask(person, {{"op", "announce"}, {"step", nullptr}}), "bad_request");
@@ -447,7 +447,7 @@ TEST_F(ServiceOverSocket, WhatMissionAndOperatorTellEachOtherIsRepeated) {
 }
 
 TEST_F(ServiceOverSocket, ACameraFrameIsForwardedWhenEveryRunHasReceivedIt) {
-  ApiClient camera = join("camera", Json::array()), person = join("operator", {"camera"});
+  api::ApiClient camera = join("camera", Json::array()), person = join("operator", {"camera"});
   camera.send({{"op", "camera"}, {"capture_time_s", 0.0}, {"slit", nullptr}, {"rod", nullptr}});
   // Ready at 0.1 s = tick 25, certain three ticks later: forwarded at the start of the interval at tick 30.
   intervals(6);
@@ -457,7 +457,7 @@ TEST_F(ServiceOverSocket, ACameraFrameIsForwardedWhenEveryRunHasReceivedIt) {
 }
 
 TEST_F(ServiceOverSocket, ShutdownEndsWhenTheDrivesAreOff) {
-  ApiClient mission = join("mission");
+  api::ApiClient mission = join("mission");
   enable(mission);
   EXPECT_FALSE(service_.finished());
   ASSERT_EQ(ask(mission, {{"op", "shutdown"}}), "ok");
@@ -468,7 +468,7 @@ TEST_F(ServiceOverSocket, ShutdownEndsWhenTheDrivesAreOff) {
 }
 
 TEST_F(ServiceOverSocket, TimingIsRefusedInVirtualTime) {
-  ApiClient watcher = join("observer");
+  api::ApiClient watcher = join("observer");
   const Json answer = full_answer(watcher, {{"op", "timing"}});
   EXPECT_EQ(answer["code"], "refused");
   EXPECT_NE(answer["message"].get<std::string>().find("--time real"), std::string::npos) << answer;
@@ -476,13 +476,13 @@ TEST_F(ServiceOverSocket, TimingIsRefusedInVirtualTime) {
 
 class ServiceInRealTime : public ServiceOverSocket {
  protected:
-  ServiceInRealTime() : ServiceOverSocket(TimeMode::kReal) {}
+  ServiceInRealTime() : ServiceOverSocket(timing::TimeMode::kReal) {}
 };
 
 TEST_F(ServiceInRealTime, TimingTellsWhatTheRealTimeThreadRecordedSinceTheLastReset) {
-  ApiClient watcher = join("observer");
-  TickTiming& timing = arm_->link.timing;
-  ArmReport<cable::CableArm> report = arm_->link.report.value();
+  api::ApiClient watcher = join("observer");
+  control::TickTiming& timing = arm_->link.timing;
+  control::ArmReport<cable::CableArm> report = arm_->link.report.value();
   const auto record = [&](std::uint32_t late_us, std::uint32_t tick_us, std::uint64_t overruns) {
     timing.wakeup_us.record(late_us);
     timing.tick_us.record(tick_us);
@@ -509,7 +509,7 @@ TEST_F(ServiceInRealTime, TimingTellsWhatTheRealTimeThreadRecordedSinceTheLastRe
 
 TEST_F(ServiceOverSocket, MissingClientsAreNamed) {
   try {
-    service_.wait_for({Role::kOperator}, 0.05);
+    service_.wait_for({api::Role::kOperator}, 0.05);
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("operator"), std::string::npos);
@@ -517,4 +517,4 @@ TEST_F(ServiceOverSocket, MissingClientsAreNamed) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::daemon

@@ -7,7 +7,7 @@
 #include "host/api/request_error.hpp"
 #include "tests/host/api/robots.hpp"
 
-namespace liana {
+namespace liana::daemon {
 namespace {
 
 class Stream : public testing::Test {
@@ -16,11 +16,11 @@ class Stream : public testing::Test {
   std::string send(const char* op, double x_m, double now_s, Json fields = Json::object()) {
     fields["op"] = op;
     fields["goal"] = Json{x_m, 0, 0, 1, 0, 0, 0};
-    const Arguments setpoint = checked(row_of(fields), fields, bounds_);
+    const api::Arguments setpoint = api::checked(api::row_of(fields), fields, bounds_);
     try {
-      stream_.check(row_of(fields), setpoint, now_s, tip_);
-      stream_.note(row_of(fields), setpoint, now_s);
-    } catch (const RequestError& error) {
+      stream_.check(api::row_of(fields), setpoint, now_s, tip_);
+      stream_.note(api::row_of(fields), setpoint, now_s);
+    } catch (const api::RequestError& error) {
       return error.code() + ": " + error.what();
     }
     return "";
@@ -29,7 +29,7 @@ class Stream : public testing::Test {
     return send("servo_cp", x_m, now_s, std::move(fields));
   }
 
-  RequestBounds bounds_ = request_bounds(zhu2022_json());
+  api::RequestBounds bounds_ = api::request_bounds(api::zhu2022_json());
   SetpointStream stream_{bounds_};
   Pose tip_{{1, 0, 0}, {1, 0, 0, 0}};
 };
@@ -111,4 +111,4 @@ TEST_F(Stream, NobodyIsMissedAtTheGoalAfterAMoveOrWithoutATimeToLive) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::daemon

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana {
+namespace liana::draw {
 namespace {
 
 TEST(Axes, PutTheEndsOfTheRangesOnTheEdges) {
@@ -40,4 +40,4 @@ TEST(Ticks, OfLogarithmsAreAtLeastThreeWhereverTheRangeLies) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::draw

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana {
+namespace liana::draw {
 namespace {
 
 TEST(Svg, TextCannotBreakTheDocument) {
@@ -40,4 +40,4 @@ TEST(Svg, ALineNeedsTwoPoints) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::draw

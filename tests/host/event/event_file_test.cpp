@@ -13,7 +13,7 @@
 #include <fstream>
 #include <thread>
 
-namespace liana {
+namespace liana::event {
 namespace {
 
 class File : public testing::Test {
@@ -134,4 +134,4 @@ TEST_F(File, ADiskThatStandsStillCostsEventsButNoTime) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::event

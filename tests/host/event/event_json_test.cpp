@@ -8,7 +8,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::event {
 namespace {
 
 Event example(EventKind kind) {
@@ -112,4 +112,4 @@ TEST(EventJson, AKindWithoutANameIsRefusedByItsName) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::event

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace liana {
+namespace liana::event {
 namespace {
 
 class Log : public testing::Test {
@@ -65,4 +65,4 @@ TEST_F(Log, WhoFloodsIsCountedAndKeepsNoOtherKindOut) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::event

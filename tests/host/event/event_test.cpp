@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-namespace liana {
+namespace liana::event {
 namespace {
 
 TEST(Event, EveryKindHasANameOfItsOwnThatLeadsBackToIt) {
@@ -54,4 +54,4 @@ TEST(Event, NoTextBreaksItsLineOrItsColumns) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::event

@@ -27,21 +27,22 @@ struct TaskRun {
   int grips = 0;
   bool arrived = false;
   Pose end_in_base{};
-  std::vector<ControllerSample> samples;
+  std::vector<operator_side::ControllerSample> samples;
 };
 
-TaskRun run_task(HandTask task, const Pose& start, const Pose& goal_in_slit, const HandMapping& mapping,
-                 const SoftTipConfig& config, const HandGains& gains = {}, std::uint64_t seed = 1) {
-  const SlitDrawing drawing = panel_slit();
+TaskRun run_task(operator_side::HandTask task, const Pose& start, const Pose& goal_in_slit,
+                 const operator_side::HandMapping& mapping, const SoftTipConfig& config,
+                 const operator_side::HandGains& gains = {}, std::uint64_t seed = 1) {
+  const operator_side::SlitDrawing drawing = panel_slit();
   SoftTip tip(drawing, start, mapping, config);
-  HandPerson person(gains, drawing, seed);
+  operator_side::HandPerson person(gains, drawing, seed);
   person.begin(task, mapping, 0.0);
   TaskRun run;
   Pose before = tip.true_tip_in_slit();
   bool button = false;
   for (std::int64_t k = 1; static_cast<double>(k) * kStep_s < kMostTime_s && !person.arrived(); ++k) {
     const double now_s = static_cast<double>(k) * kStep_s;
-    const ControllerSample sample = person.sample(now_s);
+    const operator_side::ControllerSample sample = person.sample(now_s);
     run.samples.push_back(sample);
     run.grips += sample.button && !button ? 1 : 0;
     button = sample.button;
@@ -61,7 +62,7 @@ TaskRun run_task(HandTask task, const Pose& start, const Pose& goal_in_slit, con
     before = now;
     run.duration_s = now_s;
   }
-  const PoseStep error = step_between(goal_in_slit, tip.true_tip_in_slit());
+  const operator_side::PoseStep error = operator_side::step_between(goal_in_slit, tip.true_tip_in_slit());
   run.position_error_m = norm(error.shift_m);
   run.attitude_error_rad = norm(error.turn_rad);
   run.arrived = person.arrived();
@@ -69,7 +70,7 @@ TaskRun run_task(HandTask task, const Pose& start, const Pose& goal_in_slit, con
   return run;
 }
 
-Pose switch_pose(const HandGains& gains) {
+Pose switch_pose(const operator_side::HandGains& gains) {
   return {{gains.switch_depth_m, 0.0, gains.switch_z_m}, panel_slit().rod_in_slit.quaternion};
 }
 
@@ -88,7 +89,8 @@ TEST(HandPerson, EntersTheSlitAlignedFromThePanelEdge) {
     config.offset_m = {0.003, 0.003, -0.0026};
     config.offset_rad = {0.004, -0.004, 0.004};
     config.seed = seed;
-    const TaskRun run = run_task(HandTask::kEnterSlit, kPanelEdge, switch_pose({}), {4.0, 1.0}, config, {}, seed);
+    const TaskRun run =
+        run_task(operator_side::HandTask::kEnterSlit, kPanelEdge, switch_pose({}), {4.0, 1.0}, config, {}, seed);
     report("enter", run);
     EXPECT_TRUE(run.arrived);
     EXPECT_LT(run.position_error_m, 0.003);
@@ -105,8 +107,8 @@ TEST(HandPerson, ConvergesOnTheRodWithinSevenTenthsOfAMillimetre) {
     config.offset_m = {0.003, 0.003, -0.0026};
     config.offset_rad = {0.002, -0.002, 0.002};
     config.seed = seed;
-    const TaskRun run =
-        run_task(HandTask::kReachRod, switch_in_base(), panel_slit().rod_in_slit, {2.0, 1.0}, config, {}, seed);
+    const TaskRun run = run_task(operator_side::HandTask::kReachRod, switch_in_base(), panel_slit().rod_in_slit,
+                                 {2.0, 1.0}, config, {}, seed);
     report("rod", run);
     EXPECT_TRUE(run.arrived);
     EXPECT_LT(run.position_error_m, 0.0007);
@@ -116,11 +118,11 @@ TEST(HandPerson, ConvergesOnTheRodWithinSevenTenthsOfAMillimetre) {
 }
 
 TEST(HandPerson, CorrectsAnOffsetThatAppearsOnTheWayWithoutOvershoot) {
-  const SlitDrawing drawing = panel_slit();
-  const HandMapping mapping{2.0, 1.0};
+  const operator_side::SlitDrawing drawing = panel_slit();
+  const operator_side::HandMapping mapping{2.0, 1.0};
   SoftTip tip(drawing, switch_in_base(), mapping, {});
-  HandPerson person({}, drawing, 4);
-  person.begin(HandTask::kReachRod, mapping, 0.0);
+  operator_side::HandPerson person({}, drawing, 4);
+  person.begin(operator_side::HandTask::kReachRod, mapping, 0.0);
   double widest_other_side_m = 0.0;
   for (std::int64_t k = 1; k < 90000 && !person.arrived(); ++k) {
     const double now_s = static_cast<double>(k) * kStep_s;
@@ -134,7 +136,7 @@ TEST(HandPerson, CorrectsAnOffsetThatAppearsOnTheWayWithoutOvershoot) {
     if (k > 5000) widest_other_side_m = std::max(widest_other_side_m, -tip.true_tip_in_slit().position_m[1]);
   }
   EXPECT_TRUE(person.arrived());
-  EXPECT_LT(norm(step_between(drawing.rod_in_slit, tip.true_tip_in_slit()).shift_m), 0.0007);
+  EXPECT_LT(norm(operator_side::step_between(drawing.rod_in_slit, tip.true_tip_in_slit()).shift_m), 0.0007);
   EXPECT_LT(widest_other_side_m, 0.0012);
 }
 
@@ -142,11 +144,12 @@ TEST(HandPerson, ToleratesAnArmThatLagsMoreThanExpected) {
   SoftTipConfig config;
   config.lag_s = 0.8;
   config.offset_m = {0.0, 0.005, 0.0};
-  const TaskRun enter = run_task(HandTask::kEnterSlit, kPanelEdge, switch_pose({}), {4.0, 1.0}, config);
+  const TaskRun enter = run_task(operator_side::HandTask::kEnterSlit, kPanelEdge, switch_pose({}), {4.0, 1.0}, config);
   report("enter, slow arm", enter);
   EXPECT_TRUE(enter.arrived);
   EXPECT_LT(enter.widest_in_slit_m, 0.008);
-  const TaskRun rod = run_task(HandTask::kReachRod, switch_in_base(), panel_slit().rod_in_slit, {2.0, 1.0}, config);
+  const TaskRun rod =
+      run_task(operator_side::HandTask::kReachRod, switch_in_base(), panel_slit().rod_in_slit, {2.0, 1.0}, config);
   report("rod, slow arm", rod);
   EXPECT_TRUE(rod.arrived);
   EXPECT_LT(rod.position_error_m, 0.0007);
@@ -157,31 +160,34 @@ TEST(HandPerson, DoesNotStirUpAnArmThatSwings) {
   config.swing_hz = 0.4;
   config.swing_damping = 0.15;
   config.offset_m = {0.0, 0.005, 0.0};
-  const TaskRun enter = run_task(HandTask::kEnterSlit, kPanelEdge, switch_pose({}), {4.0, 1.0}, config);
+  const TaskRun enter = run_task(operator_side::HandTask::kEnterSlit, kPanelEdge, switch_pose({}), {4.0, 1.0}, config);
   report("enter, swinging arm", enter);
   EXPECT_TRUE(enter.arrived);
   EXPECT_LT(enter.widest_in_slit_m, 0.008);
-  const TaskRun rod = run_task(HandTask::kReachRod, switch_in_base(), panel_slit().rod_in_slit, {2.0, 1.0}, config);
+  const TaskRun rod =
+      run_task(operator_side::HandTask::kReachRod, switch_in_base(), panel_slit().rod_in_slit, {2.0, 1.0}, config);
   report("rod, swinging arm", rod);
   EXPECT_TRUE(rod.arrived);
   EXPECT_LT(rod.position_error_m, 0.0007);
 }
 
 TEST(HandPerson, StaysInTheWorkspaceOfTheDeviceByReindexing) {  // A27
-  const TaskRun run = run_task(HandTask::kEnterSlit, kPanelEdge, switch_pose({}), {1.5, 1.0}, {});
+  const TaskRun run = run_task(operator_side::HandTask::kEnterSlit, kPanelEdge, switch_pose({}), {1.5, 1.0}, {});
   report("enter, scale 1.5", run);
   EXPECT_TRUE(run.arrived);
   EXPECT_GT(run.grips, 10);
-  EXPECT_LT(run.farthest_hand_m, HandGains{}.workspace_m);
+  EXPECT_LT(run.farthest_hand_m, operator_side::HandGains{}.workspace_m);
 }
 
 TEST(HandPerson, GivesTheSameHandForTheSameSeedAndAnotherForAnother) {
   const auto samples = [](std::uint64_t seed) {
-    return run_task(HandTask::kReachRod, switch_in_base(), panel_slit().rod_in_slit, {2.0, 1.0}, {}, {}, seed).samples;
+    return run_task(operator_side::HandTask::kReachRod, switch_in_base(), panel_slit().rod_in_slit, {2.0, 1.0}, {}, {},
+                    seed)
+        .samples;
   };
   const auto a = samples(7), b = samples(7), c = samples(8);
   ASSERT_EQ(a.size(), b.size());
-  const auto same = [](const ControllerSample& x, const ControllerSample& y) {
+  const auto same = [](const operator_side::ControllerSample& x, const operator_side::ControllerSample& y) {
     return x.pose.position_m == y.pose.position_m && x.pose.quaternion == y.pose.quaternion && x.button == y.button;
   };
   EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), same));
@@ -189,20 +195,20 @@ TEST(HandPerson, GivesTheSameHandForTheSameSeedAndAnotherForAnother) {
 }
 
 TEST(HandPerson, DoesNotGripBeforeItHasSeenAnything) {
-  HandPerson person({}, panel_slit(), 1);
-  person.begin(HandTask::kReachRod, {2.0, 1.0}, 0.0);
+  operator_side::HandPerson person({}, panel_slit(), 1);
+  person.begin(operator_side::HandTask::kReachRod, {2.0, 1.0}, 0.0);
   for (int k = 1; k < 5000; ++k) EXPECT_FALSE(person.sample(k * kStep_s).button);
 }
 
 TEST(HandPerson, ForgetsPicturesFromBeforeTheTask) {
-  const SlitDrawing drawing = panel_slit();
+  const operator_side::SlitDrawing drawing = panel_slit();
   const auto third_second = [&](int pictures_before) {
     SoftTip tip(drawing, switch_in_base(), {2.0, 1.0}, {});
-    HandPerson person({}, drawing, 1);
+    operator_side::HandPerson person({}, drawing, 1);
     for (int i = 0; i < pictures_before; ++i)
       person.look({Pose{{1.0, 2.0, 0.5}, {1.0, 0.0, 0.0, 0.0}}, std::nullopt}, 0.04 * i);
-    person.begin(HandTask::kReachRod, {2.0, 1.0}, 10.0);
-    ControllerSample last;
+    person.begin(operator_side::HandTask::kReachRod, {2.0, 1.0}, 10.0);
+    operator_side::ControllerSample last;
     for (std::int64_t k = 10001; k <= 13000; ++k) {
       const double now_s = static_cast<double>(k) * kStep_s;
       last = person.sample(now_s);
@@ -215,16 +221,16 @@ TEST(HandPerson, ForgetsPicturesFromBeforeTheTask) {
 }
 
 TEST(HandPerson, KeepsTheHandStillWhenThePictureIsGone) {
-  const SlitDrawing drawing = panel_slit();
+  const operator_side::SlitDrawing drawing = panel_slit();
   SoftTip tip(drawing, switch_in_base(), {2.0, 1.0}, {});
-  HandGains gains;
+  operator_side::HandGains gains;
   gains.tremor_m = gains.tremor_rad = 0.0;
-  HandPerson person(gains, drawing, 1);
-  person.begin(HandTask::kReachRod, {2.0, 1.0}, 0.0);
+  operator_side::HandPerson person(gains, drawing, 1);
+  person.begin(operator_side::HandTask::kReachRod, {2.0, 1.0}, 0.0);
   Pose at_six{}, at_nine{};
   for (std::int64_t k = 1; k <= 9000; ++k) {
     const double now_s = static_cast<double>(k) * kStep_s;
-    const ControllerSample sample = person.sample(now_s);
+    const operator_side::ControllerSample sample = person.sample(now_s);
     tip.step(sample, kStep_s);
     person.feel(tip.engaged(), now_s);
     const auto picture = k % 40 == 0 ? tip.picture(now_s) : std::nullopt;
@@ -237,15 +243,15 @@ TEST(HandPerson, KeepsTheHandStillWhenThePictureIsGone) {
 }
 
 TEST(HandPerson, LetsGoAndGripsAgainWhenTheArmDoesNotFollow) {
-  const SlitDrawing drawing = panel_slit();
+  const operator_side::SlitDrawing drawing = panel_slit();
   SoftTip tip(drawing, switch_in_base(), {2.0, 1.0}, {});
-  HandPerson person({}, drawing, 1);
-  person.begin(HandTask::kReachRod, {2.0, 1.0}, 0.0);
+  operator_side::HandPerson person({}, drawing, 1);
+  person.begin(operator_side::HandTask::kReachRod, {2.0, 1.0}, 0.0);
   int releases = 0;
   bool button = false;
   for (std::int64_t k = 1; k <= 8000; ++k) {
     const double now_s = static_cast<double>(k) * kStep_s;
-    const ControllerSample sample = person.sample(now_s);
+    const operator_side::ControllerSample sample = person.sample(now_s);
     releases += button && !sample.button ? 1 : 0;
     button = sample.button;
     const auto picture = k % 40 == 0 ? tip.picture(now_s) : std::nullopt;

@@ -9,7 +9,7 @@
 
 #include "host/operator/recorded_vr.hpp"
 
-namespace liana {
+namespace liana::operator_side {
 namespace {
 
 const std::string kRecordings = LIANA_RECORDINGS_DIR;
@@ -138,4 +138,4 @@ TEST(RecordedVr, ReleasesAndGripsAgainWhenTheArmDoesNotFollow) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::operator_side

@@ -19,17 +19,19 @@ Json state(double time_s, int step, const std::string& device, const std::string
           {"mapping", {{"scale", 4.0}, {"rotation_scale", 2.0}}}};
 }
 
-OperatorSession session() { return OperatorSession(LIANA_RECORDINGS_DIR, panel_slit(), {}, 1); }
+operator_side::OperatorSession session() {
+  return operator_side::OperatorSession(LIANA_RECORDINGS_DIR, panel_slit(), {}, 1);
+}
 
 TEST(OperatorSession, SendsNothingWhileNoDeviceIsItsToMove) {
-  OperatorSession operator_session = session();
+  operator_side::OperatorSession operator_session = session();
   EXPECT_TRUE(operator_session.on_state({{"time_s", 0.0}, {"step", nullptr}}).empty());
   EXPECT_TRUE(operator_session.on_state(state(0.02, 1, "none", "none")).empty());
   EXPECT_TRUE(operator_session.on_state(state(0.04, 2, "vr", "none")).empty());
 }
 
 TEST(OperatorSession, PlaysTheRecordingInAVrStepThenSaysArrivedOnceWithTriggersReleased) {
-  OperatorSession operator_session = session();
+  operator_side::OperatorSession operator_session = session();
   int says = 0;
   std::size_t samples = 0;
   double trigger = 0.0, highest_trigger = 0.0;
@@ -53,7 +55,7 @@ TEST(OperatorSession, PlaysTheRecordingInAVrStepThenSaysArrivedOnceWithTriggersR
 }
 
 TEST(OperatorSession, DeliversTwentyHandSamplesAnInterval) {
-  OperatorSession operator_session = session();
+  operator_side::OperatorSession operator_session = session();
   operator_session.on_state(state(1.00, 4, "hand", "hand"));
   const auto messages = operator_session.on_state(state(1.02, 4, "hand", "hand"));
   ASSERT_EQ(messages.size(), 1u);
@@ -63,7 +65,7 @@ TEST(OperatorSession, DeliversTwentyHandSamplesAnInterval) {
 }
 
 TEST(OperatorSession, GripsOnlyAfterPicturesHaveArrived) {
-  OperatorSession operator_session = session();
+  operator_side::OperatorSession operator_session = session();
   bool gripped_blind = false, gripped = false;
   for (int k = 1; k < 400; ++k) {
     if (k > 200 && k % 2 == 0) {
@@ -81,7 +83,7 @@ TEST(OperatorSession, GripsOnlyAfterPicturesHaveArrived) {
 }
 
 TEST(OperatorSession, IgnoresThePoseInTheState) {  // it must see the arm through the camera only
-  OperatorSession with = session(), without = session();
+  operator_side::OperatorSession with = session(), without = session();
   for (int k = 1; k < 200; ++k) {
     const Json camera{
         {"op", "camera"}, {"capture_time_s", 0.0}, {"slit", {1.6, -0.3, -0.5, 1, 0, 0, 0}}, {"rod", nullptr}};
@@ -95,14 +97,14 @@ TEST(OperatorSession, IgnoresThePoseInTheState) {  // it must see the arm throug
 }
 
 TEST(OperatorSession, RefusesMalformedPictures) {
-  OperatorSession operator_session = session();
+  operator_side::OperatorSession operator_session = session();
   EXPECT_THROW(operator_session.on_camera({{"slit", {1, 2, 3}}}), std::runtime_error);
   EXPECT_THROW(operator_session.on_camera({{"slit", {1, 2, 3, 1, 1, 0, 0}}}), std::runtime_error);
   EXPECT_NO_THROW(operator_session.on_camera({{"slit", nullptr}, {"rod", nullptr}}));
 }
 
 TEST(OperatorSession, AMissingRecordingIsNamed) {
-  OperatorSession operator_session("/nonexistent", panel_slit(), {}, 1);
+  operator_side::OperatorSession operator_session("/nonexistent", panel_slit(), {}, 1);
   try {
     operator_session.on_state(state(0.02, 2, "vr", "vr"));
     FAIL() << "no error";

@@ -26,7 +26,8 @@ struct SoftTipConfig {
 
 class SoftTip {
  public:
-  SoftTip(const SlitDrawing& drawing, const Pose& tip_in_base, const HandMapping& mapping, const SoftTipConfig& config)
+  SoftTip(const operator_side::SlitDrawing& drawing, const Pose& tip_in_base, const operator_side::HandMapping& mapping,
+          const SoftTipConfig& config)
       : drawing_(drawing),
         sent_(tip_in_base),
         goal_(tip_in_base),
@@ -36,7 +37,7 @@ class SoftTip {
         before_m_(tip_in_base.position_m) {}
 
   // One millisecond with this hand sample.
-  void step(const ControllerSample& hand, double dt_s) {
+  void step(const operator_side::ControllerSample& hand, double dt_s) {
     if (hand.button && !engaged_) {
       hand_anchor_ = hand.pose;
       tip_anchor_ = sent_;
@@ -44,27 +45,29 @@ class SoftTip {
     if (!hand.button && engaged_) goal_ = sent_;
     engaged_ = hand.button;
     if (engaged_) {
-      const PoseStep step = step_between(hand_anchor_, hand.pose);
-      goal_ = moved(tip_anchor_, {scale(step.shift_m, mapping_.scale), scale(step.turn_rad, mapping_.rotation_scale)});
+      const operator_side::PoseStep step = operator_side::step_between(hand_anchor_, hand.pose);
+      goal_ = operator_side::moved(
+          tip_anchor_, {scale(step.shift_m, mapping_.scale), scale(step.turn_rad, mapping_.rotation_scale)});
     }
-    const PoseStep behind = step_between(sent_, goal_);
-    sent_ = moved(sent_, {scale(behind.shift_m, dt_s / config_.lag_s), scale(behind.turn_rad, dt_s / config_.lag_s)});
+    const operator_side::PoseStep behind = operator_side::step_between(sent_, goal_);
+    sent_ = operator_side::moved(
+        sent_, {scale(behind.shift_m, dt_s / config_.lag_s), scale(behind.turn_rad, dt_s / config_.lag_s)});
     swing(dt_s);
   }
 
   // Takes a picture now and hands out one that is old enough.
-  std::optional<TipSighting> picture(double now_s) {
+  std::optional<operator_side::TipSighting> picture(double now_s) {
     const Pose tip = true_tip();
     const Pose rod = compose(drawing_.slit_in_base, drawing_.rod_in_slit);
     pictures_.push_back(
         {now_s, {noisy(compose(inverse(tip), drawing_.slit_in_base)), noisy(compose(inverse(tip), rod))}});
     if (pictures_.front().taken_s + config_.camera_latency_s > now_s) return std::nullopt;
-    const TipSighting sighting = pictures_.front().sighting;
+    const operator_side::TipSighting sighting = pictures_.front().sighting;
     pictures_.pop_front();
     return sighting;
   }
 
-  Pose true_tip() const { return moved(sent_, {add(config_.offset_m, swing_m_), config_.offset_rad}); }
+  Pose true_tip() const { return operator_side::moved(sent_, {add(config_.offset_m, swing_m_), config_.offset_rad}); }
   Pose true_tip_in_slit() const { return compose(inverse(drawing_.slit_in_base), true_tip()); }
   bool engaged() const { return engaged_; }
   void set_offset(const Vec3& offset_m) { config_.offset_m = offset_m; }
@@ -84,24 +87,24 @@ class SoftTip {
 
   struct Picture {
     double taken_s;
-    TipSighting sighting;
+    operator_side::TipSighting sighting;
   };
 
   Pose noisy(const Pose& pose) {
     const auto axis = [&](double sigma) {
       return Vec3{noise_.normal(sigma), noise_.normal(sigma), noise_.normal(sigma)};
     };
-    return moved(pose, {axis(config_.noise_m), axis(config_.noise_rad)});
+    return operator_side::moved(pose, {axis(config_.noise_m), axis(config_.noise_rad)});
   }
 
-  SlitDrawing drawing_;
+  operator_side::SlitDrawing drawing_;
   Pose sent_;
   Pose goal_;
   Pose hand_anchor_{};
   Pose tip_anchor_{};
-  HandMapping mapping_;
+  operator_side::HandMapping mapping_;
   SoftTipConfig config_;
-  RandomStream noise_;
+  operator_side::RandomStream noise_;
   bool engaged_ = false;
   Vec3 before_m_{};         // sent position one step ago
   Vec3 swing_m_{};          // tip less where it is sent

@@ -9,7 +9,7 @@
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -128,4 +128,4 @@ TEST(CableDerivatives, AreTheCoresLengthsAndTheCentralDifferences) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::plan

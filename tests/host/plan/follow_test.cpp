@@ -10,7 +10,7 @@
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/plan/requests.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -20,7 +20,7 @@ Vec3 tip_of(const PlanRequest& request, const ThetaVector& theta) {
 }
 
 // From the panel edge pose 1.2 m forwards through the open, gently bent.
-PlanRequest request_along_a_bend(const SceneConfig& scene = {}) {
+PlanRequest request_along_a_bend(const config::SceneConfig& scene = {}) {
   PlanRequest request = request_between(zhu2022::kPanelEdge_deg, zhu2022::kPressRod_deg, scene);
   request.to_rad.reset();
   request.max_step_rad = kFollowMaxStep_rad;
@@ -207,4 +207,4 @@ TEST(Follow, RefusesAGoalBesideACurve) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::plan

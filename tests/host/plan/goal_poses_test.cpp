@@ -5,13 +5,13 @@
 
 #include "tests/host/plan/requests.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 // The tip of `to` among four large spheres that stand 6 mm beside that pose, and in the way of all others that pushing
 // comes to.
 PlanRequest request_among_spheres() {
-  SceneConfig scene;
+  config::SceneConfig scene;
   scene.spheres = {{"a", {0.577, 1.641, 1.795}, 0.160},
                    {"b", {0.601, 0.712, 0.567}, 0.193},
                    {"c", {0.504, 1.206, 1.399}, 0.288},
@@ -41,4 +41,4 @@ TEST(GoalPoses, SayWhichPoseComesNearestWhenNoneIsFree) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::plan

@@ -11,20 +11,20 @@
 #include "host/clearance/clearance.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
 
-RobotConfig robot_of(const RobotTable& table) {
-  RobotConfig robot;
+config::RobotConfig robot_of(const RobotTable& table) {
+  config::RobotConfig robot;
   robot.table = table;
   robot.module_radius_m = 0.03;
   return robot;
 }
 
-SceneConfig ball_and_box() {
-  SceneConfig scene;
+config::SceneConfig ball_and_box() {
+  config::SceneConfig scene;
   scene.spheres.push_back({"ball", {1.6, 0.9, 0.5}, 0.25});
   const Quat q = quaternion_of({0.3, -0.5, 0.2});
   scene.boxes.push_back(
@@ -32,7 +32,7 @@ SceneConfig ball_and_box() {
   return scene;
 }
 
-PlanCheck check(const RobotTable& table, const SceneConfig& scene, const std::vector<ThetaVector>& path) {
+PlanCheck check(const RobotTable& table, const config::SceneConfig& scene, const std::vector<ThetaVector>& path) {
   return check_plan(robot_of(table), scene, path, plain_tip(table, path.back()));
 }
 
@@ -53,7 +53,7 @@ TEST(PlanCheck, KnowsTheSameTipAsTheCore) {
 
 TEST(PlanCheck, FindsTheLeastClearanceThatDenseSamplingFinds) {
   const RobotTable table = zhu2022::table();
-  const SceneConfig scene = ball_and_box();
+  const config::SceneConfig scene = ball_and_box();
   zhu2022::Random random(2);
   for (int i = 0; i < 20; ++i) {
     const std::vector<ThetaVector> path{random.theta(table, 6.0), random.theta(table, 6.0)};
@@ -61,7 +61,8 @@ TEST(PlanCheck, FindsTheLeastClearanceThatDenseSamplingFinds) {
     for (int s = 0; s <= 2000; ++s) {
       ThetaVector theta{};
       for (Index k = 0; k < theta.size(); ++k) theta[k] = path[0][k] + (path[1][k] - path[0][k]) * s / 2000.0;
-      sampled_m = std::min(sampled_m, arm_clearance(link_points(table, theta), 0.03, scene).nearest.distance_m);
+      sampled_m =
+          std::min(sampled_m, clearance::arm_clearance(link_points(table, theta), 0.03, scene).nearest.distance_m);
     }
     const double found_m = check(table, scene, path).min_clearance_m;
     if (sampled_m < -0.03)
@@ -73,7 +74,7 @@ TEST(PlanCheck, FindsTheLeastClearanceThatDenseSamplingFinds) {
 
 TEST(PlanCheck, SeesACollisionBetweenTwoFreeWaypoints) {
   const RobotTable table = zhu2022::table();
-  SceneConfig scene;
+  config::SceneConfig scene;
   scene.spheres.push_back({"ball", {3.6, 0.0, 0.0}, 0.05});  // the straight arm goes through it
   ThetaVector left{}, right{};
   left[1] = 3.0 * kDegree;
@@ -90,7 +91,7 @@ TEST(PlanCheck, TellsStepsLimitsCablesAndTheTip) {
   ThetaVector a{}, b{};
   b[2] = 21.0 * kDegree;
   b[5] = -4.0 * kDegree;
-  const PlanCheck found = check_plan(robot_of(table), SceneConfig{}, {a, b}, plain_tip(table, a));
+  const PlanCheck found = check_plan(robot_of(table), config::SceneConfig{}, {a, b}, plain_tip(table, a));
   EXPECT_NEAR(found.max_joint_deg, 21.0, 1e-9);
   EXPECT_NEAR(found.over_limit_deg, 1.0, 1e-9);
   EXPECT_NEAR(found.max_step_deg, 21.0, 1e-9);
@@ -104,8 +105,9 @@ TEST(PlanCheck, TellsStepsLimitsCablesAndTheTip) {
   const Vec3 tip = forward_kinematics(table, b).tip_in_base.position_m;
   EXPECT_NEAR(found.tip_error_m, norm(subtract(tip, {4.0, 0.0, 0.0})), 1e-9);
   EXPECT_GT(found.tip_attitude_error_rad, 1.0);
-  EXPECT_LT(check_plan(robot_of(table), SceneConfig{}, {a, b}, plain_tip(table, b)).tip_attitude_error_rad, 1e-12);
+  EXPECT_LT(check_plan(robot_of(table), config::SceneConfig{}, {a, b}, plain_tip(table, b)).tip_attitude_error_rad,
+            1e-12);
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::plan

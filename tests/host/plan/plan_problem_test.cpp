@@ -8,7 +8,7 @@
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -16,8 +16,8 @@ using Index = std::size_t;
 constexpr double kStep = 1e-6;
 constexpr double kTensionStep = 1e-4;  // tension rows have derivatives by differences, which smaller steps would see
 
-SceneConfig two_obstacles() {
-  SceneConfig scene;
+config::SceneConfig two_obstacles() {
+  config::SceneConfig scene;
   scene.spheres.push_back({"ball", {1.0, 0.8, 0.4}, 0.2});
   const Quat q = quaternion_of({0.3, -0.5, 0.2});
   scene.boxes.push_back(
@@ -223,4 +223,4 @@ TEST(PlanProblem, WithGoalAnglesTheLastWaypointIsNoVariableEither) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::plan

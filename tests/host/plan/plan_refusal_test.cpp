@@ -5,7 +5,7 @@
 #include "host/plan/problem/ipopt_solver.hpp"
 #include "tests/host/plan/requests.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 PlanCheck good_check(const PlanRequest& request) {
@@ -41,4 +41,4 @@ TEST(PlanRefusal, NamesAStepAndWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::plan

@@ -8,7 +8,7 @@
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/plan/requests.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 using Index = std::size_t;
@@ -56,7 +56,7 @@ TEST(Plan, KeepsHeldAnglesAndPlanarPhases) {
 // The straight way is blocked by a ball in its middle.
 PlanRequest request_past_a_ball() {
   const zhu2022::Degrees from{0, -5, 0, -5, 0, -5, 0, 0, 0, 0}, to{0, 5, 0, 5, 0, 5, 0, 0, 0, 0};
-  SceneConfig scene;
+  config::SceneConfig scene;
   scene.spheres.push_back({"ball", {2.5, 0.0, 0.1}, 0.2});
   return request_between(from, to, scene);
 }
@@ -88,7 +88,7 @@ TEST(Plan, BringsAControlPointNearerForItsWeight) {
 }
 
 TEST(Plan, OfASinglePoseKeepsTheTipAndComesNearerToTheControlPoint) {
-  PlanRequest request = request_between(zhu2022::kPrepare_deg, zhu2022::kPanelEdge_deg, SceneConfig{});
+  PlanRequest request = request_between(zhu2022::kPrepare_deg, zhu2022::kPanelEdge_deg, config::SceneConfig{});
   aim_at_tip(request);
   request.waypoints = 1;
   const PlanResult plain = plan(request, {});
@@ -162,7 +162,7 @@ TEST(Plan, NamesTheConstraintThatCannotBeMet) {
 
 TEST(Plan, KeepsCablesUnderTheCeilingWhereTheShortestWayDoesNot) {
   const zhu2022::Degrees from{5, 5, 0, -8, 1, 7, 4, 8, 6, 10}, to{-12, 13, 5, 3, 4, 1, -4, -3, -8, -11};
-  PlanRequest request = request_between(from, to, SceneConfig{});
+  PlanRequest request = request_between(from, to, config::SceneConfig{});
   aim_at_tip(request);
   const PlanResult shortest = plan(request, {});
   ASSERT_EQ(shortest.outcome, PlanOutcome::solved) << shortest.reason;
@@ -204,4 +204,4 @@ TEST(Plan, RefusesSizesOutOfRange) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::plan

@@ -5,15 +5,15 @@
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/config/tables.hpp"
 
-namespace liana {
+namespace liana::plan {
 
-inline RobotConfig the_robot() {
-  const BusesConfig buses = parse_buses(good_table("buses", "embedded").dump(), "b");
-  return parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
+inline config::RobotConfig the_robot() {
+  const config::BusesConfig buses = config::parse_buses(config::good_table("buses", "embedded").dump(), "b");
+  return config::parse_robot(config::good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
 }
 
 inline PlanRequest request_between(const zhu2022::Degrees& from_deg, const zhu2022::Degrees& to_deg,
-                                   const SceneConfig& scene) {
+                                   const config::SceneConfig& scene) {
   PlanRequest request;
   request.robot = the_robot();
   request.scene = scene;
@@ -23,6 +23,8 @@ inline PlanRequest request_between(const zhu2022::Degrees& from_deg, const zhu20
   return request;
 }
 
-inline SceneConfig panel_slit() { return parse_scene(good_table("scene", "panel_slit").dump(), "s"); }
+inline config::SceneConfig panel_slit() {
+  return config::parse_scene(config::good_table("scene", "panel_slit").dump(), "s");
+}
 
-}  // namespace liana
+}  // namespace liana::plan

@@ -9,11 +9,11 @@
 #include "host/plan/plan_refusal.hpp"
 #include "tests/host/plan/requests.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
-RobotConfig robot() {
-  RobotConfig robot;
+config::RobotConfig robot() {
+  config::RobotConfig robot;
   robot.table = zhu2022::table();
   robot.module_radius_m = 0.03;
   return robot;
@@ -89,4 +89,4 @@ TEST(SelfCheck, APlanThroughTheArmItselfIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::plan

@@ -7,13 +7,13 @@
 #include "host/plan/check/plan_check.hpp"
 #include "tests/host/plan/requests.hpp"
 
-namespace liana {
+namespace liana::plan {
 namespace {
 
 constexpr double kMargin_m = 0.005, kOff_m = 0.001, kSphere_m = 0.01;
 
-RobotConfig robot() {
-  RobotConfig robot;
+config::RobotConfig robot() {
+  config::RobotConfig robot;
   robot.table = zhu2022::table();
   robot.module_radius_m = 0.03;
   return robot;
@@ -27,11 +27,11 @@ ThetaVector bent(double pitch_deg) {
 }
 
 // A small sphere so far beyond the tip of a pose, in the direction of its last link.
-SceneConfig scene_with_sphere(const ThetaVector& theta, double clearance_m) {
+config::SceneConfig scene_with_sphere(const ThetaVector& theta, double clearance_m) {
   const auto axis = plain_axis(zhu2022::table(), theta);
   const Vec3 tip = axis.back(), along = subtract(tip, axis[axis.size() - 2]);
-  SceneConfig scene;
-  SceneSphere sphere;
+  config::SceneConfig scene;
+  config::SceneSphere sphere;
   sphere.name = "ball";
   sphere.radius_m = kSphere_m;
   sphere.center_m = add(tip, scale(along, (0.03 + kSphere_m + clearance_m) / norm(along)));
@@ -39,13 +39,13 @@ SceneConfig scene_with_sphere(const ThetaVector& theta, double clearance_m) {
   return scene;
 }
 
-std::string refusal(const SceneConfig& scene, const std::vector<ThetaVector>& points) {
+std::string refusal(const config::SceneConfig& scene, const std::vector<ThetaVector>& points) {
   return refusal_of_way(robot(), scene, points, kMargin_m, kOff_m);
 }
 
 TEST(WayCheck, AFreeWayIsNotRefused) {
-  EXPECT_EQ(refusal(SceneConfig{}, {bent(1.0), bent(1.0), bent(2.0), bent(3.0)}), "");
-  EXPECT_EQ(refusal(SceneConfig{}, {bent(1.0), bent(1.0)}), "") << "of one point";
+  EXPECT_EQ(refusal(config::SceneConfig{}, {bent(1.0), bent(1.0), bent(2.0), bent(3.0)}), "");
+  EXPECT_EQ(refusal(config::SceneConfig{}, {bent(1.0), bent(1.0)}), "") << "of one point";
 }
 
 TEST(WayCheck, AnObstacleBetweenTwoPointsNamesThem) {
@@ -64,9 +64,9 @@ TEST(WayCheck, TheWayToTheFirstPointNeedsOnlyRoomForTheMotionItself) {
 }
 
 TEST(WayCheck, AnArmThatWouldLieInItselfIsRefused) {
-  const std::string found = refusal(SceneConfig{}, {bent(10.0), bent(10.0), bent(18.0)});
+  const std::string found = refusal(config::SceneConfig{}, {bent(10.0), bent(10.0), bent(18.0)});
   EXPECT_NE(found.find("of the arm itself"), std::string::npos) << found;
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::plan

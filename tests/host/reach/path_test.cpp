@@ -4,7 +4,7 @@
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::reach {
 namespace {
 
 using zhu2022::radians;
@@ -91,4 +91,4 @@ TEST(Path, ThatStandsStillIsOnePoseExaminedTwice) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::reach

@@ -4,7 +4,7 @@
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::reach {
 namespace {
 
 using zhu2022::Random;
@@ -99,4 +99,4 @@ TEST(BindingLimits, NameTheOnlyAngleThatIsLeftToMove) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::reach

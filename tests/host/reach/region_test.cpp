@@ -7,7 +7,7 @@
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::reach {
 namespace {
 
 using zhu2022::Random;
@@ -218,4 +218,4 @@ TEST(Region, SharesOfShellsAndBindingsAddUp) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::reach

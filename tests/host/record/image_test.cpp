@@ -12,7 +12,7 @@
 #include "tests/firmware_like/ideal_drives.hpp"
 #include "tests/host/record/field_finder.hpp"
 
-namespace liana {
+namespace liana::record {
 namespace {
 
 std::string outputs_of(const cable::Outputs& outputs) {
@@ -157,4 +157,4 @@ TEST(Image, AnImageWithFlippedBytesIsRefusedOrHarmless) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::record

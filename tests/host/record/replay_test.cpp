@@ -15,7 +15,7 @@
 #include "host/record/tick_packet.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::record {
 
 using namespace cable;
 namespace {
@@ -172,4 +172,4 @@ TEST(Replay, AFolderWithoutARecordingIsRefused) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::record

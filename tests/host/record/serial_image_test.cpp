@@ -12,7 +12,7 @@
 #include "tests/firmware_like/serial_rig.hpp"
 #include "tests/host/record/field_finder.hpp"
 
-namespace liana {
+namespace liana::record {
 namespace {
 
 using serial::SerialArm;
@@ -160,4 +160,4 @@ TEST(SerialImage, AnImageWithFlippedBytesIsRefusedOrHarmless) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::record

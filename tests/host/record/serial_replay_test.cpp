@@ -12,7 +12,7 @@
 #include "host/record/visit_serial.hpp"
 #include "tests/firmware_like/serial_rig.hpp"
 
-namespace liana {
+namespace liana::record {
 namespace {
 
 using serial::SerialArm;
@@ -95,4 +95,4 @@ TEST(SerialReplay, ARecordingThatStartsInMidRunGoesOnFromItsImage) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::record

@@ -9,7 +9,7 @@
 #include "host/record/visit.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::record {
 
 using namespace cable;
 namespace {
@@ -121,4 +121,4 @@ TEST(Serialise, NoFieldIsForgotten) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::record

@@ -8,7 +8,7 @@
 
 #include "host/event/event_json.hpp"
 
-namespace liana {
+namespace liana::record {
 namespace {
 
 Json state_at(std::uint64_t tick, std::uint64_t verdict) {
@@ -16,7 +16,7 @@ Json state_at(std::uint64_t tick, std::uint64_t verdict) {
 }
 
 Json event_at(std::uint64_t tick, std::uint64_t sequence) {
-  return event_json({.kind = EventKind::kTool, .text = "tool: weld", .sequence = sequence, .tick = tick});
+  return event::event_json({.kind = event::EventKind::kTool, .text = "tool: weld", .sequence = sequence, .tick = tick});
 }
 
 struct Recorded {
@@ -69,4 +69,4 @@ TEST(StateRecording, AVerdictIsWrittenWhenItIsNew) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::record

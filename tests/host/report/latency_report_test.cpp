@@ -5,7 +5,7 @@
 
 #include "host/json/json.hpp"
 
-namespace liana {
+namespace liana::report {
 namespace {
 
 LatencyMeasurement measurement(unsigned overruns) {
@@ -20,7 +20,7 @@ LatencyMeasurement measurement(unsigned overruns) {
 }
 
 Json report_of(const LatencyMeasurement& measured) {
-  BusesConfig buses;
+  config::BusesConfig buses;
   buses.name = "embedded";
   buses.rate_hz = 250.0;
   const std::vector<Finding> realtime{{"memory locking", true, "unlimited", "", ""},
@@ -69,4 +69,4 @@ TEST(LatencyReport, BinsDoubleAndTheLargestHasTheLongestBar) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::report

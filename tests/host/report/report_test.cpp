@@ -9,7 +9,7 @@
 #include "host/report/run_report.hpp"
 #include "host/report/truth.hpp"
 
-namespace liana {
+namespace liana::report {
 namespace {
 
 // A directory that goes away with the test.
@@ -169,4 +169,4 @@ TEST_F(RunReport, ATruthLogFindsTheRowOfASlotAndDropsACutRow) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::report

@@ -15,11 +15,11 @@
 #include "host/canopen/master.hpp"
 #include "tests/host/bus/fake_drive.hpp"
 
-namespace liana {
+namespace liana::bus {
 namespace {
 
-BusesConfig vcan_table() {
-  BusesConfig config;
+config::BusesConfig vcan_table() {
+  config::BusesConfig config;
   config.name = "vcan";
   config.backend = "socketcan";
   config.rate_hz = 50;  // an emulated processor must keep up
@@ -93,11 +93,11 @@ std::string refusal_of(const std::string& interface) {
 void shell(const std::string& command) { EXPECT_EQ(std::system(command.c_str()), 0) << command; }
 
 TEST(SocketCan, BootsDrivesOnTwoInterfacesAndCollectsTheirFeedback) {
-  const BusesConfig table = vcan_table();
+  const config::BusesConfig table = vcan_table();
   const std::vector<canopen::DriveExpectation> expected{test::expectation(0, 1), test::expectation(1, 2)};
   DriveThread first("vcan0", expected[0]);
   DriveThread second("vcan1", expected[1]);
-  auto bus = open_drive_bus(table, TimeMode::kReal, "");
+  auto bus = open_drive_bus(table, timing::TimeMode::kReal, "");
   canopen::Master master(expected, table);
   int tpdos = 0;
   std::uint64_t tick = 0;
@@ -145,7 +145,7 @@ TEST(SocketCan, ATransmitQueueTooShortForATickIsRefused) {
 }
 
 TEST(SocketCan, AnInterfaceThatGoesDownIsSeenAndItsReturnToo) {
-  auto bus = open_drive_bus(vcan_table(), TimeMode::kReal, "");
+  auto bus = open_drive_bus(vcan_table(), timing::TimeMode::kReal, "");
   const int other = raw_socket("vcan1");
   bus->begin_tick(0);
   EXPECT_EQ(bus->write_sync(), SendResult::kOk);
@@ -171,4 +171,4 @@ TEST(SocketCan, AnInterfaceThatGoesDownIsSeenAndItsReturnToo) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::bus

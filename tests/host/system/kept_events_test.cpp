@@ -11,7 +11,7 @@
 
 #include "host/system/system_layout.hpp"
 
-namespace liana {
+namespace liana::system {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,4 +93,4 @@ TEST_F(KeptEvents, WhereNothingCanBeKeptTheRunIsRemovedAllTheSame) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::system

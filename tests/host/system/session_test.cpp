@@ -12,7 +12,7 @@
 #include "host/json/json.hpp"
 #include "host/system/run_session.hpp"
 
-namespace liana {
+namespace liana::system {
 namespace {
 
 // Answers as lianad does: welcome, states, and after a stop DISABLED.
@@ -20,7 +20,10 @@ class FakeDaemon {
  public:
   // `deaf`: leaves when it hears a stop, without having stopped anything.
   explicit FakeDaemon(const std::string& path, bool deaf = false)
-      : deaf_(deaf), farewell_(path + ".farewell"), listener_(listen_at("--api", path)), thread_([this] { serve(); }) {}
+      : deaf_(deaf),
+        farewell_(path + ".farewell"),
+        listener_(api::listen_at("--api", path)),
+        thread_([this] { serve(); }) {}
   ~FakeDaemon() {
     quit_ = true;
     thread_.join();
@@ -29,10 +32,10 @@ class FakeDaemon {
 
  private:
   void serve() {
-    while (!quit_ && !wait_readable(listener_.get(), 0.01)) {
+    while (!quit_ && !api::wait_readable(listener_.get(), 0.01)) {
     }
     if (quit_) return;
-    const UniqueFd client(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+    const api::UniqueFd client(accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
     for (int tick = 0; !quit_ && !shut_down_; ++tick) {
       if (stopped_ && deaf_) return;
       Json state{{"op", "state"},
@@ -41,11 +44,13 @@ class FakeDaemon {
                  {"state", stopped_ ? "DISABLED" : "ENABLED"},
                  {"stop", nullptr}};
       if (stopped_) state["stop"] = {{"by", "liana run"}, {"reason", "interrupted"}, {"tick", tick}};
-      send_packet(client.get(), state.dump());
+      api::send_packet(client.get(), state.dump());
       std::string packet;
-      if (!wait_readable(client.get(), 0.01) || receive_packet(client.get(), packet) != SocketResult::kDone) continue;
+      if (!api::wait_readable(client.get(), 0.01) ||
+          api::receive_packet(client.get(), packet) != api::SocketResult::kDone)
+        continue;
       const std::string op = Json::parse(packet)["op"];
-      if (op == "hello") send_packet(client.get(), R"({"op":"welcome","config_hash":"abc","period_s":0.004})");
+      if (op == "hello") api::send_packet(client.get(), R"({"op":"welcome","config_hash":"abc","period_s":0.004})");
       if (op == "stop") stopped_ = true;
       if (op == "shutdown") shut_down_ = true;
     }
@@ -53,21 +58,21 @@ class FakeDaemon {
   }
 
   // The last states, faster than they are read; lianad's stand-in ends at once after them.
-  void say_farewell(const UniqueFd& client) {
+  void say_farewell(const api::UniqueFd& client) {
     for (int i = 0; i < 60; ++i) {
       const Json state{{"op", "state"},
                        {"tick", 1000 + i},
                        {"time_s", 9.5},
                        {"state", i < 59 ? "STOPPING" : "DISABLED"},
                        {"stop", nullptr}};
-      send_packet(client.get(), state.dump());
+      api::send_packet(client.get(), state.dump());
     }
     std::ofstream(farewell_) << "said";
   }
 
   bool deaf_;
   std::string farewell_;
-  UniqueFd listener_;
+  api::UniqueFd listener_;
   std::atomic<bool> quit_ = false, stopped_ = false, shut_down_ = false;
   std::thread thread_;
 };
@@ -162,4 +167,4 @@ TEST_F(Session, CtrlCBecomesAStopOfTheArm) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::system

@@ -5,7 +5,7 @@
 
 #include <type_traits>
 
-namespace liana {
+namespace liana::verify {
 
 using namespace cable;
 namespace {
@@ -79,4 +79,4 @@ TEST(ReleaseStep, AnEmptyVerdictIsNoVerdict) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::verify

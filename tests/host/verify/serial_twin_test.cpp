@@ -9,7 +9,7 @@
 #include "tests/firmware_like/serial_rig.hpp"
 #include "tests/host/verify/sim_arm.hpp"
 
-namespace liana {
+namespace liana::verify {
 namespace {
 
 using serial::SerialArm;
@@ -117,4 +117,4 @@ TEST(TwinOfASerialArm, LeavesTheArmItselfAlone) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::verify

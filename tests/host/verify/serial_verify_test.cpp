@@ -10,7 +10,7 @@
 #include "host/verify/verify.hpp"
 #include "tests/firmware_like/micro_arm.hpp"
 
-namespace liana {
+namespace liana::verify {
 namespace {
 
 using serial::SerialArm;
@@ -119,4 +119,4 @@ TEST(VerifyASerialArm, AJointThatTheArmHasNotIsNotJudged) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::verify

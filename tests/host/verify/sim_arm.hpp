@@ -11,7 +11,7 @@
 #include "tests/firmware_like/micro_arm.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 // What a drive shows that is switched on and waits, at this position.
 inline DriveFeedback waiting_drive(std::int32_t position_counts) {
@@ -48,7 +48,7 @@ class ArmWithoutBuses {
  public:
   ArmWithoutBuses(const typename Arm::Table& table, const DriveFeedbacks& drives)
       : table_(table), link(table_), core_(table_, link), drives_(table_, drives, Outputs<Arm>{}) {
-    report_.boot = BootPhase::kDone;
+    report_.boot = control::BootPhase::kDone;
     link.report.publish(report_);
     link.report.refresh();
     link.image.refresh();
@@ -83,12 +83,12 @@ class ArmWithoutBuses {
   typename Arm::Table table_;
 
  public:
-  ArmLink<Arm> link;
+  control::ArmLink<Arm> link;
 
  private:
-  TickCore<Arm> core_;
+  control::TickCore<Arm> core_;
   NominalDrives<Arm> drives_;
-  ArmReport<Arm> report_{};
+  control::ArmReport<Arm> report_{};
   Outputs<Arm> outputs_{};
 };
 
@@ -103,4 +103,4 @@ struct SimSerialArm : ArmWithoutBuses<serial::SerialArm> {
       : ArmWithoutBuses(serial::micro::table(), drives_at(serial::micro::table(), joint_rad)) {}
 };
 
-}  // namespace liana
+}  // namespace liana::verify

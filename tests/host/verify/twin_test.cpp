@@ -8,7 +8,7 @@
 #include "host/verify/verify.hpp"
 #include "tests/host/verify/sim_arm.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 using namespace cable;
 namespace {
@@ -83,4 +83,4 @@ TEST_F(TwinOfAnArm, TheArmItselfIsNotTouched) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::verify

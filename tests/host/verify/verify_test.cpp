@@ -8,7 +8,7 @@
 
 #include "tests/firmware_like/zhu2022.hpp"
 
-namespace liana {
+namespace liana::verify {
 
 using namespace cable;
 namespace {
@@ -120,4 +120,4 @@ TEST(Verify, AVerdictAfterTheIntervalBeganIsTooSlow) {
 }
 
 }  // namespace
-}  // namespace liana
+}  // namespace liana::verify
