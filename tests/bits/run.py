@@ -80,7 +80,8 @@ class Target:
         if self.toolchain:
             chosen = [f"-DCMAKE_TOOLCHAIN_FILE={TARGETS / self.toolchain}", f"-DBITS_OPTIONS={self.options}"]
         run(["cmake", "-G", "Ninja", "-S", TARGETS, "-B", folder, *chosen], f"configuring {self.name}")
-        run(["ninja", "-C", folder, "-j", "1", *([] if self.plays else ["player", "planted"])], f"building {self.name}")
+        parts = [] if self.plays else ["liana_core", "player", "planted"]
+        run(["ninja", "-C", folder, "-j", "1", *parts], f"building {self.name}")
         return folder
 
     def look_through(self, folder):
