@@ -1,4 +1,6 @@
-"""The same bits from every build of the core: `./dev bits [--json FILE]`. Exit code 0 only if no tick differs, and planted differences are found."""
+"""The same bits from every build of the core: `./dev bits [--json FILE]`. Exit code 0 only if no tick differs, and
+planted differences are found.
+"""
 import argparse
 import concurrent.futures
 import contextlib
@@ -51,9 +53,9 @@ WORST_CASES = ROOT / "tests/bench/worst_cases.txt"
 WORST_TICK = 1.5  # times the median of missions, which on the Cortex-M7 is
 M7_MEDIAN = 58_979  # where the whole slit crossing is not among them (./dev bits measures it)
 # A serial arm has no such median: its ticks without a tip command solve no IK. So its worst tick is held by itself.
-SERIAL_WORST = 38_000  # instructions on the Cortex-M7
-# 5004 needs a drive of the first segment, 6001 a long mission, 2002 a joint at the end of its range; 2002 and 2003 are of
-# a serial arm, 5xxx of a cable arm.
+SERIAL_WORST = 40_000  # instructions on the Cortex-M7
+# 5004 needs a drive of the first segment, 6001 a long mission, 2002 a joint at the end of its range; 2002 and 2003 are
+# of a serial arm, 5xxx of a cable arm.
 NOT_REACHED = {"cable": {2002, 2003, 5004, 6001}, "serial": {2002, *range(5001, 5008), 6001}}
 PATIENCE_S = 900  # wall clock after which a program counts as hung; nothing is measured by it
 
@@ -78,7 +80,8 @@ class Target:
         if self.toolchain:
             chosen = [f"-DCMAKE_TOOLCHAIN_FILE={TARGETS / self.toolchain}", f"-DBITS_OPTIONS={self.options}"]
         run(["cmake", "-G", "Ninja", "-S", TARGETS, "-B", folder, *chosen], f"configuring {self.name}")
-        run(["ninja", "-C", folder, "-j", "1", *([] if self.plays else ["player", "planted"])], f"building {self.name}")
+        parts = [] if self.plays else ["liana_core", "player", "planted"]
+        run(["ninja", "-C", folder, "-j", "1", *parts], f"building {self.name}")
         return folder
 
     def look_through(self, folder):
@@ -364,7 +367,9 @@ def show(report):
 
 
 def holds(report):
-    """No tick differs or costs too much, the comparison is one that finds differences, and every fault was among what was compared."""
+    """No tick differs or costs too much, the comparison is one that finds differences, and every fault was among what
+    was compared.
+    """
     same = all(result["ticks"] > 0 and result["differing_ticks"] == 0 for what in OF_WHAT for result in report[what])
     found = all(result["differing_ticks"] > 0 for result in report["planted"].values())
     unfused = all(seen["fused"] == 0 and seen["fused_planted"] > 0 for seen in report["disassembly"]) and all(

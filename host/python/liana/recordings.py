@@ -249,7 +249,7 @@ class Truth:
         return self.rows[row][self._angles]
 
     def travel_deg(self, first: int, last: Optional[int]) -> float:
-        """Largest change of any theta or joint between any row from `first` until before `last` and the first of them."""
+        """Largest change of any theta or joint between the row `first` and any row until before `last`."""
         start = self.theta_deg(first)
         rows = range(len(self.rows))[first:last]
         return max(abs(a - b) for row in rows for a, b in zip(self.theta_deg(row), start))

@@ -1,4 +1,5 @@
--- The small arm in seconds instead of minutes: to the prepare pose, a little aside along a straight line, then one joint a little on.
+-- The small arm in seconds instead of minutes: to the prepare pose, a little aside along a straight line, then one
+-- joint a little on.
 local liana = require "liana"
 local geometry = require "liana.geometry"
 
@@ -20,8 +21,12 @@ local function goal_deg(arm)
   return goal
 end
 
-local beside = liana.condition("tip beside the prepare pose", function(arm) return geometry.distance(arm.tip(), beside_prepare(arm)) <= kArrival_m end)
-local turned = liana.condition("the joint at its goal", function(arm) return math.abs(arm.state.setpoint_js_deg[kJoint] - goal_deg(arm)[kJoint]) < 0.01 end)
+local beside = liana.condition("tip beside the prepare pose", function(arm)
+  return geometry.distance(arm.tip(), beside_prepare(arm)) <= kArrival_m
+end)
+local turned = liana.condition("the joint at its goal", function(arm)
+  return math.abs(arm.state.setpoint_js_deg[kJoint] - goal_deg(arm)[kJoint]) < 0.01
+end)
 
 return liana.mission "short_micro" {
   liana.step "prepare" {
