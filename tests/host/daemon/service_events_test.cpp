@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <map>
 #include <memory>
 
 #include "host/api/client.hpp"
@@ -191,9 +192,14 @@ TEST_F(ServiceTellsEvents, TheyAreNumberedWithoutGapsWhateverComesFirst) {
   move();
   for (int i = 0; i < 60; ++i) client_.send({{"op", "stop"}});
   client_.send({{"op", "release"}});
-  intervals(5);
-  EXPECT_EQ(heard(event::EventKind::kStop).size(), event::EventLog::kMostPerInterval);
-  EXPECT_EQ(heard(event::EventKind::kLeftOut).size(), 1u);
+  intervals(20);
+  // How many stops one interval takes depends on the machine; what it leaves out is counted.
+  std::map<std::uint64_t, std::uint32_t> stops_at_tick;
+  std::int64_t stops = 0;
+  for (const event::Event& stop : heard(event::EventKind::kStop)) ++stops_at_tick[stop.tick], ++stops;
+  for (const auto& [tick, count] : stops_at_tick) EXPECT_LE(count, event::EventLog::kMostPerInterval) << tick;
+  for (const event::Event& left_out : heard(event::EventKind::kLeftOut)) stops += left_out.number;
+  EXPECT_EQ(stops, 60);
   EXPECT_EQ(heard(event::EventKind::kOwner).back().number, event::number_of(event::OwnerEvent::kReleased));
   for (std::size_t i = 0; i < heard_.size(); ++i) EXPECT_EQ(heard_[i].sequence, i + 1);
 }
