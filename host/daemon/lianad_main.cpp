@@ -1,6 +1,5 @@
 // lianad: the real-time thread with the core and the buses, and the service side with the API socket.
 #include <algorithm>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <functional>
@@ -8,7 +7,6 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
-#include <thread>
 
 #include "host/api/registry.hpp"
 #include "host/calibration/calibration.hpp"
@@ -20,7 +18,7 @@
 #include "host/control/rt_cycle.hpp"
 #include "host/daemon/cable_desk.hpp"
 #include "host/daemon/serial_desk.hpp"
-#include "host/daemon/service.hpp"
+#include "host/daemon/turns.hpp"
 
 namespace {
 
@@ -51,84 +49,6 @@ std::vector<liana::api::Role> roles_in(const std::string& list) {
   std::istringstream in(list);
   for (std::string name; std::getline(in, name, ',');) roles.push_back(liana::api::role_of(name));
   return roles;
-}
-
-// Virtual time stands still now. Clients may read the last state until somebody sends shutdown.
-void wait_for_dismissal(liana::daemon::Service& service) {
-  constexpr double kPatience_s = 30.0, kLook_s = 0.05;
-  service.end_lockstep();
-  for (double waited_s = 0.0; waited_s < kPatience_s && !service.dismissed() && g_signal == 0; waited_s += kLook_s)
-    service.idle(kLook_s);
-}
-
-// A side that has failed ends the run; before that, the arm is stopped and its drives are off.
-[[noreturn]] void end_after_stop(const std::string& side, const std::string& problem) {
-  throw std::runtime_error(side + " failed, so the arm was stopped: " + problem);
-}
-
-// The real-time side as main needs it, whatever the arm.
-struct Ticks {
-  std::function<bool()> run_tick;
-  std::function<void(const std::function<bool()>& next)> stop_without_service;
-};
-
-// Fast and paced: one thread alternates service and real-time side, so that runs repeat bit for bit. False when the bus
-// has ended.
-bool alternate(liana::daemon::Service& service, const Ticks& ticks) {
-  for (;;) {
-    if (g_signal != 0) service.begin_shutdown("signal");
-    service.cycle();
-    if (service.finished()) {
-      wait_for_dismissal(service);
-      return true;
-    }
-    do {
-      if (!ticks.run_tick()) return false;
-    } while (!service.interval_began());
-  }
-}
-
-bool run_lockstep(liana::daemon::Service& service, const Ticks& ticks) {
-  try {
-    return alternate(service, ticks);
-  } catch (const std::exception& error) {
-    ticks.stop_without_service(ticks.run_tick);
-    end_after_stop("the service side", error.what());
-  }
-}
-
-// The service runs once per command interval, when the real-time thread has published its image.
-void serve_beside(const liana::control::ThreadEnd& realtime, liana::daemon::Service& service) {
-  while (!realtime.over && !service.finished()) {
-    if (g_signal != 0) service.begin_shutdown("signal");
-    if (service.interval_began()) service.cycle();
-    service.idle(0.001);
-  }
-}
-
-// Real: two threads, each of which ends the motion when the other one fails.
-bool run_real(liana::daemon::Service& service, const Ticks& ticks) {
-  liana::control::ThreadEnd end;
-  const std::jthread realtime = liana::control::start_realtime(
-      [&ticks](const std::stop_token& stop) {
-        while (!stop.stop_requested() && ticks.run_tick()) {
-        }
-      },
-      end);
-  try {
-    serve_beside(end, service);
-  } catch (const std::exception& error) {
-    ticks.stop_without_service([&] {
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      return !end.over;
-    });
-    end_after_stop("the service side", error.what());
-  }
-  if (!end.over || end.problem.empty()) return service.finished();
-  // Without ticks the drives hear nothing more and stop by themselves.
-  service.stop_by_itself("the real-time thread failed: " + end.problem);
-  service.take_leave();
-  end_after_stop("the real-time thread", end.problem);
 }
 
 // That status and estop do not find it by themselves is no reason not to run.
@@ -181,11 +101,13 @@ int serve(const Setup& setup, const Robot& robot, liana::control::ArmLink<Arm>& 
   handle_signals();
   if (setup.mode != liana::timing::TimeMode::kReal) service.wait_for(setup.expected, kExpectTimeout_s);
   const auto stop_limit = static_cast<std::uint64_t>(kStopLimit_s / robot.table.tick_s);
-  const Ticks ticks{
+  const liana::daemon::Signalled signalled = [] { return g_signal != 0; };
+  const liana::daemon::Ticks ticks{
       [&] { return cycle->run_tick(); },
       [&](const std::function<bool()>& next) { liana::control::stop_without_service(link, stop_limit, next); }};
-  const bool finished =
-      setup.mode == liana::timing::TimeMode::kReal ? run_real(service, ticks) : run_lockstep(service, ticks);
+  const bool finished = setup.mode == liana::timing::TimeMode::kReal
+                            ? liana::daemon::run_real(service, ticks, signalled)
+                            : liana::daemon::run_lockstep(service, ticks, signalled);
   service.take_leave();
   if (!finished) throw std::runtime_error("the bus has ended: liana-bus or the bench left");
   return 0;
