@@ -169,7 +169,7 @@ void random_goals(Meter& meter, const cable::RobotTable& robot, Solvers& solvers
 int main() try {
   using namespace liana::bench;
   Meter meter;
-  const liana::RobotTable robot = liana::zhu2022::table();
+  const liana::cable::RobotTable robot = liana::cable::zhu2022::table();
   Solvers solvers(robot);
   forward(meter, robot, solvers);
   near(meter, robot, solvers);
