@@ -37,6 +37,15 @@ constexpr const char* kNoPlace = "32 clients are connected already; close one (a
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+// Names stand in states, events and lists that people read in a terminal.
+std::string name_of(const Arguments& hello) {
+  std::string name = hello.text("name");
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  if (std::any_of(name.begin(), name.end(), is_control))
+    throw RequestError("bad_request", "name: allowed is a text without control characters: leave them out");
+  return name;
+}
+
 std::string error_packet(const Json& request, const std::string& code, const std::string& message) {
   Json answer{{"op", "error"}, {"code", code}, {"message", message}};
   if (request.is_object() && request.contains("id")) answer["id"] = request["id"];
@@ -189,7 +198,8 @@ void ApiServer::drop_strangers() {
 void ApiServer::take_packet(Client& client, const std::string& packet) {
   Json request;
   try {
-    if (packet.size() > kMaxPacketBytes) throw RequestError("bad_request", "packet over 65536 bytes");
+    if (packet.size() > kMaxPacketBytes)
+      throw RequestError("bad_request", "packet over " + std::to_string(kMaxPacketBytes) + " bytes");
     request = Json::parse(packet);
     if (!request.is_object()) throw RequestError("bad_request", "a request is one JSON object");
     if (request.contains("id") && !request["id"].is_number_integer()) {
@@ -236,7 +246,7 @@ void ApiServer::take_stop(Client& client, Json stop) {
 void ApiServer::greet(Client& client, const Json& request) {
   if (client.greeted) throw RequestError("bad_request", "hello was said already");
   const Arguments hello = session_fields(request);
-  client.info.name = hello.text("name");
+  client.info.name = name_of(hello);
   client.info.role = role_of(hello.text("role"));
   client.info.lockstep = hello.flag("lockstep");
   subscribe(client, hello);

@@ -9,7 +9,7 @@
 namespace liana::api {
 
 // Largest packet of the API in bytes; longer ones are refused by both ends.
-constexpr std::size_t kMaxPacketBytes = 65536;
+constexpr std::size_t kMaxPacketBytes = 131072;
 
 // Owns one file descriptor.
 class UniqueFd {

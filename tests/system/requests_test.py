@@ -1,8 +1,10 @@
 """Targets no arm can reach and packets nobody can read: one clear answer each, and the arm stays where it is (A34)."""
+import json
 import math
 import unittest
 
 from support import SystemTest
+from liana.client import LianaError
 from liana.system import System
 
 kUpright = [1.0, 0.0, 0.0, 0.0]
@@ -54,7 +56,10 @@ class Requests(SystemTest):
     def test_nan_and_infinity_are_not_json_and_are_refused(self):
         for op, field, count in (("move_cp", "goal", 7), ("servo_cp", "goal", 7), ("move_jp", "goal_deg", 10)):
             for word in (math.nan, math.inf, -math.inf):
-                self.client.send({"op": op, field: [word] * count})
+                message = {"op": op, field: [word] * count}
+                with self.assertRaisesRegex(LianaError, op):
+                    self.client.send(message)
+                self.client.send(json.dumps(message).encode())
                 self.client.step()
                 self.client.step()
                 self.assert_refused(self.client.complaints.pop(), "bad_request", "not JSON")
@@ -158,7 +163,7 @@ class Requests(SystemTest):
             b'{"op":"hold","id":"x"}': "id",
             b'{"op":"\xc3\x28"}': "JSON",
             b"[" * 60000: "JSON",
-            b" " * 70000: "65536",
+            b" " * 140000: "131072",
         }
         for packet, word in packets.items():
             self.client.send(packet)

@@ -18,6 +18,7 @@ Path = Union[str, "os.PathLike[str]"]
 
 PACKET_BYTES = 1 << 18  # more than lianad ever sends in one packet
 PATIENCE_S = 120.0  # wall clock after which a program counts as hung; nothing is measured by it
+MOST_PACKET_BYTES = 131072  # of the API (docs/api.md)
 JOINT_OF_TEST_MOVE = 8
 ROUNDING_S = 1e-6  # a sum of times that should be a state's own time may be a little over it
 
@@ -72,6 +73,17 @@ def brief(state: Mapping[str, Any]) -> str:
     return json.dumps({key: state.get(key) for key in keys})
 
 
+def packet_of(message: Message) -> bytes:
+    """The message as JSON; LianaError for numbers that are not finite and for more than a packet holds."""
+    try:
+        packet = json.dumps(message, allow_nan=False).encode()
+    except ValueError as error:
+        raise LianaError(f"{message.get('op')}: a number is not finite: give finite ones ({error})") from error
+    if len(packet) > MOST_PACKET_BYTES:
+        raise LianaError(f"{message.get('op')}: {len(packet)} bytes: allowed {MOST_PACKET_BYTES}: send less at once")
+    return packet
+
+
 class Connection:
     """Packets to and from lianad, without a hello; for tests of the API itself. Others use Client."""
 
@@ -87,8 +99,9 @@ class Connection:
             raise
 
     def send(self, message: Union[bytes, Message]) -> None:
-        """One packet: bytes as they are, or an object as JSON."""
-        self.socket.send(message if isinstance(message, bytes) else json.dumps(message).encode())
+        """One packet: bytes as they are, or an object as JSON; LianaError for what no packet can hold, which lianad
+        could answer only without saying which request it means."""
+        self.socket.send(message if isinstance(message, bytes) else packet_of(message))
 
     def receive(self) -> Message:
         """The next packet; TimedOut when none comes, ConnectionClosed when none will."""

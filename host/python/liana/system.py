@@ -131,13 +131,13 @@ class System:
         words = ["--socket", self.bus_socket, "--buses", self.directory / "buses.json", "--time", "fast"]
         words += ["--log", self.directory, "--stats", self.directory / "bus_stats.json"]
         self.start("liana-bus", *words, *self.optional("--script", "script"))
-        wait_until(self.bus_socket.exists, "liana-bus to listen", self.check_refused)
+        wait_until(self.bus_socket.exists, "liana-bus to listen", self.check_running)
 
     def start_lianad(self) -> None:
         words = ["--api", self.api, "--bus-socket", self.bus_socket, "--time", "fast", "--expect", self.expect]
         words += ["--events", self.events_file]
         self.start("lianad", *self.tables(), *words, *self.lianad_words)
-        wait_until(self.api.exists, "lianad to listen", self.check_refused)
+        wait_until(self.api.exists, "lianad to listen", self.check_running)
 
     def start_bench(self) -> None:
         words = ["--bus-socket", self.bus_socket, "--api", self.api, "--seed", self.seed, *self.reports_of_bench()]
@@ -194,6 +194,12 @@ class System:
         """Nobody has to wait for a program that has refused its input."""
         for name, child in self.children.items():
             if child.poll() == BAD_INPUT:
+                raise ProgramRefused(self.log(name).strip()[-600:])
+
+    def check_running(self) -> None:
+        """While programs start: one that has ended will not listen any more."""
+        for name, child in self.children.items():
+            if child.poll():
                 raise ProgramRefused(self.log(name).strip()[-600:])
 
     def kill(self, name: str) -> None:

@@ -74,7 +74,7 @@ TEST_F(Api, MalformedInputIsAnsweredWithAnErrorAndTheClientStays) {
                                            "{\"op\":\"hello\",\"name\":\"again\",\"role\":\"client\"}",
                                            "{\"a\":1e999}",
                                            std::string(60000, '['),
-                                           std::string(70000, 'x')};
+                                           std::string(140000, 'x')};
   for (const std::string& bytes : malformed) {
     const Json error = raw(client, bytes);
     EXPECT_EQ(error.value("op", ""), "error") << bytes.substr(0, 40);
@@ -89,6 +89,7 @@ TEST_F(Api, NothingIsDoneBeforeHello) {
   EXPECT_EQ(raw(client, R"({"op":"stop"})").value("code", ""), "bad_request");
   EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"king"})").value("code", ""), "bad_request");
   EXPECT_EQ(raw(client, R"({"op":"hello","role":"client"})").value("code", ""), "bad_request");
+  EXPECT_EQ(raw(client, R"({"op":"hello","name":"a\n999","role":"client"})").value("code", ""), "bad_request");
   EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"client","lockstp":true})").value("code", ""),
             "bad_request");
   EXPECT_EQ(raw(client, R"({"op":"hello","name":"x","role":"client","subscribe":["weather"]})").value("code", ""),
