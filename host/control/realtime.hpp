@@ -11,7 +11,8 @@ namespace liana::control {
 
 constexpr int kRealtimePriority = 80;  // over drivers' interrupt threads (50), under the kernel's own watchdogs (99)
 
-// Locks all memory, present and future. Throws std::runtime_error naming the missing privilege.
+// Locks all memory, present and future, and gives threads that start later stacks of 1 MiB. Throws std::runtime_error
+// naming the missing privilege.
 void lock_memory();
 
 // Starts `body` in a thread with SCHED_FIFO and a stack that is already in memory. How it ends is written to `end`,
