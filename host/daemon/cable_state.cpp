@@ -1,7 +1,6 @@
 // What a cable arm adds to the state message.
-#include "firmware_like/drive/cia402.hpp"
-#include "firmware_like/drive/pdo.hpp"
-#include "firmware_like/math/trig.hpp"
+#include <array>
+
 #include "host/config/theta_numbers.hpp"
 #include "host/daemon/cable_desk.hpp"
 #include "host/daemon/state_parts.hpp"
@@ -62,8 +61,8 @@ void CableDesk::add_state(Json& state) const {
 }
 
 void CableDesk::add_drive_state(std::size_t drive, Json& state) const {
-  state["position_m"] = paid_out_m(table_, inputs())[drive];
-  state["tension_N"] = reported_tension_N(table_, inputs())[drive];
+  state["position_m"] = paid_out_m(table_.drive[drive], inputs().drive[drive]);
+  state["tension_N"] = reported_tension_N(table_.drive[drive], inputs().drive[drive]);
 }
 
 }  // namespace liana::daemon

@@ -54,20 +54,25 @@ std::string why_lengths_do_not_fit(const cable::RobotTable& table, const cable::
 
 }  // namespace
 
+double paid_out_m(const cable::DriveTable& drive, const DriveFeedback& feedback) {
+  return drive.direction * (static_cast<double>(feedback.position_counts) - drive.zero_counts) * drive.metres_per_count;
+}
+
+double reported_tension_N(const cable::DriveTable& drive, const DriveFeedback& feedback) {
+  return feedback.torque_permille * drive.newtons_per_permille;
+}
+
 cable::CableVector paid_out_m(const cable::RobotTable& table, const cable::Inputs& inputs) {
   cable::CableVector out{};
-  for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i) {
-    const cable::DriveTable& drive = table.drive[i];
-    out[i] = drive.direction * (static_cast<double>(inputs.drive[i].position_counts) - drive.zero_counts) *
-             drive.metres_per_count;
-  }
+  for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i)
+    out[i] = paid_out_m(table.drive[i], inputs.drive[i]);
   return out;
 }
 
 cable::CableVector reported_tension_N(const cable::RobotTable& table, const cable::Inputs& inputs) {
   cable::CableVector out{};
   for (Index i = 0; i < static_cast<Index>(table.cable_count()); ++i)
-    out[i] = inputs.drive[i].torque_permille * table.drive[i].newtons_per_permille;
+    out[i] = reported_tension_N(table.drive[i], inputs.drive[i]);
   return out;
 }
 

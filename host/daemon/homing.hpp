@@ -10,6 +10,10 @@
 
 namespace liana::daemon {
 
+// Cable that a drive reports as paid out beyond its zero [m], and tension that it reports [N].
+double paid_out_m(const cable::DriveTable& drive, const DriveFeedback& feedback);
+double reported_tension_N(const cable::DriveTable& drive, const DriveFeedback& feedback);
+
 // Cable that every drive reports as paid out beyond its zero [m].
 cable::CableVector paid_out_m(const cable::RobotTable& table, const cable::Inputs& inputs);
 

@@ -1,8 +1,7 @@
 #include "host/daemon/serial_desk.hpp"
 
-#include <algorithm>
+#include <cmath>
 
-#include "firmware_like/math/trig.hpp"
 #include "firmware_like/serial/drive_units.hpp"
 #include "host/daemon/state_parts.hpp"
 
@@ -16,10 +15,7 @@ std::vector<double> deg(const serial::RobotTable& table, const serial::JointVect
   return out;
 }
 
-// A limit in degrees, free of what the way through radians left of it.
-double clean_deg(double rad) { return std::round(rad / kDegree * 1e9) / 1e9; }
-
-std::string number(double value) { return Json(std::round(value * 1e3) / 1e3).dump(); }
+std::string deg_text(double rad) { return Json(std::round(in_degrees(rad) * 1e3) / 1e3).dump(); }
 
 // The first joint that keeps the arm from being homed.
 std::string why_not(const serial::RobotTable& table, const serial::Inputs& inputs) {
@@ -29,8 +25,8 @@ std::string why_not(const serial::RobotTable& table, const serial::Inputs& input
     const double angle_rad = serial::joint_at_counts(table.drive[i], inputs.drive[i].position_counts);
     if (angle_rad < table.joint[i].low_rad - serial::kRangeMargin_rad ||
         angle_rad > table.joint[i].high_rad + serial::kRangeMargin_rad) {
-      return joint + ": its encoder reads " + number(in_degrees(angle_rad)) + " deg; allowed " +
-             number(clean_deg(table.joint[i].low_rad)) + " to " + number(clean_deg(table.joint[i].high_rad)) +
+      return joint + ": its encoder reads " + deg_text(angle_rad) + " deg; allowed " +
+             deg_text(table.joint[i].low_rad) + " to " + deg_text(table.joint[i].high_rad) +
              ": check zero_counts and direction of the table";
     }
   }
