@@ -157,7 +157,6 @@ void FakeLianad::obey(const Json& request) {
     engaged_ = false;
     intervals_with_device_ = 0;
   }
-  if (op == "retract") stuck_ = behaviour_.way_back_stands_still;
   if (op == "retract") retracted_ = !behaviour_.way_back_ends_early;
   if (op == "move_jp" || op == "move_path" || op == "hold_theta" || op == "retract") busy_intervals_ = kMotionIntervals;
 }
@@ -205,9 +204,9 @@ Json FakeLianad::state() const {
                               : state_},
           {"stop_category", fault || stopped ? "stop" : "none"},
           {"is_homed", is_homed_},
-          {"is_busy", busy_intervals_ > 0 || stuck_},
+          {"is_busy", busy_intervals_ > 0},
           {"path", path_intervals_ > 0 ? Json{{"hash", "0"}, {"share", 0.5}} : Json()},
-          {"retracted", retracted_ && busy_intervals_ == 0 && !stuck_},
+          {"retracted", retracted_ && busy_intervals_ == 0},
           {"at_rest", busy_intervals_ == 0 && !engaged_},
           {"owner", stolen ? "somebody" : owner_},
           {"device", device_},

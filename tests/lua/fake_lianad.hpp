@@ -26,7 +26,6 @@ struct FakeBehaviour {
   int silent_in_step = 0;                          // sends no more states, waits for the runner to leave
   int slow_in_step = 0;                            // lets the runner wait for longer than the watchdog's limit, once
   int steal_in_step = 0;                           // another owner
-  bool way_back_stands_still = false;              // retract is accepted; the arm rests and stays busy for ever
   bool way_back_ends_early = false;                // retract is accepted, but does not go all the way
   double tip_in_slit_u_m = 3.2;                    // where the hand steps bring the tip
 };
@@ -61,7 +60,6 @@ class FakeLianad {
 
   FakeBehaviour behaviour_;
   bool retracted_ = false;
-  bool stuck_ = false;
   Json robot_;
   Json scene_;
   int listener_ = -1;

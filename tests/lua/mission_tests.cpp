@@ -154,15 +154,6 @@ TEST(Mission, AWayBackThatEndsEarlyIsAFailureAndSaysSo) {
       << run.report;
 }
 
-TEST(Mission, AWayBackOnWhichNothingMovesIsGivenUpAfterTenSecondsAndSaysSo) {
-  const MissionRun run = run_mission_against({.way_back_stands_still = true, .tip_in_slit_u_m = 2.5});
-  EXPECT_EQ(run.report["outcome"], "failed");
-  EXPECT_EQ(run.last_command(), "hold");
-  const std::string reason = run.report["reason"];
-  EXPECT_NE(reason.find("not back along the verified path after 10"), std::string::npos) << reason;
-  EXPECT_NE(reason.find("at rest for 10"), std::string::npos) << reason;
-}
-
 TEST(Mission, IsPatientWhileDrivesBootAndThenSaysWhy) {
   const MissionRun run = run_mission_against({.refuse = {{"state_command", "busy"}}});
   EXPECT_EQ(run.report["outcome"], "failed");
