@@ -66,6 +66,8 @@ void CableDesk::hold_theta(const std::vector<api::Arguments>& held) {
   cable::ThetaVector held_rad{};
   for (const api::Arguments& entry : held) {
     const auto i = static_cast<std::size_t>(entry.integer("theta")) - 1;
+    if ((mask & 1u << i) != 0)
+      throw api::RequestError("bad_request", "held: theta " + std::to_string(i + 1) + " stands twice; leave one out");
     held_rad[i] = entry.number("target_deg") * kDegree;
     mask |= 1u << i;
   }
