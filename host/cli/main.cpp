@@ -137,6 +137,12 @@ void add_run(CLI::App& app, Action& action, liana::system::RunOptions& run) {
                   "named pose in which the arm lies in its fixture: unless every cable says so, it is not enabled");
   sub->add_option("--cross-wired", run.cross_wired,
                   "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
+  sub->add_option("--faults", run.faults,
+                  "to try it out: faults of the simulated drives, cables and camera (docs/hil.md)")
+      ->check(CLI::ExistingFile);
+  sub->add_option("--scene-offset", run.scene_offset,
+                  "to try it out: MM,DEG, e.g. 10,1; the simulated scene is so far from where its table has it, in a "
+                  "direction drawn from the seed");
   sub->add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
   sub->add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
   add_seed(*sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
