@@ -42,6 +42,7 @@ class ArmDesk : public Desk {
   void hold() override { arbiter_.hold(); }
   std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) override;
   std::vector<arbiter::PathNews> take_path_news() override { return arbiter_.take_path_news(); }
+  std::vector<arbiter::WayNews> take_way_news() override { return arbiter_.take_way_news(); }
   std::size_t drive_count() const override { return static_cast<std::size_t>(table_.drive_count()); }
 
  protected:
@@ -148,12 +149,12 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
   }
   const std::optional<Command> telecommand = release_.release(candidate, execution, simulation);
   const bool released = telecommand && link_.released.push(*telecommand);
+  const verify::Verdict& worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation) : execution;
   if (released) {
     released_.push_back(*telecommand);
   } else {
-    arbiter_.refused();
+    arbiter_.refused(worst.text);
   }
-  const verify::Verdict& worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation) : execution;
   return {candidate.sequence(), released, worst, joints_deg(prediction_.ticks[prediction_.command_ticks - 1])};
 }
 
