@@ -76,6 +76,7 @@ struct RobotConfig {
   std::int32_t calibration_days = 0;                           // how old a calibration may be
   double module_radius_m = 0.0;                                // of the capsules of every link
   double joint_viscous_Nms_per_rad = 0.0;                      // per theta
+  double friction_band = 0.2;                                  // share by which true friction may differ from mu
   std::map<std::string, std::vector<double>> named_poses_deg;  // theta_count angles each; "zero" always exists
   std::string canonical_json;
 };
