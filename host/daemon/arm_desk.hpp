@@ -85,7 +85,8 @@ class ArmDesk : public Desk {
 
   timing::TimeMode time_mode_;
   verify::ReleaseStep<Arm> release_;
-  std::vector<Command> released_;  // not yet due at the newest image
+  std::vector<Command> released_;        // not yet due at the newest image
+  verify::Prediction<Arm> prediction_;  // of the last command
 };
 
 template <class Arm, class Steering>
@@ -138,10 +139,9 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
   const verify::TwinImage<Arm>& image = link_.image.value();
   const auto interval = static_cast<std::uint64_t>(table_.interval_ticks);
   const verify::Candidate<Arm> candidate = release_.candidate(setpoint, owner, image.next_tick + interval, interval);
-  const verify::Prediction<Arm> prediction =
-      verify::Twin<Arm>::run(image, released_, candidate, verify::max_stop_ticks(table_.tick_s));
-  verify::ExecutionVerdict execution = verify::judge_execution<Arm>(table_, candidate, prediction);
-  const verify::SimulationVerdict simulation = verify::judge_motion<Arm>(table_, candidate, prediction, zone_);
+  verify::Twin<Arm>::run(image, released_, candidate, verify::max_stop_ticks(table_.tick_s), prediction_);
+  verify::ExecutionVerdict execution = verify::judge_execution<Arm>(table_, candidate, prediction_);
+  const verify::SimulationVerdict simulation = verify::judge_motion<Arm>(table_, candidate, prediction_, zone_);
   if (time_mode_ == timing::TimeMode::kReal) {
     link_.report.refresh();
     verify::judge_time(candidate.first_tick(), tick(), execution);
@@ -154,7 +154,7 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
     arbiter_.refused();
   }
   const verify::Verdict& worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation) : execution;
-  return {candidate.sequence(), released, worst, joints_deg(prediction.ticks[prediction.command_ticks - 1])};
+  return {candidate.sequence(), released, worst, joints_deg(prediction_.ticks[prediction_.command_ticks - 1])};
 }
 
 }  // namespace liana::daemon

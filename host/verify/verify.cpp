@@ -48,8 +48,9 @@ ExecutionVerdict judge_execution(const typename Arm::Table& table, const Candida
     judge.require((outputs.limits & kLimitGate) == 0, Refusal::kGate, "the gate would refuse an output");
     judge.require(accepted, Refusal::kNotAccepted, "the controller would not take the command");
     judge_targets(table, i > 0 ? &prediction.ticks[i - 1] : nullptr, outputs, judge);
-    if (!verdict.passed()) return verdict;
+    if (!verdict.passed()) break;
   }
+  judge.conclude();
   return verdict;
 }
 
@@ -68,10 +69,11 @@ SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate
   for (const Outputs<Arm>& outputs : prediction.ticks) {
     judge_joints(table, outputs, judge);
     judge_tip<Arm>(table, outputs, zone, judge);
-    if (!verdict.passed()) return verdict;
+    if (!verdict.passed()) break;
   }
   judge.require(prediction.comes_to_rest, Refusal::kNoRest,
                 "the arm would not come to rest within 3 s after the command");
+  judge.conclude();
   return verdict;
 }
 

@@ -31,8 +31,10 @@ class TwinOfAnArm : public testing::Test {
     return release_.candidate(setpoint, 1, arm_->link.image.value().next_tick + interval, interval);
   }
   Prediction<cable::CableArm> predict(const Candidate<cable::CableArm>& candidate) {
-    return Twin<cable::CableArm>::run(arm_->link.image.value(), released_, candidate,
-                                      max_stop_ticks(arm_->table().tick_s));
+    Prediction<cable::CableArm> prediction;
+    Twin<cable::CableArm>::run(arm_->link.image.value(), released_, candidate, max_stop_ticks(arm_->table().tick_s),
+                               prediction);
+    return prediction;
   }
   std::optional<cable::Telecommand> release(const Candidate<cable::CableArm>& candidate,
                                             const Prediction<cable::CableArm>& prediction) {
