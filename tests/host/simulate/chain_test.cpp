@@ -72,7 +72,8 @@ TEST(CablePaths, LengthsChangeWithTheAnglesAsTheCoreSays) {
         EXPECT_NEAR(paths.stiffness_N_per_m[row], table.cable_EA_N / (core.length_m[c] + table.lead_m), 1e-3);
         double wrap_rad = 0.0;
         for (std::size_t m = 0; m <= static_cast<std::size_t>(layout.segment[c]); ++m) wrap_rad += wraps[m];
-        EXPECT_NEAR(paths.wrap_rad[row], wrap_rad, 0.05 * wrap_rad) << "the core's wrap is the same for all cables";
+        EXPECT_NEAR(paths.wrap_rad[row], wrap_rad, 0.1 * wrap_rad)
+            << "the core takes the bend of the joints, the same for all cables";
       }
     }
   }

@@ -40,7 +40,7 @@ class BenchArm {
       : robot_(bench::load_robot(CLOSED_LOOP_DATA "/robot.json")),
         truth_(bench::table_parameters(robot_, "ideal")),
         paths_(robot_, truth_.hole_radius_m),
-        arm_(robot_, bench::load_scene(CLOSED_LOOP_DATA "/scene.json"), truth_, theta(start_rad)) {
+        arm_(robot_, emptied(bench::load_scene(CLOSED_LOOP_DATA "/scene.json")), truth_, theta(start_rad)) {
     start_payout_m_ = arm_.payouts_m();
     paths_.update(theta(start_rad));
     for (std::size_t c = 0; c < 15; ++c) start_length_m_[c] = paths_.length_m(c);
@@ -66,6 +66,11 @@ class BenchArm {
   double tension_N(std::size_t cable) const { return arm_.motor_tension_N(cable); }
 
  private:
+  static bench::SceneConfig emptied(bench::SceneConfig scene) {
+    scene.boxes.clear();
+    scene.spheres.clear();
+    return scene;
+  }
   static bench::Theta theta(const ThetaVector& theta_rad) {
     bench::Theta out{};
     std::copy_n(theta_rad.begin(), out.size(), out.begin());
