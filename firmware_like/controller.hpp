@@ -26,7 +26,7 @@ class Controller {
     limits_ = 0;
     arm_.read(inputs.drive, inputs.sensors);
     const std::int32_t wrong = watch(inputs);
-    const Orders orders = supervise(link_limits_, inputs, arm_.status(), is_stop(active_), wrong, supervisor_, faults_);
+    const Orders orders = supervise(link_limits_, inputs, arm_.status(), active_.kind(), wrong, supervisor_, faults_);
     take_telecommand(inputs);        // what is in force now
     move(orders);                    // filter, IK, limiter: where the arm should be
     command_drives(inputs, orders);  // what each drive should do, the gate, CiA 402
@@ -64,8 +64,6 @@ class Controller {
   }
 
   using Command = Telecommand<typename A::Setpoint>;
-
-  static bool is_stop(const Command& command) noexcept { return command.kind() == CommandKind::kStop; }
 
   std::int32_t watch(const Inputs<A>& inputs) noexcept;
   void offer(const Command& offered, std::uint64_t tick) noexcept;
@@ -143,8 +141,9 @@ void Controller<A>::move(const Orders& orders) noexcept {
     active_ = Command{};
     return;
   }
-  if (!orders.motion_allowed) arm_.brake();
-  limits_ |= arm_.advance(orders.motion_allowed);
+  const bool allowed = is_let_move(orders.may_move, active_.kind());
+  if (!allowed) arm_.brake();
+  limits_ |= arm_.advance(allowed);
 }
 
 template <Arm A>

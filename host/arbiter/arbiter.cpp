@@ -82,9 +82,10 @@ void Arbiter<Arm>::tell(event::PathEvent what, const PathMove<Arm>& move, const 
   path_news_.push_back({what, path, move.duration_s(table_), "path " + path.hash + rest});
 }
 
-// A path that is cut short says how far it has come.
+// A path that is cut short says how far it has come, and so does a way back.
 template <class Arm>
-void Arbiter<Arm>::hold() {
+void Arbiter<Arm>::hold(const std::string& why) {
+  if (std::holds_alternative<WayBack<Arm>>(way_)) way_out_.end(why, command_rad_);
   const auto* move = std::get_if<PathMove<Arm>>(&way_);
   if (move != nullptr && !move->is_over()) {
     const int percent = static_cast<int>(100.0 * move->progress().share);
@@ -102,11 +103,25 @@ void Arbiter<Arm>::tell_of_outlook(const PathMove<Arm>& move) {
 }
 
 template <class Arm>
-void Arbiter<Arm>::retract(const Now& now, std::uint64_t until_tick) {
+void Arbiter<Arm>::require_way_back(const Now& now, std::uint64_t until_tick) const {
   require_ready(now);
-  if (path_.empty()) throw api::RequestError("refused", "there is no stored path to go back along");
-  has_retracted_ = false;
-  way_.template emplace<WayBack<Arm>>(path_, until_tick);
+  const std::string why = way_out_.why_no_way(until_tick);
+  if (!why.empty()) throw api::RequestError("refused", why);
+}
+
+template <class Arm>
+void Arbiter<Arm>::retract(const Now& now, std::uint64_t until_tick) {
+  require_way_back(now, until_tick);
+  hold("another retract was asked for");
+  wishes_ = {};
+  way_out_.begin(until_tick);
+  way_.template emplace<WayBack<Arm>>(table_, way_out_.path(), until_tick);
+}
+
+template <class Arm>
+RetractState Arbiter<Arm>::retract_state() const {
+  const auto* back = std::get_if<WayBack<Arm>>(&way_);
+  return back != nullptr ? RetractState{back->phase(), back->points_left(), ""} : way_out_.last_retract();
 }
 
 template <class Arm>
@@ -120,8 +135,10 @@ void Arbiter<Arm>::ask_anew() {
 }
 
 template <class Arm>
-void Arbiter<Arm>::refused() {
-  if (!std::visit([](auto& way) { return way.refused(); }, way_)) hold();
+void Arbiter<Arm>::refused(const std::string& why) {
+  if (std::visit([](auto& way) { return way.refused(); }, way_)) return;
+  const auto* back = std::get_if<WayBack<Arm>>(&way_);
+  hold(back != nullptr ? back->why_ended() + (why.empty() ? "" : ": " + why) : "refused");
 }
 
 template <class Arm>
@@ -133,13 +150,14 @@ std::optional<typename Arm::Setpoint> Arbiter<Arm>::next_setpoint(std::uint64_t 
 template <class Arm>
 bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
   if (now.state != OperatingState::kEnabled) {
-    hold();
-    path_.clear();
+    hold("the arm is not enabled any more");
+    way_out_.wait();
     wishes_ = {};
     return false;
   }
+  command_rad_ = Kind::command_rad(now);
   const auto* back = std::get_if<WayBack<Arm>>(&way_);
-  if (back == nullptr || !back->has_begun()) path_.note(tick, Kind::command_rad(now));
+  way_out_.stand(tick, command_rad_, back != nullptr && back->has_begun());
   return true;
 }
 
@@ -161,7 +179,7 @@ void Arbiter<Arm>::end_way() {
     way_.template emplace<TipTarget<Arm>>(end, wishes_);
     return;
   }
-  if (std::holds_alternative<WayBack<Arm>>(way_)) has_retracted_ = true;
+  if (const auto* back = std::get_if<WayBack<Arm>>(&way_)) return hold(back->why_ended());
   const auto* path = std::get_if<PathMove<Arm>>(&way_);
   if (path != nullptr && path->outlook()->refusal.empty()) tell(event::PathEvent::kArrives, *path, " has arrived");
   hold();

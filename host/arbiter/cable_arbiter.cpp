@@ -89,6 +89,7 @@ void CableArbiter::take_device_away() {
 // ends.
 void CableArbiter::retract(const cable::Outputs& now, std::uint64_t until_tick) {
   moves_.retract(now, until_tick);
+  nodes_ = {};
   lead_.forget();
   take_device_away();
 }
@@ -99,8 +100,8 @@ void CableArbiter::hold() {
   device_.let_go();
 }
 
-void CableArbiter::refused() {
-  moves_.refused();
+void CableArbiter::refused(const std::string& why) {
+  moves_.refused(why);
   device_.drop_anchor();
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "host/arbiter/arbiter.hpp"
 #include "host/arbiter/cable_kind.hpp"
@@ -45,12 +46,18 @@ class CableArbiter {
   std::optional<cable::Setpoint> next_setpoint(std::uint64_t tick, const cable::Outputs& now);
   // The setpoint was refused: planned moves end, the operator's clutch takes new anchors. The way back stops and starts
   // again, some times.
-  void refused();
+  void refused(const std::string& why = "");
 
   // A planned move is under way.
   bool is_busy() const { return moves_.is_busy(); }
-  // The last retract has gone back all the way.
+  // A tip goal, or what is asked for besides, has not come to be yet.
+  bool is_asking() const { return moves_.is_asking(); }
+  // The retract under way, or how the last one went.
+  RetractState retract_state() const { return moves_.retract_state(); }
   bool has_retracted() const { return moves_.has_retracted(); }
+  // The verified way back, for a copy that survives lianad.
+  PathMemory<cable::ThetaVector>& path_memory() { return moves_.path_memory(); }
+  std::vector<WayNews> take_way_news() { return moves_.take_way_news(); }
   // The path under way, and what has become of paths since the last call.
   std::optional<PathProgress> path() const { return moves_.path(); }
   std::vector<PathNews> take_path_news() { return moves_.take_path_news(); }

@@ -33,7 +33,7 @@ _liana() {
     --record | --calibration | --faults | --json | --svg | --path | --api | --out | replay) COMPREPLY=($(compgen -f -- "$word")); return ;;
   esac
   if [[ $COMP_CWORD == 1 ]]; then
-    words="run calibrate pose ik reach plan status estop clear faults latency replay robot doctor completion help"
+    words="run calibrate pose ik reach plan verify status estop clear faults latency replay robot doctor completion help"
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
       run) words="--robot --scene --bus --time --physics --calibration --in-pose --cross-wired --faults --scene-offset --record --json --seed" ;;
@@ -43,6 +43,7 @@ _liana() {
       ik) words="--robot --from-deg --tip --hold --control-point --json" ;;
       reach) words="--robot --scene --hold --from-deg --to-deg --path --node --samples --seed --svg --json" ;;
       plan) words="--robot --scene --from-deg --to-deg --tip --hold --planar --control-point --follow --waypoints --margin --max-step-deg --iterations --out --json" ;;
+      verify) words="--robot --scene --from-deg --to-deg --duration --json" ;;
       faults) words="--robot --markdown --json" ;;
       status | estop | clear) words="--api --json" ;;
       robot) words="--robot --out --json" ;;

@@ -81,6 +81,17 @@ void add_reach(CLI::App& app, Action& action, ReachOptions& reach) {
   sub->add_flag("--json", reach.json, "print JSON");
 }
 
+void add_verify(CLI::App& app, Action& action, VerifyOptions& verify) {
+  CLI::App* sub = add(app, action, "verify", "whether a straight motion of the joints would be released, and what it leaves",
+                      verify, verify_command);
+  sub->add_option("--robot", verify.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  sub->add_option("--scene", verify.scene, "scene table: a name under lua/scenes or a file")->capture_default_str();
+  sub->add_option("--from-deg", verify.from_deg, "joint angles where the arm stands")->required();
+  sub->add_option("--to-deg", verify.to_deg, "joint angles where it is told to stop")->required();
+  sub->add_option("--duration", verify.duration_s, "how long that takes, s; T_c to 600")->required();
+  sub->add_flag("--json", verify.json, "print JSON");
+}
+
 void add_plan(CLI::App& app, Action& action, PlanOptions& plan) {
   CLI::App* sub = add(app, action, "plan", "joint angles or a tip pose reached past the scene (offline planner)", plan,
                       plan_command);
@@ -316,6 +327,7 @@ int run(int argc, char** argv) {
   IkOptions ik;
   ReachOptions reach;
   PlanOptions plan;
+  VerifyOptions verify;
   liana::system::RunOptions run;
   CalibrateOptions calibrate;
   LatencyOptions latency;
@@ -328,6 +340,7 @@ int run(int argc, char** argv) {
   add_kinematics(app, action, pose, ik);
   add_reach(app, action, reach);
   add_plan(app, action, plan);
+  add_verify(app, action, verify);
   add_run(app, action, run);
   add_client(app, action, "status", "state of every running system", client, status_command);
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client,

@@ -37,9 +37,9 @@ std::vector<double> theta_deg(const cable::RobotTable& table, const cable::Theta
 void CableDesk::add_state(Json& state) const {
   const cable::Outputs& o = outputs();
   const arbiter::DeviceUse& device = arbiter_.device().in_use();
-  state["is_busy"] =
-      arbiter_.is_busy() || (o.state == OperatingState::kEnabled && (o.at_rest == 0 || o.held_at_target == 0));
-  state["retracted"] = arbiter_.has_retracted();
+  const bool awaits_held = arbiter_.is_asking() && o.held_at_target == 0;  // a hold that was refused awaits nothing
+  state["is_busy"] = arbiter_.is_busy() || (o.state == OperatingState::kEnabled && (o.at_rest == 0 || awaits_held));
+  add_retract(state, arbiter_.retract_state());
   state["path"] = path_json(arbiter_.path());
   state["device"] = device_name(device.kind);
   state["device_engaged"] = arbiter_.device().engaged();

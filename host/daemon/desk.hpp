@@ -10,6 +10,7 @@
 #include "firmware_like/controller_io.hpp"
 #include "host/api/arguments.hpp"
 #include "host/arbiter/path_news.hpp"
+#include "host/arbiter/way_news.hpp"
 #include "host/control/link.hpp"
 #include "host/json/json_fwd.hpp"
 #include "host/verify/verdict.hpp"
@@ -70,8 +71,9 @@ class Desk {
   // What the arm is asked to do next, verified twice and, unless it is refused, released; nothing when nothing is asked
   // for, or `may_release` is false. `owner`: role number of who owns motion.
   virtual std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) = 0;
-  // What has become of paths since the last call.
+  // What has become of paths, and of the way back, since the last call.
   virtual std::vector<arbiter::PathNews> take_path_news() = 0;
+  virtual std::vector<arbiter::WayNews> take_way_news() = 0;
 
   // The arm's part of the state message (docs/api.md) and of its entry about one drive.
   virtual void add_state(Json& state) const = 0;

@@ -167,6 +167,7 @@ void Service::forward_camera() {
 void Service::release_next() {
   const std::optional<LastVerdict> verdict = desk_.release_next(owner_.client() != 0, owner_.role_number());
   tell_of_paths();
+  for (const arbiter::WayNews& news : desk_.take_way_news()) note(way_event(news));
   if (!verdict) return;
   notes_.verdict = *verdict;
   if (verdict->released) return;

@@ -15,7 +15,7 @@ constexpr bool is_up_to(E value, E last) {
   return value >= E{} && value <= last;
 }
 
-constexpr bool is_known(CommandKind kind) { return is_up_to(kind, CommandKind::kStop); }
+constexpr bool is_known(CommandKind kind) { return is_up_to(kind, CommandKind::kRetreat); }
 constexpr bool is_known(StopCategory category) { return is_up_to(category, StopCategory::kOff); }
 constexpr bool is_known(Phase phase) { return is_up_to(phase, Phase::kResetting); }
 constexpr bool is_known(IkOutcome outcome) { return is_up_to(outcome, IkOutcome::kUnreachable); }

@@ -188,6 +188,7 @@ void check_options_of_serial_robot(const RunOptions& options, const std::string&
   refuse("--calibration", !options.calibration.empty(), "its encoders are absolute; leave it out");
   refuse("--in-pose", !options.in_pose.empty(), "its encoders are absolute; leave it out");
   refuse("--cross-wired", !options.cross_wired.empty(), "it has no cables to swap; leave it out");
+  refuse("--physics", options.physics != "nominal", "its bench knows nominal only; leave it out");
   refuse("mission", options.mission.ends_with(".json"), "plans are for cable arms; give a mission");
 }
 

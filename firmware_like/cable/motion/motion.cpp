@@ -200,7 +200,7 @@ void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionSt
     state.from = setpoint;
     state.from.tip_in_base = state.filter.pose;
   }
-  if (setpoint.kind == CommandKind::kJoint && (state.to.kind != CommandKind::kJoint || state.braking)) {
+  if (is_joint(setpoint.kind) && (state.to.kind != setpoint.kind || state.braking)) {
     state.from = setpoint;
     state.from.joint_rad = state.limiter.theta_rad;
   }
@@ -231,7 +231,8 @@ void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool
   } else {
     follow_joints(table, braking, state);
   }
-  limit_motion(table, geometry, state.ik_rad, state.limiter, is_tip(state.to));
+  const double rate_share = state.to.kind == CommandKind::kRetreat ? kRetreatRateShare : 1.0;
+  limit_motion(table, geometry, state.ik_rad, state.limiter, is_tip(state.to), rate_share);
   state.limits |= state.limiter.limits;
   take_kinematics(table, state);
 }
