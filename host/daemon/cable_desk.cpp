@@ -13,6 +13,12 @@ arbiter::SpeedZone zone_of(const config::RobotConfig& robot, const config::Scene
   return {scene.slit, robot.table.limits.tip_speed_slit_m_s};
 }
 
+std::unique_ptr<verify::SimulationEnd<cable::CableArm>> simulation_end(const config::RobotConfig& robot,
+                                                                       const config::SceneConfig& scene) {
+  return std::make_unique<verify::SimulationEnd<cable::CableArm>>(
+      simulate::arm_model(robot), verify::MotionRules{robot.table, scene, zone_of(robot, scene)});
+}
+
 // Called in another thread: it has all it needs with it.
 arbiter::PathCheck<cable::CableArm> path_check(const config::RobotConfig& robot, const config::SceneConfig& scene) {
   return [robot, scene](const std::vector<cable::ThetaVector>& points_rad, double margin_m) {
@@ -24,7 +30,8 @@ arbiter::PathCheck<cable::CableArm> path_check(const config::RobotConfig& robot,
 
 CableDesk::CableDesk(const config::RobotConfig& robot, const config::SceneConfig& scene, const std::string& in_pose,
                      timing::TimeMode time_mode, control::ArmLink<cable::CableArm>& link)
-    : ArmDesk(robot.table, zone_of(robot, scene), time_mode, link, taken(time_mode), path_check(robot, scene)),
+    : ArmDesk(robot.table, zone_of(robot, scene), time_mode, link, simulation_end(robot, scene), taken(time_mode),
+              path_check(robot, scene)),
       robot_(robot),
       scene_(scene),
       homing_(robot_, in_pose),
@@ -66,6 +73,8 @@ void CableDesk::hold_theta(const std::vector<api::Arguments>& held) {
   cable::ThetaVector held_rad{};
   for (const api::Arguments& entry : held) {
     const auto i = static_cast<std::size_t>(entry.integer("theta")) - 1;
+    if ((mask & 1u << i) != 0)
+      throw api::RequestError("bad_request", "held: theta " + std::to_string(i + 1) + " stands twice; leave one out");
     held_rad[i] = entry.number("target_deg") * kDegree;
     mask |= 1u << i;
   }

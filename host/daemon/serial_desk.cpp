@@ -37,7 +37,8 @@ std::string why_not(const serial::RobotTable& table, const serial::Inputs& input
 
 SerialDesk::SerialDesk(const config::SerialRobotConfig& robot, timing::TimeMode time_mode,
                        control::ArmLink<serial::SerialArm>& link)
-    : ArmDesk(robot.table, arbiter::SpeedZone{}, time_mode, link, taken(time_mode)) {}
+    : ArmDesk(robot.table, arbiter::SpeedZone{}, time_mode, link,
+              std::make_unique<verify::SimulationEnd<serial::SerialArm>>(robot.table), taken(time_mode)) {}
 
 void SerialDesk::watch(bool booted) {
   if (booted) why_not_homed_ = outputs().homed != 0 ? "" : why_not(table_, inputs());
