@@ -95,10 +95,11 @@ class Arbiter {
   void tell(event::PathEvent what, const PathMove<Arm>& move, const std::string& rest);
   void tell_of_outlook(const PathMove<Arm>& move);
   void end_way();
+  void require_enabled(const Now& now) const;
   void require_way_back(const Now& now, std::uint64_t until_tick) const;
   std::optional<Setpoint> setpoint_for(const Now& now, const Goal<Arm>& goal) const;
   Setpoint tip_setpoint(const Now& now, const Pose& goal) const;
-  Setpoint joint_setpoint(const Joints<Arm>& joint_rad) const;
+  Setpoint joint_setpoint(const Joints<Arm>& joint_rad, CommandKind kind) const;
 
   Table table_;
   SpeedZone zone_;

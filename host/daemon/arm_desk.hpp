@@ -1,6 +1,7 @@
 // What the desks of all kinds of arm have in common: the link, verification, and requests about plain motion.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <vector>
@@ -45,6 +46,9 @@ class ArmDesk : public Desk {
   std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) override;
   std::vector<arbiter::PathNews> take_path_news() override { return arbiter_.take_path_news(); }
   std::vector<arbiter::WayNews> take_way_news() override { return arbiter_.take_way_news(); }
+  void restore_way(const arbiter::KeptWay& kept) override;
+  std::optional<arbiter::WayChange> take_way_change() override;
+  std::size_t joint_count() const override { return arbiter::ArmKind<Arm>::joint_count(table_); }
   std::size_t drive_count() const override { return static_cast<std::size_t>(table_.drive_count()); }
 
  protected:
@@ -133,6 +137,28 @@ void ArmDesk<Arm, Steering>::move_joints(const api::Arguments& fields) {
 template <class Arm, class Steering>
 void ArmDesk<Arm, Steering>::retract(const api::Arguments& fields) {
   arbiter_.retract(outputs(), static_cast<std::uint64_t>(fields.integer("until_tick")));
+}
+
+template <class Arm, class Steering>
+void ArmDesk<Arm, Steering>::restore_way(const arbiter::KeptWay& kept) {
+  std::vector<arbiter::PathPoint<arbiter::Joints<Arm>>> points(kept.points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const arbiter::WayPoint& point = kept.points[k];
+    std::copy(point.joint_rad.begin(), point.joint_rad.end(), points[k].joint_rad.begin());
+    points[k].begins = point.begins;
+  }
+  arbiter_.path_memory().restore(kept.first, points);
+}
+
+template <class Arm, class Steering>
+std::optional<arbiter::WayChange> ArmDesk<Arm, Steering>::take_way_change() {
+  if (!arbiter_.path_memory().has_change()) return std::nullopt;
+  const auto change = arbiter_.path_memory().take_change();
+  arbiter::WayChange out{change.first, change.kept, {}};
+  const auto joints = static_cast<std::ptrdiff_t>(joint_count());
+  for (const auto& point : change.added)
+    out.added.push_back({point.begins, {point.joint_rad.begin(), point.joint_rad.begin() + joints}});
+  return out;
 }
 
 // While a stop is on its way to the next tick, the arm is given nothing else.

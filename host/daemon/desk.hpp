@@ -11,6 +11,7 @@
 #include "host/api/arguments.hpp"
 #include "host/arbiter/path_news.hpp"
 #include "host/arbiter/way_news.hpp"
+#include "host/arbiter/way_points.hpp"
 #include "host/control/link.hpp"
 #include "host/json/json_fwd.hpp"
 #include "host/verify/verdict.hpp"
@@ -74,6 +75,11 @@ class Desk {
   // What has become of paths, and of the way back, since the last call.
   virtual std::vector<arbiter::PathNews> take_path_news() = 0;
   virtual std::vector<arbiter::WayNews> take_way_news() = 0;
+  // The verified way back that an earlier lianad has left, before the first interval; and how it has changed since the
+  // last call.
+  virtual void restore_way(const arbiter::KeptWay& kept) = 0;
+  virtual std::optional<arbiter::WayChange> take_way_change() = 0;
+  virtual std::size_t joint_count() const = 0;
 
   // The arm's part of the state message (docs/api.md) and of its entry about one drive.
   virtual void add_state(Json& state) const = 0;

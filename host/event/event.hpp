@@ -46,6 +46,7 @@ enum class HostTroubleEvent : std::uint8_t {
   kTicksLost = 6,      // `count` control deadlines were lost
   kEventFile = 7,      // the file of events takes no more
   kEventFileGood = 8,  // it takes events again; `count` are missing in it
+  kWayFile = 9,        // the file that keeps the way back takes no more
 };
 enum class PathEvent : std::uint8_t { kRefused = 0, kBegins = 1, kArrives = 2, kStops = 3 };
 enum class WayEvent : std::uint8_t {
