@@ -136,6 +136,14 @@ struct SceneContact {
   double friction = 0.0;
 };
 
+// What the scene asks of the verified clearance (docs/clearance.md), and how far it may stand beside its drawing.
+struct SceneMargins {
+  double slow_m = 0.003;  // at or below this claim the tip is slowed down
+  double refuse_m = 0.0;  // at or below this one nothing should come nearer
+  double shift_m = 0.0;   // until the camera has shown where it stands: so far beside where it is drawn
+  double turn_deg = 0.0;  // and turned by so much about the slit frame's origin
+};
+
 // Everything around the arm.
 struct SceneConfig {
   std::string name;
@@ -145,6 +153,7 @@ struct SceneConfig {
   std::optional<SceneRod> rod;        // none: nothing to press
   std::optional<SceneCamera> camera;  // with contact what a bench needs to simulate the scene
   std::optional<SceneContact> contact;
+  SceneMargins margins;
   std::string canonical_json;
 };
 
