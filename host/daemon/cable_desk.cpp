@@ -1,5 +1,7 @@
 #include "host/daemon/cable_desk.hpp"
 
+#include <cmath>
+
 #include "firmware_like/math/trig.hpp"
 #include "host/config/slit_mouth.hpp"
 #include "host/daemon/device_messages.hpp"
@@ -8,6 +10,16 @@
 namespace liana::daemon {
 
 namespace {
+
+constexpr double kSlowShare = 0.5;  // of the tip's speed in the slit, where the claim says slow down
+
+bool lengths_are_sound(const FaultList& faults) {
+  for (std::int32_t i = 0; i < faults.count; ++i) {
+    const FaultNumber number = faults.fault[static_cast<std::size_t>(i)].number;
+    if (number == FaultNumber::kCableSlip || number == FaultNumber::kCableBreak) return false;
+  }
+  return true;
+}
 
 arbiter::SpeedZone zone_of(const config::RobotConfig& robot, const config::SceneConfig& scene) {
   return {scene.slit, robot.table.limits.tip_speed_slit_m_s};
@@ -46,10 +58,30 @@ CableDesk::CableDesk(const config::RobotConfig& robot, const config::SceneConfig
 void CableDesk::watch(bool booted) {
   shape_progress_.note(outputs(), arbiter_.nodes(), arbiter_.keep_clear());
   if (booted) homing_.look(report(), link_.image.value().controller.arm().estimator());
+  watch_clearance();
   if (!scene_.slit) return;
   const cable::LinkPoints links = link_points(table_, outputs().theta_command_rad);
   const solve::SlitMouth mouth = config::slit_mouth(*scene_.slit, robot_.module_radius_m);
   planar_segments_ = solve::planar_segments(table_, links, mouth, solve::PlanarSwitch{}, planar_segments_);
+}
+
+// An arm whose cables have slipped or broken, or that is not homed, may be anywhere: nothing is claimed of it, and what
+// the camera has shown with such angles is forgotten.
+void CableDesk::watch_clearance() {
+  if (!homing_.why_not().empty() || !lengths_are_sound(outputs().faults)) {
+    clearance_.reset();
+    return arbiter_.cap_tip_speed(table_.limits.tip_speed_m_s);
+  }
+  if (!clearance_) clearance_.emplace(robot_, scene_);
+  const live_clearance::Claim& claim = clearance_->look(tick() - 1, outputs().theta_measured_rad);
+  const bool slow = claim.level != live_clearance::Level::kFree;
+  arbiter_.cap_tip_speed(slow ? kSlowShare * table_.limits.tip_speed_slit_m_s : table_.limits.tip_speed_m_s);
+}
+
+void CableDesk::take_picture(const TipPicture& picture) {
+  if (!clearance_) return;
+  const auto capture_tick = static_cast<std::uint64_t>(std::llround(picture.capture_time_s / table_.tick_s));
+  clearance_->see({capture_tick, picture.slit_in_tip, picture.rod_in_tip}, tick() - 1);
 }
 
 void CableDesk::take_samples(const api::Arguments& message) { add_samples(message, arbiter_.device()); }

@@ -33,6 +33,12 @@ struct MotionRequest {
   bool operator_is_here = false;  // a client with role operator is connected
 };
 
+// What the tip camera has seen: frames in the tip frame at capture; nothing where out of sight.
+struct TipPicture {
+  double capture_time_s = 0.0;  // arm time
+  std::optional<Pose> slit_in_tip, rod_in_tip;
+};
+
 class Desk {
  public:
   virtual ~Desk() = default;
@@ -65,6 +71,8 @@ class Desk {
   virtual Json ask(const MotionRequest& request) = 0;
   // Samples of an operator's device; throws RequestError.
   virtual void take_samples(const api::Arguments& message) = 0;
+  // A picture of the tip camera, when every run has it. An arm that has no use for it leaves it out.
+  virtual void take_picture(const TipPicture&) {}
   // Nothing is asked for any more: stop along the path.
   virtual void hold() = 0;
   // The same, and nobody steers any more.

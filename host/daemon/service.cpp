@@ -163,6 +163,7 @@ void Service::forward_ticks() {
 void Service::forward_camera() {
   while (!camera_.empty() && camera_.front().due_tick <= tick()) {
     server_.publish(api::Topic::kCamera, camera_.front().packet);
+    desk_.take_picture(camera_.front().picture);
     camera_.pop_front();
   }
 }

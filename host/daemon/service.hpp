@@ -131,6 +131,7 @@ class Service : private api::ApiHandler {
   struct CameraFrame {
     std::uint64_t due_tick;
     std::string packet;
+    TipPicture picture;
   };
   std::deque<CameraFrame> camera_;
   std::uint64_t clear_seen_tick_ = 0;
