@@ -22,6 +22,7 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   const std::string& why_not_homed() const override { return homing_.why_not(); }
   void take_samples(const api::Arguments& message) override;
   void drop_motion() override;
+  std::vector<event::Event> take_events() override;
   void add_state(Json& state) const override;
   void add_drive_state(std::size_t drive, Json& state) const override;
 
@@ -36,6 +37,7 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   config::SceneConfig scene_;
   Homing homing_;
   arbiter::ShapeProgress shape_progress_;
+  bool friction_is_off_ = false;      // as told last
   std::int32_t planar_segments_ = 0;  // how many the slit asks for now (host/solve/dof_split.hpp)
 };
 

@@ -11,6 +11,7 @@
 #include "host/api/arguments.hpp"
 #include "host/arbiter/path_news.hpp"
 #include "host/control/link.hpp"
+#include "host/event/event.hpp"
 #include "host/json/json_fwd.hpp"
 #include "host/verify/verdict.hpp"
 
@@ -72,6 +73,9 @@ class Desk {
   virtual std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) = 0;
   // What has become of paths since the last call.
   virtual std::vector<arbiter::PathNews> take_path_news() = 0;
+
+  // What this kind of arm has to say, once each.
+  virtual std::vector<event::Event> take_events() { return {}; }
 
   // The arm's part of the state message (docs/api.md) and of its entry about one drive.
   virtual void add_state(Json& state) const = 0;
