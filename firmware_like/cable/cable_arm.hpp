@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "firmware_like/cable/arm/cable_watch.hpp"
+#include "firmware_like/cable/arm/contact_watch.hpp"
 #include "firmware_like/cable/arm/estimator.hpp"
 #include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/cable/arm/tension.hpp"
@@ -45,6 +46,7 @@ class CableArm {
   void watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept {
     const TensionReading now{tension_measured_N_[as_index(drive)], estimator_.tension_N[as_index(drive)], follows};
     watch_tension(tension_watch_limits_, scope, now, drive, tension_watch_, out);
+    if (drive == 0) watch_body(scope, out);
   }
   void watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept;
   ArmStatus status() const noexcept;
@@ -85,6 +87,9 @@ class CableArm {
     v("feedback_age_ticks", self.feedback_age_ticks_);
     v("tension_watch", self.tension_watch_);
     v("cable_watch", self.cable_watch_);
+    v("friction", self.friction_);
+    v("contact", self.contact_);
+    v("planned_mu", self.table_.friction_mu);
     v("motion", self.motion_);
     v("slip", self.slip_);
     v("model", self.model_);
@@ -100,6 +105,9 @@ class CableArm {
 
   using Index = std::size_t;
 
+  bool is_moving() const noexcept;
+  void watch_balance(std::uint64_t tick, const FaultList& faults) noexcept;
+  void watch_body(WatchScope scope, Watch& out) const noexcept;
   bool is_homed() const noexcept { return homing_ticks_ >= kHomingTicks; }
   bool are_cables_taut() const noexcept;
   void count_homing() noexcept;
@@ -113,10 +121,12 @@ class CableArm {
   void propose_payouts(DriveProposals& out) const noexcept;
   Index cables() const noexcept { return static_cast<Index>(layout_.cable_count); }
 
-  RobotTable table_{};
+  RobotTable table_{};  // as loaded, but for friction_mu: that is what the arm plans with
+  double declared_mu_ = 0.0;
   CableLayout layout_{};
   TensionWatchLimits tension_watch_limits_{};
   CableWatchLimits cable_watch_limits_{};
+  ContactWatchLimits contact_watch_limits_{};
   CableVector zero_payout_m_{};
 
   // What the drives say.
@@ -127,6 +137,8 @@ class CableArm {
   std::uint16_t feedback_age_ticks_ = 0xFFFF;  // of the drive that was heard longest ago
   TensionWatchState tension_watch_{};
   CableWatchState cable_watch_{};
+  FrictionWatchState friction_{};
+  ContactWatchState contact_{};
 
   // Where the arm is told to go.
   MotionState motion_{};

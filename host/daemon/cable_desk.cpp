@@ -1,6 +1,7 @@
 #include "host/daemon/cable_desk.hpp"
 
 #include <cmath>
+#include <cstdio>
 
 #include "firmware_like/math/trig.hpp"
 #include "host/config/slit_mouth.hpp"
@@ -36,6 +37,22 @@ arbiter::PathCheck<cable::CableArm> path_check(const config::RobotConfig& robot,
   return [robot, scene](const std::vector<cable::ThetaVector>& points_rad, double margin_m) {
     return plan::refusal_of_way(robot, scene, points_rad, margin_m, arbiter::kPathOff_m);
   };
+}
+
+// Friction that turned out to be another one than declared, or is as declared again.
+event::Event friction_event(const cable::FrictionReport& friction, double declared_mu) {
+  const bool off = friction.not_as_declared != 0;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      off ? "friction mu %.3f +- %.3f found, %.3f declared: tensions are planned with what was found; measure "
+            "again (liana calibrate --friction)"
+          : "friction mu %.3f +- %.3f found, as declared (%.3f)",
+      friction.mu, friction.sd, declared_mu);
+  return {.kind = event::EventKind::kFriction,
+          .number = off ? event::number_of(FaultNumber::kFrictionNotAsDeclared) : 0,
+          .values = {{"mu", friction.mu}, {"sd", friction.sd}, {"declared_mu", declared_mu}},
+          .text = text};
 }
 
 }  // namespace
@@ -89,6 +106,13 @@ void CableDesk::take_samples(const api::Arguments& message) { add_samples(messag
 void CableDesk::drop_motion() {
   arbiter_.hold();
   arbiter_.use_device(arbiter::DeviceUse{});
+}
+
+std::vector<event::Event> CableDesk::take_events() {
+  const cable::FrictionReport& friction = outputs().friction;
+  if ((friction.not_as_declared != 0) == friction_is_off_) return {};
+  friction_is_off_ = friction.not_as_declared != 0;
+  return {friction_event(friction, table_.friction_mu)};
 }
 
 std::vector<double> CableDesk::joints_deg(const cable::Outputs& outputs) const {

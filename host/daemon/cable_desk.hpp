@@ -24,6 +24,7 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   void take_samples(const api::Arguments& message) override;
   void take_picture(const TipPicture& picture) override;
   void drop_motion() override;
+  std::vector<event::Event> take_events() override;
   void add_state(Json& state) const override;
   void add_drive_state(std::size_t drive, Json& state) const override;
 
@@ -41,7 +42,8 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   Homing homing_;
   arbiter::ShapeProgress shape_progress_;
   std::optional<live_clearance::LiveClearance> clearance_;  // while the lengths of its cables tell where the arm is
-  std::int32_t planar_segments_ = 0;                        // how many the slit asks for now (host/solve/dof_split.hpp)
+  bool friction_is_off_ = false;      // as told last
+  std::int32_t planar_segments_ = 0;  // how many the slit asks for now (host/solve/dof_split.hpp)
 };
 
 }  // namespace liana::daemon

@@ -77,6 +77,13 @@ void CableDesk::add_state(Json& state) const {
   state["held"] = config::theta_numbers(o.held_mask);
   state["held_at_target"] = o.held_at_target != 0;
   state["tension_N"] = first(o.tension_measured_N, table_.cable_count());
+  state["friction"] = {{"mu", o.friction.mu},
+                       {"sd", o.friction.sd},
+                       {"planned_mu", o.friction.planned_mu},
+                       {"declared_mu", table_.friction_mu},
+                       {"not_as_declared", o.friction.not_as_declared != 0}};
+  state["contact"] = {
+      {"segment", o.contact.segment}, {"torque_Nm", o.contact.torque_Nm}, {"tip_push_N", o.contact.tip_push_N}};
   add_tip(state, o);
 }
 

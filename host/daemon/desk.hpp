@@ -13,6 +13,7 @@
 #include "host/arbiter/way_news.hpp"
 #include "host/arbiter/way_points.hpp"
 #include "host/control/link.hpp"
+#include "host/event/event.hpp"
 #include "host/json/json_fwd.hpp"
 #include "host/verify/verdict.hpp"
 
@@ -88,6 +89,9 @@ class Desk {
   virtual void restore_way(const arbiter::KeptWay& kept) = 0;
   virtual std::optional<arbiter::WayChange> take_way_change() = 0;
   virtual std::size_t joint_count() const = 0;
+
+  // What this kind of arm has to say, once each.
+  virtual std::vector<event::Event> take_events() { return {}; }
 
   // The arm's part of the state message (docs/api.md) and of its entry about one drive.
   virtual void add_state(Json& state) const = 0;

@@ -118,6 +118,7 @@ void Service::watch_arm() {
   note_clear();
   note(trouble_.changes(config_.buses, desk_.report()));
   note(faults_.changes(now().faults));
+  note(desk_.take_events());
   if (mission_end_tick_) {
     const double since_s = static_cast<double>(tick() - *mission_end_tick_) * config_.buses.tick_s();
     if (since_s > kAfterMission_s) begin_shutdown("the mission has ended");

@@ -167,6 +167,7 @@ Json make_report(const ReportSources& sources) {
   } else if (report["outcome"] != "success") {
     report["reason"] = sources.reason.empty() ? mission.value("reason", "") : sources.reason;
   }
+  if (state.contains("friction")) report["friction"] = state["friction"];
   if (!std::filesystem::exists(sources.truth_file)) return report;
   const std::string not_kept = add_truth(report, sources, window, welcome.value("period_s", 0.0));
   if (report["outcome"] == "success" && !not_kept.empty()) fail(not_kept);
@@ -204,6 +205,12 @@ std::string report_text(const Json& report) {
   if (report.contains("max_joint_torque_Nm")) {
     text += line("open loop %.2f mm", 1e3 * report.value("open_loop_tip_error_m", 0.0)) +
             line(", largest joint torque %.1f N m\n", report["max_joint_torque_Nm"].get<double>());
+  }
+  if (report.contains("friction")) {
+    const Json& friction = report["friction"];
+    text += line("friction mu %.3f", friction.value("mu", 0.0)) + line(" +- %.3f found", friction.value("sd", 0.0)) +
+            line(", %.3f declared", friction.value("declared_mu", 0.0)) +
+            line(", planned with %.3f\n", friction.value("planned_mu", 0.0));
   }
   for (const Json& bus : report.value("buses", Json::array())) {
     text += "bus " + bus.value("name", "") + line(": %.0f frames", bus.value("frames", 0.0)) +
