@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "arm_under_control.hpp"
 #include "firmware_like/math/trig.hpp"
