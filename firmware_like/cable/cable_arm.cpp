@@ -31,7 +31,8 @@ CableArm::CableArm(const RobotTable& table) noexcept
   reset_friction_watch(declared_mu_, friction_);
   reset_motion(table_, ThetaVector{}, motion_);
   take_geometry();
-  update_tension_ratio(table_, layout_, motion_.trig, slip_, ratio_);
+  wrap_rad_ = cable_wraps(table_, motion_.trig);
+  update_tension_ratio(table_, layout_, wrap_rad_, slip_, ratio_);
 }
 
 GateLimits CableArm::gate_limits() const noexcept { return make_gate_limits(table_, zero_payout_m_); }
@@ -155,9 +156,23 @@ void CableArm::start_ramp(const DriveCommands& sent) noexcept {
   live_ = true;
 }
 
-std::uint32_t CableArm::plan_tensions(bool is_sound) noexcept {
+// What is in force goes evenly to where the plan will be when the next one is made: it never jumps, and does not lag.
+void CableArm::aim_tensions(const TensionPlan& plan) noexcept {
+  const CableVector in_force_N = live_ ? tension_.motor_N : plan.motor_N;
+  if (!live_) planned_N_ = plan.motor_N;
+  for (Index c = 0; c < cables(); ++c) {
+    const double next_N = larger(table_.tension.floor_motor_N, 2.0 * plan.motor_N[c] - planned_N_[c]);
+    tension_change_N_[c] = (next_N - in_force_N[c]) / kPlanTicks;
+  }
+  planned_N_ = plan.motor_N;
+  tension_ = plan;
+  tension_.motor_N = in_force_N;
+}
+
+std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
   if (ramp_ >= 1.0 && is_sound) keep_taut(table_, estimator_.tension_N, lift_N_);
-  tension_ = plan_tension(table_, model_.geometry, ratio_, lift_N_);
+  if (plans_now) aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_));
+  for (Index c = 0; c < cables(); ++c) tension_.motor_N[c] += tension_change_N_[c];
   std::uint32_t limits = 0;
   if (tension_.floor_acted) limits |= kLimitTensionFloor;
   if (tension_.ceiling_exceeded) limits |= kLimitTensionCeiling;
@@ -168,18 +183,22 @@ std::uint32_t CableArm::plan_tensions(bool is_sound) noexcept {
 std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent, bool is_sound,
                                 DriveProposals& out) noexcept {
   take_geometry();
+  const bool plans = plans_now();
   if (!orders.live_targets || !live_) reset_slip(model_.geometry, slip_);
-  advance_slip(layout_, model_.geometry, slip_);
-  update_tension_ratio(table_, layout_, motion_.trig, slip_, ratio_);
+  if (plans) wrap_rad_ = cable_wraps(table_, motion_.trig);
+  if (!live_ || !shape_worked()) {  // it looks at the whole way since it was last advanced
+    advance_slip(layout_, model_.geometry, slip_);
+    update_tension_ratio(table_, layout_, wrap_rad_, slip_, ratio_);
+  }
   if (!orders.live_targets) {
     stop_planning();
     return 0;
   }
-  if (!live_) start_ramp(sent);
   table_.friction_mu = plan_friction(declared_mu_, table_.friction_mu, table_.tick_s, friction_);
   if (orders.preparing) ramp_ = smaller(1.0, ramp_ + table_.tick_s / kPretensionRamp_s);
 
-  std::uint32_t limits = plan_tensions(is_sound);
+  std::uint32_t limits = plan_tensions(plans, is_sound);
+  if (!live_) start_ramp(sent);
   CableVector wanted_m = payout_for(table_, layout_, model_.geometry.part_m, ratio_, tension_.motor_N);
   if (ramp_ < 1.0) {
     ramp_payouts(wanted_m);

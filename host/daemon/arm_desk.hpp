@@ -100,7 +100,7 @@ class ArmDesk : public Desk {
   timing::TimeMode time_mode_;
   std::unique_ptr<verify::SimulationEnd<Arm>> simulation_;
   verify::ReleaseStep<Arm> release_;
-  std::vector<Command> released_;        // not yet due at the newest image
+  std::vector<Command> released_;       // not yet due at the newest image
   verify::Prediction<Arm> prediction_;  // of the last command
 };
 
