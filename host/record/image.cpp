@@ -57,6 +57,11 @@ void check(const ImageReader& in, const cable::CableWatchState& state) {
   in.require("suspect", state.suspect, -1, in.bounds().drives - 1);
 }
 
+void check(const ImageReader& in, const cable::LetGoState& state) {
+  in.require("segment", state.segment, 0, in.bounds().segments - 1);
+  in.require("cable", state.cable, 0, in.bounds().drives - 1);
+}
+
 void check(const ImageReader& in, const cable::RobotTable& table) {
   in.require("segment_count", table.segment_count, 1, cable::kMaxSegments);
   for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m) {
