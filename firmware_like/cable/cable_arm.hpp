@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "firmware_like/cable/arm/cable_watch.hpp"
+#include "firmware_like/cable/arm/contact_watch.hpp"
 #include "firmware_like/cable/arm/estimator.hpp"
 #include "firmware_like/cable/arm/let_go.hpp"
 #include "firmware_like/cable/arm/setpoint.hpp"
@@ -48,6 +49,7 @@ class CableArm {
     const WatchScope looked_for{scope.powered, scope.prepared && !may_be_slack(let_go_, layout_, drive)};
     watch_tension(tension_watch_limits_, looked_for, now, drive, tension_watch_, out);
     if (tension_watch_.slack_ticks[as_index(drive)] != 0 && is_missed(tension_watch_limits_, now)) missed_ = drive;
+    if (drive == 0) watch_body(scope, out);
   }
   bool lets_go(std::int32_t) const noexcept { return is_behind(let_go_); }
   void watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept;
@@ -89,6 +91,9 @@ class CableArm {
     v("feedback_age_ticks", self.feedback_age_ticks_);
     v("tension_watch", self.tension_watch_);
     v("cable_watch", self.cable_watch_);
+    v("friction", self.friction_);
+    v("contact", self.contact_);
+    v("planned_mu", self.table_.friction_mu);
     v("motion", self.motion_);
     v("slip", self.slip_);
     v("model", self.model_);
@@ -107,6 +112,9 @@ class CableArm {
   using Index = std::size_t;
 
   void watch_missed(std::uint64_t tick, FaultList& faults) noexcept;
+  bool is_moving() const noexcept;
+  void watch_balance(std::uint64_t tick, const FaultList& faults) noexcept;
+  void watch_body(WatchScope scope, Watch& out) const noexcept;
   bool is_homed() const noexcept { return homing_ticks_ >= kHomingTicks; }
   bool are_cables_taut() const noexcept;
   void count_homing() noexcept;
@@ -121,10 +129,12 @@ class CableArm {
   void propose_payouts(DriveProposals& out) const noexcept;
   Index cables() const noexcept { return static_cast<Index>(layout_.cable_count); }
 
-  RobotTable table_{};
+  RobotTable table_{};  // as loaded, but for friction_mu: that is what the arm plans with
+  double declared_mu_ = 0.0;
   CableLayout layout_{};
   TensionWatchLimits tension_watch_limits_{};
   CableWatchLimits cable_watch_limits_{};
+  ContactWatchLimits contact_watch_limits_{};
   CableVector zero_payout_m_{};
 
   // What the drives say.
@@ -135,6 +145,8 @@ class CableArm {
   std::uint16_t feedback_age_ticks_ = 0xFFFF;  // of the drive that was heard longest ago
   TensionWatchState tension_watch_{};
   CableWatchState cable_watch_{};
+  FrictionWatchState friction_{};
+  ContactWatchState contact_{};
 
   // Where the arm is told to go.
   MotionState motion_{};

@@ -10,7 +10,7 @@ kSelfReports = ("noisy", "encoder_jump", "late", "stuck")  # what these drives r
 
 
 def drives_of(fault, count):
-    drives = fault["drive"]
+    drives = fault.get("drive", [])  # those of the camera have none
     return range(count) if drives == "all" else drives if isinstance(drives, list) else [drives]
 
 

@@ -1,4 +1,6 @@
-// Distances between links and the scene, in closed form: a link is a capsule, an obstacle a sphere or an oriented box.
+// Distances between a link and an obstacle, in closed form: a link is a capsule, an obstacle a sphere or an oriented
+// box. Whole arms are in arm_clearance.hpp and self_clearance.hpp, whole motions in along_motion.hpp. The planner and
+// both verification ends ask here; who asks brings points of the arm's axis, from whatever kinematics it has.
 //
 // A slit is what its two plates leave free, so it is no shape of its own here: the plates are boxes of the scene.
 // Distances are between surfaces and signed: negative means overlap, by the depth to the nearest face or surface. The
@@ -9,13 +11,15 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
-#include "firmware_like/cable/arm/kinematics.hpp"
+#include "firmware_like/math/pose.hpp"
 #include "host/config/config.hpp"
 
 namespace liana::clearance {
 
-using namespace cable;  // this room serves the cable arm only
+// The arm's axis in the base frame [m]: point 0 is its base, point i the end of link i - 1. Links are numbered from 0.
+using AxisPoints = std::span<const Vec3>;
 
 // A link: all points within radius_m (>= 0) of the straight axis between two points of the base frame; they may
 // coincide.
@@ -49,19 +53,10 @@ const std::string& obstacle_name(const config::SceneConfig& scene, std::int32_t 
 // The same for obstacle 0..obstacle_count - 1.
 Clearance clearance(const Capsule& link, const config::SceneConfig& scene, std::int32_t obstacle) noexcept;
 
-// Link 0..links - 1 (link i ends at point i + 1) as a capsule.
-Capsule link_capsule(const LinkPoints& points, std::int32_t link, double radius_m) noexcept;
+// Link 0..points - 2 as a capsule.
+Capsule link_capsule(AxisPoints points, std::int32_t link, double radius_m) noexcept;
 
-// The least clearance of a whole arm, with the link and obstacle where it is.
-struct ArmClearance {
-  Clearance nearest;
-  std::int32_t link = -1;      // 0-based; -1: the scene is empty, the distance then kNoObstacle_m
-  std::int32_t obstacle = -1;  // see obstacle_name
-};
+// Farther than anything is: the distance where there is nothing to be near to.
 constexpr double kNoObstacle_m = 1e3;
-
-// Every link against every obstacle; on equal distances the first obstacle, then the first link, wins. 40 links and 3
-// obstacles: about 5 us.
-ArmClearance arm_clearance(const LinkPoints& points, double radius_m, const config::SceneConfig& scene) noexcept;
 
 }  // namespace liana::clearance

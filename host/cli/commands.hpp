@@ -45,6 +45,17 @@ struct ReachOptions {
 // Where the tip or a node can go, or how well the arm is conditioned along a path.
 int reach_command(const ReachOptions& options);
 
+struct VerifyOptions {
+  std::string robot = "zhu2022";
+  std::string scene = "panel_slit";
+  std::string from_deg;
+  std::string to_deg;
+  std::string duration_s;
+  bool json = false;
+};
+// The simulation end's verdict on a straight motion in joint space; exit code 0 whether it is accepted or refused.
+int verify_command(const VerifyOptions& options);
+
 struct PlanOptions {
   std::string robot = "zhu2022";
   std::string scene = "panel_slit";  // "none": nothing in the way

@@ -81,6 +81,17 @@ void add_reach(CLI::App& app, Action& action, ReachOptions& reach) {
   sub->add_flag("--json", reach.json, "print JSON");
 }
 
+void add_verify(CLI::App& app, Action& action, VerifyOptions& verify) {
+  CLI::App* sub = add(app, action, "verify", "whether a straight motion of the joints would be released, and what it leaves",
+                      verify, verify_command);
+  sub->add_option("--robot", verify.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  sub->add_option("--scene", verify.scene, "scene table: a name under lua/scenes or a file")->capture_default_str();
+  sub->add_option("--from-deg", verify.from_deg, "joint angles where the arm stands")->required();
+  sub->add_option("--to-deg", verify.to_deg, "joint angles where it is told to stop")->required();
+  sub->add_option("--duration", verify.duration_s, "how long that takes, s; T_c to 600")->required();
+  sub->add_flag("--json", verify.json, "print JSON");
+}
+
 void add_plan(CLI::App& app, Action& action, PlanOptions& plan) {
   CLI::App* sub = add(app, action, "plan", "joint angles or a tip pose reached past the scene (offline planner)", plan,
                       plan_command);
@@ -137,6 +148,12 @@ void add_run(CLI::App& app, Action& action, liana::system::RunOptions& run) {
                   "named pose in which the arm lies in its fixture: unless every cable says so, it is not enabled");
   sub->add_option("--cross-wired", run.cross_wired,
                   "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
+  sub->add_option("--faults", run.faults,
+                  "to try it out: faults of the simulated drives, cables and camera (docs/hil.md)")
+      ->check(CLI::ExistingFile);
+  sub->add_option("--scene-offset", run.scene_offset,
+                  "to try it out: MM,DEG, e.g. 10,1; the simulated scene is so far from where its table has it, in a "
+                  "direction drawn from the seed");
   sub->add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
   sub->add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
   add_seed(*sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
@@ -310,6 +327,7 @@ int run(int argc, char** argv) {
   IkOptions ik;
   ReachOptions reach;
   PlanOptions plan;
+  VerifyOptions verify;
   liana::system::RunOptions run;
   CalibrateOptions calibrate;
   LatencyOptions latency;
@@ -322,6 +340,7 @@ int run(int argc, char** argv) {
   add_kinematics(app, action, pose, ik);
   add_reach(app, action, reach);
   add_plan(app, action, plan);
+  add_verify(app, action, verify);
   add_run(app, action, run);
   add_client(app, action, "status", "state of every running system", client, status_command);
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client,

@@ -57,6 +57,11 @@ void check_load(const Field& table, const BusesConfig& buses) {
   }
 }
 
+Machine read_machine(const Field& field) {
+  field.only({"mips", "tick_share"});
+  return {field.at("mips").number({1, 1e6}), field.at("tick_share").number({0, 1, true})};
+}
+
 // Bits of a classical CAN frame with 11-bit identifier, worst stuffing, interframe space included (can-utils'
 // constants).
 constexpr double worst_frame_bits(int bytes) { return 55.0 + 10.0 * bytes; }
@@ -105,8 +110,8 @@ BusesConfig parse_buses(const std::string& text, const std::string& file) {
   const Json json = parse_json(text, file);
   const Field table(json, file, "");
   check_kind(table, "buses");
-  table.only(
-      {"format", "kind", "name", "backend", "rate_hz", "command_interval_s", "buses", "heartbeat_ms", "max_load"});
+  table.only({"format", "kind", "name", "backend", "rate_hz", "command_interval_s", "buses", "heartbeat_ms", "max_load",
+              "machine"});
   BusesConfig out;
   out.name = table.at("name").name(40);
   out.backend = table.at("backend").choice({"embedded", "socketcan"});
@@ -114,6 +119,7 @@ BusesConfig parse_buses(const std::string& text, const std::string& file) {
   out.command_interval_s = table.at("command_interval_s").number({0.001, 0.1});
   out.heartbeat_ms = static_cast<std::int32_t>(table.at("heartbeat_ms").integer(10, 1000));
   out.max_load = table.at("max_load").number({0, 0.9, true});
+  if (json.contains("machine")) out.machine = read_machine(table.at("machine"));
   const Field list = table.at("buses");
   const std::size_t count = list.size(1, kMaxBuses, "describe each CAN bus");
   std::map<std::int32_t, std::string> owner;

@@ -22,6 +22,12 @@ struct BusConfig {
   std::vector<std::int32_t> nodes;  // CANopen node ids, 1..126
 };
 
+// The machine that the controller runs on.
+struct Machine {
+  double mips = 500.0;       // million instructions a second of one processor
+  double tick_share = 0.25;  // of the control period that a tick may take
+};
+
 // The buses, the control rate and the command interval.
 struct BusesConfig {
   std::string name;
@@ -31,6 +37,7 @@ struct BusesConfig {
   std::vector<BusConfig> buses;     // 1..8
   std::int32_t heartbeat_ms = 0;
   double max_load = 0.0;  // highest worst-case load accepted, 0..1
+  Machine machine;
   std::string canonical_json;
 
   // Control period [s].
@@ -76,6 +83,8 @@ struct RobotConfig {
   std::int32_t calibration_days = 0;                           // how old a calibration may be
   double module_radius_m = 0.0;                                // of the capsules of every link
   double joint_viscous_Nms_per_rad = 0.0;                      // per theta
+  Machine machine;                                             // that of the buses
+  double friction_band = 0.2;                                  // share by which true friction may differ from mu
   std::map<std::string, std::vector<double>> named_poses_deg;  // theta_count angles each; "zero" always exists
   std::string canonical_json;
 };
@@ -136,6 +145,16 @@ struct SceneContact {
   double friction = 0.0;
 };
 
+// What the scene asks of claimed clearances (docs/clearance.md, docs/verification.md), and how far it may stand beside
+// its drawing.
+struct SceneMargins {
+  double prediction_m = 0.009;  // how much nearer the true arm may be than a predicted one: taken off every distance
+  double slow_m = 0.003;        // at or below this claim the tip is slowed down
+  double refuse_m = 0.0;        // at or below this one nothing should come nearer
+  double shift_m = 0.0;         // until the camera has shown where it stands: so far beside where it is drawn
+  double turn_deg = 0.0;        // and turned by so much about the slit frame's origin
+};
+
 // Everything around the arm.
 struct SceneConfig {
   std::string name;
@@ -145,6 +164,7 @@ struct SceneConfig {
   std::optional<SceneRod> rod;        // none: nothing to press
   std::optional<SceneCamera> camera;  // with contact what a bench needs to simulate the scene
   std::optional<SceneContact> contact;
+  SceneMargins margins;
   std::string canonical_json;
 };
 

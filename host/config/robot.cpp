@@ -29,6 +29,7 @@ RobotConfig parse_robot(const std::string& text, const std::string& file, const 
                         const BusesConfig& buses) {
   RobotConfig out = read_robot(parse_json(text, file), file, physics);
   check_nodes(out.name, out.table.cable_count(), file, buses);
+  out.machine = buses.machine;
   out.table.tick_s = buses.tick_s();
   out.table.interval_ticks = buses.interval_ticks();
   return out;

@@ -115,13 +115,30 @@ SceneContact read_contact(const Field& field) {
           field.at("friction").number({0, 2})};
 }
 
+// Each may be left out.
+SceneMargins read_margins(const Field& field) {
+  field.only({"prediction_m", "slow_m", "refuse_m", "shift_m", "turn_deg"});
+  SceneMargins margins;
+  const auto read = [&](const char* name, const Range& range, double& value) {
+    if (field.json().contains(name)) value = field.at(name).number(range);
+  };
+  read("prediction_m", {0, 1}, margins.prediction_m);
+  read("refuse_m", {-0.1, 0.1}, margins.refuse_m);
+  read("slow_m", {-0.1, 0.1}, margins.slow_m);
+  read("shift_m", {0, 0.1}, margins.shift_m);
+  read("turn_deg", {0, 10}, margins.turn_deg);
+  if (margins.slow_m < margins.refuse_m)
+    field.refuse("slow_m not below refuse_m", "slow down no later than nothing is allowed any more");
+  return margins;
+}
+
 }  // namespace
 
 SceneConfig parse_scene(const std::string& text, const std::string& file) {
   const Json json = parse_json(text, file);
   const Field table(json, file, "");
   check_kind(table, "scene");
-  table.only({"format", "kind", "name", "boxes", "spheres", "slit", "rod", "camera", "contact"});
+  table.only({"format", "kind", "name", "boxes", "spheres", "slit", "rod", "camera", "contact", "margins"});
   SceneConfig out;
   out.name = table.at("name").name(40);
   const Field boxes = table.at("boxes");
@@ -134,6 +151,7 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
   if (json.contains("rod")) out.rod = read_rod(table.at("rod"));
   if (json.contains("camera")) out.camera = read_camera(table.at("camera"));
   if (json.contains("contact")) out.contact = read_contact(table.at("contact"));
+  if (json.contains("margins")) out.margins = read_margins(table.at("margins"));
   out.canonical_json = canonical_json(json);
   return out;
 }

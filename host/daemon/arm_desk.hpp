@@ -1,7 +1,9 @@
 // What the desks of all kinds of arm have in common: the link, verification, and requests about plain motion.
 #pragma once
 
+#include <algorithm>
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "firmware_like/math/trig.hpp"
@@ -13,6 +15,7 @@
 #include "host/record/visit_serial.hpp"
 #include "host/time/time_mode.hpp"
 #include "host/verify/release_step.hpp"
+#include "host/verify/simulation_end.hpp"
 #include "host/verify/verify.hpp"
 
 namespace liana::daemon {
@@ -42,6 +45,10 @@ class ArmDesk : public Desk {
   void hold() override { arbiter_.hold(); }
   std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) override;
   std::vector<arbiter::PathNews> take_path_news() override { return arbiter_.take_path_news(); }
+  std::vector<arbiter::WayNews> take_way_news() override { return arbiter_.take_way_news(); }
+  void restore_way(const arbiter::KeptWay& kept) override;
+  std::optional<arbiter::WayChange> take_way_change() override;
+  std::size_t joint_count() const override { return arbiter::ArmKind<Arm>::joint_count(table_); }
   std::size_t drive_count() const override { return static_cast<std::size_t>(table_.drive_count()); }
 
  protected:
@@ -51,8 +58,13 @@ class ArmDesk : public Desk {
   // The arbiter is made of the table, the zone and what else it needs.
   template <class... Args>
   ArmDesk(const Table& table, const arbiter::SpeedZone& zone, timing::TimeMode time_mode, control::ArmLink<Arm>& link,
-          const Args&... args)
-      : table_(table), link_(link), arbiter_(table, zone, args...), zone_(zone), time_mode_(time_mode) {
+          std::unique_ptr<verify::SimulationEnd<Arm>> simulation, const Args&... args)
+      : table_(table),
+        link_(link),
+        arbiter_(table, zone, args...),
+        zone_(zone),
+        time_mode_(time_mode),
+        simulation_(std::move(simulation)) {
     handlers_ = {{"move_jp", [this](const MotionRequest& r) { move_joints(r.fields); }},
                  {"move_path", [this](const auto& r) { arbiter_.move_path(outputs(), path_request<Arm>(r.fields)); }},
                  {"move_cp", [this](const auto& r) { arbiter_.move_line(outputs(), r.fields.pose("goal")); }},
@@ -83,9 +95,13 @@ class ArmDesk : public Desk {
   void retract(const api::Arguments& fields);
   LastVerdict verify_and_release(const typename Arm::Setpoint& setpoint, std::uint32_t owner);
 
+  double patience_s(const verify::Candidate<Arm>& candidate) const;
+
   timing::TimeMode time_mode_;
+  std::unique_ptr<verify::SimulationEnd<Arm>> simulation_;
   verify::ReleaseStep<Arm> release_;
-  std::vector<Command> released_;  // not yet due at the newest image
+  std::vector<Command> released_;        // not yet due at the newest image
+  verify::Prediction<Arm> prediction_;  // of the last command
 };
 
 template <class Arm, class Steering>
@@ -123,14 +139,46 @@ void ArmDesk<Arm, Steering>::retract(const api::Arguments& fields) {
   arbiter_.retract(outputs(), static_cast<std::uint64_t>(fields.integer("until_tick")));
 }
 
+template <class Arm, class Steering>
+void ArmDesk<Arm, Steering>::restore_way(const arbiter::KeptWay& kept) {
+  std::vector<arbiter::PathPoint<arbiter::Joints<Arm>>> points(kept.points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const arbiter::WayPoint& point = kept.points[k];
+    std::copy(point.joint_rad.begin(), point.joint_rad.end(), points[k].joint_rad.begin());
+    points[k].begins = point.begins;
+  }
+  arbiter_.path_memory().restore(kept.first, points);
+}
+
+template <class Arm, class Steering>
+std::optional<arbiter::WayChange> ArmDesk<Arm, Steering>::take_way_change() {
+  if (!arbiter_.path_memory().has_change()) return std::nullopt;
+  const auto change = arbiter_.path_memory().take_change();
+  arbiter::WayChange out{change.first, change.kept, {}};
+  const auto joints = static_cast<std::ptrdiff_t>(joint_count());
+  for (const auto& point : change.added)
+    out.added.push_back({point.begins, {point.joint_rad.begin(), point.joint_rad.begin() + joints}});
+  return out;
+}
+
 // While a stop is on its way to the next tick, the arm is given nothing else.
 template <class Arm, class Steering>
 std::optional<LastVerdict> ArmDesk<Arm, Steering>::release_next(bool may_release, std::uint32_t owner) {
   const auto setpoint = arbiter_.next_setpoint(tick(), outputs());
+  simulation_->watch(link_.image.value());
   const std::uint64_t next_tick = link_.image.value().next_tick;
   std::erase_if(released_, [next_tick](const Command& t) { return t.first_tick() < next_tick; });
   if (!setpoint || !may_release || link_.stop.is_pressed()) return std::nullopt;
   return verify_and_release(*setpoint, owner);
+}
+
+// In virtual time the service waits for the simulation, so that runs repeat bit for bit; in real time until the arm
+// would need the command.
+template <class Arm, class Steering>
+double ArmDesk<Arm, Steering>::patience_s(const verify::Candidate<Arm>& candidate) const {
+  if (time_mode_ != timing::TimeMode::kReal) return verify::kWhenever;
+  const std::uint64_t now = tick();
+  return now < candidate.first_tick() ? static_cast<double>(candidate.first_tick() - now) * table_.tick_s : 0.0;
 }
 
 template <class Arm, class Steering>
@@ -138,23 +186,23 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
   const verify::TwinImage<Arm>& image = link_.image.value();
   const auto interval = static_cast<std::uint64_t>(table_.interval_ticks);
   const verify::Candidate<Arm> candidate = release_.candidate(setpoint, owner, image.next_tick + interval, interval);
-  const verify::Prediction<Arm> prediction =
-      verify::Twin<Arm>::run(image, released_, candidate, verify::max_stop_ticks(table_.tick_s));
-  verify::ExecutionVerdict execution = verify::judge_execution<Arm>(table_, candidate, prediction);
-  const verify::SimulationVerdict simulation = verify::judge_motion<Arm>(table_, candidate, prediction, zone_);
+  verify::Twin<Arm>::run(image, released_, candidate, verify::max_stop_ticks(table_.tick_s), prediction_);
+  simulation_->begin(image, candidate, prediction_);
+  verify::ExecutionVerdict execution = verify::judge_execution<Arm>(table_, candidate, prediction_, zone_);
+  const verify::SimulationVerdict simulation = simulation_->verdict(patience_s(candidate));
   if (time_mode_ == timing::TimeMode::kReal) {
     link_.report.refresh();
     verify::judge_time(candidate.first_tick(), tick(), execution);
   }
   const std::optional<Command> telecommand = release_.release(candidate, execution, simulation);
   const bool released = telecommand && link_.released.push(*telecommand);
+  const verify::Verdict& worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation) : execution;
   if (released) {
     released_.push_back(*telecommand);
   } else {
-    arbiter_.refused();
+    arbiter_.refused(worst.text);
   }
-  const verify::Verdict& worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation) : execution;
-  return {candidate.sequence(), released, worst, joints_deg(prediction.ticks[prediction.command_ticks - 1])};
+  return {candidate.sequence(), released, worst, joints_deg(prediction_.ticks[prediction_.command_ticks - 1])};
 }
 
 }  // namespace liana::daemon

@@ -37,7 +37,8 @@ std::string why_not(const serial::RobotTable& table, const serial::Inputs& input
 
 SerialDesk::SerialDesk(const config::SerialRobotConfig& robot, timing::TimeMode time_mode,
                        control::ArmLink<serial::SerialArm>& link)
-    : ArmDesk(robot.table, arbiter::SpeedZone{}, time_mode, link, taken(time_mode)) {}
+    : ArmDesk(robot.table, arbiter::SpeedZone{}, time_mode, link,
+              std::make_unique<verify::SimulationEnd<serial::SerialArm>>(robot.table), taken(time_mode)) {}
 
 void SerialDesk::watch(bool booted) {
   if (booted) why_not_homed_ = outputs().homed != 0 ? "" : why_not(table_, inputs());
@@ -54,7 +55,7 @@ void SerialDesk::add_state(Json& state) const {
   for (std::size_t i = 1; i <= table_.joints(); ++i) points.push_back(arm.point_in_base[i]);
   for (std::size_t i = 0; i < table_.joints(); ++i) torque_Nm.push_back(o.torque_measured_Nm[i]);
   state["is_busy"] = arbiter_.is_busy() || (o.state == OperatingState::kEnabled && o.at_rest == 0);
-  state["retracted"] = arbiter_.has_retracted();
+  add_retract(state, arbiter_.retract_state());
   state["path"] = path_json(arbiter_.path());
   state["measured_js_deg"] = deg(table_, o.joint_measured_rad);
   state["setpoint_js_deg"] = deg(table_, o.joint_command_rad);

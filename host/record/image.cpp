@@ -62,6 +62,14 @@ void check(const ImageReader& in, const cable::LetGoState& state) {
   in.require("cable", state.cable, 0, in.bounds().drives - 1);
 }
 
+void check(const ImageReader& in, const cable::FrictionWatchState& state) {
+  in.require("axis", state.axis, 0, in.bounds().joints - 1);
+}
+
+void check(const ImageReader& in, const cable::ContactWatchState& state) {
+  in.require("segment", state.segment, -1, in.bounds().segments - 1);
+}
+
 void check(const ImageReader& in, const cable::RobotTable& table) {
   in.require("segment_count", table.segment_count, 1, cable::kMaxSegments);
   for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m) {

@@ -37,6 +37,24 @@ void visit(A& a, T& s) {
   a("reversals", s.reversals);
 }
 
+template <class A, Like<cable::FrictionWatchState> T>
+void visit(A& a, T& s) {
+  a("mu", s.mu);
+  a("variance", s.variance);
+  a("axis", s.axis);
+  a("flagged", s.flagged);
+  a("unexplained_Nm", s.unexplained_Nm);
+  a("friction_Nm", s.friction_Nm);
+}
+
+template <class A, Like<cable::ContactWatchState> T>
+void visit(A& a, T& s) {
+  a("sweeps", s.sweeps);
+  a("segment", s.segment);
+  a("torque_Nm", s.torque_Nm);
+  a("tip_push_N", s.tip_push_N);
+}
+
 template <class A, Like<cable::HeldProfile> T>
 void visit(A& a, T& s) {
   a("value_rad", s.value_rad);

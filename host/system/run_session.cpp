@@ -4,6 +4,8 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "host/system/observer.hpp"
 
@@ -18,7 +20,10 @@ constexpr double kStopTimeout_s = 15.0;
 constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
 constexpr double kFinishGrace_s = 3.0;  // for the mission runner, when another program has ended
 constexpr double kLook_s = 0.02;
-constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
+constexpr double kFollow_s = 5.0;       // arm time at rest; elastic cables let the arm swing so long
+constexpr double kMostFollow_s = 60.0;  // arm time
+constexpr double kSilent_s = 10.0;      // without a state: lianad does not go on
+constexpr double kAftermath_s = 0.5;    // between the end of one program and the ends of those that need it
 
 Clock::time_point after(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -55,7 +60,41 @@ RunEnd RunSession::watch() {
     look(kLook_s);
     if (interrupts_.count() > 0) return interrupted();
   }
-  return conclusion();
+  const RunEnd end = conclusion();
+  if (has_failed(end)) follow();
+  return end;
+}
+
+// The run is no success as far as processes and mission tell.
+bool RunSession::has_failed(const RunEnd& end) const {
+  if (end.bad_input) return false;
+  std::ifstream file(plan_.file("mission.json"));
+  const Json mission = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
+  return !end.outcome.empty() || mission.value("outcome", "") != "success";
+}
+
+// What a failure leads to belongs to the run: looks on until the arm has been at rest for a while, or lianad says
+// nothing any more.
+void RunSession::follow() {
+  const auto time_s = [this] { return last_state_.is_object() ? last_state_.value("time_s", 0.0) : 0.0; };
+  const double failed_s = time_s();
+  double rested_s = failed_s;  // when the arm moved last
+  auto deadline = after(kSilent_s);
+  while (system_.is_connected() && interrupts_.count() == 0 && Clock::now() < deadline) {
+    const double seen_s = time_s();
+    look(kLook_s);
+    if (time_s() != seen_s) deadline = after(kSilent_s);
+    if (!rests()) rested_s = time_s();
+    if (time_s() - rested_s > kFollow_s || time_s() - failed_s > kMostFollow_s) return;
+  }
+}
+
+// Nothing moves the arm, as far as lianad knows.
+bool RunSession::rests() const {
+  if (!last_state_.is_object()) return true;
+  const std::string state = last_state_.value("state", "");
+  if (state == "DISABLED" || state == "FAULT") return true;
+  return state == "ENABLED" && last_state_.value("at_rest", false) && !last_state_.value("is_busy", false);
 }
 
 // Somebody has ended. The others follow within moments, in any order: who failed by itself is seen only after that.

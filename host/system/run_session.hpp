@@ -37,6 +37,8 @@ class RunSession {
 
  private:
   RunEnd watch();
+  bool has_failed(const RunEnd& end) const;
+  void follow();
   RunEnd conclusion();
   std::optional<RunEnd> dead_child(bool failed_only, double settle_s = 0.0);
   RunEnd end_of_mission(const ChildEnd& end);
@@ -45,6 +47,7 @@ class RunSession {
   void take(const Json& message);
   void keep(const Json& state);
   bool is_stopped() const;
+  bool rests() const;
   std::string how_the_arm_was_left() const;
 
   const SystemLayout& plan_;

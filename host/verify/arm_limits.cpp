@@ -12,7 +12,7 @@ void judge_tension(const cable::RobotTable& table, const cable::Outputs& outputs
     judge.check(Refusal::kTension, "planned tension [N] of cable", static_cast<int>(i), tension_N,
                 table.tension.ceiling_free_N);
     judge.require(tension_N * kRounding >= table.tension.floor_motor_N, Refusal::kTension,
-                  "planned tension of cable " + std::to_string(i + 1) + " is under the floor");
+                  "planned tension under the floor at cable", static_cast<int>(i));
   }
 }
 

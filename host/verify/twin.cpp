@@ -6,16 +6,24 @@ namespace liana::verify {
 
 namespace {
 
-// One tick of the copy.
+// The copy and its drives, which go on from what was told last.
 template <class Arm>
-Outputs<Arm> step(Controller<Arm>& copy, NominalDrives<Arm>& drives, std::uint64_t tick,
-                  const Telecommand<typename Arm::Setpoint>& command) {
-  Inputs<Arm> inputs = drives.next_inputs(tick);
-  inputs.telecommand = command;
-  const Outputs<Arm> outputs = copy.tick(inputs);
-  drives.command(outputs);
-  return outputs;
-}
+struct Copy {
+  using Command = Telecommand<typename Arm::Setpoint>;
+
+  explicit Copy(const TwinImage<Arm>& start)
+      : controller(start.controller), drives(controller.table(), start.last_inputs.drive), tick(start.next_tick) {}
+
+  Outputs<Arm> step(const Outputs<Arm>& told, const Command& command) {
+    Inputs<Arm> inputs = drives.next_inputs(tick++, told);
+    inputs.telecommand = command;
+    return controller.tick(inputs);
+  }
+
+  Controller<Arm> controller;
+  NominalDrives<Arm> drives;
+  std::uint64_t tick;
+};
 
 template <class Command>
 Command command_at(std::span<const Command> released, std::uint64_t tick) {
@@ -28,25 +36,24 @@ Command command_at(std::span<const Command> released, std::uint64_t tick) {
 }  // namespace
 
 template <class Arm>
-Prediction<Arm> Twin<Arm>::run(const TwinImage<Arm>& start, std::span<const Command> released,
-                               const Candidate<Arm>& candidate, std::size_t max_stop_ticks) {
-  Prediction<Arm> prediction;
-  prediction.faults_before =
-      static_cast<std::uint64_t>(start.last_outputs.faults.count) + start.last_outputs.faults.dropped;
-  Controller<Arm> copy = start.controller;
-  NominalDrives<Arm> drives(copy.table(), start.last_inputs.drive, start.last_outputs);
-  std::uint64_t tick = start.next_tick;
-  for (; tick < candidate.first_tick(); ++tick) step(copy, drives, tick, command_at(released, tick));
-  for (; tick < candidate.expiry_tick(); ++tick) {
-    prediction.ticks.push_back(
-        step(copy, drives, tick, tick == candidate.first_tick() ? candidate.telecommand_ : Command{}));
+void Twin<Arm>::run(const TwinImage<Arm>& start, std::span<const Command> released, const Candidate<Arm>& candidate,
+                    std::size_t max_stop_ticks, Prediction<Arm>& prediction) {
+  const Outputs<Arm>& last = start.last_outputs;
+  prediction.faults_before = static_cast<std::uint64_t>(last.faults.count) + last.faults.dropped;
+  prediction.comes_to_rest = false;
+  std::vector<Outputs<Arm>>& ticks = prediction.ticks;
+  ticks.clear();
+  Copy<Arm> copy(start);
+  ticks.push_back(last);
+  while (copy.tick < candidate.first_tick()) ticks.back() = copy.step(ticks.back(), command_at(released, copy.tick));
+  // What was told before the candidate is no part of the prediction: its first tick takes that place.
+  ticks.back() = copy.step(ticks.back(), candidate.telecommand_);
+  while (copy.tick < candidate.expiry_tick()) ticks.push_back(copy.step(ticks.back(), Command{}));
+  prediction.command_ticks = ticks.size();
+  for (std::size_t i = 0; i < max_stop_ticks && !prediction.comes_to_rest; ++i) {
+    ticks.push_back(copy.step(ticks.back(), Command{}));
+    prediction.comes_to_rest = ticks.back().at_rest != 0;
   }
-  prediction.command_ticks = prediction.ticks.size();
-  for (std::size_t i = 0; i < max_stop_ticks && !prediction.comes_to_rest; ++i, ++tick) {
-    prediction.ticks.push_back(step(copy, drives, tick, Command{}));
-    prediction.comes_to_rest = prediction.ticks.back().at_rest != 0;
-  }
-  return prediction;
 }
 
 template class Twin<cable::CableArm>;

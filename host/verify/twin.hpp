@@ -9,7 +9,7 @@
 
 namespace liana::verify {
 
-// What the twin predicts for one candidate.
+// What the twin predicts for one candidate. Whoever predicts again and again keeps one: its memory is used anew.
 template <class Arm>
 struct Prediction {
   std::vector<Outputs<Arm>> ticks;  // the candidate's interval, then the stop after it
@@ -25,8 +25,9 @@ class Twin {
 
   // Advances a copy through what is already released, then through the candidate, then through the stop that follows
   // when nothing else comes; at most `max_stop_ticks` of it.
-  static Prediction<Arm> run(const TwinImage<Arm>& start, std::span<const Command> released,
-                             const Candidate<Arm>& candidate, std::size_t max_stop_ticks);
+  // Cost: a tick of the controller for each of them, and nothing else that counts.
+  static void run(const TwinImage<Arm>& start, std::span<const Command> released, const Candidate<Arm>& candidate,
+                  std::size_t max_stop_ticks, Prediction<Arm>& prediction);
 };
 
 extern template class Twin<cable::CableArm>;

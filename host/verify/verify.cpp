@@ -30,13 +30,15 @@ void judge_tip(const typename Arm::Table& table, const Outputs<Arm>& outputs, co
               kIkAngle_rad);
 }
 
+constexpr const char* kNoRestText = "the arm would not come to rest within 3 s after the command";
+
 }  // namespace
 
 std::size_t max_stop_ticks(double tick_s) { return static_cast<std::size_t>(kMaxStop_s / tick_s); }
 
 template <class Arm>
 ExecutionVerdict judge_execution(const typename Arm::Table& table, const Candidate<Arm>& candidate,
-                                 const Prediction<Arm>& prediction) {
+                                 const Prediction<Arm>& prediction, const arbiter::SpeedZone& zone) {
   ExecutionVerdict verdict;
   verdict.sequence = candidate.sequence();
   Judge judge(verdict);
@@ -48,8 +50,12 @@ ExecutionVerdict judge_execution(const typename Arm::Table& table, const Candida
     judge.require((outputs.limits & kLimitGate) == 0, Refusal::kGate, "the gate would refuse an output");
     judge.require(accepted, Refusal::kNotAccepted, "the controller would not take the command");
     judge_targets(table, i > 0 ? &prediction.ticks[i - 1] : nullptr, outputs, judge);
-    if (!verdict.passed()) return verdict;
+    judge_joints(table, outputs, judge);
+    judge_tip<Arm>(table, outputs, zone, judge);
+    if (!verdict.passed()) break;
   }
+  judge.require(prediction.comes_to_rest, Refusal::kNoRest, kNoRestText);
+  judge.conclude();
   return verdict;
 }
 
@@ -68,19 +74,23 @@ SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate
   for (const Outputs<Arm>& outputs : prediction.ticks) {
     judge_joints(table, outputs, judge);
     judge_tip<Arm>(table, outputs, zone, judge);
-    if (!verdict.passed()) return verdict;
+    if (!verdict.passed()) break;
   }
-  judge.require(prediction.comes_to_rest, Refusal::kNoRest,
-                "the arm would not come to rest within 3 s after the command");
+  judge.require(prediction.comes_to_rest, Refusal::kNoRest, kNoRestText);
+  judge.conclude();
   return verdict;
 }
 
-#define LIANA_JUDGES(Arm)                                                                                           \
-  template ExecutionVerdict judge_execution<Arm>(const Arm::Table&, const Candidate<Arm>&, const Prediction<Arm>&); \
-  template SimulationVerdict judge_motion<Arm>(const Arm::Table&, const Candidate<Arm>&, const Prediction<Arm>&,    \
-                                               const arbiter::SpeedZone&);
-LIANA_JUDGES(cable::CableArm)
-LIANA_JUDGES(serial::SerialArm)
-#undef LIANA_JUDGES
+#define LIANA_JUDGE_EXECUTION(Arm)                                                                                   \
+  template ExecutionVerdict judge_execution<Arm>(const Arm::Table&, const Candidate<Arm>&, const Prediction<Arm>&, \
+                                                 const arbiter::SpeedZone&)
+LIANA_JUDGE_EXECUTION(cable::CableArm);
+LIANA_JUDGE_EXECUTION(serial::SerialArm);
+#undef LIANA_JUDGE_EXECUTION
+
+template SimulationVerdict judge_motion<serial::SerialArm>(const serial::RobotTable&,
+                                                           const Candidate<serial::SerialArm>&,
+                                                           const Prediction<serial::SerialArm>&,
+                                                           const arbiter::SpeedZone&);
 
 }  // namespace liana::verify

@@ -14,12 +14,14 @@ constexpr double kMaxStop_s = 3.0;
 // Ticks of kMaxStop_s.
 std::size_t max_stop_ticks(double tick_s);
 
-// The twin's outputs: accepted, no new fault, gate silent, planned forces and targets within limits (arm_limits.hpp).
+// The twin's outputs: accepted, no new fault, gate silent, planned forces and targets within limits (arm_limits.hpp),
+// joint angles, rates and tip speed too (in `zone` the zone's), rest after the command.
 template <class Arm>
 ExecutionVerdict judge_execution(const typename Arm::Table& table, const Candidate<Arm>& candidate,
-                                 const Prediction<Arm>& prediction);
+                                 const Prediction<Arm>& prediction, const arbiter::SpeedZone& zone = {});
 
-// The motion: joint angles and rates, tip speed (in `zone` the zone's), and rest after the command.
+// The motion as the controller's own kinematics has it, without inertia and scene: all that there is of a second end for
+// a serial arm.
 template <class Arm>
 SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate<Arm>& candidate,
                                const Prediction<Arm>& prediction, const arbiter::SpeedZone& zone = {});

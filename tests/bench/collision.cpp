@@ -29,7 +29,7 @@ Scenario scenario(const cable::RobotTable& robot, const cable::ThetaVector& thet
   Scenario out;
   const cable::LinkPoints points = link_points(robot, theta);
   for (std::int32_t link = 0; link + 1 < points.count; ++link)
-    out.links.push_back(clearance::link_capsule(points, link, kLinkRadius_m));
+    out.links.push_back(clearance::link_capsule(points.axis(), link, kLinkRadius_m));
   while (out.boxes.size() < kBoxes) {
     const Quat turn = quaternion_of(random.vector(1.5));
     const Vec3 from_middle = random.vector(1.5), half = random.vector(0.125);

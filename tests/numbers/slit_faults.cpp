@@ -1,6 +1,6 @@
-// What a fault of one cable does while the arm is in the slit: the real core against the bench's arm, by the truth.
-// `--count` seeds. A seed's arm goes its way once; at moments that the seed draws, in segment 5's and in segment 4's
-// way through the slit, every cable gets every fault in a copy of the whole process.
+// slit_faults [--only KIND] SEED...: what a fault of one cable does while the arm is in the slit: the real core against
+// the bench's arm, by the truth. A seed's arm goes its way once; at moments that the seed draws, in segment 5's and in
+// segment 4's way through the slit, every cable gets every fault in a copy of the whole process.
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -16,7 +16,6 @@
 #include "tests/closed_loop/arm_under_control.hpp"
 #include "tests/closed_loop/fixture.hpp"
 #include "tests/closed_loop/slit_path.hpp"
-#include "tests/numbers/options.hpp"
 
 namespace liana::numbers {
 namespace {
@@ -24,8 +23,8 @@ namespace {
 using closed_loop::ArmUnderControl;
 using closed_loop::Plant;
 
-constexpr int kAfter = 1250;  // ticks watched: 5 s
-constexpr double kLetGoRest_m_s = 0.001;
+constexpr int kAfter = 1250;         // ticks watched: 5 s
+constexpr double kRest_m_s = 0.005;  // a node that is no faster rests
 
 // One kind of fault: what happens in tick `age` (0 = the first).
 struct Kind {
@@ -63,7 +62,7 @@ struct Result {
   double contact_s = 0.0;  // when
   double least_clearance_m = 1e3;
   double half_second_mm = 0.0, largest_mm = 0.0;  // how far a node was from where the sound arm was
-  double rest_s = 0.0;                            // last time any node was faster than kLetGoRest_m_s
+  double rest_s = 0.0;                            // last time any node was faster than kRest_m_s
   int state = 0;
 };
 
@@ -108,7 +107,7 @@ Result watch(ArmUnderControl& arm, const Kind& kind, std::size_t cable, Way* sou
     }
     result.largest_mm = std::max(result.largest_mm, farthest_mm(nodes, from));
     if (now_s <= 0.5) result.half_second_mm = result.largest_mm;
-    if (farthest_mm(nodes, before) / 1000.0 / arm.table().tick_s > kLetGoRest_m_s) result.rest_s = now_s;
+    if (farthest_mm(nodes, before) / 1000.0 / arm.table().tick_s > kRest_m_s) result.rest_s = now_s;
     before = nodes;
     if (result.fault == 0 && arm.outputs().faults.count > 0) {
       result.fault = static_cast<int>(arm.outputs().faults.fault[0].number);
@@ -179,6 +178,6 @@ void run(int seed, const char* only) {
 }  // namespace liana::numbers
 
 int main(int argc, char** argv) {
-  const char* only = std::getenv("ONLY");
-  for (int i = 1; i < argc; ++i) liana::numbers::run(std::atoi(argv[i]), only);
+  const bool chosen = argc > 2 && std::string(argv[1]) == "--only";
+  for (int i = chosen ? 3 : 1; i < argc; ++i) liana::numbers::run(std::atoi(argv[i]), chosen ? argv[2] : nullptr);
 }

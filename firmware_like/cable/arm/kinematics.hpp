@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/math/pose.hpp"
@@ -57,6 +58,8 @@ Vec3 node_jacobian_column(const ArmKinematics& kinematics, std::int32_t node, st
 struct LinkPoints {
   std::array<Vec3, kMaxSegments * kMaxModules + 1> point_in_base{};
   std::int32_t count = 0;  // links + 1
+
+  std::span<const Vec3> axis() const { return {point_in_base.data(), static_cast<std::size_t>(count)}; }
 };
 LinkPoints link_points(const RobotTable& table, const ThetaVector& theta_rad) noexcept;
 

@@ -40,14 +40,17 @@ void add_rows(const Room& room, std::int32_t obstacle, const PathPlace& place, s
   rows.push_back({place, {link, here.share}, obstacle, {}});
 }
 
-// Clearances of all links from one obstacle.
-std::vector<clearance::Clearance> clearances(const Room& room, const LinkPoints& points, std::int32_t obstacle) {
+// Clearances of all links from one obstacle, those below `within_m` exact.
+std::vector<clearance::Clearance> clearances(const Room& room, const LinkPoints& points, std::int32_t obstacle,
+                                             double within_m) {
   std::vector<clearance::Clearance> out;
-  for (std::int32_t link = 0; link + 1 < points.count; ++link) {
-    out.push_back(
-        clearance::clearance(clearance::link_capsule(points, link, room.link_radius_m()), room.scene(), obstacle));
-  }
+  clearance::link_clearances(points.axis(), room.link_radius_m(), room.scene(), obstacle, within_m, out);
   return out;
+}
+
+clearance::Clearance exact(const Room& room, const LinkPoints& points, std::int32_t link, std::int32_t obstacle) {
+  return clearance::clearance(clearance::link_capsule(points.axis(), link, room.link_radius_m()), room.scene(),
+                              obstacle);
 }
 
 // No neighbouring link is nearer.
@@ -61,12 +64,13 @@ void add_place(const Room& room, const PlanRequest& request, const Path& path, c
                const std::vector<RowSite>& sites, std::vector<ClearanceRow>& rows) {
   const LinkPoints points = link_points(room.table(), theta_at(path, place));
   for (std::int32_t obstacle = 0; obstacle < clearance::obstacle_count(room.scene()); ++obstacle) {
-    const std::vector<clearance::Clearance> links = clearances(room, points, obstacle);
+    const double within_m = request.margin_m + kNear_m;
+    const std::vector<clearance::Clearance> links = clearances(room, points, obstacle, within_m);
     for (Index i = 0; i < links.size(); ++i) {
       const std::int32_t link = static_cast<std::int32_t>(i);
       const bool near = links[i].distance_m < request.margin_m + (is_nearest(links, i) ? kNear_m : kTight_m);
       const bool asked = std::find(sites.begin(), sites.end(), RowSite{place, link, obstacle}) != sites.end();
-      if (near || asked) add_rows(room, obstacle, place, link, links[i], rows);
+      if (near || asked) add_rows(room, obstacle, place, link, exact(room, points, link, obstacle), rows);
     }
   }
 }
@@ -142,7 +146,7 @@ std::vector<RowSite> sites_below(const Room& room, const PlanRequest& request, c
   const auto add_sites = [&](const PathPlace& place) {
     const LinkPoints points = link_points(room.table(), theta_at(path, place));
     for (std::int32_t obstacle = 0; obstacle < clearance::obstacle_count(room.scene()); ++obstacle) {
-      const std::vector<clearance::Clearance> links = clearances(room, points, obstacle);
+      const std::vector<clearance::Clearance> links = clearances(room, points, obstacle, clearance_m);
       for (Index i = 0; i < links.size(); ++i) {
         if (links[i].distance_m < clearance_m && is_nearest(links, i))
           out.push_back({place, static_cast<std::int32_t>(i), obstacle});

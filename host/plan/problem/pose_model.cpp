@@ -11,11 +11,11 @@ PoseModel push_model(const Room& room, const ThetaVector& theta, double wanted_m
   PoseModel model(n);
   const LinkPoints points = link_points(room.table(), theta);
   std::vector<std::pair<clearance::Clearance, std::int32_t>> close;
+  std::vector<clearance::Clearance> links;
   for (std::int32_t obstacle = 0; obstacle < clearance::obstacle_count(room.scene()); ++obstacle) {
-    for (std::int32_t link = 0; link + 1 < points.count; ++link) {
-      const clearance::Clearance here =
-          clearance::clearance(clearance::link_capsule(points, link, room.link_radius_m()), room.scene(), obstacle);
-      if (here.distance_m < wanted_m) close.push_back({here, link});
+    clearance::link_clearances(points.axis(), room.link_radius_m(), room.scene(), obstacle, wanted_m, links);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      if (links[i].distance_m < wanted_m) close.push_back({links[i], static_cast<std::int32_t>(i)});
     }
   }
   for (const auto& [here, link] : close) model.cost += (wanted_m - here.distance_m) * (wanted_m - here.distance_m);

@@ -13,7 +13,7 @@ constexpr double kLeastAdvance_m = 0.004;  // near the margin poses are looked a
 }  // namespace
 
 clearance::ArmClearance Room::look(const ThetaVector& theta_rad) const {
-  return clearance::arm_clearance(link_points(robot_.table, theta_rad), robot_.module_radius_m, scene_);
+  return clearance::arm_clearance(link_points(robot_.table, theta_rad).axis(), robot_.module_radius_m, scene_);
 }
 
 double Room::motion_m(const ThetaVector& a, const ThetaVector& b) const {

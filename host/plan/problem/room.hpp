@@ -3,7 +3,8 @@
 
 #include <cstdint>
 
-#include "host/clearance/clearance.hpp"
+#include "firmware_like/cable/arm/kinematics.hpp"
+#include "host/clearance/arm_clearance.hpp"
 #include "host/plan/plan.hpp"
 
 namespace liana::plan {

@@ -54,9 +54,10 @@ solve::GoalIkProblem with_clear_spheres(solve::GoalIkProblem problem, const Room
   for (Index i = 0; i < room.scene().spheres.size(); ++i) {
     double least_m = clearance::kNoObstacle_m;
     for (std::int32_t link = 0; link + 1 < points.count; ++link) {
-      least_m = std::min(least_m, clearance::clearance(clearance::link_capsule(points, link, room.link_radius_m()),
-                                                       room.scene().spheres[i])
-                                      .distance_m);
+      least_m =
+          std::min(least_m, clearance::clearance(clearance::link_capsule(points.axis(), link, room.link_radius_m()),
+                                                 room.scene().spheres[i])
+                                .distance_m);
     }
     near.push_back({least_m, i});
   }

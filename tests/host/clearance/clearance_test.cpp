@@ -1,41 +1,18 @@
 // Closed-form clearances against dense sampling of the link's axis, and their derivatives against differences.
 #include "host/clearance/clearance.hpp"
 
+#include <gtest/gtest.h>
+
 #include <cmath>
-#include <random>
 
 #include "firmware_like/math/trig.hpp"
-#include "tests/firmware_like/zhu2022.hpp"
-#include "tests/host/config/tables.hpp"
+#include "tests/host/clearance/draw.hpp"
 
 namespace liana::clearance {
 namespace {
 
 constexpr int kCases = 3000;
 constexpr int kSamples = 2000;  // of the axis
-
-// Random links and obstacles of the sizes that matter: links of 0 to 0.5 m among bodies of 0.01 to 1 m.
-class Draw {
- public:
-  explicit Draw(unsigned seed) : generator_(seed) {}
-  double number(double low, double high) { return std::uniform_real_distribution<double>(low, high)(generator_); }
-  Vec3 place(double size) { return {number(-size, size), number(-size, size), number(-size, size)}; }
-  Capsule link() {
-    const Vec3 from = place(0.6);
-    return {from, add(from, place(0.3)), number(0.0, 0.05)};
-  }
-  config::SceneSphere sphere() { return {"sphere", place(0.5), number(0.01, 0.5)}; }
-  config::SceneBox box() {
-    const Quat q = quaternion_of(place(2.0));
-    return {"box",
-            place(0.5),
-            {number(0.01, 0.5), number(0.01, 0.5), number(0.01, 0.5)},
-            {rotate(q, {1, 0, 0}), rotate(q, {0, 1, 0}), rotate(q, {0, 0, 1})}};
-  }
-
- private:
-  std::mt19937 generator_;
-};
 
 double point_distance_m(const Vec3& p, const config::SceneSphere& sphere) {
   return norm(subtract(p, sphere.center_m)) - sphere.radius_m;
@@ -146,22 +123,6 @@ TEST(Clearance, ChangesAsItsNormalSays) {
     expect_derivative(draw, link, draw.box(), compared);
   }
   EXPECT_GT(compared, 2 * kCases * 9 / 10);
-}
-
-TEST(Clearance, OfTheArmNamesTheLinkAndTheObstacle) {
-  const config::SceneConfig scene = config::parse_scene(config::good_table("scene", "panel_slit").dump(), "s");
-  ThetaVector theta{};
-  for (std::size_t i = 0; i < zhu2022::kThetas; ++i) theta[i] = zhu2022::kPressRod_deg[i] * kDegree;
-  const ArmClearance found = arm_clearance(link_points(zhu2022::table(), theta), 0.03, scene);
-  EXPECT_NEAR(found.nearest.distance_m, 0.0090, 2e-4);  // mission figure A8, at the mouth's edge near joint centre 22
-  EXPECT_TRUE(obstacle_name(scene, found.obstacle) == "panel" || obstacle_name(scene, found.obstacle) == "wall");
-  EXPECT_NEAR(found.link, 22, 2);
-}
-
-TEST(Clearance, OfAnEmptySceneIsFarAndNamesNothing) {
-  const ArmClearance found = arm_clearance(link_points(zhu2022::table(), ThetaVector{}), 0.03, config::SceneConfig{});
-  EXPECT_EQ(found.link, -1);
-  EXPECT_EQ(found.nearest.distance_m, kNoObstacle_m);
 }
 
 }  // namespace

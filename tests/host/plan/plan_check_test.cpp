@@ -8,7 +8,7 @@
 
 #include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/cable/arm/kinematics.hpp"
-#include "host/clearance/clearance.hpp"
+#include "host/clearance/arm_clearance.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::plan {
@@ -61,8 +61,8 @@ TEST(PlanCheck, FindsTheLeastClearanceThatDenseSamplingFinds) {
     for (int s = 0; s <= 2000; ++s) {
       ThetaVector theta{};
       for (Index k = 0; k < theta.size(); ++k) theta[k] = path[0][k] + (path[1][k] - path[0][k]) * s / 2000.0;
-      sampled_m =
-          std::min(sampled_m, clearance::arm_clearance(link_points(table, theta), 0.03, scene).nearest.distance_m);
+      sampled_m = std::min(sampled_m,
+                           clearance::arm_clearance(link_points(table, theta).axis(), 0.03, scene).nearest.distance_m);
     }
     const double found_m = check(table, scene, path).min_clearance_m;
     if (sampled_m < -0.03)

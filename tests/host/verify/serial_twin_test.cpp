@@ -47,7 +47,10 @@ class ArmAndTwin {
     return release_.candidate(setpoint, 1, arm_.link.image.value().next_tick + interval, interval);
   }
   Prediction<SerialArm> predict(const Candidate<SerialArm>& candidate) const {
-    return Twin<SerialArm>::run(arm_.link.image.value(), released_, candidate, max_stop_ticks(arm_.table().tick_s));
+    Prediction<SerialArm> prediction;
+    Twin<SerialArm>::run(arm_.link.image.value(), released_, candidate, max_stop_ticks(arm_.table().tick_s),
+                         prediction);
+    return prediction;
   }
 
   serial::Setpoint tip_goal() {

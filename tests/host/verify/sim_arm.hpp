@@ -47,7 +47,7 @@ template <class Arm>
 class ArmWithoutBuses {
  public:
   ArmWithoutBuses(const typename Arm::Table& table, const DriveFeedbacks& drives)
-      : table_(table), link(table_), core_(table_, link), drives_(table_, drives, Outputs<Arm>{}) {
+      : table_(table), link(table_), core_(table_, link), drives_(table_, drives) {
     report_.boot = control::BootPhase::kDone;
     link.report.publish(report_);
     link.report.refresh();
@@ -59,10 +59,9 @@ class ArmWithoutBuses {
   std::uint64_t ticks_done() const { return report_.next_tick; }
 
   void tick() {
-    Inputs<Arm> inputs = drives_.next_inputs(report_.next_tick);
+    Inputs<Arm> inputs = drives_.next_inputs(report_.next_tick, outputs_);
     outputs_ = core_.step(inputs);
     report_.inputs = inputs;
-    drives_.command(outputs_);
     ++report_.next_tick;
     core_.publish(report_);
   }

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "host/verify/simulation_end.hpp"
 #include "host/verify/verify.hpp"
 #include "tests/host/verify/sim_arm.hpp"
 
@@ -31,17 +32,25 @@ class TwinOfAnArm : public testing::Test {
     return release_.candidate(setpoint, 1, arm_->link.image.value().next_tick + interval, interval);
   }
   Prediction<cable::CableArm> predict(const Candidate<cable::CableArm>& candidate) {
-    return Twin<cable::CableArm>::run(arm_->link.image.value(), released_, candidate,
-                                      max_stop_ticks(arm_->table().tick_s));
+    Prediction<cable::CableArm> prediction;
+    Twin<cable::CableArm>::run(arm_->link.image.value(), released_, candidate, max_stop_ticks(arm_->table().tick_s),
+                               prediction);
+    return prediction;
   }
   std::optional<cable::Telecommand> release(const Candidate<cable::CableArm>& candidate,
                                             const Prediction<cable::CableArm>& prediction) {
     return release_.release(candidate, judge_execution<cable::CableArm>(arm_->table(), candidate, prediction),
-                            judge_motion<cable::CableArm>(arm_->table(), candidate, prediction));
+                            simulate(candidate, prediction));
+  }
+  SimulationVerdict simulate(const Candidate<cable::CableArm>& candidate,
+                             const Prediction<cable::CableArm>& prediction) {
+    simulation_.watch(arm_->link.image.value());
+    simulation_.begin(arm_->link.image.value(), candidate, prediction);
+    return simulation_.verdict(kWhenever);
   }
 
   std::unique_ptr<SimArm> arm_;
-
+  SimulationEnd<cable::CableArm> simulation_{{arm_->table(), 0.03, 0.4, 0.2}, {arm_->table(), {}, {}}};
   ReleaseStep<cable::CableArm> release_;
   std::vector<cable::Telecommand> released_;
 };
@@ -51,7 +60,7 @@ TEST_F(TwinOfAnArm, PredictsTheNextTicksExactlyWhenTheDrivesAreIdeal) {
   const Prediction<cable::CableArm> prediction = predict(wanted);
   const auto telecommand = release(wanted, prediction);
   ASSERT_TRUE(telecommand) << judge_execution<cable::CableArm>(arm_->table(), wanted, prediction).text
-                           << judge_motion<cable::CableArm>(arm_->table(), wanted, prediction).text;
+                           << simulate(wanted, prediction).text;
   arm_->link.released.push(*telecommand);
   while (arm_->ticks_done() < wanted.first_tick()) arm_->tick();
   double moved = 0.0;
@@ -73,6 +82,38 @@ TEST_F(TwinOfAnArm, GoesThroughWhatIsAlreadyReleased) {
   const auto interval = static_cast<std::uint64_t>(arm_->table().interval_ticks);
   const Candidate<cable::CableArm> second = release_.candidate(shifted_tip(0.01), 1, first.expiry_tick(), interval);
   EXPECT_GT(predict(second).ticks.front().tip_speed_m_s, 0.0) << "moving already because of the first";
+}
+
+// req:C7
+TEST_F(TwinOfAnArm, TheSimulationFollowsWhatTheControllerWouldTellItsDrives) {
+  const Candidate<cable::CableArm> wanted = candidate(shifted_tip(0.01));
+  const SimulationVerdict verdict = simulate(wanted, predict(wanted));
+  EXPECT_TRUE(verdict.passed()) << verdict.text;
+  EXPECT_EQ(verdict.sequence, wanted.sequence());
+  EXPECT_GT(verdict.margins.rate_deg_s, 0.0);
+  EXPECT_LT(verdict.margins.rate_deg_s, 2.0) << "it moves";
+}
+
+TEST_F(TwinOfAnArm, TheSameCommandHasTheSameVerdictToTheBit) {
+  const Candidate<cable::CableArm> wanted = candidate(shifted_tip(0.01));
+  const Prediction<cable::CableArm> prediction = predict(wanted);
+  const SimulationVerdict first = simulate(wanted, prediction), second = simulate(wanted, prediction);
+  EXPECT_EQ(first.margins.rate_deg_s, second.margins.rate_deg_s);
+  EXPECT_EQ(first.margins.tension_N, second.margins.tension_N);
+  EXPECT_EQ(first.margin, second.margin);
+}
+
+// req:C11
+TEST_F(TwinOfAnArm, AVerdictThatIsNotThereInTimeIsARefusalAndTheNextOneIsNotForIt) {
+  const Candidate<cable::CableArm> wanted = candidate(shifted_tip(0.01));
+  const Prediction<cable::CableArm> prediction = predict(wanted);
+  simulation_.begin(arm_->link.image.value(), wanted, prediction);
+  const SimulationVerdict late = simulation_.verdict(0.0);
+  if (!late.passed()) {  // a machine that is quick enough has it
+    EXPECT_EQ(late.code, Refusal::kNoVerdict);
+    EXPECT_FALSE(release_.release(wanted, judge_execution<cable::CableArm>(arm_->table(), wanted, prediction), late));
+  }
+  EXPECT_TRUE(simulation_.verdict(kWhenever).passed());
 }
 
 TEST_F(TwinOfAnArm, TheArmItselfIsNotTouched) {

@@ -1,4 +1,4 @@
-// Each check of the two verification ends refuses what is just outside its limit and passes what is just inside.
+// Each check of the execution end refuses what is just outside its limit and passes what is just inside.
 #include "host/verify/verify.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 const cable::RobotTable kTable = zhu2022::table();
 
 struct Judged {
-  Refusal execution, simulation;
+  Refusal execution;
   std::string text;
 };
 
@@ -37,39 +37,37 @@ Judged judge(const std::function<void(cable::Outputs&)>& change, std::size_t at 
   }
   change(prediction.ticks[at]);
   const ExecutionVerdict execution = judge_execution<cable::CableArm>(kTable, candidate, prediction);
-  const SimulationVerdict simulation = judge_motion<cable::CableArm>(kTable, candidate, prediction);
-  return {execution.code, simulation.code, execution.text + simulation.text};
+  return {execution.code, execution.text};
 }
 
 TEST(Verify, AQuietMotionPasses) {
   const Judged judged = judge([](cable::Outputs&) {});
   EXPECT_EQ(judged.execution, Refusal::kNone);
-  EXPECT_EQ(judged.simulation, Refusal::kNone);
 }
 
 TEST(Verify, ASpeedJustOverTheLimitIsRefusedAndJustUnderPasses) {
   const double rate = kTable.limits.theta_rate_rad_s;
-  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = rate * 1.00001; }).simulation, Refusal::kJointRate);
-  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = -rate * 1.00001; }).simulation, Refusal::kJointRate);
-  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = rate; }).simulation, Refusal::kNone);
-  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s * 1.06; }).simulation,
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = rate * 1.00001; }).execution, Refusal::kJointRate);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = -rate * 1.00001; }).execution, Refusal::kJointRate);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = rate; }).execution, Refusal::kNone);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s * 1.06; }).execution,
             Refusal::kTipSpeed);
-  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s; }).simulation,
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s; }).execution,
             Refusal::kNone);
-  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_rate_rad_s = kTable.limits.tip_rate_rad_s * 1.06; }).simulation,
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_rate_rad_s = kTable.limits.tip_rate_rad_s * 1.06; }).execution,
             Refusal::kTipSpeed);
 }
 
 TEST(Verify, TheStopAfterTheCommandIsJudgedToo) {
-  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = 1.0; }, 7).simulation, Refusal::kTipSpeed);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = 1.0; }, 7).execution, Refusal::kTipSpeed);
   EXPECT_EQ(judge([](cable::Outputs& o) { o.limits = kLimitGate; }, 7).execution, Refusal::kGate);
-  EXPECT_EQ(judge([](cable::Outputs&) {}, 2, false).simulation, Refusal::kNoRest);
+  EXPECT_EQ(judge([](cable::Outputs&) {}, 2, false).execution, Refusal::kNoRest);
 }
 
 TEST(Verify, JointAnglesAreBounded) {
   const double limit = kTable.segment[4].theta_limit_rad;
-  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_command_rad[9] = limit + 1e-4; }).simulation, Refusal::kJointAngle);
-  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_command_rad[9] = -limit; }).simulation, Refusal::kNone);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_command_rad[9] = limit + 1e-4; }).execution, Refusal::kJointAngle);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_command_rad[9] = -limit; }).execution, Refusal::kNone);
 }
 
 TEST(Verify, WhatTheControllerWouldNotDoIsRefused) {
@@ -98,8 +96,8 @@ TEST(Verify, TensionAndCableSpeedStayWithinTheirLimits) {
 }
 
 TEST(Verify, NotANumberNeverPasses) {
-  EXPECT_EQ(judge([](cable::Outputs& o) { o.tip_speed_m_s = std::nan(""); }).simulation, Refusal::kNotFinite);
-  EXPECT_EQ(judge([](cable::Outputs& o) { o.theta_command_rad[0] = std::nan(""); }).simulation, Refusal::kNotFinite);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.tip_speed_m_s = std::nan(""); }).execution, Refusal::kNotFinite);
+  EXPECT_EQ(judge([](cable::Outputs& o) { o.theta_command_rad[0] = std::nan(""); }).execution, Refusal::kNotFinite);
   EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[0] = HUGE_VAL; }).execution, Refusal::kNotFinite);
 }
 

@@ -1,0 +1,54 @@
+// What goes into the simulation of a command, and what comes out of it.
+#pragma once
+
+#include <vector>
+
+#include "host/simulate/arm_model.hpp"
+
+namespace liana::simulate {
+
+// Where the arm is found when the sequence begins.
+struct StartState {
+  ThetaVector theta_rad{};   // measured
+  ThetaVector rate_rad_s{};  // measured
+  CableVector tension_N{};   // measured, at the motor; all zero: as the simulation itself would plan them
+};
+
+// What the drives are told, one row of angles every `interval_s` (T_c): the first one when the sequence begins, the last
+// one when the stop after the command is over. Two rows at least.
+struct JointSequence {
+  double interval_s = 0.0;
+  std::vector<ThetaVector> theta_rad;
+};
+
+// The arm at one moment.
+struct Moment {
+  double time_s = 0.0;  // from the beginning of the sequence
+  ThetaVector theta_rad{};
+  ThetaVector rate_rad_s{};
+  std::array<Vec3, kMaxSegments> node_in_base_m{};       // ends of the segments; the last one is the tip
+  std::array<double, kMaxSegments> node_speed_m_s{};  // mean since the moment before
+  double tip_rate_rad_s = 0.0;                           // turn of the tip, mean since the moment before
+  CableVector tension_N{};                               // at the motor, with what inertia adds
+};
+
+// The least distance on the way, and where.
+struct Nearest {
+  double distance_m = 0.0;
+  std::int32_t link = -1;   // 0-based; -1: there is nothing to touch
+  std::int32_t other = -1;  // obstacle (clearance::obstacle_name), or the other link
+  double time_s = 0.0;
+};
+
+// The whole way: T_d apart, the sequence and what the arm swings after it.
+struct Motion {
+  bool solved = false;  // false: the table's arm has no dynamics, and there are no moments
+  std::vector<Moment> moments;
+  ThetaVector friction_band_rad{};  // friction at either end of its band moves every angle by at most this
+  CableVector least_passed_share{};  // tension at the anchor over tension at the motor, friction at its upper end
+  Nearest scene;              // to the scene, body included
+  double scene_at_start_m = 0.0, scene_at_end_m = 0.0;
+  Nearest self;               // between links that no joint connects
+};
+
+}  // namespace liana::simulate

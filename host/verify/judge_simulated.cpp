@@ -1,0 +1,178 @@
+#include "host/verify/judge_simulated.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "host/clearance/clearance.hpp"
+#include "firmware_like/math/trig.hpp"
+#include "host/verify/judge.hpp"
+
+namespace liana::verify {
+
+namespace {
+
+using Index = std::size_t;
+using simulate::Moment;
+
+constexpr double kEvenRate = 1.01;      // rates of the sequence are means over an interval of what the twin did in ticks
+constexpr double kLeadsAway_m = 1e-4;  // motion that ends farther from the scene than it began may be this much nearer on its way
+
+std::string numbered(const char* what, Index index) { return what + std::string(" ") + std::to_string(index + 1); }
+
+// Checks of every moment, in the order of time; remembers when and where the first one failed.
+class MomentJudge {
+ public:
+  MomentJudge(const MotionRules& rules, SimulationVerdict& verdict)
+      : table_(rules.table), zone_(rules.zone), verdict_(verdict), judge_(verdict) {}
+
+  void told(const simulate::JointSequence& sequence) {
+    for (Index row = 0; row < sequence.theta_rad.size(); ++row) {
+      const cable::ThetaVector& now = sequence.theta_rad[row];
+      const cable::ThetaVector& before = sequence.theta_rad[row > 0 ? row - 1 : 0];
+      for (Index k = 0; k < thetas(); ++k) {
+        const double limit_rad = table_.segment[k / 2].theta_limit_rad;
+        const double rate_rad_s = (now[k] - before[k]) / sequence.interval_s;
+        judge_.check(Refusal::kJointAngle, "theta [rad]", static_cast<int>(k), now[k], limit_rad);
+        judge_.check(Refusal::kJointRate, "rate of theta [rad/s]", static_cast<int>(k), rate_rad_s,
+                     kEvenRate * table_.limits.theta_rate_rad_s);
+        least(verdict_.margins.joint_deg, (limit_rad - std::fabs(now[k])) / kDegree);
+        least(verdict_.margins.rate_deg_s, (table_.limits.theta_rate_rad_s - std::fabs(rate_rad_s)) / kDegree);
+        note("theta", k, static_cast<double>(row) * sequence.interval_s);
+      }
+    }
+  }
+
+  void simulated(const simulate::Motion& motion) {
+    for (const Moment& moment : motion.moments) {
+      joints(moment, motion.friction_band_rad);
+      nodes(moment);
+      cables(moment, motion.least_passed_share);
+    }
+  }
+
+  void conclude() { judge_.conclude(); }
+  Judge& judge() { return judge_; }
+
+ private:
+  Index thetas() const { return static_cast<Index>(table_.theta_count()); }
+  static void least(double& margin, double value) { margin = std::fmin(margin, value); }
+
+  void joints(const Moment& moment, const cable::ThetaVector& band_rad) {
+    for (Index k = 0; k < thetas(); ++k) {
+      judge_.check(Refusal::kJointAngle, "simulated theta [rad]", static_cast<int>(k),
+                   std::fabs(moment.theta_rad[k]) + band_rad[k], table_.segment[k / 2].theta_limit_rad + kSwingAngle_rad);
+      judge_.check(Refusal::kJointRate, "simulated rate of theta [rad/s]", static_cast<int>(k), moment.rate_rad_s[k],
+                   kSwingRate * table_.limits.theta_rate_rad_s);
+      note("theta", k, moment.time_s);
+    }
+  }
+
+  void nodes(const Moment& moment) {
+    const auto tip = static_cast<Index>(table_.segment_count) - 1;
+    const double tip_m_s = zone_.limit_at(moment.node_in_base_m[tip], table_.limits.tip_speed_m_s);
+    for (Index m = 0; m < tip; ++m) {
+      judge_.check(Refusal::kNodeSpeed, "speed [m/s] of node", static_cast<int>(m), moment.node_speed_m_s[m],
+                   kNodeShare * table_.limits.tip_speed_m_s);
+      note("node", m, moment.time_s);
+    }
+    judge_.check(Refusal::kTipSpeed, "simulated tip speed [m/s]", -1, moment.node_speed_m_s[tip], kSwingRate * tip_m_s);
+    judge_.check(Refusal::kTipSpeed, "simulated tip turn rate [rad/s]", -1, moment.tip_rate_rad_s,
+                 kSwingRate * table_.limits.tip_rate_rad_s);
+    note("tip", kNoIndex, moment.time_s);
+  }
+
+  void cables(const Moment& moment, const cable::CableVector& passed_share) {
+    const cable::TensionLimits& limits = table_.tension;
+    for (Index c = 0; c < static_cast<Index>(table_.cable_count()); ++c) {
+      const double tension_N = moment.tension_N[c];
+      judge_.check(Refusal::kSwingTension, "tension [N] with inertia of cable", static_cast<int>(c), tension_N,
+                   limits.alarm_N);
+      judge_.require(tension_N * passed_share[c] >= limits.floor_anywhere_N, Refusal::kSwingTension,
+                     "slack with inertia: cable", static_cast<int>(c));
+      least(verdict_.margins.tension_N,
+            std::fmin(limits.alarm_N - tension_N, tension_N * passed_share[c] - limits.floor_anywhere_N));
+      note("cable", c, moment.time_s);
+    }
+  }
+
+  static constexpr Index kNoIndex = ~Index{0};
+
+  void note(const char* what, Index index, double time_s) {
+    if (verdict_.passed() || !verdict_.first.body.empty()) return;
+    verdict_.first = {index == kNoIndex ? what : numbered(what, index), time_s};
+  }
+
+  const cable::RobotTable& table_;
+  const arbiter::SpeedZone& zone_;
+  SimulationVerdict& verdict_;
+  Judge judge_;
+};
+
+std::string millimetres(double distance_m) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f mm", 1000.0 * distance_m);
+  return text;
+}
+
+First at_scene(const config::SceneConfig& scene, const simulate::Nearest& nearest) {
+  if (nearest.link < 0) return {};
+  return {clearance::obstacle_name(scene, nearest.other) + " (" + numbered("link", static_cast<Index>(nearest.link)) + ")",
+          nearest.time_s};
+}
+
+First at_itself(const simulate::Nearest& nearest) {
+  return {numbered("link", static_cast<Index>(nearest.other)) + " (" +
+              numbered("link", static_cast<Index>(nearest.link)) + ")",
+          nearest.time_s};
+}
+
+void refuse(SimulationVerdict& verdict, Refusal code, const std::string& text, const First& first) {
+  verdict.code = code;
+  verdict.text = text;
+  verdict.first = first;
+}
+
+// Before anything else: a contact is what a command is stopped for. An arm that is too near already may go away.
+void judge_distances(const MotionRules& rules, const simulate::Motion& motion, SimulationVerdict& verdict) {
+  const config::SceneMargins& levels = rules.scene.margins;
+  const double claimed_m = motion.scene.distance_m - levels.prediction_m;
+  const First first = at_scene(rules.scene, motion.scene);
+  verdict.margins.clearance_m = claimed_m - levels.refuse_m;
+  verdict.slowly = claimed_m < levels.slow_m;
+  verdict.first = first;
+  const bool leads_away = motion.scene_at_end_m >= motion.scene_at_start_m &&
+                          motion.scene.distance_m >= motion.scene_at_start_m - kLeadsAway_m;
+  if (!std::isfinite(motion.scene.distance_m) || (claimed_m < levels.refuse_m && !leads_away)) {
+    refuse(verdict, Refusal::kSceneContact,
+           "the arm could touch " + first.body + ": " + millimetres(claimed_m) + " of the simulated " +
+               millimetres(motion.scene.distance_m) + " are certain, " + millimetres(levels.refuse_m) + " have to be left",
+           first);
+  } else if (!(motion.self.distance_m > 0.0)) {
+    const First self = at_itself(motion.self);
+    refuse(verdict, Refusal::kSelfContact, "the arm would touch itself: " + self.body, self);
+  }
+}
+
+}  // namespace
+
+SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::JointSequence& sequence, bool comes_to_rest,
+                                  const simulate::Motion& motion) {
+  SimulationVerdict verdict;
+  if (!motion.solved) {
+    refuse(verdict, Refusal::kNotFinite, "the simulated arm's equations have no solution", {});
+    return verdict;
+  }
+  verdict.margins = {0.0, 1e3, 1e3, 1e6, 0.0};
+  judge_distances(rules, motion, verdict);
+  const First nearest = verdict.first;
+  if (verdict.passed()) verdict.first = {};
+  MomentJudge moments(rules, verdict);
+  moments.told(sequence);
+  moments.simulated(motion);
+  moments.judge().require(comes_to_rest, Refusal::kNoRest, "the arm would not come to rest in time after the command");
+  moments.conclude();
+  if (verdict.first.body.empty()) verdict.first = nearest;
+  return verdict;
+}
+
+}  // namespace liana::verify

@@ -1,0 +1,27 @@
+// The second end's verdict: the simulated motion against the limits of robot and scene.
+#pragma once
+
+#include "host/arbiter/speed_zone.hpp"
+#include "host/simulate/motion.hpp"
+#include "host/verify/verdict.hpp"
+
+namespace liana::verify {
+
+// What is told is held against the limits as they are. What the arm makes of it swings about that, and the limits leave
+// room for the swing: these are the simulated arm's own.
+constexpr double kSwingAngle_rad = 0.0087;  // 0.5 deg beyond the range of an angle
+constexpr double kSwingRate = 1.25;         // times a joint's or the tip's limit
+constexpr double kNodeShare = 2.0;          // times the tip's limit: nodes may pass each other while the shape changes
+
+// Limits of the simulation end.
+struct MotionRules {
+  cable::RobotTable table{};
+  config::SceneConfig scene;
+  arbiter::SpeedZone zone;
+};
+
+// `comes_to_rest`: the sequence ends with the arm told to stand. Cost: about 300 instructions a moment.
+SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::JointSequence& sequence, bool comes_to_rest,
+                                  const simulate::Motion& motion);
+
+}  // namespace liana::verify

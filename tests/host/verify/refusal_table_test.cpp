@@ -1,0 +1,30 @@
+// Every error code has one row, with a name of its own.
+#include "host/verify/refusal_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace liana::verify {
+namespace {
+
+TEST(RefusalTable, EveryCodeHasARowInTheOrderOfTheNumbers) {
+  std::vector<int> codes;
+  for (const RefusalRow& row : refusal_table()) codes.push_back(static_cast<int>(row.code));
+  EXPECT_EQ(codes, (std::vector<int>{101, 102, 103, 104, 105, 106, 107, 108, 201, 202,
+                                     203, 204, 205, 206, 207, 208, 209, 210, 211, 212}));
+}
+
+TEST(RefusalTable, NamesAreWordsAndNoTwoAreTheSame) {
+  std::set<std::string> names;
+  for (const RefusalRow& row : refusal_table()) {
+    EXPECT_TRUE(names.insert(row.name).second) << row.name;
+    EXPECT_EQ(std::string(row.name).find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), std::string::npos) << row.name;
+    EXPECT_FALSE(std::string(row.remedy).empty()) << row.name;
+    EXPECT_EQ(&row_of(row.code), &row);
+  }
+}
+
+}  // namespace
+}  // namespace liana::verify
