@@ -4,6 +4,7 @@
 
 #include "firmware_like/cable/arm/drive_limits.hpp"
 #include "firmware_like/cable/arm/payout.hpp"
+#include "firmware_like/cable/arm/sparing.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
@@ -67,10 +68,13 @@ void CableArm::count_homing() noexcept {
 
 void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept {
   const CableReadings cables{payout_measured_m_, tension_measured_N_, model_.geometry.length_m, estimator_.residual_m};
-  const bool usable = scope.prepared && feedback_age_ticks_ == 0 && faults.count == 0;
+  watch_missed(tick, faults);
+  const bool retreats = motion_.to.kind == CommandKind::kRetreat && !motion_.braking;
+  if (retreats && faults.count > 0) spare_cables(table_, layout_, faults, lift_N_);
+  const bool usable = scope.prepared && feedback_age_ticks_ == 0 && faults.count == 0 && !is_let_go(let_go_);
   watch_cables(table_, cable_watch_limits_, cables, usable, tick, cable_watch_, faults);
   if (scope.prepared) {
-    if (feedback_age_ticks_ == 0) watch_balance(tick, faults);
+    if (feedback_age_ticks_ == 0 && !is_let_go(let_go_)) watch_balance(tick, faults);
   } else {
     friction_ = FrictionWatchState{friction_.mu, friction_.variance, 0, friction_.flagged, {}, {}};
     contact_ = ContactWatchState{};
@@ -110,6 +114,17 @@ bool CableArm::is_moving() const noexcept {
   return dot_pairs(rate_rad_s, rate_rad_s, as_index(table_.segment_count)) > kMovingRate_rad_s * kMovingRate_rad_s;
 }
 
+// One sample lets the segment of a missed cable go, two when readings are in doubt already.
+void CableArm::watch_missed(std::uint64_t tick, FaultList& faults) noexcept {
+  if (is_let_go(let_go_)) {
+    judge_missed(tension_watch_.slack_ticks[as_index(let_go_.cable)] != 0, tick, let_go_, faults);
+  } else if (missed_ >= 0) {
+    const bool in_doubt = faults.count > 0 || cable_watch_.reversals > 0;
+    if (!in_doubt || tension_watch_.slack_ticks[as_index(missed_)] > 1) let_go(layout_, missed_, let_go_);
+  }
+  missed_ = -1;
+}
+
 bool CableArm::are_cables_taut() const noexcept {
   for (Index c = 0; c < cables(); ++c) {
     if (!(estimator_.tension_N[c] >= kSlackCheckShare * table_.tension.floor_motor_N)) return false;
@@ -118,7 +133,7 @@ bool CableArm::are_cables_taut() const noexcept {
 }
 
 ArmStatus CableArm::status() const noexcept {
-  return {is_homed(), at_rest(table_, motion_), ramp_ >= 1.0 && are_cables_taut()};
+  return {is_homed(), at_rest(table_, motion_) && !lets_out_, ramp_ >= 1.0 && are_cables_taut()};
 }
 
 // --- to commanded angles ---
@@ -145,6 +160,8 @@ void CableArm::stop_planning() noexcept {
   ramp_ = 0.0;
   damping_ = DampingState{};
   lift_N_ = SegmentVector{};
+  let_go_ = LetGoState{};
+  lets_out_ = false;
   payout_command_m_ = payout_measured_m_;
 }
 
@@ -171,7 +188,14 @@ void CableArm::aim_tensions(const TensionPlan& plan) noexcept {
 
 std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
   if (ramp_ >= 1.0 && is_sound) keep_taut(table_, estimator_.tension_N, lift_N_);
-  if (plans_now) aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_));
+  if (is_let_go(let_go_)) {  // nothing may lag now
+    tension_ = is_loose(let_go_) ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_.segment)
+                                 : plan_tension(table_, model_.geometry, ratio_, lift_N_);
+    planned_N_ = tension_.motor_N;
+    tension_change_N_ = CableVector{};
+  } else if (plans_now) {
+    aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_));
+  }
   for (Index c = 0; c < cables(); ++c) tension_.motor_N[c] += tension_change_N_[c];
   std::uint32_t limits = 0;
   if (tension_.floor_acted) limits |= kLimitTensionFloor;
@@ -179,8 +203,8 @@ std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
   return limits;
 }
 
-// Damping, tension plan, cable map: commanded lengths. `is_sound`: no fault is latched.
-std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent, bool is_sound,
+// Damping, tension plan, cable map: commanded lengths. `no_fault`: none is latched.
+std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent, bool no_fault,
                                 DriveProposals& out) noexcept {
   take_geometry();
   const bool plans = plans_now();
@@ -197,6 +221,7 @@ std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent,
   table_.friction_mu = plan_friction(declared_mu_, table_.friction_mu, table_.tick_s, friction_);
   if (orders.preparing) ramp_ = smaller(1.0, ramp_ + table_.tick_s / kPretensionRamp_s);
 
+  const bool is_sound = no_fault && !is_let_go(let_go_);
   std::uint32_t limits = plan_tensions(plans, is_sound);
   if (!live_) start_ramp(sent);
   CableVector wanted_m = payout_for(table_, layout_, model_.geometry.part_m, ratio_, tension_.motor_N);
@@ -205,19 +230,30 @@ std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent,
   } else {
     damp_payouts(is_sound, wanted_m);
   }
-  limits |= limit_payout_speed(wanted_m);
+  if (let_go_.stage == LetGoStage::kOut) let_out(wanted_m);
+  const std::uint32_t limited = limit_payout_speed(wanted_m);
   payout_command_m_ = wanted_m;
   propose_payouts(out);
-  return limits;
+  lets_out_ = count_let_go(limited == 0, let_go_);
+  return limits | limited;
+}
+
+void CableArm::let_out(CableVector& wanted_m) const noexcept {
+  for (Index c = 0; c < cables(); ++c) {
+    if (layout_.segment[c] == let_go_.segment) wanted_m[c] += kLetGo_m;
+  }
 }
 
 std::uint32_t CableArm::limit_payout_speed(CableVector& wanted_m) const noexcept {
   const double step_m = table_.limits.cable_speed_m_s * table_.tick_s;
+  const double out_m = jumps_out(let_go_) ? kLetGoStep_m : step_m;
+  const bool back = jumps_back(let_go_);
   std::uint32_t limits = 0;
   for (Index c = 0; c < cables(); ++c) {
+    const double back_m = back ? larger(step_m, payout_command_m_[c] - payout_measured_m_[c]) : step_m;
     const double change = wanted_m[c] - payout_command_m_[c];
-    if (std::fabs(change) <= step_m) continue;
-    wanted_m[c] = payout_command_m_[c] + (change > 0.0 ? step_m : -step_m);
+    if (change >= -back_m && change <= out_m) continue;
+    wanted_m[c] = payout_command_m_[c] + (change > 0.0 ? out_m : -back_m);
     limits = kLimitCableSpeed;
   }
   return limits;
@@ -253,6 +289,7 @@ void CableArm::propose_payouts(DriveProposals& out) const noexcept {
   for (Index c = 0; c < cables(); ++c) {
     out[c].target_counts = counts_at_payout(table_.drive[c], zero_payout_m_[c], payout_command_m_[c]);
     out[c].torque_permille = tension_.motor_N[c] / table_.drive[c].newtons_per_permille;
+    out[c].lets_go = jumps_out(let_go_) || jumps_back(let_go_);
   }
 }
 

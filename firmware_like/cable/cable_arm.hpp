@@ -8,6 +8,7 @@
 #include "firmware_like/cable/arm/cable_watch.hpp"
 #include "firmware_like/cable/arm/contact_watch.hpp"
 #include "firmware_like/cable/arm/estimator.hpp"
+#include "firmware_like/cable/arm/let_go.hpp"
 #include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/cable/arm/tension.hpp"
 #include "firmware_like/cable/arm/tension_watch.hpp"
@@ -47,9 +48,12 @@ class CableArm {
   void read(const DriveFeedbacks& drives, const NoSensors&) noexcept;
   void watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept {
     const TensionReading now{tension_measured_N_[as_index(drive)], estimator_.tension_N[as_index(drive)], follows};
-    watch_tension(tension_watch_limits_, scope, now, drive, tension_watch_, out);
+    const WatchScope looked_for{scope.powered, scope.prepared && !may_be_slack(let_go_, layout_, drive)};
+    watch_tension(tension_watch_limits_, looked_for, now, drive, tension_watch_, out);
+    if (tension_watch_.slack_ticks[as_index(drive)] != 0 && is_missed(tension_watch_limits_, now)) missed_ = drive;
     if (drive == 0) watch_body(scope, out);
   }
+  bool lets_go(std::int32_t) const noexcept { return is_behind(let_go_); }
   void watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept;
   ArmStatus status() const noexcept;
   bool accepts(const Setpoint& setpoint) const noexcept { return is_usable(table_, setpoint); }
@@ -99,6 +103,8 @@ class CableArm {
     v("ratio", self.ratio_);
     v("damping", self.damping_);
     v("lift_N", self.lift_N_);
+    v("let_go", self.let_go_);
+    v("lets_out", self.lets_out_);
     v("tension", self.tension_);
     v("tension_change_N", self.tension_change_N_);
     v("planned_N", self.planned_N_);
@@ -110,6 +116,7 @@ class CableArm {
 
   using Index = std::size_t;
 
+  void watch_missed(std::uint64_t tick, FaultList& faults) noexcept;
   bool is_moving() const noexcept;
   void watch_balance(std::uint64_t tick, const FaultList& faults) noexcept;
   void watch_body(WatchScope scope, Watch& out) const noexcept;
@@ -128,6 +135,7 @@ class CableArm {
   std::uint32_t plan_tensions(bool plans_now, bool is_sound) noexcept;
   void ramp_payouts(CableVector& wanted_m) const noexcept;
   void damp_payouts(bool is_sound, CableVector& wanted_m) noexcept;
+  void let_out(CableVector& wanted_m) const noexcept;
   std::uint32_t limit_payout_speed(CableVector& wanted_m) const noexcept;
   void propose_payouts(DriveProposals& out) const noexcept;
   Index cables() const noexcept { return static_cast<Index>(layout_.cable_count); }
@@ -161,6 +169,9 @@ class CableArm {
   TensionRatio ratio_{};      // planned friction
   DampingState damping_{};
   SegmentVector lift_N_{};          // pulled tighter than planned
+  LetGoState let_go_{};             // cables of a segment that has lost one
+  std::int32_t missed_ = -1;        // cable, found by watch_drive and judged by watch in the same tick; else -1
+  bool lets_out_ = false;           // drums have somewhere to go yet
   TensionPlan tension_{};           // in force
   CableVector tension_change_N_{};  // of it in each tick until the next plan
   CableVector planned_N_{};         // of the last plan

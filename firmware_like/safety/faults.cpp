@@ -121,7 +121,7 @@ constexpr std::array<FaultInfo, 24> kFaultTable{{
      "micrometres of cable.",
      "Retract, disable and clear; look at the clamp on the drum and at the encoder. The cable's zero is wrong now: "
      "measure it again (liana calibrate)."},
-    {kCableBreak, "cable_break", kStop, true, false,
+    {kCableBreak, "cable_break", kStop, false, false,
      "A cable's tension was gone from one moment to the next: it broke or came off its drum, or its reading is lost.",
      "Stay away from the arm; look at the cable and its clamp on the drum, then at the drive's torque reading; then "
      "clear."},

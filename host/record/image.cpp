@@ -59,6 +59,11 @@ void check(const ImageReader& in, const cable::CableWatchState& state) {
   in.require("suspect", state.suspect, -1, in.bounds().drives - 1);
 }
 
+void check(const ImageReader& in, const cable::LetGoState& state) {
+  in.require("segment", state.segment, 0, in.bounds().segments - 1);
+  in.require("cable", state.cable, 0, in.bounds().drives - 1);
+}
+
 void check(const ImageReader& in, const cable::FrictionWatchState& state) {
   in.require("axis", state.axis, 0, in.bounds().joints - 1);
 }

@@ -181,6 +181,14 @@ void visit(A& a, T& s) {
   a("solver", s.solver);
 }
 
+template <class A, Like<cable::LetGoState> T>
+void visit(A& a, T& s) {
+  a("stage", s.stage);
+  a("segment", s.segment);
+  a("cable", s.cable);
+  a("ticks", s.ticks);
+}
+
 template <class A, Like<cable::DampingState> T>
 void visit(A& a, T& s) {
   a("standing_rad", s.standing_rad);

@@ -59,6 +59,7 @@ class Plant {
   void jump_encoder(std::size_t cable, double length_m);
   void scatter(std::size_t cable, double deviation_N);
   void lose_reading(std::size_t cable);
+  void find_reading(std::size_t cable);  // again what it is
 
   // Rates set from outside, angles and cables as they are: a kick.
   void kick(const cable::ThetaVector& rate_rad_s);
