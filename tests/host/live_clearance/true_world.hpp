@@ -8,6 +8,7 @@
 #include <random>
 
 #include "firmware_like/math/trig.hpp"
+#include "host/clearance/arm_clearance.hpp"
 #include "host/live_clearance/live_clearance.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/config/tables.hpp"
@@ -55,7 +56,8 @@ class TrueWorld {
     return changed(angles_of_lengths(table_, layout_, measured_rad), measured_rad, length_m_, table_.cable_count());
   }
   double true_clearance_m(const ThetaVector& measured_rad) const {
-    return clearance::arm_clearance(link_points(table_, true_rad(measured_rad)), 0.03, scene_).nearest.distance_m;
+    return clearance::arm_clearance(link_points(table_, true_rad(measured_rad)).axis(), 0.03, scene_)
+        .nearest.distance_m;
   }
   Pose slit() const { return moved(pose(panel_slit().slit->frame)); }
   Pose rod() const { return moved(pose(panel_slit().rod->pose)); }
