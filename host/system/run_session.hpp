@@ -48,7 +48,6 @@ class RunSession {
   void take(const Json& message);
   void keep(const Json& state);
   bool is_stopped() const;
-  bool rests() const;
   std::string how_the_arm_was_left() const;
 
   const SystemLayout& plan_;
