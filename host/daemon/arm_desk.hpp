@@ -12,6 +12,7 @@
 #include "host/record/tick_packet.hpp"
 #include "host/record/visit_serial.hpp"
 #include "host/time/time_mode.hpp"
+#include "host/verify/model_watch.hpp"
 #include "host/verify/release_step.hpp"
 #include "host/verify/verify.hpp"
 
@@ -142,6 +143,7 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
       verify::Twin<Arm>::run(image, released_, candidate, verify::max_stop_ticks(table_.tick_s));
   verify::ExecutionVerdict execution = verify::judge_execution<Arm>(table_, candidate, prediction);
   const verify::SimulationVerdict simulation = verify::judge_motion<Arm>(table_, candidate, prediction, zone_);
+  verify::judge_model(table_, image.last_outputs, execution);
   if (time_mode_ == timing::TimeMode::kReal) {
     link_.report.refresh();
     verify::judge_time(candidate.first_tick(), tick(), execution);

@@ -17,6 +17,7 @@ enum class Refusal : std::uint16_t {
   kNotAccepted = 105,  // the controller would not take the command
   kTooSlow = 106,      // the verdict came after the command interval (real time only)
   kJointTravel = 107,  // a serial arm's joint would be told to go further in a tick than its rate allows
+  kModel = 108,        // the arm is not where the model has it: no prediction holds
   kJointAngle = 201,   // a joint angle would pass its limit
   kJointRate = 202,    // a joint would turn too fast
   kTipSpeed = 203,     // the tip would move or turn too fast
