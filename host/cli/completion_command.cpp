@@ -37,7 +37,7 @@ _liana() {
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
       run) words="--robot --scene --bus --time --physics --calibration --in-pose --cross-wired --faults --true-physics --scene-offset --record --json --seed" ;;
-      calibrate) words="--robot --bus --poses --physics --cross-wired --out --seed --json" ;;
+      calibrate) words="--robot --bus --poses --physics --cross-wired --friction --calibration --out --seed --json" ;;
       latency) words="--rate --seconds --buses --arm --json" ;;
       pose) words="--robot --theta-deg --scene --json" ;;
       ik) words="--robot --from-deg --tip --hold --control-point --json" ;;

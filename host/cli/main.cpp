@@ -179,6 +179,11 @@ void add_calibrate(CLI::App& app, Action& action, CalibrateOptions& calibrate) {
                   "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
   sub->add_option("--out", calibrate.out_file,
                   "write the calibration to this file, for lianad --calibration and liana run --calibration");
+  sub->add_flag(
+      "--friction", calibrate.friction,
+      "measure the cables' friction instead: the arm is enabled and each segment turned by 3 deg to and fro, for "
+      "about three minutes; needs 0.5 m of room around it");
+  sub->add_option("--calibration", calibrate.calibration, "with --friction: the calibration that it is added to");
   add_seed(*sub, calibrate.seed, "of the simulated arm");
   sub->add_flag("--json", calibrate.json, "print JSON");
 }

@@ -14,6 +14,7 @@
 #include "host/record/tick_packet.hpp"
 #include "host/record/visit_serial.hpp"
 #include "host/time/time_mode.hpp"
+#include "host/verify/model_watch.hpp"
 #include "host/verify/release_step.hpp"
 #include "host/verify/simulation_end.hpp"
 #include "host/verify/verify.hpp"
@@ -190,6 +191,7 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
   simulation_->begin(image, candidate, prediction_);
   verify::ExecutionVerdict execution = verify::judge_execution<Arm>(table_, candidate, prediction_, zone_);
   const verify::SimulationVerdict simulation = simulation_->verdict(patience_s(candidate));
+  verify::judge_model(table_, image.last_outputs, execution);
   if (time_mode_ == timing::TimeMode::kReal) {
     link_.report.refresh();
     verify::judge_time(candidate.first_tick(), tick(), execution);
