@@ -4,7 +4,6 @@
 
 #include "firmware_like/cable/arm/drive_limits.hpp"
 #include "firmware_like/cable/arm/payout.hpp"
-#include "firmware_like/cable/arm/sparing.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"
@@ -14,10 +13,6 @@ namespace liana::cable {
 namespace {
 
 double smooth_step(double x) noexcept { return x * x * (3.0 - 2.0 * x); }
-
-std::uint16_t detail_of(double number) noexcept {
-  return narrow<std::uint16_t>(to_counts(smaller(number, 65535.0)).value);
-}
 
 }  // namespace
 
@@ -32,7 +27,8 @@ CableArm::CableArm(const RobotTable& table) noexcept
   reset_friction_watch(declared_mu_, friction_);
   reset_motion(table_, ThetaVector{}, motion_);
   take_geometry();
-  update_tension_ratio(table_, layout_, motion_.trig, slip_, ratio_);
+  wrap_rad_ = cable_wraps(table_, motion_.trig);
+  update_tension_ratio(table_, layout_, wrap_rad_, slip_, ratio_);
 }
 
 GateLimits CableArm::gate_limits() const noexcept { return make_gate_limits(table_, zero_payout_m_); }
@@ -63,65 +59,6 @@ void CableArm::count_homing() noexcept {
   if (plausible && homing_ticks_ < kHomingTicks) ++homing_ticks_;
   if (!plausible && !is_homed()) homing_ticks_ = 0;
   if (!all_fresh || residual_m > 4.0 * kHomingResidual_m) homing_ticks_ = 0;
-}
-
-void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept {
-  const CableReadings cables{payout_measured_m_, tension_measured_N_, model_.geometry.length_m, estimator_.residual_m};
-  watch_missed(tick, faults);
-  const bool retreats = motion_.to.kind == CommandKind::kRetreat && !motion_.braking;
-  if (retreats && faults.count > 0) spare_cables(table_, layout_, faults, lift_N_);
-  const bool usable = scope.prepared && feedback_age_ticks_ == 0 && faults.count == 0 && !is_let_go(let_go_);
-  watch_cables(table_, cable_watch_limits_, cables, usable, tick, cable_watch_, faults);
-  if (scope.prepared) {
-    if (feedback_age_ticks_ == 0 && !is_let_go(let_go_)) watch_balance(tick, faults);
-  } else {
-    friction_ = FrictionWatchState{friction_.mu, friction_.variance, 0, friction_.flagged, {}, {}};
-    contact_ = ContactWatchState{};
-  }
-}
-
-// Tensions are trusted as long as nothing is latched but what the balance itself has found.
-void CableArm::watch_balance(std::uint64_t tick, const FaultList& faults) noexcept {
-  for (std::int32_t i = 0; i < faults.count; ++i) {
-    const FaultNumber number = faults.fault[as_index(i)].number;
-    if (number != FaultNumber::kBodyContact && number != FaultNumber::kFrictionNotAsDeclared) {
-      contact_ = ContactWatchState{};
-      return;
-    }
-  }
-  if (tick % kFrictionTicks != 0) return;
-  const FrictionReadings balance{model_.geometry,    ratio_,     slip_, motion_.trig, estimator_.tension_N,
-                                 table_.friction_mu, is_moving()};
-  if (!watch_friction(table_, layout_, declared_mu_, balance, friction_)) return;
-  watch_contact(table_, contact_watch_limits_, motion_.arm, friction_, contact_);
-}
-
-// What the balance of torques says, as faults: 5008 of the first drive of the segment, in 0.01 N m; 5009 in 0.0001.
-void CableArm::watch_body(WatchScope scope, Watch& out) const noexcept {
-  if (!scope.prepared) return;
-  if (is_in_contact(contact_)) {
-    std::int32_t first = 0;
-    for (std::int32_t j = 0; j < contact_.segment; ++j) first += table_.segment[as_index(j)].cables;
-    out.wrong(FaultNumber::kBodyContact, first, detail_of(100.0 * contact_.torque_Nm));
-  }
-  if (is_friction_too_high(declared_mu_, friction_))
-    out.wrong(FaultNumber::kFrictionNotAsDeclared, -1, detail_of(1e4 * friction_.mu));
-}
-
-bool CableArm::is_moving() const noexcept {
-  const double* const rate_rad_s = motion_.limiter.rate_rad_s.data();
-  return dot_pairs(rate_rad_s, rate_rad_s, as_index(table_.segment_count)) > kMovingRate_rad_s * kMovingRate_rad_s;
-}
-
-// One sample lets the segment of a missed cable go, two when readings are in doubt already.
-void CableArm::watch_missed(std::uint64_t tick, FaultList& faults) noexcept {
-  if (is_let_go(let_go_)) {
-    judge_missed(tension_watch_.slack_ticks[as_index(let_go_.cable)] != 0, tick, let_go_, faults);
-  } else if (missed_ >= 0) {
-    const bool in_doubt = faults.count > 0 || cable_watch_.reversals > 0;
-    if (!in_doubt || tension_watch_.slack_ticks[as_index(missed_)] > 1) let_go(layout_, missed_, let_go_);
-  }
-  missed_ = -1;
 }
 
 bool CableArm::are_cables_taut() const noexcept {
@@ -172,10 +109,30 @@ void CableArm::start_ramp(const DriveCommands& sent) noexcept {
   live_ = true;
 }
 
-std::uint32_t CableArm::plan_tensions(bool is_sound) noexcept {
+// What is in force goes evenly to where the plan will be when the next one is made: it never jumps, and does not lag.
+void CableArm::aim_tensions(const TensionPlan& plan) noexcept {
+  const CableVector in_force_N = live_ ? tension_.motor_N : plan.motor_N;
+  if (!live_) planned_N_ = plan.motor_N;
+  for (Index c = 0; c < cables(); ++c) {
+    const double next_N = larger(table_.tension.floor_motor_N, 2.0 * plan.motor_N[c] - planned_N_[c]);
+    tension_change_N_[c] = (next_N - in_force_N[c]) / kPlanTicks;
+  }
+  planned_N_ = plan.motor_N;
+  tension_ = plan;
+  tension_.motor_N = in_force_N;
+}
+
+std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
   if (ramp_ >= 1.0 && is_sound) keep_taut(table_, estimator_.tension_N, lift_N_);
-  tension_ = is_loose(let_go_) ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_.segment)
-                               : plan_tension(table_, model_.geometry, ratio_, lift_N_);
+  if (is_let_go(let_go_)) {  // nothing may lag now
+    tension_ = is_loose(let_go_) ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_.segment)
+                                 : plan_tension(table_, model_.geometry, ratio_, lift_N_);
+    planned_N_ = tension_.motor_N;
+    tension_change_N_ = CableVector{};
+  } else if (plans_now) {
+    aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_));
+  }
+  for (Index c = 0; c < cables(); ++c) tension_.motor_N[c] += tension_change_N_[c];
   std::uint32_t limits = 0;
   if (tension_.floor_acted) limits |= kLimitTensionFloor;
   if (tension_.ceiling_exceeded) limits |= kLimitTensionCeiling;
@@ -186,19 +143,23 @@ std::uint32_t CableArm::plan_tensions(bool is_sound) noexcept {
 std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent, bool no_fault,
                                 DriveProposals& out) noexcept {
   take_geometry();
+  const bool plans = plans_now();
   if (!orders.live_targets || !live_) reset_slip(model_.geometry, slip_);
-  advance_slip(layout_, model_.geometry, slip_);
-  update_tension_ratio(table_, layout_, motion_.trig, slip_, ratio_);
+  if (plans) wrap_rad_ = cable_wraps(table_, motion_.trig);
+  if (!live_ || !shape_worked()) {  // it looks at the whole way since it was last advanced
+    advance_slip(layout_, model_.geometry, slip_);
+    update_tension_ratio(table_, layout_, wrap_rad_, slip_, ratio_);
+  }
   if (!orders.live_targets) {
     stop_planning();
     return 0;
   }
-  if (!live_) start_ramp(sent);
   table_.friction_mu = plan_friction(declared_mu_, table_.friction_mu, table_.tick_s, friction_);
   if (orders.preparing) ramp_ = smaller(1.0, ramp_ + table_.tick_s / kPretensionRamp_s);
 
   const bool is_sound = no_fault && !is_let_go(let_go_);
-  std::uint32_t limits = plan_tensions(is_sound);
+  std::uint32_t limits = plan_tensions(plans, is_sound);
+  if (!live_) start_ramp(sent);
   CableVector wanted_m = payout_for(table_, layout_, model_.geometry.part_m, ratio_, tension_.motor_N);
   if (ramp_ < 1.0) {
     ramp_payouts(wanted_m);

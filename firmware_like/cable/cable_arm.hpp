@@ -23,6 +23,8 @@
 namespace liana::cable {
 
 constexpr double kPretensionRamp_s = 3.0;     // from the tensions found to the planned ones
+constexpr std::uint32_t kPlanTicks = 5;       // tensions are planned anew, and reached evenly until then
+constexpr std::uint32_t kPlanTick = 2;        // of them: one that has nothing to do with the shape
 constexpr double kSlackCheckShare = 0.5;      // of the tension floor: every cable must reach it before the arm may move
 constexpr std::uint32_t kHomingTicks = 25;    // the estimate has to stand still this long
 constexpr double kHomingStep_rad = 2e-4;      // largest Gauss-Newton step of a converged estimate
@@ -97,12 +99,15 @@ class CableArm {
     v("motion", self.motion_);
     v("slip", self.slip_);
     v("model", self.model_);
+    v("wrap_rad", self.wrap_rad_);
     v("ratio", self.ratio_);
     v("damping", self.damping_);
     v("lift_N", self.lift_N_);
     v("let_go", self.let_go_);
     v("lets_out", self.lets_out_);
     v("tension", self.tension_);
+    v("tension_change_N", self.tension_change_N_);
+    v("planned_N", self.planned_N_);
     v("payout_command_m", self.payout_command_m_);
     v("ramp_start_m", self.ramp_start_m_);
     v("ramp", self.ramp_);
@@ -121,7 +126,13 @@ class CableArm {
   void take_geometry() noexcept;
   void stop_planning() noexcept;
   void start_ramp(const DriveCommands& sent) noexcept;
-  std::uint32_t plan_tensions(bool is_sound) noexcept;
+  // Dear work is spread over the ticks of the shape's cycle, which has been counted on when they ask.
+  bool shape_worked() const noexcept {
+    return motion_.shape.tick == kFollowTick + 1 || motion_.shape.tick == kSolveTick + 1;
+  }
+  bool plans_now() const noexcept { return !live_ || motion_.shape.tick % kPlanTicks == kPlanTick; }
+  void aim_tensions(const TensionPlan& plan) noexcept;
+  std::uint32_t plan_tensions(bool plans_now, bool is_sound) noexcept;
   void ramp_payouts(CableVector& wanted_m) const noexcept;
   void damp_payouts(bool is_sound, CableVector& wanted_m) noexcept;
   void let_out(CableVector& wanted_m) const noexcept;
@@ -153,14 +164,17 @@ class CableArm {
 
   // How the cables take it there.
   SlipState slip_{};
-  CableModel model_{};    // at the commanded angles
-  TensionRatio ratio_{};  // planned friction
+  CableModel model_{};        // at the commanded angles
+  SegmentVector wrap_rad_{};  // bend along each segment, as old as the tension plan
+  TensionRatio ratio_{};      // planned friction
   DampingState damping_{};
-  SegmentVector lift_N_{};    // pulled tighter than planned
-  LetGoState let_go_{};       // cables of a segment that has lost one
-  std::int32_t missed_ = -1;  // cable, found by watch_drive and judged by watch in the same tick; else -1
-  bool lets_out_ = false;     // drums have somewhere to go yet
-  TensionPlan tension_{};
+  SegmentVector lift_N_{};          // pulled tighter than planned
+  LetGoState let_go_{};             // cables of a segment that has lost one
+  std::int32_t missed_ = -1;        // cable, found by watch_drive and judged by watch in the same tick; else -1
+  bool lets_out_ = false;           // drums have somewhere to go yet
+  TensionPlan tension_{};           // in force
+  CableVector tension_change_N_{};  // of it in each tick until the next plan
+  CableVector planned_N_{};         // of the last plan
   CableVector payout_command_m_{};
   CableVector ramp_start_m_{};
   double ramp_ = 0.0;  // 0..1 share of the planned pretension

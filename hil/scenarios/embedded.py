@@ -34,7 +34,7 @@ class EmbeddedStand(Stand):
     def judge(self, run, system, client):
         judge_run(run, system)
         judge_wire(run, system)
-        recorded = trial.Trial(run.scenario.faults or [])
+        recorded = trial.Trial(run.scenario.faults or [], run.scenario.bus_script or [])
         recorded.judge(system, client.faults_told)
         run.violations += recorded.complaints
 

@@ -9,8 +9,7 @@ kEnableOperation = 0x0F
 kTargetOf = range(0x201, 0x280)
 kReportOf = range(0x181, 0x200)
 kLine = re.compile(r"\((\d+\.\d+)\) \S+ ([0-9A-F]{3})#([0-9A-F]*)")
-# The gate's own margin over the cable speed, and rounding of both ends to counts.
-kSpeedMargin, kRoundingCounts = 1.25, 2
+kRoundingCounts = 2  # of both ends
 kLetGo_m, kJumps = 0.008, 6
 
 Command = collections.namedtuple("Command", "slot controlword target")
@@ -48,12 +47,12 @@ def counts_per_turn(robot):
 
 
 def step_limit_counts(robot, period_s):
-    """Largest change of a target in one period that the gate may let pass."""
+    """Largest change of a target in one period: the table's own limit, none of the gate's margin."""
     if robot.get("kind") == "serial":
         turns_per_s = max(joint["rate_deg_s"] for joint in robot["joints"]) / 360.0
     else:
         turns_per_s = robot["limits"]["cable_speed_m_s"] / (2 * math.pi * robot["drives"]["drum_radius_m"])
-    return turns_per_s * period_s * kSpeedMargin * counts_per_turn(robot) + kRoundingCounts
+    return turns_per_s * period_s * counts_per_turn(robot) + kRoundingCounts
 
 
 def let_go_counts(robot):

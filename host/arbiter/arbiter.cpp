@@ -1,5 +1,6 @@
 #include "host/arbiter/arbiter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -166,6 +167,7 @@ bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
     return false;
   }
   command_rad_ = Kind::command_rad(now);
+  start_ramp_.note(now.tip_command.position_m, interval_s(table_));
   const auto* back = std::get_if<WayBack<Arm>>(&way_);
   way_out_.stand(tick, command_rad_, back != nullptr && back->has_begun());
   return true;
@@ -218,6 +220,8 @@ typename Arm::Setpoint Arbiter<Arm>::tip_setpoint(const Now& now, const Pose& go
   Kind::add_wishes(wishes_, setpoint);
   setpoint.tip_speed_m_s =
       zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, tip_speed_m_s_));
+  if (zone_.slows_at(now.tip_command.position_m))
+    setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, start_ramp_.speed_m_s());
   return setpoint;
 }
 

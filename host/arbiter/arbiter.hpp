@@ -14,6 +14,7 @@
 #include "host/arbiter/joint_move.hpp"
 #include "host/arbiter/path_move.hpp"
 #include "host/arbiter/speed_zone.hpp"
+#include "host/arbiter/start_ramp.hpp"
 #include "host/arbiter/tip_line.hpp"
 #include "host/arbiter/tip_target.hpp"
 #include "host/arbiter/way_out.hpp"
@@ -104,6 +105,7 @@ class Arbiter {
   Table table_;
   SpeedZone zone_;
   double tip_speed_m_s_;
+  StartRamp start_ramp_;
   typename Kind::Wishes wishes_{};
   WayOut<Arm> way_out_{table_};
   Joints<Arm> command_rad_{};  // where the command stood last

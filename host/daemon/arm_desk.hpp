@@ -14,6 +14,7 @@
 #include "host/record/tick_packet.hpp"
 #include "host/record/visit_serial.hpp"
 #include "host/time/time_mode.hpp"
+#include "host/verify/model_watch.hpp"
 #include "host/verify/release_step.hpp"
 #include "host/verify/simulation_end.hpp"
 #include "host/verify/verify.hpp"
@@ -100,7 +101,7 @@ class ArmDesk : public Desk {
   timing::TimeMode time_mode_;
   std::unique_ptr<verify::SimulationEnd<Arm>> simulation_;
   verify::ReleaseStep<Arm> release_;
-  std::vector<Command> released_;        // not yet due at the newest image
+  std::vector<Command> released_;       // not yet due at the newest image
   verify::Prediction<Arm> prediction_;  // of the last command
 };
 
@@ -190,6 +191,7 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
   simulation_->begin(image, candidate, prediction_);
   verify::ExecutionVerdict execution = verify::judge_execution<Arm>(table_, candidate, prediction_, zone_);
   const verify::SimulationVerdict simulation = simulation_->verdict(patience_s(candidate));
+  verify::judge_model(table_, image.last_outputs, execution);
   if (time_mode_ == timing::TimeMode::kReal) {
     link_.report.refresh();
     verify::judge_time(candidate.first_tick(), tick(), execution);

@@ -101,6 +101,7 @@ class Service : private api::ApiHandler {
   void drop_motion(event::OwnerEvent why, const std::string& owner);
   void watch_events_file();
   void watch_arm();
+  bool is_over_after_mission();
   void watch_homing();
   void watch_stream();
   void note_clear();
@@ -137,6 +138,7 @@ class Service : private api::ApiHandler {
   std::uint64_t clear_seen_tick_ = 0;
   control::Overruns overruns_before_;  // at the last reset of the timing
   std::optional<std::uint64_t> mission_end_tick_, shutdown_tick_;
+  std::uint64_t moved_tick_ = 0;            // the last after the mission's end in which the arm was led on
   std::optional<std::uint64_t> stop_tick_;  // of the last stop, whoever asked for it
   bool dismissed_ = false;
   api::ApiServer server_;  // last: its destructor may call gone()

@@ -73,7 +73,7 @@ VerifiedClearance ClearanceFinder::find(const MeasuredArm& arm, const KnownScene
   VerifiedClearance least;
   for (std::int32_t obstacle = 0; obstacle < clearance::obstacle_count(scene_); ++obstacle) {
     for (std::int32_t link = 0; link + 1 < motion_.in_drawing.count; ++link) {
-      const clearance::Capsule capsule = clearance::link_capsule(motion_.in_drawing, link, radius_m_);
+      const clearance::Capsule capsule = clearance::link_capsule(motion_.in_drawing.axis(), link, radius_m_);
       const clearance::Clearance found = clearance::clearance(capsule, scene_, obstacle);
       if (found.distance_m - kLargestBound_m >= least.distance_m) continue;
       const VerifiedClearance here = judged(found, link, obstacle, known);

@@ -38,6 +38,8 @@ void check(const ImageReader& in, const cable::HeldBounds& held) {
 void check(const ImageReader& in, const cable::ShapeState& state) {
   const std::int64_t pulls = cable::kMaxNodeTargets + cable::kMaxKeepClear * in.bounds().segments;
   in.require("next_pull", static_cast<std::int64_t>(std::min<std::uint64_t>(state.next_pull, INT64_MAX)), 0, pulls);
+  in.require("tick", state.tick, 0, cable::kShapeTicks - 1);
+  in.require_mask("held_mask", state.held_mask, in.bounds().joints);
 }
 
 void check(const ImageReader& in, const cable::IkReport& ik) {

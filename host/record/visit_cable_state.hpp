@@ -76,10 +76,15 @@ void visit(A& a, T& s) {
 template <class A, Like<cable::ShapeState> T>
 void visit(A& a, T& s) {
   a("rate_rad_s", s.rate_rad_s);
+  a("change_rad_s", s.change_rad_s);
   a("wanted_rad_s", s.wanted_rad_s);
+  a("brake", s.brake);
   a("pulls", s.pulls);
   a("weight", s.weight);
   a("next_pull", s.next_pull);
+  a("is_gathered", s.is_gathered);
+  a("tick", s.tick);
+  a("held_mask", s.held_mask);
   a("wanted_held", s.wanted_held);
   a("rate_held", s.rate_held);
 }
@@ -136,6 +141,7 @@ void visit(A& a, T& s) {
   a("held_mask", s.held_mask);
   a("held_at_target", s.held_at_target);
   a("limiter", s.limiter);
+  a("brake", s.brake);
   a("trig", s.trig);
   a("arm", s.arm);
   a("ik", s.ik);

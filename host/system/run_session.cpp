@@ -20,10 +20,8 @@ constexpr double kStopTimeout_s = 15.0;
 constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
 constexpr double kFinishGrace_s = 3.0;  // for the mission runner, when another program has ended
 constexpr double kLook_s = 0.02;
-constexpr double kFollow_s = 5.0;       // arm time at rest; elastic cables let the arm swing so long
-constexpr double kMostFollow_s = 60.0;  // arm time
-constexpr double kSilent_s = 10.0;      // without a state: lianad does not go on
-constexpr double kAftermath_s = 0.5;    // between the end of one program and the ends of those that need it
+constexpr double kSilent_s = 10.0;    // without a state: lianad does not go on
+constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
 
 Clock::time_point after(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -73,28 +71,14 @@ bool RunSession::has_failed(const RunEnd& end) const {
   return !end.outcome.empty() || mission.value("outcome", "") != "success";
 }
 
-// What a failure leads to belongs to the run: looks on until the arm has been at rest for a while, or lianad says
-// nothing any more.
+// What a failure leads to belongs to the run: lianad goes on until the arm is at rest, then ends by itself.
 void RunSession::follow() {
-  const auto time_s = [this] { return last_state_.is_object() ? last_state_.value("time_s", 0.0) : 0.0; };
-  const double failed_s = time_s();
-  double rested_s = failed_s;  // when the arm moved last
   auto deadline = after(kSilent_s);
   while (system_.is_connected() && interrupts_.count() == 0 && Clock::now() < deadline) {
-    const double seen_s = time_s();
+    const std::size_t seen = states_.size();
     look(kLook_s);
-    if (time_s() != seen_s) deadline = after(kSilent_s);
-    if (!rests()) rested_s = time_s();
-    if (time_s() - rested_s > kFollow_s || time_s() - failed_s > kMostFollow_s) return;
+    if (states_.size() != seen) deadline = after(kSilent_s);
   }
-}
-
-// Nothing moves the arm, as far as lianad knows.
-bool RunSession::rests() const {
-  if (!last_state_.is_object()) return true;
-  const std::string state = last_state_.value("state", "");
-  if (state == "DISABLED" || state == "FAULT") return true;
-  return state == "ENABLED" && last_state_.value("at_rest", false) && !last_state_.value("is_busy", false);
 }
 
 // Somebody has ended. The others follow within moments, in any order: who failed by itself is seen only after that.
@@ -173,6 +157,9 @@ void RunSession::take(const Json& message) {
 void RunSession::keep(const Json& state) {
   progress_.show(state);
   states_.push_back({state.value("tick", std::uint64_t{0}), pose_of(state.value("setpoint_cp", Json()))});
+  const Json clearance = state.value("clearance", Json());
+  if (clearance.is_object() && states_.back().tick > 0)  // of the angles at the tick before
+    claims_.push_back({states_.back().tick - 1, clearance.value("distance_m", 0.0)});
   last_state_ = state;
   const Json step = state.value("step", Json());
   const int index = step.is_object() ? step.value("index", 0) : 0;

@@ -81,6 +81,7 @@ void Plant::advance(double tick_s, const cable::CableVector& target_m, bool powe
 
 const cable::ThetaVector& Plant::theta_rad() const { return parts_->arm.theta_rad(); }
 const cable::ThetaVector& Plant::rate_rad_s() const { return parts_->arm.rate_rad_s(); }
+double Plant::friction_mu() const { return parts_->truth.mu; }
 
 Pose Plant::tip_in_base() const {
   const bench::Pose tip = parts_->arm.tip();

@@ -47,6 +47,7 @@ class Plant {
   // The truth, which the core never sees.
   const cable::ThetaVector& theta_rad() const;
   const cable::ThetaVector& rate_rad_s() const;
+  double friction_mu() const;
   Pose tip_in_base() const;
   double kinetic_energy_J();
   double slit_clearance_m() const;

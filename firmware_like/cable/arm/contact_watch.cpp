@@ -62,18 +62,21 @@ void watch_contact(const RobotTable& table, const ContactWatchLimits& limits, co
   state.tip_push_N = tip_push_N(table, limits, tip, friction);
   const double push_N = norm(state.tip_push_N);
   const Vec3 explained_N = push_N > kContactTip_N ? scale(state.tip_push_N, kContactTip_N / push_N) : state.tip_push_N;
-  std::int32_t segment = -1;
+  // What is felt is judged without the push at the tip, which segments feel it with it: beyond a contact there is no
+  // torque, while a push at the tip that explains half of it is felt by all.
+  bool is_felt = false;
+  std::int32_t last = 0;
   state.torque_Nm = 0.0;
   for (Index k = 0; k < 2 * segments(table); ++k) {
-    const double left_Nm = std::fabs(friction.unexplained_Nm[k] - dot(tip.linear[k], explained_N));
-    if (left_Nm > hidden_Nm(limits, friction, k)) segment = static_cast<std::int32_t>(k / 2);
+    const double whole_Nm = friction.unexplained_Nm[k], hidden = hidden_Nm(limits, friction, k);
+    const double left_Nm = std::fabs(whole_Nm - dot(tip.linear[k], explained_N));
+    is_felt = is_felt || left_Nm > hidden;
+    if (std::fabs(whole_Nm) > hidden) last = static_cast<std::int32_t>(k / 2);
     state.torque_Nm = larger(state.torque_Nm, left_Nm);
   }
-  if (segment < 0) {
-    state.sweeps = 0;
-  } else if (state.sweeps < kContactSweeps) {
-    ++state.sweeps;
-  }
+  const std::int32_t segment = is_felt ? last : -1;
+  if (segment >= 0 && is_in_contact(state)) return;  // the segment that was named first stays
+  state.sweeps = segment < 0 ? 0 : static_cast<std::uint8_t>(state.sweeps + 1);
   state.segment = segment;
 }
 

@@ -11,7 +11,7 @@
 
 namespace liana::cable {
 
-constexpr std::uint8_t kContactSweeps = 3;      // of all angles in a row: one second
+constexpr std::uint8_t kContactSweeps = 2;      // of all angles in a row: 0.64 s
 constexpr double kContactTip_N = 3.0;           // a push at the tip is explained up to this
 constexpr double kContactTorque_Nm = 1.5;       // hidden at every angle: torque gains
 constexpr double kContactSwing_rad_s2 = 0.012;  // hidden: the body beyond an angle swings with so much
