@@ -95,7 +95,7 @@ class ArmDesk : public Desk {
   timing::TimeMode time_mode_;
   std::unique_ptr<verify::SimulationEnd<Arm>> simulation_;
   verify::ReleaseStep<Arm> release_;
-  std::vector<Command> released_;        // not yet due at the newest image
+  std::vector<Command> released_;       // not yet due at the newest image
   verify::Prediction<Arm> prediction_;  // of the last command
 };
 
@@ -174,7 +174,9 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
   } else {
     arbiter_.refused();
   }
-  const verify::Verdict& worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation) : execution;
+  verify::Verdict worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation) : execution;
+  worst.margins = simulation.margins;
+  worst.slowly = simulation.slowly;
   return {candidate.sequence(), released, worst, joints_deg(prediction_.ticks[prediction_.command_ticks - 1])};
 }
 

@@ -10,7 +10,8 @@ namespace {
 constexpr std::array kRows{
     RefusalRow{Refusal::kTwinFault, "twin_fault", "clear what the fault names, then command again"},
     RefusalRow{Refusal::kGate, "gate", "command a smaller step"},
-    RefusalRow{Refusal::kTension, "tension_plan", "keep away from this pose: its cables cannot be planned within limits"},
+    RefusalRow{Refusal::kTension, "tension_plan",
+               "keep away from this pose: its cables cannot be planned within limits"},
     RefusalRow{Refusal::kCableSpeed, "cable_speed", "command the same way more slowly"},
     RefusalRow{Refusal::kNotAccepted, "not_accepted", "enable the arm, and command from where it is"},
     RefusalRow{Refusal::kTooSlow, "too_slow", "take load off the machine; see liana latency"},
@@ -34,8 +35,6 @@ constexpr std::array kRows{
 
 std::span<const RefusalRow> refusal_table() { return kRows; }
 
-const RefusalRow& row_of(Refusal code) {
-  return *std::ranges::find(kRows, code, &RefusalRow::code);
-}
+const RefusalRow& row_of(Refusal code) { return *std::ranges::find(kRows, code, &RefusalRow::code); }
 
 }  // namespace liana::verify

@@ -50,6 +50,18 @@ TEST(Scene, MayBeWithoutAnythingButItsBodies) {
   EXPECT_TRUE(parse_scene(good_table("scene", "none").dump(), "s").camera) << "what liana run needs";
 }
 
+TEST(Scene, SaysInPartOrNotAtAllWhatVerificationMakesOfDistances) {
+  Json table = good_table("scene", "panel_slit");
+  EXPECT_EQ(parse_scene(table.dump(), "s").clearance.bound_m, 0.007);
+  table["clearance"] = {{"refuse_m", 0.002}};
+  const SceneClearance clearance = parse_scene(table.dump(), "s").clearance;
+  EXPECT_EQ(clearance.refuse_m, 0.002);
+  EXPECT_EQ(clearance.bound_m, 0.007);
+  EXPECT_EQ(clearance.slow_m, 0.010);
+  table["clearance"] = {{"refuse_m", 0.02}, {"slow_m", 0.01}};
+  EXPECT_THROW(parse_scene(table.dump(), "s"), std::runtime_error) << "slow where nothing goes any more";
+}
+
 TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {
   const Json good = good_table("scene", "panel_slit");
   const std::vector<Spoiled> cases = {
