@@ -147,9 +147,9 @@ struct SceneContact {
 
 // What verification makes of distances to the scene (docs/verification.md).
 struct SceneClearance {
-  double bound_m = 0.007;  // how much nearer the true arm may be than the simulated one: taken off every distance
-  double refuse_m = 0.0;   // motions with less left are refused
-  double slow_m = 0.010;   // motions with less left are to be slow
+  double bound_m = 0.009;   // how much nearer the true arm may be than the simulated one: taken off every distance
+  double refuse_m = 0.0;    // motions with less left are refused
+  double slow_m = 0.010;    // motions with less left are to be slow
 };
 
 // Everything around the arm.
