@@ -26,7 +26,7 @@ class Controller {
     limits_ = 0;
     arm_.read(inputs.drive, inputs.sensors);
     const std::int32_t wrong = watch(inputs);
-    const Orders orders = supervise(link_limits_, inputs, arm_.status(), is_stop(active_), wrong, supervisor_, faults_);
+    const Orders orders = supervise(link_limits_, inputs, arm_.status(), active_.kind(), wrong, supervisor_, faults_);
     take_telecommand(inputs);        // what is in force now
     move(orders);                    // filter, IK, limiter: where the arm should be
     command_drives(inputs, orders);  // what each drive should do, the gate, CiA 402
@@ -65,8 +65,6 @@ class Controller {
 
   using Command = Telecommand<typename A::Setpoint>;
 
-  static bool is_stop(const Command& command) noexcept { return command.kind() == CommandKind::kStop; }
-
   std::int32_t watch(const Inputs<A>& inputs) noexcept;
   void offer(const Command& offered, std::uint64_t tick) noexcept;
   void take_telecommand(const Inputs<A>& inputs) noexcept;
@@ -100,7 +98,8 @@ std::int32_t Controller<A>::watch(const Inputs<A>& inputs) noexcept {
     const std::size_t i = as_index(drive);
     watch_drive(link_limits_, scope, inputs.drive[i], drive, link_, out);
     arm_.watch_drive(scope, link_.following_ticks[i] == 0, drive, out);
-    watch_following(link_limits_, scope, inputs.drive[i], sent_[i], drive, link_, out);
+    const WatchScope following{scope.powered && !arm_.lets_go(drive), scope.prepared};
+    watch_following(link_limits_, following, inputs.drive[i], sent_[i], drive, link_, out);
   }
   arm_.watch(scope, inputs.tick, faults_);
   return out.active();
@@ -143,8 +142,9 @@ void Controller<A>::move(const Orders& orders) noexcept {
     active_ = Command{};
     return;
   }
-  if (!orders.motion_allowed) arm_.brake();
-  limits_ |= arm_.advance(orders.motion_allowed);
+  const bool allowed = is_let_move(orders.may_move, active_.kind());
+  if (!allowed) arm_.brake();
+  limits_ |= arm_.advance(allowed);
 }
 
 template <Arm A>

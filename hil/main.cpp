@@ -22,6 +22,7 @@ struct Paths {
   std::string bus_socket;
   std::string can;
   std::string cross_wired;
+  std::string scene_offset;
 };
 
 void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, bool& no_spread) {
@@ -46,6 +47,12 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
                  "seconds that drives and arm go on after the bus has ended, in truth and summary")
       ->check(CLI::Range(0.0, 60.0))
       ->capture_default_str();
+  app.add_option("--rest-within", options.rest_within_s,
+                 "seconds that they go on after that at most, until the arm is at rest")
+      ->check(CLI::Range(0.0, 600.0))
+      ->capture_default_str();
+  app.add_option("--scene-offset", paths.scene_offset,
+                 "MM,DEG: the scene really is so far from where its table has it, in a direction drawn from the seed");
   app.add_flag("--fixture", options.fixture, "the arm starts exactly in its start pose");
   app.add_option("--cross-wired", paths.cross_wired, "two drives, e.g. 3,4, that have each other's cable");
   app.add_flag("--no-spread", no_spread, "the arm is exactly as the table says (for tests)");
@@ -71,6 +78,26 @@ std::vector<std::size_t> two_drives(const std::string& list, std::size_t count) 
   if (parts.size() == 2 && drives.size() == 2 && drives[0] != drives[1]) return drives;
   throw std::runtime_error("--cross-wired: \"" + list + "\"; allowed are two different drives from 0 to " +
                            std::to_string(count - 1) + ", e.g. 3,4");
+}
+
+double number_up_to(const std::string& text, double most) {
+  std::size_t end = 0;
+  const double value = text.empty() ? -1.0 : std::stod(text, &end);
+  return end == text.size() && value <= most ? value : -1.0;
+}
+
+liana::bench::SceneOffset scene_offset(const std::string& text) {
+  constexpr double kMost_mm = 1000.0, kMost_deg = 45.0, kRadPerDeg = 3.14159265358979323846 / 180.0;
+  const std::vector<std::string> parts = split(text);
+  if (parts.size() == 2) {
+    try {
+      const double mm = number_up_to(parts[0], kMost_mm), deg = number_up_to(parts[1], kMost_deg);
+      if (mm >= 0.0 && deg >= 0.0) return {1e-3 * mm, kRadPerDeg * deg};
+    } catch (const std::logic_error&) {  // no number
+    }
+  }
+  throw std::runtime_error("--scene-offset: \"" + text +
+                           "\"; allowed are mm from 0 to 1000 and deg from 0 to 45, e.g. 10,1");
 }
 
 std::unique_ptr<liana::bench::Bus> open_bus(const Paths& paths, const liana::bench::BusesConfig& buses) {
@@ -122,6 +149,7 @@ int main(int argc, char** argv) {
     if (!paths.faults.empty())
       options.faults = liana::bench::load_faults(paths.faults, drives_of(options), angles_of(options));
     options.spread = !no_spread;
+    if (!paths.scene_offset.empty()) options.scene_offset = scene_offset(paths.scene_offset);
     if (!paths.cross_wired.empty()) options.cross_wired = two_drives(paths.cross_wired, drives_of(options));
     liana::bench::Bench bench(options);
     const auto bus = open_bus(paths, options.buses);

@@ -7,15 +7,24 @@
 namespace liana {
 
 enum class CommandKind : std::uint8_t {
-  kNone = 0,   // nothing new this tick
-  kTip = 1,    // a tip pose, and what the arm should do beside it
-  kJoint = 2,  // joint angles
-  kHold = 3,   // stop along the path, stay enabled
-  kStop = 4,   // stop, then brakes, then disable
+  kNone = 0,     // nothing new this tick
+  kTip = 1,      // a tip pose, and what the arm should do beside it
+  kJoint = 2,    // joint angles
+  kHold = 3,     // stop along the path, stay enabled
+  kStop = 4,     // stop, then brakes, then disable
+  kRetreat = 5,  // joint angles on the way out: slowly (kRetreatRateShare), also while faults are latched that allow it
 };
 
+// Share of the joints' rate limits at which a retreat moves at most.
+constexpr double kRetreatRateShare = 0.25;
+
+// True for the kinds that carry joint angles.
+constexpr bool is_joint(CommandKind kind) noexcept {
+  return kind == CommandKind::kJoint || kind == CommandKind::kRetreat;
+}
+
 // True for the kinds that carry a goal, which the arm judges and follows.
-constexpr bool is_motion(CommandKind kind) noexcept { return kind == CommandKind::kTip || kind == CommandKind::kJoint; }
+constexpr bool is_motion(CommandKind kind) noexcept { return kind == CommandKind::kTip || is_joint(kind); }
 
 // A verified setpoint with identity and life time. `Setpoint` is the arm's own type; it has a CommandKind `kind`. Only
 // Release makes one.

@@ -36,15 +36,17 @@ enum Condition : std::uint32_t {
   kBudgetSpent = 1u << 19,  // the phase's largest number of ticks has passed
   // Nothing is wrong in this tick (latched or not).
   kCausesGone = 1u << 20,
-  kFaultPersists = 1u << 21,  // something has been wrong for kPersistTicks in a row
+  kFaultPersists = 1u << 21,  // something has been wrong for kPersistTicks in a row, without a retreat that moves
 };
 
+// Every drive is heard and the measured pose is trusted: what a retreat needs besides faults that allow it.
+constexpr std::uint32_t kSound = kBusesUp | kDrivesFresh | kDrivesOperational | kNoDriveInFault | kHomed;
+
 // All that enabling needs.
-constexpr std::uint32_t kReady = kBusesUp | kDrivesFresh | kDrivesOperational | kNoDriveInFault | kHomed | kNoFault;
+constexpr std::uint32_t kReady = kSound | kNoFault;
 
 // All that clearing a fault checks.
-constexpr std::uint32_t kClearable =
-    kBusesUp | kDrivesFresh | kDrivesOperational | kNoDriveInFault | kHomed | kAtRest | kCausesGone;
+constexpr std::uint32_t kClearable = kSound | kAtRest | kCausesGone;
 
 // The conditions on all drives that this one drive meets.
 std::uint32_t drive_conditions_of(const LinkLimits& limits, const DriveFeedback& drive) noexcept;

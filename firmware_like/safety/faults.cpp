@@ -54,8 +54,12 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
       return 19;
     case kTensionScatters:
       return 20;
-    case kGateRefused:
+    case kBodyContact:
       return 21;
+    case kFrictionNotAsDeclared:
+      return 22;
+    case kGateRefused:
+      return 23;
   }
   return 0;
 }
@@ -63,64 +67,75 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
 constexpr StopCategory kHold = StopCategory::kHold;
 constexpr StopCategory kStop = StopCategory::kStop;
 
-constexpr std::array<FaultInfo, 22> kFaultTable{{
-    {kNone, "none", StopCategory::kNone, false, "No fault.", "Nothing to do."},
-    {kCommandInvalid, "command_invalid", kHold, false,
+constexpr std::array<FaultInfo, 24> kFaultTable{{
+    {kNone, "none", StopCategory::kNone, false, true, "No fault.", "Nothing to do."},
+    {kCommandInvalid, "command_invalid", kHold, false, true,
      "A released command held a value that is not finite or out of range.",
      "Look at the verdict log for the command's sequence number; correct the client that sent it, then clear."},
-    {kTicksLost, "ticks_lost", kStop, true, "More control deadlines in a row were lost than the drives tolerate.",
+    {kTicksLost, "ticks_lost", kStop, true, false,
+     "More control deadlines in a row were lost than the drives tolerate.",
      "Run liana doctor, free the computer's cores from other work, then clear and enable again."},
-    {kJointOutOfRange, "joint_out_of_range", kStop, true, "A joint with power stands beyond the end of its range.",
+    {kJointOutOfRange, "joint_out_of_range", kStop, true, false,
+     "A joint with power stands beyond the end of its range.",
      "Look for what pushes it, and compare the drive's stored zero with the robot table; move it back by hand with the "
      "brakes' release "
      "procedure, then clear."},
-    {kJointJump, "joint_jump", kStop, true, "A joint's encoder changed faster than the joint can turn.",
+    {kJointJump, "joint_jump", kStop, true, false, "A joint's encoder changed faster than the joint can turn.",
      "Check the encoder and its cable; compare the joint's angle with the arm by eye, then clear and enable again."},
-    {kDriveMissing, "drive_missing", kStop, true, "A drive sent no heartbeat within the allowed time.",
+    {kDriveMissing, "drive_missing", kStop, true, false, "A drive sent no heartbeat within the allowed time.",
      "Check the drive's supply and its bus connector; when it comes back it is booted by itself: then clear."},
-    {kDriveSilent, "drive_silent", kStop, true, "A drive sent no feedback for more than two ticks.",
+    {kDriveSilent, "drive_silent", kStop, true, false, "A drive sent no feedback for more than two ticks.",
      "Check the bus for errors and load, and the drive's supply, then clear."},
-    {kDriveFault, "drive_fault", kStop, true, "A drive reports a fault; the detail is its emergency code.",
+    {kDriveFault, "drive_fault", kStop, true, false, "A drive reports a fault; the detail is its emergency code.",
      "Look the emergency code up in the drive's manual and remove the cause; clear resets the drive."},
-    {kDriveLeftOperation, "drive_left_operation", kStop, true,
+    {kDriveLeftOperation, "drive_left_operation", kStop, true, false,
      "A drive left Operation enabled by itself; the detail is its statusword.",
      "Check STO line, supply and the drive's log, then clear and enable again."},
-    {kDriveEnableTimeout, "drive_enable_timeout", kStop, true,
+    {kDriveEnableTimeout, "drive_enable_timeout", kStop, true, false,
      "A drive or the pretension ramp did not finish the enable sequence in time.",
      "Look at the drive's state (detail is its statusword), supply and STO line, then clear and enable again."},
-    {kFollowingError, "following_error", kStop, true, "A motor does not follow its target within the allowed lag.",
+    {kFollowingError, "following_error", kStop, true, false,
+     "A motor does not follow its target within the allowed lag.",
      "Check brake, drum and cable for blockage; compare the servo time constant with the robot table, then clear."},
-    {kDriveNotOperational, "drive_not_operational", kStop, true, "A drive left the NMT state operational.",
+    {kDriveNotOperational, "drive_not_operational", kStop, true, false, "A drive left the NMT state operational.",
      "The drive restarted or was stopped by another master; a restarted drive is booted by itself, a stopped one needs "
      "a reset: then "
      "clear."},
-    {kDriveStopTimeout, "drive_stop_timeout", kStop, true, "A drive did not confirm that it is without power.",
+    {kDriveStopTimeout, "drive_stop_timeout", kStop, true, false, "A drive did not confirm that it is without power.",
      "Use the STO switch; do not approach the arm before the drive shows Switch on disabled, then clear."},
-    {kBusLost, "bus_lost", kStop, true, "A drive bus is down, in bus-off, or none of its drives is heard.",
+    {kBusLost, "bus_lost", kStop, true, false, "A drive bus is down, in bus-off, or none of its drives is heard.",
      "Check connector, termination and interface state of the bus, then clear."},
-    {kCableSlack, "cable_slack", kHold, false, "A cable's tension stayed under the floor.",
-     "Check the cable on its drum; move back along the path or disable and enable again to pretension, then clear."},
-    {kCableOverload, "cable_overload", StopCategory::kOff, true, "A cable's tension went over the hard limit.",
+    {kCableSlack, "cable_slack", kHold, false, true, "A cable's tension stayed under the floor.",
+     "Retract where the arm is in the way; disable, look at the cable on its drum, then clear and enable: that "
+     "tightens it."},
+    {kCableOverload, "cable_overload", StopCategory::kOff, true, false, "A cable's tension went over the hard limit.",
      "Free the arm by hand with the brakes' release procedure, inspect the cable, then clear."},
-    {kTensionAlarm, "tension_alarm", kHold, false, "A cable's tension stayed over the alarm limit.",
-     "Look for contact; move back along the path, then clear."},
-    {kHomingImplausible, "homing_implausible", kHold, false,
+    {kTensionAlarm, "tension_alarm", kHold, false, true, "A cable's tension stayed over the alarm limit.",
+     "Look for contact and retract from it; clear when the tension is under the limit again."},
+    {kHomingImplausible, "homing_implausible", kHold, false, true,
      "The lengths of one segment's cables came to contradict each other; the detail is by how many micrometres.",
-     "Look for a cable that creeps on its drum, and compare the stored zeros of the segment's drives with the robot "
-     "table; home again, "
-     "then "
-     "clear."},
-    {kCableSlip, "cable_slip", kHold, false,
+     "Retract, disable and clear; look for a cable of this segment that creeps on its drum, and "
+     "measure the zeros again (liana calibrate)."},
+    {kCableSlip, "cable_slip", kHold, false, true,
      "A cable slipped on its drum, or its encoder jumped: length and tension do not agree since; the detail is "
      "micrometres of cable.",
-     "Look at the clamp on the drum and at the encoder; the cable's zero is wrong now: home again, then clear."},
-    {kCableBreak, "cable_break", kStop, true,
+     "Retract, disable and clear; look at the clamp on the drum and at the encoder. The cable's zero is wrong now: "
+     "measure it again (liana calibrate)."},
+    {kCableBreak, "cable_break", kStop, false, false,
      "A cable's tension was gone from one moment to the next: it broke or came off its drum, or its reading is lost.",
      "Stay away from the arm; look at the cable and its clamp on the drum, then at the drive's torque reading; then "
      "clear."},
-    {kTensionScatters, "tension_scatters", kHold, false, "Readings of a cable jump to and fro.",
-     "Check the drive's torque and position measurement and its cable; move back along the path, then clear."},
-    {kGateRefused, "gate_refused", kStop, true,
+    {kTensionScatters, "tension_scatters", kHold, false, true, "Readings of a cable jump to and fro.",
+     "Retract and disable; check the drive's torque and position measurement and its cable, then clear."},
+    {kBodyContact, "body_contact", kHold, false, true,
+     "Something pushes the body of the arm: the torques of its cables do not balance; the drive is the first of the "
+     "last segment that feels it, the detail is in 0.01 N m.",
+     "Look where the arm touches; retract, or take away what it touches, then clear."},
+    {kFrictionNotAsDeclared, "friction_not_as_declared", kHold, false, true,
+     "Friction of the cables is higher than declared, and than tensions can be planned for; the detail is mu in "
+     "0.0001.",
+     "Retract and disable; look for worn holes or dirt, then measure again (liana calibrate --friction), and clear."},
+    {kGateRefused, "gate_refused", kStop, true, false,
      "The gate saw a command that must not reach a drive; the detail names the check.",
      "This is a defect: keep the recording and report it; the arm stands at its last good target, then clear."},
 }};
@@ -133,6 +148,7 @@ constexpr bool is_complete() noexcept {
     if (row > 0 && (info.number <= kFaultTable[as_index(row - 1)].number || info.category == StopCategory::kNone))
       return false;
     if (info.immediate && info.category < kStop) return false;  // a hold keeps the drives on the path
+    if (info.retreat && info.category > kHold) return false;    // without power nothing can be led back
   }
   return true;
 }
@@ -148,6 +164,13 @@ void raise(FaultList& list, const FaultInfo& info) noexcept {
 std::span<const FaultInfo> all_faults() noexcept { return kFaultTable; }
 
 const FaultInfo& fault_info(FaultNumber number) noexcept { return kFaultTable[as_index(row_of(number))]; }
+
+bool allow_retreat(const FaultList& faults) noexcept {
+  bool allowed = faults.category <= kHold && faults.dropped == 0;
+  for (std::int32_t i = 0; i < faults.count; ++i)
+    allowed = allowed && fault_info(faults.fault[as_index(i)].number).retreat;
+  return allowed;
+}
 
 bool latch(FaultList& list, const Fault& fault) noexcept {
   if (fault.number == kNone) return false;

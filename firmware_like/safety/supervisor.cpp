@@ -91,16 +91,16 @@ constexpr std::array kTransitions{
 
 const PhaseTraits& traits_of(Phase phase) noexcept { return kPhaseTable[static_cast<std::size_t>(phase)]; }
 
-std::uint32_t request_conditions(Request request, bool stop_commanded) noexcept {
-  if (request == Request::kStop || request == Request::kDisable || stop_commanded) return kAskStop;
+std::uint32_t request_conditions(Request request, CommandKind in_force) noexcept {
+  if (request == Request::kStop || request == Request::kDisable || in_force == CommandKind::kStop) return kAskStop;
   if (request == Request::kEnable) return kAskEnable;
   return request == Request::kClear ? static_cast<std::uint32_t>(kAskClear) : 0;
 }
 
 std::uint32_t conditions_now(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm,
-                             bool stop_commanded, std::int32_t active_faults, const SupervisorState& state) noexcept {
+                             CommandKind in_force, std::int32_t active_faults, const SupervisorState& state) noexcept {
   const PhaseTraits& traits = traits_of(state.phase);
-  std::uint32_t set = drive_conditions(limits, inputs) | request_conditions(inputs.request, stop_commanded);
+  std::uint32_t set = drive_conditions(limits, inputs) | request_conditions(inputs.request, in_force);
   if (arm.homed) set |= kHomed;
   if (arm.prepared) set |= kPrepared;
   if (state.rest_ticks >= kRestTicks || !traits.live_targets)
@@ -180,6 +180,12 @@ void remember_stop(const FaultList& faults, SupervisorState& state) noexcept {
   state.stopped = higher(before, faults.category);
 }
 
+// Faults that hold leave the way out open while the arm can still be measured.
+MayMove may_move(std::uint32_t now, const FaultList& faults) noexcept {
+  if (faults.category == StopCategory::kNone) return MayMove::kEverything;
+  return (now & kSound) == kSound && allow_retreat(faults) ? MayMove::kRetreat : MayMove::kNothing;
+}
+
 Orders orders_of(const SupervisorState& state, std::uint32_t now, const FaultList& faults) noexcept {
   const Phase phase = state.phase;
   const PhaseTraits& traits = traits_of(phase);
@@ -188,7 +194,7 @@ Orders orders_of(const SupervisorState& state, std::uint32_t now, const FaultLis
   orders.goal = traits.goal;
   orders.stop_category = higher(traits.stop, state.stopped);
   orders.live_targets = traits.live_targets;
-  orders.motion_allowed = phase == Phase::kEnabled && faults.category == StopCategory::kNone;
+  if (phase == Phase::kEnabled) orders.may_move = may_move(now, faults);
   orders.preparing = phase == Phase::kPreparing;
   orders.enable_missing = kReady & ~now;
   return orders;
@@ -201,11 +207,12 @@ WatchScope watch_scope(const SupervisorState& state) noexcept {
   return {powered, powered && state.phase != Phase::kPreparing};
 }
 
-Orders supervise(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm, bool stop_commanded,
+Orders supervise(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm, CommandKind in_force,
                  std::int32_t active_faults, SupervisorState& state, FaultList& faults) noexcept {
   count(arm.at_rest, kRestTicks, state.rest_ticks);
-  count(active_faults != 0, kPersistTicks, state.wrong_ticks);
-  std::uint32_t now = conditions_now(limits, inputs, arm, stop_commanded, active_faults, state);
+  const bool retreats = in_force == CommandKind::kRetreat && !arm.at_rest;
+  count(active_faults != 0 && !retreats, kPersistTicks, state.wrong_ticks);
+  std::uint32_t now = conditions_now(limits, inputs, arm, in_force, active_faults, state);
   latch_timeouts(limits, inputs, state.phase, now, faults);
   if (is_clear_due(state.phase, now)) judge_clear(inputs.tick, now, state, faults);
   now |= fault_conditions(faults);

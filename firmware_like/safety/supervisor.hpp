@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "firmware_like/command/telecommand.hpp"
 #include "firmware_like/drive/cia402.hpp"
 #include "firmware_like/safety/conditions.hpp"
 #include "firmware_like/safety/link_watch.hpp"
@@ -14,7 +15,8 @@ namespace liana {
 constexpr std::uint32_t kPoweringBudgetTicks = 250;     // CiA 402 transitions and brakes take well under 0.5 s (500 Hz)
 constexpr std::uint32_t kPreparingBudgetTicks = 15000;  // 60 s at 250 Hz; the ramp takes a few seconds
 constexpr std::uint32_t kRestTicks = 25;                // standing still this long before the brakes close
-constexpr std::uint32_t kPersistTicks = 1250;  // a cause that stays this long turns a hold into a stop (5 s at 250 Hz)
+constexpr std::uint32_t kPersistTicks = 1250;  // a cause that stays this long turns a hold into a stop (5 s at 250 Hz);
+                                               // counted anew after each tick in which a retreat moves the arm
 constexpr std::uint32_t kPathStopBudgetTicks = 1000;  // full speed to rest takes about 1 s
 constexpr std::uint32_t kBrakingTicks = 25;           // brakes closed this long before power goes
 constexpr std::uint32_t kQuickStopBudgetTicks = 125;
@@ -54,7 +56,7 @@ struct SupervisorState {
   Phase phase = Phase::kDisabled;
   std::uint32_t phase_ticks = 0;  // ticks spent in it, saturating
   std::uint32_t rest_ticks = 0;   // in a row at rest, up to kRestTicks
-  std::uint32_t wrong_ticks = 0;  // in a row with something wrong, up to kPersistTicks
+  std::uint32_t wrong_ticks = 0;  // in a row with something wrong and no retreat that moves, up to kPersistTicks
   StopCategory stopped =
       StopCategory::kNone;  // highest category of the stop that led into Fault; kept until the faults are cleared
   ClearReport clear{};
@@ -68,13 +70,22 @@ struct ArmStatus {
   bool prepared = false;  // ready for motion: a cable arm has its ramp at its end and no cable slack
 };
 
+// What telecommands may move.
+enum class MayMove : std::uint8_t { kNothing = 0, kRetreat = 1, kEverything = 2 };
+
+// True when a command of this kind may move the arm. Kinds without a goal never do.
+constexpr bool is_let_move(MayMove allowed, CommandKind kind) noexcept {
+  if (allowed == MayMove::kRetreat) return kind == CommandKind::kRetreat;
+  return allowed == MayMove::kEverything && is_motion(kind);
+}
+
 // What the supervisor orders for this tick.
 struct Orders {
   OperatingState state = OperatingState::kDisabled;
   StopCategory stop_category = StopCategory::kNone;  // in Fault: of the stop that led there
   DriveGoal goal = DriveGoal::kDisabled;             // of every drive
-  bool motion_allowed =
-      false;  // telecommands may move the arm; false while live_targets: decelerate along the path and hold
+  MayMove may_move =
+      MayMove::kNothing;   // whatever may not move decelerates along its path and holds while live_targets
   bool preparing = false;  // the arm makes itself ready, starting at the targets sent last
   bool live_targets =
       false;  // proposals go to the drives; otherwise the gate freezes targets or follows actual positions
@@ -84,10 +95,10 @@ struct Orders {
 // What the watchdogs have to look at while in the phase that the last tick ended in.
 WatchScope watch_scope(const SupervisorState& state) noexcept;
 
-// One step of the state machine, after the watchdogs and before the gate. `stop_commanded`: a stop telecommand is in
-// force; `active_faults`: how many conditions the watchdogs find wrong now. Latches enable and stop timeouts, clears
-// `faults` when asked and all of kClearable holds. Acts on this tick's inputs in this tick.
-Orders supervise(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm, bool stop_commanded,
+// One step of the state machine, after the watchdogs and before the gate. `in_force`: kind of the telecommand that
+// is in force; `active_faults`: how many conditions the watchdogs find wrong now. Latches enable and stop timeouts,
+// clears `faults` when asked and all of kClearable holds. Acts on this tick's inputs in this tick.
+Orders supervise(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm, CommandKind in_force,
                  std::int32_t active_faults, SupervisorState& state, FaultList& faults) noexcept;
 
 }  // namespace liana

@@ -25,6 +25,26 @@ double bounded_rate(const JointTable& joint, double tick_s, double wanted_rad_s,
   return bounded;
 }
 
+// Rate at which joint `i` goes after its reference.
+double wanted_joint_rate(const RobotTable& table, const JointVector& reference_rad, Index i,
+                         const LimiterState& state) noexcept {
+  const double h = table.tick_s;
+  return wanted_rate(state.reference_rad[i] - state.joint_rad[i], (reference_rad[i] - state.reference_rad[i]) / h,
+                     table.joint[i].accel_rad_s2, h);
+}
+
+// Factor <= 1 that brings every joint under `share` of its rate limit.
+double rate_factor(const RobotTable& table, const JointVector& reference_rad, double share,
+                   const LimiterState& state) noexcept {
+  double factor = 1.0;
+  for (Index i = 0; i < table.joints(); ++i) {
+    const double size = std::fabs(wanted_joint_rate(table, reference_rad, i, state));
+    const double allowed = share * table.joint[i].rate_rad_s;
+    if (size > allowed) factor = smaller(factor, allowed / size);
+  }
+  return factor;
+}
+
 }  // namespace
 
 void reset_limiter(const JointVector& joint_rad, LimiterState& state) noexcept {
@@ -53,16 +73,17 @@ StepShare allowed_share(const RobotTable& table, const JointVector& step_rad, co
   return out;
 }
 
-void limit_motion(const RobotTable& table, const JointVector& reference_rad, LimiterState& state) noexcept {
+void limit_motion(const RobotTable& table, const JointVector& reference_rad, LimiterState& state,
+                  double rate_share) noexcept {
   const double h = table.tick_s;
-  state.limits = 0;
+  const double factor = rate_share < 1.0 ? rate_factor(table, reference_rad, rate_share, state) : 1.0;
+  state.limits = factor < 1.0 ? std::uint32_t{kLimitThetaRate} : std::uint32_t{0};
   for (Index i = 0; i < table.joints(); ++i) {
     const JointTable& joint = table.joint[i];
     const double gap_rad = state.reference_rad[i] - state.joint_rad[i];
-    const double asked_rad_s = (reference_rad[i] - state.reference_rad[i]) / h;
-    const double wanted = wanted_rate(gap_rad, asked_rad_s, joint.accel_rad_s2, h);
+    const double wanted = factor * wanted_joint_rate(table, reference_rad, i, state);
     const double rate = bounded_rate(joint, h, wanted, state.joint_rad[i], state.rate_rad_s[i], state.limits);
-    if (rate == wanted && gap_rad == 0.0) {
+    if (rate == wanted && gap_rad == 0.0 && factor == 1.0) {
       state.joint_rad[i] = reference_rad[i];  // exactly, so that nothing creeps by roundings
     } else {
       state.joint_rad[i] += rate * h;

@@ -28,8 +28,10 @@ struct StepShare {
 StepShare allowed_share(const RobotTable& table, const JointVector& step_rad, const LimiterState& state) noexcept;
 
 // One tick towards a reference (which may move). Follows exactly while its rate and acceleration are inside the limits;
-// otherwise it lags and comes back along a braking parabola; it never leaves a joint's range.
-void limit_motion(const RobotTable& table, const JointVector& reference_rad, LimiterState& state) noexcept;
+// otherwise it lags and comes back along a braking parabola; it never leaves a joint's range. Below 1, `rate_share` of
+// its rate limit is all that the joint gets that is nearest to it; the others slow down in proportion.
+void limit_motion(const RobotTable& table, const JointVector& reference_rad, LimiterState& state,
+                  double rate_share = 1.0) noexcept;
 
 // The joints of the next tick when all brake in proportion: as hard as the one that needs longest may. They come to
 // rest together, so the arm stays on its path; joints that stop one by one would let the tip swing aside.

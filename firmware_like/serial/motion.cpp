@@ -139,7 +139,7 @@ void advance_motion(const RobotTable& table, bool allowed, MotionState& state) n
   } else {
     follow_joints(table, state);
   }
-  limit_motion(table, state.ik_rad, state.limiter);
+  limit_motion(table, state.ik_rad, state.limiter, state.to.kind == CommandKind::kRetreat ? kRetreatRateShare : 1.0);
   state.limits |= state.limiter.limits;
   state.arm = forward_kinematics(table, state.limiter.joint_rad);
 }

@@ -16,7 +16,7 @@ bool inside_ranges(const RobotTable& table, const JointVector& joint_rad) noexce
 }  // namespace
 
 bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept {
-  if (setpoint.kind == CommandKind::kJoint) return inside_ranges(table, setpoint.joint_rad);
+  if (is_joint(setpoint.kind)) return inside_ranges(table, setpoint.joint_rad);
   if (setpoint.kind != CommandKind::kTip) return true;
   return is_valid(setpoint.tip_in_base) && setpoint.tip_speed_m_s > 0.0 && is_finite(setpoint.tip_speed_m_s);
 }

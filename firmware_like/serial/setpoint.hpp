@@ -13,7 +13,7 @@ namespace liana::serial {
 struct Setpoint {
   CommandKind kind = CommandKind::kNone;
   Pose tip_in_base{};          // kTip
-  JointVector joint_rad{};     // kJoint
+  JointVector joint_rad{};     // kJoint, kRetreat
   double tip_speed_m_s = 0.0;  // kTip: limit for this motion, > 0; the robot's own limit holds besides
 };
 static_assert(std::is_trivially_copyable_v<Setpoint>);

@@ -41,11 +41,31 @@ void TipCamera::look(double now_s, const Pose& tip) {
   view.capture_time_s = now_s;
   if (slit_) view.slit = see(tip, *slit_);
   view.rod = see(tip, rod_);
-  pending_.push_back(view);
+  if (!defects_.frozen) last_sound_ = view;
+  spoil(view);
+  if (!defects_.dropped) pending_.push_back(view);
+}
+
+// What is wrong with the camera, done to a picture; it never knows.
+void TipCamera::spoil(CameraView& view) const {
+  if (defects_.frozen) {
+    view.slit = last_sound_.slit;
+    view.rod = last_sound_.rod;
+  }
+  for (std::optional<Pose>* seen : {&view.slit, &view.rod}) {
+    if (!*seen) continue;
+    Pose& pose = **seen;
+    if (defects_.mirrored) {
+      pose.position_m.y = -pose.position_m.y;
+      pose.attitude = {pose.attitude.w, -pose.attitude.x, pose.attitude.y, -pose.attitude.z};
+    }
+    pose.position_m.y += defects_.jump_m;
+  }
 }
 
 std::optional<CameraView> TipCamera::deliver(double now_s) {
-  if (pending_.empty() || now_s + kTimeTolerance_s < pending_.front().capture_time_s + config_.latency_s)
+  if (pending_.empty() ||
+      now_s + kTimeTolerance_s < pending_.front().capture_time_s + config_.latency_s + defects_.late_s)
     return std::nullopt;
   const CameraView view = pending_.front();
   pending_.pop_front();

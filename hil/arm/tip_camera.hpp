@@ -17,11 +17,22 @@ struct CameraView {
   std::optional<Pose> rod;
 };
 
+// What may be wrong with the camera.
+struct CameraDefects {
+  bool dropped = false;   // no picture is taken
+  bool frozen = false;    // every picture shows what the last sound one did
+  bool mirrored = false;  // left and right are exchanged: y of what is seen
+  double late_s = 0.0;    // so much later than the scene says
+  double jump_m = 0.0;    // everything is seen so far beside where it is, along the tip's y
+};
+
 class TipCamera {
  public:
   // Without a slit only the rod is seen.
   TipCamera(const CameraConfig& config, const std::optional<Pose>& slit, const Pose& rod, std::uint64_t seed);
 
+  // From the next picture on.
+  void suffer(const CameraDefects& defects) { defects_ = defects; }
   // Takes a picture when one is due at `now_s` (seconds from the start, not falling).
   void look(double now_s, const Pose& tip);
   // The next picture whose latency has passed, oldest first.
@@ -29,12 +40,15 @@ class TipCamera {
 
  private:
   std::optional<Pose> see(const Pose& tip, const Pose& target);
+  void spoil(CameraView& view) const;
 
   CameraConfig config_;
   std::optional<Pose> slit_;
   Pose rod_;
   Random noise_;
   std::int64_t pictures_ = 0;
+  CameraDefects defects_;
+  CameraView last_sound_;
   std::deque<CameraView> pending_;
 };
 

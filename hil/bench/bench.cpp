@@ -14,10 +14,13 @@ namespace liana::bench {
 
 namespace {
 
-std::unique_ptr<Plant> make_plant(const BenchOptions& options) {
+constexpr double kRest_rad_s = 0.1 * 3.14159265358979323846 / 180.0;
+constexpr double kRested_s = 0.5;  // in a row: at the ends of a swing the arm stands, too
+
+std::unique_ptr<Plant> make_plant(const BenchOptions& options, const SceneConfig& scene) {
   if (options.serial_robot)
     return std::make_unique<SerialPlant>(*options.serial_robot, options.buses, options, options.faults, options.seed);
-  return std::make_unique<CablePlant>(options.robot, options.scene, options.buses, options, options.seed);
+  return std::make_unique<CablePlant>(options.robot, scene, options.buses, options, options.seed);
 }
 
 std::vector<std::string> columns_of(const Plant& plant) {
@@ -30,9 +33,10 @@ std::vector<std::string> columns_of(const Plant& plant) {
 
 Bench::Bench(const BenchOptions& options)
     : options_(options),
-      plant_(make_plant(options)),
+      scene_(displaced(options.scene, options.scene_offset, options.seed)),
+      plant_(make_plant(options, scene_)),
       injector_(options.faults),
-      camera_(options.scene.camera, options.scene.slit_frame, options.scene.rod.pose, options.seed),
+      camera_(scene_.camera, scene_.slit_frame, scene_.rod.pose, options.seed),
       link_(options.api_socket),
       log_(options.truth_path, columns_of(*plant_)),
       syncs_(options.buses.names.size(), 0),
@@ -43,9 +47,24 @@ Bench::Bench(const BenchOptions& options)
 void Bench::begin_slot(std::uint32_t slot, double now_s) {
   plant_->inject(slot, injector_);
   record(slot);
+  camera_.suffer(camera_defects());
   camera_.look(now_s, plant_->tip());
   while (const auto view = camera_.deliver(now_s)) link_.send(camera_message(*view));
   begun_ = slot + 1;
+}
+
+CameraDefects Bench::camera_defects() const {
+  CameraDefects defects;
+  for (std::size_t i = 0; i < injector_.faults().size(); ++i) {
+    if (!injector_.is_on(i)) continue;
+    const FaultConfig& fault = injector_.faults()[i];
+    if (fault.kind == FaultKind::kCameraDropped) defects.dropped = true;
+    if (fault.kind == FaultKind::kCameraFrozen) defects.frozen = true;
+    if (fault.kind == FaultKind::kCameraMirrored) defects.mirrored = true;
+    if (fault.kind == FaultKind::kCameraLate) defects.late_s += fault.parameters.seconds;
+    if (fault.kind == FaultKind::kCameraJump) defects.jump_m += fault.parameters.length_m;
+  }
+  return defects;
 }
 
 void Bench::record(std::uint32_t slot) {
@@ -119,8 +138,12 @@ void Bench::run(Bus& bus) {
 void Bench::run_on(std::uint64_t now_us, std::uint32_t period_us) {
   const double period_s = 1e-6 * period_us;
   const auto slots = static_cast<std::uint32_t>(std::lround(options_.run_on_s / period_s));
+  const auto most = slots + static_cast<std::uint32_t>(std::lround(options_.rest_within_s / period_s));
+  const auto rested = static_cast<std::uint32_t>(std::lround(kRested_s / period_s));
   FrameList unheard;
-  for (std::uint32_t i = 0; i < slots; ++i) {
+  std::uint32_t at_rest = 0;
+  for (std::uint32_t i = 0; i < slots || (i < most && at_rest < rested); ++i) {
+    at_rest = plant_->fastest_rad_s() < kRest_rad_s ? at_rest + 1 : 0;
     now_us += period_us;
     if (begun_ == integrated_) record(begun_++);
     plant_->exchange({}, now_us, unheard);
@@ -144,6 +167,8 @@ void Bench::write_summary(const Bus& bus) const {
                       {"sdo_aborts", c.sdo_aborts},
                       {"statusword", drive.statusword()}});
   }
+  const Vec3& rod = scene_.rod.pose.position_m;
+  const Quat& rod_attitude = scene_.rod.pose.attitude;
   nlohmann::json buses = nlohmann::json::array();
   for (std::size_t b = 0; b < received_.size(); ++b)
     buses.push_back({{"name", options_.buses.names[b]}, {"received", received_[b]}, {"sent", sent_[b]}});
@@ -163,6 +188,7 @@ void Bench::write_summary(const Bus& bus) const {
       {"faults", faults},
       {"buses", buses},
       {"frames_refused", bus.refused()},
+      {"rod", {rod.x, rod.y, rod.z, rod_attitude.w, rod_attitude.x, rod_attitude.y, rod_attitude.z}},
       {"camera_sent", link_.sent()},
       {"camera_lost", link_.lost()},
       {"measured", {{"physics_us_per_slot", integrated_ == 0 ? 0.0 : static_cast<double>(physics_us_) / integrated_}}}};

@@ -23,14 +23,16 @@ namespace liana::bench {
 struct BenchOptions : ModelOptions {
   RobotConfig robot;                              // a cable arm, unless
   std::optional<SerialRobotConfig> serial_robot;  // it is a serial one
-  SceneConfig scene;
+  SceneConfig scene;                              // as its table has it
+  SceneOffset scene_offset;                       // where it really is
   BusesConfig buses;
   std::vector<FaultConfig> faults;
   std::uint64_t seed = 1;
   std::string api_socket;
   std::string truth_path;
   std::string summary_path;
-  double run_on_s = 0.0;  // how long drives and arm go on by themselves after the bus has ended
+  double run_on_s = 0.0;       // how long drives and arm go on by themselves after the bus has ended
+  double rest_within_s = 0.0;  // and then at most so long, until the arm is at rest
 };
 
 class Bench {
@@ -38,7 +40,7 @@ class Bench {
   // Throws std::runtime_error for anything that cannot work.
   explicit Bench(const BenchOptions& options);
 
-  // Runs until the bus ends and run_on_s longer, then writes the summary.
+  // Runs until the bus ends, run_on_s longer and until the arm is at rest, then writes the summary.
   void run(Bus& bus);
 
  private:
@@ -48,9 +50,11 @@ class Bench {
   std::uint32_t count_syncs(const FrameList& frames, std::uint64_t now_us, std::uint32_t period_us);
   void catch_up(std::uint32_t slots, double period_s);
   void run_on(std::uint64_t now_us, std::uint32_t period_us);
+  CameraDefects camera_defects() const;
   void write_summary(const Bus& bus) const;
 
   BenchOptions options_;
+  SceneConfig scene_;  // where it really is
   std::unique_ptr<Plant> plant_;
   FaultInjector injector_;
   TipCamera camera_;

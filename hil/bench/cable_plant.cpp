@@ -36,10 +36,12 @@ std::unique_ptr<Arm> make_arm(const RobotConfig& robot, const SceneConfig& scene
 CablePlant::CablePlant(const RobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses,
                        const ModelOptions& options, std::uint64_t seed)
     : thetas_(robot.theta_count()),
+      scene_(scene),
       options_(options),
       truth_(parameters_of(robot, options, seed)),
       arm_(make_arm(robot, scene, options, seed, truth_)),
-      drives_(robot, buses, truth_, arm_->payouts_m(), options.spread, seed, options.cross_wired) {
+      drives_(robot, buses, truth_, arm_->payouts_m(), options.spread, seed, options.cross_wired),
+      tip_before_m_(arm_->tip().position_m) {
   drives_.measure(motor_tensions_N());
 }
 
@@ -50,7 +52,13 @@ CableValues CablePlant::motor_tensions_N() const {
 }
 
 void CablePlant::inject(std::uint32_t slot, FaultInjector& injector) {
-  injector.step(slot, arm_->theta_rad(), arm_->rate_rad_s(), drives_);
+  injector.step(slot, {arm_->theta_rad(), arm_->rate_rad_s(), depth_m()}, drives_);
+}
+
+double CablePlant::fastest_rad_s() const {
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < thetas_; ++i) fastest = std::max(fastest, std::fabs(arm_->rate_rad_s()[i]));
+  return fastest;
 }
 
 void CablePlant::exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) {
@@ -66,14 +74,16 @@ void CablePlant::integrate(double period_s) {
     arm_->step(step_s, drives_.payouts_m());
   }
   drives_.measure(motor_tensions_N());
+  since_s_ += period_s;
 }
 
 std::vector<std::string> CablePlant::truth_columns() const {
   std::vector<std::string> columns;
   for (std::size_t i = 1; i <= thetas_; ++i) columns.push_back("theta_deg_" + std::to_string(i));
-  for (const char* name : {"tip_x_m", "tip_y_m", "tip_z_m", "tip_qw", "tip_qx", "tip_qy", "tip_qz", "clearance_m",
-                           "slit_clearance_m", "sphere_clearance_m", "contact_force_N", "rod_force_N", "tension_min_N",
-                           "tension_motor_min_N", "tension_motor_max_N", "enabled"})
+  for (const char* name :
+       {"tip_x_m", "tip_y_m", "tip_z_m", "tip_qw", "tip_qx", "tip_qy", "tip_qz", "clearance_m", "slit_clearance_m",
+        "sphere_clearance_m", "contact_force_N", "rod_force_N", "tension_min_N", "tension_motor_min_N",
+        "tension_motor_max_N", "enabled", "tip_speed_m_s", "fastest_deg_s", "slit_depth_m"})
     columns.emplace_back(name);
   return columns;
 }
@@ -88,8 +98,11 @@ void CablePlant::add_truth(std::vector<double>& row) {
   for (const double value :
        {p.x, p.y, p.z, q.w, q.x, q.y, q.z, std::min(gap.slit_m, gap.sphere_m), gap.slit_m, gap.sphere_m,
         loads.contact_N, loads.rod_N, loads.least_tension_N, loads.least_motor_tension_N, loads.most_motor_tension_N,
-        static_cast<double>(drives_.enabled())})
+        static_cast<double>(drives_.enabled()), since_s_ > 0.0 ? norm(p - tip_before_m_) / since_s_ : 0.0,
+        kDegPerRad * fastest_rad_s(), depth_m()})
     row.push_back(value);
+  tip_before_m_ = p;
+  since_s_ = 0.0;
 }
 
 void CablePlant::summarise(nlohmann::json& summary) const {

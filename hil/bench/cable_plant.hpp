@@ -20,6 +20,7 @@ class CablePlant final : public Plant {
   void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) override;
   void integrate(double period_s) override;
   Pose tip() const override { return arm_->tip(); }
+  double fastest_rad_s() const override;
   std::vector<std::string> truth_columns() const override;
   void add_truth(std::vector<double>& row) override;
   void summarise(nlohmann::json& summary) const override;
@@ -27,11 +28,16 @@ class CablePlant final : public Plant {
  private:
   CableValues motor_tensions_N() const;
 
+  double depth_m() const { return depth_in_slit_m(scene_, arm_->tip().position_m); }
+
   std::size_t thetas_;
+  SceneConfig scene_;
   ModelOptions options_;
   TrueParameters truth_;
   std::unique_ptr<Arm> arm_;
   DriveBank drives_;
+  Vec3 tip_before_m_;     // when truth was last asked for
+  double since_s_ = 0.0;  // how long ago that was
 };
 
 }  // namespace liana::bench

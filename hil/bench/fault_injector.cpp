@@ -6,35 +6,33 @@
 
 namespace liana::bench {
 
-namespace {
-
-bool holds(const FaultCondition& when, std::span<const double> angle_rad, std::span<const double> rate_rad_s,
-           const Drives& drives) {
-  if (when.theta && (angle_rad[*when.theta] < when.above_rad || angle_rad[*when.theta] > when.below_rad)) return false;
-  if (when.enabled && drives.enabled() != drives.size()) return false;
-  return !when.moving ||
-         std::any_of(rate_rad_s.begin(), rate_rad_s.end(), [](double rate) { return std::fabs(rate) > kMoving_rad_s; });
-}
-
-}  // namespace
-
 FaultInjector::FaultInjector(std::vector<FaultConfig> faults)
     : faults_(std::move(faults)), courses_(faults_.size()), held_(faults_.size(), 0) {}
 
-bool FaultInjector::is_due(std::size_t fault, std::uint32_t slot, std::span<const double> angle_rad,
-                           std::span<const double> rate_rad_s, const Drives& drives) {
+bool FaultInjector::holds(const FaultCondition& when, std::uint32_t slot, const TrueMotion& arm,
+                          const Drives& drives) const {
+  if (when.theta && (arm.angle_rad[*when.theta] < when.above_rad || arm.angle_rad[*when.theta] > when.below_rad))
+    return false;
+  if (when.enabled && drives.enabled() != drives.size()) return false;
+  if (when.depth_above_m && arm.depth_m <= *when.depth_above_m) return false;
+  if (when.after_first_slots && (!courses_[0].begun || slot < *courses_[0].begun + *when.after_first_slots))
+    return false;
+  return !when.moving || std::any_of(arm.rate_rad_s.begin(), arm.rate_rad_s.end(),
+                                     [](double rate) { return std::fabs(rate) > kMoving_rad_s; });
+}
+
+bool FaultInjector::is_due(std::size_t fault, std::uint32_t slot, const TrueMotion& arm, const Drives& drives) {
   if (faults_[fault].at_slot) return slot == *faults_[fault].at_slot;
   const FaultCondition& when = faults_[fault].when;
-  held_[fault] = holds(when, angle_rad, rate_rad_s, drives) ? held_[fault] + 1 : 0;
+  held_[fault] = holds(when, slot, arm, drives) ? held_[fault] + 1 : 0;
   return held_[fault] >= when.for_slots;
 }
 
-void FaultInjector::step(std::uint32_t slot, std::span<const double> angle_rad, std::span<const double> rate_rad_s,
-                         Drives& drives) {
+void FaultInjector::step(std::uint32_t slot, const TrueMotion& arm, Drives& drives) {
   for (std::size_t i = 0; i < faults_.size(); ++i) {
     const FaultConfig& fault = faults_[i];
     Course& course = courses_[i];
-    if (!course.begun && is_due(i, slot, angle_rad, rate_rad_s, drives)) {
+    if (!course.begun && is_due(i, slot, arm, drives)) {
       course.begun = slot;
       for (const std::size_t drive : fault.drives) drives.begin(fault, drive);
     }

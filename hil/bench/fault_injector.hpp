@@ -14,6 +14,13 @@ namespace liana::bench {
 constexpr double kMoving_rad_s =
     0.1 * 3.14159265358979323846 / 180.0;  // a twentieth of the arm's speed limit, far over its tremble at rest
 
+// What conditions of faults are about.
+struct TrueMotion {
+  std::span<const double> angle_rad;
+  std::span<const double> rate_rad_s;
+  double depth_m = -1000.0;  // of the tip, past the mouth of the slit
+};
+
 class FaultInjector {
  public:
   // When a fault of the list really began and ended; empty: it did not.
@@ -24,16 +31,18 @@ class FaultInjector {
 
   explicit FaultInjector(std::vector<FaultConfig> faults);
 
-  // At the start of every slot, in ascending order: true angles and rates as they are now.
-  void step(std::uint32_t slot, std::span<const double> angle_rad, std::span<const double> rate_rad_s, Drives& drives);
+  // At the start of every slot, in ascending order: the arm as it truly is now.
+  void step(std::uint32_t slot, const TrueMotion& arm, Drives& drives);
 
   const std::vector<FaultConfig>& faults() const { return faults_; }
+  // The fault has begun and not ended.
+  bool is_on(std::size_t fault) const { return courses_[fault].begun && !courses_[fault].ended; }
   // One per fault of the list.
   const std::vector<Course>& courses() const { return courses_; }
 
  private:
-  bool is_due(std::size_t fault, std::uint32_t slot, std::span<const double> angle_rad,
-              std::span<const double> rate_rad_s, const Drives& drives);
+  bool is_due(std::size_t fault, std::uint32_t slot, const TrueMotion& arm, const Drives& drives);
+  bool holds(const FaultCondition& when, std::uint32_t slot, const TrueMotion& arm, const Drives& drives) const;
 
   std::vector<FaultConfig> faults_;
   std::vector<Course> courses_;

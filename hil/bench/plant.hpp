@@ -36,6 +36,8 @@ class Plant {
   // The physics of one slot.
   virtual void integrate(double period_s) = 0;
   virtual Pose tip() const = 0;
+  // The fastest of its true angles now [rad/s].
+  virtual double fastest_rad_s() const = 0;
 
   // The truth's columns behind "slot", and their values now; extremes count since the last call.
   virtual std::vector<std::string> truth_columns() const = 0;

@@ -52,7 +52,12 @@ const std::vector<Kind>& kinds() {
        false,
        {{"length_m", &P::length_m, -0.1, 0.1, false, true}, {"slots", &P::slots, 1, 100000, true, false}}},
       {"cable_break", FaultKind::kCableBreak, false, {}},
-      {"motor_saturation", FaultKind::kMotorSaturation, true, {{"tension_N", &P::tension_N, 0, 1e4, false, true}}}};
+      {"motor_saturation", FaultKind::kMotorSaturation, true, {{"tension_N", &P::tension_N, 0, 1e4, false, true}}},
+      {"camera_frozen", FaultKind::kCameraFrozen, true, {}},
+      {"camera_late", FaultKind::kCameraLate, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
+      {"camera_jump", FaultKind::kCameraJump, true, {{"length_m", &P::length_m, -1, 1, false, true}}},
+      {"camera_mirrored", FaultKind::kCameraMirrored, true, {}},
+      {"camera_dropped", FaultKind::kCameraDropped, true, {}}};
   return all;
 }
 
@@ -103,7 +108,9 @@ std::uint32_t read_slots(const JsonFile& file, const std::string& field, int low
 }
 
 FaultCondition read_condition(const JsonFile& file, const std::string& field, std::size_t theta_count) {
-  refuse_others(file, field, {"theta", "above_deg", "below_deg", "enabled", "moving", "for_slots"});
+  refuse_others(
+      file, field,
+      {"theta", "above_deg", "below_deg", "enabled", "moving", "depth_above_m", "after_first_slots", "for_slots"});
   FaultCondition when;
   const bool above = file.has(field + "/above_deg");
   const bool below = file.has(field + "/below_deg");
@@ -121,8 +128,11 @@ FaultCondition read_condition(const JsonFile& file, const std::string& field, st
     if (!file.is_true(field + name)) file.fail(field + name, "can only be true; leave it out instead");
     *flag = true;
   }
-  if (!when.theta && !when.enabled && !when.moving)
-    file.fail(field, "names no condition; add theta, enabled or moving");
+  if (file.has(field + "/depth_above_m")) when.depth_above_m = file.number(field + "/depth_above_m", -10.0, 10.0);
+  if (file.has(field + "/after_first_slots"))
+    when.after_first_slots = read_slots(file, field + "/after_first_slots", 0);
+  if (!when.theta && !when.enabled && !when.moving && !when.depth_above_m && !when.after_first_slots)
+    file.fail(field, "names no condition; add theta, enabled, moving, depth_above_m or after_first_slots");
   if (file.has(field + "/for_slots")) when.for_slots = read_slots(file, field + "/for_slots", 1);
   return when;
 }
@@ -140,19 +150,22 @@ FaultParameters read_parameters(const JsonFile& file, const std::string& field, 
     file.fail(field, "is noisy by nothing; add counts or permille above 0");
   if (kind.kind == FaultKind::kCableSlip && values.length_m == 0.0)
     file.fail(field + "/length_m", "is 0; allowed is -0.1 to 0.1 but 0");
+  if (kind.kind == FaultKind::kCameraJump && values.length_m == 0.0)
+    file.fail(field + "/length_m", "is 0; allowed is -1 to 1 but 0");
   return values;
 }
 
 FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size_t drive_count,
                        std::size_t theta_count) {
   const Kind& kind = read_kind(file, field + "/kind");
-  std::vector<std::string> allowed{"drive", "kind", "at_slot", "when"};
+  std::vector<std::string> allowed{"kind", "at_slot", "when"};
+  if (!is_of_camera(kind.kind)) allowed.emplace_back("drive");
   if (kind.can_end) allowed.emplace_back("for_slots");
   for (const Parameter& parameter : kind.parameters) allowed.emplace_back(parameter.name);
   refuse_others(file, field, allowed);
 
   FaultConfig fault;
-  fault.drives = read_drives(file, field + "/drive", drive_count);
+  if (!is_of_camera(kind.kind)) fault.drives = read_drives(file, field + "/drive", drive_count);
   fault.kind = kind.kind;
   fault.name = kind.name;
   if (file.has(field + "/at_slot") == file.has(field + "/when"))
@@ -165,6 +178,11 @@ FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size
 }
 
 }  // namespace
+
+bool is_of_camera(FaultKind kind) {
+  return kind == FaultKind::kCameraFrozen || kind == FaultKind::kCameraLate || kind == FaultKind::kCameraJump ||
+         kind == FaultKind::kCameraMirrored || kind == FaultKind::kCameraDropped;
+}
 
 std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count, std::size_t theta_count) {
   const JsonFile file(path, "");

@@ -26,8 +26,16 @@ enum class FaultKind {
   kEncoderJump,
   kCableSlip,
   kCableBreak,
-  kMotorSaturation
+  kMotorSaturation,
+  kCameraFrozen,
+  kCameraLate,
+  kCameraJump,
+  kCameraMirrored,
+  kCameraDropped
 };
+
+// These happen to the tip camera; they have no drive.
+bool is_of_camera(FaultKind kind);
 
 // What a kind can be told; the kinds that have no use for a value ignore it.
 struct FaultParameters {
@@ -39,6 +47,7 @@ struct FaultParameters {
   double length_m = 0.0;
   double slots = 1.0;      // SYNC periods that it takes
   double tension_N = 0.0;  // at the drum
+  double seconds = 0.4;
 };
 
 // All that is named has to hold for `for_slots` slots in a row.
@@ -46,13 +55,15 @@ struct FaultCondition {
   std::optional<std::size_t> theta;  // 0-based; its true angle has to lie in [above, below]
   double above_rad = -1e9;
   double below_rad = 1e9;
-  bool enabled = false;  // every drive in Operation enabled
-  bool moving = false;   // some true angle turns faster than kMoving_rad_s
+  bool enabled = false;                            // every drive in Operation enabled
+  bool moving = false;                             // some true angle turns faster than kMoving_rad_s
+  std::optional<double> depth_above_m;             // the true tip is further than this past the mouth of the slit
+  std::optional<std::uint32_t> after_first_slots;  // the first fault of the list began so many slots ago
   std::uint32_t for_slots = 1;
 };
 
 struct FaultConfig {
-  std::vector<std::size_t> drives;  // 0-based, at least one
+  std::vector<std::size_t> drives;  // 0-based, at least one; none for faults of the camera
   FaultKind kind = FaultKind::kFault;
   std::string name;                      // of the kind
   std::optional<std::uint32_t> at_slot;  // without it `when` decides

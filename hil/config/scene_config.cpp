@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "hil/config/json_file.hpp"
+#include "hil/math/random.hpp"
 
 namespace liana::bench {
 
@@ -37,7 +38,37 @@ CameraConfig read_camera(const JsonFile& file) {
           file.number("/camera/range_m", 0.0, 1000.0)};
 }
 
+Vec3 random_direction(Random& random) {
+  const Vec3 raw{random.gaussian(1.0), random.gaussian(1.0), random.gaussian(1.0)};
+  return (1.0 / norm(raw)) * raw;
+}
+
 }  // namespace
+
+SceneConfig displaced(const SceneConfig& scene, const SceneOffset& offset, std::uint64_t seed) {
+  if (offset.distance_m == 0.0 && offset.angle_rad == 0.0) return scene;  // to the bit
+  Random random(seed, "scene offset");
+  const Vec3 shift = offset.distance_m * random_direction(random);
+  const Quat turn = from_rotation_vector(offset.angle_rad * random_direction(random));
+  const Vec3 pivot = scene.slit_frame ? scene.slit_frame->position_m : scene.rod.pose.position_m;
+  const auto moved = [&](const Vec3& point) { return pivot + rotate(turn, point - pivot) + shift; };
+  const auto moved_pose = [&](const Pose& pose) { return Pose{moved(pose.position_m), turn * pose.attitude}; };
+  SceneConfig there = scene;
+  for (BoxConfig& box : there.boxes) {
+    box.center_m = moved(box.center_m);
+    for (Vec3& axis : box.axis) axis = rotate(turn, axis);
+  }
+  for (SphereConfig& sphere : there.spheres) sphere.center_m = moved(sphere.center_m);
+  if (there.slit_frame) there.slit_frame = moved_pose(*there.slit_frame);
+  there.rod.pose = moved_pose(there.rod.pose);
+  return there;
+}
+
+double depth_in_slit_m(const SceneConfig& scene, const Vec3& point_m) {
+  constexpr double kNoSlit_m = -1000.0;
+  if (!scene.slit_frame) return kNoSlit_m;
+  return dot(rotate(scene.slit_frame->attitude, {1.0, 0.0, 0.0}), point_m - scene.slit_frame->position_m);
+}
 
 SceneConfig load_scene(const std::string& path) {
   const JsonFile file(path, "scene");

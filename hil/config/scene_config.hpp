@@ -54,6 +54,19 @@ struct SceneConfig {
   ContactConfig contact;
 };
 
+// How far the scene is from where its table has it.
+struct SceneOffset {
+  double distance_m = 0.0;
+  double angle_rad = 0.0;
+};
+
+// The same scene moved as one body by exactly this much, the direction and the axis (through the mouth of its slit, or
+// its rod) drawn from `seed`.
+SceneConfig displaced(const SceneConfig& scene, const SceneOffset& offset, std::uint64_t seed);
+
+// How far a point in base coordinates is past the mouth of the slit, into it [m]; -1000 without a slit.
+double depth_in_slit_m(const SceneConfig& scene, const Vec3& point_m);
+
 // Which node sits on which bus, and the SYNC period.
 struct BusesConfig {
   std::vector<std::string> names;

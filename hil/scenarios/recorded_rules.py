@@ -1,18 +1,18 @@
 """Safety rules over a recording (liana.recordings), tick by tick. Each gives a list of complaints, empty when the rule
 held; all_complaints() is all of them.
 
-What is wrong is judged anew from what the drives reported; only the reaction to each number is read, from
-docs/faults.md.
+What is wrong is judged anew from what the drives reported, what has to follow from it by reactions.json, which is
+written by hand.
 """
 import collections
+import json
 import math
 import pathlib
-import re
 import typing
 
 import predicates
 
-FAULTS_PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "faults.md"
+REACTIONS_PAGE = pathlib.Path(__file__).resolve().parent / "reactions.json"
 
 kReactions = ("none", "hold", "stop", "stop at once", "off at once")  # a later one wins
 kNone, kHold, kStop, kAtOnce, kOff = range(5)
@@ -50,6 +50,7 @@ class Limits(typing.NamedTuple):
     heartbeat_ticks: int
     newtons_per_permille: float = 0.0
     slack_N: float = -math.inf
+    let_go_counts: float = 0.0  # of a cable that is let go, or taken back
     alarm_N: float = math.inf
     overload_N: float = math.inf
     jump_counts: float = math.inf
@@ -61,6 +62,7 @@ def limits_of(robot, period_s):
     return Limits(
         step_counts=predicates.step_limit_counts(robot, period_s),
         heartbeat_ticks=round(kHeartbeat_s / period_s),
+        let_go_counts=predicates.let_go_counts(robot),
         **(joint_limits(robot) if serial else cable_limits(robot)),
     )
 
@@ -89,20 +91,19 @@ def joint_limits(robot):
     }
 
 
-def documented_reactions(text=None):
-    """Fault number -> index into kReactions, from the table of docs/faults.md."""
-    rows = [
-        [cell.strip() for cell in line.strip("|").split("|")]
-        for line in (text or FAULTS_PAGE.read_text()).splitlines()
-        if line.startswith("|")
-    ]
-    head = next(row for row in rows if "number" in row)
-    number, reaction = head.index("number"), head.index("stops by")
-    return {
-        int(row[number]): kReactions.index(row[reaction])
-        for row in rows
-        if len(row) == len(head) and re.fullmatch(r"\d{4}", row[number])
-    }
+def reactions_by_hand():
+    """Fault number -> index into kReactions."""
+    return {number: kReactions.index(row["reaction"]) for number, row in page_of_reactions().items()}
+
+
+def retreats_by_hand():
+    """Numbers of faults with which the arm may be led back."""
+    return {number for number, row in page_of_reactions().items() if row["retreat"]}
+
+
+def page_of_reactions():
+    """Fault number -> row of reactions.json."""
+    return {int(number): row for number, row in json.loads(REACTIONS_PAGE.read_text()).items() if number.isdigit()}
 
 
 def is_enabling(word):
@@ -140,17 +141,17 @@ def missing_ticks(ticks):
 
 def target_steps(ticks, limits):
     """No target of a drive told to enable operation changes more in a tick than the cable speed with the gate's
-    margin.
+    margin, but where it lets go.
     """
-    complaints = []
+    complaints, jumps = [], predicates.Jumps(limits.step_counts, limits.let_go_counts)
     for before, now in neighbours(ticks):
         if now.target == before.target:
             continue
         for drive, (old, new) in enumerate(zip(before.target, now.target)):
             if (
-                abs(new - old) > limits.step_counts
-                and is_enabling(before.controlword[drive])
+                is_enabling(before.controlword[drive])
                 and is_enabling(now.controlword[drive])
+                and jumps.is_too_fast(drive, abs(new - old))
             ):
                 complaints.append(
                     f"tick {now.tick}: the target of drive {drive} changes by {new - old} counts, allowed are"
@@ -180,11 +181,13 @@ def acting(tick):
     return [fault for fault in tick.faults if fault.tick < tick.tick or fault.number not in kLatchedLast]
 
 
-def commands_while_latched(ticks):
-    """No telecommand is in force while a fault is latched, and what moved comes to rest."""
+def commands_while_latched(ticks, retreats=frozenset()):
+    """No telecommand is in force while a fault is latched, and what moved comes to rest; `retreats`: faults with which
+    the arm may be led back.
+    """
     complaints = []
     for now in ticks:
-        held = acting(now)
+        held = [] if may_retreat(now, retreats) else acting(now)
         if held and now.active_sequence != 0:
             complaints.append(
                 f"tick {now.tick}: telecommand {now.active_sequence} is in force while {held[0].number} is latched"
@@ -196,6 +199,11 @@ def commands_while_latched(ticks):
     return complaints
 
 
+def may_retreat(tick, retreats):
+    """All that is latched is known, and of a kind that leaves the way back open."""
+    return not tick.dropped and all(fault.number in retreats for fault in tick.faults)
+
+
 def states_not_documented(ticks, reactions):
     """States follow each other as documented, and every fault is one that has a page."""
     complaints = [
@@ -204,7 +212,7 @@ def states_not_documented(ticks, reactions):
         if now.state != before.state and now.state not in kFollowers[before.state]
     ]
     unknown = {fault.number for now in ticks for fault in now.faults} - reactions.keys()
-    return complaints + [f"fault {number} is not in docs/faults.md" for number in sorted(unknown)]
+    return complaints + [f"fault {number} is not in reactions.json" for number in sorted(unknown)]
 
 
 def enabling_unasked(ticks):
@@ -271,7 +279,7 @@ def weak_reactions(ticks, reactions):
         held = acting(now)
         highest = max((reactions.get(fault.number, kOff) for fault in held), default=kNone)
         persisted = bool(held) and now.tick >= held[0].tick + kPersistTicks - kSettleTicks
-        why = weakest_reaction_broken(before, now, highest, was, persisted) if held and not now.dropped else None
+        why = weakest_reaction_broken(before, now, highest, was, persisted) if held else None
         if why:
             complaints.append(
                 f"tick {now.tick}: {kReactions[highest]} is asked for by {[tuple(fault[:2]) for fault in held]}, but"
@@ -284,8 +292,9 @@ def weak_reactions(ticks, reactions):
 class Watch:
     """Which faults the reports of one tick after the other must lead to."""
 
-    def __init__(self, limits):
-        self.limits, self.seen, self.wrong_for = limits, set(), collections.Counter()
+    def __init__(self, limits, always=False):
+        """`always`: what is watched in an enabled arm only is watched in every state."""
+        self.limits, self.always, self.seen, self.wrong_for = limits, always, set(), collections.Counter()
 
     def lasting(self, key, is_wrong, ticks):
         self.wrong_for[key] = self.wrong_for[key] + 1 if is_wrong else 0
@@ -293,7 +302,7 @@ class Watch:
 
     def due(self, before, now):
         """(number, index) of everything that is wrong and must be latched in this tick."""
-        powered = before.state == "ENABLED"
+        powered = self.always or before.state == "ENABLED"
         found = [(4001, bus) for bus in range(32) if now.lost_buses >> bus & 1]
         if powered and now.lost_ticks > kLostTicks:
             found.append((2001, -1))
@@ -341,13 +350,35 @@ class Watch:
 
 
 def faults_not_latched(ticks, limits):
-    """Whatever the reports show wrong is latched in the same tick."""
-    watch, complaints = Watch(limits), []
+    """Whatever the reports show wrong is latched in the same tick; a list that is full counts what it has no place for."""
+    watch, complaints, unplaced = Watch(limits), [], set()
     for before, now in neighbours(ticks):
-        due = watch.due(before, now)
-        absent = set(due) - names(now) if due and not now.dropped else ()
+        unplaced |= set(watch.due(before, now)) - names(now)
+        unplaced -= names(now)
+        absent = unplaced if len(unplaced) > now.dropped else ()
+        if not now.dropped:
+            unplaced = set()
         if absent:
             complaints.append(f"tick {now.tick}: {sorted(absent)} had to be latched, there are {sorted(names(now))}")
+    return complaints
+
+
+# Numbers whose cause is plain in the reports, so that the watch here finds exactly what the core may latch.
+kPlain = (2001, 3001, 3002, 3003, 3004, 3007, 4001, 5001, 5002, 5003)
+
+
+def false_alarms(ticks, limits, first_cause):
+    """Nothing is latched before anything was done to the arm (`first_cause`, a tick), and nothing whose plain cause is
+    not in the reports.
+    """
+    watch, complaints = Watch(limits, always=True), []
+    for before, now in neighbours(ticks):
+        due, new = set(watch.due(before, now)), names(now) - names(before)
+        for number, index in sorted(new):
+            if now.tick <= first_cause:
+                complaints.append(f"tick {now.tick}: {number} of {index} is latched, and nothing has happened yet")
+            elif number in kPlain and (number, index) not in due:
+                complaints.append(f"tick {now.tick}: {number} of {index} is latched, and no report shows why")
     return complaints
 
 
@@ -380,11 +411,13 @@ def stops_not_confirmed(ticks):
     """FAULT is reached with every drive shown to be without torque, or with 3008 for those that are not."""
     complaints = []
     for before, now in neighbours(ticks):
-        if before.state != "STOPPING" or now.state not in ("FAULT", "DISABLED") or now.dropped:
+        if before.state != "STOPPING" or now.state not in ("FAULT", "DISABLED"):
             continue
+        unplaced = 0
         for drive, status in enumerate(now.statusword):
             shown = now.age[drive] <= kSilentTicks and not has_torque(status)
-            if not shown and (3008, drive) not in names(now):
+            unplaced += not shown and (3008, drive) not in names(now)
+            if not shown and (3008, drive) not in names(now) and unplaced > now.dropped:
                 complaints.append(
                     f"tick {now.tick}: {now.state} is reached, but drive {drive} is not shown to be without torque, nor"
                     " is 3008 latched"
@@ -441,8 +474,10 @@ def drums_moving_while_off(ticks, left_out):
     return complaints
 
 
-def all_complaints(recording, enabled, told, left_out=()):
-    """Everything that breaks a rule; `enabled`: column of truth.bin, `told`: faults that the client was told of."""
+def all_complaints(recording, enabled, told, left_out=(), first_cause=-1):
+    """Everything that breaks a rule; `enabled`: column of truth.bin, `told`: faults that the client was told of,
+    `first_cause`: the tick in which something was first done to the arm.
+    """
     end = recording.metadata.get("end", {})
     if not recording.whole or end.get("dropped") != "0" or end.get("ticks") != str(len(recording.ticks)):
         return [f"the recording is not complete: {end}, {len(recording.ticks)} ticks read"]
@@ -455,13 +490,13 @@ def all_complaints(recording, enabled, told, left_out=()):
         ][:1]
     limits, reactions = (
         limits_of(recording.robot(), float(recording.metadata["run"]["period_s"])),
-        documented_reactions(),
+        reactions_by_hand(),
     )
     found = (
         missing_ticks(ticks),
         target_steps(ticks, limits),
         commands_out_of_time(ticks),
-        commands_while_latched(ticks),
+        commands_while_latched(ticks, retreats_by_hand()),
         states_not_documented(ticks, reactions),
         enabling_unasked(ticks),
         faults_gone_unasked(ticks),
@@ -470,6 +505,7 @@ def all_complaints(recording, enabled, told, left_out=()):
         stops_not_confirmed(ticks),
         faults_not_latched(ticks, limits),
         faults_not_told(ticks, told),
+        false_alarms(ticks, limits, first_cause),
         torque_while_off(ticks, enabled),
         drums_moving_while_off(ticks, left_out),
     )

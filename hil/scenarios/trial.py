@@ -3,14 +3,17 @@ import json
 
 import predicates
 import recorded_rules
+import truth_rules
+import wire_ages
 from liana.recordings import Recording
 from liana.system import System, run
 
+kNever = 10**9
 kSelfReports = ("noisy", "encoder_jump", "late", "stuck")  # what these drives report is not where their drums are
 
 
 def drives_of(fault, count):
-    drives = fault["drive"]
+    drives = fault.get("drive", [])  # those of the camera have none
     return range(count) if drives == "all" else drives if isinstance(drives, list) else [drives]
 
 
@@ -45,11 +48,31 @@ class Trial:
         if code != 0:
             self.complaints.append(f"liana-archive ended with {code}")
         self.truth, self.recording = system.truth(), Recording(system.directory / "ticks.mcap")
-        summary = system.json("bench_summary.json")
+        summary, robot = system.json("bench_summary.json"), system.json("robot.json")
+        period_s = 1.0 / system.json("buses.json")["rate_hz"]
         self.courses = summary["faults"]
         left_out = self_reporting(self.faults, len(summary["drives"]))
         self.complaints += predicates.numbers_that_are_none(self.truth.rows)
-        self.complaints += recorded_rules.all_complaints(self.recording, self.truth.column("enabled"), told, left_out)
+        enabled = self.truth.column("enabled")
+        self.complaints += recorded_rules.all_complaints(self.recording, enabled, told, left_out, self.first_cause())
+        ticks = self.recording.ticks
+        self.complaints += truth_rules.all_complaints(
+            self.truth, ticks, robot, self.faults, self.courses, summary.get("physics") != "worn"
+        )
+        arrivals = wire_ages.Arrivals([log.read_text() for log in system.bus_logs()], predicates.kLine, period_s)
+        self.complaints += wire_ages.wrong_ages(ticks, arrivals, self.strangers()) if ticks else []
+
+    def first_cause(self):
+        """The slot in which bench or bus first did something to drives, arm or wires; where nothing ever did, none."""
+        begun = [course["begun_slot"] for course in self.courses if course["begun_slot"] is not None]
+        return min(begun + [rule["from_slot"] for rule in self.bus_script], default=kNever)
+
+    def strangers(self):
+        """Drives in whose name a rule of the bus speaks."""
+        ids = [
+            int(rule["id"], 16) for rule in self.bus_script if rule["action"] in ("send", "duplicate") and "id" in rule
+        ]
+        return {(identifier & 0x7F) - 1 for identifier in ids}
 
     def latched(self):
         """Every fault of the recording, in the order in which they were latched."""

@@ -39,7 +39,13 @@ SerialPlant::SerialPlant(const SerialRobotConfig& robot, const BusesConfig& buse
 }
 
 void SerialPlant::inject(std::uint32_t slot, FaultInjector& injector) {
-  injector.step(slot, drives_.joint_rad(), drives_.rate_rad_s(), drives_);
+  injector.step(slot, {drives_.joint_rad(), drives_.rate_rad_s()}, drives_);
+}
+
+double SerialPlant::fastest_rad_s() const {
+  double fastest = 0.0;
+  for (const double rate : drives_.rate_rad_s()) fastest = std::max(fastest, std::fabs(rate));
+  return fastest;
 }
 
 void SerialPlant::exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) {

@@ -21,6 +21,7 @@ class SerialPlant final : public Plant {
   void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) override;
   void integrate(double period_s) override;
   Pose tip() const override { return chain_.tip(); }
+  double fastest_rad_s() const override;
   std::vector<std::string> truth_columns() const override;
   void add_truth(std::vector<double>& row) override;
   void summarise(nlohmann::json& summary) const override;

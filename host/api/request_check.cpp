@@ -58,7 +58,8 @@ class Check {
       if (value != nullptr) {
         given(field, *value, object);
       } else if (field.need == Need::kRequired && applies(field, request_)) {
-        refuse("bad_request", std::string(field.name) + " is missing", type_text(field), "add it");
+        refuse("bad_request", std::string(field.name) + " is missing",
+               field.most > 0 ? allowed_entries(field) : type_text(field), "add it");
       }
     }
   }
@@ -81,9 +82,13 @@ class Check {
     }
   }
 
+  static std::string allowed_entries(const RequestField& field) {
+    return "an array of at most " + std::to_string(field.most) + " entries";
+  }
+
   void given(const RequestField& field, const Json& value, const Json& beside) const {
     if (field.most == 0) return single(field, field.name, value, beside);
-    const std::string allowed = "an array of at most " + std::to_string(field.most) + " entries";
+    const std::string allowed = allowed_entries(field);
     if (!value.is_array()) wrong_type(field.name, value, allowed);
     if (value.size() > field.most)
       refuse("bad_request", std::string(field.name) + " = " + std::to_string(value.size()) + " entries", allowed,

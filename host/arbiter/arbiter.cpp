@@ -1,5 +1,6 @@
 #include "host/arbiter/arbiter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -24,6 +25,11 @@ void Arbiter<Arm>::require_ready(const Now& now) const {
     throw api::RequestError(
         "fault", std::string("fault ") + fault_info(now.faults.fault[0].number).name + " is latched: clear it first");
   }
+  require_enabled(now);
+}
+
+template <class Arm>
+void Arbiter<Arm>::require_enabled(const Now& now) const {
   if (now.state != OperatingState::kEnabled) throw api::RequestError("not_enabled", "the arm is not enabled");
 }
 
@@ -82,9 +88,10 @@ void Arbiter<Arm>::tell(event::PathEvent what, const PathMove<Arm>& move, const 
   path_news_.push_back({what, path, move.duration_s(table_), "path " + path.hash + rest});
 }
 
-// A path that is cut short says how far it has come.
+// A path that is cut short says how far it has come, and so does a way back.
 template <class Arm>
-void Arbiter<Arm>::hold() {
+void Arbiter<Arm>::hold(const std::string& why) {
+  if (std::holds_alternative<WayBack<Arm>>(way_)) way_out_.end(why, command_rad_);
   const auto* move = std::get_if<PathMove<Arm>>(&way_);
   if (move != nullptr && !move->is_over()) {
     const int percent = static_cast<int>(100.0 * move->progress().share);
@@ -102,11 +109,30 @@ void Arbiter<Arm>::tell_of_outlook(const PathMove<Arm>& move) {
 }
 
 template <class Arm>
+void Arbiter<Arm>::require_way_back(const Now& now, std::uint64_t until_tick) const {
+  if (!allow_retreat(now.faults)) {
+    const FaultInfo& fault = fault_info(now.faults.fault[0].number);
+    throw api::RequestError("fault", std::string("fault ") + fault.name +
+                                         " is latched, with which the arm cannot be led back: " + fault.remedy);
+  }
+  require_enabled(now);
+  const std::string why = way_out_.why_no_way(until_tick);
+  if (!why.empty()) throw api::RequestError("refused", why);
+}
+
+template <class Arm>
 void Arbiter<Arm>::retract(const Now& now, std::uint64_t until_tick) {
-  require_ready(now);
-  if (path_.empty()) throw api::RequestError("refused", "there is no stored path to go back along");
-  has_retracted_ = false;
-  way_.template emplace<WayBack<Arm>>(path_, until_tick);
+  require_way_back(now, until_tick);
+  hold("another retract was asked for");
+  wishes_ = {};
+  way_out_.begin(until_tick);
+  way_.template emplace<WayBack<Arm>>(table_, way_out_.path(), until_tick);
+}
+
+template <class Arm>
+RetractState Arbiter<Arm>::retract_state() const {
+  const auto* back = std::get_if<WayBack<Arm>>(&way_);
+  return back != nullptr ? RetractState{back->phase(), back->points_left(), ""} : way_out_.last_retract();
 }
 
 template <class Arm>
@@ -120,8 +146,10 @@ void Arbiter<Arm>::ask_anew() {
 }
 
 template <class Arm>
-void Arbiter<Arm>::refused() {
-  if (!std::visit([](auto& way) { return way.refused(); }, way_)) hold();
+void Arbiter<Arm>::refused(const std::string& why) {
+  if (std::visit([](auto& way) { return way.refused(); }, way_)) return;
+  const auto* back = std::get_if<WayBack<Arm>>(&way_);
+  hold(back != nullptr ? back->why_ended() + (why.empty() ? "" : ": " + why) : "refused");
 }
 
 template <class Arm>
@@ -133,13 +161,15 @@ std::optional<typename Arm::Setpoint> Arbiter<Arm>::next_setpoint(std::uint64_t 
 template <class Arm>
 bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
   if (now.state != OperatingState::kEnabled) {
-    hold();
-    path_.clear();
+    hold("the arm is not enabled any more");
+    way_out_.wait();
     wishes_ = {};
     return false;
   }
+  command_rad_ = Kind::command_rad(now);
+  start_ramp_.note(now.tip_command.position_m, interval_s(table_));
   const auto* back = std::get_if<WayBack<Arm>>(&way_);
-  if (back == nullptr || !back->has_begun()) path_.note(tick, Kind::command_rad(now));
+  way_out_.stand(tick, command_rad_, back != nullptr && back->has_begun());
   return true;
 }
 
@@ -161,7 +191,7 @@ void Arbiter<Arm>::end_way() {
     way_.template emplace<TipTarget<Arm>>(end, wishes_);
     return;
   }
-  if (std::holds_alternative<WayBack<Arm>>(way_)) has_retracted_ = true;
+  if (const auto* back = std::get_if<WayBack<Arm>>(&way_)) return hold(back->why_ended());
   const auto* path = std::get_if<PathMove<Arm>>(&way_);
   if (path != nullptr && path->outlook()->refusal.empty()) tell(event::PathEvent::kArrives, *path, " has arrived");
   hold();
@@ -176,8 +206,10 @@ typename Arm::Setpoint Arbiter<Arm>::steer(const Now& now, const Pose& goal) {
 template <class Arm>
 std::optional<typename Arm::Setpoint> Arbiter<Arm>::setpoint_for(const Now& now, const Goal<Arm>& goal) const {
   if (const auto* tip_in_base = std::get_if<Pose>(&goal)) return tip_setpoint(now, *tip_in_base);
-  if (const auto* joint_rad = std::get_if<Joints<Arm>>(&goal)) return joint_setpoint(*joint_rad);
-  return std::nullopt;
+  const auto* joint_rad = std::get_if<Joints<Arm>>(&goal);
+  if (joint_rad == nullptr) return std::nullopt;
+  const bool retreats = std::holds_alternative<WayBack<Arm>>(way_) && now.faults.count > 0;
+  return joint_setpoint(*joint_rad, retreats ? CommandKind::kRetreat : CommandKind::kJoint);
 }
 
 template <class Arm>
@@ -188,13 +220,15 @@ typename Arm::Setpoint Arbiter<Arm>::tip_setpoint(const Now& now, const Pose& go
   Kind::add_wishes(wishes_, setpoint);
   setpoint.tip_speed_m_s =
       zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, tip_speed_m_s_));
+  if (zone_.slows_at(now.tip_command.position_m))
+    setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, start_ramp_.speed_m_s());
   return setpoint;
 }
 
 template <class Arm>
-typename Arm::Setpoint Arbiter<Arm>::joint_setpoint(const Joints<Arm>& joint_rad) const {
+typename Arm::Setpoint Arbiter<Arm>::joint_setpoint(const Joints<Arm>& joint_rad, CommandKind kind) const {
   Setpoint setpoint;
-  setpoint.kind = CommandKind::kJoint;
+  setpoint.kind = kind;
   setpoint.joint_rad = joint_rad;
   setpoint.tip_speed_m_s = Kind::tip_bounds(table_).linear.speed;
   return setpoint;

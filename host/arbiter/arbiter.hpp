@@ -12,12 +12,12 @@
 
 #include "host/arbiter/arm_kind.hpp"
 #include "host/arbiter/joint_move.hpp"
-#include "host/arbiter/path_memory.hpp"
 #include "host/arbiter/path_move.hpp"
 #include "host/arbiter/speed_zone.hpp"
+#include "host/arbiter/start_ramp.hpp"
 #include "host/arbiter/tip_line.hpp"
 #include "host/arbiter/tip_target.hpp"
-#include "host/arbiter/way_back.hpp"
+#include "host/arbiter/way_out.hpp"
 
 namespace liana::arbiter {
 
@@ -42,20 +42,27 @@ class Arbiter {
   // From rest through all points without a stop, within kPathOff_m of the straight pieces between them; the first point
   // within kPathStart_deg of the command. Looked at as a whole first: until then the arm holds.
   void move_path(const Now& now, const PathRequest<Arm>& request);
-  // Back along the verified path, not beyond `until_tick`: stops, then goes back, whatever is under way.
+  // Back along the verified path, not beyond `until_tick`: stops, then goes back, whatever is under way. Also while
+  // faults are latched that hold the arm.
   void retract(const Now& now, std::uint64_t until_tick);
-  // Stop along the path: nothing is asked for any more.
-  void hold();
+  // Stop along the path: nothing is asked for any more. `why` is told of a retract that it ends.
+  void hold(const std::string& why = "held");
 
   // Ends the interval: what to verify for the next one; nothing = the arm holds. `tick` counts the ticks done.
   std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Now& now);
   // The setpoint was refused: planned moves end. The way back stops and starts again, some times.
-  void refused();
+  void refused(const std::string& why = "");
 
   // A planned move is under way.
   bool is_busy() const;
-  // The last retract has gone back all the way.
-  bool has_retracted() const { return has_retracted_; }
+  // What is asked for besides the tip, or the tip goal itself, has not come to be yet.
+  bool is_asking() const { return std::holds_alternative<TipTarget<Arm>>(way_); }
+  // The retract under way, or how the last one went.
+  RetractState retract_state() const;
+  bool has_retracted() const { return retract_state().phase == RetractPhase::kDone; }
+  // The verified way back, for a copy that survives lianad.
+  PathMemory<Joints<Arm>>& path_memory() { return way_out_.path(); }
+  std::vector<WayNews> take_way_news() { return way_out_.take_news(); }
   // The path under way; none.
   std::optional<PathProgress> path() const;
   // What has become of paths since the last call.
@@ -89,16 +96,19 @@ class Arbiter {
   void tell(event::PathEvent what, const PathMove<Arm>& move, const std::string& rest);
   void tell_of_outlook(const PathMove<Arm>& move);
   void end_way();
+  void require_enabled(const Now& now) const;
+  void require_way_back(const Now& now, std::uint64_t until_tick) const;
   std::optional<Setpoint> setpoint_for(const Now& now, const Goal<Arm>& goal) const;
   Setpoint tip_setpoint(const Now& now, const Pose& goal) const;
-  Setpoint joint_setpoint(const Joints<Arm>& joint_rad) const;
+  Setpoint joint_setpoint(const Joints<Arm>& joint_rad, CommandKind kind) const;
 
   Table table_;
   SpeedZone zone_;
   double tip_speed_m_s_;
+  StartRamp start_ramp_;
   typename Kind::Wishes wishes_{};
-  PathMemory<Joints<Arm>> path_;
-  bool has_retracted_ = false;
+  WayOut<Arm> way_out_{table_};
+  Joints<Arm> command_rad_{};  // where the command stood last
   SearchResult taken_;
   PathCheck<Arm> path_check_;
   typename PathMove<Arm>::Work path_work_;

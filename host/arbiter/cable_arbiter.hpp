@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "host/arbiter/arbiter.hpp"
 #include "host/arbiter/cable_kind.hpp"
@@ -35,6 +36,9 @@ class CableArbiter {
   void shape(const cable::Outputs& now, const cable::NodeTargets& nodes, const cable::KeepClearTargets& clear,
              bool search);
   void use_device(const DeviceUse& use);
+  // Besides what device and robot allow: the tip is asked to go no faster than this, from the next setpoint on; planned
+  // lines from the next one on.
+  void cap_tip_speed(double speed_m_s);
   // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until
   // use_device is asked for.
   void retract(const cable::Outputs& now, std::uint64_t until_tick);
@@ -45,12 +49,18 @@ class CableArbiter {
   std::optional<cable::Setpoint> next_setpoint(std::uint64_t tick, const cable::Outputs& now);
   // The setpoint was refused: planned moves end, the operator's clutch takes new anchors. The way back stops and starts
   // again, some times.
-  void refused();
+  void refused(const std::string& why = "");
 
   // A planned move is under way.
   bool is_busy() const { return moves_.is_busy(); }
-  // The last retract has gone back all the way.
+  // A tip goal, or what is asked for besides, has not come to be yet.
+  bool is_asking() const { return moves_.is_asking(); }
+  // The retract under way, or how the last one went.
+  RetractState retract_state() const { return moves_.retract_state(); }
   bool has_retracted() const { return moves_.has_retracted(); }
+  // The verified way back, for a copy that survives lianad.
+  PathMemory<cable::ThetaVector>& path_memory() { return moves_.path_memory(); }
+  std::vector<WayNews> take_way_news() { return moves_.take_way_news(); }
   // The path under way, and what has become of paths since the last call.
   std::optional<PathProgress> path() const { return moves_.path(); }
   std::vector<PathNews> take_path_news() { return moves_.take_path_news(); }
@@ -71,7 +81,9 @@ class CableArbiter {
   void wish_nodes();
   std::optional<cable::Setpoint> steered_setpoint(const cable::Outputs& now, const SteerGoal& goal);
 
-  double robot_speed_m_s_;  // limit of the robot's tip
+  double asked_speed_m_s_;  // limit of the device in use, or of the robot's tip
+  double robot_speed_m_s_;
+  double cap_m_s_;
   double interval_s_;
   Arbiter<cable::CableArm> moves_;
   ShapeLead lead_;

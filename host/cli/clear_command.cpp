@@ -118,7 +118,7 @@ int clear_command(const ClientOptions& options) {
   }
   if (options.json) {
     std::puts(Json{{"api", api},
-                   {"cleared", clearing.good},
+                   {"cleared", clearing.good && clearing.is_needed()},
                    {"stop", clearing.stop},
                    {"faults", clearing.faults},
                    {"said", clearing.said}}

@@ -1,7 +1,10 @@
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "host/cli/commands.hpp"
+#include "host/json/json.hpp"
 #include "host/report/run_report.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/output.hpp"
@@ -10,6 +13,11 @@
 
 namespace liana::cli {
 namespace {
+
+report::Criteria criteria(const std::string& robot_file, const std::string& physics) {
+  std::ifstream file(robot_file);
+  return report::criteria_of(Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}}), physics);
+}
 
 Json report_of(const system::RunOptions& options, const system::SystemLayout& plan, const system::RunSession& session,
                const system::RunEnd& end) {
@@ -22,13 +30,16 @@ Json report_of(const system::RunOptions& options, const system::SystemLayout& pl
   sources.reason = end.message.substr(0, end.message.find('\n'));
   sources.time_mode = plan.time_mode;
   sources.truth_file = plan.file("truth.bin");
+  sources.bench_summary_file = plan.file("bench_summary.json");
   sources.mission_report_file = plan.file("mission.json");
   sources.bus_stats_file = plan.file("bus_stats.json");
   sources.states = session.states();
+  sources.claims = session.claims();
   sources.announced = session.announced();
   sources.welcome = &session.welcome();
   sources.last_state = &session.last_state();
   if (plan.scene.rod) sources.rod = plan.scene.rod->pose;
+  sources.criteria = criteria(plan.file("robot.json"), options.physics);
   return report::make_report(sources);
 }
 

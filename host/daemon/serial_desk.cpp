@@ -55,7 +55,7 @@ void SerialDesk::add_state(Json& state) const {
   for (std::size_t i = 1; i <= table_.joints(); ++i) points.push_back(arm.point_in_base[i]);
   for (std::size_t i = 0; i < table_.joints(); ++i) torque_Nm.push_back(o.torque_measured_Nm[i]);
   state["is_busy"] = arbiter_.is_busy() || (o.state == OperatingState::kEnabled && o.at_rest == 0);
-  state["retracted"] = arbiter_.has_retracted();
+  add_retract(state, arbiter_.retract_state());
   state["path"] = path_json(arbiter_.path());
   state["measured_js_deg"] = deg(table_, o.joint_measured_rad);
   state["setpoint_js_deg"] = deg(table_, o.joint_command_rad);

@@ -1,5 +1,6 @@
 #include "host/daemon/service.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
@@ -15,7 +16,9 @@ namespace liana::daemon {
 namespace {
 
 constexpr double kLockstepPatience_s = 10.0;  // a client that stays silent longer is dead
-constexpr double kAfterMission_s = 1.0;       // of arm time: the hold at the end of the mission comes to rest
+constexpr double kAfterMission_s = 1.0;       // of arm time at rest
+constexpr double kAfterFault_s = 5.0;         // the same where something failed: elastic cables let the arm swing
+constexpr double kMostAfterMission_s = 60.0;  // of arm time, at rest or not
 constexpr double kHoming_s = 0.5;             // of arm time after booting: homing takes 0.1 s
 constexpr double kShutdownLimit_s = 10.0;     // of arm time, until the drives are off
 
@@ -32,6 +35,9 @@ Service::Service(const ServiceConfig& config, Desk& desk)
       }),
       server_(config.api_path, *this) {
   if (!config.events_file.empty()) file_.emplace(config.events_file, config.buses.tick_s());
+  if (config.way_file.empty()) return;
+  way_file_.emplace(config.way_file, Json::parse(config.robot_json).at("name").text(), desk.joint_count());
+  desk.restore_way(way_file_->kept());
 }
 
 std::uint64_t Service::ticks_in(double time_s) const {
@@ -110,14 +116,26 @@ void Service::watch_stream() {
   note(stands_still_event(owner_.name(), *ttl_s));
 }
 
+// The run goes on until the arm has been at rest for a while: what a failure leads to belongs to it.
+bool Service::is_over_after_mission() {
+  const bool off = now().state == OperatingState::kDisabled || now().state == OperatingState::kFault;
+  if (!off && now().at_rest == 0) moved_tick_ = tick();
+  const auto since_s = [this](std::uint64_t then) {
+    return static_cast<double>(tick() - then) * config_.buses.tick_s();
+  };
+  const double rested_s = since_s(std::max(*mission_end_tick_, moved_tick_));
+  const double enough_s = now().faults.count == 0 ? kAfterMission_s : kAfterFault_s;
+  return rested_s > enough_s || since_s(*mission_end_tick_) > kMostAfterMission_s;
+}
+
 // What changes by itself: the end of booting, the end of the run after the mission.
 void Service::watch_arm() {
   note_clear();
   note(trouble_.changes(config_.buses, desk_.report()));
   note(faults_.changes(now().faults));
+  note(desk_.take_events());
   if (mission_end_tick_) {
-    const double since_s = static_cast<double>(tick() - *mission_end_tick_) * config_.buses.tick_s();
-    if (since_s > kAfterMission_s) begin_shutdown("the mission has ended");
+    if (is_over_after_mission()) begin_shutdown("the mission has ended");
   } else if (dismissed_) {
     begin_shutdown("asked for");
   }
@@ -160,6 +178,7 @@ void Service::forward_ticks() {
 void Service::forward_camera() {
   while (!camera_.empty() && camera_.front().due_tick <= tick()) {
     server_.publish(api::Topic::kCamera, camera_.front().packet);
+    desk_.take_picture(camera_.front().picture);
     camera_.pop_front();
   }
 }
@@ -167,6 +186,7 @@ void Service::forward_camera() {
 void Service::release_next() {
   const std::optional<LastVerdict> verdict = desk_.release_next(owner_.client() != 0, owner_.role_number());
   tell_of_paths();
+  keep_way();
   if (!verdict) return;
   notes_.verdict = *verdict;
   if (verdict->released) return;
@@ -184,6 +204,13 @@ void Service::tell_of_paths() {
     notes_.verdict.worst.code = verify::Refusal::kPath;
     notes_.verdict.worst.text = news.text;
   }
+}
+
+void Service::keep_way() {
+  for (const arbiter::WayNews& news : desk_.take_way_news()) note(way_event(news));
+  if (!way_file_) return;
+  if (const auto change = desk_.take_way_change()) way_file_->follow(*change);
+  if (auto trouble = way_file_->trouble()) note(std::move(*trouble));
 }
 
 void Service::note(event::Event event) { log_.add(tick(), std::move(event)); }

@@ -18,6 +18,7 @@
 #include "host/daemon/service_events.hpp"
 #include "host/daemon/setpoint_stream.hpp"
 #include "host/daemon/state_message.hpp"
+#include "host/daemon/way_file.hpp"
 #include "host/event/event_file.hpp"
 #include "host/event/event_log.hpp"
 #include "host/json/json.hpp"
@@ -33,6 +34,7 @@ struct ServiceConfig {
   config::BusesConfig buses;
   double camera_latency_s = 0.0;
   std::string events_file;                                           // path; empty: events are not written
+  std::string way_file;                                              // path; empty: the way back is kept nowhere
   bool ends_with_mission = false;                                    // stop the arm once the mission has come and gone
   std::function<std::vector<control::BootProblem>()> boot_problems;  // asked once, when booting has failed
   std::function<std::vector<std::uint32_t>()> serials;               // of the drives; asked once, when they are booted
@@ -40,7 +42,8 @@ struct ServiceConfig {
 
 class Service : private api::ApiHandler {
  public:
-  // Listens at config.api_path; throws std::runtime_error, also about config.events_file. `desk` must outlive this.
+  // Listens at config.api_path; throws std::runtime_error, also about config.events_file and way_file. `desk` must
+  // outlive this.
   Service(const ServiceConfig& config, Desk& desk);
 
   // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after
@@ -98,6 +101,7 @@ class Service : private api::ApiHandler {
   void drop_motion(event::OwnerEvent why, const std::string& owner);
   void watch_events_file();
   void watch_arm();
+  bool is_over_after_mission();
   void watch_homing();
   void watch_stream();
   void note_clear();
@@ -107,6 +111,7 @@ class Service : private api::ApiHandler {
   void publish_state();
   void release_next();
   void tell_of_paths();
+  void keep_way();
 
   ServiceConfig config_;
   Desk& desk_;
@@ -119,6 +124,7 @@ class Service : private api::ApiHandler {
   FaultWatch faults_;
   event::EventLog log_;
   std::optional<event::EventFile> file_;
+  std::optional<WayFile> way_file_;
   control::BootPhase boot_seen_ = control::BootPhase::kBooting;
   bool homed_told_ = false;
   bool image_sent_ = false;
@@ -126,11 +132,13 @@ class Service : private api::ApiHandler {
   struct CameraFrame {
     std::uint64_t due_tick;
     std::string packet;
+    TipPicture picture;
   };
   std::deque<CameraFrame> camera_;
   std::uint64_t clear_seen_tick_ = 0;
   control::Overruns overruns_before_;  // at the last reset of the timing
   std::optional<std::uint64_t> mission_end_tick_, shutdown_tick_;
+  std::uint64_t moved_tick_ = 0;            // the last after the mission's end in which the arm was led on
   std::optional<std::uint64_t> stop_tick_;  // of the last stop, whoever asked for it
   bool dismissed_ = false;
   api::ApiServer server_;  // last: its destructor may call gone()

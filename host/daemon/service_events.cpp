@@ -116,6 +116,13 @@ event::Event path_event(const arbiter::PathNews& news) {
           .text = news.text};
 }
 
+event::Event way_event(const arbiter::WayNews& news) {
+  return {.kind = event::EventKind::kWayBack,
+          .number = event::number_of(news.what),
+          .values = {{"points", static_cast<double>(news.points)}, {"distance_m", news.distance_m}},
+          .text = news.text};
+}
+
 event::Event refusal_event(const std::string& client, const std::string& op, const std::string& code,
                            const std::string& why) {
   return {.kind = event::EventKind::kRefusal,

@@ -8,6 +8,7 @@
 #include "firmware_like/safety/faults.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 #include "host/arbiter/path_news.hpp"
+#include "host/arbiter/way_news.hpp"
 #include "host/control/boot_problem.hpp"
 #include "host/daemon/emergency_stop.hpp"
 #include "host/event/event.hpp"
@@ -27,6 +28,8 @@ event::Event emergency_event(std::size_t drive, std::uint16_t code);
 event::Event verdict_event(std::uint64_t command, const verify::Verdict& verdict);
 // A path that begins, has come to an end or is refused.
 event::Event path_event(const arbiter::PathNews& news);
+// What has become of the way back.
+event::Event way_event(const arbiter::WayNews& news);
 // A request that is answered with this error.
 event::Event refusal_event(const std::string& client, const std::string& op, const std::string& code,
                            const std::string& why);

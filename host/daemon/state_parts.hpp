@@ -2,6 +2,7 @@
 #pragma once
 
 #include "firmware_like/math/pose.hpp"
+#include "host/arbiter/way_news.hpp"
 #include "host/json/json.hpp"
 
 namespace liana::daemon {
@@ -12,6 +13,14 @@ constexpr double in_degrees(double rad) { return rad * 57.29577951308232; }
 inline Json pose_json(const Pose& p) {
   return {p.position_m[0], p.position_m[1], p.position_m[2], p.quaternion[0],
           p.quaternion[1], p.quaternion[2], p.quaternion[3]};
+}
+
+// The retract under way, or how the last one went.
+inline void add_retract(Json& state, const arbiter::RetractState& retract) {
+  state["retracted"] = retract.phase == arbiter::RetractPhase::kDone;
+  state["retract"] = {{"phase", arbiter::retract_phase_name(retract.phase)},
+                      {"points_left", retract.points_left},
+                      {"reason", retract.reason}};
 }
 
 // Commanded tip and servo IK, which the reports of all arms show by the same names.

@@ -7,6 +7,7 @@
 
 #include "host/json/json.hpp"
 #include "host/report/truth.hpp"
+#include "host/report/truth_figures.hpp"
 
 namespace liana::report {
 namespace {
@@ -78,54 +79,40 @@ const StateSample* sample_at(const std::vector<StateSample>& states, std::uint64
   return best;
 }
 
-double distance_m(const Pose& a, const Pose& b) { return norm(subtract(a.position_m, b.position_m)); }
-
-double angle_rad(const Pose& a, const Pose& b) {
-  return norm(rotation_vector(multiply(conjugate(a.quaternion), b.quaternion)));
+// The rod where it really is, as the bench says; where it says nothing, as the scene has it.
+std::optional<Pose> true_rod(const ReportSources& sources) {
+  if (!sources.rod) return std::nullopt;
+  const Json rod = read_json(sources.bench_summary_file).value("rod", Json());
+  if (!rod.is_array() || rod.size() != 7) return Pose{sources.rod->position_m, sources.rod->quaternion_wxyz};
+  Pose pose;
+  for (std::size_t i = 0; i < 3; ++i) pose.position_m[i] = rod[i].get<double>();
+  for (std::size_t i = 0; i < 4; ++i) pose.quaternion[i] = rod[i + 3].get<double>();
+  return pose;
 }
 
-void add_cable_truth(Json& report, const TruthLog& truth, std::size_t first, std::size_t last) {
-  report["final_theta_deg"] = truth.angles_deg("theta_deg_", last);
-  report["min_clearance_m"] = truth.smallest("clearance_m", first, last);
-  report["min_slit_clearance_m"] = truth.smallest("slit_clearance_m", first, last);
-  report["min_sphere_clearance_m"] = truth.smallest("sphere_clearance_m", first, last);
-  report["max_contact_force_N"] = truth.largest("contact_force_N", first, last);
-  report["rod_force_N"] = truth.at(last, "rod_force_N");
-  report["cable_tension_N"] = {{"min", truth.smallest("tension_min_N", first, last)},
-                               {"min_motor", truth.smallest("tension_motor_min_N", first, last)},
-                               {"max", truth.largest("tension_motor_max_N", first, last)}};
+void add_claims(Json& report, const TruthLog& truth, const Rows& rows, const std::vector<ClearanceClaim>& claims,
+                double period_s) {
+  const auto claimed = verified_clearance(truth, rows.first, rows.last, claims, period_s);
+  if (!claimed) return;
+  report["verified_clearance_m"] = {{"min", claimed->min_m},
+                                    {"truth_min", claimed->truth_min_m},
+                                    {"ticks_above_truth", claimed->ticks_above_truth},
+                                    {"most_above_truth_m", claimed->most_above_m}};
 }
 
-void add_serial_truth(Json& report, const TruthLog& truth, std::size_t first, std::size_t last) {
-  double largest_Nm = 0.0;
-  for (int joint = 1; truth.has("torque_Nm_" + std::to_string(joint)); ++joint) {
-    const std::string column = "torque_Nm_" + std::to_string(joint);
-    largest_Nm =
-        std::fmax(largest_Nm, std::fmax(truth.largest(column, first, last), -truth.smallest(column, first, last)));
-  }
-  report["final_joint_deg"] = truth.angles_deg("joint_deg_", last);
-  report["max_joint_torque_Nm"] = largest_Nm;
-}
-
-void add_truth(Json& report, const ReportSources& sources, const Window& window) {
+// Figures over the experiment, of a run that failed over all that came after it, too; why a success is none.
+std::string add_truth(Json& report, const ReportSources& sources, const Window& window, double period_s) {
   const TruthLog truth = TruthLog::load(sources.truth_file);
-  if (truth.row_count() == 0) return;
-  const std::size_t first = truth.row_of_slot(window.first_tick);
-  const std::size_t last = truth.row_of_slot(window.last_tick);
-  const Pose tip = truth.tip(last);
-  if (sources.rod && !truth.has("joint_deg_1")) {  // no serial arm presses a rod yet
-    const Pose rod{sources.rod->position_m, sources.rod->quaternion_wxyz};
-    report["tip_error_m"] = distance_m(tip, rod);
-    report["tip_attitude_error_rad"] = angle_rad(tip, rod);
-  }
-  if (const StateSample* state = sample_at(sources.states, window.last_tick)) {
-    report["open_loop_tip_error_m"] = distance_m(tip, state->commanded_tip);
-  }
-  if (truth.has("joint_deg_1")) {
-    add_serial_truth(report, truth, first, last);
-  } else {
-    add_cable_truth(report, truth, first, last);
-  }
+  if (truth.row_count() == 0) return "";
+  const bool success = report["outcome"] == "success";
+  const std::size_t end = truth.row_of_slot(window.last_tick);
+  const Rows rows{truth.row_of_slot(window.first_tick), success ? end : truth.row_count() - 1};
+  const StateSample* state = sample_at(sources.states, success ? window.last_tick : UINT64_MAX);
+  add_figures(report, truth, rows, true_rod(sources),
+              state != nullptr ? std::optional(state->commanded_tip) : std::nullopt);
+  add_claims(report, truth, rows, sources.claims, period_s);
+  if (!success) add_aftermath(report, truth, end, period_s);
+  return judge(report, sources.criteria);
 }
 
 // Per bus: loads and frames; the wire's own count (embedded bus) goes before lianad's.
@@ -185,13 +172,16 @@ Json make_report(const ReportSources& sources) {
                  {"faults", state.value("faults", Json::array())},
                  {"buses", buses_of(state, read_json(sources.bus_stats_file))}};
   // The mission may have ended before the fault came; an arm that stands in a fault has not succeeded.
+  const auto fail = [&report](const std::string& reason) { report["outcome"] = "failed", report["reason"] = reason; };
   if (report["outcome"] == "success" && !report["faults"].empty()) {
-    report["outcome"] = "failed";
-    report["reason"] = "a fault is latched at the end";
+    fail("a fault is latched at the end");
   } else if (report["outcome"] != "success") {
     report["reason"] = sources.reason.empty() ? mission.value("reason", "") : sources.reason;
   }
-  if (std::filesystem::exists(sources.truth_file)) add_truth(report, sources, window);
+  if (state.contains("friction")) report["friction"] = state["friction"];
+  if (!std::filesystem::exists(sources.truth_file)) return report;
+  const std::string not_kept = add_truth(report, sources, window, welcome.value("period_s", 0.0));
+  if (report["outcome"] == "success" && !not_kept.empty()) fail(not_kept);
   return report;
 }
 
@@ -215,11 +205,29 @@ std::string report_text(const Json& report) {
   if (report.contains("min_slit_clearance_m")) {
     text += clearance_text(report) + line("contact force %.2f N", report["max_contact_force_N"].get<double>()) +
             line(", cable tension %.1f", report["cable_tension_N"]["min"].get<double>()) +
-            line(" to %.1f N\n", report["cable_tension_N"]["max"].get<double>());
+            line(" to %.1f N", report["cable_tension_N"]["max"].get<double>()) +
+            line(", at the motors %.1f at least\n", report["cable_tension_N"]["min_motor"].get<double>());
   }
+  if (report.contains("verified_clearance_m")) {
+    const Json& claimed = report["verified_clearance_m"];
+    text += line("verified clearance %.1f mm", 1e3 * claimed["min"].get<double>()) +
+            line(" (true %.1f mm)", 1e3 * claimed["truth_min"].get<double>()) +
+            line(", above the truth in %.0f ticks\n", claimed["ticks_above_truth"].get<double>());
+  }
+  if (report.value("max_tip_speed_slit_m_s", 0.0) > 0.0)
+    text += line("tip in the slit %.4f m/s at most\n", report["max_tip_speed_slit_m_s"].get<double>());
+  if (report.contains("after_failure_s"))
+    text += line("after the failure the arm moved for %.1f s", report["after_failure_s"].get<double>()) +
+            (report["ends_at_rest"].get<bool>() ? "\n" : " and still moves at the end\n");
   if (report.contains("max_joint_torque_Nm")) {
     text += line("open loop %.2f mm", 1e3 * report.value("open_loop_tip_error_m", 0.0)) +
             line(", largest joint torque %.1f N m\n", report["max_joint_torque_Nm"].get<double>());
+  }
+  if (report.contains("friction")) {
+    const Json& friction = report["friction"];
+    text += line("friction mu %.3f", friction.value("mu", 0.0)) + line(" +- %.3f found", friction.value("sd", 0.0)) +
+            line(", %.3f declared", friction.value("declared_mu", 0.0)) +
+            line(", planned with %.3f\n", friction.value("planned_mu", 0.0));
   }
   for (const Json& bus : report.value("buses", Json::array())) {
     text += "bus " + bus.value("name", "") + line(": %.0f frames", bus.value("frames", 0.0)) +

@@ -9,6 +9,8 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/config/config.hpp"
 #include "host/json/json_fwd.hpp"
+#include "host/report/claimed_clearance.hpp"
+#include "host/report/truth_figures.hpp"
 
 namespace liana::report {
 
@@ -33,14 +35,17 @@ struct ReportSources {
   std::string robot, mission, physics;  // as they were given
   std::uint64_t seed = 0;
   std::string time_mode;
-  std::string truth_file;           // of the bench
+  std::string truth_file;  // of the bench
+  std::string bench_summary_file;
   std::string mission_report_file;  // of liana-mission
   std::string bus_stats_file;       // of liana-bus
   std::vector<StateSample> states;
+  std::vector<ClearanceClaim> claims;    // of lianad, as its states told them
   std::vector<ReportedStep> announced;   // stands in for the steps of a mission runner that left no report
   const Json* welcome = nullptr;         // of lianad
   const Json* last_state = nullptr;      // of lianad
-  std::optional<config::ScenePose> rod;  // none: the scene has none
+  std::optional<config::ScenePose> rod;  // as the scene has it; none: it has none
+  Criteria criteria;                     // that a success has to keep, too
 };
 
 // The report with the keys of docs/command-line.md.

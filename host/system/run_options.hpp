@@ -14,11 +14,14 @@ struct RunOptions {
   std::string time;           // empty: fast, or real on SocketCAN
   bool simulated_arm = true;  // false: real drives are on the buses, there is no bench
   std::string physics = "nominal";
+  std::string true_physics;  // empty: as physics; else what the simulated arm really has, and nobody declares
   std::string arm = "full";  // or light, which needs physics ideal
   std::string fixture;       // empty: the bench's start pose; a named pose: the simulated arm lies exactly there
   std::string in_pose;       // empty: nobody knows; a named pose: lianad enables only an arm that lies there, and the
                              // simulated one does
   std::string cross_wired;   // empty, or two drives whose cables are exchanged, e.g. 3,4
+  std::string faults;        // empty, or the bench's fault list: a file (docs/hil.md)
+  std::string scene_offset;  // empty, or MM,DEG: the simulated scene is so far from where the table has it
   std::string calibration;   // empty: as the robot table says
   std::string record_dir;    // empty: nothing is kept
   std::string report_file;   // empty: a summary on standard output; "-": JSON on standard output

@@ -4,6 +4,8 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "host/system/observer.hpp"
 
@@ -18,6 +20,7 @@ constexpr double kStopTimeout_s = 15.0;
 constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
 constexpr double kFinishGrace_s = 3.0;  // for the mission runner, when another program has ended
 constexpr double kLook_s = 0.02;
+constexpr double kSilent_s = 10.0;    // without a state: lianad does not go on
 constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
 
 Clock::time_point after(double seconds) {
@@ -55,7 +58,27 @@ RunEnd RunSession::watch() {
     look(kLook_s);
     if (interrupts_.count() > 0) return interrupted();
   }
-  return conclusion();
+  const RunEnd end = conclusion();
+  if (has_failed(end)) follow();
+  return end;
+}
+
+// The run is no success as far as processes and mission tell.
+bool RunSession::has_failed(const RunEnd& end) const {
+  if (end.bad_input) return false;
+  std::ifstream file(plan_.file("mission.json"));
+  const Json mission = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
+  return !end.outcome.empty() || mission.value("outcome", "") != "success";
+}
+
+// What a failure leads to belongs to the run: lianad goes on until the arm is at rest, then ends by itself.
+void RunSession::follow() {
+  auto deadline = after(kSilent_s);
+  while (system_.is_connected() && interrupts_.count() == 0 && Clock::now() < deadline) {
+    const std::size_t seen = states_.size();
+    look(kLook_s);
+    if (states_.size() != seen) deadline = after(kSilent_s);
+  }
 }
 
 // Somebody has ended. The others follow within moments, in any order: who failed by itself is seen only after that.
@@ -134,6 +157,9 @@ void RunSession::take(const Json& message) {
 void RunSession::keep(const Json& state) {
   progress_.show(state);
   states_.push_back({state.value("tick", std::uint64_t{0}), pose_of(state.value("setpoint_cp", Json()))});
+  const Json clearance = state.value("clearance", Json());
+  if (clearance.is_object() && states_.back().tick > 0)  // of the angles at the tick before
+    claims_.push_back({states_.back().tick - 1, clearance.value("distance_m", 0.0)});
   last_state_ = state;
   const Json step = state.value("step", Json());
   const int index = step.is_object() ? step.value("index", 0) : 0;

@@ -13,7 +13,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kFinishGrace_s = 3.0;  // for the others to write their summaries after lianad has left
+constexpr double kFinishGrace_s = 20.0;  // for the others to end after lianad has left: the bench goes on until rest
 constexpr double kLook_s = 0.02;
 
 Clock::time_point after(double seconds) {

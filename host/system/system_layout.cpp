@@ -28,6 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kRestWithin_s = "10";  // an arm whose cable broke may swing for longer; the report says so
+
 std::string temporary_directory() {
   std::string name = (fs::temp_directory_path() / "liana-run-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr)
@@ -110,11 +112,11 @@ std::string expected_roles(const SystemLayout& plan, const RunOptions& options) 
 }
 
 ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
-  ProgramCall call{
-      "lianad",
-      {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"), "--buses",
-       plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode, "--physics", options.physics,
-       "--expect", expected_roles(plan, options), "--events", plan.events_file()}};
+  ProgramCall call{"lianad",
+                   {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"),
+                    "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode,
+                    "--physics", options.physics, "--expect", expected_roles(plan, options), "--events",
+                    plan.events_file(), "--way-out", plan.file("way_out.bin")}};
   if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});
   if (!options.in_pose.empty()) append(call.argv, {"--in-pose", options.in_pose});
   if (embedded) append(call.argv, {"--bus-socket", plan.bus_socket()});
@@ -126,14 +128,18 @@ ProgramCall archive_call(const SystemLayout& plan) {
 }
 
 ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
-  ProgramCall call{"liana-bench",
-                   {sibling_program("liana-bench"), "--robot", plan.file("robot.json"), "--scene",
-                    plan.file("scene.json"), "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--arm",
-                    options.arm, "--physics", options.physics, "--seed", std::to_string(options.seed), "--truth",
-                    plan.file("truth.bin"), "--summary", plan.file("bench_summary.json")}};
+  ProgramCall call{
+      "liana-bench",
+      {sibling_program("liana-bench"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"),
+       "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--arm", options.arm, "--physics",
+       options.true_physics.empty() ? options.physics : options.true_physics, "--seed", std::to_string(options.seed),
+       "--truth", plan.file("truth.bin"), "--summary", plan.file("bench_summary.json")}};
   const std::string& fixture = options.in_pose.empty() ? options.fixture : options.in_pose;
   if (!fixture.empty()) append(call.argv, {"--start-pose", fixture, "--fixture"});
   if (!options.cross_wired.empty()) append(call.argv, {"--cross-wired", options.cross_wired});
+  if (!options.faults.empty()) append(call.argv, {"--faults", options.faults});
+  if (!options.scene_offset.empty()) append(call.argv, {"--scene-offset", options.scene_offset});
+  if (!options.mission.empty()) append(call.argv, {"--rest-within", kRestWithin_s});
   if (embedded) {
     append(call.argv, {"--bus-socket", plan.bus_socket()});
   } else {
@@ -183,6 +189,7 @@ void check_options_of_serial_robot(const RunOptions& options, const std::string&
   refuse("--calibration", !options.calibration.empty(), "its encoders are absolute; leave it out");
   refuse("--in-pose", !options.in_pose.empty(), "its encoders are absolute; leave it out");
   refuse("--cross-wired", !options.cross_wired.empty(), "it has no cables to swap; leave it out");
+  refuse("--physics", options.physics != "nominal", "its bench knows nominal only; leave it out");
   refuse("mission", options.mission.ends_with(".json"), "plans are for cable arms; give a mission");
 }
 

@@ -17,6 +17,8 @@ constexpr std::array kRows{
     RefusalRow{Refusal::kTooSlow, "too_slow", "take load off the machine; see liana latency"},
     RefusalRow{Refusal::kJointTravel, "joint_travel", "command the same way more slowly"},
     RefusalRow{Refusal::kTickTime, "tick_time", "use a longer control period or a faster machine (buses: machine)"},
+    RefusalRow{Refusal::kModel, "model",
+               "look at what the margin names; measure friction again (liana calibrate --friction)"},
     RefusalRow{Refusal::kJointAngle, "joint_angle", "command angles within the limits of the robot table"},
     RefusalRow{Refusal::kJointRate, "joint_rate", "give the motion more time"},
     RefusalRow{Refusal::kTipSpeed, "tip_speed", "give the motion more time"},

@@ -35,11 +35,6 @@ local function rounded(waypoints_deg)
   return out
 end
 
-local function name_of(plan, count)
-  local hash = type(plan.hash) == "string" and (" %.12s"):format(plan.hash) or ""
-  return ("plan%s, %d waypoints"):format(hash, count)
-end
-
 -- The checked mission of a plan (docs/formats.md).
 return function(plan)
   if type(plan) ~= "table" or plan.outcome ~= "solved" then
@@ -53,7 +48,7 @@ return function(plan)
   end
   local margin_m = math.max(kLeastMargin_m, plan.inputs and plan.inputs.margin_m or 0)
   local fields = { points_deg = rounded(waypoints), margin_m = margin_m }
-  local name = name_of(plan, count)
+  local name = ("plan, %d waypoints"):format(count)
   local at_start = ("arm within %g deg of the plan's start"):format(kAtStart_deg)
   return check.mission("plan", { {
     name = name, device = "none", time_limit_s = kTimeLimit_s, on_fail = "hold",

@@ -163,7 +163,7 @@ Setpoint going_planar(const Rig& rig, std::int32_t) { return held_at_zero(tip_al
 // A prepared motion in joint space.
 Setpoint joints(const Rig& rig, std::int32_t interval) {
   const ThetaVector from = zhu2022::radians(zhu2022::kPrepare_deg), to = zhu2022::radians(zhu2022::kPanelEdge_deg);
-  const double share = (interval + 1.0) / kIntervals / 5.0;
+  const double share = (interval + 1.0) / 3000.0;  // of a minute
   Setpoint setpoint = rig.joints(from);
   for (std::size_t k = 0; k < zhu2022::kThetas; ++k) setpoint.joint_rad[k] += share * (to[k] - from[k]);
   return setpoint;

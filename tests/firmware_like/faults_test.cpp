@@ -37,6 +37,8 @@ const std::vector<Published> kPublished{
     {FaultNumber::kCableSlip, 5005, "cable_slip"},
     {FaultNumber::kCableBreak, 5006, "cable_break"},
     {FaultNumber::kTensionScatters, 5007, "tension_scatters"},
+    {FaultNumber::kBodyContact, 5008, "body_contact"},
+    {FaultNumber::kFrictionNotAsDeclared, 5009, "friction_not_as_declared"},
     {FaultNumber::kGateRefused, 6001, "gate_refused"},
 };
 
@@ -97,6 +99,20 @@ TEST(Faults, AFullListCountsTheRestAndStillRaisesTheStopCategory) {
   EXPECT_EQ(faults.dropped, 1U);
   EXPECT_EQ(faults.category, StopCategory::kOff);
   EXPECT_EQ(faults.immediate, 1);
+}
+
+TEST(Faults, ARetreatNeedsEveryLatchedFaultToAllowItAndNoneThatIsUnknown) {
+  FaultList faults{};
+  EXPECT_TRUE(allow_retreat(faults));
+  for (std::int16_t i = 0; i < FaultList::kCapacity; ++i) latch(faults, {FaultNumber::kCableSlack, i, 0, 1});
+  EXPECT_TRUE(allow_retreat(faults));
+  FaultList with_break = faults;
+  with_break.count = 3;
+  latch(with_break, {FaultNumber::kCableBreak, 4, 0, 2});
+  EXPECT_FALSE(allow_retreat(with_break));
+  latch(faults, {FaultNumber::kCommandInvalid, -1, 0, 2});
+  EXPECT_EQ(faults.dropped, 1U);
+  EXPECT_FALSE(allow_retreat(faults));
 }
 
 TEST(Faults, NoFaultIsNeverLatched) {

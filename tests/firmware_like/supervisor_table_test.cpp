@@ -64,7 +64,7 @@ TEST(SupervisorTable, EveryPhaseAnswersEverySeverityInTheSameTickAsThePageSays) 
       FaultList faults{};
       faults.category = kSeverities[s].category;
       faults.immediate = kSeverities[s].immediate;
-      supervise(kLimits, healthy(kStatusEnabled), {true, false, true}, false, 0, state, faults);
+      supervise(kLimits, healthy(kStatusEnabled), {true, false, true}, CommandKind::kNone, 0, state, faults);
       EXPECT_EQ(state.phase, row[s + 1]) << kPhaseNames[static_cast<std::size_t>(row[0])] << ", severity " << s
                                          << " leads to " << kPhaseNames[static_cast<std::size_t>(state.phase)];
     }
@@ -77,8 +77,9 @@ TEST(SupervisorTable, AFaultIsNeverShownAsDisabledNotEvenForOneTick) {
     SupervisorState state{from, 100, 0, 0, {}};
     FaultList faults{};
     latch(faults, {FaultNumber::kDriveMissing, 1, 0, 1});
-    EXPECT_EQ(supervise(kLimits, healthy(kStatusDisabled), {true, true, true}, false, 1, state, faults).state,
-              OperatingState::kFault);
+    EXPECT_EQ(
+        supervise(kLimits, healthy(kStatusDisabled), {true, true, true}, CommandKind::kNone, 1, state, faults).state,
+        OperatingState::kFault);
   }
 }
 
@@ -95,7 +96,7 @@ TEST(SupervisorTable, NoStateIsLeftWithoutEndWhateverTheDrivesDo) {
     bool ended = false;
     for (; ticks < bound && !ended; ++ticks) {
       inputs.request = Request::kStop;
-      const Orders orders = supervise(kLimits, inputs, arm, false, 0, state, faults);
+      const Orders orders = supervise(kLimits, inputs, arm, CommandKind::kNone, 0, state, faults);
       ended = orders.goal == DriveGoal::kDisabled &&
               (orders.state == OperatingState::kDisabled || orders.state == OperatingState::kFault);
     }
@@ -103,15 +104,47 @@ TEST(SupervisorTable, NoStateIsLeftWithoutEndWhateverTheDrivesDo) {
   }
 }
 
-TEST(SupervisorTable, MotionIsAllowedInNoPhaseButEnabledAndNeverWithAFault) {
+TEST(SupervisorTable, OnlyAnEnabledArmMovesAndWithAFaultOnlyBackAsTheFaultsTableSays) {
   for (std::int32_t phase = 0; phase < kPhaseCount; ++phase) {
-    for (const bool with_fault : {false, true}) {
+    for (const FaultInfo& info : all_faults()) {
       SupervisorState state{static_cast<Phase>(phase), 0, 0, 0, {}};
       FaultList faults{};
-      if (with_fault) latch(faults, {FaultNumber::kCommandInvalid, -1, 0, 1});
-      const Orders orders = supervise(kLimits, healthy(kStatusReady), {true, true, false}, false, 0, state, faults);
-      EXPECT_EQ(orders.motion_allowed, static_cast<Phase>(phase) == Phase::kEnabled && !with_fault) << phase;
+      latch(faults, {info.number, 1, 0, 1});
+      const Orders orders =
+          supervise(kLimits, healthy(kStatusReady), {true, true, false}, CommandKind::kNone, 0, state, faults);
+      const bool enabled = static_cast<Phase>(phase) == Phase::kEnabled;
+      const MayMove by_fault = info.number == FaultNumber::kNone ? MayMove::kEverything
+                               : info.retreat                    ? MayMove::kRetreat
+                                                                 : MayMove::kNothing;
+      EXPECT_EQ(orders.may_move, enabled ? by_fault : MayMove::kNothing) << phase << " " << info.name;
     }
+  }
+}
+
+TEST(SupervisorTable, NothingMovesWithAFaultWhileADriveIsNotHeardOrTheArmNotHomed) {
+  const auto ordered = [](void (*spoil)(CycleInputs&, ArmStatus&)) {
+    SupervisorState state{Phase::kEnabled, 0, 0, 0, {}};
+    FaultList faults{};
+    latch(faults, {FaultNumber::kCableSlip, 1, 0, 1});
+    CycleInputs inputs = healthy(kStatusEnabled);
+    ArmStatus arm{true, true, true};
+    spoil(inputs, arm);
+    return supervise(kLimits, inputs, arm, CommandKind::kRetreat, 0, state, faults).may_move;
+  };
+  EXPECT_EQ(ordered([](CycleInputs&, ArmStatus&) {}), MayMove::kRetreat);
+  EXPECT_EQ(ordered([](CycleInputs&, ArmStatus& arm) { arm.homed = false; }), MayMove::kNothing);
+  EXPECT_EQ(ordered([](CycleInputs& in, ArmStatus&) { in.drive[2].feedback_age_ticks = 3; }), MayMove::kNothing);
+  EXPECT_EQ(ordered([](CycleInputs& in, ArmStatus&) { in.drive[2].heartbeat_age_ticks = 76; }), MayMove::kNothing);
+  EXPECT_EQ(ordered([](CycleInputs& in, ArmStatus&) { in.drive[2].operational = 0; }), MayMove::kNothing);
+  EXPECT_EQ(ordered([](CycleInputs& in, ArmStatus&) { in.lost_bus_mask = 1; }), MayMove::kNothing);
+}
+
+TEST(SupervisorTable, WhatMayMoveIsAskedOfTheKindOfCommand) {
+  for (const CommandKind kind : {CommandKind::kNone, CommandKind::kTip, CommandKind::kJoint, CommandKind::kHold,
+                                 CommandKind::kStop, CommandKind::kRetreat}) {
+    EXPECT_FALSE(is_let_move(MayMove::kNothing, kind));
+    EXPECT_EQ(is_let_move(MayMove::kRetreat, kind), kind == CommandKind::kRetreat);
+    EXPECT_EQ(is_let_move(MayMove::kEverything, kind), is_motion(kind));
   }
 }
 

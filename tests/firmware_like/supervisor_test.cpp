@@ -23,7 +23,7 @@ class Operation : public ::testing::Test {
     ++inputs_.tick;
     inputs_.request = request;
     const std::int32_t active = watchdogs_.run(watch_scope(state_), inputs_, sent_, tension_N_, tension_N_, faults_);
-    orders_ = supervise(limits_, inputs_, arm_, stop_commanded_, active, state_, faults_);
+    orders_ = supervise(limits_, inputs_, arm_, in_force_, active, state_, faults_);
     sent_ = gate(gate_limits_, orders_.goal, orders_.live_targets, proposal_, sent_, inputs_.drive).command;
     for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i) {
       if (i != stuck_drive_) inputs_.drive[i].statusword = answer(inputs_.drive[i].statusword, sent_[i].controlword);
@@ -42,7 +42,7 @@ class Operation : public ::testing::Test {
   void enable() {
     tick(Request::kEnable);
     ASSERT_LE(ticks_until(OperatingState::kEnabled, 20), 20);
-    ASSERT_TRUE(orders_.motion_allowed);
+    ASSERT_EQ(orders_.may_move, MayMove::kEverything);
   }
 
   static std::uint16_t answer(std::uint16_t status, std::uint16_t word) {
@@ -70,7 +70,7 @@ class Operation : public ::testing::Test {
   FaultList faults_{};
   CycleInputs inputs_ = healthy(kStatusDisabled, 0);
   ArmStatus arm_{true, true, true};
-  bool stop_commanded_ = false;
+  CommandKind in_force_ = CommandKind::kNone;
   CableVector tension_N_ = [] {
     CableVector tension{};
     tension.fill(40.0);
@@ -95,11 +95,11 @@ TEST_F(Operation, EnablingGoesThroughSwitchedOnAndTheRampBeforeMotionIsAllowed) 
   for (int i = 0; i < 20; ++i) tick();
   EXPECT_TRUE(orders_.preparing);
   EXPECT_TRUE(orders_.live_targets);
-  EXPECT_FALSE(orders_.motion_allowed);
+  EXPECT_EQ(orders_.may_move, MayMove::kNothing);
   EXPECT_EQ(orders_.state, OperatingState::kEnabling);
   arm_.prepared = true;
   EXPECT_EQ(tick().state, OperatingState::kEnabled);
-  EXPECT_TRUE(orders_.motion_allowed);
+  EXPECT_EQ(orders_.may_move, MayMove::kEverything);
   EXPECT_FALSE(orders_.preparing);
   EXPECT_EQ(faults_.count, 0);
 }
@@ -166,7 +166,7 @@ TEST_F(Operation, EnablingIsRefusedAndSaysWhyWhenAnyConditionIsMissing) {
     FaultList faults{};
     blocker.apply(inputs, motion, faults);
     inputs.request = Request::kEnable;
-    const Orders orders = supervise(limits_, inputs, motion, false, 0, state, faults);
+    const Orders orders = supervise(limits_, inputs, motion, CommandKind::kNone, 0, state, faults);
     EXPECT_NE(orders.state, OperatingState::kEnabling) << condition_name(blocker.missing);
     EXPECT_EQ(orders.goal, DriveGoal::kDisabled);
     EXPECT_EQ(orders.enable_missing, blocker.missing) << condition_name(blocker.missing);
@@ -178,7 +178,7 @@ TEST_F(Operation, DisableStopsAlongThePathThenBrakesThenPowersDown) {
   arm_.at_rest = false;
   EXPECT_EQ(tick(Request::kDisable).state, OperatingState::kStopping);
   EXPECT_TRUE(orders_.live_targets);
-  EXPECT_FALSE(orders_.motion_allowed);
+  EXPECT_EQ(orders_.may_move, MayMove::kNothing);
   EXPECT_EQ(orders_.stop_category, StopCategory::kStop);
   for (int i = 0; i < 100; ++i) tick();
   EXPECT_EQ(orders_.goal, DriveGoal::kOperationEnabled) << "still decelerating";
@@ -218,9 +218,9 @@ TEST_F(Operation, AStopThatNeverComesToRestEndsInAQuickStop) {
 
 TEST_F(Operation, AStopTelecommandStopsLikeTheRequest) {
   enable();
-  stop_commanded_ = true;
+  in_force_ = CommandKind::kStop;
   EXPECT_EQ(tick().state, OperatingState::kStopping);
-  stop_commanded_ = false;
+  in_force_ = CommandKind::kNone;
   EXPECT_LE(ticks_until(OperatingState::kDisabled, 100), 100);
 }
 
@@ -244,18 +244,18 @@ TEST_F(Operation, AHoldFaultKeepsTheDrivesEnabledAndBlocksMotionUntilCleared) {
   EXPECT_TRUE(has(faults_, FaultNumber::kCableSlack, 2));
   EXPECT_EQ(orders_.state, OperatingState::kEnabled);
   EXPECT_EQ(orders_.stop_category, StopCategory::kHold);
-  EXPECT_FALSE(orders_.motion_allowed);
+  EXPECT_EQ(orders_.may_move, MayMove::kRetreat);
   EXPECT_TRUE(orders_.live_targets) << "the path stop still moves the drives";
   tick(Request::kClear);
   EXPECT_EQ(state_.clear.missing, static_cast<std::uint32_t>(kCausesGone));
-  EXPECT_FALSE(orders_.motion_allowed) << "the cable is still slack";
+  EXPECT_EQ(orders_.may_move, MayMove::kRetreat) << "the cable is still slack";
   tension_N_[2] = 40.0;
-  for (int i = 0; i < 100; ++i) EXPECT_FALSE(tick().motion_allowed) << "clearing is explicit";
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(tick().may_move, MayMove::kRetreat) << "clearing is explicit";
   tick(Request::kClear);
   EXPECT_EQ(state_.clear.missing, 0U);
   EXPECT_EQ(state_.clear.checked, kClearable);
   EXPECT_EQ(state_.clear.tick, inputs_.tick);
-  EXPECT_TRUE(orders_.motion_allowed);
+  EXPECT_EQ(orders_.may_move, MayMove::kEverything);
   EXPECT_EQ(faults_.count, 0);
 }
 
@@ -281,6 +281,31 @@ TEST_F(Operation, ACauseThatPersistsTurnsAHoldIntoAStop) {
   tick(Request::kClear);
   EXPECT_LE(ticks_until(OperatingState::kDisabled, 100), 100);
   EXPECT_EQ(orders_.stop_category, StopCategory::kNone);
+}
+
+TEST_F(Operation, ACauseThatPersistsDoesNotStopARetreatThatMovesButCountsAnewAfterIt) {
+  enable();
+  tension_N_[2] = 450.0;
+  for (std::uint32_t i = 1; i < kAlarmDebounceTicks; ++i) tick();
+  in_force_ = CommandKind::kRetreat;
+  arm_.at_rest = false;
+  for (std::uint32_t i = 0; i < 3 * kPersistTicks; ++i) {
+    ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
+    ASSERT_EQ(orders_.may_move, MayMove::kRetreat) << i;
+  }
+  arm_.at_rest = true;  // its end, or whatever holds it up
+  for (std::uint32_t i = 1; i < kPersistTicks; ++i) ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
+  EXPECT_EQ(tick().state, OperatingState::kStopping);
+}
+
+TEST_F(Operation, AnotherCommandThanARetreatDoesNotKeepACauseFromStoppingTheArm) {
+  enable();
+  tension_N_[2] = 450.0;
+  in_force_ = CommandKind::kJoint;
+  arm_.at_rest = false;
+  for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kPersistTicks - 1; ++i)
+    ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
+  EXPECT_EQ(tick().state, OperatingState::kStopping);
 }
 
 TEST_F(Operation, ADriveThatGoesSilentQuickStopsTheOthersInTheSameTick) {

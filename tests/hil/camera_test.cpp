@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "fixtures.hpp"
 #include "hil/arm/tip_camera.hpp"
@@ -60,6 +61,50 @@ TEST(TipCamera, SeesNothingOutOfRange) {
   EXPECT_FALSE(view->rod);
   EXPECT_FALSE(view->slit);
   EXPECT_EQ(camera_message(*view), R"({"capture_time_s":0.0,"op":"camera","rod":null,"slit":null})");
+}
+
+// The pictures taken in a second of a camera with these defects from 0.4 s on, and when each was delivered.
+struct Delivered {
+  double at_s;
+  CameraView view;
+};
+
+std::vector<Delivered> pictures_with(const CameraDefects& defects) {
+  const SceneConfig scene = fixture_scene();
+  TipCamera camera(scene.camera, scene.slit_frame, scene.rod.pose, 1);
+  std::vector<Delivered> found;
+  for (int slot = 0; slot < 250; ++slot) {
+    const double now_s = slot * 0.004;
+    if (slot == 100) camera.suffer(defects);
+    camera.look(now_s, {{2.5, -0.75, 0.2 + 0.1 * now_s}, {}});
+    while (const auto view = camera.deliver(now_s)) found.push_back({now_s, *view});
+  }
+  return found;
+}
+
+TEST(TipCamera, FrozenShowsTheLastSoundPictureWithNewTimes) {
+  const auto sound = pictures_with({}), frozen = pictures_with({.frozen = true});
+  ASSERT_EQ(sound.size(), frozen.size());
+  EXPECT_EQ(frozen.back().view.rod->position_m.z, frozen[10].view.rod->position_m.z);
+  EXPECT_EQ(frozen[9].view.rod->position_m.z, sound[9].view.rod->position_m.z);
+  EXPECT_GT(std::fabs(sound.back().view.rod->position_m.z - frozen.back().view.rod->position_m.z), 0.03);
+  EXPECT_EQ(sound.back().view.capture_time_s, frozen.back().view.capture_time_s);
+}
+
+TEST(TipCamera, DroppedLateJumpedAndMirroredAreWhatTheySay) {
+  const auto sound = pictures_with({});
+  EXPECT_EQ(pictures_with({.dropped = true}).size(), 10U) << "those taken before 0.4 s";
+  const auto late = pictures_with({.late_s = 0.2});
+  EXPECT_NEAR(late.back().at_s - late.back().view.capture_time_s, 0.3, 1e-6);
+  const auto jumped = pictures_with({.jump_m = 0.02});
+  EXPECT_NEAR(jumped.back().view.rod->position_m.y, sound.back().view.rod->position_m.y + 0.02, 1e-12);
+  EXPECT_NEAR(jumped.back().view.slit->position_m.y, sound.back().view.slit->position_m.y + 0.02, 1e-12);
+  EXPECT_EQ(jumped[9].view.rod->position_m.y, sound[9].view.rod->position_m.y) << "not before it begins";
+  const Pose mirrored = *pictures_with({.mirrored = true}).back().view.slit, plain = *sound.back().view.slit;
+  EXPECT_EQ(mirrored.position_m.y, -plain.position_m.y);
+  EXPECT_EQ(mirrored.position_m.x, plain.position_m.x);
+  const Vec3 x = rotate(plain.attitude, {1.0, 0.0, 0.0}), seen = rotate(mirrored.attitude, {1.0, 0.0, 0.0});
+  EXPECT_LT(norm(seen - Vec3{x.x, -x.y, x.z}), 1e-9) << "its axes are mirrored, too";
 }
 
 }  // namespace

@@ -93,6 +93,11 @@ TEST(FaultList, RefusesWhatItDoesNotUnderstandWithFieldAndWhatIsAllowed) {
       {R"({"drive":3,"kind":"sto","when":{"moving":true,"for_slots":0}})", {"/0/when/for_slots", "0"}},
       {R"({"drive":3,"kind":"sto","when":{"resting":true}})", {"/0/when/resting", "not known"}},
       {R"({"drive":3,"kind":"sto","when":7})", {"/0/when"}},
+      {R"({"drive":3,"kind":"camera_frozen","at_slot":1})", {"/0/drive", "not known"}},
+      {R"({"kind":"camera_jump","at_slot":1})", {"/0/length_m", "missing"}},
+      {R"({"kind":"camera_jump","at_slot":1,"length_m":0})", {"/0/length_m", "0"}},
+      {R"({"kind":"camera_late","at_slot":1,"seconds":0})", {"/0/seconds", "0"}},
+      {R"({"drive":3,"kind":"sto","when":{"depth_above_m":11}})", {"/0/when/depth_above_m", "11"}},
       {R"(5)", {"/0"}}};
   for (const Case& test : cases) {
     try {
@@ -147,6 +152,30 @@ TEST(FaultsOfTheBench, WaitForTheirConditionAndBeginOnce) {
   EXPECT_TRUE(resting.summary.at("faults")[0].at("begun_slot").is_null());
   const Outcome there = run_with(R"([{"drive":3,"kind":"sto","when":{"theta":3,"below_deg":-5}}])", 160, 5);
   EXPECT_EQ(there.summary.at("faults")[0].at("begun_slot"), 0) << "theta 3 starts at -12 deg";
+}
+
+TEST(FaultsOfTheBench, WaitForTheDepthInTheSlitAndForTheFirstOfTheList) {
+  BenchOptions options = options_of(1);
+  options.start_pose = "press_rod";
+  options.fixture = true;
+  options.summary_path = temporary("depth.json");
+  options.faults = faults_of(R"([
+    {"drive":3,"kind":"silent","when":{"depth_above_m":1.0,"enabled":true}},
+    {"drive":4,"kind":"silent","when":{"after_first_slots":25}},
+    {"drive":5,"kind":"silent","when":{"depth_above_m":3.0}},
+    {"kind":"camera_dropped","at_slot":7,"for_slots":4}])");
+  {
+    Bench bench(options);
+    ScriptedBus bus(160, 0);
+    bench.run(bus);
+  }
+  const auto faults = nlohmann::json::parse(content(options.summary_path)).at("faults");
+  const int first = faults[0].at("begun_slot");
+  EXPECT_GT(first, 40) << "not before every drive is enabled";
+  EXPECT_EQ(faults[1].at("begun_slot"), first + 25);
+  EXPECT_TRUE(faults[2].at("begun_slot").is_null()) << "the tip is 1.9 m past the mouth";
+  EXPECT_EQ(faults[3].at("ended_slot"), 11);
+  EXPECT_TRUE(faults[3].at("drives").empty());
 }
 
 TEST(FaultsOfTheBench, NoiseIsInTheTorqueThatIsReported) {

@@ -188,7 +188,7 @@ TEST(Eval, APlanIsAMissionOfOneStepThatNamesIt) {
   ASSERT_EQ(good.code, 0) << good.error;
   const auto mission = Json::parse(good.out);
   ASSERT_EQ(mission["steps"].size(), 1u);
-  EXPECT_EQ(mission["steps"][0]["name"], "plan 0123456789ab, 2 waypoints");
+  EXPECT_EQ(mission["steps"][0]["name"], "plan, 2 waypoints");
   EXPECT_EQ(mission["steps"][0]["enter"], "arm within 1 deg of the plan's start");
   const Ended unsolved = run_program(plan("limit", zero + "," + zero, robot));
   EXPECT_EQ(unsolved.code, 2);

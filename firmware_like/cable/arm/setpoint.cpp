@@ -33,7 +33,7 @@ bool is_usable(const KeepClear& target) noexcept {
 bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept {
   if (!is_motion(setpoint.kind)) return true;
   if (!angles_in_limits(table, setpoint)) return false;
-  if (setpoint.kind == CommandKind::kJoint) return true;
+  if (is_joint(setpoint.kind)) return true;
   for (const NodeTarget& target : setpoint.node) {
     if (!is_usable(table, target)) return false;
   }

@@ -28,6 +28,13 @@ double cable_factor(const RobotTable& table, const CableGeometry& geometry, cons
   return fastest > allowed ? allowed / fastest : 1.0;
 }
 
+// Factor <= 1 that brings the fastest joint under `allowed_rad_s`.
+double rate_factor(const ThetaVector& rate, double allowed_rad_s) noexcept {
+  double fastest = 0.0;
+  for (const double one : rate) fastest = larger(fastest, std::fabs(one));
+  return fastest > allowed_rad_s ? allowed_rad_s / fastest : 1.0;
+}
+
 }  // namespace
 
 void reset_limiter(const ThetaVector& theta_rad, LimiterState& state) noexcept {
@@ -63,7 +70,7 @@ StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, 
 }
 
 void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad,
-                  LimiterState& state, bool judged) noexcept {
+                  LimiterState& state, bool judged, double rate_share) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
   const double h = table.tick_s;
   const double accel = table.limits.theta_accel_rad_s2;
@@ -73,8 +80,13 @@ void limit_motion(const RobotTable& table, const CableGeometry& geometry, const 
                             (reference_rad[k] - state.reference_rad[k]) / h, accel, h);
   }
   const bool follows = judged && state.reference_rad == state.theta_rad;
-  const double factor = follows ? 1.0 : cable_factor(table, geometry, wanted, kCableShare);
+  double factor = follows ? 1.0 : cable_factor(table, geometry, wanted, kCableShare);
   state.limits = factor < 1.0 ? std::uint32_t{kLimitCableSpeed} : std::uint32_t{0};
+  if (rate_share < 1.0) {
+    const double by_rate = rate_factor(wanted, rate_share * table.limits.theta_rate_rad_s);
+    if (by_rate < 1.0) state.limits |= kLimitThetaRate;
+    factor = smaller(factor, by_rate);
+  }
   for (Index k = 0; k < n; ++k) {
     const double rate = clamp(wanted[k] * factor, -table.limits.theta_rate_rad_s, table.limits.theta_rate_rad_s);
     if (rate != wanted[k] * factor) state.limits |= kLimitThetaRate;

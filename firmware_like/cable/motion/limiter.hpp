@@ -31,9 +31,10 @@ StepShare allowed_share(const RobotTable& table, const CableGeometry& geometry, 
 // One tick towards `reference` (which may move). Follows exactly while its rate and acceleration are inside the limits;
 // otherwise it lags and comes back along a braking parabola, past a standing reference by accel tick^2 / 8 at most
 // (8e-6 deg), and never past a joint limit. `geometry` is the cable Jacobian for the cable speed limit, which is not
-// looked at again while a reference that was `judged` by allowed_share is followed exactly.
+// looked at again while a reference that was `judged` by allowed_share is followed exactly. Below 1, `rate_share` of
+// the rate limit is all that the fastest joint gets; the others slow down in proportion.
 void limit_motion(const RobotTable& table, const CableGeometry& geometry, const ThetaVector& reference_rad,
-                  LimiterState& state, bool judged = false) noexcept;
+                  LimiterState& state, bool judged = false, double rate_share = 1.0) noexcept;
 
 // Largest |rate| of the command [rad/s].
 double largest_rate(const RobotTable& table, const LimiterState& state) noexcept;

@@ -31,8 +31,9 @@ struct MotionState {
   std::uint32_t held_mask = 0;
   bool held_at_target = true;
   LimiterState limiter{};
-  ArmTrig trig{};       // of the commanded angles (limiter.theta_rad)
-  ArmKinematics arm{};  // at the commanded angles
+  ChannelState brake{};  // [0]: the largest rate of braking joints; at rest while they do not brake
+  ArmTrig trig{};        // of the commanded angles (limiter.theta_rad)
+  ArmKinematics arm{};   // at the commanded angles
   IkReport ik{};
   std::uint32_t limits = 0;  // LimitBit of this tick
 };
@@ -43,7 +44,7 @@ TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s)
 // Stands still at theta.
 void reset_motion(const RobotTable& table, const ThetaVector& theta_rad, MotionState& state) noexcept;
 
-// Takes a new setpoint into force (kTip or kJoint); the motion goes on from where it is.
+// Takes a new setpoint into force (kTip, kJoint or kRetreat); the motion goes on from where it is.
 void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionState& state) noexcept;
 
 // One tick. With `allowed` false or braking, everything comes to rest along its path.

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <thread>
@@ -353,6 +355,166 @@ TEST_F(WayOut, GoesAllTheWayAfterARefusal) {
   follow();
   EXPECT_EQ(now_.theta_command_rad[0], start_);
   EXPECT_TRUE(arbiter_.has_retracted());
+}
+
+TEST_F(WayOut, SaysWhatItIsDoingAndHowMuchIsLeft) {
+  EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kNone);
+  go_in();
+  arbiter_.retract(now_, 0);
+  EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kStopping);
+  EXPECT_EQ(arbiter_.retract_state().points_left, 19u);
+  wait_for_rest();
+  for (int i = 0; i < 40; ++i) now_.theta_command_rad = next()->joint_rad;
+  EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kBack);
+  EXPECT_LT(arbiter_.retract_state().points_left, 19u);
+  follow();
+  EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kDone);
+  EXPECT_EQ(arbiter_.retract_state().points_left, 0u);
+  const auto news = arbiter_.take_way_news();
+  ASSERT_EQ(news.size(), 2u);
+  EXPECT_EQ(news[0].what, event::WayEvent::kBegins);
+  EXPECT_EQ(news[0].points, 19u);
+  EXPECT_EQ(news[1].what, event::WayEvent::kArrives);
+}
+
+TEST_F(WayOut, IsNoLongerRetractedOnceTheArmHasMovedOn) {
+  go_in();
+  arbiter_.retract(now_, 0);
+  wait_for_rest();
+  follow();
+  next();
+  EXPECT_TRUE(arbiter_.has_retracted());
+  go_in();
+  EXPECT_FALSE(arbiter_.has_retracted());
+}
+
+TEST_F(WayOut, IsNotBackBeforeTheArmIsAtRestThere) {
+  go_in();
+  arbiter_.retract(now_, 0);
+  wait_for_rest();
+  for (int i = 0; i < 100; ++i) {
+    now_.at_rest = 0;
+    const auto setpoint = next();
+    ASSERT_TRUE(setpoint);
+    now_.theta_command_rad = setpoint->joint_rad;
+  }
+  EXPECT_EQ(now_.theta_command_rad[0], start_);
+  EXPECT_FALSE(arbiter_.has_retracted());
+  now_.at_rest = 1;
+  EXPECT_FALSE(next());
+  EXPECT_TRUE(arbiter_.has_retracted());
+}
+
+TEST_F(WayOut, EndsAndSaysWhyWhenTheArmDoesNotComeToRestOrIsNotEnabledAnyMoreOrIsHeld) {
+  go_in();
+  now_.at_rest = 0;
+  arbiter_.retract(now_, 0);
+  int intervals = 0;
+  for (; arbiter_.is_busy() && intervals < 2000; ++intervals) next();
+  EXPECT_EQ(intervals, 1001) << "20 s";
+  EXPECT_EQ(arbiter_.retract_state().reason, "the arm did not come to rest within 20 s");
+  arbiter_.retract(now_, 0);
+  arbiter_.hold();
+  EXPECT_EQ(arbiter_.retract_state().reason, "held");
+  arbiter_.retract(now_, 0);
+  now_.state = OperatingState::kStopping;
+  next();
+  EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kEnded);
+  EXPECT_EQ(arbiter_.retract_state().reason, "the arm is not enabled any more");
+  EXPECT_FALSE(arbiter_.has_retracted());
+  EXPECT_EQ(arbiter_.take_way_news().back().what, event::WayEvent::kEnds);
+}
+
+// Brakes hold the drums, the arm swings a little, and is enabled beside its path.
+TEST_F(WayOut, SurvivesAStopAndIsJoinedAgainByAMoveOfItsOwn) {
+  go_in();
+  const ThetaVector end = now_.theta_command_rad;
+  now_.state = OperatingState::kDisabled;
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(next());
+  now_.state = OperatingState::kEnabled;
+  now_.theta_command_rad[1] += 0.004;
+  next();
+  const auto kept = arbiter_.take_way_news();
+  ASSERT_EQ(kept.size(), 1u);
+  EXPECT_EQ(kept[0].what, event::WayEvent::kKept);
+  EXPECT_GT(kept[0].distance_m, 0.005);
+  EXPECT_LT(kept[0].distance_m, kJoin_m);
+  arbiter_.retract(now_, 0);
+  wait_for_rest();
+  double largest_step_rad = 0.0;
+  bool was_on_the_path = false, has_joined = false;
+  for (auto setpoint = next(); setpoint; setpoint = next()) {
+    const bool joins = arbiter_.retract_state().phase == RetractPhase::kJoining;
+    has_joined = has_joined || joins;
+    if (joins) {
+      largest_step_rad = std::max(largest_step_rad, std::fabs(setpoint->joint_rad[1] - now_.theta_command_rad[1]));
+      EXPECT_NEAR(setpoint->joint_rad[0], end[0], 1e-9);
+    }
+    was_on_the_path = was_on_the_path || setpoint->joint_rad == end;
+    now_.theta_command_rad = setpoint->joint_rad;
+  }
+  EXPECT_TRUE(has_joined);
+  EXPECT_TRUE(was_on_the_path);
+  EXPECT_LT(largest_step_rad, kJoinRate_rad_s * 0.02);
+  EXPECT_EQ(now_.theta_command_rad[0], start_);
+  EXPECT_TRUE(arbiter_.has_retracted());
+}
+
+TEST_F(WayOut, OfAnArmMovedBackByHandLeadsOnFromTheNearestPoint) {
+  for (int i = 0; i < 8; ++i) go_in();
+  now_.state = OperatingState::kDisabled;
+  next();
+  now_.state = OperatingState::kEnabled;
+  now_.theta_command_rad[0] = start_ + 40 * kStep_rad;
+  next();
+  EXPECT_EQ(arbiter_.path_memory().size(), 41u);
+  arbiter_.retract(now_, 0);
+  wait_for_rest();
+  follow();
+  EXPECT_EQ(now_.theta_command_rad[0], start_);
+}
+
+TEST_F(WayOut, OfAnArmEnabledFarFromItIsGivenUpAndNobodyIsToldThatItIsBack) {
+  go_in();
+  const std::uint64_t before = tick_;
+  now_.state = OperatingState::kDisabled;
+  next();
+  now_.state = OperatingState::kEnabled;
+  now_.theta_command_rad[0] += 0.1;
+  next();
+  EXPECT_EQ(arbiter_.take_way_news().back().what, event::WayEvent::kLost);
+  EXPECT_EQ(code_of([&] { arbiter_.retract(now_, 0); }), "refused");
+  EXPECT_EQ(code_of([&] { arbiter_.retract(now_, before); }), "refused");
+  EXPECT_FALSE(arbiter_.has_retracted());
+  go_in();
+  arbiter_.retract(now_, before);
+  wait_for_rest();
+  follow();
+  EXPECT_EQ(arbiter_.retract_state().phase, RetractPhase::kEnded) << "it went as far as it could, and says so";
+  EXPECT_NE(arbiter_.retract_state().reason.find("does not lead farther back"), std::string::npos);
+}
+
+TEST_F(WayOut, AsFarAsTheArmStandsAlreadyIsDoneAtOnce) {
+  go_in();
+  arbiter_.retract(now_, tick_ + 5);
+  wait_for_rest();
+  follow();
+  EXPECT_TRUE(arbiter_.has_retracted());
+  EXPECT_NEAR(now_.theta_command_rad[0], start_ + 19 * kStep_rad, 1e-12);
+}
+
+// A hold that was refused would otherwise be asked for again by the next tip goal, and never come to be.
+TEST_F(WayOut, HoldsNothingAnyMore) {
+  go_in();
+  arbiter_.hold_theta(now_, 1u << 8, ThetaVector{});
+  EXPECT_TRUE(next());
+  arbiter_.refused();
+  EXPECT_FALSE(arbiter_.is_asking());
+  arbiter_.retract(now_, 0);
+  wait_for_rest();
+  follow();
+  arbiter_.servo_tip(now_, now_.tip_command);
+  EXPECT_EQ(next()->held_mask, 0u);
 }
 
 // Otherwise the operator grips again as soon as the way back ends, and steers in again.

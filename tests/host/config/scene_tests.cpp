@@ -50,20 +50,6 @@ TEST(Scene, MayBeWithoutAnythingButItsBodies) {
   EXPECT_TRUE(parse_scene(good_table("scene", "none").dump(), "s").camera) << "what liana run needs";
 }
 
-TEST(Scene, SaysInPartOrNotAtAllWhatVerificationMakesOfDistances) {
-  Json table = good_table("scene", "panel_slit");
-  EXPECT_EQ(parse_scene(table.dump(), "s").clearance.bound_m, 0.007) << "what the scene says";
-  table.erase("clearance");
-  EXPECT_EQ(parse_scene(table.dump(), "s").clearance.bound_m, 0.009);
-  table["clearance"] = {{"refuse_m", 0.002}};
-  const SceneClearance clearance = parse_scene(table.dump(), "s").clearance;
-  EXPECT_EQ(clearance.refuse_m, 0.002);
-  EXPECT_EQ(clearance.bound_m, 0.009);
-  EXPECT_EQ(clearance.slow_m, 0.010);
-  table["clearance"] = {{"refuse_m", 0.02}, {"slow_m", 0.01}};
-  EXPECT_THROW(parse_scene(table.dump(), "s"), std::runtime_error) << "slow where nothing goes any more";
-}
-
 TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {
   const Json good = good_table("scene", "panel_slit");
   const std::vector<Spoiled> cases = {
@@ -84,6 +70,10 @@ TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/rod/quaternion_wxyz", {1, 0, 0, 1}, "rod.quaternion_wxyz", "unit length"},
       {"/camera/rate_hz", 0, "camera.rate_hz", "1 to 1000"},
       {"/contact/friction", -0.2, "contact.friction", "0 to 2"},
+      {"/margins/shift_m", -0.001, "margins.shift_m", "0 to 0.1"},
+      {"/margins/turn_deg", 11, "margins.turn_deg", "0 to 10"},
+      {"/margins/slow_m", -0.001, "margins", "slow_m not below refuse_m"},
+      {"/margins/slowly_m", 0.001, "margins.slowly_m", "no such field"},
       {"/camera", 5, "camera", "named fields"}};
   for (const Spoiled& spoiled : cases) {
     expect_refused(good, spoiled, [](const std::string& text) { parse_scene(text, "given.json"); });

@@ -26,7 +26,8 @@ class RunReport : public testing::Test {
   std::string file(const std::string& name) const { return directory_ + "/" + name; }
   void write(const std::string& name, const std::string& text) const { std::ofstream(file(name)) << text; }
 
-  // One row per slot 0..9; the tip moves along x, clearance falls by 1 mm a slot.
+  // One row per slot 0..9; the tip moves along x, clearance falls by 1 mm a slot. The tip is in the slit in slots 3 to
+  // 5; the arm rests from slot 8 on.
   void write_truth() const {
     std::ofstream out(file("truth.bin"), std::ios::binary);
     const Json columns = {"slot",
@@ -46,12 +47,34 @@ class RunReport : public testing::Test {
                           "rod_force_N",
                           "tension_min_N",
                           "tension_motor_min_N",
-                          "tension_motor_max_N"};
+                          "tension_motor_max_N",
+                          "tip_speed_m_s",
+                          "fastest_deg_s",
+                          "slit_depth_m"};
     out << Json{{"columns", columns}}.dump() << '\n';
     for (int slot = 0; slot < 10; ++slot) {
       const double s = slot;
-      const double row[] = {s,   1 + s, 2 + s, 0.1 * s, 0,      0,     1, 0, 0, 0, 0.02 - 0.001 * s, 0.03 - 0.001 * s,
-                            0.5, s,     0.5,   20 - s,  30 - s, 40 + s};
+      const double row[] = {s,
+                            1 + s,
+                            2 + s,
+                            0.1 * s,
+                            0,
+                            0,
+                            1,
+                            0,
+                            0,
+                            0,
+                            0.02 - 0.001 * s,
+                            0.03 - 0.001 * s,
+                            0.5,
+                            s,
+                            0.5,
+                            20 - s,
+                            30 - s,
+                            40 + s,
+                            0.01 * s,
+                            slot < 8 ? 1.0 : 0.05,
+                            slot >= 3 && slot <= 5 ? 0.1 : -0.1};
       out.write(reinterpret_cast<const char*>(row), sizeof row);
     }
     out.write("cut", 3);
@@ -103,6 +126,75 @@ TEST_F(RunReport, ErrorsCompareTheTrueTipWithTheRodAndWithWhatWasCommanded) {
   EXPECT_NEAR(report["tip_error_m"], 0.003, 1e-12);
   EXPECT_NEAR(report["tip_attitude_error_rad"], 0.002, 1e-12);
   EXPECT_NEAR(report["open_loop_tip_error_m"], 0.01, 1e-12);
+}
+
+TEST_F(RunReport, SpeedInTheSlitIsThatOfTheTrueTipBetweenThePlates) {
+  write_truth();
+  write("mission.json", kMission);
+  const Json report = make_report(sources());
+  EXPECT_DOUBLE_EQ(report["max_tip_speed_slit_m_s"], 0.05);
+  EXPECT_DOUBLE_EQ(report["max_tip_speed_m_s"], 0.05);
+  EXPECT_FALSE(report.contains("after_failure_s")) << "nothing failed";
+}
+
+TEST_F(RunReport, AMissionThatFailedShowsAllThatCameAfterItToo) {
+  write_truth();
+  write(
+      "mission.json",
+      R"({"outcome":"failed","reason":"fault 5006","steps":[{"name":"go","outcome":"failed","start_tick":2,"end_tick":4}]})");
+  const Json welcome = {{"period_s", 0.004}};
+  ReportSources all = sources();
+  all.welcome = &welcome;
+  const Json report = make_report(all);
+  EXPECT_EQ(report["reason"], "fault 5006");
+  EXPECT_DOUBLE_EQ(report["max_contact_force_N"], 9.0) << "of the last row";
+  EXPECT_DOUBLE_EQ(report["min_slit_clearance_m"], 0.021);
+  EXPECT_DOUBLE_EQ(report["cable_tension_N"]["min"], 11.0);
+  EXPECT_DOUBLE_EQ(report["after_failure_s"], 3 * 0.004) << "it moves until slot 7";
+  EXPECT_EQ(report["ends_at_rest"], true);
+  EXPECT_DOUBLE_EQ(report["duration_s"], 2 * 0.004) << "of the mission itself";
+}
+
+TEST_F(RunReport, ASuccessHasToKeepTensionAndSpeedAndNamesTheFirstThatItDidNot) {
+  write_truth();
+  write("mission.json", kMission);
+  ReportSources all = sources();
+  all.criteria = {25.0, 15.0, 0.05};
+  Json report = make_report(all);
+  EXPECT_EQ(report["outcome"], "success") << "each at its limit";
+  ASSERT_EQ(report["criteria"].size(), 3u);
+  EXPECT_EQ(report["criteria"][0],
+            Json({{"name", "tension_at_motor"}, {"value", 25.0}, {"limit", 25.0}, {"met", true}}));
+  struct Case {
+    Criteria criteria;
+    const char* words;
+  };
+  for (const Case& test : {Case{{25.1, 1.0, 1.0}, "25 N, below 25.1 (tension_at_motor)"},
+                           Case{{1.0, 15.1, 1.0}, "15 N, below 15.1 (tension_anywhere)"},
+                           Case{{1.0, 1.0, 0.049}, "0.05 m/s, above 0.049 (tip_speed_in_slit)"}}) {
+    all.criteria = test.criteria;
+    report = make_report(all);
+    EXPECT_EQ(report["outcome"], "failed");
+    EXPECT_NE(report["reason"].get<std::string>().find(test.words), std::string::npos) << report["reason"];
+  }
+}
+
+TEST_F(RunReport, CriteriaAreTheTablesTheMotorsOnlyWhereCablesAreAsPlannedWith) {
+  const Json robot =
+      Json::parse(R"({"tension":{"floor_motor_N":15,"floor_anywhere_N":1},"limits":{"tip_speed_slit_m_s":0.03}})");
+  EXPECT_EQ(criteria_of(robot, "nominal").least_motor_tension_N, 15.0);
+  EXPECT_FALSE(criteria_of(robot, "worn").least_motor_tension_N);
+  EXPECT_EQ(criteria_of(robot, "worn").least_tension_N, 1.0);
+  EXPECT_FALSE(criteria_of(Json::parse(R"({"kind":"serial"})"), "nominal").least_tension_N);
+}
+
+TEST_F(RunReport, TheRodIsWhereTheBenchSaysItReallyIs) {
+  write_truth();
+  write("mission.json", kMission);
+  write("summary.json", R"({"rod":[0.51,0.0,0.0,1.0,0.0,0.0,0.0]})");
+  ReportSources all = sources();
+  all.bench_summary_file = file("summary.json");
+  EXPECT_NEAR(make_report(all)["tip_error_m"], 0.01, 1e-12);
 }
 
 TEST_F(RunReport, AnOutcomeOfTheRunGoesBeforeTheMissions) {

@@ -229,7 +229,7 @@ std::vector<Command> spheres() {
     if (least < 0.06) continue;  // no ball fits there
     both_sides(out, [&](bool outside) {
       const double left_m = outside ? -0.001 : 0.001;
-      const double radius_m = least - command.link_radius_m - command.scene.clearance.bound_m - left_m;
+      const double radius_m = least - command.link_radius_m - command.scene.margins.prediction_m - left_m;
       Command one = command;
       one.name = named("ball", i, outside);
       one.scene.spheres.push_back({"ball", beside, radius_m});
@@ -251,7 +251,7 @@ std::vector<Command> thin_plates() {
     const std::size_t k = 8 + i % 2;
     Command command{named("foil", i, true), table, 1e-5, {}, from_rad, turned(from_rad, k, 0.5 * kDegree), 1.5,
                     Refusal::kSceneContact};
-    command.scene.clearance.bound_m = 0.0;
+    command.scene.margins.prediction_m = 0.0;
     const Vec3 before = forward_kinematics(table, from_rad).tip_in_base.position_m;
     const Vec3 after = forward_kinematics(table, command.to_rad).tip_in_base.position_m;
     const Vec3 way = subtract(after, before);

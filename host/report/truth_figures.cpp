@@ -1,0 +1,116 @@
+#include "host/report/truth_figures.hpp"
+
+#include <cmath>
+
+#include "host/json/json.hpp"
+
+namespace liana::report {
+namespace {
+
+constexpr double kRest_deg_s = 0.1;
+
+double distance_m(const Pose& a, const Pose& b) { return norm(subtract(a.position_m, b.position_m)); }
+
+double angle_rad(const Pose& a, const Pose& b) {
+  return norm(rotation_vector(multiply(conjugate(a.quaternion), b.quaternion)));
+}
+
+void add_speeds(Json& report, const TruthLog& truth, const Rows& rows) {
+  double slit_m_s = 0.0;
+  for (std::size_t row = rows.first; row <= rows.last; ++row) {
+    if (truth.at(row, "slit_depth_m") > 0.0) slit_m_s = std::fmax(slit_m_s, truth.at(row, "tip_speed_m_s"));
+  }
+  report["max_tip_speed_m_s"] = truth.largest("tip_speed_m_s", rows.first, rows.last);
+  report["max_tip_speed_slit_m_s"] = slit_m_s;
+}
+
+void add_cable_figures(Json& report, const TruthLog& truth, const Rows& rows) {
+  const auto [first, last] = rows;
+  report["final_theta_deg"] = truth.angles_deg("theta_deg_", last);
+  report["min_clearance_m"] = truth.smallest("clearance_m", first, last);
+  report["min_slit_clearance_m"] = truth.smallest("slit_clearance_m", first, last);
+  report["min_sphere_clearance_m"] = truth.smallest("sphere_clearance_m", first, last);
+  report["max_contact_force_N"] = truth.largest("contact_force_N", first, last);
+  report["rod_force_N"] = truth.at(last, "rod_force_N");
+  report["cable_tension_N"] = {{"min", truth.smallest("tension_min_N", first, last)},
+                               {"min_motor", truth.smallest("tension_motor_min_N", first, last)},
+                               {"max", truth.largest("tension_motor_max_N", first, last)}};
+  if (truth.has("tip_speed_m_s")) add_speeds(report, truth, rows);
+}
+
+void add_serial_figures(Json& report, const TruthLog& truth, const Rows& rows) {
+  double largest_Nm = 0.0;
+  for (int joint = 1; truth.has("torque_Nm_" + std::to_string(joint)); ++joint) {
+    const std::string column = "torque_Nm_" + std::to_string(joint);
+    largest_Nm = std::fmax(largest_Nm, std::fmax(truth.largest(column, rows.first, rows.last),
+                                                 -truth.smallest(column, rows.first, rows.last)));
+  }
+  report["final_joint_deg"] = truth.angles_deg("joint_deg_", rows.last);
+  report["max_joint_torque_Nm"] = largest_Nm;
+}
+
+std::string in_words(const char* what, const char* relation, double value, double limit, const char* unit) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%s was %.4g %s, %s %.4g", what, value, unit, relation, limit);
+  return text;
+}
+
+}  // namespace
+
+Criteria criteria_of(const Json& robot, const std::string& physics) {
+  Criteria criteria;
+  if (!robot.contains("tension")) return criteria;
+  if (physics != "worn") criteria.least_motor_tension_N = robot["tension"]["floor_motor_N"].get<double>();
+  criteria.least_tension_N = robot["tension"]["floor_anywhere_N"].get<double>();
+  return criteria;
+}
+
+void add_figures(Json& report, const TruthLog& truth, const Rows& rows, const std::optional<Pose>& rod,
+                 const std::optional<Pose>& commanded_tip) {
+  const Pose tip = truth.tip(rows.last);
+  const bool serial = truth.has("joint_deg_1");
+  if (rod && !serial) {  // no serial arm presses a rod yet
+    report["tip_error_m"] = distance_m(tip, *rod);
+    report["tip_attitude_error_rad"] = angle_rad(tip, *rod);
+  }
+  if (commanded_tip) report["open_loop_tip_error_m"] = distance_m(tip, *commanded_tip);
+  if (serial) {
+    add_serial_figures(report, truth, rows);
+  } else {
+    add_cable_figures(report, truth, rows);
+  }
+}
+
+std::string judge(Json& report, const Criteria& criteria) {
+  std::string first;
+  const auto hold = [&](const char* name, const char* what, const char* unit, const Json& value, double limit,
+                        bool least) {
+    const bool met = least ? value.get<double>() >= limit : value.get<double>() <= limit;
+    report["criteria"].push_back({{"name", name}, {"value", value}, {"limit", limit}, {"met", met}});
+    if (!met && first.empty())
+      first = in_words(what, least ? "below" : "above", value.get<double>(), limit, unit) + " (" + name + ")";
+  };
+  report["criteria"] = Json::array();
+  if (criteria.least_motor_tension_N && report.contains("cable_tension_N"))
+    hold("tension_at_motor", "the least tension at a motor", "N", report["cable_tension_N"]["min_motor"],
+         *criteria.least_motor_tension_N, true);
+  if (criteria.least_tension_N && report.contains("cable_tension_N"))
+    hold("tension_anywhere", "the least tension of a cable", "N", report["cable_tension_N"]["min"],
+         *criteria.least_tension_N, true);
+  if (criteria.most_slit_speed_m_s && report.contains("max_tip_speed_slit_m_s"))
+    hold("tip_speed_in_slit", "the true tip's speed in the slit", "m/s", report["max_tip_speed_slit_m_s"],
+         *criteria.most_slit_speed_m_s, false);
+  return first;
+}
+
+void add_aftermath(Json& report, const TruthLog& truth, std::size_t failed, double period_s) {
+  if (!truth.has("fastest_deg_s")) return;
+  std::size_t moved = failed;
+  for (std::size_t row = failed; row < truth.row_count(); ++row) {
+    if (truth.at(row, "fastest_deg_s") > kRest_deg_s) moved = row;
+  }
+  report["after_failure_s"] = static_cast<double>(moved - failed) * period_s;
+  report["ends_at_rest"] = moved + 1 < truth.row_count();
+}
+
+}  // namespace liana::report
