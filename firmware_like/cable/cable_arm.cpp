@@ -4,7 +4,6 @@
 
 #include "firmware_like/cable/arm/drive_limits.hpp"
 #include "firmware_like/cable/arm/payout.hpp"
-#include "firmware_like/cable/arm/sparing.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/pair.hpp"
 #include "firmware_like/math/scalar.hpp"

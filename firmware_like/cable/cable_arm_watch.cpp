@@ -1,4 +1,5 @@
 // What a cable arm watches of itself beyond each drive: its cables among each other, and the balance of their torques.
+#include "firmware_like/cable/arm/sparing.hpp"
 #include "firmware_like/cable/cable_arm.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/pair.hpp"

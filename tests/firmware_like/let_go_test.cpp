@@ -108,7 +108,9 @@ TEST(PlanWithout, BalancesEveryOtherSegmentNearTheFloorWithoutTheLooseOne) {
     for (std::size_t k = 0; k < 10; ++k) {
       double torque_Nm = 0.0;
       for (std::size_t c = 0; c < zhu2022::kCables; ++c) torque_Nm += geometry.jacobian_m_rad[c][k] * plan.motor_N[c];
-      if (static_cast<std::int32_t>(k / 2) != loose) ASSERT_LE(std::fabs(torque_Nm), 1e-9) << loose << " " << k;
+      if (static_cast<std::int32_t>(k / 2) != loose) {
+        ASSERT_LE(std::fabs(torque_Nm), 1e-9) << loose << " " << k;
+      }
     }
     for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
       if (layout.segment[c] == loose) {
