@@ -10,7 +10,6 @@
 #include "host/system/tables.hpp"
 #include "host/verify/judge_simulated.hpp"
 #include "host/verify/refusal_table.hpp"
-#include "host/verify/tick_time.hpp"
 
 namespace liana::cli {
 namespace {
@@ -34,10 +33,9 @@ verify::Verdict verdict_of(const config::RobotConfig& robot, const config::Scene
   simulate::StartState start;
   start.theta_rad = way.theta_rad.front();
   simulate::Simulation simulation(simulate::arm_model(robot), scene);
-  const verify::MotionRules rules{robot.table, scene, {scene.slit, robot.table.limits.tip_speed_slit_m_s}};
-  verify::Verdict verdict = verify::judge_simulated(rules, way, true, simulation.run(start, way));
-  verify::judge_tick_time(robot.table, robot.machine, verdict);
-  return verdict;
+  const verify::MotionRules rules{
+      robot.table, scene, {scene.slit, robot.table.limits.tip_speed_slit_m_s}, robot.machine};
+  return verify::judge_simulated(rules, way, true, simulation.run(start, way));
 }
 
 Json json_of(const verify::Verdict& verdict) {

@@ -198,7 +198,9 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
   }
   const std::optional<Command> telecommand = release_.release(candidate, execution, simulation);
   const bool released = telecommand && link_.released.push(*telecommand);
-  const verify::Verdict& worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation) : execution;
+  verify::Verdict worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation) : execution;
+  worst.margins = simulation.margins;
+  worst.slowly = simulation.slowly;
   if (released) {
     released_.push_back(*telecommand);
   } else {

@@ -29,7 +29,7 @@ arbiter::SpeedZone zone_of(const config::RobotConfig& robot, const config::Scene
 std::unique_ptr<verify::SimulationEnd<cable::CableArm>> simulation_end(const config::RobotConfig& robot,
                                                                        const config::SceneConfig& scene) {
   return std::make_unique<verify::SimulationEnd<cable::CableArm>>(
-      simulate::arm_model(robot), verify::MotionRules{robot.table, scene, zone_of(robot, scene)});
+      simulate::arm_model(robot), verify::MotionRules{robot.table, scene, zone_of(robot, scene), robot.machine});
 }
 
 // Called in another thread: it has all it needs with it.

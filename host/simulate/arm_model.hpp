@@ -15,7 +15,7 @@ struct ArmModel {
   RobotTable table{};
   double link_radius_m = 0.0;
   double viscous_Nms_per_rad = 0.0;  // per theta
-  double friction_band = 0.0;  // share by which friction may differ from the table's mu
+  double friction_band = 0.0;        // share by which friction may differ from the table's mu
   double swing_damping_1_s = kSwingDamping_1_s;
 
   std::int32_t links() const {

@@ -25,8 +25,8 @@ CablePaths cable_paths(const ArmModel& model, const ThetaVector& theta_rad);
 // balance and raised to the floor. They are balanced to rounding; the floor is kept where 50 turns reach it.
 CableColumn balanced_tensions(const CablePaths& paths, const CableColumn& wanted_N, double floor_N);
 
-// Most that friction may turn every angle by [N m]: what cables of these tensions would hold at one end of the band more
-// than at its middle, all the same way.
+// Most that friction may turn every angle by [N m]: what cables of these tensions would hold at one end of the band
+// more than at its middle, all the same way.
 algebra::ThetaColumn friction_torque(const ArmModel& model, const CablePaths& paths, const CableColumn& tension_N);
 
 }  // namespace liana::simulate

@@ -33,8 +33,8 @@ class Way {
   ThetaVector theta_rad_{};
 };
 
-// Distances beyond `enough_m` need not be told apart. About 12,000 instructions a pose that is measured: two poses where
-// the arm stays far away, at most all of them. `step_s` is from pose to pose.
+// Distances beyond `enough_m` need not be told apart. About 12,000 instructions a pose that is measured: two poses
+// where the arm stays far away, at most all of them. `step_s` is from pose to pose.
 Nearest least_to_scene(const ArmModel& model, const config::SceneConfig& scene, const Way& way, double enough_m,
                        double step_s);
 Nearest least_to_itself(const ArmModel& model, const Way& way, double step_s);

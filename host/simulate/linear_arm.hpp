@@ -23,8 +23,8 @@ class LinearArm {
   // cannot hold the arm). About 60,000 instructions for ten angles.
   bool solve(const ArmModel& model, const ThetaVector& about_rad, double step_s);
 
-  // One step while the drums go on to `drums_rad`: the rule of the middle point, which neither adds energy nor takes any
-  // and is stable for steps of any length.
+  // One step while the drums go on to `drums_rad`: the rule of the middle point, which neither adds energy nor takes
+  // any and is stable for steps of any length.
   void step(const algebra::ThetaColumn& drums_rad, Swing& swing) const;
 
   // How much tighter every cable is than at rest [N] when the arm is that far from where the drums want it.

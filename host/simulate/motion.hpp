@@ -14,8 +14,8 @@ struct StartState {
   CableVector tension_N{};   // measured, at the motor; all zero: as the simulation itself would plan them
 };
 
-// What the drives are told, one row of angles every `interval_s` (T_c): the first one when the sequence begins, the last
-// one when the stop after the command is over. Two rows at least.
+// What the drives are told, one row of angles every `interval_s` (T_c): the first one when the sequence begins, the
+// last one when the stop after the command is over. Two rows at least.
 struct JointSequence {
   double interval_s = 0.0;
   std::vector<ThetaVector> theta_rad;
@@ -26,10 +26,10 @@ struct Moment {
   double time_s = 0.0;  // from the beginning of the sequence
   ThetaVector theta_rad{};
   ThetaVector rate_rad_s{};
-  std::array<Vec3, kMaxSegments> node_in_base_m{};       // ends of the segments; the last one is the tip
+  std::array<Vec3, kMaxSegments> node_in_base_m{};    // ends of the segments; the last one is the tip
   std::array<double, kMaxSegments> node_speed_m_s{};  // mean since the moment before
-  double tip_rate_rad_s = 0.0;                           // turn of the tip, mean since the moment before
-  CableVector tension_N{};                               // at the motor, with what inertia adds
+  double tip_rate_rad_s = 0.0;                        // turn of the tip, mean since the moment before
+  CableVector tension_N{};                            // at the motor, with what inertia adds
 };
 
 // The least distance on the way, and where.
@@ -44,11 +44,12 @@ struct Nearest {
 struct Motion {
   bool solved = false;  // false: the table's arm has no dynamics, and there are no moments
   std::vector<Moment> moments;
-  ThetaVector friction_band_rad{};  // friction at either end of its band moves every angle by at most this
-  CableVector least_passed_share{};  // tension at the anchor over tension at the motor, friction at its upper end
-  Nearest scene;              // to the scene, body included
+  std::vector<Vec3> told_tip_in_base_m;  // where the tip would be at every row of the sequence if all followed at once
+  ThetaVector friction_band_rad{};       // friction at either end of its band moves every angle by at most this
+  CableVector least_passed_share{};      // tension at the anchor over tension at the motor, friction at its upper end
+  Nearest scene;                         // to the scene, body included
   double scene_at_start_m = 0.0, scene_at_end_m = 0.0;
-  Nearest self;               // between links that no joint connects
+  Nearest self;  // between links that no joint connects
 };
 
 }  // namespace liana::simulate

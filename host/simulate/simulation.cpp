@@ -12,7 +12,8 @@ using algebra::ThetaColumn;
 using algebra::view;
 using Index = std::size_t;
 
-constexpr double kPlannedFloor = 1.5;  // assumed, times the table's floor: where tensions are planned without measured ones
+constexpr double kPlannedFloor =
+    1.5;  // assumed, times the table's floor: where tensions are planned without measured ones
 
 ThetaColumn column(const ThetaVector& theta, Eigen::Index count) { return view(theta, count); }
 
@@ -46,7 +47,8 @@ void Simulation::plan_tensions(const StartState* start) {
                                  kPlannedFloor * limits.floor_motor_N);
   if (start != nullptr) {
     const Eigen::Map<const CableColumn> measured_N(start->tension_N.data(), cables);
-    tension_measured_N_ = measured_N.isZero() ? CableColumn(CableColumn::Zero(cables)) : CableColumn(measured_N - tension_N_);
+    tension_measured_N_ =
+        measured_N.isZero() ? CableColumn(CableColumn::Zero(cables)) : CableColumn(measured_N - tension_N_);
   }
   tension_N_ += tension_measured_N_;
 
@@ -93,6 +95,15 @@ void Simulation::step(DrumLag& lag, const ThetaColumn& told_rad, Swing& swing) {
   note(swing);
 }
 
+void Simulation::place_told(const JointSequence& sequence) {
+  motion_.told_tip_in_base_m.clear();
+  for (const ThetaVector& row : sequence.theta_rad) {
+    place(model_, row, chain_);
+    const Eigen::Vector3d& tip_m = chain_.tip_m();
+    motion_.told_tip_in_base_m.push_back({tip_m.x(), tip_m.y(), tip_m.z()});
+  }
+}
+
 void Simulation::measure_distances() {
   motion_.scene = least_to_scene(model_, scene_, way_, enough_m_, step_s_);
   motion_.self = least_to_itself(model_, way_, step_s_);
@@ -104,6 +115,7 @@ const Motion& Simulation::run(const StartState& start, const JointSequence& sequ
   const Eigen::Index thetas = algebra::theta_count(model_.table);
   step_s_ = sequence.interval_s / kStepsPerInterval;
   motion_.moments.clear();
+  place_told(sequence);
   motion_.friction_band_rad.fill(0.0);
   motion_.least_passed_share.fill(1.0);
   way_.clear();

@@ -33,8 +33,7 @@ JointSequence straight_way(const RobotTable& table, const ThetaVector& from_rad,
   for (std::int64_t row = 0; row < rows; ++row) {
     const double share = share_at(static_cast<double>(row) * interval_s, ends_s, duration_s);
     ThetaVector theta_rad{};
-    for (std::size_t k = 0; k < theta_rad.size(); ++k)
-      theta_rad[k] = from_rad[k] + share * (to_rad[k] - from_rad[k]);
+    for (std::size_t k = 0; k < theta_rad.size(); ++k) theta_rad[k] = from_rad[k] + share * (to_rad[k] - from_rad[k]);
     out.theta_rad.push_back(theta_rad);
   }
   out.theta_rad.push_back(to_rad);

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "host/clearance/clearance.hpp"
 #include "firmware_like/math/trig.hpp"
+#include "host/clearance/clearance.hpp"
 #include "host/verify/judge.hpp"
+#include "host/verify/tick_time.hpp"
 
 namespace liana::verify {
 
@@ -14,8 +15,9 @@ namespace {
 using Index = std::size_t;
 using simulate::Moment;
 
-constexpr double kEvenRate = 1.01;      // rates of the sequence are means over an interval of what the twin did in ticks
-constexpr double kLeadsAway_m = 1e-4;  // motion that ends farther from the scene than it began may be this much nearer on its way
+constexpr double kEvenRate = 1.01;     // rates of the sequence are means over an interval of what the twin did in ticks
+constexpr double kTipLead = 1.05;      // the same allowance as the execution end's
+constexpr double kLeadsAway_m = 1e-3;  // of the least distance: what the bound between poses may give away
 
 std::string numbered(const char* what, Index index) { return what + std::string(" ") + std::to_string(index + 1); }
 
@@ -42,6 +44,15 @@ class MomentJudge {
     }
   }
 
+  void told_tip(const simulate::Motion& motion, double interval_s) {
+    const std::vector<Vec3>& tip_m = motion.told_tip_in_base_m;
+    for (Index row = 1; row < tip_m.size(); ++row) {
+      judge_.check(Refusal::kTipSpeed, "tip speed [m/s]", -1, norm(subtract(tip_m[row], tip_m[row - 1])) / interval_s,
+                   kTipLead * zone_.limit_at(tip_m[row], table_.limits.tip_speed_m_s));
+      note("tip", kNoIndex, static_cast<double>(row) * interval_s);
+    }
+  }
+
   void simulated(const simulate::Motion& motion) {
     for (const Moment& moment : motion.moments) {
       joints(moment, motion.friction_band_rad);
@@ -60,7 +71,8 @@ class MomentJudge {
   void joints(const Moment& moment, const cable::ThetaVector& band_rad) {
     for (Index k = 0; k < thetas(); ++k) {
       judge_.check(Refusal::kJointAngle, "simulated theta [rad]", static_cast<int>(k),
-                   std::fabs(moment.theta_rad[k]) + band_rad[k], table_.segment[k / 2].theta_limit_rad + kSwingAngle_rad);
+                   std::fabs(moment.theta_rad[k]) + band_rad[k],
+                   table_.segment[k / 2].theta_limit_rad + kSwingAngle_rad);
       judge_.check(Refusal::kJointRate, "simulated rate of theta [rad/s]", static_cast<int>(k), moment.rate_rad_s[k],
                    kSwingRate * table_.limits.theta_rate_rad_s);
       note("theta", k, moment.time_s);
@@ -75,9 +87,9 @@ class MomentJudge {
                    kNodeShare * table_.limits.tip_speed_m_s);
       note("node", m, moment.time_s);
     }
-    judge_.check(Refusal::kTipSpeed, "simulated tip speed [m/s]", -1, moment.node_speed_m_s[tip], kSwingRate * tip_m_s);
+    judge_.check(Refusal::kTipSpeed, "simulated tip speed [m/s]", -1, moment.node_speed_m_s[tip], kSwingTip * tip_m_s);
     judge_.check(Refusal::kTipSpeed, "simulated tip turn rate [rad/s]", -1, moment.tip_rate_rad_s,
-                 kSwingRate * table_.limits.tip_rate_rad_s);
+                 kSwingTip * table_.limits.tip_rate_rad_s);
     note("tip", kNoIndex, moment.time_s);
   }
 
@@ -85,12 +97,11 @@ class MomentJudge {
     const cable::TensionLimits& limits = table_.tension;
     for (Index c = 0; c < static_cast<Index>(table_.cable_count()); ++c) {
       const double tension_N = moment.tension_N[c];
+      const double left_N = (tension_N + kSwingTension_N) * passed_share[c] - limits.floor_anywhere_N;
       judge_.check(Refusal::kSwingTension, "tension [N] with inertia of cable", static_cast<int>(c), tension_N,
                    limits.alarm_N);
-      judge_.require(tension_N * passed_share[c] >= limits.floor_anywhere_N, Refusal::kSwingTension,
-                     "slack with inertia: cable", static_cast<int>(c));
-      least(verdict_.margins.tension_N,
-            std::fmin(limits.alarm_N - tension_N, tension_N * passed_share[c] - limits.floor_anywhere_N));
+      judge_.require(left_N >= 0.0, Refusal::kSwingTension, "slack with inertia: cable", static_cast<int>(c));
+      least(verdict_.margins.tension_N, std::fmin(limits.alarm_N - tension_N, left_N));
       note("cable", c, moment.time_s);
     }
   }
@@ -116,8 +127,9 @@ std::string millimetres(double distance_m) {
 
 First at_scene(const config::SceneConfig& scene, const simulate::Nearest& nearest) {
   if (nearest.link < 0) return {};
-  return {clearance::obstacle_name(scene, nearest.other) + " (" + numbered("link", static_cast<Index>(nearest.link)) + ")",
-          nearest.time_s};
+  return {
+      clearance::obstacle_name(scene, nearest.other) + " (" + numbered("link", static_cast<Index>(nearest.link)) + ")",
+      nearest.time_s};
 }
 
 First at_itself(const simulate::Nearest& nearest) {
@@ -145,7 +157,8 @@ void judge_distances(const MotionRules& rules, const simulate::Motion& motion, S
   if (!std::isfinite(motion.scene.distance_m) || (claimed_m < levels.refuse_m && !leads_away)) {
     refuse(verdict, Refusal::kSceneContact,
            "the arm could touch " + first.body + ": " + millimetres(claimed_m) + " of the simulated " +
-               millimetres(motion.scene.distance_m) + " are certain, " + millimetres(levels.refuse_m) + " have to be left",
+               millimetres(motion.scene.distance_m) + " are certain, " + millimetres(levels.refuse_m) +
+               " have to be left",
            first);
   } else if (!(motion.self.distance_m > 0.0)) {
     const First self = at_itself(motion.self);
@@ -168,9 +181,11 @@ SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::Join
   if (verdict.passed()) verdict.first = {};
   MomentJudge moments(rules, verdict);
   moments.told(sequence);
+  moments.told_tip(motion, sequence.interval_s);
   moments.simulated(motion);
   moments.judge().require(comes_to_rest, Refusal::kNoRest, "the arm would not come to rest in time after the command");
   moments.conclude();
+  judge_tick_time(rules.table, rules.machine, verdict);
   if (verdict.first.body.empty()) verdict.first = nearest;
   return verdict;
 }

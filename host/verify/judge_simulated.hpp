@@ -10,7 +10,9 @@ namespace liana::verify {
 // What is told is held against the limits as they are. What the arm makes of it swings about that, and the limits leave
 // room for the swing: these are the simulated arm's own.
 constexpr double kSwingAngle_rad = 0.0087;  // 0.5 deg beyond the range of an angle
-constexpr double kSwingRate = 1.25;         // times a joint's or the tip's limit
+constexpr double kSwingRate = 1.25;         // times a joint's limit
+constexpr double kSwingTip = 1.5;           // times the tip's limits
+constexpr double kSwingTension_N = 5.0;     // what the simulation may be off by (found: a tenth of what inertia adds)
 constexpr double kNodeShare = 2.0;          // times the tip's limit: nodes may pass each other while the shape changes
 
 // Limits of the simulation end.
@@ -18,6 +20,7 @@ struct MotionRules {
   cable::RobotTable table{};
   config::SceneConfig scene;
   arbiter::SpeedZone zone;
+  config::Machine machine;  // that the controller runs on
 };
 
 // `comes_to_rest`: the sequence ends with the arm told to stand. Cost: about 300 instructions a moment.

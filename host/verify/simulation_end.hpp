@@ -9,7 +9,12 @@
 
 namespace liana::verify {
 
+constexpr double kEnough_m = 0.1;  // farther from the scene nobody asks how far
 constexpr double kWhenever = std::numeric_limits<double>::infinity();
+
+// Every T_c what the drives are told: now, then at the end of each interval that the twin has looked into.
+void read_sequence(const TwinImage<cable::CableArm>& image, const Candidate<cable::CableArm>& candidate,
+                   const Prediction<cable::CableArm>& prediction, simulate::JointSequence& out);
 
 template <class Arm>
 class SimulationEnd;
@@ -34,6 +39,8 @@ class SimulationEnd<cable::CableArm> {
   MotionRules rules_;
   simulate::Worker worker_;
   simulate::StartState start_;
+  cable::ThetaVector told_rad_{};     // when last watched
+  cable::ThetaVector ahead_rad_s_{};  // by how much the arm goes faster than it is told
   simulate::JointSequence sequence_;
   std::uint64_t number_ = 0;  // of the candidate
   bool comes_to_rest_ = false;

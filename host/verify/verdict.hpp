@@ -6,26 +6,26 @@
 
 namespace liana::verify {
 
-// Error codes M_e: 1xx what only the controller can fail at, 2xx the motion, whichever end sees it. Numbers never change
-// meaning; refusal_table.hpp says what each of them is called.
+// Error codes M_e: 1xx what only the controller can fail at, 2xx the motion, whichever end sees it. Numbers never
+// change meaning; refusal_table.hpp says what each of them is called.
 enum class Refusal : std::uint16_t {
   kNone = 0,
-  kTwinFault = 101,    // the controller would latch a fault
-  kGate = 102,         // the gate would refuse an output
-  kTension = 103,      // the tension plan would leave its limits
-  kCableSpeed = 104,   // a cable would move too fast
-  kNotAccepted = 105,  // the controller would not take the command
-  kTooSlow = 106,      // the verdict came after the command interval (real time only)
-  kJointTravel = 107,  // a serial arm's joint would be told to go further in a tick than its rate allows
-  kTickTime = 108,     // the predicted ticks would take longer than the machine has for them
-  kModel = 109,        // the arm is not where the model has it: no prediction holds
-  kJointAngle = 201,   // a joint angle would pass its limit
-  kJointRate = 202,    // a joint would turn too fast
-  kTipSpeed = 203,     // the tip would move or turn too fast
-  kNoRest = 204,       // the stop after the command would take too long
-  kNotFinite = 205,    // a predicted number is not finite
-  kUnreachable = 206,  // the arm cannot take the tip there: the servo IK would fall behind its target
-  kPath = 207,         // the whole of a path was looked at, and it is not begun
+  kTwinFault = 101,     // the controller would latch a fault
+  kGate = 102,          // the gate would refuse an output
+  kTension = 103,       // the tension plan would leave its limits
+  kCableSpeed = 104,    // a cable would move too fast
+  kNotAccepted = 105,   // the controller would not take the command
+  kTooSlow = 106,       // the verdict came after the command interval (real time only)
+  kJointTravel = 107,   // a serial arm's joint would be told to go further in a tick than its rate allows
+  kTickTime = 108,      // the predicted ticks would take longer than the machine has for them
+  kModel = 109,         // the arm is not where the model has it: no prediction holds
+  kJointAngle = 201,    // a joint angle would pass its limit
+  kJointRate = 202,     // a joint would turn too fast
+  kTipSpeed = 203,      // the tip would move or turn too fast
+  kNoRest = 204,        // the stop after the command would take too long
+  kNotFinite = 205,     // a predicted number is not finite
+  kUnreachable = 206,   // the arm cannot take the tip there: the servo IK would fall behind its target
+  kPath = 207,          // the whole of a path was looked at, and it is not begun
   kSceneContact = 208,  // the arm could touch the scene, on the way or while it stops
   kSelfContact = 209,   // the arm would touch itself
   kNodeSpeed = 210,     // the arm's body would move too fast

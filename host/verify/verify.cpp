@@ -81,7 +81,7 @@ SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate
   return verdict;
 }
 
-#define LIANA_JUDGE_EXECUTION(Arm)                                                                                   \
+#define LIANA_JUDGE_EXECUTION(Arm)                                                                                 \
   template ExecutionVerdict judge_execution<Arm>(const Arm::Table&, const Candidate<Arm>&, const Prediction<Arm>&, \
                                                  const arbiter::SpeedZone&)
 LIANA_JUDGE_EXECUTION(cable::CableArm);

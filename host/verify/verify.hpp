@@ -20,8 +20,8 @@ template <class Arm>
 ExecutionVerdict judge_execution(const typename Arm::Table& table, const Candidate<Arm>& candidate,
                                  const Prediction<Arm>& prediction, const arbiter::SpeedZone& zone = {});
 
-// The motion as the controller's own kinematics has it, without inertia and scene: all that there is of a second end for
-// a serial arm.
+// The motion as the controller's own kinematics has it, without inertia and scene: all that there is of a second end
+// for a serial arm.
 template <class Arm>
 SimulationVerdict judge_motion(const typename Arm::Table& table, const Candidate<Arm>& candidate,
                                const Prediction<Arm>& prediction, const arbiter::SpeedZone& zone = {});

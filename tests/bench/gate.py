@@ -20,6 +20,7 @@ LIMITS = {
     "tick_worst": 45_000,
     "verify": 5_500_000,  # median over the motions of tests/bench/verify.cpp that move the tip or a joint
     "verify_worst": 6_500_000,
+    "simulate": 2_000_000,  # the simulation end on the same commands, median
 }
 RANDOM_CASES = (3, 1)  # how many, and their seed
 LEAST_OWN_80 = {"fk_jacobian": 2.5, "ik_near": 5.0}  # own_80 over ours
@@ -46,9 +47,16 @@ def verdicts(counts, worst_cases, verified):
     yield at_most("tick_worst", worst, LIMITS["tick_worst"])
     for name, cases in worst_cases.items():
         yield at_most(name, worst_of(cases), LIMITS["tick_worst"])
-    moving = [count for label, calls in verified.items() if label != "verify standing" for count in calls]
-    yield at_most("verify", round(statistics.median(moving)), LIMITS["verify"])
-    yield at_most("verify_worst", worst_of(verified), LIMITS["verify_worst"])
+    for end in ("verify", "simulate"):
+        moving = [
+            count
+            for label, calls in verified.items()
+            if label.startswith(f"{end} ") and label != f"{end} standing"
+            for count in calls
+        ]
+        yield at_most(end, round(statistics.median(moving)), LIMITS[end])
+    twins = {label: calls for label, calls in verified.items() if label.startswith("verify ")}
+    yield at_most("verify_worst", worst_of(twins), LIMITS["verify_worst"])
     for operation, least in LEAST_OWN_80.items():
         ratio = statistics.median(counts[f"{operation} own_80"]) / statistics.median(counts[f"{operation} ours"])
         yield f"{operation} own_80", ratio >= least, f"{ratio:.2f} times ours, at least {least}"

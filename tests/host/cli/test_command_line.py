@@ -167,6 +167,74 @@ class InverseKinematics(unittest.TestCase):
             self.assertEqual(error.count("\n"), 1, error)
 
 
+PREPARE = [-8.5, 0, -12, 0, 8, -2, 13, 0, 12, -2]
+PANEL_EDGE = [-6.14, -15.0, -3.29, -8.72, 7.2, 15.0, 5.55, 15.0, 1.0, -2.8]
+PRESS_ROD = [-2.641, -2.064, -1.81, -4.64, 4.777, 5.87, 0.0, 4.764, 0.0, -0.543]
+
+
+def changed(pose, theta, by_deg):
+    return [angle + (by_deg if i + 1 == theta else 0) for i, angle in enumerate(pose)]
+
+
+class Verify(unittest.TestCase):
+    KEYS = {"accepted", "error", "margins", "first", "remedy"}
+
+    def verdict(self, start, end, duration_s, *more):
+        verdict = liana_json(
+            "verify", f"--from-deg={joined(start)}", f"--to-deg={joined(end)}", f"--duration={duration_s}", *more
+        )
+        self.assertEqual(set(verdict), self.KEYS)
+        self.assertEqual(
+            set(verdict["margins"]), {"clearance_m", "joint_deg", "rate_deg_s", "tension_N", "time_us"}
+        )
+        self.assertEqual(verdict["accepted"], verdict["error"] is None and verdict["remedy"] is None)
+        return verdict
+
+    def refused(self, code, name, *motion):
+        verdict = self.verdict(*motion)
+        self.assertIsNotNone(verdict["error"], verdict)
+        self.assertEqual((verdict["error"]["code"], verdict["error"]["name"]), (code, name), verdict)
+        self.assertTrue(verdict["remedy"])
+        return verdict
+
+    def test_a_small_slow_motion_is_accepted_with_margins(self):
+        verdict = self.verdict(PREPARE, changed(PREPARE, 9, 0.5), 5)
+        self.assertTrue(verdict["accepted"], verdict)
+        self.assertTrue(all(margin > 0 for margin in verdict["margins"].values()), verdict)
+        self.assertAlmostEqual(verdict["margins"]["joint_deg"], 20 - 13, delta=1e-6)
+
+    def test_angles_beyond_their_limits_are_a_refusal_and_no_bad_input(self):
+        verdict = self.refused(201, "joint_angle", changed(PREPARE, 1, -11.4), changed(PREPARE, 1, -11.6), 10)
+        self.assertEqual(verdict["first"]["body"], "theta 1")
+        self.assertLess(verdict["margins"]["joint_deg"], 0)
+
+    def test_a_way_through_the_panel_is_refused_with_its_name(self):
+        verdict = self.refused(208, "scene_contact", PANEL_EDGE, PRESS_ROD, 120)
+        self.assertRegex(verdict["first"]["body"], "panel|wall")
+        self.assertLess(verdict["margins"]["clearance_m"], 0)
+
+    def test_an_arm_that_bends_into_itself_is_refused(self):
+        self.refused(209, "self_contact", [0] * 10, [19, 0] * 5, 600, "--scene", "none")
+
+    def test_the_same_way_in_too_little_time_is_refused(self):
+        self.refused(202, "joint_rate", PREPARE, changed(PREPARE, 10, 5), 2)
+        self.refused(203, "tip_speed", PREPARE, changed(PREPARE, 2, 0.4), 0.5)
+
+    def test_bad_input_ends_with_2(self):
+        good = [f"--from-deg={ZERO}", f"--to-deg={ZERO}", "--duration=1"]
+        for words, named in [
+            (good[:2], "--duration"),
+            ([good[0], "--to-deg=1,2", good[2]], "--to-deg"),
+            ([good[0], "--to-deg=nan" + ",0" * 9, good[2]], "--to-deg"),
+            ([*good[:2], "--duration=0"], "--duration"),
+            ([*good, "--scene", "nosuch"], "nosuch"),
+            ([*good, "--robot", "micro"], "cable arm"),
+        ]:
+            code, out, error = liana("verify", *words)
+            self.assertEqual((code, out), (2, ""), words)
+            self.assertIn(named, error)
+
+
 class Tables(unittest.TestCase):
     def test_an_exported_robot_can_be_read_back(self):
         with tempfile.TemporaryDirectory() as directory:
@@ -283,6 +351,7 @@ class Help(unittest.TestCase):
             "ik",
             "reach",
             "plan",
+            "verify",
             "status",
             "estop",
             "clear",

@@ -39,6 +39,16 @@ TEST(Buses, PeriodIsWhatObject60C2Holds) {
   expect(6667, 0, 0);  // 150 Hz
 }
 
+TEST(Buses, MaySayWhatMachineThereIs) {
+  Json table = good_table("buses", "embedded");
+  EXPECT_EQ(parse_buses(table.dump(), "b").machine.mips, 500.0);
+  table["machine"] = {{"mips", 1200}, {"tick_share", 0.5}};
+  EXPECT_EQ(parse_buses(table.dump(), "b").machine.mips, 1200.0);
+  EXPECT_EQ(parse_buses(table.dump(), "b").machine.tick_share, 0.5);
+  table["machine"] = {{"mips", 0}, {"tick_share", 0.5}};
+  EXPECT_THROW(parse_buses(table.dump(), "b"), std::runtime_error);
+}
+
 TEST(Buses, AreRefusedWithFileFieldValueRangeAndAdvice) {
   const Json good = good_table("buses", "embedded");
   const std::vector<Spoiled> cases = {{"/kind", "bus", "kind", "allowed buses"},

@@ -50,7 +50,7 @@ class TwinOfAnArm : public testing::Test {
   }
 
   std::unique_ptr<SimArm> arm_;
-  SimulationEnd<cable::CableArm> simulation_{{arm_->table(), 0.03, 0.4, 0.2}, {arm_->table(), {}, {}}};
+  SimulationEnd<cable::CableArm> simulation_{{arm_->table(), 0.03, 0.4, 0.2}, {arm_->table(), {}, {}, {}}};
   ReleaseStep<cable::CableArm> release_;
   std::vector<cable::Telecommand> released_;
 };
