@@ -373,7 +373,7 @@ def false_alarms(ticks, limits, first_cause):
     for before, now in neighbours(ticks):
         due, new = set(watch.due(before, now)), names(now) - names(before)
         for number, index in sorted(new):
-            if now.tick <= first_cause:
+            if now.tick < first_cause:
                 complaints.append(f"tick {now.tick}: {number} of {index} is latched, and nothing has happened yet")
             elif number in kPlain and (number, index) not in due:
                 complaints.append(f"tick {now.tick}: {number} of {index} is latched, and no report shows why")
