@@ -44,7 +44,9 @@ def wrong_ages(ticks, arrivals, left_out=()):
         true_ages = ages(arrivals.reports[drive + 1], ticks[0].tick, ticks[-1].tick - ticks[0].tick + 1)
         for now in ticks:
             true_age = true_ages[now.tick - ticks[0].tick]
-            if now.age[drive] < min(true_age, kMostAge) or now.age[drive] > true_age + kLate:
+            # What waited while the core stood still it takes for new when it goes on; 2001 is latched then.
+            least = min(true_age - now.lost_ticks, kMostAge)
+            if now.age[drive] < least or now.age[drive] > true_age + kLate:
                 complaints.append(
                     f"tick {now.tick}: the core takes drive {drive}'s report to be {now.age[drive]} ticks old; the wire"
                     f" shows {true_age}"
