@@ -327,7 +327,7 @@ class TruthRules(unittest.TestCase):
             ({"tension_motor_min_N": 14.9}, "at a motor"),
             ({"tension_motor_max_N": 601.0}, "601 N"),
             ({"theta_deg_2": -20.3}, "theta 2"),
-            ({"tip_speed_m_s": 0.106}, "the tip moves"),
+            ({"tip_speed_m_s": 0.111}, "the tip moves"),
             ({"tip_speed_m_s": 0.032, "slit_depth_m": 0.1}, "the tip moves"),
             ({"fastest_deg_s": 2.6}, "an angle turns"),
         ):
