@@ -42,6 +42,8 @@ concept Arm = std::is_trivially_copyable_v<A> && ArmTable<typename A::Table> &&
   // 2. What is wrong with it: drive by drive (flag: the drive follows its target), then as a whole.
   { arm.watch_drive(scope, flag, drive, out) } -> std::same_as<void>;
   { arm.watch(scope, tick, faults) } -> std::same_as<void>;
+  // True while this drive may be far behind its target because the arm has let it go.
+  { seen.lets_go(drive) } -> std::same_as<bool>;
   { seen.status() } -> std::same_as<ArmStatus>;
   // 3. A setpoint that comes into force, or nothing any more: stop along the path.
   { seen.accepts(setpoint) } -> std::same_as<bool>;

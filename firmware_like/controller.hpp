@@ -98,7 +98,8 @@ std::int32_t Controller<A>::watch(const Inputs<A>& inputs) noexcept {
     const std::size_t i = as_index(drive);
     watch_drive(link_limits_, scope, inputs.drive[i], drive, link_, out);
     arm_.watch_drive(scope, link_.following_ticks[i] == 0, drive, out);
-    watch_following(link_limits_, scope, inputs.drive[i], sent_[i], drive, link_, out);
+    const WatchScope following{scope.powered && !arm_.lets_go(drive), scope.prepared};
+    watch_following(link_limits_, following, inputs.drive[i], sent_[i], drive, link_, out);
   }
   arm_.watch(scope, inputs.tick, faults_);
   return out.active();

@@ -17,12 +17,18 @@ double smooth_step(double x) noexcept { return x * x * (3.0 - 2.0 * x); }
 }  // namespace
 
 CableArm::CableArm(const RobotTable& table) noexcept
-    : table_(table), layout_(cable_layout(table)), tension_watch_limits_(make_tension_watch_limits(table)) {
+    : table_(table),
+      declared_mu_(table.friction_mu),
+      layout_(cable_layout(table)),
+      tension_watch_limits_(make_tension_watch_limits(table)) {
   for (Index c = 0; c < cables(); ++c) zero_payout_m_[c] = layout_.zero_length_m[c] + table.lead_m;
   cable_watch_limits_ = make_cable_watch_limits(table, zero_payout_m_);
+  contact_watch_limits_ = make_contact_watch_limits(table);
+  reset_friction_watch(declared_mu_, friction_);
   reset_motion(table_, ThetaVector{}, motion_);
   take_geometry();
-  update_tension_ratio(table_, layout_, motion_.trig, slip_, ratio_);
+  wrap_rad_ = cable_wraps(table_, motion_.trig);
+  update_tension_ratio(table_, layout_, wrap_rad_, slip_, ratio_);
 }
 
 GateLimits CableArm::gate_limits() const noexcept { return make_gate_limits(table_, zero_payout_m_); }
@@ -55,12 +61,6 @@ void CableArm::count_homing() noexcept {
   if (!all_fresh || residual_m > 4.0 * kHomingResidual_m) homing_ticks_ = 0;
 }
 
-void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept {
-  const CableReadings cables{payout_measured_m_, tension_measured_N_, model_.geometry.length_m, estimator_.residual_m};
-  const bool usable = scope.prepared && feedback_age_ticks_ == 0 && faults.count == 0;
-  watch_cables(table_, cable_watch_limits_, cables, usable, tick, cable_watch_, faults);
-}
-
 bool CableArm::are_cables_taut() const noexcept {
   for (Index c = 0; c < cables(); ++c) {
     if (!(estimator_.tension_N[c] >= kSlackCheckShare * table_.tension.floor_motor_N)) return false;
@@ -69,7 +69,7 @@ bool CableArm::are_cables_taut() const noexcept {
 }
 
 ArmStatus CableArm::status() const noexcept {
-  return {is_homed(), at_rest(table_, motion_), ramp_ >= 1.0 && are_cables_taut()};
+  return {is_homed(), at_rest(table_, motion_) && !lets_out_, ramp_ >= 1.0 && are_cables_taut()};
 }
 
 // --- to commanded angles ---
@@ -96,6 +96,8 @@ void CableArm::stop_planning() noexcept {
   ramp_ = 0.0;
   damping_ = DampingState{};
   lift_N_ = SegmentVector{};
+  let_go_ = LetGoState{};
+  lets_out_ = false;
   payout_command_m_ = payout_measured_m_;
 }
 
@@ -107,49 +109,87 @@ void CableArm::start_ramp(const DriveCommands& sent) noexcept {
   live_ = true;
 }
 
-std::uint32_t CableArm::plan_tensions(bool is_sound) noexcept {
+// What is in force goes evenly to where the plan will be when the next one is made: it never jumps, and does not lag.
+void CableArm::aim_tensions(const TensionPlan& plan) noexcept {
+  const CableVector in_force_N = live_ ? tension_.motor_N : plan.motor_N;
+  if (!live_) planned_N_ = plan.motor_N;
+  for (Index c = 0; c < cables(); ++c) {
+    const double next_N = larger(table_.tension.floor_motor_N, 2.0 * plan.motor_N[c] - planned_N_[c]);
+    tension_change_N_[c] = (next_N - in_force_N[c]) / kPlanTicks;
+  }
+  planned_N_ = plan.motor_N;
+  tension_ = plan;
+  tension_.motor_N = in_force_N;
+}
+
+std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
   if (ramp_ >= 1.0 && is_sound) keep_taut(table_, estimator_.tension_N, lift_N_);
-  tension_ = plan_tension(table_, model_.geometry, ratio_, lift_N_);
+  if (is_let_go(let_go_)) {  // nothing may lag now
+    tension_ = is_loose(let_go_) ? plan_without(table_, layout_, model_.geometry, ratio_, let_go_.segment)
+                                 : plan_tension(table_, model_.geometry, ratio_, lift_N_);
+    planned_N_ = tension_.motor_N;
+    tension_change_N_ = CableVector{};
+  } else if (plans_now) {
+    aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_));
+  }
+  for (Index c = 0; c < cables(); ++c) tension_.motor_N[c] += tension_change_N_[c];
   std::uint32_t limits = 0;
   if (tension_.floor_acted) limits |= kLimitTensionFloor;
   if (tension_.ceiling_exceeded) limits |= kLimitTensionCeiling;
   return limits;
 }
 
-// Damping, tension plan, cable map: commanded lengths. `is_sound`: no fault is latched.
-std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent, bool is_sound,
+// Damping, tension plan, cable map: commanded lengths. `no_fault`: none is latched.
+std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent, bool no_fault,
                                 DriveProposals& out) noexcept {
   take_geometry();
+  const bool plans = plans_now();
   if (!orders.live_targets || !live_) reset_slip(model_.geometry, slip_);
-  advance_slip(layout_, model_.geometry, slip_);
-  update_tension_ratio(table_, layout_, motion_.trig, slip_, ratio_);
+  if (plans) wrap_rad_ = cable_wraps(table_, motion_.trig);
+  if (!live_ || !shape_worked()) {  // it looks at the whole way since it was last advanced
+    advance_slip(layout_, model_.geometry, slip_);
+    update_tension_ratio(table_, layout_, wrap_rad_, slip_, ratio_);
+  }
   if (!orders.live_targets) {
     stop_planning();
     return 0;
   }
-  if (!live_) start_ramp(sent);
+  table_.friction_mu = plan_friction(declared_mu_, table_.friction_mu, table_.tick_s, friction_);
   if (orders.preparing) ramp_ = smaller(1.0, ramp_ + table_.tick_s / kPretensionRamp_s);
 
-  std::uint32_t limits = plan_tensions(is_sound);
+  const bool is_sound = no_fault && !is_let_go(let_go_);
+  std::uint32_t limits = plan_tensions(plans, is_sound);
+  if (!live_) start_ramp(sent);
   CableVector wanted_m = payout_for(table_, layout_, model_.geometry.part_m, ratio_, tension_.motor_N);
   if (ramp_ < 1.0) {
     ramp_payouts(wanted_m);
   } else {
     damp_payouts(is_sound, wanted_m);
   }
-  limits |= limit_payout_speed(wanted_m);
+  if (let_go_.stage == LetGoStage::kOut) let_out(wanted_m);
+  const std::uint32_t limited = limit_payout_speed(wanted_m);
   payout_command_m_ = wanted_m;
   propose_payouts(out);
-  return limits;
+  lets_out_ = count_let_go(limited == 0, let_go_);
+  return limits | limited;
+}
+
+void CableArm::let_out(CableVector& wanted_m) const noexcept {
+  for (Index c = 0; c < cables(); ++c) {
+    if (layout_.segment[c] == let_go_.segment) wanted_m[c] += kLetGo_m;
+  }
 }
 
 std::uint32_t CableArm::limit_payout_speed(CableVector& wanted_m) const noexcept {
   const double step_m = table_.limits.cable_speed_m_s * table_.tick_s;
+  const double out_m = jumps_out(let_go_) ? kLetGoStep_m : step_m;
+  const bool back = jumps_back(let_go_);
   std::uint32_t limits = 0;
   for (Index c = 0; c < cables(); ++c) {
+    const double back_m = back ? larger(step_m, payout_command_m_[c] - payout_measured_m_[c]) : step_m;
     const double change = wanted_m[c] - payout_command_m_[c];
-    if (std::fabs(change) <= step_m) continue;
-    wanted_m[c] = payout_command_m_[c] + (change > 0.0 ? step_m : -step_m);
+    if (change >= -back_m && change <= out_m) continue;
+    wanted_m[c] = payout_command_m_[c] + (change > 0.0 ? out_m : -back_m);
     limits = kLimitCableSpeed;
   }
   return limits;
@@ -185,6 +225,7 @@ void CableArm::propose_payouts(DriveProposals& out) const noexcept {
   for (Index c = 0; c < cables(); ++c) {
     out[c].target_counts = counts_at_payout(table_.drive[c], zero_payout_m_[c], payout_command_m_[c]);
     out[c].torque_permille = tension_.motor_N[c] / table_.drive[c].newtons_per_permille;
+    out[c].lets_go = jumps_out(let_go_) || jumps_back(let_go_);
   }
 }
 
@@ -204,6 +245,8 @@ void CableArm::report(Report& out) const noexcept {
   out.tension_plan_N = tension_.motor_N;
   out.tension_measured_N = tension_measured_N_;
   out.payout_command_m = payout_command_m_;
+  out.friction = {friction_.mu, friction_sd(friction_), table_.friction_mu, std::uint8_t{friction_.flagged}};
+  out.contact = {contact_.tip_push_N, contact_.torque_Nm, is_in_contact(contact_) ? contact_.segment + 1 : 0};
   out.ik_position_error_m = motion_.ik.position_error_m;
   out.ik_attitude_error_rad = motion_.ik.attitude_error_rad;
   out.ik_outcome = motion_.ik.outcome;

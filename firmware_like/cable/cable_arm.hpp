@@ -6,7 +6,9 @@
 #include <type_traits>
 
 #include "firmware_like/cable/arm/cable_watch.hpp"
+#include "firmware_like/cable/arm/contact_watch.hpp"
 #include "firmware_like/cable/arm/estimator.hpp"
+#include "firmware_like/cable/arm/let_go.hpp"
 #include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/cable/arm/tension.hpp"
 #include "firmware_like/cable/arm/tension_watch.hpp"
@@ -21,6 +23,8 @@
 namespace liana::cable {
 
 constexpr double kPretensionRamp_s = 3.0;     // from the tensions found to the planned ones
+constexpr std::uint32_t kPlanTicks = 5;       // tensions are planned anew, and reached evenly until then
+constexpr std::uint32_t kPlanTick = 2;        // of them: one that has nothing to do with the shape
 constexpr double kSlackCheckShare = 0.5;      // of the tension floor: every cable must reach it before the arm may move
 constexpr std::uint32_t kHomingTicks = 25;    // the estimate has to stand still this long
 constexpr double kHomingStep_rad = 2e-4;      // largest Gauss-Newton step of a converged estimate
@@ -44,8 +48,12 @@ class CableArm {
   void read(const DriveFeedbacks& drives, const NoSensors&) noexcept;
   void watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept {
     const TensionReading now{tension_measured_N_[as_index(drive)], estimator_.tension_N[as_index(drive)], follows};
-    watch_tension(tension_watch_limits_, scope, now, drive, tension_watch_, out);
+    const WatchScope looked_for{scope.powered, scope.prepared && !may_be_slack(let_go_, layout_, drive)};
+    watch_tension(tension_watch_limits_, looked_for, now, drive, tension_watch_, out);
+    if (tension_watch_.slack_ticks[as_index(drive)] != 0 && is_missed(tension_watch_limits_, now)) missed_ = drive;
+    if (drive == 0) watch_body(scope, out);
   }
+  bool lets_go(std::int32_t) const noexcept { return is_behind(let_go_); }
   void watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept;
   ArmStatus status() const noexcept;
   bool accepts(const Setpoint& setpoint) const noexcept { return is_usable(table_, setpoint); }
@@ -85,13 +93,21 @@ class CableArm {
     v("feedback_age_ticks", self.feedback_age_ticks_);
     v("tension_watch", self.tension_watch_);
     v("cable_watch", self.cable_watch_);
+    v("friction", self.friction_);
+    v("contact", self.contact_);
+    v("planned_mu", self.table_.friction_mu);
     v("motion", self.motion_);
     v("slip", self.slip_);
     v("model", self.model_);
+    v("wrap_rad", self.wrap_rad_);
     v("ratio", self.ratio_);
     v("damping", self.damping_);
     v("lift_N", self.lift_N_);
+    v("let_go", self.let_go_);
+    v("lets_out", self.lets_out_);
     v("tension", self.tension_);
+    v("tension_change_N", self.tension_change_N_);
+    v("planned_N", self.planned_N_);
     v("payout_command_m", self.payout_command_m_);
     v("ramp_start_m", self.ramp_start_m_);
     v("ramp", self.ramp_);
@@ -100,23 +116,36 @@ class CableArm {
 
   using Index = std::size_t;
 
+  void watch_missed(std::uint64_t tick, FaultList& faults) noexcept;
+  bool is_moving() const noexcept;
+  void watch_balance(std::uint64_t tick, const FaultList& faults) noexcept;
+  void watch_body(WatchScope scope, Watch& out) const noexcept;
   bool is_homed() const noexcept { return homing_ticks_ >= kHomingTicks; }
   bool are_cables_taut() const noexcept;
   void count_homing() noexcept;
   void take_geometry() noexcept;
   void stop_planning() noexcept;
   void start_ramp(const DriveCommands& sent) noexcept;
-  std::uint32_t plan_tensions(bool is_sound) noexcept;
+  // Dear work is spread over the ticks of the shape's cycle, which has been counted on when they ask.
+  bool shape_worked() const noexcept {
+    return motion_.shape.tick == kFollowTick + 1 || motion_.shape.tick == kSolveTick + 1;
+  }
+  bool plans_now() const noexcept { return !live_ || motion_.shape.tick % kPlanTicks == kPlanTick; }
+  void aim_tensions(const TensionPlan& plan) noexcept;
+  std::uint32_t plan_tensions(bool plans_now, bool is_sound) noexcept;
   void ramp_payouts(CableVector& wanted_m) const noexcept;
   void damp_payouts(bool is_sound, CableVector& wanted_m) noexcept;
+  void let_out(CableVector& wanted_m) const noexcept;
   std::uint32_t limit_payout_speed(CableVector& wanted_m) const noexcept;
   void propose_payouts(DriveProposals& out) const noexcept;
   Index cables() const noexcept { return static_cast<Index>(layout_.cable_count); }
 
-  RobotTable table_{};
+  RobotTable table_{};  // as loaded, but for friction_mu: that is what the arm plans with
+  double declared_mu_ = 0.0;
   CableLayout layout_{};
   TensionWatchLimits tension_watch_limits_{};
   CableWatchLimits cable_watch_limits_{};
+  ContactWatchLimits contact_watch_limits_{};
   CableVector zero_payout_m_{};
 
   // What the drives say.
@@ -127,17 +156,25 @@ class CableArm {
   std::uint16_t feedback_age_ticks_ = 0xFFFF;  // of the drive that was heard longest ago
   TensionWatchState tension_watch_{};
   CableWatchState cable_watch_{};
+  FrictionWatchState friction_{};
+  ContactWatchState contact_{};
 
   // Where the arm is told to go.
   MotionState motion_{};
 
   // How the cables take it there.
   SlipState slip_{};
-  CableModel model_{};    // at the commanded angles
-  TensionRatio ratio_{};  // planned friction
+  CableModel model_{};        // at the commanded angles
+  SegmentVector wrap_rad_{};  // bend along each segment, as old as the tension plan
+  TensionRatio ratio_{};      // planned friction
   DampingState damping_{};
-  SegmentVector lift_N_{};  // pulled tighter than planned
-  TensionPlan tension_{};
+  SegmentVector lift_N_{};          // pulled tighter than planned
+  LetGoState let_go_{};             // cables of a segment that has lost one
+  std::int32_t missed_ = -1;        // cable, found by watch_drive and judged by watch in the same tick; else -1
+  bool lets_out_ = false;           // drums have somewhere to go yet
+  TensionPlan tension_{};           // in force
+  CableVector tension_change_N_{};  // of it in each tick until the next plan
+  CableVector planned_N_{};         // of the last plan
   CableVector payout_command_m_{};
   CableVector ramp_start_m_{};
   double ramp_ = 0.0;  // 0..1 share of the planned pretension

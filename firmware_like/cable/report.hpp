@@ -10,6 +10,21 @@
 
 namespace liana::cable {
 
+// What is known of friction between cables and holes (arm/friction_watch.hpp).
+struct FrictionReport {
+  double mu = 0.0;                   // found while the arm moves; before that what was declared
+  double sd = 0.0;                   // its standard deviation
+  double planned_mu = 0.0;           // what the arm plans with
+  std::uint8_t not_as_declared = 0;  // 1: found to be another one than the robot table or the calibration says
+};
+
+// What touches the arm (arm/contact_watch.hpp).
+struct ContactReport {
+  Vec3 tip_push_N{};         // at the tip, base frame
+  double torque_Nm = 0.0;    // about the angle that feels most of what nothing explains
+  std::int32_t segment = 0;  // 1-based, the last one that feels a contact of the body; 0: none
+};
+
 struct Report {
   std::uint32_t held_mask = 0;
   std::uint8_t held_at_target = 0;  // every held variable stands exactly at its target
@@ -24,6 +39,8 @@ struct Report {
   CableVector tension_plan_N{};      // at the motor
   CableVector tension_measured_N{};  // from drive torque
   CableVector payout_command_m{};    // unstretched length
+  FrictionReport friction{};
+  ContactReport contact{};
   double ik_position_error_m = 0.0;
   double ik_attitude_error_rad = 0.0;
   IkOutcome ik_outcome = IkOutcome::kConverged;

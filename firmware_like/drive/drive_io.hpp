@@ -39,6 +39,8 @@ struct DriveProposal {
   DriveMode mode = DriveMode::kCyclicPosition;
   double target_counts = 0.0;
   double torque_permille = 0.0;  // csp: what the arm expects the drive to need; cst: the target
+  bool lets_go = false;          // in this tick the target may jump the way that gives in (DriveLimits::let_go_counts),
+                                 // or back to where the motor stands
 };
 using DriveProposals = std::array<DriveProposal, kMaxDrives>;
 

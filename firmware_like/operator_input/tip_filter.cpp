@@ -1,5 +1,7 @@
 #include "firmware_like/operator_input/tip_filter.hpp"
 
+#include <cmath>
+
 #include "firmware_like/math/scalar.hpp"
 
 namespace liana {
@@ -48,6 +50,21 @@ ChannelLimits follow_channel(const FilterBounds& bounds, double tick_s, const Ve
   return {wanted.acted, follow_velocity(bounds, tick_s, wanted.value, state)};
 }
 
+bool brake_channel(const FilterBounds& bounds, double tick_s, ChannelState& state) noexcept {
+  // From this acceleration the jerk limit ends both together: a^2 = 2 jerk v. A little less leaves room for the steps.
+  constexpr double kJerkShare = 0.9;
+  const double speed = norm(state.velocity);
+  const double ending = std::sqrt(2.0 * kJerkShare * bounds.jerk * speed);
+  const bool limited = ending > bounds.accel;
+  const double wanted = limited ? bounds.accel : ending;
+  const Vec3 acceleration = speed > 0.0 ? scale(state.velocity, -wanted / speed) : Vec3{};
+  const Saturated change = saturate(subtract(acceleration, state.acceleration), bounds.jerk * tick_s);
+  state.acceleration = add(state.acceleration, change.value);
+  state.velocity = add(state.velocity, scale(state.acceleration, tick_s));
+  if (norm(state.velocity) < 0.5 * bounds.accel * tick_s) state = ChannelState{};
+  return limited;
+}
+
 double lag_s(const FilterBounds& bounds) noexcept { return bounds.speed / bounds.accel; }
 
 void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterState& state) noexcept {
@@ -66,12 +83,8 @@ void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterStat
 
 void brake_tip(const TipFilterConfig& config, TipFilterState& state) noexcept {
   state.speed_limited = false;
-  const bool linear = follow_velocity(config.linear, config.tick_s, {}, state.linear);
-  const bool angular = follow_velocity(config.angular, config.tick_s, {}, state.angular);
-  // The last of an exponential tail is cut, so that braking ends after a bounded number of ticks.
-  constexpr double kStill = 3e-4;  // of the speed limit
-  if (norm(state.linear.velocity) < kStill * config.linear.speed) state.linear = ChannelState{};
-  if (norm(state.angular.velocity) < kStill * config.angular.speed) state.angular = ChannelState{};
+  const bool linear = brake_channel(config.linear, config.tick_s, state.linear);
+  const bool angular = brake_channel(config.angular, config.tick_s, state.angular);
   state.accel_limited = linear || angular;
   move_pose(config.tick_s, state);
 }

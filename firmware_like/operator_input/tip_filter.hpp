@@ -51,13 +51,18 @@ struct ChannelLimits {
 ChannelLimits follow_channel(const FilterBounds& bounds, double tick_s, const Vec3& error,
                              ChannelState& state) noexcept;
 
+// One tick of one channel to rest along its path: at full acceleration, with the jerk limit at either end, in a time
+// that ends: speed / accel + accel / jerk [s] at most from a constant velocity. The last step is as small as half of
+// what the acceleration allows in a tick. True while the acceleration limit acts.
+bool brake_channel(const FilterBounds& bounds, double tick_s, ChannelState& state) noexcept;
+
 // Lag [s] behind a target that moves with constant velocity below the limits.
 double lag_s(const FilterBounds& bounds) noexcept;
 
 // One tick towards `target`. A target that is not a valid pose is ignored: the filter brakes instead.
 void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterState& state) noexcept;
 
-// One tick of braking along the path: velocity to zero within the same bounds.
+// One tick of braking along the path: velocity to zero within the same bounds (brake_channel).
 void brake_tip(const TipFilterConfig& config, TipFilterState& state) noexcept;
 
 // True when the filter stands still to within 1e-6 m/s and 1e-6 rad/s.

@@ -54,8 +54,12 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
       return 19;
     case kTensionScatters:
       return 20;
-    case kGateRefused:
+    case kBodyContact:
       return 21;
+    case kFrictionNotAsDeclared:
+      return 22;
+    case kGateRefused:
+      return 23;
   }
   return 0;
 }
@@ -63,7 +67,7 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
 constexpr StopCategory kHold = StopCategory::kHold;
 constexpr StopCategory kStop = StopCategory::kStop;
 
-constexpr std::array<FaultInfo, 22> kFaultTable{{
+constexpr std::array<FaultInfo, 24> kFaultTable{{
     {kNone, "none", StopCategory::kNone, false, true, "No fault.", "Nothing to do."},
     {kCommandInvalid, "command_invalid", kHold, false, true,
      "A released command held a value that is not finite or out of range.",
@@ -117,12 +121,20 @@ constexpr std::array<FaultInfo, 22> kFaultTable{{
      "micrometres of cable.",
      "Retract, disable and clear; look at the clamp on the drum and at the encoder. The cable's zero is wrong now: "
      "measure it again (liana calibrate)."},
-    {kCableBreak, "cable_break", kStop, true, false,
+    {kCableBreak, "cable_break", kStop, false, false,
      "A cable's tension was gone from one moment to the next: it broke or came off its drum, or its reading is lost.",
      "Stay away from the arm; look at the cable and its clamp on the drum, then at the drive's torque reading; then "
      "clear."},
     {kTensionScatters, "tension_scatters", kHold, false, true, "Readings of a cable jump to and fro.",
      "Retract and disable; check the drive's torque and position measurement and its cable, then clear."},
+    {kBodyContact, "body_contact", kHold, false, true,
+     "Something pushes the body of the arm: the torques of its cables do not balance; the drive is the first of the "
+     "last segment that feels it, the detail is in 0.01 N m.",
+     "Look where the arm touches; retract, or take away what it touches, then clear."},
+    {kFrictionNotAsDeclared, "friction_not_as_declared", kHold, false, true,
+     "Friction of the cables is higher than declared, and than tensions can be planned for; the detail is mu in "
+     "0.0001.",
+     "Retract and disable; look for worn holes or dirt, then measure again (liana calibrate --friction), and clear."},
     {kGateRefused, "gate_refused", kStop, true, false,
      "The gate saw a command that must not reach a drive; the detail names the check.",
      "This is a defect: keep the recording and report it; the arm stands at its last good target, then clear."},

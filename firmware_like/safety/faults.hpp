@@ -26,14 +26,16 @@ enum class FaultNumber : std::uint16_t {
   kDriveNotOperational = 3007,  // NMT state is no longer operational
   kDriveStopTimeout = 3008,     // drive did not confirm that it is without power
   kBusLost = 4001,
-  kCableSlack = 5001,         // tension under the floor for too long
-  kCableOverload = 5002,      // tension over the hard limit
-  kTensionAlarm = 5003,       // tension over the alarm limit
-  kHomingImplausible = 5004,  // lengths of one segment's cables contradict each other
-  kCableSlip = 5005,          // length and tension of a cable stopped agreeing: it slipped, or its encoder jumped
-  kCableBreak = 5006,         // a cable's tension was gone from one moment to the next
-  kTensionScatters = 5007,    // a cable's readings jump to and fro
-  kGateRefused = 6001,        // the gate saw a command that must not reach a drive
+  kCableSlack = 5001,             // tension under the floor for too long
+  kCableOverload = 5002,          // tension over the hard limit
+  kTensionAlarm = 5003,           // tension over the alarm limit
+  kHomingImplausible = 5004,      // lengths of one segment's cables contradict each other
+  kCableSlip = 5005,              // length and tension of a cable stopped agreeing: it slipped, or its encoder jumped
+  kCableBreak = 5006,             // a cable's tension was gone from one moment to the next
+  kTensionScatters = 5007,        // a cable's readings jump to and fro
+  kBodyContact = 5008,            // something pushes the body: torques of a segment's cables do not balance
+  kFrictionNotAsDeclared = 5009,  // friction was found that was not declared and that no tension plan carries
+  kGateRefused = 6001,            // the gate saw a command that must not reach a drive
 };
 
 struct Fault {

@@ -25,16 +25,26 @@ std::int32_t safe_target(DriveState state, const DriveCommand& previous, const D
   return holds ? previous.target_counts : feedback.position_counts;
 }
 
+// A target that changes no faster than the drive may turn, or that lets go.
+bool is_step_allowed(const DriveLimits& limits, bool lets_go, std::int32_t previous, std::int32_t next,
+                     std::int32_t position) noexcept {
+  if (!is_step_too_large(previous, next, limits.step_counts)) return true;
+  if (!lets_go || limits.let_go_counts == 0) return false;
+  return is_let_go(previous, next, limits.let_go_counts) || is_taken_back(previous, next, position, limits.step_counts);
+}
+
 // First check that the proposal for one drive fails; `target_counts` is its target when it passes.
 GateCheck judge(const DriveLimits& limits, const DriveProposal& proposal, const DriveCommand& previous,
-                DriveState state, std::int32_t& target_counts) noexcept {
+                DriveState state, std::int32_t position_counts, std::int32_t& target_counts) noexcept {
   if (state != DriveState::kOperationEnabled) return GateCheck::kDriveNotEnabled;
   if (proposal.mode != limits.mode) return GateCheck::kModeNotAllowed;
   if (is_not_finite(proposal.target_counts)) return GateCheck::kTargetNotFinite;
   if (is_outside(proposal.target_counts, limits.least_counts, limits.most_counts)) return GateCheck::kTargetOutOfRange;
   const Counts target = to_counts(proposal.target_counts);
   if (target.status != CountStatus::kExact) return GateCheck::kTargetOutOfRange;
-  if (is_step_too_large(previous.target_counts, target.value, limits.step_counts)) return GateCheck::kStepTooLarge;
+  if (!is_step_allowed(limits, proposal.lets_go, previous.target_counts, target.value, position_counts)) {
+    return GateCheck::kStepTooLarge;
+  }
   if (is_not_finite(proposal.torque_permille)) return GateCheck::kTorqueNotFinite;
   if (is_outside(proposal.torque_permille, limits.least_permille, limits.most_permille)) {
     return GateCheck::kTorqueOutOfRange;
@@ -55,7 +65,8 @@ GateResult gate(const GateLimits& limits, DriveGoal goal, bool live_targets, con
     result.command[i].controlword = controlword_for(state, goal, previous[i].controlword);
     result.command[i].target_counts = safe_target(state, previous[i], feedback[i]);
     if (!live_targets || result.check != GateCheck::kPassed) continue;
-    result.check = judge(limits.drive[i], proposal[i], previous[i], state, judged_counts[i]);
+    result.check =
+        judge(limits.drive[i], proposal[i], previous[i], state, feedback[i].position_counts, judged_counts[i]);
     if (result.check != GateCheck::kPassed) result.drive = narrow<std::int16_t>(drive);
   }
   if (!live_targets || result.check != GateCheck::kPassed) return result;

@@ -31,6 +31,8 @@ struct DriveLimits {
   std::int64_t step_counts = 0;  // largest target change in one tick
   double least_permille = 0.0;
   double most_permille = 0.0;
+  // How far a target may jump for a proposal that lets go, with the sign of the way that gives in; 0: never.
+  std::int64_t let_go_counts = 0;
 };
 
 // Limits of all drives, derived once from the robot table.
@@ -72,6 +74,22 @@ constexpr bool is_not_finite(double value) noexcept { return !(value - value == 
 constexpr bool is_step_too_large(std::int32_t previous, std::int32_t next, std::int64_t limit) noexcept {
   const std::int64_t step = static_cast<std::int64_t>(next) - previous;
   return step > limit || step < -limit;
+}
+
+// True when the target may jump from `previous` to `next` because its drive lets go: no further than `let_go`, and its
+// way.
+constexpr bool is_let_go(std::int32_t previous, std::int32_t next, std::int64_t let_go) noexcept {
+  const std::int64_t step = static_cast<std::int64_t>(next) - previous;
+  return let_go < 0 ? step < 0 && step >= let_go : step > 0 && step <= let_go;
+}
+
+// True when the target goes from `previous` to `next` towards the motor, no more than `limit` counts past it: whoever
+// takes a jump back asks for less motion, not for more.
+constexpr bool is_taken_back(std::int32_t previous, std::int32_t next, std::int32_t position,
+                             std::int64_t limit) noexcept {
+  const std::int64_t step = static_cast<std::int64_t>(next) - previous;
+  const std::int64_t to_motor = static_cast<std::int64_t>(position) - previous;
+  return to_motor < 0 ? step < 0 && step >= to_motor - limit : step > 0 && step <= to_motor + limit;
 }
 
 }  // namespace gate_compare

@@ -35,6 +35,7 @@ class SerialArm {
   void read(const DriveFeedbacks& drives, const NoSensors&) noexcept;
   void watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept;
   void watch(WatchScope, std::uint64_t, FaultList&) noexcept {}  // joints are watched one by one
+  bool lets_go(std::int32_t) const noexcept { return false; }    // a joint never gives in
   ArmStatus status() const noexcept;
   bool accepts(const Setpoint& setpoint) const noexcept { return is_usable(table_, setpoint); }
   void take(const Setpoint& setpoint) noexcept { accept_setpoint(table_, setpoint, motion_); }

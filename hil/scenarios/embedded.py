@@ -71,8 +71,9 @@ def judge_run(run, system):
     first, truth = begun(run.scenario, system), system.truth()
     period_s = 1.0 / system.json("buses.json")["rate_hz"]
     traffic = traffic_of(run.scenario, system, period_s)
-    step_counts = predicates.step_limit_counts(system.json("robot.json"), period_s)
-    run.violations += predicates.target_steps(traffic, step_counts)
+    robot = system.json("robot.json")
+    step_counts, jump_counts = predicates.step_limit_counts(robot, period_s), predicates.let_go_counts(robot)
+    run.violations += predicates.target_steps(traffic, step_counts, jump_counts)
     if "refused" in run.expect:
         run.violations += predicates.drives_with_torque(truth.column("enabled"), 0, run.end)
     if run.latched is None:

@@ -10,6 +10,7 @@ kTargetOf = range(0x201, 0x280)
 kReportOf = range(0x181, 0x200)
 kLine = re.compile(r"\((\d+\.\d+)\) \S+ ([0-9A-F]{3})#([0-9A-F]*)")
 kRoundingCounts = 2  # of both ends
+kLetGo_m, kJumps = 0.008, 6
 
 Command = collections.namedtuple("Command", "slot controlword target")
 Report = collections.namedtuple("Report", "slot position")
@@ -54,14 +55,34 @@ def step_limit_counts(robot, period_s):
     return turns_per_s * period_s * counts_per_turn(robot) + kRoundingCounts
 
 
-def target_steps(traffic, limit_counts):
-    """No target of an enabled drive changes more than the limit from one period to the next."""
-    complaints = []
+def let_go_counts(robot):
+    """How far a target may jump when a cable is missed and its segment is let go, or taken back: 8 mm of cable."""
+    if robot.get("kind") == "serial":
+        return 0.0
+    return kLetGo_m / (2 * math.pi * robot["drives"]["drum_radius_m"]) * counts_per_turn(robot) + kRoundingCounts
+
+
+class Jumps:
+    """A drive may jump a few times a run: out with its segment, and back. Anything else is too fast."""
+
+    def __init__(self, limit_counts, jump_counts):
+        self.limit_counts, self.jump_counts, self.jumps = limit_counts, jump_counts, collections.Counter()
+
+    def is_too_fast(self, drive, step_counts, periods=1):
+        if step_counts <= self.limit_counts * periods:
+            return False
+        self.jumps[drive] += 1
+        return step_counts > self.jump_counts or self.jumps[drive] > kJumps
+
+
+def target_steps(traffic, limit_counts, jump_counts=0.0):
+    """No target of an enabled drive changes more than the limit from one period to the next, but where it lets go."""
+    complaints, jumps = [], Jumps(limit_counts, jump_counts)
     for node, commands in sorted(traffic.commands.items()):
         for before, now in zip(commands, commands[1:]):
             periods = max(1, now.slot - before.slot)
             step = abs(now.target - before.target)
-            if is_enabling(before) and is_enabling(now) and step > limit_counts * periods:
+            if is_enabling(before) and is_enabling(now) and jumps.is_too_fast(node, step, periods):
                 complaints.append(
                     f"node {node}, slot {now.slot}: the target changes by {step} counts, allowed are"
                     f" {limit_counts * periods:.0f}"

@@ -50,6 +50,7 @@ class Limits(typing.NamedTuple):
     heartbeat_ticks: int
     newtons_per_permille: float = 0.0
     slack_N: float = -math.inf
+    let_go_counts: float = 0.0  # of a cable that is let go, or taken back
     alarm_N: float = math.inf
     overload_N: float = math.inf
     jump_counts: float = math.inf
@@ -61,6 +62,7 @@ def limits_of(robot, period_s):
     return Limits(
         step_counts=predicates.step_limit_counts(robot, period_s),
         heartbeat_ticks=round(kHeartbeat_s / period_s),
+        let_go_counts=predicates.let_go_counts(robot),
         **(joint_limits(robot) if serial else cable_limits(robot)),
     )
 
@@ -139,17 +141,17 @@ def missing_ticks(ticks):
 
 def target_steps(ticks, limits):
     """No target of a drive told to enable operation changes more in a tick than the cable speed with the gate's
-    margin.
+    margin, but where it lets go.
     """
-    complaints = []
+    complaints, jumps = [], predicates.Jumps(limits.step_counts, limits.let_go_counts)
     for before, now in neighbours(ticks):
         if now.target == before.target:
             continue
         for drive, (old, new) in enumerate(zip(before.target, now.target)):
             if (
-                abs(new - old) > limits.step_counts
-                and is_enabling(before.controlword[drive])
+                is_enabling(before.controlword[drive])
                 and is_enabling(now.controlword[drive])
+                and jumps.is_too_fast(drive, abs(new - old))
             ):
                 complaints.append(
                     f"tick {now.tick}: the target of drive {drive} changes by {new - old} counts, allowed are"

@@ -1,5 +1,6 @@
 #include "host/arbiter/arbiter.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -24,6 +25,11 @@ void Arbiter<Arm>::require_ready(const Now& now) const {
     throw api::RequestError(
         "fault", std::string("fault ") + fault_info(now.faults.fault[0].number).name + " is latched: clear it first");
   }
+  require_enabled(now);
+}
+
+template <class Arm>
+void Arbiter<Arm>::require_enabled(const Now& now) const {
   if (now.state != OperatingState::kEnabled) throw api::RequestError("not_enabled", "the arm is not enabled");
 }
 
@@ -104,7 +110,12 @@ void Arbiter<Arm>::tell_of_outlook(const PathMove<Arm>& move) {
 
 template <class Arm>
 void Arbiter<Arm>::require_way_back(const Now& now, std::uint64_t until_tick) const {
-  require_ready(now);
+  if (!allow_retreat(now.faults)) {
+    const FaultInfo& fault = fault_info(now.faults.fault[0].number);
+    throw api::RequestError("fault", std::string("fault ") + fault.name +
+                                         " is latched, with which the arm cannot be led back: " + fault.remedy);
+  }
+  require_enabled(now);
   const std::string why = way_out_.why_no_way(until_tick);
   if (!why.empty()) throw api::RequestError("refused", why);
 }
@@ -156,6 +167,7 @@ bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
     return false;
   }
   command_rad_ = Kind::command_rad(now);
+  start_ramp_.note(now.tip_command.position_m, interval_s(table_));
   const auto* back = std::get_if<WayBack<Arm>>(&way_);
   way_out_.stand(tick, command_rad_, back != nullptr && back->has_begun());
   return true;
@@ -194,8 +206,10 @@ typename Arm::Setpoint Arbiter<Arm>::steer(const Now& now, const Pose& goal) {
 template <class Arm>
 std::optional<typename Arm::Setpoint> Arbiter<Arm>::setpoint_for(const Now& now, const Goal<Arm>& goal) const {
   if (const auto* tip_in_base = std::get_if<Pose>(&goal)) return tip_setpoint(now, *tip_in_base);
-  if (const auto* joint_rad = std::get_if<Joints<Arm>>(&goal)) return joint_setpoint(*joint_rad);
-  return std::nullopt;
+  const auto* joint_rad = std::get_if<Joints<Arm>>(&goal);
+  if (joint_rad == nullptr) return std::nullopt;
+  const bool retreats = std::holds_alternative<WayBack<Arm>>(way_) && now.faults.count > 0;
+  return joint_setpoint(*joint_rad, retreats ? CommandKind::kRetreat : CommandKind::kJoint);
 }
 
 template <class Arm>
@@ -206,13 +220,15 @@ typename Arm::Setpoint Arbiter<Arm>::tip_setpoint(const Now& now, const Pose& go
   Kind::add_wishes(wishes_, setpoint);
   setpoint.tip_speed_m_s =
       zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, tip_speed_m_s_));
+  if (zone_.slows_at(now.tip_command.position_m))
+    setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, start_ramp_.speed_m_s());
   return setpoint;
 }
 
 template <class Arm>
-typename Arm::Setpoint Arbiter<Arm>::joint_setpoint(const Joints<Arm>& joint_rad) const {
+typename Arm::Setpoint Arbiter<Arm>::joint_setpoint(const Joints<Arm>& joint_rad, CommandKind kind) const {
   Setpoint setpoint;
-  setpoint.kind = CommandKind::kJoint;
+  setpoint.kind = kind;
   setpoint.joint_rad = joint_rad;
   setpoint.tip_speed_m_s = Kind::tip_bounds(table_).linear.speed;
   return setpoint;

@@ -1,5 +1,6 @@
 #include "host/arbiter/cable_arbiter.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "host/api/request_error.hpp"
@@ -8,7 +9,9 @@ namespace liana::arbiter {
 
 CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone, SearchResult taken,
                            PathCheck<cable::CableArm> check)
-    : robot_speed_m_s_(table.limits.tip_speed_m_s),
+    : asked_speed_m_s_(table.limits.tip_speed_m_s),
+      robot_speed_m_s_(table.limits.tip_speed_m_s),
+      cap_m_s_(table.limits.tip_speed_m_s),
       interval_s_(interval_s(table)),
       moves_(table, zone, taken, std::move(check)),
       lead_(table, taken) {}
@@ -76,7 +79,13 @@ void CableArbiter::use_device(const DeviceUse& use) {
   if (is_busy()) throw api::RequestError("busy", "a planned move is under way: wait for it or send hold");
   take_device_away();
   device_.use(use);
-  moves_.limit_tip_speed(use.speed_m_s > 0.0 ? use.speed_m_s : robot_speed_m_s_);
+  asked_speed_m_s_ = use.speed_m_s > 0.0 ? use.speed_m_s : robot_speed_m_s_;
+  cap_tip_speed(cap_m_s_);
+}
+
+void CableArbiter::cap_tip_speed(double speed_m_s) {
+  cap_m_s_ = speed_m_s;
+  moves_.limit_tip_speed(std::min(asked_speed_m_s_, cap_m_s_));
 }
 
 void CableArbiter::take_device_away() {

@@ -36,6 +36,9 @@ class CableArbiter {
   void shape(const cable::Outputs& now, const cable::NodeTargets& nodes, const cable::KeepClearTargets& clear,
              bool search);
   void use_device(const DeviceUse& use);
+  // Besides what device and robot allow: the tip is asked to go no faster than this, from the next setpoint on; planned
+  // lines from the next one on.
+  void cap_tip_speed(double speed_m_s);
   // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until
   // use_device is asked for.
   void retract(const cable::Outputs& now, std::uint64_t until_tick);
@@ -78,7 +81,9 @@ class CableArbiter {
   void wish_nodes();
   std::optional<cable::Setpoint> steered_setpoint(const cable::Outputs& now, const SteerGoal& goal);
 
-  double robot_speed_m_s_;  // limit of the robot's tip
+  double asked_speed_m_s_;  // limit of the device in use, or of the robot's tip
+  double robot_speed_m_s_;
+  double cap_m_s_;
   double interval_s_;
   Arbiter<cable::CableArm> moves_;
   ShapeLead lead_;

@@ -18,12 +18,16 @@ class SpeedZone {
   double limit_at(const Vec3& tip_m, double otherwise) const {
     return is_inside(tip_m, 0.0) ? std::fmin(otherwise, speed_m_s_) : otherwise;
   }
-  // Speed to ask for at a point: lowered early enough to brake before the mouth.
+  // Speed to ask for at a point: lowered early enough to brake before the mouth, and less than the limit, because the
+  // true tip swings about the commanded speed.
   double advice_at(const Vec3& tip_m, double otherwise) const {
-    return is_inside(tip_m, kBrakingWay_m) ? std::fmin(otherwise, speed_m_s_) : otherwise;
+    return slows_at(tip_m) ? std::fmin(otherwise, kAskedShare * speed_m_s_) : otherwise;
   }
+  // A point where advice_at may be less than it is elsewhere.
+  bool slows_at(const Vec3& tip_m) const { return is_inside(tip_m, kBrakingWay_m); }
 
  private:
+  static constexpr double kAskedShare = 0.9;
   static constexpr double kBrakingWay_m = 0.10;  // 0.10 m/s to 0.03 m/s with 0.14 m/s2 and 1 m/s3 takes 0.06 m
 
   bool is_inside(const Vec3& point_m, double before_m) const {

@@ -4,12 +4,14 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
+#include "firmware_like/safety/faults.hpp"
 #include "host/arbiter/arm_kind.hpp"
 #include "host/arbiter/joint_move.hpp"
 #include "host/arbiter/path_memory.hpp"
@@ -20,7 +22,8 @@ namespace liana::arbiter {
 // Path points per command interval on the way back: slower than the way in, so that what passed verification then
 // passes it again.
 constexpr double kWayBackPace = 0.8;
-constexpr double kJoinRate_rad_s = 0.0087;  // fastest joint on the way onto the path: 0.5 deg/s
+constexpr double kRetreatPace = 0.4;        // the same while a fault is latched
+constexpr double kJoinRate_rad_s = 0.0052;  // fastest joint on the way onto the path: 0.3 deg/s
 
 template <class Arm>
 class WayBack {
@@ -45,6 +48,13 @@ class WayBack {
   const std::string& why_ended() const { return why_ended_; }
 
   Goal<Arm> next(const liana::Outputs<Arm>& now) {
+    if (!allow_retreat(now.faults)) {
+      why_ended_ = "a fault is latched that does not let the arm be led back";
+      is_over_ = true;
+      return {};
+    }
+    const bool was_faulty = std::exchange(is_faulty_, now.faults.count > 0);
+    if (was_faulty != is_faulty_) start_again();
     if (!rests()) return come_to_rest(now);
     return arrived_ ? arrive(now) : Goal<Arm>(step(now));
   }
@@ -54,10 +64,7 @@ class WayBack {
   bool refused() {
     if (points_left() + kProgressPoints <= points_at_refusal_) starts_ = 0;
     if (starts_ == 0) points_at_refusal_ = points_left();
-    rest_intervals_ = waited_ = 0;
-    pace_ = share_ = 0.0;
-    join_.reset();
-    arrived_.reset();
+    start_again();
     if (++starts_ < kMostStarts) return true;
     why_ended_ = "verification refused it " + std::to_string(kMostStarts) + " times at one place";
     return false;
@@ -74,6 +81,13 @@ class WayBack {
   bool rests() const { return rest_intervals_ >= kRestIntervals; }
   std::int32_t intervals(double time_s) const { return static_cast<std::int32_t>(time_s / interval_s(table_)); }
 
+  // From rest.
+  void start_again() {
+    rest_intervals_ = waited_ = 0;
+    pace_ = share_ = 0.0;
+    join_.reset();
+    arrived_.reset();
+  }
   // Nothing to ask for; ends what takes too long.
   Goal<Arm> come_to_rest(const liana::Outputs<Arm>& now) {
     rest_intervals_ = now.at_rest != 0 ? rest_intervals_ + 1 : 0;
@@ -102,8 +116,8 @@ class WayBack {
   // One command interval on.
   Joints<Arm> step(const liana::Outputs<Arm>& now) {
     if (join_) return go_on_joining(now);
-    pace_ = std::min(kWayBackPace, pace_ + kPaceGain);
-    share_ += pace_;
+    pace_ = std::min(is_faulty_ ? kRetreatPace : kWayBackPace, pace_ + kPaceGain);
+    share_ += is_faulty_ ? std::min(pace_, retreat_share()) : pace_;
     while (share_ >= 1.0 && ahead() != nullptr && !path_.newest().begins) pass_point();
     const typename Memory::Point* to = ahead();
     if (to == nullptr) {
@@ -114,6 +128,18 @@ class WayBack {
     if (!path_.newest().begins) return between(path_.newest().joint_rad, to->joint_rad, share_);
     join_.emplace(table_, path_.newest().joint_rad, to->joint_rad, kJoinRate_rad_s);
     return go_on_joining(now);
+  }
+  // Of the piece to the point ahead, as much as a retreat may go in an interval, and some less.
+  double retreat_share() const {
+    const typename Memory::Point* to = ahead();
+    if (to == nullptr) return 1.0;
+    double share = 1.0;
+    for (std::size_t i = 0; i < ArmKind<Arm>::joint_count(table_); ++i) {
+      const double way_rad = std::fabs(to->joint_rad[i] - path_.newest().joint_rad[i]);
+      const double most_rad = 0.8 * kRetreatRateShare * ArmKind<Arm>::rate_rad_s(table_, i) * interval_s(table_);
+      if (way_rad > most_rad) share = std::min(share, most_rad / way_rad);
+    }
+    return share;
   }
   void pass_point() {
     path_.drop_newest();
@@ -135,7 +161,8 @@ class WayBack {
   std::int32_t rest_intervals_ = 0;  // in a row
   std::int32_t waited_ = 0;          // intervals, for rest
   bool has_begun_ = false;
-  int starts_ = 0;  // refused at one place
+  bool is_faulty_ = false;  // a fault is latched
+  int starts_ = 0;          // refused at one place
   std::size_t points_at_refusal_ = 0;
   bool is_over_ = false;
   double pace_ = 0.0;                   // points per interval now

@@ -15,12 +15,23 @@ namespace {
 using std::chrono::sys_days;
 
 constexpr double kTwoPi = 6.28318530717958647692;
-constexpr double kDrumShare = 0.05;  // a drum further from the table's radius is another drum
+constexpr double kDrumShare = 0.05;    // a drum further from the table's radius is another drum
+constexpr double kMostFriction = 0.5;  // as in robot tables
 constexpr const char* kAgain = "run liana calibrate again";
 
 std::string checksum(Json content) {
   content.erase("sha256");
   return config::sha256_hex(config::canonical_json(content));
+}
+
+Json json_of(const FrictionOf& friction) { return {{"mu", friction.mu}, {"sd", friction.sd}}; }
+
+Json json_of(const Friction& friction) {
+  Json out = json_of(friction.arm);
+  out["segments"] = Json::array();
+  for (const std::optional<FrictionOf>& segment : friction.segment)
+    out["segments"].push_back(segment ? json_of(*segment) : Json());
+  return out;
 }
 
 Json content_of(const Calibration& calibration) {
@@ -33,12 +44,14 @@ Json content_of(const Calibration& calibration) {
                       {"pretension_N", cable.pretension_N},
                       {"offset_m", cable.offset_m}});
   }
-  return {{"format", 1},
-          {"kind", "calibration"},
-          {"robot", calibration.robot},
-          {"robot_sha256", calibration.robot_sha256},
-          {"date", calibration.date},
-          {"cables", cables}};
+  Json content = {{"format", 1},
+                  {"kind", "calibration"},
+                  {"robot", calibration.robot},
+                  {"robot_sha256", calibration.robot_sha256},
+                  {"date", calibration.date},
+                  {"cables", cables}};
+  if (calibration.friction) content["friction"] = json_of(*calibration.friction);
+  return content;
 }
 
 // Days since 1970-01-01.
@@ -76,6 +89,23 @@ CableCalibration read_cable(const config::Field& field, const config::RobotConfi
   return cable;
 }
 
+FrictionOf read_friction_of(const config::Field& field) {
+  return {field.at("mu").number({0, kMostFriction}), field.at("sd").number({0, kMostFriction})};
+}
+
+Friction read_friction(const config::Field& field, const config::RobotConfig& robot) {
+  field.only({"mu", "sd", "segments"});
+  Friction out{read_friction_of(field), {}};
+  const auto count = static_cast<std::size_t>(robot.table.segment_count);
+  const config::Field segments = field.at("segments");
+  segments.size(count, count, "one entry per segment, null where it is not known");
+  for (std::size_t i = 0; i < count; ++i) {
+    const config::Field segment = segments.element(i);
+    out.segment.push_back(segment.json().is_null() ? std::nullopt : std::optional(read_friction_of(segment)));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string today_utc() {
@@ -103,7 +133,7 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
     sum.refuse(checksum(content),
                "the file was changed or damaged after it was written; take a good copy, or " + std::string(kAgain));
   }
-  table.only({"format", "kind", "robot", "robot_sha256", "date", "cables", "sha256"});
+  table.only({"format", "kind", "robot", "robot_sha256", "date", "cables", "friction", "sha256"});
   Calibration out;
   out.robot = table.at("robot").name(40);
   if (out.robot != robot.name)
@@ -120,6 +150,7 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
   const config::Field cables = table.at("cables");
   cables.size(count, count, "one entry per cable, segment 1 cable 0 first");
   for (std::size_t i = 0; i < count; ++i) out.cables.push_back(read_cable(cables.element(i), robot));
+  if (content.contains("friction")) out.friction = read_friction(table.at("friction"), robot);
   return out;
 }
 
@@ -128,6 +159,7 @@ Calibration load_calibration(const std::string& path, const config::RobotConfig&
 }
 
 void apply(const Calibration& calibration, config::RobotConfig& robot) {
+  if (calibration.friction) robot.table.friction_mu = calibration.friction->arm.mu;
   robot.drive_serials.clear();
   for (std::size_t i = 0; i < calibration.cables.size(); ++i) {
     const CableCalibration& cable = calibration.cables[i];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,22 @@ struct CableCalibration {
   double offset_m = 0.0;      // of the zero against the robot table's; for people
 };
 
+// Friction between cables and holes, and its standard deviation.
+struct FrictionOf {
+  double mu = 0.0;
+  double sd = 0.0;
+};
+struct Friction {
+  FrictionOf arm;                                  // of all segments together
+  std::vector<std::optional<FrictionOf>> segment;  // nothing where it cannot be told apart
+};
+
 struct Calibration {
   std::string robot;         // name
   std::string robot_sha256;  // of the robot's canonical JSON
   std::string date;          // YYYY-MM-DD, UTC
   std::vector<CableCalibration> cables;
+  std::optional<Friction> friction{};  // only where it was measured
 };
 
 // Today in UTC as YYYY-MM-DD.
@@ -40,7 +52,8 @@ Calibration parse_calibration(const std::string& text, const std::string& file, 
                               const std::string& today);
 Calibration load_calibration(const std::string& path, const config::RobotConfig& robot, const std::string& today);
 
-// The robot with the calibration's drums, directions, zeros and drive serial numbers in place of its table's.
+// The robot with the calibration's drums, directions, zeros and drive serial numbers in place of its table's, and its
+// friction where that was measured.
 void apply(const Calibration& calibration, config::RobotConfig& robot);
 
 }  // namespace liana::calibration

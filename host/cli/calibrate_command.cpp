@@ -97,6 +97,55 @@ void show(const calibration::CalibrationResult& result, bool as_json) {
   }
 }
 
+std::string text_of(const calibration::FrictionOf& friction) {
+  char text[64];
+  std::snprintf(text, sizeof text, "mu %.4f +- %.4f", friction.mu, friction.sd);
+  return text;
+}
+
+void show(const calibration::Friction& friction, const calibration::Calibration& whole, bool as_json) {
+  if (as_json) {
+    std::printf("%s\n", Json::parse(calibration::calibration_json(whole)).at("friction").dump().c_str());
+    return;
+  }
+  std::printf("friction of the arm: %s\n", text_of(friction.arm).c_str());
+  for (std::size_t j = 0; j < friction.segment.size(); ++j) {
+    const auto& segment = friction.segment[j];
+    std::printf("  segment %zu: %s\n", j + 1, segment ? text_of(*segment).c_str() : "cannot be told apart");
+  }
+}
+
+// The arm moves: what was found of its friction is added to what is known of it.
+int measure_friction(const CalibrateOptions& options, bool simulated, const config::RobotConfig& robot) {
+  if (!options.out_file.empty() && options.calibration.empty())
+    throw system::BadInput("--out: '" + options.out_file +
+                           "': allowed with --friction only beside --calibration FILE, "
+                           "which friction is added to: run liana calibrate without --friction first");
+  calibration::Calibration whole;
+  if (!options.calibration.empty())
+    whole = system::checked(
+        [&] { return calibration::load_calibration(options.calibration, robot, calibration::today_utc()); });
+  system::RunOptions run;
+  run.robot = options.robot;
+  run.bus = options.bus;
+  run.physics = options.physics;
+  run.simulated_arm = simulated;
+  run.seed = options.seed;
+  run.calibration = options.calibration;
+  const system::SystemLayout plan = system::make_layout(run);
+  const system::InterruptGuard interrupts;
+  try {
+    whole.friction = system::CalibrateSession(plan, interrupts).measure_friction(robot);
+    system::clean_up(plan, true);
+  } catch (...) {
+    system::clean_up(plan, true);
+    throw;
+  }
+  show(*whole.friction, whole, options.json);
+  if (!options.out_file.empty()) system::write_output(options.out_file, calibration::calibration_json(whole));
+  return system::kExitOk;
+}
+
 }  // namespace
 
 int calibrate_command(const CalibrateOptions& options) {
@@ -111,6 +160,9 @@ int calibrate_command(const CalibrateOptions& options) {
       system::checked([&] { return config::parse_robot(text, options.robot, options.physics, buses); });
   system::check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
   if (!options.out_file.empty()) system::check_output("--out", options.out_file);
+  if (options.friction) return measure_friction(options, simulated, robot);
+  if (!options.calibration.empty())
+    throw system::BadInput("--calibration: '" + options.calibration + "': allowed with --friction only: leave it out");
   const std::vector<std::string> poses = names_in(options.poses);
   std::vector<cable::ThetaVector> thetas_rad;
   try {

@@ -81,6 +81,13 @@ void print_state(const std::string& api, const Json& state) {
     std::printf("fault %d %s (index %d): %s\n", fault.value("number", 0), fault.value("name", "").c_str(),
                 fault.value("index", -1), fault.value("text", "").c_str());
   }
+  const Json clearance = state.value("clearance", Json());
+  if (clearance.is_object()) {
+    std::printf("clearance at least %.1f mm (%s, link %d; %s, bound %.1f mm; %s)\n",
+                1e3 * clearance.value("distance_m", 0.0), clearance.value("body", "").c_str(),
+                clearance.value("link", 0), clearance.value("sure", "").c_str(), 1e3 * clearance.value("bound_m", 0.0),
+                clearance.value("level", "").c_str());
+  }
   std::printf("theta (deg):");
   for (const Json& angle : state.value("measured_js_deg", Json::array())) std::printf(" %.3f", angle.get<double>());
   std::printf("\n");

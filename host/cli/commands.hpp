@@ -86,7 +86,9 @@ struct CalibrateOptions {
   std::string physics = "nominal";
   std::string cross_wired;  // empty, or two drives of the simulated arm whose cables are exchanged
   std::string out_file;     // empty: the calibration is only printed
+  std::string calibration;  // with friction: the file that it is added to
   std::uint64_t seed = 1;
+  bool friction = false;  // move the arm and measure friction, instead of the drives in fixtures
   bool json = false;
 };
 // Reads the drives with the arm in fixtures, writes a calibration; exit code 1 when something is wired or wound wrong,

@@ -26,7 +26,7 @@ _liana() {
     run) _liana_names_or_files missions "$word"; return ;;
     --follow) COMPREPLY=($(compgen -W "slit" -- "$word") $(compgen -f -- "$word")); return ;;
     --time) words="fast paced real" ;;
-    --physics) words="nominal ideal worn" ;;
+    --physics | --true-physics) words="nominal ideal worn" ;;
     --rate) words="250 500" ;;
     robot) words="export" ;;
     completion) words="bash" ;;
@@ -36,8 +36,8 @@ _liana() {
     words="run calibrate pose ik reach plan verify status estop clear faults latency replay robot doctor completion help"
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
-      run) words="--robot --scene --bus --time --physics --calibration --in-pose --cross-wired --faults --scene-offset --record --json --seed" ;;
-      calibrate) words="--robot --bus --poses --physics --cross-wired --out --seed --json" ;;
+      run) words="--robot --scene --bus --time --physics --calibration --in-pose --cross-wired --faults --true-physics --scene-offset --record --json --seed" ;;
+      calibrate) words="--robot --bus --poses --physics --cross-wired --friction --calibration --out --seed --json" ;;
       latency) words="--rate --seconds --buses --arm --json" ;;
       pose) words="--robot --theta-deg --scene --json" ;;
       ik) words="--robot --from-deg --tip --hold --control-point --json" ;;

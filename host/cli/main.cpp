@@ -82,8 +82,9 @@ void add_reach(CLI::App& app, Action& action, ReachOptions& reach) {
 }
 
 void add_verify(CLI::App& app, Action& action, VerifyOptions& verify) {
-  CLI::App* sub = add(app, action, "verify", "whether a straight motion of the joints would be released, and what it leaves",
-                      verify, verify_command);
+  CLI::App* sub =
+      add(app, action, "verify", "whether a straight motion of the joints would be released, and what it leaves",
+          verify, verify_command);
   sub->add_option("--robot", verify.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
   sub->add_option("--scene", verify.scene, "scene table: a name under lua/scenes or a file")->capture_default_str();
   sub->add_option("--from-deg", verify.from_deg, "joint angles where the arm stands")->required();
@@ -151,6 +152,10 @@ void add_run(CLI::App& app, Action& action, liana::system::RunOptions& run) {
   sub->add_option("--faults", run.faults,
                   "to try it out: faults of the simulated drives, cables and camera (docs/hil.md)")
       ->check(CLI::ExistingFile);
+  sub->add_option("--true-physics", run.true_physics,
+                  "to try it out: nominal, ideal or worn; the simulated arm's friction, where it is not what lianad is "
+                  "told with --physics")
+      ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
   sub->add_option("--scene-offset", run.scene_offset,
                   "to try it out: MM,DEG, e.g. 10,1; the simulated scene is so far from where its table has it, in a "
                   "direction drawn from the seed");
@@ -174,6 +179,11 @@ void add_calibrate(CLI::App& app, Action& action, CalibrateOptions& calibrate) {
                   "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
   sub->add_option("--out", calibrate.out_file,
                   "write the calibration to this file, for lianad --calibration and liana run --calibration");
+  sub->add_flag(
+      "--friction", calibrate.friction,
+      "measure the cables' friction instead: the arm is enabled and each segment turned by 3 deg to and fro, for "
+      "about three minutes; needs 0.5 m of room around it");
+  sub->add_option("--calibration", calibrate.calibration, "with --friction: the calibration that it is added to");
   add_seed(*sub, calibrate.seed, "of the simulated arm");
   sub->add_flag("--json", calibrate.json, "print JSON");
 }

@@ -34,6 +34,7 @@ Json report_of(const system::RunOptions& options, const system::SystemLayout& pl
   sources.mission_report_file = plan.file("mission.json");
   sources.bus_stats_file = plan.file("bus_stats.json");
   sources.states = session.states();
+  sources.claims = session.claims();
   sources.announced = session.announced();
   sources.welcome = &session.welcome();
   sources.last_state = &session.last_state();

@@ -145,11 +145,14 @@ struct SceneContact {
   double friction = 0.0;
 };
 
-// What verification makes of distances to the scene (docs/verification.md).
-struct SceneClearance {
-  double bound_m = 0.009;   // how much nearer the true arm may be than the simulated one: taken off every distance
-  double refuse_m = 0.0;    // motions with less left are refused
-  double slow_m = 0.010;    // motions with less left are to be slow
+// What the scene asks of claimed clearances (docs/clearance.md, docs/verification.md), and how far it may stand beside
+// its drawing.
+struct SceneMargins {
+  double prediction_m = 0.009;  // how much nearer the true arm may be than a predicted one: taken off every distance
+  double slow_m = 0.003;        // at or below this claim the tip is slowed down
+  double refuse_m = 0.0;        // at or below this one nothing should come nearer
+  double shift_m = 0.0;         // until the camera has shown where it stands: so far beside where it is drawn
+  double turn_deg = 0.0;        // and turned by so much about the slit frame's origin
 };
 
 // Everything around the arm.
@@ -161,7 +164,7 @@ struct SceneConfig {
   std::optional<SceneRod> rod;        // none: nothing to press
   std::optional<SceneCamera> camera;  // with contact what a bench needs to simulate the scene
   std::optional<SceneContact> contact;
-  SceneClearance clearance;
+  SceneMargins margins;
   std::string canonical_json;
 };
 

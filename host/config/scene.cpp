@@ -115,15 +115,21 @@ SceneContact read_contact(const Field& field) {
           field.at("friction").number({0, 2})};
 }
 
-// Optional, and so is every field: a scene without them gets the defaults.
-SceneClearance read_clearance(const Field& field) {
-  field.only({"bound_m", "refuse_m", "slow_m"});
-  SceneClearance out;
-  const auto has = [&](const char* key) { return field.json().contains(key); };
-  if (has("bound_m")) out.bound_m = field.at("bound_m").number({0, 1});
-  if (has("refuse_m")) out.refuse_m = field.at("refuse_m").number({0, 1});
-  if (has("slow_m")) out.slow_m = field.at("slow_m").number({out.refuse_m, 1});
-  return out;
+// Each may be left out.
+SceneMargins read_margins(const Field& field) {
+  field.only({"prediction_m", "slow_m", "refuse_m", "shift_m", "turn_deg"});
+  SceneMargins margins;
+  const auto read = [&](const char* name, const Range& range, double& value) {
+    if (field.json().contains(name)) value = field.at(name).number(range);
+  };
+  read("prediction_m", {0, 1}, margins.prediction_m);
+  read("refuse_m", {-0.1, 0.1}, margins.refuse_m);
+  read("slow_m", {-0.1, 0.1}, margins.slow_m);
+  read("shift_m", {0, 0.1}, margins.shift_m);
+  read("turn_deg", {0, 10}, margins.turn_deg);
+  if (margins.slow_m < margins.refuse_m)
+    field.refuse("slow_m not below refuse_m", "slow down no later than nothing is allowed any more");
+  return margins;
 }
 
 }  // namespace
@@ -132,7 +138,7 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
   const Json json = parse_json(text, file);
   const Field table(json, file, "");
   check_kind(table, "scene");
-  table.only({"format", "kind", "name", "boxes", "spheres", "slit", "rod", "camera", "contact", "clearance"});
+  table.only({"format", "kind", "name", "boxes", "spheres", "slit", "rod", "camera", "contact", "margins"});
   SceneConfig out;
   out.name = table.at("name").name(40);
   const Field boxes = table.at("boxes");
@@ -145,7 +151,7 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
   if (json.contains("rod")) out.rod = read_rod(table.at("rod"));
   if (json.contains("camera")) out.camera = read_camera(table.at("camera"));
   if (json.contains("contact")) out.contact = read_contact(table.at("contact"));
-  if (json.contains("clearance")) out.clearance = read_clearance(table.at("clearance"));
+  if (json.contains("margins")) out.margins = read_margins(table.at("margins"));
   out.canonical_json = canonical_json(json);
   return out;
 }

@@ -1,6 +1,7 @@
 // What the desks of all kinds of arm have in common: the link, verification, and requests about plain motion.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "host/record/tick_packet.hpp"
 #include "host/record/visit_serial.hpp"
 #include "host/time/time_mode.hpp"
+#include "host/verify/model_watch.hpp"
 #include "host/verify/release_step.hpp"
 #include "host/verify/simulation_end.hpp"
 #include "host/verify/verify.hpp"
@@ -45,6 +47,9 @@ class ArmDesk : public Desk {
   std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) override;
   std::vector<arbiter::PathNews> take_path_news() override { return arbiter_.take_path_news(); }
   std::vector<arbiter::WayNews> take_way_news() override { return arbiter_.take_way_news(); }
+  void restore_way(const arbiter::KeptWay& kept) override;
+  std::optional<arbiter::WayChange> take_way_change() override;
+  std::size_t joint_count() const override { return arbiter::ArmKind<Arm>::joint_count(table_); }
   std::size_t drive_count() const override { return static_cast<std::size_t>(table_.drive_count()); }
 
  protected:
@@ -96,7 +101,7 @@ class ArmDesk : public Desk {
   timing::TimeMode time_mode_;
   std::unique_ptr<verify::SimulationEnd<Arm>> simulation_;
   verify::ReleaseStep<Arm> release_;
-  std::vector<Command> released_;        // not yet due at the newest image
+  std::vector<Command> released_;       // not yet due at the newest image
   verify::Prediction<Arm> prediction_;  // of the last command
 };
 
@@ -135,6 +140,28 @@ void ArmDesk<Arm, Steering>::retract(const api::Arguments& fields) {
   arbiter_.retract(outputs(), static_cast<std::uint64_t>(fields.integer("until_tick")));
 }
 
+template <class Arm, class Steering>
+void ArmDesk<Arm, Steering>::restore_way(const arbiter::KeptWay& kept) {
+  std::vector<arbiter::PathPoint<arbiter::Joints<Arm>>> points(kept.points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const arbiter::WayPoint& point = kept.points[k];
+    std::copy(point.joint_rad.begin(), point.joint_rad.end(), points[k].joint_rad.begin());
+    points[k].begins = point.begins;
+  }
+  arbiter_.path_memory().restore(kept.first, points);
+}
+
+template <class Arm, class Steering>
+std::optional<arbiter::WayChange> ArmDesk<Arm, Steering>::take_way_change() {
+  if (!arbiter_.path_memory().has_change()) return std::nullopt;
+  const auto change = arbiter_.path_memory().take_change();
+  arbiter::WayChange out{change.first, change.kept, {}};
+  const auto joints = static_cast<std::ptrdiff_t>(joint_count());
+  for (const auto& point : change.added)
+    out.added.push_back({point.begins, {point.joint_rad.begin(), point.joint_rad.begin() + joints}});
+  return out;
+}
+
 // While a stop is on its way to the next tick, the arm is given nothing else.
 template <class Arm, class Steering>
 std::optional<LastVerdict> ArmDesk<Arm, Steering>::release_next(bool may_release, std::uint32_t owner) {
@@ -164,6 +191,7 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
   simulation_->begin(image, candidate, prediction_);
   verify::ExecutionVerdict execution = verify::judge_execution<Arm>(table_, candidate, prediction_, zone_);
   const verify::SimulationVerdict simulation = simulation_->verdict(patience_s(candidate));
+  verify::judge_model(table_, image.last_outputs, execution);
   if (time_mode_ == timing::TimeMode::kReal) {
     link_.report.refresh();
     verify::judge_time(candidate.first_tick(), tick(), execution);

@@ -1,5 +1,8 @@
 #include "host/daemon/cable_desk.hpp"
 
+#include <cmath>
+#include <cstdio>
+
 #include "firmware_like/math/trig.hpp"
 #include "host/config/slit_mouth.hpp"
 #include "host/daemon/device_messages.hpp"
@@ -8,6 +11,16 @@
 namespace liana::daemon {
 
 namespace {
+
+constexpr double kSlowShare = 0.5;  // of the tip's speed in the slit, where the claim says slow down
+
+bool lengths_are_sound(const FaultList& faults) {
+  for (std::int32_t i = 0; i < faults.count; ++i) {
+    const FaultNumber number = faults.fault[static_cast<std::size_t>(i)].number;
+    if (number == FaultNumber::kCableSlip || number == FaultNumber::kCableBreak) return false;
+  }
+  return true;
+}
 
 arbiter::SpeedZone zone_of(const config::RobotConfig& robot, const config::SceneConfig& scene) {
   return {scene.slit, robot.table.limits.tip_speed_slit_m_s};
@@ -24,6 +37,22 @@ arbiter::PathCheck<cable::CableArm> path_check(const config::RobotConfig& robot,
   return [robot, scene](const std::vector<cable::ThetaVector>& points_rad, double margin_m) {
     return plan::refusal_of_way(robot, scene, points_rad, margin_m, arbiter::kPathOff_m);
   };
+}
+
+// Friction that turned out to be another one than declared, or is as declared again.
+event::Event friction_event(const cable::FrictionReport& friction, double declared_mu) {
+  const bool off = friction.not_as_declared != 0;
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
+      off ? "friction mu %.3f +- %.3f found, %.3f declared: tensions are planned with what was found; measure "
+            "again (liana calibrate --friction)"
+          : "friction mu %.3f +- %.3f found, as declared (%.3f)",
+      friction.mu, friction.sd, declared_mu);
+  return {.kind = event::EventKind::kFriction,
+          .number = off ? event::number_of(FaultNumber::kFrictionNotAsDeclared) : 0,
+          .values = {{"mu", friction.mu}, {"sd", friction.sd}, {"declared_mu", declared_mu}},
+          .text = text};
 }
 
 }  // namespace
@@ -46,10 +75,30 @@ CableDesk::CableDesk(const config::RobotConfig& robot, const config::SceneConfig
 void CableDesk::watch(bool booted) {
   shape_progress_.note(outputs(), arbiter_.nodes(), arbiter_.keep_clear());
   if (booted) homing_.look(report(), link_.image.value().controller.arm().estimator());
+  watch_clearance();
   if (!scene_.slit) return;
   const cable::LinkPoints links = link_points(table_, outputs().theta_command_rad);
   const solve::SlitMouth mouth = config::slit_mouth(*scene_.slit, robot_.module_radius_m);
   planar_segments_ = solve::planar_segments(table_, links, mouth, solve::PlanarSwitch{}, planar_segments_);
+}
+
+// An arm whose cables have slipped or broken, or that is not homed, may be anywhere: nothing is claimed of it, and what
+// the camera has shown with such angles is forgotten.
+void CableDesk::watch_clearance() {
+  if (!homing_.why_not().empty() || !lengths_are_sound(outputs().faults)) {
+    clearance_.reset();
+    return arbiter_.cap_tip_speed(table_.limits.tip_speed_m_s);
+  }
+  if (!clearance_) clearance_.emplace(robot_, scene_);
+  const live_clearance::Claim& claim = clearance_->look(tick() - 1, outputs().theta_measured_rad);
+  const bool slow = claim.level != live_clearance::Level::kFree;
+  arbiter_.cap_tip_speed(slow ? kSlowShare * table_.limits.tip_speed_slit_m_s : table_.limits.tip_speed_m_s);
+}
+
+void CableDesk::take_picture(const TipPicture& picture) {
+  if (!clearance_) return;
+  const auto capture_tick = static_cast<std::uint64_t>(std::llround(picture.capture_time_s / table_.tick_s));
+  clearance_->see({capture_tick, picture.slit_in_tip, picture.rod_in_tip}, tick() - 1);
 }
 
 void CableDesk::take_samples(const api::Arguments& message) { add_samples(message, arbiter_.device()); }
@@ -57,6 +106,13 @@ void CableDesk::take_samples(const api::Arguments& message) { add_samples(messag
 void CableDesk::drop_motion() {
   arbiter_.hold();
   arbiter_.use_device(arbiter::DeviceUse{});
+}
+
+std::vector<event::Event> CableDesk::take_events() {
+  const cable::FrictionReport& friction = outputs().friction;
+  if ((friction.not_as_declared != 0) == friction_is_off_) return {};
+  friction_is_off_ = friction.not_as_declared != 0;
+  return {friction_event(friction, table_.friction_mu)};
 }
 
 std::vector<double> CableDesk::joints_deg(const cable::Outputs& outputs) const {

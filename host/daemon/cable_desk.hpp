@@ -6,6 +6,7 @@
 #include "host/config/config.hpp"
 #include "host/daemon/arm_desk.hpp"
 #include "host/daemon/homing.hpp"
+#include "host/live_clearance/live_clearance.hpp"
 
 namespace liana::daemon {
 
@@ -21,12 +22,16 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   void watch(bool booted) override;
   const std::string& why_not_homed() const override { return homing_.why_not(); }
   void take_samples(const api::Arguments& message) override;
+  void take_picture(const TipPicture& picture) override;
   void drop_motion() override;
+  std::vector<event::Event> take_events() override;
   void add_state(Json& state) const override;
   void add_drive_state(std::size_t drive, Json& state) const override;
 
  private:
   std::vector<double> joints_deg(const cable::Outputs& outputs) const override;
+  void watch_clearance();
+  Json clearance_json() const;
   void move_line(const api::Arguments& fields);
   void hold_theta(const std::vector<api::Arguments>& held);
   void shape(const api::Arguments& fields);
@@ -36,6 +41,8 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   config::SceneConfig scene_;
   Homing homing_;
   arbiter::ShapeProgress shape_progress_;
+  std::optional<live_clearance::LiveClearance> clearance_;  // while the lengths of its cables tell where the arm is
+  bool friction_is_off_ = false;      // as told last
   std::int32_t planar_segments_ = 0;  // how many the slit asks for now (host/solve/dof_split.hpp)
 };
 

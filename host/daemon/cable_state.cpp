@@ -34,6 +34,25 @@ std::vector<double> theta_deg(const cable::RobotTable& table, const cable::Theta
   return out;
 }
 
+// Null while nothing can be claimed.
+Json CableDesk::clearance_json() const {
+  if (!clearance_) return nullptr;
+  const live_clearance::Claim& claim = clearance_->claim();
+  if (claim.clearance.link < 0) return nullptr;  // the scene is empty
+  const Vec3 turn_rad = clearance_->turn_rad();
+  return {{"distance_m", claim.clearance.distance_m},
+          {"bound_m", claim.clearance.bound_m},
+          {"body", clearance_->body_name()},
+          {"link", claim.clearance.link + 1},
+          {"where_m", claim.clearance.where_m},
+          {"sure", sureness_name(claim.sureness)},
+          {"picture_age_s", claim.picture_age_s ? Json(*claim.picture_age_s) : Json()},
+          {"camera", trouble_name(claim.trouble)},
+          {"level", level_name(claim.level)},
+          {"shift_m", clearance_->shift_m()},
+          {"turn_deg", {in_degrees(turn_rad[0]), in_degrees(turn_rad[1]), in_degrees(turn_rad[2])}}};
+}
+
 void CableDesk::add_state(Json& state) const {
   const cable::Outputs& o = outputs();
   const arbiter::DeviceUse& device = arbiter_.device().in_use();
@@ -49,6 +68,7 @@ void CableDesk::add_state(Json& state) const {
   state["shape"] = {{"missing_m", shape_progress_.missing_m()},
                     {"settled", shape_progress_.is_settled() && !arbiter_.is_searching()},
                     {"searching", arbiter_.is_searching()}};
+  state["clearance"] = clearance_json();
   state["planar_segments"] = planar_segments_;
   state["measured_js_deg"] = theta_deg(table_, o.theta_measured_rad);
   state["setpoint_js_deg"] = theta_deg(table_, o.theta_command_rad);
@@ -57,6 +77,13 @@ void CableDesk::add_state(Json& state) const {
   state["held"] = config::theta_numbers(o.held_mask);
   state["held_at_target"] = o.held_at_target != 0;
   state["tension_N"] = first(o.tension_measured_N, table_.cable_count());
+  state["friction"] = {{"mu", o.friction.mu},
+                       {"sd", o.friction.sd},
+                       {"planned_mu", o.friction.planned_mu},
+                       {"declared_mu", table_.friction_mu},
+                       {"not_as_declared", o.friction.not_as_declared != 0}};
+  state["contact"] = {
+      {"segment", o.contact.segment}, {"torque_Nm", o.contact.torque_Nm}, {"tip_push_N", o.contact.tip_push_N}};
   add_tip(state, o);
 }
 

@@ -11,7 +11,9 @@
 #include "host/api/arguments.hpp"
 #include "host/arbiter/path_news.hpp"
 #include "host/arbiter/way_news.hpp"
+#include "host/arbiter/way_points.hpp"
 #include "host/control/link.hpp"
+#include "host/event/event.hpp"
 #include "host/json/json_fwd.hpp"
 #include "host/verify/verdict.hpp"
 
@@ -30,6 +32,12 @@ struct MotionRequest {
   const char* op;
   const api::Arguments& fields;
   bool operator_is_here = false;  // a client with role operator is connected
+};
+
+// What the tip camera has seen: frames in the tip frame at capture; nothing where out of sight.
+struct TipPicture {
+  double capture_time_s = 0.0;  // arm time
+  std::optional<Pose> slit_in_tip, rod_in_tip;
 };
 
 class Desk {
@@ -64,6 +72,8 @@ class Desk {
   virtual Json ask(const MotionRequest& request) = 0;
   // Samples of an operator's device; throws RequestError.
   virtual void take_samples(const api::Arguments& message) = 0;
+  // A picture of the tip camera, when every run has it. An arm that has no use for it leaves it out.
+  virtual void take_picture(const TipPicture&) {}
   // Nothing is asked for any more: stop along the path.
   virtual void hold() = 0;
   // The same, and nobody steers any more.
@@ -74,6 +84,14 @@ class Desk {
   // What has become of paths, and of the way back, since the last call.
   virtual std::vector<arbiter::PathNews> take_path_news() = 0;
   virtual std::vector<arbiter::WayNews> take_way_news() = 0;
+  // The verified way back that an earlier lianad has left, before the first interval; and how it has changed since the
+  // last call.
+  virtual void restore_way(const arbiter::KeptWay& kept) = 0;
+  virtual std::optional<arbiter::WayChange> take_way_change() = 0;
+  virtual std::size_t joint_count() const = 0;
+
+  // What this kind of arm has to say, once each.
+  virtual std::vector<event::Event> take_events() { return {}; }
 
   // The arm's part of the state message (docs/api.md) and of its entry about one drive.
   virtual void add_state(Json& state) const = 0;

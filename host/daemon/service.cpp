@@ -35,6 +35,9 @@ Service::Service(const ServiceConfig& config, Desk& desk)
       }),
       server_(config.api_path, *this) {
   if (!config.events_file.empty()) file_.emplace(config.events_file, config.buses.tick_s());
+  if (config.way_file.empty()) return;
+  way_file_.emplace(config.way_file, Json::parse(config.robot_json).at("name").text(), desk.joint_count());
+  desk.restore_way(way_file_->kept());
 }
 
 std::uint64_t Service::ticks_in(double time_s) const {
@@ -130,6 +133,7 @@ void Service::watch_arm() {
   note_clear();
   note(trouble_.changes(config_.buses, desk_.report()));
   note(faults_.changes(now().faults));
+  note(desk_.take_events());
   if (mission_end_tick_) {
     if (is_over_after_mission()) begin_shutdown("the mission has ended");
   } else if (dismissed_) {
@@ -174,6 +178,7 @@ void Service::forward_ticks() {
 void Service::forward_camera() {
   while (!camera_.empty() && camera_.front().due_tick <= tick()) {
     server_.publish(api::Topic::kCamera, camera_.front().packet);
+    desk_.take_picture(camera_.front().picture);
     camera_.pop_front();
   }
 }
@@ -181,7 +186,7 @@ void Service::forward_camera() {
 void Service::release_next() {
   const std::optional<LastVerdict> verdict = desk_.release_next(owner_.client() != 0, owner_.role_number());
   tell_of_paths();
-  for (const arbiter::WayNews& news : desk_.take_way_news()) note(way_event(news));
+  keep_way();
   if (!verdict) return;
   notes_.verdict = *verdict;
   if (verdict->released) return;
@@ -199,6 +204,13 @@ void Service::tell_of_paths() {
     notes_.verdict.worst.code = verify::Refusal::kPath;
     notes_.verdict.worst.text = news.text;
   }
+}
+
+void Service::keep_way() {
+  for (const arbiter::WayNews& news : desk_.take_way_news()) note(way_event(news));
+  if (!way_file_) return;
+  if (const auto change = desk_.take_way_change()) way_file_->follow(*change);
+  if (auto trouble = way_file_->trouble()) note(std::move(*trouble));
 }
 
 void Service::note(event::Event event) { log_.add(tick(), std::move(event)); }

@@ -18,6 +18,7 @@
 #include "host/daemon/service_events.hpp"
 #include "host/daemon/setpoint_stream.hpp"
 #include "host/daemon/state_message.hpp"
+#include "host/daemon/way_file.hpp"
 #include "host/event/event_file.hpp"
 #include "host/event/event_log.hpp"
 #include "host/json/json.hpp"
@@ -33,6 +34,7 @@ struct ServiceConfig {
   config::BusesConfig buses;
   double camera_latency_s = 0.0;
   std::string events_file;                                           // path; empty: events are not written
+  std::string way_file;                                              // path; empty: the way back is kept nowhere
   bool ends_with_mission = false;                                    // stop the arm once the mission has come and gone
   std::function<std::vector<control::BootProblem>()> boot_problems;  // asked once, when booting has failed
   std::function<std::vector<std::uint32_t>()> serials;               // of the drives; asked once, when they are booted
@@ -40,7 +42,8 @@ struct ServiceConfig {
 
 class Service : private api::ApiHandler {
  public:
-  // Listens at config.api_path; throws std::runtime_error, also about config.events_file. `desk` must outlive this.
+  // Listens at config.api_path; throws std::runtime_error, also about config.events_file and way_file. `desk` must
+  // outlive this.
   Service(const ServiceConfig& config, Desk& desk);
 
   // Waits until a client of every named role has said hello; throws std::runtime_error naming those missing after
@@ -108,6 +111,7 @@ class Service : private api::ApiHandler {
   void publish_state();
   void release_next();
   void tell_of_paths();
+  void keep_way();
 
   ServiceConfig config_;
   Desk& desk_;
@@ -120,6 +124,7 @@ class Service : private api::ApiHandler {
   FaultWatch faults_;
   event::EventLog log_;
   std::optional<event::EventFile> file_;
+  std::optional<WayFile> way_file_;
   control::BootPhase boot_seen_ = control::BootPhase::kBooting;
   bool homed_told_ = false;
   bool image_sent_ = false;
@@ -127,6 +132,7 @@ class Service : private api::ApiHandler {
   struct CameraFrame {
     std::uint64_t due_tick;
     std::string packet;
+    TipPicture picture;
   };
   std::deque<CameraFrame> camera_;
   std::uint64_t clear_seen_tick_ = 0;

@@ -165,10 +165,13 @@ Json Service::on_device(const api::ClientInfo&, const api::Arguments& fields) {
 }
 
 Json Service::on_camera(const api::ClientInfo&, const api::Arguments& fields) {
-  CameraFrame frame{0, fields.json().dump()};
+  CameraFrame frame{0, fields.json().dump(), {}};
+  frame.picture.capture_time_s = fields.number("capture_time_s");
+  if (fields.has("slit")) frame.picture.slit_in_tip = fields.pose("slit");
+  if (fields.has("rod")) frame.picture.rod_in_tip = fields.pose("rod");
   if (config_.time_mode != timing::TimeMode::kReal) {
     // Sent in the slot after capture plus latency, it is certainly here two slots later; one more for rounding.
-    const double ready_s = fields.number("capture_time_s") + config_.camera_latency_s;
+    const double ready_s = frame.picture.capture_time_s + config_.camera_latency_s;
     frame.due_tick = static_cast<std::uint64_t>(std::ceil(ready_s / config_.buses.tick_s() - 1e-6)) + 3;
   }
   if (camera_.size() >= 64)

@@ -28,11 +28,12 @@ enum class EventKind : std::uint8_t {
   kVerdict,      // verification refused a command: number M_e; subject which of the two ends; `command`, `share`
   kPath,         // number: PathEvent; subject the path's hash; `share` of its time, `duration_s`
   kWayBack,      // number: WayEvent; `points` of the path, `distance_m` of the arm from it
+  kFriction,     // number: 5009 where it is not as declared, 0: as declared again; `mu`, `sd`, `declared_mu`
   kStop,         // number: stop category (docs/priorities.md); subject who asked for it
   kShutdown,     // subject who asked for it, or nothing
   kLeftOut,      // subject: a kind of which too many came within one interval; `count` of those without a number
 };
-constexpr std::size_t kEventKinds = 19;
+constexpr std::size_t kEventKinds = 20;
 
 enum class BootEvent : std::uint8_t { kFailed = 0, kDone = 1 };
 enum class HomingEvent : std::uint8_t { kContradicted = 0, kHomed = 1 };
@@ -46,6 +47,7 @@ enum class HostTroubleEvent : std::uint8_t {
   kTicksLost = 6,      // `count` control deadlines were lost
   kEventFile = 7,      // the file of events takes no more
   kEventFileGood = 8,  // it takes events again; `count` are missing in it
+  kWayFile = 9,        // the file that keeps the way back takes no more
 };
 enum class PathEvent : std::uint8_t { kRefused = 0, kBegins = 1, kArrives = 2, kStops = 3 };
 enum class WayEvent : std::uint8_t {

@@ -38,6 +38,8 @@ void check(const ImageReader& in, const cable::HeldBounds& held) {
 void check(const ImageReader& in, const cable::ShapeState& state) {
   const std::int64_t pulls = cable::kMaxNodeTargets + cable::kMaxKeepClear * in.bounds().segments;
   in.require("next_pull", static_cast<std::int64_t>(std::min<std::uint64_t>(state.next_pull, INT64_MAX)), 0, pulls);
+  in.require("tick", state.tick, 0, cable::kShapeTicks - 1);
+  in.require_mask("held_mask", state.held_mask, in.bounds().joints);
 }
 
 void check(const ImageReader& in, const cable::IkReport& ik) {
@@ -55,6 +57,19 @@ void check(const ImageReader& in, const cable::CableWatchState& state) {
   const std::int32_t first = in.bounds().first_cable[static_cast<std::size_t>(state.segment)];
   in.require("cable", state.cable, first, first);
   in.require("suspect", state.suspect, -1, in.bounds().drives - 1);
+}
+
+void check(const ImageReader& in, const cable::LetGoState& state) {
+  in.require("segment", state.segment, 0, in.bounds().segments - 1);
+  in.require("cable", state.cable, 0, in.bounds().drives - 1);
+}
+
+void check(const ImageReader& in, const cable::FrictionWatchState& state) {
+  in.require("axis", state.axis, 0, in.bounds().joints - 1);
+}
+
+void check(const ImageReader& in, const cable::ContactWatchState& state) {
+  in.require("segment", state.segment, -1, in.bounds().segments - 1);
 }
 
 void check(const ImageReader& in, const cable::RobotTable& table) {

@@ -17,6 +17,11 @@ constexpr const char* kStateSchema = R"({"title":"state","description":"docs/api
 "setpoint_cp":{"type":"array","items":{"type":"number"}},"goal_cp":{"type":"array","items":{"type":"number"}},
 "tension_N":{"type":"array","items":{"type":"number"}},
 "node_m":{"type":"array","items":{"type":"array","items":{"type":"number"}}},
+"clearance":{"type":["object","null"],"description":"verified clearance; docs/clearance.md","properties":{
+"distance_m":{"type":"number"},"bound_m":{"type":"number"},"body":{"type":"string"},"link":{"type":"integer"},
+"where_m":{"type":"array","items":{"type":"number"}},"sure":{"type":"string"},"picture_age_s":{"type":["number","null"]},
+"camera":{"type":"string"},"level":{"type":"string"},"shift_m":{"type":"array","items":{"type":"number"}},
+"turn_deg":{"type":"array","items":{"type":"number"}}}},
 "limits":{"type":"array","items":{"type":"string"}},
 "faults":{"type":"array","items":{"type":"object","properties":{"number":{"type":"integer"},"name":{"type":"string"},
 "index":{"type":"integer"},"detail":{"type":"integer"},"tick":{"type":"integer"},"text":{"type":"string"},

@@ -144,6 +144,21 @@ void visit(A& a, T& d) {
   a("target_counts", d.target_counts);
 }
 
+template <class A, Like<cable::FrictionReport> T>
+void visit(A& a, T& f) {
+  a("mu", f.mu);
+  a("sd", f.sd);
+  a("planned_mu", f.planned_mu);
+  a("not_as_declared", f.not_as_declared);
+}
+
+template <class A, Like<cable::ContactReport> T>
+void visit(A& a, T& c) {
+  a("tip_push_N", c.tip_push_N);
+  a("torque_Nm", c.torque_Nm);
+  a("segment", c.segment);
+}
+
 template <class A, Like<cable::Outputs> T>
 void visit(A& a, T& o) {
   a("tick", o.tick);
@@ -168,6 +183,8 @@ void visit(A& a, T& o) {
   visit_first(a, "tension_plan_N", o.tension_plan_N, counts_of_visitor(a).drives);
   visit_first(a, "tension_measured_N", o.tension_measured_N, counts_of_visitor(a).drives);
   visit_first(a, "payout_command_m", o.payout_command_m, counts_of_visitor(a).drives);
+  a("friction", o.friction);
+  a("contact", o.contact);
   a("ik_position_error_m", o.ik_position_error_m);
   a("ik_attitude_error_rad", o.ik_attitude_error_rad);
   a("ik_outcome", o.ik_outcome);

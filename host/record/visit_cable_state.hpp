@@ -37,6 +37,24 @@ void visit(A& a, T& s) {
   a("reversals", s.reversals);
 }
 
+template <class A, Like<cable::FrictionWatchState> T>
+void visit(A& a, T& s) {
+  a("mu", s.mu);
+  a("variance", s.variance);
+  a("axis", s.axis);
+  a("flagged", s.flagged);
+  a("unexplained_Nm", s.unexplained_Nm);
+  a("friction_Nm", s.friction_Nm);
+}
+
+template <class A, Like<cable::ContactWatchState> T>
+void visit(A& a, T& s) {
+  a("sweeps", s.sweeps);
+  a("segment", s.segment);
+  a("torque_Nm", s.torque_Nm);
+  a("tip_push_N", s.tip_push_N);
+}
+
 template <class A, Like<cable::HeldProfile> T>
 void visit(A& a, T& s) {
   a("value_rad", s.value_rad);
@@ -58,10 +76,15 @@ void visit(A& a, T& s) {
 template <class A, Like<cable::ShapeState> T>
 void visit(A& a, T& s) {
   a("rate_rad_s", s.rate_rad_s);
+  a("change_rad_s", s.change_rad_s);
   a("wanted_rad_s", s.wanted_rad_s);
+  a("brake", s.brake);
   a("pulls", s.pulls);
   a("weight", s.weight);
   a("next_pull", s.next_pull);
+  a("is_gathered", s.is_gathered);
+  a("tick", s.tick);
+  a("held_mask", s.held_mask);
   a("wanted_held", s.wanted_held);
   a("rate_held", s.rate_held);
 }
@@ -118,6 +141,7 @@ void visit(A& a, T& s) {
   a("held_mask", s.held_mask);
   a("held_at_target", s.held_at_target);
   a("limiter", s.limiter);
+  a("brake", s.brake);
   a("trig", s.trig);
   a("arm", s.arm);
   a("ik", s.ik);
@@ -155,6 +179,14 @@ void visit(A& a, T& s) {
   a("theta_rad", s.theta_rad);
   a("geometry", s.geometry);
   a("solver", s.solver);
+}
+
+template <class A, Like<cable::LetGoState> T>
+void visit(A& a, T& s) {
+  a("stage", s.stage);
+  a("segment", s.segment);
+  a("cable", s.cable);
+  a("ticks", s.ticks);
 }
 
 template <class A, Like<cable::DampingState> T>

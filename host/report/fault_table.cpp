@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "firmware_like/cable/arm/cable_watch.hpp"
+#include "firmware_like/cable/arm/contact_watch.hpp"
 #include "firmware_like/cable/arm/tension_watch.hpp"
 #include "firmware_like/safety/link_watch.hpp"
 #include "firmware_like/safety/supervisor.hpp"
@@ -17,6 +18,11 @@ struct Detection {
   const char* detector;
   int within_ticks;
 };
+
+// In which every angle is looked at once.
+int balance_ticks(const cable::RobotTable& table) {
+  return static_cast<int>(cable::kFrictionTicks) * table.theta_count();
+}
 
 // No default: a number without a detection does not compile.
 Detection detection_of(FaultNumber number, const cable::RobotTable& table) {
@@ -72,6 +78,16 @@ Detection detection_of(FaultNumber number, const cable::RobotTable& table) {
     case FaultNumber::kTensionScatters:
       return {"cable watch: the same as 5005, but back again, three times (in a row: 4 ticks)",
               cable::kScatterReversals + 1};
+    case FaultNumber::kBodyContact:
+      return {
+          "contact watch: torque about a segment's angles that cables, friction and a push at the tip do not "
+          "explain, low-passed over 1 s, in a row",
+          balance_ticks(table) * (cable::kContactSweeps + 1)};
+    case FaultNumber::kFrictionNotAsDeclared:
+      return {
+          "friction watch: mu found from the balance of torques, less twice its uncertainty, over what can be "
+          "planned for",
+          -1};
     case FaultNumber::kGateRefused:
       return {"gate: every command before it is sent", 0};
   }

@@ -90,6 +90,16 @@ std::optional<Pose> true_rod(const ReportSources& sources) {
   return pose;
 }
 
+void add_claims(Json& report, const TruthLog& truth, const Rows& rows, const std::vector<ClearanceClaim>& claims,
+                double period_s) {
+  const auto claimed = verified_clearance(truth, rows.first, rows.last, claims, period_s);
+  if (!claimed) return;
+  report["verified_clearance_m"] = {{"min", claimed->min_m},
+                                    {"truth_min", claimed->truth_min_m},
+                                    {"ticks_above_truth", claimed->ticks_above_truth},
+                                    {"most_above_truth_m", claimed->most_above_m}};
+}
+
 // Figures over the experiment, of a run that failed over all that came after it, too; why a success is none.
 std::string add_truth(Json& report, const ReportSources& sources, const Window& window, double period_s) {
   const TruthLog truth = TruthLog::load(sources.truth_file);
@@ -100,6 +110,7 @@ std::string add_truth(Json& report, const ReportSources& sources, const Window& 
   const StateSample* state = sample_at(sources.states, success ? window.last_tick : UINT64_MAX);
   add_figures(report, truth, rows, true_rod(sources),
               state != nullptr ? std::optional(state->commanded_tip) : std::nullopt);
+  add_claims(report, truth, rows, sources.claims, period_s);
   if (!success) add_aftermath(report, truth, end, period_s);
   return judge(report, sources.criteria);
 }
@@ -167,6 +178,7 @@ Json make_report(const ReportSources& sources) {
   } else if (report["outcome"] != "success") {
     report["reason"] = sources.reason.empty() ? mission.value("reason", "") : sources.reason;
   }
+  if (state.contains("friction")) report["friction"] = state["friction"];
   if (!std::filesystem::exists(sources.truth_file)) return report;
   const std::string not_kept = add_truth(report, sources, window, welcome.value("period_s", 0.0));
   if (report["outcome"] == "success" && !not_kept.empty()) fail(not_kept);
@@ -196,6 +208,12 @@ std::string report_text(const Json& report) {
             line(" to %.1f N", report["cable_tension_N"]["max"].get<double>()) +
             line(", at the motors %.1f at least\n", report["cable_tension_N"]["min_motor"].get<double>());
   }
+  if (report.contains("verified_clearance_m")) {
+    const Json& claimed = report["verified_clearance_m"];
+    text += line("verified clearance %.1f mm", 1e3 * claimed["min"].get<double>()) +
+            line(" (true %.1f mm)", 1e3 * claimed["truth_min"].get<double>()) +
+            line(", above the truth in %.0f ticks\n", claimed["ticks_above_truth"].get<double>());
+  }
   if (report.value("max_tip_speed_slit_m_s", 0.0) > 0.0)
     text += line("tip in the slit %.4f m/s at most\n", report["max_tip_speed_slit_m_s"].get<double>());
   if (report.contains("after_failure_s"))
@@ -204,6 +222,12 @@ std::string report_text(const Json& report) {
   if (report.contains("max_joint_torque_Nm")) {
     text += line("open loop %.2f mm", 1e3 * report.value("open_loop_tip_error_m", 0.0)) +
             line(", largest joint torque %.1f N m\n", report["max_joint_torque_Nm"].get<double>());
+  }
+  if (report.contains("friction")) {
+    const Json& friction = report["friction"];
+    text += line("friction mu %.3f", friction.value("mu", 0.0)) + line(" +- %.3f found", friction.value("sd", 0.0)) +
+            line(", %.3f declared", friction.value("declared_mu", 0.0)) +
+            line(", planned with %.3f\n", friction.value("planned_mu", 0.0));
   }
   for (const Json& bus : report.value("buses", Json::array())) {
     text += "bus " + bus.value("name", "") + line(": %.0f frames", bus.value("frames", 0.0)) +

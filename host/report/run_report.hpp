@@ -9,6 +9,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/config/config.hpp"
 #include "host/json/json_fwd.hpp"
+#include "host/report/claimed_clearance.hpp"
 #include "host/report/truth_figures.hpp"
 
 namespace liana::report {
@@ -39,6 +40,7 @@ struct ReportSources {
   std::string mission_report_file;  // of liana-mission
   std::string bus_stats_file;       // of liana-bus
   std::vector<StateSample> states;
+  std::vector<ClearanceClaim> claims;    // of lianad, as its states told them
   std::vector<ReportedStep> announced;   // stands in for the steps of a mission runner that left no report
   const Json* welcome = nullptr;         // of lianad
   const Json* last_state = nullptr;      // of lianad

@@ -1,6 +1,7 @@
 // lianad, and with a simulated arm bus and bench, with the drives off, read while the arm lies in a fixture.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "host/calibration/calibrate.hpp"
@@ -8,6 +9,9 @@
 #include "host/system/system.hpp"
 
 namespace liana::system {
+
+constexpr double kFrictionTurn_deg = 3.0;
+constexpr double kFrictionRate_deg_s = 1.0;
 
 class CalibrateSession {
  public:
@@ -23,8 +27,14 @@ class CalibrateSession {
   // refused what it was given.
   calibration::CalibrationReading read();
 
+  // Enables the arm, turns one segment after the other by kFrictionTurn_deg to and fro and the arm back to where it
+  // was, and disables it: about three minutes of arm time. Throws as read() does, and when a fault comes.
+  calibration::Friction measure_friction(const config::RobotConfig& robot);
+
  private:
   void start();
+  Json ask_and_wait(const Json& request, const std::function<bool(const Json&)>& is_done,
+                    const std::function<void(const Json&)>& look);
   Json next_state();
   [[noreturn]] void give_up(const std::string& why, double settle_s = 0.0);
 

@@ -14,6 +14,7 @@ struct RunOptions {
   std::string time;           // empty: fast, or real on SocketCAN
   bool simulated_arm = true;  // false: real drives are on the buses, there is no bench
   std::string physics = "nominal";
+  std::string true_physics;  // empty: as physics; else what the simulated arm really has, and nobody declares
   std::string arm = "full";  // or light, which needs physics ideal
   std::string fixture;       // empty: the bench's start pose; a named pose: the simulated arm lies exactly there
   std::string in_pose;       // empty: nobody knows; a named pose: lianad enables only an arm that lies there, and the

@@ -157,6 +157,9 @@ void RunSession::take(const Json& message) {
 void RunSession::keep(const Json& state) {
   progress_.show(state);
   states_.push_back({state.value("tick", std::uint64_t{0}), pose_of(state.value("setpoint_cp", Json()))});
+  const Json clearance = state.value("clearance", Json());
+  if (clearance.is_object() && states_.back().tick > 0)  // of the angles at the tick before
+    claims_.push_back({states_.back().tick - 1, clearance.value("distance_m", 0.0)});
   last_state_ = state;
   const Json step = state.value("step", Json());
   const int index = step.is_object() ? step.value("index", 0) : 0;

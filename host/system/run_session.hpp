@@ -31,6 +31,7 @@ class RunSession {
   RunEnd run();
 
   const std::vector<report::StateSample>& states() const { return states_; }
+  const std::vector<report::ClearanceClaim>& claims() const { return claims_; }
   const std::vector<report::ReportedStep>& announced() const { return announced_; }
   const Json& welcome() const { return welcome_; }
   const Json& last_state() const { return last_state_; }
@@ -56,6 +57,7 @@ class RunSession {
   Json welcome_;
   Json last_state_;
   std::vector<report::StateSample> states_;
+  std::vector<report::ClearanceClaim> claims_;
   std::vector<report::ReportedStep> announced_;
 };
 

@@ -112,11 +112,11 @@ std::string expected_roles(const SystemLayout& plan, const RunOptions& options) 
 }
 
 ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
-  ProgramCall call{
-      "lianad",
-      {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"), "--buses",
-       plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode, "--physics", options.physics,
-       "--expect", expected_roles(plan, options), "--events", plan.events_file()}};
+  ProgramCall call{"lianad",
+                   {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"),
+                    "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode,
+                    "--physics", options.physics, "--expect", expected_roles(plan, options), "--events",
+                    plan.events_file(), "--way-out", plan.file("way_out.bin")}};
   if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});
   if (!options.in_pose.empty()) append(call.argv, {"--in-pose", options.in_pose});
   if (embedded) append(call.argv, {"--bus-socket", plan.bus_socket()});
@@ -128,11 +128,12 @@ ProgramCall archive_call(const SystemLayout& plan) {
 }
 
 ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
-  ProgramCall call{"liana-bench",
-                   {sibling_program("liana-bench"), "--robot", plan.file("robot.json"), "--scene",
-                    plan.file("scene.json"), "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--arm",
-                    options.arm, "--physics", options.physics, "--seed", std::to_string(options.seed), "--truth",
-                    plan.file("truth.bin"), "--summary", plan.file("bench_summary.json")}};
+  ProgramCall call{
+      "liana-bench",
+      {sibling_program("liana-bench"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"),
+       "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--arm", options.arm, "--physics",
+       options.true_physics.empty() ? options.physics : options.true_physics, "--seed", std::to_string(options.seed),
+       "--truth", plan.file("truth.bin"), "--summary", plan.file("bench_summary.json")}};
   const std::string& fixture = options.in_pose.empty() ? options.fixture : options.in_pose;
   if (!fixture.empty()) append(call.argv, {"--start-pose", fixture, "--fixture"});
   if (!options.cross_wired.empty()) append(call.argv, {"--cross-wired", options.cross_wired});

@@ -11,13 +11,14 @@ namespace liana::verify {
 
 constexpr double kRounding = 1.0 + 1e-6;  // limits that the limiter reaches exactly
 
-// Remembers the first failure and the tightest pass in its verdict. Texts are made where something is refused and, of the
-// tightest pass, by `conclude`: hundreds of ticks are looked at, of which one says something.
+// Remembers the first failure and the tightest pass in its verdict. Texts are made where something is refused and, of
+// the tightest pass, by `conclude`: hundreds of ticks are looked at, of which one says something.
 class Judge {
  public:
   explicit Judge(Verdict& verdict) : verdict_(verdict) {}
 
-  // Whatever is refused comes nearer to its limit than all that passed before it, and what is no number to neither side.
+  // Whatever is refused comes nearer to its limit than all that passed before it, and what is no number to neither
+  // side.
   void check(Refusal code, const char* what, int index, double value, double limit) {
     const double share = std::fabs(value) / limit;
     if (!(share <= verdict_.share)) tighten(code, {what, index, share}, value, limit);

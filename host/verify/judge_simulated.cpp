@@ -134,8 +134,8 @@ void refuse(SimulationVerdict& verdict, Refusal code, const std::string& text, c
 
 // Before anything else: a contact is what a command is stopped for. An arm that is too near already may go away.
 void judge_distances(const MotionRules& rules, const simulate::Motion& motion, SimulationVerdict& verdict) {
-  const config::SceneClearance& levels = rules.scene.clearance;
-  const double claimed_m = motion.scene.distance_m - levels.bound_m;
+  const config::SceneMargins& levels = rules.scene.margins;
+  const double claimed_m = motion.scene.distance_m - levels.prediction_m;
   const First first = at_scene(rules.scene, motion.scene);
   verdict.margins.clearance_m = claimed_m - levels.refuse_m;
   verdict.slowly = claimed_m < levels.slow_m;

@@ -10,12 +10,15 @@ namespace {
 constexpr std::array kRows{
     RefusalRow{Refusal::kTwinFault, "twin_fault", "clear what the fault names, then command again"},
     RefusalRow{Refusal::kGate, "gate", "command a smaller step"},
-    RefusalRow{Refusal::kTension, "tension_plan", "keep away from this pose: its cables cannot be planned within limits"},
+    RefusalRow{Refusal::kTension, "tension_plan",
+               "keep away from this pose: its cables cannot be planned within limits"},
     RefusalRow{Refusal::kCableSpeed, "cable_speed", "command the same way more slowly"},
     RefusalRow{Refusal::kNotAccepted, "not_accepted", "enable the arm, and command from where it is"},
     RefusalRow{Refusal::kTooSlow, "too_slow", "take load off the machine; see liana latency"},
     RefusalRow{Refusal::kJointTravel, "joint_travel", "command the same way more slowly"},
     RefusalRow{Refusal::kTickTime, "tick_time", "use a longer control period or a faster machine (buses: machine)"},
+    RefusalRow{Refusal::kModel, "model",
+               "look at what the margin names; measure friction again (liana calibrate --friction)"},
     RefusalRow{Refusal::kJointAngle, "joint_angle", "command angles within the limits of the robot table"},
     RefusalRow{Refusal::kJointRate, "joint_rate", "give the motion more time"},
     RefusalRow{Refusal::kTipSpeed, "tip_speed", "give the motion more time"},
@@ -34,8 +37,6 @@ constexpr std::array kRows{
 
 std::span<const RefusalRow> refusal_table() { return kRows; }
 
-const RefusalRow& row_of(Refusal code) {
-  return *std::ranges::find(kRows, code, &RefusalRow::code);
-}
+const RefusalRow& row_of(Refusal code) { return *std::ranges::find(kRows, code, &RefusalRow::code); }
 
 }  // namespace liana::verify

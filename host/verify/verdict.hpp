@@ -18,6 +18,7 @@ enum class Refusal : std::uint16_t {
   kTooSlow = 106,      // the verdict came after the command interval (real time only)
   kJointTravel = 107,  // a serial arm's joint would be told to go further in a tick than its rate allows
   kTickTime = 108,     // the predicted ticks would take longer than the machine has for them
+  kModel = 109,        // the arm is not where the model has it: no prediction holds
   kJointAngle = 201,   // a joint angle would pass its limit
   kJointRate = 202,    // a joint would turn too fast
   kTipSpeed = 203,     // the tip would move or turn too fast

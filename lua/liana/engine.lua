@@ -7,7 +7,7 @@ local engine = {}
 local kBootLimit_s = 60 -- drives boot, home and enable in this time or the mission fails
 local kSettle_s = 0.1 -- commands need a few intervals before the state shows them
 local kFinishLimit_s = 5
-local kRetractLimit_s = 600 -- the way back takes a quarter longer than the way in
+local kRetractStall_s = 60 -- the way back comes on by a point of its path in this time or the mission ends
 local kRetry_s = 2 -- between attempts that lianad answers with busy or refused
 
 local Runner = {}
@@ -214,16 +214,21 @@ function Runner:fail(outcome, reason)
   self:enter_phase("give_up")
 end
 
+-- The way back says by itself when it is over, and whether it went all the way. It has so many points and each in bounded time: it ends.
 local function retract(runner)
   if runner:waiting() or runner:phase_s() < kSettle_s then return end
   local state = runner.arm.state
-  if state.at_rest and not state.is_busy then
-    if state.retracted then return runner:over("aborted", runner.failed_reason .. "; retracted along the verified path") end
-    return runner:over("failed", runner.failed_reason .. "; the way back was refused before its end, the arm holds")
+  local way = state.retract
+  if way.phase == "done" then return runner:over("aborted", runner.failed_reason .. "; retracted along the verified path") end
+  if way.phase == "ended" or way.phase == "none" then
+    local text = "%s; the way back ended with %d points of the path to go: %s; the arm holds"
+    return runner:over("failed", text:format(runner.failed_reason, way.points_left, way.reason))
   end
-  if runner:phase_s() > kRetractLimit_s then
+  if way.points_left ~= runner.points_left then runner.points_left, runner.progress_tick = way.points_left, state.tick end
+  if runner.arm.elapsed_s(runner.progress_tick) > kRetractStall_s then
     runner.failed_outcome = "failed"
-    runner.failed_reason = ("%s; not back along the verified path after %g s, the arm holds"):format(runner.failed_reason, kRetractLimit_s)
+    runner.failed_reason = ("%s; not back along the verified path: no way on for %g s, %d points to go, the arm holds"):format(
+      runner.failed_reason, kRetractStall_s, way.points_left)
     runner:request("hold")
     runner:enter_phase("give_up")
   end

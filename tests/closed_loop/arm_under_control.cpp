@@ -100,7 +100,7 @@ void ArmUnderControl::follow(double seconds, const Path& path, const Observer& o
   const std::int32_t intervals = to_counts(seconds / (table_.tick_s * table_.interval_ticks)).value;
   for (std::int32_t k = 1; k <= intervals; ++k) {
     const std::uint64_t now = in_.tick + 1;
-    in_.telecommand = Release::make(++sequence_, now, now + 2 * narrow<std::uint64_t>(table_.interval_ticks), 1,
+    in_.telecommand = Release::make(++sequence_, now, now + narrow<std::uint64_t>(table_.interval_ticks), 1,
                                     path(static_cast<double>(k) / static_cast<double>(intervals)));
     for (std::int32_t i = 0; i < table_.interval_ticks; ++i) {
       step();

@@ -107,6 +107,31 @@ TEST(CableFault, ACableThatBreaksIsFoundBeforeTheArmHasMoved) {
   measured("break: travel", course.travel_deg, "deg");
 }
 
+TEST(CableFault, ABreakInTheLastSegmentLetsItGoBeforeTheOthersSwingIt) {
+  const Course course = under_way([](Plant& plant) { plant.loosen(14, 1.0); });
+  EXPECT_EQ(course.first.number, FaultNumber::kCableBreak);
+  measured("break in segment 5: travel in 10 s", course.travel_deg, "deg");
+  EXPECT_LT(course.travel_deg, 20.0) << "30 deg with drums that stand";
+}
+
+TEST(CableFault, AReadingThatIsLostForASampleIsNoFaultAndHardlyMovesTheArm) {
+  ArmUnderControl arm({"nominal", 1, true, "prepare"});
+  get_under_way(arm);
+  arm.plant().lose_reading(kCable);
+  arm.step();
+  arm.plant().find_reading(kCable);
+  const cable::ThetaVector before = arm.plant().theta_rad();
+  double travel_deg = 0.0;
+  for (int age = 0; age < 500; ++age) {
+    arm.step();
+    travel_deg = std::max(travel_deg, largest_difference_deg(arm.plant().theta_rad(), before));
+  }
+  EXPECT_EQ(arm.outputs().faults.count, 0);
+  EXPECT_EQ(arm.outputs().state, OperatingState::kEnabled);
+  measured("reading lost for a sample: travel, its stop included", travel_deg, "deg");
+  EXPECT_LT(travel_deg, 1.0);
+}
+
 TEST(CableFault, ASlipOfTwoTenthsOfAMillimetreIsFoundAndTheArmHolds) {
   const Course course = under_way([](Plant& plant) { plant.loosen(kCable, 200e-6); });
   EXPECT_EQ(course.first.number, FaultNumber::kCableSlip);

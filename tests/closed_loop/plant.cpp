@@ -81,6 +81,7 @@ void Plant::advance(double tick_s, const cable::CableVector& target_m, bool powe
 
 const cable::ThetaVector& Plant::theta_rad() const { return parts_->arm.theta_rad(); }
 const cable::ThetaVector& Plant::rate_rad_s() const { return parts_->arm.rate_rad_s(); }
+double Plant::friction_mu() const { return parts_->truth.mu; }
 
 Pose Plant::tip_in_base() const {
   const bench::Pose tip = parts_->arm.tip();
@@ -111,6 +112,7 @@ void Plant::jump_encoder(std::size_t cable, double length_m) { parts_->truth.zer
 void Plant::scatter(std::size_t cable, double deviation_N) { parts_->scatter_N[cable] = deviation_N; }
 
 void Plant::lose_reading(std::size_t cable) { parts_->lost[cable] = true; }
+void Plant::find_reading(std::size_t cable) { parts_->lost[cable] = false; }
 
 void Plant::kick(const cable::ThetaVector& rate_rad_s) { parts_->arm.set_state(parts_->arm.theta_rad(), rate_rad_s); }
 void Plant::set_joint_damping(double viscous_Nms_per_rad) { parts_->arm.set_joint_damping(viscous_Nms_per_rad); }

@@ -47,6 +47,7 @@ class Plant {
   // The truth, which the core never sees.
   const cable::ThetaVector& theta_rad() const;
   const cable::ThetaVector& rate_rad_s() const;
+  double friction_mu() const;
   Pose tip_in_base() const;
   double kinetic_energy_J();
   double slit_clearance_m() const;
@@ -59,6 +60,7 @@ class Plant {
   void jump_encoder(std::size_t cable, double length_m);
   void scatter(std::size_t cable, double deviation_N);
   void lose_reading(std::size_t cable);
+  void find_reading(std::size_t cable);  // again what it is
 
   // Rates set from outside, angles and cables as they are: a kick.
   void kick(const cable::ThetaVector& rate_rad_s);

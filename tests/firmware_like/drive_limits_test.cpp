@@ -24,6 +24,7 @@ TEST(DriveLimits, TheGatesRangeIsWhatBendingAndElongationCanAddOrTake) {
     EXPECT_NEAR(limits.drive[i].least_counts, 1000000.0 - range_counts, 1e-6) << "direction " << (i % 2 == 0 ? 1 : -1);
     EXPECT_NEAR(limits.drive[i].most_counts, 1000000.0 + range_counts, 1e-6);
     EXPECT_EQ(limits.drive[i].step_counts, 51);  // 10 mm/s * 4 ms * 1.25 = 50 counts of 1 um, and one of rounding
+    EXPECT_EQ(limits.drive[i].let_go_counts, i % 2 == 0 ? 8001 : -8001) << "8 mm, the way that pays out";
     EXPECT_EQ(limits.drive[i].mode, DriveMode::kCyclicPosition);
   }
 }

@@ -106,6 +106,38 @@ TEST_F(Gate, TheStepIsMeasuredFromTheTargetSentLastNotFromThePosition) {
   expect_refused(GateCheck::kStepTooLarge, 2, "last target far away");
 }
 
+TEST_F(Gate, ADriveThatLetsGoMayJumpItsWayAndNoFurtherAndOnlyWhenItSaysSo) {
+  for (const std::int64_t way : {8000, -8000}) {
+    limits_.drive[1].let_go_counts = way;
+    proposal_[1].target_counts = kZeroCounts + static_cast<double>(way);
+    proposal_[1].lets_go = false;
+    expect_refused(GateCheck::kStepTooLarge, 1, "it does not say so");
+    proposal_[1].lets_go = true;
+    expect_passed("as far as it may");
+    proposal_[1].target_counts += way > 0 ? 1.0 : -1.0;
+    expect_refused(GateCheck::kStepTooLarge, 1, "one count more");
+    proposal_[1].target_counts = kZeroCounts - static_cast<double>(way);
+    expect_refused(GateCheck::kStepTooLarge, 1, "the other way");
+  }
+  limits_.drive[1].let_go_counts = 0;
+  proposal_[1].target_counts = kZeroCounts + 1000.0;
+  expect_refused(GateCheck::kStepTooLarge, 1, "a drive that never lets go");
+}
+
+TEST_F(Gate, ADriveThatLetsGoMayTakeItsTargetBackToWhereTheMotorStands) {
+  limits_.drive[1].let_go_counts = 8000;
+  previous_[1].target_counts = kZeroCounts + 5000;
+  feedback_[1].position_counts = kZeroCounts + 600;
+  proposal_[1].lets_go = true;
+  proposal_[1].target_counts = kZeroCounts + 600.0 - static_cast<double>(kStep);
+  expect_passed("to the motor, and a step past it");
+  proposal_[1].target_counts -= 1.0;
+  expect_refused(GateCheck::kStepTooLarge, 1, "one count further");
+  proposal_[1].target_counts = kZeroCounts + 600.0;
+  proposal_[1].lets_go = false;
+  expect_refused(GateCheck::kStepTooLarge, 1, "it does not say so");
+}
+
 TEST_F(Gate, TargetsUpToTheRangeAreAllowedAndTheNextNumberIsNot) {
   for (std::int16_t drive = 0; drive < kDrives; ++drive) {
     const auto i = static_cast<std::size_t>(drive);

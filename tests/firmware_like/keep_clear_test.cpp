@@ -104,6 +104,7 @@ TEST(KeepClear, TheTickPushesTheArmsMiddleAwayWithinItsRatesWhileTheTipStays) {
   for (std::int32_t tick = 0; tick < 60 * 250; ++tick) {
     const ArmKinematics arm = forward_kinematics(robot, theta);
     theta = zhu2022::plus(theta, shape_move(robot, arm, {}, clear, 0, false, kShapeBesideTip, theta, shape));
+    shape.tick = (shape.tick + 1) % kShapeTicks;
     servo_ik(robot, goal, arm, theta);
     for (const double r : shape.rate_rad_s) largest_rate = std::max(largest_rate, std::fabs(r));
   }

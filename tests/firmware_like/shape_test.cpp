@@ -33,6 +33,8 @@ NodeTargets target_of(std::int32_t node, const Vec3& position_m, double weight =
   return targets;
 }
 
+void count_on(ShapeState& shape) { shape.tick = (shape.tick + 1) % kShapeTicks; }
+
 double distance_m(const RobotTable& robot, const ThetaVector& theta, const NodeTarget& target) {
   return norm(
       subtract(target.position_m, arm_at(robot, theta).node_in_base[static_cast<std::size_t>(target.node)].position_m));
@@ -46,6 +48,7 @@ void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, 
   for (std::int32_t i = 0; i < ticks; ++i) {
     const ArmKinematics arm = arm_at(robot, theta);
     theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, held, false, kShapeBesideTip, theta, shape));
+    count_on(shape);
     servo_ik(robot, goal, arm, theta);
   }
 }
@@ -198,6 +201,7 @@ TEST(Shape, MovesStayWithinLimitsAndBelowTheirShareOfTheRate) {
     for (std::int32_t tick = 0; tick < 100; ++tick) {
       const ThetaVector move =
           shape_move(robot, arm_at(robot, theta), nodes, {}, kX5, false, kShapeBesideTip, theta, shape);
+      count_on(shape);
       theta = zhu2022::plus(theta, move);
       for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
         ASSERT_LE(std::fabs(move[k]), robot.limits.theta_rate_rad_s * robot.tick_s * (1.0 + 1e-9)) << k;
@@ -213,13 +217,17 @@ TEST(Shape, BrakingEndsTheShapeMotionWithinABoundedNumberOfTicks) {
   ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   ShapeState shape;
   const NodeTargets nodes = target_of(3, {0.0, 0.0, 0.0});
-  for (std::int32_t i = 0; i < 250; ++i)
+  for (std::int32_t i = 0; i < 250; ++i) {
     theta = zhu2022::plus(theta,
                           shape_move(robot, arm_at(robot, theta), nodes, {}, 0, false, kShapeBesideTip, theta, shape));
+    count_on(shape);
+  }
   ASSERT_GT(zhu2022::length(shape.rate_rad_s), 0.1 * kDegree);
-  for (std::int32_t i = 0; i < 350; ++i)
+  for (std::int32_t i = 0; i < 150; ++i) {
     theta = zhu2022::plus(theta,
                           shape_move(robot, arm_at(robot, theta), nodes, {}, 0, true, kShapeBesideTip, theta, shape));
+    count_on(shape);
+  }
   EXPECT_LT(zhu2022::length(shape.rate_rad_s), 1e-9);
 }
 
@@ -339,6 +347,7 @@ TEST(Shape, MotionIsSmoothWhateverTheTargetsDo) {
       const ThetaVector before = shape.rate_rad_s;
       const ArmKinematics arm = arm_at(robot, theta);
       theta = zhu2022::plus(theta, shape_move(robot, arm, nodes, {}, 0, false, kShapeBesideTip, theta, shape));
+      count_on(shape);
       servo_ik(robot, goal, arm, theta);
       ASSERT_LE(zhu2022::largest_difference(shape.rate_rad_s, before), 2.0 * accel) << i << " " << tick;
     }
@@ -357,8 +366,10 @@ TEST(Shape, ArmsOfOtherSizesKeepTheirTipToo) {
     const ArmKinematics arm = arm_at(robot, theta);
     const NodeTargets nodes = target_of(2, add(arm.node_in_base[2].position_m, {0.0, 0.0, 0.2}));
     ThetaVector move{};
-    for (std::int32_t tick = 0; tick < 2; ++tick)
+    for (std::uint32_t tick = 0; tick < 2 * kShapeTicks; ++tick) {
       move = shape_move(robot, arm, nodes, {}, 0, false, kShapeBesideTip, theta, shape);
+      count_on(shape);
+    }
     EXPECT_LE(tip_rate(arm.tip_jacobian, move), 1e-9 * zhu2022::length(move));
     EXPECT_EQ(zhu2022::length(move) > 0.0, robot.segment_count == 8);
     EXPECT_EQ(null_space(arm.tip_jacobian, robot.theta_count(), 0).dimension, robot.theta_count() - 6);

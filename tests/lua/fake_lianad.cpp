@@ -157,7 +157,7 @@ void FakeLianad::obey(const Json& request) {
     engaged_ = false;
     intervals_with_device_ = 0;
   }
-  if (op == "retract") retracted_ = !behaviour_.way_back_ends_early;
+  asked_back_ = asked_back_ || op == "retract";
   if (op == "move_jp" || op == "move_path" || op == "hold_theta" || op == "retract") busy_intervals_ = kMotionIntervals;
 }
 
@@ -206,7 +206,8 @@ Json FakeLianad::state() const {
           {"is_homed", is_homed_},
           {"is_busy", busy_intervals_ > 0},
           {"path", path_intervals_ > 0 ? Json{{"hash", "0"}, {"share", 0.5}} : Json()},
-          {"retracted", retracted_ && busy_intervals_ == 0},
+          {"retracted", retract()["phase"] == "done"},
+          {"retract", retract()},
           {"at_rest", busy_intervals_ == 0 && !engaged_},
           {"owner", stolen ? "somebody" : owner_},
           {"device", device_},
@@ -222,6 +223,14 @@ Json FakeLianad::state() const {
           {"planar_segments", planar_segments()},
           {"shape", {{"missing_m", 0.02}, {"settled", busy_intervals_ == 0}, {"searching", false}}},
           {"operator_says", said_}};
+}
+
+Json FakeLianad::retract() const {
+  if (!asked_back_) return {{"phase", "none"}, {"points_left", 0}, {"reason", ""}};
+  if (behaviour_.way_back_stalls) return {{"phase", "back"}, {"points_left", 7}, {"reason", ""}};
+  if (busy_intervals_ > 0) return {{"phase", "back"}, {"points_left", busy_intervals_}, {"reason", ""}};
+  if (!behaviour_.way_back_ends_early) return {{"phase", "done"}, {"points_left", 0}, {"reason", ""}};
+  return {{"phase", "ended"}, {"points_left", 42}, {"reason", "refused ten times"}};
 }
 
 // By the tip alone, as if the arm were straight behind it: a segment 0.65 m deep has to be planar.

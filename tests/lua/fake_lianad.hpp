@@ -27,6 +27,7 @@ struct FakeBehaviour {
   int slow_in_step = 0;                            // lets the runner wait for longer than the watchdog's limit, once
   int steal_in_step = 0;                           // another owner
   bool way_back_ends_early = false;                // retract is accepted, but does not go all the way
+  bool way_back_stalls = false;                    // retract is accepted, and nothing comes of it
   double tip_in_slit_u_m = 3.2;                    // where the hand steps bring the tip
 };
 
@@ -55,11 +56,12 @@ class FakeLianad {
   void obey(const Json& request);
   void advance();
   Json state() const;
+  Json retract() const;
   int planar_segments() const;
   Json named_pose(const char* name) const;
 
   FakeBehaviour behaviour_;
-  bool retracted_ = false;
+  bool asked_back_ = false;
   Json robot_;
   Json scene_;
   int listener_ = -1;

@@ -150,8 +150,18 @@ TEST(Mission, ARefusedRetractionHoldsAndSaysSo) {
 TEST(Mission, AWayBackThatEndsEarlyIsAFailureAndSaysSo) {
   const MissionRun run = run_mission_against({.way_back_ends_early = true, .tip_in_slit_u_m = 2.5});
   EXPECT_EQ(run.report["outcome"], "failed");
-  EXPECT_NE(run.report["reason"].get<std::string>().find("the way back was refused before its end"), std::string::npos)
+  EXPECT_NE(run.report["reason"].get<std::string>().find(
+                "the way back ended with 42 points of the path to go: refused ten times; the arm holds"),
+            std::string::npos)
       << run.report;
+}
+
+TEST(Mission, AWayBackThatComesOnNoFurtherEndsInBoundedTime) {
+  const MissionRun run = run_mission_against({.way_back_stalls = true, .tip_in_slit_u_m = 2.5});
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_NE(run.report["reason"].get<std::string>().find("no way on for 60 s, 7 points to go"), std::string::npos)
+      << run.report;
+  EXPECT_EQ(run.last_command(), "hold");
 }
 
 TEST(Mission, IsPatientWhileDrivesBootAndThenSaysWhy) {

@@ -44,6 +44,7 @@ void run_ticks(const cable::RobotTable& robot, const cable::IkGoal& goal, const 
     const cable::ArmKinematics at = forward_kinematics(robot, before);
     const cable::ThetaVector move =
         shape_move(robot, at, nodes, {}, goal.held_mask, false, cable::kShapeAlone, before, arm.shape);
+    arm.shape.tick = (arm.shape.tick + 1) % cable::kShapeTicks;
     arm.theta_rad = zhu2022::plus(before, move);
     servo_ik(robot, goal, at, arm.theta_rad);
     const Pose tip = tip_pose(robot, arm_trig(robot, arm.theta_rad));

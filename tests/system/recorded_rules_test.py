@@ -96,6 +96,13 @@ class Rules(unittest.TestCase):
         self.broken(rules.target_steps(changed(5, target=(1000, 1963)), kLimits), "tick 5", "drive 1")
         self.assertEqual(rules.target_steps(changed(5, target=(9000, 2000), controlword=(0, 0)), kLimits), [])
 
+    def test_a_target_that_lets_go_may_jump_so_far_and_not_again_and_again(self):
+        limits = kLimits._replace(let_go_counts=5000)
+        self.assertEqual(rules.target_steps(changed(5, target=(6000, 2000)), limits), [])
+        self.broken(rules.target_steps(changed(5, target=(6001, 2000)), limits), "tick 5", "drive 0")
+        to_and_fro = [kGood._replace(tick=i, target=(1000 + 3000 * (i % 2), 2000)) for i in range(10)]
+        self.broken(rules.target_steps(to_and_fro, limits), "tick 7", "drive 0")
+
     def test_a_telecommand_before_its_time_after_its_expiry_or_never_released_is_found(self):
         self.assertEqual(rules.commands_out_of_time(ticks(10, active_sequence=7)), [])
         self.broken(rules.commands_out_of_time(ticks(10, active_sequence=7, expiry_tick=9)), "tick 9", "telecommand 7")

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "firmware_like/cable/arm/let_go.hpp"
 #include "firmware_like/cable/arm/payout.hpp"
 #include "firmware_like/math/scalar.hpp"
 
@@ -30,6 +31,9 @@ DriveLimits limits_of(const RobotTable& table, const DriveTable& drive, double z
   limits.most_counts = larger(in_counts, out_counts);
   limits.step_counts =
       static_cast<std::int64_t>(to_counts(step_m / drive.metres_per_count).value) + kGateRoundingCounts;
+  limits.let_go_counts =
+      drive.direction *
+      (static_cast<std::int64_t>(to_counts(kLetGoStep_m / drive.metres_per_count).value) + kGateRoundingCounts);
   limits.most_permille = table.tension.ceiling_free_N / drive.newtons_per_permille;
   return limits;
 }

@@ -7,7 +7,19 @@
 
 namespace liana::cable {
 
+namespace {
+
 using Index = std::size_t;
+
+// e^x for |x| <= 1/4 to 2e-8 of it, which is more than friction is known to: 1/6! ... 1/0!.
+constexpr Series<7> kBriefExponential{both(1.0 / 720.0), both(1.0 / 120.0), both(1.0 / 24.0), both(1.0 / 6.0),
+                                      both(1.0 / 2.0),   both(1.0),         both(1.0)};
+
+Pair friction_exponential(const Pair& x) noexcept {
+  return within(x, 0.25) ? evaluate(kBriefExponential, x) : exponential(x);
+}
+
+}  // namespace
 
 void reset_slip(const CableGeometry& geometry, SlipState& slip) noexcept {
   slip = SlipState{};
@@ -30,15 +42,15 @@ void advance_slip(const CableLayout& layout, const CableGeometry& geometry, Slip
   }
 }
 
-void update_tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig,
+void update_tension_ratio(const RobotTable& table, const CableLayout& layout, const SegmentVector& wrap_rad,
                           const SlipState& slip, TensionRatio& ratio) noexcept {
-  SegmentVector half_rate = cable_wraps(table, trig);
+  SegmentVector half_rate = wrap_rad;
   for (double& rate : half_rate) rate *= -0.5 * table.friction_mu;
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     double at_entry = 1.0;
     for (Index j = 0; j <= static_cast<Index>(layout.segment[c]);
          j += 2) {  // two segments at a time; nothing slips beyond the cable's own
-      const Pair half = exponential(load_pair(&half_rate[j]) * load_pair(&slip.sigma[c][j]));
+      const Pair half = friction_exponential(load_pair(&half_rate[j]) * load_pair(&slip.sigma[c][j]));
       const double at_next = at_entry * (half[0] * half[0]);
       store_pair(Pair{at_entry, at_next} * half, &ratio[c][j]);
       at_entry = at_next * (half[1] * half[1]);
@@ -49,7 +61,7 @@ void update_tension_ratio(const RobotTable& table, const CableLayout& layout, co
 TensionRatio tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig,
                            const SlipState& slip) noexcept {
   TensionRatio ratio{};
-  update_tension_ratio(table, layout, trig, slip, ratio);
+  update_tension_ratio(table, layout, cable_wraps(table, trig), slip, ratio);
   return ratio;
 }
 

@@ -28,7 +28,8 @@ void advance_slip(const CableLayout& layout, const CableGeometry& geometry, Slip
 // Tension in the middle of each segment divided by tension at the motor: exp(-mu sum sigma wrap). Row c, segment j;
 // entries beyond a cable's own segment are not written. Cost: one exponential per cable and segment passed.
 using TensionRatio = std::array<std::array<double, kMaxSegments>, kMaxCables>;
-void update_tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig,
+// `wrap_rad` is what cable_wraps says.
+void update_tension_ratio(const RobotTable& table, const CableLayout& layout, const SegmentVector& wrap_rad,
                           const SlipState& slip, TensionRatio& ratio) noexcept;
 TensionRatio tension_ratio(const RobotTable& table, const CableLayout& layout, const ArmTrig& trig,
                            const SlipState& slip) noexcept;

@@ -102,7 +102,8 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
     if (is_solvable(balance)) {
       t = solve(balance, n, rhs_pitch, rhs_yaw);
       null = pull_together(balance, n);
-      for (Index i = 0; i < n; ++i) t[i] += table.tension.plan_N * null[i];
+      const double level_N = table.tension.plan_N + smaller(0.0, lift_N[j]);
+      for (Index i = 0; i < n; ++i) t[i] += level_N * null[i];
     } else {
       plan.balanced = false;
       t.fill(table.tension.plan_N);

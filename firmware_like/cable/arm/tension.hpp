@@ -28,7 +28,8 @@ struct TensionPlan {
 };
 
 // Plan at one pose around the table's level at the motor, every segment `lift_N` further above the floor (zero: as
-// planned without measurements). Residual torque is below 1e-9 N m when balanced.
+// planned without measurements; below zero: so much lower, the floor itself kept). Residual torque is below 1e-9 N m
+// when balanced.
 TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry, const TensionRatio& ratio,
                          const SegmentVector& lift_N) noexcept;
 

@@ -12,6 +12,8 @@ namespace {
 using Index = std::size_t;
 
 constexpr double kHeldShare = 0.4;  // of the theta limits that held variables use on their way
+constexpr double kHeldBrakeAccel =
+    0.3;  // of the theta acceleration limit; others make up for it with up to three times
 constexpr double kBehind =
     1e-4;  // m and rad: from here the target does not wait, or a blocked arm could not be led away
 constexpr double kHeldNear_rad = 2e-6;    // from here a held variable that has slowed down
@@ -23,8 +25,8 @@ bool is_tip(const Setpoint& setpoint) noexcept { return setpoint.kind == Command
 
 FilterBounds held_bounds(const RobotTable& table) noexcept {
   const double rate = kHeldShare * table.limits.theta_rate_rad_s;
-  const double accel = 0.25 * table.limits.theta_accel_rad_s2;
-  return {rate, accel, 5.0 * accel};
+  const double accel = 0.2 * table.limits.theta_accel_rad_s2;
+  return {rate, accel, 3.0 * accel};
 }
 
 // Brings held thetas to their targets and keeps them there to the last bit.
@@ -48,6 +50,20 @@ void advance_held(const RobotTable& table, MotionState& state) noexcept {
   }
 }
 
+// Held thetas on their way slow down as smoothly as they came; stopped dead, they would leave the rest of the arm,
+// which makes up for them, to its momentum.
+void brake_held(const RobotTable& table, MotionState& state) noexcept {
+  const double rate = kHeldShare * table.limits.theta_rate_rad_s, accel = table.limits.theta_accel_rad_s2;
+  const FilterBounds bounds{rate, kHeldBrakeAccel * accel, kBrakeJerk_1_s * accel};
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
+    if (((state.held_mask >> k) & 1u) == 0) continue;
+    HeldProfile& held = state.held[k];
+    brake_channel(bounds, table.tick_s, held.channel);
+    held.value_rad += held.channel.velocity[0] * table.tick_s;
+    state.ik_rad[k] = held.value_rad;
+  }
+}
+
 double interval_share(const RobotTable& table, const MotionState& state) noexcept {
   return liana::interval_share(state.interval_tick, table.interval_ticks);
 }
@@ -56,22 +72,11 @@ Pose interpolated_target(const RobotTable& table, const MotionState& state) noex
   return interpolated_pose(state.from.tip_in_base, state.to.tip_in_base, state.turn_rad, interval_share(table, state));
 }
 
-// What servo IK reported, for the pose and angles now.
-void report_again(const RobotTable& table, MotionState& state) noexcept {
-  IkReport& ik = state.ik;
-  ik.residual = pose_error(state.filter.pose, tip_pose(table, arm_trig(table, state.ik_rad)));
-  ik.position_error_m = norm({ik.residual[0], ik.residual[1], ik.residual[2]});
-  ik.attitude_error_rad = norm({ik.residual[3], ik.residual[4], ik.residual[5]});
-  const bool converged = ik.position_error_m <= kIkConverged && ik.attitude_error_rad <= kIkConverged;
-  if (ik.outcome == IkOutcome::kConverged && !converged) ik.outcome = IkOutcome::kApproaching;
-}
-
 // Takes only a share of this tick's motion, of the target as of the joints: the arm slows down on its path and does not
 // leave it.
 void slow_down(const RobotTable& table, double share, const Pose& target_before, const ThetaVector& ik_before,
-               MotionState& state) noexcept {
-  if (state.ik.position_error_m + state.ik.attitude_error_rad < kBehind)
-    slow_filter(target_before, share, state.filter);
+               const FollowStep& step, MotionState& state) noexcept {
+  if (step.left2 < kBehind * kBehind) slow_filter(target_before, share, state.filter);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     state.ik_rad[k] = ik_before[k] + share * (state.ik_rad[k] - ik_before[k]);
     state.shape.rate_rad_s[k] *= share;
@@ -80,7 +85,6 @@ void slow_down(const RobotTable& table, double share, const Pose& target_before,
     slow_channel(share, state.held[k].channel);
     if (state.ik_rad[k] != state.to.held_rad[k]) state.held_at_target = false;
   }
-  report_again(table, state);
 }
 
 // A shape that is fast already keeps the pace beside the tip until it has slowed down, or it would shoot past; so does
@@ -92,43 +96,51 @@ const ShapePace& shape_pace(const RobotTable& table, bool braking, const MotionS
   return fastest > 1.01 * kShapeAlone.rate_share * table.limits.theta_rate_rad_s ? kShapeBesideTip : kShapeAlone;
 }
 
-// Shape and servo IK: angles for the filtered target.
-void solve_tip(const RobotTable& table, bool braking, MotionState& state) noexcept {
-  // The IK goes on from where the command stands, unless a limit or a held theta has come between.
-  if (state.ik_rad != state.limiter.theta_rad) update_kinematics(table, arm_trig(table, state.ik_rad), state.arm);
+IkGoal ik_goal(const MotionState& state) noexcept { return {state.filter.pose, state.held_mask, kTipCurvature_m}; }
+
+// Shape and servo IK: angles for the filtered target, from kinematics where the command stands.
+FollowStep solve_tip(const RobotTable& table, bool braking, MotionState& state) noexcept {
   const ThetaVector move = shape_move(table, state.arm, state.to.node, state.to.clear, state.held_mask, braking,
                                       shape_pace(table, braking, state), state.ik_rad, state.shape);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) state.ik_rad[k] += move[k];
-  state.ik = servo_ik(table, {state.filter.pose, state.held_mask, kTipCurvature_m}, state.arm, state.ik_rad);
+  return follow_ik(table, ik_goal(state), state.arm, state.limiter.theta_rad, state.ik_rad);
+}
+
+// How the servo IK did, where the command stands now.
+void report_tip(const RobotTable& table, const FollowStep& step, MotionState& state) noexcept {
+  state.ik = follow_report(table, ik_goal(state), state.arm, step);
   if (state.ik.limit_mask != 0) state.limits |= kLimitTheta;
   if (state.ik.outcome == IkOutcome::kSingular) state.limits |= kLimitSingular;
   if (state.ik.outcome == IkOutcome::kUnreachable) state.limits |= kLimitReach;
 }
 
-void follow_tip(const RobotTable& table, const CableGeometry& geometry, bool braking, MotionState& state) noexcept {
+FollowStep follow_tip(const RobotTable& table, const CableGeometry& geometry, bool braking,
+                      MotionState& state) noexcept {
   const Pose target_before = state.filter.pose;
   const ThetaVector ik_before = state.ik_rad;
   const TipFilterConfig config = tip_filter_config(table, state.to.tip_speed_m_s);
   if (braking) {
     brake_tip(config, state.filter);
+    brake_held(table, state);
   } else {
     filter_tip(config, interpolated_target(table, state), state.filter);
     advance_held(table, state);
   }
   if (state.filter.speed_limited) state.limits |= kLimitTipSpeed;
   if (state.filter.accel_limited) state.limits |= kLimitTipAccel;
-  solve_tip(table, braking, state);
+  const FollowStep ik_step = solve_tip(table, braking, state);
 
   ThetaVector step{};
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) step[k] = state.ik_rad[k] - ik_before[k];
   const StepShare allowed = allowed_share(table, geometry, step, state.limiter);
   state.limits |= allowed.limits;
-  if (allowed.share < 1.0) slow_down(table, allowed.share, target_before, ik_before, state);
+  if (allowed.share < 1.0) slow_down(table, allowed.share, target_before, ik_before, ik_step, state);
+  return ik_step;
 }
 
 // Joint reference: linear over the command interval; the limiter does the rest.
-void follow_joints(const RobotTable& table, bool braking, MotionState& state) noexcept {
-  if (braking) return;
+void follow_joints(const RobotTable& table, MotionState& state) noexcept {
+  state.brake = ChannelState{};
   const double share = interval_share(table, state);
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     const double limit = table.segment[k / 2].theta_limit_rad;
@@ -139,13 +151,23 @@ void follow_joints(const RobotTable& table, bool braking, MotionState& state) no
   }
 }
 
-// Braking of joint motion: the fastest joint as hard as it may, the others in proportion. All come to rest together and
-// the arm stays on its path; joints that stop one by one would no longer cancel at the tip, and the tip would move
-// faster for a while.
+// Braking of joint motion: all joints by one factor, which the fastest of them gives, so that they come to rest
+// together and the arm stays on its path; joints that stop one by one would no longer cancel at the tip, and the tip
+// would move faster for a while. As gentle as the shape's and the tip's own stops, whichever takes longer.
 void brake_joints(const RobotTable& table, MotionState& state) noexcept {
   const double fastest = largest_rate(table, state.limiter);
-  const double change = table.limits.theta_accel_rad_s2 * table.tick_s;
-  const double share = fastest > change ? 1.0 - change / fastest : 0.0;
+  const Twist tip = tip_twist(table, state);
+  const double per_m = fastest / larger(norm(tip.linear_m_s), 1e-9);
+  const double per_rad = fastest / larger(norm(tip.angular_rad_s), 1e-9);
+  const MotionLimits& limits = table.limits;
+  const double own = limits.theta_accel_rad_s2;
+  const FilterBounds bounds{
+      limits.theta_rate_rad_s,
+      smaller(kBrakeAccel * own, smaller(per_m * limits.tip_accel_m_s2, per_rad * limits.tip_angular_accel_rad_s2)),
+      smaller(kBrakeJerk_1_s * own, smaller(per_m * limits.tip_jerk_m_s3, per_rad * limits.tip_angular_jerk_rad_s3))};
+  state.brake.velocity[0] = fastest;
+  brake_channel(bounds, table.tick_s, state.brake);
+  const double share = fastest > 0.0 ? larger(0.0, state.brake.velocity[0]) / fastest : 0.0;
   for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k) {
     state.ik_rad[k] = state.limiter.theta_rad[k] + share * state.limiter.rate_rad_s[k] * table.tick_s;
     state.limiter.reference_rad[k] = state.limiter.theta_rad[k];
@@ -190,7 +212,9 @@ void accept_setpoint(const RobotTable& table, const Setpoint& setpoint, MotionSt
   if (is_tip(setpoint) && (!is_tip(state.to) || state.braking)) {
     if (!is_tip(state.to)) {  // from joint motion: take over pose and rates
       state.ik_rad = state.limiter.theta_rad;
+      const std::uint32_t tick = state.shape.tick;
       state.shape = ShapeState{};
+      state.shape.tick = tick;
       const Twist tip = tip_twist(table, state);
       state.filter = TipFilterState{};
       state.filter.pose = state.arm.tip_in_base;
@@ -224,17 +248,20 @@ void advance_motion(const RobotTable& table, const CableGeometry& geometry, bool
   state.limits = 0;
   const bool braking = state.braking || !allowed;
   if (state.interval_tick < table.interval_ticks) ++state.interval_tick;
+  FollowStep ik_step;
   if (is_tip(state.to)) {
-    follow_tip(table, geometry, braking, state);
+    ik_step = follow_tip(table, geometry, braking, state);
   } else if (braking) {
     brake_joints(table, state);
   } else {
-    follow_joints(table, braking, state);
+    follow_joints(table, state);
   }
   const double rate_share = state.to.kind == CommandKind::kRetreat ? kRetreatRateShare : 1.0;
   limit_motion(table, geometry, state.ik_rad, state.limiter, is_tip(state.to), rate_share);
   state.limits |= state.limiter.limits;
   take_kinematics(table, state);
+  if (is_tip(state.to)) report_tip(table, ik_step, state);
+  state.shape.tick = state.shape.tick + 1 < kShapeTicks ? state.shape.tick + 1 : 0;
 }
 
 bool at_rest(const RobotTable& table, const MotionState& state) noexcept {

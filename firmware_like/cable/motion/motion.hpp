@@ -31,8 +31,9 @@ struct MotionState {
   std::uint32_t held_mask = 0;
   bool held_at_target = true;
   LimiterState limiter{};
-  ArmTrig trig{};       // of the commanded angles (limiter.theta_rad)
-  ArmKinematics arm{};  // at the commanded angles
+  ChannelState brake{};  // [0]: the largest rate of braking joints; at rest while they do not brake
+  ArmTrig trig{};        // of the commanded angles (limiter.theta_rad)
+  ArmKinematics arm{};   // at the commanded angles
   IkReport ik{};
   std::uint32_t limits = 0;  // LimitBit of this tick
 };

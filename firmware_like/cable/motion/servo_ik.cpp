@@ -106,6 +106,14 @@ Step solve_step(const TaskSolver& solver, const Jacobian& J, Index n, const Task
   return step;
 }
 
+// Takes from e what a theta does that has `moved` already.
+void take_share(const Jacobian& J, Index k, double moved, Task& e) noexcept {
+  for (Index r = 0; r < 3; ++r) {
+    e[r] -= J.linear[k][r] * moved;
+    e[r + 3] -= J.angular[k][r] * moved;
+  }
+}
+
 // Sets thetas that the step would carry over their limit onto it; returns those newly fixed and takes their share from
 // e.
 std::uint32_t clip_to_limits(const RobotTable& table, const Jacobian& J, std::uint32_t fixed, const ThetaVector& step,
@@ -118,10 +126,7 @@ std::uint32_t clip_to_limits(const RobotTable& table, const Jacobian& J, std::ui
     const double moved = bound - theta[k];
     clipped |= 1u << k;
     theta[k] = bound;  // theta + moved may be a rounding beyond it
-    for (Index r = 0; r < 3; ++r) {
-      e[r] -= J.linear[k][r] * moved;
-      e[r + 3] -= J.angular[k][r] * moved;
-    }
+    take_share(J, k, moved, e);
   }
   return clipped;
 }
@@ -180,10 +185,9 @@ double damping_for(const IkGoal& goal, const Task& e) noexcept {
   return goal.curvature_m > 0.0 ? kDamping + goal.curvature_m * std::sqrt(e2) : kDamping + e2;
 }
 
-IkOutcome outcome_of(const RobotTable& table, const IkGoal& goal, const IkReport& report, double asked2,
-                     double left2) noexcept {
-  if (report.position_error_m <= kIkConverged && report.attitude_error_rad <= kIkConverged)
-    return IkOutcome::kConverged;
+IkOutcome outcome_of(const RobotTable& table, const IkGoal& goal, const IkReport& report, double converged,
+                     double asked2, double left2) noexcept {
+  if (report.position_error_m <= converged && report.attitude_error_rad <= converged) return IkOutcome::kConverged;
   if (norm(goal.tip_in_base.position_m) > arm_length_m(table)) return IkOutcome::kUnreachable;
   if (left2 <= kIkBlockedShare * kIkBlockedShare * asked2) return IkOutcome::kApproaching;
   return report.limit_mask != 0 ? IkOutcome::kLimited : IkOutcome::kSingular;
@@ -197,7 +201,7 @@ IkReport ik_step(const RobotTable& table, const IkGoal& goal, double damping, Th
   IkReport report = report_of(e);
   const DampedMove move = move_damped(table, arm.tip_jacobian, goal.held_mask, damping, e, theta_rad);
   report.limit_mask = move.limit_mask;
-  report.outcome = outcome_of(table, goal, report, size2(e), move.left2);
+  report.outcome = outcome_of(table, goal, report, kIkConverged, size2(e), move.left2);
   return report;
 }
 
@@ -219,7 +223,25 @@ IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinemati
     theta_rad[k] = clamp(wanted, -limit, limit);
     if (theta_rad[k] != wanted) report.limit_mask |= 1u << k;
   }
-  report.outcome = outcome_of(table, goal, report, size2(asked), move.left2);
+  report.outcome = outcome_of(table, goal, report, kIkConverged, size2(asked), move.left2);
+  return report;
+}
+
+FollowStep follow_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, const ThetaVector& arm_rad,
+                     ThetaVector& theta_rad) noexcept {
+  Task asked = pose_error(goal.tip_in_base, arm.tip_in_base);
+  for (Index k = 0; k < static_cast<Index>(table.theta_count()); ++k)
+    take_share(arm.tip_jacobian, k, theta_rad[k] - arm_rad[k], asked);
+  const DampedMove move =
+      move_damped(table, arm.tip_jacobian, goal.held_mask, damping_for(goal, asked), asked, theta_rad);
+  return {size2(asked), move.left2, move.limit_mask};
+}
+
+IkReport follow_report(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm,
+                       const FollowStep& step) noexcept {
+  IkReport report = report_of(pose_error(goal.tip_in_base, arm.tip_in_base));
+  report.limit_mask = step.limit_mask;
+  report.outcome = outcome_of(table, goal, report, kIkFollowed, step.asked2, step.left2);
   return report;
 }
 

@@ -45,10 +45,25 @@ struct IkReport {
 // One damped step of the free thetas towards the goal; limits respected exactly. Reports the tip error before the step.
 IkReport ik_step(const RobotTable& table, const IkGoal& goal, double damping, ThetaVector& theta_rad) noexcept;
 
-// What a tick does: a damped step from `arm`, then a correction with the same factors for what curvature left.
+// What a goal search does: a damped step from `arm`, then a correction with the same factors for what curvature left.
 // `theta_rad` may be off `arm` by a small null-space move. Reports the tip error before the correction. Cost: one
 // factorisation per limit pass, one tip pose.
 IkReport servo_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm,
                   ThetaVector& theta_rad) noexcept;
+
+// What a tick does: a damped step alone, from `theta_rad`, which may be off the angles of `arm` (`arm_rad`) by a tick's
+// motion. What it leaves is part of the next tick's error: 1e-6 m at full speed. Cost: one factorisation per limit
+// pass.
+struct FollowStep {
+  double asked2 = 0.0, left2 = 0.0;  // squared error before the step, and what it is expected to leave
+  std::uint32_t limit_mask = 0;      // as in IkReport
+};
+FollowStep follow_ik(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm, const ThetaVector& arm_rad,
+                     ThetaVector& theta_rad) noexcept;
+
+// What became of it, with the kinematics at the angles that the arm then took.
+constexpr double kIkFollowed = 1e-5;  // m and rad: less is as good as there
+IkReport follow_report(const RobotTable& table, const IkGoal& goal, const ArmKinematics& arm,
+                       const FollowStep& step) noexcept;
 
 }  // namespace liana::cable

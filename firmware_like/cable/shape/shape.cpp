@@ -143,6 +143,62 @@ ThetaVector wanted_rate(const Stand& stand, std::uint32_t held_mask, const Shape
   return rate.theta_rad;
 }
 
+// Change of the velocity over a cycle on its way to what is wanted.
+ThetaVector followed_change(const RobotTable& table, const ShapePace& pace, const ShapeState& state) noexcept {
+  const Index n = static_cast<Index>(table.theta_count());
+  const double time_s = kShapeTicks * table.tick_s, share = smaller(1.0, time_s / pace.smoothing_s);
+  ThetaVector change{};
+  for (Index k = 0; k < n; ++k) change[k] = (state.wanted_rad_s[k] - state.rate_rad_s[k]) * share;
+  const double accel = pace.accel_share * table.limits.theta_accel_rad_s2 * time_s, largest = largest_entry(change, n);
+  const double slower = largest > accel ? accel / largest : 1.0;  // one factor for all keeps it in the null space
+  for (Index k = 0; k < n; ++k) change[k] *= slower;
+  return change;
+}
+
+// A cycle begins: the velocity is brought back into the null space, and so is its change over the cycle; no limit is
+// passed in it.
+void follow(const Stand& stand, bool braking, const ShapePace& pace, ShapeState& state) noexcept {
+  const Index n = static_cast<Index>(stand.space.theta_count);
+  NullPoint rate{coordinates(stand.space, state.rate_rad_s), {}};
+  state.rate_rad_s = combine(stand.space, rate.z);
+  state.change_rad_s = ThetaVector{};
+  ThetaVector change = braking ? ThetaVector{} : followed_change(stand.table, pace, state);
+  for (Index k = 0; k < n; ++k) change[k] += state.rate_rad_s[k];
+  rate.z = coordinates(stand.space, change);
+  rate.theta_rad = combine(stand.space, rate.z);
+  if (may_pass_limit(stand, kLastMoment_s, largest_entry(rate.theta_rad, n)))
+    restrict_to(stand.space, room_to_limits(stand.table, stand.theta_rad, 1.0 / kLastMoment_s), kBoundPasses,
+                state.rate_held, rate);
+  for (Index k = 0; k < n; ++k) state.change_rad_s[k] = (rate.theta_rad[k] - state.rate_rad_s[k]) / kShapeTicks;
+}
+
+// A tick on the way to zero: all thetas by one factor, which the largest of them gives.
+void brake(const RobotTable& table, ShapeState& state) noexcept {
+  const Index n = static_cast<Index>(table.theta_count());
+  const double accel = kBrakeAccel * table.limits.theta_accel_rad_s2,
+               jerk = kBrakeJerk_1_s * table.limits.theta_accel_rad_s2;
+  const double largest = largest_entry(state.rate_rad_s, n);
+  state.brake.velocity[0] = largest;
+  brake_channel({table.limits.theta_rate_rad_s, accel, jerk}, table.tick_s, state.brake);
+  const double factor = largest > 0.0 ? larger(0.0, state.brake.velocity[0]) / largest : 0.0;
+  for (Index k = 0; k < n; ++k) state.rate_rad_s[k] *= factor;
+}
+
+// Pulls of a round, some a tick.
+void gather_pulls(const RobotTable& table, const ThetaVector& theta_rad, const ArmKinematics& arm,
+                  const NodeTargets& nodes, const KeepClearTargets& clear, ShapeState& state) noexcept {
+  const double weight = larger(largest_weight(table, nodes), largest_weight(clear));
+  for (std::uint32_t i = 0; i < kPullsPerTick && !state.is_gathered; ++i)
+    state.is_gathered = !gather(table, theta_rad, arm, nodes, clear, weight, state);
+}
+
+// Nothing is wanted any more; the next round begins anew.
+void forget_wanted(ShapeState& state) noexcept {
+  state.wanted_rad_s = ThetaVector{};
+  state.next_pull = 0;
+  state.is_gathered = false;
+}
+
 }  // namespace
 
 double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept {
@@ -172,33 +228,29 @@ ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const 
                        const KeepClearTargets& clear, std::uint32_t held_mask, bool braking, const ShapePace& pace,
                        const ThetaVector& theta_rad, ShapeState& state) noexcept {
   const Index n = static_cast<Index>(table.theta_count());
-  const NullSpace space = null_space(arm.tip_jacobian, table.theta_count(), held_mask);
-  const Stand stand{table, theta_rad, space, least_room_rad(table, theta_rad)};
+  const bool follows = state.tick == kFollowTick || held_mask != state.held_mask;
+  const bool solves = state.tick == kSolveTick && state.is_gathered && !braking;
+  state.held_mask = held_mask;
+  if (braking) forget_wanted(state);
+  if (follows || solves) {
+    const NullSpace space = null_space(arm.tip_jacobian, table.theta_count(), held_mask);
+    const Stand stand{table, theta_rad, space, least_room_rad(table, theta_rad)};
+    if (solves) {
+      state.wanted_rad_s = wanted_rate(stand, held_mask, pace, state);
+      state.is_gathered = false;
+    }
+    if (follows) follow(stand, braking, pace, state);
+  } else if (!braking) {
+    gather_pulls(table, theta_rad, arm, nodes, clear, state);
+  }
   if (braking) {
-    state.wanted_rad_s = ThetaVector{};
-    state.next_pull = 0;
-  } else if (!gather(table, theta_rad, arm, nodes, clear, larger(largest_weight(table, nodes), largest_weight(clear)),
-                     state)) {
-    state.wanted_rad_s = wanted_rate(stand, held_mask, pace, state);
+    brake(table, state);
+  } else {
+    state.brake = ChannelState{};
+    for (Index k = 0; k < n; ++k) state.rate_rad_s[k] += state.change_rad_s[k];
   }
-  // Braking has to end: straight down to zero, without the smoothing's tail.
-  const double share = braking ? 1.0 : smaller(1.0, table.tick_s / pace.smoothing_s);
-  ThetaVector change{};
-  for (Index k = 0; k < n; ++k) change[k] = (state.wanted_rad_s[k] - state.rate_rad_s[k]) * share;
-  const double accel = pace.accel_share * table.limits.theta_accel_rad_s2 * table.tick_s,
-               largest = largest_entry(change, n);
-  const double slower = largest > accel ? accel / largest : 1.0;  // one factor for all keeps it in the null space
-  for (Index k = 0; k < n; ++k) change[k] = state.rate_rad_s[k] + slower * change[k];
-  NullPoint rate;
-  rate.z = coordinates(space, change);
-  rate.theta_rad = combine(space, rate.z);
-  if (may_pass_limit(stand, kLastMoment_s, largest_entry(rate.theta_rad, n)))
-    restrict_to(space, room_to_limits(table, theta_rad, 1.0 / kLastMoment_s), kBoundPasses, state.rate_held, rate);
   ThetaVector move{};
-  for (Index k = 0; k < n; ++k) {
-    state.rate_rad_s[k] = rate.theta_rad[k];
-    move[k] = rate.theta_rad[k] * table.tick_s;
-  }
+  for (Index k = 0; k < n; ++k) move[k] = state.rate_rad_s[k] * table.tick_s;
   return move;
 }
 

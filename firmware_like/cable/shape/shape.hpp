@@ -14,6 +14,7 @@
 #include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/cable/shape/bounds.hpp"
 #include "firmware_like/cable/shape/keep_clear.hpp"
+#include "firmware_like/operator_input/tip_filter.hpp"
 
 namespace liana::cable {
 
@@ -33,6 +34,12 @@ constexpr ShapePace kShapeBesideTip{1.0, 0.35, 0.1, 0.5, 2.0};  // the shape has
 // off a cable. With the pace above, long ways of the shape let cables go slack (docs/shape.md).
 constexpr ShapePace kShapeAlone{0.75, 0.15, 0.025, 0.75, 6.0};
 
+// To a stop the thetas slow down as one, about as fast as the tip does and as smoothly: shares of the theta
+// acceleration limit, and of the same per second for its change. Stops from every kind of motion keep the tensions of
+// the motion itself (tests/closed_loop/braking_test.cpp).
+constexpr double kBrakeAccel = 0.4;
+constexpr double kBrakeJerk_1_s = 3.0;
+
 // Sum over the nodes of lambda_j max(0, d_j - threshold_j) [m]: what add_nodes works on.
 double node_excess_m(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes) noexcept;
 
@@ -42,21 +49,34 @@ double largest_weight(const RobotTable& table, const NodeTargets& nodes) noexcep
 // Adds what the nodes want at `arm`. A node within its threshold wants nothing; one outside wants to come back within.
 void add_nodes(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes, PullSum& sum) noexcept;
 
-// What the shape keeps between ticks. Pulls are gathered one a tick, all of them in a round; then the wanted velocity
-// is solved for. The most that a round can take is 25 ticks, four nodes and four points to keep clear of; without any
-// targets it is one.
+// The shape's work is spread over a cycle of ticks: in one the velocity that is kept until the next cycle, in one the
+// velocity that is wanted, in the others pulls. The null space turns by less than 0.1 deg within a cycle; the servo IK
+// makes up for what that leaks into the tip.
+constexpr std::uint32_t kShapeTicks = 10;
+constexpr std::uint32_t kFollowTick = 0;
+constexpr std::uint32_t kSolveTick = 3;
+constexpr std::uint32_t kPullsPerTick = 2;  // in the other ticks
+
+// What the shape keeps between ticks. Pulls are gathered, all of them in a round; then the wanted velocity is solved
+// for. The most that a round can take is 20 ticks, four nodes and four points to keep clear of.
 struct ShapeState {
   ThetaVector rate_rad_s{};    // null-space velocity
+  ThetaVector change_rad_s{};  // of it in each tick until the next cycle
   ThetaVector wanted_rad_s{};  // of the last round: what the velocity follows
+  ChannelState brake{};        // [0]: the largest rate on its way to zero; at rest while the shape does not brake
   PullSum pulls{};             // of this round so far
   double weight = 0.0;         // largest of its targets
   std::uint64_t next_pull = 0;
+  bool is_gathered = false;     // the round is complete
+  std::uint32_t tick = 0;       // of the cycle, 0 .. kShapeTicks - 1: whoever moves the shape counts it on every tick
+  std::uint32_t held_mask = 0;  // of the last tick
   HeldBounds wanted_held{}, rate_held{};
 };
 
 // Shape motion of one tick [rad] at theta, whose kinematics are `arm`: within joint limits, at most the pace's share of
-// the rate limit (1 % more while the null space turns), held thetas still, |J move| <= 1e-9 |move|. The velocity in
-// `state` follows what is wanted (zero while braking) smoothly, so that a new target never jerks the arm.
+// the rate limit (1 % more while the null space turns), held thetas still, |J move| <= 1e-9 |move| where a cycle begins
+// and what the null space turns by in the rest of it. The velocity in
+// `state` follows what is wanted smoothly, so that a new target never jerks the arm; while braking it goes to zero.
 ThetaVector shape_move(const RobotTable& table, const ArmKinematics& arm, const NodeTargets& nodes,
                        const KeepClearTargets& clear, std::uint32_t held_mask, bool braking, const ShapePace& pace,
                        const ThetaVector& theta_rad, ShapeState& state) noexcept;

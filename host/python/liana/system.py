@@ -73,13 +73,16 @@ class System:
         robot: str = "zhu2022",
         scene: str = "panel_slit",
         events: Optional[clients.Path] = None,
+        way_out: Optional[clients.Path] = None,
     ) -> None:
         """`expect`: roles whom virtual time waits for; `faults`, `bus_script`: docs/hil.md; `lianad`, `bench`: further
-        words for these programs; `events`: the file of events, events.txt in `directory` unless given.
+        words for these programs; `events`: the file of events, events.txt in `directory` unless given; `way_out`: the
+        file that keeps the verified way back, way_out.bin there unless given.
         """
         self.directory = pathlib.Path(tempfile.mkdtemp(prefix="liana-sys-"))
         self.api, self.bus_socket = self.directory / "api", self.directory / "bus"
         self.events_file = pathlib.Path(events or self.directory / "events.txt")
+        self.way_out = pathlib.Path(way_out or self.directory / "way_out.bin")
         self.children: dict[str, subprocess.Popen[bytes]] = {}
         self.clients: list[Client] = []
         self.expect, self.faults, self.script, self.seed = expect, faults, bus_script, seed
@@ -135,7 +138,7 @@ class System:
 
     def start_lianad(self) -> None:
         words = ["--api", self.api, "--bus-socket", self.bus_socket, "--time", "fast", "--expect", self.expect]
-        words += ["--events", self.events_file]
+        words += ["--events", self.events_file, "--way-out", self.way_out]
         self.start("lianad", *self.tables(), *words, *self.lianad_words)
         wait_until(self.api.exists, "lianad to listen", self.check_running)
 

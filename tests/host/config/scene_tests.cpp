@@ -70,6 +70,10 @@ TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/rod/quaternion_wxyz", {1, 0, 0, 1}, "rod.quaternion_wxyz", "unit length"},
       {"/camera/rate_hz", 0, "camera.rate_hz", "1 to 1000"},
       {"/contact/friction", -0.2, "contact.friction", "0 to 2"},
+      {"/margins/shift_m", -0.001, "margins.shift_m", "0 to 0.1"},
+      {"/margins/turn_deg", 11, "margins.turn_deg", "0 to 10"},
+      {"/margins/slow_m", -0.001, "margins", "slow_m not below refuse_m"},
+      {"/margins/slowly_m", 0.001, "margins.slowly_m", "no such field"},
       {"/camera", 5, "camera", "named fields"}};
   for (const Spoiled& spoiled : cases) {
     expect_refused(good, spoiled, [](const std::string& text) { parse_scene(text, "given.json"); });

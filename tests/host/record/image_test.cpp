@@ -97,12 +97,15 @@ TEST(Image, WhatWouldLeadTheCoreOutOfItsArraysIsRefusedAndNamed) {
   expect_refused("faults.count", std::int32_t{-1}, "0..16");
   expect_refused("faults.fault[2].number", std::uint16_t{77}, "a value that has a meaning");
   expect_refused("supervisor.phase", std::uint8_t{11}, "a value that has a meaning");
-  expect_refused("active.setpoint.kind", std::uint8_t{5}, "a value that has a meaning");
+  expect_refused("active.setpoint.kind", std::uint8_t{6}, "a value that has a meaning");
   expect_refused("active.setpoint.node[1].node", std::int32_t{6}, "0..5");
   expect_refused("arm.cable_watch.newest", std::uint8_t{2}, "0..1");
   expect_refused("arm.cable_watch.segment", std::int32_t{5}, "0..4");
   expect_refused("arm.cable_watch.cable", std::int32_t{31}, "");
   expect_refused("arm.cable_watch.suspect", std::int32_t{15}, "-1..14");
+  expect_refused("arm.let_go.stage", std::uint8_t{4}, "a value that has a meaning");
+  expect_refused("arm.let_go.segment", std::int32_t{5}, "0..4");
+  expect_refused("arm.let_go.cable", std::int32_t{15}, "0..14");
   expect_refused("arm.motion.braking", std::uint8_t{2}, "0..1");
   expect_refused("arm.motion.interval_tick", std::int32_t{-2}, "0..");
   expect_refused("arm.motion.held_mask", std::uint32_t{1u << 10}, "0..1023");

@@ -116,6 +116,26 @@ TEST_F(TwinOfAnArm, AVerdictThatIsNotThereInTimeIsARefusalAndTheNextOneIsNotForI
   EXPECT_TRUE(simulation_.verdict(kWhenever).passed());
 }
 
+// Others make up for a pitch that goes into the plane with more than twice its rate: a stop on the way must not let
+// them swing the tip.
+TEST_F(TwinOfAnArm, AHoldAtThePreparePoseIsReleasedAllTheWay) {
+  cable::Setpoint hold = shifted_tip(0.0);
+  hold.held_mask = 0x100;
+  for (int i = 0; i < 400 && (i < 5 || !arm_->now().held_at_target); ++i) {
+    const Candidate<cable::CableArm> next = candidate(hold);
+    const Prediction<cable::CableArm> prediction = predict(next);
+    const auto telecommand = release(next, prediction);
+    ASSERT_TRUE(telecommand) << "interval " << i << ": "
+                             << simulate(next, prediction).text;
+    EXPECT_LE(prediction.ticks.size(), 250u) << "interval " << i;
+    released_ = {*telecommand};
+    arm_->link.released.push(*telecommand);
+    arm_->interval();
+  }
+  EXPECT_TRUE(arm_->now().held_at_target);
+  EXPECT_NEAR(arm_->now().theta_command_rad[8], 0.0, 1e-12);
+}
+
 TEST_F(TwinOfAnArm, TheArmItselfIsNotTouched) {
   const cable::ThetaVector before = arm_->now().theta_command_rad;
   predict(candidate(shifted_tip(0.05)));

@@ -1,0 +1,106 @@
+#include "firmware_like/cable/arm/friction_watch.hpp"
+
+#include <cmath>
+
+#include "firmware_like/math/scalar.hpp"
+
+namespace liana::cable {
+namespace {
+
+using Index = std::size_t;
+
+// The torques about one axis.
+struct AxisBalance {
+  double torque_Nm = 0.0;     // left over with friction as found
+  double per_mu_Nm = 0.0;     // how it changes with mu
+  double unsure_Nm2 = 0.0;    // variance: cables that have not slid far enough to know which way friction acts
+  double friction_Nm2 = 0.0;  // sum of squares of what friction of every cable can do
+};
+
+AxisBalance balance_about(const CableLayout& layout, const SegmentVector& wrap_rad, const FrictionReadings& now,
+                          double mu, Index axis) noexcept {
+  AxisBalance out;
+  const Index own = axis / 2;
+  const double more_mu = mu - now.planned_mu;
+  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
+    if (static_cast<Index>(layout.segment[c]) < own) continue;
+    double slid_rad = 0.0, bend_rad = 0.0, resting_rad = 0.0;
+    for (Index j = 0; j <= own; ++j) {
+      const double part_rad = j < own ? wrap_rad[j] : 0.5 * wrap_rad[j], sigma = now.slip.sigma[c][j];
+      slid_rad += sigma * part_rad;
+      bend_rad += part_rad;
+      resting_rad += (1.0 - std::fabs(sigma)) * part_rad;
+    }
+    // exp(-mu slid) from the planned ratio: to the third order of what was found beyond it.
+    const double x = more_mu * slid_rad;
+    const double torque_Nm =
+        now.geometry.jacobian_m_rad[c][axis] * now.ratio[c][own] * now.tension_N[c] * (1.0 - x + 0.5 * x * x);
+    out.torque_Nm += torque_Nm;
+    out.per_mu_Nm -= slid_rad * torque_Nm;
+    const double unsure_Nm = mu * resting_rad * torque_Nm, friction_Nm = mu * bend_rad * torque_Nm;
+    out.unsure_Nm2 += unsure_Nm * unsure_Nm;
+    out.friction_Nm2 += friction_Nm * friction_Nm;
+  }
+  return out;
+}
+
+// One equation of the Kalman filter: torque_Nm + per_mu_Nm (true mu - mu) = noise.
+void learn(const AxisBalance& axis, double period_s, FrictionWatchState& state) noexcept {
+  state.variance += kFrictionDrift_1_s * kFrictionDrift_1_s * period_s;
+  const double from_mu = axis.per_mu_Nm * state.variance;
+  const double variance_Nm2 = axis.per_mu_Nm * from_mu + kBalanceNoise_Nm * kBalanceNoise_Nm + axis.unsure_Nm2;
+  const double limit_Nm = kInnovationLimit * std::sqrt(variance_Nm2);
+  state.mu -= from_mu / variance_Nm2 * clamp(axis.torque_Nm, -limit_Nm, limit_Nm);
+  state.variance -= from_mu * from_mu / variance_Nm2;
+}
+
+double band_about(double mu) noexcept { return kFrictionFlagShare * mu + kFrictionFlag; }
+
+bool is_off(double declared_mu, const FrictionWatchState& state) noexcept {
+  const double off = std::fabs(state.mu - declared_mu) - 2.0 * friction_sd(state);
+  return off > (state.flagged ? 0.5 : 1.0) * band_about(declared_mu);
+}
+
+double most_planned(double declared_mu) noexcept { return larger(declared_mu, kFrictionPlanMost); }
+
+}  // namespace
+
+void reset_friction_watch(double declared_mu, FrictionWatchState& state) noexcept {
+  const double sd = kFrictionPrior + kFrictionPriorShare * declared_mu;
+  state = FrictionWatchState{};
+  state.mu = declared_mu;
+  state.variance = sd * sd;
+}
+
+double friction_sd(const FrictionWatchState& state) noexcept {
+  const double model = kFrictionModelShare * state.mu;
+  return std::sqrt(state.variance + model * model);
+}
+
+bool watch_friction(const RobotTable& table, const CableLayout& layout, double declared_mu, const FrictionReadings& now,
+                    FrictionWatchState& state) noexcept {
+  const Index k = state.axis;
+  const double period_s = kFrictionTicks * table.tick_s;
+  const AxisBalance axis = balance_about(layout, cable_wraps(table, now.trig), now, state.mu, k);
+  const double sweep_s = period_s * table.theta_count();
+  state.unexplained_Nm[k] += sweep_s / (kUnexplainedFilter_s + sweep_s) * (axis.torque_Nm - state.unexplained_Nm[k]);
+  state.friction_Nm[k] = std::sqrt(axis.friction_Nm2) + std::sqrt(axis.unsure_Nm2);
+  if (now.moving) learn(axis, period_s, state);
+  state.axis = k + 1 < static_cast<Index>(table.theta_count()) ? state.axis + 1 : 0;
+  if (state.axis == 0) state.flagged = is_off(declared_mu, state);
+  return state.axis == 0;
+}
+
+double plan_friction(double declared_mu, double planned_mu, double tick_s, const FrictionWatchState& state) noexcept {
+  const bool certain = state.variance < kFrictionPlanSd * kFrictionPlanSd;
+  const double wanted_mu = state.flagged && certain ? clamp(state.mu, 0.0, most_planned(declared_mu)) : declared_mu;
+  const double step = kFrictionPlanRate_1_s * tick_s;
+  return planned_mu + clamp(wanted_mu - planned_mu, -step, step);
+}
+
+bool is_friction_too_high(double declared_mu, const FrictionWatchState& state) noexcept {
+  const double most = most_planned(declared_mu);
+  return state.flagged && state.mu - 2.0 * friction_sd(state) > most + band_about(most);
+}
+
+}  // namespace liana::cable

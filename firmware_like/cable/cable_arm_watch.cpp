@@ -1,0 +1,76 @@
+// What a cable arm watches of itself beyond each drive: its cables among each other, and the balance of their torques.
+#include "firmware_like/cable/arm/sparing.hpp"
+#include "firmware_like/cable/cable_arm.hpp"
+#include "firmware_like/math/convert.hpp"
+#include "firmware_like/math/pair.hpp"
+#include "firmware_like/math/scalar.hpp"
+
+namespace liana::cable {
+namespace {
+
+std::uint16_t detail_of(double number) noexcept {
+  return narrow<std::uint16_t>(to_counts(smaller(number, 65535.0)).value);
+}
+
+}  // namespace
+
+void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept {
+  const CableReadings cables{payout_measured_m_, tension_measured_N_, model_.geometry.length_m, estimator_.residual_m};
+  watch_missed(tick, faults);
+  const bool retreats = motion_.to.kind == CommandKind::kRetreat && !motion_.braking;
+  if (retreats && faults.count > 0) spare_cables(table_, layout_, faults, lift_N_);
+  const bool usable = scope.prepared && feedback_age_ticks_ == 0 && faults.count == 0 && !is_let_go(let_go_);
+  watch_cables(table_, cable_watch_limits_, cables, usable, tick, cable_watch_, faults);
+  if (scope.prepared) {
+    if (feedback_age_ticks_ == 0 && !is_let_go(let_go_)) watch_balance(tick, faults);
+  } else {
+    friction_ = FrictionWatchState{friction_.mu, friction_.variance, 0, friction_.flagged, {}, {}};
+    contact_ = ContactWatchState{};
+  }
+}
+
+// Tensions are trusted as long as nothing is latched but what the balance itself has found.
+void CableArm::watch_balance(std::uint64_t tick, const FaultList& faults) noexcept {
+  for (std::int32_t i = 0; i < faults.count; ++i) {
+    const FaultNumber number = faults.fault[as_index(i)].number;
+    if (number != FaultNumber::kBodyContact && number != FaultNumber::kFrictionNotAsDeclared) {
+      contact_ = ContactWatchState{};
+      return;
+    }
+  }
+  if (tick % kFrictionTicks != 0) return;
+  const FrictionReadings balance{model_.geometry,    ratio_,     slip_, motion_.trig, estimator_.tension_N,
+                                 table_.friction_mu, is_moving()};
+  if (!watch_friction(table_, layout_, declared_mu_, balance, friction_)) return;
+  watch_contact(table_, contact_watch_limits_, motion_.arm, friction_, contact_);
+}
+
+// What the balance of torques says, as faults: 5008 of the first drive of the segment, in 0.01 N m; 5009 in 0.0001.
+void CableArm::watch_body(WatchScope scope, Watch& out) const noexcept {
+  if (!scope.prepared) return;
+  if (is_in_contact(contact_)) {
+    std::int32_t first = 0;
+    for (std::int32_t j = 0; j < contact_.segment; ++j) first += table_.segment[as_index(j)].cables;
+    out.wrong(FaultNumber::kBodyContact, first, detail_of(100.0 * contact_.torque_Nm));
+  }
+  if (is_friction_too_high(declared_mu_, friction_))
+    out.wrong(FaultNumber::kFrictionNotAsDeclared, -1, detail_of(1e4 * friction_.mu));
+}
+
+bool CableArm::is_moving() const noexcept {
+  const double* const rate_rad_s = motion_.limiter.rate_rad_s.data();
+  return dot_pairs(rate_rad_s, rate_rad_s, as_index(table_.segment_count)) > kMovingRate_rad_s * kMovingRate_rad_s;
+}
+
+// One sample lets the segment of a missed cable go, two when readings are in doubt already.
+void CableArm::watch_missed(std::uint64_t tick, FaultList& faults) noexcept {
+  if (is_let_go(let_go_)) {
+    judge_missed(tension_watch_.slack_ticks[as_index(let_go_.cable)] != 0, tick, let_go_, faults);
+  } else if (missed_ >= 0) {
+    const bool in_doubt = faults.count > 0 || cable_watch_.reversals > 0;
+    if (!in_doubt || tension_watch_.slack_ticks[as_index(missed_)] > 1) let_go(layout_, missed_, let_go_);
+  }
+  missed_ = -1;
+}
+
+}  // namespace liana::cable

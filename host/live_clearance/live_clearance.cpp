@@ -1,0 +1,81 @@
+#include "host/live_clearance/live_clearance.hpp"
+
+#include <array>
+
+#include "firmware_like/math/trig.hpp"
+
+namespace liana::live_clearance {
+namespace {
+
+constexpr double kLongAgo_s = 1e4;     // before the first look nothing is known of friction
+constexpr double kCameraGone_s = 0.3;  // beyond the latency: several pictures in a row are missing or wrong
+
+config::SceneCamera camera_of(const config::SceneConfig& scene) { return scene.camera.value_or(config::SceneCamera{}); }
+
+}  // namespace
+
+const char* level_name(Level level) {
+  static constexpr std::array<const char*, 3> kNames{"free", "slow", "refuse"};
+  return kNames[static_cast<std::size_t>(level)];
+}
+
+const char* sureness_name(Sureness sureness) {
+  static constexpr std::array<const char*, 3> kNames{"measured", "camera", "camera lost"};
+  return kNames[static_cast<std::size_t>(sureness)];
+}
+
+LiveClearance::LiveClearance(const config::RobotConfig& robot, const config::SceneConfig& scene)
+    : table_(robot.table),
+      scene_(scene),
+      registration_(robot.table, scene),
+      watch_(camera_of(scene), robot.table.tick_s),
+      finder_(robot.table, robot.module_radius_m, scene),
+      history_(robot.table.tick_s) {}
+
+const std::string& LiveClearance::body_name() const {
+  static const std::string kNothing;
+  const std::int32_t obstacle = claim_.clearance.obstacle;
+  return obstacle < 0 ? kNothing : clearance::obstacle_name(scene_, obstacle);
+}
+
+void LiveClearance::see(const Picture& picture, std::uint64_t tick) {
+  if (!scene_.slit || !scene_.camera) return;
+  arrived_tick_ = tick;
+  trouble_ = watch_.judge_time(picture, tick);
+  if (trouble_ != CameraTrouble::kNone) return;
+  const std::optional<MeasuredArm> measured = history_.at(picture.tick);
+  const bool shows_something = picture.slit_in_tip || picture.rod_in_tip;
+  if (!measured || !shows_something) return;
+  trouble_ = watch_.judge_view(picture, *measured, registration_);
+  if (trouble_ != CameraTrouble::kNone) return;
+  registration_.take(picture, *measured);
+  believed_tick_ = picture.tick;
+}
+
+Level LiveClearance::level_of(double distance_m) const {
+  if (distance_m <= scene_.margins.refuse_m) return Level::kRefuse;
+  return distance_m <= scene_.margins.slow_m ? Level::kSlow : Level::kFree;
+}
+
+const Claim& LiveClearance::look(std::uint64_t tick, const ThetaVector& measured_rad) {
+  if (has_looked_ && tick <= tick_) return claim_;
+  const auto since_s = [&](std::uint64_t before) { return static_cast<double>(tick - before) * table_.tick_s; };
+  registration_.advance(has_looked_ ? since_s(tick_) : kLongAgo_s, measured_rad);
+  history_.note(tick, measured_rad);
+  tick_ = tick;
+  has_looked_ = true;
+  const double gone_s = camera_of(scene_).latency_s + kCameraGone_s;
+  claim_ = {};
+  claim_.sureness = believed_tick_ ? Sureness::kCamera : Sureness::kMeasured;
+  if (believed_tick_) {
+    claim_.picture_age_s = since_s(*believed_tick_);
+    if (*claim_.picture_age_s > gone_s) claim_.sureness = Sureness::kCameraLost;
+  }
+  claim_.trouble = arrived_tick_ && since_s(*arrived_tick_) <= kCameraGone_s ? trouble_ : CameraTrouble::kNoPicture;
+  claim_.clearance = finder_.find(*history_.at(tick), {registration_, believed_tick_.has_value(),
+                                                       scene_.margins.shift_m, scene_.margins.turn_deg * kDegree});
+  claim_.level = level_of(claim_.clearance.distance_m);
+  return claim_;
+}
+
+}  // namespace liana::live_clearance

@@ -1,0 +1,175 @@
+// The verified clearance is a lower bound of the true one, and says how sure it is.
+#include "host/live_clearance/live_clearance.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/host/live_clearance/true_world.hpp"
+
+namespace liana::live_clearance {
+namespace {
+
+const ThetaVector kEdge_rad = zhu2022::radians(zhu2022::kPanelEdge_deg);
+const ThetaVector kSlit_rad = zhu2022::radians(kInSlit_deg);
+const ThetaVector kRod_rad = zhu2022::radians(zhu2022::kPressRod_deg);
+
+void swallow(std::optional<Picture>& picture) { picture.reset(); }
+
+// 20 s of motion from one pose to another: claims above the truth, of how many, and the mean of what was taken off.
+struct Course {
+  int claims = 0, above = 0;
+  double mean_bound_m = 0.0;
+};
+
+template <class Spoil>
+Course course(TrueWorld& world, const Spoil& spoil, const config::SceneConfig& scene = panel_slit()) {
+  LiveClearance live(zhu2022_config(), scene);
+  Course out;
+  std::uint64_t tick = 0;
+  const auto judge = [&](const Claim& claim, const ThetaVector& measured_rad) {
+    ++out.claims;
+    out.above += claim.clearance.distance_m > world.true_clearance_m(measured_rad);
+    out.mean_bound_m += claim.clearance.bound_m;
+  };
+  travel(live, world, kEdge_rad, kSlit_rad, 600, tick, judge, spoil);
+  travel(live, world, kSlit_rad, kRod_rad, 400, tick, judge, spoil);
+  out.mean_bound_m /= out.claims;
+  return out;
+}
+
+TEST(LiveClearance, IsALowerBoundOfTheTruthInSeededWorlds) {
+  Course all;
+  for (std::uint64_t seed = 100; seed < 120; ++seed) {
+    TrueWorld world(seed, {.length_m = 30e-6, .shift_m = 0.01, .turn_deg = 1.0});
+    const Course one = course(world, nothing_spoiled);
+    all.claims += one.claims;
+    all.above += one.above;
+    EXPECT_LT(one.mean_bound_m, 0.007) << seed;
+  }
+  EXPECT_LE(all.above, all.claims / 1000);
+}
+
+TEST(LiveClearance, IsALowerBoundWithoutACameraWhereTheSceneIsAsDrawn) {
+  Course all;
+  for (std::uint64_t seed = 200; seed < 220; ++seed) {
+    TrueWorld world(seed, {.length_m = 30e-6});
+    const Course one = course(world, swallow);
+    all.claims += one.claims;
+    all.above += one.above;
+    EXPECT_GT(one.mean_bound_m, 0.004) << seed;
+    EXPECT_LT(one.mean_bound_m, 0.012) << seed;
+  }
+  EXPECT_LE(all.above, all.claims / 1000);
+}
+
+TEST(LiveClearance, WithoutACameraTheScenesAllowanceIsTakenOff) {
+  config::SceneConfig allowed = panel_slit();
+  allowed.margins.shift_m = 0.01;
+  allowed.margins.turn_deg = 1.0;
+  Course all;
+  for (std::uint64_t seed = 300; seed < 310; ++seed) {
+    TrueWorld world(seed, {.length_m = 30e-6, .shift_m = 0.01, .turn_deg = 1.0});
+    const Course one = course(world, swallow, allowed);
+    all.claims += one.claims;
+    all.above += one.above;
+  }
+  EXPECT_LE(all.above, all.claims / 1000);
+}
+
+TEST(LiveClearance, KnowsMoreWithACameraThanWithout) {
+  TrueWorld seen(7, {.length_m = 30e-6}), unseen(7, {.length_m = 30e-6});
+  EXPECT_LT(course(seen, nothing_spoiled).mean_bound_m, 0.8 * course(unseen, swallow).mean_bound_m);
+}
+
+TEST(LiveClearance, SaysHowSureItIsAndTheBoundGrowsWhenTheCameraIsGone) {
+  TrueWorld world(8, {.length_m = 30e-6, .shift_m = 0.005});
+  LiveClearance live(zhu2022_config(), panel_slit());
+  std::uint64_t tick = 0;
+  const auto ignore = [](const Claim&, const ThetaVector&) {};
+  EXPECT_EQ(live.look(tick, kSlit_rad).sureness, Sureness::kMeasured);
+  EXPECT_FALSE(live.claim().picture_age_s);
+  tick += 5;
+  travel(live, world, kSlit_rad, kSlit_rad, 100, tick, ignore, nothing_spoiled);
+  EXPECT_EQ(live.claim().sureness, Sureness::kCamera);
+  EXPECT_EQ(live.claim().trouble, CameraTrouble::kNone);
+  const double with_m = live.claim().clearance.bound_m;
+  const Vec3 shift_m = live.shift_m();
+  travel(live, world, kSlit_rad, kSlit_rad, 50, tick, ignore, swallow);
+  EXPECT_EQ(live.claim().sureness, Sureness::kCameraLost);
+  EXPECT_EQ(live.claim().trouble, CameraTrouble::kNoPicture);
+  EXPECT_GT(*live.claim().picture_age_s, 1.0);
+  const double soon_m = live.claim().clearance.bound_m;
+  EXPECT_GT(soon_m, with_m);
+  travel(live, world, kSlit_rad, kSlit_rad, 200, tick, ignore, swallow);
+  EXPECT_GT(live.claim().clearance.bound_m, soon_m);
+  EXPECT_EQ(live.shift_m(), shift_m);
+}
+
+TEST(LiveClearance, NamesLinkBodyAndPlace) {
+  LiveClearance live(zhu2022_config(), panel_slit());
+  const Claim& claim = live.look(0, kRod_rad);
+  EXPECT_EQ(claim.clearance.link, 21);  // the module that enters the mouth: 8.3 mm off the plane
+  EXPECT_TRUE(live.body_name() == "panel" || live.body_name() == "wall") << live.body_name();
+  EXPECT_NEAR(dot(panel_slit().slit->u_axis, claim.clearance.where_m), 1.75, 0.1);
+  EXPECT_NEAR(claim.clearance.distance_m + claim.clearance.bound_m, 0.009, 1e-3);
+}
+
+TEST(LiveClearance, LevelsFollowTheScenesMargins) {
+  config::SceneConfig scene = panel_slit();
+  LiveClearance plain(zhu2022_config(), scene);
+  const double distance_m = plain.look(0, kRod_rad).clearance.distance_m;
+  const auto level = [&](double slow_m, double refuse_m) {
+    scene.margins.slow_m = slow_m;
+    scene.margins.refuse_m = refuse_m;
+    LiveClearance live(zhu2022_config(), scene);
+    return live.look(0, kRod_rad).level;
+  };
+  EXPECT_EQ(level(distance_m - 1e-6, -0.1), Level::kFree);
+  EXPECT_EQ(level(distance_m + 1e-6, -0.1), Level::kSlow);
+  EXPECT_EQ(level(0.1, distance_m - 1e-6), Level::kSlow);
+  EXPECT_EQ(level(0.1, distance_m + 1e-6), Level::kRefuse);
+  EXPECT_STREQ(level_name(Level::kFree), "free");
+  EXPECT_STREQ(level_name(Level::kSlow), "slow");
+  EXPECT_STREQ(level_name(Level::kRefuse), "refuse");
+}
+
+TEST(LiveClearance, AnArmThatApproachesIsAllowedLess) {
+  const config::RobotConfig robot = zhu2022_config();
+  const config::SceneConfig& scene = panel_slit();
+  ClearanceFinder finder(robot.table, robot.module_radius_m, scene);
+  const Registration registration(robot.table, scene);
+  MeasuredArm arm{kSlit_rad, {}};
+  const double standing_m = finder.find(arm, {registration}).bound_m;
+  double least_m = standing_m, most_m = standing_m;
+  for (const double rate_rad_s : {-0.01, 0.01}) {
+    arm.rate_rad_s[0] = rate_rad_s;
+    const double bound_m = finder.find(arm, {registration}).bound_m;
+    least_m = std::min(least_m, bound_m);
+    most_m = std::max(most_m, bound_m);
+  }
+  EXPECT_GT(most_m, standing_m + 1e-4);
+  EXPECT_GE(least_m, standing_m - 1e-3);
+}
+
+TEST(LiveClearance, WithNothingAroundTheArmThereIsNothingToClaim) {
+  config::SceneConfig scene;
+  LiveClearance live(zhu2022_config(), scene);
+  EXPECT_EQ(live.look(0, kRod_rad).clearance.link, -1);
+  EXPECT_EQ(live.body_name(), "");
+  EXPECT_EQ(live.claim().level, Level::kFree);
+}
+
+TEST(LiveClearance, TheSameInputsGiveTheSameBits) {
+  double first_m = 0.0;
+  for (int run = 0; run < 2; ++run) {
+    TrueWorld world(9, {.length_m = 30e-6, .shift_m = 0.01, .turn_deg = 1.0});
+    LiveClearance live(zhu2022_config(), panel_slit());
+    std::uint64_t tick = 0;
+    travel(
+        live, world, kEdge_rad, kSlit_rad, 100, tick, [](const Claim&, const ThetaVector&) {}, nothing_spoiled);
+    if (run == 0) first_m = live.claim().clearance.distance_m;
+    EXPECT_EQ(live.claim().clearance.distance_m, first_m);
+  }
+}
+
+}  // namespace
+}  // namespace liana::live_clearance
