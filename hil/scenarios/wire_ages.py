@@ -22,15 +22,16 @@ class Arrivals:
 
 
 def ages(slots, first, count):
-    """In each of `count` ticks from `first` on: ticks since the last of `slots` came, which a tick mostly hears one later;
-    what came in the tick itself it may have heard already.
+    """In each of `count` ticks from `first` on: ticks since the last of `slots` came, least and most. A tick mostly hears
+    one tick later; what came in the tick itself it may have heard already, or not.
     """
-    found, last, at = [], -kUnheard, 0
+    least, most, last, at = [], [], -kUnheard, 0
     for tick in range(first, first + count):
-        while at < len(slots) and slots[at] <= tick:
+        while at < len(slots) and slots[at] < tick:
             last, at = slots[at], at + 1
-        found.append(max(0, tick - 1 - last))
-    return found
+        most.append(tick - 1 - last)
+        least.append(0 if at < len(slots) and slots[at] == tick else most[-1])
+    return least, most
 
 
 def wrong_ages(ticks, arrivals, left_out=()):
@@ -41,15 +42,14 @@ def wrong_ages(ticks, arrivals, left_out=()):
     for drive in range(len(ticks[0].age)):
         if drive in left_out:
             continue
-        true_ages = ages(arrivals.reports[drive + 1], ticks[0].tick, ticks[-1].tick - ticks[0].tick + 1)
+        least, most = ages(arrivals.reports[drive + 1], ticks[0].tick, ticks[-1].tick - ticks[0].tick + 1)
         for now in ticks:
-            true_age = true_ages[now.tick - ticks[0].tick]
+            youngest, oldest = (found[now.tick - ticks[0].tick] for found in (least, most))
             # What waited while the core stood still it takes for new when it goes on; 2001 is latched then.
-            least = min(true_age - now.lost_ticks, kMostAge)
-            if now.age[drive] < least or now.age[drive] > true_age + kLate:
+            if not min(youngest - now.lost_ticks, kMostAge) <= now.age[drive] <= oldest + kLate:
                 complaints.append(
                     f"tick {now.tick}: the core takes drive {drive}'s report to be {now.age[drive]} ticks old; the wire"
-                    f" shows {true_age}"
+                    f" shows {youngest} to {oldest}"
                 )
                 break
     return complaints

@@ -1,6 +1,7 @@
 """Each safety rule over a recording can fail: good ticks pass it, one thing changed breaks it. Pairs of faults: what
 is expected first.
 """
+import re
 import unittest
 
 import support  # noqa: F401
@@ -244,10 +245,12 @@ class Rules(unittest.TestCase):
     def test_reactions_are_those_of_the_page_written_by_hand_and_each_has_its_reason(self):
         found = rules.reactions_by_hand()
         self.assertEqual((found[5001], found[3002], found[5002]), (rules.kHold, rules.kAtOnce, rules.kOff))
+        numbers = {int(number) for number in re.findall(r"^\| (\d{4}) \|", kFaultsPage.read_text(), re.MULTILINE)}
+        self.assertEqual(numbers - found.keys(), set(), "each fault needs a row written by hand")
         for number, row in rules.page_of_reactions().items():
             self.assertGreater(len(row["why"]), 20, number)
             self.assertFalse(row["retreat"] and row["reaction"] != "hold", number)
-        self.assertEqual(rules.retreats_by_hand(), {1001, 5001, 5003, 5004, 5005, 5007})
+        self.assertEqual(rules.retreats_by_hand(), {1001, 5001, 5003, 5004, 5005, 5007, 5008, 5009})
 
     def test_a_way_back_is_no_command_out_of_time_where_all_that_is_latched_allows_it(self):
         held = changed(5, faults=(fault(5001),), active_sequence=7)
@@ -277,7 +280,9 @@ class Rules(unittest.TestCase):
 
 class Wire(unittest.TestCase):
     def test_ages_are_counted_from_what_was_on_the_wire(self):
-        self.assertEqual(wire_ages.ages([9, 10, 11, 15], 11, 6), [0, 0, 1, 2, 0, 0])
+        least, most = wire_ages.ages([9, 10, 11, 15], 11, 6)
+        self.assertEqual(least, [0, 0, 1, 2, 0, 0])
+        self.assertEqual(most, [0, 0, 1, 2, 3, 0])
 
     def test_a_report_that_never_was_on_the_wire_is_found_and_one_that_was_and_is_taken_for_lost(self):
         logs = [
@@ -359,6 +364,7 @@ class TruthRules(unittest.TestCase):
         self.assertEqual(self.complaints(recorded=stopped, fastest_deg_s=9.0, tension_motor_min_N=3.0), [])
 
 
+kFaultsPage = support.SOURCE / "docs" / "faults.md"
 kTips = [  # angles and tip of the bench's truth
     (
         [
