@@ -350,7 +350,7 @@ class Watch:
 
 
 def faults_not_latched(ticks, limits):
-    """Whatever the reports show wrong is latched in the same tick; a list that is full counts what it has no place for."""
+    """Whatever the reports show wrong is latched in the same tick; a full list counts what it has no place for."""
     watch, complaints, unplaced = Watch(limits), [], set()
     for before, now in neighbours(ticks):
         unplaced |= set(watch.due(before, now)) - names(now)

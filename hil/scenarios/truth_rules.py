@@ -1,5 +1,5 @@
-"""Safety rules over the bench's truth: what the arm really did, whatever the controller says of itself. Each gives a list
-of complaints, empty when the rule held.
+"""Safety rules over the bench's truth: what the arm really did, whatever the controller says of itself. Each gives a
+list of complaints, empty when the rule held.
 """
 
 # Faults of the bench that really change cables or drums: from their begin on the arm is not as it was planned with.

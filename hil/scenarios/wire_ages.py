@@ -1,4 +1,4 @@
-"""How old each drive's report was in every tick, from the CAN logs alone; and whether that is what the core was told."""
+"""How old each drive's report was in every tick, from the CAN logs alone; whether the core was told so."""
 import collections
 
 kReportBytes = 8  # as TPDO 1 is mapped; others are not taken
@@ -22,8 +22,8 @@ class Arrivals:
 
 
 def ages(slots, first, count):
-    """In each of `count` ticks from `first` on: ticks since the last of `slots` came, least and most. A tick mostly hears
-    one tick later; what came in the tick itself it may have heard already, or not.
+    """In each of `count` ticks from `first` on: ticks since the last of `slots` came, least and most. A tick mostly
+    hears one tick later; what came in the tick itself it may have heard already, or not.
     """
     least, most, last, at = [], [], -kUnheard, 0
     for tick in range(first, first + count):
@@ -35,7 +35,8 @@ def ages(slots, first, count):
 
 
 def wrong_ages(ticks, arrivals, left_out=()):
-    """The core was told no report to be younger than the wire shows, and none to be lost that was there; `left_out`: drives in whose name
+    """The core was told no report to be younger than the wire shows, and none to be lost that was there; `left_out`:
+    drives in whose name
     somebody else spoke.
     """
     complaints = []
