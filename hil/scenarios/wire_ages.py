@@ -36,8 +36,7 @@ def ages(slots, first, count):
 
 def wrong_ages(ticks, arrivals, left_out=()):
     """The core was told no report to be younger than the wire shows, and none to be lost that was there; `left_out`:
-    drives in whose name
-    somebody else spoke.
+    drives in whose name somebody else spoke.
     """
     complaints = []
     for drive in range(len(ticks[0].age)):
