@@ -35,7 +35,9 @@ class CableArbiter {
   // themselves are given.
   void shape(const cable::Outputs& now, const cable::NodeTargets& nodes, const cable::KeepClearTargets& clear,
              bool search);
-  void use_device(const DeviceUse& use);
+  // Vr handles are for free space and the hand controller for the slit: `vr` is refused where the tip is inside, unless
+  // `use` says anywhere, and let go where it comes to.
+  void use_device(const cable::Outputs& now, const DeviceUse& use);
   // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until
   // use_device is asked for.
   void retract(const cable::Outputs& now, std::uint64_t until_tick);
@@ -75,10 +77,12 @@ class CableArbiter {
   void require_free(const cable::Outputs& now) const;
   void ask_anew(const cable::Outputs& now);
   void take_device_away();
+  bool is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use) const;
   void wish_nodes();
   std::optional<cable::Setpoint> steered_setpoint(const cable::Outputs& now, const SteerGoal& goal);
 
   double robot_speed_m_s_;  // limit of the robot's tip
+  SpeedZone zone_;
   double interval_s_;
   Arbiter<cable::CableArm> moves_;
   ShapeLead lead_;

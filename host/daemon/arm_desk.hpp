@@ -100,7 +100,7 @@ class ArmDesk : public Desk {
   timing::TimeMode time_mode_;
   std::unique_ptr<verify::SimulationEnd<Arm>> simulation_;
   verify::ReleaseStep<Arm> release_;
-  std::vector<Command> released_;        // not yet due at the newest image
+  std::vector<Command> released_;       // not yet due at the newest image
   verify::Prediction<Arm> prediction_;  // of the last command
 };
 
@@ -202,7 +202,14 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
   } else {
     arbiter_.refused(worst.text);
   }
-  return {candidate.sequence(), released, worst, joints_deg(prediction_.ticks[prediction_.command_ticks - 1])};
+  return {candidate.sequence(),
+          released,
+          worst,
+          joints_deg(prediction_.ticks[prediction_.command_ticks - 1]),
+          setpoint.kind,
+          candidate.first_tick(),
+          execution,
+          simulation};
 }
 
 }  // namespace liana::daemon
