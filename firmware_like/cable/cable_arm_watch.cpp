@@ -36,7 +36,8 @@ void CableArm::watch_balance(std::uint64_t tick, const FaultList& faults) noexce
   }
   // One axis in a tick; when all have been looked at, what they say together half a period later.
   if (tick % kFrictionTicks == kFrictionTicks / 2) {
-    if (friction_.axis == 0) watch_contact(table_, contact_watch_limits_, motion_.arm, friction_, contact_);
+    if (friction_.axis != 0) return;
+    watch_contact(table_, contact_watch_limits_, motion_.arm, motion_.limiter.rate_rad_s, friction_, contact_);
   } else if (tick % kFrictionTicks == 0) {
     const FrictionReadings balance{model_.geometry,    ratio_,     slip_, motion_.trig, estimator_.tension_N,
                                    table_.friction_mu, is_moving()};
