@@ -154,6 +154,7 @@ std::vector<Command> tip_speeds() {
     both_sides(out, [&](bool outside) {
       const double rate_rad_s = (outside ? 1.10 : 1.0) * table.limits.tip_speed_m_s / lever_m;
       const double way_rad = (i % 2 == 0 ? 2.0 : -2.0) * rate_rad_s;
+      table.limits.theta_accel_rad_s2 = rate_rad_s;  // within a second
       return Command{named("tip speed", i, outside),
                      table,
                      0.03,
@@ -174,8 +175,7 @@ std::vector<Command> node_speeds() {
   for (std::size_t i = 0; i < 10; ++i) {
     const ThetaVector from_rad = random.theta(zhu2022::table(), 8.0);
     RobotTable table = patient();
-    table.limits.tip_speed_m_s = 0.005;
-    table.limits.theta_accel_rad_s2 = kDegree;
+    table.limits.tip_speed_m_s = 0.001;
     const ArmKinematics arm = forward_kinematics(table, from_rad);
     Eigen::Matrix<double, 6, 10> jacobian;
     jacobian.topRows<3>() = algebra::view(arm.tip_jacobian.linear, 10);
@@ -189,20 +189,18 @@ std::vector<Command> node_speeds() {
       fastest_m = std::max(fastest_m, norm(sum));
     }
     both_sides(out, [&](bool outside) {
-      const double scale_rad_s = (outside ? 1.10 : 0.95) * kNodeShare * table.limits.tip_speed_m_s / fastest_m;
+      const double share_1_s = (outside ? 1.08 : 0.92) * kNodeShare * table.limits.tip_speed_m_s / fastest_m;
       ThetaVector to_rad = from_rad;
-      double largest = 0.0;
-      for (std::size_t k = 0; k < 10; ++k) {
-        to_rad[k] += scale_rad_s * way[static_cast<Eigen::Index>(k)];
-        largest = std::max(largest, std::fabs(scale_rad_s * way[static_cast<Eigen::Index>(k)]));
-      }
+      for (std::size_t k = 0; k < 10; ++k) to_rad[k] += 20.0 * share_1_s * way[static_cast<Eigen::Index>(k)];
+      const double rate_rad_s = share_1_s * way.cwiseAbs().maxCoeff();
+      table.limits.theta_accel_rad_s2 = 0.1 * rate_rad_s;  // within ten seconds: it hardly swings
       return Command{named("node speed", i, outside),
                      table,
                      0.03,
                      {},
                      from_rad,
                      to_rad,
-                     duration_s(table, largest, largest),
+                     duration_s(table, 20.0 * rate_rad_s, rate_rad_s),
                      outside ? Refusal::kNodeSpeed : Refusal::kNone};
     });
   }
@@ -218,7 +216,8 @@ std::vector<Command> spheres() {
     ThetaVector to_rad = from_rad;
     const ThetaVector change_rad = random.theta(zhu2022::table(), 0.6);
     for (std::size_t k = 0; k < kThetas; ++k) to_rad[k] += change_rad[k];
-    Command command{"", patient(), 0.03, {}, from_rad, to_rad, 20.0, Refusal::kNone};
+    Command command{"", patient(), 0.03, {}, from_rad, to_rad, 100.0, Refusal::kNone};
+    command.table.limits.theta_accel_rad_s2 = 0.002 * kDegree;  // nothing swings beyond what angles say
     const LinkPoints arm = link_points(command.table, to_rad);
     const auto link = static_cast<std::size_t>(random.uniform(8.0, 40.0));
     const Vec3 beside = add(arm.point_in_base[link], random.vector(0.3));

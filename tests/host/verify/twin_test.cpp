@@ -125,8 +125,7 @@ TEST_F(TwinOfAnArm, AHoldAtThePreparePoseIsReleasedAllTheWay) {
     const Candidate<cable::CableArm> next = candidate(hold);
     const Prediction<cable::CableArm> prediction = predict(next);
     const auto telecommand = release(next, prediction);
-    ASSERT_TRUE(telecommand) << "interval " << i << ": "
-                             << simulate(next, prediction).text;
+    ASSERT_TRUE(telecommand) << "interval " << i << ": " << simulate(next, prediction).text;
     EXPECT_LE(prediction.ticks.size(), 250u) << "interval " << i;
     released_ = {*telecommand};
     arm_->link.released.push(*telecommand);

@@ -52,8 +52,7 @@ TEST(Verify, ASpeedJustOverTheLimitIsRefusedAndJustUnderPasses) {
   EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = rate; }).execution, Refusal::kNone);
   EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s * 1.06; }).execution,
             Refusal::kTipSpeed);
-  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s; }).execution,
-            Refusal::kNone);
+  EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_speed_m_s = kTable.limits.tip_speed_m_s; }).execution, Refusal::kNone);
   EXPECT_EQ(judge([&](cable::Outputs& o) { o.tip_rate_rad_s = kTable.limits.tip_rate_rad_s * 1.06; }).execution,
             Refusal::kTipSpeed);
 }
