@@ -93,7 +93,9 @@ bool watch_friction(const RobotTable& table, const CableLayout& layout, double d
   const AxisBalance axis = balance_about(layout, cable_wraps(table, now.trig), now, state.mu, k);
   const double sweep_s = period_s * table.theta_count();
   state.unexplained_Nm[k] += sweep_s / (kUnexplainedFilter_s + sweep_s) * (axis.torque_Nm - state.unexplained_Nm[k]);
-  state.friction_Nm[k] = std::sqrt(axis.friction_Nm2) + std::sqrt(axis.unsure_Nm2);
+  // Friction of a cable that rests can be anything, that of one that slides is known but for a share.
+  constexpr double kResting = 4.0;
+  state.friction_Nm[k] = std::sqrt(axis.friction_Nm2) + kResting * std::sqrt(axis.unsure_Nm2);
   if (now.moving) learn(axis, period_s, state);
   state.axis = k + 1 < static_cast<Index>(table.theta_count()) ? state.axis + 1 : 0;
   if (state.axis == 0) state.flagged = is_off(declared_mu, state);
