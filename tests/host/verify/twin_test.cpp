@@ -82,7 +82,7 @@ TEST_F(TwinOfAnArm, GoesThroughWhatIsAlreadyReleased) {
 TEST_F(TwinOfAnArm, AHoldAtThePreparePoseIsReleasedAllTheWay) {
   cable::Setpoint hold = shifted_tip(0.0);
   hold.held_mask = 0x100;
-  for (int i = 0; i < 400 && (i < 5 || !arm_->now().held_at_target); ++i) {
+  for (int i = 0; i < 1200 && (i < 5 || !arm_->now().held_at_target); ++i) {
     const Candidate<cable::CableArm> next = candidate(hold);
     const Prediction<cable::CableArm> prediction = predict(next);
     const auto telecommand = release(next, prediction);
