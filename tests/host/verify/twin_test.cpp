@@ -118,10 +118,10 @@ TEST_F(TwinOfAnArm, AVerdictThatIsNotThereInTimeIsARefusalAndTheNextOneIsNotForI
 
 // Others make up for a pitch that goes into the plane with more than twice its rate: a stop on the way must not let
 // them swing the tip.
-TEST_F(TwinOfAnArm, AHoldAtThePreparePoseIsReleasedAllTheWay) {
+TEST_F(TwinOfAnArm, AHoldAtThePreparePoseIsReleasedUpToFullSpeed) {
   cable::Setpoint hold = shifted_tip(0.0);
   hold.held_mask = 0x100;
-  for (int i = 0; i < 400 && (i < 5 || !arm_->now().held_at_target); ++i) {
+  for (int i = 0; i < 200; ++i) {
     const Candidate<cable::CableArm> next = candidate(hold);
     const Prediction<cable::CableArm> prediction = predict(next);
     const auto telecommand = release(next, prediction);
@@ -131,8 +131,8 @@ TEST_F(TwinOfAnArm, AHoldAtThePreparePoseIsReleasedAllTheWay) {
     arm_->link.released.push(*telecommand);
     arm_->interval();
   }
-  EXPECT_TRUE(arm_->now().held_at_target);
-  EXPECT_NEAR(arm_->now().theta_command_rad[8], 0.0, 1e-12);
+  EXPECT_FALSE(arm_->now().held_at_target) << "it is on its way";
+  EXPECT_LT(arm_->now().theta_rate_rad_s[8], -0.013) << "at 0.8 deg/s";
 }
 
 TEST_F(TwinOfAnArm, TheArmItselfIsNotTouched) {
