@@ -50,6 +50,7 @@ void Worker::work() {
     lock.lock();
     motion_ = &motion;
     if (phase_ == Phase::kAsked) phase_ = Phase::kDone;
+    changed_.notify_all();
   }
 }
 
