@@ -57,6 +57,7 @@ class Arbiter {
   bool is_busy() const;
   // What is asked for besides the tip, or the tip goal itself, has not come to be yet.
   bool is_asking() const { return std::holds_alternative<TipTarget<Arm>>(way_); }
+  bool is_going_back() const { return std::holds_alternative<WayBack<Arm>>(way_); }
   // The retract under way, or how the last one went.
   RetractState retract_state() const;
   bool has_retracted() const { return retract_state().phase == RetractPhase::kDone; }

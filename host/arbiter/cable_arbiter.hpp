@@ -57,6 +57,7 @@ class CableArbiter {
   bool is_busy() const { return moves_.is_busy(); }
   // A tip goal, or what is asked for besides, has not come to be yet.
   bool is_asking() const { return moves_.is_asking(); }
+  bool is_going_back() const { return moves_.is_going_back(); }
   // The retract under way, or how the last one went.
   RetractState retract_state() const { return moves_.retract_state(); }
   bool has_retracted() const { return moves_.has_retracted(); }

@@ -41,7 +41,7 @@ class WayBack {
   bool has_begun() const { return has_begun_; }
   RetractPhase phase() const {
     if (!rests()) return RetractPhase::kStopping;
-    return join_ ? RetractPhase::kJoining : RetractPhase::kBack;
+    return path_.newest().begins ? RetractPhase::kJoining : RetractPhase::kBack;
   }
   std::size_t points_left() const { return std::max<std::size_t>(path_.count_since(until_tick_), 1) - 1; }
   // Empty when all the way has been gone, or is still under way.

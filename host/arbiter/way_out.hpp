@@ -38,6 +38,7 @@ class WayOut {
 
   // Empty when a retract to `until_tick` has a way to go back along, or stands at its end; otherwise why not.
   std::string why_no_way(std::uint64_t until_tick) const {
+    if (!is_joined_) return "the arm has just been enabled: ask again in the next command interval";
     const bool is_there = !path_.empty() && until_tick > 0 && path_.at(0).tick <= until_tick;
     return path_.size() > 1 || is_there ? "" : "there is no stored path to go back along" + why_lost_;
   }

@@ -196,6 +196,7 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
     link_.report.refresh();
     verify::judge_time(candidate.first_tick(), tick(), execution);
   }
+  const bool leads_back = arbiter_.is_going_back();
   const std::optional<Command> telecommand = release_.release(candidate, execution, simulation);
   const bool released = telecommand && link_.released.push(*telecommand);
   verify::Verdict worst = execution.passed() ? static_cast<const verify::Verdict&>(simulation) : execution;
@@ -212,6 +213,7 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
           joints_deg(prediction_.ticks[prediction_.command_ticks - 1]),
           setpoint.kind,
           candidate.first_tick(),
+          leads_back,
           execution,
           simulation};
 }

@@ -27,6 +27,7 @@ struct LastVerdict {
   std::vector<double> twin_js_deg;  // predicted at the end of the candidate's interval
   CommandKind kind = CommandKind::kNone;
   std::uint64_t first_tick = 0;  // from which it is in force
+  bool leads_back = false;       // asked for by a retract
   verify::ExecutionVerdict execution{};
   verify::SimulationVerdict simulation{};
 };

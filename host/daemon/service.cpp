@@ -197,7 +197,8 @@ void Service::release_next() {
   ++notes_.refusals;
   note(verdict_event(verdict->sequence, verdict->worst));
   const verify::RefusalRow& row = verify::row_of(verdict->worst.code);
-  if (row.action == verify::RefusalAction::kStop) order_stop({"lianad", std::string("refused: ") + row.says, tick()});
+  const bool stops = row.action == verify::RefusalAction::kStop && !verdict->leads_back;  // the way out tries again
+  if (stops) order_stop({"lianad", std::string("refused: ") + row.says, tick()});
 }
 
 // A path that does not begin is a refusal as that of a command is: who asked for it looks there.

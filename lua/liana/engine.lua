@@ -155,7 +155,7 @@ end
 -- ---- people ---------------------------------------------------------------------------------------------------------
 
 function Runner:wait_for_people(phase, why)
-  self:announce_step((why:sub(1, 120):gsub("[^\32-\126]", "?"))) -- no reason may keep lianad from taking it
+  self:announce_step((string.char(why:byte(1, 120)):gsub("[^\32-\126]", "?"))) -- no reason may keep lianad from taking it
   self.native.progress { event = "wait", index = self.index, count = #self.mission.steps, name = self:step().name, reason = why, time_s = self.arm.state.time_s }
   self:enter_phase(phase)
 end

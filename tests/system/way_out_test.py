@@ -37,7 +37,7 @@ class TheWayOut(SystemTest):
     def enabled(self, system):
         client = self.enterContext(system).client()
         client.enable()
-        return client, list(client.until(lambda state: state["at_rest"])["setpoint_js_deg"])
+        return client, list(client.go_on(0.1)["setpoint_js_deg"])
 
     def moved(self, client, by_deg=3.0):
         """The arm at rest, this far from where it was."""
@@ -73,6 +73,7 @@ class TheWayOut(SystemTest):
         client.until(lambda state: not state["stop"])
         client.call("state_command", command="enable")
         client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
+        client.go_on(0.1)
         self.assertGreater(apart_deg(client.state["setpoint_js_deg"], start), 2.0)
         state, phases = self.gone_back(client)
         self.assertEqual((state["retract"]["phase"], state["retracted"]), ("done", True), state["retract"])
@@ -156,6 +157,7 @@ class RemediesOfRefusals(SystemTest):
         client.until(lambda state: not state["stop"])
         client.call("state_command", command="enable")
         client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
+        client.go_on(0.1)
         client.call("retract")
         client.until(lambda state: state["retract"]["phase"] in ("done", "ended"), 300)
         self.assertEqual(client.state["retract"]["phase"], "done", client.state["retract"])
