@@ -38,11 +38,15 @@ void CableArm::watch_balance(std::uint64_t tick, const FaultList& faults) noexce
       return;
     }
   }
-  if (tick % kFrictionTicks != 0) return;
-  const FrictionReadings balance{model_.geometry,    ratio_,     slip_, motion_.trig, estimator_.tension_N,
-                                 table_.friction_mu, is_moving()};
-  if (!watch_friction(table_, layout_, declared_mu_, balance, friction_)) return;
-  watch_contact(table_, contact_watch_limits_, motion_.arm, friction_, contact_);
+  // One axis in a tick; when all have been looked at, what they say together half a period later.
+  if (tick % kFrictionTicks == kFrictionTicks / 2) {
+    if (friction_.axis != 0) return;
+    watch_contact(table_, contact_watch_limits_, motion_.arm, motion_.limiter.rate_rad_s, friction_, contact_);
+  } else if (tick % kFrictionTicks == 0) {
+    const FrictionReadings balance{model_.geometry,    ratio_,     slip_, motion_.trig, estimator_.tension_N,
+                                   table_.friction_mu, is_moving()};
+    watch_friction(table_, layout_, declared_mu_, balance, friction_);
+  }
 }
 
 // What the balance of torques says, as faults: 5008 of the first drive of the segment, in 0.01 N m; 5009 in 0.0001.

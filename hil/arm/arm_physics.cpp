@@ -113,7 +113,7 @@ void ArmPhysics::begin_slot(double duration_s) {
   constexpr double kReserve_m = 0.5e-3;
   const Clearance gap = clearance();
   const double reach = kReserve_m + 3.0 * duration_s * fastest_joint_m_s();
-  near_contact_ = std::min({gap.slit_m, gap.sphere_m, gap.rod_m}) < reach;
+  near_contact_ = std::min({gap.slit_m, gap.sphere_m, gap.convex_m, gap.rod_m}) < reach;
   contact_slots_ += near_contact_ ? 1 : 0;
 }
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "hil/arm/convex_distance.hpp"
+
 namespace liana::bench {
 
 namespace {
@@ -67,7 +69,7 @@ double segment_point_distance_m(const Vec3& a, const Vec3& b, const Vec3& point)
 }
 
 Clearance clearance_of(const Chain& chain, const SceneConfig& scene, double link_radius_m) {
-  Clearance least{kFarAway_m, kFarAway_m, kFarAway_m};
+  Clearance least{kFarAway_m, kFarAway_m, kFarAway_m, kFarAway_m};
   Vec3 a = chain.joint_center_m(0);
   for (std::size_t i = 0; i < chain.link_count(); ++i) {
     const Vec3 b = chain.joint_center_m(i + 1);
@@ -76,6 +78,8 @@ Clearance clearance_of(const Chain& chain, const SceneConfig& scene, double link
     for (const auto& sphere : scene.spheres)
       least.sphere_m =
           std::min(least.sphere_m, segment_point_distance_m(a, b, sphere.center_m) - sphere.radius_m - link_radius_m);
+    for (const auto& body : scene.convex)
+      least.convex_m = std::min(least.convex_m, segment_convex_distance_m(a, b, body) - link_radius_m);
     if (i + 1 < chain.link_count())
       least.rod_m = std::min(
           least.rod_m, segment_point_distance_m(a, b, scene.rod.pose.position_m) - scene.rod.radius_m - link_radius_m);

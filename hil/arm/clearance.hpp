@@ -17,6 +17,7 @@ constexpr double kFarAway_m = 1000.0;
 struct Clearance {
   double slit_m = 0.0;    // any link to any box
   double sphere_m = 0.0;  // any link to any sphere
+  double convex_m = 0.0;  // any link to any convex body
   double rod_m = 0.0;     // any link but the last to the rod
 };
 

@@ -10,6 +10,28 @@ namespace {
 
 std::ostream& operator<<(std::ostream& out, const Vec3& v) { return out << v.x << ' ' << v.y << ' ' << v.z; }
 
+// The points of every hull, of which MuJoCo takes the hull when it looks for contacts.
+void write_meshes(std::ostream& out, const SceneConfig& scene) {
+  out << "<asset>";
+  for (std::size_t i = 0; i < scene.convex.size(); ++i) {
+    if (scene.convex[i].kind != ConvexConfig::Kind::hull) continue;
+    out << "<mesh name='convex" << i << "' vertex='";
+    for (const Vec3& point : scene.convex[i].points_m) out << point << ' ';
+    out << "'/>";
+  }
+  out << "</asset>\n";
+}
+
+void write_convex(std::ostream& out, const ConvexConfig& body, std::size_t i) {
+  out << "<geom contype='0' conaffinity='1' ";
+  if (body.kind == ConvexConfig::Kind::hull) {
+    out << "type='mesh' mesh='convex" << i << "'/>\n";
+    return;
+  }
+  out << "type='" << (body.kind == ConvexConfig::Kind::cylinder ? "cylinder" : "capsule") << "' fromto='"
+      << body.points_m[0] << ' ' << body.points_m[1] << "' size='" << body.radius_m << "'/>\n";
+}
+
 // Collision classes: scene shapes are 1, the rod is 2; links carry 3, the last link 1.
 void write_scene(std::ostream& out, const SceneConfig& scene) {
   for (const auto& box : scene.boxes) {
@@ -20,6 +42,7 @@ void write_scene(std::ostream& out, const SceneConfig& scene) {
   for (const auto& sphere : scene.spheres)
     out << "<geom type='sphere' contype='0' conaffinity='1' pos='" << sphere.center_m << "' size='" << sphere.radius_m
         << "'/>\n";
+  for (std::size_t i = 0; i < scene.convex.size(); ++i) write_convex(out, scene.convex[i], i);
   out << "<geom name='rod' type='sphere' contype='0' conaffinity='2' pos='" << scene.rod.pose.position_m << "' size='"
       << scene.rod.radius_m << "'/>\n";
 }
@@ -72,7 +95,9 @@ std::string make_mjcf(const RobotConfig& robot, const SceneConfig& scene, bool w
   std::ostringstream out;
   out << std::setprecision(17);
   out << "<mujoco><compiler angle='radian' autolimits='true'/><size nconmax='2000' njmax='1'/><option gravity='0 0 "
-         "0'/><worldbody>\n";
+         "0'/>\n";
+  write_meshes(out, scene);
+  out << "<worldbody>\n";
   write_scene(out, scene);
   double offset_m = 0.0;
   int link = 0;

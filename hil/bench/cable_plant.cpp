@@ -96,7 +96,7 @@ void CablePlant::add_truth(std::vector<double>& row) {
   const Vec3& p = tip.position_m;
   const Quat& q = tip.attitude;
   for (const double value :
-       {p.x, p.y, p.z, q.w, q.x, q.y, q.z, std::min(gap.slit_m, gap.sphere_m), gap.slit_m, gap.sphere_m,
+       {p.x, p.y, p.z, q.w, q.x, q.y, q.z, std::min({gap.slit_m, gap.sphere_m, gap.convex_m}), gap.slit_m, gap.sphere_m,
         loads.contact_N, loads.rod_N, loads.least_tension_N, loads.least_motor_tension_N, loads.most_motor_tension_N,
         static_cast<double>(drives_.enabled()), since_s_ > 0.0 ? norm(p - tip_before_m_) / since_s_ : 0.0,
         kDegPerRad * fastest_rad_s(), depth_m()})

@@ -32,6 +32,32 @@ BoxConfig read_box(const JsonFile& file, const std::string& field) {
   return box;
 }
 
+std::vector<Vec3> read_points(const JsonFile& file, const std::string& field, std::size_t least, std::size_t most) {
+  std::vector<Vec3> points;
+  for (std::size_t i = 0; i < file.size(field); ++i) points.push_back(file.vector(at(field, i)));
+  if (points.size() < least || points.size() > most)
+    file.fail(field, "has " + std::to_string(points.size()) + " points, allowed are " + std::to_string(least) + " to " +
+                         std::to_string(most));
+  return points;
+}
+
+// A chain is a capsule for each of its pieces.
+void read_convex(const JsonFile& file, const std::string& field, std::vector<ConvexConfig>& out) {
+  using Kind = ConvexConfig::Kind;
+  const std::string name = file.text(field + "/name"), round = field + "/cylinder", chain = field + "/chain";
+  if (file.has(field + "/points_m"))
+    out.push_back({name, Kind::hull, read_points(file, field + "/points_m", 4, 256), 0.0});
+  if (file.has(round))
+    out.push_back({name,
+                   Kind::cylinder,
+                   {file.vector(round + "/from_m"), file.vector(round + "/to_m")},
+                   file.number(round + "/radius_m", 1e-4, 100.0)});
+  if (!file.has(chain)) return;
+  const std::vector<Vec3> points = read_points(file, chain + "/points_m", 2, 64);
+  for (std::size_t i = 0; i + 1 < points.size(); ++i)
+    out.push_back({name, Kind::capsule, {points[i], points[i + 1]}, file.number(chain + "/radius_m", 1e-4, 100.0)});
+}
+
 CameraConfig read_camera(const JsonFile& file) {
   return {file.number("/camera/rate_hz", 0.1, 1000.0), file.number("/camera/latency_s", 0.0, 10.0),
           file.number("/camera/noise_m", 0.0, 1.0), kRadPerDeg * file.number("/camera/noise_deg", 0.0, 45.0),
@@ -79,6 +105,8 @@ SceneConfig load_scene(const std::string& path) {
     scene.spheres.push_back(
         {file.text(field + "/name"), file.vector(field + "/center_m"), file.number(field + "/radius_m", 1e-4, 100.0)});
   }
+  for (std::size_t i = 0; file.has("/convex") && i < file.size("/convex"); ++i)
+    read_convex(file, at("/convex", i), scene.convex);
   if (file.has("/slit")) scene.slit_frame = file.pose("/slit/frame");
   scene.rod = kNoRod;
   if (file.has("/rod"))

@@ -25,6 +25,15 @@ struct SphereConfig {
   double radius_m = 0.0;
 };
 
+// A convex body: a hull of points, or a cylinder or capsule around the line between two.
+struct ConvexConfig {
+  enum class Kind { hull, cylinder, capsule };
+  std::string name;
+  Kind kind = Kind::hull;
+  std::vector<Vec3> points_m;
+  double radius_m = 0.0;  // of a cylinder or capsule
+};
+
 struct RodConfig {
   Pose pose;  // base frame; the rod is pressed along its x axis
   double radius_m = 0.0;
@@ -48,6 +57,7 @@ struct ContactConfig {
 struct SceneConfig {
   std::vector<BoxConfig> boxes;
   std::vector<SphereConfig> spheres;
+  std::vector<ConvexConfig> convex;
   std::optional<Pose> slit_frame;  // base frame
   RodConfig rod;
   CameraConfig camera;

@@ -262,8 +262,8 @@ def run_seed(seed):
 
 
 def campaign(seeds, say=lambda text: print(text, file=sys.stderr, flush=True)):
-    """Counts over all seeds, and {seed: why} of those that failed. What a sequence does repeats to the bit: one that fails
-    in the first of two runs only has failed, too.
+    """Counts over all seeds, and {seed: why} of those that failed. What a sequence does repeats to the bit: one that
+    fails in the first of two runs only has failed, too.
     """
     counts, failed = collections.Counter(), {}
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:

@@ -350,7 +350,7 @@ class Watch:
 
 
 def faults_not_latched(ticks, limits):
-    """Whatever the reports show wrong is latched in the same tick; a list that is full counts what it has no place for."""
+    """Whatever the reports show wrong is latched in the same tick; a full list counts what it has no place for."""
     watch, complaints, unplaced = Watch(limits), [], set()
     for before, now in neighbours(ticks):
         unplaced |= set(watch.due(before, now)) - names(now)
@@ -375,7 +375,7 @@ def false_alarms(ticks, limits, first_cause):
     for before, now in neighbours(ticks):
         due, new = set(watch.due(before, now)), names(now) - names(before)
         for number, index in sorted(new):
-            if now.tick <= first_cause:
+            if now.tick < first_cause:
                 complaints.append(f"tick {now.tick}: {number} of {index} is latched, and nothing has happened yet")
             elif number in kPlain and (number, index) not in due:
                 complaints.append(f"tick {now.tick}: {number} of {index} is latched, and no report shows why")

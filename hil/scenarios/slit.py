@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Faults while the arm is inside the slit, judged by the truth against targets written by hand (slit/targets.json).
 
-An operator steers by hand (step 4), the arm goes planar (step 5), the operator steers to the rod (step 6), or the arm is
-led back; it begins where slit/zhu2022_in_slit.lua puts it, so that the slit is reached within seconds. `slit.py --kind
-cable_break --count 20` draws so many moments and drives by seed and prints what came of each as a table.
+An operator steers by hand (step 4), the arm goes planar (step 5), the operator steers to the rod (step 6), or the arm
+is led back; it begins where slit/zhu2022_in_slit.lua puts it, so that the slit is reached within seconds. `slit.py
+--kind cable_break --count 20` draws so many moments and drives by seed and prints what came of each as a table.
 """
 import argparse
 import collections

@@ -1,12 +1,12 @@
-"""Safety rules over the bench's truth: what the arm really did, whatever the controller says of itself. Each gives a list
-of complaints, empty when the rule held.
+"""Safety rules over the bench's truth: what the arm really did, whatever the controller says of itself. Each gives a
+list of complaints, empty when the rule held.
 """
 
 # Faults of the bench that really change cables or drums: from their begin on the arm is not as it was planned with.
 kDamage = ("slack", "cable_slip", "cable_break", "encoder_jump", "motor_saturation")
 kSettledTicks = 50  # enabled and without a fault for so long: what an earlier stop stirred up has calmed down
 kAngleMargin_deg = 0.2  # elastic cables let an angle at its limit swing by so much
-kSpeedMargin = 1.05  # of the tip, over its limit
+kFreeMargin, kSlitMargin = 1.1, 1.05  # of the tip, over its limit: it swings about its commanded speed
 kRateMargin = 1.25  # of an angle, over its limit: it swings about its commanded rate
 
 
@@ -80,7 +80,7 @@ def speeds(truth, limits, slots):
         if slot >= len(truth.rows):
             break
         row = truth.rows[slot]
-        allowed_m_s = kSpeedMargin * (limits.tip_slit_m_s if row[depth] > 0 else limits.tip_m_s)
+        allowed_m_s = kSlitMargin * limits.tip_slit_m_s if row[depth] > 0 else kFreeMargin * limits.tip_m_s
         if row[speed] > allowed_m_s:
             return [f"slot {slot}: the tip moves at {row[speed]:.4f} m/s, allowed are {allowed_m_s:.4f}"]
     fastest = kRateMargin * limits.rate_deg_s

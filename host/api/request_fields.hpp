@@ -31,6 +31,7 @@ constexpr RequestField object(const char* name, std::span<const RequestField> fi
 }
 
 constexpr std::array kCommands{"enable", "disable", "clear", "home"};
+constexpr std::array kMissionCommands{"pause", "resume", "step", "confirm", "abort"};
 constexpr std::array kDevices{"vr", "hand", "none"};
 
 constexpr std::array kHello{
@@ -128,7 +129,10 @@ constexpr std::array kUseDevice{
     number("rotation_scale", 0.0, 10.0, "turn of the tip for a turn of the hand").otherwise(1.0),
     integer("node", 0.0, Figure::kNodes, "node that the left hand of `vr` moves; 0: none").otherwise(0.0),
     number("speed_m_s", 1e-4, Figure::kTipSpeed, "fastest that the tip follows").otherwise(Figure::kTipSpeed),
+    flag("anywhere", "`vr` steers inside the slit, too; else it is refused there, and let go at the mouth")
+        .otherwise(0.0),
 };
+constexpr std::array kMissionControl{word("command", kMissionCommands, "what the mission should do")};
 constexpr std::array kRetract{
     integer("until_tick", 0.0, kBiggestWhole, "not farther back than the arm was then").otherwise(0.0)};
 constexpr std::array kTool{text("command", 64, "what the tool should do")};
@@ -140,6 +144,7 @@ constexpr std::array kStep{
     text("name", 120, "what the step is called"),
     text("device", 16, "who steers"),
     text("task", 40, "what the operator should do").optional(),
+    text("waits", 120, "what the step waits for people for").optional(),
 };
 constexpr std::array kAnnounce{
     object("step", kStep, "the step that begins; null or left out: the mission has ended").or_null()};

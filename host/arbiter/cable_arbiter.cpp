@@ -12,6 +12,7 @@ CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone
     : asked_speed_m_s_(table.limits.tip_speed_m_s),
       robot_speed_m_s_(table.limits.tip_speed_m_s),
       cap_m_s_(table.limits.tip_speed_m_s),
+      zone_(zone),
       interval_s_(interval_s(table)),
       moves_(table, zone, taken, std::move(check)),
       lead_(table, taken) {}
@@ -75,7 +76,14 @@ void CableArbiter::shape(const cable::Outputs& now, const cable::NodeTargets& no
   ask_anew(now);
 }
 
-void CableArbiter::use_device(const DeviceUse& use) {
+bool CableArbiter::is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use) const {
+  return use.kind == DeviceKind::kVr && !use.anywhere && zone_.holds(now.tip_command.position_m);
+}
+
+void CableArbiter::use_device(const cable::Outputs& now, const DeviceUse& use) {
+  if (is_vr_in_slit(now, use))
+    throw api::RequestError("refused",
+                            "device = vr: the tip is inside the slit: use hand there, or say anywhere = true");
   if (is_busy()) throw api::RequestError("busy", "a planned move is under way: wait for it or send hold");
   take_device_away();
   device_.use(use);
@@ -115,7 +123,11 @@ void CableArbiter::refused(const std::string& why) {
 }
 
 std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, const cable::Outputs& now) {
-  const std::optional<SteerGoal> steer = device_.finish_interval(now, interval_s_);
+  std::optional<SteerGoal> steer = device_.finish_interval(now, interval_s_);
+  if (steer && is_vr_in_slit(now, device_.in_use())) {
+    device_.leave_slit();
+    steer.reset();
+  }
   if (!moves_.begin_interval(tick, now)) {
     hold();
     nodes_ = {};

@@ -35,7 +35,9 @@ class CableArbiter {
   // themselves are given.
   void shape(const cable::Outputs& now, const cable::NodeTargets& nodes, const cable::KeepClearTargets& clear,
              bool search);
-  void use_device(const DeviceUse& use);
+  // Vr handles are for free space and the hand controller for the slit: `vr` is refused where the tip is inside, unless
+  // `use` says anywhere, and let go where it comes to.
+  void use_device(const cable::Outputs& now, const DeviceUse& use);
   // Besides what device and robot allow: the tip is asked to go no faster than this, from the next setpoint on; planned
   // lines from the next one on.
   void cap_tip_speed(double speed_m_s);
@@ -78,12 +80,14 @@ class CableArbiter {
   void require_free(const cable::Outputs& now) const;
   void ask_anew(const cable::Outputs& now);
   void take_device_away();
+  bool is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use) const;
   void wish_nodes();
   std::optional<cable::Setpoint> steered_setpoint(const cable::Outputs& now, const SteerGoal& goal);
 
   double asked_speed_m_s_;  // limit of the device in use, or of the robot's tip
   double robot_speed_m_s_;
   double cap_m_s_;
+  SpeedZone zone_;
   double interval_s_;
   Arbiter<cable::CableArm> moves_;
   ShapeLead lead_;

@@ -19,6 +19,7 @@ struct DeviceUse {
   ClutchMapping mapping{};
   std::int32_t node = 0;   // vr: node that the left hand moves; 0 = none
   double speed_m_s = 0.0;  // tip speed limit while steering
+  bool anywhere = false;   // vr: inside the slit, too
 };
 
 constexpr double kDeviceSilent_s = 0.1;    // no sample for longer: disengage
@@ -51,6 +52,8 @@ class DeviceSteer {
   std::optional<SteerGoal> finish_interval(const cable::Outputs& now, double interval_s);
   // A refused command: engages again at once, with new anchors.
   void drop_anchor() { engaged_ = false; }
+  // Vr handles are for free space: in the slit they are let go.
+  void leave_slit() { disengage("in_slit"); }
   // A hold asked for by others: engages again after the deadman was open.
   void let_go() { disengage("held"); }
 

@@ -18,6 +18,8 @@ class SpeedZone {
   double limit_at(const Vec3& tip_m, double otherwise) const {
     return is_inside(tip_m, 0.0) ? std::fmin(otherwise, speed_m_s_) : otherwise;
   }
+  // A point in the base frame is inside the slit.
+  bool holds(const Vec3& point_m) const { return is_inside(point_m, 0.0); }
   // Speed to ask for at a point: lowered early enough to brake before the mouth, and less than the limit, because the
   // true tip swings about the commanded speed.
   double advice_at(const Vec3& tip_m, double otherwise) const {

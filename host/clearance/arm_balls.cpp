@@ -64,4 +64,23 @@ double least_possible_m(const Capsule& link, const config::SceneBox& box) noexce
   return most - link.radius_m;
 }
 
+// Inside the box around a body nothing is known of the body.
+double least_possible_m(const Ball& ball, const config::SceneConvex& body) noexcept {
+  double outside2 = 0.0;
+  for (Index i = 0; i < 3; ++i) {
+    const double beyond = std::fabs(ball.center_m[i] - body.center_m[i]) - body.half_extent_m[i];
+    if (beyond > 0.0) outside2 += beyond * beyond;
+  }
+  return outside2 > 0.0 ? std::sqrt(outside2) - ball.radius_m : -kNoObstacle_m;
+}
+
+double least_possible_m(const Capsule& link, const config::SceneConvex& body) noexcept {
+  double most = 0.0;
+  for (Index i = 0; i < 3; ++i) {
+    const double a = link.from_m[i] - body.center_m[i], b = link.to_m[i] - body.center_m[i];
+    most = std::max(most, std::max(std::min(a, b), -std::max(a, b)) - body.half_extent_m[i]);
+  }
+  return most > 0.0 ? most - link.radius_m : -kNoObstacle_m;
+}
+
 }  // namespace liana::clearance

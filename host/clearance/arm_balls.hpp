@@ -45,10 +45,13 @@ class ArmBalls {
 // outside.
 double least_possible_m(const Ball& ball, const config::SceneSphere& sphere) noexcept;
 double least_possible_m(const Ball& ball, const config::SceneBox& box) noexcept;
+// Of the box around the body, which is all that is looked at here.
+double least_possible_m(const Ball& ball, const config::SceneConvex& body) noexcept;
 
 // The same for a link. To a sphere no bound is cheaper than the distance, so there is none; to a box it is the largest
 // gap between a pair of its faces' planes and the link, exact where the link is beyond a face.
 inline double least_possible_m(const Capsule&, const config::SceneSphere&) noexcept { return -kNoObstacle_m; }
 double least_possible_m(const Capsule& link, const config::SceneBox& box) noexcept;
+double least_possible_m(const Capsule& link, const config::SceneConvex& body) noexcept;
 
 }  // namespace liana::clearance

@@ -3,19 +3,12 @@
 #include <algorithm>
 
 #include "host/clearance/arm_balls.hpp"
+#include "host/clearance/obstacles.hpp"
 
 namespace liana::clearance {
 namespace {
 
 using Index = std::size_t;
-
-// Calls `use(obstacle, its number)` for all obstacles of a scene in order.
-template <class Use>
-void each_obstacle(const config::SceneConfig& scene, Use&& use) {
-  std::int32_t number = 0;
-  for (const config::SceneSphere& sphere : scene.spheres) use(sphere, number++);
-  for (const config::SceneBox& box : scene.boxes) use(box, number++);
-}
 
 // Where to begin: the obstacle and the ball that may be nearest. What is found there leaves out most of the rest.
 struct Guess {
@@ -114,11 +107,7 @@ ArmClearance arm_clearance(AxisPoints points, double radius_m, const config::Sce
 void link_clearances(AxisPoints points, double radius_m, const config::SceneConfig& scene, std::int32_t obstacle,
                      double within_m, std::vector<Clearance>& out) {
   out.resize(points.size() - 1);
-  const Index i = static_cast<Index>(obstacle);
-  if (i < scene.spheres.size())
-    measure_links(points, radius_m, scene.spheres[i], within_m, out);
-  else
-    measure_links(points, radius_m, scene.boxes[i - scene.spheres.size()], within_m, out);
+  with_obstacle(scene, obstacle, [&](const auto& body) { measure_links(points, radius_m, body, within_m, out); });
 }
 
 }  // namespace liana::clearance

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "firmware_like/math/pose.hpp"
+#include "host/clearance/obstacles.hpp"
 
 namespace liana::clearance {
 namespace {
@@ -28,18 +29,15 @@ Clearance clearance(const Capsule& link, const config::SceneSphere& sphere) noex
 }
 
 std::int32_t obstacle_count(const config::SceneConfig& scene) noexcept {
-  return static_cast<std::int32_t>(scene.spheres.size() + scene.boxes.size());
+  return static_cast<std::int32_t>(scene.spheres.size() + scene.boxes.size() + scene.convex.size());
 }
 
 const std::string& obstacle_name(const config::SceneConfig& scene, std::int32_t obstacle) noexcept {
-  const Index i = static_cast<Index>(obstacle);
-  return i < scene.spheres.size() ? scene.spheres[i].name : scene.boxes[i - scene.spheres.size()].name;
+  return with_obstacle(scene, obstacle, [](const auto& body) -> const std::string& { return body.name; });
 }
 
 Clearance clearance(const Capsule& link, const config::SceneConfig& scene, std::int32_t obstacle) noexcept {
-  const Index i = static_cast<Index>(obstacle);
-  return i < scene.spheres.size() ? clearance(link, scene.spheres[i])
-                                  : clearance(link, scene.boxes[i - scene.spheres.size()]);
+  return with_obstacle(scene, obstacle, [&](const auto& body) { return clearance(link, body); });
 }
 
 Capsule link_capsule(AxisPoints points, std::int32_t link, double radius_m) noexcept {

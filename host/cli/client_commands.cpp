@@ -77,6 +77,12 @@ void print_state(const std::string& api, const Json& state) {
   const Json stop = state.value("stop", Json());
   if (stop.is_object())
     std::printf("emergency stop by %s %s\n", stop.value("by", "").c_str(), stop.value("reason", "").c_str());
+  const Json step = state.value("step", Json());
+  if (step.is_object()) {
+    const Json waits = step.value("waits", Json());
+    std::printf("step %d %s%s\n", step.value("index", 0), step.value("name", "").c_str(),
+                waits.is_string() ? (" waits, " + waits.text()).c_str() : "");
+  }
   for (const Json& fault : state.value("faults", Json::array())) {
     std::printf("fault %d %s (index %d): %s\n", fault.value("number", 0), fault.value("name", "").c_str(),
                 fault.value("index", -1), fault.value("text", "").c_str());

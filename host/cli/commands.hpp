@@ -122,11 +122,30 @@ int clear_command(const ClientOptions& options);
 
 struct FaultsOptions {
   std::string robot = "zhu2022";
-  bool markdown = false;  // the table of docs/faults.md
+  bool markdown = false;  // the table of docs/faults.md, or of docs/refusals.md
+  bool refusals = false;  // error codes M_e of verification in place of faults
   bool json = false;
 };
 // Every fault number: how it is detected, what it stops, what to do.
 int faults_command(const FaultsOptions& options);
+
+struct MissionOptions {
+  std::string command;  // pause, resume, step, confirm or abort
+  std::string api;      // empty: the one running system
+  bool json = false;
+};
+// Tells the mission of a running system how to go on; what comes of it depends on the step (lua/README.md).
+int mission_command(const MissionOptions& options);
+
+struct CommandsOptions {
+  std::string run;          // folder of a run, or its file of commands; empty: the newest run
+  std::uint32_t last = 20;  // so many of the newest
+  bool refused = false;     // only those
+  bool margins = false;     // what all of them left of the limits, in place of a list
+  bool json = false;
+};
+// What became of the commands of a run: both verdicts, release, start, completion, refusals.
+int commands_command(const CommandsOptions& options);
 
 struct ReplayOptions {
   std::string directory;

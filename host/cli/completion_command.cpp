@@ -30,10 +30,10 @@ _liana() {
     --rate) words="250 500" ;;
     robot) words="export" ;;
     completion) words="bash" ;;
-    --record | --calibration | --faults | --json | --svg | --path | --api | --out | replay) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    --record | --calibration | --faults | --json | --svg | --path | --api | --out | replay | commands) COMPREPLY=($(compgen -f -- "$word")); return ;;
   esac
   if [[ $COMP_CWORD == 1 ]]; then
-    words="run calibrate pose ik reach plan verify status estop clear faults latency replay robot doctor completion help"
+    words="run calibrate pose ik reach plan verify status estop clear mission faults commands latency replay robot doctor completion help"
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
       run) words="--robot --scene --bus --time --physics --calibration --in-pose --cross-wired --faults --true-physics --scene-offset --record --json --seed" ;;
@@ -44,7 +44,9 @@ _liana() {
       reach) words="--robot --scene --hold --from-deg --to-deg --path --node --samples --seed --svg --json" ;;
       plan) words="--robot --scene --from-deg --to-deg --tip --hold --planar --control-point --follow --waypoints --margin --max-step-deg --iterations --out --json" ;;
       verify) words="--robot --scene --from-deg --to-deg --duration --json" ;;
-      faults) words="--robot --markdown --json" ;;
+      faults) words="--robot --refusals --markdown --json" ;;
+      mission) words="pause resume step confirm abort --api --json" ;;
+      commands) words="--last --refused --margins --json" ;;
       status | estop | clear) words="--api --json" ;;
       robot) words="--robot --out --json" ;;
       replay | doctor) words="--json" ;;

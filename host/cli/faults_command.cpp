@@ -5,6 +5,7 @@
 #include "host/report/fault_table.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/tables.hpp"
+#include "host/verify/refusal_table.hpp"
 
 namespace liana::cli {
 namespace {
@@ -34,10 +35,40 @@ void print_text(const std::vector<report::FaultRow>& rows) {
   }
 }
 
+Json json_of(std::span<const verify::RefusalRow> rows) {
+  Json list = Json::array();
+  for (const verify::RefusalRow& row : rows) {
+    list.push_back({{"code", static_cast<int>(row.code)},
+                    {"name", row.name},
+                    {"text", row.says},
+                    {"unit", row.unit},
+                    {"action", verify::refusal_action_name(row.action)},
+                    {"remedy", row.remedy}});
+  }
+  return list;
+}
+
+void print_refusals(const FaultsOptions& options) {
+  const std::span<const verify::RefusalRow> rows = verify::refusal_table();
+  if (options.json) {
+    std::puts(json_of(rows).dump(1).c_str());
+  } else if (options.markdown) {
+    std::fputs(verify::markdown_of(rows).c_str(), stdout);
+  } else {
+    for (const verify::RefusalRow& row : rows)
+      std::printf("%d %s (%s): %s\n     %s\n", static_cast<int>(row.code), row.name,
+                  verify::refusal_action_name(row.action), row.says, row.remedy);
+  }
+}
+
 }  // namespace
 
 int faults_command(const FaultsOptions& options) {
   if (options.json && options.markdown) throw system::BadInput("--json, --markdown: give one of them");
+  if (options.refusals) {
+    print_refusals(options);
+    return system::kExitOk;
+  }
   const std::vector<report::FaultRow> rows = report::fault_rows(system::robot_for_kinematics(options.robot).table);
   if (options.json) {
     std::puts(json_of(rows).dump(1).c_str());

@@ -213,8 +213,30 @@ void add_faults(CLI::App& app, Action& action, FaultsOptions& faults) {
   CLI::App* sub = add(app, action, "faults", "every fault number: how it is detected, what it stops, what to do",
                       faults, faults_command);
   sub->add_option("--robot", faults.robot, "robot table whose tick counts")->capture_default_str();
-  sub->add_flag("--markdown", faults.markdown, "print the table of docs/faults.md");
+  sub->add_flag("--refusals", faults.refusals, "error codes M_e of verification in place of faults");
+  sub->add_flag("--markdown", faults.markdown, "print the table of docs/faults.md, or of docs/refusals.md");
   sub->add_flag("--json", faults.json, "print JSON");
+}
+
+void add_mission(CLI::App& app, Action& action, MissionOptions& mission) {
+  CLI::App* sub = add(app, action, "mission", "tells the mission that runs how to go on", mission, mission_command);
+  sub->add_option("command", mission.command,
+                  "pause: the arm holds; resume: go on; step: one step, then a pause; confirm: what the step asks for; "
+                  "abort: end it")
+      ->required()
+      ->check(CLI::IsMember({"pause", "resume", "step", "confirm", "abort"}));
+  sub->add_option("--api", mission.api, "API socket of the lianad; where not given, that of the one running system");
+  sub->add_flag("--json", mission.json, "print JSON");
+}
+
+void add_commands(CLI::App& app, Action& action, CommandsOptions& commands) {
+  CLI::App* sub = add(app, action, "commands", "what became of the commands of a run: verdicts, margins, refusals",
+                      commands, commands_command);
+  sub->add_option("run", commands.run, "folder of a run, or its commands.txt; where not given, the newest run");
+  sub->add_option("--last", commands.last, "so many of the newest")->capture_default_str();
+  sub->add_flag("--refused", commands.refused, "only refused ones");
+  sub->add_flag("--margins", commands.margins, "what they all left of the limits, in place of a list");
+  sub->add_flag("--json", commands.json, "print JSON, one line for each command");
 }
 
 void add_client(CLI::App& app, Action& action, const char* name, const char* text, ClientOptions& client,
@@ -343,6 +365,8 @@ int run(int argc, char** argv) {
   LatencyOptions latency;
   ClientOptions client;
   FaultsOptions faults;
+  CommandsOptions commands;
+  MissionOptions mission;
   ReplayOptions replay;
   ExportOptions exported;
   bool doctor_json = false;
@@ -361,6 +385,8 @@ int run(int argc, char** argv) {
   add_calibrate(app, action, calibrate);
   add_latency(app, action, latency);
   add_faults(app, action, faults);
+  add_commands(app, action, commands);
+  add_mission(app, action, mission);
   add_tools(app, action, replay, exported, doctor_json, shell);
   try {
     app.parse(arguments_of(app, argc, argv));

@@ -110,6 +110,19 @@ struct SceneSphere {
   double radius_m = 0.0;
 };
 
+// A convex body: the hull of points, swept by a disc for a cylinder and by a ball for a capsule (convex_shape.hpp makes
+// them).
+struct SceneConvex {
+  std::string name;
+  std::vector<Vec3> points_m;       // 1..kMostHullPoints
+  std::array<Vec3, 2> disc_axes{};  // unit, at right angles, in the plane of the disc
+  double disc_radius_m = 0.0;
+  double round_m = 0.0;  // of the ball
+  Vec3 center_m{};       // of the box along the base axes around all of it
+  Vec3 half_extent_m{};
+};
+constexpr std::size_t kMostHullPoints = 256;
+
 // The slit between two parallel plates: its plane, and where it begins and ends along u.
 struct SceneSlit {
   Vec3 normal{};  // n.p = offset_m on the plane
@@ -160,6 +173,7 @@ struct SceneConfig {
   std::string name;
   std::vector<SceneBox> boxes;
   std::vector<SceneSphere> spheres;
+  std::vector<SceneConvex> convex;    // a chain of capsules is one for each of its pieces, all with its name
   std::optional<SceneSlit> slit;      // none: nothing is asked to be planar, nowhere the tip has to be slow
   std::optional<SceneRod> rod;        // none: nothing to press
   std::optional<SceneCamera> camera;  // with contact what a bench needs to simulate the scene

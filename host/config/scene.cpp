@@ -3,6 +3,7 @@
 
 #include "host/config/canonical.hpp"
 #include "host/config/config.hpp"
+#include "host/config/convex_shape.hpp"
 #include "host/config/field.hpp"
 
 namespace liana::config {
@@ -65,6 +66,51 @@ SceneBox read_box(const Field& field) {
 SceneSphere read_sphere(const Field& field) {
   field.only({"name", "center_m", "radius_m"});
   return {field.at("name").name(40), field.at("center_m").numbers<3>(kPlace), field.at("radius_m").number(kLength)};
+}
+
+constexpr std::size_t kMostConvex = 64;
+constexpr double kLeastThickness_m = 1e-6;
+
+std::vector<Vec3> read_points(const Field& field, std::size_t least, std::size_t most, const char* what_to_do) {
+  std::vector<Vec3> points_m(field.size(least, most, what_to_do));
+  for (std::size_t i = 0; i < points_m.size(); ++i) points_m[i] = field.element(i).numbers<3>(kPlace);
+  return points_m;
+}
+
+SceneConvex read_hull(const Field& field, const std::string& name) {
+  const Field points = field.at("points_m");
+  SceneConvex body = hull_of(name, read_points(points, 4, kMostHullPoints, "leave out points inside the hull"));
+  if (thickness_m(body.points_m) < kLeastThickness_m)
+    points.refuse("points that do not lie in one plane to 1e-6 m", "give the body its thickness");
+  return body;
+}
+
+SceneConvex read_cylinder(const Field& field, const std::string& name) {
+  field.only({"from_m", "to_m", "radius_m"});
+  const Vec3 from_m = field.at("from_m").numbers<3>(kPlace), to_m = field.at("to_m").numbers<3>(kPlace);
+  if (near(from_m, to_m, kLeastThickness_m))
+    field.at("to_m").refuse("another point than from_m, by 1e-6 m or more", "give both ends of the cylinder's axis");
+  return cylinder(name, from_m, to_m, field.at("radius_m").number(kLength));
+}
+
+void read_chain(const Field& field, const std::string& name, std::vector<SceneConvex>& out) {
+  field.only({"points_m", "radius_m"});
+  const std::vector<Vec3> points_m = read_points(field.at("points_m"), 2, 64, "divide the chain");
+  const double radius_m = field.at("radius_m").number(kLength);
+  for (std::size_t i = 0; i + 1 < points_m.size(); ++i)
+    out.push_back(capsule(name, points_m[i], points_m[i + 1], radius_m));
+}
+
+// One entry is one of the kinds; a chain is one body for each of its pieces.
+void read_convex(const Field& field, std::vector<SceneConvex>& out) {
+  field.only({"name", "points_m", "cylinder", "chain"});
+  const std::string name = field.at("name").name(40);
+  const Json& json = field.json();
+  if (json.contains("points_m") + json.contains("cylinder") + json.contains("chain") != 1)
+    field.at("name").refuse("one of points_m, cylinder, chain beside it", "say which body it is; for two give two");
+  if (json.contains("points_m")) out.push_back(read_hull(field, name));
+  if (json.contains("cylinder")) out.push_back(read_cylinder(field.at("cylinder"), name));
+  if (json.contains("chain")) read_chain(field.at("chain"), name, out);
 }
 
 SceneSlit read_slit(const Field& field) {
@@ -138,7 +184,7 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
   const Json json = parse_json(text, file);
   const Field table(json, file, "");
   check_kind(table, "scene");
-  table.only({"format", "kind", "name", "boxes", "spheres", "slit", "rod", "camera", "contact", "margins"});
+  table.only({"format", "kind", "name", "boxes", "spheres", "convex", "slit", "rod", "camera", "contact", "margins"});
   SceneConfig out;
   out.name = table.at("name").name(40);
   const Field boxes = table.at("boxes");
@@ -147,6 +193,11 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
   for (std::size_t i = 0; i < box_count; ++i) out.boxes.push_back(read_box(boxes.element(i)));
   const std::size_t sphere_count = spheres.size(0, 64, "at most 64 spheres");
   for (std::size_t i = 0; i < sphere_count; ++i) out.spheres.push_back(read_sphere(spheres.element(i)));
+  if (json.contains("convex")) {
+    const Field convex = table.at("convex");
+    const std::size_t convex_count = convex.size(0, kMostConvex, "at most 64 convex bodies");
+    for (std::size_t i = 0; i < convex_count; ++i) read_convex(convex.element(i), out.convex);
+  }
   if (json.contains("slit")) check_slit(table.at("slit"), out.slit.emplace(read_slit(table.at("slit"))));
   if (json.contains("rod")) out.rod = read_rod(table.at("rod"));
   if (json.contains("camera")) out.camera = read_camera(table.at("camera"));

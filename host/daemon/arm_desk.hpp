@@ -206,7 +206,14 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
   } else {
     arbiter_.refused(worst.text);
   }
-  return {candidate.sequence(), released, worst, joints_deg(prediction_.ticks[prediction_.command_ticks - 1])};
+  return {candidate.sequence(),
+          released,
+          worst,
+          joints_deg(prediction_.ticks[prediction_.command_ticks - 1]),
+          setpoint.kind,
+          candidate.first_tick(),
+          execution,
+          simulation};
 }
 
 }  // namespace liana::daemon

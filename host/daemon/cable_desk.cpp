@@ -105,7 +105,7 @@ void CableDesk::take_samples(const api::Arguments& message) { add_samples(messag
 
 void CableDesk::drop_motion() {
   arbiter_.hold();
-  arbiter_.use_device(arbiter::DeviceUse{});
+  arbiter_.use_device(outputs(), arbiter::DeviceUse{});
 }
 
 std::vector<event::Event> CableDesk::take_events() {
@@ -161,9 +161,10 @@ void CableDesk::use_device(const MotionRequest& request) {
   use.mapping.rotation_scale = fields.number("rotation_scale");
   use.node = static_cast<std::int32_t>(fields.integer("node"));
   use.speed_m_s = fields.number("speed_m_s");
+  use.anywhere = fields.flag("anywhere");
   if (use.kind != arbiter::DeviceKind::kNone && !request.operator_is_here)
     throw api::RequestError("no_device", "no operator is connected");
-  arbiter_.use_device(use);
+  arbiter_.use_device(outputs(), use);
 }
 
 }  // namespace liana::daemon

@@ -25,6 +25,10 @@ struct LastVerdict {
   bool released = false;
   verify::Verdict worst{};          // the refusing end, or the tighter margin
   std::vector<double> twin_js_deg;  // predicted at the end of the candidate's interval
+  CommandKind kind = CommandKind::kNone;
+  std::uint64_t first_tick = 0;  // from which it is in force
+  verify::ExecutionVerdict execution{};
+  verify::SimulationVerdict simulation{};
 };
 
 // A request about motion, from the owner, that the table of requests has let through.

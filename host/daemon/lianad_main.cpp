@@ -41,7 +41,7 @@ void handle_signals() {
 
 struct Options {
   std::string robot, scene, buses, api, time = "fast", physics = "nominal", bus_socket, expect, calibration, in_pose,
-                                        events, way_out;
+                                        events, commands, way_out;
 };
 
 std::vector<liana::api::Role> roles_in(const std::string& list) {
@@ -79,6 +79,7 @@ liana::daemon::ServiceConfig service_config(const Setup& setup, const std::strin
   config.scene_json = setup.scene.canonical_json;
   config.buses = setup.buses;
   config.events_file = setup.options.events;
+  config.commands_file = setup.options.commands;
   config.way_file = setup.options.way_out;
   if (setup.scene.camera) config.camera_latency_s = setup.scene.camera->latency_s;
   const auto mission = std::find(setup.expected.begin(), setup.expected.end(), liana::api::Role::kMission);
@@ -166,6 +167,7 @@ int main(int argc, char** argv) {
   line.option("--in-pose", options.in_pose,
               "named pose in which the arm lies in its fixture: unless every cable says so, the arm is not enabled");
   line.option("--events", options.events, "file for what happened and why, a line for each event");
+  line.option("--commands", options.commands, "file for what becomes of every command, a line for each stage");
   line.option(
       "--way-out", options.way_out,
       "file that keeps the verified way back, so that it survives lianad: read at the start, used where the arm "

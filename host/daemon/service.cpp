@@ -10,6 +10,7 @@
 #include "host/api/request_text.hpp"
 #include "host/event/event_json.hpp"
 #include "host/record/tick_packet.hpp"
+#include "host/verify/refusal_table.hpp"
 
 namespace liana::daemon {
 
@@ -35,6 +36,7 @@ Service::Service(const ServiceConfig& config, Desk& desk)
       }),
       server_(config.api_path, *this) {
   if (!config.events_file.empty()) file_.emplace(config.events_file, config.buses.tick_s());
+  if (!config.commands_file.empty()) dispatch_.emplace(config.commands_file);
   if (config.way_file.empty()) return;
   way_file_.emplace(config.way_file, Json::parse(config.robot_json).at("name").text(), desk.joint_count());
   desk.restore_way(way_file_->kept());
@@ -131,6 +133,7 @@ bool Service::is_over_after_mission() {
 // What changes by itself: the end of booting, the end of the run after the mission.
 void Service::watch_arm() {
   note_clear();
+  if (dispatch_) dispatch_->note_active(tick(), now().active_sequence);
   note(trouble_.changes(config_.buses, desk_.report()));
   note(faults_.changes(now().faults));
   note(desk_.take_events());
@@ -188,10 +191,13 @@ void Service::release_next() {
   tell_of_paths();
   keep_way();
   if (!verdict) return;
+  if (dispatch_) dispatch_->note(tick(), owner_.name(), *verdict);
   notes_.verdict = *verdict;
   if (verdict->released) return;
   ++notes_.refusals;
   note(verdict_event(verdict->sequence, verdict->worst));
+  const verify::RefusalRow& row = verify::row_of(verdict->worst.code);
+  if (row.action == verify::RefusalAction::kStop) order_stop({"lianad", std::string("refused: ") + row.says, tick()});
 }
 
 // A path that does not begin is a refusal as that of a command is: who asked for it looks there.
@@ -221,8 +227,8 @@ void Service::note(std::vector<event::Event> events) {
 
 // A disk that takes no events is trouble of the host, and no reason to stop the arm.
 void Service::watch_events_file() {
-  if (!file_) return;
-  if (auto change = file_->change()) note(std::move(*change));
+  if (auto change = file_ ? file_->change() : std::nullopt) note(std::move(*change));
+  if (auto change = dispatch_ ? dispatch_->change() : std::nullopt) note(std::move(*change));
 }
 
 void Service::request(Request what) {
@@ -253,11 +259,14 @@ void Service::begin_shutdown(const std::string& reason) {
   note({.kind = event::EventKind::kShutdown, .text = "shutdown: " + reason});
 }
 
-void Service::stop_by_itself(const std::string& reason) {
+void Service::order_stop(const StopOrder& order) {
   press_stop();
-  const StopOrder order{"lianad", printable(reason), tick()};
   notes_.stop.press(order);
   note(stop_event(order));
+}
+
+void Service::stop_by_itself(const std::string& reason) {
+  order_stop({"lianad", printable(reason), tick()});
   publish_state();
 }
 

@@ -13,6 +13,7 @@
 #include "host/api/server.hpp"
 #include "host/config/config.hpp"
 #include "host/daemon/desk.hpp"
+#include "host/daemon/dispatch_log.hpp"
 #include "host/daemon/host_trouble.hpp"
 #include "host/daemon/owner.hpp"
 #include "host/daemon/service_events.hpp"
@@ -34,6 +35,7 @@ struct ServiceConfig {
   config::BusesConfig buses;
   double camera_latency_s = 0.0;
   std::string events_file;                                           // path; empty: events are not written
+  std::string commands_file;                                         // path; empty: commands are not logged
   std::string way_file;                                              // path; empty: the way back is kept nowhere
   bool ends_with_mission = false;                                    // stop the arm once the mission has come and gone
   std::function<std::vector<control::BootProblem>()> boot_problems;  // asked once, when booting has failed
@@ -42,7 +44,7 @@ struct ServiceConfig {
 
 class Service : private api::ApiHandler {
  public:
-  // Listens at config.api_path; throws std::runtime_error, also about config.events_file and way_file. `desk` must
+  // Listens at config.api_path; throws std::runtime_error, also about the files that config names. `desk` must
   // outlive this.
   Service(const ServiceConfig& config, Desk& desk);
 
@@ -84,6 +86,7 @@ class Service : private api::ApiHandler {
   Json on_stop(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_shutdown(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_announce(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_mission_control(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_operator_says(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_device(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_camera(const api::ClientInfo& client, const api::Arguments& fields);
@@ -98,6 +101,7 @@ class Service : private api::ApiHandler {
   void note(std::vector<event::Event> events);
   void request(Request what);
   void press_stop() noexcept;
+  void order_stop(const StopOrder& order);
   void drop_motion(event::OwnerEvent why, const std::string& owner);
   void watch_events_file();
   void watch_arm();
@@ -124,6 +128,7 @@ class Service : private api::ApiHandler {
   FaultWatch faults_;
   event::EventLog log_;
   std::optional<event::EventFile> file_;
+  std::optional<DispatchLog> dispatch_;
   std::optional<WayFile> way_file_;
   control::BootPhase boot_seen_ = control::BootPhase::kBooting;
   bool homed_told_ = false;
@@ -141,6 +146,7 @@ class Service : private api::ApiHandler {
   std::uint64_t moved_tick_ = 0;            // the last after the mission's end in which the arm was led on
   std::optional<std::uint64_t> stop_tick_;  // of the last stop, whoever asked for it
   bool dismissed_ = false;
+  int mission_asked_ = 0;  // how often somebody has told the mission something
   api::ApiServer server_;  // last: its destructor may call gone()
 };
 

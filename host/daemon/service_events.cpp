@@ -5,6 +5,7 @@
 
 #include "host/api/request_text.hpp"
 #include "host/canopen/emergency.hpp"
+#include "host/verify/refusal_table.hpp"
 
 namespace liana::daemon {
 namespace {
@@ -105,7 +106,7 @@ event::Event verdict_event(std::uint64_t command, const verify::Verdict& verdict
           .subject = event::number_of(verdict.code) < 200 ? "execution" : "simulation",
           .values = {{"command", static_cast<double>(command)}, {"share", verdict.share}},
           .text = "refused " + std::to_string(command) + ", M_e " + std::to_string(event::number_of(verdict.code)) +
-                  ": " + verdict.text};
+                  " " + verify::row_of(verdict.code).name + ": " + verdict.text};
 }
 
 event::Event path_event(const arbiter::PathNews& news) {
@@ -155,11 +156,11 @@ event::Event stop_event(const StopOrder& order) {
           .text = text_of(order)};
 }
 
-event::Event step_event(int index, const std::string& name) {
+event::Event step_event(int index, const std::string& name, const std::string& waits) {
   return {.kind = event::EventKind::kStep,
           .number = index,
           .subject = name,
-          .text = "step " + std::to_string(index) + ": " + name};
+          .text = "step " + std::to_string(index) + ": " + name + (waits.empty() ? "" : " waits, " + waits)};
 }
 
 std::vector<event::Event> FaultWatch::changes(const FaultList& now) {

@@ -37,7 +37,8 @@ event::Event owner_event(event::OwnerEvent what, const std::string& client);
 // An owner that streamed tip goals sent none for this long, its own time to live.
 event::Event stands_still_event(const std::string& client, double ttl_s);
 event::Event stop_event(const StopOrder& order);
-event::Event step_event(int index, const std::string& name);
+// `waits`: what it waits for; empty: it begins, or goes on.
+event::Event step_event(int index, const std::string& name, const std::string& waits = "");
 
 // Which faults of the core are new.
 class FaultWatch {

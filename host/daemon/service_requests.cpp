@@ -16,6 +16,7 @@ const std::map<std::string, Service::Handler>& Service::handlers() {
                                                         {"stop", &Service::on_stop},
                                                         {"shutdown", &Service::on_shutdown},
                                                         {"announce", &Service::on_announce},
+                                                        {"mission_control", &Service::on_mission_control},
                                                         {"operator_says", &Service::on_operator_says},
                                                         {"device", &Service::on_device},
                                                         {"camera", &Service::on_camera},
@@ -28,7 +29,10 @@ Json Service::handle(const api::ClientInfo& client, const Json& request) {
     return act_on(client, request);
   } catch (const api::RequestError& error) {
     const Json& op = request.member_or_null("op");
-    note(refusal_event(client.name, op.is_string() ? printable(op.text()) : "", error.code(), error.what()));
+    event::Event refusal =
+        refusal_event(client.name, op.is_string() ? printable(op.text()) : "", error.code(), error.what());
+    if (dispatch_) dispatch_->note_request(tick(), refusal);
+    note(std::move(refusal));
     throw;
   }
 }
@@ -148,7 +152,18 @@ Json Service::on_announce(const api::ClientInfo&, const api::Arguments& fields) 
   if (!fields.has("step")) return Json::object();
   const api::Arguments step = fields.object("step");
   notes_.step = {{"index", step.integer("index")}, {"name", step.text("name")}, {"device", step.text("device")}};
-  note(step_event(static_cast<int>(step.integer("index")), step.text("name")));
+  notes_.step["waits"] = step.has("waits") ? Json(step.text("waits")) : Json();
+  note(step_event(static_cast<int>(step.integer("index")), step.text("name"),
+                  step.has("waits") ? step.text("waits") : ""));
+  return {{"tick", tick()}};
+}
+
+// The mission reads it in the next state, and does what its step allows.
+Json Service::on_mission_control(const api::ClientInfo& client, const api::Arguments& fields) {
+  if (!server_.has_role(api::Role::kMission)) throw api::RequestError("refused", "no mission runs");
+  const std::string command = fields.text("command");
+  notes_.mission_control = {{"number", ++mission_asked_}, {"command", command}, {"by", printable(client.name)}};
+  note({.kind = event::EventKind::kOperator, .subject = client.name, .text = "mission: " + command});
   return {{"tick", tick()}};
 }
 

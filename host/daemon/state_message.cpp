@@ -6,6 +6,7 @@
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/safety/faults.hpp"
 #include "host/daemon/host_trouble.hpp"
+#include "host/verify/refusal_table.hpp"
 
 namespace liana::daemon {
 
@@ -94,8 +95,10 @@ Json stop_json(const EmergencyStop& stop) {
 }
 
 Json verdict_json(const LastVerdict& v) {
-  return {{"sequence", v.sequence}, {"released", v.released},   {"code", static_cast<int>(v.worst.code)},
-          {"text", v.worst.text},   {"margin", v.worst.margin}, {"twin_js_deg", v.twin_js_deg}};
+  const verify::RefusalRow& row = verify::row_of(v.worst.code);
+  return {{"sequence", v.sequence},   {"released", v.released},      {"code", static_cast<int>(v.worst.code)},
+          {"name", row.name},         {"text", v.worst.text},        {"remedy", row.remedy},
+          {"margin", v.worst.margin}, {"twin_js_deg", v.twin_js_deg}};
 }
 
 Json events_json(const std::deque<event::Event>& events) {
@@ -126,6 +129,7 @@ Json state_message(const config::BusesConfig& buses, const Desk& desk, const Own
              {"owner", owner.name()},
              {"step", notes.step},
              {"operator_says", notes.operator_says},
+             {"mission_control", notes.mission_control},
              {"overruns", report.overruns.total()},
              {"refusals", notes.refusals},
              {"verdict", verdict_json(notes.verdict)},

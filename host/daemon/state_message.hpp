@@ -18,6 +18,7 @@ namespace liana::daemon {
 struct Notes {
   Json step = nullptr;           // announced by the mission
   Json operator_says = nullptr;  // with the tick
+  Json mission_control = nullptr;
   LastVerdict verdict{};
   std::uint64_t refusals = 0;
   std::vector<control::BootProblem> boot_problems;  // faults of drives that did not boot

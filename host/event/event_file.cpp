@@ -29,13 +29,13 @@ Event event_of_file(HostTroubleEvent what, const std::string& path, std::uint64_
 }  // namespace
 
 // A path that nobody reads at the other end (a pipe) is an error of opening, not a wait.
-EventFile::EventFile(const std::string& path, double period_s)
+EventFile::EventFile(const std::string& path, double period_s, const char* option, const char* heading)
     : path_(path),
       period_s_(period_s),
       fd_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0644)),
-      waiting_("#" + std::string(kEventLineHeading) + "\n") {
+      waiting_("#" + std::string(heading) + "\n") {
   if (fd_ < 0)
-    throw std::runtime_error("--events: '" + path + "': cannot be written: " + std::strerror(errno) +
+    throw std::runtime_error(std::string(option) + ": '" + path + "': cannot be written: " + std::strerror(errno) +
                              "; give a file in a folder that exists");
   thread_ = std::thread([this] { work(); });
 }
@@ -51,8 +51,10 @@ EventFile::~EventFile() {
   ::close(fd_);
 }
 
-void EventFile::append(const Event& event) {
-  const std::string line = event_line(event, period_s_) + "\n";
+void EventFile::append(const Event& event) { append_line(event_line(event, period_s_)); }
+
+void EventFile::append_line(std::string line) {
+  line += "\n";
   {
     const std::lock_guard lock(mutex_);
     if (waiting_.size() + line.size() > kMostWaiting) {

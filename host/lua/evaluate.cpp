@@ -9,6 +9,7 @@
 #include "host/json/json.hpp"
 #include "host/lua/bindings.hpp"
 #include "host/lua/json_bridge.hpp"
+#include "host/lua/scene_shapes.hpp"
 
 namespace liana::script {
 namespace {
@@ -92,6 +93,7 @@ std::string evaluate(Script& script, const std::string& lua_dir, const std::stri
   naming_file(file.display, [&] {
     script.run(file);
     result = to_json(script.state(), -1, file.display);
+    if (kind == "scene") read_shape_files(result, file.folder, file.display);
   });
   return config::check_table(kind, result, file.display);
 }

@@ -26,7 +26,7 @@ ScriptFile read_script(const fs::path& path, const std::string& display) {
   std::ifstream in(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), {}};
   if (!in) throw std::runtime_error(display + ": cannot be read: allowed a readable Lua file: check its permissions");
-  return {display, std::move(text)};
+  return {display, std::move(text), path.has_parent_path() ? path.parent_path().string() : "."};
 }
 
 std::string names_in(const fs::path& folder) {

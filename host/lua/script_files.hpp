@@ -9,6 +9,7 @@ namespace liana::script {
 struct ScriptFile {
   std::string display;  // relative to the Lua folder, or as the user gave it
   std::string text;
+  std::string folder{};  // where it lies
 };
 
 // The script called `name` of kind robot, scene, buses or mission: a name in its folder, or a file (contains '/', ends

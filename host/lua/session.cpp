@@ -14,7 +14,10 @@ std::string progress_line(const Json& event) {
   const std::string name = event.value("name", "");
   const int index = event.value("index", 0);
   const int count = event.value("count", 0);
-  if (event.value("event", "") == "begin") {
+  if (event.value("event", "") == "wait") {
+    std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  waits, %s", event.value("time_s", 0.0), index, count,
+                  name.c_str(), event.value("reason", "").c_str());
+  } else if (event.value("event", "") == "begin") {
     std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  device %s", event.value("time_s", 0.0), index, count,
                   name.c_str(), event.value("device", "").c_str());
   } else {

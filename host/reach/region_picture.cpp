@@ -43,6 +43,8 @@ Space shown_space(const config::RobotConfig& robot, const config::SceneConfig* s
     const Vec3 radius{sphere.radius_m, sphere.radius_m, sphere.radius_m};
     include(space, subtract(sphere.center_m, radius), add(sphere.center_m, radius));
   }
+  for (const config::SceneConvex& body : scene->convex)
+    include(space, subtract(body.center_m, body.half_extent_m), add(body.center_m, body.half_extent_m));
   if (scene->rod) include(space, scene->rod->pose.position_m, scene->rod->pose.position_m);
   return space;
 }
@@ -176,6 +178,11 @@ void describe_objects(Legend& legend, const config::SceneConfig* scene, const st
   }
   for (const config::SceneSphere& sphere : scene->spheres)
     legend.dot({.fill = kSphereColour, .opacity = 0.55}, 7.0, sphere.name);
+  for (std::size_t i = 0; i < scene->convex.size(); ++i) {
+    const std::string& name = scene->convex[i].name;  // pieces of a chain share it
+    if (i == 0 || name != scene->convex[i - 1].name)
+      legend.swatch({.fill = kConvexColour, .stroke = kConvexColour, .opacity = 0.5}, name);
+  }
   if (scene->rod) legend.dot({.stroke = kRodColour, .width = 2.0}, 7.0, "press rod, inside the ring");
 }
 

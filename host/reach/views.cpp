@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+
+#include "host/config/convex_shape.hpp"
 
 namespace liana::reach {
 namespace {
@@ -37,6 +40,21 @@ std::vector<draw::Pixel> convex_hull(std::vector<draw::Pixel> points) {
 std::size_t heat_class(double value, double top) {
   if (top <= 0.0) return 0;
   return std::min(static_cast<std::size_t>(value / top * kHeatClasses), kHeatClasses - 1);
+}
+
+// Points of a convex body that its outline is the hull of, round parts by 5 deg.
+std::vector<draw::Pixel> ends_in(const View& view, const config::SceneConvex& body) {
+  constexpr int kDirections = 72;
+  std::vector<draw::Pixel> out;
+  for (const Vec3& point : body.points_m) out.push_back(view.at(point));
+  for (int i = 0; i < kDirections; ++i) {
+    const double angle = 2.0 * std::numbers::pi * i / kDirections;
+    Vec3 direction{};
+    direction[view.right] = std::cos(angle);
+    direction[view.up] = std::sin(angle);
+    out.push_back(view.at(add(config::farthest_point(body, direction), scale(direction, body.round_m))));
+  }
+  return out;
 }
 
 }  // namespace
@@ -141,6 +159,11 @@ void draw_scene(draw::Svg& svg, const View& view, const config::SceneConfig& sce
   for (const config::SceneSphere& sphere : scene.spheres) {
     svg.circle(view.at(sphere.center_m), sphere.radius_m * pixels_per_m(view),
                {.fill = kSphereColour, .opacity = 0.55});
+  }
+  for (const config::SceneConvex& body : scene.convex) {
+    const std::vector<draw::Pixel> outline = convex_hull(ends_in(view, body));
+    svg.polygon(outline, {.fill = kConvexColour, .opacity = 0.25});
+    svg.polygon(outline, {.stroke = kConvexColour, .width = 1.2});
   }
   if (!scene.rod) return;
   const draw::Pixel rod = view.at(scene.rod->pose.position_m);

@@ -40,7 +40,7 @@ void draw_heat(draw::Svg& svg, const View& view, const std::map<Cell, double>& c
 void draw_binding(draw::Svg& svg, const View& view, const Outline& outline);
 // The region's outline as seen in the view; `fill` or `stroke` may be none.
 void draw_outline(draw::Svg& svg, const View& view, const Outline& outline, const draw::Look& look);
-// Boxes (first, second, ... in fixed colours), spheres and the rod with a ring around it.
+// Boxes (first, second, ... in fixed colours), spheres, convex bodies, and the rod with a ring around it.
 void draw_scene(draw::Svg& svg, const View& view, const config::SceneConfig& scene);
 // Links as one thick line, nodes as dots, base and tip marked.
 void draw_arm(draw::Svg& svg, const View& view, const config::RobotConfig& robot, const ThetaVector& theta_rad,
@@ -52,6 +52,7 @@ constexpr std::string_view kArmColour = "#f28e2b";
 constexpr std::string_view kNodeColour = "#7a3e00";
 constexpr std::string_view kMarkColour = "#d62728";
 constexpr std::string_view kSphereColour = "#9467bd";
+constexpr std::string_view kConvexColour = "#17becf";
 constexpr std::string_view kRodColour = "#e377c2";
 constexpr std::array<std::string_view, 3> kBoxColours{"#2ca02c", "#7f7f7f", "#8c564b"};
 

@@ -1,7 +1,7 @@
 // Which values of the core's enumerations have a meaning.
 #pragma once
 
-#include "firmware_like/cable/arm/let_go.hpp"
+#include "firmware_like/cable_controller.hpp"
 #include "firmware_like/command/request.hpp"
 #include "firmware_like/command/telecommand.hpp"
 #include "firmware_like/math/ik_outcome.hpp"

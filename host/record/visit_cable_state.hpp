@@ -53,6 +53,8 @@ void visit(A& a, T& s) {
   a("segment", s.segment);
   a("torque_Nm", s.torque_Nm);
   a("tip_push_N", s.tip_push_N);
+  a("rate_rad_s", s.rate_rad_s);
+  a("stir", s.stir);
 }
 
 template <class A, Like<cable::HeldProfile> T>

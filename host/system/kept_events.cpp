@@ -16,6 +16,12 @@ std::string variable(const char* name) {
   return value == nullptr ? "" : value;
 }
 
+std::string kept_folder(const std::string& what) {
+  const std::string state = variable("XDG_STATE_HOME"), home = variable("HOME");
+  if (!state.empty()) return state + "/liana/" + what;
+  return home.empty() ? "" : home + "/.local/state/liana/" + what;
+}
+
 void remove_oldest(const fs::path& folder) {
   std::vector<std::pair<fs::file_time_type, fs::path>> kept;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -30,11 +36,8 @@ void remove_oldest(const fs::path& folder) {
 
 }  // namespace
 
-std::string kept_events_folder() {
-  const std::string state = variable("XDG_STATE_HOME"), home = variable("HOME");
-  if (!state.empty()) return state + "/liana/events";
-  return home.empty() ? "" : home + "/.local/state/liana/events";
-}
+std::string kept_events_folder() { return kept_folder("events"); }
+std::string kept_commands_folder() { return kept_folder("commands"); }
 
 void keep_events(const std::string& file, const std::string& name, const std::string& folder) {
   if (folder.empty()) throw std::runtime_error(file + ": cannot be kept: neither XDG_STATE_HOME nor HOME is set");

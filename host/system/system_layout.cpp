@@ -113,10 +113,27 @@ std::string expected_roles(const SystemLayout& plan, const RunOptions& options) 
 
 ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
   ProgramCall call{"lianad",
-                   {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"),
-                    "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode,
-                    "--physics", options.physics, "--expect", expected_roles(plan, options), "--events",
-                    plan.events_file(), "--way-out", plan.file("way_out.bin")}};
+                   {sibling_program("lianad"),
+                    "--robot",
+                    plan.file("robot.json"),
+                    "--scene",
+                    plan.file("scene.json"),
+                    "--buses",
+                    plan.file("buses.json"),
+                    "--api",
+                    plan.api_socket(),
+                    "--time",
+                    plan.time_mode,
+                    "--physics",
+                    options.physics,
+                    "--expect",
+                    expected_roles(plan, options),
+                    "--events",
+                    plan.events_file(),
+                    "--commands",
+                    plan.commands_file(),
+                    "--way-out",
+                    plan.file("way_out.bin")}};
   if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});
   if (!options.in_pose.empty()) append(call.argv, {"--in-pose", options.in_pose});
   if (embedded) append(call.argv, {"--bus-socket", plan.bus_socket()});
@@ -200,11 +217,13 @@ void write_tables(const SystemLayout& plan, const std::string& robot, const std:
   write_output(plan.file("buses.json"), buses);
 }
 
-void save_events(const SystemLayout& plan) {
+void save(const SystemLayout& plan, const std::string& file, const char* what, const std::string& folder) {
+  std::error_code none;
+  if (!fs::exists(file, none)) return;
   try {
-    keep_events(plan.events_file(), fs::path(plan.directory).filename(), kept_events_folder());
+    keep_events(file, fs::path(plan.directory).filename(), folder);
   } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "liana: the events of this run are lost: %s\n", error.what());
+    std::fprintf(stderr, "liana: the %s of this run are lost: %s\n", what, error.what());
   }
 }
 
@@ -272,7 +291,8 @@ void clean_up(const SystemLayout& plan, bool success) {
   std::error_code error;
   fs::remove(plan.api_socket(), error);
   fs::remove(plan.bus_socket(), error);
-  if (!plan.keep_directory && success && fs::exists(plan.events_file(), error)) save_events(plan);
+  if (!plan.keep_directory && success) save(plan, plan.events_file(), "events", kept_events_folder());
+  save(plan, plan.commands_file(), "commands", kept_commands_folder());
   if (plan.keep_directory || success) fs::remove_all(plan.socket_dir, error);
 }
 

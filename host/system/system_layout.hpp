@@ -30,6 +30,7 @@ struct SystemLayout {
   std::string file(const std::string& name) const { return directory + "/" + name; }
   std::string api_socket() const { return socket_dir + "/api"; }
   std::string events_file() const { return file("events.txt"); }
+  std::string commands_file() const { return file("commands.txt"); }
   std::string bus_socket() const { return socket_dir + "/bus"; }
 };
 

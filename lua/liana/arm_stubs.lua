@@ -196,6 +196,8 @@ function arm.shape(fields) end
 ---@field node? integer
 ---fastest that the tip follows (else the robot's tip speed)
 ---@field speed_m_s? number
+---`vr` steers inside the slit, too; else it is refused there, and let go at the mouth (else false)
+---@field anywhere? boolean
 
 ---Who steers, and how hand motion maps to the tip. For cable arms only.
 ---@param fields arm.use_device
@@ -242,6 +244,8 @@ function arm.stop(fields) end
 ---@field device string
 ---what the operator should do
 ---@field task? string
+---what the step waits for people for
+---@field waits? string
 
 ---@class arm.announce
 ---the step that begins; null or left out: the mission has ended

@@ -4,7 +4,7 @@ local uses = require "liana.uses"
 local check = {}
 
 local kDevices = { vr = true, hand = true, none = true }
-local kOnFail = { retract = true, hold = true, stop = true }
+local kOnFail = { retract = true, hold = true, stop = true, pause = true }
 local kDefaultEnterLimit_s = 10
 
 local function refuse(where, field, value, allowed, advice)
@@ -32,12 +32,13 @@ local kStep = {
   device = { allowed = "\"vr\", \"hand\" or \"none\"", ok = one_of(kDevices).ok, required = true },
   exit = { allowed = condition_rule.allowed, ok = is_condition, required = true },
   time_limit_s = { allowed = "seconds over 0, up to 3600", ok = seconds_up_to(3600).ok, required = true },
-  on_fail = { allowed = "\"retract\", \"hold\" or \"stop\"", ok = one_of(kOnFail).ok, required = true },
+  on_fail = { allowed = "\"retract\", \"hold\", \"stop\" or \"pause\"", ok = one_of(kOnFail).ok, required = true },
   enter = condition_rule,
   enter_limit_s = seconds_up_to(3600),
   hold = { allowed = "{ [theta] = degrees }, such as { [9] = 0 }", ok = is_table },
   steer = { allowed = "a table with fields of use_device, such as { scale = 4 }", ok = is_table },
   run = action_rule,
+  confirm = { allowed = "a text of 1 to 80 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 80 end },
   task = { allowed = "a text of 1 to 40 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 40 end },
 }
 
@@ -161,7 +162,7 @@ function check.describe(mission)
   for i, step in ipairs(mission.steps) do
     steps[i] = {
       name = step.name, device = step.device, held_theta = sorted_held(step.hold), time_limit_s = step.time_limit_s,
-      on_fail = step.on_fail, enter = step.enter.text, exit = step.exit.text,
+      on_fail = step.on_fail, confirm = step.confirm, enter = step.enter.text, exit = step.exit.text,
     }
   end
   return { format = 1, kind = "mission", name = mission.name, steps = steps }

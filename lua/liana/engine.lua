@@ -1,5 +1,6 @@
 -- Runs a mission: one call per state from lianad (every command interval), never blocking.
--- boot -> (enter -> run) for each step -> finish -> over; any fault leads through the step's on_fail to over.
+-- boot -> (enter -> confirm -> run) for each step -> finish -> over; any fault leads through the step's on_fail to over,
+-- with on_fail = "pause" to stuck, and from there on people's word through boot to the step again. People may pause it.
 local view = require "liana.view"
 
 local engine = {}
@@ -8,6 +9,7 @@ local kBootLimit_s = 60 -- drives boot, home and enable in this time or the miss
 local kSettle_s = 0.1 -- commands need a few intervals before the state shows them
 local kFinishLimit_s = 5
 local kRetractStall_s = 60 -- the way back comes on by a point of its path in this time or the mission ends
+local kPatience_s = 3600 -- of this time a mission waits for people at most
 local kRetry_s = 2 -- between attempts that lianad answers with busy or refused
 
 local Runner = {}
@@ -32,6 +34,7 @@ function engine.new(mission, welcome, native, name)
   return setmetatable({
     mission = mission, native = native, name = name, arm = view.new(tracked(native.commands, pending), welcome),
     phase = "boot", index = 0, pending = pending, not_before = 0, first_retract_tick = nil, current_hold = {},
+    index_to_begin = 1, single_step = false,
     boot_reason = "state_command got no refusal",
     report = { mission = mission.name, outcome = "failed", reason = "", steps = {}, duration_s = 0 },
   }, Runner)
@@ -75,7 +78,7 @@ local function boot(runner)
   -- Somebody stopped the arm while it was being enabled: that is final, never enabled again by itself.
   if state.state == "STOPPING" then return runner:fail("aborted", "stopped while the drives were being enabled") end
   if runner:phase_s() > kBootLimit_s then return runner:fail("failed", ("not enabled after %g s, %s"):format(kBootLimit_s, runner.boot_reason)) end
-  if state.state == "ENABLED" and runner.owned then return runner:begin_step(1) end
+  if state.state == "ENABLED" and runner.owned then return runner:begin_step(runner.index_to_begin, true) end
   if runner:waiting() or runner:phase_s() < runner.not_before then return end
   local command, fields = boot_request(runner)
   if command then
@@ -92,7 +95,7 @@ local function held_list(hold)
   return held
 end
 
-function Runner:begin_step(index)
+function Runner:begin_step(index, goes_on)
   self.index = index
   local step, state = self:step(), self.arm.state
   self.record = {
@@ -103,10 +106,18 @@ function Runner:begin_step(index)
   self.refusals_before = state.refusals
   if step.on_fail == "retract" and not self.first_retract_tick then self.first_retract_tick = state.tick end
   self.arm.begin_tick, self.arm.was_engaged, self.arm.must_hold = state.tick, false, step.hold
-  self:request("announce", { step = { index = index, name = step.name, device = step.device, task = step.task } })
+  self.has_entered, self.is_confirmed, self.waited_s = false, step.confirm == nil, 0
+  self:announce_step()
   self.native.progress { event = "begin", index = index, count = #self.mission.steps, name = step.name, device = step.device, time_s = state.time_s }
   self.native.report(self.report)
   self:enter_phase("enter")
+  if self.single_step and not goes_on then self:pause("one step at a time") end
+end
+
+-- Tells everybody which step runs, and what it waits for.
+function Runner:announce_step(waits)
+  local step = self:step()
+  self:request("announce", { step = { index = self.index, name = step.name, device = step.device, task = step.task, waits = waits } })
 end
 
 local function same_hold(a, b)
@@ -125,10 +136,12 @@ end
 
 local function enter(runner)
   local step = runner:step()
-  if not step.enter.met(runner.arm) then
+  if not runner.has_entered and not step.enter.met(runner.arm) then
     if runner:phase_s() > step.enter_limit_s then runner:fail("failed", "cannot enter, not met: " .. step.enter.text) end
     return
   end
+  runner.has_entered = true
+  if not runner.is_confirmed then return runner:wait_for_people("confirm", "confirm: " .. step.confirm) end
   runner:send_hold(step.hold)
   if step.device ~= "none" then
     local fields = { device = step.device }
@@ -138,6 +151,84 @@ local function enter(runner)
   step.run(runner.arm)
   runner:enter_phase("run")
 end
+
+-- ---- people ---------------------------------------------------------------------------------------------------------
+
+function Runner:wait_for_people(phase, why)
+  self:announce_step((why:sub(1, 120):gsub("[^\32-\126]", "?"))) -- no reason may keep lianad from taking it
+  self.native.progress { event = "wait", index = self.index, count = #self.mission.steps, name = self:step().name, reason = why, time_s = self.arm.state.time_s }
+  self:enter_phase(phase)
+end
+
+-- The arm holds; nothing goes on until somebody says so. The step's time stands still.
+function Runner:pause(why)
+  self:request("hold")
+  if self:step().device ~= "none" and self.phase == "run" then self:request("use_device", { device = "none" }) end
+  self.current_hold = { paused = true } -- holds of its own: what was under way has to be asked for again
+  self:wait_for_people("paused", "paused: " .. why)
+end
+
+function Runner:go_on()
+  if self.phase == "stuck" then -- from the beginning of the step, as the owner of an arm that is enabled
+    self.index_to_begin, self.not_before, self.failed_outcome, self.failed_reason = self.index, 0, nil, nil
+    return self:enter_phase("boot")
+  end
+  self.waited_s = self.waited_s + self:phase_s()
+  self.refusals_before = self.arm.state.refusals
+  self:announce_step()
+  self:enter_phase("enter")
+end
+
+local kUnderWay = { enter = true, confirm = true, run = true }
+local kAsked = {}
+
+function kAsked.pause(runner, by)
+  if kUnderWay[runner.phase] then runner:pause("asked for by " .. by) end
+end
+
+function kAsked.resume(runner)
+  runner.single_step = false
+  if runner.phase == "paused" or runner.phase == "stuck" then runner:go_on() end
+end
+
+-- The step under way, or the next one, and then a pause.
+function kAsked.step(runner)
+  runner.single_step = true
+  if runner.phase == "paused" or runner.phase == "stuck" then runner:go_on() end
+end
+
+function kAsked.confirm(runner)
+  if runner.phase ~= "confirm" then return end
+  runner.is_confirmed, runner.waited_s = true, runner.waited_s + runner:phase_s()
+  runner:announce_step()
+  runner:enter_phase("enter")
+end
+
+function kAsked.abort(runner, by)
+  local reason = "ended by " .. by
+  if runner.phase == "stuck" then return runner:over(runner.failed_outcome, runner.failed_reason .. "; " .. reason) end
+  if kUnderWay[runner.phase] or runner.phase == "paused" then runner:fail("aborted", reason, true) end
+end
+
+-- What somebody has asked for since the last look (docs/api.md, mission_control).
+function Runner:heed()
+  local asked = self.arm.state.mission_control
+  local number = asked and asked.number or 0
+  if self.heard ~= nil and number > self.heard then kAsked[asked.command](self, asked.by) end
+  self.heard = number
+end
+
+-- Waiting for people has an end, too.
+local function wait(runner)
+  if runner:phase_s() > kPatience_s then runner:fail("failed", ("nobody said how to go on within %g s"):format(kPatience_s), true) end
+end
+
+local function wait_stuck(runner)
+  if runner:phase_s() <= kPatience_s then return end
+  runner:over(runner.failed_outcome, ("%s; nobody said how to go on within %g s"):format(runner.failed_reason, kPatience_s))
+end
+
+-- ---- steps, again ---------------------------------------------------------------------------------------------------
 
 -- A motion that the script asked for has ended before its goal. (While an operator steers, a refusal is part of steering.)
 local function refused_motion(runner)
@@ -153,7 +244,7 @@ local function run(runner)
   local fresh = runner:phase_s() >= kSettle_s -- before, the state may still speak of the step before
   if fresh and arm.state.device_engaged then arm.was_engaged = true end
   if fresh and not runner:waiting() and step.exit.met(arm) then return runner:end_step() end
-  if arm.elapsed_s(arm.begin_tick) > step.time_limit_s then
+  if arm.elapsed_s(arm.begin_tick) - runner.waited_s > step.time_limit_s then
     local busy = arm.state.is_busy and " while the arm was still moving" or ""
     runner:fail("failed", ("time limit of %g s passed%s, not met: %s"):format(step.time_limit_s, busy, step.exit.text))
   end
@@ -199,19 +290,28 @@ local function short(reason)
   return (string.char(reason:byte(1, 200)):gsub("[^\32-\126]", "?"))
 end
 
--- Ends the step with `outcome` and does what the step says; without a step, holds.
-function Runner:fail(outcome, reason)
+-- Ends the step with `outcome` and does what the step says; without a step, holds. `for_good`: does not wait for people.
+function Runner:fail(outcome, reason, for_good)
   local step = self:step()
   if self.record and self.record.outcome == "running" then self:close_record(outcome, reason) end
   for id in pairs(self.pending) do self.pending[id] = nil end
   self.failed_outcome, self.failed_reason = outcome, reason
   local action = step and step.on_fail or "hold"
+  if action == "pause" and not for_good then return self:get_stuck() end
+  if action == "pause" then action = "hold" end
   if action == "retract" then
     self:request("retract", { until_tick = self.first_retract_tick })
     return self:enter_phase("retract")
   end
   if self.owned or action == "stop" then self:request(action, action == "stop" and { reason = short(reason) } or {}) end
   self:enter_phase("give_up")
+end
+
+-- The arm holds, and others may own motion meanwhile: to clear, to enable, to lead the arm back.
+function Runner:get_stuck()
+  self:wait_for_people("stuck", "failed: " .. self.failed_reason)
+  if self.owned then self:request("release") end
+  self.owned, self.current_hold = false, {}
 end
 
 -- The way back says by itself when it is over, and whether it went all the way. It has so many points and each in bounded time: it ends.
@@ -254,12 +354,17 @@ end
 -- The arm stopped by itself, by the operator or by a fault: nothing is left to command.
 local function stopped(runner)
   local state = runner.arm.state
-  if runner.phase == "boot" or state.state == "ENABLED" then return false end
+  if runner.phase == "boot" or runner.phase == "stuck" or state.state == "ENABLED" then return false end
   local outcome = #state.faults > 0 and "failed" or "aborted"
   local reason = ("the arm is %s (stop category %s), faults: %s"):format(state.state, state.stop_category, runner:fault_names())
   local stop = state.stop and stop_text(state.stop)
   if stop and not (runner.failed_reason or ""):find(stop, 1, true) then reason = stop .. ": " .. reason end
   if runner.failed_reason then reason = runner.failed_reason .. "; " .. reason end
+  local step = runner:step()
+  if not runner.failed_reason and not state.stop and step and step.on_fail == "pause" then
+    runner:fail(outcome, reason)
+    return true
+  end
   if runner.record and runner.record.outcome == "running" then runner:close_record(outcome, reason) end
   runner:over(runner.failed_outcome or outcome, reason)
   return true
@@ -267,7 +372,7 @@ end
 
 -- A fault that only holds the arm leaves it enabled and at rest, as if it had arrived.
 local function held_by_fault(runner)
-  local under_way = runner.phase == "enter" or runner.phase == "run" or runner.phase == "finish"
+  local under_way = kUnderWay[runner.phase] or runner.phase == "finish"
   if not under_way or #runner.arm.state.faults == 0 then return false end
   runner:fail("failed", "fault " .. runner:fault_names())
   return true
@@ -281,7 +386,7 @@ end
 -- While drives boot and lengths settle these answers are normal; kBootLimit_s bounds the patience.
 local kBootRetry = { busy = true, refused = true }
 
-local kPhases = { boot = boot, enter = enter, run = run, finish = finish, retract = retract, give_up = give_up }
+local kPhases = { boot = boot, enter = enter, confirm = wait, paused = wait, stuck = wait_stuck, run = run, finish = finish, retract = retract, give_up = give_up }
 
 -- One state message. Returns true when the mission is over.
 function Runner:on_state(state)
@@ -292,7 +397,8 @@ function Runner:on_state(state)
       self.owned = false
       self:over("aborted", "motion belongs to " .. tostring(state.owner) .. " now")
     elseif not held_by_fault(self) then
-      kPhases[self.phase](self)
+      self:heed()
+      if self.phase ~= "over" then kPhases[self.phase](self) end
     end
   end
   return self.phase == "over"
@@ -306,7 +412,7 @@ function Runner:on_answer(message)
     if command == "acquire" then self.owned = true end
     return
   end
-  if command == nil then return end
+  if command == nil or self.phase == "stuck" then return end
   local reason = ("%s refused: %s: %s"):format(command, message.code, message.message)
   if self.phase == "boot" and kBootRetry[message.code] then
     self.boot_reason = reason

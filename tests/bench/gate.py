@@ -1,8 +1,8 @@
 """ctest bench.instructions: the core's operations stay within their limits of instructions (plain -O2, callgrind: the
 same on every day).
 
-gate.py BENCH_CORE BENCH_WORST CASES BENCH_VERIFY: the worst tick is that of the bench's phases, of the stored cases and
-of some random ones; BENCH_VERIFY is what one command costs, with its whole stop.
+gate.py BENCH_CORE BENCH_WORST CASES BENCH_VERIFY BENCH_DISTANCES: the worst tick is that of the bench's phases, of the
+stored cases and of some random ones; BENCH_VERIFY is what one command costs, with its whole stop.
 """
 import pathlib
 import statistics
@@ -14,6 +14,8 @@ LIMITS = {
     "fk_jacobian": 8_000,
     "ik_step": 12_000,
     "cable_jacobian": 6_000,
+    "arm_clearance": 28_000,
+    "self_clearance": 36_000,
     "tick": 32_000,  # median
     "tick_worst": 45_000,
     "verify": 5_500_000,  # median over the motions of tests/bench/verify.cpp that move the tip or a joint
@@ -36,7 +38,7 @@ def verdicts(counts, worst_cases, verified):
     def at_most(what, value, limit):
         return what, value <= limit, f"{value:,} instructions, at most {limit:,}"
 
-    for operation in ("fk_jacobian", "ik_step", "cable_jacobian"):
+    for operation in ("fk_jacobian", "ik_step", "cable_jacobian", "arm_clearance", "self_clearance"):
         yield at_most(operation, max(counts[f"{operation} ours"]), LIMITS[operation])
     median, worst = callgrind.ticks(
         {label.removeprefix("tick "): calls for label, calls in counts.items() if label.startswith("tick ")}
@@ -61,12 +63,13 @@ def verdicts(counts, worst_cases, verified):
 
 
 def main():
-    core, worst, cases, verify = map(pathlib.Path, sys.argv[1:])
+    core, worst, cases, verify, distances = map(pathlib.Path, sys.argv[1:])
     worst_cases = {
         "stored_cases": callgrind.instructions(worst, "stored", cases),
         "random_cases": callgrind.instructions(worst, "random", *RANDOM_CASES),
     }
-    results = list(verdicts(callgrind.instructions(core), worst_cases, callgrind.instructions(verify)))
+    counts = callgrind.instructions(core) | callgrind.instructions(distances)
+    results = list(verdicts(counts, worst_cases, callgrind.instructions(verify)))
     for what, holds, text in results:
         print(f"{'held' if holds else 'BROKEN':6} {what:20} {text}")
     return 0 if all(holds for _, holds, _ in results) else 1

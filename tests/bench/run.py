@@ -16,13 +16,15 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/numbers"))
 from page import commit_of  # noqa: E402
 
-PROGRAMS = ("bench_core", "bench_kdl", "bench_collision", "bench_plan")
+PROGRAMS = ("bench_core", "bench_distances", "bench_kdl", "bench_collision", "bench_plan")
 MEANING = {
     "fk_jacobian": "tip pose, nodes and 6x10 Jacobian, random poses within +-15 deg",
     "ik_step": "one damped step with limits, goal 10 mm away",
     "ik_near": "goal 10 mm away, to 1e-6 m and rad",
     "ik_random": "tip of a random pose within +-15 deg, from the straight arm",
     "cable_jacobian": "trigonometry, 15 cable lengths and their 15x10 Jacobian",
+    "arm_clearance": "a whole arm of 40 links from two plates and a ball, half of the poses in the slit between them",
+    "self_clearance": "the same arms from themselves",
     "clearance": "one link against one box; mean of 40 links and 6 boxes",
     "plan_edge": "whole plan of 12 waypoints past the scene's bodies, prepare to panel edge",
     "plan_ball": "the same past a ball that stands in the middle of the straight line in theta",
@@ -46,6 +48,7 @@ TAIL = """## What the peers are
 - Pinocchio is not in Debian and not measured here. Version 3.7 at -O2 on the same 80 joints, summed to 6x10, once
   took 50,644 instructions for `fk_jacobian`.
 - `own_80`: our own loop over 80 hinges, without waste; for inverse problems all 80 are free and have no limits.
+- `every_pair`: our own distances without leaving anything out.
 - `textbook`: every hole of every disc, hole to hole; derivative by central differences.
 - `fcl`, `libccd`: no broad phase anywhere. All but `fcl` only say whether two bodies touch.
 - `ipopt_straight`: Ipopt with our problem, derivatives and rounds, but from the straight line in theta instead of

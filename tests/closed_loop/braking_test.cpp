@@ -23,7 +23,7 @@ constexpr double kStop_s = 3.0;
 constexpr std::uint32_t kHeldPitch = 0x100;  // X5 of the mission
 
 // What to ask for while the arm stands at `start`, at a share of the time.
-using Ask = std::function<Setpoint(const Outputs& now, double share)>;
+using Ask = std::function<Setpoint(const cable::Outputs& now, double share)>;
 
 struct Motion {
   const char* name;
@@ -32,7 +32,7 @@ struct Motion {
   std::vector<double> cut_after_s;
 };
 
-Setpoint tip_at_goal(const Outputs& now) {
+Setpoint tip_at_goal(const cable::Outputs& now) {
   Setpoint setpoint;
   setpoint.kind = CommandKind::kTip;
   setpoint.tip_in_base = now.tip_goal;
@@ -41,7 +41,7 @@ Setpoint tip_at_goal(const Outputs& now) {
 }
 
 // The tip goes on with this velocity: the target leads by the filter's lag.
-Setpoint tip_along(const Outputs& now, const Vec3& velocity_m_s, std::uint32_t held_mask) {
+Setpoint tip_along(const cable::Outputs& now, const Vec3& velocity_m_s, std::uint32_t held_mask) {
   constexpr double kLag_s = 0.75;
   Setpoint setpoint = tip_at_goal(now);
   setpoint.tip_in_base.position_m = add(setpoint.tip_in_base.position_m, scale(velocity_m_s, kLag_s));
@@ -50,13 +50,13 @@ Setpoint tip_along(const Outputs& now, const Vec3& velocity_m_s, std::uint32_t h
   return setpoint;
 }
 
-Setpoint going_planar(const Outputs& now, double) {
+Setpoint going_planar(const cable::Outputs& now, double) {
   Setpoint setpoint = tip_at_goal(now);
   setpoint.held_mask = kHeldPitch;
   return setpoint;
 }
 
-Setpoint tip_and_node(const Outputs& now, double) {
+Setpoint tip_and_node(const cable::Outputs& now, double) {
   Setpoint setpoint = tip_along(now, {-0.045, -0.045, 0.0}, 0);
   setpoint.node[0] = {3, add(now.node_command_m[2], {0.0, 0.1, 0.1}), 1.0, 0.001};
   return setpoint;
@@ -120,20 +120,20 @@ TEST_P(Braking, KeepsEveryCableTautAndEndsSoonAfterTheLastCommand) {
 const Motion kGoingPlanar{"going planar", "prepare", going_planar, {0.4, 0.9, 2.0}};
 const Motion kFreeTip{"free tip at 0.1 m/s",
                       "prepare",
-                      [](const Outputs& now, double) {
+                      [](const cable::Outputs& now, double) {
                         return tip_along(now, {-0.06, -0.06, 0.0529}, 0);
                       },
                       {3.0}};
 const Motion kTipAndNode{"tip and node", "prepare", tip_and_node, {3.0}};
 const Motion kInSlit{"in the slit at 0.03 m/s",
                      "segment5_in_slit",
-                     [](const Outputs& now, double) {
+                     [](const cable::Outputs& now, double) {
                        return tip_along(now, {0.03, 0.0, 0.0}, kHeldPitch);
                      },
                      {3.0}};
 const Motion kJoints{"joints",
                      "prepare",
-                     [](const Outputs&, double share) {
+                     [](const cable::Outputs&, double share) {
                        const ThetaVector from = named_pose_rad("prepare"), to = named_pose_rad("panel_edge");
                        Setpoint setpoint;
                        setpoint.kind = CommandKind::kJoint;

@@ -77,6 +77,21 @@ TEST(FrictionWatch, UndeclaredWearIsFlaggedWithinTenSecondsAndPlannedWith) {
   }
 }
 
+TEST(ContactWatch, AFreeArmThatIsSwungAboutItsRootFeelsNothing) {
+  ArmUnderControl arm({"nominal", 1, true, "prepare"});
+  arm.boot();
+  const cable::ThetaVector from = arm.outputs().theta_command_rad;
+  for (const double turn_deg : {3.0, -3.0, 0.0}) {
+    cable::ThetaVector goal = from;
+    goal[0] += turn_deg * kDegree;
+    goal[1] += turn_deg * kDegree;
+    arm.move_joints(goal, 6.0);
+    EXPECT_EQ(arm.outputs().faults.count, 0) << turn_deg;
+  }
+  arm.hold(5.0);
+  EXPECT_EQ(arm.outputs().faults.count, 0) << "it swings on for a while";
+}
+
 TEST(ContactWatch, ABodyThatIsSlowlyPressedAgainstThePanelIsAFaultThatHolds) {
   ArmUnderControl arm({"nominal", 1, true, "segment5_in_slit"});
   arm.boot();

@@ -3,7 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <vector>
 
 #include "tests/firmware_like/ideal_drives.hpp"
 
@@ -231,6 +235,75 @@ TEST(Controller, AStopWhileMovingEndsAlongThePathWithoutAQuickStop) {
   EXPECT_EQ(rig.out.state, OperatingState::kDisabled);
   EXPECT_FALSE(quick_stop);
   EXPECT_EQ(rig.out.faults.count, 0);
+}
+
+TEST(Controller, AHoldTelecommandEndsTheMotionOnItsWayAndKeepsTheArmEnabled) {
+  Rig rig;
+  rig.enable();
+  const ThetaVector goal = zhu2022::plus(rig.out.theta_command_rad, zhu2022::Random(1).theta(rig.robot, 2.0));
+  rig.tick(Request::kNone, rig.release(rig.joints(goal)));
+  rig.run(150);
+  ASSERT_FALSE(rig.out.at_rest);
+  Setpoint hold;
+  hold.kind = CommandKind::kHold;
+  rig.tick(Request::kNone, rig.release(hold));
+  rig.run(400);
+  EXPECT_TRUE(rig.out.at_rest);
+  EXPECT_EQ(rig.out.state, OperatingState::kEnabled);
+  EXPECT_GT(zhu2022::largest_difference(rig.out.theta_command_rad, goal), 0.2 * kDegree) << "it went on to its goal";
+  const ThetaVector stood = rig.out.theta_command_rad;
+  rig.run(400);
+  EXPECT_EQ(rig.out.theta_command_rad, stood);
+}
+
+TEST(Controller, HeldAnglesOutOfTheirLimitsAreFault1001AndNeverFollowed) {
+  for (const std::size_t theta : {std::size_t{0}, std::size_t{8}, std::size_t{9}}) {
+    for (const double side : {1.0, -1.0}) {
+      Rig rig;
+      rig.enable();
+      Setpoint setpoint = rig.tip_by({0.01, 0.0, 0.0});
+      const double limit_rad = rig.robot.segment[theta / 2].theta_limit_rad;
+      setpoint.held_mask = 1u << theta;
+      setpoint.held_rad[theta] = side * limit_rad;
+      EXPECT_TRUE(is_usable(rig.robot, setpoint)) << "the limit itself";
+      setpoint.held_rad[theta] = side * (limit_rad + 1e-6);
+      EXPECT_FALSE(is_usable(rig.robot, setpoint));
+      rig.tick(Request::kNone, rig.release(setpoint));
+      EXPECT_TRUE(has_fault(rig.out, FaultNumber::kCommandInvalid)) << theta;
+    }
+  }
+}
+
+// The last limit before the drives: cables never wind faster than the table says, whatever tension is planned.
+TEST(Controller, DrumsNeverTurnFasterThanTheTablesCableSpeed) {
+  RobotTable robot = zhu2022::table();
+  robot.limits.cable_speed_m_s = 1e-4;
+  const ThetaVector pose = zhu2022::radians(zhu2022::kPrepare_deg);
+  Controller controller(robot);
+  const IdealDrives ideal(robot, pose);
+  Inputs inputs = ideal.inputs(0);
+  for (std::size_t c = 0; c < zhu2022::kCables; ++c)
+    inputs.drive[c].position_counts += robot.drive[c].direction * 300;  // 0.43 mm loose: the ramp draws them in
+  constexpr std::int32_t kWindow = 100;
+  const double allowed = kWindow * robot.limits.cable_speed_m_s * robot.tick_s / robot.drive[0].metres_per_count + 2.0;
+  std::vector<DriveCommands> sent;
+  double most = 0.0;
+  for (std::int32_t i = 0; i < 1300; ++i) {
+    inputs.tick = static_cast<std::uint64_t>(i) + 1;
+    inputs.request = i == 60 ? Request::kEnable : Request::kNone;
+    const Outputs out = controller.tick(inputs);
+    for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
+      inputs.drive[c].statusword = IdealDrives::answer_to(out.drive[c].controlword, inputs.drive[c].statusword);
+      inputs.drive[c].position_counts = out.drive[c].target_counts;
+      if (i < 200 + kWindow) continue;
+      const std::int32_t then = sent[static_cast<std::size_t>(i - kWindow)][c].target_counts;
+      const double turned = std::abs(out.drive[c].target_counts - then);
+      ASSERT_LE(turned, allowed) << i << " " << c;
+      most = std::max(most, turned);
+    }
+    sent.push_back(out.drive);
+  }
+  EXPECT_GT(most, 0.9 * (allowed - 2.0)) << "the limit has to act";
 }
 
 }  // namespace

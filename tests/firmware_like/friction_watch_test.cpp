@@ -62,7 +62,8 @@ class Swaying {
     if (node > 0) add_push(true_ratio, arm, node, push_N, tension_N);
     const TensionRatio ratio = tension_ratio(told_, layout_, trig_, slip_);
     const FrictionReadings now{geometry_, ratio, slip_, trig_, tension_N, told_.friction_mu, moving};
-    if (watch_friction(told_, layout_, declared_mu_, now, state_)) watch_contact(told_, limits_, arm, state_, contact_);
+    if (watch_friction(told_, layout_, declared_mu_, now, state_))
+      watch_contact(told_, limits_, arm, ThetaVector{}, state_, contact_);
   }
 
   // From the tip to the root, the least change of each segment's cables that balances the push.

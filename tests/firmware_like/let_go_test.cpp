@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "firmware_like/cable/arm/payout.hpp"
 #include "firmware_like/cable/arm/sparing.hpp"
 #include "tests/firmware_like/ideal_drives.hpp"
@@ -19,6 +22,7 @@ class LetGo : public testing::Test {
   void SetUp() override {
     rig_.enable();
     start_ = rig_.out.drive;
+    pose_rad_ = rig_.out.theta_command_rad;
   }
   // One tick; the drives go where they are told, one cable reads nothing.
   void tick(bool lost) {
@@ -36,6 +40,7 @@ class LetGo : public testing::Test {
 
   Rig rig_;
   DriveCommands start_{};
+  ThetaVector pose_rad_{};
 };
 
 TEST_F(LetGo, OneLostSampleLetsTheWholeSegmentGoInTheSameTick) {
@@ -56,7 +61,7 @@ TEST_F(LetGo, ASampleThatShowsTensionAgainTakesEverythingBack) {
   for (int i = 0; i < 500; ++i) tick(false);
   EXPECT_EQ(rig_.out.faults.count, 0);
   EXPECT_EQ(rig_.out.state, OperatingState::kEnabled);
-  for (std::size_t c = 0; c < zhu2022::kCables; ++c) EXPECT_NEAR(out_m(c), 0.0, 2e-6) << c;
+  for (std::size_t c = 0; c < zhu2022::kCables; ++c) EXPECT_NEAR(out_m(c), 0.0, 2e-5) << c;
 }
 
 TEST_F(LetGo, ThreeLostSamplesAreABreakThatStopsWithPowerThenBrakes) {
@@ -69,14 +74,14 @@ TEST_F(LetGo, ThreeLostSamplesAreABreakThatStopsWithPowerThenBrakes) {
   std::uint32_t ticks = 0;
   for (; ticks < 1000 && rig_.out.state != OperatingState::kFault; ++ticks) tick(true);
   EXPECT_EQ(rig_.out.state, OperatingState::kFault);
-  EXPECT_LE(ticks, kLetGoSettleTicks + kRestTicks + kBrakingTicks + 60);
+  EXPECT_LE(ticks, 125 + kRestTicks + kBrakingTicks + 10) << "5 mm are wound back at 10 mm/s, where drives have no lag";
   EXPECT_EQ(rig_.out.faults.count, 1) << "the cables that were let go are not slack";
 }
 
 TEST_F(LetGo, ABrokenSegmentEndsTautAtThePlannedPose) {
-  for (std::uint16_t i = 0; i < kLetGoSettleTicks + 50; ++i) tick(true);
+  for (int i = 0; i < 300; ++i) tick(true);
   const CableLayout layout = cable_layout(rig_.robot);
-  const CableGeometry geometry = cable_geometry(rig_.robot, layout, arm_trig(rig_.robot, rig_.out.theta_command_rad));
+  const CableGeometry geometry = cable_geometry(rig_.robot, layout, arm_trig(rig_.robot, pose_rad_));
   for (std::size_t c = kFirst; c < kEnd; ++c) {
     const double taut_m = geometry.length_m[c] + rig_.robot.lead_m;
     EXPECT_NEAR(rig_.out.payout_command_m[c], taut_m, 0.1e-3) << c;
@@ -108,9 +113,8 @@ TEST(PlanWithout, BalancesEveryOtherSegmentNearTheFloorWithoutTheLooseOne) {
     for (std::size_t k = 0; k < 10; ++k) {
       double torque_Nm = 0.0;
       for (std::size_t c = 0; c < zhu2022::kCables; ++c) torque_Nm += geometry.jacobian_m_rad[c][k] * plan.motor_N[c];
-      if (static_cast<std::int32_t>(k / 2) != loose) {
-        ASSERT_LE(std::fabs(torque_Nm), 1e-9) << loose << " " << k;
-      }
+      if (static_cast<std::int32_t>(k / 2) == loose) continue;
+      ASSERT_LE(std::fabs(torque_Nm), 1e-9) << loose << " " << k;
     }
     for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
       if (layout.segment[c] == loose) {
@@ -133,7 +137,9 @@ TEST(Sparing, ASegmentWithASlippedCableIsPulledLessOneWithASlackCableMore) {
   spare_cables(robot, layout, faults, lift_N);
   EXPECT_NEAR(lift_N[1], -kSparingRate_N_s * robot.tick_s, 1e-12) << "not at once";
   for (int i = 0; i < 1000; ++i) spare_cables(robot, layout, faults, lift_N);
-  EXPECT_EQ(lift_N, (SegmentVector{0.0, -kSparing_N, 0.0, 0.0, kSparing_N}));
+  EXPECT_NEAR(lift_N[1], -kSparing_N, 1e-9);
+  EXPECT_NEAR(lift_N[4], kSparing_N, 1e-9);
+  EXPECT_EQ(lift_N[0], 0.0) << "a reading that scatters says nothing of the tension";
 }
 
 TEST(Sparing, LessLiftLowersThePlanOfItsSegmentAndKeepsTheFloor) {

@@ -288,5 +288,17 @@ TEST(Tension, WithMuchFrictionNothingIsLifted) {
   EXPECT_EQ(lifted_until_taut(zhu2022::table(0.1), 1000.0, measured_N)[0], 0.0);
 }
 
+TEST(Tension, EveryCableThatNearsTheFloorLiftsItsOwnSegment) {
+  const RobotTable robot = zhu2022::table();
+  for (std::size_t c = 0; c < zhu2022::kCables; ++c) {
+    CableVector measured_N;
+    measured_N.fill(40.0);
+    measured_N[c] = robot.tension.floor_motor_N;
+    SegmentVector lift_N{};
+    keep_taut(robot, measured_N, lift_N);
+    for (std::size_t j = 0; j < 5; ++j) EXPECT_EQ(lift_N[j] > 0.0, j == c / 3) << "cable " << c << ", segment " << j;
+  }
+}
+
 }  // namespace
 }  // namespace liana::cable

@@ -165,5 +165,19 @@ TEST(TipFilter, LimitsThatActAreNamed) {
   EXPECT_FALSE(quiet.accel_limited);
 }
 
+// Turning about a fixed axis from an attitude that is far from the base's: an error taken in the tip's own frame would
+// turn about another one.
+TEST(TipFilter, TurnsAboutTheAxisBetweenTheTwoAttitudesInTheBaseFrame) {
+  TipFilterState state;
+  state.pose.quaternion = quaternion_of({0.0, 0.0, 1.5});
+  const Pose target{{}, multiply(quaternion_of({0.4, 0.0, 0.0}), state.pose.quaternion)};
+  for (std::int32_t i = 0; i < 200; ++i) {
+    filter_tip(config(), target, state);
+    const Vec3 rate = state.angular.velocity;
+    ASSERT_GT(rate[0], 0.0) << i;
+    ASSERT_LE(std::fabs(rate[1]) + std::fabs(rate[2]), 1e-9) << i;
+  }
+}
+
 }  // namespace
 }  // namespace liana::cable

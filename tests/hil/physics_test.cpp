@@ -221,6 +221,55 @@ TEST(BenchPhysics, MujocoFindsTheDepthThatOurClearanceFinds) {
   }
 }
 
+// The panel as the hull of its corners instead of a box: the same depth, by the bench and by MuJoCo.
+TEST(BenchPhysics, AHullOfABoxsCornersIsTouchedLikeTheBox) {
+  SceneConfig scene = squeezed_scene(0.012);
+  const double box_m = table_arm("nominal", "press_rod", scene).clearance().slit_m;
+  const BoxConfig box = scene.boxes[0];
+  ConvexConfig hull{box.name, ConvexConfig::Kind::hull, {}, 0.0};
+  for (int i = 0; i < 8; ++i) {
+    Vec3 corner = box.center_m;
+    for (int k = 0; k < 3; ++k) {
+      const auto axis = static_cast<std::size_t>(k);
+      corner = corner + (i >> k & 1 ? 1.0 : -1.0) * box.half_extent_m[axis] * box.axis[axis];
+    }
+    hull.points_m.push_back(corner);
+  }
+  scene.boxes.erase(scene.boxes.begin());
+  scene.convex.push_back(hull);
+  ArmPhysics arm = table_arm("nominal", "press_rod", scene);
+  EXPECT_NEAR(arm.clearance().convex_m, box_m, 1e-6);
+  double deepest = 0.0;
+  for (const Contact& contact : arm.chain().contacts()) deepest = std::max(deepest, contact.depth_m);
+  EXPECT_NEAR(deepest, -box_m, 1e-5);
+  arm.begin_slot(0.004);
+  arm.step(kStep_s, arm.payouts_m());
+  EXPECT_GT(arm.take_record().contact_N, 10.0);
+}
+
+// In MuJoCo's own shapes and in the bench's distances: a cylinder and a capsule one millimetre into the last link but
+// one.
+TEST(BenchPhysics, CylindersAndCapsulesAreTouchedAsDeepAsTheBenchSays) {
+  for (const auto kind : {ConvexConfig::Kind::cylinder, ConvexConfig::Kind::capsule}) {
+    SceneConfig scene = fixture_scene();
+    scene.boxes.clear();
+    scene.spheres.clear();
+    ArmPhysics alone = table_arm("nominal", "press_rod", scene);
+    const auto& chain = alone.chain();
+    const std::size_t link = chain.link_count() - 2;
+    const Vec3 from = chain.joint_center_m(link), way = chain.joint_center_m(link + 1) - from;
+    const Vec3 side = cross(way, {0.0, 0.0, 1.0}), across = (1.0 / norm(side)) * side;
+    const Vec3 up = (1.0 / norm(way)) * cross(way, across);
+    const Vec3 middle = from + 0.5 * way + (fixture_robot().module_radius_m + 0.019) * across;
+    scene.convex.push_back({"pipe", kind, {middle - 0.3 * up, middle + 0.3 * up}, 0.02});
+    ArmPhysics arm = table_arm("nominal", "press_rod", scene);
+    EXPECT_NEAR(arm.clearance().convex_m, -0.001, 1e-5);
+    double deepest = 0.0;
+    for (const Contact& contact : arm.chain().contacts()) deepest = std::max(deepest, contact.depth_m);
+    EXPECT_NEAR(deepest, 0.001, 1e-5);
+  }
+}
+
 TEST(BenchPhysics, TheRodPushesTheTipBackAndNothingElseOfTheLastLink) {
   ArmPhysics arm = table_arm("nominal", "press_rod");
   const RodConfig rod = fixture_scene().rod;

@@ -146,7 +146,10 @@ void FakeLianad::obey(const Json& request) {
     goal_deg_ = request["points_deg"][request["points_deg"].size() - 1];
     path_intervals_ = kPathIntervals;
   }
-  if (op == "announce" && request.member_or_null("step").is_object()) step_ = request["step"]["index"];
+  if (op == "announce" && request.member_or_null("step").is_object()) {
+    step_ = request["step"]["index"];
+    intervals_in_step_ = 0;
+  }
   if (op == "stop") state_ = "STOPPING";
   if (op == "hold_theta") {
     held_ = Json::array();
@@ -167,6 +170,13 @@ void FakeLianad::advance() {
   if (state_ == "BOOTING" && tick_ > 50) state_ = "DISABLED";
   if (state_ == "ENABLING" && tick_ > 200) state_ = "ENABLED";
   if (path_intervals_ > 0) --path_intervals_;
+  ++intervals_in_step_;
+  if (asked_ < behaviour_.people.size() && behaviour_.people[asked_].first == step_ && intervals_in_step_ >= 25) {
+    ++asked_;
+    intervals_in_step_ = 0;
+  }
+  if (behaviour_.hold_fault_goes && step_ == behaviour_.hold_fault_in_step && owner_.empty())
+    behaviour_.hold_fault_in_step = 0;
   if (busy_intervals_ > 0 && --busy_intervals_ == 0) {
     js_deg_ = goal_deg_;
     if (step_ == 1) tip_ = tip_of(js_deg_);
@@ -222,6 +232,9 @@ Json FakeLianad::state() const {
           {"verdict", {{"text", "joint rate 1.2 of the limit"}}},
           {"planar_segments", planar_segments()},
           {"shape", {{"missing_m", 0.02}, {"settled", busy_intervals_ == 0}, {"searching", false}}},
+          {"mission_control",
+           asked_ == 0 ? Json()
+                       : Json{{"number", asked_}, {"command", behaviour_.people[asked_ - 1].second}, {"by", "ann"}}},
           {"operator_says", said_}};
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "host/json/json.hpp"
@@ -28,7 +29,9 @@ struct FakeBehaviour {
   int steal_in_step = 0;                           // another owner
   bool way_back_ends_early = false;                // retract is accepted, but does not go all the way
   bool way_back_stalls = false;                    // retract is accepted, and nothing comes of it
-  double tip_in_slit_u_m = 3.2;                    // where the hand steps bring the tip
+  std::vector<std::pair<int, std::string>> people = {};  // (step, command): each once, 25 intervals into that step
+  bool hold_fault_goes = false;                          // once nobody owns motion any more
+  double tip_in_slit_u_m = 3.2;                          // where the hand steps bring the tip
 };
 
 // Serves one mission runner at `path` until it leaves; its log holds every request in order.
@@ -85,6 +88,8 @@ class FakeLianad {
   Json tip_;
   Json held_ = Json::array();
   Json said_;
+  std::size_t asked_ = 0;  // of `people`
+  int intervals_in_step_ = 0;
 };
 
 }  // namespace liana::script

@@ -164,6 +164,83 @@ TEST(Mission, AWayBackThatComesOnNoFurtherEndsInBoundedTime) {
   EXPECT_EQ(run.last_command(), "hold");
 }
 
+// Two steps that go to a pose; `fields` are those of the second.
+std::string two_steps(const TemporaryFolder& folder, const std::string& fields) {
+  const std::string to = "device = 'none', run = liana.move_to 'prepare', exit = liana.at_rest(), time_limit_s = 5, ";
+  return folder.write("given.lua",
+                      "local liana = require 'liana'\nreturn liana.mission 'given' {\n liana.step 'one' { " + to +
+                          "on_fail = 'hold' },\n liana.step 'two' { " + to + fields + " } }\n");
+}
+
+std::vector<std::string> waits_of(const MissionRun& run) {
+  std::vector<std::string> waits;
+  for (const std::string& announce : run.ops("announce")) {
+    const Json step = Json::parse(announce).member_or_null("step");
+    if (step.is_object() && step.contains("waits")) waits.push_back(step["waits"]);
+  }
+  return waits;
+}
+
+TEST(Mission, IsPausedAndGoesOnWhenPeopleSaySo) {
+  const MissionRun run = run_mission_against({.people = {{2, "pause"}, {2, "resume"}}});
+  EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
+  EXPECT_EQ(run.ops("hold").size(), 1u);
+  EXPECT_EQ(waits_of(run), (std::vector<std::string>{"paused: asked for by ann"}));
+  EXPECT_EQ(run.ops("use_device").size(), 8u) << "given back for the pause, and taken again";
+}
+
+// Half a second under way and half a second paused in turn: 8.5 s, of which 4.5 s count.
+TEST(Mission, APauseIsNoPartOfTheTimeOfItsStep) {
+  const TemporaryFolder folder;
+  std::vector<std::pair<int, std::string>> people;
+  for (int i = 0; i < 8; ++i) people.insert(people.end(), {{1, "pause"}, {1, "resume"}});
+  const std::string mission = one_step(
+      folder, "exit = liana.condition('late', function(arm) return arm.elapsed_s(arm.begin_tick) > 8 end),");
+  const MissionRun run = run_mission_against({.people = people}, mission);
+  EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
+  EXPECT_EQ(waits_of(run).size(), 8u);
+}
+
+TEST(Mission, GoesOneStepAtATimeUntilItIsToldToResume) {
+  const MissionRun run = run_mission_against({.people = {{2, "step"}, {3, "step"}, {4, "resume"}}});
+  EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
+  EXPECT_EQ(waits_of(run), (std::vector<std::string>{"paused: one step at a time", "paused: one step at a time"}));
+}
+
+TEST(Mission, AStepThatPeopleHaveToConfirmBeginsWhenTheyDo) {
+  const TemporaryFolder folder;
+  const std::string mission = two_steps(folder, "on_fail = 'hold', confirm = 'cover removed'");
+  const MissionRun run = run_mission_against({.people = {{2, "confirm"}}}, mission);
+  EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
+  EXPECT_EQ(waits_of(run), (std::vector<std::string>{"confirm: cover removed"}));
+  EXPECT_EQ(run.ops("move_jp").size(), 2u);
+  const MissionRun refused = run_mission_against({.people = {{2, "abort"}}}, mission);
+  EXPECT_EQ(refused.report["outcome"], "aborted");
+  EXPECT_EQ(refused.report["reason"], "ended by ann");
+  EXPECT_EQ(refused.ops("move_jp").size(), 1u);
+}
+
+TEST(Mission, GoesOnFromItsStepAfterAFaultWasCleared) {
+  const TemporaryFolder folder;
+  const MissionRun run =
+      run_mission_against({.hold_fault_in_step = 2, .people = {{2, "resume"}}, .hold_fault_goes = true},
+                          two_steps(folder, "on_fail = 'pause'"));
+  EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
+  EXPECT_EQ(run.ops("acquire").size(), 2u) << "others may own motion meanwhile: to clear";
+  ASSERT_EQ(waits_of(run).size(), 1u);
+  EXPECT_NE(waits_of(run)[0].find("failed: fault 5001 cable_slack"), std::string::npos);
+  EXPECT_EQ(run.report["steps"].size(), 2u);
+}
+
+TEST(Mission, ThatWaitsAfterAFaultIsEndedBySomebodyToo) {
+  const TemporaryFolder folder;
+  const MissionRun run =
+      run_mission_against({.hold_fault_in_step = 2, .people = {{2, "abort"}}}, two_steps(folder, "on_fail = 'pause'"));
+  EXPECT_EQ(run.report["outcome"], "failed");
+  EXPECT_NE(run.report["reason"].get<std::string>().find("cable_slack"), std::string::npos);
+  EXPECT_NE(run.report["reason"].get<std::string>().find("ended by ann"), std::string::npos);
+}
+
 TEST(Mission, IsPatientWhileDrivesBootAndThenSaysWhy) {
   const MissionRun run = run_mission_against({.refuse = {{"state_command", "busy"}}});
   EXPECT_EQ(run.report["outcome"], "failed");

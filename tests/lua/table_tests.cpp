@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "host/json/json.hpp"
 
 #include "tests/lua/program.hpp"
@@ -63,6 +66,62 @@ TEST(Eval, RefusesMalformedLuaTablesByField) {
     EXPECT_EQ(ended.code, 2) << change.statement;
     EXPECT_NE(ended.error.find(change.message), std::string::npos) << change.statement << " -> " << ended.error;
     EXPECT_EQ(std::count(ended.error.begin(), ended.error.end(), '\n'), 1) << ended.error;
+  }
+}
+
+// A scene whose one convex body comes from a file beside it.
+std::string scene_with(const std::string& fields) {
+  return "return { format = 1, kind = 'scene', name = 'own', boxes = {}, spheres = {}, convex = { { name = 'part', " +
+         fields + " } } }\n";
+}
+
+// A wedge of two triangles and a point inside their hull, 100 units high.
+constexpr const char* kWedge = R"(solid wedge
+ facet normal 0 0 0 outer loop vertex 0 0 0 vertex 100 0 0 vertex 0 100 0 endloop endfacet
+ facet normal 0 0 0 outer loop vertex 0 0 100 vertex 10 10 10 vertex 100 0 0 endloop endfacet
+endsolid wedge
+)";
+
+TEST(Eval, PutsTheHullOfAnStlFileIntoTheScene) {
+  const TemporaryFolder folder;
+  folder.write("wedge.stl", kWedge);
+  const std::string file =
+      folder.write("given.lua", scene_with("stl = 'wedge.stl', unit_m = 0.001, position_m = { 1, 0, 0 }, "
+                                           "quaternion_wxyz = { 0, 0, 0, 1 }"));  // half a turn about z
+  const Ended ended = run_program("eval scene " + file);
+  ASSERT_EQ(ended.code, 0) << ended.error;
+  const Json body = Json::parse(ended.out)["convex"][0];
+  EXPECT_FALSE(body.contains("stl"));
+  std::vector<std::array<double, 3>> points = body["points_m"].get<std::vector<std::array<double, 3>>>();
+  std::sort(points.begin(), points.end());
+  ASSERT_EQ(points.size(), 4u) << "the point inside is left out";
+  EXPECT_NEAR(points[0][0], 0.9, 1e-12);
+  EXPECT_NEAR(points[3][0], 1.0, 1e-12);
+}
+
+TEST(Eval, RefusesWhatIsNoShapeFile) {
+  struct Bad {
+    const char* fields;
+    const char* message;
+  };
+  const std::vector<Bad> cases = {
+      {"stl = 'none.stl'", "given.lua: none.stl: allowed a file that can be read"},
+      {"stl = 'text.stl'", "given.lua: text.stl: allowed an STL file of 1 to 200000 triangles"},
+      {"stl = 'short.stl'", "given.lua: short.stl: allowed three numbers after every vertex"},
+      {"stl = '../wedge.stl'", "given.lua: convex[1].stl"},
+      {"stl = 'wedge.stl', unit_m = 0", "given.lua: convex[1].unit_m: 0: allowed over 0"},
+      {"stl = 'wedge.stl', points_m = {}", "given.lua: convex[1].points_m: "},
+      {"stl = 'wedge.stl', quaternion_wxyz = { 1, 1, 0, 0 }", "given.lua: convex[1].quaternion_wxyz: "},
+      {"stl = 'flat.stl'", "given.lua: convex[1].points_m: "}};
+  const TemporaryFolder folder;
+  folder.write("wedge.stl", kWedge);
+  folder.write("text.stl", "no shape at all");
+  folder.write("short.stl", "solid vertex 1 2");
+  folder.write("flat.stl", "solid vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 vertex 1 1 0");
+  for (const Bad& bad : cases) {
+    const Ended ended = run_program("eval scene " + folder.write("given.lua", scene_with(bad.fields)));
+    EXPECT_EQ(ended.code, 2) << bad.fields;
+    EXPECT_NE(ended.error.find(bad.message), std::string::npos) << bad.fields << " -> " << ended.error;
   }
 }
 

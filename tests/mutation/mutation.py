@@ -27,11 +27,14 @@ import pairs  # noqa: E402
 import scenario  # noqa: E402
 from liana import client as clients  # noqa: E402
 from run_scenario import kFailures  # noqa: E402
+from scenario_file import Failed  # noqa: E402
 
+kIn = " in "  # between a test and its program
+kTestPrograms = {"core_tests": "tests/firmware_like", "liana_hil_tests": "tests/hil"}  # and where its tests are
 kPatience_s = 60  # wall clock after which a program counts as hung; a mutant may hang
 
 # A bug: `edits` in `file`; `planted`: another bug that only the mutated line keeps from the drives; `caught_by`:
-# scenarios of which one must fail.
+# scenarios, or tests as "SUITE.NAME in PROGRAM", of which one must fail.
 Mutation = collections.namedtuple("Mutation", "name edits planted caught_by")
 Edit = collections.namedtuple("Edit", "file line becomes")
 
@@ -80,18 +83,63 @@ def check(wanted, by_name):
         for edit in one.planted + one.edits:
             texts[edit.file] = changed(texts.get(edit.file) or (ROOT / edit.file).read_text(), edit)
         for name in one.caught_by:
-            if name not in by_name:
+            if kIn in name:
+                check_test(one, name)
+            elif name not in by_name:
                 raise BadMutation(f"{one.name}: caught_by: there is no scenario {name}")
+
+
+def check_test(one, name):
+    """The test is in a file of its program's folder."""
+    test, program = name.split(kIn)
+    if program not in kTestPrograms:
+        raise BadMutation(f"{one.name}: caught_by: {program} is not known; allowed are {', '.join(kTestPrograms)}")
+    words = f"({test.replace('.', ', ')})"
+    if not any(words in path.read_text() for path in (ROOT / kTestPrograms[program]).glob("*_test.cpp")):
+        raise BadMutation(f"{one.name}: caught_by: there is no test {test} in {kTestPrograms[program]}")
+
+
+class UnitTest:
+    """A test of a program that is built from the changed tree; looks like a scenario to what runs it."""
+
+    def __init__(self, name, directory):
+        self.test, self.program = name.split(kIn)
+        self.path = directory / self.program
+
+    def run(self):
+        return self
+
+    def go(self):
+        done = subprocess.run(
+            [self.path, f"--gtest_filter={self.test}"],
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=10 * kPatience_s,
+        )
+        if done.returncode != 0 or "1 test ran" not in done.stdout.replace(
+            "1 test from 1 test suite ran", "1 test ran"
+        ):
+            raise Failed(
+                next((line for line in done.stdout.splitlines() if "Failure" in line), f"exit {done.returncode}")
+            )
+
+
+def programs_for(wanted):
+    """What is built to see whether these mutations are noticed."""
+    names = {name for one in wanted for name in one.caught_by}
+    return sorted({name.split(kIn)[1] if kIn in name else "lianad" for name in names})
 
 
 class Workshop:
     """A copy of the tree with a build directory and programs of its own."""
 
-    def __init__(self, directory, binaries):
+    def __init__(self, directory, binaries, programs=("lianad",)):
+        self.programs = programs
         self.tree, self.build, self.bin = directory / "tree", directory / "build", directory / "bin"
         self.bin.mkdir(parents=True, exist_ok=True)
         for program in binaries.glob("liana*"):
-            if program.name != "lianad":
+            if program.name not in self.programs:
                 shutil.copy2(program, self.bin)
         listed = subprocess.run(
             ["git", "-C", str(ROOT), "ls-files", "--cached", "--others", "--exclude-standard"],
@@ -113,6 +161,7 @@ class Workshop:
                 "Ninja",
                 "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
                 "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O2",
+                f"-DLIANA_TESTS={'ON' if any(program in kTestPrograms for program in programs) else 'OFF'}",
             ],
             check=True,
             stdout=subprocess.DEVNULL,
@@ -134,10 +183,12 @@ class Workshop:
         for name, text in texts.items():
             self.write(name, text.encode())
         try:
-            built = subprocess.run(["ninja", "-C", self.build, "lianad"], capture_output=True, text=True, check=False)
+            call = ["ninja", "-C", self.build, *self.programs]
+            built = subprocess.run(call, capture_output=True, text=True, check=False)
             if built.returncode != 0:
                 raise BadMutation(f"{edits[-1].line} -> {edits[-1].becomes}: does not build: {built.stdout[-1500:]}")
-            shutil.copy2(self.build / "bin" / "lianad", self.bin)
+            for program in self.programs:
+                shutil.copy2(self.build / "bin" / program, self.bin)
             yield
         finally:
             for name in texts:
@@ -170,7 +221,8 @@ def run(wanted, binaries, directory):
     clients.PATIENCE_S = kPatience_s
     by_name = scenarios()
     check(wanted, by_name)
-    workshop, outcomes = Workshop(directory, binaries), {}
+    workshop, outcomes = Workshop(directory, binaries, programs_for(wanted)), {}
+    by_name.update((name, UnitTest(name, workshop.bin)) for one in wanted for name in one.caught_by if kIn in name)
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
         controls(wanted, workshop, by_name, pool)
         for one in wanted:

@@ -24,6 +24,20 @@ class Lines(unittest.TestCase):
         with self.assertRaisesRegex(BadMutation, "no scenario 40_faults/none"):
             mutation.check([Mutation("x", known.edits, (), ["40_faults/none"])], {})
 
+    def test_a_test_that_does_not_exist_is_refused(self):
+        known = mutation.mutations()[0]
+        for name, words in (
+            ("Gate.Nothing in core_tests", "no test Gate.Nothing"),
+            ("A.B in nowhere", "nowhere is not"),
+        ):
+            with self.assertRaisesRegex(BadMutation, words):
+                mutation.check([Mutation("x", known.edits, (), [name])], {})
+
+    def test_the_benchs_truth_has_mutations_and_each_kind_of_finder_its_programs(self):
+        of_bench = [one for one in mutation.mutations() if one.edits[0].file.startswith("hil/")]
+        self.assertGreaterEqual(len(of_bench), 7)
+        self.assertEqual(mutation.programs_for(of_bench), ["liana_hil_tests"])
+
     def test_watchdogs_conditions_and_gate_each_have_mutations_and_every_name_is_there_once(self):
         wanted = mutation.mutations()
         self.assertEqual(len({one.name for one in wanted}), len(wanted))

@@ -1,13 +1,18 @@
 """Each safety rule over a recording can fail: good ticks pass it, one thing changed breaks it. Pairs of faults: what
 is expected first.
 """
+import re
 import unittest
 
 import support  # noqa: F401
 
 import campaign
 import pairs
+import predicates
 import recorded_rules as rules
+import slit_truth
+import truth_rules
+import wire_ages
 from liana.recordings import Fault, Tick, offsets
 
 kEnabled, kSwitchOnDisabled, kInFault = 0x1237, 0x0250, 0x0218
@@ -214,7 +219,7 @@ class Rules(unittest.TestCase):
         drives = {"counts_per_turn": 3600, "gear": 1, "zero_counts": [100, 100], "direction": [1, -1]}
         limits = rules.limits_of({"kind": "serial", "joints": [joint, joint], "drives": drives}, 0.004)
         self.assertEqual([[round(end) for end in ends] for ends in limits.ranges_counts], [[-810, 1910], [-1710, 1010]])
-        self.assertAlmostEqual(limits.step_counts, 4.0 * 0.004 * 1.25 * 10 + 2)
+        self.assertAlmostEqual(limits.step_counts, 4.0 * 0.004 * 10 + 2)
         self.assertEqual((limits.slack_N, limits.overload_N), (-float("inf"), float("inf")))
 
     def test_a_drive_that_was_never_there_is_no_fault(self):
@@ -237,9 +242,170 @@ class Rules(unittest.TestCase):
         self.broken(rules.drums_moving_while_off(rolling, ()), "drive 1")
         self.assertEqual(rules.drums_moving_while_off(rolling, {1}), [])
 
-    def test_reactions_are_those_of_the_page_of_faults(self):
-        found = rules.documented_reactions()
+    def test_reactions_are_those_of_the_page_written_by_hand_and_each_has_its_reason(self):
+        found = rules.reactions_by_hand()
         self.assertEqual((found[5001], found[3002], found[5002]), (rules.kHold, rules.kAtOnce, rules.kOff))
+        numbers = {int(number) for number in re.findall(r"^\| (\d{4}) \|", kFaultsPage.read_text(), re.MULTILINE)}
+        self.assertEqual(numbers - found.keys(), set(), "each fault needs a row written by hand")
+        for number, row in rules.page_of_reactions().items():
+            self.assertGreater(len(row["why"]), 20, number)
+            self.assertFalse(row["retreat"] and row["reaction"] != "hold", number)
+        self.assertEqual(rules.retreats_by_hand(), {1001, 5001, 5003, 5004, 5005, 5007, 5008, 5009})
+
+    def test_a_way_back_is_no_command_out_of_time_where_all_that_is_latched_allows_it(self):
+        held = changed(5, faults=(fault(5001),), active_sequence=7)
+        self.assertEqual(rules.commands_while_latched(held, {5001}), [])
+        both = changed(5, faults=(fault(5001), fault(3002)), active_sequence=7)
+        self.broken(rules.commands_while_latched(both, {5001}), "tick 5")
+        self.broken(rules.commands_while_latched([tick._replace(dropped=1) for tick in held], {5001}), "tick 5")
+
+    def test_a_full_list_of_faults_hides_nothing(self):
+        weak = changed(5, **{**kStopped, "stop_category": 0, "dropped": 3})
+        self.broken(rules.weak_reactions(weak, kReactions), "the stop category is 0")
+        silent = changed(5, age=(3, 3), faults=(fault(3002, 0),))
+        self.broken(rules.faults_not_latched(silent, kLimits), "(3002, 1)")
+        self.assertEqual(rules.faults_not_latched([tick._replace(dropped=1) for tick in silent], kLimits), [])
+        stopping = kGood._replace(tick=4, **kStopped)
+        ended = kGood._replace(tick=5, **{**kStopped, "state": "FAULT", "age": (3, 3), "dropped": 1})
+        self.broken(rules.stops_not_confirmed([stopping, ended]), "drive 1", "3008")
+        self.assertEqual(rules.stops_not_confirmed([stopping, ended._replace(dropped=2)]), [])
+
+    def test_a_false_alarm_is_found(self):
+        alarm = changed(5, faults=(fault(3002),))
+        self.broken(rules.false_alarms(alarm, kLimits, 0), "no report shows why")
+        self.assertEqual(rules.false_alarms(changed(5, faults=(fault(3002),), age=(0, 3)), kLimits, 0), [])
+        self.broken(rules.false_alarms(changed(5, faults=(fault(5006),)), kLimits, 8), "nothing has happened yet")
+        self.assertEqual(rules.false_alarms(changed(5, faults=(fault(5006),)), kLimits, 5), [])
+
+
+class Wire(unittest.TestCase):
+    def test_ages_are_counted_from_what_was_on_the_wire(self):
+        least, most = wire_ages.ages([9, 10, 11, 15], 11, 6)
+        self.assertEqual(least, [0, 0, 1, 2, 0, 0])
+        self.assertEqual(most, [0, 0, 1, 2, 3, 0])
+
+    def test_a_report_that_never_was_on_the_wire_is_found_and_one_that_was_and_is_taken_for_lost(self):
+        logs = [
+            "".join(f"({slot * 0.004 + 0.001:.6f}) can0 18{node}#3712E803000046FF\n" for slot in range(10))
+            for node in (1, 2)
+        ]
+        arrivals = wire_ages.Arrivals(logs, predicates.kLine, 0.004)
+        self.assertEqual(wire_ages.wrong_ages(ticks(10), arrivals), [])
+        believed = wire_ages.wrong_ages(ticks(20), arrivals)
+        self.assertIn("tick 11", believed[0])
+        lost = wire_ages.wrong_ages(changed(5, age=(0, 3)), arrivals)
+        self.assertIn("drive 1", lost[0])
+        self.assertEqual(wire_ages.wrong_ages(changed(5, age=(0, 3)), arrivals, {1}), [])
+        short = [logs[0], logs[1].replace("46FF", "46")]
+        self.assertIn("drive 1", wire_ages.wrong_ages(ticks(10), wire_ages.Arrivals(short, predicates.kLine, 0.004))[0])
+
+
+class FakeTruth:
+    """Rows of a truth in which all is well, but for `wrong`: column -> value from row 70 on."""
+
+    columns = ["theta_deg_1", "theta_deg_2", "clearance_m", "contact_force_N", "tension_min_N", "tension_motor_min_N"]
+    columns += ["tension_motor_max_N", "tip_speed_m_s", "fastest_deg_s", "slit_depth_m"]
+
+    def __init__(self, **wrong):
+        good = dict(zip(self.columns, (1.0, -2.0, 0.02, 0.0, 5.0, 20.0, 80.0, 0.03, 1.0, -1.0)))
+        self.rows = [tuple({**good, **(wrong if i >= 70 else {})}.values()) for i in range(100)]
+
+    def theta_deg(self, row):
+        return self.rows[row][:2]
+
+    def column(self, name):
+        return [row[self.columns.index(name)] for row in self.rows]
+
+
+class TruthRules(unittest.TestCase):
+    ROBOT = {
+        "segments": [{"theta_limit_deg": 20}],
+        "tension": {"floor_motor_N": 15, "floor_anywhere_N": 1, "hard_limit_N": 600},
+        "limits": {"theta_rate_deg_s": 2, "tip_speed_m_s": 0.1, "tip_speed_slit_m_s": 0.03},
+    }
+
+    def complaints(self, faults=(), begun=None, recorded=None, nominal=True, **wrong):
+        courses = [{"begun_slot": begun} for _ in faults]
+        return truth_rules.all_complaints(
+            FakeTruth(**wrong), recorded or ticks(100), self.ROBOT, faults, courses, nominal
+        )
+
+    def test_each_rule_finds_what_breaks_it(self):
+        self.assertEqual(self.complaints(), [])
+        for wrong, words in (
+            ({"contact_force_N": 0.1}, "contact"),
+            ({"clearance_m": 0.0}, "clearance"),
+            ({"tension_min_N": 0.9}, "along a cable"),
+            ({"tension_motor_min_N": 14.9}, "at a motor"),
+            ({"tension_motor_max_N": 601.0}, "601 N"),
+            ({"theta_deg_2": -20.3}, "theta 2"),
+            ({"tip_speed_m_s": 0.111}, "the tip moves"),
+            ({"tip_speed_m_s": 0.032, "slit_depth_m": 0.1}, "the tip moves"),
+            ({"fastest_deg_s": 2.6}, "an angle turns"),
+        ):
+            found = self.complaints(**wrong)
+            self.assertEqual(len(found), 1, wrong)
+            self.assertIn("slot 70", found[0])
+            self.assertIn(words, found[0])
+
+    def test_tension_at_motors_is_judged_where_cables_are_as_planned_with(self):
+        self.assertEqual(self.complaints(tension_motor_min_N=14.0, nominal=False), [])
+        self.assertEqual(len(self.complaints(tension_motor_min_N=0.5, nominal=False)), 1)
+
+    def test_damage_excuses_what_comes_after_it_and_faults_of_reports_nothing(self):
+        broken, silent = {"kind": "cable_break"}, {"kind": "silent"}
+        self.assertEqual(self.complaints([broken], 70, contact_force_N=3.0, tension_min_N=0.0), [])
+        self.assertEqual(len(self.complaints([broken], 71, contact_force_N=3.0)), 1)
+        self.assertEqual(len(self.complaints([silent], 10, contact_force_N=3.0)), 1)
+        self.assertEqual(len(self.complaints([broken], None, contact_force_N=3.0)), 1, "it never began")
+
+    def test_speeds_and_tensions_are_those_of_an_arm_under_command(self):
+        stopped = [now._replace(state="STOPPING") if now.tick > 60 else now for now in ticks(100)]
+        self.assertEqual(self.complaints(recorded=stopped, fastest_deg_s=9.0, tension_motor_min_N=3.0), [])
+
+
+kFaultsPage = support.SOURCE / "docs" / "faults.md"
+kTips = [  # angles and tip of the bench's truth
+    (
+        [
+            -8.517465857,
+            0.003947056,
+            -11.980051075,
+            -0.026629581,
+            7.997419565,
+            -1.989276557,
+            12.990021081,
+            0.035630328,
+            12.035636236,
+            -2.001238218,
+        ],
+        [0.644058122, -1.521263449, 0.021571347],
+    ),
+    (
+        [
+            -4.528717304,
+            -9.5587893,
+            1.557622364,
+            -0.076246303,
+            3.850827601,
+            10.378454202,
+            -0.009450221,
+            7.296119564,
+            0.028607905,
+            -4.760977983,
+        ],
+        [2.343745603, -0.733744265, 0.513246383],
+    ),
+]
+
+
+class SlitTruth(unittest.TestCase):
+    def test_links_are_where_the_golden_arm_has_its_tip(self):
+        robot = {"segments": [{"modules": 8, "module_length_m": 0.1}] * 5}
+        self.assertEqual([round(x, 12) for x in slit_truth.joint_centres_m(robot, [0.0] * 10)[-1]], [4.0, 0.0, 0.0])
+        for theta_deg, tip_m in kTips:
+            for got, wanted in zip(slit_truth.joint_centres_m(robot, theta_deg)[-1], tip_m):
+                self.assertAlmostEqual(got, wanted, 6)
 
 
 class Recordings(unittest.TestCase):

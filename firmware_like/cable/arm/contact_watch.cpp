@@ -11,20 +11,38 @@ using Index = std::size_t;
 
 Index segments(const RobotTable& table) noexcept { return static_cast<Index>(table.segment_count); }
 
-double hidden_Nm(const ContactWatchLimits& limits, const FrictionWatchState& friction, Index k) noexcept {
-  return limits.hidden_Nm[k / 2] + kContactFriction * friction.friction_Nm[k];
+// What is not contact may turn each angle by so much.
+ThetaVector hidden_Nm(const RobotTable& table, const ContactWatchLimits& limits, const FrictionWatchState& friction,
+                      double stir) noexcept {
+  ThetaVector hidden{};
+  for (Index k = 0; k < 2 * segments(table); ++k) {
+    hidden[k] = limits.hidden_Nm[k / 2] + kContactInertia * limits.inertia[k / 2] * stir +
+                kContactFriction * friction.friction_Nm[k];
+  }
+  return hidden;
+}
+
+// How hard the arm is accelerated, or was a moment ago.
+void stir(const RobotTable& table, const ContactWatchLimits& limits, const ThetaVector& rate_rad_s,
+          ContactWatchState& state) noexcept {
+  const double round_s = kFrictionTicks * table.tick_s * table.theta_count();
+  double now = 0.0;
+  for (Index k = 0; k < 2 * segments(table); ++k)
+    now += limits.inertia[k / 2] * std::fabs(rate_rad_s[k] - state.rate_rad_s[k]) / round_s;
+  state.rate_rad_s = rate_rad_s;
+  state.stir = larger(now, state.stir * (1.0 - round_s / kContactCalm_s));
 }
 
 double determinant(const Vec3& a, const Vec3& b, const Vec3& c) noexcept { return dot(a, cross(b, c)); }
 
 // The push at the tip that explains the torques best, each weighed by what may be hidden in it; small where it cannot
 // be seen (a straight arm does not feel a push along itself).
-Vec3 tip_push_N(const RobotTable& table, const ContactWatchLimits& limits, const Jacobian& tip,
+Vec3 tip_push_N(const RobotTable& table, const Jacobian& tip, const ThetaVector& hidden,
                 const FrictionWatchState& friction) noexcept {
   constexpr double kPrior = 1.0 / (kContactTip_N * kContactTip_N);
   Vec3 a{kPrior, 0.0, 0.0}, b{0.0, kPrior, 0.0}, c{0.0, 0.0, kPrior}, right{};
   for (Index k = 0; k < 2 * segments(table); ++k) {
-    const double hidden = hidden_Nm(limits, friction, k), weight = 1.0 / (hidden * hidden);
+    const double weight = 1.0 / (hidden[k] * hidden[k]);
     const Vec3& row = tip.linear[k];
     const Vec3 weighed = scale(row, weight);
     a = add(a, scale(row, weighed[0]));
@@ -51,15 +69,19 @@ ContactWatchLimits make_contact_watch_limits(const RobotTable& table) noexcept {
       reach_m += segment.module_length_m * segment.module_mass_kg;
       inertia_kg_m2 += segment.module_length_m * segment.module_length_m * segment.module_mass_kg;
     }
+    limits.inertia[j] = segment.modules * std::sqrt(inertia_kg_m2);
     limits.hidden_Nm[j] = kContactTorque_Nm + kContactSwing_rad_s2 * segment.modules * inertia_kg_m2;
   }
   return limits;
 }
 
 void watch_contact(const RobotTable& table, const ContactWatchLimits& limits, const ArmKinematics& kinematics,
-                   const FrictionWatchState& friction, ContactWatchState& state) noexcept {
+                   const ThetaVector& rate_rad_s, const FrictionWatchState& friction,
+                   ContactWatchState& state) noexcept {
   const Jacobian& tip = kinematics.tip_jacobian;
-  state.tip_push_N = tip_push_N(table, limits, tip, friction);
+  stir(table, limits, rate_rad_s, state);
+  const ThetaVector hidden = hidden_Nm(table, limits, friction, state.stir);
+  state.tip_push_N = tip_push_N(table, tip, hidden, friction);
   const double push_N = norm(state.tip_push_N);
   const Vec3 explained_N = push_N > kContactTip_N ? scale(state.tip_push_N, kContactTip_N / push_N) : state.tip_push_N;
   // What is felt is judged without the push at the tip, which segments feel it with it: beyond a contact there is no
@@ -68,10 +90,10 @@ void watch_contact(const RobotTable& table, const ContactWatchLimits& limits, co
   std::int32_t last = 0;
   state.torque_Nm = 0.0;
   for (Index k = 0; k < 2 * segments(table); ++k) {
-    const double whole_Nm = friction.unexplained_Nm[k], hidden = hidden_Nm(limits, friction, k);
+    const double whole_Nm = friction.unexplained_Nm[k];
     const double left_Nm = std::fabs(whole_Nm - dot(tip.linear[k], explained_N));
-    is_felt = is_felt || left_Nm > hidden;
-    if (std::fabs(whole_Nm) > hidden) last = static_cast<std::int32_t>(k / 2);
+    is_felt = is_felt || left_Nm > hidden[k];
+    if (std::fabs(whole_Nm) > hidden[k]) last = static_cast<std::int32_t>(k / 2);
     state.torque_Nm = larger(state.torque_Nm, left_Nm);
   }
   const std::int32_t segment = is_felt ? last : -1;

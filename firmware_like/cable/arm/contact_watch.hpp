@@ -17,9 +17,14 @@ constexpr double kContactTorque_Nm = 1.5;       // hidden at every angle: torque
 constexpr double kContactSwing_rad_s2 = 0.012;  // hidden: the body beyond an angle swings with so much
 constexpr double kContactFriction = 0.4;        // hidden: share of what friction can do
 
+constexpr double kContactInertia = 0.6;  // hidden: share of the most that commanded acceleration can ask for
+constexpr double kContactCalm_s = 2.0;   // swing after an acceleration is forgotten in
+
 // Limits derived once from the robot table.
 struct ContactWatchLimits {
-  SegmentVector hidden_Nm{};  // at a segment's angles, without friction
+  SegmentVector hidden_Nm{};  // at a segment's angles, at rest and without friction
+  SegmentVector inertia{};    // modules times the root of the inertia beyond, kg^0.5 m: the product of two segments' is
+                              // the most that one's acceleration asks of the other
 };
 ContactWatchLimits make_contact_watch_limits(const RobotTable& table) noexcept;
 
@@ -28,11 +33,14 @@ struct ContactWatchState {
   std::int32_t segment = -1;  // 0-based, the last one that felt it; -1: none
   double torque_Nm = 0.0;     // largest about any angle that nothing explains
   Vec3 tip_push_N{};          // explains the rest, base frame
+  ThetaVector rate_rad_s{};   // commanded, when the last round ended
+  double stir = 0.0;          // acceleration of all segments, each times its `inertia`; fades
 };
 
-// One look at all angles, after the friction watch has gone round. `kinematics` at the commanded angles.
+// One look at all angles, after the friction watch has gone round. `kinematics` and `rate_rad_s` as commanded.
 void watch_contact(const RobotTable& table, const ContactWatchLimits& limits, const ArmKinematics& kinematics,
-                   const FrictionWatchState& friction, ContactWatchState& state) noexcept;
+                   const ThetaVector& rate_rad_s, const FrictionWatchState& friction,
+                   ContactWatchState& state) noexcept;
 
 // True while something has touched the body for kContactSweeps.
 inline bool is_in_contact(const ContactWatchState& state) noexcept { return state.sweeps >= kContactSweeps; }

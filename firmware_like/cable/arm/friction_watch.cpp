@@ -22,25 +22,34 @@ AxisBalance balance_about(const CableLayout& layout, const SegmentVector& wrap_r
   AxisBalance out;
   const Index own = axis / 2;
   const double more_mu = mu - now.planned_mu;
-  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
-    if (static_cast<Index>(layout.segment[c]) < own) continue;
-    double slid_rad = 0.0, bend_rad = 0.0, resting_rad = 0.0;
+  SegmentVector part_rad;  // bend until the middle of the axis' segment
+  double bend_rad = 0.0;
+  for (Index j = 0; j <= own; ++j) {
+    part_rad[j] = j < own ? wrap_rad[j] : 0.5 * wrap_rad[j];
+    bend_rad += part_rad[j];
+  }
+  Index c = 0;
+  while (static_cast<Index>(layout.segment[c]) < own) ++c;
+  for (; c < static_cast<Index>(layout.cable_count); ++c) {
+    const double* const sigma = now.slip.sigma[c].data();
+    double slid_rad = 0.0, resting_rad = bend_rad;
     for (Index j = 0; j <= own; ++j) {
-      const double part_rad = j < own ? wrap_rad[j] : 0.5 * wrap_rad[j], sigma = now.slip.sigma[c][j];
-      slid_rad += sigma * part_rad;
-      bend_rad += part_rad;
-      resting_rad += (1.0 - std::fabs(sigma)) * part_rad;
+      const double slid = sigma[j] * part_rad[j];
+      slid_rad += slid;
+      resting_rad -= std::fabs(slid);
     }
-    // exp(-mu slid) from the planned ratio: to the third order of what was found beyond it.
+    // exp(-mu slid) from the planned ratio, to the second order of what was found beyond it.
     const double x = more_mu * slid_rad;
     const double torque_Nm =
         now.geometry.jacobian_m_rad[c][axis] * now.ratio[c][own] * now.tension_N[c] * (1.0 - x + 0.5 * x * x);
+    const double unsure = resting_rad * torque_Nm;
     out.torque_Nm += torque_Nm;
     out.per_mu_Nm -= slid_rad * torque_Nm;
-    const double unsure_Nm = mu * resting_rad * torque_Nm, friction_Nm = mu * bend_rad * torque_Nm;
-    out.unsure_Nm2 += unsure_Nm * unsure_Nm;
-    out.friction_Nm2 += friction_Nm * friction_Nm;
+    out.unsure_Nm2 += unsure * unsure;
+    out.friction_Nm2 += torque_Nm * torque_Nm;
   }
+  out.unsure_Nm2 *= mu * mu;
+  out.friction_Nm2 *= mu * mu * bend_rad * bend_rad;
   return out;
 }
 
@@ -84,7 +93,9 @@ bool watch_friction(const RobotTable& table, const CableLayout& layout, double d
   const AxisBalance axis = balance_about(layout, cable_wraps(table, now.trig), now, state.mu, k);
   const double sweep_s = period_s * table.theta_count();
   state.unexplained_Nm[k] += sweep_s / (kUnexplainedFilter_s + sweep_s) * (axis.torque_Nm - state.unexplained_Nm[k]);
-  state.friction_Nm[k] = std::sqrt(axis.friction_Nm2) + std::sqrt(axis.unsure_Nm2);
+  // Friction of a cable that rests can be anything, that of one that slides is known but for a share.
+  constexpr double kResting = 4.0;
+  state.friction_Nm[k] = std::sqrt(axis.friction_Nm2) + kResting * std::sqrt(axis.unsure_Nm2);
   if (now.moving) learn(axis, period_s, state);
   state.axis = k + 1 < static_cast<Index>(table.theta_count()) ? state.axis + 1 : 0;
   if (state.axis == 0) state.flagged = is_off(declared_mu, state);

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "firmware_like/cable/arm/tension.hpp"
+#include "host/plan/check/convex_check.hpp"
 #include "host/plan/check/path_search.hpp"
 
 namespace liana::plan {
@@ -136,6 +137,10 @@ double axis_distance_m(const Vector& from, const Vector& to, const Obstacle& obs
   return std::min({d1, d2, at(0.0), at(1.0)});
 }
 
+double axis_distance_m(const Vector& from, const Vector& to, const config::SceneConvex& body, double enough) {
+  return convex_distance_m(from, to, body, enough);
+}
+
 struct Nearest {
   double clearance_m = kNothingNear_m;
   std::string obstacle;
@@ -158,13 +163,14 @@ Nearest nearest_at(const config::RobotConfig& robot, const config::SceneConfig& 
   const Chain chain = chain_of(robot.table, theta_rad);
   look_at(chain, robot.module_radius_m, scene.spheres, nearest);
   look_at(chain, robot.module_radius_m, scene.boxes, nearest);
+  look_at(chain, robot.module_radius_m, scene.convex, nearest);
   return nearest;
 }
 
 void check_clearance(const config::RobotConfig& robot, const config::SceneConfig& scene,
                      const std::vector<ThetaVector>& path, PlanCheck& out) {
   out.min_clearance_m = kNothingNear_m;
-  if (scene.spheres.empty() && scene.boxes.empty()) return;
+  if (scene.spheres.empty() && scene.boxes.empty() && scene.convex.empty()) return;
   Nearest nearest;
   const auto look = [&](const ThetaVector& theta_rad) {
     const Nearest here = nearest_at(robot, scene, theta_rad);

@@ -2,8 +2,9 @@
 //
 // Shares no code with the planner, its derivatives or the core (but for the tension plan, about which the core is
 // asked): the arm is the product of its 80 joint rotations one by one, link distances come from a search along the
-// link, cable lengths from hole to hole. Between waypoints the path is halved until the arm cannot have come nearer
-// unseen: no point of it moves more than kUnseen_m between two poses looked at where it matters (path_search.hpp).
+// link (from libccd for convex bodies), cable lengths from hole to hole. Between waypoints the path is halved until the
+// arm cannot have come nearer unseen: no point of it moves more than kUnseen_m between two poses looked at where it
+// matters (path_search.hpp).
 #pragma once
 
 #include <array>

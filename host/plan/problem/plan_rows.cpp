@@ -34,9 +34,9 @@ void add_planes(const PathPlace& place, std::int32_t link, std::int32_t obstacle
 
 void add_rows(const Room& room, std::int32_t obstacle, const PathPlace& place, std::int32_t link,
               const clearance::Clearance& here, std::vector<ClearanceRow>& rows) {
-  const bool box = Index(obstacle) >= room.scene().spheres.size();
+  const bool has_edges = Index(obstacle) >= room.scene().spheres.size();
   const bool axis_outside = here.distance_m + room.link_radius_m() > 0.0;
-  if (box && axis_outside) return add_planes(place, link, obstacle, here, rows);
+  if (has_edges && axis_outside) return add_planes(place, link, obstacle, here, rows);
   rows.push_back({place, {link, here.share}, obstacle, {}});
 }
 

@@ -1,9 +1,9 @@
 // Which constraints a problem holds: those that a path is near to.
 //
-// Spheres are kept off by distance, at the link's point that is nearest on the given path. Boxes are kept off by
-// planes: the one that touches the box at its nearest point to the link, with both ends of the link before it. Distance
-// to a box has kinks at every edge, and a thin plate can be stepped over; planes have neither, and the path they are
-// made from is always on their right side.
+// Spheres are kept off by distance, at the link's point that is nearest on the given path. Boxes and convex
+// bodies are kept off by planes: the one that touches the body at its nearest point to the link, with both ends of the
+// link before it. Distance to a box has kinks at every edge, and a thin plate can be stepped over; planes have neither,
+// and the path they are made from is always on their right side.
 #pragma once
 
 #include <vector>

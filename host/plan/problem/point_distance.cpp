@@ -37,6 +37,7 @@ PointDistance point_distance(const Vec3& point, const config::SceneConfig& scene
     return out;
   }
   if (!(found.distance_m > 0.0)) return out;
+  if (i >= scene.spheres.size() + scene.boxes.size()) return out;
   const config::SceneBox& box = scene.boxes[i - scene.spheres.size()];
   Matrix3 across{};  // axes along which the point is beyond the box
   for (Index k = 0; k < 3; ++k) {

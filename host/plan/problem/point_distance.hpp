@@ -11,10 +11,10 @@ namespace liana::plan {
 using namespace cable;  // this room serves the cable arm only
 
 struct PointDistance {
-  double distance_m = 0.0;  // signed, see clearance.hpp
-  Vec3 normal{};            // gradient, unit
-  std::array<Vec3, 3>
-      curvature{};  // second derivatives [1/m]; those of the face, edge or corner that is nearest, 0 inside a box
+  double distance_m = 0.0;          // signed, see clearance.hpp
+  Vec3 normal{};                    // gradient, unit
+  std::array<Vec3, 3> curvature{};  // second derivatives [1/m]; those of the face, edge or corner that is nearest; 0
+                                    // inside a box, and of convex bodies
 };
 
 // Obstacles are numbered as in clearance.hpp.

@@ -82,6 +82,7 @@ class System:
         self.directory = pathlib.Path(tempfile.mkdtemp(prefix="liana-sys-"))
         self.api, self.bus_socket = self.directory / "api", self.directory / "bus"
         self.events_file = pathlib.Path(events or self.directory / "events.txt")
+        self.commands = self.directory / "commands.txt"
         self.way_out = pathlib.Path(way_out or self.directory / "way_out.bin")
         self.children: dict[str, subprocess.Popen[bytes]] = {}
         self.clients: list[Client] = []
@@ -138,7 +139,7 @@ class System:
 
     def start_lianad(self) -> None:
         words = ["--api", self.api, "--bus-socket", self.bus_socket, "--time", "fast", "--expect", self.expect]
-        words += ["--events", self.events_file, "--way-out", self.way_out]
+        words += ["--events", self.events_file, "--commands", self.commands, "--way-out", self.way_out]
         self.start("lianad", *self.tables(), *words, *self.lianad_words)
         wait_until(self.api.exists, "lianad to listen", self.check_running)
 

@@ -42,7 +42,7 @@ class Arbitration : public testing::Test {
     DeviceUse use;
     use.kind = DeviceKind::kHand;
     use.speed_m_s = 0.03;
-    arbiter_.use_device(use);
+    arbiter_.use_device(now_, use);
   }
   static std::string code_of(const std::function<void()>& request) {
     try {
@@ -259,6 +259,57 @@ TEST_F(Arbitration, ARefusalGivesTheOperatorNewAnchors) {
   steered(0.3);
   arbiter_.refused();
   EXPECT_EQ(steered(0.3)->tip_in_base.position_m, now_.tip_command.position_m);
+}
+
+// Table 2 of the source: vr handles for free space, the hand controller for the slit.
+class AtTheSlit : public Arbitration {
+ protected:
+  AtTheSlit() {
+    slit_.u_axis = {1.0, 0.0, 0.0};
+    slit_.normal = {0.0, 1.0, 0.0};
+    slit_.offset_m = now_.tip_command.position_m[1];
+    slit_.half_gap_m = 0.05;
+    slit_.end_u_m = 10.0;
+    slit_.mouth_u_m = now_.tip_command.position_m[0] + 0.01;
+  }
+  static DeviceUse use(DeviceKind kind, bool anywhere = false) {
+    DeviceUse use;
+    use.kind = kind;
+    use.speed_m_s = 0.03;
+    use.anywhere = anywhere;
+    return use;
+  }
+  void right_hand(CableArbiter& arbiter, double x) {
+    arbiter.device().add_tip_sample(
+        {static_cast<std::int64_t>(tick_ * 4000 + 1), true, true, Pose{{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}});
+  }
+  config::SceneSlit slit_;
+};
+
+TEST_F(AtTheSlit, VrIsRefusedInsideUnlessItIsToSteerAnywhereAndTheHandControllerIsNot) {
+  slit_.mouth_u_m -= 0.02;
+  CableArbiter arbiter(table_, SpeedZone(slit_, 0.03));
+  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(DeviceKind::kVr)); }), "refused");
+  EXPECT_EQ(arbiter.device().in_use().kind, DeviceKind::kNone);
+  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(DeviceKind::kVr, true)); }), "accepted");
+  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(DeviceKind::kHand)); }), "accepted");
+  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(DeviceKind::kNone)); }), "accepted");
+}
+
+TEST_F(AtTheSlit, VrThatSteersIntoItIsLetGoAtTheMouth) {
+  CableArbiter arbiter(table_, SpeedZone(slit_, 0.03));
+  arbiter.use_device(now_, use(DeviceKind::kVr));
+  for (int i = 0; i < 3; ++i) {
+    right_hand(arbiter, 0.1 * i);
+    EXPECT_TRUE(arbiter.next_setpoint(tick_ += 5, now_)) << "in front of it";
+  }
+  now_.tip_command.position_m[0] += 0.02;
+  for (int i = 0; i < 3; ++i) {
+    right_hand(arbiter, 0.5);
+    EXPECT_FALSE(arbiter.next_setpoint(tick_ += 5, now_)) << "inside";
+  }
+  EXPECT_FALSE(arbiter.device().engaged());
+  EXPECT_STREQ(arbiter.device().reason(), "in_slit");
 }
 
 // A way in along theta 1: 20 intervals of 1 mrad each.

@@ -54,7 +54,7 @@ TEST(AlongMotion, IsNeverAboveWhatDenseLooksFindAndCloseBelowIt) {
   int free = 0;
   for (int i = 0; i < 150; ++i) {
     const StraightMotion motion(draw.axis(40, 0.05), draw.axis(40, 0.05), 200);
-    const config::SceneConfig scene = draw.scene(1, 2, 1.5);
+    const config::SceneConfig scene = draw.scene(1, 2, 1.5, i % 3);
     const AlongMotion<ArmClearance> found = along(motion, scene, kNoObstacle_m);
     double dense_m = kNoObstacle_m;
     for (int k = 0; k <= 2000; ++k)

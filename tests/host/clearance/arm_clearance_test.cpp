@@ -53,7 +53,7 @@ TEST(ArmClearance, HasTheBitsOfMeasuringEveryLinkAgainstEveryObstacle) {
   for (int i = 0; i < 4000; ++i) {
     const int links = i % 7 == 0 ? 1 + i % 150 : 40;
     const std::vector<Vec3> points = draw.axis(links, draw.number(0.02, 0.15));
-    const config::SceneConfig scene = draw.scene(i % 3, i % 5, draw.number(0.2, 3.0));
+    const config::SceneConfig scene = draw.scene(i % 3, i % 5, draw.number(0.2, 3.0), i % 4);
     const ArmClearance found = arm_clearance(points, kRadius_m, scene);
     expect_same_bits(found, every_pair(points, kRadius_m, scene));
     near += found.distance_m() > 0.0 && found.distance_m() < 0.1 ? 1 : 0;
@@ -112,9 +112,9 @@ TEST(LinkClearances, AreExactWhereTheyAreAskedForAndNeverTooLargeElsewhere) {
   int exact = 0, bounded = 0;
   for (int i = 0; i < 500; ++i) {
     const std::vector<Vec3> points = draw.axis(40, 0.05);
-    const config::SceneConfig scene = draw.scene(1, 1, 0.5);
+    const config::SceneConfig scene = draw.scene(1, 1, 0.5, 3);
     const double within_m = draw.number(0.0, 0.3);
-    for (std::int32_t obstacle = 0; obstacle < 2; ++obstacle) {
+    for (std::int32_t obstacle = 0; obstacle < 5; ++obstacle) {
       link_clearances(points, kRadius_m, scene, obstacle, within_m, links);
       for (std::int32_t link = 0; link < 40; ++link) {
         const Clearance& found = links[static_cast<std::size_t>(link)];

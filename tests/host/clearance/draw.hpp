@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/clearance/clearance.hpp"
+#include "host/config/convex_shape.hpp"
 
 namespace liana::clearance {
 
@@ -28,13 +29,23 @@ class Draw {
     }
     return points;
   }
-  config::SceneConfig scene(int spheres, int boxes, double size) {
+  config::SceneConfig scene(int spheres, int boxes, double size, int convex = 0) {
     config::SceneConfig out;
     for (int i = 0; i < spheres; ++i) out.spheres.push_back(sphere());
     for (int i = 0; i < boxes; ++i) out.boxes.push_back(box());
     for (config::SceneSphere& sphere : out.spheres) sphere.center_m = place(size);
     for (config::SceneBox& box : out.boxes) box.center_m = place(size);
+    for (int i = 0; i < convex; ++i) out.convex.push_back(body(i, place(size)));
     return out;
+  }
+  // A hull, a cylinder or a capsule about a place.
+  config::SceneConvex body(int kind, const Vec3& at) {
+    const Vec3 from = add(at, place(0.2)), to = add(at, place(0.2));
+    if (kind % 3 == 1) return config::cylinder("cylinder", from, to, number(0.01, 0.2));
+    if (kind % 3 == 2) return config::capsule("capsule", from, to, number(0.01, 0.2));
+    std::vector<Vec3> points;
+    for (int i = 0; i < 9; ++i) points.push_back(add(at, place(0.25)));
+    return config::hull_of("hull", points);
   }
   config::SceneSphere sphere() { return {"sphere", place(0.5), number(0.01, 0.5)}; }
   config::SceneBox box() {

@@ -50,6 +50,45 @@ TEST(Scene, MayBeWithoutAnythingButItsBodies) {
   EXPECT_TRUE(parse_scene(good_table("scene", "none").dump(), "s").camera) << "what liana run needs";
 }
 
+constexpr const char* kConvex = R"({"format":1,"kind":"scene","name":"own","boxes":[],"spheres":[],"convex":[
+  {"name":"bracket","points_m":[[0,0,0],[1,0,0],[0,1,0],[0,0,1]]},
+  {"name":"tank","cylinder":{"from_m":[1,0,0],"to_m":[1,0,2],"radius_m":0.25}},
+  {"name":"hose","chain":{"points_m":[[0,0,0],[1,0,0],[1,1,0]],"radius_m":0.02}}]})";
+
+TEST(Scene, HasConvexBodiesOfPointsCylindersAndChains) {
+  const SceneConfig scene = parse_scene(kConvex, "s");
+  ASSERT_EQ(scene.convex.size(), 4u) << "a chain of two pieces is two bodies";
+  EXPECT_EQ(scene.convex[0].points_m.size(), 4u);
+  EXPECT_EQ(scene.convex[0].half_extent_m, (Vec3{0.5, 0.5, 0.5}));
+  const SceneConvex& tank = scene.convex[1];
+  EXPECT_EQ(tank.disc_radius_m, 0.25);
+  EXPECT_NEAR(tank.half_extent_m[0], 0.25, 1e-15);
+  EXPECT_NEAR(tank.half_extent_m[2], 1.0, 1e-15);
+  EXPECT_EQ(scene.convex[3].name, "hose");
+  EXPECT_EQ(scene.convex[3].round_m, 0.02);
+  EXPECT_EQ(scene.convex[3].points_m[1], (Vec3{1, 1, 0}));
+}
+
+TEST(Scene, ConvexBodiesAreRefusedWithFieldValueRangeAndAdvice) {
+  const Json flat = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
+  const std::vector<Spoiled> cases = {
+      {"/convex", 5, "convex", "a list"},
+      {"/convex/0/name", nullptr, "convex[1].name", "missing"},
+      {"/convex/0/points_m", {{0, 0, 0}, {1, 0, 0}}, "convex[1].points_m", "4 to 256"},
+      {"/convex/0/points_m", flat, "convex[1].points_m", "one plane"},
+      {"/convex/0/points_m/2", {0, 1}, "convex[1].points_m[3]", "exactly 3 numbers"},
+      {"/convex/0/points_m", nullptr, "convex[1].name", "one of points_m, cylinder, chain"},
+      {"/convex/0/chain", {1}, "convex[1].name", "one of points_m, cylinder, chain"},
+      {"/convex/1/cylinder/to_m", {1, 0, 0}, "convex[2].cylinder.to_m", "another point"},
+      {"/convex/1/cylinder/radius_m", 0, "convex[2].cylinder.radius_m", "over 0"},
+      {"/convex/2/chain/points_m", {{0, 0, 0}}, "convex[3].chain.points_m", "2 to 64"},
+      {"/convex/2/chain/length", 1, "convex[3].chain.length", "no such field"},
+      {"/convex/2/stl", "a.stl", "convex[3].stl", "no such field"}};
+  for (const Spoiled& spoiled : cases) {
+    expect_refused(Json::parse(kConvex), spoiled, [](const std::string& text) { parse_scene(text, "given.json"); });
+  }
+}
+
 TEST(Scene, IsRefusedWithFileFieldValueRangeAndAdvice) {
   const Json good = good_table("scene", "panel_slit");
   const std::vector<Spoiled> cases = {

@@ -92,7 +92,7 @@ TEST(Events, AVerdictSaysWhichEndRefusedAndHowNearTheLimitIs) {
   const event::Event event = verdict_event(17, verdict);
   EXPECT_EQ(summaries({event}), (std::vector<std::string>{"verdict 203 simulation"}));
   EXPECT_EQ(event.values, (std::vector<event::EventValue>{{"command", 17.0}, {"share", 1.25}}));
-  EXPECT_EQ(event.text, "refused 17, M_e 203: too fast");
+  EXPECT_EQ(event.text, "refused 17, M_e 203 tip_speed: too fast");
   verdict.code = verify::Refusal::kTooSlow;
   EXPECT_EQ(verdict_event(18, verdict).subject, "execution");
 }

@@ -31,7 +31,8 @@ class FileOfTheWay : public testing::Test {
   }
   std::vector<double> kept(const std::string& robot = "an arm") {
     std::vector<double> out;
-    for (const WayPoint& each : WayFile(path_, robot, 3).kept().points) out.push_back(each.joint_rad[0]);
+    const WayFile file(path_, robot, 3);
+    for (const WayPoint& each : file.kept().points) out.push_back(each.joint_rad[0]);
     return out;
   }
   // Changes one byte of the file.

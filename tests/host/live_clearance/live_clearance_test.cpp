@@ -14,31 +14,35 @@ const ThetaVector kRod_rad = zhu2022::radians(zhu2022::kPressRod_deg);
 
 void swallow(std::optional<Picture>& picture) { picture.reset(); }
 
-// 20 s of motion from one pose to another: claims above the truth, of how many, and the mean of what was taken off.
+// A minute of motion into the slit, as fast as the arm may: claims above the truth, of how many, and what was taken
+// off. With a camera what is claimed before the first picture is about the drawing, and does not count.
 struct Course {
   int claims = 0, above = 0;
-  double mean_bound_m = 0.0;
+  double mean_bound_m = 0.0, last_bound_m = 0.0;
 };
 
-template <class Spoil>
-Course course(TrueWorld& world, const Spoil& spoil, const config::SceneConfig& scene = panel_slit()) {
+using Spoil = void (*)(std::optional<Picture>&);
+Course course(TrueWorld& world, Spoil spoil, const config::SceneConfig& scene = panel_slit()) {
+  const bool has_camera = spoil != swallow;
   LiveClearance live(zhu2022_config(), scene);
   Course out;
   std::uint64_t tick = 0;
   const auto judge = [&](const Claim& claim, const ThetaVector& measured_rad) {
+    if (has_camera && claim.sureness != Sureness::kCamera) return;
     ++out.claims;
     out.above += claim.clearance.distance_m > world.true_clearance_m(measured_rad);
     out.mean_bound_m += claim.clearance.bound_m;
   };
-  travel(live, world, kEdge_rad, kSlit_rad, 600, tick, judge, spoil);
-  travel(live, world, kSlit_rad, kRod_rad, 400, tick, judge, spoil);
+  travel(live, world, kEdge_rad, kSlit_rad, 2000, tick, judge, spoil);
+  travel(live, world, kSlit_rad, kRod_rad, 1000, tick, judge, spoil);
   out.mean_bound_m /= out.claims;
+  out.last_bound_m = live.claim().clearance.bound_m;
   return out;
 }
 
 TEST(LiveClearance, IsALowerBoundOfTheTruthInSeededWorlds) {
   Course all;
-  for (std::uint64_t seed = 100; seed < 120; ++seed) {
+  for (std::uint64_t seed = 100; seed < 108; ++seed) {
     TrueWorld world(seed, {.length_m = 30e-6, .shift_m = 0.01, .turn_deg = 1.0});
     const Course one = course(world, nothing_spoiled);
     all.claims += one.claims;
@@ -50,7 +54,7 @@ TEST(LiveClearance, IsALowerBoundOfTheTruthInSeededWorlds) {
 
 TEST(LiveClearance, IsALowerBoundWithoutACameraWhereTheSceneIsAsDrawn) {
   Course all;
-  for (std::uint64_t seed = 200; seed < 220; ++seed) {
+  for (std::uint64_t seed = 200; seed < 208; ++seed) {
     TrueWorld world(seed, {.length_m = 30e-6});
     const Course one = course(world, swallow);
     all.claims += one.claims;
@@ -66,7 +70,7 @@ TEST(LiveClearance, WithoutACameraTheScenesAllowanceIsTakenOff) {
   allowed.margins.shift_m = 0.01;
   allowed.margins.turn_deg = 1.0;
   Course all;
-  for (std::uint64_t seed = 300; seed < 310; ++seed) {
+  for (std::uint64_t seed = 300; seed < 304; ++seed) {
     TrueWorld world(seed, {.length_m = 30e-6, .shift_m = 0.01, .turn_deg = 1.0});
     const Course one = course(world, swallow, allowed);
     all.claims += one.claims;
@@ -77,7 +81,7 @@ TEST(LiveClearance, WithoutACameraTheScenesAllowanceIsTakenOff) {
 
 TEST(LiveClearance, KnowsMoreWithACameraThanWithout) {
   TrueWorld seen(7, {.length_m = 30e-6}), unseen(7, {.length_m = 30e-6});
-  EXPECT_LT(course(seen, nothing_spoiled).mean_bound_m, 0.8 * course(unseen, swallow).mean_bound_m);
+  EXPECT_LT(course(seen, nothing_spoiled).last_bound_m, 0.8 * course(unseen, swallow).last_bound_m);
 }
 
 TEST(LiveClearance, SaysHowSureItIsAndTheBoundGrowsWhenTheCameraIsGone) {

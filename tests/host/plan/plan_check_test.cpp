@@ -9,6 +9,7 @@
 #include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/cable/arm/kinematics.hpp"
 #include "host/clearance/arm_clearance.hpp"
+#include "host/config/convex_shape.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::plan {
@@ -49,6 +50,29 @@ TEST(PlanCheck, KnowsTheSameTipAsTheCore) {
       EXPECT_NEAR(std::fabs(cosine), 1.0, 1e-12);
     }
   }
+}
+
+// libccd, which the check asks, against the search of host/clearance.
+TEST(PlanCheck, FindsTheClearanceFromConvexBodiesThatThePlannerFinds) {
+  const RobotTable table = zhu2022::table();
+  config::SceneConfig scene;
+  scene.convex = {config::hull_of("wedge", {{1.4, 0.8, 0.3}, {1.9, 0.8, 0.3}, {1.6, 1.2, 0.3}, {1.6, 0.9, 0.9}}),
+                  config::cylinder("tank", {1.5, -1.2, 0.0}, {1.8, -0.9, 0.4}, 0.15),
+                  config::capsule("hose", {2.5, 0.3, -1.0}, {2.9, -0.2, -0.6}, 0.05)};
+  zhu2022::Random random(7);
+  int near = 0;
+  for (int i = 0; i < 300; ++i) {
+    const ThetaVector theta = random.theta(table, 12.0);
+    const double found_m = check(table, scene, {theta}).min_clearance_m;
+    const double planner_m = clearance::arm_clearance(link_points(table, theta).axis(), 0.03, scene).distance_m();
+    if (planner_m < -0.02) {
+      EXPECT_LT(found_m, 0.0);
+      continue;
+    }
+    EXPECT_NEAR(found_m, planner_m, 5e-6);
+    near += planner_m < 0.1 ? 1 : 0;
+  }
+  EXPECT_GT(near, 10);
 }
 
 TEST(PlanCheck, FindsTheLeastClearanceThatDenseSamplingFinds) {

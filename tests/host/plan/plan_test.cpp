@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "host/clearance/clearance.hpp"
+#include "host/config/convex_shape.hpp"
 #include "host/plan/problem/plan_problem.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 #include "tests/host/plan/requests.hpp"
@@ -66,6 +67,21 @@ TEST(Plan, GoesRoundABallInTheMiddleOfTheStraightWay) {
   const PlanResult result = plan(request, {});
   expect_solved(request, result);
   EXPECT_LT(result.checked->min_clearance_m, 0.05);  // no larger detour than needed
+}
+
+TEST(Plan, GoesRoundConvexBodiesAsTheCheckWithLibccdConfirms) {
+  const config::SceneConvex tank = config::cylinder("tank", {2.5, 0.0, -0.1}, {2.5, 0.0, 0.3}, 0.15);
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? 2.4 : 2.6, i & 2 ? 0.14 : -0.14, i & 4 ? 0.25 : -0.05});
+  for (const config::SceneConvex& body : {tank, config::hull_of("block", corners)}) {
+    PlanRequest request = request_past_a_ball();
+    request.scene = {};
+    request.scene.convex.push_back(body);
+    const PlanResult result = plan(request, {});
+    expect_solved(request, result);
+    EXPECT_LT(result.checked->min_clearance_m, 0.05) << body.name;
+    EXPECT_EQ(result.checked->nearest, body.name);
+  }
 }
 
 TEST(Plan, BringsAControlPointNearerForItsWeight) {

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <set>
 #include <string>
 
@@ -22,8 +24,25 @@ TEST(RefusalTable, NamesAreWordsAndNoTwoAreTheSame) {
     EXPECT_TRUE(names.insert(row.name).second) << row.name;
     EXPECT_EQ(std::string(row.name).find_first_not_of("abcdefghijklmnopqrstuvwxyz_"), std::string::npos) << row.name;
     EXPECT_FALSE(std::string(row.remedy).empty()) << row.name;
+    EXPECT_EQ(std::string(row.says).back(), '.') << row.name;
+    EXPECT_EQ(std::string(row.remedy).back(), '.') << row.name;
     EXPECT_EQ(&row_of(row.code), &row);
   }
+}
+
+TEST(RefusalTable, OnlyACollisionIsAStop) {
+  std::set<std::string> stops;
+  for (const RefusalRow& row : refusal_table()) {
+    if (row.action == RefusalAction::kStop) stops.insert(row.name);
+  }
+  EXPECT_EQ(stops, (std::set<std::string>{"scene_contact", "self_contact"}));
+}
+
+TEST(RefusalTable, ThePageHoldsWhatTheCodePrints) {
+  std::ifstream file(LIANA_DOCS_DIR "/refusals.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::string table = markdown_of(refusal_table());
+  EXPECT_NE(page.find("\n\n" + table), std::string::npos) << "put this into docs/refusals.md:\n" << table;
 }
 
 }  // namespace

@@ -1,0 +1,64 @@
+#include "host/cli/command_lives.hpp"
+
+#include <istream>
+
+namespace liana::cli {
+namespace {
+
+using event::Dispatch;
+using event::Stage;
+
+std::optional<Dispatch>* place_of(Stage stage, CommandLife& life) {
+  switch (stage) {
+    case Stage::kExecution:
+      return &life.execution;
+    case Stage::kSimulation:
+      return &life.simulation;
+    case Stage::kRelease:
+      return &life.release;
+    case Stage::kStart:
+      return &life.start;
+    case Stage::kComplete:
+      return &life.complete;
+    case Stage::kRefusal:
+    case Stage::kRequest:
+      return &life.refusal;
+    case Stage::kSetpoint:
+      break;
+  }
+  return nullptr;
+}
+
+// Stages of a command come soon after it: it is among the newest.
+CommandLife* find(std::vector<CommandLife>& lives, std::uint64_t command) {
+  for (auto life = lives.rbegin(); life != lives.rend(); ++life) {
+    if (life->command == command) return &*life;
+  }
+  return nullptr;
+}
+
+void take(const Dispatch& d, std::vector<CommandLife>& lives) {
+  const bool begins = d.stage == Stage::kSetpoint || d.stage == Stage::kRequest;
+  if (begins) lives.push_back({d.command, d.tick, d.subject, d.number, {}, {}, {}, {}, {}, {}});
+  CommandLife* life = begins ? &lives.back() : find(lives, d.command);
+  if (life == nullptr) return;
+  if (std::optional<Dispatch>* place = place_of(d.stage, *life)) *place = d;
+}
+
+}  // namespace
+
+std::vector<CommandLife> command_lives(std::istream& lines, std::size_t& unread) {
+  std::vector<CommandLife> lives;
+  unread = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("#")) continue;
+    if (const auto stage = event::dispatch_from_line(line)) {
+      take(*stage, lives);
+    } else {
+      ++unread;
+    }
+  }
+  return lives;
+}
+
+}  // namespace liana::cli

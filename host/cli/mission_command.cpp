@@ -1,0 +1,36 @@
+#include <cstdio>
+#include <stdexcept>
+
+#include "host/api/client.hpp"
+#include "host/cli/commands.hpp"
+#include "host/json/json.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/observer.hpp"
+
+namespace liana::cli {
+namespace {
+
+constexpr double kConnectTimeout_s = 1.0;
+constexpr double kAnswerTimeout_s = 5.0;
+
+}  // namespace
+
+int mission_command(const MissionOptions& options) {
+  const std::vector<std::string> systems = system::systems_to_ask(options.api);
+  if (systems.size() != 1) throw system::BadInput("mission: several systems run: name one with --api");
+  api::ApiClient client = api::ApiClient::connect(systems.front(), kConnectTimeout_s);
+  system::say_hello(client, "liana mission", system::Observer::kClient);
+  client.send({{"op", "mission_control"}, {"command", options.command}, {"id", 1}});
+  const auto answer = system::wait_for(client, "ok", kAnswerTimeout_s);
+  if (!answer) throw std::runtime_error("lianad did not answer within 5 s");
+  if (options.json) {
+    std::puts(
+        Json{{"api", systems.front()}, {"command", options.command}, {"tick", answer->at("tick")}}.dump().c_str());
+  } else {
+    std::printf("%s: the mission is told to %s; liana status says what it waits for\n", systems.front().c_str(),
+                options.command.c_str());
+  }
+  return system::kExitOk;
+}
+
+}  // namespace liana::cli
