@@ -10,7 +10,7 @@
 namespace liana::simulate {
 
 constexpr int kStepsPerInterval = 2;   // T_d = T_c / 2
-constexpr double kSwingOut_s = 0.4;    // how long the arm is followed after the sequence
+constexpr double kSwingOut_s = 0.1;    // how long the arm is followed after the sequence
 constexpr double kNewPose_rad = 0.06;  // an angle that has moved further (3.4 deg): the equations are solved anew
 
 class Simulation {

@@ -184,9 +184,7 @@ class Verify(unittest.TestCase):
             "verify", f"--from-deg={joined(start)}", f"--to-deg={joined(end)}", f"--duration={duration_s}", *more
         )
         self.assertEqual(set(verdict), self.KEYS)
-        self.assertEqual(
-            set(verdict["margins"]), {"clearance_m", "joint_deg", "rate_deg_s", "tension_N", "time_us"}
-        )
+        self.assertEqual(set(verdict["margins"]), {"clearance_m", "joint_deg", "rate_deg_s", "tension_N", "time_us"})
         self.assertEqual(verdict["accepted"], verdict["error"] is None and verdict["remedy"] is None)
         return verdict
 
