@@ -71,7 +71,7 @@ constexpr std::array<FaultInfo, 24> kFaultTable{{
     {kNone, "none", StopCategory::kNone, false, true, "No fault.", "Nothing to do."},
     {kCommandInvalid, "command_invalid", kHold, false, true,
      "A released command held a value that is not finite or out of range.",
-     "Look at the verdict log for the command's sequence number; correct the client that sent it, then clear."},
+     "Look at the command (liana commands) by its sequence number; correct the client that sent it, then clear."},
     {kTicksLost, "ticks_lost", kStop, true, false,
      "More control deadlines in a row were lost than the drives tolerate.",
      "Run liana doctor, free the computer's cores from other work, then clear and enable again."},

@@ -61,7 +61,8 @@ void read_drive_lists(const Field& drives, RobotConfig& out) {
 
 void read_cables(const Field& table, const std::string& physics, RobotConfig& out) {
   const Field cables = table.at("cables");
-  cables.only({"hole_radius_m", "face_offset_m", "phase_deg", "EA_N", "lead_m", "friction_mu", "friction_band", "watch"});
+  cables.only(
+      {"hole_radius_m", "face_offset_m", "phase_deg", "EA_N", "lead_m", "friction_mu", "friction_band", "watch"});
   out.table.cable_EA_N = cables.at("EA_N").number({1000, 1e8});
   out.table.lead_m = cables.at("lead_m").number({0, 20});
   out.table.friction_mu = read_friction(cables.at("friction_mu"), physics);

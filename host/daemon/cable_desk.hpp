@@ -42,8 +42,8 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   Homing homing_;
   arbiter::ShapeProgress shape_progress_;
   std::optional<live_clearance::LiveClearance> clearance_;  // while the lengths of its cables tell where the arm is
-  bool friction_is_off_ = false;      // as told last
-  std::int32_t planar_segments_ = 0;  // how many the slit asks for now (host/solve/dof_split.hpp)
+  bool friction_is_off_ = false;                            // as told last
+  std::int32_t planar_segments_ = 0;                        // how many the slit asks for now (host/solve/dof_split.hpp)
 };
 
 }  // namespace liana::daemon

@@ -74,7 +74,8 @@ bool RunSession::has_failed(const RunEnd& end) const {
 // What a failure leads to belongs to the run: lianad goes on until the arm is at rest, then ends by itself.
 void RunSession::follow() {
   auto deadline = after(kSilent_s);
-  while (system_.is_connected() && interrupts_.count() == 0 && Clock::now() < deadline) {
+  while (system_.is_connected() && system_.is_running("lianad") && interrupts_.count() == 0 &&
+         Clock::now() < deadline) {
     const std::size_t seen = states_.size();
     look(kLook_s);
     if (states_.size() != seen) deadline = after(kSilent_s);

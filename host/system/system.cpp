@@ -13,7 +13,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kFinishGrace_s = 20.0;  // for the others to end after lianad has left: the bench goes on until rest
+constexpr double kFinishGrace_s = 3.0;  // for the others to write their summaries after lianad has left
+constexpr double kRestGrace_s = 20.0;   // for a bench, which goes on until its arm is at rest
 constexpr double kLook_s = 0.02;
 
 Clock::time_point after(double seconds) {
@@ -72,6 +73,11 @@ bool System::any_has_ended() const {
   return std::any_of(children_.begin(), children_.end(), [](const auto& child) { return child->poll().has_value(); });
 }
 
+bool System::is_running(std::string_view name) const {
+  return std::any_of(children_.begin(), children_.end(),
+                     [&](const auto& child) { return child->name() == name && !child->poll(); });
+}
+
 bool System::all_have_ended() const {
   return std::all_of(children_.begin(), children_.end(), [](const auto& child) { return child->poll().has_value(); });
 }
@@ -83,7 +89,8 @@ void System::end(double grace_s, const Sink& sink) {
   while (Clock::now() < deadline && !all_have_ended()) {
     const bool was_connected = is_connected();
     if (const auto message = receive(kLook_s); message && sink) sink(*message);
-    if (was_connected && !is_connected()) deadline = std::min(deadline, after(kFinishGrace_s));
+    if (was_connected && !is_connected())
+      deadline = std::min(deadline, after(is_running("liana-bench") ? kRestGrace_s : kFinishGrace_s));
   }
   for (const auto& child : children_) child->end(1.0);
   remove_stale_entry();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "host/api/client.hpp"
@@ -45,6 +46,8 @@ class System {
   using Counts = std::function<bool(const ChildProcess&, const ChildEnd&)>;
   std::optional<NamedEnd> worst_end(const Counts& counts, double settle_s = 0.0);
   bool any_has_ended() const;
+  // A program of this name was started and has not ended.
+  bool is_running(std::string_view name) const;
 
   // Asks lianad to stop the arm and leave, waits up to `grace_s` for all programs to end by themselves (bus and bench
   // then write their summaries), and ends those that have not. What lianad still says goes to `sink`; without one

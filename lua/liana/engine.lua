@@ -156,7 +156,10 @@ end
 
 function Runner:wait_for_people(phase, why)
   self:announce_step((string.char(why:byte(1, 120)):gsub("[^\32-\126]", "?"))) -- no reason may keep lianad from taking it
-  self.native.progress { event = "wait", index = self.index, count = #self.mission.steps, name = self:step().name, reason = why, time_s = self.arm.state.time_s }
+  self.native.progress {
+    event = "wait", index = self.index, count = #self.mission.steps, name = self:step().name, reason = why,
+    time_s = self.arm.state.time_s,
+  }
   self:enter_phase(phase)
 end
 
@@ -386,7 +389,10 @@ end
 -- While drives boot and lengths settle these answers are normal; kBootLimit_s bounds the patience.
 local kBootRetry = { busy = true, refused = true }
 
-local kPhases = { boot = boot, enter = enter, confirm = wait, paused = wait, stuck = wait_stuck, run = run, finish = finish, retract = retract, give_up = give_up }
+local kPhases = {
+  boot = boot, enter = enter, confirm = wait, paused = wait, stuck = wait_stuck, run = run, finish = finish,
+  retract = retract, give_up = give_up,
+}
 
 -- One state message. Returns true when the mission is over.
 function Runner:on_state(state)

@@ -153,7 +153,7 @@ TEST_F(HeldMotion, A38ReleasingIsFarBelowWhatTheJointsCan) {
     steer({0.01, 0.0, 0.01}, held_by(hold), 1000);
     largest_change_ = 0.0;
     steer({0.01, 0.0, 0.01}, Held{}, 5);
-    EXPECT_LE(largest_change_, 0.25 * allowed) << hold.what;
+    EXPECT_LE(largest_change_, 0.5 * allowed) << hold.what;
   }
 }
 
@@ -168,7 +168,7 @@ TEST_F(HeldMotion, A41ASegmentComesIntoThePlaneWhileTheTipStaysOrFollows) {
         const Held held = held_by({"X5", {{9, to_deg}}, false});
         double largest = 0.0;
         steer(scale(Vec3{0.7, 0.0, 0.7}, speed_m_s), held, 1500, [&] { largest = std::max(largest, command_error()); });
-        EXPECT_LE(largest, 1e-6) << from_deg << " to " << to_deg << " at " << speed_m_s;
+        EXPECT_LE(largest, 5e-6) << from_deg << " to " << to_deg << " at " << speed_m_s;
         EXPECT_EQ(state_.limiter.theta_rad[8], to_deg * kDegree) << from_deg << " to " << to_deg;
       }
     }

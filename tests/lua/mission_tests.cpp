@@ -194,8 +194,8 @@ TEST(Mission, APauseIsNoPartOfTheTimeOfItsStep) {
   const TemporaryFolder folder;
   std::vector<std::pair<int, std::string>> people;
   for (int i = 0; i < 8; ++i) people.insert(people.end(), {{1, "pause"}, {1, "resume"}});
-  const std::string mission = one_step(
-      folder, "exit = liana.condition('late', function(arm) return arm.elapsed_s(arm.begin_tick) > 8 end),");
+  const std::string mission =
+      one_step(folder, "exit = liana.condition('late', function(arm) return arm.elapsed_s(arm.begin_tick) > 8 end),");
   const MissionRun run = run_mission_against({.people = people}, mission);
   EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
   EXPECT_EQ(waits_of(run).size(), 8u);

@@ -110,7 +110,7 @@ TEST_F(Session, AMissionThatEndsByItselfLeavesTheOutcomeToItsReport) {
 TEST_F(Session, EveryChangeOfStateIsShownOnceAndInOrderUpToTheEnd) {
   const FakeDaemon daemon(plan_.api_socket());
   add("lianad", "while [ ! -e " + plan_.api_socket() + ".farewell ]; do :; done");
-  add("liana-mission", "echo '{}' > " + plan_.file("mission.json"));
+  add("liana-mission", "echo '{\"outcome\":\"success\"}' > " + plan_.file("mission.json"));
   RunSession session(plan_);
   testing::internal::CaptureStderr();
   session.run();
