@@ -159,7 +159,7 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 0, on_fail = 'hold' }",
        "time_limit_s: 0: allowed seconds over 0"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'pray' }",
-       "on_fail: pray: allowed \"retract\", \"hold\" or \"stop\""},
+       "on_fail: pray: allowed \"retract\", \"hold\", \"stop\" or \"pause\""},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1 }", "on_fail: missing"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [17] = 0 } }",
        "hold[17]: entry 1 of held: theta = 17: allowed 1 to 10"},

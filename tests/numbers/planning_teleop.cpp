@@ -32,6 +32,7 @@ constexpr double kThere = 1e-6;         // m and rad
 constexpr double kResidual = 1e-3;      // m; larger residuals have a direction worth judging
 constexpr double kSameDirection = 0.9;  // cosine
 constexpr double kRounding = 1e-9;
+constexpr double kFollowed = 1e-5;  // m
 
 enum Kind : std::size_t {
   kFree,
@@ -218,11 +219,10 @@ class Trial {
   }
 
   void judge_residual() {
-    const Vec3 residual = subtract(state_.filter.pose.position_m, tip_of(state_.ik_rad).position_m);
-    if (norm(residual) < kThere) {
-      keep(figures_.off_path_m,
-           norm(subtract(state_.filter.pose.position_m, tip_of(state_.limiter.theta_rad).position_m)));
-    }
+    const Vec3 residual = subtract(state_.filter.pose.position_m, tip_of(state_.limiter.theta_rad).position_m);
+    // Where the IK has the tip on its way, what is left is how far the joints lag.
+    if (norm(subtract(state_.filter.pose.position_m, tip_of(state_.ik_rad).position_m)) < kFollowed)
+      keep(figures_.off_path_m, norm(residual));
     const Vec3 reported{state_.ik.residual[0], state_.ik.residual[1], state_.ik.residual[2]};
     if (norm(residual) < kResidual || norm(reported) < kResidual) return;
     if (dot(residual, reported) < kSameDirection * norm(residual) * norm(reported))
