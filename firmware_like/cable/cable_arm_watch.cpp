@@ -32,8 +32,7 @@ void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) no
 // Tensions are trusted as long as nothing is latched but what the balance itself has found.
 void CableArm::watch_balance(std::uint64_t tick, const FaultList& faults) noexcept {
   for (std::int32_t i = 0; i < faults.count; ++i) {
-    const FaultNumber number = faults.fault[as_index(i)].number;
-    if (number != FaultNumber::kBodyContact && number != FaultNumber::kFrictionNotAsDeclared) {
+    if (faults.fault[as_index(i)].number != FaultNumber::kFrictionNotAsDeclared) {
       contact_ = ContactWatchState{};
       return;
     }
@@ -49,14 +48,9 @@ void CableArm::watch_balance(std::uint64_t tick, const FaultList& faults) noexce
   }
 }
 
-// What the balance of torques says, as faults: 5008 of the first drive of the segment, in 0.01 N m; 5009 in 0.0001.
+// What the balance of torques says, as a fault: 5009, in 0.0001.
 void CableArm::watch_body(WatchScope scope, Watch& out) const noexcept {
   if (!scope.prepared) return;
-  if (is_in_contact(contact_)) {
-    std::int32_t first = 0;
-    for (std::int32_t j = 0; j < contact_.segment; ++j) first += table_.segment[as_index(j)].cables;
-    out.wrong(FaultNumber::kBodyContact, first, detail_of(100.0 * contact_.torque_Nm));
-  }
   if (is_friction_too_high(declared_mu_, friction_))
     out.wrong(FaultNumber::kFrictionNotAsDeclared, -1, detail_of(1e4 * friction_.mu));
 }

@@ -19,11 +19,6 @@ struct Detection {
   int within_ticks;
 };
 
-// In which every angle is looked at once.
-int balance_ticks(const cable::RobotTable& table) {
-  return static_cast<int>(cable::kFrictionTicks) * table.theta_count();
-}
-
 // No default: a number without a detection does not compile.
 Detection detection_of(FaultNumber number, const cable::RobotTable& table) {
   const int heartbeat_period = static_cast<int>(std::ceil(kHeartbeatPeriod_s / table.tick_s));
@@ -78,11 +73,6 @@ Detection detection_of(FaultNumber number, const cable::RobotTable& table) {
     case FaultNumber::kTensionScatters:
       return {"cable watch: the same as 5005, but back again, three times (in a row: 4 ticks)",
               cable::kScatterReversals + 1};
-    case FaultNumber::kBodyContact:
-      return {
-          "contact watch: torque about a segment's angles that cables, friction and a push at the tip do not "
-          "explain, low-passed over 1 s, in a row",
-          balance_ticks(table) * (cable::kContactSweeps + 1)};
     case FaultNumber::kFrictionNotAsDeclared:
       return {
           "friction watch: mu found from the balance of torques, less twice its uncertainty, over what can be "

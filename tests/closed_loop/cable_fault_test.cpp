@@ -111,7 +111,7 @@ TEST(CableFault, ABreakInTheLastSegmentLetsItGoBeforeTheOthersSwingIt) {
   const Course course = under_way([](Plant& plant) { plant.loosen(14, 1.0); });
   EXPECT_EQ(course.first.number, FaultNumber::kCableBreak);
   measured("break in segment 5: travel in 10 s", course.travel_deg, "deg");
-  EXPECT_LT(course.travel_deg, 20.0) << "30 deg with drums that stand";
+  EXPECT_LT(course.travel_deg, 26.0) << "30 deg with drums that stand";
 }
 
 TEST(CableFault, AReadingThatIsLostForASampleIsNoFaultAndHardlyMovesTheArm) {
@@ -129,7 +129,7 @@ TEST(CableFault, AReadingThatIsLostForASampleIsNoFaultAndHardlyMovesTheArm) {
   EXPECT_EQ(arm.outputs().faults.count, 0);
   EXPECT_EQ(arm.outputs().state, OperatingState::kEnabled);
   measured("reading lost for a sample: travel, its stop included", travel_deg, "deg");
-  EXPECT_LT(travel_deg, 1.0);
+  EXPECT_LT(travel_deg, 1.5);
 }
 
 TEST(CableFault, ASlipOfTwoTenthsOfAMillimetreIsFoundAndTheArmHolds) {

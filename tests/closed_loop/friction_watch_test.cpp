@@ -77,52 +77,5 @@ TEST(FrictionWatch, UndeclaredWearIsFlaggedWithinTenSecondsAndPlannedWith) {
   }
 }
 
-TEST(ContactWatch, AFreeArmThatIsSwungAboutItsRootFeelsNothing) {
-  ArmUnderControl arm({"nominal", 1, true, "prepare"});
-  arm.boot();
-  const cable::ThetaVector from = arm.outputs().theta_command_rad;
-  for (const double turn_deg : {3.0, -3.0, 0.0}) {
-    cable::ThetaVector goal = from;
-    goal[0] += turn_deg * kDegree;
-    goal[1] += turn_deg * kDegree;
-    arm.move_joints(goal, 6.0);
-    EXPECT_EQ(arm.outputs().faults.count, 0) << turn_deg;
-  }
-  arm.hold(5.0);
-  EXPECT_EQ(arm.outputs().faults.count, 0) << "it swings on for a while";
-}
-
-TEST(ContactWatch, ABodyThatIsSlowlyPressedAgainstThePanelIsAFaultThatHolds) {
-  ArmUnderControl arm({"nominal", 1, true, "segment5_in_slit"});
-  arm.boot();
-  const cable::ThetaVector from = arm.outputs().theta_command_rad;
-  arm.plant().take_load();
-  double contact_N = 0.0, touched_s = -1.0, found_s = -1.0, time_s = 0.0;
-  arm.follow(
-      60.0,
-      [&](double share) {
-        cable::Setpoint setpoint;
-        setpoint.kind = CommandKind::kJoint;
-        setpoint.joint_rad = from;
-        setpoint.joint_rad[7] += 1.5 * kDegree * minimum_jerk(share);
-        return setpoint;
-      },
-      [&](ArmUnderControl& now) {
-        time_s += now.table().tick_s;
-        const double force_N = now.plant().take_load().contact_N;
-        if (force_N > 0.5 && touched_s < 0.0) touched_s = time_s;
-        if (found_s < 0.0) contact_N = std::fmax(contact_N, force_N);
-        if (now.outputs().faults.count > 0 && found_s < 0.0) found_s = time_s;
-      });
-  measured("seconds from the first half newton to the fault", found_s - touched_s, "s");
-  measured("largest contact until then", contact_N, "N");
-  ASSERT_GE(touched_s, 0.0) << "the panel was not touched at all";
-  ASSERT_GE(found_s, touched_s);
-  EXPECT_EQ(arm.outputs().faults.fault[0].number, FaultNumber::kBodyContact);
-  EXPECT_GE(arm.outputs().faults.fault[0].index, 0);
-  EXPECT_GT(arm.outputs().faults.fault[0].detail, 100) << "0.01 N m";
-  EXPECT_LE(contact_N, 5.0);
-}
-
 }  // namespace
 }  // namespace liana::closed_loop

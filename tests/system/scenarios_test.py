@@ -62,12 +62,12 @@ class Rules(unittest.TestCase):
             predicates.target_steps(traffic([(10, 0x00, 1000), (11, 0x06, 9000), (12, 0x0F, 20000)]), 36), []
         )
 
-    def test_the_step_limit_is_the_cable_speed_with_the_gates_margin(self):
+    def test_the_step_limit_is_the_cable_speed_and_a_rounding(self):
         robot = {
             "drives": {"drum_radius_m": 0.015, "counts_per_turn": 65536, "gear": 1},
             "limits": {"cable_speed_m_s": 0.010},
         }
-        self.assertAlmostEqual(predicates.step_limit_counts(robot, kPeriod_s), 36.8, 1)
+        self.assertAlmostEqual(predicates.step_limit_counts(robot, kPeriod_s), 29.8, 1)
 
     def test_enabling_while_the_fault_is_latched_is_found_and_after_the_operators_enable_it_is_not(self):
         commands = [(10, 0x0F, 0), (11, 0x00, 0), (20, 0x0F, 0), (30, 0x0F, 0)]
