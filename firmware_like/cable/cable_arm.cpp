@@ -114,7 +114,8 @@ void CableArm::aim_tensions(const TensionPlan& plan) noexcept {
   const CableVector in_force_N = live_ ? tension_.motor_N : plan.motor_N;
   if (!live_) planned_N_ = plan.motor_N;
   for (Index c = 0; c < cables(); ++c) {
-    const double next_N = larger(table_.tension.floor_motor_N, 2.0 * plan.motor_N[c] - planned_N_[c]);
+    const double ahead_N = smaller(table_.tension.ceiling_free_N, 2.0 * plan.motor_N[c] - planned_N_[c]);
+    const double next_N = larger(table_.tension.floor_motor_N, ahead_N);
     tension_change_N_[c] = (next_N - in_force_N[c]) / kPlanTicks;
   }
   planned_N_ = plan.motor_N;

@@ -68,7 +68,9 @@ class Trial:
         return min(begun + [rule["from_slot"] for rule in self.bus_script], default=kNever)
 
     def strangers(self):
-        """Drives in whose name a rule of the bus speaks."""
+        """Drives in whose name a rule of the bus speaks; all, where cables are exchanged: nobody is where he was."""
+        if any(rule["action"] == "swap" for rule in self.bus_script):
+            return set(range(len(self.recording.ticks[0].age)))
         ids = [
             int(rule["id"], 16) for rule in self.bus_script if rule["action"] in ("send", "duplicate") and "id" in rule
         ]

@@ -17,7 +17,6 @@ using simulate::Moment;
 
 constexpr double kEvenRate = 1.01;     // rates of the sequence are means over an interval of what the twin did in ticks
 constexpr double kTipLead = 1.05;      // the same allowance as the execution end's
-constexpr double kSettles_m = 3e-4;    // an arm at rest comes so much nearer by itself, when it is first told to move
 constexpr double kLeadsAway_m = 1e-3;  // of the least distance: what the bound between poses may give away
 
 std::string numbered(const char* what, Index index) { return what + std::string(" ") + std::to_string(index + 1); }
@@ -153,13 +152,13 @@ void judge_distances(const MotionRules& rules, const simulate::Motion& motion, S
   verdict.margins.clearance_m = claimed_m - levels.refuse_m;
   verdict.slowly = claimed_m < levels.slow_m;
   verdict.first = first;
-  const bool leads_away = motion.scene_at_end_m >= motion.scene_at_start_m - kSettles_m &&
+  const bool leads_away = motion.scene_at_end_m >= motion.scene_at_start_m &&
                           motion.scene.distance_m >= motion.scene_at_start_m - kLeadsAway_m;
   if (!std::isfinite(motion.scene.distance_m) || (claimed_m < levels.refuse_m && !leads_away)) {
     refuse(verdict, Refusal::kSceneContact,
            "the arm could touch " + first.body + ": " + millimetres(claimed_m) + " of the simulated " +
                millimetres(motion.scene.distance_m) + " are certain, " + millimetres(levels.refuse_m) +
-               " have to be left",
+               " have to be left; it stands " + millimetres(motion.scene_at_start_m) + " off",
            first);
   } else if (!(motion.self.distance_m > 0.0)) {
     const First self = at_itself(motion.self);
