@@ -10,9 +10,13 @@ kFreeMargin, kSlitMargin = 1.1, 1.05  # of the tip, over its limit: it swings ab
 kRateMargin = 1.25  # of an angle, over its limit: it swings about its commanded rate
 
 
-def sound_until(faults, courses, slots):
+# Readings for which the core lets a segment go: its cables are slack then, with nothing broken.
+kLooseningReadings = ("noisy",)
+
+
+def sound_until(faults, courses, slots, kinds=kDamage):
     """The slot in which the first damage begins; `slots`, when there is none."""
-    begun = [c["begun_slot"] for f, c in zip(faults, courses) if f["kind"] in kDamage and c["begun_slot"] is not None]
+    begun = [c["begun_slot"] for f, c in zip(faults, courses) if f["kind"] in kinds and c["begun_slot"] is not None]
     return min(begun, default=slots)
 
 
@@ -93,9 +97,10 @@ def all_complaints(truth, ticks, robot, faults, courses, nominal=True):
         return []
     limits, end = Limits(robot), sound_until(faults, courses, len(truth.rows))
     slots = list(under_command(ticks, end))
+    taut_end = sound_until(faults, courses, end, kLooseningReadings)
     return (
         contact(truth, end)
-        + tensions(truth, limits, slots, nominal)
+        + tensions(truth, limits, [slot for slot in slots if slot < taut_end], nominal)
         + angles(truth, limits, end)
         + speeds(truth, limits, slots)
     )

@@ -31,7 +31,7 @@ class Swaying {
     for (int tick = 0; tick < std::lround(time_s / told_.tick_s); ++tick, ++tick_) {
       if (moving) moved_s_ += told_.tick_s;
       move(moved_s_);
-      if (tick_ % kFrictionTicks == 0) look(moving, node, push_N);
+      if (static_cast<std::uint32_t>(tick_) % kFrictionTicks == 0) look(moving, node, push_N);
       planned_mu_before_ = told_.friction_mu;
       told_.friction_mu = plan_friction(declared_mu_, told_.friction_mu, told_.tick_s, state_);
       fastest_ = std::max(fastest_, std::fabs(told_.friction_mu - planned_mu_before_) / told_.tick_s);
