@@ -6,7 +6,7 @@ list of complaints, empty when the rule held.
 kDamage = ("slack", "cable_slip", "cable_break", "encoder_jump", "motor_saturation")
 kSettledTicks = 50  # enabled and without a fault for so long: what an earlier stop stirred up has calmed down
 kAngleMargin_deg = 0.2  # elastic cables let an angle at its limit swing by so much
-kFreeMargin, kSlitMargin = 1.3, 1.05  # of the tip, over its limit: it swings about its commanded speed (found 1.26)
+kFreeMargin, kSlitMargin = 1.1, 1.05  # of the tip, over its limit: it swings about its commanded speed
 kRateMargin = 1.25  # of an angle, over its limit: it swings about its commanded rate
 
 
