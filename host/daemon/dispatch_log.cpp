@@ -6,7 +6,7 @@ namespace liana::daemon {
 
 using event::Stage;
 
-DispatchLog::DispatchLog(const std::string& path) : file_(path, 0.0, "--commands", event::kDispatchHeading) {}
+DispatchLog::DispatchLog(const std::string& path) : file_(path, "--commands", event::kDispatchHeading) {}
 
 void DispatchLog::note_active(std::uint64_t tick, std::uint64_t sequence) {
   if (sequence == active_) return;

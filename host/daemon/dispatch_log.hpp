@@ -7,7 +7,7 @@
 
 #include "host/daemon/desk.hpp"
 #include "host/event/dispatch.hpp"
-#include "host/event/event_file.hpp"
+#include "host/event/line_file.hpp"
 
 namespace liana::daemon {
 
@@ -22,14 +22,14 @@ class DispatchLog {
   void note(std::uint64_t tick, const std::string& owner, const LastVerdict& verdict);
   // A request that was answered with an error.
   void note_request(std::uint64_t tick, const event::Event& refusal);
-  // As of EventFile.
+  // As of LineFile.
   std::optional<event::Event> change() { return file_.change(); }
 
  private:
-  void write(const event::Dispatch& dispatch) { file_.append_line(event::dispatch_line(dispatch)); }
+  void write(const event::Dispatch& dispatch) { file_.append(event::dispatch_line(dispatch)); }
   void write_verdict(event::Stage stage, std::uint64_t tick, const verify::Verdict& verdict, bool has_margins);
 
-  event::EventFile file_;
+  event::LineFile file_;
   std::uint64_t active_ = 0;
 };
 

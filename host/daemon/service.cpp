@@ -32,10 +32,10 @@ Service::Service(const ServiceConfig& config, Desk& desk)
       stream_(bounds_),
       log_([this](const event::Event& event) {
         server_.publish_event(event::event_json(event).dump(-1, Json::BadUtf8::kReplace));
-        if (file_) file_->append(event);
+        if (file_) file_->append(event::event_line(event, config_.buses.tick_s()));
       }),
       server_(config.api_path, *this) {
-  if (!config.events_file.empty()) file_.emplace(config.events_file, config.buses.tick_s());
+  if (!config.events_file.empty()) file_.emplace(config.events_file, "--events", event::kEventLineHeading);
   if (!config.commands_file.empty()) dispatch_.emplace(config.commands_file);
   if (config.way_file.empty()) return;
   way_file_.emplace(config.way_file, Json::parse(config.robot_json).at("name").text(), desk.joint_count());

@@ -20,8 +20,8 @@
 #include "host/daemon/setpoint_stream.hpp"
 #include "host/daemon/state_message.hpp"
 #include "host/daemon/way_file.hpp"
-#include "host/event/event_file.hpp"
 #include "host/event/event_log.hpp"
+#include "host/event/line_file.hpp"
 #include "host/json/json.hpp"
 #include "host/time/time_mode.hpp"
 
@@ -127,7 +127,7 @@ class Service : private api::ApiHandler {
   HostTrouble trouble_;
   FaultWatch faults_;
   event::EventLog log_;
-  std::optional<event::EventFile> file_;
+  std::optional<event::LineFile> file_;
   std::optional<DispatchLog> dispatch_;
   std::optional<WayFile> way_file_;
   control::BootPhase boot_seen_ = control::BootPhase::kBooting;

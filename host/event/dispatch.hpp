@@ -11,7 +11,7 @@ namespace liana::event {
 
 // A stage in the life of a command. `number` and `subject` mean what stands beside it.
 enum class Stage : std::uint8_t {
-  kSetpoint,    // asked for; number: its kind (1 tip, 2 joints, 5 retreat), subject: who owns motion
+  kSetpoint,    // asked for; number: its CommandKind, subject: who owns motion
   kExecution,   // judged by the twin of the controller; number: M_e, 0 passed; share, margins, text
   kSimulation,  // judged by the simulation; as above
   kRelease,     // let out to the arm; number: the tick from which it is in force

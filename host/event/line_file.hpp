@@ -1,5 +1,5 @@
-// What happens in a run as a text file, a line for each event. A thread of its own writes it: whoever notes an event
-// never waits for a disk.
+// What happens in a run as a text file, line by line. A thread of its own writes it: whoever notes an event never waits
+// for a disk.
 #pragma once
 
 #include <condition_variable>
@@ -14,23 +14,21 @@
 
 namespace liana::event {
 
-class EventFile {
+class LineFile {
  public:
   static constexpr std::size_t kMostWaiting = 1u << 20;    // bytes for the disk; beyond it events are missing
   static constexpr std::uint64_t kMostBytes = 256u << 20;  // of the file: nobody fills a disk by talking
 
   // Makes the file, or empties it; its first line is `heading`. Throws std::runtime_error, naming `option`, when it
   // cannot be opened; a disk that is full by then is no reason not to run.
-  EventFile(const std::string& path, double period_s, const char* option = "--events",
-            const char* heading = kEventLineHeading);
+  LineFile(const std::string& path, const char* option, const char* heading);
   // Writes what waits.
-  ~EventFile();
-  EventFile(const EventFile&) = delete;
-  EventFile& operator=(const EventFile&) = delete;
+  ~LineFile();
+  LineFile(const LineFile&) = delete;
+  LineFile& operator=(const LineFile&) = delete;
 
-  // Hands the event's line (event_line) to the thread.
-  void append(const Event& event);
-  void append_line(std::string line);
+  // Hands a line, without its end, to the thread.
+  void append(std::string line);
   // What has changed since the last call, for the log: the disk takes no more, or it takes events again. Both are of
   // kind host_trouble. Events that were lost on the way are missing in the file; a line beginning with # says how many
   // so far.
@@ -43,7 +41,6 @@ class EventFile {
   void say_missing();
 
   std::string path_;
-  double period_s_;
   int fd_;
   std::uint64_t bytes_ = 0;  // in the file; of the thread alone
 

@@ -1,5 +1,5 @@
 // The file of events: complete, readable, and no trouble of a disk reaches who notes an event.
-#include "host/event/event_file.hpp"
+#include "host/event/line_file.hpp"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -24,6 +24,7 @@ class File : public testing::Test {
   static Event numbered(std::uint64_t sequence) {
     return {.kind = EventKind::kTool, .text = "event", .sequence = sequence, .tick = sequence};
   }
+  static std::string line(std::uint64_t sequence) { return event_line(numbered(sequence), 0.004); }
   std::vector<std::string> lines() const {
     std::ifstream in(path_);
     std::vector<std::string> out;
@@ -31,7 +32,7 @@ class File : public testing::Test {
     return out;
   }
   // What `file` says of itself, within 5 s.
-  static std::optional<Event> change(EventFile& file) {
+  static std::optional<Event> change(LineFile& file) {
     for (int i = 0; i < 1000; ++i) {
       if (auto event = file.change()) return event;
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
@@ -44,44 +45,45 @@ class File : public testing::Test {
 
 TEST_F(File, EveryEventIsALineBelowTheHeading) {
   {
-    EventFile file(path_, 0.004);
-    for (std::uint64_t n = 1; n <= 2000; ++n) file.append(numbered(n));
+    LineFile file(path_, "--events", kEventLineHeading);
+    for (std::uint64_t n = 1; n <= 2000; ++n) file.append(line(n));
     EXPECT_FALSE(file.change());
   }
   const std::vector<std::string> found = lines();
   ASSERT_EQ(found.size(), 2001u);
   EXPECT_EQ(found[0], "#" + std::string(kEventLineHeading));
-  for (std::uint64_t n = 1; n <= 2000; ++n) EXPECT_EQ(found[n], event_line(numbered(n), 0.004));
+  for (std::uint64_t n = 1; n <= 2000; ++n) EXPECT_EQ(found[n], line(n));
 }
 
 TEST_F(File, AFileOfAnEarlierRunIsReplaced) {
   std::ofstream(path_) << "old\n";
-  { EventFile file(path_, 0.004); }
+  { LineFile file(path_, "--events", kEventLineHeading); }
   EXPECT_EQ(lines(), (std::vector<std::string>{"#" + std::string(kEventLineHeading)}));
 }
 
 TEST_F(File, APathThatCannotBeWrittenIsRefusedByItsName) {
   for (const std::string bad : {"/nonexistent/folder/events.txt", "/"}) {
     try {
-      EventFile file(bad, 0.004);
+      LineFile file(bad, "--events", kEventLineHeading);
       ADD_FAILURE() << bad << " was not refused";
     } catch (const std::runtime_error& error) {
       EXPECT_NE(std::string(error.what()).find("'" + bad + "'"), std::string::npos) << error.what();
     }
   }
   ASSERT_EQ(::mkfifo(path_.c_str(), 0600), 0);
-  EXPECT_THROW(EventFile(path_, 0.004), std::runtime_error) << "a pipe that nobody reads is no wait";
+  EXPECT_THROW(LineFile(path_, "--events", kEventLineHeading), std::runtime_error)
+      << "a pipe that nobody reads is no wait";
 }
 
 TEST_F(File, AFullDiskIsSaidOnceAndHoldsNobodyUp) {
-  EventFile file("/dev/full", 0.004);
-  for (std::uint64_t n = 1; n <= 100; ++n) file.append(numbered(n));
+  LineFile file("/dev/full", "--events", kEventLineHeading);
+  for (std::uint64_t n = 1; n <= 100; ++n) file.append(line(n));
   const auto trouble = change(file);
   ASSERT_TRUE(trouble);
   EXPECT_EQ(trouble->kind, EventKind::kHostTrouble);
   EXPECT_EQ(trouble->number, number_of(HostTroubleEvent::kEventFile));
   EXPECT_NE(trouble->text.find("/dev/full: No space left on device"), std::string::npos) << trouble->text;
-  for (std::uint64_t n = 1; n <= 100; ++n) file.append(numbered(n));
+  for (std::uint64_t n = 1; n <= 100; ++n) file.append(line(n));
   EXPECT_FALSE(file.change());
 }
 
@@ -93,15 +95,15 @@ TEST_F(File, WhenThereIsRoomAgainTheFileSaysHowManyAreMissing) {
   const rlimit small{1000, before.rlim_max};
   std::uint64_t next = 0;
   {
-    EventFile file(path_, 0.004);
+    LineFile file(path_, "--events", kEventLineHeading);
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
     while (!file.change()) {
-      file.append(numbered(++next));
+      file.append(line(++next));
       ASSERT_LT(next, 1000u);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
-    file.append(numbered(++next));
+    file.append(line(++next));
     const auto good = change(file);
     ASSERT_TRUE(good);
     EXPECT_EQ(good->number, number_of(HostTroubleEvent::kEventFileGood));
@@ -123,8 +125,8 @@ TEST_F(File, ADiskThatStandsStillCostsEventsButNoTime) {
   const auto start = std::chrono::steady_clock::now();
   std::optional<Event> trouble;
   {
-    EventFile file(path_, 0.004);
-    for (std::uint64_t n = 1; n <= 40000; ++n) file.append(numbered(n));
+    LineFile file(path_, "--events", kEventLineHeading);
+    for (std::uint64_t n = 1; n <= 40000; ++n) file.append(line(n));
     trouble = change(file);
   }
   ::close(reader);

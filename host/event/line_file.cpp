@@ -1,4 +1,4 @@
-#include "host/event/event_file.hpp"
+#include "host/event/line_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -29,9 +29,8 @@ Event event_of_file(HostTroubleEvent what, const std::string& path, std::uint64_
 }  // namespace
 
 // A path that nobody reads at the other end (a pipe) is an error of opening, not a wait.
-EventFile::EventFile(const std::string& path, double period_s, const char* option, const char* heading)
+LineFile::LineFile(const std::string& path, const char* option, const char* heading)
     : path_(path),
-      period_s_(period_s),
       fd_(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_NONBLOCK | O_CLOEXEC, 0644)),
       waiting_("#" + std::string(heading) + "\n") {
   if (fd_ < 0)
@@ -40,7 +39,7 @@ EventFile::EventFile(const std::string& path, double period_s, const char* optio
   thread_ = std::thread([this] { work(); });
 }
 
-EventFile::~EventFile() {
+LineFile::~LineFile() {
   {
     const std::lock_guard lock(mutex_);
     say_missing();
@@ -51,9 +50,7 @@ EventFile::~EventFile() {
   ::close(fd_);
 }
 
-void EventFile::append(const Event& event) { append_line(event_line(event, period_s_)); }
-
-void EventFile::append_line(std::string line) {
+void LineFile::append(std::string line) {
   line += "\n";
   {
     const std::lock_guard lock(mutex_);
@@ -69,13 +66,13 @@ void EventFile::append_line(std::string line) {
   wake_.notify_one();
 }
 
-void EventFile::say_missing() {
+void LineFile::say_missing() {
   if (missing_ == missing_said_) return;
   missing_said_ = missing_;
   waiting_ += "# " + std::to_string(missing_) + " events are missing so far\n";
 }
 
-std::optional<Event> EventFile::change() {
+std::optional<Event> LineFile::change() {
   const std::lock_guard lock(mutex_);
   if (failing_ == failing_told_ && (failing_ || missing_ == missing_told_)) return std::nullopt;
   failing_told_ = failing_;
@@ -87,7 +84,7 @@ std::optional<Event> EventFile::change() {
                        path_ + " takes events again; " + std::to_string(missing_) + " are missing in it");
 }
 
-void EventFile::work() {
+void LineFile::work() {
   std::unique_lock lock(mutex_);
   for (;;) {
     wake_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
@@ -102,7 +99,7 @@ void EventFile::work() {
 }
 
 // How much of the text is in the file: whole lines only.
-std::size_t EventFile::write_all(std::string_view text, int& reason) {
+std::size_t LineFile::write_all(std::string_view text, int& reason) {
   std::size_t done = 0;
   while (done < text.size() && reason == 0) {
     const bool has_room = bytes_ + text.size() <= kMostBytes;
@@ -116,7 +113,7 @@ std::size_t EventFile::write_all(std::string_view text, int& reason) {
   return done;
 }
 
-void EventFile::take_result(std::string_view text, std::size_t done, int reason) {
+void LineFile::take_result(std::string_view text, std::size_t done, int reason) {
   failing_ = reason != 0;
   if (!failing_) return;
   why_ = std::strerror(reason);
