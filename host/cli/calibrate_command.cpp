@@ -25,24 +25,32 @@ std::vector<std::string> names_in(const std::string& list) {
   return names;
 }
 
-// What runs while the arm lies in a fixture.
-system::SystemLayout plan_for(const CalibrateOptions& options, bool simulated, const std::string& pose) {
+// What runs in any case.
+system::RunOptions run_options(const CalibrateOptions& options, bool simulated) {
   system::RunOptions run;
   run.robot = options.robot;
   run.bus = options.bus;
   run.physics = options.physics;
   run.simulated_arm = simulated;
   run.seed = options.seed;
+  return run;
+}
+
+// What runs while the arm lies in a fixture.
+system::SystemLayout plan_for(const CalibrateOptions& options, bool simulated, const std::string& pose) {
+  system::RunOptions run = run_options(options, simulated);
   run.fixture = pose;
   run.cross_wired = options.cross_wired;
   return system::make_layout(run);
 }
 
-calibration::CalibrationReading read_with(const system::SystemLayout& plan, const system::InterruptGuard& interrupts) {
+// What `measure` finds with the programs of the plan, of which nothing is left behind.
+template <class Measure>
+auto found_with(const system::SystemLayout& plan, const system::InterruptGuard& interrupts, const Measure& measure) {
   try {
-    const calibration::CalibrationReading reading = system::CalibrateSession(plan, interrupts).read();
+    const auto found = measure(system::CalibrateSession(plan, interrupts));  // the programs end with the session
     system::clean_up(plan, true);
-    return reading;
+    return found;
   } catch (...) {
     system::clean_up(plan, true);
     throw;
@@ -54,7 +62,8 @@ calibration::CalibrationReading read_in(const CalibrateOptions& options, bool si
   const system::InterruptGuard interrupts;
   calibration::CalibrationReading reading;
   try {
-    reading = read_with(plan_for(options, simulated, pose), interrupts);
+    reading = found_with(plan_for(options, simulated, pose), interrupts,
+                         [](system::CalibrateSession&& session) { return session.read(); });
   } catch (const std::runtime_error&) {
     if (interrupts.count() == 0) throw;
   }
@@ -125,22 +134,12 @@ int measure_friction(const CalibrateOptions& options, bool simulated, const conf
   if (!options.calibration.empty())
     whole = system::checked(
         [&] { return calibration::load_calibration(options.calibration, robot, calibration::today_utc()); });
-  system::RunOptions run;
-  run.robot = options.robot;
-  run.bus = options.bus;
-  run.physics = options.physics;
-  run.simulated_arm = simulated;
-  run.seed = options.seed;
+  system::RunOptions run = run_options(options, simulated);
   run.calibration = options.calibration;
   const system::SystemLayout plan = system::make_layout(run);
   const system::InterruptGuard interrupts;
-  try {
-    whole.friction = system::CalibrateSession(plan, interrupts).measure_friction(robot);
-    system::clean_up(plan, true);
-  } catch (...) {
-    system::clean_up(plan, true);
-    throw;
-  }
+  whole.friction =
+      found_with(plan, interrupts, [&](system::CalibrateSession&& session) { return session.measure_friction(robot); });
   show(*whole.friction, whole, options.json);
   if (!options.out_file.empty()) system::write_output(options.out_file, calibration::calibration_json(whole));
   return system::kExitOk;
