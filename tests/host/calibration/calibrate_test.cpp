@@ -28,15 +28,10 @@ namespace {
 
 constexpr const char* kDay = "2026-06-15";
 
-config::RobotConfig robot() {
-  const config::BusesConfig buses = config::parse_buses(config::good_table("buses", "embedded").dump(), "b");
-  return config::parse_robot(config::good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
-}
-
 // What the drives of an arm report that is as its table says, but for cables exchanged, drives that count backwards,
 // and drums.
 struct Workshop {
-  config::RobotConfig arm = robot();
+  config::RobotConfig arm = config::nominal_zhu2022();
   std::vector<std::size_t> cable_of;  // on each drum
   CableVector factor{};               // of each report: -1 counts backwards, 1.01 a drum of 1 % less
   CableVector off_m{};                // of each zero
@@ -179,7 +174,7 @@ TEST(FixturePrompt, AnInputThatEndsIsNoConsent) {
 }
 
 TEST(Calibrate, PosesThatDoNotTellEnoughAreRefused) {
-  const config::RobotConfig arm = robot();
+  const config::RobotConfig arm = config::nominal_zhu2022();
   const auto message = [&](const std::vector<std::string>& names) -> std::string {
     std::vector<ThetaVector> poses;
     for (const std::string& name : names) poses.push_back(named_pose_rad(arm, name));
@@ -197,7 +192,7 @@ TEST(Calibrate, PosesThatDoNotTellEnoughAreRefused) {
 
 // Homing itself, without fixtures: at prepare, an arm whose two cables are exchanged contradicts itself.
 TEST(Calibrate, HomingAloneSeesExchangedCablesOfDifferentSegments) {
-  const config::RobotConfig arm = robot();
+  const config::RobotConfig arm = config::nominal_zhu2022();
   const RobotTable& table = arm.table;
   const CableLayout layout = cable_layout(table);
   const ThetaVector truth = named_pose_rad(arm, "prepare");
@@ -240,7 +235,7 @@ class CalibrationFile : public ::testing::Test {
     Json content = Json::parse(calibration_json(Workshop().result().calibration));
     spoil(content);
     try {
-      parse_calibration(sign ? signed_again(content) : content.dump(), "arm.json", robot(), today);
+      parse_calibration(sign ? signed_again(content) : content.dump(), "arm.json", config::nominal_zhu2022(), today);
     } catch (const std::runtime_error& error) {
       return error.what();
     }
@@ -255,9 +250,9 @@ class CalibrationFile : public ::testing::Test {
 
 TEST_F(CalibrationFile, IsReadAsItWasWritten) {
   const Calibration written = Workshop().result().calibration;
-  const Calibration read = parse_calibration(calibration_json(written), "arm.json", robot(), kDay);
+  const Calibration read = parse_calibration(calibration_json(written), "arm.json", config::nominal_zhu2022(), kDay);
   EXPECT_EQ(calibration_json(read), calibration_json(written));
-  config::RobotConfig arm = robot();
+  config::RobotConfig arm = config::nominal_zhu2022();
   apply(read, arm);
   EXPECT_EQ(arm.drive_serials[3], Workshop().serial[3]);
   EXPECT_EQ(arm.table.drive[3].zero_counts, written.cables[3].zero_counts);

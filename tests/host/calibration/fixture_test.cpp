@@ -18,8 +18,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 class Fixture : public ::testing::Test {
  protected:
   Fixture() {
-    const config::BusesConfig buses = config::parse_buses(config::good_table("buses", "embedded").dump(), "b");
-    robot_ = config::parse_robot(config::good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
+    robot_ = config::nominal_zhu2022();
     tension_N_.fill(30.0);
     reported_m_ = beyond_zero_m(robot_.table, named_pose_rad(robot_, "fixture"), tension_N_);
   }

@@ -19,14 +19,9 @@ namespace {
 
 constexpr const char* kDay = "2026-06-15";
 
-config::RobotConfig robot() {
-  const config::BusesConfig buses = config::parse_buses(config::good_table("buses", "embedded").dump(), "b");
-  return config::parse_robot(config::good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
-}
-
 // Readings of an arm with this friction and torque gains off by up to 1 %, that turns one segment after the other.
 FrictionFit measured(double true_mu, double time_s) {
-  const config::RobotConfig arm = robot();
+  const config::RobotConfig arm = config::nominal_zhu2022();
   RobotTable truth = arm.table;
   truth.friction_mu = true_mu;
   const CableLayout layout = cable_layout(truth);
@@ -78,7 +73,7 @@ TEST(FrictionFit, LessThanTenSecondsOfMotionAreRefused) {
 }
 
 TEST(FrictionFit, ACalibrationKeepsItAndTheArmIsToldIt) {
-  config::RobotConfig arm = robot();
+  config::RobotConfig arm = config::nominal_zhu2022();
   Calibration calibration{arm.name, config::sha256_hex(arm.canonical_json), kDay, {}};
   for (std::size_t i = 0; i < 15; ++i) {
     calibration.cables.push_back({static_cast<std::uint32_t>(i + 1), 1, 1000000, arm.drum_radius_m, 40.0, 0.0});

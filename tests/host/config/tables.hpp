@@ -19,6 +19,12 @@ inline Json good_table(const std::string& kind, const std::string& name) {
   return Json::parse(script::evaluate(script, LIANA_LUA_DIR, kind, name));
 }
 
+// The shipped cable arm on its shipped buses, as the core is told of it.
+inline RobotConfig nominal_zhu2022() {
+  const BusesConfig buses = parse_buses(good_table("buses", "embedded").dump(), "b");
+  return parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
+}
+
 // One way to spoil a table and what the message must contain.
 struct Spoiled {
   const char* pointer;          // JSON pointer of the field

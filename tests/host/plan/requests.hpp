@@ -7,10 +7,7 @@
 
 namespace liana::plan {
 
-inline config::RobotConfig the_robot() {
-  const config::BusesConfig buses = config::parse_buses(config::good_table("buses", "embedded").dump(), "b");
-  return config::parse_robot(config::good_table("robot", "zhu2022").dump(), "r", "nominal", buses);
-}
+inline config::RobotConfig the_robot() { return config::nominal_zhu2022(); }
 
 inline PlanRequest request_between(const zhu2022::Degrees& from_deg, const zhu2022::Degrees& to_deg,
                                    const config::SceneConfig& scene) {
