@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "firmware_like/command/telecommand.hpp"
 #include "host/cli/command_lives.hpp"
 #include "host/cli/commands.hpp"
 #include "host/json/json.hpp"
@@ -38,7 +39,16 @@ bool is_refused(const CommandLife& life) { return life.refusal.has_value(); }
 
 const char* kind_name(const CommandLife& life) {
   if (life.command == 0) return "request";
-  return life.kind == 1 ? "tip" : life.kind == 2 ? "joints" : life.kind == 5 ? "retreat" : "other";
+  switch (static_cast<CommandKind>(life.kind)) {
+    case CommandKind::kTip:
+      return "tip";
+    case CommandKind::kJoint:
+      return "joints";
+    case CommandKind::kRetreat:
+      return "retreat";
+    default:
+      return "other";
+  }
 }
 
 std::string outcome(const CommandLife& life) {
