@@ -14,6 +14,7 @@ import campaign
 import pairs
 import scenario
 import slit
+import slit_kills
 from can import machine, real_drives
 from run_scenario import outcome
 from scenario_file import BadScenario
@@ -63,7 +64,7 @@ def chosen(options):
     embedded, can = (options.part in ("all", part) and not options.drives for part in ("embedded", "can"))
     everything = real_drives.all_items() if options.drives else []
     everything += scenario.all_scenarios() + pairs.all_pairs() + campaign.short_campaign() if embedded else []
-    everything += slit.all_slit() if embedded else []
+    everything += slit.all_slit() + slit_kills.all_kills() if embedded else []
     everything += machine.all_items() if can else []
     wanted = [one for one in everything if one.reduced or not options.reduced]
     if options.only:

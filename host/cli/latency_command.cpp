@@ -51,6 +51,7 @@ int latency_command(const LatencyOptions& options) {
   run.bus = table_of(options);
   run.time = "real";
   run.arm = options.arm;
+  run.fixture = "fixture";  // bent: the tip of a straight arm can go nowhere
   if (options.arm == "light") run.physics = "ideal";
   const system::SystemLayout plan = system::for_latency(system::make_layout(run));
   try {

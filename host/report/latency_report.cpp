@@ -64,6 +64,7 @@ std::string verdict(const Json& report) {
   }
   if (!report.value("enabled", false))
     text += "THE ARM WAS NOT ENABLED ALL THE TIME: these are not the ticks of an arm at work\n";
+  text += line("the arm moved for %.0f %% of the time\n", 100.0 * report.value("moving", 0.0));
   return text + faults_text(report["faults"]);
 }
 
@@ -89,6 +90,7 @@ Json latency_report(const LatencyMeasurement& measured, const config::BusesConfi
   report["buses"] = buses.name;
   report["seconds"] = seconds;
   report["enabled"] = measured.enabled;
+  report["moving"] = measured.moving;
   report["faults"] = measured.last_state.value("faults", Json::array());
   report["realtime"] = findings_json(realtime);
   return report;

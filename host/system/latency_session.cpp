@@ -19,6 +19,7 @@ constexpr double kReadyTimeout_s = 20.0;  // boot and enabling, each; they take 
 constexpr double kAnswerTimeout_s = 10.0;
 constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
 constexpr double kLook_s = 0.05;
+constexpr double kWay_m = 0.1;  // the tip's, to and fro along the base's z
 constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
 // Bus and bench stand for hardware, which is never late for want of a processor; under lianad's real-time thread (80).
 constexpr int kHardwarePriority = 70;
@@ -52,16 +53,21 @@ report::LatencyMeasurement LatencySession::measure(double seconds) {
   measured.enabled = enable();
   ask({{"op", "timing"}, {"reset", true}});
   const double begin_s = now_s();
+  int states = 0, moving = 0;
   for (double passed_s = 0.0; passed_s < seconds; passed_s = now_s() - begin_s) {
     show_progress(passed_s, seconds);
     look(std::min(kLook_s, seconds - passed_s));
     measured.enabled = measured.enabled && state_.value("state", "") == "ENABLED";
+    ++states;
+    moving += state_.value("at_rest", true) ? 0 : 1;
+    if (measured.enabled) keep_moving();
   }
   show_progress(seconds, seconds);
   measured.timing = ask({{"op", "timing"}});
   if (measured.timing.value("op", "") != "ok")
     throw std::runtime_error("lianad: " + measured.timing.value("message", ""));
   measured.last_state = state_;
+  measured.moving = states == 0 ? 0.0 : static_cast<double>(moving) / states;
   return measured;
 }
 
@@ -76,6 +82,19 @@ bool LatencySession::enable() {
   if (!reaches("DISABLED")) return false;
   ask({{"op", "acquire"}});
   return ask({{"op", "state_command"}, {"command", "enable"}}).value("op", "") == "ok" && reaches("ENABLED");
+}
+
+void LatencySession::keep_moving() {
+  if (state_.value("is_busy", true) || !state_.contains("setpoint_cp")) return;
+  if (ends_.empty()) {
+    Json away = state_["setpoint_cp"];
+    away[2] = away[2].get<double>() + kWay_m;
+    ends_ = {away, state_["setpoint_cp"]};
+  }
+  if (ask({{"op", "move_cp"}, {"goal", ends_[0]}}).value("op", "") != "ok") return;
+  std::swap(ends_[0], ends_[1]);
+  const double deadline_s = now_s() + kAnswerTimeout_s;  // until a state tells of it
+  while (!state_.value("is_busy", false) && now_s() < deadline_s) look(kLook_s);
 }
 
 bool LatencySession::reaches(const std::string& state) {

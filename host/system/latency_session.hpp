@@ -1,4 +1,4 @@
-// lianad, a bus and the bench in real time, held at rest while the real-time thread is measured.
+// lianad, a bus and the bench in real time; the tip goes to and fro while the real-time thread is measured.
 #pragma once
 
 #include <string>
@@ -23,8 +23,8 @@ class LatencySession {
   LatencySession(const LatencySession&) = delete;
   LatencySession& operator=(const LatencySession&) = delete;
 
-  // Starts the programs, enables the arm, waits for it to rest, measures for `seconds`; an arm that cannot be enabled
-  // is measured as it is. Throws std::runtime_error with what a program that ended said last, or when it was
+  // Starts the programs, enables the arm, waits for it to rest, measures for `seconds` while its tip goes to and fro; an
+  // arm that cannot be enabled is measured as it is. Throws std::runtime_error with what a program that ended said last, or when it was
   // interrupted.
   report::LatencyMeasurement measure(double seconds);
 
@@ -36,6 +36,8 @@ class LatencySession {
   void look(double timeout_s);
   // Waits until the arm is in `state`, homed and at rest; false after a fault or too long a time.
   bool reaches(const std::string& state);
+  // Sends the tip on its next way, when it has come to the end of the last.
+  void keep_moving();
   // Sends a request and waits for its answer, ok or error.
   Json ask(Json request);
   void require_alive(double settle_s = 0.0);
@@ -44,6 +46,7 @@ class LatencySession {
   System system_;
   Json state_ = Json::object(), answer_ = Json::object();  // the last ones
   int last_id_ = 0;
+  Json ends_ = Json::array();  // tip poses, of which the tip goes to the first next
 };
 
 }  // namespace liana::system

@@ -116,6 +116,7 @@ class Latency(unittest.TestCase):
             "rate_hz": 250.0,
             "load": "idle",
             "enabled": True,
+            "moving": 0.9,
             "overruns": 0,
             "wakeup_us": dict(times),
             "tick_us": dict(times),
@@ -125,6 +126,9 @@ class Latency(unittest.TestCase):
     def judged(self, *runs):
         row = latency_verdict.cell(250.0, "idle", list(runs))
         return row, latency_verdict.judge(row)
+
+    def test_an_arm_that_stands_most_of_the_time_is_no_measurement(self):
+        self.assertIn("the arm moved for 40 % of the time", self.judged(self.measured(moving=0.4))[1])
 
     def test_runs_that_hold_and_agree_pass_and_the_worst_of_them_is_reported(self):
         row, why = self.judged(

@@ -56,6 +56,7 @@ class Latency(unittest.TestCase):
             report["overruns"], sum(report["overrun_causes"][cause] for cause in ("late_wake", "long_tick", "bus_wait"))
         )
         self.assertEqual(done.returncode, 0 if report["overruns"] == 0 and report["enabled"] else 1)
+        self.assertGreater(report["moving"], 0.0)
         self.assertIn("real-time priority", [finding["name"] for finding in report["realtime"]])
         self.assertEqual(done.stderr, "")
 

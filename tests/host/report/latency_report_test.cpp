@@ -11,6 +11,7 @@ namespace {
 LatencyMeasurement measurement(unsigned overruns) {
   LatencyMeasurement measured;
   measured.enabled = true;
+  measured.moving = 0.875;
   measured.last_state = {{"faults", Json::array()}};
   measured.timing = Json::parse(
       R"({"op":"ok","id":5,"ticks":4,"wakeup_us":{"median":3,"p99":100,"worst":100,"buckets":[[3,3],[100,1]]},
@@ -30,7 +31,7 @@ Json report_of(const LatencyMeasurement& measured) {
 
 TEST(LatencyReport, HasWhatWasMeasuredAndHow) {
   const Json report = report_of(measurement(0));
-  for (const char* key : {"rate_hz", "seconds", "buses", "enabled", "faults", "ticks", "wakeup_us", "tick_us",
+  for (const char* key : {"rate_hz", "seconds", "buses", "enabled", "moving", "faults", "ticks", "wakeup_us", "tick_us",
                           "overruns", "overrun_causes", "realtime"}) {
     EXPECT_TRUE(report.contains(key)) << key;
   }
@@ -45,6 +46,7 @@ TEST(LatencyReport, ComparesTheWorstWithThePeriodAndNamesWhatTheMachineLacks) {
   EXPECT_NE(text.find("PREEMPT_RT kernel: 6.1\n    to do: boot it"), std::string::npos) << text;
   EXPECT_EQ(text.find("memory locking"), std::string::npos) << text;
   EXPECT_EQ(text.find("NOT ENABLED"), std::string::npos) << text;
+  EXPECT_NE(text.find("the arm moved for 88 % of the time"), std::string::npos) << text;
 }
 
 TEST(LatencyReport, SaysLoudlyWhenDeadlinesWereMissedOrTheArmWasOff) {
