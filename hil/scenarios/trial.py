@@ -1,6 +1,7 @@
 """One system in lockstep with faults of bench and bus, recorded whole; every safety rule over what it left behind."""
 import json
 
+import dispatch_rules
 import predicates
 import recorded_rules
 import truth_rules
@@ -61,6 +62,7 @@ class Trial:
         )
         arrivals = wire_ages.Arrivals([log.read_text() for log in system.bus_logs()], predicates.kLine, period_s)
         self.complaints += wire_ages.wrong_ages(ticks, arrivals, self.strangers()) if ticks else []
+        self.complaints += dispatch_rules.unverified(ticks, system.commands.read_text().splitlines())
 
     def first_cause(self):
         """The slot in which bench or bus first did something to drives, arm or wires; where nothing ever did, none."""

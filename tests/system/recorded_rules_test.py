@@ -7,6 +7,7 @@ import unittest
 import support  # noqa: F401
 
 import campaign
+import dispatch_rules
 import pairs
 import predicates
 import recorded_rules as rules
@@ -460,6 +461,43 @@ class Campaign(unittest.TestCase):
         moves = [fields["goal_deg"] for op, fields in filter(None, actions) if op == "move_jp"]
         self.assertGreater(len(moves), 10)
         self.assertLessEqual(max(abs(theta) for goal in moves for theta in goal), 19.0)
+
+
+class Dispatch(unittest.TestCase):
+    """Telecommand 7 of kGood, and what commands.txt has to say of it."""
+
+    def complaints(self, *stages, ticks=(kGood._replace(tick=20),)):
+        lines = ["# heading"] + [
+            "\t".join([str(tick), stage, "7", number, "", "", "", ""]) for tick, stage, number in stages
+        ]
+        return dispatch_rules.unverified(ticks, lines)
+
+    def test_what_both_ends_passed_and_was_released_is_well(self):
+        life = [(10, "setpoint", "2"), (10, "execution", ""), (10, "simulation", ""), (10, "release", "15")]
+        self.assertEqual(self.complaints(*life), [])
+        self.assertEqual(self.complaints(*life, ticks=[]), [])
+
+    def test_a_command_that_nobody_released_is_named_once(self):
+        good = kGood._replace(tick=20)
+        found = self.complaints((10, "setpoint", "2"), ticks=[good, good._replace(tick=21)])
+        self.assertEqual(found, ["tick 20: command 7 is in the core and was never released"])
+        active = good._replace(sequence=0, active_sequence=7)
+        self.assertEqual(len(self.complaints(ticks=[active])), 1)
+
+    def test_a_release_needs_both_ends(self):
+        for stage in ("execution", "simulation"):
+            other = "simulation" if stage == "execution" else "execution"
+            for verdict in ([], [(10, stage, "208")]):
+                life = [(10, "setpoint", "2"), (10, other, ""), *verdict, (10, "release", "15")]
+                self.assertEqual(self.complaints(*life), [f"tick 10: command 7 was released without {stage}"])
+
+    def test_what_an_earlier_setpoint_of_the_same_number_passed_does_not_count(self):
+        life = [(9, "setpoint", "2"), (9, "execution", ""), (9, "simulation", ""), (10, "setpoint", "2")]
+        self.assertEqual(len(self.complaints(*life, (10, "release", "15"))), 1)
+
+    def test_a_command_comes_after_its_release(self):
+        life = [(30, "setpoint", "2"), (30, "execution", ""), (30, "simulation", ""), (30, "release", "35")]
+        self.assertEqual(self.complaints(*life), ["tick 20: command 7 is in the core before it was released"])
 
 
 if __name__ == "__main__":
