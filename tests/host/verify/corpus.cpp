@@ -6,6 +6,7 @@
 
 #include "host/algebra/thetas.hpp"
 #include "host/simulate/straight_way.hpp"
+#include "tests/host/verify/corpus_parts.hpp"
 
 namespace liana::verify::corpus {
 
@@ -14,43 +15,9 @@ using zhu2022::Random;
 
 namespace {
 
-constexpr std::size_t kThetas = zhu2022::kThetas;
-
-// Limits that no command here comes near to, but for the one that is looked at.
-RobotTable patient() {
-  RobotTable table = zhu2022::table();
-  table.limits.tip_speed_m_s = 10.0;
-  table.limits.tip_speed_slit_m_s = 10.0;
-  table.limits.tip_rate_rad_s = 10.0;
-  table.limits.theta_rate_rad_s = 1.0;
-  table.limits.theta_accel_rad_s2 = 0.05 * kDegree;
-  return table;
-}
-
-ThetaVector turned(ThetaVector theta_rad, std::size_t k, double by_rad) {
-  theta_rad[k] += by_rad;
-  return theta_rad;
-}
-
-ThetaVector along(const ThetaVector& from_rad, const ThetaVector& to_rad, double share) {
-  ThetaVector theta_rad{};
-  for (std::size_t k = 0; k < kThetas; ++k) theta_rad[k] = from_rad[k] + share * (to_rad[k] - from_rad[k]);
-  return theta_rad;
-}
-
 // How long a way takes whose rate rises to `rate_rad_s` by the table's acceleration.
 double duration_s(const RobotTable& table, double way_rad, double rate_rad_s) {
   return way_rad / rate_rad_s + rate_rad_s / table.limits.theta_accel_rad_s2;
-}
-
-std::string named(const char* what, std::size_t index, bool outside) {
-  return what + std::string(" ") + std::to_string(index) + (outside ? ", outside" : ", inside");
-}
-
-// Both sides of one limit.
-template <class Make>
-void both_sides(std::vector<Command>& out, const Make& make) {
-  for (const bool outside : {false, true}) out.push_back(make(outside));
 }
 
 double to_point_m(const Vec3& a, const Vec3& b, const Vec3& p) {
@@ -93,9 +60,9 @@ double least_of_itself_m(const RobotTable& table, const ThetaVector& theta_rad, 
 
 }  // namespace
 
-std::vector<Command> joint_angles() {
+std::vector<Command> joint_angles(std::uint64_t seed) {
   std::vector<Command> out;
-  Random random(11);
+  Random random(100 * seed + 11);
   for (std::size_t i = 0; i < 2 * kThetas; ++i) {
     const std::size_t k = i / 2;
     const double sign = i % 2 == 0 ? 1.0 : -1.0;
@@ -116,9 +83,9 @@ std::vector<Command> joint_angles() {
   return out;
 }
 
-std::vector<Command> joint_rates() {
+std::vector<Command> joint_rates(std::uint64_t seed) {
   std::vector<Command> out;
-  Random random(12);
+  Random random(100 * seed + 12);
   for (std::size_t i = 0; i < 2 * kThetas; ++i) {
     const std::size_t k = i / 2;
     const ThetaVector from_rad = random.theta(zhu2022::table(), 3.0);
@@ -141,9 +108,9 @@ std::vector<Command> joint_rates() {
 }
 
 // One angle turns, the tip goes by the column of its Jacobian.
-std::vector<Command> tip_speeds() {
+std::vector<Command> tip_speeds(std::uint64_t seed) {
   std::vector<Command> out;
-  Random random(13);
+  Random random(100 * seed + 13);
   for (std::size_t i = 0; i < 2 * kThetas; ++i) {
     const std::size_t k = i / 2;
     const ThetaVector from_rad = random.theta(zhu2022::table(), 5.0);
@@ -169,9 +136,9 @@ std::vector<Command> tip_speeds() {
 }
 
 // The tip stands and the body goes: a direction that its Jacobian does not see.
-std::vector<Command> node_speeds() {
+std::vector<Command> node_speeds(std::uint64_t seed) {
   std::vector<Command> out;
-  Random random(14);
+  Random random(100 * seed + 14);
   for (std::size_t i = 0; i < 10; ++i) {
     const ThetaVector from_rad = random.theta(zhu2022::table(), 8.0);
     RobotTable table = patient();
@@ -208,9 +175,9 @@ std::vector<Command> node_speeds() {
 }
 
 // A ball beside the way, as near as may just be claimed to be free, and a little nearer.
-std::vector<Command> spheres() {
+std::vector<Command> spheres(std::uint64_t seed) {
   std::vector<Command> out;
-  Random random(15);
+  Random random(100 * seed + 15);
   for (std::size_t i = 0; i < 40; ++i) {
     const ThetaVector from_rad = random.theta(zhu2022::table(), 6.0);
     ThetaVector to_rad = from_rad;
@@ -240,9 +207,9 @@ std::vector<Command> spheres() {
 }
 
 // An arm of thin wire through a foil: between any two poses it is on one side or on the other.
-std::vector<Command> thin_plates() {
+std::vector<Command> thin_plates(std::uint64_t seed) {
   std::vector<Command> out;
-  Random random(16);
+  Random random(100 * seed + 16);
   for (std::size_t i = 0; i < 30; ++i) {
     const ThetaVector from_rad = random.theta(zhu2022::table(), 5.0);
     RobotTable table = patient();
@@ -267,9 +234,9 @@ std::vector<Command> thin_plates() {
 }
 
 // The balls again: an arm that stands nearer to one than it may is let go, and not let nearer.
-std::vector<Command> ways_out() {
+std::vector<Command> ways_out(std::uint64_t seed) {
   std::vector<Command> out;
-  for (Command command : spheres()) {
+  for (Command command : spheres(seed)) {
     if (command.expected == Refusal::kNone) continue;
     command.name += ", turned round";
     std::swap(command.from_rad, command.to_rad);
@@ -283,9 +250,9 @@ std::vector<Command> ways_out() {
 }
 
 // Bent on until it touches itself; where it would is found by halving.
-std::vector<Command> self_contacts() {
+std::vector<Command> self_contacts(std::uint64_t seed) {
   std::vector<Command> out;
-  Random random(17);
+  Random random(100 * seed + 17);
   const RobotTable table = patient();
   for (std::size_t i = 0; out.size() < 40 && i < 200; ++i) {
     ThetaVector open_rad{}, closed_rad{};
@@ -316,9 +283,9 @@ std::vector<Command> self_contacts() {
 }
 
 // A jolt at the root, and the same way in good time.
-std::vector<Command> swings() {
+std::vector<Command> swings(std::uint64_t seed) {
   std::vector<Command> out;
-  Random random(18);
+  Random random(100 * seed + 18);
   for (std::size_t i = 0; i < 12; ++i) {
     const ThetaVector from_rad = random.theta(zhu2022::table(), 4.0);
     both_sides(out, [&](bool outside) {
@@ -335,9 +302,9 @@ std::vector<Command> swings() {
   return out;
 }
 
-std::vector<Command> free_motions() {
+std::vector<Command> free_motions(std::uint64_t seed) {
   std::vector<Command> out;
-  Random random(19);
+  Random random(100 * seed + 19);
   for (std::size_t i = 0; i < 60; ++i) {
     const ThetaVector from_rad = random.theta(zhu2022::table(), 6.0);
     ThetaVector to_rad = from_rad;
@@ -347,6 +314,19 @@ std::vector<Command> free_motions() {
   }
   return out;
 }
+
+const std::array<Class, 12> kClasses{{{"JointAngle", joint_angles, 40},
+                                      {"JointRate", joint_rates, 40},
+                                      {"TipSpeed", tip_speeds, 30},
+                                      {"NodeSpeed", node_speeds, 20},
+                                      {"Ball", spheres, 60},
+                                      {"Box", boxes, 60},
+                                      {"Convex", convex_bodies, 60},
+                                      {"WayOut", ways_out, 15},
+                                      {"ThinPlate", thin_plates, 30},
+                                      {"Self", self_contacts, 30},
+                                      {"Swing", swings, 24},
+                                      {"Free", free_motions, 60}}};
 
 SimulationVerdict verdict_of(const Command& command) {
   const double interval_s = command.table.interval_ticks * command.table.tick_s;

@@ -2,6 +2,8 @@
 // of them comes from the core's kinematics and from geometry that this file does by itself, not from the simulation.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -21,16 +23,27 @@ struct Command {
   Refusal expected = Refusal::kNone;
 };
 
-std::vector<Command> joint_angles();
-std::vector<Command> joint_rates();
-std::vector<Command> tip_speeds();
-std::vector<Command> node_speeds();
-std::vector<Command> spheres();
-std::vector<Command> ways_out();
-std::vector<Command> thin_plates();
-std::vector<Command> self_contacts();
-std::vector<Command> swings();
-std::vector<Command> free_motions();
+std::vector<Command> joint_angles(std::uint64_t seed);
+std::vector<Command> joint_rates(std::uint64_t seed);
+std::vector<Command> tip_speeds(std::uint64_t seed);
+std::vector<Command> node_speeds(std::uint64_t seed);
+std::vector<Command> spheres(std::uint64_t seed);
+// Boxes and convex bodies beside the way: along the axes or turned, flat, like a needle; hulls, capsules, cylinders.
+std::vector<Command> boxes(std::uint64_t seed);
+std::vector<Command> convex_bodies(std::uint64_t seed);
+std::vector<Command> ways_out(std::uint64_t seed);
+std::vector<Command> thin_plates(std::uint64_t seed);
+std::vector<Command> self_contacts(std::uint64_t seed);
+std::vector<Command> swings(std::uint64_t seed);
+std::vector<Command> free_motions(std::uint64_t seed);
+
+// A class: its name, its commands, and how many there are at least.
+struct Class {
+  const char* name;
+  std::vector<Command> (*commands)(std::uint64_t seed);
+  std::size_t least;
+};
+extern const std::array<Class, 12> kClasses;
 
 // What the simulation end says of it.
 SimulationVerdict verdict_of(const Command& command);
