@@ -168,6 +168,7 @@ bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
   }
   command_rad_ = Kind::command_rad(now);
   start_ramp_.note(now.tip_command.position_m, interval_s(table_));
+  speed_rise_.pass(interval_s(table_));
   const auto* back = std::get_if<WayBack<Arm>>(&way_);
   way_out_.stand(tick, command_rad_, back != nullptr && back->has_begun());
   return true;
@@ -204,7 +205,7 @@ typename Arm::Setpoint Arbiter<Arm>::steer(const Now& now, const Pose& goal) {
 }
 
 template <class Arm>
-std::optional<typename Arm::Setpoint> Arbiter<Arm>::setpoint_for(const Now& now, const Goal<Arm>& goal) const {
+std::optional<typename Arm::Setpoint> Arbiter<Arm>::setpoint_for(const Now& now, const Goal<Arm>& goal) {
   if (const auto* tip_in_base = std::get_if<Pose>(&goal)) return tip_setpoint(now, *tip_in_base);
   const auto* joint_rad = std::get_if<Joints<Arm>>(&goal);
   if (joint_rad == nullptr) return std::nullopt;
@@ -213,13 +214,13 @@ std::optional<typename Arm::Setpoint> Arbiter<Arm>::setpoint_for(const Now& now,
 }
 
 template <class Arm>
-typename Arm::Setpoint Arbiter<Arm>::tip_setpoint(const Now& now, const Pose& goal) const {
+typename Arm::Setpoint Arbiter<Arm>::tip_setpoint(const Now& now, const Pose& goal) {
   Setpoint setpoint;
   setpoint.kind = CommandKind::kTip;
   setpoint.tip_in_base = goal;
   Kind::add_wishes(wishes_, setpoint);
-  setpoint.tip_speed_m_s =
-      zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, tip_speed_m_s_));
+  setpoint.tip_speed_m_s = speed_rise_.limited(
+      zone_.advice_at(now.tip_command.position_m, zone_.advice_at(goal.position_m, tip_speed_m_s_)));
   if (zone_.slows_at(now.tip_command.position_m))
     setpoint.tip_speed_m_s = std::min(setpoint.tip_speed_m_s, start_ramp_.speed_m_s());
   return setpoint;

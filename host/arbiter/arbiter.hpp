@@ -13,6 +13,7 @@
 #include "host/arbiter/arm_kind.hpp"
 #include "host/arbiter/joint_move.hpp"
 #include "host/arbiter/path_move.hpp"
+#include "host/arbiter/speed_rise.hpp"
 #include "host/arbiter/speed_zone.hpp"
 #include "host/arbiter/start_ramp.hpp"
 #include "host/arbiter/tip_line.hpp"
@@ -99,14 +100,15 @@ class Arbiter {
   void end_way();
   void require_enabled(const Now& now) const;
   void require_way_back(const Now& now, std::uint64_t until_tick) const;
-  std::optional<Setpoint> setpoint_for(const Now& now, const Goal<Arm>& goal) const;
-  Setpoint tip_setpoint(const Now& now, const Pose& goal) const;
+  std::optional<Setpoint> setpoint_for(const Now& now, const Goal<Arm>& goal);
+  Setpoint tip_setpoint(const Now& now, const Pose& goal);
   Setpoint joint_setpoint(const Joints<Arm>& joint_rad, CommandKind kind) const;
 
   Table table_;
   SpeedZone zone_;
   double tip_speed_m_s_;
   StartRamp start_ramp_;
+  SpeedRise speed_rise_;
   typename Kind::Wishes wishes_{};
   WayOut<Arm> way_out_{table_};
   Joints<Arm> command_rad_{};  // where the command stood last

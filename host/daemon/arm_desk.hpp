@@ -64,8 +64,8 @@ class ArmDesk : public Desk {
         link_(link),
         arbiter_(table, zone, args...),
         zone_(zone),
-        time_mode_(time_mode),
-        simulation_(std::move(simulation)) {
+        simulation_(std::move(simulation)),
+        time_mode_(time_mode) {
     handlers_ = {{"move_jp", [this](const MotionRequest& r) { move_joints(r.fields); }},
                  {"move_path", [this](const auto& r) { arbiter_.move_path(outputs(), path_request<Arm>(r.fields)); }},
                  {"move_cp", [this](const auto& r) { arbiter_.move_line(outputs(), r.fields.pose("goal")); }},
@@ -88,6 +88,7 @@ class ArmDesk : public Desk {
   Steering arbiter_;
   arbiter::SpeedZone zone_;
   std::map<std::string, Handler> handlers_;  // by op
+  std::unique_ptr<verify::SimulationEnd<Arm>> simulation_;
 
  private:
   using Command = liana::Telecommand<typename Arm::Setpoint>;
@@ -99,7 +100,6 @@ class ArmDesk : public Desk {
   double patience_s(const verify::Candidate<Arm>& candidate) const;
 
   timing::TimeMode time_mode_;
-  std::unique_ptr<verify::SimulationEnd<Arm>> simulation_;
   verify::ReleaseStep<Arm> release_;
   std::vector<Command> released_;       // not yet due at the newest image
   verify::Prediction<Arm> prediction_;  // of the last command

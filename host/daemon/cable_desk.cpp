@@ -1,5 +1,6 @@
 #include "host/daemon/cable_desk.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -83,16 +84,23 @@ void CableDesk::watch(bool booted) {
 }
 
 // An arm whose cables have slipped or broken, or that is not homed, may be anywhere: nothing is claimed of it, and what
-// the camera has shown with such angles is forgotten.
+// the camera has shown with such angles is forgotten. The scene stands where it was seen to stand.
 void CableDesk::watch_clearance() {
   if (!homing_.why_not().empty() || !lengths_are_sound(outputs().faults)) {
     clearance_.reset();
+    foresee({{}, outlook_.drawing_in_base, std::max(outlook_.prediction_m, scene_.margins.prediction_m)});
     return arbiter_.cap_tip_speed(table_.limits.tip_speed_m_s);
   }
   if (!clearance_) clearance_.emplace(robot_, scene_);
   const live_clearance::Claim& claim = clearance_->look(tick() - 1, outputs().theta_measured_rad);
+  foresee(clearance_->outlook());
   const bool slow = claim.level != live_clearance::Level::kFree;
   arbiter_.cap_tip_speed(slow ? kSlowShare * table_.limits.tip_speed_slit_m_s : table_.limits.tip_speed_m_s);
+}
+
+void CableDesk::foresee(const live_clearance::Outlook& outlook) {
+  outlook_ = outlook;
+  simulation_->believe(outlook.theta_off_rad, outlook.drawing_in_base, outlook.prediction_m);
 }
 
 void CableDesk::take_picture(const TipPicture& picture) {

@@ -31,6 +31,7 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
  private:
   std::vector<double> joints_deg(const cable::Outputs& outputs) const override;
   void watch_clearance();
+  void foresee(const live_clearance::Outlook& outlook);
   Json clearance_json() const;
   void move_line(const api::Arguments& fields);
   void hold_theta(const std::vector<api::Arguments>& held);
@@ -42,6 +43,7 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   Homing homing_;
   arbiter::ShapeProgress shape_progress_;
   std::optional<live_clearance::LiveClearance> clearance_;  // while the lengths of its cables tell where the arm is
+  live_clearance::Outlook outlook_;                         // what the simulation was told last
   bool friction_is_off_ = false;                            // as told last
   std::int32_t planar_segments_ = 0;                        // how many the slit asks for now (host/solve/dof_split.hpp)
 };

@@ -12,6 +12,9 @@ constexpr double kCameraGone_s = 0.3;  // beyond the latency: several pictures i
 
 config::SceneCamera camera_of(const config::SceneConfig& scene) { return scene.camera.value_or(config::SceneCamera{}); }
 
+// What of a motion and the stop after it no bound of now knows: friction that turns, and how the arm swings.
+constexpr double kForesight_m = 0.002;
+
 }  // namespace
 
 const char* level_name(Level level) {
@@ -38,6 +41,23 @@ const std::string& LiveClearance::body_name() const {
   return obstacle < 0 ? kNothing : clearance::obstacle_name(scene_, obstacle);
 }
 
+// p_base = shift + pivot + turn (p_drawn - pivot).
+Pose LiveClearance::drawing_in_base() const {
+  const Pose pivot{registration_.pivot_m(), {1.0, 0.0, 0.0, 0.0}};
+  return compose(registration_.registered(pivot), inverse(pivot));
+}
+
+Outlook LiveClearance::outlook() const {
+  Outlook out;
+  out.prediction_m = scene_.margins.prediction_m + finder_.near_links().allowance_m;
+  if (!believed_tick_) return out;
+  for (std::size_t i = 0; i < out.theta_off_rad.size(); ++i)
+    out.theta_off_rad[i] = finder_.believed_rad()[i] - measured_rad_[i];
+  out.drawing_in_base = drawing_in_base();
+  out.prediction_m = finder_.near_links().uncertain_m + kForesight_m;
+  return out;
+}
+
 void LiveClearance::see(const Picture& picture, std::uint64_t tick) {
   if (!scene_.slit || !scene_.camera) return;
   arrived_tick_ = tick;
@@ -62,6 +82,7 @@ const Claim& LiveClearance::look(std::uint64_t tick, const ThetaVector& measured
   const auto since_s = [&](std::uint64_t before) { return static_cast<double>(tick - before) * table_.tick_s; };
   registration_.advance(has_looked_ ? since_s(tick_) : kLongAgo_s, measured_rad);
   history_.note(tick, measured_rad);
+  measured_rad_ = measured_rad;
   tick_ = tick;
   has_looked_ = true;
   const double gone_s = camera_of(scene_).latency_s + kCameraGone_s;

@@ -31,6 +31,13 @@ struct Claim {
   Level level = Level::kFree;
 };
 
+// What a prediction that begins now may go by.
+struct Outlook {
+  ThetaVector theta_off_rad{};  // angles as they are believed to be, less the measured ones
+  Pose drawing_in_base{};       // where the frame stands that the scene is drawn in
+  double prediction_m = 0.0;    // how much nearer to the scene the true arm may be than one predicted from there
+};
+
 class LiveClearance {
  public:
   // Without a slit there is nothing to register: bodies are where they are drawn.
@@ -42,13 +49,17 @@ class LiveClearance {
   const Claim& look(std::uint64_t tick, const ThetaVector& measured_rad);
 
   const Claim& claim() const { return claim_; }  // of the last look
-  const std::string& body_name() const;          // of the claim; empty when the scene is
+  // Of the last look. Until a picture is believed: angles as measured, the scene as drawn, and its own prediction_m
+  // with what it may stand beside its drawing.
+  Outlook outlook() const;
+  const std::string& body_name() const;  // of the claim; empty when the scene is
   // Shift [m] and rotation vector [rad] of slit, plates and rod against the drawing; zero until a picture is believed.
   Vec3 shift_m() const { return believed_tick_ ? registration_.shift_m() : Vec3{}; }
   Vec3 turn_rad() const { return believed_tick_ ? registration_.turn_rad() : Vec3{}; }
 
  private:
   Level level_of(double distance_m) const;
+  Pose drawing_in_base() const;
 
   RobotTable table_;
   config::SceneConfig scene_;
@@ -56,6 +67,7 @@ class LiveClearance {
   CameraWatch watch_;
   ClearanceFinder finder_;
   ArmHistory history_;
+  ThetaVector measured_rad_{};
   std::uint64_t tick_ = 0;
   bool has_looked_ = false;
   std::optional<std::uint64_t> believed_tick_, arrived_tick_;

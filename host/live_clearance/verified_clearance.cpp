@@ -22,7 +22,7 @@ ClearanceFinder::ClearanceFinder(const RobotTable& table, double radius_m, const
 // Where joint centres are, and how they move with each cable's length error and with time.
 void ClearanceFinder::move(const MeasuredArm& arm, const KnownScene& known) {
   const AnglesOfLengths angles = angles_of_lengths(table_, layout_, arm.theta_rad);
-  const ThetaVector theta_rad =
+  const ThetaVector& theta_rad = believed_rad_ =
       changed(angles, arm.theta_rad, known.registration.length_error_m(), table_.cable_count());
   motion_.points = link_points(table_, theta_rad);
   const Index points = static_cast<Index>(motion_.points.count), cables = static_cast<Index>(table_.cable_count());
@@ -62,15 +62,16 @@ VerifiedClearance ClearanceFinder::judged(const clearance::Clearance& found, std
   const double variance_m2 =
       registration.variance(scale(way_out, body), scale(cross(from_origin, way_out), body), by_length);
   const Vec3 velocity_m_s = between(motion_.velocity_m_s[from], motion_.velocity_m_s[from + 1], found.share);
-  double bound_m = rule_.constant_m + rule_.sigmas * std::sqrt(variance_m2) +
-                   rule_.ahead_s * std::max(0.0, -dot(way_out, velocity_m_s));
-  if (!known.has_seen) bound_m += known.shift_m + known.turn_rad * norm(from_origin);
-  return {found.distance_m - bound_m, bound_m, link, obstacle, where_m};
+  const double uncertain_m = rule_.constant_m + rule_.sigmas * std::sqrt(variance_m2);
+  const double allowance_m = known.has_seen ? 0.0 : known.shift_m + known.turn_rad * norm(from_origin);
+  const double bound_m = uncertain_m + allowance_m + rule_.ahead_s * std::max(0.0, -dot(way_out, velocity_m_s));
+  return {found.distance_m - bound_m, bound_m, link, obstacle, where_m, uncertain_m, allowance_m};
 }
 
 VerifiedClearance ClearanceFinder::find(const MeasuredArm& arm, const KnownScene& known) {
   move(arm, known);
   VerifiedClearance least;
+  std::array<VerifiedClearance, kPoints> of_link;
   for (std::int32_t obstacle = 0; obstacle < clearance::obstacle_count(scene_); ++obstacle) {
     for (std::int32_t link = 0; link + 1 < motion_.in_drawing.count; ++link) {
       const clearance::Capsule capsule = clearance::link_capsule(motion_.in_drawing.axis(), link, radius_m_);
@@ -78,7 +79,15 @@ VerifiedClearance ClearanceFinder::find(const MeasuredArm& arm, const KnownScene
       if (found.distance_m - kLargestBound_m >= least.distance_m) continue;
       const VerifiedClearance here = judged(found, link, obstacle, known);
       if (here.distance_m < least.distance_m) least = here;
+      VerifiedClearance& least_of_link = of_link[static_cast<Index>(link)];
+      if (here.distance_m < least_of_link.distance_m) least_of_link = here;
     }
+  }
+  near_links_ = {};
+  for (const VerifiedClearance& link : of_link) {
+    if (link.distance_m > least.distance_m + kSoon_m) continue;
+    near_links_.uncertain_m = std::max(near_links_.uncertain_m, link.uncertain_m);
+    near_links_.allowance_m = std::max(near_links_.allowance_m, link.allowance_m);
   }
   return least;
 }

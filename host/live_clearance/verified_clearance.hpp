@@ -23,6 +23,13 @@ struct VerifiedClearance {
   std::int32_t link = -1;                        // 0-based; -1: the scene is empty
   std::int32_t obstacle = -1;                    // clearance::obstacle_name
   Vec3 where_m{};                                // on the link's axis, base frame
+  double uncertain_m = 0.0;                      // of the bound: what arm and registration may be wrong by,
+  double allowance_m = 0.0;  // and what the body may stand beside its drawing; the rest is what the link approaches
+};
+
+// Of all links that may soon be the nearest the largest parts of their bounds.
+struct NearLinks {
+  double uncertain_m = 0.0, allowance_m = 0.0;
 };
 
 // What is known of the scene now.
@@ -40,8 +47,14 @@ class ClearanceFinder {
 
   // Least over every link and body. 40 links, 15 cables, 3 bodies: about 60 us. Nothing is allocated.
   VerifiedClearance find(const MeasuredArm& arm, const KnownScene& known);
+  // Of the last find: the arm's angles as they are believed to be, and the links whose claim is at most kSoon_m above
+  // the least.
+  const ThetaVector& believed_rad() const { return believed_rad_; }
+  const NearLinks& near_links() const { return near_links_; }
 
  private:
+  static constexpr double kSoon_m = 0.05;  // a tip at its speed in the slit goes this far in two seconds
+
   static constexpr std::size_t kPoints = kMaxSegments * kMaxModules + 1;
   // What links do with errors and time, at every joint centre: [point], [point][cable].
   struct Motion {
@@ -60,6 +73,8 @@ class ClearanceFinder {
   config::SceneConfig scene_;
   BoundRule rule_;
   Motion motion_{};
+  ThetaVector believed_rad_{};
+  NearLinks near_links_;
 };
 
 }  // namespace liana::live_clearance

@@ -8,6 +8,7 @@ namespace liana::report {
 namespace {
 
 constexpr double kRest_deg_s = 0.1;
+constexpr double kSlitSwing = 1.05;  // times the table's limit: the true tip swings about the commanded speed
 
 double distance_m(const Pose& a, const Pose& b) { return norm(subtract(a.position_m, b.position_m)); }
 
@@ -62,6 +63,7 @@ Criteria criteria_of(const Json& robot, const std::string& physics) {
   if (!robot.contains("tension")) return criteria;
   if (physics != "worn") criteria.least_motor_tension_N = robot["tension"]["floor_motor_N"].get<double>();
   criteria.least_tension_N = robot["tension"]["floor_anywhere_N"].get<double>();
+  criteria.most_slit_speed_m_s = kSlitSwing * robot["limits"]["tip_speed_slit_m_s"].get<double>();
   return criteria;
 }
 

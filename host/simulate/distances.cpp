@@ -1,6 +1,7 @@
 #include "host/simulate/distances.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "host/clearance/along_motion.hpp"
@@ -25,6 +26,27 @@ double largest_joint_limit_rad(const RobotTable& table) {
   for (std::size_t m = 0; m < static_cast<std::size_t>(table.segment_count); ++m)
     largest_rad = std::max(largest_rad, table.segment[m].theta_limit_rad);
   return largest_rad;
+}
+
+// Bodies stay as they are drawn, and the arm's axis goes to them.
+class AxisInDrawing {
+ public:
+  AxisInDrawing(std::span<const Vec3> axis_m, const Pose& drawing_in_base) : count_(axis_m.size()) {
+    const Pose base_in_drawing = inverse(drawing_in_base);
+    for (std::size_t i = 0; i < count_; ++i)
+      point_m_[i] = add(rotate(base_in_drawing.quaternion, axis_m[i]), base_in_drawing.position_m);
+  }
+  std::span<const Vec3> points_m() const { return {point_m_.data(), count_}; }
+
+ private:
+  std::array<Vec3, kMaxLinks + 1> point_m_;
+  std::size_t count_;
+};
+
+clearance::ArmClearance to_scene(const ArmModel& model, const StandingScene& standing, const Way& way,
+                                 std::size_t pose) {
+  const AxisInDrawing axis(way.axis(pose), standing.drawing_in_base);
+  return clearance::arm_clearance(axis.points_m(), model.link_radius_m, standing.scene);
 }
 
 template <class Found>
@@ -67,11 +89,9 @@ void Way::add(const ArmModel& model, const Chain& chain, const ThetaVector& thet
   theta_rad_ = theta_rad;
 }
 
-Nearest least_to_scene(const ArmModel& model, const config::SceneConfig& scene, const Way& way, double enough_m,
+Nearest least_to_scene(const ArmModel& model, const StandingScene& standing, const Way& way, double enough_m,
                        double step_s) {
-  const auto look = [&](std::int32_t pose) {
-    return clearance::arm_clearance(way.axis(static_cast<std::size_t>(pose)), model.link_radius_m, scene);
-  };
+  const auto look = [&](std::int32_t pose) { return to_scene(model, standing, way, static_cast<std::size_t>(pose)); };
   const auto along = clearance::least_along({way.gone_m(), 1.0, enough_m, kUnseen_m}, look);
   return nearest_of(along, along.nearest.obstacle, step_s);
 }
@@ -85,8 +105,8 @@ Nearest least_to_itself(const ArmModel& model, const Way& way, double step_s) {
   return nearest_of(along, along.nearest.other, step_s);
 }
 
-double to_scene_m(const ArmModel& model, const config::SceneConfig& scene, const Way& way, std::size_t pose) {
-  return clearance::arm_clearance(way.axis(pose), model.link_radius_m, scene).distance_m();
+double to_scene_m(const ArmModel& model, const StandingScene& standing, const Way& way, std::size_t pose) {
+  return to_scene(model, standing, way, pose).distance_m();
 }
 
 }  // namespace liana::simulate

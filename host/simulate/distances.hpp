@@ -33,12 +33,18 @@ class Way {
   ThetaVector theta_rad_{};
 };
 
-// Distances beyond `enough_m` need not be told apart. About 12,000 instructions a pose that is measured: two poses
+// The scene's bodies, and where in the arm's base their drawing stands.
+struct StandingScene {
+  const config::SceneConfig& scene;
+  Pose drawing_in_base{};
+};
+
+// Distances beyond `enough_m` need not be told apart. About 13,000 instructions a pose that is measured: two poses
 // where the arm stays far away, at most all of them. `step_s` is from pose to pose.
-Nearest least_to_scene(const ArmModel& model, const config::SceneConfig& scene, const Way& way, double enough_m,
+Nearest least_to_scene(const ArmModel& model, const StandingScene& standing, const Way& way, double enough_m,
                        double step_s);
 Nearest least_to_itself(const ArmModel& model, const Way& way, double step_s);
 // At one pose.
-double to_scene_m(const ArmModel& model, const config::SceneConfig& scene, const Way& way, std::size_t pose);
+double to_scene_m(const ArmModel& model, const StandingScene& standing, const Way& way, std::size_t pose);
 
 }  // namespace liana::simulate

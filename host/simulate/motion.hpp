@@ -12,6 +12,7 @@ struct StartState {
   ThetaVector theta_rad{};   // measured
   ThetaVector rate_rad_s{};  // measured
   CableVector tension_N{};   // measured, at the motor; all zero: as the simulation itself would plan them
+  Pose drawing_in_base{};    // where the scene stands: of the frame that its table is drawn in
 };
 
 // What the drives are told, one row of angles every `interval_s` (T_c): the first one when the sequence begins, the

@@ -104,11 +104,12 @@ void Simulation::place_told(const JointSequence& sequence) {
   }
 }
 
-void Simulation::measure_distances() {
-  motion_.scene = least_to_scene(model_, scene_, way_, enough_m_, step_s_);
+void Simulation::measure_distances(const Pose& drawing_in_base) {
+  const StandingScene standing{scene_, drawing_in_base};
+  motion_.scene = least_to_scene(model_, standing, way_, enough_m_, step_s_);
   motion_.self = least_to_itself(model_, way_, step_s_);
-  motion_.scene_at_start_m = to_scene_m(model_, scene_, way_, 0);
-  motion_.scene_at_end_m = to_scene_m(model_, scene_, way_, way_.size() - 1);
+  motion_.scene_at_start_m = to_scene_m(model_, standing, way_, 0);
+  motion_.scene_at_end_m = to_scene_m(model_, standing, way_, way_.size() - 1);
 }
 
 const Motion& Simulation::run(const StartState& start, const JointSequence& sequence) {
@@ -134,7 +135,7 @@ const Motion& Simulation::run(const StartState& start, const JointSequence& sequ
   }
   const int after = static_cast<int>(std::ceil(kSwingOut_s / step_s_));
   for (int i = 0; i < after && motion_.solved; ++i) step(lag, told(sequence.theta_rad.size() - 1), swing);
-  measure_distances();
+  measure_distances(start.drawing_in_base);
   return motion_;
 }
 

@@ -29,7 +29,7 @@ class Simulation {
   void step(DrumLag& lag, const algebra::ThetaColumn& told_rad, Swing& swing);
   void note(const Swing& swing);
   void place_told(const JointSequence& sequence);
-  void measure_distances();
+  void measure_distances(const Pose& drawing_in_base);
 
   ArmModel model_;
   config::SceneConfig scene_;

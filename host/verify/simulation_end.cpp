@@ -59,12 +59,21 @@ void SimulationEnd<CableArm>::watch(const TwinImage<CableArm>& image) {
   watched_tick_ = image.next_tick;
 }
 
+void SimulationEnd<CableArm>::believe(const cable::ThetaVector& theta_off_rad, const Pose& drawing_in_base,
+                                      double prediction_m) {
+  theta_off_rad_ = theta_off_rad;
+  start_.drawing_in_base = drawing_in_base;
+  rules_.scene.margins.prediction_m = prediction_m;
+}
+
 void SimulationEnd<CableArm>::begin(const TwinImage<CableArm>& image, const Candidate<CableArm>& candidate,
                                     const Prediction<CableArm>& prediction) {
   number_ = candidate.sequence();
   comes_to_rest_ = prediction.comes_to_rest;
   read_sequence(image, candidate, prediction, sequence_);
-  begun_ = worker_.begin(start_, sequence_);
+  simulate::StartState start = start_;
+  for (std::size_t k = 0; k < start.theta_rad.size(); ++k) start.theta_rad[k] += theta_off_rad_[k];
+  begun_ = worker_.begin(start, sequence_);
 }
 
 SimulationVerdict SimulationEnd<CableArm>::verdict(double patience_s) {

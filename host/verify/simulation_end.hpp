@@ -30,6 +30,9 @@ class SimulationEnd<cable::CableArm> {
 
   // Once an interval: what the drives say about how the arm moves.
   void watch(const TwinImage<Arm>& image);
+  // From now on: what is known of arm and scene beside the measured angles and the drawing. `prediction_m` takes the
+  // place of the scene's own; angles and placement are those of a StartState.
+  void believe(const cable::ThetaVector& theta_off_rad, const Pose& drawing_in_base, double prediction_m);
   // Begins with what the candidate makes the controller tell its drives, from where the arm is measured to be.
   void begin(const TwinImage<Arm>& image, const Candidate<Arm>& candidate, const Prediction<Arm>& prediction);
   // The verdict on what was begun; refused as kNoVerdict where it takes longer than `patience_s`.
@@ -39,8 +42,9 @@ class SimulationEnd<cable::CableArm> {
   MotionRules rules_;
   simulate::Worker worker_;
   simulate::StartState start_;
-  cable::ThetaVector told_rad_{};     // when last watched
-  cable::ThetaVector ahead_rad_s_{};  // by how much the arm goes faster than it is told
+  cable::ThetaVector theta_off_rad_{};  // believed angles less measured ones
+  cable::ThetaVector told_rad_{};       // when last watched
+  cable::ThetaVector ahead_rad_s_{};    // by how much the arm goes faster than it is told
   simulate::JointSequence sequence_;
   std::uint64_t number_ = 0;  // of the candidate
   bool comes_to_rest_ = false;

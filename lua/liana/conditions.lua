@@ -94,7 +94,7 @@ end
 function conditions.tip_near_rod(distance_m)
   need("tip_near_rod", "distance_m", distance_m, "number")
   return condition(("tip within %g m of the rod"):format(distance_m), function(arm)
-    return geometry.distance(arm.tip(), arm.part_of_scene("rod").position_m) <= distance_m
+    return geometry.distance(arm.tip_in_drawing(), arm.part_of_scene("rod").position_m) <= distance_m
   end)
 end
 

@@ -28,6 +28,15 @@ function geometry.unit(a) return geometry.scale(a, 1 / geometry.length(a)) end
 -- Distance of two points [m].
 function geometry.distance(a, b) return geometry.length(geometry.add(a, b, -1)) end
 
+-- a turned by a rotation vector in degrees.
+function geometry.turned(a, turn_deg)
+  local angle = math.rad(geometry.length(turn_deg))
+  if angle == 0 then return a end
+  local axis = geometry.unit(turn_deg)
+  local along = geometry.scale(axis, (1 - math.cos(angle)) * geometry.dot(axis, a))
+  return geometry.add(geometry.add(along, a, math.cos(angle)), geometry.cross(axis, a), math.sin(angle))
+end
+
 -- Column k of a rotation: axis k of the frame, in base coordinates.
 function geometry.axis(rotation, k) return { rotation[1][k], rotation[2][k], rotation[3][k] } end
 

@@ -29,11 +29,20 @@ function view.new(commands, welcome)
     return { pose[1], pose[2], pose[3] }
   end
 
+  -- The same in the scene's drawing: the camera may see slit and rod stand beside it (state.clearance).
+  function arm.tip_in_drawing()
+    local seen = arm.state.clearance
+    if not (seen and arm.scene.slit) then return arm.tip() end
+    local pivot = arm.scene.slit.frame.position_m
+    local from_pivot = geometry.add(geometry.add(arm.tip(), pivot, -1), seen.shift_m, -1)
+    return geometry.add(pivot, geometry.turned(from_pivot, geometry.scale(seen.turn_deg, -1)))
+  end
+
   -- How far the tip is along the slit, measured from the base [m].
-  function arm.slit_u() return geometry.dot(arm.tip(), arm.part_of_scene("slit").u_axis) end
+  function arm.slit_u() return geometry.dot(arm.tip_in_drawing(), arm.part_of_scene("slit").u_axis) end
 
   -- Signed distance of the tip from the slit's middle plane [m].
-  function arm.slit_offset() return geometry.dot(arm.tip(), arm.part_of_scene("slit").normal) - arm.scene.slit.offset_m end
+  function arm.slit_offset() return geometry.dot(arm.tip_in_drawing(), arm.part_of_scene("slit").normal) - arm.scene.slit.offset_m end
 
   -- True when exactly the variables of this step are held.
   function arm.holds_what_it_should()

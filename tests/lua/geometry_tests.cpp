@@ -23,6 +23,27 @@ Json evaluate_lua(const Json& theta_deg, const std::string& expression, const st
   return to_json(script.state(), -1, "geometry_test.lua");
 }
 
+TEST(LuaGeometry, TurnsAVectorAboutAnAxisByDegrees) {
+  const Json quarter = evaluate_lua(Json::array(), "geometry.turned({2, 1, 3}, {0, 0, 90})");
+  const double expected[] = {-1.0, 2.0, 3.0};
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(quarter[k], expected[k], kTolerance);
+  EXPECT_EQ(evaluate_lua(Json::array(), "geometry.turned({2, 1, 3}, {0, 0, 0})"), Json({2, 1, 3}));
+}
+
+// A scene that the camera sees 0.1 m aside and a quarter turn about its slit's frame, which is drawn at x = 1.
+TEST(LuaGeometry, TheTipInTheDrawingIsWhereTheSceneWouldHaveItHadItNotBeenShifted) {
+  const std::string tip_in_drawing =
+      "(function(seen) local arm = require('liana.view').new({}, { robot = robot, period_s = 1,"
+      " scene = { slit = { frame = { position_m = {1, 0, 0} } } } })"
+      " arm.state = { measured_cp = {1, 0.5, 0.1}, clearance = seen }"
+      " return arm.tip_in_drawing() end)";
+  const Json beside =
+      evaluate_lua(Json::array(), tip_in_drawing + "({ shift_m = {0, 0, 0.1}, turn_deg = {0, 0, 90} })");
+  const double expected[] = {1.5, 0.0, 0.0};
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(beside[k], expected[k], kTolerance);
+  EXPECT_EQ(evaluate_lua(Json::array(), tip_in_drawing + "(nil)"), Json({1, 0.5, 0.1})) << "nothing is seen";
+}
+
 Json golden_cases() { return Json::parse(read_file(LIANA_SOURCE_DIR "/tests/golden/arm.json"))["cases"]; }
 
 // A2, A51: golden forward kinematics.

@@ -312,6 +312,38 @@ TEST_F(AtTheSlit, VrThatSteersIntoItIsLetGoAtTheMouth) {
   EXPECT_STREQ(arbiter.device().reason(), "in_slit");
 }
 
+TEST_F(AtTheSlit, ATipThatComesOutOfItIsLetGoFasterSlowly) {
+  CableArbiter arbiter(table_, SpeedZone(slit_, 0.03));
+  Pose goal = now_.tip_command;
+  goal.position_m[0] -= 0.5;  // it has run ahead of the tip
+  arbiter.servo_tip(now_, goal);
+  double asked_m_s = 0.0;
+  for (int i = 0; i < 150; ++i) {  // 3 s before the mouth, on the way
+    now_.tip_command.position_m[0] -= 1e-4;
+    asked_m_s = arbiter.next_setpoint(tick_ += 5, now_)->tip_speed_m_s;
+  }
+  ASSERT_NEAR(asked_m_s, 0.027, 1e-12);
+  now_.tip_command.position_m[0] -= 0.2;
+  for (int i = 1; i <= 600; ++i) {
+    const double before_m_s = asked_m_s;
+    asked_m_s = arbiter.next_setpoint(tick_ += 5, now_)->tip_speed_m_s;
+    EXPECT_NEAR(asked_m_s - before_m_s, 0.006 * 0.02, 1e-12) << i;
+  }
+  for (int i = 0; i < 100; ++i) asked_m_s = arbiter.next_setpoint(tick_ += 5, now_)->tip_speed_m_s;
+  EXPECT_DOUBLE_EQ(asked_m_s, table_.limits.tip_speed_m_s);
+}
+
+TEST_F(Arbitration, ATipThatNothingHasSlowedIsAskedForItsWholeSpeedAtOnceAndForLessAtOnce) {
+  Pose goal = now_.tip_command;
+  goal.position_m[0] -= 0.5;
+  arbiter_.servo_tip(now_, goal);
+  EXPECT_DOUBLE_EQ(next()->tip_speed_m_s, table_.limits.tip_speed_m_s);
+  arbiter_.cap_tip_speed(0.015);
+  EXPECT_DOUBLE_EQ(next()->tip_speed_m_s, 0.015);
+  arbiter_.cap_tip_speed(table_.limits.tip_speed_m_s);
+  EXPECT_LT(next()->tip_speed_m_s, 0.016);
+}
+
 // A way in along theta 1: 20 intervals of 1 mrad each.
 class WayOut : public Arbitration {
  protected:

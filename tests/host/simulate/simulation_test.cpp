@@ -142,6 +142,30 @@ TEST(Simulation, BeginsWhereTheArmIsMeasuredAndNotWhereItIsTold) {
   EXPECT_EQ(motion.moments.back().theta_rad, start.theta_rad);
 }
 
+// One plate, and the same plate drawn elsewhere: what counts is where it stands.
+TEST(Simulation, ASceneThatStandsBesideItsDrawingIsMetWhereItStands) {
+  const Pose stands{{0.012, -0.007, 0.004}, normalize({1.0, 0.004, -0.006, 0.005})};
+  config::SceneBox plate{"plate", {2.0, 0.3, 0.0}, {1.0, 0.01, 1.0}, {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}};
+  config::SceneConfig drawn, there;
+  drawn.boxes = {plate};
+  plate.center_m = add(rotate(stands.quaternion, plate.center_m), stands.position_m);
+  for (Vec3& axis : plate.rotation) axis = rotate(stands.quaternion, axis);
+  there.boxes = {plate};
+  StartState start;
+  start.theta_rad = zhu2022::radians(zhu2022::kPanelEdge_deg);
+  const JointSequence told = way(start.theta_rad, turned(start.theta_rad, 1.0, 7), 1.0);
+  Simulation simulated(zhu2022_model(), there), as_drawn(zhu2022_model(), drawn), beside(zhu2022_model(), drawn);
+  const Motion& expected = simulated.run(start, told);
+  const double drawn_m = as_drawn.run(start, told).scene.distance_m;
+  start.drawing_in_base = stands;
+  const Motion& motion = beside.run(start, told);
+  EXPECT_NEAR(motion.scene.distance_m, expected.scene.distance_m, 1e-9);
+  EXPECT_NEAR(motion.scene_at_start_m, expected.scene_at_start_m, 1e-9);
+  EXPECT_NEAR(motion.scene_at_end_m, expected.scene_at_end_m, 1e-9);
+  EXPECT_EQ(motion.scene.link, expected.scene.link);
+  EXPECT_GT(std::fabs(motion.scene.distance_m - drawn_m), 0.003);
+}
+
 TEST(Simulation, TheDrumsLagBehindARampByTheirTimeConstant) {
   const algebra::ThetaColumn rate = algebra::ThetaColumn::Constant(1, 0.03);
   algebra::ThetaColumn told = algebra::ThetaColumn::Zero(1);

@@ -103,6 +103,33 @@ TEST_F(TwinOfAnArm, TheSameCommandHasTheSameVerdictToTheBit) {
   EXPECT_EQ(first.margin, second.margin);
 }
 
+// req:C7
+TEST_F(TwinOfAnArm, TheSimulationHoldsTheArmAsItIsBelievedToBeAgainstTheSceneWhereItIsSeen) {
+  const cable::RobotTable& table = arm_->table();
+  MotionRules rules{table, {}, {}, {}};
+  rules.scene.margins.prediction_m = 0.007;
+  const cable::Outputs& now = arm_->link.image.value().last_outputs;
+  const Vec3 tip_m = forward_kinematics(table, now.theta_measured_rad).tip_in_base.position_m;
+  rules.scene.spheres = {{"ball", add(tip_m, {0.10, 0.0, 0.0}), 0.05}};
+  SimulationEnd<cable::CableArm> end({table, 0.03, 0.4, 0.2}, rules);
+  const Candidate<cable::CableArm> stays = candidate(shifted_tip(0.0));
+  const Prediction<cable::CableArm> prediction = predict(stays);
+  const auto margins_m = [&](const cable::ThetaVector& theta_off_rad, const Vec3& shift_m, double prediction_m) {
+    end.watch(arm_->link.image.value());
+    end.believe(theta_off_rad, {shift_m, {1.0, 0.0, 0.0, 0.0}}, prediction_m);
+    end.begin(arm_->link.image.value(), stays, prediction);
+    return end.verdict(kWhenever).margins.clearance_m;
+  };
+  const double drawn_m = margins_m({}, {}, 0.007);
+  EXPECT_NEAR(margins_m({}, {}, 0.005), drawn_m + 0.002, 1e-9);
+  EXPECT_GT(margins_m({}, {0.01, 0.0, 0.0}, 0.007), drawn_m + 0.005);
+  const double near_m = margins_m({}, {-0.01, 0.0, 0.0}, 0.007);
+  EXPECT_LT(near_m, drawn_m - 0.005);
+  cable::ThetaVector off_rad{};
+  off_rad[2] = 0.003;
+  EXPECT_GT(std::fabs(margins_m(off_rad, {}, 0.007) - drawn_m), 0.0005);
+}
+
 // req:C11
 TEST_F(TwinOfAnArm, AVerdictThatIsNotThereInTimeIsARefusalAndTheNextOneIsNotForIt) {
   const Candidate<cable::CableArm> wanted = candidate(shifted_tip(0.01));
