@@ -1,5 +1,6 @@
 #include "host/system/run_session.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -20,8 +21,10 @@ constexpr double kStopTimeout_s = 15.0;
 constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
 constexpr double kFinishGrace_s = 3.0;  // for the mission runner, when another program has ended
 constexpr double kLook_s = 0.02;
-constexpr double kSilent_s = 10.0;    // without a state: lianad does not go on
-constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
+constexpr double kSilent_s = 10.0;     // without a state: lianad does not go on
+constexpr double kRested_s = 5.0;      // at rest after a failure: it is over
+constexpr double kMostAfter_s = 60.0;  // after a failure, at rest or not
+constexpr double kAftermath_s = 0.5;   // between the end of one program and the ends of those that need it
 
 Clock::time_point after(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -73,14 +76,19 @@ bool RunSession::has_failed(const RunEnd& end) const {
   return !end.outcome.empty() || mission.value("outcome", "") != "success";
 }
 
-// What a failure leads to belongs to the run: lianad goes on until the arm is at rest, then ends by itself.
+// What a failure leads to belongs to the run. In virtual time lianad goes on until the arm is at rest, then ends by
+// itself; in real time it holds the arm for as long as nobody says otherwise.
 void RunSession::follow() {
-  auto deadline = after(kSilent_s);
+  auto deadline = after(kSilent_s), rested = after(kRested_s);
+  const auto enough = after(kMostAfter_s);
+  const auto is_enough = [&] { return !waits_for_us_ && Clock::now() > std::min(rested, enough); };
   while (!is_ending() && system_.is_connected() && system_.is_running("lianad") && interrupts_.count() == 0 &&
-         Clock::now() < deadline) {
+         Clock::now() < deadline && !is_enough()) {
     const std::size_t seen = states_.size();
     look(kLook_s);
-    if (states_.size() != seen) deadline = after(kSilent_s);
+    if (states_.size() == seen) continue;
+    deadline = after(kSilent_s);
+    if (!last_state_.value("at_rest", true)) rested = after(kRested_s);
   }
 }
 

@@ -134,6 +134,17 @@ class MissionsThatFailWhileTheArmMoves(Runs):
         self.failed('arm.move_jp { goal_deg = arm.named_pose "nowhere" }', "no pose named nowhere")
 
 
+class RunsInRealTime(Runs):
+    def test_a_run_whose_mission_fails_ends_by_itself(self):
+        script = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "goes_wrong.lua"
+        script.write_text((MISSIONS / "goes_wrong.lua").read_text().replace("-- WHAT GOES WRONG", 'error("enough")'))
+        process, out, error = self.finished(script, "--time", "real")
+        if "liana doctor" in error:
+            self.skipTest(error)
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("the run did not succeed", error)
+
+
 class RunsThatRepeat(Runs):
     def told(self, *, held_up):
         """Report, events and commands of a run; held up: `liana run` itself stands still for a while as the arm
