@@ -50,11 +50,15 @@ void EmbeddedBus::write(const Packet& packet) {
   }
 }
 
+// The bus wakes everybody when all are there. Until then it has no time: drives whose clocks went on by another one
+// would stand still until the bus has caught up, and send no heartbeat.
 bool EmbeddedBus::wait(Wake& wake) {
-  if (ended_ || end_requested()) return false;
   Packet packet;
   const int timeout_ms = lockstep() ? -1 : std::max(1, static_cast<int>(period_us() / 1000));
-  if (!read(packet, timeout_ms)) return false;
+  do {
+    if (ended_ || end_requested() || !read(packet, timeout_ms)) return false;
+  } while (packet.empty() && !has_begun_);
+  has_begun_ = true;
   wake.frames.clear();
   if (packet.empty()) {  // real time only: drives run on without frames
     wake.now_us = now_us_ + (wall_clock_us() - wall_at_now_us_);

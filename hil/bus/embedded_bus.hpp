@@ -31,6 +31,7 @@ class EmbeddedBus final : public Bus {
   std::uint64_t now_us_ = 0;
   std::uint64_t wall_at_now_us_ = 0;
   std::uint64_t refused_ = 0;
+  bool has_begun_ = false;  // it was woken once: the bus has a time
   bool ended_ = false;
 };
 

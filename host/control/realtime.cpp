@@ -29,8 +29,7 @@ bool room_is_left() {
   return true;
 }
 
-// Locked memory is there from the start, stacks with all their 8 MB. With one more such thread the drives did not boot
-// on a machine with one slow processor (3007); no thread of lianad needs more than this.
+// Locked memory is there from the start, stacks with all their 8 MB; no thread of lianad needs more than this.
 void keep_stacks_small() {
   constexpr std::size_t kStackBytes = 1u << 20;
   pthread_attr_t attributes;

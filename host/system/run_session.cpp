@@ -1,5 +1,6 @@
 #include "host/system/run_session.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -20,8 +21,10 @@ constexpr double kStopTimeout_s = 15.0;
 constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
 constexpr double kFinishGrace_s = 3.0;  // for the mission runner, when another program has ended
 constexpr double kLook_s = 0.02;
-constexpr double kSilent_s = 10.0;    // without a state: lianad does not go on
-constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
+constexpr double kSilent_s = 10.0;     // without a state: lianad does not go on
+constexpr double kRested_s = 5.0;      // at rest after a failure: it is over
+constexpr double kMostAfter_s = 60.0;  // after a failure, at rest or not
+constexpr double kAftermath_s = 0.5;   // between the end of one program and the ends of those that need it
 
 Clock::time_point after(double seconds) {
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
@@ -37,14 +40,17 @@ Pose pose_of(const Json& numbers) {
 
 }  // namespace
 
-RunSession::RunSession(const SystemLayout& plan) : plan_(plan), system_(plan) {}
+RunSession::RunSession(const SystemLayout& plan)
+    : plan_(plan), waits_for_us_(plan.time_mode != "real"), system_(plan) {}
 
 RunSession::~RunSession() = default;
 
 RunEnd RunSession::run() {
   std::signal(SIGPIPE, SIG_IGN);
   RunEnd end;
-  if (const std::string problem = system_.start(hello(kName, Observer::kSeeing), interrupts_.any()); !problem.empty()) {
+  Json greeting = hello(kName, Observer::kSeeing);
+  greeting["lockstep"] = waits_for_us_;
+  if (const std::string problem = system_.start(greeting, interrupts_.any()); !problem.empty()) {
     end = dead_child(false).value_or(RunEnd{"failed", problem, false});
   } else {
     end = watch();
@@ -59,35 +65,41 @@ RunEnd RunSession::watch() {
     if (interrupts_.count() > 0) return interrupted();
   }
   const RunEnd end = conclusion();
-  if (has_failed(end)) follow();
+  if (!end.bad_input && (waits_for_us_ || has_failed(end))) follow();
   return end;
 }
 
 // The run is no success as far as processes and mission tell.
 bool RunSession::has_failed(const RunEnd& end) const {
-  if (end.bad_input) return false;
   std::ifstream file(plan_.file("mission.json"));
   const Json mission = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
   return !end.outcome.empty() || mission.value("outcome", "") != "success";
 }
 
-// What a failure leads to belongs to the run: lianad goes on until the arm is at rest, then ends by itself.
+// What a failure leads to belongs to the run. In virtual time lianad goes on until the arm is at rest, then ends by
+// itself; in real time it holds the arm for as long as nobody says otherwise.
 void RunSession::follow() {
-  auto deadline = after(kSilent_s);
-  while (system_.is_connected() && system_.is_running("lianad") && interrupts_.count() == 0 &&
-         Clock::now() < deadline) {
+  auto deadline = after(kSilent_s), rested = after(kRested_s);
+  const auto enough = after(kMostAfter_s);
+  const auto is_enough = [&] { return !waits_for_us_ && Clock::now() > std::min(rested, enough); };
+  while (!is_ending() && system_.is_connected() && system_.is_running("lianad") && interrupts_.count() == 0 &&
+         Clock::now() < deadline && !is_enough()) {
     const std::size_t seen = states_.size();
     look(kLook_s);
-    if (states_.size() != seen) deadline = after(kSilent_s);
+    if (states_.size() == seen) continue;
+    deadline = after(kSilent_s);
+    if (!last_state_.value("at_rest", true)) rested = after(kRested_s);
   }
 }
 
 // Somebody has ended. The others follow within moments, in any order: who failed by itself is seen only after that.
 // Once the mission has ended, the others end in order.
 RunEnd RunSession::conclusion() {
-  const auto end = system_.last().wait(kFinishGrace_s);  // the mission runner
+  look_until(kFinishGrace_s, [this] { return system_.last().poll().has_value(); });
+  const auto end = system_.last().poll();  // the mission runner's
   if (!end || end->code != 0) {
-    if (const auto failed = dead_child(true, kAftermath_s)) return *failed;
+    look_until(kAftermath_s, [this] { return system_.all_have_ended(); });
+    if (const auto failed = dead_child(true)) return *failed;
   }
   return end ? end_of_mission(*end) : *dead_child(false);
 }
@@ -103,11 +115,11 @@ RunEnd RunSession::end_of_mission(const ChildEnd& end) {
 
 // Of the programs beside the mission runner that have ended the one that ended worst: killed, failed or, unless
 // `failed_only`, in order. Exit code 2 means that it refused its input.
-std::optional<RunEnd> RunSession::dead_child(bool failed_only, double settle_s) {
+std::optional<RunEnd> RunSession::dead_child(bool failed_only) {
   const auto counts = [&](const ChildProcess& child, const ChildEnd& end) {
     return child.name() != "liana-mission" && !(failed_only && end.code == 0);
   };
-  const auto worst = system_.worst_end(counts, settle_s);
+  const auto worst = system_.worst_end(counts);
   if (!worst) return std::nullopt;
   return RunEnd{"failed", worst->text, worst->end.code == 2 && states_.empty()};
 }
@@ -119,6 +131,8 @@ RunEnd RunSession::interrupted() {
   while (system_.is_connected() && interrupts_.count() < 2 && Clock::now() < deadline && !is_stopped()) look(kLook_s);
   return {"aborted", "interrupted: " + how_the_arm_was_left(), false};
 }
+
+bool RunSession::is_ending() const { return last_state_.is_object() && last_state_.value("stopping", false); }
 
 // lianad has taken the stop, and the drives are without power.
 bool RunSession::is_stopped() const {
@@ -149,10 +163,19 @@ void RunSession::look(double timeout_s) {
   }
 }
 
+void RunSession::look_until(double timeout_s, const std::function<bool()>& is_over) {
+  const auto deadline = after(timeout_s);
+  while (!is_over() && Clock::now() < deadline) look(kLook_s);
+}
+
 void RunSession::take(const Json& message) {
   const std::string op = message.value("op", "");
   if (op == "welcome") welcome_ = message;
-  if (op == "state") keep(message);
+  if (op != "state") return;
+  keep(message);
+  if (!waits_for_us_) return;
+  if (is_ending()) system_.dismiss();  // in the interval in which every run does
+  system_.send({{"op", "done"}, {"tick", message.value("tick", std::uint64_t{0})}});
 }
 
 void RunSession::keep(const Json& state) {

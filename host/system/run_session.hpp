@@ -1,6 +1,7 @@
 // The processes of one run: started in order, watched, ended together.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,16 +42,20 @@ class RunSession {
   bool has_failed(const RunEnd& end) const;
   void follow();
   RunEnd conclusion();
-  std::optional<RunEnd> dead_child(bool failed_only, double settle_s = 0.0);
+  std::optional<RunEnd> dead_child(bool failed_only);
   RunEnd end_of_mission(const ChildEnd& end);
   RunEnd interrupted();
   void look(double timeout_s);
+  void look_until(double timeout_s, const std::function<bool()>& is_over);
   void take(const Json& message);
   void keep(const Json& state);
+  bool is_ending() const;
   bool is_stopped() const;
   std::string how_the_arm_was_left() const;
 
   const SystemLayout& plan_;
+  // The report is made of states: in virtual time none may be lost to a slow moment, or equal runs had unequal reports.
+  const bool waits_for_us_;
   InterruptGuard interrupts_;
   Progress progress_;
   System system_;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include "host/api/registry.hpp"
 
@@ -82,8 +83,12 @@ bool System::all_have_ended() const {
   return std::all_of(children_.begin(), children_.end(), [](const auto& child) { return child->poll().has_value(); });
 }
 
+void System::dismiss() {
+  if (!std::exchange(dismissed_, true)) send({{"op", "shutdown"}});
+}
+
 void System::end(double grace_s, const Sink& sink) {
-  send({{"op", "shutdown"}});
+  dismiss();
   if (!sink) api_.reset();  // a client in lockstep that no longer answers would hold lianad up
   auto deadline = after(grace_s);
   while (Clock::now() < deadline && !all_have_ended()) {

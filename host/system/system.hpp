@@ -46,21 +46,24 @@ class System {
   using Counts = std::function<bool(const ChildProcess&, const ChildEnd&)>;
   std::optional<NamedEnd> worst_end(const Counts& counts, double settle_s = 0.0);
   bool any_has_ended() const;
+  bool all_have_ended() const;
   // A program of this name was started and has not ended.
   bool is_running(std::string_view name) const;
 
-  // Asks lianad to stop the arm and leave, waits up to `grace_s` for all programs to end by themselves (bus and bench
+  // Asks lianad to stop the arm and leave, once.
+  void dismiss();
+  // Does that unless it was done, waits up to `grace_s` for all programs to end by themselves (bus and bench
   // then write their summaries), and ends those that have not. What lianad still says goes to `sink`; without one
   // nobody listens any more.
   void end(double grace_s, const Sink& sink = {});
 
  private:
-  bool all_have_ended() const;
   void remove_stale_entry() const;
 
   const SystemLayout& layout_;
   std::vector<std::unique_ptr<ChildProcess>> children_;
   std::optional<api::ApiClient> api_;
+  bool dismissed_ = false;
 };
 
 }  // namespace liana::system

@@ -112,13 +112,12 @@ std::string expected_roles(const SystemLayout& plan, const RunOptions& options) 
 }
 
 ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
-  ProgramCall call{
-      "lianad",
-      {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"), "--buses",
-       plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode, "--physics", options.physics,
-       "--expect", expected_roles(plan, options), "--events", plan.events_file()}};
-  if (!options.mission.empty())
-    append(call.argv, {"--commands", plan.commands_file(), "--way-out", plan.file("way_out.bin")});
+  ProgramCall call{"lianad",
+                   {sibling_program("lianad"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"),
+                    "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode,
+                    "--physics", options.physics, "--expect", expected_roles(plan, options), "--events",
+                    plan.events_file(), "--way-out", plan.file("way_out.bin")}};
+  if (!options.mission.empty()) append(call.argv, {"--commands", plan.commands_file()});
   if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});
   if (!options.in_pose.empty()) append(call.argv, {"--in-pose", options.in_pose});
   if (embedded) append(call.argv, {"--bus-socket", plan.bus_socket()});

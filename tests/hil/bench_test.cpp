@@ -4,6 +4,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -91,10 +92,12 @@ TEST(EmbeddedPackets, AreLaidOutAsTheProtocolSays) {
   EXPECT_THROW(read_wake(Packet(3, 3)), std::runtime_error);
 }
 
-// One WAKE with a SYNC on each bus, then SHUTDOWN; keeps what the bench answered.
+// One WAKE with a SYNC on each bus, then SHUTDOWN; keeps what the bench answered. In real time the WAKE comes late.
 class OneWakeBus {
  public:
-  OneWakeBus() : path_(temporary("bus.sock")), listener_(::socket(AF_UNIX, SOCK_SEQPACKET, 0)) {
+  static constexpr std::uint8_t kReal = 2;
+  explicit OneWakeBus(std::uint8_t time_mode = 0)
+      : time_mode_(time_mode), path_(temporary("bus.sock")), listener_(::socket(AF_UNIX, SOCK_SEQPACKET, 0)) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
     std::strncpy(address.sun_path, path_.c_str(), sizeof address.sun_path - 1);
@@ -126,9 +129,11 @@ class OneWakeBus {
     hello = receive();
     Packet welcome(8 + 32);
     welcome[0] = 2;
+    welcome[1] = time_mode_;
     welcome[2] = 2;
     put_little_endian(&welcome[4], 4, 4000);
     send(welcome);
+    if (time_mode_ == kReal) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     Packet wake(16 + 48);
     wake[0] = 3;
     wake[2] = 2;
@@ -147,10 +152,26 @@ class OneWakeBus {
     send(shutdown);
   }
 
+  std::uint8_t time_mode_;
   std::string path_;
   Socket listener_;
   std::thread thread_;
 };
+
+TEST(EmbeddedBusClient, WaitsInRealTimeForTheFirstWakeWhoseClockTheDrivesHave) {
+  OneWakeBus server(OneWakeBus::kReal);
+  EmbeddedBus bus(server.path(), 4000, 2);
+  ASSERT_FALSE(bus.lockstep());
+  Wake wake;
+  ASSERT_TRUE(bus.wait(wake));
+  EXPECT_EQ(wake.now_us, 28047U) << "by no clock of its own: it would be ahead of the bus";
+  EXPECT_EQ(wake.frames.size(), 2U);
+  ASSERT_TRUE(bus.wait(wake));
+  EXPECT_GT(wake.now_us, 28047U) << "from then on drives go on without frames";
+  EXPECT_EQ(wake.frames.size(), 0U);
+  bus.send({CanFrame{}});
+  server.finish();
+}
 
 TEST(EmbeddedBusClient, AnswersASyncWithWhatTheDrivesSendAndAsksForTheNext) {
   OneWakeBus server;

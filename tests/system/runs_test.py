@@ -2,9 +2,12 @@
 (A35).
 """
 import json
+import os
 import pathlib
+import signal
 import socket
 import tempfile
+import time
 import unittest
 
 from support import MISSIONS, SOURCE, SystemTest, start_run
@@ -12,6 +15,7 @@ from liana.recordings import Truth
 
 ATTACKS = SOURCE / "tests" / "lua" / "attacks"
 PATIENCE_S = 300
+kHeldUp_s = 4.0  # a run of seconds would be over by then; lianad waits 10 s for who is in lockstep
 
 
 def has_can():
@@ -128,6 +132,43 @@ class MissionsThatFailWhileTheArmMoves(Runs):
 
     def test_a_mistake_in_a_step_is_named(self):
         self.failed('arm.move_jp { goal_deg = arm.named_pose "nowhere" }', "no pose named nowhere")
+
+
+class RunsInRealTime(Runs):
+    def test_a_run_whose_mission_fails_ends_by_itself(self):
+        script = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())) / "goes_wrong.lua"
+        script.write_text((MISSIONS / "goes_wrong.lua").read_text().replace("-- WHAT GOES WRONG", 'error("enough")'))
+        process, out, error = self.finished(script, "--time", "real")
+        if "liana doctor" in error:
+            self.skipTest(error)
+        self.assertEqual(process.returncode, 1)
+        self.assertIn("the run did not succeed", error)
+
+
+class RunsThatRepeat(Runs):
+    def told(self, *, held_up):
+        """Report, events and commands of a run; held up: `liana run` itself stands still for a while as the arm
+        moves.
+        """
+        process = start_run(self, MISSIONS / "short.lua", "--json", "report.json", "--record", "record", "--seed", 3)
+        if held_up:
+            for line in process.stderr:
+                if "prepare" in line:
+                    break
+            os.kill(process.pid, signal.SIGSTOP)
+            time.sleep(kHeldUp_s)
+            os.kill(process.pid, signal.SIGCONT)
+        _, error = process.communicate(timeout=PATIENCE_S)
+        self.assertEqual(process.returncode, 0, error)
+        files = ("report.json", "record/events.txt", "record/commands.txt")
+        return {file: (process.home / file).read_text() for file in files}
+
+    def test_what_a_run_tells_does_not_depend_on_how_fast_its_states_are_read(self):
+        plain, held_up = self.told(held_up=False), self.told(held_up=True)
+        self.assertIn("verified_clearance_m", plain["report.json"])
+        for file, text in plain.items():
+            with self.subTest(file):
+                self.assertEqual(held_up[file], text)
 
 
 if __name__ == "__main__":
