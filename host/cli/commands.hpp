@@ -79,6 +79,10 @@ int plan_command(const PlanOptions& options);
 // Starts the whole system, runs one mission, reports; exit code 0 only on success.
 int run_command(const system::RunOptions& options);
 
+// The same without anything that moves and without a trace: virtual time on the embedded bus, found by nobody else's
+// status, estop or clear. Says what the steps leave of the limits and what is refused; exit code 0 only on success.
+int check_command(const system::RunOptions& given);
+
 struct CalibrateOptions {
   std::string robot = "zhu2022";
   std::string bus = "embedded";

@@ -23,7 +23,7 @@ _liana() {
     --robot | export) _liana_names_or_files robots "$word"; return ;;
     --scene) _liana_names_or_files scenes "$word"; return ;;
     --bus | --buses) _liana_names_or_files buses "$word"; return ;;
-    run) _liana_names_or_files missions "$word"; return ;;
+    run | check) _liana_names_or_files missions "$word"; return ;;
     --follow) COMPREPLY=($(compgen -W "slit" -- "$word") $(compgen -f -- "$word")); return ;;
     --time) words="fast paced real" ;;
     --physics | --true-physics) words="nominal ideal worn" ;;
@@ -33,10 +33,11 @@ _liana() {
     --record | --calibration | --faults | --json | --svg | --path | --api | --out | replay | commands) COMPREPLY=($(compgen -f -- "$word")); return ;;
   esac
   if [[ $COMP_CWORD == 1 ]]; then
-    words="run calibrate pose ik reach plan verify status estop clear mission faults commands latency replay robot doctor completion help"
+    words="run check calibrate pose ik reach plan verify status estop clear mission faults commands latency replay robot doctor completion help"
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
       run) words="--robot --scene --bus --time --physics --calibration --in-pose --cross-wired --faults --true-physics --scene-offset --record --json --seed" ;;
+      check) words="--robot --scene --bus --physics --calibration --faults --true-physics --scene-offset --json --seed" ;;
       calibrate) words="--robot --bus --poses --physics --cross-wired --friction --calibration --out --seed --json" ;;
       latency) words="--rate --seconds --buses --arm --json" ;;
       pose) words="--robot --theta-deg --scene --json" ;;

@@ -128,40 +128,51 @@ void add_plan(CLI::App& app, Action& action, PlanOptions& plan) {
   sub->add_flag("--json", plan.json, "print JSON");
 }
 
-void add_run(CLI::App& app, Action& action, liana::system::RunOptions& run) {
-  CLI::App* sub = add(app, action, "run", "start the whole system and run a mission", run, run_command);
-  sub->add_option("mission", run.mission, "a name under lua/missions, a file, or a plan (JSON of liana plan --out)")
+// What a mission is run with, on the arm or in a dry run.
+void add_mission_options(CLI::App& sub, liana::system::RunOptions& run) {
+  sub.add_option("mission", run.mission, "a name under lua/missions, a file, or a plan (JSON of liana plan --out)")
       ->required();
-  sub->add_option("--robot", run.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
-  sub->add_option("--scene", run.scene,
-                  "scene table: a name under lua/scenes or a file; panel_slit where not given, for a serial arm none");
-  sub->add_option("--bus", run.bus,
-                  "bus table: a name under lua/buses or a file; where not given embedded_ROBOT if there is such a "
-                  "table, else embedded");
-  sub->add_option("--time", run.time, "fast, paced or real; fast where nothing is said, real on SocketCAN")
-      ->check(CLI::IsMember({"fast", "paced", "real"}));
-  sub->add_option("--physics", run.physics, "nominal, ideal or worn")
+  sub.add_option("--robot", run.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  sub.add_option("--scene", run.scene,
+                 "scene table: a name under lua/scenes or a file; panel_slit where not given, for a serial arm none");
+  sub.add_option("--bus", run.bus,
+                 "bus table: a name under lua/buses or a file; where not given embedded_ROBOT if there is such a "
+                 "table, else embedded");
+  sub.add_option("--physics", run.physics, "nominal, ideal or worn")
       ->capture_default_str()
       ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
-  sub->add_option("--calibration", run.calibration,
-                  "what liana calibrate wrote; the robot table's values where not given");
+  sub.add_option("--calibration", run.calibration,
+                 "what liana calibrate wrote; the robot table's values where not given");
+  sub.add_option("--faults", run.faults,
+                 "to try it out: faults of the simulated drives, cables and camera (docs/hil.md)")
+      ->check(CLI::ExistingFile);
+  sub.add_option("--true-physics", run.true_physics,
+                 "to try it out: nominal, ideal or worn; the simulated arm's friction, where it is not what lianad is "
+                 "told with --physics")
+      ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
+  sub.add_option("--scene-offset", run.scene_offset,
+                 "to try it out: MM,DEG, e.g. 10,1; the simulated scene is so far from where its table has it, in a "
+                 "direction drawn from the seed");
+  sub.add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
+  add_seed(sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
+}
+
+void add_run(CLI::App& app, Action& action, liana::system::RunOptions& run) {
+  CLI::App* sub = add(app, action, "run", "start the whole system and run a mission", run, run_command);
+  add_mission_options(*sub, run);
+  sub->add_option("--time", run.time, "fast, paced or real; fast where nothing is said, real on SocketCAN")
+      ->check(CLI::IsMember({"fast", "paced", "real"}));
   sub->add_option("--in-pose", run.in_pose,
                   "named pose in which the arm lies in its fixture: unless every cable says so, it is not enabled");
   sub->add_option("--cross-wired", run.cross_wired,
                   "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
-  sub->add_option("--faults", run.faults,
-                  "to try it out: faults of the simulated drives, cables and camera (docs/hil.md)")
-      ->check(CLI::ExistingFile);
-  sub->add_option("--true-physics", run.true_physics,
-                  "to try it out: nominal, ideal or worn; the simulated arm's friction, where it is not what lianad is "
-                  "told with --physics")
-      ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
-  sub->add_option("--scene-offset", run.scene_offset,
-                  "to try it out: MM,DEG, e.g. 10,1; the simulated scene is so far from where its table has it, in a "
-                  "direction drawn from the seed");
   sub->add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
-  sub->add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
-  add_seed(*sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
+}
+
+void add_check(CLI::App& app, Action& action, liana::system::RunOptions& check) {
+  CLI::App* sub = add(app, action, "check", "dry run of a mission: what its steps leave of the limits, what is refused",
+                      check, check_command);
+  add_mission_options(*sub, check);
 }
 
 void add_calibrate(CLI::App& app, Action& action, CalibrateOptions& calibrate) {
@@ -360,7 +371,7 @@ int run(int argc, char** argv) {
   ReachOptions reach;
   PlanOptions plan;
   VerifyOptions verify;
-  liana::system::RunOptions run;
+  liana::system::RunOptions run, check;
   CalibrateOptions calibrate;
   LatencyOptions latency;
   ClientOptions client;
@@ -376,6 +387,7 @@ int run(int argc, char** argv) {
   add_plan(app, action, plan);
   add_verify(app, action, verify);
   add_run(app, action, run);
+  add_check(app, action, check);
   add_client(app, action, "status", "state of every running system", client, status_command);
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client,
              estop_command);

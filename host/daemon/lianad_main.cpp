@@ -41,7 +41,7 @@ void handle_signals() {
 
 struct Options {
   std::string robot, scene, buses, api, time = "fast", physics = "nominal", bus_socket, expect, calibration, in_pose,
-                                        events, commands, way_out;
+                                        events, commands, way_out, verify_times;
 };
 
 std::vector<liana::api::Role> roles_in(const std::string& list) {
@@ -81,6 +81,7 @@ liana::daemon::ServiceConfig service_config(const Setup& setup, const std::strin
   config.events_file = setup.options.events;
   config.commands_file = setup.options.commands;
   config.way_file = setup.options.way_out;
+  config.verify_times_file = setup.options.verify_times;
   if (setup.scene.camera) config.camera_latency_s = setup.scene.camera->latency_s;
   const auto mission = std::find(setup.expected.begin(), setup.expected.end(), liana::api::Role::kMission);
   config.ends_with_mission = setup.mode != liana::timing::TimeMode::kReal && mission != setup.expected.end();
@@ -172,6 +173,8 @@ int main(int argc, char** argv) {
       "--way-out", options.way_out,
       "file that keeps the verified way back, so that it survives lianad: read at the start, used where the arm "
       "is enabled within 50 mm of it");
+  line.option("--verify-times", options.verify_times,
+              "file for how long each command took from setpoint to release, us of this machine's time");
   line.option("--expect", options.expect, "roles that must have connected before virtual time starts, comma separated");
   if (const auto code = line.parse(argc, argv)) return *code;
   try {

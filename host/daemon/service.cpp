@@ -37,6 +37,8 @@ Service::Service(const ServiceConfig& config, Desk& desk)
       server_(config.api_path, *this) {
   if (!config.events_file.empty()) file_.emplace(config.events_file, "--events", event::kEventLineHeading);
   if (!config.commands_file.empty()) dispatch_.emplace(config.commands_file);
+  if (!config.verify_times_file.empty())
+    verify_times_.emplace(config.verify_times_file, "--verify-times", "# us from setpoint to release, of each command");
   if (config.way_file.empty()) return;
   way_file_.emplace(config.way_file, Json::parse(config.robot_json).at("name").text(), desk.joint_count());
   desk.restore_way(way_file_->kept());
@@ -186,8 +188,16 @@ void Service::forward_camera() {
   }
 }
 
+std::optional<LastVerdict> Service::timed_release() {
+  const auto began = std::chrono::steady_clock::now();
+  std::optional<LastVerdict> verdict = desk_.release_next(owner_.client() != 0, owner_.role_number());
+  const std::chrono::duration<double, std::micro> took_us = std::chrono::steady_clock::now() - began;
+  if (verdict && verify_times_) verify_times_->append(std::to_string(std::lround(took_us.count())));
+  return verdict;
+}
+
 void Service::release_next() {
-  const std::optional<LastVerdict> verdict = desk_.release_next(owner_.client() != 0, owner_.role_number());
+  const std::optional<LastVerdict> verdict = timed_release();
   tell_of_paths();
   keep_way();
   if (!verdict) return;

@@ -37,6 +37,7 @@ struct ServiceConfig {
   std::string events_file;                                           // path; empty: events are not written
   std::string commands_file;                                         // path; empty: commands are not logged
   std::string way_file;                                              // path; empty: the way back is kept nowhere
+  std::string verify_times_file;                                     // path; empty: nobody asks how long commands take
   bool ends_with_mission = false;                                    // stop the arm once the mission has come and gone
   std::function<std::vector<control::BootProblem>()> boot_problems;  // asked once, when booting has failed
   std::function<std::vector<std::uint32_t>()> serials;               // of the drives; asked once, when they are booted
@@ -114,6 +115,7 @@ class Service : private api::ApiHandler {
   void forward_camera();
   void publish_state();
   void release_next();
+  std::optional<LastVerdict> timed_release();
   void tell_of_paths();
   void keep_way();
 
@@ -130,6 +132,7 @@ class Service : private api::ApiHandler {
   std::optional<event::LineFile> file_;
   std::optional<DispatchLog> dispatch_;
   std::optional<WayFile> way_file_;
+  std::optional<event::LineFile> verify_times_;
   control::BootPhase boot_seen_ = control::BootPhase::kBooting;
   bool homed_told_ = false;
   bool image_sent_ = false;

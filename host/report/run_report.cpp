@@ -39,26 +39,6 @@ Window window_of(const Json& mission, const Json& steps, const std::vector<State
   return window;
 }
 
-// The steps the mission reported, or else announced: all but the last one made way for the next.
-Json known_steps(const Json& mission, const ReportSources& sources) {
-  if (mission.contains("steps")) return mission["steps"];
-  Json steps = Json::array();
-  for (std::size_t i = 0; i < sources.announced.size(); ++i) {
-    const ReportedStep& step = sources.announced[i];
-    const bool last = i + 1 == sources.announced.size();
-    const std::uint64_t end = last ? step.last_tick : sources.announced[i + 1].start_tick;
-    steps.push_back({{"name", step.name},
-                     {"device", step.device},
-                     {"outcome", last ? "failed" : "success"},
-                     {"start_tick", step.start_tick},
-                     {"end_tick", end},
-                     {"duration_s",
-                      static_cast<double>(end - step.start_tick) * object_of(sources.welcome).value("period_s", 0.0)}});
-    if (last) steps.back()["reason"] = "the mission runner left no report";
-  }
-  return steps;
-}
-
 Json steps_of(const Json& known) {
   Json steps = Json::array();
   for (const Json& step : known) {
@@ -151,11 +131,32 @@ std::string clearance_text(const Json& report) {
 
 }  // namespace
 
+// Of announced steps all but the last one made way for the next.
+Json steps_with_ticks(const ReportSources& sources) {
+  const Json mission = read_json(sources.mission_report_file);
+  if (mission.contains("steps")) return mission["steps"];
+  Json steps = Json::array();
+  for (std::size_t i = 0; i < sources.announced.size(); ++i) {
+    const ReportedStep& step = sources.announced[i];
+    const bool last = i + 1 == sources.announced.size();
+    const std::uint64_t end = last ? step.last_tick : sources.announced[i + 1].start_tick;
+    steps.push_back({{"name", step.name},
+                     {"device", step.device},
+                     {"outcome", last ? "failed" : "success"},
+                     {"start_tick", step.start_tick},
+                     {"end_tick", end},
+                     {"duration_s",
+                      static_cast<double>(end - step.start_tick) * object_of(sources.welcome).value("period_s", 0.0)}});
+    if (last) steps.back()["reason"] = "the mission runner left no report";
+  }
+  return steps;
+}
+
 Json make_report(const ReportSources& sources) {
   const Json mission = read_json(sources.mission_report_file);
   const Json state = object_of(sources.last_state);
   const Json welcome = object_of(sources.welcome);
-  const Json steps = known_steps(mission, sources);
+  const Json steps = steps_with_ticks(sources);
   const Window window = window_of(mission, steps, sources.states);
   const std::uint64_t ticks = window.last_tick - window.first_tick;
   Json report = {{"outcome", sources.outcome.empty() ? mission.value("outcome", "failed") : sources.outcome},

@@ -48,6 +48,9 @@ struct ReportSources {
   Criteria criteria;                     // that a success has to keep, too
 };
 
+// The steps as the mission reported them, with start_tick and end_tick; or else as it announced them.
+Json steps_with_ticks(const ReportSources& sources);
+
 // The report with the keys of docs/command-line.md.
 Json make_report(const ReportSources& sources);
 

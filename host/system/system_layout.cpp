@@ -99,10 +99,12 @@ void append(std::vector<std::string>& argv, const std::vector<std::string>& word
   argv.insert(argv.end(), words.begin(), words.end());
 }
 
-ProgramCall bus_call(const SystemLayout& plan) {
-  return {"liana-bus",
-          {sibling_program("liana-bus"), "--socket", plan.bus_socket(), "--buses", plan.file("buses.json"), "--time",
-           plan.time_mode, "--log", plan.directory, "--stats", plan.file("bus_stats.json")}};
+ProgramCall bus_call(const SystemLayout& plan, bool is_dry_run) {
+  ProgramCall call{"liana-bus",
+                   {sibling_program("liana-bus"), "--socket", plan.bus_socket(), "--buses", plan.file("buses.json"),
+                    "--time", plan.time_mode, "--stats", plan.file("bus_stats.json")}};
+  if (!is_dry_run) append(call.argv, {"--log", plan.directory});
+  return call;
 }
 
 std::string expected_roles(const SystemLayout& plan, const RunOptions& options) {
@@ -118,6 +120,7 @@ ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, boo
                     "--physics", options.physics, "--expect", expected_roles(plan, options), "--events",
                     plan.events_file(), "--way-out", plan.file("way_out.bin")}};
   if (!options.mission.empty()) append(call.argv, {"--commands", plan.commands_file()});
+  if (options.is_dry_run) append(call.argv, {"--verify-times", plan.verify_times_file()});
   if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});
   if (!options.in_pose.empty()) append(call.argv, {"--in-pose", options.in_pose});
   if (embedded) append(call.argv, {"--bus-socket", plan.bus_socket()});
@@ -243,7 +246,7 @@ SystemLayout make_layout(const RunOptions& given) {
   if (!plan.keep_directory) plan.directory = plan.socket_dir;
   write_tables(plan, robot_text, scene_text, buses_text);
   const bool embedded = plan.buses.backend == "embedded";
-  if (embedded) plan.programs.push_back(bus_call(plan));
+  if (embedded) plan.programs.push_back(bus_call(plan, options.is_dry_run));
   plan.programs.push_back(daemon_call(plan, options, embedded));
   if (plan.keep_directory) plan.programs.push_back(archive_call(plan));
   if (options.simulated_arm) plan.programs.push_back(bench_call(plan, options, embedded));
@@ -278,6 +281,11 @@ void clean_up(const SystemLayout& plan, bool success) {
   if (!plan.keep_directory && success) save(plan, plan.events_file(), "events", kept_events_folder());
   save(plan, plan.commands_file(), "commands", kept_commands_folder());
   if (plan.keep_directory || success) fs::remove_all(plan.socket_dir, error);
+}
+
+void discard(const SystemLayout& plan) {
+  std::error_code error;
+  fs::remove_all(plan.socket_dir, error);
 }
 
 }  // namespace liana::system

@@ -1,4 +1,4 @@
-// What one `liana run` starts: where its files are and how every program is called.
+// What one `liana run` or `liana check` starts: where its files are and how every program is called.
 #pragma once
 
 #include <string>
@@ -31,6 +31,7 @@ struct SystemLayout {
   std::string api_socket() const { return socket_dir + "/api"; }
   std::string events_file() const { return file("events.txt"); }
   std::string commands_file() const { return file("commands.txt"); }
+  std::string verify_times_file() const { return file("verify_times.txt"); }
   std::string bus_socket() const { return socket_dir + "/bus"; }
 };
 
@@ -44,5 +45,8 @@ void check_cross_wired(const std::string& list, std::size_t drives);
 // Removes what the run does not keep. Of a folder that is removed the events go to kept_events_folder(); that they
 // could not is said on standard error.
 void clean_up(const SystemLayout& plan, bool success);
+
+// Removes everything that the run has written, and keeps nothing of it.
+void discard(const SystemLayout& plan);
 
 }  // namespace liana::system

@@ -1,0 +1,29 @@
+// What a dry run found: steps with the least that their commands left of the limits, refusals with their remedies, and
+// what verification cost.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/cli/command_lives.hpp"
+#include "host/json/json.hpp"
+
+namespace liana::cli {
+
+// Everything it is made of.
+struct DryRun {
+  Json report;  // of the run (report::make_report)
+  Json steps;   // report::steps_with_ticks
+  double period_s = 0.0;
+  std::vector<CommandLife> lives;
+  std::vector<double> verify_us;  // of each command
+  double wall_time_s = 0.0;       // of the whole dry run, from tables to report
+};
+
+// The answer of `liana check` (docs/command-line.md).
+Json check_report(const DryRun& run);
+
+// The same for people.
+std::string check_text(const Json& report);
+
+}  // namespace liana::cli

@@ -1,0 +1,54 @@
+#include "host/cli/session_report.hpp"
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+
+#include "host/json/json.hpp"
+#include "host/system/output.hpp"
+
+namespace liana::cli {
+namespace {
+
+report::Criteria criteria(const std::string& robot_file, const std::string& physics) {
+  std::ifstream file(robot_file);
+  return report::criteria_of(Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}}), physics);
+}
+
+}  // namespace
+
+report::ReportSources report_sources(const system::RunOptions& options, const system::SystemLayout& plan,
+                                     const system::RunSession& session, const system::RunEnd& end) {
+  report::ReportSources sources;
+  sources.robot = options.robot;
+  sources.mission = options.mission;
+  sources.physics = options.physics;
+  sources.seed = options.seed;
+  sources.outcome = end.outcome;
+  sources.reason = end.message.substr(0, end.message.find('\n'));
+  sources.time_mode = plan.time_mode;
+  sources.truth_file = plan.file("truth.bin");
+  sources.bench_summary_file = plan.file("bench_summary.json");
+  sources.mission_report_file = plan.file("mission.json");
+  sources.bus_stats_file = plan.file("bus_stats.json");
+  sources.states = session.states();
+  sources.claims = session.claims();
+  sources.announced = session.announced();
+  sources.welcome = &session.welcome();
+  sources.last_state = &session.last_state();
+  if (plan.scene.rod) sources.rod = plan.scene.rod->pose;
+  sources.criteria = criteria(plan.file("robot.json"), options.physics);
+  return sources;
+}
+
+bool write_report(const std::string& path, const Json& report) {
+  try {
+    system::write_output(path, report.dump(1) + "\n");
+    return true;
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "liana: the report is lost: %s\n", error.what());
+    return false;
+  }
+}
+
+}  // namespace liana::cli
