@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "host/json/json.hpp"
+#include "host/json/plain_reader.hpp"
 
 namespace liana {
 namespace {
@@ -177,6 +178,7 @@ class Writer {
 }  // namespace
 
 Json Json::parse(std::string_view text, Twice twice) {
+  if (std::optional<Json> plain = read_plain(text, twice)) return std::move(*plain);
   // The library takes a zero byte for the end of the text and would accept whatever follows it.
   if (const auto zero = text.find('\0'); zero != text.npos) {
     throw JsonParseError("parse error: byte " + std::to_string(zero + 1) + " is zero", zero + 1);

@@ -99,11 +99,11 @@ void append(std::vector<std::string>& argv, const std::vector<std::string>& word
   argv.insert(argv.end(), words.begin(), words.end());
 }
 
-ProgramCall bus_call(const SystemLayout& plan, bool is_dry_run) {
+ProgramCall bus_call(const SystemLayout& plan) {
   ProgramCall call{"liana-bus",
                    {sibling_program("liana-bus"), "--socket", plan.bus_socket(), "--buses", plan.file("buses.json"),
                     "--time", plan.time_mode, "--stats", plan.file("bus_stats.json")}};
-  if (!is_dry_run) append(call.argv, {"--log", plan.directory});
+  if (!plan.is_dry_run) append(call.argv, {"--log", plan.directory});
   return call;
 }
 
@@ -120,7 +120,7 @@ ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, boo
                     "--physics", options.physics, "--expect", expected_roles(plan, options), "--events",
                     plan.events_file(), "--way-out", plan.file("way_out.bin")}};
   if (!options.mission.empty()) append(call.argv, {"--commands", plan.commands_file()});
-  if (options.is_dry_run) append(call.argv, {"--verify-times", plan.verify_times_file()});
+  if (plan.is_dry_run) append(call.argv, {"--verify-times", plan.verify_times_file()});
   if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});
   if (!options.in_pose.empty()) append(call.argv, {"--in-pose", options.in_pose});
   if (embedded) append(call.argv, {"--bus-socket", plan.bus_socket()});
@@ -240,13 +240,14 @@ SystemLayout make_layout(const RunOptions& given) {
   check_interfaces(plan.buses);
   plan.time_mode = time_mode_of(options, plan.buses);
   plan.keep_directory = !options.record_dir.empty();
+  plan.is_dry_run = options.is_dry_run;
   check_report_file(options.report_file, options.record_dir);
   if (plan.keep_directory) plan.directory = record_directory(options.record_dir);
   plan.socket_dir = temporary_directory();
   if (!plan.keep_directory) plan.directory = plan.socket_dir;
   write_tables(plan, robot_text, scene_text, buses_text);
   const bool embedded = plan.buses.backend == "embedded";
-  if (embedded) plan.programs.push_back(bus_call(plan, options.is_dry_run));
+  if (embedded) plan.programs.push_back(bus_call(plan));
   plan.programs.push_back(daemon_call(plan, options, embedded));
   if (plan.keep_directory) plan.programs.push_back(archive_call(plan));
   if (options.simulated_arm) plan.programs.push_back(bench_call(plan, options, embedded));

@@ -21,6 +21,7 @@ struct SystemLayout {
   std::string directory;   // everything that is written; the user's with --record
   std::string socket_dir;  // short temporary path: socket names are limited to 107 bytes
   bool keep_directory = false;
+  bool is_dry_run = false;
   std::string time_mode;
   config::BusesConfig buses;
   config::SceneConfig scene;
