@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/arm/arm_physics.hpp"
 #include "hil/bench/bench.hpp"
 #include "hil/bus/embedded_bus.hpp"
 #include "hil/bus/socketcan_bus.hpp"
@@ -43,6 +44,10 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
   app.add_option("--summary", options.summary_path, "write a JSON summary here at the end");
   app.add_option("--faults", paths.faults, "JSON list of faults to inject");
   app.add_option("--start-pose", options.start_pose, "named pose to start from")->capture_default_str();
+  app.add_option("--free-step", options.free_step_s,
+                 "longest step of the full arm's physics while it can touch nothing, s: 0.004 for a dry run")
+      ->check(CLI::Range(liana::bench::ArmPhysics::kStep_s, liana::bench::ArmPhysics::kLongestStep_s))
+      ->capture_default_str();
   app.add_option("--run-on", options.run_on_s,
                  "seconds that drives and arm go on after the bus has ended, in truth and summary")
       ->check(CLI::Range(0.0, 60.0))

@@ -21,9 +21,12 @@ class ArmPhysics final : public Arm {
 
   // Unstretched cable between drum and anchor, as the drums now hold it [m].
   CableValues payouts_m() const override;
-  // One step of `step_s` (1 ms; stable up to 4 ms without contact) with the drums at `payout_m`.
+  // One step of `step_s` (kStep_s; stable up to kLongestStep_s without contact) with the drums at `payout_m`.
   void step(double step_s, const CableValues& payout_m) override;
-  double longest_step_s() const override { return 0.001; }
+  double longest_step_s() const override { return near_contact_ ? kStep_s : free_step_s_; }
+  // Longer steps, at most kLongestStep_s, in runs in which nothing can touch: four times as fast, and nearly the same.
+  void set_free_step(double step_s) { free_step_s_ = step_s; }
+  static constexpr double kStep_s = 0.001, kLongestStep_s = 0.004;
   // Call before a run of steps that together last `duration_s`: decides whether anything can touch in them.
   void begin_slot(double duration_s) override;
 
@@ -64,6 +67,7 @@ class ArmPhysics final : public Arm {
   Theta rate_{};
   LoadRecord record_;
   bool near_contact_ = true;
+  double free_step_s_ = kStep_s;
   std::uint64_t contact_slots_ = 0;
   int most_sweeps_ = 0;
 };

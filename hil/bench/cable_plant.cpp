@@ -27,6 +27,7 @@ std::unique_ptr<Arm> make_arm(const RobotConfig& robot, const SceneConfig& scene
   if (options.arm != "full")
     throw std::runtime_error("--arm: \"" + options.arm + "\" is no arm model; allowed are full, light");
   auto arm = std::make_unique<ArmPhysics>(robot, scene, truth, start);
+  arm->set_free_step(options.free_step_s);
   arm->set_state(start, Theta{});  // the extremes of slot 0 are those of the laid-out cables
   return arm;
 }
@@ -66,9 +67,9 @@ void CablePlant::exchange(const FrameList& frames, std::uint64_t now_us, FrameLi
 }
 
 void CablePlant::integrate(double period_s) {
+  arm_->begin_slot(period_s);
   const auto steps = static_cast<int>(std::ceil(period_s / arm_->longest_step_s() - 1e-9));
   const double step_s = period_s / steps;
-  arm_->begin_slot(period_s);
   for (int i = 0; i < steps; ++i) {
     drives_.move(step_s, motor_tensions_N());
     arm_->step(step_s, drives_.payouts_m());

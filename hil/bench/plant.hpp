@@ -18,6 +18,7 @@ struct ModelOptions {
   std::string start_pose = "prepare";
   bool spread = true;  // parameters, start pose and noise by seed; false: the table exactly, noise only from the camera
   bool fixture = false;                  // the arm starts exactly in its start pose
+  double free_step_s = 0.001;            // of the full arm's physics while nothing can touch; up to 0.004
   std::vector<std::size_t> cross_wired;  // empty, or two drives that have each other's cable
 };
 
