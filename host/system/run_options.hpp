@@ -25,7 +25,7 @@ struct RunOptions {
   std::string calibration;   // empty: as the robot table says
   std::string record_dir;    // empty: nothing is kept
   std::string report_file;   // empty: a summary on standard output; "-": JSON on standard output
-  bool is_dry_run = false;   // liana check: no logs of the buses, few states are looked at
+  bool is_dry_run = false;   // liana check: no logs of the buses, quicker physics, what verification took
   std::uint64_t seed = 1;
 };
 

@@ -72,6 +72,11 @@ void check_interfaces(const config::BusesConfig& buses) {
   }
 }
 
+void check_virtual(const config::BusesConfig& buses) {
+  if (buses.backend == "embedded") return;
+  throw BadInput("--bus: '" + buses.name + "': a dry run moves nothing; allowed: a table with backend embedded");
+}
+
 void check_in_pose(const config::RobotConfig& robot, const std::string& pose) {
   try {
     calibration::check_tells_apart(robot, pose);
@@ -239,6 +244,7 @@ SystemLayout make_layout(const RunOptions& given) {
                    ", which the bench needs; add it (docs/formats.md)");
   if (options.mission.ends_with(".json"))
     check_plan_file(options.mission, robot_for_kinematics(options.robot), plan.scene);
+  if (options.is_dry_run) check_virtual(plan.buses);
   check_interfaces(plan.buses);
   plan.time_mode = time_mode_of(options, plan.buses);
   plan.keep_directory = !options.record_dir.empty();

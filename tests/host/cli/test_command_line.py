@@ -345,6 +345,7 @@ class Help(unittest.TestCase):
         self.assertEqual(code, 0)
         for command in [
             "run",
+            "check",
             "pose",
             "ik",
             "reach",
@@ -381,7 +382,7 @@ class Help(unittest.TestCase):
             code, out, error = liana(*words)
             self.assertEqual((code, out), (2, ""), words)
             self.assertIn(named, error)
-            self.assertIn("export" if words[:1] == ["robot"] else "run, status, estop, clear", error)
+            self.assertIn("export" if words[:1] == ["robot"] else "run, check, status, estop, clear", error)
             self.assertEqual(error.count("\n"), 1, error)
 
     def test_an_option_that_a_command_does_not_have_is_named_whatever_else_is_missing(self):
@@ -414,6 +415,24 @@ class Help(unittest.TestCase):
             self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
             self.assertIn(said, error)
 
+    def test_bad_input_of_check_is_named_before_anything_starts(self):
+        for words, said in [
+            ([], "mission is required"),
+            (["nosuch"], "nosuch"),
+            (["slit_crossing", "--bus", "vcan"], "--bus: 'vcan': a dry run moves nothing"),
+            (["slit_crossing", "--seed", "-1"], "--seed"),
+            (["slit_crossing", "--scene", "nosuch"], "nosuch"),
+            (["slit_crossing", "--faults", "/no/such/file"], "--faults"),
+            (["slit_crossing", "--physics", "magic"], "--physics"),
+            (["slit_crossing", "--json", "/no/such/folder/file"], "--json: '/no/such/folder/file'"),
+            (["slit_crossing", "--record", "/tmp/x"], "--record: liana check has no such option"),
+            (["slit_crossing", "--time", "real"], "--time: liana check has no such option"),
+            (["slit_crossing", "x"], "'x': liana check takes no such word"),
+        ]:
+            code, out, error = liana("check", *words)
+            self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
+            self.assertIn(said, error)
+
     def test_every_fault_is_told_with_its_detector_and_its_ticks(self):
         plain = liana("faults")[1]
         for fault in json.loads(liana("faults", "--json")[1]):
@@ -430,6 +449,8 @@ class Help(unittest.TestCase):
             ("liana plan --scene no", "none"),
             ("liana pose --robot zh", "zhu2022"),
             ("liana run sli", "slit_crossing"),
+            ("liana check sli", "slit_crossing"),
+            ("liana check --true-physics wo", "worn"),
             ("liana run --bus vc", "vcan"),
             ("liana plan --follow sl", "slit"),
             ("liana cl", "clear"),
