@@ -38,6 +38,44 @@ TEST(BenchPhysics, TheArmStaysWhereItStartsWithBrakesOn) {
   for (std::size_t c = 0; c < 15; ++c) EXPECT_GE(arm.least_tension_N(c), 14.99);
 }
 
+// Two slots of 4 ms at a time, each in steps as long as the arm allows: what the drums wind up moves it by some
+// degrees.
+Theta moved_with(ArmPhysics& arm) {
+  CableValues payout = arm.payouts_m();
+  for (int slot = 0; slot < 500; ++slot) {
+    payout[13] -= 8e-6;
+    payout[14] += 4e-6;
+    arm.begin_slot(0.004);
+    for (double left_s = 0.004; left_s > 1e-9; left_s -= arm.longest_step_s()) arm.step(arm.longest_step_s(), payout);
+  }
+  return arm.theta_rad();
+}
+
+TEST(BenchPhysics, LongStepsWhileNothingCanTouchMoveTheArmNearlyTheSame) {
+  ArmPhysics fine = table_arm("nominal", "prepare"), coarse = table_arm("nominal", "prepare");
+  coarse.set_free_step(ArmPhysics::kLongestStep_s);
+  const Theta start = fine.theta_rad();
+  coarse.begin_slot(0.004);
+  EXPECT_EQ(coarse.longest_step_s(), ArmPhysics::kLongestStep_s);
+  const Theta with_1_ms = moved_with(fine), with_4_ms = moved_with(coarse);
+  EXPECT_GT(largest_change_deg(with_1_ms, start), 0.3);
+  EXPECT_LT(largest_change_deg(with_4_ms, with_1_ms), 0.005);
+  EXPECT_GT(largest_change_deg(with_4_ms, with_1_ms), 0.0);
+}
+
+TEST(BenchPhysics, StepsAreShortWhereTheArmCouldTouchSomething) {
+  SceneConfig close = fixture_scene();
+  const Pose tip = table_arm("nominal", "prepare").tip();
+  SphereConfig& ball = close.spheres.front();
+  const double apart_m = ball.radius_m + fixture_robot().module_radius_m + 0.2e-3;
+  ball.center_m = tip.position_m + rotate(tip.attitude, {apart_m, 0.0, 0.0});
+  ArmPhysics arm = table_arm("nominal", "prepare", close);
+  arm.set_free_step(ArmPhysics::kLongestStep_s);
+  arm.begin_slot(0.004);
+  EXPECT_NEAR(arm.clearance().sphere_m, 0.2e-3, 0.05e-3);
+  EXPECT_EQ(arm.longest_step_s(), ArmPhysics::kStep_s);
+}
+
 TEST(BenchPhysics, EnergyDoesNotGrowWithoutDampingAndWithMotorsFixed) {
   ArmPhysics arm = table_arm("ideal", "prepare");
   arm.set_joint_damping(0.0);
