@@ -129,7 +129,7 @@ std::string margins_text(const Json& margins) {
     if (!margins[name].is_null())
       text += (text.empty() ? "" : ", ") + line(how.second, how.first * margins[name].get<double>());
   }
-  return text.empty() ? "nothing was held against a limit" : "leaves " + text;
+  return text.empty() ? "without margins" : "leaves " + text;
 }
 
 std::string step_text(const Json& step) {

@@ -78,6 +78,11 @@ class DryRuns(Checks):
         told = self.check(plan)
         self.assertEqual((told["outcome"], told["refused"], told["mission"]), ("success", 0, str(plan)))
 
+    def test_a_serial_arm_has_no_margins_to_tell(self):
+        told = self.check(MISSIONS / "short_micro.lua", "--robot", "micro")
+        self.assertEqual((told["outcome"], told["robot"], set(told)), ("success", "micro", FIELDS))
+        self.assertEqual(told["margins"], {name: None for name in MARGINS})
+
     def test_it_says_the_same_every_time(self):
         first, second = (self.check(MISSIONS / "short.lua", "--seed", 4) for _ in range(2))
         for told in (first, second):
