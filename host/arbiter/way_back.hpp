@@ -71,14 +71,17 @@ class WayBack {
   }
 
  private:
-  static constexpr std::int32_t kRestIntervals = 3;  // a command released before the stop may still be on its way
-  static constexpr double kPaceGain = 0.008;         // per command interval: full pace after 2 s
+  static constexpr std::int32_t kRestIntervals = 3;        // a command released before the stop may still be on its way
+  static constexpr std::int32_t kMostRestIntervals = 100;  // at rest the arm may still swing, and be refused for that
+  static constexpr double kPaceGain = 0.008;               // per command interval: full pace after 2 s
   static constexpr int kMostStarts = 10;
   static constexpr std::size_t kProgressPoints = 10;  // further back than the refusal before: another place
   static constexpr double kMostWait_s = 20.0;         // for rest
   static constexpr double kThere_rad = 1e-5;
 
-  bool rests() const { return rest_intervals_ >= kRestIntervals; }
+  // Refused again and again: twice as long each time.
+  std::int32_t needed_rest() const { return std::min(kRestIntervals << starts_, kMostRestIntervals); }
+  bool rests() const { return rest_intervals_ >= needed_rest(); }
   std::int32_t intervals(double time_s) const { return static_cast<std::int32_t>(time_s / interval_s(table_)); }
 
   // From rest.

@@ -35,7 +35,8 @@ verify::Verdict verdict_of(const config::RobotConfig& robot, const config::Scene
   simulate::Simulation simulation(simulate::arm_model(robot), scene);
   const verify::MotionRules rules{
       robot.table, scene, {scene.slit, robot.table.limits.tip_speed_slit_m_s}, robot.machine};
-  return verify::judge_simulated(rules, way, true, simulation.run(start, way));
+  verify::TooNear too_near;
+  return verify::judge_simulated(rules, way, true, simulation.run(start, way), too_near);
 }
 
 Json json_of(const verify::Verdict& verdict) {

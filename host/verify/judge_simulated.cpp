@@ -17,7 +17,7 @@ using simulate::Moment;
 
 constexpr double kEvenRate = 1.01;     // rates of the sequence are means over an interval of what the twin did in ticks
 constexpr double kTipLead = 1.05;      // the same allowance as the execution end's
-constexpr double kLeadsAway_m = 1e-3;  // of the least distance: what the bound between poses may give away
+constexpr double kGivenAway_m = 1e-3;  // what the bound between poses and the noise of a measured pose may give away
 
 std::string numbered(const char* what, Index index) { return what + std::string(" ") + std::to_string(index + 1); }
 
@@ -144,17 +144,26 @@ void refuse(SimulationVerdict& verdict, Refusal code, const std::string& text, c
   verdict.first = first;
 }
 
-// Before anything else: a contact is what a command is stopped for. An arm that is too near already may go away.
-void judge_distances(const MotionRules& rules, const simulate::Motion& motion, SimulationVerdict& verdict) {
+// An arm that is too near already may go away; the way back out may need it to go along beside a body first.
+bool leads_away(const simulate::Motion& motion, const TooNear& too_near) {
+  const double start_m = motion.scene_at_start_m;
+  const std::optional<double> farthest_m = too_near.farthest_m();
+  const double end_m = farthest_m ? std::min(start_m, *farthest_m - kGivenAway_m) : start_m;
+  return motion.scene_at_end_m >= end_m && motion.scene.distance_m >= start_m - kGivenAway_m;
+}
+
+// Before anything else: a contact is what a command is stopped for.
+void judge_distances(const MotionRules& rules, const simulate::Motion& motion, TooNear& too_near,
+                     SimulationVerdict& verdict) {
   const config::SceneMargins& levels = rules.scene.margins;
   const double claimed_m = motion.scene.distance_m - levels.prediction_m;
   const First first = at_scene(rules.scene, motion.scene);
   verdict.margins.clearance_m = claimed_m - levels.refuse_m;
   verdict.slowly = claimed_m < levels.slow_m;
   verdict.first = first;
-  const bool leads_away = motion.scene_at_end_m >= motion.scene_at_start_m &&
-                          motion.scene.distance_m >= motion.scene_at_start_m - kLeadsAway_m;
-  if (!std::isfinite(motion.scene.distance_m) || (claimed_m < levels.refuse_m && !leads_away)) {
+  const bool stands_too_near = motion.scene_at_start_m - levels.prediction_m < levels.refuse_m;
+  stands_too_near ? too_near.stand(motion.scene_at_start_m) : too_near.forget();
+  if (!std::isfinite(motion.scene.distance_m) || (claimed_m < levels.refuse_m && !leads_away(motion, too_near))) {
     refuse(verdict, Refusal::kSceneContact,
            "the arm could touch " + first.body + ": " + millimetres(claimed_m) + " of the simulated " +
                millimetres(motion.scene.distance_m) + " are certain, " + millimetres(levels.refuse_m) +
@@ -169,14 +178,14 @@ void judge_distances(const MotionRules& rules, const simulate::Motion& motion, S
 }  // namespace
 
 SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::JointSequence& sequence, bool comes_to_rest,
-                                  const simulate::Motion& motion) {
+                                  const simulate::Motion& motion, TooNear& too_near) {
   SimulationVerdict verdict;
   if (!motion.solved) {
     refuse(verdict, Refusal::kNotFinite, "the simulated arm's equations have no solution", {});
     return verdict;
   }
   verdict.margins = {0.0, 1e3, 1e3, 1e6, 0.0};
-  judge_distances(rules, motion, verdict);
+  judge_distances(rules, motion, too_near, verdict);
   const First nearest = verdict.first;
   if (verdict.passed()) verdict.first = {};
   MomentJudge moments(rules, verdict);

@@ -45,6 +45,7 @@ void SimulationEnd<CableArm>::watch(const TwinImage<CableArm>& image) {
   const cable::Outputs& now = image.last_outputs;
   const double since_s = static_cast<double>(image.next_tick - watched_tick_) * rules_.table.tick_s;
   if (since_s <= 0.0) return;
+  if (now.state != OperatingState::kEnabled) too_near_.forget();
   const double share = std::fmin(1.0, since_s / kRateFilter_s);
   for (std::size_t k = 0; k < start_.theta_rad.size(); ++k) {
     const double measured_rad = now.theta_measured_rad[k] - start_.theta_rad[k];
@@ -80,7 +81,7 @@ SimulationVerdict SimulationEnd<CableArm>::verdict(double patience_s) {
   const simulate::Motion* motion = begun_ ? worker_.motion(patience_s) : nullptr;
   SimulationVerdict verdict;
   if (motion != nullptr) {
-    verdict = judge_simulated(rules_, sequence_, comes_to_rest_, *motion);
+    verdict = judge_simulated(rules_, sequence_, comes_to_rest_, *motion, too_near_);
   } else {
     verdict.code = Refusal::kNoVerdict;
     verdict.text = "the simulation had no verdict before the command's interval";

@@ -46,6 +46,7 @@ class SimulationEnd<cable::CableArm> {
   cable::ThetaVector told_rad_{};       // when last watched
   cable::ThetaVector ahead_rad_s_{};    // by how much the arm goes faster than it is told
   simulate::JointSequence sequence_;
+  TooNear too_near_;
   std::uint64_t number_ = 0;  // of the candidate
   bool comes_to_rest_ = false;
   bool begun_ = false;

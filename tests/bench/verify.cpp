@@ -83,7 +83,8 @@ class Verifier {
     // Whether it passes is no matter here: the published pose in the slit touches it, and costs as much as others.
     meter_.once("simulate", name, [&] {
       verify::read_sequence(image_, candidate, prediction_, sequence_);
-      return verify::judge_simulated(rules_, sequence_, prediction_.comes_to_rest, simulation_.run(start_, sequence_))
+      return verify::judge_simulated(rules_, sequence_, prediction_.comes_to_rest, simulation_.run(start_, sequence_),
+                                     too_near_)
           .share;
     });
   }
@@ -125,6 +126,7 @@ class Verifier {
   verify::MotionRules rules_{robot_, scene_, {}, {}};
   simulate::Simulation simulation_{{robot_, 0.03, 0.4, 0.2}, scene_, verify::kEnough_m};
   simulate::StartState start_;
+  verify::TooNear too_near_;
   simulate::JointSequence sequence_;
   std::string text_;
 };

@@ -9,7 +9,7 @@ import unittest
 
 from support import SystemTest
 from liana.client import brief
-from liana.system import System, run
+from liana.system import System, run, table
 
 NEAR_DEG = 0.02  # from the pose in which the arm was enabled: what the controller is told is not what it measures
 
@@ -118,6 +118,30 @@ class TheWayOut(SystemTest):
         state, phases = self.gone_back(client)
         self.assertEqual((state["retract"]["phase"], "joining" in phases), ("done", True), state["retract"])
         self.assertLess(apart_deg(state["setpoint_js_deg"], start), 1e-4)
+
+    def test_out_of_the_slit_it_leads_after_a_stop_beside_a_body_nearer_than_commands_may_come(self):
+        rod = json.loads(table("robot", "zhu2022"))["named_poses_deg"]["press_rod"]
+        system = AtAPose(rod, seed=2)
+        client, start = self.enabled(system)
+        goal = [start[0] - 1.0] + start[1:]
+        client.call("move_jp", goal_deg=goal)
+        client.until(lambda state: state["refusals"] and state["at_rest"], 60)
+        self.assertEqual(client.state["verdict"]["name"], "scene_contact")
+        client.call("stop")
+        client.until(lambda state: state["state"] == "DISABLED")
+        client.go_on(0.1)
+        client.call("state_command", command="clear")
+        client.until(lambda state: not state["stop"])
+        client.call("state_command", command="enable")
+        client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
+        client.go_on(0.1)
+        enabled_tick = client.state["tick"]
+        state, _ = self.gone_back(client)
+        self.assertEqual(state["retract"]["phase"], "done", state["retract"])
+        self.assertLess(apart_deg(state["setpoint_js_deg"], start), 1e-4)
+        system.shut_down(client)
+        contact_N = system.truth().column("contact_force_N")
+        self.assertEqual(max(contact_N[enabled_tick:]), 0.0)
 
     def test_a_way_that_does_not_lead_from_here_is_not_used(self):
         folder = pathlib.Path(tempfile.mkdtemp(prefix="liana-way-"))

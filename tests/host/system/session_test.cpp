@@ -83,6 +83,7 @@ class Session : public testing::Test {
     plan_.directory = testing::TempDir() + "liana-session-" + std::to_string(getpid());
     std::filesystem::create_directories(plan_.directory);
     plan_.socket_dir = plan_.directory;
+    plan_.time_mode = "real";  // this daemon waits for nobody
   }
   ~Session() override { std::filesystem::remove_all(plan_.directory); }
 

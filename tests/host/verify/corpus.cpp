@@ -336,7 +336,8 @@ SimulationVerdict verdict_of(const Command& command) {
   start.theta_rad = command.from_rad;
   simulate::Simulation simulation({command.table, command.link_radius_m, 0.4, 0.2}, command.scene);
   const MotionRules rules{command.table, command.scene, {}, {}};
-  return judge_simulated(rules, way, true, simulation.run(start, way));
+  TooNear too_near;
+  return judge_simulated(rules, way, true, simulation.run(start, way), too_near);
 }
 
 }  // namespace liana::verify::corpus

@@ -1,0 +1,58 @@
+// Motions of an arm that stands nearer to the scene than it may: away, along beside it, and no nearer.
+#include <gtest/gtest.h>
+
+#include "host/verify/judge_simulated.hpp"
+
+namespace liana::verify {
+namespace {
+
+class AnArmBesideABody : public testing::Test {
+ protected:
+  AnArmBesideABody() {
+    rules_.scene.margins.prediction_m = 0.007;
+    rules_.scene.spheres.push_back({"ball", {}, 0.1});
+  }
+
+  // Of a motion between these distances, nearest at `least_m`.
+  Refusal goes(double start_m, double least_m, double end_m) {
+    simulate::Motion motion;
+    motion.solved = true;
+    motion.scene = {least_m, 3, 0, 0.1};
+    motion.scene_at_start_m = start_m;
+    motion.scene_at_end_m = end_m;
+    motion.self.distance_m = 1.0;
+    return judge_simulated(rules_, {}, true, motion, too_near_).code;
+  }
+
+  MotionRules rules_;
+  TooNear too_near_;
+};
+
+TEST_F(AnArmBesideABody, ThatIsFarEnoughOffIsNotLetNearerThanItMay) {
+  EXPECT_EQ(goes(0.0080, 0.0071, 0.0071), Refusal::kNone);
+  EXPECT_EQ(goes(0.0071, 0.0069, 0.0069), Refusal::kSceneContact);
+}
+
+TEST_F(AnArmBesideABody, ThatIsTooNearMayGoAwayAndAlongBesideIt) {
+  EXPECT_EQ(goes(0.0050, 0.0049, 0.0060), Refusal::kNone);
+  EXPECT_EQ(goes(0.0050, 0.0047, 0.0047), Refusal::kNone) << "measured poses are no better than that";
+  EXPECT_EQ(goes(0.0050, 0.0038, 0.0060), Refusal::kSceneContact) << "nearer than the bound may give away";
+}
+
+TEST_F(AnArmBesideABody, ComesNoNearerByOneMotionAfterTheOther) {
+  EXPECT_EQ(goes(0.0050, 0.0046, 0.0046), Refusal::kNone);
+  EXPECT_EQ(goes(0.0046, 0.0041, 0.0041), Refusal::kNone);
+  EXPECT_EQ(goes(0.0041, 0.0037, 0.0037), Refusal::kSceneContact) << "1 mm less than it stood off once";
+  EXPECT_EQ(goes(0.0060, 0.0051, 0.0051), Refusal::kNone);
+  EXPECT_EQ(goes(0.0051, 0.0046, 0.0046), Refusal::kSceneContact) << "it has been farther off meanwhile";
+  EXPECT_EQ(goes(0.0030, 0.0030, 0.0030), Refusal::kNone) << "something else has moved it: no nearer from there";
+  EXPECT_EQ(goes(0.0030, 0.0029, 0.0029), Refusal::kSceneContact);
+}
+
+TEST_F(AnArmBesideABody, ThatHasLeftItIsAsOneThatNeverWasThere) {
+  EXPECT_EQ(goes(0.0050, 0.0050, 0.0080), Refusal::kNone);
+  EXPECT_EQ(goes(0.0080, 0.0069, 0.0069), Refusal::kSceneContact);
+}
+
+}  // namespace
+}  // namespace liana::verify
