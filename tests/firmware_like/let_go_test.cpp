@@ -64,6 +64,15 @@ TEST_F(LetGo, ASampleThatShowsTensionAgainTakesEverythingBack) {
   for (std::size_t c = 0; c < zhu2022::kCables; ++c) EXPECT_NEAR(out_m(c), 0.0, 2e-5) << c;
 }
 
+TEST_F(LetGo, ASampleFarBelowNothingLetsNothingGo) {
+  Inputs inputs = rig_.drives.inputs(rig_.now++);
+  std::int16_t& torque_permille = inputs.drive[kCable].torque_permille;
+  torque_permille = static_cast<std::int16_t>(-torque_permille);
+  rig_.out = rig_.controller.tick(inputs);
+  EXPECT_EQ(rig_.out.faults.count, 0);
+  for (std::size_t c = kFirst; c < kEnd; ++c) EXPECT_LE(out_m(c), kLetGoStep_m - kLetGo_m) << c;
+}
+
 TEST_F(LetGo, ThreeLostSamplesAreABreakThatStopsWithPowerThenBrakes) {
   for (int i = 0; i < kBreakDebounceTicks; ++i) tick(true);
   ASSERT_EQ(rig_.out.faults.count, 1);

@@ -236,6 +236,14 @@ TEST_F(WatchdogsOfAnArm, TensionThatFadedIsNoBreak) {
   EXPECT_FALSE(has(faults_, FaultNumber::kCableBreak, 3));
 }
 
+TEST_F(WatchdogsOfAnArm, AReadingFarBelowNothingIsNoBreak) {
+  tension_N_[3] = -8.0;
+  lowpass_N_[3] = 40.0;
+  for (int tick = 0; tick < 100; ++tick) run(kRunning);
+  EXPECT_FALSE(has(faults_, FaultNumber::kCableBreak, 3));
+  EXPECT_TRUE(has(faults_, FaultNumber::kCableSlack, 3));
+}
+
 TEST_F(WatchdogsOfAnArm, AMotorThatLetItsCableGoIsNoBreak) {
   tension_N_[3] = 0.0;
   lowpass_N_[3] = 40.0;

@@ -68,11 +68,6 @@ inline bool may_be_slack(const LetGoState& state, const CableLayout& layout, std
   return cable != state.cable || state.stage != LetGoStage::kOut;
 }
 
-// A slack cable that was firm a moment ago, with a motor that is where it should be.
-inline bool is_missed(const TensionWatchLimits& limits, const TensionReading& now) noexcept {
-  return now.lowpass_N > limits.firm_N && now.follows;
-}
-
 // Lets the segment of `cable` go.
 void let_go(const CableLayout& layout, std::int32_t cable, LetGoState& state) noexcept;
 

@@ -16,8 +16,7 @@ void watch_doubtful_tension(const TensionWatchLimits& limits, WatchScope scope, 
   const std::size_t i = as_index(index);
   const bool slack = scope.prepared && !(now.tension_N >= limits.slack_N);  // so written, NaN is slack
   out.debounced(slack, kSlackDebounceTicks, state.slack_ticks[i], FaultNumber::kCableSlack, index);
-  // A motor that is not where it was told to be may have let the cable go itself.
-  const bool broken = state.slack_ticks[i] == kBreakDebounceTicks && now.lowpass_N > limits.firm_N && now.follows;
+  const bool broken = state.slack_ticks[i] == kBreakDebounceTicks && is_missed(limits, now);
   if (broken) out.wrong(FaultNumber::kCableBreak, index, 0);
   const bool alarm = scope.powered && now.tension_N > limits.alarm_N;
   out.debounced(alarm, kAlarmDebounceTicks, state.alarm_ticks[i], FaultNumber::kTensionAlarm, index);

@@ -42,6 +42,12 @@ struct TensionReading {
   bool follows = true;     // its motor is where it was told to be
 };
 
+// A slack cable that was firm a moment ago, with a motor that is where it was told to be: else it may have let the
+// cable go itself. A cable that is gone pulls nothing; a reading far below that is a wrong one.
+inline bool is_missed(const TensionWatchLimits& limits, const TensionReading& now) noexcept {
+  return now.lowpass_N > limits.firm_N && now.follows && !(now.tension_N < -limits.firm_N);
+}
+
 // Latches what is wrong with cable `index` in this tick. Slack is looked for once the arm is prepared, overload while
 // drives are powered.
 void watch_doubtful_tension(const TensionWatchLimits& limits, WatchScope scope, const TensionReading& now,
