@@ -32,6 +32,7 @@ LiveClearance::LiveClearance(const config::RobotConfig& robot, const config::Sce
       scene_(scene),
       registration_(robot.table, scene),
       watch_(camera_of(scene), robot.table.tick_s),
+      stand_(robot.table.tick_s),
       finder_(robot.table, robot.module_radius_m, scene),
       history_(robot.table.tick_s) {}
 
@@ -54,7 +55,8 @@ Outlook LiveClearance::outlook() const {
   for (std::size_t i = 0; i < out.theta_off_rad.size(); ++i)
     out.theta_off_rad[i] = finder_.believed_rad()[i] - measured_rad_[i];
   out.drawing_in_base = drawing_in_base();
-  out.prediction_m = finder_.near_links().uncertain_m + kForesight_m;
+  out.prediction_m =
+      finder_.near_links().uncertain_m + kForesight_m + stand_.moved_m(out.drawing_in_base, claim_.clearance.where_m);
   return out;
 }
 
@@ -70,6 +72,7 @@ void LiveClearance::see(const Picture& picture, std::uint64_t tick) {
   if (trouble_ != CameraTrouble::kNone) return;
   registration_.take(picture, *measured);
   believed_tick_ = picture.tick;
+  stand_.note(picture.tick, drawing_in_base());
 }
 
 Level LiveClearance::level_of(double distance_m) const {

@@ -143,6 +143,42 @@ TEST(Outlook, TakesMoreOffWhenTheCameraIsGoneAndKeepsWhereTheSceneWasSeen) {
          1e3 * live.outlook().prediction_m);
 }
 
+TEST(SceneStand, WhatSeemsToGoIsTakenOffAndWhatIsFoundInTheFirstPicturesIsNot) {
+  SceneStand stand(0.004);
+  const Vec3 tip_m{2.5, 0.3, 0.1};
+  const auto seen_at = [](double x_m) { return Pose{{x_m, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}; };
+  std::uint64_t tick = 1000;
+  stand.note(tick, seen_at(0.0));
+  for (; tick < 1500; tick += 10) stand.note(tick, seen_at(0.010));
+  EXPECT_EQ(stand.moved_m(seen_at(0.010), tip_m), 0.0) << "found within two seconds";
+  for (; tick < 2500; tick += 10) stand.note(tick, seen_at(0.010));
+  EXPECT_EQ(stand.moved_m(seen_at(0.0109), tip_m), 0.0);
+  EXPECT_NEAR(stand.moved_m(seen_at(0.015), tip_m), 0.004, 1e-12);
+  const Pose turned{{0.010, 0.0, 0.0}, quaternion_of({0.0, 0.0, 0.002})};
+  EXPECT_NEAR(stand.moved_m(turned, tip_m), 0.004, 0.0001) << "two and a half metres from what it turns about";
+  for (; tick < 14000; tick += 10) stand.note(tick, seen_at(0.015));
+  EXPECT_EQ(stand.moved_m(seen_at(0.015), tip_m), 0.0) << "it has stood there for forty seconds";
+}
+
+// A mirror shows an arm in the middle almost what is there: each picture fits, and the scene seems to follow the arm.
+TEST(Outlook, TakesOffHowFarTheSceneSeemsToFollowTheArm) {
+  TrueWorld world(13, {.length_m = 30e-6});
+  LiveClearance live(zhu2022_config(), panel_slit());
+  std::uint64_t tick = 0;
+  const auto ignore = [](const Claim&, const ThetaVector&) {};
+  travel(live, world, kSlit_rad, kSlit_rad, 200, tick, ignore, nothing_spoiled);
+  const double still_m = live.outlook().prediction_m;
+  Vec3 drift_m{};
+  const auto drifting = [&](std::optional<Picture>& picture) {
+    drift_m[1] += 1e-5;
+    for (auto* frame : {&picture->slit_in_tip, &picture->rod_in_tip})
+      if (*frame) (*frame)->position_m = add((*frame)->position_m, drift_m);
+  };
+  travel(live, world, kSlit_rad, kSlit_rad, 1500, tick, ignore, drifting);
+  ASSERT_EQ(live.claim().trouble, CameraTrouble::kNone);
+  EXPECT_GT(live.outlook().prediction_m, still_m + 0.001) << "the rest of the 7.5 mm is taken for the arm's";
+}
+
 TEST(LiveClearance, KnowsMoreWithACameraThanWithout) {
   TrueWorld seen(7, {.length_m = 30e-6}), unseen(7, {.length_m = 30e-6});
   EXPECT_LT(course(seen, nothing_spoiled).last_bound_m, 0.8 * course(unseen, swallow).last_bound_m);
