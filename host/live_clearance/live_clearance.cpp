@@ -1,5 +1,6 @@
 #include "host/live_clearance/live_clearance.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "firmware_like/math/trig.hpp"
@@ -14,6 +15,7 @@ config::SceneCamera camera_of(const config::SceneConfig& scene) { return scene.c
 
 // What of a motion and the stop after it no bound of now knows: friction that turns, and how the arm swings.
 constexpr double kForesight_m = 0.002;
+constexpr double kDoubtful_m = 0.002;  // a scene that seems to have gone further is not where the camera says
 
 }  // namespace
 
@@ -52,11 +54,17 @@ Outlook LiveClearance::outlook() const {
   Outlook out;
   out.prediction_m = scene_.margins.prediction_m + finder_.near_links().allowance_m;
   if (!believed_tick_) return out;
+  const double bound_m = finder_.near_links().uncertain_m + kForesight_m;
+  out.drawing_in_base = drawing_in_base();
+  const double moved_m = stand_.moved_m(out.drawing_in_base, claim_.clearance.where_m);
+  if (moved_m > kDoubtful_m) {  // the arm as measured, the scene where it was
+    out.drawing_in_base = stand_.before();
+    out.prediction_m = std::max(out.prediction_m, bound_m);
+    return out;
+  }
   for (std::size_t i = 0; i < out.theta_off_rad.size(); ++i)
     out.theta_off_rad[i] = finder_.believed_rad()[i] - measured_rad_[i];
-  out.drawing_in_base = drawing_in_base();
-  out.prediction_m =
-      finder_.near_links().uncertain_m + kForesight_m + stand_.moved_m(out.drawing_in_base, claim_.clearance.where_m);
+  out.prediction_m = bound_m + moved_m;
   return out;
 }
 

@@ -25,6 +25,8 @@ class SceneStand {
       newer_ = now;
     }
   }
+  // Where it was seen 20 to 40 s ago; asked for where something has moved.
+  const Pose& before() const { return older_->drawing_in_base; }
   // How far a body at `where_m`, standing as in `drawing_in_base`, has seemed to go within the last 20 to 40 s, beyond
   // what right cameras show.
   double moved_m(const Pose& drawing_in_base, const Vec3& where_m) const {
