@@ -59,7 +59,7 @@ Outlook LiveClearance::outlook() const {
   const double moved_m = stand_.moved_m(out.drawing_in_base, claim_.clearance.where_m);
   if (moved_m > kDoubtful_m) {  // the arm as measured, the scene where it was
     out.drawing_in_base = stand_.before();
-    out.prediction_m = std::max(out.prediction_m, bound_m);
+    out.prediction_m = std::max(out.prediction_m, bound_m) + moved_m;
     return out;
   }
   for (std::size_t i = 0; i < out.theta_off_rad.size(); ++i)
