@@ -1,5 +1,6 @@
 #include "host/live_clearance/live_clearance.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "firmware_like/math/trig.hpp"
@@ -14,6 +15,7 @@ config::SceneCamera camera_of(const config::SceneConfig& scene) { return scene.c
 
 // What of a motion and the stop after it no bound of now knows: friction that turns, and how the arm swings.
 constexpr double kForesight_m = 0.002;
+constexpr double kDoubtful_m = 0.002;  // a scene that seems to have gone further is not where the camera says
 
 }  // namespace
 
@@ -32,6 +34,7 @@ LiveClearance::LiveClearance(const config::RobotConfig& robot, const config::Sce
       scene_(scene),
       registration_(robot.table, scene),
       watch_(camera_of(scene), robot.table.tick_s),
+      stand_(robot.table.tick_s),
       finder_(robot.table, robot.module_radius_m, scene),
       history_(robot.table.tick_s) {}
 
@@ -51,10 +54,17 @@ Outlook LiveClearance::outlook() const {
   Outlook out;
   out.prediction_m = scene_.margins.prediction_m + finder_.near_links().allowance_m;
   if (!believed_tick_) return out;
+  const double bound_m = finder_.near_links().uncertain_m + kForesight_m;
+  out.drawing_in_base = drawing_in_base();
+  const double moved_m = stand_.moved_m(out.drawing_in_base, claim_.clearance.where_m);
+  if (moved_m > kDoubtful_m) {  // the arm as measured, the scene where it was
+    out.drawing_in_base = stand_.before();
+    out.prediction_m = std::max(out.prediction_m, bound_m) + moved_m;
+    return out;
+  }
   for (std::size_t i = 0; i < out.theta_off_rad.size(); ++i)
     out.theta_off_rad[i] = finder_.believed_rad()[i] - measured_rad_[i];
-  out.drawing_in_base = drawing_in_base();
-  out.prediction_m = finder_.near_links().uncertain_m + kForesight_m;
+  out.prediction_m = bound_m + moved_m;
   return out;
 }
 
@@ -70,6 +80,7 @@ void LiveClearance::see(const Picture& picture, std::uint64_t tick) {
   if (trouble_ != CameraTrouble::kNone) return;
   registration_.take(picture, *measured);
   believed_tick_ = picture.tick;
+  stand_.note(picture.tick, drawing_in_base());
 }
 
 Level LiveClearance::level_of(double distance_m) const {

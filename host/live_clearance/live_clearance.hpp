@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "host/live_clearance/camera_watch.hpp"
+#include "host/live_clearance/scene_stand.hpp"
 #include "host/live_clearance/verified_clearance.hpp"
 
 namespace liana::live_clearance {
@@ -65,6 +66,7 @@ class LiveClearance {
   config::SceneConfig scene_;
   Registration registration_;
   CameraWatch watch_;
+  SceneStand stand_;
   ClearanceFinder finder_;
   ArmHistory history_;
   ThetaVector measured_rad_{};
