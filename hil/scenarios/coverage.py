@@ -23,8 +23,8 @@ kTests = {
     ),
     2002: ("SerialController.AJointPushedOutOfItsRangeIsAFault", "tests/firmware_like/serial_controller_test.cpp"),
     5008: (
-        "ContactWatch.ABodyThatIsSlowlyPressedAgainstThePanelIsAFaultThatHolds",
-        "tests/closed_loop/friction_watch_test.cpp",
+        "ContactWatch.ABodyThatIsPressedAgainstThePanelIsAFaultThatHoldsWithSegmentAndSize",
+        "tests/closed_loop/contact_watch_test.cpp",
     ),
     5009: (
         "FrictionWatch.ThePlanFollowsSlowlyAndNeverBeyondWhatTensionsCanCarry",
