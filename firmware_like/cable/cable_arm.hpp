@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "firmware_like/cable/arm/body_inertia.hpp"
 #include "firmware_like/cable/arm/cable_watch.hpp"
 #include "firmware_like/cable/arm/contact_watch.hpp"
 #include "firmware_like/cable/arm/estimator.hpp"
@@ -94,6 +95,7 @@ class CableArm {
     v("tension_watch", self.tension_watch_);
     v("cable_watch", self.cable_watch_);
     v("friction", self.friction_);
+    v("inertia", self.inertia_);
     v("contact", self.contact_);
     v("planned_mu", self.table_.friction_mu);
     v("motion", self.motion_);
@@ -118,6 +120,7 @@ class CableArm {
 
   void watch_missed(std::uint64_t tick, FaultList& faults) noexcept;
   bool is_moving() const noexcept;
+  void forget_balance() noexcept;
   void watch_balance(std::uint64_t tick, const FaultList& faults) noexcept;
   void watch_body(WatchScope scope, Watch& out) const noexcept;
   bool is_homed() const noexcept { return homing_ticks_ >= kHomingTicks; }
@@ -157,6 +160,7 @@ class CableArm {
   TensionWatchState tension_watch_{};
   CableWatchState cable_watch_{};
   FrictionWatchState friction_{};
+  BodyInertiaState inertia_{};
   ContactWatchState contact_{};
 
   // Where the arm is told to go.

@@ -54,10 +54,12 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
       return 19;
     case kTensionScatters:
       return 20;
-    case kFrictionNotAsDeclared:
+    case kBodyContact:
       return 21;
-    case kGateRefused:
+    case kFrictionNotAsDeclared:
       return 22;
+    case kGateRefused:
+      return 23;
   }
   return 0;
 }
@@ -65,7 +67,7 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
 constexpr StopCategory kHold = StopCategory::kHold;
 constexpr StopCategory kStop = StopCategory::kStop;
 
-constexpr std::array<FaultInfo, 23> kFaultTable{{
+constexpr std::array<FaultInfo, 24> kFaultTable{{
     {kNone, "none", StopCategory::kNone, false, true, "No fault.", "Nothing to do."},
     {kCommandInvalid, "command_invalid", kHold, false, true,
      "A released command held a value that is not finite or out of range.",
@@ -125,6 +127,10 @@ constexpr std::array<FaultInfo, 23> kFaultTable{{
      "clear."},
     {kTensionScatters, "tension_scatters", kHold, false, true, "Readings of a cable jump to and fro.",
      "Retract and disable; check the drive's torque and position measurement and its cable, then clear."},
+    {kBodyContact, "body_contact", kHold, false, true,
+     "Something pushes the body of the arm: the torques of its cables do not balance; the drive is the first of the "
+     "last segment that feels it, the detail is in 0.01 N m.",
+     "Look where the arm touches; retract, or take away what it touches, then clear."},
     {kFrictionNotAsDeclared, "friction_not_as_declared", kHold, false, true,
      "Friction of the cables is higher than declared, and than tensions can be planned for; the detail is mu in "
      "0.0001.",

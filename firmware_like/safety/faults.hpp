@@ -33,6 +33,7 @@ enum class FaultNumber : std::uint16_t {
   kCableSlip = 5005,              // length and tension of a cable stopped agreeing: it slipped, or its encoder jumped
   kCableBreak = 5006,             // a cable's tension was gone from one moment to the next
   kTensionScatters = 5007,        // a cable's readings jump to and fro
+  kBodyContact = 5008,            // something pushes the body: torques of a segment's cables do not balance
   kFrictionNotAsDeclared = 5009,  // friction was found that was not declared and that no tension plan carries
   kGateRefused = 6001,            // the gate saw a command that must not reach a drive
 };

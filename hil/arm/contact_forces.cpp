@@ -29,6 +29,13 @@ Vec3 velocity_of(const PointJacobian& jacobian, const Theta& rate, std::size_t t
 
 }  // namespace
 
+void add_push(const Push& push, const Chain& chain, std::size_t thetas, ContactLoad& load) {
+  PointJacobian jacobian;
+  chain.point_jacobian(push.link, chain.joint_center_m(push.link), jacobian);
+  const Theta torque = along(jacobian, push.force_N, thetas);
+  for (std::size_t i = 0; i < thetas; ++i) load.force[i] += torque[i];
+}
+
 void add_contact(const ContactConfig& law, const Chain& chain, const Contact& contact, const Theta& rate_rad_s,
                  std::size_t thetas, double step_s, ContactLoad& load) {
   PointJacobian jacobian;

@@ -15,6 +15,13 @@ struct ContactLoad {
   double rod_N = 0.0;      // rod on tip
 };
 
+// A force at the start of a link's axis, base frame.
+struct Push {
+  std::size_t link = 0;
+  Vec3 force_N;
+};
+void add_push(const Push& push, const Chain& chain, std::size_t thetas, ContactLoad& load);
+
 // Adds spring, damper and regularised Coulomb friction of one contact of a link.
 void add_contact(const ContactConfig& law, const Chain& chain, const Contact& contact, const Theta& rate_rad_s,
                  std::size_t thetas, double step_s, ContactLoad& load);

@@ -22,6 +22,10 @@ kTests = {
         "tests/firmware_like/controller_test.cpp",
     ),
     2002: ("SerialController.AJointPushedOutOfItsRangeIsAFault", "tests/firmware_like/serial_controller_test.cpp"),
+    5008: (
+        "ContactWatch.ABodyThatIsPressedAgainstThePanelIsAFaultThatHoldsWithSegmentAndSize",
+        "tests/closed_loop/contact_watch_test.cpp",
+    ),
     5009: (
         "FrictionWatch.ThePlanFollowsSlowlyAndNeverBeyondWhatTensionsCanCarry",
         "tests/firmware_like/friction_watch_test.cpp",

@@ -29,7 +29,9 @@ Eigen::Index at(Index i) { return static_cast<Eigen::Index>(i); }
 struct FrictionFit::Moment {
   CableGeometry geometry;
   SegmentVector wrap_rad;
+  ArmKinematics arm;
   const Sample& sample;
+  BodyInertiaState inertia;  // with the forces that it takes
 
   // Bend that cable c slides over within segment j until the middle of segment `own`, signed; and what of it may rest.
   double bend_rad(Index j, Index own) const { return wrap_rad[j] * (j < own ? 1.0 : 0.5); }
@@ -37,6 +39,8 @@ struct FrictionFit::Moment {
   double resting_rad(Index c, Index j, Index own) const {
     return (1.0 - std::fabs(sample.slip.sigma[c][j])) * bend_rad(j, own);
   }
+  // What a cable that ends in segment `end` does in segment j.
+  bool slides(Index j, std::int32_t end) const { return (sample.turning & ((2u << end) - 1u)) >> j != 0; }
 };
 
 FrictionFit::FrictionFit(const RobotTable& table) : table_(table), layout_(cable_layout(table)) {}
@@ -44,31 +48,42 @@ FrictionFit::FrictionFit(const RobotTable& table) : table_(table), layout_(cable
 void FrictionFit::add(const ThetaVector& commanded_rad, const CableVector& tension_N, bool moving) {
   update_cable_geometry(table_, layout_, arm_trig(table_, commanded_rad), geometry_);
   if (!begun_) reset_slip(geometry_, slip_);
+  if (!begun_) before_rad_ = commanded_rad;
   begun_ = true;
   advance_slip(layout_, geometry_, slip_);
+  const double period_s = table_.interval_ticks * table_.tick_s;
+  follow_acceleration(table_, commanded_rad, tension_N, period_s, inertia_);
+  ThetaVector rate_rad_s{};
+  for (Index k = 0; k < static_cast<Index>(table_.theta_count()); ++k)
+    rate_rad_s[k] = (commanded_rad[k] - before_rad_[k]) / period_s;
+  before_rad_ = commanded_rad;
   if (!moving) return;
-  const auto every = static_cast<std::size_t>(std::lround(kSample_s / (table_.interval_ticks * table_.tick_s)));
-  if (moved_++ % every == 0) samples_.push_back({commanded_rad, slip_, tension_N});
+  const auto every = static_cast<std::size_t>(std::lround(kSample_s / period_s));
+  if (moved_++ % every == 0) samples_.push_back({commanded_rad, slip_, turning_segments(table_, rate_rad_s), inertia_});
 }
 
 // The balance about one axis with the parameters as they are, and how it changes with them.
 FrictionFit::Equation FrictionFit::equation(const Moment& now, Index axis, const Fit& fit) const {
   const Index own = axis / 2;
-  Equation out{0.0, kBalanceNoise_Nm * kBalanceNoise_Nm, Eigen::VectorXd::Zero(fit.value.size())};
+  Equation out{inertia_torque_Nm(table_, now.arm, now.inertia, axis), kBalanceNoise_Nm * kBalanceNoise_Nm,
+               Eigen::VectorXd::Zero(fit.value.size())};
   for (Index c = 0; c < static_cast<Index>(layout_.cable_count); ++c) {
     if (static_cast<Index>(layout_.segment[c]) < own) continue;
     double exponent = 0.0, unsure = 0.0;
     for (Index j = 0; j <= own; ++j) {
       const double mu = fit.value(at(fit.part(j)));
       exponent -= mu * now.slid_rad(c, j, own);
-      unsure += std::fmax(mu, 0.0) * now.resting_rad(c, j, own);
+      const bool slides = now.slides(j, layout_.segment[c]);
+      unsure += kResting * std::fmax(mu, 0.0) * (slides ? now.resting_rad(c, j, own) : now.bend_rad(j, own));
     }
     const Eigen::Index gain = at(fit.parts + c);
-    const double read_Nm = now.geometry.jacobian_m_rad[c][axis] * std::exp(exponent) * now.sample.tension_N[c];
+    const double read_Nm = now.geometry.jacobian_m_rad[c][axis] * std::exp(exponent) * now.sample.inertia.tension_N[c];
     const double torque_Nm = read_Nm * (1.0 + fit.value(gain));
     out.torque_Nm += torque_Nm;
     out.row(gain) = read_Nm;
-    for (Index j = 0; j <= own; ++j) out.row(at(fit.part(j))) -= now.slid_rad(c, j, own) * torque_Nm;
+    for (Index j = 0; j <= own; ++j) {
+      if (now.slides(j, layout_.segment[c])) out.row(at(fit.part(j))) -= now.slid_rad(c, j, own) * torque_Nm;
+    }
     out.variance_Nm2 += unsure * unsure * torque_Nm * torque_Nm;
   }
   return out;
@@ -84,7 +99,9 @@ void FrictionFit::improve(Fit& fit) const {
   Eigen::VectorXd right = -normal.diagonal().cwiseProduct(fit.value);
   for (const Sample& sample : samples_) {
     const ArmTrig trig = arm_trig(table_, sample.theta_rad);
-    const Moment now{cable_geometry(table_, layout_, trig), cable_wraps(table_, trig), sample};
+    Moment now{cable_geometry(table_, layout_, trig), cable_wraps(table_, trig), forward_kinematics(table_, trig),
+               sample, sample.inertia};
+    feel_inertia(table_, now.arm, now.inertia);
     for (Index axis = 0; axis < static_cast<Index>(table_.theta_count()); ++axis) {
       const Equation one = equation(now, axis, fit);
       normal += one.row * one.row.transpose() / one.variance_Nm2;

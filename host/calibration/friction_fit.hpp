@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "firmware_like/cable/arm/body_inertia.hpp"
 #include "firmware_like/cable/arm/friction.hpp"
 #include "host/calibration/calibration.hpp"
 
@@ -26,7 +27,8 @@ class FrictionFit {
   struct Sample {
     cable::ThetaVector theta_rad;
     cable::SlipState slip;
-    cable::CableVector tension_N;
+    std::uint32_t turning;            // bit j: segment j turns, cables slide in it
+    cable::BodyInertiaState inertia;  // and the tensions, as late as its acceleration
   };
   struct Moment;
   struct Equation {
@@ -49,6 +51,8 @@ class FrictionFit {
   cable::CableLayout layout_;
   cable::CableGeometry geometry_{};
   cable::SlipState slip_{};
+  cable::BodyInertiaState inertia_{};
+  cable::ThetaVector before_rad_{};
   bool begun_ = false;
   std::size_t moved_ = 0;  // intervals
   std::vector<Sample> samples_;

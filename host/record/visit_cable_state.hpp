@@ -47,6 +47,17 @@ void visit(A& a, T& s) {
   a("friction_Nm", s.friction_Nm);
 }
 
+template <class A, Like<cable::BodyInertiaState> T>
+void visit(A& a, T& s) {
+  a("begun", s.begun);
+  a("slow_rad", s.slow_rad);
+  a("slow_rad_s", s.slow_rad_s);
+  a("accel_rad_s2", s.accel_rad_s2);
+  a("slow_N", s.slow_N);
+  a("tension_N", s.tension_N);
+  a("force_N", s.force_N);
+}
+
 template <class A, Like<cable::ContactWatchState> T>
 void visit(A& a, T& s) {
   a("sweeps", s.sweeps);

@@ -73,6 +73,11 @@ Detection detection_of(FaultNumber number, const cable::RobotTable& table) {
     case FaultNumber::kTensionScatters:
       return {"cable watch: the same as 5005, but back again, three times (in a row: 4 ticks)",
               cable::kScatterReversals + 1};
+    case FaultNumber::kBodyContact:
+      return {
+          "contact watch: torque about a segment's angles that cables, friction, inertia and a push at the tip do not "
+          "explain, low-passed over 0.6 s, in a row",
+          static_cast<int>(cable::kFrictionTicks) * table.theta_count() * (cable::kContactSweeps + 1)};
     case FaultNumber::kFrictionNotAsDeclared:
       return {
           "friction watch: mu found from the balance of torques, less twice its uncertainty, over what can be "

@@ -42,6 +42,7 @@ class ArmUnderControl {
   void hold(double seconds, const Observer& observer = {});
 
   const cable::Outputs& outputs() const { return out_; }
+  const cable::Controller& controller() const { return controller_; }
   Plant& plant() { return plant_; }
   const cable::RobotTable& table() const { return table_; }
   TruthError error_against(const cable::ThetaVector& theta_rad) const;

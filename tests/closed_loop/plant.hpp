@@ -62,6 +62,9 @@ class Plant {
   void lose_reading(std::size_t cable);
   void find_reading(std::size_t cable);  // again what it is
 
+  // Something pushes the start of a link's axis from now on, base frame.
+  void push(std::size_t link, const Vec3& force_N);
+
   // Rates set from outside, angles and cables as they are: a kick.
   void kick(const cable::ThetaVector& rate_rad_s);
   // Joint damping set from outside, to let an arm without friction come to rest.

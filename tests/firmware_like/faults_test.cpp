@@ -37,6 +37,7 @@ const std::vector<Published> kPublished{
     {FaultNumber::kCableSlip, 5005, "cable_slip"},
     {FaultNumber::kCableBreak, 5006, "cable_break"},
     {FaultNumber::kTensionScatters, 5007, "tension_scatters"},
+    {FaultNumber::kBodyContact, 5008, "body_contact"},
     {FaultNumber::kFrictionNotAsDeclared, 5009, "friction_not_as_declared"},
     {FaultNumber::kGateRefused, 6001, "gate_refused"},
 };

@@ -13,11 +13,11 @@ namespace liana::cable {
 
 constexpr std::uint8_t kContactSweeps = 2;      // of all angles in a row: 0.64 s
 constexpr double kContactTip_N = 3.0;           // a push at the tip is explained up to this
-constexpr double kContactTorque_Nm = 1.5;       // hidden at every angle: torque gains
-constexpr double kContactSwing_rad_s2 = 0.012;  // hidden: the body beyond an angle swings with so much
-constexpr double kContactFriction = 0.4;        // hidden: share of what friction can do
+constexpr double kContactTorque_Nm = 2.5;       // hidden at every angle: torque gains
+constexpr double kContactSwing_rad_s2 = 0.003;  // hidden: the body beyond an angle swings with so much, unmeasured
+constexpr double kContactFriction = 0.6;        // hidden: share of what friction can do
 
-constexpr double kContactInertia = 0.6;  // hidden: share of the most that commanded acceleration can ask for
+constexpr double kContactInertia = 0.2;  // hidden: share of the most that commanded acceleration can ask for
 constexpr double kContactCalm_s = 2.0;   // swing after an acceleration is forgotten in
 
 // Limits derived once from the robot table.

@@ -18,7 +18,7 @@ struct AxisBalance {
 };
 
 AxisBalance balance_about(const CableLayout& layout, const SegmentVector& wrap_rad, const FrictionReadings& now,
-                          double mu, Index axis) noexcept {
+                          std::uint32_t turning, double mu, Index axis) noexcept {
   AxisBalance out;
   const Index own = axis / 2;
   const double more_mu = mu - now.planned_mu;
@@ -32,10 +32,15 @@ AxisBalance balance_about(const CableLayout& layout, const SegmentVector& wrap_r
   while (static_cast<Index>(layout.segment[c]) < own) ++c;
   for (; c < static_cast<Index>(layout.cable_count); ++c) {
     const double* const sigma = now.slip.sigma[c].data();
-    double slid_rad = 0.0, resting_rad = bend_rad;
+    // A cable slides in a segment when that or one between it and the cable's end turns; where it rests, each change of
+    // tension may turn friction round.
+    const std::uint32_t until_end = turning & ((2u << layout.segment[c]) - 1u);
+    double slid_rad = 0.0, sliding_rad = 0.0, resting_rad = bend_rad;
     for (Index j = 0; j <= own; ++j) {
       const double slid = sigma[j] * part_rad[j];
       slid_rad += slid;
+      if (until_end >> j == 0) continue;
+      sliding_rad += slid;
       resting_rad -= std::fabs(slid);
     }
     // exp(-mu slid) from the planned ratio, to the second order of what was found beyond it.
@@ -44,11 +49,11 @@ AxisBalance balance_about(const CableLayout& layout, const SegmentVector& wrap_r
         now.geometry.jacobian_m_rad[c][axis] * now.ratio[c][own] * now.tension_N[c] * (1.0 - x + 0.5 * x * x);
     const double unsure = resting_rad * torque_Nm;
     out.torque_Nm += torque_Nm;
-    out.per_mu_Nm -= slid_rad * torque_Nm;
+    out.per_mu_Nm -= sliding_rad * torque_Nm;
     out.unsure_Nm2 += unsure * unsure;
     out.friction_Nm2 += torque_Nm * torque_Nm;
   }
-  out.unsure_Nm2 *= mu * mu;
+  out.unsure_Nm2 *= kResting * kResting * mu * mu;
   out.friction_Nm2 *= mu * mu * bend_rad * bend_rad;
   return out;
 }
@@ -74,6 +79,15 @@ double most_planned(double declared_mu) noexcept { return larger(declared_mu, kF
 
 }  // namespace
 
+std::uint32_t turning_segments(const RobotTable& table, const ThetaVector& rate_rad_s) noexcept {
+  std::uint32_t turning = 0;
+  for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
+    const double rate = std::fabs(rate_rad_s[2 * j]) + std::fabs(rate_rad_s[2 * j + 1]);
+    if (rate > kSlidingRate_rad_s) turning |= 1u << j;
+  }
+  return turning;
+}
+
 void reset_friction_watch(double declared_mu, FrictionWatchState& state) noexcept {
   const double sd = kFrictionPrior + kFrictionPriorShare * declared_mu;
   state = FrictionWatchState{};
@@ -90,12 +104,12 @@ bool watch_friction(const RobotTable& table, const CableLayout& layout, double d
                     FrictionWatchState& state) noexcept {
   const Index k = state.axis;
   const double period_s = kFrictionTicks * table.tick_s;
-  const AxisBalance axis = balance_about(layout, cable_wraps(table, now.trig), now, state.mu, k);
+  const std::uint32_t turning = turning_segments(table, now.rate_rad_s);
+  AxisBalance axis = balance_about(layout, cable_wraps(table, now.trig), now, turning, state.mu, k);
+  axis.torque_Nm += now.inertia_Nm;
   const double sweep_s = period_s * table.theta_count();
   state.unexplained_Nm[k] += sweep_s / (kUnexplainedFilter_s + sweep_s) * (axis.torque_Nm - state.unexplained_Nm[k]);
-  // Friction of a cable that rests can be anything, that of one that slides is known but for a share.
-  constexpr double kResting = 4.0;
-  state.friction_Nm[k] = std::sqrt(axis.friction_Nm2) + kResting * std::sqrt(axis.unsure_Nm2);
+  state.friction_Nm[k] = std::sqrt(axis.friction_Nm2) + std::sqrt(axis.unsure_Nm2);
   if (now.moving) learn(axis, period_s, state);
   state.axis = k + 1 < static_cast<Index>(table.theta_count()) ? state.axis + 1 : 0;
   if (state.axis == 0) state.flagged = is_off(declared_mu, state);

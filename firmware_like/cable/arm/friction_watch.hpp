@@ -20,6 +20,8 @@ constexpr double kMovingRate_rad_s = 0.002;  // of all commanded angles together
 // Errors of the balance that are not friction's stay for seconds (swing, torque gains), so that each equation counts as
 // little as this noise says: the stated uncertainty then covers what was found in whole missions.
 constexpr double kBalanceNoise_Nm = 4.0;
+constexpr double kSlidingRate_rad_s = 0.001;  // both angles of a segment together: cables slide by 0.2 mm in a second
+constexpr double kResting = 4.0;  // weight of what is not known about cables that rest: it stays as it is for seconds
 constexpr double kInnovationLimit = 3.0;      // standard deviations: a torque further off counts as one that far off
 constexpr double kFrictionDrift_1_s = 2e-4;   // mu may have changed by so much after 1 s of motion, twice in 4 s
 constexpr double kFrictionPriorShare = 0.4;   // uncertainty of what was declared, before the arm has moved
@@ -38,7 +40,7 @@ constexpr double kFrictionPlanSd = 0.006;
 constexpr double kFrictionPlanRate_1_s = 0.005;
 constexpr double kFrictionPlanMost = 0.10;  // or what was declared: more than that spreads tensions beyond the ceiling
 
-constexpr double kUnexplainedFilter_s = 1.0;  // slower than the arm's swing
+constexpr double kUnexplainedFilter_s = 0.6;
 
 struct FrictionWatchState {
   double mu = 0.0;               // found; what was declared before the arm has moved
@@ -55,10 +57,15 @@ struct FrictionReadings {
   const TensionRatio& ratio;  // with `planned_mu`
   const SlipState& slip;
   const ArmTrig& trig;
-  const CableVector& tension_N;  // measured, low-passed
-  double planned_mu;             // what the arm plans with
-  bool moving;                   // commanded faster than kMovingRate_rad_s
+  const CableVector& tension_N;   // measured, low-passed
+  double planned_mu;              // what the arm plans with
+  const ThetaVector& rate_rad_s;  // commanded
+  double inertia_Nm;              // what the arm's mass takes about the axis that is looked at
+  bool moving;                    // commanded faster than kMovingRate_rad_s
 };
+
+// Bit j: segment j turns fast enough that cables slide in it.
+std::uint32_t turning_segments(const RobotTable& table, const ThetaVector& rate_rad_s) noexcept;
 
 // Nothing found yet: as the table declares.
 void reset_friction_watch(double declared_mu, FrictionWatchState& state) noexcept;
