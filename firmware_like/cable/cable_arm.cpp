@@ -133,7 +133,9 @@ std::uint32_t CableArm::plan_tensions(bool plans_now, bool is_sound) noexcept {
   } else if (plans_now) {
     aim_tensions(plan_tension(table_, model_.geometry, ratio_, lift_N_));
   }
-  for (Index c = 0; c < cables(); ++c) tension_.motor_N[c] += tension_change_N_[c];
+  // The sum of even parts may end a last bit over the ceiling, and the gate would refuse that.
+  for (Index c = 0; c < cables(); ++c)
+    tension_.motor_N[c] = smaller(table_.tension.ceiling_free_N, tension_.motor_N[c] + tension_change_N_[c]);
   std::uint32_t limits = 0;
   if (tension_.floor_acted) limits |= kLimitTensionFloor;
   if (tension_.ceiling_exceeded) limits |= kLimitTensionCeiling;

@@ -37,7 +37,8 @@ report::ReportSources report_sources(const system::RunOptions& options, const sy
   sources.welcome = &session.welcome();
   sources.last_state = &session.last_state();
   if (plan.scene.rod) sources.rod = plan.scene.rod->pose;
-  sources.criteria = criteria(plan.file("robot.json"), options.physics);
+  sources.criteria =
+      criteria(plan.file("robot.json"), options.true_physics.empty() ? options.physics : options.true_physics);
   return sources;
 }
 
