@@ -12,6 +12,15 @@ std::uint16_t detail_of(double number) noexcept {
   return narrow<std::uint16_t>(to_counts(smaller(number, 65535.0)).value);
 }
 
+// Readings of this cable are known to jump about: that one is low says nothing of it.
+bool scatters(const FaultList& faults, std::int32_t cable) noexcept {
+  for (std::int32_t i = 0; i < faults.count; ++i) {
+    const Fault& fault = faults.fault[as_index(i)];
+    if (fault.number == FaultNumber::kTensionScatters && fault.index == cable) return true;
+  }
+  return false;
+}
+
 // What is latched leaves tensions to be believed: the balance found it itself, or it is what a contact does to cables.
 bool leaves_balance(FaultNumber number) noexcept {
   return number == FaultNumber::kBodyContact || number == FaultNumber::kFrictionNotAsDeclared ||
@@ -90,7 +99,7 @@ bool CableArm::is_moving() const noexcept {
 void CableArm::watch_missed(std::uint64_t tick, FaultList& faults) noexcept {
   if (is_let_go(let_go_)) {
     judge_missed(tension_watch_.slack_ticks[as_index(let_go_.cable)] != 0, tick, let_go_, faults);
-  } else if (missed_ >= 0) {
+  } else if (missed_ >= 0 && !scatters(faults, missed_)) {
     const bool in_doubt = faults.count > 0 || cable_watch_.reversals > 0;
     if (!in_doubt || tension_watch_.slack_ticks[as_index(missed_)] > 1) let_go(layout_, missed_, let_go_);
   }
