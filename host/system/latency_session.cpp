@@ -19,7 +19,7 @@ constexpr double kReadyTimeout_s = 20.0;  // boot and enabling, each; they take 
 constexpr double kAnswerTimeout_s = 10.0;
 constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
 constexpr double kLook_s = 0.05;
-constexpr double kWay_m = 0.1;  // the tip's, to and fro along the base's z
+constexpr double kWay_m = 0.1;        // the tip's, to and fro along the base's z
 constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
 // Bus and bench stand for hardware, which is never late for want of a processor; under lianad's real-time thread (80).
 constexpr int kHardwarePriority = 70;

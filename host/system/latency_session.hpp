@@ -23,9 +23,9 @@ class LatencySession {
   LatencySession(const LatencySession&) = delete;
   LatencySession& operator=(const LatencySession&) = delete;
 
-  // Starts the programs, enables the arm, waits for it to rest, measures for `seconds` while its tip goes to and fro; an
-  // arm that cannot be enabled is measured as it is. Throws std::runtime_error with what a program that ended said last, or when it was
-  // interrupted.
+  // Starts the programs, enables the arm, waits for it to rest, measures for `seconds` while its tip goes to and fro;
+  // an arm that cannot be enabled is measured as it is. Throws std::runtime_error with what a program that ended said
+  // last, or when it was interrupted.
   report::LatencyMeasurement measure(double seconds);
 
  private:
