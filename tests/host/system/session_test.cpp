@@ -3,6 +3,7 @@
 #include <sys/socket.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -28,7 +29,12 @@ class FakeDaemon {
     quit_ = true;
     thread_.join();
   }
-  bool saw(const std::string& op) const { return op == "stop" ? stopped_.load() : shut_down_.load(); }
+  // Whether it has heard that, or hears it soon: what was sent last may still lie in its socket.
+  bool saw(const std::string& op) const {
+    const std::atomic<bool>& heard = op == "stop" ? stopped_ : shut_down_;
+    for (int i = 0; i < 300 && !heard; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    return heard;
+  }
 
  private:
   void serve() {
