@@ -220,6 +220,18 @@ def row_of(one):
     return {"name": one.name, **result, **(vars(run.aftermath) if run.aftermath else {})}
 
 
+def print_rows(wanted, figures, heads):
+    """Runs them side by side and prints what came of each as a line of a table; the rows."""
+    rows = []
+    print(f"| scenario | {' | '.join(heads)} | why it failed |\n" + "|---" * (len(heads) + 2) + "|")
+    with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
+        for row in pool.map(row_of, wanted):
+            rows.append(row)
+            text = " | ".join(f"{row.get(name, math.nan):.1f}" for name in figures)
+            print(f"| {row['name']} | {text} | {row['why']} |", flush=True)
+    return rows
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--kind", choices=sorted(FAULTS), action="append", help="only these kinds (all)")
@@ -228,16 +240,7 @@ def main():
     parser.add_argument("--json", help="write all rows here")
     options = parser.parse_args()
     wanted = [one for kind in options.kind or FAULTS for one in draw(kind, options.count, options.seed)]
-    rows = []
-    print("| scenario | contact N | clearance mm | link mm | tension N | rest s | why it failed |\n" + "|---" * 7 + "|")
-    with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
-        for row in pool.map(row_of, wanted):
-            rows.append(row)
-            figures = [row.get(name, math.nan) for name in kFigures]
-            print(
-                f"| {row['name']} | " + " | ".join(f"{value:.1f}" for value in figures) + f" | {row['why']} |",
-                flush=True,
-            )
+    rows = print_rows(wanted, kFigures, ("contact N", "clearance mm", "link mm", "tension N", "rest s"))
     if options.json:
         with open(options.json, "w", encoding="utf-8") as file:
             json.dump(rows, file, indent=1)

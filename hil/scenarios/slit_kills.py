@@ -5,20 +5,17 @@ what came of each as a table.
 """
 import argparse
 import collections
-import concurrent.futures
 import contextlib
 import math
-import os
 import random
 import sys
 
 import predicates
-import source_tree
 from liana.client import ConnectionClosed, NotReached
 from liana.system import System
-from run_scenario import LimitedRun, outcome
+from run_scenario import LimitedRun
 from scenario_file import expect_that
-from slit import FOLDER, MOMENTS, TARGETS, kRobot
+from slit import FOLDER, MOMENTS, TARGETS, kRobot, print_rows
 from slit_truth import Aftermath, joint_centres_m
 
 VICTIMS = ("liana-operator", "liana-mission", "client", "liana-archive", "liana-bench", "liana-bus", "lianad", "stall")
@@ -146,26 +143,14 @@ class KillRun(LimitedRun):
 kFigures = ("contact_N", "clearance_mm", "link_mm", "tube_mm", "rest_s")
 
 
-def row_of(one):
-    run = one.run()
-    return {"name": one.name, **outcome(run), **(vars(run.aftermath) if run.aftermath else {})}
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1, help="what is drawn from (1)")
     options = parser.parse_args()
     wanted = [Kill(i, one, False) for i, one in enumerate(draw(options.count, options.seed))]
-    print(
-        "| scenario | contact N | clearance mm | link mm | beside its way mm | rest s | why it failed |\n" + "|---" * 7
-    )
-    failed = 0
-    with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
-        for row in pool.map(row_of, wanted):
-            failed += bool(row["why"])
-            figures = " | ".join(f"{row.get(name, math.nan):.1f}" for name in kFigures)
-            print(f"| {row['name']} | {figures} | {row['why']} |", flush=True)
+    rows = print_rows(wanted, kFigures, ("contact N", "clearance mm", "link mm", "beside its way mm", "rest s"))
+    failed = sum(bool(row["why"]) for row in rows)
     print(f"{failed} of {len(wanted)} failed")
     return 1 if failed else 0
 

@@ -38,12 +38,9 @@ Json least_margins(const std::vector<CommandLife>& lives, const Span& span) {
   return least;
 }
 
-bool is_command(const CommandLife& life) { return life.command != 0; }
-bool is_refused(const CommandLife& life) { return life.refusal.has_value(); }
-
-std::size_t count(const std::vector<CommandLife>& lives, const Span& span, bool (*counts)(const CommandLife&)) {
+std::size_t count(const std::vector<CommandLife>& lives, const Span& span, bool (CommandLife::*counts)() const) {
   return static_cast<std::size_t>(std::count_if(
-      lives.begin(), lives.end(), [&](const CommandLife& life) { return span.contains(life) && counts(life); }));
+      lives.begin(), lives.end(), [&](const CommandLife& life) { return span.contains(life) && (life.*counts)(); }));
 }
 
 Json steps_json(const DryRun& run) {
@@ -51,8 +48,8 @@ Json steps_json(const DryRun& run) {
   for (std::size_t i = 0; i < run.steps.size(); ++i) {
     const Span span = span_of(run.steps[i]);
     Json step = run.report["steps"][i];
-    step["commands"] = count(run.lives, span, is_command);
-    step["refused"] = count(run.lives, span, is_refused);
+    step["commands"] = count(run.lives, span, &CommandLife::is_command);
+    step["refused"] = count(run.lives, span, &CommandLife::is_refused);
     step["margins"] = least_margins(run.lives, span);
     steps.push_back(step);
   }
@@ -76,7 +73,7 @@ Json first_of(const DryRun& run, const CommandLife& life) {
               {"step", step_name(run.steps, life)},
               {"time_s", static_cast<double>(life.tick) * run.period_s},
               {"text", life.refusal->text}};
-  if (!is_command(life)) return out;
+  if (!life.is_command()) return out;
   const verify::RefusalRow& row = verify::row_of(static_cast<verify::Refusal>(life.refusal->number));
   out["code"] = life.refusal->number;
   out["name"] = row.name;
@@ -94,7 +91,7 @@ bool is_like(const Json& group, const Json& refusal) {
 Json refusals_json(const DryRun& run) {
   Json groups = Json::array();
   for (const CommandLife& life : run.lives) {
-    if (!is_refused(life)) continue;
+    if (!life.is_refused()) continue;
     const Json refusal = first_of(run, life);
     const auto group =
         std::find_if(groups.begin(), groups.end(), [&](const Json& each) { return is_like(each, refusal); });
@@ -160,8 +157,8 @@ Json check_report(const DryRun& run) {
           {"physics", report["physics"]},
           {"seed", report["seed"]},
           {"steps", steps_json(run)},
-          {"commands", count(run.lives, {}, is_command)},
-          {"refused", count(run.lives, {}, is_refused)},
+          {"commands", count(run.lives, {}, &CommandLife::is_command)},
+          {"refused", count(run.lives, {}, &CommandLife::is_refused)},
           {"refusals", refusals_json(run)},
           {"faults", report["faults"]},
           {"margins", least_margins(run.lives, {})},

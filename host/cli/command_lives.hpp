@@ -18,6 +18,9 @@ struct CommandLife {
   std::string owner;       // or client
   std::int64_t kind = 0;   // CommandKind; of a request RefusalEvent
   std::optional<event::Dispatch> execution, simulation, release, start, complete, refusal;
+
+  bool is_command() const { return command != 0; }
+  bool is_refused() const { return refusal.has_value(); }
 };
 
 // In the order in which they were asked for. `unread`: lines that are no stages.

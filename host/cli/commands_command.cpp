@@ -35,10 +35,8 @@ fs::path file_of(const std::string& run) {
   return newest;
 }
 
-bool is_refused(const CommandLife& life) { return life.refusal.has_value(); }
-
 const char* kind_name(const CommandLife& life) {
-  if (life.command == 0) return "request";
+  if (!life.is_command()) return "request";
   switch (static_cast<CommandKind>(life.kind)) {
     case CommandKind::kTip:
       return "tip";
@@ -52,7 +50,7 @@ const char* kind_name(const CommandLife& life) {
 }
 
 std::string outcome(const CommandLife& life) {
-  if (life.refusal && life.command == 0) return life.refusal->text;
+  if (life.refusal && !life.is_command()) return life.refusal->text;
   if (life.refusal) {
     const verify::RefusalRow& row = verify::row_of(static_cast<verify::Refusal>(life.refusal->number));
     return "refused, M_e " + std::to_string(life.refusal->number) + " " + row.name + ": " + life.refusal->text;
@@ -92,7 +90,7 @@ Json verdict_json(const std::optional<Dispatch>& verdict) {
 
 Json refusal_json(const CommandLife& life) {
   if (!life.refusal) return nullptr;
-  if (life.command == 0) return {{"text", life.refusal->text}};
+  if (!life.is_command()) return {{"text", life.refusal->text}};
   const verify::RefusalRow& row = verify::row_of(static_cast<verify::Refusal>(life.refusal->number));
   return {{"code", life.refusal->number},
           {"name", row.name},
@@ -160,7 +158,7 @@ int commands_command(const CommandsOptions& options) {
     print_margins(lives, options.json);
     return system::kExitOk;
   }
-  if (options.refused) std::erase_if(lives, [](const CommandLife& life) { return !is_refused(life); });
+  if (options.refused) std::erase_if(lives, [](const CommandLife& life) { return !life.is_refused(); });
   const auto count = std::min<std::size_t>(lives.size(), options.last);
   if (!options.json && count > 0)
     std::printf("%8s %9s  %-12s %-8s %9s %10s  %s\n", "command", "tick", "owner", "kind", "execution", "simulation",

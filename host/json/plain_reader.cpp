@@ -44,29 +44,31 @@ class Reader {
     }
   }
 
-  // Of an object or array: behind its bracket.
-  bool open() {
+  // From the bracket that opens an object or array to the one that closes it; `item` reads one of what is between.
+  template <class Item>
+  bool items(char close, const Item& item) {
     ++at_;
-    return ++level_ <= Json::kMostLevels;
+    if (++level_ > Json::kMostLevels) return false;
+    if (!next(close)) {
+      do {
+        skip_blanks();
+        if (!item()) return false;
+      } while (next(','));
+      if (!next(close)) return false;
+    }
+    --level_;
+    return true;
   }
 
   bool object(Json& out) {
-    if (!open()) return false;
     Json::Object members;
-    if (!next('}')) {
-      do {
-        if (!member(members)) return false;
-      } while (next(','));
-      if (!next('}')) return false;
-    }
-    --level_;
+    if (!items('}', [&] { return member(members); })) return false;
     out = Json(std::move(members));
     return true;
   }
 
   // Members mostly come in their order: behind the last is where to look first.
   bool member(Json::Object& members) {
-    skip_blanks();
     std::string_view name;
     if (!text(name) || !next(':')) return false;
     const std::size_t before = members.size();
@@ -77,16 +79,8 @@ class Reader {
   }
 
   bool array(Json& out) {
-    if (!open()) return false;
     Json::Array entries;
-    if (!next(']')) {
-      do {
-        skip_blanks();
-        if (!value(entries.emplace_back())) return false;
-      } while (next(','));
-      if (!next(']')) return false;
-    }
-    --level_;
+    if (!items(']', [&] { return value(entries.emplace_back()); })) return false;
     out = Json(std::move(entries));
     return true;
   }

@@ -109,15 +109,18 @@ void ArmUnderControl::follow(double seconds, const Path& path, const Observer& o
   }
 }
 
-void ArmUnderControl::move_joints(const cable::ThetaVector& goal_rad, double seconds) {
+void ArmUnderControl::move_joints(const cable::ThetaVector& goal_rad, double seconds, const Observer& observer) {
   const cable::ThetaVector from = out_.theta_command_rad;
-  follow(seconds, [&](double share) {
-    cable::Setpoint setpoint;
-    setpoint.kind = CommandKind::kJoint;
-    const double done = minimum_jerk(share);
-    for (std::size_t i = 0; i < from.size(); ++i) setpoint.joint_rad[i] = from[i] + done * (goal_rad[i] - from[i]);
-    return setpoint;
-  });
+  follow(
+      seconds,
+      [&](double share) {
+        cable::Setpoint setpoint;
+        setpoint.kind = CommandKind::kJoint;
+        const double done = minimum_jerk(share);
+        for (std::size_t i = 0; i < from.size(); ++i) setpoint.joint_rad[i] = from[i] + done * (goal_rad[i] - from[i]);
+        return setpoint;
+      },
+      observer);
 }
 
 void ArmUnderControl::hold(double seconds, const Observer& observer) {

@@ -37,7 +37,7 @@ class ArmUnderControl {
   // One telecommand every T_c along `path`.
   void follow(double seconds, const Path& path, const Observer& observer = {});
   // Minimum jerk in joint space to `goal_rad`.
-  void move_joints(const cable::ThetaVector& goal_rad, double seconds);
+  void move_joints(const cable::ThetaVector& goal_rad, double seconds, const Observer& observer = {});
   // Asks for where the arm is commanded to be, again and again.
   void hold(double seconds, const Observer& observer = {});
 

@@ -33,25 +33,17 @@ TEST(ContactWatch, AFreeArmFeelsNothingHoweverItIsMoved) {
 TEST(ContactWatch, ABodyThatIsPressedAgainstThePanelIsAFaultThatHoldsWithSegmentAndSize) {
   ArmUnderControl arm({"nominal", 1, true, "press_rod"});
   arm.boot();
-  const cable::ThetaVector from = arm.outputs().theta_command_rad;
+  cable::ThetaVector into_the_panel = arm.outputs().theta_command_rad;
+  into_the_panel[2] -= kDegree;
   arm.plant().take_load();
   double contact_N = 0.0, touched_s = -1.0, found_s = -1.0, time_s = 0.0;
-  arm.follow(
-      60.0,
-      [&](double share) {
-        cable::Setpoint setpoint;
-        setpoint.kind = CommandKind::kJoint;
-        setpoint.joint_rad = from;
-        setpoint.joint_rad[2] -= kDegree * minimum_jerk(share);
-        return setpoint;
-      },
-      [&](ArmUnderControl& now) {
-        time_s += now.table().tick_s;
-        const double force_N = now.plant().take_load().contact_N;
-        if (force_N > 0.5 && touched_s < 0.0) touched_s = time_s;
-        if (found_s < 0.0) contact_N = std::fmax(contact_N, force_N);
-        if (now.outputs().faults.count > 0 && found_s < 0.0) found_s = time_s;
-      });
+  arm.move_joints(into_the_panel, 60.0, [&](ArmUnderControl& now) {
+    time_s += now.table().tick_s;
+    const double force_N = now.plant().take_load().contact_N;
+    if (force_N > 0.5 && touched_s < 0.0) touched_s = time_s;
+    if (found_s < 0.0) contact_N = std::fmax(contact_N, force_N);
+    if (now.outputs().faults.count > 0 && found_s < 0.0) found_s = time_s;
+  });
   measured("panel: seconds from the first half newton to the fault", found_s - touched_s, "s");
   measured("panel: largest contact until then", contact_N, "N");
   ASSERT_GE(touched_s, 0.0) << "the panel was not touched at all";
@@ -75,25 +67,15 @@ Felt pushed(std::uint64_t seed, std::size_t segment, const Vec3& across) {
   constexpr double kRise_N_s = 0.5, kBegin_s = 12.0;
   ArmUnderControl arm({"nominal", seed, true, "prepare"});
   arm.boot();
-  const cable::ThetaVector from = arm.outputs().theta_command_rad, to = named_pose_rad("panel_edge");
   double time_s = 0.0;
   Felt felt;
-  arm.follow(
-      60.0,
-      [&](double share) {
-        cable::Setpoint setpoint;
-        setpoint.kind = CommandKind::kJoint;
-        setpoint.joint_rad = from;
-        for (std::size_t i = 0; i < from.size(); ++i) setpoint.joint_rad[i] += minimum_jerk(share) * (to[i] - from[i]);
-        return setpoint;
-      },
-      [&](ArmUnderControl& now) {
-        time_s += now.table().tick_s;
-        const double force_N = std::fmax(0.0, kRise_N_s * (time_s - kBegin_s));
-        now.plant().push(8 * segment + 4, scale(across, force_N));
-        if (now.outputs().faults.count == 0 || felt.first != FaultNumber::kNone) return;
-        felt = {now.outputs().faults.fault[0].number, force_N, now.outputs().contact.segment};
-      });
+  arm.move_joints(named_pose_rad("panel_edge"), 60.0, [&](ArmUnderControl& now) {
+    time_s += now.table().tick_s;
+    const double force_N = std::fmax(0.0, kRise_N_s * (time_s - kBegin_s));
+    now.plant().push(8 * segment + 4, scale(across, force_N));
+    if (now.outputs().faults.count == 0 || felt.first != FaultNumber::kNone) return;
+    felt = {now.outputs().faults.fault[0].number, force_N, now.outputs().contact.segment};
+  });
   return felt;
 }
 

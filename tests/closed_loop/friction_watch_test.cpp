@@ -33,18 +33,7 @@ Found found(const PlantSetup& setup, const std::string& told) {
     if (moved_s < 60.0) out.after_60_s = friction.mu / truth - 1.0;
     if (friction.not_as_declared != 0 && out.flagged_s < 0.0) out.flagged_s = moved_s;
   };
-  for (const auto& [from, to] : {std::pair{back, there}, {there, back}}) {
-    arm.follow(
-        40.0,
-        [&](double share) {
-          cable::Setpoint setpoint;
-          setpoint.kind = CommandKind::kJoint;
-          for (std::size_t i = 0; i < from.size(); ++i)
-            setpoint.joint_rad[i] = from[i] + minimum_jerk(share) * (to[i] - from[i]);
-          return setpoint;
-        },
-        look);
-  }
+  for (const cable::ThetaVector& to : {there, back}) arm.move_joints(to, 40.0, look);
   out.planned_mu = arm.outputs().friction.planned_mu;
   out.faults = arm.outputs().faults.count;
   return out;

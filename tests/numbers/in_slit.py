@@ -12,11 +12,11 @@ SEED = 424242  # of the draw; no other program uses it
 FIGURES = ("contact_N", "clearance_mm", "link_mm", "rest_s")
 
 
-def rows_of(wanted, run):
+def rows_of(wanted):
     """What came of each, one after the other on standard error."""
     found = []
     with concurrent.futures.ProcessPoolExecutor(os.cpu_count()) as pool:
-        for row in pool.map(run, wanted):
+        for row in pool.map(slit.row_of, wanted):
             print(f"   {row['name']}: {row['why'] or 'as targeted'}", file=sys.stderr, flush=True)
             found.append(row)
     return found
@@ -42,10 +42,10 @@ def failures(rows):
 def measure(binaries, count=20):
     os.environ["LIANA_BIN"] = str(binaries)
     wanted = {kind: list(slit.draw(kind, count, SEED)) for kind in slit.FAULTS}
-    faults = rows_of([one for ones in wanted.values() for one in ones], slit.row_of)
+    faults = rows_of([one for ones in wanted.values() for one in ones])
     by_kind = {kind: [faults.pop(0) for _ in ones] for kind, ones in wanted.items()}
     strikes = [slit_kills.Kill(i, one, False) for i, one in enumerate(slit_kills.draw(10 * count, SEED))]
-    kills = rows_of(strikes, slit_kills.row_of)
+    kills = rows_of(strikes)
     by_victim = {}
     for kill, row in zip(strikes, kills):
         by_victim.setdefault(kill.strike.victim, []).append(row)

@@ -47,6 +47,17 @@ class TheWayOut(SystemTest):
         client.until(lambda state: state["is_busy"])
         client.until(lambda state: not state["is_busy"] and apart_deg(state["setpoint_js_deg"], goal) < 1e-6)
 
+    def stopped_and_enabled(self, client, after_s):
+        """Stopped, cleared so much later, enabled again and at rest."""
+        client.call("stop")
+        client.until(lambda state: state["state"] == "DISABLED")
+        client.go_on(after_s)
+        client.call("state_command", command="clear")
+        client.until(lambda state: not state["stop"])
+        client.call("state_command", command="enable")
+        client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
+        client.go_on(0.1)
+
     def gone_back(self, client, **fields):
         """After a retract: the state in which it is over; its phases on the way."""
         client.call("retract", **fields)
@@ -66,14 +77,7 @@ class TheWayOut(SystemTest):
         system = System()
         client, start = self.enabled(system)
         self.moved(client)
-        client.call("stop")
-        client.until(lambda state: state["state"] == "DISABLED")
-        client.go_on(0.5)
-        client.call("state_command", command="clear")
-        client.until(lambda state: not state["stop"])
-        client.call("state_command", command="enable")
-        client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
-        client.go_on(0.1)
+        self.stopped_and_enabled(client, 0.5)
         self.assertGreater(apart_deg(client.state["setpoint_js_deg"], start), 2.0)
         state, phases = self.gone_back(client)
         self.assertEqual((state["retract"]["phase"], state["retracted"]), ("done", True), state["retract"])
@@ -127,14 +131,7 @@ class TheWayOut(SystemTest):
         client.call("move_jp", goal_deg=goal)
         client.until(lambda state: state["refusals"] and state["at_rest"], 60)
         self.assertEqual(client.state["verdict"]["name"], "scene_contact")
-        client.call("stop")
-        client.until(lambda state: state["state"] == "DISABLED")
-        client.go_on(0.1)
-        client.call("state_command", command="clear")
-        client.until(lambda state: not state["stop"])
-        client.call("state_command", command="enable")
-        client.until(lambda state: state["state"] == "ENABLED" and state["at_rest"])
-        client.go_on(0.1)
+        self.stopped_and_enabled(client, 0.1)
         enabled_tick = client.state["tick"]
         state, _ = self.gone_back(client)
         self.assertEqual(state["retract"]["phase"], "done", state["retract"])

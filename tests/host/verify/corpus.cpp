@@ -58,8 +58,6 @@ double least_of_itself_m(const RobotTable& table, const ThetaVector& theta_rad, 
   return least;
 }
 
-}  // namespace
-
 std::vector<Command> joint_angles(std::uint64_t seed) {
   std::vector<Command> out;
   Random random(100 * seed + 11);
@@ -314,6 +312,8 @@ std::vector<Command> free_motions(std::uint64_t seed) {
   }
   return out;
 }
+
+}  // namespace
 
 const std::array<Class, 12> kClasses{{{"JointAngle", joint_angles, 40},
                                       {"JointRate", joint_rates, 40},

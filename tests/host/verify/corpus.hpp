@@ -23,19 +23,9 @@ struct Command {
   Refusal expected = Refusal::kNone;
 };
 
-std::vector<Command> joint_angles(std::uint64_t seed);
-std::vector<Command> joint_rates(std::uint64_t seed);
-std::vector<Command> tip_speeds(std::uint64_t seed);
-std::vector<Command> node_speeds(std::uint64_t seed);
-std::vector<Command> spheres(std::uint64_t seed);
 // Boxes and convex bodies beside the way: along the axes or turned, flat, like a needle; hulls, capsules, cylinders.
 std::vector<Command> boxes(std::uint64_t seed);
 std::vector<Command> convex_bodies(std::uint64_t seed);
-std::vector<Command> ways_out(std::uint64_t seed);
-std::vector<Command> thin_plates(std::uint64_t seed);
-std::vector<Command> self_contacts(std::uint64_t seed);
-std::vector<Command> swings(std::uint64_t seed);
-std::vector<Command> free_motions(std::uint64_t seed);
 
 // A class: its name, its commands, and how many there are at least.
 struct Class {
