@@ -1,0 +1,69 @@
+#include "host/telemetry/layout.hpp"
+
+#include <string>
+#include <string_view>
+
+#include "host/json/json.hpp"
+#include "host/telemetry/record.hpp"
+
+namespace liana::telemetry {
+namespace {
+
+constexpr int kVersion = 1;
+
+std::size_t numbers_in(const Json& list) {
+  std::size_t count = 0;
+  for (const Json& each : list) count += each.is_array() ? each.size() : 1;
+  return count;
+}
+
+std::size_t entries_with(const Json& list, std::string_view member) {
+  return !list.empty() && list.front().contains(member) ? list.size() : 0;
+}
+
+// How many values it has in states of this arm; 0: the arm does not have it.
+std::size_t count_of(const Json& state, const Field& field) {
+  const std::size_t dot = field.path.find('.');
+  const Json* member = state.find(field.path.substr(0, dot));
+  if (member == nullptr) return 0;
+  switch (field.shape) {
+    case Shape::kOne:
+      return 1;
+    case Shape::kThree:
+      return 3;
+    case Shape::kPose:
+      return 7;
+    case Shape::kJoints:
+      return state.at("measured_js_deg").size();
+    case Shape::kFound:
+      return numbers_in(*member);
+    case Shape::kEach:
+      return entries_with(*member, field.path.substr(dot + 1));
+  }
+  return 0;
+}
+
+}  // namespace
+
+Layout layout_of(const Json& state) {
+  Layout layout;
+  layout.bytes = kHeaderBytes;
+  for (const Field& field : kFields) {
+    const std::size_t count = count_of(state, field);
+    if (count == 0) continue;
+    layout.places.push_back({field, layout.bytes, count});
+    layout.bytes += count * sizeof(float);
+  }
+  return layout;
+}
+
+Json to_json(const Layout& layout) {
+  Json fields = Json::array();
+  for (const Place& place : layout.places) {
+    fields.push_back(
+        {{"name", place.field.path}, {"unit", place.field.unit}, {"offset", place.offset}, {"count", place.count}});
+  }
+  return {{"version", kVersion}, {"bytes", layout.bytes}, {"fields", fields}};
+}
+
+}  // namespace liana::telemetry

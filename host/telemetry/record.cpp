@@ -1,0 +1,109 @@
+#include "host/telemetry/record.hpp"
+
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <string_view>
+
+#include "host/json/json.hpp"
+
+namespace liana::telemetry {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "records are little-endian");
+constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
+
+template <class T>
+void put(std::string& record, std::size_t offset, T value) {
+  std::memcpy(record.data() + offset, &value, sizeof value);
+}
+
+template <class T>
+T get(const std::string& record, std::size_t offset) {
+  T value;
+  std::memcpy(&value, record.data() + offset, sizeof value);
+  return value;
+}
+
+float number(const Json& value) { return value.is_number() ? value.get<float>() : kMissing; }
+
+// Values of one place, one after the other; those beyond its count are left out.
+class Cells {
+ public:
+  Cells(std::string& record, const Place& place) : record_(record), offset_(place.offset), left_(place.count) {}
+  void add(const Json& value) {
+    if (value.is_array()) {
+      for (const Json& each : value) add(each);
+    } else if (left_ > 0) {
+      put(record_, offset_, number(value));
+      offset_ += sizeof(float);
+      --left_;
+    }
+  }
+  void fill() {
+    while (left_ > 0) add(Json());
+  }
+
+ private:
+  std::string& record_;
+  std::size_t offset_, left_;
+};
+
+void encode(std::string& record, const Json& state, const Place& place) {
+  const std::size_t dot = place.field.path.find('.');
+  const Json& first = state.member_or_null(place.field.path.substr(0, dot));
+  Cells cells(record, place);
+  if (place.field.shape == Shape::kEach) {
+    for (const Json& entry : first) cells.add(entry.member_or_null(place.field.path.substr(dot + 1)));
+  } else {
+    cells.add(dot == std::string_view::npos ? first : first.member_or_null(place.field.path.substr(dot + 1)));
+  }
+  cells.fill();
+}
+
+void erase(Json& state, const Field& field) {
+  const std::size_t dot = field.path.find('.');
+  if (dot == std::string_view::npos) return state.erase(field.path);
+  Json* first = state.find(field.path.substr(0, dot));
+  const std::string_view name = field.path.substr(dot + 1);
+  if (first != nullptr && first->is_object()) first->erase(name);
+  if (first == nullptr || !first->is_array()) return;
+  for (Json& entry : *first) entry.erase(name);
+}
+
+}  // namespace
+
+std::string encode(const Layout& layout, const Json& state, std::uint32_t sequence, std::uint32_t facts) {
+  std::string record(layout.bytes, '\0');
+  put(record, 0, sequence);
+  put(record, 4, facts);
+  put(record, 8, state.value("tick", 0.0));
+  put(record, 16, state.value("time_s", 0.0));
+  for (const Place& place : layout.places) encode(record, state, place);
+  return record;
+}
+
+Header header_of(const std::string& record) {
+  return {get<std::uint32_t>(record, 0), get<std::uint32_t>(record, 4), get<double>(record, 8),
+          get<double>(record, 16)};
+}
+
+float value_of(const std::string& record, const Place& place, std::size_t i) {
+  return get<float>(record, place.offset + i * sizeof(float));
+}
+
+Json facts_of(Json state) {
+  const Json* verdict = state.find("verdict");
+  if (verdict != nullptr && verdict->value("code", 0) == 0) state.erase("verdict");
+  for (const Field& field : kFields) erase(state, field);
+  if (Json* drives = state.find("drives"); drives != nullptr && drives->is_array()) {
+    for (Json& drive : *drives) {
+      drive.erase("tension_N");  // what the arm has as a whole, again
+      drive.erase("torque_Nm");
+    }
+  }
+  for (const char* own : {"op", "tick", "time_s", "events"}) state.erase(own);
+  return state;
+}
+
+}  // namespace liana::telemetry
