@@ -1,5 +1,6 @@
 #include "host/telemetry/layout.hpp"
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -43,6 +44,16 @@ std::size_t count_of(const Json& state, const Field& field) {
   return 0;
 }
 
+Place place_from(const Json& json, std::size_t bytes) {
+  const std::string name = json.at("name");
+  const auto field = std::find_if(kFields.begin(), kFields.end(), [&](const Field& each) { return each.path == name; });
+  if (field == kFields.end()) throw JsonError("layout: field " + name + " is not known to this version");
+  const Place place{*field, json.at("offset"), json.at("count")};
+  if (place.offset < kHeaderBytes || place.offset > bytes || place.count > (bytes - place.offset) / sizeof(float))
+    throw JsonError("layout: field " + name + " is not within a record of " + std::to_string(bytes) + " bytes");
+  return place;
+}
+
 }  // namespace
 
 Layout layout_of(const Json& state) {
@@ -64,6 +75,15 @@ Json to_json(const Layout& layout) {
         {{"name", place.field.path}, {"unit", place.field.unit}, {"offset", place.offset}, {"count", place.count}});
   }
   return {{"version", kVersion}, {"bytes", layout.bytes}, {"fields", fields}};
+}
+
+Layout layout_from(const Json& json) {
+  if (json.at("version") != kVersion)
+    throw JsonError("layout: version " + json.at("version").dump() + ": allowed " + std::to_string(kVersion));
+  Layout layout;
+  layout.bytes = json.at("bytes");
+  for (const Json& field : json.at("fields")) layout.places.push_back(place_from(field, layout.bytes));
+  return layout;
 }
 
 }  // namespace liana::telemetry

@@ -27,5 +27,8 @@ Layout layout_of(const Json& state);
 
 // {"version":1,"bytes":N,"fields":[{"name","unit","offset","count"}]}
 Json to_json(const Layout& layout);
+// The layout that to_json() wrote. Throws JsonError for another version, fields that are not known, and places that are
+// not within a record.
+Layout layout_from(const Json& json);
 
 }  // namespace liana::telemetry

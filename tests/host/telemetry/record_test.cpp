@@ -51,6 +51,20 @@ TEST(Layout, KeepsPlacesForWhatIsNullNowAndLeavesOutWhatTheArmDoesNotHave) {
   EXPECT_EQ(to_json(layout)["bytes"], layout.bytes);
 }
 
+TEST(Layout, IsReadBackAndRefusedWhenItsPlacesAreNotWithinARecord) {
+  const Layout layout = layout_of(cable_state());
+  Json json = to_json(layout);
+  EXPECT_EQ(to_json(layout_from(json)), json);
+  json["fields"][0]["count"] = layout.bytes;
+  EXPECT_THROW(layout_from(json), JsonError);
+  json = to_json(layout);
+  json["fields"][1]["name"] = "unheard_of";
+  EXPECT_THROW(layout_from(json), JsonError);
+  json = to_json(layout);
+  json["version"] = 2;
+  EXPECT_THROW(layout_from(json), JsonError);
+}
+
 TEST(Record, HoldsHeaderAndNumbersAndNaNForWhatIsNotThere) {
   const Layout layout = layout_of(cable_state());
   const std::string record = encode(layout, cable_state(), 7, 3);
