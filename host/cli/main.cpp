@@ -250,6 +250,22 @@ void add_commands(CLI::App& app, Action& action, CommandsOptions& commands) {
   sub->add_flag("--json", commands.json, "print JSON, one line for each command");
 }
 
+void add_log(CLI::App& app, Action& action, LogOptions& log) {
+  CLI::App* all = app.add_subcommand("log", "what the archives of runs hold (docs/archive.md)");
+  all->require_subcommand(1);
+  CLI::App* list = add(*all, action, "list", "the newest runs: begin, outcome, length, size", log, log_list_command);
+  CLI::App* show = add(*all, action, "show", "events, refusals, faults, steps of a run", log, log_show_command);
+  CLI::App* verify =
+      add(*all, action, "verify", "whether an archive is whole, and what it holds", log, log_verify_command);
+  for (CLI::App* sub : {show, verify})
+    sub->add_option("run", log.run, "a folder, or the name of one of the newest runs; the newest where not given");
+  for (CLI::App* sub : {show}) {
+    sub->add_option("--from", log.from_s, "arm time, s");
+    sub->add_option("--to", log.to_s, "arm time, s");
+  }
+  for (CLI::App* sub : {list, show, verify}) sub->add_flag("--json", log.json, "print JSON");
+}
+
 void add_client(CLI::App& app, Action& action, const char* name, const char* text, ClientOptions& client,
                 int (*command)(const ClientOptions&), bool one = false) {
   CLI::App* sub = add(app, action, name, text, client, command);
@@ -377,6 +393,7 @@ int run(int argc, char** argv) {
   ClientOptions client;
   FaultsOptions faults;
   CommandsOptions commands;
+  LogOptions log;
   MissionOptions mission;
   ReplayOptions replay;
   ExportOptions exported;
@@ -398,6 +415,7 @@ int run(int argc, char** argv) {
   add_latency(app, action, latency);
   add_faults(app, action, faults);
   add_commands(app, action, commands);
+  add_log(app, action, log);
   add_mission(app, action, mission);
   add_tools(app, action, replay, exported, doctor_json, shell);
   try {
