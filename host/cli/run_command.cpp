@@ -13,7 +13,7 @@ namespace liana::cli {
 namespace {
 
 bool publish_report(const system::RunOptions& options, const system::SystemLayout& plan, const Json& report) {
-  bool written = !plan.keep_directory || write_report(plan.file("report.json"), report);
+  bool written = write_report(plan.file("report.json"), report);
   if (options.report_file == "-") {
     std::puts(report.dump().c_str());
     return written;
@@ -36,7 +36,7 @@ int run_command(const system::RunOptions& options) {
   system::RunSession session(plan);
   const system::RunEnd end = session.run();
   if (end.bad_input) {
-    system::clean_up(plan, true);
+    system::discard(plan);
     throw system::BadInput(end.message);
   }
   const Json report = report::make_report(report_sources(options, plan, session, end));
@@ -44,8 +44,7 @@ int run_command(const system::RunOptions& options) {
   const bool success = report.value("outcome", "") == "success";
   if (!end.message.empty()) std::fprintf(stderr, "liana: %s\n", end.message.c_str());
   if (!success) {
-    std::fprintf(stderr, "liana: the run did not succeed; %s%s\n", where_to_look(plan).c_str(),
-                 plan.keep_directory ? "" : "; delete the folder when you have looked");
+    std::fprintf(stderr, "liana: the run did not succeed; %s\n", where_to_look(plan).c_str());
   }
   system::clean_up(plan, success);
   return success && written ? system::kExitOk : system::kExitFailure;
