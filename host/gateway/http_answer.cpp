@@ -1,6 +1,5 @@
 #include "host/gateway/http_answer.hpp"
 
-#include <libwebsockets.h>
 #include <unistd.h>
 
 #include <array>

@@ -1,10 +1,10 @@
 // What the gateway answers to plain HTTP requests.
 #pragma once
 
+#include <libwebsockets.h>
+
 #include <string>
 #include <string_view>
-
-struct lws;
 
 namespace liana::gateway {
 
