@@ -28,7 +28,7 @@ Requester::Requester(Poller& poller, const std::string& api, std::string name, s
       role_(std::move(role)),
       answer_(std::move(answer)) {}
 
-bool Requester::is_connected() {
+bool Requester::connect() {
   if (link_.is_open()) return true;
   if (!link_.connect()) return false;
   const Json hello{
@@ -37,7 +37,7 @@ bool Requester::is_connected() {
 }
 
 void Requester::ask(Json request, std::optional<std::int64_t> id) {
-  if (!is_connected()) return refuse(id, "away", "lianad is not there; nothing was asked of the arm");
+  if (!connect()) return refuse(id, "away", "lianad is not there; nothing was asked of the arm");
   if (open_.size() >= kMaxOpen) return refuse(id, "busy", "64 requests wait for their answers; wait for one");
   request.erase("id");
   if (id) request["id"] = ++last_number_;

@@ -23,11 +23,12 @@ class Requester {
   // `role` is one of docs/api.md. `poller` must outlive this.
   Requester(Poller& poller, const std::string& api, std::string name, std::string role, Answer answer);
 
+  // Makes the connection unless it is there; false when lianad cannot be reached.
+  bool connect();
   // Passes a request on. Without `id` only an error is answered, as lianad does.
   void ask(Json request, std::optional<std::int64_t> id);
 
  private:
-  bool is_connected();
   void take(const std::string& packet);
   void lost();
   void refuse(std::optional<std::int64_t> id, const char* code, const std::string& message);

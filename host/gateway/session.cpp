@@ -119,6 +119,7 @@ void Session::request(const Json& message, std::optional<std::int64_t> id) {
     house_.refused("wrong_role", address_, name_ + " (" + access_name(access_) + ") asked for " + op);
     return answer(refusal(id, "not_allowed", "'" + op + "' is not for the role " + access_name(access_)));
   }
+  if (op == "use_device") operator_->connect();  // lianad asks for an operator before it lets one steer
   const bool of_operator = op == "device" || op == "operator_says";
   (of_operator ? operator_ : client_)->ask(wanted, id);
 }

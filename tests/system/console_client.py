@@ -25,7 +25,7 @@ class Refused(Exception):
         self.status, self.body = status, body
 
 
-class Closed(Exception):
+class Closed(ConnectionError):
     """The connection has ended; `code` of its close frame, 0 without one."""
 
     def __init__(self, code=0, reason=""):
