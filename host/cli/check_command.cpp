@@ -29,8 +29,8 @@ DryRun dry_run(const system::SystemLayout& plan, const report::ReportSources& so
   run.period_s = plan.buses.tick_s();
   std::ifstream commands(plan.commands_file());
   std::size_t unread = 0;
-  run.lives = command_lives(commands, unread);
-  for (CommandLife& life : run.lives) {
+  run.lives = report::command_lives(commands, unread);
+  for (report::CommandLife& life : run.lives) {
     if (plan.is_serial && life.simulation) life.simulation->margins.reset();  // its second end looks at none
   }
   run.verify_us = numbers_in(plan.verify_times_file());

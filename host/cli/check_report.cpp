@@ -11,6 +11,8 @@
 namespace liana::cli {
 namespace {
 
+using report::CommandLife;
+
 // Ticks in which commands of one step were asked for.
 struct Span {
   std::uint64_t first = 0;

@@ -4,10 +4,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "firmware_like/command/telecommand.hpp"
-#include "host/cli/command_lives.hpp"
 #include "host/cli/commands.hpp"
 #include "host/json/json.hpp"
+#include "host/report/command_json.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/runs.hpp"
 #include "host/verify/refusal_table.hpp"
@@ -17,6 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using event::Dispatch;
+using report::CommandLife;
 
 // The file of the run that is named, of the newest run when none is.
 fs::path file_of(const std::string& run) {
@@ -29,20 +29,6 @@ fs::path file_of(const std::string& run) {
     if (const fs::path path = fs::path(each) / "commands.txt"; fs::exists(path)) return path;
   }
   throw system::BadInput("'" + system::runs_folder() + "' keeps no run yet; name the folder of a run");
-}
-
-const char* kind_name(const CommandLife& life) {
-  if (!life.is_command()) return "request";
-  switch (static_cast<CommandKind>(life.kind)) {
-    case CommandKind::kTip:
-      return "tip";
-    case CommandKind::kJoint:
-      return "joints";
-    case CommandKind::kRetreat:
-      return "retreat";
-    default:
-      return "other";
-  }
 }
 
 std::string outcome(const CommandLife& life) {
@@ -63,51 +49,8 @@ std::string share_text(const std::optional<Dispatch>& verdict) {
 
 void print(const CommandLife& life) {
   std::printf("%8llu %9llu  %-12s %-8s %9s %10s  %s\n", static_cast<unsigned long long>(life.command),
-              static_cast<unsigned long long>(life.tick), life.owner.c_str(), kind_name(life),
+              static_cast<unsigned long long>(life.tick), life.owner.c_str(), report::command_kind_name(life),
               share_text(life.execution).c_str(), share_text(life.simulation).c_str(), outcome(life).c_str());
-}
-
-Json margins_json(const Dispatch& verdict) {
-  Json out = Json::object();
-  for (std::size_t i = 0; verdict.margins && i < event::kMargins; ++i) {
-    const double margin = (*verdict.margins)[i];
-    out[event::kMarginNames[i]] = std::isfinite(margin) ? Json(margin) : Json();
-  }
-  return out;
-}
-
-Json verdict_json(const std::optional<Dispatch>& verdict) {
-  if (!verdict) return nullptr;
-  return {{"code", verdict->number},
-          {"share", verdict->share},
-          {"margins", margins_json(*verdict)},
-          {"text", verdict->text}};
-}
-
-Json refusal_json(const CommandLife& life) {
-  if (!life.refusal) return nullptr;
-  if (!life.is_command()) return {{"text", life.refusal->text}};
-  const verify::RefusalRow& row = verify::row_of(static_cast<verify::Refusal>(life.refusal->number));
-  return {{"code", life.refusal->number},
-          {"name", row.name},
-          {"action", life.refusal->subject},
-          {"text", life.refusal->text},
-          {"remedy", row.remedy}};
-}
-
-Json tick_json(const std::optional<Dispatch>& stage) { return stage ? Json(stage->tick) : Json(); }
-
-Json json_of(const CommandLife& life) {
-  return {{"command", life.command},
-          {"tick", life.tick},
-          {"owner", life.owner},
-          {"kind", kind_name(life)},
-          {"execution", verdict_json(life.execution)},
-          {"simulation", verdict_json(life.simulation)},
-          {"in_force_from", life.release ? Json(life.release->number) : Json()},
-          {"started", tick_json(life.start)},
-          {"completed", tick_json(life.complete)},
-          {"refusal", refusal_json(life)}};
 }
 
 // Least of a figure over all commands, its median, and the command of the least.
@@ -148,7 +91,7 @@ int commands_command(const CommandsOptions& options) {
   const fs::path path = file_of(options.run);
   std::ifstream in(path);
   std::size_t unread = 0;
-  std::vector<CommandLife> lives = command_lives(in, unread);
+  std::vector<CommandLife> lives = report::command_lives(in, unread);
   if (unread > 0) std::fprintf(stderr, "liana: %s: %zu lines are no stages of commands\n", path.c_str(), unread);
   if (options.margins) {
     print_margins(lives, options.json);
@@ -161,7 +104,7 @@ int commands_command(const CommandsOptions& options) {
                 "outcome (shares are of the limit that the motion comes nearest to)");
   for (std::size_t i = lives.size() - count; i < lives.size(); ++i) {
     if (options.json) {
-      std::puts(json_of(lives[i]).dump(-1, Json::BadUtf8::kReplace).c_str());
+      std::puts(report::command_json(lives[i]).dump(-1, Json::BadUtf8::kReplace).c_str());
     } else {
       print(lives[i]);
     }

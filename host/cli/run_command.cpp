@@ -1,11 +1,13 @@
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/session_report.hpp"
 #include "host/json/json.hpp"
 #include "host/report/run_report.hpp"
 #include "host/system/errors.hpp"
+#include "host/system/gateway_process.hpp"
 #include "host/system/run_session.hpp"
 #include "host/system/system_layout.hpp"
 
@@ -29,11 +31,25 @@ std::string where_to_look(const system::SystemLayout& plan) {
   return "what happened and why is in " + plan.events_file() + ", its logs are beside it";
 }
 
+// A mission is not kept from running by a console that cannot.
+std::optional<system::GatewayProcess> console_of(const system::SystemLayout& plan) {
+  try {
+    system::GatewayProcess gateway(plan.api_socket(), system::GatewayOptions(), plan.file("liana-gateway.log"));
+    std::fprintf(stderr, "console: %s\n", gateway.address().c_str());
+    return gateway;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "liana: no console: %s\n", error.what());
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 int run_command(const system::RunOptions& options) {
   const system::SystemLayout plan = system::make_layout(options);
   system::RunSession session(plan);
+  std::optional<system::GatewayProcess> console;
+  if (options.has_console) console = console_of(plan);
   const system::RunEnd end = session.run();
   if (end.bad_input) {
     system::discard(plan);

@@ -211,6 +211,7 @@ LastVerdict ArmDesk<Arm, Steering>::verify_and_release(const typename Arm::Setpo
           released,
           worst,
           joints_deg(prediction_.ticks[prediction_.command_ticks - 1]),
+          joints_deg(prediction_.ticks.back()),
           setpoint.kind,
           candidate.first_tick(),
           leads_back,

@@ -25,6 +25,7 @@ struct LastVerdict {
   bool released = false;
   verify::Verdict worst{};          // the refusing end, or the tighter margin
   std::vector<double> twin_js_deg;  // predicted at the end of the candidate's interval
+  std::vector<double> stop_js_deg;  // predicted where the arm would stand if nothing came after it
   CommandKind kind = CommandKind::kNone;
   std::uint64_t first_tick = 0;  // from which it is in force
   bool leads_back = false;       // asked for by a retract

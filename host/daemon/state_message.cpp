@@ -96,9 +96,18 @@ Json stop_json(const EmergencyStop& stop) {
 
 Json verdict_json(const LastVerdict& v) {
   const verify::RefusalRow& row = verify::row_of(v.worst.code);
-  return {{"sequence", v.sequence},   {"released", v.released}, {"code", static_cast<int>(v.worst.code)},
-          {"name", row.name},         {"text", v.worst.text},   {"remedy", row.remedy},
-          {"margin", v.worst.margin}, {"share", v.worst.share}, {"twin_js_deg", v.twin_js_deg}};
+  const verify::Margins& m = v.worst.margins;
+  return {{"sequence", v.sequence},
+          {"released", v.released},
+          {"code", static_cast<int>(v.worst.code)},
+          {"name", row.name},
+          {"text", v.worst.text},
+          {"remedy", row.remedy},
+          {"margin", v.worst.margin},
+          {"share", v.worst.share},
+          {"twin_js_deg", v.twin_js_deg},
+          {"stop_js_deg", v.stop_js_deg},
+          {"margins", {m.clearance_m, m.joint_deg, m.rate_deg_s, m.tension_N, m.time_us}}};
 }
 
 Json events_json(const std::deque<event::Event>& events) {

@@ -31,13 +31,6 @@ namespace fs = std::filesystem;
 constexpr const char* kFreeStep_s = "0.004";  // of a dry run's physics: a run takes a quarter
 constexpr const char* kRestWithin_s = "10";   // an arm whose cable broke may swing for longer; the report says so
 
-std::string temporary_directory() {
-  std::string name = (fs::temp_directory_path() / "liana-run-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    throw BadInput(name + ": a temporary directory cannot be made; free space there or set TMPDIR");
-  return name;
-}
-
 std::string record_directory(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
@@ -268,6 +261,13 @@ SystemLayout make_layout(const RunOptions& given) {
   if (!plan.is_serial) plan.programs.push_back(operator_call(plan, options));  // no device steers a serial arm yet
   plan.programs.push_back(mission_call(plan, options));
   return plan;
+}
+
+std::string temporary_directory() {
+  std::string name = (fs::temp_directory_path() / "liana-run-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr)
+    throw BadInput(name + ": a temporary directory cannot be made; free space there or set TMPDIR");
+  return name;
 }
 
 void check_cross_wired(const std::string& list, std::size_t drives) {

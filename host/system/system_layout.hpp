@@ -41,6 +41,9 @@ struct SystemLayout {
 // no operator either. Throws BadInput.
 SystemLayout make_layout(const RunOptions& given);
 
+// Makes a fresh folder for one run's files under $TMPDIR; its path is short enough for sockets. Throws BadInput.
+std::string temporary_directory();
+
 // Refuses anything but empty text or two different drives from 0 to `drives` - 1, e.g. 3,4. Throws BadInput.
 void check_cross_wired(const std::string& list, std::size_t drives);
 

@@ -2,10 +2,11 @@
 
 namespace liana::telemetry {
 
-const std::array<Field, 36> kFields{{
+const std::array<Field, 38> kFields{{
     {"measured_js_deg", "deg", Shape::kJoints},
     {"setpoint_js_deg", "deg", Shape::kJoints},
     {"verdict.twin_js_deg", "deg", Shape::kJoints},
+    {"verdict.stop_js_deg", "deg", Shape::kJoints},
     {"measured_cp", "m, 1", Shape::kPose},
     {"setpoint_cp", "m, 1", Shape::kPose},
     {"goal_cp", "m, 1", Shape::kPose},
@@ -34,6 +35,7 @@ const std::array<Field, 36> kFields{{
     {"verdict.sequence", "1", Shape::kOne},
     {"verdict.code", "1", Shape::kOne},
     {"verdict.share", "1", Shape::kOne},
+    {"verdict.margins", "m, deg, deg/s, N, us", Shape::kFive},
     {"device_samples", "1", Shape::kOne},
     {"overruns", "1", Shape::kOne},
     {"refusals", "1", Shape::kOne},

@@ -10,6 +10,7 @@ namespace liana::telemetry {
 enum class Shape : std::uint8_t {
   kOne,     // a number
   kThree,   // a vector
+  kFive,    // of a verdict: what it left of five limits
   kPose,    // position and quaternion
   kJoints,  // one for each angle of the arm, or empty
   kFound,   // as many as the state has: an array of numbers, or of arrays of numbers
@@ -24,6 +25,6 @@ struct Field {
 };
 
 // In the order in which records hold them. Not every arm's states have all.
-extern const std::array<Field, 36> kFields;
+extern const std::array<Field, 38> kFields;
 
 }  // namespace liana::telemetry

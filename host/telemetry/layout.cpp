@@ -32,6 +32,8 @@ std::size_t count_of(const Json& state, const Field& field) {
       return 1;
     case Shape::kThree:
       return 3;
+    case Shape::kFive:
+      return 5;
     case Shape::kPose:
       return 7;
     case Shape::kJoints:

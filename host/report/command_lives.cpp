@@ -1,8 +1,8 @@
-#include "host/cli/command_lives.hpp"
+#include "host/report/command_lives.hpp"
 
 #include <istream>
 
-namespace liana::cli {
+namespace liana::report {
 namespace {
 
 using event::Dispatch;
@@ -61,4 +61,4 @@ std::vector<CommandLife> command_lives(std::istream& lines, std::size_t& unread)
   return lives;
 }
 
-}  // namespace liana::cli
+}  // namespace liana::report

@@ -9,7 +9,7 @@
 
 #include "host/event/dispatch.hpp"
 
-namespace liana::cli {
+namespace liana::report {
 
 // A command, or a request of which none came (command 0).
 struct CommandLife {
@@ -26,4 +26,4 @@ struct CommandLife {
 // In the order in which they were asked for. `unread`: lines that are no stages.
 std::vector<CommandLife> command_lives(std::istream& lines, std::size_t& unread);
 
-}  // namespace liana::cli
+}  // namespace liana::report

@@ -1,0 +1,15 @@
+// Compression that every browser undoes by itself, and bytes as text.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace liana::view {
+
+// Raw deflate (RFC 1951), zlib's best. Throws std::runtime_error when there is no memory.
+std::string deflated(std::string_view bytes);
+
+// RFC 4648, with padding.
+std::string base64(std::string_view bytes);
+
+}  // namespace liana::view

@@ -1,0 +1,169 @@
+#include "host/view/run_data.hpp"
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+#include "host/report/command_json.hpp"
+#include "host/telemetry/record.hpp"
+#include "host/view/columns.hpp"
+#include "host/view/time_grid.hpp"
+
+namespace liana::view {
+namespace {
+
+constexpr std::string_view kMark = "<!-- liana-run -->";
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// Of the bench's truth: column of its file (a family of angles ends in _), name and unit on the page.
+struct TruthColumn {
+  const char* column;
+  const char* name;
+  const char* unit;
+};
+constexpr std::array<TruthColumn, 7> kTruth{{{"theta_deg_", "truth.theta_deg", "deg"},
+                                             {"clearance_m", "truth.clearance_m", "m"},
+                                             {"contact_force_N", "truth.contact_N", "N"},
+                                             {"rod_force_N", "truth.rod_N", "N"},
+                                             {"tension_min_N", "truth.tension_min_N", "N"},
+                                             {"tip_speed_m_s", "truth.tip_speed_m_s", "m/s"},
+                                             {"slit_depth_m", "truth.slit_depth_m", "m"}}};
+// What can be computed from the angles, or is of no use on a page, is left out.
+constexpr std::array<std::string_view, 8> kLeftOut{"measured_cp",       "setpoint_cp",       "node_m",
+                                                   "drives.position_m", "buses.frames",      "ik.residual_rad",
+                                                   "friction.sd",       "clearance.turn_deg"};
+
+bool is_left_out(std::string_view name) {
+  for (const std::string_view each : kLeftOut) {
+    if (each == name) return true;
+  }
+  return false;
+}
+
+void add_telemetry(const RunData& run, const TimeGrid& grid, std::vector<Column>& columns) {
+  const std::vector<const std::string*> rows = records_at(grid, run.records);
+  std::vector<double> values(rows.size());
+  for (const telemetry::Place& place : run.layout.places) {
+    if (is_left_out(place.field.path)) continue;
+    for (std::size_t i = 0; i < place.count; ++i) {
+      for (std::size_t row = 0; row < rows.size(); ++row)
+        values[row] = rows[row] == nullptr ? kNone : static_cast<double>(telemetry::value_of(*rows[row], place, i));
+      columns.push_back(column_of(std::string(place.field.path), i, std::string(place.field.unit), values));
+    }
+  }
+}
+
+// Slots of the bench are ticks of lianad.
+void add_truth(const report::TruthLog& truth, const std::string& column, std::size_t index, const TruthColumn& shown,
+               const TimeGrid& grid, std::vector<Column>& columns) {
+  std::vector<double> values;
+  for (std::size_t row = 0; row < grid.rows; ++row)
+    values.push_back(truth.at(truth.row_of_slot(grid.tick(row)), column));
+  columns.push_back(column_of(shown.name, index, shown.unit, values));
+}
+
+void add_truth(const report::TruthLog& truth, const TimeGrid& grid, std::vector<Column>& columns) {
+  for (const TruthColumn& shown : kTruth) {
+    const std::string name = shown.column;
+    if (!name.ends_with("_")) {
+      if (truth.has(name)) add_truth(truth, name, 0, shown, grid, columns);
+      continue;
+    }
+    for (std::size_t i = 0; truth.has(name + std::to_string(i + 1)); ++i)
+      add_truth(truth, name + std::to_string(i + 1), i, shown, grid, columns);
+  }
+}
+
+Json columns_json(const std::vector<Column>& columns) {
+  Json list = Json::array();
+  for (const Column& column : columns) list.push_back(to_json(column));
+  return list;
+}
+
+// Of facts the first whole, of later ones the members that are others than before.
+Json facts_json(const std::vector<std::pair<std::uint64_t, Json>>& facts) {
+  Json list = Json::array();
+  const Json* before = nullptr;
+  for (const auto& [tick, now] : facts) {
+    Json changed = Json::object();
+    for (const auto& [name, value] : now.items()) {
+      if (before == nullptr || before->member_or_null(name) != value) changed[name] = value;
+    }
+    if (before != nullptr) {
+      for (const auto& [name, value] : before->items()) {
+        if (!now.contains(name)) changed[name] = nullptr;
+      }
+    }
+    list.push_back({{"tick", tick}, {"state", changed}});
+    before = &now;
+  }
+  return list;
+}
+
+// All that were refused, and of the others one a second.
+Json commands_json(const RunData& run) {
+  Json list = Json::array();
+  const auto second = static_cast<std::uint64_t>(std::lround(1.0 / run.period_s));
+  std::uint64_t next = 0;
+  for (const report::CommandLife& life : run.commands) {
+    if (!life.is_refused() && life.tick < next) continue;
+    if (!life.is_refused()) next = life.tick + second;
+    list.push_back(report::command_json(life));
+  }
+  return list;
+}
+
+Json steps_json(const std::vector<Json>& events) {
+  Json steps = Json::array();
+  for (const Json& event : events) {
+    if (event.value("kind", "") != "step") continue;
+    steps.push_back({{"index", event.at("number")}, {"name", event.at("subject")}, {"tick", event.at("tick")}});
+  }
+  return steps;
+}
+
+// JSON that may stand in a page: nothing in it looks like a tag.
+std::string in_page(const Json& json) {
+  std::string out;
+  for (const char letter : json.dump(-1, Json::BadUtf8::kReplace)) {
+    if (letter == '<') {
+      out += "\\u003c";
+    } else {
+      out += letter;
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string page_of(const RunData& run, const std::string& page) {
+  const std::size_t mark = page.find(kMark);
+  if (mark == std::string::npos) throw std::runtime_error("the page has no line " + std::string(kMark));
+  const TimeGrid grid = grid_of(run.records, run.period_s);
+  std::vector<Column> columns;
+  add_telemetry(run, grid, columns);
+  if (run.truth && run.truth->row_count() > 0) add_truth(*run.truth, grid, columns);
+  const Json json{{"format", 1},
+                  {"title", run.title},
+                  {"robot", run.robot},
+                  {"scene", run.scene},
+                  {"buses", run.buses},
+                  {"report", run.report},
+                  {"period_s", run.period_s},
+                  {"steps", steps_json(run.events)},
+                  {"events", run.events},
+                  {"commands", commands_json(run)},
+                  {"facts", facts_json(run.facts)},
+                  {"telemetry",
+                   {{"rows", grid.rows},
+                    {"ticks", {{"first", grid.first}, {"every", grid.every}}},
+                    {"columns", columns_json(columns)}}}};
+  return page.substr(0, mark) + "<script type=\"application/json\" id=\"liana-run\">" + in_page(json) +
+         "</script>\n<script type=\"text/plain\" id=\"liana-telemetry\">" + packed(columns) + "</script>" +
+         page.substr(mark + kMark.size());
+}
+
+}  // namespace liana::view
