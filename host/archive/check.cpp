@@ -3,11 +3,10 @@
 #include <stdexcept>
 
 #include "host/archive/reader.hpp"
+#include "host/archive/stretches.hpp"
 
 namespace liana::archive {
 namespace {
-
-constexpr double kStretch_s = 60.0;  // of telemetry that is held at once
 
 // Numbers of events rise one by one; of those that lianad no longer had a gap tells.
 void check_events(const Reader& reader, LifeCheck& life, std::vector<std::string>& problems) {
@@ -26,11 +25,7 @@ void check_telemetry(const Reader& reader, LifeCheck& life) {
   if (!recorded) return;
   life.from_s = static_cast<double>(recorded->first) * reader.life().period_s;
   life.to_s = static_cast<double>(recorded->last) * reader.life().period_s;
-  for (double from_s = life.from_s; from_s <= life.to_s; from_s += kStretch_s) {
-    Span span = reader.span_of(from_s, from_s + kStretch_s);
-    --span.last;
-    life.records += reader.telemetry(span).size();
-  }
+  life.records = Stretches(reader, kAll).visit([](const std::string&, const Json&) {});
 }
 
 LifeCheck check_life(const Reader& reader, std::vector<std::string>& problems) {

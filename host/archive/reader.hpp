@@ -29,6 +29,7 @@ class Reader {
   // path and reason.
   explicit Reader(const std::string& path, std::uint64_t life = 0);
 
+  const std::string& folder() const { return folder_; }
   std::uint64_t life_number() const { return life_number_; }
   std::uint64_t lives() const { return lives_; }
   const Life& life() const { return life_; }

@@ -4,8 +4,10 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <tuple>
 
 #include "host/archive/check.hpp"
+#include "host/archive/export.hpp"
 #include "host/archive/reader.hpp"
 #include "host/cli/commands.hpp"
 #include "host/event/event_json.hpp"
@@ -181,6 +183,25 @@ int log_show_command(const LogOptions& options) {
       print_shown(line);
     }
   }
+  return system::kExitOk;
+}
+
+int log_export_command(const LogOptions& options) {
+  using Write = std::uint64_t (*)(const archive::Reader&, archive::Span, const std::string&);
+  const std::tuple<const char*, std::string, Write> kinds[]{{"rows", options.csv, archive::write_csv},
+                                                            {"messages", options.mcap, archive::write_mcap},
+                                                            {"frames", options.candump, archive::write_candump}};
+  if (options.csv.empty() && options.mcap.empty() && options.candump.empty())
+    throw system::BadInput("log export: no file given; give --csv, --mcap or --candump");
+  const archive::Reader reader = reader_of(options.run);
+  Json written = Json::array();
+  for (const auto& [unit, file, write] : kinds) {
+    if (file.empty()) continue;
+    const std::uint64_t count = write(reader, reader.span_of(options.from_s, options.to_s), file);
+    if (!options.json) std::printf("%s: %" PRIu64 " %s\n", file.c_str(), count, unit);
+    written.push_back({{"file", file}, {"count", count}, {"unit", unit}});
+  }
+  if (options.json) std::puts(written.dump().c_str());
   return system::kExitOk;
 }
 
