@@ -132,8 +132,10 @@ int WebServerInside::serve(lws* wsi, const std::string& path) {
 void WebServerInside::open(lws* wsi, Connection& connection) {
   connection.message = new std::string;
   connection.session = &gateway.open(peer(wsi), [wsi, &connection] {
-    const bool is_over = connection.session != nullptr && connection.session->end().code != 0;
-    if (is_over) lws_set_timeout(wsi, PENDING_TIMEOUT_CLOSE_SEND, kLastWord_s);  // it may not read any more
+    const Session* session = connection.session;
+    if (session != nullptr && !session->has_said_much()) lws_rx_flow_control(wsi, 1);
+    if (session != nullptr && session->end().code != 0)
+      lws_set_timeout(wsi, PENDING_TIMEOUT_CLOSE_SEND, kLastWord_s);  // it may not read any more
     lws_callback_on_writable(wsi);
   });
 }
@@ -160,6 +162,7 @@ int WebServerInside::read(lws* wsi, Connection& connection, std::string_view pie
   } else {
     session.take_text(message, gateway.now_s());
   }
+  if (session.has_said_much()) lws_rx_flow_control(wsi, 0);
   message.clear();
   if (message.capacity() > kChunk) message.shrink_to_fit();
   return 0;
@@ -174,7 +177,7 @@ int WebServerInside::write(lws* wsi, Connection& connection) {
   std::memcpy(buffer.data() + LWS_PRE, next->bytes.data(), next->bytes.size());
   const lws_write_protocol kind = next->is_binary ? LWS_WRITE_BINARY : LWS_WRITE_TEXT;
   if (lws_write(wsi, buffer.data() + LWS_PRE, next->bytes.size(), kind) < 0) return -1;
-  lws_callback_on_writable(wsi);  // there may be more
+  if (session.has_more()) lws_callback_on_writable(wsi);
   return 0;
 }
 
