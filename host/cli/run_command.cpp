@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/run_page.hpp"
 #include "host/cli/session_report.hpp"
 #include "host/json/json.hpp"
 #include "host/report/run_report.hpp"
@@ -15,7 +16,7 @@ namespace liana::cli {
 namespace {
 
 bool publish_report(const system::RunOptions& options, const system::SystemLayout& plan, const Json& report) {
-  bool written = !plan.keep_directory || write_report(plan.file("report.json"), report);
+  bool written = write_report(plan.file("report.json"), report);
   if (options.report_file == "-") {
     std::puts(report.dump().c_str());
     return written;
@@ -52,7 +53,7 @@ int run_command(const system::RunOptions& options) {
   if (options.has_console) console = console_of(plan);
   const system::RunEnd end = session.run();
   if (end.bad_input) {
-    system::clean_up(plan, true);
+    system::discard(plan);
     throw system::BadInput(end.message);
   }
   const Json report = report::make_report(report_sources(options, plan, session, end));
@@ -60,9 +61,9 @@ int run_command(const system::RunOptions& options) {
   const bool success = report.value("outcome", "") == "success";
   if (!end.message.empty()) std::fprintf(stderr, "liana: %s\n", end.message.c_str());
   if (!success) {
-    std::fprintf(stderr, "liana: the run did not succeed; %s%s\n", where_to_look(plan).c_str(),
-                 plan.keep_directory ? "" : "; delete the folder when you have looked");
+    std::fprintf(stderr, "liana: the run did not succeed; %s\n", where_to_look(plan).c_str());
   }
+  leave_page(plan.directory, options.report_file == "-" ? stderr : stdout);
   system::clean_up(plan, success);
   return success && written ? system::kExitOk : system::kExitFailure;
 }

@@ -1,0 +1,31 @@
+// Numbers as a table for spreadsheets.
+import type { Run } from './run';
+
+function cell(text: string): string {
+  return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+}
+
+// One line for each row of the run between two arm times, a column for each field and index; numbers that are not there
+// stay empty.
+export function csv_of(run: Run, from_s: number, to_s: number): string {
+  const columns = run.head.telemetry.columns;
+  const names = columns.map((c) => cell(`${c.name}[${c.index}] [${c.unit}]`));
+  const lines = [['tick', 'time_s [s]', ...names].join(',')];
+  for (let row = run.row_at(from_s); row <= run.row_at(to_s); ++row) {
+    const numbers = columns.map((c) => {
+      const value = run.telemetry.columns.get(c.name)![c.index][row];
+      return Number.isFinite(value) ? String(Number(value.toPrecision(7))) : '';
+    });
+    lines.push([run.tick(row), run.time_s(row).toFixed(3), ...numbers].join(','));
+  }
+  return lines.join('\n') + '\n';
+}
+
+// Lets the person keep a text as a file.
+export function save_as(name: string, text: string): void {
+  const link = document.createElement('a');
+  link.href = URL.createObjectURL(new Blob([text], { type: 'text/csv' }));
+  link.download = name;
+  link.click();
+  URL.revokeObjectURL(link.href);
+}

@@ -1,0 +1,25 @@
+// The page begins here: a run that is in it is shown; else it is the console.
+import { run_in } from './data/run';
+import { use_software_canvas } from './plots/strip';
+import { RunPage } from './run/run_page';
+import { h } from './ui/dom';
+import { apply, theme_now } from './ui/theme';
+
+async function begin(): Promise<void> {
+  const place = document.getElementById('page')!;
+  try {
+    apply(theme_now());
+    use_software_canvas();
+    const run = await run_in(document);
+    if (run) {
+      document.title = `${run.head.title} \u2013 Liana`;
+      place.append(new RunPage(run).element);
+    }
+  } catch (error) {
+    place.append(h('p', { role: 'alert' }, `This page cannot be shown: ${String(error)}`));
+  }
+  place.removeAttribute('aria-busy');
+}
+
+if (document.readyState === 'loading') document.addEventListener('DOMContentLoaded', () => void begin());
+else void begin();

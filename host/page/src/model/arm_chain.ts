@@ -1,0 +1,127 @@
+// Where every straight piece of an arm is for given angles, from the robot table; columns as WebGL wants them.
+import type { CableRobot, Robot, SerialRobot } from './robot';
+
+const kDeg = Math.PI / 180;
+
+// A straight piece of the arm: along the x axis of its frame, which stands at its beginning.
+export interface Piece {
+  length_m: number;
+  segment: number; // from 0; of a serial arm the joint that moves it
+}
+
+// A rigid transformation as 3 rows of 4, in doubles: what is multiplied along the arm.
+type Rows = Float64Array;
+
+export interface ArmChain {
+  readonly pieces: Piece[];
+  readonly matrices: Float32Array; // of each piece's frame in the base frame, 16 each, column by column
+  readonly tip: Float32Array; // 16: the tip's frame
+  readonly nodes: Float32Array; // 3 for each segment: where it ends
+  // Moves all to these angles; angles beyond those given are 0. About 5 us, nothing is allocated.
+  set(theta_deg: ArrayLike<number>): void;
+}
+
+export function chain_of(robot: Robot): ArmChain {
+  return robot.kind === 'serial' ? new SerialChain(robot) : new CableChain(robot);
+}
+
+function identity(): Rows {
+  return Float64Array.of(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0);
+}
+
+// Turns columns `a` and `b` of the rotation: about x for (1, 2), about y for (2, 0), about z for (0, 1).
+function turn(rows: Rows, a: number, b: number, angle_rad: number): void {
+  const c = Math.cos(angle_rad);
+  const s = Math.sin(angle_rad);
+  for (let r = 0; r < 12; r += 4) {
+    const x = rows[r + a];
+    const y = rows[r + b];
+    rows[r + a] = c * x + s * y;
+    rows[r + b] = c * y - s * x;
+  }
+}
+
+function advance(rows: Rows, axis: number, way_m: number): void {
+  for (let r = 0; r < 12; r += 4) rows[r + 3] += rows[r + axis] * way_m;
+}
+
+// `first` to `third`: which of the frame's axes stand in the columns of the matrix.
+function write(rows: Rows, out: Float32Array, at: number, first = 0, second = 1, third = 2): void {
+  for (let r = 0; r < 3; ++r) {
+    out[at + r] = rows[4 * r + first];
+    out[at + 4 + r] = rows[4 * r + second];
+    out[at + 8 + r] = rows[4 * r + third];
+    out[at + 12 + r] = rows[4 * r + 3];
+  }
+  out[at + 3] = out[at + 7] = out[at + 11] = 0;
+  out[at + 15] = 1;
+}
+
+function at_or_zero(values: ArrayLike<number>, i: number): number {
+  return i < values.length && Number.isFinite(values[i]) ? values[i] : 0;
+}
+
+// Segments of equal-angled modules: odd modules turn Rz(pitch) Ry(yaw), even ones Ry(yaw) Rz(pitch).
+class CableChain implements ArmChain {
+  readonly pieces: Piece[] = [];
+  readonly matrices: Float32Array;
+  readonly tip = new Float32Array(16);
+  readonly nodes: Float32Array;
+
+  constructor(robot: CableRobot) {
+    robot.segments.forEach((s, segment) => {
+      for (let k = 0; k < s.modules; ++k) this.pieces.push({ length_m: s.module_length_m, segment });
+    });
+    this.matrices = new Float32Array(16 * this.pieces.length);
+    this.nodes = new Float32Array(3 * robot.segments.length);
+    this.set([]);
+  }
+
+  set(theta_deg: ArrayLike<number>): void {
+    const rows = identity();
+    this.pieces.forEach((piece, k) => {
+      const pitch = at_or_zero(theta_deg, 2 * piece.segment) * kDeg;
+      const yaw = at_or_zero(theta_deg, 2 * piece.segment + 1) * kDeg;
+      if (k % 2 === 0) turn(rows, 0, 1, pitch);
+      turn(rows, 2, 0, yaw);
+      if (k % 2 === 1) turn(rows, 0, 1, pitch);
+      write(rows, this.matrices, 16 * k);
+      advance(rows, 0, piece.length_m);
+      for (let r = 0; r < 3; ++r) this.nodes[3 * piece.segment + r] = rows[4 * r + 3];
+    });
+    write(rows, this.tip, 0);
+  }
+}
+
+// Standard DH rows; a row is up to two straight pieces, along z and along the new x.
+class SerialChain implements ArmChain {
+  readonly pieces: Piece[] = [];
+  readonly matrices: Float32Array;
+  readonly tip = new Float32Array(16);
+  readonly nodes: Float32Array;
+
+  constructor(private readonly robot: SerialRobot) {
+    robot.joints.forEach((joint, segment) => {
+      if (joint.d_m !== 0) this.pieces.push({ length_m: joint.d_m, segment });
+      if (joint.a_m !== 0) this.pieces.push({ length_m: joint.a_m, segment });
+    });
+    this.matrices = new Float32Array(16 * this.pieces.length);
+    this.nodes = new Float32Array(3 * robot.joints.length);
+    this.set([]);
+  }
+
+  set(theta_deg: ArrayLike<number>): void {
+    const rows = identity();
+    let at = 0;
+    this.robot.joints.forEach((joint, j) => {
+      turn(rows, 0, 1, (at_or_zero(theta_deg, j) + (joint.offset_deg ?? 0)) * kDeg);
+      if (joint.d_m !== 0) write(rows, this.matrices, 16 * at++, 2, 0, 1);
+      advance(rows, 2, joint.d_m);
+      if (joint.a_m !== 0) write(rows, this.matrices, 16 * at++);
+      advance(rows, 0, joint.a_m);
+      turn(rows, 1, 2, joint.alpha_deg * kDeg);
+      for (let r = 0; r < 3; ++r) this.nodes[3 * j + r] = rows[4 * r + 3];
+    });
+    write(rows, this.tip, 0);
+  }
+}

@@ -1,0 +1,4 @@
+declare module 'liana:tables' {
+  const tables: { faults: object[]; refusals: object[] };
+  export default tables;
+}

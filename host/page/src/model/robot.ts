@@ -1,0 +1,96 @@
+// The robot and the scene as lianad and runs have them (docs/formats.md): only what the page reads.
+
+export interface CableRobot {
+  name: string;
+  kind: 'robot';
+  segments: { modules: number; module_length_m: number; theta_limit_deg: number }[];
+  module: { radius_m: number };
+  cables: { hole_radius_m: number; face_offset_m: number; phase_deg: number[][] };
+  tension: { plan_N: number; floor_motor_N: number; ceiling_free_N: number; alarm_N: number; hard_limit_N: number };
+  limits: TipLimits & { theta_rate_deg_s: number; tip_speed_slit_m_s: number };
+  named_poses_deg: Record<string, number[]>;
+}
+
+export interface SerialRobot {
+  name: string;
+  kind: 'serial';
+  joints: {
+    alpha_deg: number;
+    a_m: number;
+    d_m: number;
+    offset_deg?: number;
+    low_deg: number;
+    high_deg: number;
+    rate_deg_s: number;
+  }[];
+  limits: TipLimits;
+  named_poses_deg: Record<string, number[]>;
+}
+
+export interface TipLimits {
+  tip_speed_m_s: number;
+  tip_rate_deg_s: number;
+}
+
+export type Robot = CableRobot | SerialRobot;
+
+export type Triple = [number, number, number];
+
+export interface Box {
+  name: string;
+  center_m: Triple;
+  half_extent_m: Triple;
+  rotation: [Triple, Triple, Triple]; // its axes as rows, in base coordinates
+}
+
+export interface Convex {
+  name: string;
+  points_m?: Triple[];
+  cylinder?: { from_m: Triple; to_m: Triple; radius_m: number };
+  chain?: { points_m: Triple[]; radius_m: number };
+}
+
+export interface Slit {
+  normal: Triple;
+  offset_m: number;
+  u_axis: Triple;
+  w_axis: Triple;
+  mouth_u_m: number;
+  end_u_m: number;
+  half_gap_m: number;
+  frame: { position_m: Triple };
+}
+
+export interface Scene {
+  name: string;
+  boxes?: Box[];
+  spheres?: { name: string; center_m: Triple; radius_m: number }[];
+  convex?: Convex[];
+  slit?: Slit;
+  rod?: { position_m: Triple; radius_m: number };
+  margins?: { slow_m?: number; refuse_m?: number };
+}
+
+// How many angles the arm has.
+export function angle_count(robot: Robot): number {
+  return robot.kind === 'serial' ? robot.joints.length : 2 * robot.segments.length;
+}
+
+// Range of angle `i` (from 0) [deg].
+export function angle_range_deg(robot: Robot, i: number): [number, number] {
+  if (robot.kind === 'serial') return [robot.joints[i].low_deg, robot.joints[i].high_deg];
+  const limit = robot.segments[i >> 1].theta_limit_deg;
+  return [-limit, limit];
+}
+
+// What people call angle `i` (from 0).
+export function angle_name(robot: Robot, i: number): string {
+  if (robot.kind === 'serial') return `joint ${i + 1}`;
+  return `${i % 2 === 0 ? 'pitch' : 'yaw'} ${(i >> 1) + 1}`;
+}
+
+// Farthest that the tip can be from the base [m].
+export function reach_m(robot: Robot): number {
+  if (robot.kind === 'serial') return robot.joints.reduce((sum, j) => sum + Math.abs(j.a_m) + Math.abs(j.d_m), 0);
+  return robot.segments.reduce((sum, s) => sum + s.modules * s.module_length_m, 0);
+}

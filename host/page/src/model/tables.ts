@@ -1,0 +1,29 @@
+// What faults and refusals mean and what to do, from the code's own tables (docs/faults.md, docs/refusals.md).
+import tables from 'liana:tables';
+
+export interface FaultRow {
+  number: number;
+  name: string;
+  retreat: boolean; // retract is let through while it is latched
+  text: string;
+  remedy: string;
+}
+
+export interface RefusalRow {
+  number: number; // M_e
+  name: string;
+  text: string;
+  action: string; // what lianad does besides: hold or stop
+  remedy: string;
+}
+
+const faults = new Map((tables.faults as FaultRow[]).map((row) => [row.number, row]));
+const refusals = new Map((tables.refusals as RefusalRow[]).map((row) => [row.number, row]));
+
+export function fault_row(number: number): FaultRow | undefined {
+  return faults.get(number);
+}
+
+export function refusal_row(number: number): RefusalRow | undefined {
+  return refusals.get(number);
+}

@@ -1,0 +1,76 @@
+// Which numbers stand together on a strip, with their colours.
+import type { Robot } from '../model/robot';
+import { segment_colour } from '../scene/palette';
+import type { Curve } from './strip';
+
+export interface Source extends Curve {
+  field: string;
+  index: number;
+  factor: number; // from the field's unit to the strip's
+}
+
+export interface Group {
+  name: string; // short, for the filter
+  title: string;
+  sources: Source[];
+  most?: number; // values beyond it are not worth the room
+}
+
+type Has = (field: string, index: number) => boolean;
+
+function source(field: string, index: number, label: string, colour: string, factor = 1, dashed = false): Source {
+  return { field, index, label, colour, factor, dashed };
+}
+
+function angle_groups(robot: Robot): Group[] {
+  if (robot.kind === 'serial') {
+    const joints = robot.joints.map((_, i) => source('measured_js_deg', i, String(i + 1), segment_colour(i)));
+    return [{ name: 'angles', title: 'joints [deg]', sources: joints }];
+  }
+  const of_axis = (axis: number) => robot.segments.map((_, m) => source('measured_js_deg', 2 * m + axis, String(m + 1), segment_colour(m)));
+  return [
+    { name: 'pitch', title: 'pitch of segments [deg]', sources: of_axis(0) },
+    { name: 'yaw', title: 'yaw of segments [deg]', sources: of_axis(1) },
+  ];
+}
+
+function force_groups(robot: Robot): Group[] {
+  if (robot.kind === 'serial') {
+    const joints = robot.joints.map((_, i) => source('torque_Nm', i, String(i + 1), segment_colour(i)));
+    return [{ name: 'torque', title: 'joint torque [N m]', sources: joints }];
+  }
+  const cables = robot.segments.flatMap((_, m) => [0, 1, 2].map((c) => source('tension_N', 3 * m + c, `${m + 1}.${c + 1}`, segment_colour(m))));
+  return [{ name: 'tension', title: 'cable tension, in the colours of the segments [N]', sources: cables }];
+}
+
+// The strips of this arm; fields that are not there are left out, and strips without any.
+export function groups_of(robot: Robot, has: Has): Group[] {
+  const clearance: Group = {
+    name: 'clearance',
+    title: 'clearance up to 150 mm [mm]',
+    most: 150,
+    sources: [
+      source('clearance.distance_m', 0, 'verified', '#f0a030', 1000),
+      source('truth.clearance_m', 0, 'true', '#57b894', 1000),
+      source('clearance.bound_m', 0, 'bound of error', '#8f9aa6', 1000, true),
+    ],
+  };
+  const error: Group = {
+    name: 'tip',
+    title: 'tip: speed [mm/s], push [N]',
+    sources: [source('truth.tip_speed_m_s', 0, 'true speed', '#4e9bd6', 1000), source('truth.contact_N', 0, 'contact', '#e0564a')],
+  };
+  const bus: Group = {
+    name: 'bus',
+    title: 'bus load [%]',
+    sources: [0, 1, 2, 3].map((b) => source('buses.measured_load', b, `bus ${b + 1}`, segment_colour(b), 100)),
+  };
+  const verdict: Group = {
+    name: 'verdict',
+    title: 'nearest limit, share used [%]',
+    sources: [source('verdict.share', 0, 'verdict', '#c96bb0', 100)],
+  };
+  return [...angle_groups(robot), ...force_groups(robot), clearance, verdict, bus, error]
+    .map((group) => ({ ...group, sources: group.sources.filter((s) => has(s.field, s.index)) }))
+    .filter((group) => group.sources.length > 0);
+}

@@ -1,0 +1,78 @@
+// Of a run that did not succeed: what failed, where, why, and what to do; of one that did, its figures.
+import type { Command, RunHead } from '../data/run';
+import { last_before } from '../data/run';
+import type { LianaEvent } from '../data/sample';
+import { length_text } from '../model/sentence';
+import { fault_row, refusal_row } from '../model/tables';
+
+export interface Outcome {
+  success: boolean;
+  what: string;
+  where: string;
+  why: string;
+  todo: string[];
+  tick: number | null; // the moment to look at
+}
+
+function where_of(head: RunHead, tick: number): string {
+  const step = head.steps[last_before(head.steps, tick)];
+  const at = `at ${(tick * head.period_s).toFixed(1)} s`;
+  return step ? `${at}, in step ${step.index} of ${Math.max(step.index, head.report?.steps?.length ?? head.steps.length)}: ${step.name}` : at;
+}
+
+// The event that ended it: the first fault or stop; else the last thing that was refused.
+function cause_of(events: readonly LianaEvent[]): LianaEvent | undefined {
+  const hard = events.find((e) => e.kind === 'fault' || e.kind === 'boot_problem' || e.kind === 'stop');
+  if (hard) return hard;
+  const refused = events.filter((e) => e.kind === 'verdict' || (e.kind === 'path' && e.number === 0) || e.kind === 'refusal');
+  return refused[refused.length - 1];
+}
+
+function remedy_of(event: LianaEvent, commands: readonly Command[]): string | undefined {
+  if (event.kind === 'fault' || event.kind === 'boot_problem') return fault_row(event.number)?.remedy;
+  if (event.kind === 'verdict') {
+    const refusal = commands.find((c) => c.command === event.values.command)?.refusal;
+    return refusal?.remedy || refusal_row(event.number)?.remedy;
+  }
+  if (event.kind === 'path') return refusal_row(207)?.remedy;
+  if (event.kind === 'stop') return 'Find out why it was stopped; then liana clear, enable, and retract or begin anew.';
+  return undefined;
+}
+
+export function outcome_of(head: RunHead): Outcome {
+  const report = head.report ?? {};
+  if (!head.report) {
+    return { success: false, what: 'The run left no report', where: '', why: 'It was interrupted, or is still going on.', todo: ['Look at the last events.'], tick: null };
+  }
+  if (report.outcome === 'success') {
+    const parts = [`${(report.duration_s ?? 0).toFixed(1)} s`];
+    const clear = (report.verified_clearance_m as { min?: number } | undefined)?.min ?? (report.min_clearance_m as number | undefined);
+    if (typeof clear === 'number' && clear < 100) parts.push(`at least ${length_text(clear)} clear of everything`);
+    if (typeof report.tip_error_m === 'number') parts.push(`tip ${length_text(report.tip_error_m)} from its goal in the end`);
+    return { success: true, what: `Success: ${parts.join(', ')}`, where: '', why: '', todo: [], tick: null };
+  }
+  return failure_of(head);
+}
+
+function failure_of(head: RunHead): Outcome {
+  const report = head.report!;
+  const cause = cause_of(head.events);
+  const failed = report.steps?.find((step) => step.outcome !== 'success');
+  const todo = new Set<string>();
+  for (const fault of report.faults ?? []) todo.add(fault.remedy ?? fault_row(fault.number)?.remedy ?? '');
+  if (cause) todo.add(remedy_of(cause, head.commands) ?? '');
+  todo.delete('');
+  for (const criterion of todo.size === 0 ? report.criteria ?? [] : []) {
+    if (!criterion.met) todo.add(`${criterion.name} is ${criterion.value}, its limit is ${criterion.limit}: look at where that was.`);
+  }
+  if (todo.size === 0) todo.add('Look at the events below; every refused request says what it would have taken.');
+  const whys = [cause && `${cause.subject}: ${cause.text}`, failed?.reason, report.reason].filter((text): text is string => !!text);
+  return {
+    success: false,
+    what: `${report.mission ?? head.title} ${report.outcome ?? 'failed'}${failed ? ` in "${failed.name}"` : ''}`,
+    where: cause ? where_of(head, cause.tick) : '',
+    why: [...new Set(whys)].join(' \u2013 '),
+    todo: [...todo],
+    tick: cause?.tick ?? null,
+  };
+}

@@ -1,0 +1,116 @@
+// Strips of a recorded run: all of it or a part, with a needle at the time of the scene.
+import type uPlot from 'uplot';
+import { csv_of, save_as } from '../data/csv';
+import type { Run } from '../data/run';
+import { chart_colours } from '../plots/chart_colours';
+import { decimated } from '../plots/decimate';
+import { groups_of, type Group } from '../plots/groups';
+import { Strip } from '../plots/strip';
+import type { Theme } from '../scene/palette';
+import { h } from '../ui/dom';
+
+const kPoints = 800;
+const kStrip_px = 122;
+const kWindows_s = [0, 60, 20, 5]; // 0: everything
+
+interface Shown {
+  group: Group;
+  strip: Strip;
+  needle: HTMLElement;
+  columns: Float32Array[];
+}
+
+export class RunPlots {
+  readonly element: HTMLElement;
+  private readonly list = h('div', { class: 'strips' });
+  private shown: Shown[] = [];
+  private window_s = 0;
+  private time_s = 0;
+  private range: [number, number];
+  private width = 400;
+
+  constructor(private readonly run: Run, private theme: Theme, private readonly go_to: (time_s: number) => void) {
+    this.range = [run.time_s(0), run.time_s(run.rows - 1)];
+    const span = h('select', { 'aria-label': 'how much time', onchange: () => this.set_window(Number(span.value)) },
+      ...kWindows_s.map((s) => h('option', { value: s }, s === 0 ? 'whole run' : `${s} s`)));
+    const save = h('button', { type: 'button', onclick: () => save_as(`${run.head.title.replace(/\W+/g, '_')}.csv`, csv_of(run, ...this.range)) }, 'CSV');
+    save.title = 'keep the numbers of this time as a table';
+    const filter = h('div', { class: 'filter', role: 'group', 'aria-label': 'strips' }, span, save);
+    this.element = h('div', { class: 'panel plots' }, filter, this.list);
+    this.build();
+    for (const { group, strip } of this.shown) filter.append(this.choice(group.name, strip));
+    new ResizeObserver(() => this.resize()).observe(this.list);
+  }
+
+  // Moves the needles; with a window that has gone, the curves, too.
+  at(time_s: number): void {
+    this.time_s = time_s;
+    if (this.window_s > 0 && (time_s < this.range[0] || time_s > this.range[1])) this.set_window(this.window_s);
+    this.place_needles();
+  }
+
+  set_theme(theme: Theme): void {
+    this.theme = theme;
+    this.build();
+  }
+
+  private build(): void {
+    const { telemetry } = this.run;
+    const groups = groups_of(this.run.head.robot, (field, index) => !!telemetry.columns.get(field)?.[index]);
+    this.shown = groups.map((group) => {
+      const strip = new Strip(group.title, group.sources, chart_colours(this.theme), this.width, kStrip_px, this.go_to, group.most);
+      const needle = h('div', { class: 'plot-needle' });
+      strip.plot.over.append(needle);
+      const columns = group.sources.map((s) => telemetry.columns.get(s.field)![s.index].map((v) => v * s.factor));
+      return { group, strip, needle, columns };
+    });
+    this.list.replaceChildren(...this.shown.map(({ strip }) => strip.element));
+    this.fill();
+  }
+
+  private fill(): void {
+    const first = this.run.row_at(this.range[0]);
+    const last = this.run.row_at(this.range[1]);
+    for (const { strip, columns } of this.shown) {
+      strip.set(decimated((row) => this.run.time_s(row), columns, first, last, kPoints) as unknown as uPlot.AlignedData);
+    }
+    this.place_needles();
+  }
+
+  private set_window(window_s: number): void {
+    this.window_s = window_s;
+    const begin = this.run.time_s(0);
+    const end = this.run.time_s(this.run.rows - 1);
+    const from = Math.max(begin, Math.min(end - window_s, this.time_s - window_s / 4));
+    this.range = window_s === 0 ? [begin, end] : [from, Math.min(end, from + window_s)];
+    this.fill();
+  }
+
+  // uPlot takes its new scales over in a microtask of its own.
+  private place_needles(): void {
+    queueMicrotask(() => this.place_needles_now());
+  }
+
+  private place_needles_now(): void {
+    for (const { strip, needle } of this.shown) {
+      needle.style.transform = `translateX(${Math.round(strip.plot.valToPos(this.time_s, 'x'))}px)`;
+    }
+  }
+
+  private resize(): void {
+    const width = this.list.clientWidth;
+    if (width === 0 || width === this.width) return;
+    this.width = width;
+    for (const { strip } of this.shown) strip.resize(width, kStrip_px);
+    this.place_needles();
+  }
+
+  private choice(name: string, strip: Strip): HTMLElement {
+    const box = h('input', { type: 'checkbox', checked: true });
+    box.addEventListener('change', () => {
+      const now = this.shown.find(({ group }) => group.name === name);
+      (now?.strip ?? strip).element.hidden = !box.checked;
+    });
+    return h('label', {}, box, name);
+  }
+}

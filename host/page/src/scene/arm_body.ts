@@ -1,0 +1,176 @@
+// The arm as it is: links, discs in the colours of their segments, cables in the colour of their tension.
+import * as THREE from 'three';
+import { chain_of, type ArmChain } from '../model/arm_chain';
+import type { CableRobot, Robot } from '../model/robot';
+import { scale_of, tension_colour, type TensionScale } from '../model/tension_colour';
+import { segment_colour } from './palette';
+
+const kSides = 8;
+const kDiscThickness_m = 0.008;
+const kLinkRadius_m = 0.013; // of the core between the discs, thinner than the module so that cables are seen
+const kSerialRadius_m = 0.08;
+
+// A cylinder along x from 0 to 1, to be scaled and placed.
+export function rod_geometry(radius_m: number, sides = kSides, open = false): THREE.BufferGeometry {
+  const geometry = new THREE.CylinderGeometry(radius_m, radius_m, 1, sides, 1, open);
+  return geometry.rotateZ(-Math.PI / 2).translate(0.5, 0, 0);
+}
+
+export function module_radius_m(robot: Robot): number {
+  return robot.kind === 'serial' ? kSerialRadius_m : robot.module.radius_m;
+}
+
+// Copies frame `from` of `frames` to matrix `to` of `mesh`, moved along its x by `shift_m`, its x stretched.
+function place(mesh: THREE.InstancedMesh, to: number, frames: Float32Array, from: number, shift_m: number, stretch: number): void {
+  const out = mesh.instanceMatrix.array as Float32Array;
+  const o = 16 * to;
+  const i = 16 * from;
+  for (let k = 0; k < 3; ++k) {
+    out[o + k] = frames[i + k] * stretch;
+    out[o + 4 + k] = frames[i + 4 + k];
+    out[o + 8 + k] = frames[i + 8 + k];
+    out[o + 12 + k] = frames[i + 12 + k] + frames[i + k] * shift_m;
+  }
+  out[o + 15] = 1;
+}
+
+export class ArmBody {
+  readonly group = new THREE.Group();
+  readonly chain: ArmChain;
+  private readonly links: THREE.InstancedMesh;
+  private readonly discs: THREE.InstancedMesh;
+  private readonly cables: Cables | null;
+  private held = '';
+
+  constructor(robot: Robot, private held_colour: string) {
+    this.chain = chain_of(robot);
+    const { pieces } = this.chain;
+    const is_cable = robot.kind !== 'serial';
+    const core = is_cable ? kLinkRadius_m : 0.7 * kSerialRadius_m;
+    this.links = new THREE.InstancedMesh(rod_geometry(core), new THREE.MeshLambertMaterial(), pieces.length);
+    this.discs = new THREE.InstancedMesh(rod_geometry(module_radius_m(robot)), new THREE.MeshLambertMaterial(), 2 * pieces.length);
+    this.cables = is_cable ? new Cables(robot, this.chain) : null;
+    for (const mesh of [this.links, this.discs]) mesh.frustumCulled = false;
+    this.group.add(this.links, this.discs);
+    if (this.cables) this.group.add(this.cables.lines);
+    this.face_m = is_cable ? robot.cables.face_offset_m : 0;
+    this.paint(new Set());
+  }
+
+  private readonly face_m: number;
+
+  // Moves the arm; tensions in the order of the API, none for an arm without cables.
+  set(theta_deg: ArrayLike<number>, tension_N: ArrayLike<number>): void {
+    this.chain.set(theta_deg);
+    const { pieces, matrices } = this.chain;
+    pieces.forEach((piece, k) => {
+      place(this.links, k, matrices, k, this.face_m, piece.length_m - 2 * this.face_m);
+      place(this.discs, 2 * k, matrices, k, this.face_m, kDiscThickness_m);
+      place(this.discs, 2 * k + 1, matrices, k, piece.length_m - this.face_m - kDiscThickness_m, kDiscThickness_m);
+    });
+    this.links.instanceMatrix.needsUpdate = true;
+    this.discs.instanceMatrix.needsUpdate = true;
+    this.cables?.set(tension_N);
+  }
+
+  // Segments (from 0) whose pitch is held: their discs are white (S2 of the paper).
+  mark_held(segments: ReadonlySet<number>): void {
+    const key = [...segments].join();
+    if (key === this.held) return;
+    this.held = key;
+    this.paint(segments);
+  }
+
+  set_held_colour(colour: string): void {
+    this.held_colour = colour;
+    this.held = '?';
+  }
+
+  private paint(held: ReadonlySet<number>): void {
+    const colour = new THREE.Color();
+    this.chain.pieces.forEach(({ segment }, k) => {
+      colour.set(segment_colour(segment));
+      this.links.setColorAt(k, colour);
+      if (held.has(segment)) colour.set(this.held_colour);
+      this.discs.setColorAt(2 * k, colour);
+      this.discs.setColorAt(2 * k + 1, colour);
+    });
+    for (const mesh of [this.links, this.discs]) mesh.instanceColor!.needsUpdate = true;
+  }
+}
+
+// One line set for all cables: cable c of segment m goes from the base through all discs to the end of segment m.
+class Cables {
+  readonly lines: THREE.LineSegments;
+  private readonly runs: { hole_y_m: number; hole_z_m: number; pieces: number; at: number }[] = [];
+  private readonly places: Float32Array;
+  private readonly colours: Float32Array;
+  private readonly scale: TensionScale;
+  private readonly face_m: number;
+
+  constructor(robot: CableRobot, private readonly chain: ArmChain) {
+    this.scale = scale_of(robot.tension);
+    this.face_m = robot.cables.face_offset_m;
+    let at = 0;
+    let pieces = 0;
+    robot.segments.forEach((segment, m) => {
+      pieces += segment.modules;
+      for (const phase_deg of robot.cables.phase_deg[m]) {
+        const phase = (phase_deg * Math.PI) / 180;
+        const r = robot.cables.hole_radius_m;
+        this.runs.push({ hole_y_m: r * Math.cos(phase), hole_z_m: r * Math.sin(phase), pieces, at });
+        at += 2 * (2 * pieces - 1);
+      }
+    });
+    this.places = new Float32Array(3 * at);
+    this.colours = new Float32Array(3 * at);
+    const geometry = new THREE.BufferGeometry();
+    geometry.setAttribute('position', new THREE.BufferAttribute(this.places, 3).setUsage(THREE.DynamicDrawUsage));
+    geometry.setAttribute('color', new THREE.BufferAttribute(this.colours, 3).setUsage(THREE.DynamicDrawUsage));
+    this.lines = new THREE.LineSegments(geometry, new THREE.LineBasicMaterial({ vertexColors: true }));
+    this.lines.frustumCulled = false;
+  }
+
+  set(tension_N: ArrayLike<number>): void {
+    const { matrices, pieces } = this.chain;
+    this.runs.forEach((run, cable) => {
+      const colour = tension_colour(tension_N[cable] ?? NaN, this.scale);
+      const points = 2 * run.pieces;
+      let vertex = run.at;
+      for (let p = 0; p < points; ++p) {
+        const k = p >> 1;
+        const x_m = p % 2 === 0 ? this.face_m : pieces[k].length_m - this.face_m;
+        for (let twice = p === 0 || p === points - 1 ? 1 : 2; twice > 0; --twice) {
+          for (let r = 0; r < 3; ++r) {
+            const m = 16 * k + r;
+            this.places[3 * vertex + r] =
+              matrices[m + 12] + matrices[m] * x_m + matrices[m + 4] * run.hole_y_m + matrices[m + 8] * run.hole_z_m;
+            this.colours[3 * vertex + r] = colour[r];
+          }
+          ++vertex;
+        }
+      }
+    });
+    this.lines.geometry.attributes.position.needsUpdate = true;
+    this.lines.geometry.attributes.color.needsUpdate = true;
+  }
+}
+
+// The outline of an arm that is not there: commanded or predicted.
+export class GhostArm {
+  readonly mesh: THREE.InstancedMesh;
+  readonly chain: ArmChain;
+
+  constructor(robot: Robot, colour: string, opacity: number) {
+    this.chain = chain_of(robot);
+    const material = new THREE.MeshBasicMaterial({ color: colour, transparent: true, opacity, depthWrite: false });
+    this.mesh = new THREE.InstancedMesh(rod_geometry(module_radius_m(robot), kSides, true), material, this.chain.pieces.length);
+    this.mesh.frustumCulled = false;
+  }
+
+  set(theta_deg: ArrayLike<number>): void {
+    this.chain.set(theta_deg);
+    this.chain.pieces.forEach((piece, k) => place(this.mesh, k, this.chain.matrices, k, 0, piece.length_m));
+    this.mesh.instanceMatrix.needsUpdate = true;
+  }
+}

@@ -1,0 +1,40 @@
+// Words on the things of the scene: at most five, pushed apart, inside the picture.
+import { h, set_text } from '../ui/dom';
+import { push_apart, type Area } from './push_apart';
+import type { Stage } from './stage';
+
+const kMost = 5;
+
+export interface Label {
+  text: string;
+  place_m: ArrayLike<number>;
+}
+
+export class Labels {
+  readonly layer = h('div', { class: 'labels', 'aria-hidden': 'true' });
+  private readonly tags: HTMLElement[] = [];
+
+  constructor(private readonly stage: Stage) {
+    for (let i = 0; i < kMost; ++i) this.tags.push(h('span', { class: 'label', hidden: true }));
+    this.layer.append(...this.tags);
+  }
+
+  // The most important first; those behind the camera or outside the picture are left out.
+  show(labels: readonly Label[], taken: readonly Area[]): void {
+    const { width, height } = this.stage;
+    const seen: { label: Label; at: [number, number] }[] = [];
+    for (const label of labels) {
+      const at = Number.isFinite(label.place_m[0]) ? this.stage.pixel_of(label.place_m) : null;
+      if (at && at[0] > 0 && at[0] < width && at[1] > 0 && at[1] < height) seen.push({ label, at });
+      if (seen.length === kMost) break;
+    }
+    const areas = seen.map(({ label, at }) => ({ x: at[0] + 10, y: at[1] - 28, width: 7.2 * label.text.length + 10, height: 18 }));
+    push_apart(areas, width, height, taken);
+    this.tags.forEach((tag, i) => {
+      tag.hidden = i >= seen.length;
+      if (tag.hidden) return;
+      set_text(tag, seen[i].label.text);
+      tag.style.transform = `translate(${Math.round(areas[i].x)}px, ${Math.round(areas[i].y)}px)`;
+    });
+  }
+}

@@ -1,0 +1,50 @@
+// What colours and shapes mean, with units; and what can be shown besides.
+import type { Robot, Scene } from '../model/robot';
+import { css, scale_of, tension_colour } from '../model/tension_colour';
+import { h } from '../ui/dom';
+import { segment_colour, type SceneColours } from './palette';
+
+function line(colour: string, text: string): HTMLElement {
+  return h('div', {}, h('i', { style: `background:${colour}` }), text);
+}
+
+function segments_line(robot: Robot): HTMLElement {
+  const count = robot.kind === 'serial' ? robot.joints.length : robot.segments.length;
+  const squares = Array.from({ length: count }, (_, i) =>
+    h('span', { class: 'key' }, h('i', { style: `background:${segment_colour(i)}` }), String(i + 1)),
+  );
+  return h('div', {}, robot.kind === 'serial' ? 'joint ' : 'segment ', ...squares);
+}
+
+function tension_line(robot: Robot): HTMLElement | null {
+  if (robot.kind === 'serial') return null;
+  const scale = scale_of(robot.tension);
+  const stops = [scale.low_N, scale.middle_N, scale.high_N].map((tension_N) => css(tension_colour(tension_N, scale)));
+  const bar = `linear-gradient(90deg, ${stops.join(',')})`;
+  return h('div', {}, h('i', { class: 'wide', style: `background:${bar}` }), `cable tension ${scale.low_N}, ${scale.middle_N}, ${scale.high_N} N`);
+}
+
+function choice(text: string, chosen: (on: boolean) => void): HTMLElement {
+  const box = h('input', { type: 'checkbox' });
+  box.addEventListener('change', () => chosen(box.checked));
+  return h('label', {}, box, text);
+}
+
+// `exaggerate` and `predict` are told what the person chose.
+export function legend_of(
+  robot: Robot,
+  scene: Scene,
+  colours: SceneColours,
+  exaggerate: (on: boolean) => void,
+  predict: (on: boolean) => void,
+): HTMLElement {
+  return h('div', { class: 'legend' },
+    segments_line(robot),
+    tension_line(robot),
+    scene.rod ? line(colours.rod, 'the rod to press') : null,
+    scene.slit ? line(colours.held, 'discs: held in the plane of the slit (S2)') : null,
+    line(colours.near, 'closest point, verified'),
+    line(colours.ghost, 'commanded arm'),
+    choice('error 10 times as large', exaggerate),
+    choice('where it would stop, by the last verdict', predict));
+}

@@ -1,0 +1,70 @@
+// Colours of the scene in both themes, and of the arm's segments in scene, plots and legend.
+
+export type Theme = 'dark' | 'light';
+
+export const kSegmentColours = ['#4e9bd6', '#57b894', '#d9b44a', '#e08a45', '#c96bb0', '#8f86e0', '#7fb0a8', '#b0a08f'];
+
+export function segment_colour(segment: number): string {
+  return kSegmentColours[segment % kSegmentColours.length];
+}
+
+export interface SceneColours {
+  background: string;
+  grid: string;
+  grid_axis: string;
+  edge: string;
+  glass: string;
+  wall: string;
+  obstacle: string;
+  rod: string;
+  base: string;
+  ghost: string;
+  predicted: string;
+  trail: string;
+  way: string;
+  slit: string;
+  near: string;
+  held: string;
+}
+
+const kDark: SceneColours = {
+  background: '#10161d',
+  grid: '#1f2b37',
+  grid_axis: '#34506a',
+  edge: '#9fb7d9',
+  glass: '#4f86e0',
+  wall: '#a8b0ba',
+  obstacle: '#c25a50',
+  rod: '#ffe14a',
+  base: '#7b8592',
+  ghost: '#7fd4ff',
+  predicted: '#c8a2ff',
+  trail: '#ffffff',
+  way: '#5a6b7c',
+  slit: '#3fd0b0',
+  near: '#ffb020',
+  held: '#f4f6f8',
+};
+
+const kLight: SceneColours = {
+  background: '#f2f5f8',
+  grid: '#d5dde5',
+  grid_axis: '#a5b7c8',
+  edge: '#40587a',
+  glass: '#2f66c8',
+  wall: '#68727e',
+  obstacle: '#b8473c',
+  rod: '#c79200',
+  base: '#7b8592',
+  ghost: '#0a78b8',
+  predicted: '#7a3fd0',
+  trail: '#1b2631',
+  way: '#93a3b3',
+  slit: '#00866c',
+  near: '#c05a00',
+  held: '#1b2631',
+};
+
+export function scene_colours(theme: Theme): SceneColours {
+  return theme === 'dark' ? kDark : kLight;
+}

@@ -1,0 +1,31 @@
+// Labels that do not overlap: moved up or down, and kept inside the picture.
+
+export interface Area {
+  x: number; // of its left upper corner, pixels
+  y: number;
+  width: number;
+  height: number;
+}
+
+function overlap(a: Area, b: Area): boolean {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+function clamped(value: number, low: number, high: number): number {
+  return Math.max(low, Math.min(high, value));
+}
+
+// Moves the areas, which are in order of importance: what comes first stays where it is, what follows goes to the
+// nearest free place above or below. `taken`: parts of the picture where no label may be.
+export function push_apart(areas: Area[], width: number, height: number, taken: readonly Area[] = []): void {
+  const placed: Area[] = [...taken];
+  for (const area of areas) {
+    area.x = clamped(area.x, 2, width - area.width - 2);
+    area.y = clamped(area.y, 2, height - area.height - 2);
+    const wished = area.y;
+    const places = [wished, ...placed.flatMap((other) => [other.y - area.height - 1, other.y + other.height + 1])];
+    const free = places.filter((y) => y >= 0 && y + area.height <= height && !placed.some((other) => overlap({ ...area, y }, other)));
+    area.y = free.sort((a, b) => Math.abs(a - wished) - Math.abs(b - wished))[0] ?? wished;
+    placed.push(area);
+  }
+}

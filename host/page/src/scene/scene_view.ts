@@ -1,0 +1,199 @@
+// The scene as a part of the page: canvas, tip picture, labels, legend, views; draws when something new is there.
+import * as THREE from 'three';
+import { is_known, value, values, type Sample } from '../data/sample';
+import type { Robot, Scene } from '../model/robot';
+import { length_text } from '../model/sentence';
+import { distance } from '../model/vector';
+import { h, set_class, set_text } from '../ui/dom';
+import { ArmBody, GhostArm } from './arm_body';
+import { Labels, type Label } from './labels';
+import { legend_of } from './legend';
+import { ClosestPoint, GoalCross, NodeBalls, Trail } from './markers';
+import { scene_colours, type Theme } from './palette';
+import { Stage } from './stage';
+import { surroundings } from './surroundings';
+import { views_of, type View } from './views';
+
+const kTipPicture = { width: 280, height: 180 };
+const kExaggeration = 10;
+const kLabels_ms = 100; // labels are laid out at most so often: style and layout cost more than the scene's script
+
+export class SceneView {
+  readonly element: HTMLElement;
+  readonly stage: Stage;
+  readonly views: View[];
+  readonly trail: Trail;
+  readonly way: Trail; // the whole way of a recorded run
+  on_drawn: (now_ms: number) => void = () => {};
+  exaggerate = false;
+  private readonly arm: ArmBody;
+  private readonly ghost: GhostArm;
+  private readonly predicted: GhostArm;
+  private readonly closest: ClosestPoint;
+  private readonly goal = new GoalCross();
+  private readonly nodes: NodeBalls;
+  private readonly labels: Labels;
+  private readonly corner = h('div', { class: 'corner' });
+  private readonly error = h('div', { class: 'error-number' });
+  private readonly tip_frame = h('div', { class: 'tip-frame' }, h('span', {}, 'what the tip camera sees'));
+  private readonly view_buttons: HTMLButtonElement[];
+  private readonly colours;
+  private view: View;
+  private sample: Sample | null = null;
+  private is_due = false;
+  private had_state = false;
+  private labels_at_ms = 0;
+  private readonly drawn_angles = new Float32Array(16);
+
+  // Throws when the browser has no WebGL.
+  constructor(private readonly robot: Robot, private readonly scene: Scene, theme: Theme) {
+    this.colours = scene_colours(theme);
+    const canvas = h('canvas', { class: 'scene', tabindex: '0', 'aria-label': 'The arm in its scene: drag to turn, wheel to zoom' });
+    this.stage = new Stage(canvas);
+    this.stage.scene.background = new THREE.Color(this.colours.background);
+    this.arm = new ArmBody(robot, this.colours.held);
+    this.ghost = new GhostArm(robot, this.colours.ghost, 0.22);
+    this.predicted = new GhostArm(robot, this.colours.predicted, 0.16);
+    this.predicted.mesh.visible = false;
+    this.closest = new ClosestPoint(this.colours.near);
+    this.nodes = new NodeBalls(this.arm.chain.nodes.length / 3, this.colours);
+    this.trail = new Trail(this.colours.trail);
+    this.way = new Trail(this.colours.way);
+    const world = [this.arm.group, this.ghost.mesh, this.predicted.mesh, this.closest.group, this.goal.group, this.nodes.group];
+    this.stage.scene.add(surroundings(scene, robot, this.colours), ...world, this.way.line, this.trail.line);
+    this.stage.hidden_from_tip = [...world.slice(1), this.way.line, this.trail.line];
+    this.labels = new Labels(this.stage);
+    this.views = views_of(robot, scene);
+    this.view = this.views[0];
+    this.view_buttons = this.views.map((view, i) =>
+      h('button', { type: 'button', title: `view: ${view.name} (key ${i + 1})`, onclick: () => this.look(view) }, view.name),
+    );
+    const bar = h('div', { class: 'views', role: 'group', 'aria-label': 'Views' }, ...this.view_buttons);
+    this.element = h('section', { class: 'scene-view', 'aria-label': 'Scene' }, canvas, this.tip_frame, this.labels.layer, bar,
+      legend_of(robot, scene, this.colours, (on) => this.set_exaggerated(on), (on) => this.show_predicted(on)), this.error, this.corner);
+    new ResizeObserver(() => this.resize()).observe(this.element);
+    this.look(this.view);
+  }
+
+  look(view: View): void {
+    this.view = view;
+    this.stage.look(view, this.arm.chain.tip.subarray(12, 15));
+    this.stage.on_moved = () => this.draw_soon(false);
+    this.view_buttons.forEach((button, i) => {
+      set_class(button, 'chosen', this.views[i] === view);
+      button.setAttribute('aria-pressed', String(this.views[i] === view));
+    });
+    this.draw_soon(false);
+  }
+
+  // Shows a moment of the arm with the next frame.
+  show(sample: Sample): void {
+    this.sample = sample;
+    this.draw_soon(true);
+  }
+
+  say_in_corner(text: string): void {
+    set_text(this.corner, text);
+  }
+
+  private set_exaggerated(on: boolean): void {
+    this.exaggerate = on;
+    this.draw_soon(false);
+  }
+
+  private show_predicted(on: boolean): void {
+    this.predicted.mesh.visible = on;
+    this.draw_soon(false);
+  }
+
+  private draw_soon(is_state: boolean): void {
+    this.had_state ||= is_state;
+    if (this.is_due) return;
+    this.is_due = true;
+    requestAnimationFrame((now_ms) => this.draw(now_ms));
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.element;
+    if (width === 0 || height === 0) return;
+    this.stage.resize(width, height);
+    const share = Math.min(1, width / 620);
+    const inset = { width: Math.round(kTipPicture.width * share), height: Math.round(kTipPicture.height * share), top: 8, left: 0 };
+    inset.left = width - inset.width - 8;
+    this.stage.inset = inset;
+    Object.assign(this.tip_frame.style, { left: `${inset.left}px`, top: `${inset.top}px`, width: `${inset.width}px`, height: `${inset.height}px` });
+    this.draw_soon(false);
+  }
+
+  private draw(now_ms: number): void {
+    this.is_due = false;
+    if (this.sample) this.move_all(this.sample);
+    const tip = this.arm.chain.tip;
+    if (this.view.follows_tip) this.stage.follow(tip.subarray(12, 15));
+    this.stage.render(tip);
+    if (now_ms - this.labels_at_ms > kLabels_ms || !this.had_state) {
+      this.labels_at_ms = now_ms;
+      this.place_labels();
+    }
+    const busy = this.had_state;
+    this.had_state = false;
+    if (this.stage.pace.drawn(now_ms, busy)) this.resize();
+    this.on_drawn(now_ms);
+  }
+
+  private move_all(sample: Sample): void {
+    const measured = values(sample, 'measured_js_deg');
+    const setpoint = values(sample, 'setpoint_js_deg');
+    this.arm.mark_held(new Set((sample.facts.held ?? []).map((theta) => (theta - 1) >> 1)));
+    this.arm.set(measured, values(sample, 'tension_N'));
+    this.move_ghost(measured, setpoint);
+    const stop = values(sample, 'verdict.stop_js_deg');
+    const predicted = is_known(stop) ? stop : values(sample, 'verdict.twin_js_deg');
+    if (this.predicted.mesh.visible && is_known(predicted)) this.predicted.set(predicted);
+    this.nodes.set(this.arm.chain.nodes);
+    this.goal.set(values(sample, 'goal_cp'));
+    const link = value(sample, 'clearance.link') - 1;
+    const piece = this.arm.chain.pieces[link];
+    this.closest.set(values(sample, 'clearance.where_m'), piece ? this.arm.chain.matrices.subarray(16 * link, 16 * link + 16) : null, piece?.length_m ?? 0);
+  }
+
+  // The commanded arm is what the twin had predicted: the difference is the error of the prediction.
+  private move_ghost(measured: Float32Array, setpoint: Float32Array): void {
+    this.ghost.mesh.visible = is_known(setpoint);
+    if (!this.ghost.mesh.visible) return;
+    const factor = this.exaggerate ? kExaggeration : 1;
+    for (let i = 0; i < setpoint.length; ++i) this.drawn_angles[i] = setpoint[i];
+    this.ghost.set(this.drawn_angles);
+    const error_m = distance(this.ghost.chain.tip.subarray(12, 15), this.arm.chain.tip.subarray(12, 15));
+    if (factor > 1) {
+      for (let i = 0; i < setpoint.length; ++i) this.drawn_angles[i] = measured[i] + factor * (setpoint[i] - measured[i]);
+      this.ghost.set(this.drawn_angles);
+    }
+    const drawn = this.exaggerate ? `, drawn ${kExaggeration} times as large` : '';
+    set_text(this.error, `prediction error ${(1000 * error_m).toFixed(1)} mm at the tip${drawn}`);
+  }
+
+  private place_labels(): void {
+    const { scene, sample, stage } = this;
+    const chain = this.arm.chain;
+    const labels: Label[] = [];
+    const clear_m = sample ? value(sample, 'clearance.distance_m') : NaN;
+    if (sample && Number.isFinite(clear_m)) {
+      const bound_m = value(sample, 'clearance.bound_m');
+      const sure = Number.isFinite(bound_m) ? ` \u00b1 ${length_text(bound_m)}` : '';
+      labels.push({ text: `${length_text(clear_m)} clear of ${sample.facts.clearance?.body ?? 'it'}${sure}`, place_m: values(sample, 'clearance.where_m').slice() });
+    }
+    if (scene.rod) labels.push({ text: 'press rod: the goal', place_m: scene.rod.position_m });
+    if (scene.slit) labels.push({ text: `slit, ${Math.round(2000 * scene.slit.half_gap_m)} mm`, place_m: scene.slit.frame.position_m });
+    for (const body of scene.spheres ?? []) labels.push({ text: body.name, place_m: body.center_m });
+    labels.push({ text: this.robot.kind === 'serial' ? 'base' : `base: ${3 * this.robot.segments.length} motors`, place_m: [-0.1, 0, -0.1] });
+    if (!scene.rod) labels.push({ text: 'tip', place_m: chain.tip.subarray(12, 15) });
+    for (const body of scene.convex ?? []) {
+      const at = body.points_m?.[0] ?? body.cylinder?.from_m ?? body.chain?.points_m[0];
+      if (at) labels.push({ text: body.name, place_m: at });
+    }
+    const { inset } = stage;
+    const taken = inset ? [{ x: inset.left, y: inset.top, width: inset.width, height: inset.height }] : [];
+    this.labels.show(labels, taken);
+  }
+}

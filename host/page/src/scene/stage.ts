@@ -1,0 +1,121 @@
+// Canvas, cameras and their views: the whole scene, and what the camera at the tip sees as a picture in its corner.
+import * as THREE from 'three';
+import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
+import { FramePace } from './frame_pace';
+import type { View } from './views';
+
+const kField_deg = 38;
+const kTipField_deg = 70;
+
+THREE.ColorManagement.enabled = false; // colours as they are written: half a megabyte of shader work less a frame
+
+export interface Inset {
+  left: number; // from the canvas' left upper corner, pixels
+  top: number;
+  width: number;
+  height: number;
+}
+
+export class Stage {
+  readonly scene = new THREE.Scene();
+  readonly camera = new THREE.PerspectiveCamera(kField_deg, 1, 0.05, 60);
+  readonly renderer: THREE.WebGLRenderer;
+  readonly pace = new FramePace();
+  controls: OrbitControls;
+  inset: Inset | null = null;
+  hidden_from_tip: THREE.Object3D[] = []; // what would only be in the way of the tip's camera
+  on_moved: () => void = () => {}; // the person moved the camera
+  width = 1;
+  height = 1;
+  private readonly tip_camera = new THREE.PerspectiveCamera(kTipField_deg, 1, 0.03, 8);
+  private followed = new THREE.Vector3();
+
+  // Throws when the browser has no WebGL.
+  constructor(readonly canvas: HTMLCanvasElement) {
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: false, powerPreference: 'low-power' });
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+    this.renderer.autoClear = true;
+    this.tip_camera.matrixAutoUpdate = false;
+    const sky = new THREE.HemisphereLight(0xffffff, 0x556677, 2.3);
+    sky.position.set(0, 0, 1);
+    this.scene.add(sky);
+    const sun = new THREE.DirectionalLight(0xffffff, 1.7);
+    sun.position.set(-2, -4, 5);
+    this.scene.add(sun);
+    this.controls = new OrbitControls(this.camera, canvas);
+  }
+
+  resize(width: number, height: number): void {
+    this.width = Math.max(1, Math.round(width));
+    this.height = Math.max(1, Math.round(height));
+    this.renderer.setPixelRatio(this.pace.pixel_ratio);
+    this.renderer.setSize(this.width, this.height, false);
+    this.camera.aspect = this.width / this.height;
+    this.camera.updateProjectionMatrix();
+  }
+
+  look(view: View, tip_m: ArrayLike<number>): void {
+    this.controls.dispose();
+    const shift = view.follows_tip ? new THREE.Vector3(tip_m[0], tip_m[1], tip_m[2]) : new THREE.Vector3();
+    this.followed.copy(shift);
+    this.camera.up.set(...view.up);
+    this.camera.position.set(...view.eye_m).add(shift);
+    this.controls = new OrbitControls(this.camera, this.canvas);
+    this.controls.target.set(...view.target_m).add(shift);
+    this.controls.addEventListener('change', () => this.on_moved());
+    this.controls.update();
+  }
+
+  // Moves the camera along with the tip.
+  follow(tip_m: ArrayLike<number>): void {
+    const way = new THREE.Vector3(tip_m[0], tip_m[1], tip_m[2]).sub(this.followed);
+    this.followed.add(way);
+    this.camera.position.add(way);
+    this.controls.target.add(way);
+  }
+
+  // `tip`: the tip's frame, column by column.
+  render(tip: Float32Array): void {
+    const { renderer, inset } = this;
+    renderer.setScissorTest(true);
+    renderer.setViewport(0, 0, this.width, this.height);
+    renderer.setScissor(0, 0, this.width, this.height);
+    this.camera.updateMatrixWorld();
+    renderer.render(this.scene, this.camera);
+    if (!inset) return;
+    this.place_tip_camera(tip, inset);
+    const bottom = this.height - inset.top - inset.height;
+    renderer.setViewport(inset.left, bottom, inset.width, inset.height);
+    renderer.setScissor(inset.left, bottom, inset.width, inset.height);
+    const seen = this.hidden_from_tip.map((object) => object.visible);
+    for (const object of this.hidden_from_tip) object.visible = false;
+    renderer.render(this.scene, this.tip_camera);
+    this.hidden_from_tip.forEach((object, i) => (object.visible = seen[i]));
+  }
+
+  // The camera looks along the tip's x, its up is the tip's z.
+  private place_tip_camera(tip: Float32Array, inset: Inset): void {
+    const camera = this.tip_camera;
+    const to = camera.matrix.elements;
+    for (let r = 0; r < 3; ++r) {
+      to[r] = -tip[4 + r];
+      to[4 + r] = tip[8 + r];
+      to[8 + r] = -tip[r];
+      to[12 + r] = tip[12 + r];
+    }
+    const aspect = inset.width / inset.height;
+    if (camera.aspect !== aspect) {
+      camera.aspect = aspect;
+      camera.updateProjectionMatrix();
+    }
+    camera.matrixWorldNeedsUpdate = true;
+    camera.updateMatrixWorld(true);
+  }
+
+  // Where a place of the base frame is in the picture [pixels]; null: behind the camera.
+  pixel_of(place_m: ArrayLike<number>): [number, number] | null {
+    const v = new THREE.Vector3(place_m[0], place_m[1], place_m[2]).project(this.camera);
+    if (v.z > 1) return null;
+    return [(v.x * 0.5 + 0.5) * this.width, (0.5 - v.y * 0.5) * this.height];
+  }
+}

@@ -1,0 +1,91 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { RecordReader, type Layout } from '../../host/page/src/data/record';
+import { last_before } from '../../host/page/src/data/run';
+import { telemetry_of } from '../../host/page/src/data/telemetry';
+import { decimated } from '../../host/page/src/plots/decimate';
+
+const layout: Layout = {
+  version: 1,
+  bytes: 36,
+  fields: [
+    { name: 'measured_js_deg', unit: 'deg', offset: 24, count: 2 },
+    { name: 'clearance.distance_m', unit: 'm', offset: 32, count: 1 },
+  ],
+};
+
+function record(): ArrayBuffer {
+  const view = new DataView(new ArrayBuffer(36));
+  view.setUint32(0, 7, true);
+  view.setUint32(4, 3, true);
+  view.setFloat64(8, 1e10, true);
+  view.setFloat64(16, 4.5, true);
+  [1.5, -2.5, NaN].forEach((value, i) => view.setFloat32(24 + 4 * i, value, true));
+  return view.buffer;
+}
+
+test('a record is read at the places of its layout, little-endian', () => {
+  const reader = new RecordReader(layout);
+  assert.equal(reader.read(record()), true);
+  assert.deepEqual([reader.sequence, reader.facts, reader.tick, reader.time_s], [7, 3, 1e10, 4.5]);
+  assert.deepEqual([...reader.numbers.get('measured_js_deg')!], [1.5, -2.5]);
+  assert.ok(Number.isNaN(reader.numbers.get('clearance.distance_m')![0]));
+});
+
+test('a record of another size changes nothing', () => {
+  const reader = new RecordReader(layout);
+  assert.equal(reader.read(new ArrayBuffer(32)), false);
+  assert.equal(reader.sequence, 0);
+});
+
+test('a layout of another version, and one whose fields are not within the record, are refused by name', () => {
+  assert.throws(() => new RecordReader({ ...layout, version: 2 }), /layout.version = 2/);
+  const beyond = [{ name: 'x', unit: '1', offset: 32, count: 2 }];
+  assert.throws(() => new RecordReader({ ...layout, fields: beyond }), /layout field x at 32/);
+});
+
+// As `liana view` writes them.
+function planes_of(columns: number[][]): Uint8Array {
+  const bytes: number[] = [];
+  for (const column of columns) {
+    const steps = column.map((value, i) => (value - (i > 0 ? column[i - 1] : 0)) & 0xffff);
+    bytes.push(...steps.map((s) => s & 255), ...steps.map((s) => s >> 8));
+  }
+  return Uint8Array.from(bytes);
+}
+
+test('telemetry comes back from byte planes of differences, also across the end of int16', () => {
+  const columns = [
+    { name: 'a', index: 0, unit: 'm', scale: 0.5 },
+    { name: 'a', index: 1, unit: 'm', scale: 1 },
+  ];
+  const head = { rows: 4, ticks: { first: 10, every: 5 }, columns };
+  const telemetry = telemetry_of(head, planes_of([[1, -2, 32767, -32767], [-32768, 5, -32768, 0]]));
+  assert.deepEqual([...telemetry.columns.get('a')![0]], [0.5, -1, 16383.5, -16383.5]);
+  assert.deepEqual([...telemetry.columns.get('a')![1]], [NaN, 5, NaN, 0]);
+});
+
+test('telemetry of another length than its head says is damaged', () => {
+  const head = { rows: 2, ticks: { first: 0, every: 1 }, columns: [{ name: 'a', index: 0, unit: 'm', scale: 1 }] };
+  assert.throws(() => telemetry_of(head, new Uint8Array(3)), /3 bytes, 4 belong/);
+});
+
+test('the last entry at or before a tick is found, none before the first', () => {
+  const list = [{ tick: 10 }, { tick: 20 }, { tick: 20 }, { tick: 30 }];
+  assert.deepEqual([5, 10, 25, 20, 99].map((tick) => last_before(list, tick)), [-1, 0, 2, 2, 3]);
+});
+
+test('decimation keeps every peak and stays under the most points', () => {
+  const values = Array.from({ length: 1000 }, (_, i) => (i === 637 ? 50 : i === 201 ? -50 : Math.sin(i / 50)));
+  const [times, curve] = decimated((row) => row, [values], 0, 999, 100);
+  assert.ok(times.length <= 100);
+  assert.equal(Math.max(...curve), 50);
+  assert.equal(Math.min(...curve), -50);
+  assert.ok(times.every((t, i) => i === 0 || t > times[i - 1]));
+});
+
+test('where there are fewer rows than points all of them are kept', () => {
+  const [times, curve] = decimated((row) => row / 10, [[1, 2, NaN]], 0, 2, 100);
+  assert.deepEqual([...curve], [1, 1, 2, 2, NaN, NaN]);
+  assert.equal(times[2], 0.1);
+});

@@ -1,0 +1,50 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import type { RunHead } from '../../host/page/src/data/run';
+import { outcome_of } from '../../host/page/src/run/outcome';
+import { kArm } from './support';
+
+const steps = [
+  { index: 1, name: 'prepare pose', device: 'none', tick: 100 },
+  { index: 2, name: 'into the slit', device: 'hand', tick: 200 },
+];
+const done = { name: 'prepare pose', device: 'none', duration_s: 1, outcome: 'success', reason: '' };
+
+function head(changes: Partial<RunHead>): RunHead {
+  const telemetry = { rows: 0, ticks: { first: 0, every: 1 }, columns: [] };
+  return { format: 1, title: 't', made_by: '', robot: kArm, scene: { name: 's' }, report: null, period_s: 0.004, steps, events: [], commands: [], facts: [], telemetry, ...changes };
+}
+
+test('of a failed run it says what failed, where, why, and the remedy of the fault table', () => {
+  const outcome = outcome_of(head({
+    report: { mission: 'slit_crossing', outcome: 'failed', reason: 'the arm is STOPPING', faults: [], steps: [done, { ...done, name: 'into the slit', outcome: 'failed', reason: 'fault' }] },
+    events: [
+      { sequence: 1, tick: 250, kind: 'fault', number: 5006, subject: 'drive 7', values: {}, text: 'cable_break: gone' },
+      { sequence: 2, tick: 260, kind: 'fault', number: 3002, subject: 'drive 7', values: {}, text: 'later' },
+    ],
+  }));
+  assert.equal(outcome.success, false);
+  assert.equal(outcome.what, 'slit_crossing failed in "into the slit"');
+  assert.equal(outcome.where, 'at 1.0 s, in step 2 of 2: into the slit');
+  assert.match(outcome.why, /^drive 7: cable_break: gone/);
+  assert.match(outcome.todo[0], /look at the cable and its clamp/);
+  assert.equal(outcome.tick, 250);
+});
+
+test('a run that ended with a refused command names its refusal and what to do instead', () => {
+  const outcome = outcome_of(head({
+    report: { outcome: 'failed', reason: 'time limit', faults: [], steps: [] },
+    events: [{ sequence: 1, tick: 300, kind: 'verdict', number: 208, subject: 'simulation', values: { command: 9 }, text: 'link 27 and the wall' }],
+  }));
+  assert.match(outcome.why, /link 27 and the wall/);
+  assert.match(outcome.todo.join(' '), /leaves the body named more room/);
+});
+
+test('a success is one line with its figures', () => {
+  const outcome = outcome_of(head({ report: { outcome: 'success', duration_s: 204.08, verified_clearance_m: { min: 0.0106 }, tip_error_m: 0.0009 } }));
+  assert.equal(outcome.what, 'Success: 204.1 s, at least 10.6 mm clear of everything, tip 0.9 mm from its goal in the end');
+});
+
+test('a run without a report says so', () => {
+  assert.match(outcome_of(head({})).what, /no report/);
+});

@@ -1,0 +1,87 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { pitch_budget } from '../../host/page/src/model/pitch_budget';
+import { length_text, sentence_of } from '../../host/page/src/model/sentence';
+import { scale_of, tension_colour } from '../../host/page/src/model/tension_colour';
+import { moved, rotated, turn_between } from '../../host/page/src/model/vector';
+import { FramePace } from '../../host/page/src/scene/frame_pace';
+import { push_apart } from '../../host/page/src/scene/push_apart';
+import { kArm, near, sample_of } from './support';
+
+const scene = { name: 'x', rod: { position_m: [3, 0, 0] as [number, number, number], radius_m: 0.01 } };
+
+test('one sentence says step, clearance and way to the goal', () => {
+  const sample = sample_of(
+    { measured_cp: [2.14, 0, 0, 1, 0, 0, 0], 'clearance.distance_m': [0.041] },
+    { state: 'ENABLED', step: { index: 4, name: 'segment 5 into the slit', device: 'hand' }, clearance: { body: 'panel', sure: 'camera', camera: 'none', level: 'free' } },
+  );
+  assert.equal(sentence_of(sample, kArm, scene, 6), 'step 4 of 6: segment 5 into the slit, 41 mm from the panel, 0.86 m to the rod');
+});
+
+test('a stop and a fault come before the step in the sentence', () => {
+  const step = { index: 1, name: 'x', device: 'none' };
+  assert.match(sentence_of(sample_of({}, { state: 'FAULT', step }), kArm, scene, null), /^stopped by a fault/);
+  const stop = { by: 'anna', reason: '', tick: 1 };
+  assert.match(sentence_of(sample_of({}, { state: 'DISABLED', step, stop }), kArm, scene, null), /^emergency stop by anna/);
+});
+
+test('lengths are said in the unit that people use', () => {
+  assert.deepEqual([0.0134, 0.041, 0.86, NaN, -0.002].map(length_text), ['13.4 mm', '41 mm', '0.86 m', '?', '-2.0 mm']);
+});
+
+test('a cable is blue at the floor, pale as planned, red at the ceiling, grey when not known', () => {
+  const scale = scale_of(kArm.tension);
+  const [low, plan, high] = [15, 40, 150].map((tension_N) => tension_colour(tension_N, scale));
+  assert.ok(low[2] > low[0] && high[0] > high[2]);
+  assert.ok(Math.max(...plan) - Math.min(...plan) < 0.1);
+  assert.deepEqual(tension_colour(600, scale), high);
+  assert.deepEqual(tension_colour(NaN, scale), [0.5, 0.5, 0.5]);
+});
+
+test('the pitch budget is 0.32 deg with one segment in the slit and 0.084 deg with two', () => {
+  const setpoint = new Float32Array(10);
+  const measured = Float32Array.of(5, 0, 0, 0, 0, 0, 0.021, 0, -0.042, 0);
+  assert.equal(pitch_budget([], measured, setpoint), null);
+  assert.equal(pitch_budget([10], measured, setpoint), null); // a yaw is no pitch
+  const one = pitch_budget([9], measured, setpoint)!;
+  const two = pitch_budget([7, 9], measured, setpoint)!;
+  assert.deepEqual([one.allowed_deg, one.segments], [0.32, [5]]);
+  assert.deepEqual([two.allowed_deg, two.segments], [0.084, [4, 5]]);
+  assert.ok(near(two.share, 0.5, 1e-4) && near(two.used_deg, 0.042, 1e-5));
+});
+
+test('labels are pushed apart, the first stays, all are inside the picture and beside what is taken', () => {
+  const areas = [0, 1, 2, 3].map((i) => ({ x: 100 + i, y: 100, width: 80, height: 18 }));
+  push_apart(areas, 300, 200, [{ x: 90, y: 125, width: 100, height: 20 }]);
+  assert.deepEqual([areas[0].x, areas[0].y], [100, 100]);
+  const all = [...areas, { x: 90, y: 125, width: 100, height: 20 }];
+  for (const a of all)
+    for (const b of all) if (a !== b) assert.ok(a.y + a.height <= b.y || b.y + b.height <= a.y, JSON.stringify(all));
+  assert.ok(areas.every((a) => a.y >= 0 && a.y + a.height <= 200));
+});
+
+test('the picture becomes coarser while frames are slow, and finer again only after calm seconds', () => {
+  const pace = new FramePace();
+  let now_ms = 0;
+  const frames = (interval_ms: number, seconds: number) => {
+    const end_ms = now_ms + 1000 * seconds;
+    while (now_ms < end_ms) pace.drawn((now_ms += interval_ms), true);
+  };
+  frames(20, 5);
+  assert.equal(pace.pixel_ratio, 1);
+  frames(80, 5);
+  assert.ok(pace.pixel_ratio < 1);
+  const coarse = pace.pixel_ratio;
+  frames(20, 5);
+  assert.equal(pace.pixel_ratio, coarse);
+  frames(20, 30);
+  assert.equal(pace.pixel_ratio, 1);
+});
+
+test('a pose moves along the axes of base or tip and turns about them', () => {
+  const turned = moved([1, 0, 0, 1, 0, 0, 0], [0, 0, 0], [0, 0, Math.PI / 2], false);
+  const on = moved(turned, [0.5, 0, 0], [0, 0, 0], true);
+  assert.ok(near(on[0], 1, 1e-9) && near(on[1], 0.5, 1e-9));
+  assert.ok(near(turn_between([0, 0, 0, 1, 0, 0, 0], turned), Math.PI / 2, 1e-9));
+  assert.ok(near(rotated([turned[3], turned[4], turned[5], turned[6]], [1, 0, 0])[1], 1, 1e-9));
+});
