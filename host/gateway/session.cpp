@@ -95,6 +95,7 @@ void Session::hello(const Json& message) {
     return close(kPolicyViolated, "malformed", "name: allowed is a text of 1 to 32 bytes without control characters");
   access_ = has_tokens ? house_.tokens->find(wanted)->second.access : Access::kOperate;
   name_ = house_.free_name(wanted);
+  if (has_tokens) ticket_ = fresh_nonce();
   greeted_ = true;
   const auto reply = [this](const Json& said) { answer(said); };
   stop_.emplace(house_.poller, house_.api, name_, reply);
@@ -217,6 +218,7 @@ std::string Session::welcome() const {
   Json message = house_.feed.welcome();
   message["role"] = access_name(access_);
   message["name"] = name_;
+  if (!ticket_.empty()) message["ticket"] = ticket_;
   return message.dump();
 }
 

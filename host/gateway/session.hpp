@@ -62,6 +62,8 @@ class Session {
   bool has_said_much() const { return messages_ >= kMostMessages; }
   bool is_greeted() const { return greeted_; }
   const std::string& name() const { return name_; }
+  // What lets the client load recorded runs while it is connected; empty where no tokens are asked for.
+  const std::string& ticket() const { return ticket_; }
   const std::string& address() const { return address_; }
   double since_s() const { return since_s_; }
   // Why the connection is to be closed; empty while it is not. `code`: of RFC 6455, section 7.4.
@@ -86,7 +88,7 @@ class Session {
   std::string welcome() const;
 
   House& house_;
-  std::string address_, name_, nonce_;
+  std::string address_, name_, nonce_, ticket_;
   double since_s_;
   std::function<void()> something_to_send_;
   bool greeted_ = false;

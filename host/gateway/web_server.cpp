@@ -16,13 +16,17 @@
 
 #include "host/api/socket.hpp"
 #include "host/gateway/http_answer.hpp"
+#include "host/gateway/run_pages.hpp"
 #include "host/gateway/web_origin.hpp"
+#include "host/json/json.hpp"
 
 namespace liana::gateway {
 namespace {
 
 constexpr const char* kProtocol = "liana-console-1";
 constexpr const char* kPlain = "text/plain; charset=utf-8";
+constexpr const char* kJson = "application/json";
+constexpr std::string_view kRun = "/run/";
 constexpr std::size_t kChunk = 4096;  // of a message, as it is read
 constexpr std::size_t kLongestMessage = api::kMaxPacketBytes;
 constexpr unsigned int kMostSockets = 192;                     // clients, strangers, and those who only load the page
@@ -43,6 +47,12 @@ std::string header(lws* wsi, lws_token_indexes which) {
   const int copied = lws_hdr_copy(wsi, text.data(), length + 1, which);
   text.resize(copied > 0 ? static_cast<std::size_t>(copied) : 0);
   return text;
+}
+
+std::string query(lws* wsi, const char* name) {
+  std::array<char, 128> text{};
+  const char* found = lws_get_urlarg_by_name(wsi, name, text.data(), static_cast<int>(text.size()));
+  return found == nullptr ? "" : found;
 }
 
 std::string peer(lws* wsi) {
@@ -126,6 +136,12 @@ int WebServerInside::serve(lws* wsi, const std::string& path) {
   if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) == 0)
     return refuse(wsi, "method", HTTP_STATUS_METHOD_NOT_ALLOWED, "allowed is GET");
   if (path == "/") return answer_page(wsi, options.page);
+  const bool about_runs = !options.runs.empty() && (path == "/runs" || path.starts_with(kRun));
+  if (about_runs && !gateway.lets_in(query(wsi, "ticket=")))
+    return refuse(wsi, "no_token", HTTP_STATUS_FORBIDDEN, "'" + path + "': takes ?ticket= of the welcome");
+  if (about_runs && path == "/runs") return answer_http(wsi, HTTP_STATUS_OK, kJson, run_list(options.runs).dump());
+  const auto run = about_runs ? run_page(options.runs, path.substr(kRun.size())) : std::nullopt;
+  if (run) return answer_page(wsi, *run);
   return refuse(wsi, "path", HTTP_STATUS_NOT_FOUND, "'" + path + "': nothing is there");
 }
 

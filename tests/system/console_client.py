@@ -40,7 +40,11 @@ def connected(address, receive_bytes=0):
     if receive_bytes:
         plain.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_bytes)
     plain.settimeout(PATIENCE_S)
-    plain.connect((parts.hostname, parts.port))
+    try:
+        plain.connect((parts.hostname, parts.port))
+    except OSError:
+        plain.close()
+        raise
     if parts.scheme != "https":
         return plain, parts.netloc
     context = ssl.create_default_context()

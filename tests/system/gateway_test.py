@@ -1,7 +1,9 @@
 """The console's gateway against lianad and the simulated arm (docs/console-protocol.md)."""
 import contextlib
 import json
+import os
 import pathlib
+import signal
 import struct
 import subprocess
 import tempfile
@@ -314,6 +316,40 @@ class WhoIsLetIn(SystemTest):
         self.assert_upgrade_refused(gateway, 400, "protocol", protocol="liana-console-9")
         self.assert_upgrade_refused(gateway, 400, "protocol", protocol=None)
 
+    def test_recorded_runs_are_shown_by_name_and_nothing_beside_them(self):
+        for name in ("older", "newer", "unfinished"):
+            (self.folder / "runs" / name).mkdir(parents=True)
+        for changed_s, name in enumerate(("older", "newer")):
+            (self.folder / "runs" / name / "page.html").write_text(f"page of {name}")
+            os.utime(self.folder / "runs" / name, (changed_s, changed_s))
+        os.utime(self.folder / "runs" / "unfinished", (9, 9))
+        (self.folder / "page.html").write_text("secret")
+        gateway = Gateway(self, self.api, "--runs", self.folder / "runs")
+        runs = json.loads(http_get(gateway.address, "/runs")[2])
+        self.assertEqual([(run["name"], run["page"]) for run in runs][0], ("unfinished", False))
+        self.assertEqual([(run["name"], run["page"]) for run in runs][1:], [("newer", True), ("older", True)])
+        self.assertEqual(http_get(gateway.address, "/run/older")[2], b"page of older")
+        for name in ("unfinished", "none", "", ".", "older/page.html", "older%00"):
+            self.assertNotEqual(http_get(gateway.address, f"/run/{name}")[0], 200, name)
+        for name in ("..", "../page.html", "%2e%2e", "..%2f", "%2e%2e%2fpage.html", "..%5cpage.html"):
+            self.assertNotIn(b"secret", http_get(gateway.address, f"/run/{name}")[2], name)
+
+    def test_where_tokens_are_asked_for_runs_take_the_ticket_of_a_client_that_is_connected(self):
+        (self.folder / "runs" / "one").mkdir(parents=True)
+        (self.folder / "runs" / "one" / "page.html").write_text("page of one")
+        with System() as system:
+            gateway = Gateway(self, system.api, "--runs", self.folder / "runs", "--token-file", self.tokens)
+            self.assertEqual(http_get(gateway.address, "/runs")[0], 403)
+            self.assertEqual(http_get(gateway.address, f"/run/one?ticket={'0' * 64}")[0], 403)
+            system.client("keeper").step()
+            watcher = self.console(gateway.address, token_name="will", token="watches-the-arm-00002")
+            ticket = watcher.until(lambda me: me.welcome).welcome["ticket"]
+            self.assertEqual(http_get(gateway.address, f"/run/one?ticket={ticket}")[2], b"page of one")
+            watcher.close()
+            wait_until(
+                lambda: http_get(gateway.address, f"/run/one?ticket={ticket}")[0] == 403, "the end of the ticket"
+            )
+
     def test_a_message_that_is_too_long_ends_the_connection(self):
         gateway = Gateway(self, self.api)
         console = self.console(gateway.address)
@@ -432,6 +468,98 @@ class WhoMisbehaves(GatewayTest):
         self.assertLess(time.monotonic() - begin, 0.9)  # after that the gateway says that there was none
         self.assertEqual(len(stuck), 8)
         self.assert_others_go_on()
+
+
+class TheCommandConsole(SystemTest):
+    """`liana console`, in a runtime directory of its own."""
+
+    def setUp(self):
+        self.home = self.enterContext(tempfile.TemporaryDirectory(prefix="liana-home-"))
+        homes = {"XDG_RUNTIME_DIR": self.home, "XDG_STATE_HOME": self.home, "TMPDIR": self.home}
+        self.environment = {**os.environ, **homes}
+
+    def start(self, *words):
+        """`liana` with these words, ended when the test ends."""
+        process = subprocess.Popen(
+            [program("liana"), *words],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env=self.environment,
+        )
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        return process
+
+    def interrupt(self, process):
+        """Ctrl-C; the exit code and what it said last."""
+        process.send_signal(signal.SIGINT)
+        _, error = process.communicate(timeout=60)
+        return process.returncode, error
+
+    def console(self, address, **options):
+        console = Console(address, **options)
+        self.addCleanup(console.close)
+        return console
+
+    def processes(self):
+        """Programs of this test that still run."""
+        lines = [path.read_bytes() for path in pathlib.Path("/proc").glob("[0-9]*/cmdline") if path.exists()]
+        return [line for line in lines if self.home.encode() in line]
+
+    def test_without_a_system_it_shows_a_simulated_arm_that_the_page_enables_and_ctrl_c_ends_all(self):
+        process = self.start("console", "--listen", "127.0.0.1:0")
+        process.stdout.readline()
+        console = self.console(process.stdout.readline().strip())
+        console.enable()
+        self.assertEqual(console.facts["owner"], "test")
+        second = self.start("console", "--robot", "micro", "--listen", "127.0.0.1:0")
+        self.assertIn("--simulate", second.communicate(timeout=60)[1])
+        self.assertEqual(second.returncode, 2)
+        code, error = self.interrupt(process)
+        self.assertEqual(code, 0, error)
+        wait_until(lambda: not self.processes(), "the end of all programs")
+        (run,) = (pathlib.Path(self.home) / "liana" / "runs").iterdir()
+        self.assertIn(str(run), error)
+        self.assertTrue((run / "archive.db").exists())
+
+    def test_with_a_system_it_shows_that_one_and_a_gateway_that_dies_comes_back(self):
+        owner = self.start("console", "--listen", "127.0.0.1:0", "--json")
+        api = json.loads(owner.stdout.readline())["api"]
+        process = self.start("console", "--listen", "127.0.0.1:0", "--json")
+        told = json.loads(process.stdout.readline())
+        self.assertEqual(told["api"], api)
+        console = self.console(told["address"]).until(lambda me: me.state)
+        (gateway,) = [
+            path.parent.name
+            for path in pathlib.Path("/proc").glob("[0-9]*/stat")
+            if f"(liana-gateway) S {process.pid} " in path.read_text()
+        ]
+        os.kill(int(gateway), signal.SIGKILL)
+        with self.assertRaises(OSError):
+            console.until(lambda me: False)
+
+        def comes_back():
+            try:
+                self.console(told["address"]).until(lambda me: me.state)
+            except OSError:
+                return False
+            return True
+
+        wait_until(comes_back, "another gateway at the same address")
+        code, error = self.interrupt(process)
+        self.assertEqual(code, 0, error)
+        self.assertIn("started again", error)
+        self.assertIsNone(owner.poll())
+
+    def test_a_mission_tells_the_address_and_is_seen(self):
+        process = self.start("run", "slit_crossing", "--time", "paced", "--console", "--json", "-")
+        console = self.console(process.stderr.readline().split()[-1])
+        console.until(lambda me: me.facts.get("step") and me.facts["step"]["index"] == 1)
+        number = console.stop("seen")
+        console.until(lambda me: number in me.answers)
+        report = json.loads(process.communicate(timeout=60)[0])
+        self.assertIn("emergency stop by test: seen", report["reason"])
 
 
 if __name__ == "__main__":
