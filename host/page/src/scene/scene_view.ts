@@ -92,6 +92,12 @@ export class SceneView {
     this.draw_soon(true);
   }
 
+  // Something of other parts of the page that stands in the scene, but not in the picture of the tip's camera.
+  add_helper(object: THREE.Object3D): void {
+    this.stage.scene.add(object);
+    this.stage.hidden_from_tip.push(object);
+  }
+
   say_in_corner(text: string): void {
     set_text(this.corner, text);
   }
