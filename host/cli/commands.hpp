@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/system/gateway_process.hpp"
 #include "host/system/run_options.hpp"
 
 namespace liana::cli {
@@ -82,6 +83,16 @@ int run_command(const system::RunOptions& options);
 // The same without anything that moves and without a trace: virtual time on the embedded bus, found by nobody else's
 // status, estop or clear. Says what the steps leave of the limits and what is refused; exit code 0 only on success.
 int check_command(const system::RunOptions& given);
+
+struct ConsoleOptions {
+  std::string api;                 // empty: the one running system; where there is none, a simulated arm is started
+  bool simulate = false;           // a simulated arm is started whatever runs
+  system::RunOptions run;          // how it is to be, of a simulated arm
+  system::GatewayOptions gateway;  // where it listens, who may
+  bool json = false;
+};
+// The console of a running system, or of a simulated arm without a mission; tells the address, ends with Ctrl-C.
+int console_command(const ConsoleOptions& options);
 
 struct CalibrateOptions {
   std::string robot = "zhu2022";

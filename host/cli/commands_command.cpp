@@ -8,7 +8,7 @@
 #include "host/json/json.hpp"
 #include "host/report/command_json.hpp"
 #include "host/system/errors.hpp"
-#include "host/system/kept_events.hpp"
+#include "host/system/runs.hpp"
 #include "host/verify/refusal_table.hpp"
 
 namespace liana::cli {
@@ -25,14 +25,10 @@ fs::path file_of(const std::string& run) {
     if (fs::exists(path)) return path;
     throw system::BadInput("'" + path.string() + "': no such file; give the folder of a run, or its commands.txt");
   }
-  const std::string folder = system::kept_commands_folder();
-  fs::path newest;
-  std::error_code none;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, none)) {
-    if (newest.empty() || entry.last_write_time() > fs::last_write_time(newest)) newest = entry.path();
+  for (const std::string& each : system::kept_runs(system::runs_folder())) {
+    if (const fs::path path = fs::path(each) / "commands.txt"; fs::exists(path)) return path;
   }
-  if (newest.empty()) throw system::BadInput("'" + folder + "' keeps no run yet; name the folder of a run");
-  return newest;
+  throw system::BadInput("'" + system::runs_folder() + "' keeps no run yet; name the folder of a run");
 }
 
 std::string outcome(const CommandLife& life) {

@@ -167,6 +167,39 @@ void add_run(CLI::App& app, Action& action, liana::system::RunOptions& run) {
   sub->add_option("--cross-wired", run.cross_wired,
                   "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
   sub->add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
+  sub->add_flag("--console", run.has_console, "show it in a browser while it runs; the address goes to standard error");
+}
+
+void add_gateway_options(CLI::App& sub, liana::system::GatewayOptions& gateway) {
+  sub.add_option(
+      "--listen", gateway.listen,
+      "ADDR:PORT; where not given 127.0.0.1:8765, or a free port where that is taken; beyond this machine it "
+      "takes --token-file, --cert and --key");
+  sub.add_option("--token-file", gateway.token_file,
+                 "lines NAME ROLE TOKEN, roles watch, operate, administer; mode 0600 (docs/console-protocol.md)");
+  sub.add_option("--cert", gateway.certificate, "certificate for TLS, PEM");
+  sub.add_option("--key", gateway.key, "its key, PEM");
+}
+
+void add_console(CLI::App& app, Action& action, ConsoleOptions& console) {
+  CLI::App* sub = add(app, action, "console", "the arm in a browser: of a running system, or a simulated one", console,
+                      console_command);
+  sub->add_option("--api", console.api,
+                  "API socket of a lianad; where not given, that of the one running system, or a simulated arm");
+  sub->add_flag("--simulate", console.simulate, "start a simulated arm, also where a system runs");
+  sub->add_option("--robot", console.run.robot, "of the simulated arm: a name under lua/robots or a file")
+      ->capture_default_str();
+  sub->add_option("--scene", console.run.scene,
+                  "of the simulated arm: a name under lua/scenes or a file; panel_slit where not given, for a serial "
+                  "arm none");
+  sub->add_option("--bus", console.run.bus, "of the simulated arm: an embedded bus table");
+  sub->add_option("--physics", console.run.physics, "of the simulated arm: nominal, ideal or worn")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
+  sub->add_option("--calibration", console.run.calibration, "of the simulated arm: what liana calibrate wrote");
+  add_seed(*sub, console.run.seed, "of the simulated arm");
+  add_gateway_options(*sub, console.gateway);
+  sub->add_flag("--json", console.json, "print JSON");
 }
 
 void add_check(CLI::App& app, Action& action, liana::system::RunOptions& check) {
@@ -372,6 +405,7 @@ int run(int argc, char** argv) {
   PlanOptions plan;
   VerifyOptions verify;
   liana::system::RunOptions run, check;
+  ConsoleOptions console;
   CalibrateOptions calibrate;
   LatencyOptions latency;
   ClientOptions client;
@@ -388,6 +422,7 @@ int run(int argc, char** argv) {
   add_verify(app, action, verify);
   add_run(app, action, run);
   add_check(app, action, check);
+  add_console(app, action, console);
   add_client(app, action, "status", "state of every running system", client, status_command);
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client,
              estop_command);

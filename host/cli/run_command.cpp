@@ -1,11 +1,13 @@
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 
 #include "host/cli/commands.hpp"
 #include "host/cli/session_report.hpp"
 #include "host/json/json.hpp"
 #include "host/report/run_report.hpp"
 #include "host/system/errors.hpp"
+#include "host/system/gateway_process.hpp"
 #include "host/system/run_session.hpp"
 #include "host/system/system_layout.hpp"
 
@@ -13,7 +15,7 @@ namespace liana::cli {
 namespace {
 
 bool publish_report(const system::RunOptions& options, const system::SystemLayout& plan, const Json& report) {
-  bool written = !plan.keep_directory || write_report(plan.file("report.json"), report);
+  bool written = write_report(plan.file("report.json"), report);
   if (options.report_file == "-") {
     std::puts(report.dump().c_str());
     return written;
@@ -29,14 +31,28 @@ std::string where_to_look(const system::SystemLayout& plan) {
   return "what happened and why is in " + plan.events_file() + ", its logs are beside it";
 }
 
+// A mission is not kept from running by a console that cannot.
+std::optional<system::GatewayProcess> console_of(const system::SystemLayout& plan) {
+  try {
+    system::GatewayProcess gateway(plan.api_socket(), system::GatewayOptions(), plan.file("liana-gateway.log"));
+    std::fprintf(stderr, "console: %s\n", gateway.address().c_str());
+    return gateway;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "liana: no console: %s\n", error.what());
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 int run_command(const system::RunOptions& options) {
   const system::SystemLayout plan = system::make_layout(options);
   system::RunSession session(plan);
+  std::optional<system::GatewayProcess> console;
+  if (options.has_console) console = console_of(plan);
   const system::RunEnd end = session.run();
   if (end.bad_input) {
-    system::clean_up(plan, true);
+    system::discard(plan);
     throw system::BadInput(end.message);
   }
   const Json report = report::make_report(report_sources(options, plan, session, end));
@@ -44,8 +60,7 @@ int run_command(const system::RunOptions& options) {
   const bool success = report.value("outcome", "") == "success";
   if (!end.message.empty()) std::fprintf(stderr, "liana: %s\n", end.message.c_str());
   if (!success) {
-    std::fprintf(stderr, "liana: the run did not succeed; %s%s\n", where_to_look(plan).c_str(),
-                 plan.keep_directory ? "" : "; delete the folder when you have looked");
+    std::fprintf(stderr, "liana: the run did not succeed; %s\n", where_to_look(plan).c_str());
   }
   system::clean_up(plan, success);
   return success && written ? system::kExitOk : system::kExitFailure;

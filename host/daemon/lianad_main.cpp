@@ -147,7 +147,10 @@ int run(const Options& options) {
   const Setup setup{options, *mode, liana::config::load_buses(options.buses), liana::config::load_scene(options.scene),
                     roles_in(options.expect)};
   const bool is_serial = liana::config::is_serial_robot(options.robot);
-  if (*mode == liana::timing::TimeMode::kReal) liana::control::lock_memory();
+  if (*mode == liana::timing::TimeMode::kReal) {
+    liana::control::lock_memory();
+    liana::control::come_before_ordinary_work();
+  }
   return is_serial ? serve_serial_arm(setup) : serve_cable_arm(setup);
 }
 

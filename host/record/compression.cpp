@@ -15,8 +15,6 @@ namespace {
 }
 
 #ifdef LIANA_WITH_ZSTD
-constexpr int kLevel = 3;  // a tick's 1.5 kB take 5 us; higher levels gain little
-
 std::string unzstd(std::string_view compressed, std::uint64_t size) {
   if (ZSTD_getFrameContentSize(compressed.data(), compressed.size()) != size)
     refuse("zstd", "damaged; take a good copy of the file");
@@ -36,9 +34,9 @@ std::string unzstd(std::string_view, std::uint64_t) {
 #ifdef LIANA_WITH_ZSTD
 const char* compression_name() { return "zstd"; }
 
-std::string compress(std::string_view plain) {
+std::string compress(std::string_view plain, int level) {
   std::string out(ZSTD_compressBound(plain.size()), '\0');
-  const std::size_t length = ZSTD_compress(out.data(), out.size(), plain.data(), plain.size(), kLevel);
+  const std::size_t length = ZSTD_compress(out.data(), out.size(), plain.data(), plain.size(), level);
   if (ZSTD_isError(length) != 0) refuse("zstd", ZSTD_getErrorName(length));
   out.resize(length);
   return out;
@@ -46,7 +44,7 @@ std::string compress(std::string_view plain) {
 #else
 const char* compression_name() { return ""; }
 
-std::string compress(std::string_view plain) { return std::string(plain); }
+std::string compress(std::string_view plain, int) { return std::string(plain); }
 #endif
 
 std::string decompress(std::string_view compressed, std::string_view compression, std::uint64_t size) {

@@ -7,7 +7,7 @@
 namespace liana::system {
 
 struct RunOptions {
-  std::string mission;  // empty: none (liana latency)
+  std::string mission;  // empty: none (liana latency, liana console)
   std::string robot = "zhu2022";
   std::string scene;          // empty: panel_slit, for a serial arm none
   std::string bus;            // empty: embedded_ROBOT where there is such a table, else embedded
@@ -25,6 +25,7 @@ struct RunOptions {
   std::string calibration;   // empty: as the robot table says
   std::string record_dir;    // empty: nothing is kept
   std::string report_file;   // empty: a summary on standard output; "-": JSON on standard output
+  bool has_console = false;  // liana-gateway runs beside it and its address is told
   bool is_dry_run = false;   // liana check: no logs of the buses, quicker physics, what verification took
   std::uint64_t seed = 1;
 };

@@ -56,17 +56,30 @@ RunEnd RunSession::run() {
     end = watch();
   }
   system_.end(interrupts_.count() < 2 ? kEndGrace_s : 0.0, [this](const Json& message) { take(message); });
+  say_how_the_recorder_ended();
   return end;
 }
 
+void RunSession::say_how_the_recorder_ended() {
+  const auto failed = system_.worst_end(
+      [](const ChildProcess& child, const ChildEnd& end) { return child.name() == "liana-archive" && end.code != 0; });
+  if (failed) progress_.say("the archive of this run is not whole: " + failed->text);
+}
+
 RunEnd RunSession::watch() {
-  while (!system_.any_has_ended()) {
+  while (!system_.any_has_ended([this](const ChildProcess& child) { return matters(child); })) {
     look(kLook_s);
     if (interrupts_.count() > 0) return interrupted();
   }
   const RunEnd end = conclusion();
   if (!end.bad_input && (waits_for_us_ || has_failed(end))) follow();
   return end;
+}
+
+// A flight recorder that ends while the arm moves is said, and stops nothing: unless a recording is what was asked for.
+// Before the first state lianad waits for it.
+bool RunSession::matters(const ChildProcess& child) const {
+  return child.name() != "liana-archive" || plan_.keep_directory || states_.empty();
 }
 
 // The run is no success as far as processes and mission tell.
@@ -117,7 +130,7 @@ RunEnd RunSession::end_of_mission(const ChildEnd& end) {
 // `failed_only`, in order. Exit code 2 means that it refused its input.
 std::optional<RunEnd> RunSession::dead_child(bool failed_only) {
   const auto counts = [&](const ChildProcess& child, const ChildEnd& end) {
-    return child.name() != "liana-mission" && !(failed_only && end.code == 0);
+    return child.name() != "liana-mission" && matters(child) && !(failed_only && end.code == 0);
   };
   const auto worst = system_.worst_end(counts);
   if (!worst) return std::nullopt;

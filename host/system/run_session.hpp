@@ -39,6 +39,8 @@ class RunSession {
 
  private:
   RunEnd watch();
+  bool matters(const ChildProcess& child) const;
+  void say_how_the_recorder_ended();
   bool has_failed(const RunEnd& end) const;
   void follow();
   RunEnd conclusion();

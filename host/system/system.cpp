@@ -71,7 +71,12 @@ std::optional<NamedEnd> System::worst_end(const Counts& counts, double settle_s)
 }
 
 bool System::any_has_ended() const {
-  return std::any_of(children_.begin(), children_.end(), [](const auto& child) { return child->poll().has_value(); });
+  return any_has_ended([](const ChildProcess&) { return true; });
+}
+
+bool System::any_has_ended(const std::function<bool(const ChildProcess&)>& matters) const {
+  return std::any_of(children_.begin(), children_.end(),
+                     [&](const auto& child) { return child->poll().has_value() && matters(*child); });
 }
 
 bool System::is_running(std::string_view name) const {

@@ -46,6 +46,8 @@ class System {
   using Counts = std::function<bool(const ChildProcess&, const ChildEnd&)>;
   std::optional<NamedEnd> worst_end(const Counts& counts, double settle_s = 0.0);
   bool any_has_ended() const;
+  // The same, of those that matter.
+  bool any_has_ended(const std::function<bool(const ChildProcess&)>& matters) const;
   bool all_have_ended() const;
   // A program of this name was started and has not ended.
   bool is_running(std::string_view name) const;

@@ -17,10 +17,10 @@
 #include "host/config/field.hpp"
 #include "host/config/serial_robot.hpp"
 #include "host/system/errors.hpp"
-#include "host/system/kept_events.hpp"
 #include "host/system/output.hpp"
 #include "host/system/plan_file.hpp"
 #include "host/system/process.hpp"
+#include "host/system/runs.hpp"
 #include "host/system/tables.hpp"
 
 namespace liana::system {
@@ -30,13 +30,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFreeStep_s = "0.004";  // of a dry run's physics: a run takes a quarter
 constexpr const char* kRestWithin_s = "10";   // an arm whose cable broke may swing for longer; the report says so
-
-std::string temporary_directory() {
-  std::string name = (fs::temp_directory_path() / "liana-run-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    throw BadInput(name + ": a temporary directory cannot be made; free space there or set TMPDIR");
-  return name;
-}
 
 std::string record_directory(const std::string& path) {
   std::error_code error;
@@ -116,7 +109,7 @@ ProgramCall bus_call(const SystemLayout& plan) {
 std::string expected_roles(const SystemLayout& plan, const RunOptions& options) {
   if (options.mission.empty()) return "client,camera";
   std::string roles = plan.is_serial ? "mission,camera" : "mission,operator,camera";
-  return plan.keep_directory ? roles + ",archive" : roles;
+  return plan.is_dry_run ? roles : roles + ",archive";
 }
 
 ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
@@ -134,7 +127,10 @@ ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, boo
 }
 
 ProgramCall archive_call(const SystemLayout& plan) {
-  return {"liana-archive", {sibling_program("liana-archive"), "--api", plan.api_socket(), "--record", plan.directory}};
+  ProgramCall call{"liana-archive",
+                   {sibling_program("liana-archive"), "--api", plan.api_socket(), "--archive", plan.directory}};
+  if (plan.keep_directory) append(call.argv, {"--record", plan.directory});
+  return call;
 }
 
 ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
@@ -211,13 +207,15 @@ void write_tables(const SystemLayout& plan, const std::string& robot, const std:
   write_output(plan.file("buses.json"), buses);
 }
 
-void save(const SystemLayout& plan, const std::string& file, const char* what, const std::string& folder) {
-  std::error_code none;
-  if (!fs::exists(file, none)) return;
+// Where everything is written: the user's folder, one among the newest runs, or none that lasts.
+std::string directory_of(const SystemLayout& plan, const RunOptions& options) {
+  if (plan.keep_directory) return record_directory(options.record_dir);
+  if (!plan.has_recorder) return plan.socket_dir;
   try {
-    keep_events(file, fs::path(plan.directory).filename(), folder);
+    return make_run_folder(runs_folder());
   } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "liana: the %s of this run are lost: %s\n", what, error.what());
+    std::fprintf(stderr, "liana: nothing of this run will be kept: %s\n", error.what());
+    return plan.socket_dir;
   }
 }
 
@@ -250,19 +248,26 @@ SystemLayout make_layout(const RunOptions& given) {
   plan.keep_directory = !options.record_dir.empty();
   plan.is_dry_run = options.is_dry_run;
   check_report_file(options.report_file, options.record_dir);
-  if (plan.keep_directory) plan.directory = record_directory(options.record_dir);
+  plan.has_recorder = has_mission && !plan.is_dry_run;
   plan.socket_dir = temporary_directory();
-  if (!plan.keep_directory) plan.directory = plan.socket_dir;
+  plan.directory = directory_of(plan, options);
   write_tables(plan, robot_text, scene_text, buses_text);
   const bool embedded = plan.buses.backend == "embedded";
   if (embedded) plan.programs.push_back(bus_call(plan));
   plan.programs.push_back(daemon_call(plan, options, embedded));
-  if (plan.keep_directory) plan.programs.push_back(archive_call(plan));
+  if (plan.has_recorder) plan.programs.push_back(archive_call(plan));
   if (options.simulated_arm) plan.programs.push_back(bench_call(plan, options, embedded));
   if (!has_mission) return plan;
   if (!plan.is_serial) plan.programs.push_back(operator_call(plan, options));  // no device steers a serial arm yet
   plan.programs.push_back(mission_call(plan, options));
   return plan;
+}
+
+std::string temporary_directory() {
+  std::string name = (fs::temp_directory_path() / "liana-run-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr)
+    throw BadInput(name + ": a temporary directory cannot be made; free space there or set TMPDIR");
+  return name;
 }
 
 void check_cross_wired(const std::string& list, std::size_t drives) {
@@ -287,14 +292,17 @@ void clean_up(const SystemLayout& plan, bool success) {
   std::error_code error;
   fs::remove(plan.api_socket(), error);
   fs::remove(plan.bus_socket(), error);
-  if (!plan.keep_directory && success) save(plan, plan.events_file(), "events", kept_events_folder());
-  save(plan, plan.commands_file(), "commands", kept_commands_folder());
-  if (plan.keep_directory || success) fs::remove_all(plan.socket_dir, error);
+  const bool is_temporary = plan.directory == plan.socket_dir;
+  if (!is_temporary || success) fs::remove_all(plan.socket_dir, error);
+  if (is_temporary || plan.keep_directory) return;
+  if (success) keep_what_lasts(plan.directory);
+  remove_oldest_runs(runs_folder());
 }
 
 void discard(const SystemLayout& plan) {
   std::error_code error;
   fs::remove_all(plan.socket_dir, error);
+  if (!plan.keep_directory) fs::remove_all(plan.directory, error);
 }
 
 }  // namespace liana::system

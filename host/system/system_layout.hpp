@@ -18,10 +18,11 @@ struct ProgramCall {
 
 // The files, sockets and programs of one run, all inputs checked.
 struct SystemLayout {
-  std::string directory;   // everything that is written; the user's with --record
+  std::string directory;   // everything that is written; the user's with --record, else of a run one in runs_folder()
   std::string socket_dir;  // short temporary path: socket names are limited to 107 bytes
   bool keep_directory = false;
   bool is_dry_run = false;
+  bool has_recorder = false;  // liana-archive runs
   std::string time_mode;
   config::BusesConfig buses;
   config::SceneConfig scene;
@@ -40,14 +41,16 @@ struct SystemLayout {
 // no operator either. Throws BadInput.
 SystemLayout make_layout(const RunOptions& given);
 
+// Makes a fresh folder for one run's files under $TMPDIR; its path is short enough for sockets. Throws BadInput.
+std::string temporary_directory();
+
 // Refuses anything but empty text or two different drives from 0 to `drives` - 1, e.g. 3,4. Throws BadInput.
 void check_cross_wired(const std::string& list, std::size_t drives);
 
-// Removes what the run does not keep. Of a folder that is removed the events go to kept_events_folder(); that they
-// could not is said on standard error.
+// Removes what the run does not keep: of a success all but what lasts, and the oldest runs.
 void clean_up(const SystemLayout& plan, bool success);
 
-// Removes everything that the run has written, and keeps nothing of it.
+// Removes everything that the run has written, but for a folder of the user.
 void discard(const SystemLayout& plan);
 
 }  // namespace liana::system

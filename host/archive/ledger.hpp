@@ -1,0 +1,55 @@
+// archive.db: what is never dropped. Rows wait until commit() has made them durable; only then do they count as kept.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/archive/database.hpp"
+#include "host/archive/rows.hpp"
+#include "host/event/event.hpp"
+
+namespace liana::archive {
+
+class Ledger {
+ public:
+  // Of rows that wait for a disk that takes no more; beyond it they are counted as lost.
+  static constexpr std::size_t kMostWaiting = 100000;
+
+  // Opens the archive of this folder, which must exist, or makes it. Throws DatabaseError, also for one that is
+  // damaged.
+  explicit Ledger(const std::string& folder);
+
+  // A life begins: its number, 1 for the first. What is added from here on is of this life. Throws DatabaseError.
+  std::uint64_t begin(const Life& life);
+  // Of its telemetry, once the first state has come. Throws DatabaseError.
+  void set_layout(const Json& layout);
+
+  void add(const event::Event& event);
+  void add(const Command& command);
+  void add(const Gap& gap);
+  // Whether rows wait for commit().
+  bool is_waiting() const { return !waiting_.empty(); }
+  // Makes all that was added outlive loss of power: milliseconds, at worst half a second. False when the disk takes no
+  // more: then all of it waits for the next try. Throws DatabaseError for anything else.
+  bool commit();
+  // Rows that are durable, of this object; and those that found no place to wait.
+  std::uint64_t durable() const { return durable_; }
+  std::uint64_t lost() const { return lost_; }
+
+  // The life is over: leaves one plain file. Throws DatabaseError.
+  void finish();
+
+ private:
+  void wait(std::function<void()> insert);
+
+  Database database_;
+  std::optional<Statement> event_, command_, gap_;
+  std::uint64_t life_ = 0, durable_ = 0, lost_ = 0;
+  std::vector<std::function<void()>> waiting_;
+};
+
+}  // namespace liana::archive

@@ -1,0 +1,168 @@
+#include "host/archive/reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+
+#include "host/archive/chunk.hpp"
+#include "host/archive/facts_change.hpp"
+#include "host/archive/schema.hpp"
+#include "host/archive/segments.hpp"
+#include "host/event/event_json.hpp"
+#include "host/json/json.hpp"
+#include "host/telemetry/record.hpp"
+
+namespace liana::archive {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string folder_of(const std::string& path) {
+  const fs::path folder = fs::is_directory(path) ? fs::path(path) : fs::path(path).parent_path();
+  if (!fs::exists(folder / kArchiveFile))
+    throw std::runtime_error("'" + path + "': holds no " + kArchiveFile + "; give the folder of a run");
+  return folder.empty() ? "." : folder.string();
+}
+
+// Files that may hold something of the span: each ends where the next one begins.
+std::vector<Segment> touched(const std::string& folder, std::uint64_t life, Span span) {
+  std::vector<Segment> all = segments_in(folder), found;
+  std::erase_if(all, [&](const Segment& each) { return each.life != life; });
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool ends_before = i + 1 < all.size() && all[i + 1].first_tick <= span.first;
+    if (!ends_before && all[i].first_tick <= span.last) found.push_back(all[i]);
+  }
+  return found;
+}
+
+event::Event event_of(const Statement& row) {
+  return event::event_from_json({{"sequence", row.count(0)},
+                                 {"tick", row.count(1)},
+                                 {"kind", row.text(2)},
+                                 {"number", row.whole(3)},
+                                 {"subject", row.text(4)},
+                                 {"values", Json::parse(row.text(5))},
+                                 {"text", row.text(6)}});
+}
+
+void add_records(const Statement& row, Span span, std::size_t bytes, std::vector<std::string>& out) {
+  for (std::string& record : unpacked(row.text(1), row.count(0), bytes)) {
+    const auto tick = static_cast<std::uint64_t>(telemetry::header_of(record).tick);
+    if (tick >= span.first && tick <= span.last) out.push_back(std::move(record));
+  }
+}
+
+// Those that hold at the begin of the span replace earlier ones; those that a file repeats at its begin are left out.
+void add_facts(const Statement& row, Span span, std::vector<Facts>& out) {
+  Facts facts{row.count(0), static_cast<std::uint32_t>(row.whole(1)), Json::parse(row.text(3))};
+  if (!out.empty() && out.back().number == facts.number) return;
+  if (row.whole(2) == 0 && !out.empty()) facts.state = with_change(out.back().state, facts.state);
+  if (out.size() == 1 && facts.tick <= span.first) out.clear();
+  out.push_back(std::move(facts));
+}
+
+}  // namespace
+
+Reader::Reader(const std::string& path, std::uint64_t life)
+    : folder_(folder_of(path)), database_(folder_ + "/" + kArchiveFile, Database::Open::kRead) {
+  if (const auto version = count("PRAGMA user_version"); version != 1)
+    throw std::runtime_error(database_.path() + ": version " + std::to_string(version) + ": this program reads 1");
+  lives_ = count("SELECT count(*) FROM life");
+  read_life(life == 0 ? lives_ : life);
+}
+
+std::uint64_t Reader::count(const char* sql) const {
+  Statement statement(database_, sql);
+  return statement.step() ? statement.count(0) : 0;
+}
+
+void Reader::read_life(std::uint64_t life) {
+  Statement row(database_,
+                "SELECT config_hash, robot, scene, buses, time_mode, period_s, started_utc, made_by, layout, finished "
+                "FROM life WHERE id=?");
+  row.bind(life);
+  if (!row.step())
+    throw std::runtime_error(database_.path() + ": life " + std::to_string(life) + ": there are " +
+                             std::to_string(lives_));
+  life_number_ = life;
+  life_ = {row.text(0), row.text(1), row.text(2), row.text(3), row.text(4), row.real(5), row.text(6), row.text(7)};
+  finished_ = row.whole(9) != 0;
+  if (!row.is_null(8)) layout_ = telemetry::layout_from(Json::parse(row.text(8)));
+}
+
+std::optional<Span> Reader::recorded() const {
+  const std::vector<Segment> files = touched(folder_, life_number_, kAll);
+  if (files.empty()) return std::nullopt;
+  const Database newest(files.back().path, Database::Open::kRead);
+  Statement last(newest, "SELECT max(last_tick) FROM telemetry");
+  if (!last.step() || last.is_null(0)) return std::nullopt;
+  return Span{files.front().first_tick, last.count(0)};
+}
+
+std::vector<event::Event> Reader::events(Span span) const {
+  std::vector<event::Event> out;
+  Statement row(database_,
+                "SELECT sequence, tick, kind, number, subject, values_json, text FROM event "
+                "WHERE life=? AND tick BETWEEN ? AND ? ORDER BY sequence");
+  row.bind(life_number_, span.first, span.last);
+  while (row.step()) out.push_back(event_of(row));
+  return out;
+}
+
+std::vector<Command> Reader::commands(Span span, bool only_refused) const {
+  std::vector<Command> out;
+  Statement row(database_,
+                "SELECT sequence, tick, released, code, share, name, text, remedy, margin FROM command "
+                "WHERE life=? AND tick BETWEEN ? AND ? AND released <= ? ORDER BY sequence");
+  row.bind(life_number_, span.first, span.last, only_refused ? 0 : 1);
+  while (row.step()) {
+    out.push_back({row.count(0), row.count(1), row.whole(2) != 0, static_cast<int>(row.whole(3)), row.real(4),
+                   row.text(5), row.text(6), row.text(7), row.text(8)});
+  }
+  return out;
+}
+
+std::vector<Gap> Reader::gaps() const {
+  std::vector<Gap> out;
+  Statement row(database_, "SELECT first_tick, last_tick, what, count, text FROM gap WHERE life=? ORDER BY first_tick");
+  row.bind(life_number_);
+  while (row.step()) out.push_back({row.count(0), row.count(1), row.text(2), row.count(3), row.text(4)});
+  return out;
+}
+
+std::vector<std::string> Reader::telemetry(Span span) const {
+  std::vector<std::string> out;
+  for (const Segment& file : touched(folder_, life_number_, span)) {
+    const Database database(file.path, Database::Open::kRead);
+    Statement row(database,
+                  "SELECT count, records FROM telemetry WHERE first_tick >= ifnull((SELECT max(first_tick) FROM "
+                  "telemetry WHERE first_tick <= ?), 0) AND first_tick <= ? ORDER BY first_tick");
+    row.bind(span.first, span.last);
+    while (row.step()) add_records(row, span, layout_->bytes, out);
+  }
+  return out;
+}
+
+std::vector<Facts> Reader::facts(Span span) const {
+  std::vector<Facts> out;
+  for (const Segment& file : touched(folder_, life_number_, span)) {
+    const Database database(file.path, Database::Open::kRead);
+    Statement row(
+        database,
+        "SELECT tick, number, whole, state FROM facts WHERE tick >= ifnull((SELECT max(tick) FROM facts WHERE "
+        "tick <= ? AND whole), 0) AND tick <= ? ORDER BY tick");
+    row.bind(span.first, span.last);
+    while (row.step()) add_facts(row, span, out);
+  }
+  return out;
+}
+
+Span Reader::span_of(double from_s, double to_s) const {
+  const auto tick = [this](double seconds) {
+    return static_cast<std::uint64_t>(std::clamp(std::round(seconds / life_.period_s), 0.0, 1e15));
+  };
+  return {tick(from_s), tick(to_s)};
+}
+
+}  // namespace liana::archive

@@ -1,0 +1,62 @@
+// Reads the archive of a run, also while it is written. Any minute of telemetry comes within milliseconds.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/archive/database.hpp"
+#include "host/archive/rows.hpp"
+#include "host/event/event.hpp"
+#include "host/telemetry/layout.hpp"
+
+namespace liana::archive {
+
+// A stretch of ticks, both ends included.
+struct Span {
+  std::uint64_t first = 0, last = 0;
+};
+constexpr Span kAll{0, INT64_MAX};
+
+class Reader {
+ public:
+  // `path`: the folder of a run, or its archive.db. `life`: which one, 0: the newest. Throws std::runtime_error with
+  // path and reason.
+  explicit Reader(const std::string& path, std::uint64_t life = 0);
+
+  std::uint64_t life_number() const { return life_number_; }
+  std::uint64_t lives() const { return lives_; }
+  const Life& life() const { return life_; }
+  // The recorder ended in order; false: it still writes, or was killed.
+  bool is_finished() const { return finished_; }
+  // Of the records; nothing where not one state came.
+  const std::optional<telemetry::Layout>& layout() const { return layout_; }
+  // From the first record to the last one; nothing without records. A few ms.
+  std::optional<Span> recorded() const;
+
+  // All in order of their ticks. Those below throw std::runtime_error when a file is damaged.
+  std::vector<event::Event> events(Span span = kAll) const;
+  std::vector<Command> commands(Span span = kAll, bool only_refused = false) const;
+  std::vector<Gap> gaps() const;
+  // Records of telemetry (host/telemetry/record.hpp), at most 50 a second.
+  std::vector<std::string> telemetry(Span span = kAll) const;
+  // What states said besides their numbers; the first holds at the begin of the span, from an earlier tick on.
+  std::vector<Facts> facts(Span span = kAll) const;
+
+  // Ticks of a stretch of arm time.
+  Span span_of(double from_s, double to_s) const;
+
+ private:
+  void read_life(std::uint64_t life);
+  std::uint64_t count(const char* sql) const;
+
+  std::string folder_;
+  Database database_;
+  std::uint64_t life_number_ = 0, lives_ = 0;
+  Life life_;
+  bool finished_ = false;
+  std::optional<telemetry::Layout> layout_;
+};
+
+}  // namespace liana::archive

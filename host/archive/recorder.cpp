@@ -1,0 +1,104 @@
+#include "host/archive/recorder.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "host/event/event_json.hpp"
+#include "host/telemetry/record.hpp"
+
+namespace liana::archive {
+namespace {
+
+constexpr double kRecord_s = 0.02;  // telemetry is not denser
+constexpr double kCommit_s = 1.0;   // for what need not be durable at once
+
+std::uint64_t ticks_of(double seconds, double period_s) {
+  return static_cast<std::uint64_t>(std::llround(seconds / period_s));
+}
+
+}  // namespace
+
+Recorder::Recorder(const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits)
+    : ledger_(folder),
+      period_s_(life.period_s),
+      interval_ticks_(static_cast<std::uint64_t>(interval_ticks)),
+      least_ticks_(ticks_of(kRecord_s, life.period_s)),
+      telemetry_(folder, ledger_.begin(life), life.period_s, limits, [this](const Gap& gap) { note_gap(gap); }) {}
+
+void Recorder::take(const Json& message) {
+  const std::string op = message.value("op", "");
+  if (op == "state") take_state(message);
+  if (op == "event") {
+    ledger_.add(event::event_from_json(message));
+    must_commit_ = true;
+  }
+  if (op == "events_lost")
+    note_gap(
+        {last_tick_, last_tick_, "events", message.at("count"), "lianad no longer had them when they were asked for"});
+  if (must_commit_) commit();
+}
+
+void Recorder::take_state(const Json& state) {
+  const std::uint64_t tick = state.at("tick");
+  if (!layout_) {
+    layout_ = telemetry::layout_of(state);
+    ledger_.set_layout(telemetry::to_json(*layout_));
+  }
+  if (states_ > 0 && tick > last_tick_ + interval_ticks_) {
+    const std::uint64_t missing = (tick - last_tick_) / interval_ticks_ - 1;
+    note_gap({last_tick_ + interval_ticks_, tick - interval_ticks_, "states", missing, "read too slowly"});
+  }
+  if (state.contains("verdict")) take_verdict(tick, state.at("verdict"));
+  if (records_ == 0 || tick >= last_record_ + least_ticks_) {
+    take_facts(tick, state);
+    telemetry_.add(tick, telemetry::encode(*layout_, state, ++records_, facts_number_));
+    last_record_ = tick;
+  }
+  ++states_;
+  last_tick_ = tick;
+  if (tick >= last_commit_ + ticks_of(kCommit_s, period_s_)) must_commit_ = true;
+}
+
+void Recorder::take_facts(std::uint64_t tick, const Json& state) {
+  Json facts = telemetry::facts_of(state);
+  if (facts_number_ > 0 && facts == facts_) return;
+  facts_ = std::move(facts);
+  telemetry_.set_facts({tick, ++facts_number_, facts_});
+}
+
+// Of each command once; a state repeats the last one.
+void Recorder::take_verdict(std::uint64_t tick, const Json& verdict) {
+  const std::uint64_t sequence = verdict.value("sequence", std::uint64_t{0});
+  if (sequence == 0 || sequence == command_) return;
+  command_ = sequence;
+  const bool released = verdict.value("released", false);
+  ledger_.add(Command{sequence, tick, released, verdict.value("code", 0), verdict.value("share", 0.0),
+                      verdict.value("name", ""), verdict.value("text", ""), verdict.value("remedy", ""),
+                      verdict.value("margin", "")});
+  must_commit_ = must_commit_ || !released;
+}
+
+void Recorder::note_gap(const Gap& gap) {
+  std::fprintf(stderr, "liana-archive: alarm: %s of ticks %llu to %llu are missing: %s\n", gap.what.c_str(),
+               static_cast<unsigned long long>(gap.first_tick), static_cast<unsigned long long>(gap.last_tick),
+               gap.text.c_str());
+  ledger_.add(gap);
+}
+
+// A full disk: telemetry makes room. Where that is not enough all waits, and is tried again with what comes next.
+void Recorder::commit() {
+  must_commit_ = false;
+  last_commit_ = last_tick_;
+  bool done = ledger_.commit();
+  while (!done && telemetry_.make_room()) done = ledger_.commit();
+  if (!done && !is_alarmed_) std::fputs("liana-archive: alarm: the disk is full: events and commands wait\n", stderr);
+  is_alarmed_ = !done;
+}
+
+void Recorder::finish() {
+  telemetry_.finish();
+  commit();
+  ledger_.finish();
+}
+
+}  // namespace liana::archive

@@ -1,0 +1,51 @@
+// The flight recorder: what lianad says, into the archive of a run. Events and refused commands are durable before the
+// next message is taken; released commands and telemetry within a second.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "host/archive/ledger.hpp"
+#include "host/archive/telemetry_files.hpp"
+#include "host/json/json.hpp"
+#include "host/telemetry/layout.hpp"
+
+namespace liana::archive {
+
+class Recorder {
+ public:
+  // Begins a life in the archive of the folder, which must exist. Throws DatabaseError.
+  Recorder(const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits = {});
+
+  // One message of lianad: `state`, `event` or `events_lost`; others are ignored. Throws JsonError for one that is not
+  // as docs/api.md says, DatabaseError when the archive cannot be written for another reason than a full disk.
+  void take(const Json& message);
+  // Writes what waits and leaves plain files.
+  void finish();
+
+  std::uint64_t states() const { return states_; }
+  // Events, commands and gaps that outlive loss of power; and those that a full disk took.
+  std::uint64_t durable() const { return ledger_.durable(); }
+  std::uint64_t lost() const { return ledger_.lost(); }
+
+ private:
+  void take_state(const Json& state);
+  void take_verdict(std::uint64_t tick, const Json& verdict);
+  void take_facts(std::uint64_t tick, const Json& state);
+  void note_gap(const Gap& gap);
+  void commit();
+
+  Ledger ledger_;
+  const double period_s_;
+  const std::uint64_t interval_ticks_, least_ticks_;
+  TelemetryFiles telemetry_;
+  std::optional<telemetry::Layout> layout_;
+  Json facts_;
+  std::uint64_t states_ = 0, last_tick_ = 0, last_record_ = 0, last_commit_ = 0;
+  std::uint32_t records_ = 0, facts_number_ = 0;
+  std::uint64_t command_ = 0;
+  bool must_commit_ = false, is_alarmed_ = false;
+};
+
+}  // namespace liana::archive

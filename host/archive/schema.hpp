@@ -1,0 +1,11 @@
+// The tables of both kinds of files; docs/archive.md explains them to people who open them with other tools.
+#pragma once
+
+namespace liana::archive {
+
+constexpr const char* kArchiveFile = "archive.db";  // life, event, command, gap: never dropped
+// `PRAGMA user_version` of both is 1.
+extern const char* const kArchiveSchema;
+extern const char* const kTelemetrySchema;
+
+}  // namespace liana::archive

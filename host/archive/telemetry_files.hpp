@@ -1,0 +1,68 @@
+// Telemetry of one life as it comes, into files that follow each other: a second at a time, oldest file dropped first.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/archive/database.hpp"
+#include "host/archive/rows.hpp"
+
+namespace liana::archive {
+
+struct TelemetryLimits {
+  double file_s = 3600.0;            // a file is this long
+  std::uint64_t bytes = 1200000000;  // of all files; the oldest go, but never the one that is written
+};
+
+class TelemetryFiles {
+ public:
+  // `on_gap` hears of everything that is not, or no longer, there. Files are made with the first second.
+  TelemetryFiles(std::string folder, std::uint64_t life, double period_s, TelemetryLimits limits,
+                 std::function<void(const Gap&)> on_gap);
+
+  // Facts that hold from this record on; call it before add() of that record.
+  void set_facts(const Facts& facts);
+  // One record; ticks rise. Writes when a second is together.
+  void add(std::uint64_t tick, const std::string& record);
+  // Writes what waits. A full disk costs the oldest file, and where there is none this second. Throws DatabaseError
+  // for anything else.
+  void flush();
+  // Makes room for what may not be dropped: the oldest file goes, in the end the one that is written. False: there is
+  // none.
+  bool make_room();
+  // Leaves plain files. Throws DatabaseError.
+  void finish();
+
+ private:
+  struct File {
+    explicit File(const std::string& path);
+    Database database;
+    Statement telemetry, facts;
+    std::uint64_t first_tick = 0;
+    std::optional<Facts> told;     // the newest facts in it
+    std::uint64_t whole_tick = 0;  // of the last ones that were written whole
+  };
+  void open_file(std::uint64_t first_tick);
+  void write();
+  void write_facts(const Facts& facts, std::uint64_t tick);
+  bool drop_oldest(const std::string& why, bool also_newest);
+  void keep_to_limit();
+
+  const std::string folder_;
+  const std::uint64_t life_;
+  const double period_s_;
+  const TelemetryLimits limits_;
+  const std::function<void(const Gap&)> on_gap_;
+  std::unique_ptr<File> file_;
+  std::string records_;  // of this second
+  std::uint64_t first_tick_ = 0, last_tick_ = 0, count_ = 0;
+  std::vector<Facts> waiting_;    // of this second
+  std::optional<Facts> current_;  // of the newest record that is written
+};
+
+}  // namespace liana::archive

@@ -1,0 +1,119 @@
+// The console of a running system, or of a simulated arm that it starts.
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "host/api/registry.hpp"
+#include "host/cli/commands.hpp"
+#include "host/json/json.hpp"
+#include "host/system/console_session.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/interrupt.hpp"
+#include "host/system/observer.hpp"
+#include "host/system/system_layout.hpp"
+
+namespace liana::cli {
+namespace {
+
+constexpr auto kLook = std::chrono::milliseconds(50);
+
+void tell(const ConsoleOptions& options, const std::string& api, const std::string& address) {
+  if (options.json) {
+    std::puts(Json{{"api", api}, {"address", address}}.dump().c_str());
+  } else {
+    std::printf("console of %s; Ctrl-C ends it\n%s\n", api.c_str(), address.c_str());
+  }
+  std::fflush(stdout);
+}
+
+void revive(system::GatewayProcess& gateway) {
+  const std::string end = gateway.revive();
+  if (!end.empty()) std::fprintf(stderr, "liana: %s; it was started again\n", end.c_str());
+}
+
+// For the gateway's log.
+class Folder {
+ public:
+  Folder() : path_(system::temporary_directory()) {}
+  ~Folder() {
+    std::error_code error;
+    std::filesystem::remove_all(path_, error);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  std::string file(const std::string& name) const { return path_ + "/" + name; }
+
+ private:
+  std::string path_;
+};
+
+// What says how the simulated arm is to be means nothing to a system that runs.
+void require_no_wishes(const ConsoleOptions& options, const std::string& api) {
+  const system::RunOptions &run = options.run, none;
+  const auto refuse = [&](const char* option, bool given) {
+    if (given)
+      throw system::BadInput(std::string(option) + ": a system runs already, at " + api +
+                             "; leave it out, or add --simulate for another, simulated arm");
+  };
+  refuse("--robot", run.robot != none.robot);
+  refuse("--scene", run.scene != none.scene);
+  refuse("--bus", run.bus != none.bus);
+  refuse("--physics", run.physics != none.physics);
+  refuse("--calibration", run.calibration != none.calibration);
+  refuse("--seed", run.seed != none.seed);
+}
+
+// Nothing of the system belongs to us: it goes on when the console ends.
+int attach(const ConsoleOptions& options, const std::string& api) {
+  require_no_wishes(options, api);
+  const system::InterruptGuard interrupts;
+  const Folder folder;
+  system::GatewayProcess gateway(api, options.gateway, folder.file("liana-gateway.log"));
+  tell(options, api, gateway.address());
+  while (interrupts.count() == 0) {
+    std::this_thread::sleep_for(kLook);
+    revive(gateway);
+  }
+  return system::kExitOk;
+}
+
+void simulate_and_show(const ConsoleOptions& options, const system::SystemLayout& plan) {
+  system::ConsoleSession session(plan);
+  session.start();
+  system::GatewayProcess gateway(plan.api_socket(), options.gateway, plan.file("liana-gateway.log"));
+  tell(options, plan.api_socket(), gateway.address());
+  while (session.go_on()) revive(gateway);
+}
+
+int simulate(const ConsoleOptions& options) {
+  system::RunOptions run = options.run;
+  run.time = "paced";
+  const system::SystemLayout plan = system::make_layout(run);
+  try {
+    simulate_and_show(options, plan);
+  } catch (const system::BadInput&) {
+    system::clean_up(plan, true);
+    throw;
+  } catch (...) {
+    std::fprintf(stderr, "liana: logs are kept in %s\n", plan.directory.c_str());
+    throw;
+  }
+  system::clean_up(plan, true);
+  return system::kExitOk;
+}
+
+}  // namespace
+
+int console_command(const ConsoleOptions& options) {
+  if (!options.api.empty()) return attach(options, system::systems_to_ask(options.api).front());
+  const std::vector<std::string> systems = options.simulate ? std::vector<std::string>() : api::running_systems();
+  if (systems.size() > 1)
+    throw system::BadInput("console: " + std::to_string(systems.size()) +
+                           " systems run; name one with --api (liana status lists them), or --simulate another arm");
+  return systems.empty() ? simulate(options) : attach(options, systems.front());
+}
+
+}  // namespace liana::cli

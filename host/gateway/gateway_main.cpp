@@ -1,0 +1,69 @@
+// liana-gateway: the console's way to lianad, for browsers and other programs (docs/console-protocol.md).
+#include <sys/resource.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <optional>
+#include <stdexcept>
+
+#include "host/command_line/command_line.hpp"
+#include "host/gateway/gateway.hpp"
+#include "host/gateway/web_server.hpp"
+
+namespace {
+
+using namespace liana::gateway;
+
+constexpr int kNice = 5;  // whatever clients do here, lianad has its turn first
+
+struct Options {
+  std::string api, listen = "127.0.0.1:8765", token_file, certificate, key, page = LIANA_PAGE_DIR "/console.html";
+};
+
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+// Beyond this machine nobody is let in without a token, and nothing goes in the clear.
+void require_safe(const Options& options, const ListenAddress& listen) {
+  if (options.certificate.empty() != options.key.empty())
+    throw std::runtime_error("--cert and --key: one without the other; give both");
+  if (listen.is_loopback()) return;
+  const std::string where = "--listen " + options.listen + ": others than this machine can reach it: ";
+  if (options.token_file.empty()) throw std::runtime_error(where + "give --token-file (docs/console-protocol.md)");
+  if (options.certificate.empty()) throw std::runtime_error(where + "give --cert and --key for TLS");
+}
+
+int run(const Options& options) {
+  const ListenAddress listen = parse_listen_address(options.listen);
+  require_safe(options, listen);
+  std::optional<Tokens> tokens;
+  if (!options.token_file.empty()) tokens = read_tokens(options.token_file);
+  std::signal(SIGPIPE, SIG_IGN);
+  ::setpriority(PRIO_PROCESS, 0, kNice);
+  Gateway gateway(options.api, tokens ? &*tokens : nullptr, listen.is_loopback(), now_s);
+  WebServer server({listen, options.certificate, options.key, options.page}, gateway);
+  std::puts(server.address().c_str());
+  std::fflush(stdout);
+  server.run();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  liana::command_line::CommandLine line("liana-gateway: shows a running lianad to browsers");
+  line.option("--api", options.api, "API socket of lianad; it need not be there yet").required();
+  line.option("--listen", options.listen, "ADDR:PORT, port 0: a free one").with_default_shown();
+  line.option("--token-file", options.token_file, "lines NAME ROLE TOKEN, mode 0600; needed beyond loopback");
+  line.option("--cert", options.certificate, "certificate for TLS, PEM; needed beyond loopback");
+  line.option("--key", options.key, "its key, PEM");
+  line.option("--page", options.page, "file that / shows").with_default_shown();
+  if (const auto code = line.parse(argc, argv)) return *code;
+  try {
+    return run(options);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "liana-gateway: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,311 @@
+#include "host/gateway/web_server.hpp"
+
+#include <libwebsockets.h>
+#include <sys/signalfd.h>
+#include <sys/timerfd.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+#include "host/api/socket.hpp"
+#include "host/gateway/http_answer.hpp"
+#include "host/gateway/web_origin.hpp"
+
+namespace liana::gateway {
+namespace {
+
+constexpr const char* kProtocol = "liana-console-1";
+constexpr const char* kPlain = "text/plain; charset=utf-8";
+constexpr std::size_t kChunk = 4096;  // of a message, as it is read
+constexpr std::size_t kLongestMessage = api::kMaxPacketBytes;
+constexpr unsigned int kMostSockets = 192;                     // clients, strangers, and those who only load the page
+constexpr std::uint16_t kPingAfter_s = 10, kGoneAfter_s = 20;  // of silence
+constexpr int kLastWord_s = 1;
+constexpr long kTick_ns = 100'000'000;
+
+// What libwebsockets keeps for every connection.
+struct Connection {
+  Session* session;
+  std::string* message;  // as far as it has been read
+};
+
+std::string header(lws* wsi, lws_token_indexes which) {
+  const int length = lws_hdr_total_length(wsi, which);
+  if (length <= 0) return "";
+  std::string text(static_cast<std::size_t>(length) + 1, '\0');
+  const int copied = lws_hdr_copy(wsi, text.data(), length + 1, which);
+  text.resize(copied > 0 ? static_cast<std::size_t>(copied) : 0);
+  return text;
+}
+
+std::string peer(lws* wsi) {
+  std::array<char, 64> text{};
+  lws_get_peer_simple(wsi, text.data(), text.size());
+  return text.data();
+}
+
+void complain(int, const char* line) { std::fprintf(stderr, "liana-gateway: libwebsockets: %s", line); }
+
+}  // namespace
+
+struct WebServerInside {
+  WebServerInside(const WebOptions& given, Gateway& owner) : options(given), gateway(owner) {}
+
+  int take(lws* wsi, lws_callback_reasons reason, Connection* connection, void* in, std::size_t length);
+  void listen();
+  void watch_time_and_signals();
+  void run();
+
+  const WebOptions options;
+  Gateway& gateway;
+  api::UniqueFd timer, signals;
+  bool over = false;
+  lws_context* context = nullptr;
+  lws_vhost* vhost = nullptr;
+  std::uint16_t port = 0;
+  std::vector<unsigned char> buffer;  // of what is being written
+
+  bool is_tls() const { return !options.certificate.empty(); }
+  std::optional<std::string> problem(lws* wsi, const char** what) const;
+  int refuse(lws* wsi, const char* what, unsigned int status, const std::string& why);
+  int admit(lws* wsi);
+  int serve(lws* wsi, const std::string& path);
+  void open(lws* wsi, Connection& connection);
+  int read(lws* wsi, Connection& connection, std::string_view piece);
+  int write(lws* wsi, Connection& connection);
+  int end(lws* wsi, const Session& session);
+  void closed(Connection& connection);
+};
+
+// What is wrong with who asks, whatever is asked for.
+std::optional<std::string> WebServerInside::problem(lws* wsi, const char** what) const {
+  const std::string host = header(wsi, WSI_TOKEN_HOST), origin = header(wsi, WSI_TOKEN_ORIGIN);
+  *what = "plain_http";
+  if (is_tls() && lws_is_ssl(wsi) == 0) return "use https: nothing is served in the clear here";
+  *what = "host";
+  if (options.listen.is_loopback() && !is_loopback_host(host, port))
+    return "host '" + host + "': allowed are 127.0.0.1, localhost and [::1] with the port";
+  *what = "cross_origin";
+  if (!is_own_origin(origin, is_tls() ? "https" : "http", host))
+    return "origin '" + origin + "': allowed are pages of this gateway";
+  return std::nullopt;
+}
+
+int WebServerInside::refuse(lws* wsi, const char* what, unsigned int status, const std::string& why) {
+  gateway.refused(what, peer(wsi), why);
+  return answer_http(wsi, status, kPlain, why + "\n");
+}
+
+// Before a connection becomes a WebSocket: 0 lets it, more than 0 says that it was answered.
+int WebServerInside::admit(lws* wsi) {
+  const auto refused = [&](const char* what, unsigned int status, const std::string& why) {
+    refuse(wsi, what, status, why);
+    return 1;
+  };
+  const char* what = "";
+  if (const auto why = problem(wsi, &what)) return refused(what, HTTP_STATUS_FORBIDDEN, *why);
+  const std::string path = header(wsi, WSI_TOKEN_GET_URI);
+  if (path != "/ws") return refused("path", HTTP_STATUS_NOT_FOUND, "'" + path + "': the WebSocket is /ws");
+  if (header(wsi, WSI_TOKEN_PROTOCOL) != kProtocol)
+    return refused("protocol", HTTP_STATUS_BAD_REQUEST, std::string("the subprotocol is ") + kProtocol);
+  if (gateway.is_full())
+    return refused("too_many", HTTP_STATUS_SERVICE_UNAVAILABLE, "32 clients are connected already");
+  return 0;
+}
+
+int WebServerInside::serve(lws* wsi, const std::string& path) {
+  const char* what = "";
+  if (const auto why = problem(wsi, &what)) return refuse(wsi, what, HTTP_STATUS_FORBIDDEN, *why);
+  if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) == 0)
+    return refuse(wsi, "method", HTTP_STATUS_METHOD_NOT_ALLOWED, "allowed is GET");
+  if (path == "/") return answer_page(wsi, options.page);
+  return refuse(wsi, "path", HTTP_STATUS_NOT_FOUND, "'" + path + "': nothing is there");
+}
+
+void WebServerInside::open(lws* wsi, Connection& connection) {
+  connection.message = new std::string;
+  connection.session = &gateway.open(peer(wsi), [wsi, &connection] {
+    const bool is_over = connection.session != nullptr && connection.session->end().code != 0;
+    if (is_over) lws_set_timeout(wsi, PENDING_TIMEOUT_CLOSE_SEND, kLastWord_s);  // it may not read any more
+    lws_callback_on_writable(wsi);
+  });
+}
+
+int WebServerInside::end(lws* wsi, const Session& session) {
+  std::string text = session.end().text.substr(0, 120);  // RFC 6455, section 5.5: at most 123 bytes
+  lws_close_reason(wsi, static_cast<lws_close_status>(session.end().code),
+                   reinterpret_cast<unsigned char*>(text.data()), text.size());
+  return -1;
+}
+
+int WebServerInside::read(lws* wsi, Connection& connection, std::string_view piece) {
+  Session& session = *connection.session;
+  std::string& message = *connection.message;
+  if (session.end().code != 0) return end(wsi, session);
+  if (message.size() + piece.size() > kLongestMessage) {
+    session.refuse_oversized(gateway.now_s());
+    return end(wsi, session);
+  }
+  message += piece;
+  if (lws_remaining_packet_payload(wsi) != 0 || lws_is_final_fragment(wsi) == 0) return 0;
+  if (lws_frame_is_binary(wsi) != 0) {
+    session.take_binary(message, gateway.now_s());
+  } else {
+    session.take_text(message, gateway.now_s());
+  }
+  message.clear();
+  if (message.capacity() > kChunk) message.shrink_to_fit();
+  return 0;
+}
+
+int WebServerInside::write(lws* wsi, Connection& connection) {
+  Session& session = *connection.session;
+  if (session.end().code != 0) return end(wsi, session);
+  const std::optional<Outgoing> next = session.next(gateway.now_s());
+  if (!next) return 0;
+  buffer.resize(LWS_PRE + next->bytes.size());
+  std::memcpy(buffer.data() + LWS_PRE, next->bytes.data(), next->bytes.size());
+  const lws_write_protocol kind = next->is_binary ? LWS_WRITE_BINARY : LWS_WRITE_TEXT;
+  if (lws_write(wsi, buffer.data() + LWS_PRE, next->bytes.size(), kind) < 0) return -1;
+  lws_callback_on_writable(wsi);  // there may be more
+  return 0;
+}
+
+void WebServerInside::closed(Connection& connection) {
+  if (connection.session != nullptr) gateway.gone(*connection.session);
+  delete connection.message;
+  connection = {};
+}
+
+int WebServerInside::take(lws* wsi, lws_callback_reasons reason, Connection* connection, void* in, std::size_t length) {
+  const std::string_view bytes(static_cast<const char*>(in), in == nullptr ? 0 : length);
+  switch (reason) {
+    case LWS_CALLBACK_RAW_RX_FILE:
+      gateway.run_ready();
+      return 0;
+    case LWS_CALLBACK_HTTP:
+      return serve(wsi, std::string(bytes));
+    case LWS_CALLBACK_HTTP_FILE_COMPLETION:
+      return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
+    case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
+      return admit(wsi);
+    case LWS_CALLBACK_ESTABLISHED:
+      open(wsi, *connection);
+      return 0;
+    case LWS_CALLBACK_RECEIVE:
+      return read(wsi, *connection, bytes);
+    case LWS_CALLBACK_SERVER_WRITEABLE:
+      return write(wsi, *connection);
+    case LWS_CALLBACK_CLOSED:
+      closed(*connection);
+      return 0;
+    default:
+      return 0;
+  }
+}
+
+namespace {
+
+// No exception may cross the library, which is C.
+int on_event(lws* wsi, lws_callback_reasons reason, void* user, void* in, std::size_t length) {
+  auto* inside = static_cast<WebServerInside*>(lws_context_user(lws_get_context(wsi)));
+  try {
+    return inside == nullptr ? 0 : inside->take(wsi, reason, static_cast<Connection*>(user), in, length);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "liana-gateway: %s\n", error.what());
+    return -1;
+  }
+}
+
+constexpr lws_protocols protocol(const char* name, std::size_t bytes) {
+  lws_protocols made{};
+  made.name = name;
+  made.callback = on_event;
+  made.per_session_data_size = bytes;
+  made.rx_buffer_size = kChunk;
+  return made;
+}
+
+constexpr std::array<lws_protocols, 3> kProtocols{
+    {protocol("http", 0), protocol(kProtocol, sizeof(Connection)), lws_protocols{}}};
+constexpr lws_retry_bo_t kIdle{nullptr, 0, 0, kPingAfter_s, kGoneAfter_s, 0};
+
+}  // namespace
+
+void WebServerInside::listen() {
+  lws_set_log_level(LLL_ERR, complain);
+  lws_context_creation_info info{};
+  info.iface = options.listen.host.c_str();
+  info.port = options.listen.port;
+  info.protocols = kProtocols.data();
+  info.user = this;
+  info.pt_serv_buf_size = kChunk;
+  info.fd_limit_per_thread = kMostSockets;
+  info.retry_and_idle_policy = &kIdle;
+  info.options = LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
+  if (options.listen.host.find(':') == std::string::npos) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
+  if (is_tls()) {
+    info.ssl_cert_filepath = options.certificate.c_str();
+    info.ssl_private_key_filepath = options.key.c_str();
+    // Who asks in the clear gets a refusal that can be read, and is logged: problem().
+    info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT | LWS_SERVER_OPTION_ALLOW_NON_SSL_ON_SSL_PORT |
+                    LWS_SERVER_OPTION_ALLOW_HTTP_ON_HTTPS_LISTENER;
+  }
+  context = lws_create_context(&info);
+  vhost = context != nullptr ? lws_get_vhost_by_name(context, "default") : nullptr;
+  if (vhost == nullptr)
+    throw std::runtime_error("--listen " + options.listen.web_host() + ":" + std::to_string(options.listen.port) +
+                             ": cannot listen there; take another port (0: a free one), an address of this machine, "
+                             "and a certificate and key that can be read");
+  port = static_cast<std::uint16_t>(lws_get_vhost_listen_port(vhost));
+  lws_sock_file_fd_type others{};
+  others.filefd = ::dup(gateway.poller().fd());  // the library closes it
+  if (lws_adopt_descriptor_vhost(vhost, LWS_ADOPT_RAW_FILE_DESC, others, "http", nullptr) == nullptr)
+    throw std::runtime_error("the library does not wait for lianad");
+}
+
+void WebServerInside::watch_time_and_signals() {
+  timer = api::UniqueFd(timerfd_create(CLOCK_MONOTONIC, TFD_CLOEXEC | TFD_NONBLOCK));
+  const itimerspec every{{0, kTick_ns}, {0, kTick_ns}};
+  timerfd_settime(timer.get(), 0, &every, nullptr);
+  gateway.poller().watch(timer.get(), EPOLLIN, [this](std::uint32_t) {
+    std::uint64_t count = 0;
+    if (::read(timer.get(), &count, sizeof count) > 0) gateway.tick();
+  });
+  sigset_t wanted;
+  sigemptyset(&wanted);
+  sigaddset(&wanted, SIGTERM);
+  sigaddset(&wanted, SIGINT);
+  sigprocmask(SIG_BLOCK, &wanted, nullptr);
+  signals = api::UniqueFd(signalfd(-1, &wanted, SFD_CLOEXEC | SFD_NONBLOCK));
+  gateway.poller().watch(signals.get(), EPOLLIN, [this](std::uint32_t) { over = true; });
+}
+
+void WebServerInside::run() {
+  while (!over && lws_service(context, 0) >= 0) {
+  }
+}
+
+WebServer::WebServer(const WebOptions& options, Gateway& gateway)
+    : inside_(std::make_unique<WebServerInside>(options, gateway)) {
+  inside_->watch_time_and_signals();
+  inside_->listen();
+}
+
+WebServer::~WebServer() { lws_context_destroy(inside_->context); }
+
+std::string WebServer::address() const {
+  return std::string(inside_->is_tls() ? "https://" : "http://") + inside_->options.listen.web_host() + ":" +
+         std::to_string(inside_->port) + "/";
+}
+
+void WebServer::run() { inside_->run(); }
+
+}  // namespace liana::gateway

@@ -1,0 +1,37 @@
+// HTTP, WebSocket and TLS (libwebsockets): one loop for browsers and for lianad.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "host/gateway/gateway.hpp"
+#include "host/gateway/listen_address.hpp"
+
+namespace liana::gateway {
+
+struct WebOptions {
+  ListenAddress listen;
+  std::string certificate, key;  // PEM files; empty: plain HTTP
+  std::string page;              // file that / shows
+};
+
+struct WebServerInside;
+
+class WebServer {
+ public:
+  // Listens. `gateway` must outlive this. Throws std::runtime_error.
+  WebServer(const WebOptions& options, Gateway& gateway);
+  ~WebServer();
+  WebServer(const WebServer&) = delete;
+  WebServer& operator=(const WebServer&) = delete;
+
+  // Where browsers find it: http://127.0.0.1:8765/
+  std::string address() const;
+  // Serves until SIGTERM or SIGINT.
+  void run();
+
+ private:
+  std::unique_ptr<WebServerInside> inside_;
+};
+
+}  // namespace liana::gateway

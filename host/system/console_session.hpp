@@ -1,0 +1,30 @@
+// The simulated arm for a console: bus, lianad and bench without a mission, until Ctrl-C.
+#pragma once
+
+#include "host/system/interrupt.hpp"
+#include "host/system/system.hpp"
+
+namespace liana::system {
+
+class ConsoleSession {
+ public:
+  // `plan` must outlive this.
+  explicit ConsoleSession(const SystemLayout& plan) : system_(plan) {}
+  // Stops the arm and ends what still runs.
+  ~ConsoleSession();
+  ConsoleSession(const ConsoleSession&) = delete;
+  ConsoleSession& operator=(const ConsoleSession&) = delete;
+
+  // Starts everything. Throws Interrupted, and std::runtime_error with what did not start.
+  void start();
+  // Goes on for a moment; false after Ctrl-C. Throws std::runtime_error with the program that has ended.
+  bool go_on();
+
+ private:
+  void require_alive();
+
+  InterruptGuard interrupts_;
+  System system_;
+};
+
+}  // namespace liana::system

@@ -1,0 +1,27 @@
+// The newest runs of this user, each a folder that the run itself writes: what happened is there also without --record.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace liana::system {
+
+constexpr std::size_t kKeptRuns = 20;
+
+// $XDG_STATE_HOME/liana/runs, without that variable $HOME/.local/state/liana/runs; empty without either.
+std::string runs_folder();
+
+// Folders of runs, the one that changed last first; none where there is no such folder.
+std::vector<std::string> kept_runs(const std::string& folder);
+
+// Makes the folder of a new run, liana-run-XXXXXX. Throws std::runtime_error with path and reason.
+std::string make_run_folder(const std::string& folder);
+
+// Of a run that succeeded: takes away what nobody looks at then (logs, bus traffic).
+void keep_what_lasts(const std::string& run);
+
+// Removes the oldest beyond kKeptRuns.
+void remove_oldest_runs(const std::string& folder);
+
+}  // namespace liana::system
