@@ -13,7 +13,9 @@ async function begin(): Promise<void> {
     use_software_canvas();
     const run = await run_in(document);
     if (!run) {
-      place.append(new LivePage(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`).element);
+      const page = new LivePage(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`);
+      place.append(page.element);
+      Object.assign(window, { liana: page }); // for measurements and the browser's console
     } else {
       document.title = `${run.head.title} \u2013 Liana`;
       place.append(new RunPage(run).element);

@@ -40,14 +40,13 @@ export class LivePage {
   private readonly alarms: AlarmPanel;
   private readonly look_back: LookBack;
   private readonly sentence = h('p', { class: 'sentence' });
-  private readonly note = h('p', { class: 'note', role: 'status' });
+  private readonly note = h('p', { class: 'answer', role: 'status' });
   private readonly middle = h('div', { class: 'middle' }, h('p', { class: 'no-scene' }, 'waiting for the arm'));
   private panels: { update(now_s: number): void }[] = [];
   private scene: SceneView | null = null;
   private plots: LivePlots | null = null;
   private handle: TipHandle | null = null;
   private robot_shown = '';
-  private shown_s = NaN; // arm time of the state in the picture
 
   constructor(url: string) {
     this.connection = new Connection(url, {
@@ -66,7 +65,8 @@ export class LivePage {
     this.alarms = new AlarmPanel(this.live, () => this.alarms.update());
     this.look_back = new LookBack(this.live, () => this.draw());
     const header = h('header', { class: 'top' }, h('h1', {}, 'Liana'), this.sentence, this.status.element, theme_button((theme) => this.build(theme)), this.stop.element);
-    this.element = h('div', { class: 'page live' }, header, this.alarms.element, this.note, this.middle, this.look_back.element);
+    const told = h('div', { class: 'told' }, this.note, this.stop.report);
+    this.element = h('div', { class: 'page live' }, header, told, this.alarms.element, this.middle, this.look_back.element);
     document.addEventListener('keydown', (event) => this.key_down(event), { capture: true });
     document.addEventListener('keyup', (event) => this.jogger.release(event.code));
     window.addEventListener('blur', () => this.jogger.let_go());
@@ -148,13 +148,12 @@ export class LivePage {
       this.handle.place(values(sample, 'setpoint_cp'));
     }
     if (this.look_back.time_s === null) this.scene.trail.add(values(sample, 'measured_cp'));
-    this.shown_s = sample.time_s;
     this.scene.show(sample);
   }
 
   private drawn(now_ms: number): void {
     this.plots?.update(now_ms);
-    ages.push(this.live.age.age_s(this.shown_s, performance.now() / 1000));
+    ages.push(this.live.age.age_s(performance.now() / 1000));
     if (ages.length > 500) ages.shift();
   }
 

@@ -1,23 +1,27 @@
-// How old what is seen is, without a clock that both sides share: the quickest state of the last seconds counts as new.
+// How old what is seen is, without a clock that both sides share: of the states of the last moments the one that came
+// quickest counts as new. (Paced time may run slower than this clock for a while, so the moments are few.)
 
-const kForget = 0.02; // of the difference to the quickest, each second: the arm's clock and this one drift
+const kWindow_s = 0.3;
 
 export class StateAge {
-  private quickest_s = Infinity; // this clock less the arm's, for the state that came quickest
-  private last_s = NaN;
+  private readonly came_s: number[] = []; // on this clock
+  private readonly way_s: number[] = []; // this clock less the arm's when it came
 
   // A state of arm time `time_s` came at `now_s` of this clock.
   came(time_s: number, now_s: number): void {
-    const way_s = now_s - time_s;
-    if (!Number.isFinite(this.quickest_s) || Math.abs(way_s - this.quickest_s) > 30) this.quickest_s = way_s; // begins anew
-    const passed_s = Number.isFinite(this.last_s) ? Math.max(0, now_s - this.last_s) : 0;
-    this.quickest_s += Math.min(1, kForget * passed_s) * Math.max(0, way_s - this.quickest_s);
-    this.quickest_s = Math.min(this.quickest_s, way_s);
-    this.last_s = now_s;
+    this.came_s.push(now_s);
+    this.way_s.push(now_s - time_s);
+    while (this.came_s.length > 1 && this.came_s[0] < now_s - kWindow_s) {
+      this.came_s.shift();
+      this.way_s.shift();
+    }
   }
 
-  // Of the state of arm time `time_s` when it is seen at `now_s` [s].
-  age_s(time_s: number, now_s: number): number {
-    return Math.max(0, now_s - time_s - this.quickest_s);
+  // Of the newest state when it is seen at `now_s` [s]; NaN before the first.
+  age_s(now_s: number): number {
+    const last = this.came_s.length - 1;
+    if (last < 0) return NaN;
+    const late_s = this.way_s[last] - Math.min(...this.way_s);
+    return late_s + now_s - this.came_s[last];
   }
 }

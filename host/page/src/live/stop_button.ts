@@ -8,14 +8,14 @@ const kAcknowledgedFor_ms = 60000;
 export class StopButton {
   readonly element: HTMLElement;
   on_press: () => void = () => {}; // whatever else moves the arm lets go
-  private readonly report = h('output', { class: 'stop-report', 'aria-live': 'assertive' });
+  readonly report = h('output', { class: 'stop-report', 'aria-live': 'assertive' });
   private pressed_ms = NaN;
   private answered_ms = NaN;
   private is_answered = false;
 
   constructor(private readonly live: Live, private readonly connection: Connection) {
     const button = h('button', { type: 'button', class: 'stop', title: 'stop, brakes, power off: at once (Escape)', onclick: () => void this.press() }, 'STOP ', h('kbd', {}, 'Esc'));
-    this.element = h('div', { class: 'stop-place', role: 'region', 'aria-label': 'Emergency stop' }, button, this.report);
+    this.element = h('div', { class: 'stop-place', role: 'region', 'aria-label': 'Emergency stop' }, button);
   }
 
   async press(): Promise<void> {
