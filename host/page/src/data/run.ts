@@ -60,14 +60,22 @@ export function last_before(list: readonly { tick: number }[], tick: number): nu
   return low - 1;
 }
 
+// The first facts are whole, later ones tell only what is other than before.
+function whole_facts(facts: RunHead['facts']): RunHead['facts'] {
+  let before: Facts = {};
+  return facts.map(({ tick, state }) => ({ tick, state: (before = { ...before, ...state }) }));
+}
+
 export class Run {
   readonly telemetry: Telemetry;
+  private readonly facts: RunHead['facts'];
   private readonly sample: Sample & { numbers: Map<string, Float32Array> };
 
   // Throws when the head is of another format or does not fit the telemetry.
   constructor(readonly head: RunHead, planes: Uint8Array) {
     if (head.format !== kFormat) throw new Error(`format = ${head.format}: this page reads ${kFormat}`);
     this.telemetry = telemetry_of(head.telemetry, planes);
+    this.facts = whole_facts(head.facts);
     const numbers = new Map<string, Float32Array>();
     for (const [name, columns] of this.telemetry.columns) numbers.set(name, new Float32Array(columns.length));
     this.sample = { tick: 0, time_s: 0, numbers, facts: {} };
@@ -100,8 +108,8 @@ export class Run {
       const values = sample.numbers.get(name)!;
       for (let i = 0; i < columns.length; ++i) values[i] = columns[i]?.[row] ?? NaN;
     }
-    const facts = last_before(this.head.facts, sample.tick);
-    sample.facts = facts < 0 ? {} : this.head.facts[facts].state;
+    const facts = last_before(this.facts, sample.tick);
+    sample.facts = facts < 0 ? {} : this.facts[facts].state;
     return sample;
   }
 }

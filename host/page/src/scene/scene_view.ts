@@ -43,6 +43,7 @@ export class SceneView {
   private is_due = false;
   private had_state = false;
   private labels_at_ms = 0;
+  private waits_since_ms = 0;
   private readonly drawn_angles = new Float32Array(16);
 
   // Throws when the browser has no WebGL.
@@ -92,6 +93,12 @@ export class SceneView {
     this.draw_soon(true);
   }
 
+  // Something of other parts of the page that stands in the scene, but not in the picture of the tip's camera.
+  add_helper(object: THREE.Object3D): void {
+    this.stage.scene.add(object);
+    this.stage.hidden_from_tip.push(object);
+  }
+
   say_in_corner(text: string): void {
     set_text(this.corner, text);
   }
@@ -107,6 +114,7 @@ export class SceneView {
   }
 
   private draw_soon(is_state: boolean): void {
+    if (is_state && !this.had_state) this.waits_since_ms = performance.now();
     this.had_state ||= is_state;
     if (this.is_due) return;
     this.is_due = true;
@@ -135,9 +143,10 @@ export class SceneView {
       this.labels_at_ms = now_ms;
       this.place_labels();
     }
-    const busy = this.had_state;
+    const done_ms = performance.now();
+    const is_coarser_or_finer = this.had_state && this.stage.pace.drawn(done_ms, done_ms - this.waits_since_ms);
     this.had_state = false;
-    if (this.stage.pace.drawn(now_ms, busy)) this.resize();
+    if (is_coarser_or_finer) this.resize();
     this.on_drawn(now_ms);
   }
 
