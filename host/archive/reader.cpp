@@ -72,7 +72,7 @@ Reader::Reader(const std::string& path, std::uint64_t life)
   read_life(life == 0 ? lives_ : life);
 }
 
-std::uint64_t Reader::count(const char* sql) const {
+std::uint64_t Reader::count(const std::string& sql) const {
   Statement statement(database_, sql);
   return statement.step() ? statement.count(0) : 0;
 }
@@ -156,6 +156,31 @@ std::vector<Facts> Reader::facts(Span span) const {
     while (row.step()) add_facts(row, span, out);
   }
   return out;
+}
+
+Counts Reader::counts() const {
+  const std::string life = " WHERE life=" + std::to_string(life_number_);
+  return {count("SELECT count(*) FROM event" + life), count("SELECT count(*) FROM command" + life),
+          count("SELECT count(*) FROM command" + life + " AND released=0")};
+}
+
+std::uint64_t Reader::bytes() const {
+  std::vector<Segment> files = segments_in(folder_);
+  files.push_back({0, 0, database_.path()});
+  return bytes_of(files);
+}
+
+std::vector<std::string> Reader::problems() const {
+  std::vector<std::string> found{database_.problem(false)};
+  for (const Segment& file : segments_in(folder_)) {
+    try {
+      found.push_back(Database(file.path, Database::Open::kRead).problem(false));
+    } catch (const DatabaseError& error) {
+      found.push_back(error.what());
+    }
+  }
+  std::erase(found, "");
+  return found;
 }
 
 Span Reader::span_of(double from_s, double to_s) const {
