@@ -146,6 +146,7 @@ export class LivePage {
     if (this.handle) {
       this.handle.is_enabled = this.live.is_mine && sample.facts.state === 'ENABLED' && this.look_back.time_s === null;
       this.handle.place(values(sample, 'setpoint_cp'));
+      this.scene.tip_label = this.handle.is_enabled && !this.jogger.is_jogging ? 'drag the tip' : '';
     }
     if (this.look_back.time_s === null) this.scene.trail.add(values(sample, 'measured_cp'));
     this.scene.show(sample);
