@@ -94,6 +94,16 @@ struct ConsoleOptions {
 // The console of a running system, or of a simulated arm without a mission; tells the address, ends with Ctrl-C.
 int console_command(const ConsoleOptions& options);
 
+struct ViewOptions {
+  std::string run;       // its folder, or its name among the newest; empty: the newest
+  bool live = false;     // the console of what runs, in place of a run's page
+  std::string api;       // with live: as for the console
+  std::string out_file;  // empty: page.html in the run's folder
+  bool json = false;
+};
+// Writes the page of a run and prints its path.
+int view_command(const ViewOptions& options);
+
 struct CalibrateOptions {
   std::string robot = "zhu2022";
   std::string bus = "embedded";

@@ -202,6 +202,16 @@ void add_console(CLI::App& app, Action& action, ConsoleOptions& console) {
   sub->add_flag("--json", console.json, "print JSON");
 }
 
+void add_view(CLI::App& app, Action& action, ViewOptions& view) {
+  CLI::App* sub =
+      add(app, action, "view", "the page of a run: what happened, in one file for a browser", view, view_command);
+  CLI::Option* run = sub->add_option("run", view.run, "folder or name of a run; where not given, the newest");
+  CLI::Option* out = sub->add_option("--out", view.out_file, "write the page here, not as page.html beside the run");
+  sub->add_flag("--live", view.live, "the console of a running system instead")->excludes(run)->excludes(out);
+  sub->add_option("--api", view.api, "with --live: API socket of a lianad")->needs("--live");
+  sub->add_flag("--json", view.json, "print JSON");
+}
+
 void add_check(CLI::App& app, Action& action, liana::system::RunOptions& check) {
   CLI::App* sub = add(app, action, "check", "dry run of a mission: what its steps leave of the limits, what is refused",
                       check, check_command);
@@ -432,6 +442,7 @@ int run(int argc, char** argv) {
   ClientOptions client;
   FaultsOptions faults;
   CommandsOptions commands;
+  ViewOptions view;
   LogOptions log;
   MissionOptions mission;
   ReplayOptions replay;
@@ -445,6 +456,7 @@ int run(int argc, char** argv) {
   add_run(app, action, run);
   add_check(app, action, check);
   add_console(app, action, console);
+  add_view(app, action, view);
   add_client(app, action, "status", "state of every running system", client, status_command);
   add_client(app, action, "estop", "emergency stop of every running system: stop, brakes, disable", client,
              estop_command);

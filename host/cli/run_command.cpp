@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/run_page.hpp"
 #include "host/cli/session_report.hpp"
 #include "host/json/json.hpp"
 #include "host/report/run_report.hpp"
@@ -62,6 +63,7 @@ int run_command(const system::RunOptions& options) {
   if (!success) {
     std::fprintf(stderr, "liana: the run did not succeed; %s\n", where_to_look(plan).c_str());
   }
+  leave_page(plan.directory, options.report_file == "-" ? stderr : stdout);
   system::clean_up(plan, success);
   return success && written ? system::kExitOk : system::kExitFailure;
 }

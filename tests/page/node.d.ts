@@ -3,6 +3,7 @@ declare module 'node:assert/strict' {
   interface Assert {
     ok(value: unknown, message?: string): void;
     equal(actual: unknown, expected: unknown, message?: string): void;
+    notEqual(actual: unknown, expected: unknown, message?: string): void;
     deepEqual(actual: unknown, expected: unknown, message?: string): void;
     match(text: string, pattern: RegExp, message?: string): void;
     throws(call: () => unknown, pattern?: RegExp): void;

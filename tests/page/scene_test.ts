@@ -60,21 +60,21 @@ test('labels are pushed apart, the first stays, all are inside the picture and b
   assert.ok(areas.every((a) => a.y >= 0 && a.y + a.height <= 200));
 });
 
-test('the picture becomes coarser while frames are slow, and finer again only after calm seconds', () => {
+test('the picture becomes coarser while states wait long, and finer again only after calm seconds', () => {
   const pace = new FramePace();
   let now_ms = 0;
-  const frames = (interval_ms: number, seconds: number) => {
+  const frames = (waited_ms: number, seconds: number) => {
     const end_ms = now_ms + 1000 * seconds;
-    while (now_ms < end_ms) pace.drawn((now_ms += interval_ms), true);
+    while (now_ms < end_ms) pace.drawn((now_ms += 40), waited_ms);
   };
-  frames(20, 5);
+  frames(15, 5);
   assert.equal(pace.pixel_ratio, 1);
   frames(80, 5);
   assert.ok(pace.pixel_ratio < 1);
   const coarse = pace.pixel_ratio;
-  frames(20, 5);
+  frames(15, 5);
   assert.equal(pace.pixel_ratio, coarse);
-  frames(20, 30);
+  frames(15, 30);
   assert.equal(pace.pixel_ratio, 1);
 });
 

@@ -1,5 +1,6 @@
 // The page begins here: a run that is in it is shown; else it is the console.
 import { run_in } from './data/run';
+import { LivePage } from './live/live_page';
 import { use_software_canvas } from './plots/strip';
 import { RunPage } from './run/run_page';
 import { h } from './ui/dom';
@@ -11,7 +12,11 @@ async function begin(): Promise<void> {
     apply(theme_now());
     use_software_canvas();
     const run = await run_in(document);
-    if (run) {
+    if (!run) {
+      const page = new LivePage(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`);
+      place.append(page.element);
+      Object.assign(window, { liana: page }); // for measurements and the browser's console
+    } else {
       document.title = `${run.head.title} \u2013 Liana`;
       place.append(new RunPage(run).element);
     }

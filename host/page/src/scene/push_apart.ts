@@ -15,6 +15,11 @@ function clamped(value: number, low: number, high: number): number {
   return Math.max(low, Math.min(high, value));
 }
 
+// How far a label goes; downwards counts double, for it would hide what it names.
+function way(y: number, wished: number): number {
+  return y > wished ? 2 * (y - wished) : wished - y;
+}
+
 // Moves the areas, which are in order of importance: what comes first stays where it is, what follows goes to the
 // nearest free place above or below. `taken`: parts of the picture where no label may be.
 export function push_apart(areas: Area[], width: number, height: number, taken: readonly Area[] = []): void {
@@ -25,7 +30,7 @@ export function push_apart(areas: Area[], width: number, height: number, taken: 
     const wished = area.y;
     const places = [wished, ...placed.flatMap((other) => [other.y - area.height - 1, other.y + other.height + 1])];
     const free = places.filter((y) => y >= 0 && y + area.height <= height && !placed.some((other) => overlap({ ...area, y }, other)));
-    area.y = free.sort((a, b) => Math.abs(a - wished) - Math.abs(b - wished))[0] ?? wished;
+    area.y = free.sort((a, b) => way(a, wished) - way(b, wished))[0] ?? wished;
     placed.push(area);
   }
 }

@@ -16,6 +16,7 @@ import { views_of, type View } from './views';
 
 const kTipPicture = { width: 280, height: 180 };
 const kExaggeration = 10;
+const kNear_m = 0.3; // a clearance is worth a label below
 const kLabels_ms = 100; // labels are laid out at most so often: style and layout cost more than the scene's script
 
 export class SceneView {
@@ -26,6 +27,7 @@ export class SceneView {
   readonly way: Trail; // the whole way of a recorded run
   on_drawn: (now_ms: number) => void = () => {};
   exaggerate = false;
+  tip_label = '';
   private readonly arm: ArmBody;
   private readonly ghost: GhostArm;
   private readonly predicted: GhostArm;
@@ -43,6 +45,7 @@ export class SceneView {
   private is_due = false;
   private had_state = false;
   private labels_at_ms = 0;
+  private waits_since_ms = 0;
   private readonly drawn_angles = new Float32Array(16);
 
   // Throws when the browser has no WebGL.
@@ -92,6 +95,12 @@ export class SceneView {
     this.draw_soon(true);
   }
 
+  // Something of other parts of the page that stands in the scene, but not in the picture of the tip's camera.
+  add_helper(object: THREE.Object3D): void {
+    this.stage.scene.add(object);
+    this.stage.hidden_from_tip.push(object);
+  }
+
   say_in_corner(text: string): void {
     set_text(this.corner, text);
   }
@@ -107,6 +116,7 @@ export class SceneView {
   }
 
   private draw_soon(is_state: boolean): void {
+    if (is_state && !this.had_state) this.waits_since_ms = performance.now();
     this.had_state ||= is_state;
     if (this.is_due) return;
     this.is_due = true;
@@ -135,9 +145,10 @@ export class SceneView {
       this.labels_at_ms = now_ms;
       this.place_labels();
     }
-    const busy = this.had_state;
+    const done_ms = performance.now();
+    const is_coarser_or_finer = this.had_state && this.stage.pace.drawn(done_ms, done_ms - this.waits_since_ms);
     this.had_state = false;
-    if (this.stage.pace.drawn(now_ms, busy)) this.resize();
+    if (is_coarser_or_finer) this.resize();
     this.on_drawn(now_ms);
   }
 
@@ -178,7 +189,8 @@ export class SceneView {
     const chain = this.arm.chain;
     const labels: Label[] = [];
     const clear_m = sample ? value(sample, 'clearance.distance_m') : NaN;
-    if (sample && Number.isFinite(clear_m)) {
+    const is_near = clear_m < kNear_m;
+    if (sample && is_near) {
       const bound_m = value(sample, 'clearance.bound_m');
       const sure = Number.isFinite(bound_m) ? ` \u00b1 ${length_text(bound_m)}` : '';
       labels.push({ text: `${length_text(clear_m)} clear of ${sample.facts.clearance?.body ?? 'it'}${sure}`, place_m: values(sample, 'clearance.where_m').slice() });
@@ -186,8 +198,8 @@ export class SceneView {
     if (scene.rod) labels.push({ text: 'press rod: the goal', place_m: scene.rod.position_m });
     if (scene.slit) labels.push({ text: `slit, ${Math.round(2000 * scene.slit.half_gap_m)} mm`, place_m: scene.slit.frame.position_m });
     for (const body of scene.spheres ?? []) labels.push({ text: body.name, place_m: body.center_m });
-    labels.push({ text: this.robot.kind === 'serial' ? 'base' : `base: ${3 * this.robot.segments.length} motors`, place_m: [-0.1, 0, -0.1] });
-    if (!scene.rod) labels.push({ text: 'tip', place_m: chain.tip.subarray(12, 15) });
+    labels.push({ text: this.robot.kind === 'serial' ? 'base' : `base: ${3 * this.robot.segments.length} motors`, place_m: [-0.16, 0, 0.1] });
+    if (this.tip_label) labels.push({ text: this.tip_label, place_m: chain.tip.subarray(12, 15) });
     for (const body of scene.convex ?? []) {
       const at = body.points_m?.[0] ?? body.cylinder?.from_m ?? body.chain?.points_m[0];
       if (at) labels.push({ text: body.name, place_m: at });

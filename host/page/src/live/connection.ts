@@ -1,0 +1,124 @@
+// The WebSocket to the gateway: hello, requests with their answers, records with their credits, and again after it died.
+import { credit_of, kSubprotocol, proof_of, type Answer, type FromGateway, type Token, type Welcome } from './protocol';
+
+export interface Listener {
+  token(): Token | null; // null: none is known
+  wants_token(why: string): void; // the person has to say one; then Connection.open() again
+  status(text: string): void; // empty: all is well
+  welcome(message: Welcome): void;
+  message(message: FromGateway): void;
+  record(bytes: ArrayBuffer): number | null; // its sequence, null when it is no record of the layout
+}
+
+const kFirstRetry_ms = 500;
+const kLastRetry_ms = 5000;
+const kAnswer_ms = 5000;
+const kPolicyViolated = 1008;
+
+type Waiting = { answered: (answer: Answer) => void; timer: number };
+
+export class Connection {
+  private socket: WebSocket | null = null;
+  private retry_ms = kFirstRetry_ms;
+  private next_id = 1;
+  private readonly waiting = new Map<number, Waiting>();
+  private is_welcome = false;
+  private asked_for_token = false;
+
+  constructor(private readonly url: string, private readonly listener: Listener) {}
+
+  open(): void {
+    this.asked_for_token = false;
+    this.listener.status('connecting to the gateway');
+    const socket = new WebSocket(this.url, kSubprotocol);
+    this.socket = socket;
+    socket.binaryType = 'arraybuffer';
+    socket.onmessage = (event: MessageEvent) => {
+      if (typeof event.data === 'string') void this.take(JSON.parse(event.data) as FromGateway);
+      else this.take_record(event.data as ArrayBuffer);
+    };
+    socket.onclose = (event) => this.closed(event);
+  }
+
+  // Asks lianad; errors are answers, too, also that nothing came back.
+  request(request: object): Promise<Answer> {
+    return this.send('request', { request });
+  }
+
+  // Emergency stop: for every role, and sent at once whatever else is under way.
+  stop(reason: string): Promise<Answer> {
+    return this.send('stop', { reason });
+  }
+
+  // Sends without waiting for the answer: streams of setpoints and device samples. An error goes to `failed`.
+  tell(request: object, failed: (answer: Answer) => void): void {
+    void this.request(request).then((answer) => {
+      if (!answer.ok) failed(answer);
+    });
+  }
+
+  private send(op: string, what: object): Promise<Answer> {
+    const { socket } = this;
+    if (!socket || socket.readyState !== WebSocket.OPEN || !this.is_welcome)
+      return Promise.resolve({ op: 'answer', ok: false, code: 'not_connected', message: 'no connection to the gateway: use the emergency stop at the arm' });
+    const id = this.next_id++;
+    return new Promise((answered) => {
+      const late: Answer = { op: 'answer', id, ok: false, code: 'no_answer', message: `no answer within ${kAnswer_ms / 1000} s` };
+      this.waiting.set(id, { answered, timer: window.setTimeout(() => this.answer(late), kAnswer_ms) });
+      socket.send(JSON.stringify({ op, id, ...what }));
+    });
+  }
+
+  private answer(answer: Answer): void {
+    const waiting = this.waiting.get(answer.id ?? -1);
+    if (!waiting) return;
+    window.clearTimeout(waiting.timer);
+    this.waiting.delete(answer.id!);
+    waiting.answered(answer);
+  }
+
+  private async take(message: FromGateway): Promise<void> {
+    if (message.op === 'challenge') return this.hello(message.nonce, message.proof ?? !message.loopback);
+    if (message.op === 'answer') return this.answer(message);
+    if (message.op === 'away') this.listener.status(message.text);
+    if (message.op === 'welcome') {
+      this.is_welcome = true;
+      this.retry_ms = kFirstRetry_ms;
+      this.listener.status('');
+      this.listener.welcome(message);
+    }
+    this.listener.message(message);
+  }
+
+  private async hello(nonce: string, needs_proof: boolean): Promise<void> {
+    if (!needs_proof) return this.socket?.send(JSON.stringify({ op: 'hello', name: 'browser' }));
+    const token = this.listener.token();
+    if (!token) return this.ask_for_token('This gateway asks who you are.');
+    const proof = await proof_of(token.secret, nonce);
+    this.socket?.send(JSON.stringify({ op: 'hello', name: 'browser', token_name: token.name, proof }));
+  }
+
+  private ask_for_token(why: string): void {
+    this.asked_for_token = true;
+    this.listener.wants_token(why);
+    this.socket?.close();
+  }
+
+  private take_record(bytes: ArrayBuffer): void {
+    const sequence = this.listener.record(bytes);
+    if (sequence !== null) this.socket?.send(credit_of(sequence));
+  }
+
+  private closed(event: CloseEvent): void {
+    const was_welcome = this.is_welcome;
+    this.is_welcome = false;
+    for (const id of [...this.waiting.keys()]) {
+      this.answer({ op: 'answer', id, ok: false, code: 'not_connected', message: 'the connection to the gateway broke before the answer' });
+    }
+    if (this.asked_for_token) return;
+    if (event.code === kPolicyViolated && !was_welcome && this.listener.token()) return this.ask_for_token(event.reason || 'The gateway refused this token.');
+    this.listener.status(event.reason ? `the gateway closed the connection: ${event.reason}` : 'no connection to the gateway; trying again');
+    window.setTimeout(() => this.open(), this.retry_ms);
+    this.retry_ms = Math.min(kLastRetry_ms, 2 * this.retry_ms);
+  }
+}

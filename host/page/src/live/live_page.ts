@@ -1,0 +1,210 @@
+// The console: the running arm, what can be told to it, and what happens.
+import type { Sample } from '../data/sample';
+import { value, values } from '../data/sample';
+import type { Condition } from '../model/alarms';
+import { sentence_of } from '../model/sentence';
+import { SceneView } from '../scene/scene_view';
+import { scene_colours, type Theme } from '../scene/palette';
+import { DevicePanel } from '../steer/device_panel';
+import { TipHandle } from '../steer/handle';
+import { Jogger } from '../steer/jogger';
+import { JogPanel } from '../steer/jog_panel';
+import { JointPanel } from '../steer/joint_panel';
+import { action_of, is_field } from '../steer/keyboard';
+import { MotionPanel } from '../steer/motion_panel';
+import { ShapePanel } from '../steer/shape_panel';
+import { h, set_text } from '../ui/dom';
+import { Tabs } from '../ui/tabs';
+import { theme_button, theme_now } from '../ui/theme';
+import { AlarmPanel } from './alarm_panel';
+import { Connection } from './connection';
+import { Live } from './live';
+import { LiveEvents } from './live_events';
+import { LivePlots } from './live_plots';
+import { LookBack } from './look_back';
+import { kProtocol, type Answer, type Welcome } from './protocol';
+import { RunList } from './run_list';
+import { StatusBar } from './status_bar';
+import { StopButton } from './stop_button';
+import { kept_token, token_form } from './token_form';
+
+const kWords_ms = 150; // texts are written anew at most so often
+
+export class LivePage {
+  readonly element: HTMLElement;
+  readonly live = new Live();
+  readonly connection: Connection;
+  readonly jogger: Jogger;
+  private readonly stop: StopButton;
+  private readonly status: StatusBar;
+  private readonly alarms: AlarmPanel;
+  private readonly look_back: LookBack;
+  private readonly sentence = h('p', { class: 'sentence' });
+  private readonly note = h('p', { class: 'answer', role: 'status' });
+  private readonly middle = h('div', { class: 'middle' }, h('p', { class: 'no-scene' }, 'waiting for the arm'));
+  private panels: { update(now_s: number): void }[] = [];
+  private scene: SceneView | null = null;
+  private plots: LivePlots | null = null;
+  private handle: TipHandle | null = null;
+  private robot_shown = '';
+
+  constructor(url: string) {
+    this.connection = new Connection(url, {
+      token: kept_token,
+      wants_token: (why) => this.middle.replaceChildren(token_form(why, () => this.connection.open())),
+      status: (text) => (this.live.status = text),
+      welcome: (message) => this.welcome(message),
+      message: (message) => this.live.take(message),
+      record: (bytes) => this.record(bytes),
+    });
+    this.jogger = new Jogger(this.live, this.connection);
+    this.jogger.on_error = (answer) => this.say_answer('jog', answer);
+    this.stop = new StopButton(this.live, this.connection);
+    this.stop.on_press = () => this.jogger.let_go();
+    this.status = new StatusBar(this.live);
+    this.alarms = new AlarmPanel(this.live, () => this.alarms.update());
+    this.look_back = new LookBack(this.live, () => this.draw());
+    const header = h('header', { class: 'top' }, h('h1', {}, 'Liana'), this.sentence, this.status.element, theme_button((theme) => this.build(theme)), this.stop.element);
+    const told = h('div', { class: 'told' }, this.note, this.stop.report);
+    this.element = h('div', { class: 'page live' }, header, told, this.alarms.element, this.middle, this.look_back.element);
+    document.addEventListener('keydown', (event) => this.key_down(event), { capture: true });
+    document.addEventListener('keyup', (event) => this.jogger.release(event.code));
+    window.addEventListener('blur', () => this.jogger.let_go());
+    document.addEventListener('visibilitychange', () => document.hidden && this.jogger.let_go());
+    window.setInterval(() => this.words(), kWords_ms);
+    this.connection.open();
+  }
+
+  // More that a person should act on, of parts that are not the arm.
+  more_conditions: () => Condition[] = () => [];
+
+  private welcome(welcome: Welcome): void {
+    if (welcome.protocol !== kProtocol) {
+      this.live.status = `the gateway speaks protocol ${welcome.protocol}, this page ${kProtocol}: load the page again`;
+      return;
+    }
+    this.jogger.let_go();
+    this.live.take_welcome(welcome);
+    this.look_back.go_to(null);
+    const robot = JSON.stringify([welcome.robot, welcome.scene, welcome.layout]);
+    if (robot !== this.robot_shown || !this.plots) this.build(theme_now());
+    this.robot_shown = robot;
+  }
+
+  // Everything that depends on the robot, the scene or the colours.
+  private build(theme: Theme): void {
+    const { welcome } = this.live;
+    if (!welcome) return;
+    this.scene?.stage.renderer.dispose();
+    const answered = (what: string, answer: Answer) => this.say_answer(what, answer);
+    const motion = new MotionPanel(this.live, this.connection, answered);
+    const joints = new JointPanel(this.live, welcome, this.connection, answered);
+    const device = new DevicePanel(this.live, this.connection, answered);
+    const jog = new JogPanel(this.live, this.connection, this.jogger, answered);
+    const shape = welcome.robot.kind === 'serial' ? null : new ShapePanel(this.live, welcome.robot, this.connection, answered);
+    this.panels = [motion, device, joints, ...(shape ? [shape] : [])];
+    const steer = h('div', { class: 'panel' }, motion.element, device.element, jog.element, joints.element, shape?.element);
+    const go_to = (time_s: number) => this.look_back.go_to(time_s);
+    this.plots = new LivePlots(this.live, welcome, theme, go_to);
+    const events = new LiveEvents(this.live, go_to);
+    this.panels.push(events);
+    const runs = new RunList();
+    const tabs = new Tabs([
+      { name: 'Steer', panel: steer, shown: () => joints.reset() },
+      { name: 'Plots', panel: h('div', { class: 'panel plots' }, this.plots.element) },
+      { name: 'Events', panel: h('div', { class: 'panel' }, events.element) },
+      { name: 'Runs', panel: runs.element, shown: () => void runs.load() },
+    ], 'Steering and information');
+    this.middle.replaceChildren(this.scene_of(welcome, theme), tabs.element);
+  }
+
+  private scene_of(welcome: Welcome, theme: Theme): HTMLElement {
+    try {
+      this.scene = new SceneView(welcome.robot, welcome.scene, theme);
+    } catch (error) {
+      this.scene = null;
+      return h('p', { class: 'no-scene' }, `No 3-D here: ${String(error)}. Everything else works.`);
+    }
+    this.scene.on_drawn = (now_ms) => this.drawn(now_ms);
+    this.handle = new TipHandle(this.scene.stage, scene_colours(theme).ghost);
+    this.handle.on_drag = (place_m) => this.jogger.drag_to(place_m);
+    this.handle.on_drop = () => this.jogger.drop();
+    this.scene.add_helper(this.handle.ball);
+    return h('div', { class: 'scene-place' }, this.scene.element);
+  }
+
+  private record(bytes: ArrayBuffer): number | null {
+    const sequence = this.live.take_record(bytes, performance.now() / 1000);
+    if (sequence !== null && this.look_back.time_s === null) this.draw();
+    return sequence;
+  }
+
+  // The newest state, or the one that is looked back at.
+  private draw(): void {
+    const sample = this.look_back.sample();
+    if (!sample || !this.scene) return;
+    if (this.handle) {
+      this.handle.is_enabled = this.live.is_mine && sample.facts.state === 'ENABLED' && this.look_back.time_s === null;
+      this.handle.place(values(sample, 'setpoint_cp'));
+      this.scene.tip_label = this.handle.is_enabled && !this.jogger.is_jogging ? 'drag the tip' : '';
+    }
+    if (this.look_back.time_s === null) this.scene.trail.add(values(sample, 'measured_cp'));
+    this.scene.show(sample);
+  }
+
+  private drawn(now_ms: number): void {
+    this.plots?.update(now_ms);
+    ages.push(this.live.age.age_s(performance.now() / 1000));
+    if (ages.length > 500) ages.shift();
+  }
+
+  private words(): void {
+    const now_s = performance.now() / 1000;
+    if (this.live.update_alarms(now_s, this.more_conditions())) this.alarms.update();
+    this.status.update();
+    this.stop.update();
+    this.look_back.update();
+    for (const panel of this.panels) panel.update(now_s);
+    const sample = this.look_back.sample();
+    const { welcome } = this.live;
+    if (!sample || !welcome) return set_text(this.sentence, this.live.status);
+    set_text(this.sentence, sentence_of(sample, welcome.robot, welcome.scene, null));
+    this.scene?.say_in_corner(this.corner(sample, now_s));
+  }
+
+  // Age of what is seen, how often states come, how fine the picture is.
+  private corner(sample: Sample, now_s: number): string {
+    if (this.live.status) return 'NOT LIVE';
+    const age_ms = 1000 * (ages[ages.length - 1] ?? NaN);
+    const ratio = this.scene?.stage.pace.pixel_ratio ?? 1;
+    const coarse = ratio < 1 ? `, picture at ${Math.round(100 * ratio)} %` : '';
+    const share = value(sample, 'path.share');
+    const path = Number.isFinite(share) ? `, path ${(100 * share).toFixed(0)} %` : '';
+    return `age ${age_ms.toFixed(0)} ms, ${this.live.states.per_second(now_s)} states/s${coarse}${path}`;
+  }
+
+  private say_answer(what: string, answer: Answer): void {
+    this.note.classList.toggle('bad', !answer.ok);
+    set_text(this.note, answer.ok ? `${what}: done` : `${what}: ${answer.code ?? 'error'}: ${answer.message ?? ''}`);
+  }
+
+  private key_down(event: KeyboardEvent): void {
+    const action = action_of(event, is_field(event.target as HTMLElement));
+    if (!action || event.repeat) return;
+    if (action.kind === 'stop') void this.stop.press();
+    if (action.kind === 'hold') void this.connection.request({ op: 'hold' }).then((answer) => this.say_answer('hold', answer));
+    if (action.kind === 'jog') this.jogger.press(event.code, action.direction);
+    if (action.kind === 'view') {
+      const view = this.scene?.views[action.index];
+      if (view) this.scene?.look(view);
+    }
+    event.preventDefault();
+  }
+}
+
+// Ages of the last states that were seen [s]; for measurements.
+const ages: number[] = [];
+
+export function shown_ages(): readonly number[] {
+  return ages;
+}

@@ -1,0 +1,124 @@
+// What a person should act on: one alarm for each cause, by priority, acknowledged by name, none that flickers.
+import type { Facts } from '../data/sample';
+import { fault_row } from './tables';
+
+export type Priority = 1 | 2 | 3; // 1: act now; 2: act soon; 3: know it
+
+// Something that is not as it should be, now.
+export interface Condition {
+  key: string; // the same cause has the same key
+  priority: Priority;
+  title: string;
+  cause: string;
+  todo: string;
+}
+
+export interface Alarm extends Condition {
+  since_s: number;
+  is_active: boolean; // false: gone, and not yet acknowledged
+  acknowledged_by: string; // empty: nobody has
+}
+
+// A condition that comes has to last so long [s] by priority; one that goes has to be gone so long.
+const kOnDelay_s = [0, 0, 0.5, 1];
+const kOffDelay_s = 3;
+
+interface Entry extends Alarm {
+  seen_s: number; // last time that its condition was there
+  shown: boolean;
+}
+
+export class AlarmBook {
+  private readonly entries = new Map<string, Entry>();
+
+  // What is the case at `now_s`, which never goes back. True when the list of alarms changed.
+  update(conditions: readonly Condition[], now_s: number): boolean {
+    const before = this.mark();
+    for (const condition of conditions) this.see(condition, now_s);
+    for (const entry of this.entries.values()) {
+      if (entry.seen_s !== now_s && now_s - entry.seen_s >= (entry.shown ? kOffDelay_s : 0)) entry.is_active = false;
+      if (!entry.is_active && (!entry.shown || entry.acknowledged_by !== '')) this.entries.delete(entry.key);
+    }
+    return this.mark() !== before;
+  }
+
+  // The person has seen it: it stays while its cause does, and then goes.
+  acknowledge(key: string, name: string): void {
+    const entry = this.entries.get(key);
+    if (!entry) return;
+    entry.acknowledged_by = name;
+    if (!entry.is_active) this.entries.delete(key);
+  }
+
+  // By priority; of one priority those first that nobody has acknowledged, then the oldest.
+  list(): Alarm[] {
+    const rank = (a: Alarm) => 2 * a.priority + (a.acknowledged_by === '' ? 0 : 1);
+    return [...this.entries.values()].filter((e) => e.shown).sort((a, b) => rank(a) - rank(b) || a.since_s - b.since_s);
+  }
+
+  private see(condition: Condition, now_s: number): void {
+    const entry = this.entries.get(condition.key);
+    if (!entry) {
+      const shown = kOnDelay_s[condition.priority] === 0;
+      this.entries.set(condition.key, { ...condition, since_s: now_s, seen_s: now_s, is_active: true, acknowledged_by: '', shown });
+      return;
+    }
+    if (!entry.is_active) Object.assign(entry, { since_s: now_s, acknowledged_by: '' }); // it has come back
+    Object.assign(entry, condition, { seen_s: now_s, is_active: true });
+    entry.shown ||= now_s - entry.since_s >= kOnDelay_s[entry.priority];
+  }
+
+  private mark(): string {
+    return this.list().map((a) => `${a.key} ${a.is_active} ${a.acknowledged_by} ${a.title} ${a.cause}`).join('\n');
+  }
+}
+
+function fault_conditions(facts: Facts): Condition[] {
+  const groups = new Map<number, { name: string; text?: string; places: number[] }>();
+  for (const fault of facts.faults ?? []) {
+    const group = groups.get(fault.number) ?? { name: fault.name, text: fault.text, places: [] };
+    if (fault.index !== undefined && fault.index >= 0) group.places.push(fault.index);
+    groups.set(fault.number, group);
+  }
+  return [...groups].map(([number, group]) => {
+    const row = fault_row(number);
+    const where = group.places.length > 0 ? `: ${group.places.length > 1 ? 'drives or buses ' : ''}${group.places.join(', ')}` : '';
+    const title = `${number} ${group.name.replaceAll('_', ' ')}${where}`;
+    return { key: `fault ${number}`, priority: 1, title, cause: row?.text ?? group.text ?? '', todo: row?.remedy ?? 'See docs/faults.md.' };
+  });
+}
+
+function bus_conditions(facts: Facts): Condition[] {
+  return (facts.buses ?? [])
+    .filter((bus) => bus.lost || bus.state !== 'active')
+    .map((bus) => ({
+      key: `bus ${bus.name}`,
+      priority: bus.lost ? 1 : 2,
+      title: `bus ${bus.name} ${bus.lost ? 'is lost' : `is ${bus.state.replaceAll('_', ' ')}`}`,
+      cause: bus.lost ? 'It is out, or none of its drives is heard.' : 'Frames on it were damaged.',
+      todo: 'Check connectors, termination and interface of this bus.',
+    }));
+}
+
+// What in these facts a person should act on.
+export function conditions_of(facts: Facts): Condition[] {
+  const conditions = [...fault_conditions(facts), ...bus_conditions(facts)];
+  const { clearance, stop, friction } = facts;
+  if (stop) {
+    conditions.push({ key: 'stop', priority: 1, title: `emergency stop by ${stop.by}`, cause: stop.reason || 'No reason was given.',
+      todo: 'Find out why. Then take motion, which clears the stop, and enable.' });
+  }
+  if (clearance?.level === 'refuse') {
+    conditions.push({ key: 'clearance', priority: 1, title: `no verified clearance from the ${clearance.body}`, cause: 'The arm may touch it.', todo: 'Retract.' });
+  } else if (clearance?.level === 'slow') {
+    conditions.push({ key: 'clearance', priority: 2, title: `close to the ${clearance.body}: slowed down`, cause: 'Verified clearance is under the margin of this scene.', todo: 'Steer away from it, or go on slowly.' });
+  }
+  if (clearance && clearance.camera !== 'none' && clearance.camera !== '') {
+    conditions.push({ key: 'camera', priority: 2, title: `tip camera: ${clearance.camera.replaceAll('_', ' ')}`, cause: 'Distances are claimed without it, with more margin.', todo: 'Look whether something covers the camera; go on with care.' });
+  }
+  if (friction?.not_as_declared) {
+    const row = fault_row(5009);
+    conditions.push({ key: 'friction', priority: 2, title: 'friction is not as declared', cause: row?.text ?? '', todo: row?.remedy ?? '' });
+  }
+  return conditions;
+}

@@ -1,0 +1,76 @@
+// What a person can tell the arm by a button: what it will do, and why it cannot be done now.
+import type { Facts } from '../data/sample';
+import type { Role } from '../live/protocol';
+import { fault_row } from '../model/tables';
+
+export interface Action {
+  name: string;
+  request: object;
+  does: string; // what will happen
+  // Why not now; empty: it can be asked for. lianad decides in the end.
+  blocked(facts: Facts, is_mine: boolean): string;
+}
+
+const kNotMine = 'Take motion first.';
+
+function mine(also: (facts: Facts) => string): (facts: Facts, is_mine: boolean) => string {
+  return (facts, is_mine) => (is_mine ? also(facts) : kNotMine);
+}
+
+function enabled(facts: Facts): string {
+  return facts.state === 'ENABLED' ? '' : 'Enable first.';
+}
+
+function enable_blocked(facts: Facts): string {
+  if (facts.stop) return 'An emergency stop is in force: clear it first.';
+  if ((facts.faults ?? []).length > 0) return 'Faults are latched: clear them first.';
+  if (facts.is_homed === false) return 'The arm is not homed.';
+  return facts.state === 'DISABLED' ? '' : `It is ${facts.state ?? 'not known'}.`;
+}
+
+function retract_blocked(facts: Facts): string {
+  const worse = (facts.faults ?? []).find((fault) => fault_row(fault.number)?.retreat === false);
+  if (worse) return `Fault ${worse.number} does not allow it: clear first.`;
+  return facts.retracted ? 'It is all the way back.' : enabled(facts);
+}
+
+function is_clear(facts: Facts): boolean {
+  return (facts.faults ?? []).length === 0 && !facts.stop;
+}
+
+export const kActions: readonly Action[] = [
+  {
+    name: 'take motion', request: { op: 'acquire' },
+    does: 'You alone can move the arm from now on. An emergency stop is cleared by it.',
+    blocked: (facts, is_mine) => (is_mine ? 'It is yours.' : facts.owner ? `${facts.owner} has it.` : ''),
+  },
+  { name: 'give back', request: { op: 'release' }, does: 'The arm comes to rest and holds; somebody else may take motion.', blocked: mine(() => '') },
+  {
+    name: 'enable', request: { op: 'state_command', command: 'enable' },
+    does: 'Brakes open, cables are tightened as planned (some seconds); the arm stays where it is.', blocked: mine(enable_blocked),
+  },
+  {
+    name: 'disable', request: { op: 'state_command', command: 'disable' },
+    does: 'The arm comes to rest, brakes close, drives lose their power.', blocked: mine((f) => (f.state === 'DISABLED' ? 'It is disabled.' : '')),
+  },
+  { name: 'hold', request: { op: 'hold' }, does: 'The arm comes to rest along its verified path and stays enabled. Key H.', blocked: mine(enabled) },
+  {
+    name: 'retract', request: { op: 'retract' },
+    does: 'Stops, then goes back along the verified path it has come, to its beginning, a little slower than the way in. Hold ends it.',
+    blocked: mine(retract_blocked),
+  },
+  {
+    name: 'clear', request: { op: 'state_command', command: 'clear' },
+    does: 'Looks again at what each fault names and clears those whose cause is gone; clears an emergency stop. Nothing moves.',
+    blocked: mine((f) => (is_clear(f) ? 'There is nothing to clear.' : '')),
+  },
+  {
+    name: 'home', request: { op: 'state_command', command: 'home' },
+    does: 'Takes the pose from the lengths of the cables. Nothing moves.', blocked: mine((f) => (f.is_homed ? 'It is homed.' : '')),
+  },
+];
+
+// Why a person of this role cannot ask for motion; empty: may ask.
+export function role_blocked(role: Role | undefined): string {
+  return role === 'watch' ? 'Your role is to watch: you may stop the arm, nothing else.' : '';
+}

@@ -1,0 +1,74 @@
+// Which device steers, how its motion is mapped, and what is left of the room: clearance and pitch budget.
+import { value, values } from '../data/sample';
+import type { Connection } from '../live/connection';
+import type { Live } from '../live/live';
+import type { Answer } from '../live/protocol';
+import { pitch_budget } from '../model/pitch_budget';
+import { length_text } from '../model/sentence';
+import { h, set_class, set_text } from '../ui/dom';
+
+const kClearanceShown_m = 0.1; // the bar is full at this clearance
+
+class Bar {
+  private readonly fill = h('div', { class: 'bar-fill' });
+  private readonly text = h('span');
+  readonly element: HTMLElement;
+
+  constructor(name: string) {
+    this.element = h('div', { class: 'gauge' }, h('span', { class: 'name' }, name), h('div', { class: 'bar' }, this.fill), this.text);
+  }
+
+  set(share: number, is_bad: boolean, text: string): void {
+    const width = `${Math.round(100 * Math.max(0, Math.min(1, share)))}%`;
+    if (this.fill.style.width !== width) this.fill.style.width = width;
+    set_class(this.fill, 'is-bad', is_bad);
+    set_text(this.text, text);
+  }
+}
+
+export class DevicePanel {
+  readonly element: HTMLElement;
+  private readonly clearance = new Bar('clearance');
+  private readonly budget = new Bar('pitch budget');
+  private readonly limit = new Bar('nearest limit');
+  private readonly mode = h('p');
+  private readonly device = h('p');
+
+  constructor(private readonly live: Live, connection: Connection, answered: (what: string, answer: Answer) => void) {
+    const device = h('select', { 'aria-label': 'device that steers' }, ...['none', 'vr', 'hand'].map((d) => h('option', { value: d }, d === 'none' ? 'no device' : d === 'vr' ? 'VR handles' : 'hand controller')));
+    const scale = h('input', { type: 'number', value: 1, min: 0.01, max: 100, step: 0.5, class: 'metres', 'aria-label': 'way of the tip for a way of the hand' });
+    const node = h('select', { 'aria-label': 'node of the left hand' }, ...[0, 1, 2, 3, 4].map((n) => h('option', { value: n, selected: n === 3 }, n === 0 ? 'no node' : `left: node ${n}`)));
+    const use = () => ({ op: 'use_device', device: device.value, scale: Number(scale.value), node: device.value === 'vr' ? Number(node.value) : 0 });
+    this.element = h('section', { class: 'card', 'aria-label': 'Room and device' }, h('h2', {}, 'Room and device'),
+      this.clearance.element, this.budget.element, this.limit.element, this.mode, this.device,
+      h('div', { class: 'filter' }, device, h('label', {}, 'scale ', scale), node,
+        h('button', { type: 'button', onclick: () => void connection.request(use()).then((answer) => answered('device', answer)) }, 'use')));
+  }
+
+  update(now_s: number): void {
+    const { sample, facts } = this.live;
+    if (!sample) return;
+    const clear_m = value(sample, 'clearance.distance_m');
+    const level = facts.clearance?.level ?? '';
+    this.clearance.set(clear_m / kClearanceShown_m, level === 'slow' || level === 'refuse',
+      Number.isFinite(clear_m) ? `${length_text(clear_m)} from ${facts.clearance?.body}, sure by ${facts.clearance?.sure}` : 'none can be claimed');
+    const budget = pitch_budget(facts.held ?? [], values(sample, 'measured_js_deg'), values(sample, 'setpoint_js_deg'));
+    this.budget.set(budget?.share ?? 0, (budget?.share ?? 0) > 0.8,
+      budget ? `${budget.used_deg.toFixed(3)} of ${budget.allowed_deg} deg, segment ${budget.segments.join(', ')}` : 'no pitch is held');
+    const share = value(sample, 'verdict.share');
+    this.limit.set(share, share > 0.95, Number.isFinite(share) ? `${(100 * share).toFixed(0)} % used by the last command` : '');
+    const free = values(sample, 'measured_js_deg').length - (facts.held?.length ?? 0);
+    const held = (facts.held ?? []).map((theta) => `theta ${theta}`).join(', ');
+    set_text(this.mode, `Mode ${free}+${facts.held?.length ?? 0}: ${held ? `${held} held (S2, white discs)` : 'all angles follow the tip'}`);
+    this.say_device(now_s);
+  }
+
+  private say_device(now_s: number): void {
+    const { facts } = this.live;
+    const rate = this.live.samples_per_s.per_second(now_s);
+    const who = !facts.device || facts.device === 'none' ? 'No device steers' : `${facts.device} ${facts.device_engaged ? 'steers: clutch engaged' : 'waits: clutch open'}`;
+    const reason = facts.device_reason ? `, let go: ${facts.device_reason}` : '';
+    const scale = facts.mapping ? `, scale ${facts.mapping.scale}, turns ${facts.mapping.rotation_scale}` : '';
+    set_text(this.device, `${who}${reason}${scale}${rate > 0 ? `, ${rate} samples/s` : ''}`);
+  }
+}

@@ -1,0 +1,93 @@
+// The tip by buttons: a short press is a step along a verified line, a long one jogs while it is held.
+import { is_known, values } from '../data/sample';
+import type { Connection } from '../live/connection';
+import type { Live } from '../live/live';
+import type { Answer } from '../live/protocol';
+import { moved } from '../model/vector';
+import { h } from '../ui/dom';
+import type { Jogger } from './jogger';
+import type { Direction } from './keyboard';
+
+const kLong_ms = 300;
+const kSteps_mm = [1, 5, 20, 50, 100];
+const kSpeeds_mm_s = [5, 15, 30, 60, 100];
+const kTurnOfSpeed = 3; // rad/s for a speed of 1 m/s: 30 mm/s turns 5 deg/s
+
+const kButtons: readonly [string, Direction, string][] = [
+  ['x+', [1, 0, 0, 0, 0, 0], 'W'],
+  ['x\u2212', [-1, 0, 0, 0, 0, 0], 'S'],
+  ['y+', [0, 1, 0, 0, 0, 0], 'A'],
+  ['y\u2212', [0, -1, 0, 0, 0, 0], 'D'],
+  ['z+', [0, 0, 1, 0, 0, 0], 'E'],
+  ['z\u2212', [0, 0, -1, 0, 0, 0], 'Q'],
+  ['turn left', [0, 0, 0, 0, 0, 1], 'J'],
+  ['turn right', [0, 0, 0, 0, 0, -1], 'L'],
+  ['turn up', [0, 0, 0, 0, -1, 0], 'I'],
+  ['turn down', [0, 0, 0, 0, 1, 0], 'K'],
+  ['roll left', [0, 0, 0, -1, 0, 0], 'U'],
+  ['roll right', [0, 0, 0, 1, 0, 0], 'O'],
+];
+
+export class JogPanel {
+  readonly element: HTMLElement;
+  private step_m = 0.02;
+  private step_rad = 0.06;
+
+  constructor(private readonly live: Live, private readonly connection: Connection, private readonly jogger: Jogger, private readonly answered: (what: string, answer: Answer) => void) {
+    const steps = h('select', { 'aria-label': 'step of a short press', onchange: () => this.set_step(Number(steps.value)) },
+      ...kSteps_mm.map((s) => h('option', { value: s, selected: s === 20 }, `${s} mm, ${(s * 0.18).toFixed(1)} deg`)));
+    const speeds = h('select', { 'aria-label': 'speed while held', onchange: () => this.set_speed(Number(speeds.value)) },
+      ...kSpeeds_mm_s.map((s) => h('option', { value: s, selected: s === 30 }, `${s} mm/s`)));
+    const frame = h('select', { 'aria-label': 'axes', onchange: () => (jogger.speed = { ...jogger.speed, in_tip: frame.value === 'tip' }) },
+      h('option', { value: 'base' }, 'axes of the base'), h('option', { value: 'tip' }, 'axes of the tip'));
+    this.set_step(20);
+    this.set_speed(30);
+    this.element = h('section', { class: 'card', 'aria-label': 'Tip' }, h('h2', {}, 'Tip'),
+      h('div', { class: 'filter' }, frame, h('label', {}, 'step ', steps), h('label', {}, 'speed ', speeds)),
+      h('div', { class: 'jog' }, ...kButtons.map(([name, direction, key]) => this.button(name, direction, key))),
+      h('p', { class: 'hint' }, 'Press for a step, hold to move; or hold the key; or drag the ball at the tip in the scene. Letting go holds the arm.'));
+  }
+
+  private set_step(step_mm: number): void {
+    this.step_m = step_mm / 1000;
+    this.step_rad = (step_mm * 0.18 * Math.PI) / 180;
+  }
+
+  private set_speed(speed_mm_s: number): void {
+    this.jogger.speed = { ...this.jogger.speed, tip_m_s: speed_mm_s / 1000, turn_rad_s: (kTurnOfSpeed * speed_mm_s) / 1000 };
+  }
+
+  private button(name: string, direction: Direction, key: string): HTMLElement {
+    let timer = 0;
+    let held = false;
+    const release = () => {
+      window.clearTimeout(timer);
+      if (held) this.jogger.release(name);
+    };
+    return h('button', {
+      type: 'button', title: `key ${key}`, 'data-jog': name,
+      onpointerdown: () => {
+        held = false;
+        timer = window.setTimeout(() => {
+          held = true;
+          this.jogger.press(name, direction);
+        }, kLong_ms);
+      },
+      onpointerup: release, onpointercancel: release, onpointerleave: release,
+      onclick: () => {
+        if (!held) this.step(name, direction);
+        held = false;
+      },
+    }, name, h('kbd', {}, key));
+  }
+
+  private step(name: string, direction: Direction): void {
+    const { sample } = this.live;
+    const commanded = sample ? values(sample, 'setpoint_cp') : new Float32Array(0);
+    if (!is_known(commanded)) return;
+    const way = direction.slice(0, 3).map((d) => d * this.step_m);
+    const turn = direction.slice(3).map((d) => d * this.step_rad);
+    const goal = moved(commanded, way, turn, this.jogger.speed.in_tip);
+    void this.connection.request({ op: 'move_cp', goal }).then((answer) => this.answered(`step ${name}`, answer));
+  }
+}

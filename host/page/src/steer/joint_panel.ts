@@ -1,0 +1,54 @@
+// Goals of all angles: by sliders, or a named pose of the robot table; nothing moves before "go".
+import { values } from '../data/sample';
+import type { Connection } from '../live/connection';
+import type { Live } from '../live/live';
+import type { Answer, Welcome } from '../live/protocol';
+import { angle_count, angle_name, angle_range_deg } from '../model/robot';
+import { segment_colour } from '../scene/palette';
+import { h, set_text } from '../ui/dom';
+
+export class JointPanel {
+  readonly element: HTMLElement;
+  private readonly sliders: HTMLInputElement[];
+  private readonly outputs: HTMLElement[];
+  private readonly now: HTMLElement[];
+
+  constructor(private readonly live: Live, welcome: Welcome, connection: Connection, answered: (what: string, answer: Answer) => void) {
+    const { robot } = welcome;
+    const count = angle_count(robot);
+    this.outputs = Array.from({ length: count }, () => h('output', {}));
+    this.now = Array.from({ length: count }, () => h('span', { class: 'now' }));
+    this.sliders = Array.from({ length: count }, (_, i) => {
+      const [min, max] = angle_range_deg(robot, i);
+      return h('input', { type: 'range', min, max, step: 0.1, value: 0, 'aria-label': `goal of ${angle_name(robot, i)} in degrees`, oninput: () => this.say() });
+    });
+    const rows = this.sliders.map((slider, i) =>
+      h('div', { class: 'joint' }, h('span', { class: 'name', style: `border-color:${segment_colour(robot.kind === 'serial' ? i : i >> 1)}` }, angle_name(robot, i)), slider, this.outputs[i], this.now[i]));
+    const poses = h('select', { 'aria-label': 'named pose', onchange: () => this.set(robot.named_poses_deg[poses.value] ?? []) },
+      h('option', { value: '' }, 'named pose'), ...Object.keys(robot.named_poses_deg).map((name) => h('option', { value: name }, name.replaceAll('_', ' '))));
+    const goal = () => this.sliders.map((slider) => Number(slider.value));
+    this.element = h('section', { class: 'card', 'aria-label': 'Angles' }, h('h2', {}, 'Angles [deg]'), ...rows,
+      h('div', { class: 'filter' }, poses,
+        h('button', { type: 'button', onclick: () => this.reset() }, 'as they are now'),
+        h('button', { type: 'button', 'data-action': 'go', title: 'all angles together, verified, at most 2 deg/s', onclick: () => void connection.request({ op: 'move_jp', goal_deg: goal() }).then((answer) => answered('angles', answer)) }, 'go')));
+    this.say();
+  }
+
+  reset(): void {
+    if (this.live.sample) this.set([...values(this.live.sample, 'measured_js_deg')]);
+  }
+
+  update(): void {
+    const measured = this.live.sample ? values(this.live.sample, 'measured_js_deg') : [];
+    this.now.forEach((element, i) => set_text(element, i < measured.length ? measured[i].toFixed(1) : ''));
+  }
+
+  private set(angles_deg: ArrayLike<number>): void {
+    this.sliders.forEach((slider, i) => (slider.value = String(angles_deg[i] ?? slider.value)));
+    this.say();
+  }
+
+  private say(): void {
+    this.outputs.forEach((output, i) => set_text(output, Number(this.sliders[i].value).toFixed(1)));
+  }
+}

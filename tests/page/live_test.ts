@@ -1,0 +1,102 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import type { Layout } from '../../host/page/src/data/record';
+import { History } from '../../host/page/src/live/history';
+import { credit_of, proof_of } from '../../host/page/src/live/protocol';
+import { Rate } from '../../host/page/src/live/rate';
+import { StateAge } from '../../host/page/src/live/state_age';
+import { AlarmBook, conditions_of, type Condition } from '../../host/page/src/model/alarms';
+import { near } from './support';
+
+test('the credit of a record is its sequence, little-endian', () => {
+  assert.deepEqual([...new Uint8Array(credit_of(0x01020304))], [4, 3, 2, 1]);
+});
+
+test('the proof is the HMAC-SHA256 of the nonce as text, in hex', async () => {
+  // RFC 4231, test case 2.
+  assert.equal(await proof_of('Jefe', 'what do ya want for nothing?'), '5bdcc146bf60754e6a042426089575c75a003f089d2739839dec58b964ec3843');
+});
+
+test('a minute of records is kept, the oldest go', () => {
+  const layout: Layout = { version: 1, bytes: 36, fields: [{ name: 'a', unit: '1', offset: 24, count: 2 }, { name: 'b', unit: '1', offset: 32, count: 1 }] };
+  const history = new History(layout);
+  for (let i = 0; i < 3100; ++i) history.add(5 * i, i / 50, new Map([['a', Float32Array.of(i, -i)], ['b', Float32Array.of(i / 2)]]));
+  assert.equal(history.rows, 3000);
+  assert.equal(history.time_s(0), 2);
+  assert.equal(history.tick(2999), 5 * 3099);
+  assert.equal(history.value(0, 'a', 1), -100);
+  assert.ok(Number.isNaN(history.value(0, 'c', 0)));
+  const back = new Map([['a', new Float32Array(2)], ['b', new Float32Array(1)]]);
+  history.read(2999, back);
+  assert.deepEqual([...back.get('a')!, ...back.get('b')!], [3099, -3099, 1549.5]);
+});
+
+test('the age of a state is how late it came against the quickest, and how long ago', () => {
+  const age = new StateAge();
+  assert.ok(Number.isNaN(age.age_s(1)));
+  for (let i = 0; i < 10; ++i) age.came(i * 0.02, 100 + i * 0.02);
+  assert.ok(near(age.age_s(100.2), 0.02, 1e-9));
+  age.came(0.2, 100.28); // 80 ms late
+  assert.ok(near(age.age_s(100.3), 0.1, 1e-9));
+});
+
+test('a rate counts what happened in the last second', () => {
+  const rate = new Rate();
+  for (let i = 0; i < 90; ++i) rate.add(i / 90);
+  assert.equal(rate.per_second(89 / 90), 90);
+  assert.equal(rate.per_second(3), 0);
+});
+
+const slow: Condition = { key: 'x', priority: 2, title: 't', cause: 'c', todo: 'd' };
+
+test('an alarm that comes and goes within moments is not shown, and one that is shown does not flicker', () => {
+  const book = new AlarmBook();
+  book.update([slow], 0);
+  assert.equal(book.list().length, 0); // not yet
+  book.update([], 0.1);
+  book.update([slow], 0.4);
+  assert.equal(book.list().length, 0); // it had begun anew
+  book.update([slow], 1.0);
+  assert.equal(book.list().length, 1);
+  for (let now_s = 1.1; now_s < 6; now_s += 0.2) {
+    const flickers = Math.round(now_s * 10) % 4 < 2;
+    assert.equal(book.update(flickers ? [slow] : [], now_s), false, `at ${now_s}`);
+  }
+});
+
+test('an alarm that is over stays until somebody has seen it; one that was seen goes with its cause', () => {
+  const book = new AlarmBook();
+  const hard = { ...slow, key: 'y', priority: 1 as const };
+  book.update([hard], 0);
+  assert.equal(book.list()[0].is_active, true); // at once
+  book.update([], 10);
+  assert.deepEqual([book.list()[0].is_active, book.list()[0].acknowledged_by], [false, '']);
+  book.acknowledge('y', 'anna');
+  assert.equal(book.list().length, 0);
+  book.update([hard], 20);
+  book.acknowledge('y', 'anna');
+  assert.equal(book.list()[0].acknowledged_by, 'anna');
+  book.update([], 24);
+  assert.equal(book.list().length, 0);
+});
+
+test('what has come back has to be seen anew', () => {
+  const book = new AlarmBook();
+  const hard = { ...slow, priority: 1 as const };
+  book.update([hard], 0);
+  book.update([], 4);
+  book.update([hard], 5);
+  assert.deepEqual([book.list()[0].is_active, book.list()[0].since_s], [true, 5]);
+});
+
+test('fifteen silent drives are one alarm with the remedy of the fault table, before what matters less', () => {
+  const faults = Array.from({ length: 15 }, (_, index) => ({ number: 3002, name: 'drive_silent', index }));
+  const book = new AlarmBook();
+  const clearance = { body: 'wall', sure: 'camera', camera: 'none', level: 'slow' };
+  for (const now_s of [0, 1]) book.update(conditions_of({ faults, clearance }), now_s);
+  const [first, second] = book.list();
+  assert.equal(book.list().length, 2);
+  assert.match(first.title, /^3002 drive silent: drives or buses 0, 1, 2/);
+  assert.match(first.todo, /Check the bus for errors and load/);
+  assert.match(second.title, /close to the wall/);
+});
