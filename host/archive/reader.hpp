@@ -60,6 +60,7 @@ class Reader {
  private:
   void read_life(std::uint64_t life);
   std::uint64_t count(const std::string& sql) const;
+  std::vector<Database> telemetry_of(Span span) const;
 
   std::string folder_;
   Database database_;
