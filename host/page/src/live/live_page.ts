@@ -28,7 +28,7 @@ import { StatusBar } from './status_bar';
 import { StopButton } from './stop_button';
 import { kept_token, token_form } from './token_form';
 
-const kWords_ms = 150; // texts are written anew at most so often
+const kWords_ms = 250; // texts are written anew at most so often
 
 // Of each frame that was drawn.
 interface Measured {
