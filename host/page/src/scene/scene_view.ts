@@ -17,7 +17,7 @@ import { views_of, type View } from './views';
 const kTipPicture = { width: 280, height: 180 };
 const kExaggeration = 10;
 const kNear_m = 0.3; // a clearance is worth a label below
-const kLabels_ms = 100; // labels are laid out at most so often: style and layout cost more than the scene's script
+const kLabels_ms = 200; // words are laid out at most so often: that costs more than the whole scene's script
 
 export class SceneView {
   readonly element: HTMLElement;
@@ -28,6 +28,7 @@ export class SceneView {
   on_drawn: (now_ms: number) => void = () => {};
   exaggerate = false;
   tip_label = '';
+  private error_text = '';
   private readonly arm: ArmBody;
   private readonly ghost: GhostArm;
   private readonly predicted: GhostArm;
@@ -144,6 +145,7 @@ export class SceneView {
     if (now_ms - this.labels_at_ms > kLabels_ms || !this.had_state) {
       this.labels_at_ms = now_ms;
       this.place_labels();
+      set_text(this.error, this.error_text);
     }
     const done_ms = performance.now();
     const is_coarser_or_finer = this.had_state && this.stage.pace.drawn(done_ms, done_ms - this.waits_since_ms);
@@ -181,7 +183,7 @@ export class SceneView {
       this.ghost.set(this.drawn_angles);
     }
     const drawn = this.exaggerate ? `, drawn ${kExaggeration} times as large` : '';
-    set_text(this.error, `prediction error ${(1000 * error_m).toFixed(1)} mm at the tip${drawn}`);
+    this.error_text = `prediction error ${(1000 * error_m).toFixed(1)} mm at the tip${drawn}`;
   }
 
   private place_labels(): void {
