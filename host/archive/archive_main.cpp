@@ -48,7 +48,8 @@ liana::archive::Life life_from(const liana::record::RecordingInfo& info) {
 class Books {
  public:
   Books(const std::string& folder, const std::string& record, const Json& welcome)
-      : info_(info_from(welcome)), recorder_(folder, life_from(info_), welcome.at("interval_ticks")) {
+      : info_(info_from(welcome)),
+        recorder_(folder, life_from(info_), welcome.at("interval_ticks"), {}, welcome.at("events").at("next")) {
     if (record.empty()) return;
     ticks_.emplace(record, info_);
     states_.emplace(record, info_.period_s);

@@ -26,7 +26,8 @@ class BusLog {
 
 std::vector<std::unique_ptr<BusLog>> logs_of(const Reader& reader) {
   std::vector<std::unique_ptr<BusLog>> logs;
-  for (const Json& bus : Json::parse(reader.life().buses).at("buses"))
+  const Json buses = Json::parse(reader.life().buses);
+  for (const Json& bus : buses.at("buses"))
     logs.push_back(std::make_unique<BusLog>(reader.folder() + "/" + bus.at("name").text() + ".log"));
   std::erase_if(logs, [](const auto& log) { return !log->has_line(); });
   return logs;

@@ -78,7 +78,7 @@ Written write_archive(const std::string& folder, std::uint64_t seconds) {
   const auto begin = Clock::now();
   Written written;
   archive::Ledger ledger(folder);
-  const std::uint64_t life = ledger.begin({"hash", "{}", "{}", "{}", "fast", kPeriod_s, "", "numbers"});
+  const std::uint64_t life = ledger.begin({"hash", "{}", "{}", "{}", "fast", kPeriod_s, "", "numbers"}).life;
   ledger.set_layout(layout());
   archive::TelemetryFiles telemetry(folder, life, kPeriod_s, {}, [&](const archive::Gap&) { ++written.gaps; });
   Source source;

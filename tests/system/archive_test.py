@@ -1,7 +1,9 @@
 """The flight recorder of every run: what it leaves without being asked, and that its death does not harm the run (A36,
 A30).
 """
+import csv
 import json
+import math
 import os
 import signal
 import sqlite3
@@ -83,6 +85,28 @@ class RunsWithoutRecord(SystemTest):
         self.assertIn("step 1: prepare", later)
         self.assertNotIn("all drives are booted", later)
 
+    def test_an_exported_table_has_a_line_for_every_record(self):
+        file = self.home / "run.csv"
+        self.assertEqual(self.log("export", "--csv", str(file), "--from", "1", "--to", "3").returncode, 0)
+        with file.open() as text:
+            lines = list(csv.DictReader(text))
+        self.assertEqual([int(line["tick"]) for line in lines], list(range(250, 751, 5)))
+        for line in lines:
+            self.assertAlmostEqual(float(line["time_s"]), int(line["tick"]) * 0.004)
+            self.assertIn(line["state"], ("DISABLED", "ENABLING"))
+            self.assertTrue(math.isfinite(float(line["measured_js_deg_10"])))
+
+    def test_bus_traffic_that_was_not_kept_is_refused_by_reason(self):
+        done = self.log("export", "--candump", str(self.home / "bus.log"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("holds no bus traffic; runs with --record have it", done.stderr)
+        self.assertFalse((self.home / "bus.log").exists())
+
+    def test_an_export_without_a_file_is_refused(self):
+        done = self.log("export")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--csv, --mcap or --candump", done.stderr)
+
     def test_a_damaged_archive_is_said_to_be_so(self):
         copy = self.home / "copy"
         copy.mkdir()
@@ -96,8 +120,24 @@ class RunsWithoutRecord(SystemTest):
         self.assertIn("NOT whole", done.stdout)
 
 
+class RunsWithRecord(SystemTest):
+    def test_bus_traffic_of_all_buses_is_exported_in_the_order_of_its_times(self):
+        process = start_run(self, MISSION, "--seed", 3, "--record", "record")
+        _, error = process.communicate(timeout=300)
+        self.assertEqual(process.returncode, 0, error)
+        self.assertFalse((process.home / "liana").exists(), "all of it is in the user's folder")
+        record, exported = process.home / "record", process.home / "bus.log"
+        done = run("liana", "log", "export", record, "--candump", exported)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lines = exported.read_text().splitlines()
+        buses = [(record / f"{name}.log").read_text().splitlines() for name in ("can0", "can1")]
+        self.assertEqual(sorted(lines), sorted(buses[0] + buses[1]))
+        times = [float(line[1 : line.index(")")]) for line in lines]
+        self.assertEqual(times, sorted(times))
+
+
 class RecordersThatDie(SystemTest):
-    def test_a_run_goes_on_without_its_recorder_and_says_so(self):
+    def test_a_run_goes_on_and_a_new_recorder_takes_over_where_the_old_one_left_off(self):
         process = start_run(self, MISSION, "--seed", 3)
         for line in process.stderr:
             if "prepare" in line:
@@ -106,16 +146,18 @@ class RecordersThatDie(SystemTest):
         os.kill(children_of(process.pid)["liana-archive"], signal.SIGKILL)
         _, error = process.communicate(timeout=300)
         self.assertEqual(process.returncode, 0, error)
-        self.assertIn("the archive of this run is not whole: liana-archive was killed by signal 9", error)
+        self.assertIn("liana-archive was killed by signal 9", error)
+        self.assertIn("it is started again", error)
         folder = folder_of(process)
         self.assertGreater(len(Truth(folder / "truth.bin").rows), 1000)
         done = run("liana", "log", "verify", folder, "--json")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
-        checked = json.loads(done.stdout)
-        self.assertTrue(checked["whole"], checked)
-        self.assertFalse(checked["lives"][0]["finished"])
-        texts = [text for (text,) in rows(folder, "SELECT text FROM event")]
-        self.assertIn("all drives are booted", texts)
+        (life,) = json.loads(done.stdout)["lives"]
+        self.assertTrue(life["finished"], life)
+        (gap,) = life["gaps"]
+        self.assertEqual((gap["what"], gap["text"]), ("states", "the recorder was not there"))
+        lines = [line for line in (folder / "events.txt").read_text().splitlines() if not line.startswith("#")]
+        self.assertEqual(life["events"], len(lines))
 
 
 if __name__ == "__main__":
