@@ -69,6 +69,7 @@ class Books {
     if (ticks_) ticks_->finish();
     if (states_) states_->finish();
   }
+  bool is_whole() const { return !recorder_.was_disk_full(); }
   void tell(const std::string& record) const {
     const auto number = [](std::uint64_t count) { return static_cast<unsigned long long>(count); };
     std::printf("liana-archive: %llu states, %llu events and commands durable, %llu lost\n", number(recorder_.states()),
@@ -136,7 +137,7 @@ int run(const std::string& api, const std::string& folder, const std::string& re
   books.finish();
   if (problem) std::rethrow_exception(problem);
   books.tell(record);
-  return 0;
+  return books.is_whole() ? 0 : 1;
 }
 
 }  // namespace

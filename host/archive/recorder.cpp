@@ -82,6 +82,7 @@ void Recorder::note_gap(const Gap& gap) {
   std::fprintf(stderr, "liana-archive: alarm: %s of ticks %llu to %llu are missing: %s\n", gap.what.c_str(),
                static_cast<unsigned long long>(gap.first_tick), static_cast<unsigned long long>(gap.last_tick),
                gap.text.c_str());
+  was_disk_full_ = was_disk_full_ || gap.text == kDiskFull || gap.text == kRoomForRows;
   ledger_.add(gap);
 }
 
@@ -93,6 +94,7 @@ void Recorder::commit() {
   while (!done && telemetry_.make_room()) done = ledger_.commit();
   if (!done && !is_alarmed_) std::fputs("liana-archive: alarm: the disk is full: events and commands wait\n", stderr);
   is_alarmed_ = !done;
+  was_disk_full_ = was_disk_full_ || !done;
 }
 
 void Recorder::finish() {

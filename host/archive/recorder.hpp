@@ -28,6 +28,8 @@ class Recorder {
   // Events, commands and gaps that outlive loss of power; and those that a full disk took.
   std::uint64_t durable() const { return ledger_.durable(); }
   std::uint64_t lost() const { return ledger_.lost(); }
+  // A disk that was full has cost telemetry, or made events and commands wait.
+  bool was_disk_full() const { return was_disk_full_; }
 
  private:
   void take_state(const Json& state);
@@ -45,7 +47,7 @@ class Recorder {
   std::uint64_t states_ = 0, last_tick_ = 0, last_record_ = 0, last_commit_ = 0;
   std::uint32_t records_ = 0, facts_number_ = 0;
   std::uint64_t command_ = 0;
-  bool must_commit_ = false, is_alarmed_ = false;
+  bool must_commit_ = false, is_alarmed_ = false, was_disk_full_ = false;
 };
 
 }  // namespace liana::archive

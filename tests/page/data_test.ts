@@ -1,9 +1,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { RecordReader, type Layout } from '../../host/page/src/data/record';
-import { last_before } from '../../host/page/src/data/run';
+import { last_before, Run, type RunHead } from '../../host/page/src/data/run';
 import { telemetry_of } from '../../host/page/src/data/telemetry';
+import { chain_of } from '../../host/page/src/model/arm_chain';
 import { decimated } from '../../host/page/src/plots/decimate';
+import { kArm, near } from './support';
 
 const layout: Layout = {
   version: 1,
@@ -88,4 +90,19 @@ test('where there are fewer rows than points all of them are kept', () => {
   const [times, curve] = decimated((row) => row / 10, [[1, 2, NaN]], 0, 2, 100);
   assert.deepEqual([...curve], [1, 1, 2, 2, NaN, NaN]);
   assert.equal(times[2], 0.1);
+});
+
+test('of a run each moment has the facts of its time, which are told by their changes, and the tip of its angles', () => {
+  const names = Array.from({ length: 10 }, (_, index) => ({ name: 'measured_js_deg', index, unit: 'deg', scale: 0.001 }));
+  const facts = [{ tick: 10, state: { state: 'DISABLED', owner: 'anna' } }, { tick: 15, state: { state: 'ENABLED' } }];
+  const telemetry = { rows: 2, ticks: { first: 10, every: 5 }, columns: names };
+  const head: RunHead = { format: 1, title: '', robot: kArm, scene: { name: 's' }, report: null, period_s: 0.004, steps: [], events: [], commands: [], facts, telemetry };
+  const angles_mdeg = [-8500, 0, -12000, 0, 8000, -2000, 13000, 0, 12000, -2000];
+  const run = new Run(head, planes_of(angles_mdeg.map((a) => [0, a])));
+  assert.deepEqual(run.at(0).facts, { state: 'DISABLED', owner: 'anna' });
+  const sample = run.at(1);
+  assert.deepEqual([sample.tick, sample.facts], [15, { state: 'ENABLED', owner: 'anna' }]);
+  const chain = chain_of(kArm);
+  chain.set(angles_mdeg.map((a) => a / 1000));
+  for (let r = 0; r < 3; ++r) assert.ok(near(sample.numbers.get('measured_cp')![r], chain.tip[12 + r], 1e-5));
 });

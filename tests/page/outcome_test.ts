@@ -5,14 +5,14 @@ import { outcome_of } from '../../host/page/src/run/outcome';
 import { kArm } from './support';
 
 const steps = [
-  { index: 1, name: 'prepare pose', device: 'none', tick: 100 },
-  { index: 2, name: 'into the slit', device: 'hand', tick: 200 },
+  { index: 1, name: 'prepare pose', tick: 100 },
+  { index: 2, name: 'into the slit', tick: 200 },
 ];
 const done = { name: 'prepare pose', device: 'none', duration_s: 1, outcome: 'success', reason: '' };
 
 function head(changes: Partial<RunHead>): RunHead {
   const telemetry = { rows: 0, ticks: { first: 0, every: 1 }, columns: [] };
-  return { format: 1, title: 't', made_by: '', robot: kArm, scene: { name: 's' }, report: null, period_s: 0.004, steps, events: [], commands: [], facts: [], telemetry, ...changes };
+  return { format: 1, title: 't', robot: kArm, scene: { name: 's' }, report: null, period_s: 0.004, steps, events: [], commands: [], facts: [], telemetry, ...changes };
 }
 
 test('of a failed run it says what failed, where, why, and the remedy of the fault table', () => {

@@ -1,11 +1,14 @@
-// A recorded run: what the page of a run is made of.
+// A recorded run: what `liana view` wrote into its page.
+import { chain_of, type ArmChain } from '../model/arm_chain';
 import type { Robot, Scene } from '../model/robot';
 import type { Facts, LianaEvent, Sample } from './sample';
 import { inflated, telemetry_of, type Telemetry, type TelemetryHead } from './telemetry';
 
 export interface Judged {
-  passed: boolean;
-  share?: number;
+  code: number; // M_e; 0: passed
+  share: number; // of the limit that the motion comes nearest to
+  margins: Record<string, number | null>;
+  text: string;
 }
 
 export interface Command {
@@ -15,8 +18,7 @@ export interface Command {
   kind: string;
   execution: Judged | null;
   simulation: Judged | null;
-  refusal: { code: number; name: string; text: string; remedy: string } | null;
-  margins: Record<string, number> | null;
+  refusal: { code?: number; name?: string; text: string; remedy?: string } | null; // without code: of a request
 }
 
 export interface Report {
@@ -34,15 +36,14 @@ export interface Report {
 export interface RunHead {
   format: number;
   title: string;
-  made_by: string;
   robot: Robot;
   scene: Scene;
   report: Report | null;
   period_s: number;
-  steps: { index: number; name: string; device: string; tick: number }[];
+  steps: { index: number; name: string; tick: number }[];
   events: LianaEvent[];
   commands: Command[];
-  facts: { tick: number; state: Facts }[];
+  facts: { tick: number; state: Facts }[]; // the first whole, of later ones what is another than before
   telemetry: TelemetryHead;
 }
 
@@ -60,24 +61,27 @@ export function last_before(list: readonly { tick: number }[], tick: number): nu
   return low - 1;
 }
 
-// The first facts are whole, later ones tell only what is other than before.
-function whole_facts(facts: RunHead['facts']): RunHead['facts'] {
-  let before: Facts = {};
-  return facts.map(({ tick, state }) => ({ tick, state: (before = { ...before, ...state }) }));
+// All facts at each change.
+function whole_facts(changes: RunHead['facts']): RunHead['facts'] {
+  let state: Facts = {};
+  return changes.map((change) => ({ tick: change.tick, state: (state = { ...state, ...change.state }) }));
 }
 
 export class Run {
   readonly telemetry: Telemetry;
   private readonly facts: RunHead['facts'];
+  private readonly chain: ArmChain;
   private readonly sample: Sample & { numbers: Map<string, Float32Array> };
 
   // Throws when the head is of another format or does not fit the telemetry.
   constructor(readonly head: RunHead, planes: Uint8Array) {
     if (head.format !== kFormat) throw new Error(`format = ${head.format}: this page reads ${kFormat}`);
     this.telemetry = telemetry_of(head.telemetry, planes);
-    this.facts = whole_facts(head.facts);
     const numbers = new Map<string, Float32Array>();
     for (const [name, columns] of this.telemetry.columns) numbers.set(name, new Float32Array(columns.length));
+    this.facts = whole_facts(head.facts);
+    this.chain = chain_of(head.robot);
+    if (!numbers.has('measured_cp')) numbers.set('measured_cp', new Float32Array(7).fill(NaN)); // from the angles, below
     this.sample = { tick: 0, time_s: 0, numbers, facts: {} };
   }
 
@@ -108,9 +112,19 @@ export class Run {
       const values = sample.numbers.get(name)!;
       for (let i = 0; i < columns.length; ++i) values[i] = columns[i]?.[row] ?? NaN;
     }
+    this.place_tip(sample.numbers);
     const facts = last_before(this.facts, sample.tick);
     sample.facts = facts < 0 ? {} : this.facts[facts].state;
     return sample;
+  }
+
+  // Where the tip is, which the page does not hold: the angles say it. Its attitude is left out.
+  private place_tip(numbers: Map<string, Float32Array>): void {
+    const angles_deg = numbers.get('measured_js_deg');
+    if (this.telemetry.columns.has('measured_cp') || !angles_deg) return;
+    this.chain.set(angles_deg);
+    const known = Number.isFinite(angles_deg[0]);
+    for (let r = 0; r < 3; ++r) numbers.get('measured_cp')![r] = known ? this.chain.tip[12 + r] : NaN;
   }
 }
 

@@ -28,7 +28,13 @@ import { StatusBar } from './status_bar';
 import { StopButton } from './stop_button';
 import { kept_token, token_form } from './token_form';
 
-const kWords_ms = 150; // texts are written anew at most so often
+const kWords_ms = 250; // texts are written anew at most so often
+
+// Of each frame that was drawn.
+interface Measured {
+  intervals_ms: number[];
+  ages_ms: number[];
+}
 
 export class LivePage {
   readonly element: HTMLElement;
@@ -47,6 +53,9 @@ export class LivePage {
   private plots: LivePlots | null = null;
   private handle: TipHandle | null = null;
   private robot_shown = '';
+  private shown_age_s = NaN;
+  private measured: Measured | null = null;
+  private last_frame_ms = NaN;
 
   constructor(url: string) {
     this.connection = new Connection(url, {
@@ -73,6 +82,18 @@ export class LivePage {
     document.addEventListener('visibilitychange', () => document.hidden && this.jogger.let_go());
     window.setInterval(() => this.words(), kWords_ms);
     this.connection.open();
+  }
+
+  // From here on every frame is kept, for end_measurement().
+  begin_measurement(): void {
+    this.measured = { intervals_ms: [], ages_ms: [] };
+    this.last_frame_ms = NaN;
+  }
+
+  end_measurement(): Measured & { pixel_ratio: number } {
+    const measured = this.measured ?? { intervals_ms: [], ages_ms: [] };
+    this.measured = null;
+    return { ...measured, pixel_ratio: this.scene?.stage.pace.pixel_ratio ?? 0 };
   }
 
   // More that a person should act on, of parts that are not the arm.
@@ -146,6 +167,7 @@ export class LivePage {
     if (this.handle) {
       this.handle.is_enabled = this.live.is_mine && sample.facts.state === 'ENABLED' && this.look_back.time_s === null;
       this.handle.place(values(sample, 'setpoint_cp'));
+      this.scene.tip_label = this.handle.is_enabled && !this.jogger.is_jogging ? 'drag the tip' : '';
     }
     if (this.look_back.time_s === null) this.scene.trail.add(values(sample, 'measured_cp'));
     this.scene.show(sample);
@@ -153,8 +175,11 @@ export class LivePage {
 
   private drawn(now_ms: number): void {
     this.plots?.update(now_ms);
-    ages.push(this.live.age.age_s(performance.now() / 1000));
-    if (ages.length > 500) ages.shift();
+    this.shown_age_s = this.live.age.age_s(performance.now() / 1000);
+    if (!this.measured || this.look_back.time_s !== null) return;
+    if (Number.isFinite(this.last_frame_ms)) this.measured.intervals_ms.push(now_ms - this.last_frame_ms);
+    this.last_frame_ms = now_ms;
+    this.measured.ages_ms.push(1000 * this.shown_age_s);
   }
 
   private words(): void {
@@ -174,7 +199,7 @@ export class LivePage {
   // Age of what is seen, how often states come, how fine the picture is.
   private corner(sample: Sample, now_s: number): string {
     if (this.live.status) return 'NOT LIVE';
-    const age_ms = 1000 * (ages[ages.length - 1] ?? NaN);
+    const age_ms = 1000 * this.shown_age_s;
     const ratio = this.scene?.stage.pace.pixel_ratio ?? 1;
     const coarse = ratio < 1 ? `, picture at ${Math.round(100 * ratio)} %` : '';
     const share = value(sample, 'path.share');
@@ -199,11 +224,4 @@ export class LivePage {
     }
     event.preventDefault();
   }
-}
-
-// Ages of the last states that were seen [s]; for measurements.
-const ages: number[] = [];
-
-export function shown_ages(): readonly number[] {
-  return ages;
 }

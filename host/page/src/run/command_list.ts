@@ -7,12 +7,13 @@ const kAtMost = 400; // rows in the page at a time
 
 function judged_text(judged: Judged | null): string {
   if (!judged) return 'not asked';
-  return judged.share === undefined ? (judged.passed ? 'passed' : 'refused') : `${(100 * judged.share).toFixed(0)} %`;
+  return judged.code !== 0 ? `refused, ${judged.code}` : `${(100 * judged.share).toFixed(0)} %`;
 }
 
-function margins_text(margins: Record<string, number> | null): string {
+function margins_text(margins: Record<string, number | null> | undefined): string {
   if (!margins) return '';
   return Object.entries(margins)
+    .filter((entry): entry is [string, number] => entry[1] !== null)
     .map(([name, value]) => {
       const [, what, unit] = /^(.*?)(?:_(m|deg|deg_s|N|us))?$/.exec(name) ?? [];
       return unit === 'm' ? `${what} ${length_text(value)}` : `${what.replaceAll('_', ' ')} ${Number(value.toPrecision(3))} ${(unit ?? '').replace('_', '/')}`;
@@ -49,7 +50,7 @@ export class CommandList {
     const time_s = command.tick * this.run.head.period_s;
     const link = h('button', { type: 'button', class: 'link', onclick: () => this.go_to(time_s) }, `${time_s.toFixed(2)} s`);
     const { refusal } = command;
-    const last = refusal ? h('td', {}, h('strong', {}, `${refusal.code} ${refusal.name}`), ` ${refusal.text} `, h('em', {}, refusal.remedy)) : h('td', {}, margins_text(command.margins));
+    const last = refusal ? h('td', {}, h('strong', {}, `${refusal.code ?? ''} ${refusal.name ?? ''}`), ` ${refusal.text} `, h('em', {}, refusal.remedy ?? '')) : h('td', {}, margins_text(command.simulation?.margins));
     return h('tr', { class: refusal ? 'bad' : '' }, h('td', {}, link), h('td', {}, `${command.command || ''} ${command.kind} (${command.owner})`),
       h('td', {}, judged_text(command.execution)), h('td', {}, judged_text(command.simulation)), last);
   }

@@ -19,6 +19,5 @@ export function report_panel(head: RunHead): HTMLElement {
   return h('div', { class: 'panel report' },
     h('h2', {}, 'Steps'), h('table', {}, h('tbody', {}, ...steps)),
     criteria.length > 0 ? h('h2', {}, 'Criteria') : null, h('table', {}, h('tbody', {}, ...criteria)),
-    h('h2', {}, 'Figures'), h('table', {}, h('tbody', {}, ...rest.map(([name, value]) => row(name, typeof value === 'number' ? figure(value) : value)))),
-    h('p', { class: 'hint' }, `made by ${head.made_by}`));
+    h('h2', {}, 'Figures'), h('table', {}, h('tbody', {}, ...rest.map(([name, value]) => row(name, typeof value === 'number' ? figure(value) : value)))));
 }

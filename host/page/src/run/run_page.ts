@@ -72,6 +72,7 @@ export class RunPage {
       this.scene_place.replaceChildren(h('p', { class: 'no-scene' }, `No 3-D here: ${String(error)}. Plots, events and commands are all there.`));
       return;
     }
+    this.scene.tip_label = 'tip';
     this.scene_place.replaceChildren(this.scene.element);
     const every = Math.max(1, Math.ceil(this.run.rows / kWayPoints));
     const places: number[] = [];

@@ -94,7 +94,7 @@ export class TimeLine {
     return steps.map((step, i) => {
       const begin = this.percent(step.tick * period_s);
       const end = i + 1 < steps.length ? this.percent(steps[i + 1].tick * period_s) : 100;
-      return h('div', { class: `step step-${i % 2}`, style: `left:${begin}%;width:${end - begin}%`, title: `step ${step.index}: ${step.name} (${step.device})` },
+      return h('div', { class: `step step-${i % 2}`, style: `left:${begin}%;width:${end - begin}%`, title: `step ${step.index}: ${step.name}` },
         `${step.index} ${step.name}`);
     });
   }

@@ -4,14 +4,14 @@ import { css, scale_of, tension_colour } from '../model/tension_colour';
 import { h } from '../ui/dom';
 import { segment_colour, type SceneColours } from './palette';
 
-function line(colour: string, text: string): HTMLElement {
-  return h('div', {}, h('i', { style: `background:${colour}` }), text);
+function key(colour: string, text: string): HTMLElement {
+  return h('span', { class: 'key' }, h('i', { style: `background:${colour}` }), text);
 }
 
 function segments_line(robot: Robot): HTMLElement {
   const count = robot.kind === 'serial' ? robot.joints.length : robot.segments.length;
   const squares = Array.from({ length: count }, (_, i) =>
-    h('span', { class: 'key' }, h('i', { style: `background:${segment_colour(i)}` }), String(i + 1)),
+    key(segment_colour(i), String(i + 1)),
   );
   return h('div', {}, robot.kind === 'serial' ? 'joint ' : 'segment ', ...squares);
 }
@@ -38,13 +38,12 @@ export function legend_of(
   exaggerate: (on: boolean) => void,
   predict: (on: boolean) => void,
 ): HTMLElement {
-  return h('div', { class: 'legend' },
+  return h('details', { class: 'legend', open: true },
+    h('summary', {}, 'legend'),
     segments_line(robot),
     tension_line(robot),
-    scene.rod ? line(colours.rod, 'the rod to press') : null,
-    scene.slit ? line(colours.held, 'discs: held in the plane of the slit (S2)') : null,
-    line(colours.near, 'closest point, verified'),
-    line(colours.ghost, 'commanded arm'),
+    h('div', {}, scene.rod ? key(colours.rod, 'rod') : null, key(colours.near, 'closest point'), key(colours.ghost, 'commanded arm')),
+    scene.slit ? h('div', {}, key(colours.held, 'discs: held in the plane of the slit (S2)')) : null,
     choice('error 10 times as large', exaggerate),
     choice('where it would stop, by the last verdict', predict));
 }

@@ -16,7 +16,8 @@ import { views_of, type View } from './views';
 
 const kTipPicture = { width: 280, height: 180 };
 const kExaggeration = 10;
-const kLabels_ms = 100; // labels are laid out at most so often: style and layout cost more than the scene's script
+const kNear_m = 0.3; // a clearance is worth a label below
+const kLabels_ms = 200; // words are laid out at most so often: that costs more than the whole scene's script
 
 export class SceneView {
   readonly element: HTMLElement;
@@ -26,6 +27,8 @@ export class SceneView {
   readonly way: Trail; // the whole way of a recorded run
   on_drawn: (now_ms: number) => void = () => {};
   exaggerate = false;
+  tip_label = '';
+  private error_text = '';
   private readonly arm: ArmBody;
   private readonly ghost: GhostArm;
   private readonly predicted: GhostArm;
@@ -142,6 +145,7 @@ export class SceneView {
     if (now_ms - this.labels_at_ms > kLabels_ms || !this.had_state) {
       this.labels_at_ms = now_ms;
       this.place_labels();
+      set_text(this.error, this.error_text);
     }
     const done_ms = performance.now();
     const is_coarser_or_finer = this.had_state && this.stage.pace.drawn(done_ms, done_ms - this.waits_since_ms);
@@ -179,7 +183,7 @@ export class SceneView {
       this.ghost.set(this.drawn_angles);
     }
     const drawn = this.exaggerate ? `, drawn ${kExaggeration} times as large` : '';
-    set_text(this.error, `prediction error ${(1000 * error_m).toFixed(1)} mm at the tip${drawn}`);
+    this.error_text = `prediction error ${(1000 * error_m).toFixed(1)} mm at the tip${drawn}`;
   }
 
   private place_labels(): void {
@@ -187,7 +191,8 @@ export class SceneView {
     const chain = this.arm.chain;
     const labels: Label[] = [];
     const clear_m = sample ? value(sample, 'clearance.distance_m') : NaN;
-    if (sample && Number.isFinite(clear_m)) {
+    const is_near = clear_m < kNear_m;
+    if (sample && is_near) {
       const bound_m = value(sample, 'clearance.bound_m');
       const sure = Number.isFinite(bound_m) ? ` \u00b1 ${length_text(bound_m)}` : '';
       labels.push({ text: `${length_text(clear_m)} clear of ${sample.facts.clearance?.body ?? 'it'}${sure}`, place_m: values(sample, 'clearance.where_m').slice() });
@@ -195,8 +200,8 @@ export class SceneView {
     if (scene.rod) labels.push({ text: 'press rod: the goal', place_m: scene.rod.position_m });
     if (scene.slit) labels.push({ text: `slit, ${Math.round(2000 * scene.slit.half_gap_m)} mm`, place_m: scene.slit.frame.position_m });
     for (const body of scene.spheres ?? []) labels.push({ text: body.name, place_m: body.center_m });
-    labels.push({ text: this.robot.kind === 'serial' ? 'base' : `base: ${3 * this.robot.segments.length} motors`, place_m: [-0.1, 0, -0.1] });
-    if (!scene.rod) labels.push({ text: 'tip', place_m: chain.tip.subarray(12, 15) });
+    labels.push({ text: this.robot.kind === 'serial' ? 'base' : `base: ${3 * this.robot.segments.length} motors`, place_m: [-0.16, 0, 0.1] });
+    if (this.tip_label) labels.push({ text: this.tip_label, place_m: chain.tip.subarray(12, 15) });
     for (const body of scene.convex ?? []) {
       const at = body.points_m?.[0] ?? body.cylinder?.from_m ?? body.chain?.points_m[0];
       if (at) labels.push({ text: body.name, place_m: at });
