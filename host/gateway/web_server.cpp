@@ -100,7 +100,8 @@ std::optional<std::string> WebServerInside::problem(lws* wsi, const char** what)
   *what = "plain_http";
   if (is_tls() && lws_is_ssl(wsi) == 0) return "use https: nothing is served in the clear here";
   *what = "host";
-  if (options.listen.is_loopback() && !is_loopback_host(host, port))
+  const bool is_named = host == options.listen.web_host() + ":" + std::to_string(port);
+  if (options.listen.is_loopback() && !is_named && !is_loopback_host(host, port))
     return "host '" + host + "': allowed are 127.0.0.1, localhost and [::1] with the port";
   *what = "cross_origin";
   if (!is_own_origin(origin, is_tls() ? "https" : "http", host))

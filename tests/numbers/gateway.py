@@ -99,6 +99,48 @@ def stale_after_pause(console, newest):
     return stale, max(ages), next(age for age in ages if age <= kFresh_s)
 
 
+def stop_times_s(console, count=30):
+    """From the stop to its confirmation by lianad; a stop that is in force is confirmed like the first."""
+    times = []
+    for _ in range(count):
+        begin = time.monotonic()
+        number = console.stop("measured")
+        console.until(lambda me: number in me.answers)
+        times.append(time.monotonic() - begin)
+        time.sleep(0.05)
+    return sorted(times)
+
+
+class Flood:
+    """Clients that send nonsense without end while the block runs, and some that read nothing."""
+
+    kFloods, kDeaf = 4, 4
+
+    def __init__(self, address):
+        self.address, self.over = address, False
+
+    def send(self):
+        while not self.over:
+            with contextlib.suppress(OSError):
+                client = Watched(self.address, "flood")
+                with contextlib.closing(client):
+                    while not self.over:
+                        client.send(b'{"op":"nonsense"}')
+
+    def __enter__(self):
+        self.deaf = [Watched(self.address, "deaf") for _ in range(self.kDeaf)]
+        self.threads = [threading.Thread(target=self.send) for _ in range(self.kFloods)]
+        for thread in self.threads:
+            thread.start()
+
+    def __exit__(self, *_):
+        self.over = True
+        for thread in self.threads:
+            thread.join()
+        for client in self.deaf:
+            client.close()
+
+
 def measure(binaries, count=20):
     home = tempfile.TemporaryDirectory(prefix="liana-gateway-")
     call = [str(binaries / "liana"), "console", "--simulate", "--json", "--listen", "127.0.0.1:0"]
@@ -129,8 +171,15 @@ def figures(address, process, count):
     moving.start()
     stale, oldest_s, fresh_s = stale_after_pause(paused, lambda: max(client.header[3] for client in clients))
     moving.join()
+    quiet = stop_times_s(pilot)
+    with Flood(address):
+        flooded = stop_times_s(pilot)
     values = {
         "clients": count,
+        "stop_ms": {
+            name: [1e3 * times[len(times) // 2], 1e3 * times[-1]]
+            for name, times in (("quiet", quiet), ("flooded", flooded))
+        },
         "hz": hz,
         "core_percent": percent,
         "resident_MB": resident_MB(process),
@@ -151,6 +200,10 @@ def told(values):
         [f"stale records after {kPaused_s:g} s without reading", values["stale"], kMostStale],
         ["the oldest of them, s", f"{values['oldest_s']:.2f}", ""],
         ["age of the first that was fresh, s", f"{values['first_fresh_s']:.3f}", kFresh_s],
+        *[
+            [f"stop to its confirmation, {name}: median, worst, ms", " / ".join(f"{time:.1f}" for time in times), ""]
+            for name, times in values["stop_ms"].items()
+        ],
     ]
     text = (
         f"`liana console --simulate` with {values['clients']} clients of all records, the arm moving, {kSeconds:g} s"

@@ -502,10 +502,23 @@ class TheCommandConsole(SystemTest):
         self.addCleanup(console.close)
         return console
 
+    def child_of(self, process, name):
+        """The process of that name which this one has started."""
+        found = []
+        for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
+            with contextlib.suppress(OSError):  # it has ended meanwhile
+                words = path.read_text().split()
+                found += [int(words[0])] if words[1] == f"({name})" and int(words[3]) == process.pid else []
+        (number,) = found
+        return number
+
     def processes(self):
         """Programs of this test that still run."""
-        lines = [path.read_bytes() for path in pathlib.Path("/proc").glob("[0-9]*/cmdline") if path.exists()]
-        return [line for line in lines if self.home.encode() in line]
+        found = []
+        for path in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+            with contextlib.suppress(OSError):
+                found += [path] if self.home.encode() in path.read_bytes() else []
+        return found
 
     def test_without_a_system_it_shows_a_simulated_arm_that_the_page_enables_and_ctrl_c_ends_all(self):
         process = self.start("console", "--listen", "127.0.0.1:0")
@@ -513,6 +526,8 @@ class TheCommandConsole(SystemTest):
         console = self.console(process.stdout.readline().strip())
         console.enable()
         self.assertEqual(console.facts["owner"], "test")
+        os.kill(self.child_of(process, "liana-archive"), signal.SIGKILL)
+        console.until(lambda me: len(me.sequences) > 100)  # the arm goes on without its recorder
         second = self.start("console", "--robot", "micro", "--listen", "127.0.0.1:0")
         self.assertIn("--simulate", second.communicate(timeout=60)[1])
         self.assertEqual(second.returncode, 2)
@@ -521,6 +536,7 @@ class TheCommandConsole(SystemTest):
         wait_until(lambda: not self.processes(), "the end of all programs")
         (run,) = (pathlib.Path(self.home) / "liana" / "runs").iterdir()
         self.assertIn(str(run), error)
+        self.assertIn("liana-archive has ended; it is started again", error)
         self.assertTrue((run / "archive.db").exists())
 
     def test_with_a_system_it_shows_that_one_and_a_gateway_that_dies_comes_back(self):
@@ -530,12 +546,7 @@ class TheCommandConsole(SystemTest):
         told = json.loads(process.stdout.readline())
         self.assertEqual(told["api"], api)
         console = self.console(told["address"]).until(lambda me: me.state)
-        (gateway,) = [
-            path.parent.name
-            for path in pathlib.Path("/proc").glob("[0-9]*/stat")
-            if f"(liana-gateway) S {process.pid} " in path.read_text()
-        ]
-        os.kill(int(gateway), signal.SIGKILL)
+        os.kill(self.child_of(process, "liana-gateway"), signal.SIGKILL)
         with self.assertRaises(OSError):
             console.until(lambda me: False)
 

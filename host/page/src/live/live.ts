@@ -8,6 +8,7 @@ import { Rate } from './rate';
 import { StateAge } from './state_age';
 
 const kMostEvents = 1000;
+const kSilent_s = 2; // without a state
 
 export class Live {
   welcome: Welcome | null = null;
@@ -70,8 +71,8 @@ export class Live {
     const conditions = [...conditions_of(this.facts), ...more];
     if (this.status) {
       conditions.push({ key: 'link', priority: 1, title: 'nothing comes from the arm', cause: this.status, todo: 'What is shown is old. To stop the arm use the switch beside it, or liana estop.' });
-    } else if (now_s - this.came_s > 1) {
-      conditions.push({ key: 'link', priority: 1, title: 'nothing comes from the arm', cause: 'No state for a second.', todo: 'What is shown is old: wait, or look at lianad.' });
+    } else if (now_s - this.came_s > kSilent_s) {
+      conditions.push({ key: 'link', priority: 1, title: 'nothing comes from the arm', cause: `No state for ${kSilent_s} s.`, todo: 'What is shown is old: wait, or look at lianad.' });
     }
     return this.alarms.update(conditions, now_s);
   }

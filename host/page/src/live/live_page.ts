@@ -2,10 +2,12 @@
 import type { Sample } from '../data/sample';
 import { value, values } from '../data/sample';
 import type { Condition } from '../model/alarms';
+import type { CableRobot } from '../model/robot';
 import { sentence_of } from '../model/sentence';
 import { SceneView } from '../scene/scene_view';
 import { scene_colours, type Theme } from '../scene/palette';
 import { DevicePanel } from '../steer/device_panel';
+import { Vr } from '../vr/vr';
 import { TipHandle } from '../steer/handle';
 import { Jogger } from '../steer/jogger';
 import { JogPanel } from '../steer/jog_panel';
@@ -28,7 +30,13 @@ import { StatusBar } from './status_bar';
 import { StopButton } from './stop_button';
 import { kept_token, token_form } from './token_form';
 
-const kWords_ms = 150; // texts are written anew at most so often
+const kWords_ms = 250; // texts are written anew at most so often
+
+// Of each frame that was drawn.
+interface Measured {
+  intervals_ms: number[];
+  ages_ms: number[];
+}
 
 export class LivePage {
   readonly element: HTMLElement;
@@ -46,7 +54,12 @@ export class LivePage {
   private scene: SceneView | null = null;
   private plots: LivePlots | null = null;
   private handle: TipHandle | null = null;
+  vr: Vr | null = null;
+  private readonly vr_button = h('button', { type: 'button', hidden: true, title: 'steer with the handles of a headset', onclick: () => void this.toggle_vr() }, 'VR');
   private robot_shown = '';
+  private shown_age_s = NaN;
+  private measured: Measured | null = null;
+  private last_frame_ms = NaN;
 
   constructor(url: string) {
     this.connection = new Connection(url, {
@@ -64,7 +77,7 @@ export class LivePage {
     this.status = new StatusBar(this.live);
     this.alarms = new AlarmPanel(this.live, () => this.alarms.update());
     this.look_back = new LookBack(this.live, () => this.draw());
-    const header = h('header', { class: 'top' }, h('h1', {}, 'Liana'), this.sentence, this.status.element, theme_button((theme) => this.build(theme)), this.stop.element);
+    const header = h('header', { class: 'top' }, h('h1', {}, 'Liana'), this.sentence, this.status.element, this.vr_button, theme_button((theme) => this.build(theme)), this.stop.element);
     const told = h('div', { class: 'told' }, this.note, this.stop.report);
     this.element = h('div', { class: 'page live' }, header, told, this.alarms.element, this.middle, this.look_back.element);
     document.addEventListener('keydown', (event) => this.key_down(event), { capture: true });
@@ -75,8 +88,22 @@ export class LivePage {
     this.connection.open();
   }
 
-  // More that a person should act on, of parts that are not the arm.
-  more_conditions: () => Condition[] = () => [];
+  // From here on every frame is kept, for end_measurement().
+  begin_measurement(): void {
+    this.measured = { intervals_ms: [], ages_ms: [] };
+    this.last_frame_ms = NaN;
+  }
+
+  end_measurement(): Measured & { pixel_ratio: number } {
+    const measured = this.measured ?? { intervals_ms: [], ages_ms: [] };
+    this.measured = null;
+    return { ...measured, pixel_ratio: this.scene?.stage.pace.pixel_ratio ?? 0 };
+  }
+
+  // More that a person should act on: of parts that are not the arm.
+  private more_conditions(): Condition[] {
+    return this.vr?.conditions() ?? [];
+  }
 
   private welcome(welcome: Welcome): void {
     if (welcome.protocol !== kProtocol) {
@@ -126,11 +153,27 @@ export class LivePage {
       return h('p', { class: 'no-scene' }, `No 3-D here: ${String(error)}. Everything else works.`);
     }
     this.scene.on_drawn = (now_ms) => this.drawn(now_ms);
+    if (welcome.robot.kind !== 'serial') this.add_vr(welcome.robot, this.scene);
     this.handle = new TipHandle(this.scene.stage, scene_colours(theme).ghost);
     this.handle.on_drag = (place_m) => this.jogger.drag_to(place_m);
     this.handle.on_drop = () => this.jogger.drop();
     this.scene.add_helper(this.handle.ball);
     return h('div', { class: 'scene-place' }, this.scene.element);
+  }
+
+  private add_vr(robot: CableRobot, scene: SceneView): void {
+    this.vr?.end();
+    this.vr = new Vr(robot, this.live, this.connection, scene, () => void this.stop.press());
+    void Vr.is_there().then((is_there) => (this.vr_button.hidden = !is_there));
+  }
+
+  private async toggle_vr(): Promise<void> {
+    if (this.vr?.is_on) return this.vr.end();
+    try {
+      await this.vr?.begin();
+    } catch (error) {
+      this.say_answer('VR', { op: 'answer', ok: false, code: 'no session', message: String(error) });
+    }
   }
 
   private record(bytes: ArrayBuffer): number | null {
@@ -154,8 +197,11 @@ export class LivePage {
 
   private drawn(now_ms: number): void {
     this.plots?.update(now_ms);
-    ages.push(this.live.age.age_s(performance.now() / 1000));
-    if (ages.length > 500) ages.shift();
+    this.shown_age_s = this.live.age.age_s(performance.now() / 1000);
+    if (!this.measured || this.look_back.time_s !== null) return;
+    if (Number.isFinite(this.last_frame_ms)) this.measured.intervals_ms.push(now_ms - this.last_frame_ms);
+    this.last_frame_ms = now_ms;
+    this.measured.ages_ms.push(1000 * this.shown_age_s);
   }
 
   private words(): void {
@@ -175,7 +221,7 @@ export class LivePage {
   // Age of what is seen, how often states come, how fine the picture is.
   private corner(sample: Sample, now_s: number): string {
     if (this.live.status) return 'NOT LIVE';
-    const age_ms = 1000 * (ages[ages.length - 1] ?? NaN);
+    const age_ms = 1000 * this.shown_age_s;
     const ratio = this.scene?.stage.pace.pixel_ratio ?? 1;
     const coarse = ratio < 1 ? `, picture at ${Math.round(100 * ratio)} %` : '';
     const share = value(sample, 'path.share');
@@ -200,11 +246,4 @@ export class LivePage {
     }
     event.preventDefault();
   }
-}
-
-// Ages of the last states that were seen [s]; for measurements.
-const ages: number[] = [];
-
-export function shown_ages(): readonly number[] {
-  return ages;
 }

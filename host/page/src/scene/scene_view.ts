@@ -17,7 +17,7 @@ import { views_of, type View } from './views';
 const kTipPicture = { width: 280, height: 180 };
 const kExaggeration = 10;
 const kNear_m = 0.3; // a clearance is worth a label below
-const kLabels_ms = 100; // labels are laid out at most so often: style and layout cost more than the scene's script
+const kLabels_ms = 200; // words are laid out at most so often: that costs more than the whole scene's script
 
 export class SceneView {
   readonly element: HTMLElement;
@@ -28,6 +28,7 @@ export class SceneView {
   on_drawn: (now_ms: number) => void = () => {};
   exaggerate = false;
   tip_label = '';
+  private error_text = '';
   private readonly arm: ArmBody;
   private readonly ghost: GhostArm;
   private readonly predicted: GhostArm;
@@ -105,6 +106,21 @@ export class SceneView {
     set_text(this.corner, text);
   }
 
+  // Moves everything to the newest state without drawing: a headset draws by itself.
+  move_now(): void {
+    if (this.sample) this.move_all(this.sample);
+  }
+
+  tip_frame_now(): Float32Array {
+    return this.arm.chain.tip;
+  }
+
+  // The headset is off: the canvas is this view's again.
+  after_vr(): void {
+    this.resize();
+    this.look(this.view);
+  }
+
   private set_exaggerated(on: boolean): void {
     this.exaggerate = on;
     this.draw_soon(false);
@@ -118,14 +134,14 @@ export class SceneView {
   private draw_soon(is_state: boolean): void {
     if (is_state && !this.had_state) this.waits_since_ms = performance.now();
     this.had_state ||= is_state;
-    if (this.is_due) return;
+    if (this.is_due || this.stage.renderer.xr.isPresenting) return;
     this.is_due = true;
     requestAnimationFrame((now_ms) => this.draw(now_ms));
   }
 
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.element;
-    if (width === 0 || height === 0) return;
+    if (width === 0 || height === 0 || this.stage.renderer.xr.isPresenting) return;
     this.stage.resize(width, height);
     const share = Math.min(1, width / 620);
     const inset = { width: Math.round(kTipPicture.width * share), height: Math.round(kTipPicture.height * share), top: 8, left: 0 };
@@ -137,6 +153,7 @@ export class SceneView {
 
   private draw(now_ms: number): void {
     this.is_due = false;
+    if (this.stage.renderer.xr.isPresenting) return;
     if (this.sample) this.move_all(this.sample);
     const tip = this.arm.chain.tip;
     if (this.view.follows_tip) this.stage.follow(tip.subarray(12, 15));
@@ -144,6 +161,7 @@ export class SceneView {
     if (now_ms - this.labels_at_ms > kLabels_ms || !this.had_state) {
       this.labels_at_ms = now_ms;
       this.place_labels();
+      set_text(this.error, this.error_text);
     }
     const done_ms = performance.now();
     const is_coarser_or_finer = this.had_state && this.stage.pace.drawn(done_ms, done_ms - this.waits_since_ms);
@@ -181,7 +199,7 @@ export class SceneView {
       this.ghost.set(this.drawn_angles);
     }
     const drawn = this.exaggerate ? `, drawn ${kExaggeration} times as large` : '';
-    set_text(this.error, `prediction error ${(1000 * error_m).toFixed(1)} mm at the tip${drawn}`);
+    this.error_text = `prediction error ${(1000 * error_m).toFixed(1)} mm at the tip${drawn}`;
   }
 
   private place_labels(): void {

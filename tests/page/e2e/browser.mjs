@@ -1,0 +1,62 @@
+// Chromium without a graphics card, driven by playwright-core.
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { root, screens } from './system.mjs';
+
+const require = createRequire(join(root, 'host', 'page', 'package.json'));
+const { chromium } = require('playwright-core');
+const axe_file = require.resolve('axe-core/axe.min.js');
+
+const kFlags = ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'];
+
+export async function open_browser() {
+  const server = await chromium.launchServer({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: kFlags });
+  const browser = await chromium.connect(server.wsEndpoint());
+  return { browser, pid: server.process().pid, close: async () => { await browser.close(); await server.close(); } };
+}
+
+// A page whose errors fail the test that looks at `errors`.
+export async function open_page(browser, address, options = {}) {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 720 }, colorScheme: 'dark', ...options });
+  page.errors = [];
+  page.on('pageerror', (error) => page.errors.push(String(error)));
+  page.requests = [];
+  page.on('request', (request) => page.requests.push(request.url()));
+  await page.goto(address);
+  return page;
+}
+
+export async function picture(page, name) {
+  await page.screenshot({ path: join(screens, `${name}.png`) });
+}
+
+// What axe finds that is serious, or worse.
+export async function serious_findings(page) {
+  await page.addScriptTag({ path: axe_file });
+  const found = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
+  return found.violations
+    .filter((v) => v.impact === 'serious' || v.impact === 'critical')
+    .map((v) => `${v.id}: ${v.nodes.map((n) => n.target.join(' ')).slice(0, 4).join('; ')}`);
+}
+
+// Of the console: a number of the newest state, and its facts.
+export function state(page) {
+  return page.evaluate(() => {
+    const { sample, facts, welcome } = window.liana.live;
+    const get = (name) => (sample ? [...(sample.numbers.get(name) ?? [])] : []);
+    return { time_s: sample?.time_s ?? 0, setpoint_cp: get('setpoint_cp'), measured_cp: get('measured_cp'), node_m: get('node_m'), facts, name: welcome?.name };
+  });
+}
+
+const kPatience_ms = 90000; // paced time on a busy machine; nothing is judged by it
+
+// Waits until `holds` is true of the console's state.
+export async function until(page, what, holds) {
+  const end_ms = Date.now() + kPatience_ms;
+  for (;;) {
+    const now = await state(page);
+    if (holds(now)) return now;
+    if (Date.now() > end_ms) throw new Error(`never came: ${what}; last: ${JSON.stringify(now).slice(0, 1500)}`);
+    await page.waitForTimeout(100);
+  }
+}

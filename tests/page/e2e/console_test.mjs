@@ -1,0 +1,171 @@
+// The console against the real system: open, watch, take motion, steer by keys and mouse, hold, retract, stop, reconnect.
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+import { open_browser, open_page, picture, serious_findings, until } from './browser.mjs';
+import { process_called, start_console } from './system.mjs';
+
+let system, chromium, page;
+
+before(async () => {
+  system = await start_console();
+  chromium = await open_browser();
+  page = await open_page(chromium.browser, system.address);
+});
+
+after(async () => {
+  await chromium?.close();
+  await system?.stop();
+});
+
+const text = (selector) => page.textContent(selector);
+const press = (name) => page.click(`[data-action="${name}"]`);
+const height = (now) => now.setpoint_cp[2];
+
+async function is_at_rest(what) {
+  return until(page, `${what}: at rest`, (now) => now.facts.at_rest === true && now.facts.state === 'ENABLED');
+}
+
+test('the page shows the running arm, says what it does in one sentence, and loads nothing else', async () => {
+  await until(page, 'a state', (now) => now.time_s > 0 && now.facts.state === 'DISABLED');
+  await page.waitForFunction(() => /brakes on/.test(document.querySelector('.sentence').textContent));
+  assert.match(await text('.sentence'), /brakes on.*m to the rod/);
+  assert.equal(await text('.status .badge:last-child'), 'live');
+  const others = page.requests.filter((url) => !url.startsWith(system.address) && !url.startsWith('data:'));
+  assert.deepEqual(others, []);
+  await picture(page, 'console_disabled');
+});
+
+test('two clicks bring the arm to where the mouse can move it: take motion, enable', async () => {
+  await press('take motion');
+  await until(page, 'motion is ours', (now) => now.facts.owner === now.name);
+  await press('enable');
+  await until(page, 'enabled', (now) => now.facts.state === 'ENABLED');
+  await is_at_rest('enabling');
+});
+
+test('a held key moves the tip up through verification, and letting go brings it to rest', async () => {
+  const from = await is_at_rest('before');
+  await page.focus('canvas.scene');
+  await page.keyboard.down('KeyE');
+  await until(page, '15 mm higher', (now) => height(now) > height(from) + 0.015);
+  await picture(page, 'console_jog');
+  await page.keyboard.up('KeyE');
+  const to = await is_at_rest('after');
+  assert.ok(height(to) < height(from) + 0.3);
+});
+
+test('the mouse drags the ball at the tip, and dropping it brings the arm to rest', async () => {
+  const from = await is_at_rest('before');
+  await page.waitForFunction(() => window.liana.handle.ball.visible);
+  const [x, y] = await page.evaluate(() => {
+    const { stage } = window.liana.scene;
+    const box = stage.canvas.getBoundingClientRect();
+    const at = stage.pixel_of(window.liana.handle.ball.position.toArray());
+    return [at[0] + box.left, at[1] + box.top];
+  });
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 15, y - 30, { steps: 4 });
+  await until(page, '15 mm higher', (now) => height(now) > height(from) + 0.015);
+  await page.mouse.up();
+  await is_at_rest('after');
+});
+
+test('a short press of a button is a step of 20 mm along a line', async () => {
+  const from = await is_at_rest('before');
+  await page.click('[data-jog="z+"]');
+  await until(page, '20 mm higher', (now) => Math.abs(height(now) - height(from) - 0.02) < 0.0005);
+  await is_at_rest('after');
+});
+
+test('what lianad refuses is shown with its own words', async () => {
+  await page.fill('[aria-label="x of the node in metres"]', '99');
+  await page.click('section[aria-label="Shape"] button:has-text("go")');
+  await page.waitForFunction(() => document.querySelector('.answer').classList.contains('bad'));
+  assert.match(await text('.answer'), /^shape: out_of_range: .*position_m.*allowed/);
+});
+
+test('somebody else sees the same arm, and cannot take motion from its owner', async () => {
+  const other = await open_page(chromium.browser, system.address);
+  await until(other, 'the same owner', (now) => now.facts.owner === 'browser');
+  await other.click('[data-action="take motion"]');
+  await other.waitForFunction(() => document.querySelector('.answer').classList.contains('bad'));
+  assert.match(await other.textContent('.answer'), /take motion: not_owner: 'browser' owns motion/);
+  await other.click('[data-jog="z+"]');
+  await other.waitForFunction(() => /step z\+: not_owner/.test(document.querySelector('.answer').textContent));
+  await other.close();
+});
+
+test('retract goes back along the verified path, hold ends it', async () => {
+  await press('retract');
+  await until(page, 'on the way back', (now) => ['joining', 'back', 'done'].includes(now.facts.retract?.phase));
+  await press('hold');
+  await is_at_rest('hold');
+});
+
+test('a click on an event takes the scene to its moment, and "now" back', async () => {
+  await page.click('#tab-Events');
+  await page.click('.events li:first-child button');
+  await page.waitForFunction(() => /NOT NOW/.test(document.querySelector('.clock').textContent));
+  await picture(page, 'console_events');
+  await page.click('.time-line button');
+  await page.waitForFunction(() => !/NOT NOW/.test(document.querySelector('.clock').textContent));
+});
+
+test('nothing serious is found by axe in any tab, dark and light', async () => {
+  for (const tab of ['Steer', 'Plots', 'Events', 'Runs']) {
+    await page.click(`#tab-${tab}`);
+    assert.deepEqual(await serious_findings(page), [], tab);
+  }
+  await page.click('#tab-Plots');
+  await picture(page, 'console_plots');
+  await page.click('.top [aria-label^="switch"]');
+  await page.click('#tab-Steer');
+  assert.deepEqual(await serious_findings(page), [], 'light');
+  await picture(page, 'console_light');
+  await page.click('.top [aria-label^="switch"]');
+});
+
+test('Escape stops the arm wherever the focus is, and the controller acknowledges it', async () => {
+  await page.click('#tab-Steer');
+  await page.focus('input.metres');
+  await page.keyboard.press('Escape');
+  await until(page, 'the stop in the state', (now) => now.facts.stop?.by === 'browser' && now.facts.state === 'DISABLED');
+  await page.waitForFunction(() => /stop answered after \d+ ms, in force since tick \d+/.test(document.querySelector('.stop-report').textContent));
+  await page.waitForFunction(() => [...document.querySelectorAll('.alarm')].some((alarm) => /emergency stop by browser/.test(alarm.textContent)));
+  await picture(page, 'console_stopped');
+});
+
+test('the stop button works in every tab and in a narrow window', async () => {
+  await press('take motion'); // clears the stop
+  await until(page, 'no stop', (now) => now.facts.stop === null);
+  for (const tab of ['Plots', 'Events', 'Runs', 'Steer']) {
+    await page.click(`#tab-${tab}`);
+    assert.ok(await page.isVisible('button.stop'), tab);
+  }
+  await page.setViewportSize({ width: 820, height: 1180 });
+  assert.ok(await page.isVisible('button.stop'));
+  await page.click('button.stop');
+  await until(page, 'the stop', (now) => now.facts.stop !== null);
+  await picture(page, 'console_tablet');
+  await page.setViewportSize({ width: 1280, height: 720 });
+});
+
+test('an alarm is acknowledged by name and stays as long as its cause', async () => {
+  await page.click('.alarm:has-text("emergency stop by browser") button');
+  await page.waitForSelector('.alarm:has-text("emergency stop by browser"):has-text("seen by browser")');
+});
+
+test('when the gateway dies the page says so, and goes on by itself when it is back', async () => {
+  const gateway = process_called(system.child.pid, 'liana-gateway');
+  assert.ok(gateway, 'the gateway is found');
+  process.kill(gateway, 'SIGKILL');
+  await page.waitForFunction(() => document.querySelector('.status .badge:last-child').textContent === 'NOT LIVE');
+  await page.waitForFunction(() => document.querySelector('.status .badge:last-child').textContent === 'live', null, { timeout: 60000 });
+  const back = await until(page, 'a state again', (now) => now.time_s > 0);
+  await until(page, 'a newer state', (now) => now.time_s > back.time_s);
+});
+
+test('no error was thrown in the page all the while', () => {
+  assert.deepEqual(page.errors, []);
+});

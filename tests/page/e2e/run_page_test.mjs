@@ -1,0 +1,89 @@
+// The page of a run, opened from the disk: everything is in it.
+import assert from 'node:assert/strict';
+import { mkdtempSync, rmSync, statSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { writeFileSync } from 'node:fs';
+import { open_browser, open_page, picture, serious_findings } from './browser.mjs';
+import { liana, start } from './system.mjs';
+
+const kMostBytes = 750000;
+
+let folder, chromium;
+
+before(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'liana-page-'));
+  chromium = await open_browser();
+});
+
+after(async () => {
+  await chromium?.close();
+  rmSync(folder, { recursive: true, force: true });
+});
+
+async function run(name, ...args) {
+  const record = join(folder, name);
+  await start(liana, ['run', 'slit_crossing', '--seed', '5', '--record', record, ...args]).ended;
+  return join(record, 'page.html');
+}
+
+const text = (page, selector) => page.textContent(selector);
+
+test('a crossing leaves one file that shows it from the disk, without any request', async () => {
+  const file = await run('crossing');
+  assert.ok(statSync(file).size <= kMostBytes, `${statSync(file).size} bytes`);
+  const page = await open_page(chromium.browser, pathToFileURL(file).href);
+  await page.waitForSelector('.page.run');
+  await page.waitForFunction(() => /step 4 of 6/.test(document.querySelector('.sentence').textContent));
+  assert.match(await text(page, '.finding'), /^Success: \d+\.\d s, at least [\d.]+ mm clear/);
+  assert.deepEqual(page.requests.filter((url) => !url.startsWith('file:') && !url.startsWith('data:')), []);
+  await picture(page, 'run_plots');
+
+  // A click on an event takes the scene there.
+  await page.click('#tab-Events');
+  await page.click('.events li:has-text("step 2:") button');
+  assert.match(await text(page, '.sentence'), /^step 2 of 6/);
+  await picture(page, 'run_events');
+
+  // Keys: on by 10 s, to the end, play.
+  await page.focus('canvas.scene');
+  const at = await text(page, '.clock');
+  await page.keyboard.press('Shift+ArrowRight');
+  assert.notEqual(await text(page, '.clock'), at);
+  await page.keyboard.press('Home');
+  await page.keyboard.press(' ');
+  await page.waitForFunction(() => Number.parseFloat(document.querySelector('.clock').textContent) > 2);
+  await page.keyboard.press(' ');
+  await page.keyboard.press('2');
+  assert.match(await text(page, '.views .chosen'), /along the slit/);
+
+  await page.click('#tab-Commands');
+  assert.ok((await page.$$('.commands tbody tr')).length > 50);
+  await picture(page, 'run_commands');
+  await page.click('#tab-Plots');
+  const [download] = await Promise.all([page.waitForEvent('download'), page.click('button:has-text("CSV")')]);
+  assert.match(download.suggestedFilename(), /slit_crossing.*\.csv/);
+  for (const tab of ['Plots', 'Events', 'Commands', 'Report']) {
+    await page.click(`#tab-${tab}`);
+    assert.deepEqual(await serious_findings(page), [], tab);
+  }
+  assert.deepEqual(page.errors, []);
+  await page.close();
+});
+
+test('the page of a run that failed says what failed, where, why and what to do, and stands at that moment', async () => {
+  const faults = join(folder, 'faults.json');
+  writeFileSync(faults, JSON.stringify([{ drive: 7, kind: 'cable_break', at_slot: 3500 }]));
+  const page = await open_page(chromium.browser, pathToFileURL(await run('broken', '--faults', faults)).href);
+  await page.waitForSelector('.finding.bad');
+  const finding = await text(page, '.finding');
+  assert.match(finding, /slit_crossing failed in "around the obstacle to the panel edge"/);
+  assert.match(finding, /at 14\.0 s, in step 2/);
+  assert.match(finding, /drive 7: cable_break/);
+  assert.match(finding, /look at the cable and its clamp/);
+  assert.match(await text(page, '.clock'), /^14\.0/);
+  await picture(page, 'run_failed');
+  await page.close();
+});

@@ -1,0 +1,39 @@
+// Runs the tests of the page: type check, plain modules, and end to end in Chromium against the real system.
+//   node tests/page/run.mjs [unit|console|run_page|frames|vr ...]; all without a name. Needs `npm ci` in host/page.
+import { spawnSync } from 'node:child_process';
+import { existsSync, readdirSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const root = join(here, '..', '..');
+const page = join(root, 'host', 'page');
+
+function run(what, program, args, cwd = root) {
+  console.log(`== ${what}`);
+  const { status } = spawnSync(program, args, { cwd, stdio: 'inherit', env: { ...process.env, LIANA_ROOT: root } });
+  if (status !== 0) process.exitCode = 1;
+  return status === 0;
+}
+
+if (!existsSync(join(page, 'node_modules', 'playwright-core'))) {
+  console.error('tests/page: npm ci in host/page first (about 80 MB)');
+  process.exit(2);
+}
+const suites = readdirSync(join(here, 'e2e')).filter((file) => file.endsWith('_test.mjs')).map((file) => file.replace('_test.mjs', ''));
+const wanted = process.argv.slice(2);
+const unknown = wanted.filter((name) => name !== 'unit' && !suites.includes(name));
+if (unknown.length > 0) {
+  console.error(`tests/page: no tests ${unknown.join(', ')}; there are unit, ${suites.join(', ')}`);
+  process.exit(2);
+}
+const is_wanted = (name) => wanted.length === 0 || wanted.includes(name);
+
+const is_built = run('build', process.execPath, ['build.mjs'], page);
+if (is_built && is_wanted('unit')) {
+  run('types', process.execPath, [join('node_modules', 'typescript', 'bin', 'tsc'), '--noEmit', '-p', '.'], page);
+  const built = join(root, 'build', 'page', 'tests');
+  if (run('unit tests', process.execPath, ['build.mjs', '--tests'], page))
+    run('unit tests', process.execPath, ['--test', ...readdirSync(built).filter((file) => file.endsWith('.mjs')).map((file) => join(built, file))]);
+}
+if (is_built) for (const suite of suites.filter(is_wanted)) run(suite, process.execPath, [join(here, 'e2e', `${suite}_test.mjs`)]);
