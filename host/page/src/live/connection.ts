@@ -57,6 +57,11 @@ export class Connection {
     });
   }
 
+  // Sends what comes again so soon that nobody waits for an answer: samples of a device. An error comes as a message.
+  post(request: object): void {
+    if (this.socket?.readyState === WebSocket.OPEN && this.is_welcome) this.socket.send(JSON.stringify({ op: 'request', request }));
+  }
+
   private send(op: string, what: object): Promise<Answer> {
     const { socket } = this;
     if (!socket || socket.readyState !== WebSocket.OPEN || !this.is_welcome)
@@ -79,7 +84,7 @@ export class Connection {
 
   private async take(message: FromGateway): Promise<void> {
     if (message.op === 'challenge') return this.hello(message.nonce, message.proof ?? !message.loopback);
-    if (message.op === 'answer') return this.answer(message);
+    if (message.op === 'answer' && message.id !== undefined) return this.answer(message);
     if (message.op === 'away') this.listener.status(message.text);
     if (message.op === 'welcome') {
       this.is_welcome = true;

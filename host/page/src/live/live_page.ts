@@ -2,10 +2,12 @@
 import type { Sample } from '../data/sample';
 import { value, values } from '../data/sample';
 import type { Condition } from '../model/alarms';
+import type { CableRobot } from '../model/robot';
 import { sentence_of } from '../model/sentence';
 import { SceneView } from '../scene/scene_view';
 import { scene_colours, type Theme } from '../scene/palette';
 import { DevicePanel } from '../steer/device_panel';
+import { Vr } from '../vr/vr';
 import { TipHandle } from '../steer/handle';
 import { Jogger } from '../steer/jogger';
 import { JogPanel } from '../steer/jog_panel';
@@ -52,6 +54,8 @@ export class LivePage {
   private scene: SceneView | null = null;
   private plots: LivePlots | null = null;
   private handle: TipHandle | null = null;
+  vr: Vr | null = null;
+  private readonly vr_button = h('button', { type: 'button', hidden: true, title: 'steer with the handles of a headset', onclick: () => void this.toggle_vr() }, 'VR');
   private robot_shown = '';
   private shown_age_s = NaN;
   private measured: Measured | null = null;
@@ -73,7 +77,7 @@ export class LivePage {
     this.status = new StatusBar(this.live);
     this.alarms = new AlarmPanel(this.live, () => this.alarms.update());
     this.look_back = new LookBack(this.live, () => this.draw());
-    const header = h('header', { class: 'top' }, h('h1', {}, 'Liana'), this.sentence, this.status.element, theme_button((theme) => this.build(theme)), this.stop.element);
+    const header = h('header', { class: 'top' }, h('h1', {}, 'Liana'), this.sentence, this.status.element, this.vr_button, theme_button((theme) => this.build(theme)), this.stop.element);
     const told = h('div', { class: 'told' }, this.note, this.stop.report);
     this.element = h('div', { class: 'page live' }, header, told, this.alarms.element, this.middle, this.look_back.element);
     document.addEventListener('keydown', (event) => this.key_down(event), { capture: true });
@@ -96,8 +100,10 @@ export class LivePage {
     return { ...measured, pixel_ratio: this.scene?.stage.pace.pixel_ratio ?? 0 };
   }
 
-  // More that a person should act on, of parts that are not the arm.
-  more_conditions: () => Condition[] = () => [];
+  // More that a person should act on: of parts that are not the arm.
+  private more_conditions(): Condition[] {
+    return this.vr?.conditions() ?? [];
+  }
 
   private welcome(welcome: Welcome): void {
     if (welcome.protocol !== kProtocol) {
@@ -147,11 +153,27 @@ export class LivePage {
       return h('p', { class: 'no-scene' }, `No 3-D here: ${String(error)}. Everything else works.`);
     }
     this.scene.on_drawn = (now_ms) => this.drawn(now_ms);
+    if (welcome.robot.kind !== 'serial') this.add_vr(welcome.robot, this.scene);
     this.handle = new TipHandle(this.scene.stage, scene_colours(theme).ghost);
     this.handle.on_drag = (place_m) => this.jogger.drag_to(place_m);
     this.handle.on_drop = () => this.jogger.drop();
     this.scene.add_helper(this.handle.ball);
     return h('div', { class: 'scene-place' }, this.scene.element);
+  }
+
+  private add_vr(robot: CableRobot, scene: SceneView): void {
+    this.vr?.end();
+    this.vr = new Vr(robot, this.live, this.connection, scene, () => void this.stop.press());
+    void Vr.is_there().then((is_there) => (this.vr_button.hidden = !is_there));
+  }
+
+  private async toggle_vr(): Promise<void> {
+    if (this.vr?.is_on) return this.vr.end();
+    try {
+      await this.vr?.begin();
+    } catch (error) {
+      this.say_answer('VR', { op: 'answer', ok: false, code: 'no session', message: String(error) });
+    }
   }
 
   private record(bytes: ArrayBuffer): number | null {

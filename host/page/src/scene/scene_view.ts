@@ -106,6 +106,21 @@ export class SceneView {
     set_text(this.corner, text);
   }
 
+  // Moves everything to the newest state without drawing: a headset draws by itself.
+  move_now(): void {
+    if (this.sample) this.move_all(this.sample);
+  }
+
+  tip_frame_now(): Float32Array {
+    return this.arm.chain.tip;
+  }
+
+  // The headset is off: the canvas is this view's again.
+  after_vr(): void {
+    this.resize();
+    this.look(this.view);
+  }
+
   private set_exaggerated(on: boolean): void {
     this.exaggerate = on;
     this.draw_soon(false);
@@ -119,14 +134,14 @@ export class SceneView {
   private draw_soon(is_state: boolean): void {
     if (is_state && !this.had_state) this.waits_since_ms = performance.now();
     this.had_state ||= is_state;
-    if (this.is_due) return;
+    if (this.is_due || this.stage.renderer.xr.isPresenting) return;
     this.is_due = true;
     requestAnimationFrame((now_ms) => this.draw(now_ms));
   }
 
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.element;
-    if (width === 0 || height === 0) return;
+    if (width === 0 || height === 0 || this.stage.renderer.xr.isPresenting) return;
     this.stage.resize(width, height);
     const share = Math.min(1, width / 620);
     const inset = { width: Math.round(kTipPicture.width * share), height: Math.round(kTipPicture.height * share), top: 8, left: 0 };
@@ -138,6 +153,7 @@ export class SceneView {
 
   private draw(now_ms: number): void {
     this.is_due = false;
+    if (this.stage.renderer.xr.isPresenting) return;
     if (this.sample) this.move_all(this.sample);
     const tip = this.arm.chain.tip;
     if (this.view.follows_tip) this.stage.follow(tip.subarray(12, 15));

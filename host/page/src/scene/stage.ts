@@ -96,8 +96,25 @@ export class Stage {
     this.hidden_from_tip.forEach((object, i) => (object.visible = seen[i]));
   }
 
+  // The tip's picture onto a surface of its own, also while a headset shows the scene.
+  render_tip_to(target: THREE.WebGLRenderTarget, tip: Float32Array): void {
+    const { renderer } = this;
+    const before = renderer.getRenderTarget();
+    const is_xr = renderer.xr.enabled;
+    const seen = this.hidden_from_tip.map((object) => object.visible);
+    for (const object of this.hidden_from_tip) object.visible = false;
+    this.place_tip_camera(tip, target);
+    renderer.xr.enabled = false;
+    renderer.setScissorTest(false);
+    renderer.setRenderTarget(target);
+    renderer.render(this.scene, this.tip_camera);
+    renderer.setRenderTarget(before);
+    renderer.xr.enabled = is_xr;
+    this.hidden_from_tip.forEach((object, i) => (object.visible = seen[i]));
+  }
+
   // The camera looks along the tip's x, its up is the tip's z.
-  private place_tip_camera(tip: Float32Array, inset: Inset): void {
+  private place_tip_camera(tip: Float32Array, inset: { width: number; height: number }): void {
     const camera = this.tip_camera;
     const to = camera.matrix.elements;
     for (let r = 0; r < 3; ++r) {

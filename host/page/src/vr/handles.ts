@@ -1,0 +1,49 @@
+// What the two handles say, as samples of docs/api.md: poses in the device frame, which is parallel to the arm's base.
+import { multiply, normalised, rotated, type Quaternion } from '../model/vector';
+
+// A handle in one frame of the headset, in the headset's own frame (y up).
+export interface Handle {
+  position_m: readonly [number, number, number];
+  attitude: Quaternion;
+  is_tracked: boolean;
+  deadman: number; // 0 to 1: trigger or squeeze, whichever is held more
+}
+
+export interface HandleSample {
+  valid: boolean;
+  trigger: number;
+  pose: number[];
+}
+
+export interface VrSample {
+  t_us: number;
+  right: HandleSample;
+  left: HandleSample;
+}
+
+// From the headset's frame (x right, y up, z back) to the base's (x forward, y left, z up) for a person who looks along x.
+export const kUpright: Quaternion = [0.5, 0.5, -0.5, -0.5];
+
+// The same when the person has turned the world by `turn_rad` about the vertical.
+export function device_from_headset(turn_rad: number): Quaternion {
+  return normalised(multiply([Math.cos(turn_rad / 2), 0, 0, Math.sin(turn_rad / 2)], kUpright));
+}
+
+const kOrigin = [0, 0, 0, 1, 0, 0, 0];
+
+export class HandleSamples {
+  private readonly last: Record<'right' | 'left', number[]> = { right: kOrigin, left: kOrigin };
+  private last_us = -1;
+
+  // One sample; a handle that is null, or is not tracked, repeats its last pose and is not valid. Times strictly increase.
+  next(now_ms: number, right: Handle | null, left: Handle | null, device: Quaternion): VrSample {
+    this.last_us = Math.max(this.last_us + 1, Math.round(1000 * now_ms));
+    return { t_us: this.last_us, right: this.one('right', right, device), left: this.one('left', left, device) };
+  }
+
+  private one(side: 'right' | 'left', handle: Handle | null, device: Quaternion): HandleSample {
+    const valid = !!handle && handle.is_tracked;
+    if (valid) this.last[side] = [...rotated(device, handle.position_m), ...normalised(multiply(device, handle.attitude))];
+    return { valid, trigger: Math.max(0, Math.min(1, handle?.deadman ?? 0)), pose: this.last[side] };
+  }
+}

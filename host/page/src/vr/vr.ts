@@ -1,0 +1,211 @@
+// A session in the headset: the scene around the person, handles as an input device of the arm, words on a board.
+import * as THREE from 'three';
+import { values } from '../data/sample';
+import type { Connection } from '../live/connection';
+import type { Live } from '../live/live';
+import type { Answer } from '../live/protocol';
+import type { Condition } from '../model/alarms';
+import { reach_m, type CableRobot } from '../model/robot';
+import { length_text, sentence_of } from '../model/sentence';
+import type { SceneView } from '../scene/scene_view';
+import { Board } from './board';
+import { next_node, next_scale, VrButtons } from './buttons';
+import { device_from_headset, HandleSamples, type Handle } from './handles';
+import { IntervalLog } from './interval_log';
+import { reach_rings, Rig } from './rig';
+
+const kTipPictureEvery = 4; // frames
+const kStick = 0.8;
+const kPulse_ms = 40;
+
+type Side = 'right' | 'left';
+
+export class Vr {
+  readonly log = new IntervalLog();
+  sent = 0;
+  scale = 1;
+  rotation_scale = 1;
+  node: number;
+  private session: XRSession | null = null;
+  private readonly rig: Rig;
+  private readonly board = new Board();
+  private readonly rings: THREE.Group;
+  private readonly samples = new HandleSamples();
+  private readonly buttons = new VrButtons();
+  private readonly grips = new Map<Side, THREE.Object3D>();
+  private frames = 0;
+  private was_engaged = false;
+  private was_level = '';
+  private stick_moved = false;
+  private said = '';
+
+  constructor(private readonly robot: CableRobot, private readonly live: Live, private readonly connection: Connection, private readonly view: SceneView, private readonly stop: () => void) {
+    this.node = Math.min(3, robot.segments.length - 1);
+    this.rig = new Rig(reach_m(robot));
+    this.rings = reach_rings(reach_m(robot), '#6db3f2');
+  }
+
+  static async is_there(): Promise<boolean> {
+    try {
+      return (await navigator.xr?.isSessionSupported('immersive-vr')) ?? false;
+    } catch {
+      return false;
+    }
+  }
+
+  get is_on(): boolean {
+    return this.session !== null;
+  }
+
+  // Begins the session; has to be called from a click. The handles steer once motion is owned and the arm enabled.
+  async begin(): Promise<void> {
+    const session = await navigator.xr!.requestSession('immersive-vr', { requiredFeatures: ['local-floor'] });
+    this.session = session;
+    const { renderer, scene, camera } = this.view.stage;
+    this.rig.group.add(camera, this.board.mesh, this.board.tip_picture);
+    scene.add(this.rig.group, this.rings);
+    for (const side of ['right', 'left'] as const) this.rig.group.add(this.grip(side));
+    renderer.xr.enabled = true;
+    renderer.xr.setReferenceSpaceType('local-floor');
+    await renderer.xr.setSession(session as unknown as Parameters<typeof renderer.xr.setSession>[0]);
+    renderer.setAnimationLoop((now_ms, frame) => this.frame(now_ms, frame as XRFrame | undefined));
+    session.addEventListener('end', () => this.ended());
+    this.use_device();
+  }
+
+  end(): void {
+    void this.session?.end();
+  }
+
+  conditions(): Condition[] {
+    return this.session ? this.log.conditions(performance.now()) : [];
+  }
+
+  private grip(side: Side): THREE.Object3D {
+    const colour = side === 'right' ? '#ffe14a' : '#7fd4ff';
+    const mesh = new THREE.Mesh(new THREE.ConeGeometry(0.02, 0.12, 8), new THREE.MeshBasicMaterial({ color: colour }));
+    mesh.rotation.x = -Math.PI / 2;
+    const group = new THREE.Group().add(mesh);
+    this.grips.set(side, group);
+    return group;
+  }
+
+  // Tells lianad how the handles steer.
+  use_device(): void {
+    const request = { op: 'use_device', device: 'vr', scale: this.scale, rotation_scale: this.rotation_scale, node: this.node };
+    void this.connection.request(request).then((answer: Answer) => (this.said = answer.ok ? '' : `handles: ${answer.message ?? answer.code}`));
+  }
+
+  private frame(now_ms: number, frame: XRFrame | undefined): void {
+    const { renderer, scene, camera } = this.view.stage;
+    const space = renderer.xr.getReferenceSpace() as XRReferenceSpace | null;
+    if (frame && space && this.session) {
+      const handles = this.handles(frame, space, this.session);
+      const sample = this.samples.next(now_ms, handles.right, handles.left, device_from_headset(this.rig.turn_rad));
+      this.log.sampled(now_ms);
+      this.connection.post({ op: 'device', device: 'vr', samples: [sample] });
+      ++this.sent;
+      this.take_buttons(this.session);
+    }
+    this.view.move_now();
+    if (this.frames++ % kTipPictureEvery === 0) {
+      this.write(now_ms);
+      this.view.stage.render_tip_to(this.board.target, this.view.tip_frame_now());
+    }
+    renderer.render(scene, camera);
+  }
+
+  private handles(frame: XRFrame, space: XRReferenceSpace, session: XRSession): Record<Side, Handle | null> {
+    const found: Record<Side, Handle | null> = { right: null, left: null };
+    const is_visible = session.visibilityState === 'visible';
+    for (const source of session.inputSources) {
+      if (source.handedness === 'none' || !source.gripSpace) continue;
+      const pose = frame.getPose(source.gripSpace, space);
+      const deadman = Math.max(source.gamepad?.buttons[0]?.value ?? 0, source.gamepad?.buttons[1]?.value ?? 0);
+      const p = pose?.transform.position;
+      const q = pose?.transform.orientation;
+      found[source.handedness] = {
+        position_m: p ? [p.x, p.y, p.z] : [0, 0, 0],
+        attitude: q ? [q.w, q.x, q.y, q.z] : [1, 0, 0, 0],
+        is_tracked: !!pose && !pose.emulatedPosition && is_visible,
+        deadman,
+      };
+      const grip = this.grips.get(source.handedness)!;
+      grip.visible = !!pose;
+      if (p && q) {
+        grip.position.set(p.x, p.y, p.z);
+        grip.quaternion.set(q.x, q.y, q.z, q.w);
+      }
+    }
+    return found;
+  }
+
+  private take_buttons(session: XRSession): void {
+    for (const source of session.inputSources) {
+      if (source.handedness === 'none') continue;
+      for (const action of this.buttons.pressed(source.handedness, source.gamepad ?? null)) this.act(action);
+      if (source.handedness === 'right') this.take_stick(source.gamepad ?? null);
+    }
+    const { device_engaged, clearance } = this.live.facts;
+    if (!!device_engaged !== this.was_engaged) this.pulse(session, device_engaged ? 0.6 : 1);
+    const level = clearance?.level ?? '';
+    if (level !== this.was_level && level !== 'free') this.pulse(session, 1);
+    this.was_engaged = !!device_engaged;
+    this.was_level = level;
+  }
+
+  private act(action: 'hold' | 'stop' | 'mode' | 'scale'): void {
+    if (action === 'stop') return this.stop();
+    if (action === 'hold') return void this.connection.request({ op: 'hold' });
+    if (action === 'mode') this.node = next_node(this.node, this.robot.segments.length - 1);
+    if (action === 'scale') this.scale = next_scale(this.scale);
+    this.use_device();
+  }
+
+  // Right thumbstick: sideways turns the person, up and down changes the scale of the world; not while steering.
+  private take_stick(gamepad: Gamepad | null): void {
+    const [x, y] = [gamepad?.axes[2] ?? 0, gamepad?.axes[3] ?? 0];
+    const is_moved = Math.abs(x) > kStick || Math.abs(y) > kStick;
+    if (is_moved && !this.stick_moved && !this.live.facts.device_engaged) {
+      this.rig.step(Math.abs(x) > kStick ? -Math.sign(x) : 0, Math.abs(y) > kStick ? -Math.sign(y) : 0);
+    }
+    this.stick_moved = is_moved;
+  }
+
+  private pulse(session: XRSession, strength: number): void {
+    for (const source of session.inputSources) {
+      const actuators = source.gamepad?.hapticActuators as unknown as { pulse?: (value: number, ms: number) => void }[] | undefined;
+      actuators?.[0]?.pulse?.(strength, kPulse_ms);
+    }
+  }
+
+  private write(now_ms: number): void {
+    const { live } = this;
+    const { sample, facts, welcome } = live;
+    if (!sample || !welcome) return this.board.write([live.status || 'waiting for the arm'], true);
+    const alarm = live.alarms.list().find((each) => each.is_active);
+    const rate_Hz = this.log.rate_Hz(now_ms);
+    const clear_m = values(sample, 'clearance.distance_m')[0];
+    const steering = facts.device_engaged ? 'you steer' : facts.device_reason ? `let go: ${facts.device_reason}` : 'hold a trigger to steer';
+    this.board.write([
+      sentence_of(sample, welcome.robot, welcome.scene, null).split(',')[0],
+      `clearance ${length_text(clear_m)} ${facts.clearance ? `from the ${facts.clearance.body}` : ''}`,
+      `${steering}, scale ${facts.mapping?.scale ?? this.scale}`,
+      `left hand: ${this.node === 0 ? 'nothing' : `node ${this.node}`}, world ${this.rig.world_scale} : 1`,
+      `handles ${Number.isFinite(rate_Hz) ? `${rate_Hz}/s` : ''} ${this.said}`,
+      alarm ? `${alarm.title}: ${alarm.todo}` : 'A hold   B STOP   X node   Y scale',
+    ], !!alarm && alarm.priority === 1);
+  }
+
+  private ended(): void {
+    const { renderer, scene, camera } = this.view.stage;
+    renderer.setAnimationLoop(null);
+    renderer.xr.enabled = false;
+    this.session = null;
+    this.rig.group.remove(camera);
+    for (const grip of this.grips.values()) this.rig.group.remove(grip);
+    scene.remove(this.rig.group, this.rings);
+    if (this.live.is_mine) void this.connection.request({ op: 'use_device', device: 'none' });
+    this.view.after_vr();
+  }
+}

@@ -1,0 +1,230 @@
+// Two emulated handles steer the real system: over the clutch, past the obstacle, and a loss of tracking holds the arm.
+import assert from 'node:assert/strict';
+import { readFileSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { open_browser, picture, state, until } from './browser.mjs';
+import { root, screens, start_console } from './system.mjs';
+
+const iwer = createRequire(join(root, 'host', 'page', 'package.json')).resolve('iwer/build/iwer.min.js');
+
+let system, chromium, page;
+
+before(async () => {
+  system = await start_console();
+  chromium = await open_browser();
+  page = await chromium.browser.newPage({ viewport: { width: 640, height: 400 }, colorScheme: 'dark' });
+  page.errors = [];
+  page.on('pageerror', (error) => page.errors.push(String(error)));
+  await page.addInitScript({ path: iwer });
+  await page.addInitScript(() => {
+    window.headset = new window.IWER.XRDevice(window.IWER.metaQuest3);
+    window.headset.installRuntime({ forceInstall: true });
+    window.headset.position.set(0, 1.6, 0);
+    for (const [side, x] of [['right', 0.2], ['left', -0.2]]) window.headset.controllers[side].position.set(x, 1.2, -0.4);
+  });
+  await page.goto(system.address);
+});
+
+after(async () => {
+  await chromium?.close();
+  await system?.stop();
+});
+
+const press = (name) => page.evaluate((n) => document.querySelector(`[data-action="${n}"]`).click(), name);
+const trigger = (side, value) => page.evaluate(([s, v]) => window.headset.controllers[s].updateButtonValue('trigger', v), [side, value]);
+const tap = async (side, id) => {
+  await page.evaluate(([s, i]) => window.headset.controllers[s].updateButtonValue(i, 1), [side, id]);
+  await page.waitForTimeout(300);
+  await page.evaluate(([s, i]) => window.headset.controllers[s].updateButtonValue(i, 0), [side, id]);
+};
+
+// Moves a handle by `way` (x right, y up, z back) within about a second.
+async function move_hand(side, way) {
+  for (let i = 0; i < 20; ++i) {
+    await page.evaluate(([s, [x, y, z]]) => {
+      const p = window.headset.controllers[s].position;
+      p.set(p.x + x / 20, p.y + y / 20, p.z + z / 20);
+    }, [side, way]);
+    await page.waitForTimeout(50);
+  }
+}
+
+const is_resting = (now) => now.facts.at_rest === true && now.facts.state === 'ENABLED';
+const distance = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+
+// Closes the clutch of a handle: a person who sees that the arm does not follow lets go and grips again.
+async function grip(side) {
+  for (let tries = 0; tries < 8; ++tries) {
+    await trigger(side, 1);
+    for (let i = 0; i < 15; ++i) {
+      await page.waitForTimeout(100);
+      if ((await state(page)).facts.device_engaged) return;
+    }
+    await trigger(side, 0);
+    await page.waitForTimeout(500);
+  }
+  throw new Error(`the arm does not follow the ${side} handle: ${JSON.stringify((await state(page)).facts.device_reason)}`);
+}
+
+test('the button VR appears with a headset and begins a session whose handles are the device of the arm', async () => {
+  await until(page, 'a state', (now) => now.time_s > 0 && now.facts.state === 'DISABLED');
+  await press('take motion');
+  await until(page, 'motion is ours', (now) => now.facts.owner === now.name);
+  await press('enable');
+  await until(page, 'at rest', is_resting);
+  await page.click('button:has-text("VR")');
+  await until(page, 'handles are the device', (now) => now.facts.device === 'vr');
+  await page.waitForFunction(() => window.liana.vr.sent > 20);
+  await picture(page, 'vr_begin');
+});
+
+test('the tip follows the right handle while its trigger is held, at the scale, and rests when it is let go', async () => {
+  const from = await state(page);
+  await grip('right');
+  await move_hand('right', [0, 0.06, 0]);
+  await until(page, '40 mm higher', (now) => now.setpoint_cp[2] > from.setpoint_cp[2] + 0.04);
+  await picture(page, 'vr_steer');
+  await trigger('right', 0);
+  const to = await until(page, 'at rest', is_resting);
+  assert.ok(to.setpoint_cp[2] < from.setpoint_cp[2] + 0.075, `${to.setpoint_cp[2] - from.setpoint_cp[2]} m`);
+});
+
+test('the left handle moves a node while the tip stays', async () => {
+  const from = await state(page);
+  await grip('right');
+  await trigger('left', 1);
+  await page.waitForTimeout(500);
+  await move_hand('left', [0, 0.1, 0]);
+  const node = (now) => now.node_m.slice(6, 9); // node 3
+  const to = await until(page, 'node 3 has moved', (now) => distance(node(now), node(from)) > 0.02);
+  assert.ok(distance(to.setpoint_cp, from.setpoint_cp) < 0.01, `${distance(to.setpoint_cp, from.setpoint_cp)} m`);
+  await trigger('left', 0);
+  await trigger('right', 0);
+  await until(page, 'at rest', is_resting);
+});
+
+test('a handle that is lost holds the arm, and steers again only after it was let go', async () => {
+  await grip('right');
+  await page.evaluate(() => (window.headset.controllers.right.connected = false));
+  const lost = await until(page, 'let go', (now) => now.facts.device_engaged === false && is_resting(now));
+  assert.notEqual(lost.facts.device_reason, '');
+  await page.evaluate(() => (window.headset.controllers.right.connected = true));
+  await page.waitForTimeout(1000);
+  assert.equal((await state(page)).facts.device_engaged, false);
+  await trigger('right', 0);
+  await page.waitForTimeout(500);
+  await grip('right');
+  await trigger('right', 0);
+  await until(page, 'at rest', is_resting);
+});
+
+test('buttons of the handles: X changes the node, Y the scale, A holds', async () => {
+  const scale = (await state(page)).facts.mapping.scale;
+  await tap('left', 'y-button');
+  await until(page, 'another scale', (now) => now.facts.mapping.scale !== scale);
+  const node = await page.evaluate(() => window.liana.vr.node);
+  await tap('left', 'x-button');
+  await page.waitForFunction((n) => window.liana.vr.node !== n, node);
+  await tap('right', 'a-button');
+  await until(page, 'at rest', is_resting);
+});
+
+// The recording that the mission's VR step is made for: device frame, scale 4, turns 2, left hand on node 3.
+function recording() {
+  const lines = readFileSync(join(root, 'lua', 'recordings', 'panel_edge_vr.hand'), 'utf8').split('\n').slice(1);
+  return lines.filter((line) => line && !line.startsWith('#')).map((line) => line.trim().split(/\s+/).map(Number));
+}
+
+test('two handles steer the arm past the obstacle to the edge of the panel', async () => {
+  await page.evaluate(() => window.liana.connection.request({ op: 'move_jp', goal_deg: window.liana.live.welcome.robot.named_poses_deg.prepare }));
+  await page.waitForTimeout(1000);
+  await until(page, 'in the prepare pose', (now) => is_resting(now) && Math.abs(now.setpoint_cp[0] - 0.6466) < 0.005);
+  const end = await page.evaluate(async (rows) => {
+    const { vr, live } = window.liana;
+    const mul = (a, b) => [a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
+      a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]];
+    const back = (q) => [q[0], -q[1], -q[2], -q[3]];
+    const turned = (q, v) => mul(mul(q, [0, ...v]), back(q)).slice(1);
+    const half = vr.rig.turn_rad / 2;
+    const device = mul([Math.cos(half), 0, 0, Math.sin(half)], [0.5, 0.5, -0.5, -0.5]);
+    Object.assign(vr, { scale: 4, rotation_scale: 2, node: 3 });
+    vr.use_device();
+    // Where the emulated handle has its grip, against the pose that is set.
+    const one_frame = () => new Promise((next) => setTimeout(next, 120));
+    const offset = {};
+    for (const side of ['right', 'left']) {
+      const hand = window.headset.controllers[side];
+      hand.position.set(0, 0, 0);
+      hand.quaternion.set(0, 0, 0, 1);
+    }
+    await one_frame();
+    for (const side of ['right', 'left']) {
+      const pose = vr.samples.last[side];
+      offset[side] = { p: turned(back(device), pose.slice(0, 3)), q: mul(back(device), pose.slice(3)) };
+    }
+    const put = (side, pose) => {
+      const q_grip = mul(back(device), pose.slice(3));
+      const q = mul(q_grip, back(offset[side].q));
+      const p_grip = turned(back(device), pose.slice(0, 3));
+      const shift = turned(q, offset[side].p);
+      const hand = window.headset.controllers[side];
+      hand.position.set(p_grip[0] - shift[0], p_grip[1] - shift[1], p_grip[2] - shift[2]);
+      hand.quaternion.set(q[1], q[2], q[3], q[0]);
+    };
+    const held = (side, value) => window.headset.controllers[side].updateButtonValue('trigger', value);
+    let played_s = 0;
+    let last_s = live.sample.time_s;
+    let released_until_s = -1;
+    let not_followed_s = 0;
+    let nearest_m = Infinity;
+    const stop_at = performance.now() + 240000;
+    const rows_end_s = rows[rows.length - 1][0] / 1e6;
+    while (played_s < rows_end_s && performance.now() < stop_at) {
+      await new Promise((next) => requestAnimationFrame(next));
+      const now_s = live.sample.time_s;
+      const passed_s = Math.min(0.1, now_s - last_s);
+      last_s = now_s;
+      const i = Math.min(rows.length - 1, Math.floor(played_s * 90));
+      const row = rows[i];
+      const wants = row[2] >= 0.5;
+      const follows = live.facts.device_engaged;
+      if (released_until_s < now_s && (!wants || follows)) played_s += passed_s; // the arm's time is the person's
+      not_followed_s = wants && !follows && released_until_s < now_s ? not_followed_s + passed_s : 0;
+      if (not_followed_s > 0.8) released_until_s = now_s + 0.5;
+      const open = now_s < released_until_s;
+      put('right', row.slice(3, 10));
+      put('left', row.slice(12, 19));
+      held('right', open ? 0 : row[2]);
+      held('left', open ? 0 : row[11]);
+      const clear_m = live.sample.numbers.get('clearance.distance_m')?.[0];
+      if (clear_m < nearest_m) nearest_m = clear_m;
+    }
+    held('right', 0);
+    held('left', 0);
+    return { played_s, nearest_m, refusals: live.sample.numbers.get('refusals')?.[0] };
+  }, recording());
+  const at_edge = await until(page, 'at rest', is_resting);
+  await picture(page, 'vr_panel_edge');
+  console.log(end, at_edge.measured_cp.slice(0, 3));
+  assert.ok(end.nearest_m > 0.02, `${end.nearest_m} m`);
+  assert.ok(distance(at_edge.measured_cp, [0.2446, -0.2711, 0.5819]) < 0.15, `${at_edge.measured_cp}`);
+});
+
+test('button B of the right handle is the emergency stop', async () => {
+  await tap('right', 'b-button');
+  await until(page, 'the stop', (now) => now.facts.stop !== null && now.facts.state === 'DISABLED');
+});
+
+test('the session ends, and the log of intervals says how regular it was', async () => {
+  const intervals = await page.evaluate(() => window.liana.vr.log.intervals_ms());
+  const sorted = [...intervals].sort((a, b) => a - b);
+  const rank = (share) => sorted[Math.floor(share * (sorted.length - 1))];
+  const table = { samples: sorted.length, median_ms: rank(0.5), p99_ms: rank(0.99), worst_ms: rank(1) };
+  writeFileSync(join(screens, 'vr_intervals.json'), JSON.stringify(table, null, 1));
+  console.log(table);
+  await page.evaluate(() => window.liana.vr.end());
+  await page.waitForFunction(() => !window.liana.vr.is_on);
+  assert.deepEqual(page.errors, []);
+});

@@ -1,0 +1,78 @@
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { rotated } from '../../host/page/src/model/vector';
+import { next_node, next_scale, VrButtons } from '../../host/page/src/vr/buttons';
+import { device_from_headset, HandleSamples, kUpright, type Handle } from '../../host/page/src/vr/handles';
+import { IntervalLog } from '../../host/page/src/vr/interval_log';
+import { near } from './support';
+
+const handle = (position_m: [number, number, number], changes: Partial<Handle> = {}): Handle => ({ position_m, attitude: [1, 0, 0, 0], is_tracked: true, deadman: 0, ...changes });
+
+function is_vector(actual: ArrayLike<number>, expected: number[]): void {
+  expected.forEach((e, i) => assert.ok(near(actual[i], e, 1e-9), `${Array.from(actual)} is not ${expected}`));
+}
+
+test('what is before the person is along the base\u2019s x, what is to the right is along minus y, up is z', () => {
+  is_vector(rotated(kUpright, [0, 0, -1]), [1, 0, 0]);
+  is_vector(rotated(kUpright, [1, 0, 0]), [0, -1, 0]);
+  is_vector(rotated(kUpright, [0, 1, 0]), [0, 0, 1]);
+});
+
+test('a hand that moves forward moves forward in the base as the person sees it after turning the world', () => {
+  const device = device_from_headset(Math.PI / 2); // looks along y now
+  is_vector(rotated(device, [0, 0, -1]), [0, 1, 0]);
+  const samples = new HandleSamples();
+  const first = samples.next(0, handle([0, 0, 0]), null, device).right.pose;
+  const second = samples.next(11, handle([0, 0, -0.1]), null, device).right.pose;
+  is_vector(second.map((x, i) => x - first[i]).slice(0, 3), [0, 0.1, 0]);
+});
+
+test('a handle that is not tracked repeats its last pose and is not valid', () => {
+  const samples = new HandleSamples();
+  const seen = samples.next(0, handle([0, 1, 0], { deadman: 0.9 }), null, kUpright);
+  const lost = samples.next(11, handle([5, 5, 5], { is_tracked: false, deadman: 0.9 }), null, kUpright);
+  assert.deepEqual([seen.right.valid, lost.right.valid, lost.left.valid], [true, false, false]);
+  assert.deepEqual(lost.right.pose, seen.right.pose);
+  assert.equal(lost.right.trigger, 0.9);
+  assert.deepEqual(samples.next(22, null, null, kUpright).right.pose, seen.right.pose);
+});
+
+test('times of samples strictly increase, in microseconds', () => {
+  const samples = new HandleSamples();
+  const times = [1.5, 1.5, 1.4, 20].map((now_ms) => samples.next(now_ms, null, null, kUpright).t_us);
+  assert.deepEqual(times, [1500, 1501, 1502, 20000]);
+});
+
+test('below 50 samples a second there is an alarm, not at 90, and not before a second has passed', () => {
+  const quick = new IntervalLog();
+  for (let i = 0; i < 180; ++i) quick.sampled((1000 * i) / 90);
+  assert.deepEqual(quick.conditions(1989), []);
+  const slow = new IntervalLog();
+  for (let i = 0; i < 90; ++i) slow.sampled(25 * i);
+  assert.match(slow.conditions(2225)[0].title, /only 40 times/);
+  const fresh = new IntervalLog();
+  fresh.sampled(0);
+  assert.deepEqual(fresh.conditions(500), []);
+});
+
+test('the log of intervals keeps a minute', () => {
+  const log = new IntervalLog();
+  for (let i = 0; i < 7000; ++i) log.sampled(10 * i);
+  assert.equal(log.intervals_ms().length, 6000);
+  assert.ok(log.csv().startsWith('interval_ms\n10.00\n'));
+});
+
+test('a button acts once when it goes down', () => {
+  const buttons = new VrButtons();
+  const pad = (down: number[]) => ({ buttons: Array.from({ length: 6 }, (_, i) => ({ pressed: down.includes(i) })) });
+  assert.deepEqual(buttons.pressed('right', pad([5])), ['stop']);
+  assert.deepEqual(buttons.pressed('right', pad([5])), []);
+  assert.deepEqual(buttons.pressed('left', pad([4, 5])), ['mode', 'scale']);
+  assert.deepEqual(buttons.pressed('right', null), []);
+  assert.deepEqual(buttons.pressed('right', pad([4, 5])), ['hold', 'stop']);
+});
+
+test('scales and nodes go around', () => {
+  assert.deepEqual([0.5, 1, 2, 4].map(next_scale), [1, 2, 4, 0.5]);
+  assert.deepEqual([0, 1, 2, 3, 4].map((n) => next_node(n, 4)), [1, 2, 3, 4, 0]);
+});
