@@ -502,15 +502,14 @@ class TheCommandConsole(SystemTest):
         self.addCleanup(console.close)
         return console
 
-    def child_of(self, process, name):
-        """The process of that name which this one has started."""
+    def children_of(self, process, name):
+        """Processes of that name which this one has started."""
         found = []
         for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
             with contextlib.suppress(OSError):  # it has ended meanwhile
                 words = path.read_text().split()
                 found += [int(words[0])] if words[1] == f"({name})" and int(words[3]) == process.pid else []
-        (number,) = found
-        return number
+        return found
 
     def processes(self):
         """Programs of this test that still run."""
@@ -526,8 +525,11 @@ class TheCommandConsole(SystemTest):
         console = self.console(process.stdout.readline().strip())
         console.enable()
         self.assertEqual(console.facts["owner"], "test")
-        os.kill(self.child_of(process, "liana-archive"), signal.SIGKILL)
-        console.until(lambda me: len(me.sequences) > 100)  # the arm goes on without its recorder
+        (recorder,) = self.children_of(process, "liana-archive")
+        os.kill(recorder, signal.SIGKILL)
+        wait_until(lambda: self.children_of(process, "liana-archive") not in ([], [recorder]), "another recorder")
+        tick = console.state["tick"]
+        console.until(lambda me: me.state["tick"] > tick + 250)
         second = self.start("console", "--robot", "micro", "--listen", "127.0.0.1:0")
         self.assertIn("--simulate", second.communicate(timeout=60)[1])
         self.assertEqual(second.returncode, 2)
@@ -546,7 +548,7 @@ class TheCommandConsole(SystemTest):
         told = json.loads(process.stdout.readline())
         self.assertEqual(told["api"], api)
         console = self.console(told["address"]).until(lambda me: me.state)
-        os.kill(self.child_of(process, "liana-gateway"), signal.SIGKILL)
+        os.kill(*self.children_of(process, "liana-gateway"), signal.SIGKILL)
         with self.assertRaises(OSError):
             console.until(lambda me: False)
 
