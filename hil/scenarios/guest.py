@@ -2,7 +2,7 @@
 
     python3 guest.py RESULTS WORD...
 
-A WORD is SCENARIO@KIND or RATE:LOAD, with RATE 250 or 500 and LOAD idle or loaded; one JSON row each in RESULTS.
+A WORD is SCENARIO@KIND or RATE:LOAD, with RATE 250 or 500 and LOAD idle, loaded or console; one JSON row each in RESULTS.
 """
 import json
 import sys

@@ -48,7 +48,8 @@ liana::archive::Life life_from(const liana::record::RecordingInfo& info) {
 class Books {
  public:
   Books(const std::string& folder, const std::string& record, const Json& welcome)
-      : info_(info_from(welcome)), recorder_(folder, life_from(info_), welcome.at("interval_ticks")) {
+      : info_(info_from(welcome)),
+        recorder_(folder, life_from(info_), welcome.at("interval_ticks"), {}, welcome.at("events").at("next")) {
     if (record.empty()) return;
     ticks_.emplace(record, info_);
     states_.emplace(record, info_.period_s);
@@ -69,6 +70,7 @@ class Books {
     if (ticks_) ticks_->finish();
     if (states_) states_->finish();
   }
+  bool is_whole() const { return !recorder_.was_disk_full(); }
   void tell(const std::string& record) const {
     const auto number = [](std::uint64_t count) { return static_cast<unsigned long long>(count); };
     std::printf("liana-archive: %llu states, %llu events and commands durable, %llu lost\n", number(recorder_.states()),
@@ -136,7 +138,7 @@ int run(const std::string& api, const std::string& folder, const std::string& re
   books.finish();
   if (problem) std::rethrow_exception(problem);
   books.tell(record);
-  return 0;
+  return books.is_whole() ? 0 : 1;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
-// A second of records as one blob: all first bytes, then all second ones, ... (neighbours in time differ little), then
-// compressed with zstd 1, where the build has it and it gains something.
+// A second of records as one blob, a third of its size and without loss: the 32-bit words that stand at one place of
+// each record follow each other, as they are, as differences or as differences of those, whichever is least (numbers
+// that go on smoothly differ little); then by bytes, lowest first; then compressed with zstd 1, where the build has it.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 
 namespace liana::archive {
 
-// `records`: one after the other, each of `record_bytes`.
+// `records`: one after the other, each of `record_bytes`, which 4 divides.
 std::string packed(std::string_view records, std::size_t record_bytes);
 
 // The `count` records again. Throws std::runtime_error when the blob is damaged or this build cannot read it.

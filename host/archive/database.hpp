@@ -24,7 +24,7 @@ struct Blob {
 class Database {
  public:
   enum class Open {
-    kRead,     // what is there, also while another process writes
+    kRead,     // what is there, also while another process writes; what a killed writer left half done is undone
     kDurable,  // made when missing; what was committed outlives the loss of power
     kQuick,    // made when missing; what was committed outlives the process, and all but the last moments loss of power
   };

@@ -15,14 +15,20 @@ Ledger::Ledger(const std::string& folder) : database_(folder + "/" + kArchiveFil
   gap_.emplace(database_, "INSERT INTO gap VALUES(?,?,?,?,?,?)");
 }
 
-std::uint64_t Ledger::begin(const Life& life) {
+Ledger::Begun Ledger::begin(const Life& life, std::uint64_t next_event) {
+  Statement cut_off(database_,
+                    "SELECT id FROM life WHERE id=(SELECT max(id) FROM life) AND finished=0 AND config_hash=? AND "
+                    "made_by=? AND (SELECT ifnull(max(sequence), 0) FROM event WHERE event.life=life.id) < ?");
+  cut_off.bind(life.config_hash, life.made_by, next_event);
+  while (cut_off.step()) life_ = cut_off.count(0);
+  if (life_ != 0) return {life_, true};
   Statement insert(database_,
                    "INSERT INTO life(started_utc, made_by, config_hash, time_mode, period_s, robot, scene, buses) "
                    "VALUES(?,?,?,?,?,?,?,?) RETURNING id");
   insert.bind(life.started_utc, life.made_by, life.config_hash, life.time_mode, life.period_s, life.robot, life.scene,
               life.buses);
   while (insert.step()) life_ = insert.count(0);
-  return life_;
+  return {life_, false};
 }
 
 void Ledger::set_layout(const Json& layout) {

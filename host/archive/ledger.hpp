@@ -23,8 +23,14 @@ class Ledger {
   // damaged.
   explicit Ledger(const std::string& folder);
 
-  // A life begins: its number, 1 for the first. What is added from here on is of this life. Throws DatabaseError.
-  std::uint64_t begin(const Life& life);
+  // What is added from here on is of this life. Goes on with the newest one where its recorder was cut off and it is
+  // the same: of the same tables and build, and with no event that lianad has yet to number (`next_event`, 0: never).
+  // Throws DatabaseError.
+  struct Begun {
+    std::uint64_t life = 0;  // number, 1 for the first
+    bool goes_on = false;
+  };
+  Begun begin(const Life& life, std::uint64_t next_event = 0);
   // Of its telemetry, once the first state has come. Throws DatabaseError.
   void set_layout(const Json& layout);
 

@@ -72,7 +72,7 @@ Reader::Reader(const std::string& path, std::uint64_t life)
   read_life(life == 0 ? lives_ : life);
 }
 
-std::uint64_t Reader::count(const char* sql) const {
+std::uint64_t Reader::count(const std::string& sql) const {
   Statement statement(database_, sql);
   return statement.step() ? statement.count(0) : 0;
 }
@@ -91,13 +91,26 @@ void Reader::read_life(std::uint64_t life) {
   if (!row.is_null(8)) layout_ = telemetry::layout_from(Json::parse(row.text(8)));
 }
 
+// Without those whose writer was killed before they held anything.
+std::vector<Database> Reader::telemetry_of(Span span) const {
+  std::vector<Database> found;
+  for (const Segment& file : touched(folder_, life_number_, span)) {
+    Database database(file.path, Database::Open::kRead);
+    Statement version(database, "PRAGMA user_version");
+    if (version.step() && version.whole(0) != 0) found.push_back(std::move(database));
+  }
+  return found;
+}
+
 std::optional<Span> Reader::recorded() const {
-  const std::vector<Segment> files = touched(folder_, life_number_, kAll);
-  if (files.empty()) return std::nullopt;
-  const Database newest(files.back().path, Database::Open::kRead);
-  Statement last(newest, "SELECT max(last_tick) FROM telemetry");
-  if (!last.step() || last.is_null(0)) return std::nullopt;
-  return Span{files.front().first_tick, last.count(0)};
+  std::optional<Span> all;
+  for (const Database& database : telemetry_of(kAll)) {
+    Statement ends(database, "SELECT min(first_tick), max(last_tick) FROM telemetry");
+    if (!ends.step() || ends.is_null(0)) continue;
+    if (!all) all = Span{ends.count(0), 0};
+    all->last = ends.count(1);
+  }
+  return all;
 }
 
 std::vector<event::Event> Reader::events(Span span) const {
@@ -133,8 +146,7 @@ std::vector<Gap> Reader::gaps() const {
 
 std::vector<std::string> Reader::telemetry(Span span) const {
   std::vector<std::string> out;
-  for (const Segment& file : touched(folder_, life_number_, span)) {
-    const Database database(file.path, Database::Open::kRead);
+  for (const Database& database : telemetry_of(span)) {
     Statement row(database,
                   "SELECT count, records FROM telemetry WHERE first_tick >= ifnull((SELECT max(first_tick) FROM "
                   "telemetry WHERE first_tick <= ?), 0) AND first_tick <= ? ORDER BY first_tick");
@@ -146,8 +158,7 @@ std::vector<std::string> Reader::telemetry(Span span) const {
 
 std::vector<Facts> Reader::facts(Span span) const {
   std::vector<Facts> out;
-  for (const Segment& file : touched(folder_, life_number_, span)) {
-    const Database database(file.path, Database::Open::kRead);
+  for (const Database& database : telemetry_of(span)) {
     Statement row(
         database,
         "SELECT tick, number, whole, state FROM facts WHERE tick >= ifnull((SELECT max(tick) FROM facts WHERE "
@@ -156,6 +167,31 @@ std::vector<Facts> Reader::facts(Span span) const {
     while (row.step()) add_facts(row, span, out);
   }
   return out;
+}
+
+Counts Reader::counts() const {
+  const std::string life = " WHERE life=" + std::to_string(life_number_);
+  return {count("SELECT count(*) FROM event" + life), count("SELECT count(*) FROM command" + life),
+          count("SELECT count(*) FROM command" + life + " AND released=0")};
+}
+
+std::uint64_t Reader::bytes() const {
+  std::vector<Segment> files = segments_in(folder_);
+  files.push_back({0, 0, database_.path()});
+  return bytes_of(files);
+}
+
+std::vector<std::string> Reader::problems() const {
+  std::vector<std::string> found{database_.problem(false)};
+  for (const Segment& file : segments_in(folder_)) {
+    try {
+      found.push_back(Database(file.path, Database::Open::kRead).problem(false));
+    } catch (const DatabaseError& error) {
+      found.push_back(error.what());
+    }
+  }
+  std::erase(found, "");
+  return found;
 }
 
 Span Reader::span_of(double from_s, double to_s) const {

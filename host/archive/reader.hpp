@@ -19,12 +19,17 @@ struct Span {
 };
 constexpr Span kAll{0, INT64_MAX};
 
+struct Counts {
+  std::uint64_t events = 0, commands = 0, refused = 0;
+};
+
 class Reader {
  public:
   // `path`: the folder of a run, or its archive.db. `life`: which one, 0: the newest. Throws std::runtime_error with
   // path and reason.
   explicit Reader(const std::string& path, std::uint64_t life = 0);
 
+  const std::string& folder() const { return folder_; }
   std::uint64_t life_number() const { return life_number_; }
   std::uint64_t lives() const { return lives_; }
   const Life& life() const { return life_; }
@@ -44,12 +49,18 @@ class Reader {
   // What states said besides their numbers; the first holds at the begin of the span, from an earlier tick on.
   std::vector<Facts> facts(Span span = kAll) const;
 
+  Counts counts() const;
+  // Of all lives: bytes of all files, and what SQLite finds wrong in them.
+  std::uint64_t bytes() const;
+  std::vector<std::string> problems() const;
+
   // Ticks of a stretch of arm time.
   Span span_of(double from_s, double to_s) const;
 
  private:
   void read_life(std::uint64_t life);
-  std::uint64_t count(const char* sql) const;
+  std::uint64_t count(const std::string& sql) const;
+  std::vector<Database> telemetry_of(Span span) const;
 
   std::string folder_;
   Database database_;

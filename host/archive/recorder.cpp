@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "host/archive/reader.hpp"
 #include "host/event/event_json.hpp"
 #include "host/telemetry/record.hpp"
 
@@ -18,12 +19,31 @@ std::uint64_t ticks_of(double seconds, double period_s) {
 
 }  // namespace
 
-Recorder::Recorder(const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits)
+Recorder::Recorder(const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits,
+                   std::uint64_t next_event)
     : ledger_(folder),
+      begun_(ledger_.begin(life, next_event)),
       period_s_(life.period_s),
       interval_ticks_(static_cast<std::uint64_t>(interval_ticks)),
       least_ticks_(ticks_of(kRecord_s, life.period_s)),
-      telemetry_(folder, ledger_.begin(life), life.period_s, limits, [this](const Gap& gap) { note_gap(gap); }) {}
+      telemetry_(folder, begun_.life, life.period_s, limits, [this](const Gap& gap) { note_gap(gap); }) {
+  if (begun_.goes_on) go_on_after(folder);
+}
+
+// Numbers of records and facts go on, too.
+void Recorder::go_on_after(const std::string& folder) {
+  const Reader before(folder);
+  const auto recorded = before.recorded();
+  if (!recorded) return;
+  const std::vector<std::string> newest = before.telemetry({recorded->last, recorded->last});
+  if (newest.empty()) return;
+  const telemetry::Header header = telemetry::header_of(newest.back());
+  records_ = header.sequence;
+  facts_number_ = header.facts;
+  last_tick_ = last_record_ = recorded->last;
+  states_ = 1;
+  why_missing_ = "the recorder was not there";
+}
 
 void Recorder::take(const Json& message) {
   const std::string op = message.value("op", "");
@@ -46,7 +66,7 @@ void Recorder::take_state(const Json& state) {
   }
   if (states_ > 0 && tick > last_tick_ + interval_ticks_) {
     const std::uint64_t missing = (tick - last_tick_) / interval_ticks_ - 1;
-    note_gap({last_tick_ + interval_ticks_, tick - interval_ticks_, "states", missing, "read too slowly"});
+    note_gap({last_tick_ + interval_ticks_, tick - interval_ticks_, "states", missing, why_missing_});
   }
   if (state.contains("verdict")) take_verdict(tick, state.at("verdict"));
   if (records_ == 0 || tick >= last_record_ + least_ticks_) {
@@ -56,12 +76,13 @@ void Recorder::take_state(const Json& state) {
   }
   ++states_;
   last_tick_ = tick;
+  why_missing_ = "read too slowly";
   if (tick >= last_commit_ + ticks_of(kCommit_s, period_s_)) must_commit_ = true;
 }
 
 void Recorder::take_facts(std::uint64_t tick, const Json& state) {
   Json facts = telemetry::facts_of(state);
-  if (facts_number_ > 0 && facts == facts_) return;
+  if (!facts_.is_null() && facts == facts_) return;
   facts_ = std::move(facts);
   telemetry_.set_facts({tick, ++facts_number_, facts_});
 }
@@ -82,6 +103,7 @@ void Recorder::note_gap(const Gap& gap) {
   std::fprintf(stderr, "liana-archive: alarm: %s of ticks %llu to %llu are missing: %s\n", gap.what.c_str(),
                static_cast<unsigned long long>(gap.first_tick), static_cast<unsigned long long>(gap.last_tick),
                gap.text.c_str());
+  was_disk_full_ = was_disk_full_ || gap.text == kDiskFull || gap.text == kRoomForRows;
   ledger_.add(gap);
 }
 
@@ -93,6 +115,7 @@ void Recorder::commit() {
   while (!done && telemetry_.make_room()) done = ledger_.commit();
   if (!done && !is_alarmed_) std::fputs("liana-archive: alarm: the disk is full: events and commands wait\n", stderr);
   is_alarmed_ = !done;
+  was_disk_full_ = was_disk_full_ || !done;
 }
 
 void Recorder::finish() {

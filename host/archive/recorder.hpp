@@ -15,8 +15,10 @@ namespace liana::archive {
 
 class Recorder {
  public:
-  // Begins a life in the archive of the folder, which must exist. Throws DatabaseError.
-  Recorder(const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits = {});
+  // Begins a life in the archive of the folder, which must exist, or goes on with one whose recorder was cut off
+  // (Ledger::begin); what happened since then and before the next state is a gap. Throws DatabaseError.
+  Recorder(const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits = {},
+           std::uint64_t next_event = 0);
 
   // One message of lianad: `state`, `event` or `events_lost`; others are ignored. Throws JsonError for one that is not
   // as docs/api.md says, DatabaseError when the archive cannot be written for another reason than a full disk.
@@ -28,6 +30,8 @@ class Recorder {
   // Events, commands and gaps that outlive loss of power; and those that a full disk took.
   std::uint64_t durable() const { return ledger_.durable(); }
   std::uint64_t lost() const { return ledger_.lost(); }
+  // A disk that was full has cost telemetry, or made events and commands wait.
+  bool was_disk_full() const { return was_disk_full_; }
 
  private:
   void take_state(const Json& state);
@@ -36,7 +40,10 @@ class Recorder {
   void note_gap(const Gap& gap);
   void commit();
 
+  void go_on_after(const std::string& folder);
+
   Ledger ledger_;
+  const Ledger::Begun begun_;
   const double period_s_;
   const std::uint64_t interval_ticks_, least_ticks_;
   TelemetryFiles telemetry_;
@@ -45,7 +52,8 @@ class Recorder {
   std::uint64_t states_ = 0, last_tick_ = 0, last_record_ = 0, last_commit_ = 0;
   std::uint32_t records_ = 0, facts_number_ = 0;
   std::uint64_t command_ = 0;
-  bool must_commit_ = false, is_alarmed_ = false;
+  const char* why_missing_ = "read too slowly";  // of states
+  bool must_commit_ = false, is_alarmed_ = false, was_disk_full_ = false;
 };
 
 }  // namespace liana::archive

@@ -3,6 +3,7 @@
 namespace liana::archive {
 
 const char* const kArchiveSchema = R"(
+BEGIN IMMEDIATE;
 CREATE TABLE IF NOT EXISTS life(id INTEGER PRIMARY KEY, started_utc TEXT, made_by TEXT, config_hash TEXT,
   time_mode TEXT, period_s REAL, robot TEXT, scene TEXT, buses TEXT, layout TEXT, finished INTEGER DEFAULT 0);
 CREATE TABLE IF NOT EXISTS event(life INTEGER, sequence INTEGER, tick INTEGER, kind TEXT, number INTEGER, subject TEXT,
@@ -12,13 +13,15 @@ CREATE TABLE IF NOT EXISTS command(life INTEGER, sequence INTEGER, tick INTEGER,
 CREATE TABLE IF NOT EXISTS gap(life INTEGER, first_tick INTEGER, last_tick INTEGER, what TEXT, count INTEGER,
   text TEXT);
 PRAGMA user_version=1;
+COMMIT;
 )";
 
 const char* const kTelemetrySchema = R"(
-PRAGMA page_size=1024;
+BEGIN IMMEDIATE;
 CREATE TABLE IF NOT EXISTS telemetry(first_tick INTEGER PRIMARY KEY, last_tick INTEGER, count INTEGER, records BLOB);
 CREATE TABLE IF NOT EXISTS facts(tick INTEGER PRIMARY KEY, number INTEGER, whole INTEGER, state TEXT);
 PRAGMA user_version=1;
+COMMIT;
 )";
 
 }  // namespace liana::archive

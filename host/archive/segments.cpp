@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<const char*, 3> kParts{"", "-wal", "-shm"};
+constexpr std::array<const char*, 4> kParts{"", "-wal", "-shm", "-journal"};
 
 }  // namespace
 

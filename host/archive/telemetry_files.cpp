@@ -92,11 +92,12 @@ void TelemetryFiles::flush() {
     try {
       write();
       written = true;
+      end_of_loss();
     } catch (const DatabaseError& error) {
       if (!error.is_full) throw;
       if (file_) file_->told.reset();  // it was not written
-      if (drop_oldest("the disk is full", false)) continue;
-      on_gap_({first_tick_, last_tick_, "telemetry", count_, "the disk is full"});
+      if (drop_oldest(kDiskFull, false)) continue;
+      lose_second();
       break;
     }
   }
@@ -106,7 +107,24 @@ void TelemetryFiles::flush() {
   count_ = 0;
 }
 
-bool TelemetryFiles::make_room() { return drop_oldest("room for commands and events: the disk is full", true); }
+// Said as it begins, and once more with all the rest when it is over.
+void TelemetryFiles::lose_second() {
+  const Gap second{first_tick_, last_tick_, "telemetry", count_, kDiskFull};
+  if (!losing_) {
+    on_gap_(second);
+    losing_ = Gap{last_tick_ + 1, last_tick_, second.what, 0, second.text};
+    return;
+  }
+  losing_->last_tick = last_tick_;
+  losing_->count += count_;
+}
+
+void TelemetryFiles::end_of_loss() {
+  if (losing_ && losing_->count > 0) on_gap_(*losing_);
+  losing_.reset();
+}
+
+bool TelemetryFiles::make_room() { return drop_oldest(kRoomForRows, true); }
 
 // Of the file that is written only when `also_newest`; false: there is none to drop.
 bool TelemetryFiles::drop_oldest(const std::string& why, bool also_newest) {
@@ -122,12 +140,13 @@ bool TelemetryFiles::drop_oldest(const std::string& why, bool also_newest) {
 
 void TelemetryFiles::keep_to_limit() {
   while (bytes_of(segments_in(folder_)) > limits_.bytes) {
-    if (!drop_oldest("older than the archive keeps", false)) return;
+    if (!drop_oldest(kTooOld, false)) return;
   }
 }
 
 void TelemetryFiles::finish() {
   flush();
+  end_of_loss();
   if (file_) file_->database.finish();
   file_.reset();
 }

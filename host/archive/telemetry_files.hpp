@@ -19,6 +19,11 @@ struct TelemetryLimits {
   std::uint64_t bytes = 1200000000;  // of all files; the oldest go, but never the one that is written
 };
 
+// Why telemetry is missing.
+constexpr const char* kTooOld = "older than the archive keeps";
+constexpr const char* kDiskFull = "the disk is full";
+constexpr const char* kRoomForRows = "the disk is full: room for commands and events";
+
 class TelemetryFiles {
  public:
   // `on_gap` hears of everything that is not, or no longer, there. Files are made with the first second.
@@ -52,6 +57,8 @@ class TelemetryFiles {
   void write_facts(const Facts& facts, std::uint64_t tick);
   bool drop_oldest(const std::string& why, bool also_newest);
   void keep_to_limit();
+  void lose_second();
+  void end_of_loss();
 
   const std::string folder_;
   const std::uint64_t life_;
@@ -63,6 +70,7 @@ class TelemetryFiles {
   std::uint64_t first_tick_ = 0, last_tick_ = 0, count_ = 0;
   std::vector<Facts> waiting_;    // of this second
   std::optional<Facts> current_;  // of the newest record that is written
+  std::optional<Gap> losing_;     // since the disk is full: what was lost after it was said
 };
 
 }  // namespace liana::archive

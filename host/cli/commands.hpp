@@ -172,6 +172,22 @@ struct CommandsOptions {
 // What became of the commands of a run: both verdicts, release, start, completion, refusals.
 int commands_command(const CommandsOptions& options);
 
+struct LogOptions {
+  std::string run;      // a folder, or the name of one of the newest runs; empty: the newest
+  double from_s = 0.0;  // arm time
+  double to_s = 1e9;
+  std::string csv, mcap, candump;  // of log export: files
+  bool json = false;
+};
+// The newest runs: name, begin, how each ended, length and size.
+int log_list_command(const LogOptions& options);
+// Events of a run and what is missing in its archive, in the order in which they happened.
+int log_show_command(const LogOptions& options);
+// The archive of a run in formats of other tools.
+int log_export_command(const LogOptions& options);
+// Whether the archive of a run is as it was written; exit code 1 when it is not.
+int log_verify_command(const LogOptions& options);
+
 struct ReplayOptions {
   std::string directory;
   bool json = false;

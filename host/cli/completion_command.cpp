@@ -29,11 +29,12 @@ _liana() {
     --physics | --true-physics) words="nominal ideal worn" ;;
     --rate) words="250 500" ;;
     robot) words="export" ;;
+    log) words="list show export verify" ;;
     completion) words="bash" ;;
-    --record | --calibration | --faults | --json | --svg | --path | --api | --out | replay | commands) COMPREPLY=($(compgen -f -- "$word")); return ;;
+    --record | --calibration | --faults | --json | --svg | --path | --api | --out | --csv | --mcap | --candump | replay | commands) COMPREPLY=($(compgen -f -- "$word")); return ;;
   esac
   if [[ $COMP_CWORD == 1 ]]; then
-    words="run check calibrate pose ik reach plan verify status estop clear mission faults commands latency replay robot doctor completion help"
+    words="run check calibrate pose ik reach plan verify status estop clear mission faults commands log latency replay robot doctor completion help"
   elif [[ -z $words ]]; then
     case ${COMP_WORDS[1]} in
       run) words="--robot --scene --bus --time --physics --calibration --in-pose --cross-wired --faults --true-physics --scene-offset --record --json --seed" ;;
@@ -48,6 +49,7 @@ _liana() {
       faults) words="--robot --refusals --markdown --json" ;;
       mission) words="pause resume step confirm abort --api --json" ;;
       commands) words="--last --refused --margins --json" ;;
+      log) words="--from --to --csv --mcap --candump --json" ;;
       status | estop | clear) words="--api --json" ;;
       robot) words="--robot --out --json" ;;
       replay | doctor) words="--json" ;;

@@ -91,17 +91,19 @@ void simulate_and_show(const ConsoleOptions& options, const system::SystemLayout
 int simulate(const ConsoleOptions& options) {
   system::RunOptions run = options.run;
   run.time = "paced";
+  run.has_console = true;
   const system::SystemLayout plan = system::make_layout(run);
   try {
     simulate_and_show(options, plan);
   } catch (const system::BadInput&) {
-    system::clean_up(plan, true);
+    system::discard(plan);
     throw;
   } catch (...) {
     std::fprintf(stderr, "liana: logs are kept in %s\n", plan.directory.c_str());
     throw;
   }
   system::clean_up(plan, true);
+  std::fprintf(stderr, "recorded in %s; liana view makes a page of it\n", plan.directory.c_str());
   return system::kExitOk;
 }
 

@@ -293,6 +293,27 @@ void add_commands(CLI::App& app, Action& action, CommandsOptions& commands) {
   sub->add_flag("--json", commands.json, "print JSON, one line for each command");
 }
 
+void add_log(CLI::App& app, Action& action, LogOptions& log) {
+  CLI::App* all = app.add_subcommand("log", "what the archives of runs hold (docs/archive.md)");
+  all->require_subcommand(1);
+  CLI::App* list = add(*all, action, "list", "the newest runs: begin, outcome, length, size", log, log_list_command);
+  CLI::App* show = add(*all, action, "show", "events, refusals, faults, steps of a run", log, log_show_command);
+  CLI::App* verify =
+      add(*all, action, "verify", "whether an archive is whole, and what it holds", log, log_verify_command);
+  CLI::App* exported =
+      add(*all, action, "export", "a run for other tools: CSV, MCAP (Foxglove), candump", log, log_export_command);
+  for (CLI::App* sub : {show, exported, verify})
+    sub->add_option("run", log.run, "a folder, or the name of one of the newest runs; the newest where not given");
+  for (CLI::App* sub : {show, exported}) {
+    sub->add_option("--from", log.from_s, "arm time, s");
+    sub->add_option("--to", log.to_s, "arm time, s");
+  }
+  exported->add_option("--csv", log.csv, "file for telemetry as a table");
+  exported->add_option("--mcap", log.mcap, "file for the arm in its scene, angles, events, as Foxglove shows them");
+  exported->add_option("--candump", log.candump, "file for the traffic of all buses");
+  for (CLI::App* sub : {list, show, exported, verify}) sub->add_flag("--json", log.json, "print JSON");
+}
+
 void add_client(CLI::App& app, Action& action, const char* name, const char* text, ClientOptions& client,
                 int (*command)(const ClientOptions&), bool one = false) {
   CLI::App* sub = add(app, action, name, text, client, command);
@@ -422,6 +443,7 @@ int run(int argc, char** argv) {
   FaultsOptions faults;
   CommandsOptions commands;
   ViewOptions view;
+  LogOptions log;
   MissionOptions mission;
   ReplayOptions replay;
   ExportOptions exported;
@@ -445,6 +467,7 @@ int run(int argc, char** argv) {
   add_latency(app, action, latency);
   add_faults(app, action, faults);
   add_commands(app, action, commands);
+  add_log(app, action, log);
   add_mission(app, action, mission);
   add_tools(app, action, replay, exported, doctor_json, shell);
   try {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "host/gateway/proof.hpp"
+
 namespace liana::gateway {
 
 namespace {
@@ -40,6 +42,12 @@ std::size_t Gateway::greeted() const {
 }
 
 bool Gateway::is_full() const { return greeted() >= kMaxClients; }
+
+bool Gateway::lets_in(std::string_view ticket) const {
+  return house_.tokens == nullptr || std::any_of(clients_.begin(), clients_.end(), [ticket](const Client& client) {
+           return !client.session->ticket().empty() && same_in_constant_time(client.session->ticket(), ticket);
+         });
+}
 
 Session& Gateway::open(const std::string& address, std::function<void()> something_to_send) {
   if (clients_.size() - greeted() >= kMaxStrangers) drop_oldest_stranger();

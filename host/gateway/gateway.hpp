@@ -33,6 +33,9 @@ class Gateway {
   void tick();
 
   bool is_full() const;
+  // Whether who shows this may load recorded runs: a ticket of a client that is connected, or anybody where no tokens
+  // are asked for.
+  bool lets_in(std::string_view ticket) const;
   // A client has connected; `something_to_send` is told when next() may have something.
   Session& open(const std::string& address, std::function<void()> something_to_send);
   // It is gone; so are its connections to lianad, which holds the arm if it was its owner.

@@ -18,7 +18,7 @@ using namespace liana::gateway;
 constexpr int kNice = 5;  // whatever clients do here, lianad has its turn first
 
 struct Options {
-  std::string api, listen = "127.0.0.1:8765", token_file, certificate, key, page = LIANA_PAGE_DIR "/console.html";
+  std::string api, listen = "127.0.0.1:8765", token_file, certificate, key, runs, page = LIANA_PAGE_DIR "/console.html";
 };
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -41,7 +41,7 @@ int run(const Options& options) {
   std::signal(SIGPIPE, SIG_IGN);
   ::setpriority(PRIO_PROCESS, 0, kNice);
   Gateway gateway(options.api, tokens ? &*tokens : nullptr, listen.is_loopback(), now_s);
-  WebServer server({listen, options.certificate, options.key, options.page}, gateway);
+  WebServer server({listen, options.certificate, options.key, options.page, options.runs}, gateway);
   std::puts(server.address().c_str());
   std::fflush(stdout);
   server.run();
@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   line.option("--cert", options.certificate, "certificate for TLS, PEM; needed beyond loopback");
   line.option("--key", options.key, "its key, PEM");
   line.option("--page", options.page, "file that / shows").with_default_shown();
+  line.option("--runs", options.runs, "folder of recorded runs that /runs and /run/NAME show; none where not given");
   if (const auto code = line.parse(argc, argv)) return *code;
   try {
     return run(options);

@@ -46,6 +46,7 @@ Session::Session(House& house, std::string address, double now_s, std::function<
 
 void Session::take_text(std::string_view text, double now_s) {
   heard_s_ = now_s;
+  ++messages_;
   std::optional<std::int64_t> id;
   try {
     const Json message = Json::parse(text);
@@ -69,14 +70,16 @@ void Session::take_text(std::string_view text, double now_s) {
 // Four bytes: the sequence of a record that has arrived; those before it have, too.
 void Session::take_binary(std::string_view bytes, double now_s) {
   heard_s_ = now_s;
+  ++messages_;
   std::uint32_t sequence = 0;
   if (!greeted_) return close(kPolicyViolated, "no_hello", "say hello first");
   if (bytes.size() != sizeof sequence) return malformed(now_s, std::nullopt, "a record is answered with 4 bytes");
   std::memcpy(&sequence, bytes.data(), sizeof sequence);
   const auto found = std::find(in_flight_.begin(), in_flight_.end(), sequence);
   if (found == in_flight_.end()) return malformed(now_s, std::nullopt, "no such record is under way");
+  const bool was_waiting = in_flight_.size() == kCredits;
   in_flight_.erase(in_flight_.begin(), found + 1);
-  something_to_send_();
+  if (was_waiting) something_to_send_();
 }
 
 void Session::refuse_oversized(double now_s) {
@@ -92,6 +95,7 @@ void Session::hello(const Json& message) {
     return close(kPolicyViolated, "malformed", "name: allowed is a text of 1 to 32 bytes without control characters");
   access_ = has_tokens ? house_.tokens->find(wanted)->second.access : Access::kOperate;
   name_ = house_.free_name(wanted);
+  if (has_tokens) ticket_ = fresh_nonce();
   greeted_ = true;
   const auto reply = [this](const Json& said) { answer(said); };
   stop_.emplace(house_.poller, house_.api, name_, reply);
@@ -158,10 +162,21 @@ void Session::close(std::uint16_t code, std::string_view what, const std::string
 }
 
 void Session::tick(double now_s) {
+  const bool goes_on = has_said_much();
+  messages_ = 0;
+  if (goes_on) something_to_send_();
   if (!greeted_ && now_s - since_s_ > kHelloPatience_s) close(kPolicyViolated, "no_hello", "no hello within 5 s");
   if (in_flight_.size() == kCredits && now_s - std::max(heard_s_, record_s_) > kSilent_s)
     close(kPolicyViolated, "silent", "has answered nothing for 10 s");
   if (stop_) stop_->tick(now_s);
+}
+
+bool Session::has_more() const {
+  const Feed& feed = house_.feed;
+  if (!greeted_ || !answers_.empty()) return !answers_.empty();
+  if (!feed.away().empty()) return away_ != feed.away();
+  return life_ != feed.life() || next_event_ < feed.next_event() || facts_sent_ != feed.facts_number() ||
+         record_sent_ != feed.sequence();
 }
 
 std::optional<Outgoing> Session::next(double now_s) {
@@ -203,6 +218,7 @@ std::string Session::welcome() const {
   Json message = house_.feed.welcome();
   message["role"] = access_name(access_);
   message["name"] = name_;
+  if (!ticket_.empty()) message["ticket"] = ticket_;
   return message.dump();
 }
 

@@ -39,11 +39,13 @@ class Session {
  public:
   static constexpr std::size_t kCredits = 4;               // records under way that the client has not answered
   static constexpr std::size_t kMaxAnswerBytes = 1 << 19;  // that the client does not read
+  static constexpr std::size_t kMostMessages = 50;         // between two ticks; the others wait
   static constexpr double kHelloPatience_s = 5.0;
   static constexpr double kSilent_s = 10.0;     // with all credits under way
   static constexpr double kMostMalformed = 20;  // in ten seconds
 
-  // `something_to_send` is told when next() may have something.
+  // `something_to_send` is told when next() may have something, when the session has ended, and when a client that had
+  // said much may go on.
   Session(House& house, std::string address, double now_s, std::function<void()> something_to_send);
 
   void take_text(std::string_view text, double now_s);
@@ -51,11 +53,17 @@ class Session {
   void refuse_oversized(double now_s);
   // The next message, if there is one.
   std::optional<Outgoing> next(double now_s);
+  // Whether next() may have another, apart from credits and pace.
+  bool has_more() const;
   // To be called ten times a second.
   void tick(double now_s);
 
+  // Has said enough for now: nothing more is to be read before the next tick.
+  bool has_said_much() const { return messages_ >= kMostMessages; }
   bool is_greeted() const { return greeted_; }
   const std::string& name() const { return name_; }
+  // What lets the client load recorded runs while it is connected; empty where no tokens are asked for.
+  const std::string& ticket() const { return ticket_; }
   const std::string& address() const { return address_; }
   double since_s() const { return since_s_; }
   // Why the connection is to be closed; empty while it is not. `code`: of RFC 6455, section 7.4.
@@ -80,7 +88,7 @@ class Session {
   std::string welcome() const;
 
   House& house_;
-  std::string address_, name_, nonce_;
+  std::string address_, name_, nonce_, ticket_;
   double since_s_;
   std::function<void()> something_to_send_;
   bool greeted_ = false;
@@ -98,6 +106,7 @@ class Session {
   std::uint32_t facts_sent_ = 0, record_sent_ = 0;
   std::vector<std::uint32_t> in_flight_;
   double period_s_ = 0.0, record_s_ = -1.0, heard_s_;
+  std::size_t messages_ = 0;  // since the last tick
   double malformed_ = 0.0, malformed_s_ = 0.0;
 };
 

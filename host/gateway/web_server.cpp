@@ -16,13 +16,17 @@
 
 #include "host/api/socket.hpp"
 #include "host/gateway/http_answer.hpp"
+#include "host/gateway/run_pages.hpp"
 #include "host/gateway/web_origin.hpp"
+#include "host/json/json.hpp"
 
 namespace liana::gateway {
 namespace {
 
 constexpr const char* kProtocol = "liana-console-1";
 constexpr const char* kPlain = "text/plain; charset=utf-8";
+constexpr const char* kJson = "application/json";
+constexpr std::string_view kRun = "/run/";
 constexpr std::size_t kChunk = 4096;  // of a message, as it is read
 constexpr std::size_t kLongestMessage = api::kMaxPacketBytes;
 constexpr unsigned int kMostSockets = 192;                     // clients, strangers, and those who only load the page
@@ -43,6 +47,12 @@ std::string header(lws* wsi, lws_token_indexes which) {
   const int copied = lws_hdr_copy(wsi, text.data(), length + 1, which);
   text.resize(copied > 0 ? static_cast<std::size_t>(copied) : 0);
   return text;
+}
+
+std::string query(lws* wsi, const char* name) {
+  std::array<char, 128> text{};
+  const char* found = lws_get_urlarg_by_name(wsi, name, text.data(), static_cast<int>(text.size()));
+  return found == nullptr ? "" : found;
 }
 
 std::string peer(lws* wsi) {
@@ -90,7 +100,8 @@ std::optional<std::string> WebServerInside::problem(lws* wsi, const char** what)
   *what = "plain_http";
   if (is_tls() && lws_is_ssl(wsi) == 0) return "use https: nothing is served in the clear here";
   *what = "host";
-  if (options.listen.is_loopback() && !is_loopback_host(host, port))
+  const bool is_named = host == options.listen.web_host() + ":" + std::to_string(port);
+  if (options.listen.is_loopback() && !is_named && !is_loopback_host(host, port))
     return "host '" + host + "': allowed are 127.0.0.1, localhost and [::1] with the port";
   *what = "cross_origin";
   if (!is_own_origin(origin, is_tls() ? "https" : "http", host))
@@ -126,14 +137,22 @@ int WebServerInside::serve(lws* wsi, const std::string& path) {
   if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) == 0)
     return refuse(wsi, "method", HTTP_STATUS_METHOD_NOT_ALLOWED, "allowed is GET");
   if (path == "/") return answer_page(wsi, options.page);
+  const bool about_runs = !options.runs.empty() && (path == "/runs" || path.starts_with(kRun));
+  if (about_runs && !gateway.lets_in(query(wsi, "ticket=")))
+    return refuse(wsi, "no_token", HTTP_STATUS_FORBIDDEN, "'" + path + "': takes ?ticket= of the welcome");
+  if (about_runs && path == "/runs") return answer_http(wsi, HTTP_STATUS_OK, kJson, run_list(options.runs).dump());
+  const auto run = about_runs ? run_page(options.runs, path.substr(kRun.size())) : std::nullopt;
+  if (run) return answer_page(wsi, *run);
   return refuse(wsi, "path", HTTP_STATUS_NOT_FOUND, "'" + path + "': nothing is there");
 }
 
 void WebServerInside::open(lws* wsi, Connection& connection) {
   connection.message = new std::string;
   connection.session = &gateway.open(peer(wsi), [wsi, &connection] {
-    const bool is_over = connection.session != nullptr && connection.session->end().code != 0;
-    if (is_over) lws_set_timeout(wsi, PENDING_TIMEOUT_CLOSE_SEND, kLastWord_s);  // it may not read any more
+    const Session* session = connection.session;
+    if (session != nullptr && !session->has_said_much()) lws_rx_flow_control(wsi, 1);
+    if (session != nullptr && session->end().code != 0)
+      lws_set_timeout(wsi, PENDING_TIMEOUT_CLOSE_SEND, kLastWord_s);  // it may not read any more
     lws_callback_on_writable(wsi);
   });
 }
@@ -160,6 +179,7 @@ int WebServerInside::read(lws* wsi, Connection& connection, std::string_view pie
   } else {
     session.take_text(message, gateway.now_s());
   }
+  if (session.has_said_much()) lws_rx_flow_control(wsi, 0);
   message.clear();
   if (message.capacity() > kChunk) message.shrink_to_fit();
   return 0;
@@ -174,7 +194,7 @@ int WebServerInside::write(lws* wsi, Connection& connection) {
   std::memcpy(buffer.data() + LWS_PRE, next->bytes.data(), next->bytes.size());
   const lws_write_protocol kind = next->is_binary ? LWS_WRITE_BINARY : LWS_WRITE_TEXT;
   if (lws_write(wsi, buffer.data() + LWS_PRE, next->bytes.size(), kind) < 0) return -1;
-  lws_callback_on_writable(wsi);  // there may be more
+  if (session.has_more()) lws_callback_on_writable(wsi);
   return 0;
 }
 

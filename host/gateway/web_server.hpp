@@ -13,6 +13,7 @@ struct WebOptions {
   ListenAddress listen;
   std::string certificate, key;  // PEM files; empty: plain HTTP
   std::string page;              // file that / shows
+  std::string runs;              // folder of recorded runs; empty: none are shown
 };
 
 struct WebServerInside;

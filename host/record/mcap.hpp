@@ -18,6 +18,7 @@ namespace liana::record {
 // A channel and the schema of its messages.
 struct McapChannel {
   std::string topic, message_encoding, schema_encoding, schema;
+  std::string schema_name{};  // empty: the topic's
 };
 
 class McapWriter {
@@ -28,7 +29,7 @@ class McapWriter {
   McapWriter(const McapWriter&) = delete;
   McapWriter& operator=(const McapWriter&) = delete;
 
-  // Declares a channel with a schema of its own, of the topic's name; returns its id (1, 2, ...).
+  // Declares a channel with a schema of its own; returns its id (1, 2, ...).
   std::uint16_t add_channel(const McapChannel& wanted);
   void add_metadata(const std::string& name, const std::map<std::string, std::string>& values);
   void write_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data);

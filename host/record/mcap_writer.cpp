@@ -47,7 +47,7 @@ std::uint16_t McapWriter::add_channel(const McapChannel& wanted) {
   const std::uint16_t id = ++channels_;
   std::string schema;
   put(schema, id);
-  put_text(schema, wanted.topic);
+  put_text(schema, wanted.schema_name.empty() ? wanted.topic : wanted.schema_name);
   put_text(schema, wanted.schema_encoding);
   put_text(schema, wanted.schema);
   record(kSchema, schema);

@@ -1,6 +1,7 @@
 #include "host/system/console_session.hpp"
 
 #include <csignal>
+#include <cstdio>
 #include <stdexcept>
 
 #include "host/system/errors.hpp"
@@ -9,6 +10,8 @@
 namespace liana::system {
 namespace {
 
+constexpr const char* kRecorder = "liana-archive";
+constexpr int kMostRecorders = 5;
 constexpr double kLook_s = 0.05;
 constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
 constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
@@ -29,12 +32,24 @@ void ConsoleSession::start() {
 }
 
 bool ConsoleSession::go_on() {
-  system_.receive(kLook_s);
-  while (system_.receive(0.0)) {
+  auto message = system_.receive(kLook_s);
+  while (message) {
+    has_begun_ = has_begun_ || message->value("op", "") == "state";
+    message = system_.receive(0.0);
   }
   if (interrupts_.count() > 0) return false;
-  if (system_.any_has_ended()) require_alive();
+  if (system_.any_has_ended([this](const ChildProcess& child) { return !has_begun_ || child.name() != kRecorder; }))
+    require_alive();
+  if (system_.any_has_ended()) revive_recorder();
   return true;
+}
+
+// Nobody has to stop working because the flight recorder died: a new one goes on where the old one left off.
+void ConsoleSession::revive_recorder() {
+  if (recorders_ >= kMostRecorders) return;
+  ++recorders_;
+  std::fprintf(stderr, "liana: %s has ended; it is started again, what it missed is a gap in the archive\n", kRecorder);
+  system_.start_again(kRecorder);
 }
 
 void ConsoleSession::require_alive() {

@@ -22,9 +22,12 @@ class ConsoleSession {
 
  private:
   void require_alive();
+  void revive_recorder();
 
   InterruptGuard interrupts_;
   System system_;
+  bool has_begun_ = false;  // before the first state lianad waits for the recorder
+  int recorders_ = 1;
 };
 
 }  // namespace liana::system

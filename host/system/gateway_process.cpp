@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "host/system/errors.hpp"
+#include "host/system/runs.hpp"
 
 namespace liana::system {
 namespace {
@@ -53,6 +54,7 @@ void GatewayProcess::start(const std::string& listen) {
   add("--token-file", options_.token_file);
   add("--cert", options_.certificate);
   add("--key", options_.key);
+  add("--runs", runs_folder());
   child_ = std::make_unique<ChildProcess>("liana-gateway", argv, log_file_);
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPatience_s);
   while (std::chrono::steady_clock::now() < deadline) {

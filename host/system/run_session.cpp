@@ -16,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* kRecorder = "liana-archive";
+constexpr int kMostRecorders = 5;           // of one run
 constexpr const char* kName = "liana run";  // as the reason of a stop names it
 constexpr double kStopTimeout_s = 15.0;
 constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
@@ -60,9 +62,20 @@ RunEnd RunSession::run() {
   return end;
 }
 
+// A new recorder goes on in the archive of the one before; what happened in between is a gap there.
+void RunSession::revive_recorder() {
+  const auto ended = system_.worst_end([this](const ChildProcess& child, const ChildEnd& end) {
+    return child.name() == kRecorder && end.code != 0 && !matters(child);
+  });
+  if (!ended || recorders_ >= kMostRecorders) return;
+  ++recorders_;
+  progress_.say(ended->text + "\nit is started again; what it missed is a gap in the archive");
+  system_.start_again(kRecorder);
+}
+
 void RunSession::say_how_the_recorder_ended() {
   const auto failed = system_.worst_end(
-      [](const ChildProcess& child, const ChildEnd& end) { return child.name() == "liana-archive" && end.code != 0; });
+      [](const ChildProcess& child, const ChildEnd& end) { return child.name() == kRecorder && end.code != 0; });
   if (failed) progress_.say("the archive of this run is not whole: " + failed->text);
 }
 
@@ -70,6 +83,7 @@ RunEnd RunSession::watch() {
   while (!system_.any_has_ended([this](const ChildProcess& child) { return matters(child); })) {
     look(kLook_s);
     if (interrupts_.count() > 0) return interrupted();
+    revive_recorder();
   }
   const RunEnd end = conclusion();
   if (!end.bad_input && (waits_for_us_ || has_failed(end))) follow();
@@ -79,7 +93,7 @@ RunEnd RunSession::watch() {
 // A flight recorder that ends while the arm moves is said, and stops nothing: unless a recording is what was asked for.
 // Before the first state lianad waits for it.
 bool RunSession::matters(const ChildProcess& child) const {
-  return child.name() != "liana-archive" || plan_.keep_directory || states_.empty();
+  return child.name() != kRecorder || plan_.keep_directory || states_.empty();
 }
 
 // The run is no success as far as processes and mission tell.

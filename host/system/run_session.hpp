@@ -40,6 +40,7 @@ class RunSession {
  private:
   RunEnd watch();
   bool matters(const ChildProcess& child) const;
+  void revive_recorder();
   void say_how_the_recorder_ended();
   bool has_failed(const RunEnd& end) const;
   void follow();
@@ -61,6 +62,7 @@ class RunSession {
   InterruptGuard interrupts_;
   Progress progress_;
   System system_;
+  int recorders_ = 1;  // that were started
   Json welcome_;
   Json last_state_;
   std::vector<report::StateSample> states_;

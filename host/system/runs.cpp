@@ -14,9 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kLasting{"archive.db",  "robot.json", "scene.json",
-                                                   "buses.json",  "events.txt", "commands.txt",
-                                                   "report.json", "truth.bin",  "page.html"};
+// How the names begin: beside a file of SQLite may lie two that belong to it.
+constexpr std::array<std::string_view, 10> kLasting{"archive.db", "telemetry-", "robot.json",   "scene.json",
+                                                    "buses.json", "events.txt", "commands.txt", "report.json",
+                                                    "truth.bin",  "page.html"};
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);
@@ -69,8 +70,9 @@ void keep_what_lasts(const std::string& run) {
   std::vector<fs::path> others;
   for (const fs::directory_entry& entry : fs::directory_iterator(run, gone)) {
     const std::string name = entry.path().filename();
-    const bool lasts = std::find(kLasting.begin(), kLasting.end(), name) != kLasting.end();
-    if (!lasts && !name.starts_with("telemetry-")) others.push_back(entry.path());
+    const bool lasts =
+        std::any_of(kLasting.begin(), kLasting.end(), [&](auto begin) { return name.starts_with(begin); });
+    if (!lasts) others.push_back(entry.path());
   }
   for (const fs::path& each : others) fs::remove_all(each, gone);
 }

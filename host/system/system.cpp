@@ -43,6 +43,15 @@ std::string System::start(const Json& hello, const std::atomic<bool>& stop) {
   return "";
 }
 
+void System::start_again(std::string_view name) {
+  for (std::size_t i = 0; i < children_.size(); ++i) {
+    const ProgramCall& call = layout_.programs[i];
+    if (call.name != name) continue;
+    children_[i] =
+        std::make_unique<ChildProcess>(call.name, call.argv, layout_.file(call.name + ".log"), call.realtime_priority);
+  }
+}
+
 std::optional<Json> System::receive(double timeout_s) {
   if (!api_) {
     sleep(std::min(timeout_s, kLook_s));

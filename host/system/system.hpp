@@ -39,6 +39,9 @@ class System {
   // Sends a message unless lianad has left.
   void send(const Json& message);
 
+  // Starts the program of this name again, which has ended; its log goes on.
+  void start_again(std::string_view name);
+
   // The program that was started last.
   ChildProcess& last() { return *children_.back(); }
   // How the worst of those whose end counts has ended (process.hpp); waits up to `settle_s` before, because whoever

@@ -102,14 +102,13 @@ ProgramCall bus_call(const SystemLayout& plan) {
   ProgramCall call{"liana-bus",
                    {sibling_program("liana-bus"), "--socket", plan.bus_socket(), "--buses", plan.file("buses.json"),
                     "--time", plan.time_mode, "--stats", plan.file("bus_stats.json")}};
-  if (!plan.is_dry_run) append(call.argv, {"--log", plan.directory});
+  if (plan.keeps_traffic) append(call.argv, {"--log", plan.directory});
   return call;
 }
 
 std::string expected_roles(const SystemLayout& plan, const RunOptions& options) {
-  if (options.mission.empty()) return "client,camera";
-  std::string roles = plan.is_serial ? "mission,camera" : "mission,operator,camera";
-  return plan.is_dry_run ? roles : roles + ",archive";
+  std::string roles = options.mission.empty() ? "client" : plan.is_serial ? "mission" : "mission,operator";
+  return roles + (plan.has_recorder ? ",camera,archive" : ",camera");
 }
 
 ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
@@ -118,7 +117,7 @@ ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, boo
                     "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--time", plan.time_mode,
                     "--physics", options.physics, "--expect", expected_roles(plan, options), "--events",
                     plan.events_file(), "--way-out", plan.file("way_out.bin")}};
-  if (!options.mission.empty()) append(call.argv, {"--commands", plan.commands_file()});
+  if (!options.mission.empty() || plan.has_recorder) append(call.argv, {"--commands", plan.commands_file()});
   if (plan.is_dry_run) append(call.argv, {"--verify-times", plan.verify_times_file()});
   if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});
   if (!options.in_pose.empty()) append(call.argv, {"--in-pose", options.in_pose});
@@ -134,12 +133,12 @@ ProgramCall archive_call(const SystemLayout& plan) {
 }
 
 ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool embedded) {
-  ProgramCall call{
-      "liana-bench",
-      {sibling_program("liana-bench"), "--robot", plan.file("robot.json"), "--scene", plan.file("scene.json"),
-       "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--arm", options.arm, "--physics",
-       options.true_physics.empty() ? options.physics : options.true_physics, "--seed", std::to_string(options.seed),
-       "--truth", plan.file("truth.bin"), "--summary", plan.file("bench_summary.json")}};
+  ProgramCall call{"liana-bench",
+                   {sibling_program("liana-bench"), "--robot", plan.file("robot.json"), "--scene",
+                    plan.file("scene.json"), "--buses", plan.file("buses.json"), "--api", plan.api_socket(), "--arm",
+                    options.arm, "--physics", options.true_physics.empty() ? options.physics : options.true_physics,
+                    "--seed", std::to_string(options.seed), "--summary", plan.file("bench_summary.json")}};
+  if (plan.keeps_traffic || plan.is_dry_run) append(call.argv, {"--truth", plan.file("truth.bin")});
   const std::string& fixture = options.in_pose.empty() ? options.fixture : options.in_pose;
   if (!fixture.empty()) append(call.argv, {"--start-pose", fixture, "--fixture"});
   if (!options.cross_wired.empty()) append(call.argv, {"--cross-wired", options.cross_wired});
@@ -248,7 +247,8 @@ SystemLayout make_layout(const RunOptions& given) {
   plan.keep_directory = !options.record_dir.empty();
   plan.is_dry_run = options.is_dry_run;
   check_report_file(options.report_file, options.record_dir);
-  plan.has_recorder = has_mission && !plan.is_dry_run;
+  plan.has_recorder = (has_mission || options.has_console) && !plan.is_dry_run;
+  plan.keeps_traffic = !plan.is_dry_run && (has_mission || !options.has_console);
   plan.socket_dir = temporary_directory();
   plan.directory = directory_of(plan, options);
   write_tables(plan, robot_text, scene_text, buses_text);

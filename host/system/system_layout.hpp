@@ -22,7 +22,8 @@ struct SystemLayout {
   std::string socket_dir;  // short temporary path: socket names are limited to 107 bytes
   bool keep_directory = false;
   bool is_dry_run = false;
-  bool has_recorder = false;  // liana-archive runs
+  bool has_recorder = false;   // liana-archive runs
+  bool keeps_traffic = false;  // bus logs and truth, which grow without bounds: not where nobody knows when it ends
   std::string time_mode;
   config::BusesConfig buses;
   config::SceneConfig scene;

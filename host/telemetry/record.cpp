@@ -83,6 +83,8 @@ std::string encode(const Layout& layout, const Json& state, std::uint32_t sequen
   return record;
 }
 
+void set_facts(std::string& record, std::uint32_t facts) { put(record, 4, facts); }
+
 Header header_of(const std::string& record) {
   return {get<std::uint32_t>(record, 0), get<std::uint32_t>(record, 4), get<double>(record, 8),
           get<double>(record, 16)};

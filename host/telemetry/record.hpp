@@ -24,6 +24,9 @@ struct Header {
 // NaN. About 5 us.
 std::string encode(const Layout& layout, const Json& state, std::uint32_t sequence, std::uint32_t facts);
 
+// Gives a record another number of facts, when they turn out to have changed with it.
+void set_facts(std::string& record, std::uint32_t facts);
+
 // Of a record of at least kHeaderBytes.
 Header header_of(const std::string& record);
 

@@ -68,7 +68,7 @@ return liana.mission "slit_crossing" {
     hold = { [7] = 0, [9] = 0 },
     enter = held(),
     exit = all { released(), operator_says "arrived", tip_near_rod(kRodArrival_m) },
-    time_limit_s = 60,
+    time_limit_s = 90,
     on_fail = "retract",
   },
 

@@ -1,20 +1,7 @@
 // Reads MCAP files with the reader that Foxglove and others use: per file and channel its encodings and number of
 // messages, and of JSON channels every message parsed and held against the `required` of the channel's schema.
 // Usage: node list_channels.mjs FILE...; prints JSON, and ends with 1 at the first thing that is not as it should be.
-import { open } from "node:fs/promises";
-import { McapIndexedReader } from "@mcap/core";
-import { decompress } from "fzstd";
-
-class Readable {
-  constructor(handle) { this.handle = handle; }
-  async size() { return BigInt((await this.handle.stat()).size); }
-  async read(offset, length) {
-    const { buffer } = await this.handle.read(Buffer.alloc(Number(length)), 0, Number(length), Number(offset));
-    return new Uint8Array(buffer);
-  }
-}
-
-const text = new TextDecoder("utf-8", { fatal: true });
+import { text, withReader } from "./readable.mjs";
 
 function checkJson(topic, required, data) {
   const message = JSON.parse(text.decode(data));
@@ -23,12 +10,7 @@ function checkJson(topic, required, data) {
   }
 }
 
-async function channelsOf(file) {
-  const handle = await open(file);
-  const reader = await McapIndexedReader.Initialize({
-    readable: new Readable(handle),
-    decompressHandlers: { zstd: (bytes, size) => decompress(bytes, new Uint8Array(Number(size))) },
-  });
+async function channelsOf(reader) {
   const channels = {};
   const required = {};
   for (const { id, topic, messageEncoding, schemaId } of reader.channelsById.values()) {
@@ -41,10 +23,9 @@ async function channelsOf(file) {
     channels[topic].messages += 1;
     if (required[message.channelId]) checkJson(topic, required[message.channelId], message.data);
   }
-  await handle.close();
   return { indexed: reader.chunkIndexes.length > 0, channels };
 }
 
 const found = {};
-for (const file of process.argv.slice(2)) found[file.split("/").pop()] = await channelsOf(file);
+for (const file of process.argv.slice(2)) found[file.split("/").pop()] = await withReader(file, channelsOf);
 console.log(JSON.stringify(found));

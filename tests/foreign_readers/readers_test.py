@@ -21,11 +21,13 @@ def done(words, **options):
 def installed_reader(folder):
     """The reader's packages as package-lock.json names them, in a folder of the build."""
     folder.mkdir(parents=True, exist_ok=True)
-    for name in ("package.json", "package-lock.json", "list_channels.mjs"):
+    lock = folder / "package-lock.json"
+    is_there = (folder / "node_modules").exists() and lock.read_text() == (HERE / lock.name).read_text()
+    for name in ("package.json", lock.name, "readable.mjs", "list_channels.mjs", "check_schemas.mjs"):
         shutil.copy(HERE / name, folder)
-    if not (folder / "node_modules").exists():
+    if not is_there:
         done(["npm", "ci", "--no-audit", "--no-fund"], cwd=folder)
-    return folder / "list_channels.mjs"
+    return folder
 
 
 class ForeignReaders(unittest.TestCase):
@@ -38,7 +40,10 @@ class ForeignReaders(unittest.TestCase):
         done([liana, "run", MISSION, "--record", folder], env={**os.environ, "XDG_RUNTIME_DIR": home.name})
         reader = installed_reader(pathlib.Path(os.environ["LIANA_READER"]))
         files = [folder / name for name in ("ticks.mcap", "images.mcap", "state.mcap")]
-        cls.found = json.loads(done(["node", reader, *files]))
+        cls.found = json.loads(done(["node", reader / "list_channels.mjs", *files]))
+        exported = pathlib.Path(home.name) / "export.mcap"
+        done([liana, "log", "export", folder, "--mcap", exported])
+        cls.shown = json.loads(done(["node", reader / "check_schemas.mjs", exported]))
 
     def test_every_file_of_a_recording_is_indexed(self):
         self.assertEqual(set(self.found), {"ticks.mcap", "images.mcap", "state.mcap"})
@@ -57,6 +62,24 @@ class ForeignReaders(unittest.TestCase):
         self.assertEqual(set(channels), {"start", "inputs", "outputs"})
         self.assertEqual(channels["inputs"]["messages"], channels["outputs"]["messages"])
         self.assertGreater(channels["inputs"]["messages"], 1000)
+
+    def test_an_exported_archive_keeps_the_schemas_that_foxglove_publishes(self):
+        schemas = {topic: found["schema"] for topic, found in self.shown.items()}
+        wanted = {
+            "/scene": "foxglove.SceneUpdate",
+            "/tf": "foxglove.FrameTransforms",
+            "/joint_states": "foxglove.JointStates",
+            "/log": "foxglove.Log",
+            "/state": "liana.State",
+        }
+        self.assertEqual(schemas, wanted)
+
+    def test_an_exported_archive_shows_every_link_in_a_frame_that_moves(self):
+        links = [f"link_{i}" for i in range(1, 41)]
+        self.assertEqual(self.shown["/scene"]["frames"], ["base", *links])
+        self.assertEqual(self.shown["/tf"]["frames"], links)
+        self.assertEqual(self.shown["/scene"]["messages"], 1)
+        self.assertGreater(self.shown["/tf"]["messages"], 200)
 
 
 if __name__ == "__main__":

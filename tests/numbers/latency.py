@@ -16,7 +16,7 @@ def times(row):
 
 def lines(cell):
     """One line of the table per run, and one for all of them."""
-    name = [f"{cell['rate_hz']:g} Hz", "nothing" if cell["load"] == "idle" else "load"]
+    name = [f"{cell['rate_hz']:g} Hz", {"idle": "nothing", "loaded": "load", "console": "console"}[cell["load"]]]
     runs = [
         [*name, number, *times(run), run["overruns"], "", run["verdict"]] for number, run in enumerate(cell["runs"], 1)
     ]

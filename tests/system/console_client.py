@@ -40,7 +40,11 @@ def connected(address, receive_bytes=0):
     if receive_bytes:
         plain.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_bytes)
     plain.settimeout(PATIENCE_S)
-    plain.connect((parts.hostname, parts.port))
+    try:
+        plain.connect((parts.hostname, parts.port))
+    except OSError:
+        plain.close()
+        raise
     if parts.scheme != "https":
         return plain, parts.netloc
     context = ssl.create_default_context()
@@ -141,9 +145,9 @@ class WebSocket:
 
 
 class Console(WebSocket):
-    """A client that has said hello. `state` is the newest record as a dict by field, `facts` the newest facts."""
+    """A client that has said hello (or the `hello` that it was given). `state` is the newest record as a dict by field, `facts` the newest facts."""
 
-    def __init__(self, address, name="test", token_name=None, token=None, answers=True, **options):
+    def __init__(self, address, name="test", token_name=None, token=None, answers=True, hello=None, **options):
         super().__init__(address, **options)
         self.answers_records = answers
         self.state, self.facts, self.facts_number, self.header = {}, {}, 0, None
@@ -151,11 +155,11 @@ class Console(WebSocket):
         self.lost_events, self.complaints, self.last_id, self.welcomes = 0, [], 0, 0
         self.sequences = []
         self.challenge = json.loads(self.receive()[1])
-        hello = {"op": "hello", "name": name}
+        self.hello = hello or {"op": "hello", "name": name}
         if token is not None:
             proof = hmac.new(token.encode(), self.challenge["nonce"].encode(), hashlib.sha256).hexdigest()
-            hello |= {"token_name": token_name, "proof": proof}
-        self.say(hello)
+            self.hello |= {"token_name": token_name, "proof": proof}
+        self.say(self.hello)
 
     def say(self, message):
         self.send(json.dumps(message))

@@ -1,9 +1,9 @@
 """The console's gateway against lianad and the simulated arm (docs/console-protocol.md)."""
 import contextlib
 import json
-import math
 import os
 import pathlib
+import signal
 import struct
 import subprocess
 import tempfile
@@ -210,6 +210,367 @@ class WhenSomethingEnds(GatewayTest):
         console.until(lambda me: number in me.answers)
         self.assertFalse(console.answers[number]["ok"])
         self.assertIn("cut the power", console.answers[number]["message"])
+
+
+class WhoIsLetIn(SystemTest):
+    """Refusals that need no lianad."""
+
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory(prefix="liana-gateway-")))
+        self.api = self.folder / "api"  # nobody listens there
+        self.tokens = self.folder / "tokens"
+        self.write_tokens("anna operate operates-the-arm-0001\nwill watch watches-the-arm-00002\n")
+
+    def write_tokens(self, text, mode=0o600):
+        self.tokens.write_text(text)
+        self.tokens.chmod(mode)
+
+    def certificate(self):
+        """A certificate that nobody has signed, and its key: words for the gateway."""
+        names = [self.folder / "cert.pem", self.folder / "key.pem"]
+        call = ["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes"]
+        call += ["-subj", "/CN=localhost", "-days", "2", "-out", names[0], "-keyout", names[1]]
+        subprocess.run(call, check=True, capture_output=True)
+        return ["--cert", names[0], "--key", names[1]]
+
+    def refused_at_start(self, *words):
+        """The one sentence of a gateway that does not start."""
+        call = [program("liana-gateway"), "--api", str(self.api), *map(str, words)]
+        done = subprocess.run(call, capture_output=True, text=True, timeout=60, check=False)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+        return done.stderr
+
+    def assert_upgrade_refused(self, gateway, status, what, **options):
+        with self.assertRaises(Refused) as refused:
+            WebSocket(gateway.address, **options)
+        self.assertEqual(refused.exception.status, status)
+        wait_until(lambda: f"refused {what} from" in gateway.log(), f"{what} in {gateway.log()!r}")
+
+    def console(self, address, **options):
+        console = Console(address, **options)
+        self.addCleanup(console.close)
+        return console
+
+    def assert_closed(self, console, code):
+        with contextlib.closing(console), self.assertRaises(Closed) as closed:
+            console.until(lambda me: False)
+        self.assertEqual(closed.exception.code, code, closed.exception.reason)
+
+    def test_beyond_loopback_it_needs_tokens_and_a_certificate(self):
+        beyond = ["--listen", "0.0.0.0:0"]
+        self.assertIn("--token-file", self.refused_at_start(*beyond))
+        self.assertIn("--cert", self.refused_at_start(*beyond, "--token-file", self.tokens))
+        self.assertIn("--listen", self.refused_at_start("--listen", "somewhere:80"))
+
+    def test_a_token_file_that_others_may_read_or_that_is_no_token_file_is_refused(self):
+        words = ["--listen", "127.0.0.1:0", "--token-file", self.tokens]
+        self.write_tokens("anna operate operates-the-arm-0001\n", 0o640)
+        self.assertIn("chmod 600", self.refused_at_start(*words))
+        for line in ("anna captain operates-the-arm-0001", "anna operate short", "anna operate", ""):
+            self.write_tokens(line + "\n")
+            self.assertIn("--token-file", self.refused_at_start(*words))
+        self.write_tokens("anna operate operates-the-arm-0001\nanna watch operates-the-arm-0002\n")
+        error = self.refused_at_start(*words)
+        self.assertIn("line 2", error)
+        self.assertNotIn("operates-the-arm", error)
+
+    def test_no_token_a_wrong_one_and_a_proof_of_before_are_refused(self):
+        gateway = Gateway(self, self.api, "--token-file", self.tokens)
+        first = self.console(gateway.address, token_name="anna", token="operates-the-arm-0001")
+        first.until(lambda me: me.away)
+        self.assert_closed(Console(gateway.address, "anna"), 1008)
+        self.assert_closed(Console(gateway.address, token_name="anna", token="operates-the-arm-0002"), 1008)
+        self.assert_closed(Console(gateway.address, token_name="eve", token="operates-the-arm-0001"), 1008)
+        self.assert_closed(Console(gateway.address, hello=first.hello), 1008)
+        for what in ("no_token", "wrong_proof"):
+            self.assertIn(f"refused {what} from 127.0.0.1: ", gateway.log())
+
+    def test_what_a_role_may_not_ask_is_refused_and_logged(self):
+        gateway = Gateway(self, self.api, "--token-file", self.tokens)
+        watcher = self.console(gateway.address, token_name="will", token="watches-the-arm-00002")
+        self.assertEqual(watcher.ask("acquire")["code"], "not_allowed")
+        self.assertEqual(watcher.ask("device")["code"], "not_allowed")
+        self.assertIn("refused wrong_role from 127.0.0.1: will (watch) asked for acquire", gateway.log())
+
+    def test_pages_of_others_and_names_of_others_are_refused(self):
+        gateway = Gateway(self, self.api)
+        port = gateway.address.rsplit(":", 1)[1].strip("/")
+        for origin in ("http://evil.example", f"https://127.0.0.1:{port}", "http://127.0.0.1:1", "null"):
+            self.assert_upgrade_refused(gateway, 403, "cross_origin", origin=origin)
+        for host in ("evil.example", f"evil.example:{port}", "127.0.0.1:1"):
+            self.assert_upgrade_refused(gateway, 403, "host", host=host)
+            self.assertEqual(http_get(gateway.address, headers=[f"Host: {host}"])[0], 403)
+        WebSocket(gateway.address, origin=gateway.address.rstrip("/")).close()
+        WebSocket(gateway.address, host=f"localhost:{port}", origin=f"http://localhost:{port}").close()
+
+    def test_nothing_but_the_page_is_there(self):
+        gateway = Gateway(self, self.api, "--page", self.tokens)
+        self.assertIn(b"operates-the-arm", http_get(gateway.address)[2])  # what --page names, and nothing beside it
+        for path in ("/tokens", "/../tokens", "/%2e%2e/tokens", "//etc/passwd", "/run/../../etc/passwd"):
+            status, _, body = http_get(gateway.address, path)
+            self.assertIn(status, (403, 404), path)
+            self.assertNotIn(b"root:", body)
+        self.assertIn("refused path from", gateway.log())
+        self.assertEqual(http_get(gateway.address, method="POST")[0], 405)
+        self.assert_upgrade_refused(gateway, 404, "path", path="/")
+        self.assert_upgrade_refused(gateway, 400, "protocol", protocol="liana-console-9")
+        self.assert_upgrade_refused(gateway, 400, "protocol", protocol=None)
+
+    def test_recorded_runs_are_shown_by_name_and_nothing_beside_them(self):
+        for name in ("older", "newer", "unfinished"):
+            (self.folder / "runs" / name).mkdir(parents=True)
+        for changed_s, name in enumerate(("older", "newer")):
+            (self.folder / "runs" / name / "page.html").write_text(f"page of {name}")
+            os.utime(self.folder / "runs" / name, (changed_s, changed_s))
+        os.utime(self.folder / "runs" / "unfinished", (9, 9))
+        (self.folder / "page.html").write_text("secret")
+        gateway = Gateway(self, self.api, "--runs", self.folder / "runs")
+        runs = json.loads(http_get(gateway.address, "/runs")[2])
+        self.assertEqual([(run["name"], run["page"]) for run in runs][0], ("unfinished", False))
+        self.assertEqual([(run["name"], run["page"]) for run in runs][1:], [("newer", True), ("older", True)])
+        self.assertEqual(http_get(gateway.address, "/run/older")[2], b"page of older")
+        for name in ("unfinished", "none", "", ".", "older/page.html", "older%00"):
+            self.assertNotEqual(http_get(gateway.address, f"/run/{name}")[0], 200, name)
+        for name in ("..", "../page.html", "%2e%2e", "..%2f", "%2e%2e%2fpage.html", "..%5cpage.html"):
+            self.assertNotIn(b"secret", http_get(gateway.address, f"/run/{name}")[2], name)
+
+    def test_where_tokens_are_asked_for_runs_take_the_ticket_of_a_client_that_is_connected(self):
+        (self.folder / "runs" / "one").mkdir(parents=True)
+        (self.folder / "runs" / "one" / "page.html").write_text("page of one")
+        with System() as system:
+            gateway = Gateway(self, system.api, "--runs", self.folder / "runs", "--token-file", self.tokens)
+            self.assertEqual(http_get(gateway.address, "/runs")[0], 403)
+            self.assertEqual(http_get(gateway.address, f"/run/one?ticket={'0' * 64}")[0], 403)
+            system.client("keeper").step()
+            watcher = self.console(gateway.address, token_name="will", token="watches-the-arm-00002")
+            ticket = watcher.until(lambda me: me.welcome).welcome["ticket"]
+            self.assertEqual(http_get(gateway.address, f"/run/one?ticket={ticket}")[2], b"page of one")
+            watcher.close()
+            wait_until(
+                lambda: http_get(gateway.address, f"/run/one?ticket={ticket}")[0] == 403, "the end of the ticket"
+            )
+
+    def test_a_message_that_is_too_long_ends_the_connection(self):
+        gateway = Gateway(self, self.api)
+        console = self.console(gateway.address)
+        console.until(lambda me: me.away)
+        console.send(json.dumps({"op": "pace", "hz": 10, "more": "x" * (128 * 1024 - 100)}))
+        console.send(" " * (128 * 1024 + 1))
+        self.assert_closed(console, 1009)
+        self.assertIn("refused too_large from", gateway.log())
+
+    def test_who_does_not_say_hello_is_closed_and_the_33rd_client_has_no_place(self):
+        gateway = Gateway(self, self.api)
+        silent, early = WebSocket(gateway.address), WebSocket(gateway.address)
+        silent.receive()
+        early.receive()
+        early.send('{"op":"stop"}')
+        with contextlib.closing(early), self.assertRaises(Closed):
+            early.receive()
+        with contextlib.ExitStack() as places:
+            for _ in range(32):
+                console = places.enter_context(contextlib.closing(Console(gateway.address)))
+                console.until(lambda me: me.away)
+            self.assert_upgrade_refused(gateway, 503, "too_many")
+        self.assertIn("refused no_hello from", gateway.log())
+        with contextlib.closing(silent), self.assertRaises(Closed):
+            silent.receive()
+
+    def test_strangers_make_room_for_each_other(self):
+        gateway = Gateway(self, self.api)
+        strangers = [WebSocket(gateway.address) for _ in range(17)]
+        strangers[0].receive()
+        with self.assertRaises(Closed) as closed:
+            strangers[0].receive()
+        self.assertEqual(closed.exception.code, 1013)
+        strangers[1].receive()
+        for stranger in strangers:
+            stranger.close()
+
+    def test_over_tls_a_request_in_the_clear_is_refused_and_one_that_is_not_is_served(self):
+        gateway = Gateway(self, self.api, "--token-file", self.tokens, *self.certificate(), listen="0.0.0.0:0")
+        address = gateway.address.replace("0.0.0.0", "127.0.0.1")
+        self.assertTrue(address.startswith("https://"))
+        self.assertEqual(http_get(address)[0], 200)
+        console = self.console(address, token_name="anna", token="operates-the-arm-0001", origin=address.rstrip("/"))
+        self.assertEqual((console.challenge["loopback"], console.challenge["proof"]), (False, True))
+        console.until(lambda me: me.away)
+        clear = address.replace("https://", "http://")
+        self.assertEqual(http_get(clear)[0], 403)
+        with self.assertRaises(Refused) as refused:
+            WebSocket(clear)
+        self.assertEqual(refused.exception.status, 403)
+        self.assertEqual(gateway.log().count("refused plain_http from"), 2)
+
+
+class WhoMisbehaves(GatewayTest):
+    """What one client does is its own affair: others go on, and memory stays bounded."""
+
+    kMostMore_kB = 4096  # of resident memory
+
+    def setUp(self):
+        super().setUp()
+        self.other = self.console("other").until(lambda me: len(me.sequences) > 20 and me.facts.get("is_homed"))
+        self.resident_kB = self.gateway.resident_kB()
+
+    def assert_others_go_on(self):
+        seen = len(self.other.sequences)
+        self.other.until(lambda me: len(me.sequences) > seen + 50)
+        self.assertLess(self.gateway.resident_kB(), self.resident_kB + self.kMostMore_kB)
+
+    def in_background(self, work):
+        """Does it beside the test, until the connection ends."""
+
+        def tried():
+            with contextlib.suppress(OSError):
+                work()
+
+        thread = threading.Thread(target=tried)
+        thread.start()
+        self.addCleanup(thread.join)
+
+    def flood(self, message, count, kind=1):
+        """Sends as long as it is let; the client."""
+        client = self.console("flood")
+        client.until(lambda me: me.welcome)
+        with contextlib.suppress(OSError):
+            for _ in range(count):
+                client.send(message, kind)
+        return client
+
+    def test_a_flood_of_malformed_messages_ends_that_connection_alone(self):
+        for message in (b"{", b"[]", b"\xff\xfe", b'{"op":"dance"}', b"[" * 5000, b'{"op":"request","request":7}'):
+            client = self.flood(message, 3000)
+            with self.assertRaises(OSError):
+                client.until(lambda me: False)
+        client = self.flood(b"12345", 3000, BINARY)
+        with self.assertRaises(OSError):
+            client.until(lambda me: False)
+        self.assert_others_go_on()
+        lines = self.gateway.log().splitlines()
+        self.assertTrue(any("refused malformed from" in line for line in lines))
+        self.assertLess(len(lines), 200)
+
+    def test_who_asks_much_and_reads_nothing_is_closed_and_its_memory_is_bounded(self):
+        client = self.console("deaf", receive_bytes=4096)
+        request = json.dumps({"op": "request", "id": 1, "request": {"op": "move_jp", "goal": "x" * 1000}})
+        self.in_background(lambda: [client.send(request) for _ in range(3000)])
+        self.other.until(lambda me: "refused silent from" in self.gateway.log())
+        self.assert_others_go_on()
+
+    def test_a_stop_beside_floods_is_confirmed_within_the_time_of_one(self):
+        stuck = [self.console("stuck", answers=False) for _ in range(8)]
+        self.in_background(lambda: self.flood(b'{"op":"request","request":{"op":"hold"}}', 2000))
+        begin = time.monotonic()
+        number = self.other.stop("beside floods")
+        self.other.until(lambda me: number in me.answers)
+        self.assertTrue(self.other.answers[number]["ok"])
+        self.assertLess(time.monotonic() - begin, 0.9)  # after that the gateway says that there was none
+        self.assertEqual(len(stuck), 8)
+        self.assert_others_go_on()
+
+
+class TheCommandConsole(SystemTest):
+    """`liana console`, in a runtime directory of its own."""
+
+    def setUp(self):
+        self.home = self.enterContext(tempfile.TemporaryDirectory(prefix="liana-home-"))
+        homes = {"XDG_RUNTIME_DIR": self.home, "XDG_STATE_HOME": self.home, "TMPDIR": self.home}
+        self.environment = {**os.environ, **homes}
+
+    def start(self, *words):
+        """`liana` with these words, ended when the test ends."""
+        process = subprocess.Popen(
+            [program("liana"), *words],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            env=self.environment,
+        )
+        self.addCleanup(process.communicate)
+        self.addCleanup(process.kill)
+        return process
+
+    def interrupt(self, process):
+        """Ctrl-C; the exit code and what it said last."""
+        process.send_signal(signal.SIGINT)
+        _, error = process.communicate(timeout=60)
+        return process.returncode, error
+
+    def console(self, address, **options):
+        console = Console(address, **options)
+        self.addCleanup(console.close)
+        return console
+
+    def child_of(self, process, name):
+        """The process of that name which this one has started."""
+        found = []
+        for path in pathlib.Path("/proc").glob("[0-9]*/stat"):
+            with contextlib.suppress(OSError):  # it has ended meanwhile
+                words = path.read_text().split()
+                found += [int(words[0])] if words[1] == f"({name})" and int(words[3]) == process.pid else []
+        (number,) = found
+        return number
+
+    def processes(self):
+        """Programs of this test that still run."""
+        found = []
+        for path in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+            with contextlib.suppress(OSError):
+                found += [path] if self.home.encode() in path.read_bytes() else []
+        return found
+
+    def test_without_a_system_it_shows_a_simulated_arm_that_the_page_enables_and_ctrl_c_ends_all(self):
+        process = self.start("console", "--listen", "127.0.0.1:0")
+        process.stdout.readline()
+        console = self.console(process.stdout.readline().strip())
+        console.enable()
+        self.assertEqual(console.facts["owner"], "test")
+        os.kill(self.child_of(process, "liana-archive"), signal.SIGKILL)
+        console.until(lambda me: len(me.sequences) > 100)  # the arm goes on without its recorder
+        second = self.start("console", "--robot", "micro", "--listen", "127.0.0.1:0")
+        self.assertIn("--simulate", second.communicate(timeout=60)[1])
+        self.assertEqual(second.returncode, 2)
+        code, error = self.interrupt(process)
+        self.assertEqual(code, 0, error)
+        wait_until(lambda: not self.processes(), "the end of all programs")
+        (run,) = (pathlib.Path(self.home) / "liana" / "runs").iterdir()
+        self.assertIn(str(run), error)
+        self.assertIn("liana-archive has ended; it is started again", error)
+        self.assertTrue((run / "archive.db").exists())
+
+    def test_with_a_system_it_shows_that_one_and_a_gateway_that_dies_comes_back(self):
+        owner = self.start("console", "--listen", "127.0.0.1:0", "--json")
+        api = json.loads(owner.stdout.readline())["api"]
+        process = self.start("console", "--listen", "127.0.0.1:0", "--json")
+        told = json.loads(process.stdout.readline())
+        self.assertEqual(told["api"], api)
+        console = self.console(told["address"]).until(lambda me: me.state)
+        os.kill(self.child_of(process, "liana-gateway"), signal.SIGKILL)
+        with self.assertRaises(OSError):
+            console.until(lambda me: False)
+
+        def comes_back():
+            try:
+                self.console(told["address"]).until(lambda me: me.state)
+            except OSError:
+                return False
+            return True
+
+        wait_until(comes_back, "another gateway at the same address")
+        code, error = self.interrupt(process)
+        self.assertEqual(code, 0, error)
+        self.assertIn("started again", error)
+        self.assertIsNone(owner.poll())
+
+    def test_a_mission_tells_the_address_and_is_seen(self):
+        process = self.start("run", "slit_crossing", "--time", "paced", "--console", "--json", "-")
+        console = self.console(process.stderr.readline().split()[-1])
+        console.until(lambda me: me.facts.get("step") and me.facts["step"]["index"] == 1)
+        number = console.stop("seen")
+        console.until(lambda me: number in me.answers)
+        report = json.loads(process.communicate(timeout=60)[0])
+        self.assertIn("emergency stop by test: seen", report["reason"])
 
 
 if __name__ == "__main__":

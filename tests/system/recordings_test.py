@@ -3,7 +3,9 @@ import collections
 import itertools
 import json
 import random
+import re
 import shutil
+import sqlite3
 import subprocess
 import unittest
 
@@ -16,12 +18,32 @@ FILES = ("ticks.mcap", "truth.bin", "can0.log", "can1.log")  # of which each is 
 END = "shutdown asked for"  # `liana run` asks in wall-clock time: from here on states may come a slot later
 
 
+def rows_of_archive(path):
+    """What does not depend on when the run was, nor on the moment of its end."""
+    database = sqlite3.connect(path)
+    if path.name == "archive.db":
+        events = database.execute("SELECT * FROM event ORDER BY sequence").fetchall()
+        life = "config_hash, time_mode, period_s, robot, scene, buses, layout, finished"
+        return [
+            database.execute(f"SELECT {life} FROM life").fetchall(),
+            list(itertools.takewhile(lambda event: END not in event[-1], events)),
+            database.execute("SELECT * FROM command ORDER BY sequence").fetchall(),
+            database.execute("SELECT * FROM gap").fetchall(),
+        ]
+    seconds = database.execute("SELECT * FROM telemetry ORDER BY first_tick").fetchall()[:-2]
+    until = seconds[-1][1]
+    return seconds, database.execute("SELECT * FROM facts WHERE tick <= ? ORDER BY tick", [until]).fetchall()
+
+
 def content(folder, name):
     """What two runs with one seed must have in common of a file: all of it, but for what a clock or a path put in."""
     if name == "bench_summary.json":
         return [line for line in (folder / name).read_text().splitlines() if "physics_us_per_slot" not in line]
     if name == "liana-archive.log":
-        return (folder / name).read_text().replace(str(folder.parent), "HOME")
+        text = (folder / name).read_text().replace(str(folder.parent), "HOME")
+        return re.sub("[0-9]+ states, [0-9]+ events", "states, events", text)
+    if name.endswith(".db"):
+        return rows_of_archive(folder / name)
     if name == "state.mcap":
         texts = [(message.channel.topic, bytes(message.data).decode()) for message in Mcap(folder / name).messages()]
         return list(itertools.takewhile(lambda message: END not in message[1], texts))

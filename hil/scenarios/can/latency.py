@@ -15,7 +15,12 @@ kDisk = "while dd if=/dev/zero of=$LOAD_DIR/file bs=64k count=64 conv=fsync stat
 kForks = "while /bin/true; do :; done"
 kClients = "while :; do $LOAD_BIN/liana status --json > /dev/null 2>&1; done"
 kFlood = [sys.executable, "-S", str(SCENARIOS / "can" / "flood.py")]
-kLoads = {"idle": [], "loaded": [["bash", "-c", kDisk], ["bash", "-c", kForks], ["bash", "-c", kClients], kFlood]}
+kConsole = [sys.executable, "-S", "-c", "from can import console_load; console_load.main()"]
+kLoads = {
+    "idle": [],
+    "loaded": [["bash", "-c", kDisk], ["bash", "-c", kForks], ["bash", "-c", kClients], kFlood],
+    "console": [kConsole],
+}
 
 
 def activity():
@@ -37,6 +42,7 @@ def wait_until_enabled(measuring):
 def measure(rate, load):
     with tempfile.TemporaryDirectory() as folder:
         environment = {**os.environ, "LOAD_DIR": folder, "LOAD_BIN": str(binaries())}
+        environment["PYTHONPATH"] = os.pathsep.join(sys.path)
         measuring = subprocess.Popen(
             [program("liana"), "latency", "--arm", "light", "--rate", rate, "--seconds", str(kSeconds), "--json"],
             stdout=subprocess.PIPE,

@@ -2,7 +2,7 @@
 the worst of all.
 """
 
-kWorstWakeup_us = {"idle": 25, "loaded": 50}
+kWorstWakeup_us = {"idle": 25, "loaded": 50, "console": 50}
 kLeastMoving = 0.5  # share of the time; the tip turns round now and then
 kAgree_us = 10  # between any two runs, in every figure
 kTimes = ("wakeup_us", "tick_us")

@@ -32,7 +32,7 @@ kPrograms = {
     "choom": "util-linux",
     "unshare": "util-linux",
 }
-kLiana = ("liana", "lianad", "liana-bus", "liana-bench", "liana-mission", "liana-archive")
+kLiana = ("liana", "lianad", "liana-bus", "liana-bench", "liana-mission", "liana-archive", "liana-gateway")
 kHere = ("vcan", "gateway")  # kinds of bus that a machine's own kernel makes in a network of its own
 kOwnNetwork = (
     "unshare",
@@ -62,7 +62,7 @@ kTools = (
 # interval; at 1000 it does not.
 kScenarioMachine = ("--controllers", "--instruction-ns", "1", "--memory", "1024")
 kBuses = {"vcan": "vcan", "gateway": "vcan and can-gw", "sja1000": "SJA1000", "serial": "slcan"}
-kLatency = [("250", "idle"), ("250", "loaded"), ("500", "idle"), ("500", "loaded")]
+kLatency = [("250", "idle"), ("250", "loaded"), ("250", "console"), ("500", "idle"), ("500", "loaded")]
 
 
 class NoMachine(Exception):
@@ -144,7 +144,7 @@ def guest_files():
     machine's files.
     """
     ask = (
-        f"import sys; sys.path.insert(0, {str(SCENARIOS)!r}); import guest, encodings, can.serial_line;"
+        f"import sys; sys.path.insert(0, {str(SCENARIOS)!r}); import guest, encodings, can.serial_line, can.console_load;"
         " print(*{str(path) for each in list(sys.modules.values()) for path in (getattr(each, '__file__', 0),"
         " getattr(each, '__cached__', 0)) if path}, sep='\\n')"
     )

@@ -33,6 +33,17 @@ TEST(Chunk, IsSmallerWhereRecordsAreAlike) {
   EXPECT_LT(packed(plain, 568).size(), plain.size() / 50);
 }
 
+TEST(Chunk, IsSmallWhereNumbersGoOnSmoothly) {
+  std::string plain;
+  for (int row = 0; row < 50; ++row) {
+    for (int i = 0; i < 142; ++i) {
+      const float number = 10.0f + 0.01f * static_cast<float>(row * i);
+      plain.append(reinterpret_cast<const char*>(&number), sizeof number);
+    }
+  }
+  EXPECT_LT(packed(plain, 568).size(), plain.size() / 3);
+}
+
 TEST(Chunk, RefusesABlobThatIsCutShort) {
   const std::string plain(50 * 568, 'x'), blob = packed(plain, 568);
   EXPECT_THROW(unpacked(blob.substr(0, blob.size() / 2), 50, 568), std::runtime_error);

@@ -141,6 +141,35 @@ TEST_F(Archive, ASecondLifeInTheSameFolderIsApartFromTheFirst) {
   EXPECT_EQ(Reader(folder_, 1).recorded()->last, 500u);
 }
 
+TEST_F(Archive, OneThatWasCutOffIsGoneOnWithAndWhatIsMissingIsSaid) {
+  {
+    Recorder recorder = this->recorder();
+    states(recorder, 0, 500);
+    recorder.take(event_of(1, 500));
+  }  // not finished: as if killed; the second that was open is lost
+  Recorder recorder(folder_, life(), kInterval, {}, 3);
+  for (const std::uint64_t sequence : {1u, 2u}) recorder.take(event_of(sequence, 500));
+  states(recorder, 1000, 1500);
+  recorder.finish();
+  const Reader read = reader();
+  EXPECT_EQ(read.lives(), 1u);
+  EXPECT_EQ(read.events().size(), 2u);
+  ASSERT_EQ(read.gaps().size(), 1u);
+  EXPECT_EQ(read.gaps()[0].first_tick, 500u);
+  EXPECT_EQ(read.gaps()[0].last_tick, 995u);
+  EXPECT_EQ(read.gaps()[0].text, "the recorder was not there");
+  EXPECT_EQ(read.facts().size(), 2u);
+  EXPECT_EQ(read.recorded()->last, 1500u);
+}
+
+TEST_F(Archive, ANewLianadBeginsANewLifeAlsoWhereTheLastOneWasCutOff) {
+  for (int i = 0; i < 2; ++i) {
+    Recorder recorder(folder_, life(), kInterval, {}, 1);
+    recorder.take(event_of(1, 0));
+  }
+  EXPECT_EQ(reader().lives(), 2u);
+}
+
 TEST_F(Archive, AFolderWithoutOneIsRefusedByName) {
   try {
     reader();

@@ -2,6 +2,7 @@
 #include "host/archive/telemetry_files.hpp"
 
 #include <filesystem>
+#include <random>
 
 #include "host/archive/segments.hpp"
 #include "tests/host/archive/archive_folder.hpp"
@@ -11,11 +12,9 @@ namespace {
 
 // Numbers that no compression makes small.
 std::string noise(std::uint64_t seed) {
+  std::mt19937_64 generator(seed);
   std::string record(400, '\0');
-  for (char& byte : record) {
-    seed = seed * 6364136223846793005u + 1442695040888963407u;
-    byte = static_cast<char>(seed >> 56);
-  }
+  for (char& byte : record) byte = static_cast<char>(generator());
   return record;
 }
 

@@ -34,7 +34,8 @@ class Runs : public testing::Test {
     plan.keep_directory = !record.empty();
     fs::create_directories(plan.socket_dir);
     fs::create_directories(plan.directory);
-    for (const char* name : {"events.txt", "archive.db", "telemetry-1-000000000000.db", "can0.log", "lianad.log"})
+    for (const char* name :
+         {"events.txt", "archive.db", "archive.db-wal", "telemetry-1-000000000000.db", "can0.log", "lianad.log"})
       std::ofstream(plan.file(name)) << "of this run\n";
     return plan;
   }
@@ -55,7 +56,7 @@ TEST_F(Runs, OneThatSucceedsLeavesWhatLastsAndNothingElse) {
   const SystemLayout plan = run();
   clean_up(plan, true);
   EXPECT_FALSE(fs::exists(plan.socket_dir));
-  for (const char* name : {"events.txt", "archive.db", "telemetry-1-000000000000.db"})
+  for (const char* name : {"events.txt", "archive.db", "archive.db-wal", "telemetry-1-000000000000.db"})
     EXPECT_TRUE(fs::exists(plan.file(name))) << name;
   for (const char* name : {"can0.log", "lianad.log"}) EXPECT_FALSE(fs::exists(plan.file(name))) << name;
 }
@@ -63,14 +64,14 @@ TEST_F(Runs, OneThatSucceedsLeavesWhatLastsAndNothingElse) {
 TEST_F(Runs, OneThatFailsKeepsItsLogsToo) {
   const SystemLayout plan = run();
   clean_up(plan, false);
-  EXPECT_EQ(count(plan.directory), 5u);
+  EXPECT_EQ(count(plan.directory), 6u);
   EXPECT_FALSE(fs::exists(plan.socket_dir));
 }
 
 TEST_F(Runs, OneWithRecordKeepsAllInItsOwnFolderAndNothingElsewhere) {
   const SystemLayout plan = run(home_ + "/record");
   clean_up(plan, true);
-  EXPECT_EQ(count(plan.directory), 5u);
+  EXPECT_EQ(count(plan.directory), 6u);
   EXPECT_FALSE(fs::exists(runs_folder()));
 }
 

@@ -191,6 +191,8 @@ std::vector<Command> spheres(std::uint64_t seed) {
       std::swap(command.from_rad, command.to_rad);
     const double least = least_m(command, beside);
     if (least < 0.06) continue;  // no ball fits there
+    // Less would be an arm that stands too near from the beginning: such a one may go along the ball (TooNear).
+    if (axis_m(command.table, command.from_rad, beside) < least + 0.002) continue;
     both_sides(out, [&](bool outside) {
       const double left_m = outside ? -0.001 : 0.001;
       const double radius_m = least - command.link_radius_m - command.scene.margins.prediction_m - left_m;

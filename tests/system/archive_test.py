@@ -1,0 +1,164 @@
+"""The flight recorder of every run: what it leaves without being asked, and that its death does not harm the run (A36,
+A30).
+"""
+import csv
+import json
+import math
+import os
+import signal
+import sqlite3
+import time
+import unittest
+
+from killed_test import children_of
+from support import MISSIONS, SystemTest, start_run
+from liana.recordings import Truth
+from liana.system import run
+
+MISSION = MISSIONS / "short.lua"
+LASTING = {"archive.db", "robot.json", "scene.json", "buses.json", "events.txt", "commands.txt", "report.json"}
+
+
+def folder_of(process):
+    (folder,) = (process.home / "liana" / "runs").iterdir()
+    return folder
+
+
+def rows(folder, sql):
+    return sqlite3.connect(folder / "archive.db").execute(sql).fetchall()
+
+
+class RunsWithoutRecord(SystemTest):
+    """One run; its folder lives as long as the class."""
+
+    @classmethod
+    def setUpClass(cls):
+        keeper = cls()
+        cls.addClassCleanup(keeper.doCleanups)
+        process = start_run(keeper, MISSION, "--seed", 3)
+        _, error = process.communicate(timeout=300)
+        assert process.returncode == 0, error
+        cls.home, cls.folder = process.home, folder_of(process)
+
+    def runTest(self):
+        """Lets setUpClass make an instance whose clean-ups outlive single tests."""
+
+    def log(self, *words):
+        return run("liana", "log", *words, env={**os.environ, "XDG_STATE_HOME": str(self.home)})
+
+    def test_leave_what_lasts_and_nothing_else_anywhere(self):
+        names = {file.name for file in self.folder.iterdir()}
+        self.assertEqual(names, LASTING | {"truth.bin", "telemetry-1-000000000000.db"})
+        self.assertEqual(list(self.home.glob("liana-run-*")), [])
+
+    def test_every_event_of_the_file_is_in_the_archive(self):
+        lines = [line for line in (self.folder / "events.txt").read_text().splitlines() if not line.startswith("#")]
+        archived = rows(self.folder, "SELECT sequence, tick, text FROM event ORDER BY sequence")
+        self.assertEqual(len(archived), len(lines))
+        for (_, tick, text), line in zip(archived, lines):
+            columns = [column.strip() for column in line.split("\t")]
+            self.assertIn(str(tick), columns)
+            self.assertIn(text, columns)
+
+    def test_every_verified_command_is_in_the_archive(self):
+        lines = (self.folder / "commands.txt").read_text().splitlines()
+        released = {int(line.split("\t")[2]) for line in lines if line.split("\t")[1] == "release"}
+        archived = {sequence for (sequence,) in rows(self.folder, "SELECT sequence FROM command WHERE released")}
+        self.assertGreater(len(released), 100)
+        self.assertEqual(archived, released)
+
+    def test_a_record_stands_for_every_command_interval(self):
+        report = json.loads((self.folder / "report.json").read_text())
+        checked = json.loads(self.log("verify", "--json").stdout)
+        (life,) = checked["lives"]
+        self.assertTrue(checked["whole"] and life["finished"], checked)
+        self.assertEqual(life["gaps"], [])
+        self.assertEqual(life["records"], round((life["to_s"] - life["from_s"]) / 0.02) + 1)
+        self.assertGreater(life["to_s"], report["duration_s"])
+
+    def test_liana_log_lists_it_and_shows_its_steps(self):
+        (listed,) = json.loads(self.log("list", "--json").stdout)
+        self.assertEqual((listed["name"], listed["outcome"]), (self.folder.name, "success"))
+        shown = [json.loads(line) for line in self.log("show", "--json").stdout.splitlines()]
+        self.assertEqual([line["number"] for line in shown if line["kind"] == "step"], [1, 2])
+        later = self.log("show", self.folder.name, "--from", "2").stdout
+        self.assertIn("step 1: prepare", later)
+        self.assertNotIn("all drives are booted", later)
+
+    def test_an_exported_table_has_a_line_for_every_record(self):
+        file = self.home / "run.csv"
+        self.assertEqual(self.log("export", "--csv", str(file), "--from", "1", "--to", "3").returncode, 0)
+        with file.open() as text:
+            lines = list(csv.DictReader(text))
+        self.assertEqual([int(line["tick"]) for line in lines], list(range(250, 751, 5)))
+        for line in lines:
+            self.assertAlmostEqual(float(line["time_s"]), int(line["tick"]) * 0.004)
+            self.assertIn(line["state"], ("DISABLED", "ENABLING"))
+            self.assertTrue(math.isfinite(float(line["measured_js_deg_10"])))
+
+    def test_bus_traffic_that_was_not_kept_is_refused_by_reason(self):
+        done = self.log("export", "--candump", str(self.home / "bus.log"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("holds no bus traffic; runs with --record have it", done.stderr)
+        self.assertFalse((self.home / "bus.log").exists())
+
+    def test_an_export_without_a_file_is_refused(self):
+        done = self.log("export")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--csv, --mcap or --candump", done.stderr)
+
+    def test_a_damaged_archive_is_said_to_be_so(self):
+        copy = self.home / "copy"
+        copy.mkdir()
+        for file in self.folder.iterdir():
+            (copy / file.name).write_bytes(file.read_bytes())
+        telemetry = copy / "telemetry-1-000000000000.db"
+        whole = telemetry.read_bytes()
+        telemetry.write_bytes(whole[: len(whole) // 2])
+        done = self.log("verify", str(copy))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("NOT whole", done.stdout)
+
+
+class RunsWithRecord(SystemTest):
+    def test_bus_traffic_of_all_buses_is_exported_in_the_order_of_its_times(self):
+        process = start_run(self, MISSION, "--seed", 3, "--record", "record")
+        _, error = process.communicate(timeout=300)
+        self.assertEqual(process.returncode, 0, error)
+        self.assertFalse((process.home / "liana").exists(), "all of it is in the user's folder")
+        record, exported = process.home / "record", process.home / "bus.log"
+        done = run("liana", "log", "export", record, "--candump", exported)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lines = exported.read_text().splitlines()
+        buses = [(record / f"{name}.log").read_text().splitlines() for name in ("can0", "can1")]
+        self.assertEqual(sorted(lines), sorted(buses[0] + buses[1]))
+        times = [float(line[1 : line.index(")")]) for line in lines]
+        self.assertEqual(times, sorted(times))
+
+
+class RecordersThatDie(SystemTest):
+    def test_a_run_goes_on_and_a_new_recorder_takes_over_where_the_old_one_left_off(self):
+        process = start_run(self, MISSION, "--seed", 3)
+        for line in process.stderr:
+            if "prepare" in line:
+                break
+        time.sleep(0.3)
+        os.kill(children_of(process.pid)["liana-archive"], signal.SIGKILL)
+        _, error = process.communicate(timeout=300)
+        self.assertEqual(process.returncode, 0, error)
+        self.assertIn("liana-archive was killed by signal 9", error)
+        self.assertIn("it is started again", error)
+        folder = folder_of(process)
+        self.assertGreater(len(Truth(folder / "truth.bin").rows), 1000)
+        done = run("liana", "log", "verify", folder, "--json")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        (life,) = json.loads(done.stdout)["lives"]
+        self.assertTrue(life["finished"], life)
+        (gap,) = life["gaps"]
+        self.assertEqual((gap["what"], gap["text"]), ("states", "the recorder was not there"))
+        lines = [line for line in (folder / "events.txt").read_text().splitlines() if not line.startswith("#")]
+        self.assertEqual(life["events"], len(lines))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
