@@ -36,7 +36,7 @@ export class IntervalLog {
     const rate_Hz = this.rate_Hz(now_ms);
     if (!(rate_Hz < kLowest_Hz)) return [];
     return [{
-      key: 'vr rate', priority: 2, title: `handles are sampled only ${rate_Hz} times a second`, cause: 'The headset or this browser is too slow: 50 are needed.',
+      key: 'vr rate', priority: 2, passes: true, title: `handles are sampled only ${rate_Hz} times a second`, cause: 'The headset or this browser is too slow: 50 are needed.',
       todo: 'Let go of the triggers; close other programs, or show less. The arm holds when no sample comes for 0.1 s.',
     }];
   }

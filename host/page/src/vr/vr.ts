@@ -197,7 +197,7 @@ export class Vr {
       `${steering}, scale ${facts.mapping?.scale ?? this.scale}`,
       `left hand: ${this.node === 0 ? 'nothing' : `node ${this.node}`}, world ${this.rig.world_scale} : 1`,
       `handles ${Number.isFinite(rate_Hz) ? `${rate_Hz}/s` : ''} ${this.said}`,
-      alarm ? `${alarm.title}: ${alarm.todo}` : 'A hold   B STOP   X node   Y scale',
+      ...(alarm ? [alarm.title, alarm.todo.split('. ')[0]] : ['A hold   B STOP   X node   Y scale']),
     ], !!alarm && alarm.priority === 1);
   }
 
