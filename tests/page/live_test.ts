@@ -100,3 +100,12 @@ test('fifteen silent drives are one alarm with the remedy of the fault table, be
   assert.match(first.todo, /Check the bus for errors and load/);
   assert.match(second.title, /close to the wall/);
 });
+
+test('an alarm that passes by itself is gone 3 s after its cause, seen or not', () => {
+  const book = new AlarmBook();
+  book.update([{ ...slow, priority: 1, passes: true }], 0);
+  book.update([], 2);
+  assert.equal(book.list().length, 1);
+  book.update([], 4);
+  assert.equal(book.list().length, 0);
+});

@@ -50,6 +50,7 @@ test('below 50 samples a second there is an alarm, not at 90, and not before a s
   const slow = new IntervalLog();
   for (let i = 0; i < 90; ++i) slow.sampled(25 * i);
   assert.match(slow.conditions(2225)[0].title, /only 40 times/);
+  assert.deepEqual([quick.frames_per_picture(1989), slow.frames_per_picture(2225)], [1, 3]); // handles before pictures
   const fresh = new IntervalLog();
   fresh.sampled(0);
   assert.deepEqual(fresh.conditions(500), []);

@@ -103,6 +103,12 @@ test('retract goes back along the verified path, hold ends it', async () => {
   await is_at_rest('hold');
 });
 
+test('recorded runs are listed, each with its page', async () => {
+  await page.click('#tab-Runs');
+  await page.waitForFunction(() => /No run is recorded yet|shows no recorded|liana-/.test(document.querySelector('#panel-Runs').textContent));
+  assert.doesNotMatch(await text('#panel-Runs'), /No list of runs/);
+});
+
 test('a click on an event takes the scene to its moment, and "now" back', async () => {
   await page.click('#tab-Events');
   await page.click('.events li:first-child button');

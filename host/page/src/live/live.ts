@@ -69,10 +69,11 @@ export class Live {
   // Looks what a person should act on; true when the alarms changed.
   update_alarms(now_s: number, more: readonly Condition[]): boolean {
     const conditions = [...conditions_of(this.facts), ...more];
+    if (!this.welcome) return this.alarms.update(conditions, now_s); // the page has only begun; its title says so
     if (this.status) {
-      conditions.push({ key: 'link', priority: 1, title: 'nothing comes from the arm', cause: this.status, todo: 'What is shown is old. To stop the arm use the switch beside it, or liana estop.' });
+      conditions.push({ key: 'link', priority: 1, passes: true, title: 'nothing comes from the arm', cause: this.status, todo: 'What is shown is old. To stop the arm use the switch beside it, or liana estop.' });
     } else if (now_s - this.came_s > kSilent_s) {
-      conditions.push({ key: 'link', priority: 1, title: 'nothing comes from the arm', cause: `No state for ${kSilent_s} s.`, todo: 'What is shown is old: wait, or look at lianad.' });
+      conditions.push({ key: 'link', priority: 1, passes: true, title: 'nothing comes from the arm', cause: `No state for ${kSilent_s} s.`, todo: 'What is shown is old: wait, or look at lianad.' });
     }
     return this.alarms.update(conditions, now_s);
   }

@@ -135,7 +135,7 @@ export class LivePage {
     this.plots = new LivePlots(this.live, welcome, theme, go_to);
     const events = new LiveEvents(this.live, go_to);
     this.panels.push(events);
-    const runs = new RunList();
+    const runs = new RunList(welcome.ticket);
     const tabs = new Tabs([
       { name: 'Steer', panel: steer, shown: () => joints.reset() },
       { name: 'Plots', panel: h('div', { class: 'panel plots' }, this.plots.element) },

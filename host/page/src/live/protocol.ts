@@ -19,6 +19,7 @@ export interface Welcome {
   interval_ticks: number;
   time_mode: string;
   layout: Layout;
+  ticket?: string; // for recorded runs, where tokens are asked for
 }
 
 export interface Answer {

@@ -3,24 +3,38 @@ import { h } from '../ui/dom';
 
 interface Entry {
   name: string;
-  title?: string;
-  outcome?: string;
+  changed_s: number;
+  page: boolean; // it has one
 }
 
 export class RunList {
-  readonly element = h('div', { class: 'panel' }, h('p', { class: 'hint' }, 'asking for the recorded runs'));
+  readonly element = h('div', { class: 'panel' });
+
+  // `ticket`: of the welcome, where the gateway asks for tokens.
+  constructor(private readonly ticket: string | undefined) {}
 
   // Asks the gateway again.
   async load(): Promise<void> {
+    const query = this.ticket ? `?ticket=${encodeURIComponent(this.ticket)}` : '';
     try {
-      const answer = await fetch('runs');
+      const answer = await fetch(`runs${query}`);
+      if (answer.status === 404) return this.say('This gateway shows no recorded runs.');
       if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}`);
-      const found = (await answer.json()) as { runs?: (Entry | string)[] } | (Entry | string)[];
-      const runs = (Array.isArray(found) ? found : found.runs ?? []).map((run) => (typeof run === 'string' ? { name: run } : run));
-      const rows = runs.map((run) => h('li', {}, h('a', { href: `run/${encodeURIComponent(run.name)}`, target: '_blank', rel: 'noopener' }, run.title ?? run.name), run.outcome ? ` ${run.outcome}` : ''));
-      this.element.replaceChildren(rows.length > 0 ? h('ol', {}, ...rows) : h('p', { class: 'hint' }, 'No run is recorded yet: liana run makes one.'));
+      const runs = (await answer.json()) as Entry[];
+      if (runs.length === 0) return this.say('No run is recorded yet: liana run makes one.');
+      this.element.replaceChildren(h('ol', { class: 'runs' }, ...runs.map((run) => this.row(run, query))));
     } catch (error) {
-      this.element.replaceChildren(h('p', { class: 'hint' }, `No list of runs: ${String(error)}`));
+      this.say(`No list of runs: ${String(error)}`);
     }
+  }
+
+  private row(run: Entry, query: string): HTMLElement {
+    const when = new Date(1000 * run.changed_s).toLocaleString();
+    const link = h('a', { href: `run/${encodeURIComponent(run.name)}${query}`, target: '_blank', rel: 'noopener' }, run.name);
+    return h('li', {}, run.page ? link : `${run.name} (no page)`, h('span', { class: 'hint' }, ` ${when}`));
+  }
+
+  private say(text: string): void {
+    this.element.replaceChildren(h('p', { class: 'hint' }, text));
   }
 }

@@ -11,6 +11,7 @@ export interface Condition {
   title: string;
   cause: string;
   todo: string;
+  passes?: boolean; // goes by itself when it is over: nobody has to have seen it
 }
 
 export interface Alarm extends Condition {
@@ -37,7 +38,7 @@ export class AlarmBook {
     for (const condition of conditions) this.see(condition, now_s);
     for (const entry of this.entries.values()) {
       if (entry.seen_s !== now_s && now_s - entry.seen_s >= (entry.shown ? kOffDelay_s : 0)) entry.is_active = false;
-      if (!entry.is_active && (!entry.shown || entry.acknowledged_by !== '')) this.entries.delete(entry.key);
+      if (!entry.is_active && (!entry.shown || entry.passes || entry.acknowledged_by !== '')) this.entries.delete(entry.key);
     }
     return this.mark() !== before;
   }

@@ -24,12 +24,19 @@ export class IntervalLog {
     return this.times_ms.filter((t) => t > now_ms - kJudged_ms).length;
   }
 
+  // Every how many frames the picture should be drawn: where that is too much work, sampling the handles comes first.
+  frames_per_picture(now_ms: number): number {
+    const rate_Hz = this.rate_Hz(now_ms);
+    if (rate_Hz < 0.6 * kLowest_Hz) return 6;
+    return rate_Hz < 1.2 * kLowest_Hz ? 3 : 1;
+  }
+
   // What a person should act on.
   conditions(now_ms: number): Condition[] {
     const rate_Hz = this.rate_Hz(now_ms);
     if (!(rate_Hz < kLowest_Hz)) return [];
     return [{
-      key: 'vr rate', priority: 2, title: `handles are sampled only ${rate_Hz} times a second`, cause: 'The headset or this browser is too slow: 50 are needed.',
+      key: 'vr rate', priority: 2, passes: true, title: `handles are sampled only ${rate_Hz} times a second`, cause: 'The headset or this browser is too slow: 50 are needed.',
       todo: 'Let go of the triggers; close other programs, or show less. The arm holds when no sample comes for 0.1 s.',
     }];
   }

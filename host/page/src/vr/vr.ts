@@ -14,7 +14,7 @@ import { device_from_headset, HandleSamples, type Handle } from './handles';
 import { IntervalLog } from './interval_log';
 import { reach_rings, Rig } from './rig';
 
-const kTipPictureEvery = 4; // frames
+const kTipPictureEvery = 4; // pictures
 const kStick = 0.8;
 const kPulse_ms = 40;
 
@@ -34,6 +34,7 @@ export class Vr {
   private readonly buttons = new VrButtons();
   private readonly grips = new Map<Side, THREE.Object3D>();
   private frames = 0;
+  private pictures = 0;
   private was_engaged = false;
   private was_level = '';
   private stick_moved = false;
@@ -107,10 +108,13 @@ export class Vr {
       ++this.sent;
       this.take_buttons(this.session);
     }
+    if (++this.frames % this.log.frames_per_picture(now_ms) !== 0) return; // the last picture stays
     this.view.move_now();
-    if (this.frames++ % kTipPictureEvery === 0) {
+    if (this.pictures++ % kTipPictureEvery === 0) {
       this.write(now_ms);
+      this.rig.group.visible = false; // its picture is not a part of itself
       this.view.stage.render_tip_to(this.board.target, this.view.tip_frame_now());
+      this.rig.group.visible = true;
     }
     renderer.render(scene, camera);
   }
@@ -193,7 +197,7 @@ export class Vr {
       `${steering}, scale ${facts.mapping?.scale ?? this.scale}`,
       `left hand: ${this.node === 0 ? 'nothing' : `node ${this.node}`}, world ${this.rig.world_scale} : 1`,
       `handles ${Number.isFinite(rate_Hz) ? `${rate_Hz}/s` : ''} ${this.said}`,
-      alarm ? `${alarm.title}: ${alarm.todo}` : 'A hold   B STOP   X node   Y scale',
+      ...(alarm ? [alarm.title, alarm.todo.split('. ')[0]] : ['A hold   B STOP   X node   Y scale']),
     ], !!alarm && alarm.priority === 1);
   }
 
