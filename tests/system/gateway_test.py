@@ -323,7 +323,7 @@ class WhoIsLetIn(SystemTest):
             (self.folder / "runs" / name / "page.html").write_text(f"page of {name}")
             os.utime(self.folder / "runs" / name, (changed_s, changed_s))
         os.utime(self.folder / "runs" / "unfinished", (9, 9))
-        (self.folder / "page.html").write_text("secret")
+        (self.folder / "page.html").write_text("nobody may read this")
         gateway = Gateway(self, self.api, "--runs", self.folder / "runs")
         runs = json.loads(http_get(gateway.address, "/runs")[2])
         self.assertEqual([(run["name"], run["page"]) for run in runs][0], ("unfinished", False))
@@ -332,7 +332,7 @@ class WhoIsLetIn(SystemTest):
         for name in ("unfinished", "none", "", ".", "older/page.html", "older%00"):
             self.assertNotEqual(http_get(gateway.address, f"/run/{name}")[0], 200, name)
         for name in ("..", "../page.html", "%2e%2e", "..%2f", "%2e%2e%2fpage.html", "..%5cpage.html"):
-            self.assertNotIn(b"secret", http_get(gateway.address, f"/run/{name}")[2], name)
+            self.assertFalse(b"nobody may read this" in http_get(gateway.address, f"/run/{name}")[2], name)
 
     def test_where_tokens_are_asked_for_runs_take_the_ticket_of_a_client_that_is_connected(self):
         (self.folder / "runs" / "one").mkdir(parents=True)
