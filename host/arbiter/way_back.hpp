@@ -74,6 +74,7 @@ class WayBack {
   static constexpr std::int32_t kRestIntervals = 3;        // a command released before the stop may still be on its way
   static constexpr std::int32_t kMostRestIntervals = 100;  // at rest the arm may still swing, and be refused for that
   static constexpr double kPaceGain = 0.008;               // per command interval: full pace after 2 s
+  static constexpr double kRiseShare = 0.1;                // of a joint's fastest rate, each second
   static constexpr int kMostStarts = 10;
   static constexpr std::size_t kProgressPoints = 10;  // further back than the refusal before: another place
   static constexpr double kMostWait_s = 20.0;         // for rest
@@ -87,7 +88,7 @@ class WayBack {
   // From rest.
   void start_again() {
     rest_intervals_ = waited_ = 0;
-    pace_ = share_ = 0.0;
+    pace_ = share_ = step_rad_ = 0.0;
     join_.reset();
     arrived_.reset();
   }
@@ -119,7 +120,7 @@ class WayBack {
   // One command interval on.
   Joints<Arm> step(const liana::Outputs<Arm>& now) {
     if (join_) return go_on_joining(now);
-    pace_ = std::min(is_faulty_ ? kRetreatPace : kWayBackPace, pace_ + kPaceGain);
+    pace_ = risen(std::min(is_faulty_ ? kRetreatPace : kWayBackPace, pace_ + kPaceGain));
     share_ += is_faulty_ ? std::min(pace_, retreat_share()) : pace_;
     while (share_ >= 1.0 && ahead() != nullptr && !path_.newest().begins) pass_point();
     const typename Memory::Point* to = ahead();
@@ -131,6 +132,18 @@ class WayBack {
     if (!path_.newest().begins) return between(path_.newest().joint_rad, to->joint_rad, share_);
     join_.emplace(table_, path_.newest().joint_rad, to->joint_rad, kJoinRate_rad_s);
     return go_on_joining(now);
+  }
+  // The way in may have ended its pieces with quick stops; the way back does not begin them as quickly, because the tip
+  // of an arm that has stood in its friction springs ahead then. Braking is as quick as it was.
+  double risen(double pace) {
+    const typename Memory::Point* to = ahead();
+    if (to == nullptr) return pace;
+    const double way_rad = Memory::largest_change(path_.newest().joint_rad, to->joint_rad);
+    const double most_rad =
+        step_rad_ + kRiseShare * ArmKind<Arm>::rate_rad_s(table_, 0) * interval_s(table_) * interval_s(table_);
+    if (way_rad * pace > most_rad) pace = most_rad / way_rad;
+    step_rad_ = way_rad * pace;
+    return pace;
   }
   // Of the piece to the point ahead, as much as a retreat may go in an interval, and some less.
   double retreat_share() const {
@@ -153,7 +166,7 @@ class WayBack {
     if (!join_->is_over()) return joint_rad;
     join_.reset();
     path_.drop_newest();
-    pace_ = share_ = 0.0;
+    pace_ = share_ = step_rad_ = 0.0;
     return joint_rad;
   }
 
@@ -169,6 +182,7 @@ class WayBack {
   std::size_t points_at_refusal_ = 0;
   bool is_over_ = false;
   double pace_ = 0.0;                   // points per interval now
+  double step_rad_ = 0.0;               // of the fastest joint, in the interval before
   double share_ = 0.0;                  // of the way from the newest point to the one before it
   std::optional<JointMove<Arm>> join_;  // onto the path
   std::optional<Joints<Arm>> arrived_;  // the end of the way is asked for

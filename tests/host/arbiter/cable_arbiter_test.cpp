@@ -476,7 +476,7 @@ TEST_F(WayOut, IsNotBackBeforeTheArmIsAtRestThere) {
   go_in();
   arbiter_.retract(now_, 0);
   wait_for_rest();
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 200; ++i) {
     now_.at_rest = 0;
     const auto setpoint = next();
     ASSERT_TRUE(setpoint);
@@ -487,6 +487,27 @@ TEST_F(WayOut, IsNotBackBeforeTheArmIsAtRestThere) {
   now_.at_rest = 1;
   EXPECT_FALSE(next());
   EXPECT_TRUE(arbiter_.has_retracted());
+}
+
+// The way in began at once at full speed; who stands in his friction would spring ahead.
+TEST_F(WayOut, GetsFasterNoMoreThanATenthOfTheFastestRateEachSecond) {
+  go_in();
+  arbiter_.retract(now_, 0);
+  wait_for_rest();
+  constexpr double dt_s = 0.02;
+  const double most_rad = 0.1 * zhu2022::table().limits.theta_rate_rad_s * dt_s * dt_s;
+  double before_rad = 0.0, fastest_rad = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    const auto setpoint = next();
+    if (!setpoint) break;
+    const double step_rad = std::fabs(setpoint->joint_rad[0] - now_.theta_command_rad[0]);
+    EXPECT_LE(step_rad, before_rad + 1.0001 * most_rad + 1e-12) << "interval " << i;
+    before_rad = step_rad;
+    fastest_rad = std::max(fastest_rad, step_rad);
+    now_.theta_command_rad = setpoint->joint_rad;
+  }
+  EXPECT_TRUE(arbiter_.has_retracted());
+  EXPECT_GT(fastest_rad, 10.0 * most_rad) << "it does get faster";
 }
 
 TEST_F(WayOut, EndsAndSaysWhyWhenTheArmDoesNotComeToRestOrIsNotEnabledAnyMoreOrIsHeld) {
