@@ -15,18 +15,11 @@
 #include <vector>
 
 #include "host/api/socket.hpp"
-#include "host/gateway/http_answer.hpp"
-#include "host/gateway/run_pages.hpp"
-#include "host/gateway/web_origin.hpp"
-#include "host/json/json.hpp"
+#include "host/gateway/web_door.hpp"
 
 namespace liana::gateway {
 namespace {
 
-constexpr const char* kProtocol = "liana-console-1";
-constexpr const char* kPlain = "text/plain; charset=utf-8";
-constexpr const char* kJson = "application/json";
-constexpr std::string_view kRun = "/run/";
 constexpr std::size_t kChunk = 4096;  // of a message, as it is read
 constexpr std::size_t kLongestMessage = api::kMaxPacketBytes;
 constexpr unsigned int kMostSockets = 192;                     // clients, strangers, and those who only load the page
@@ -40,33 +33,12 @@ struct Connection {
   std::string* message;  // as far as it has been read
 };
 
-std::string header(lws* wsi, lws_token_indexes which) {
-  const int length = lws_hdr_total_length(wsi, which);
-  if (length <= 0) return "";
-  std::string text(static_cast<std::size_t>(length) + 1, '\0');
-  const int copied = lws_hdr_copy(wsi, text.data(), length + 1, which);
-  text.resize(copied > 0 ? static_cast<std::size_t>(copied) : 0);
-  return text;
-}
-
-std::string query(lws* wsi, const char* name) {
-  std::array<char, 128> text{};
-  const char* found = lws_get_urlarg_by_name(wsi, name, text.data(), static_cast<int>(text.size()));
-  return found == nullptr ? "" : found;
-}
-
-std::string peer(lws* wsi) {
-  std::array<char, 64> text{};
-  lws_get_peer_simple(wsi, text.data(), text.size());
-  return text.data();
-}
-
 void complain(int, const char* line) { std::fprintf(stderr, "liana-gateway: libwebsockets: %s", line); }
 
 }  // namespace
 
 struct WebServerInside {
-  WebServerInside(const WebOptions& given, Gateway& owner) : options(given), gateway(owner) {}
+  WebServerInside(const WebOptions& given, Gateway& owner) : options(given), gateway(owner), door(options, owner) {}
 
   int take(lws* wsi, lws_callback_reasons reason, Connection* connection, void* in, std::size_t length);
   void listen();
@@ -75,18 +47,13 @@ struct WebServerInside {
 
   const WebOptions options;
   Gateway& gateway;
+  WebDoor door;
   api::UniqueFd timer, signals;
   bool over = false;
   lws_context* context = nullptr;
   lws_vhost* vhost = nullptr;
-  std::uint16_t port = 0;
   std::vector<unsigned char> buffer;  // of what is being written
 
-  bool is_tls() const { return !options.certificate.empty(); }
-  std::optional<std::string> problem(lws* wsi, const char** what) const;
-  int refuse(lws* wsi, const char* what, unsigned int status, const std::string& why);
-  int admit(lws* wsi);
-  int serve(lws* wsi, const std::string& path);
   void open(lws* wsi, Connection& connection);
   int read(lws* wsi, Connection& connection, std::string_view piece);
   int write(lws* wsi, Connection& connection);
@@ -94,61 +61,9 @@ struct WebServerInside {
   void closed(Connection& connection);
 };
 
-// What is wrong with who asks, whatever is asked for.
-std::optional<std::string> WebServerInside::problem(lws* wsi, const char** what) const {
-  const std::string host = header(wsi, WSI_TOKEN_HOST), origin = header(wsi, WSI_TOKEN_ORIGIN);
-  *what = "plain_http";
-  if (is_tls() && lws_is_ssl(wsi) == 0) return "use https: nothing is served in the clear here";
-  *what = "host";
-  const bool is_named = host == options.listen.web_host() + ":" + std::to_string(port);
-  if (options.listen.is_loopback() && !is_named && !is_loopback_host(host, port))
-    return "host '" + host + "': allowed are 127.0.0.1, localhost and [::1] with the port";
-  *what = "cross_origin";
-  if (!is_own_origin(origin, is_tls() ? "https" : "http", host))
-    return "origin '" + origin + "': allowed are pages of this gateway";
-  return std::nullopt;
-}
-
-int WebServerInside::refuse(lws* wsi, const char* what, unsigned int status, const std::string& why) {
-  gateway.refused(what, peer(wsi), why);
-  return answer_http(wsi, status, kPlain, why + "\n");
-}
-
-// Before a connection becomes a WebSocket: 0 lets it, more than 0 says that it was answered.
-int WebServerInside::admit(lws* wsi) {
-  const auto refused = [&](const char* what, unsigned int status, const std::string& why) {
-    refuse(wsi, what, status, why);
-    return 1;
-  };
-  const char* what = "";
-  if (const auto why = problem(wsi, &what)) return refused(what, HTTP_STATUS_FORBIDDEN, *why);
-  const std::string path = header(wsi, WSI_TOKEN_GET_URI);
-  if (path != "/ws") return refused("path", HTTP_STATUS_NOT_FOUND, "'" + path + "': the WebSocket is /ws");
-  if (header(wsi, WSI_TOKEN_PROTOCOL) != kProtocol)
-    return refused("protocol", HTTP_STATUS_BAD_REQUEST, std::string("the subprotocol is ") + kProtocol);
-  if (gateway.is_full())
-    return refused("too_many", HTTP_STATUS_SERVICE_UNAVAILABLE, "32 clients are connected already");
-  return 0;
-}
-
-int WebServerInside::serve(lws* wsi, const std::string& path) {
-  const char* what = "";
-  if (const auto why = problem(wsi, &what)) return refuse(wsi, what, HTTP_STATUS_FORBIDDEN, *why);
-  if (lws_hdr_total_length(wsi, WSI_TOKEN_GET_URI) == 0)
-    return refuse(wsi, "method", HTTP_STATUS_METHOD_NOT_ALLOWED, "allowed is GET");
-  if (path == "/") return answer_page(wsi, options.page);
-  const bool about_runs = !options.runs.empty() && (path == "/runs" || path.starts_with(kRun));
-  if (about_runs && !gateway.lets_in(query(wsi, "ticket=")))
-    return refuse(wsi, "no_token", HTTP_STATUS_FORBIDDEN, "'" + path + "': takes ?ticket= of the welcome");
-  if (about_runs && path == "/runs") return answer_http(wsi, HTTP_STATUS_OK, kJson, run_list(options.runs).dump());
-  const auto run = about_runs ? run_page(options.runs, path.substr(kRun.size())) : std::nullopt;
-  if (run) return answer_page(wsi, *run);
-  return refuse(wsi, "path", HTTP_STATUS_NOT_FOUND, "'" + path + "': nothing is there");
-}
-
 void WebServerInside::open(lws* wsi, Connection& connection) {
   connection.message = new std::string;
-  connection.session = &gateway.open(peer(wsi), [wsi, &connection] {
+  connection.session = &gateway.open(peer_of(wsi), [wsi, &connection] {
     const Session* session = connection.session;
     if (session != nullptr && !session->has_said_much()) lws_rx_flow_control(wsi, 1);
     if (session != nullptr && session->end().code != 0)
@@ -211,11 +126,11 @@ int WebServerInside::take(lws* wsi, lws_callback_reasons reason, Connection* con
       gateway.run_ready();
       return 0;
     case LWS_CALLBACK_HTTP:
-      return serve(wsi, std::string(bytes));
+      return door.serve(wsi, std::string(bytes));
     case LWS_CALLBACK_HTTP_FILE_COMPLETION:
       return lws_http_transaction_completed(wsi) != 0 ? -1 : 0;
     case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
-      return admit(wsi);
+      return door.admit(wsi);
     case LWS_CALLBACK_ESTABLISHED:
       open(wsi, *connection);
       return 0;
@@ -254,7 +169,7 @@ constexpr lws_protocols protocol(const char* name, std::size_t bytes) {
 }
 
 constexpr std::array<lws_protocols, 3> kProtocols{
-    {protocol("http", 0), protocol(kProtocol, sizeof(Connection)), lws_protocols{}}};
+    {protocol("http", 0), protocol(WebDoor::kProtocol, sizeof(Connection)), lws_protocols{}}};
 constexpr lws_retry_bo_t kIdle{nullptr, 0, 0, kPingAfter_s, kGoneAfter_s, 0};
 
 }  // namespace
@@ -271,10 +186,10 @@ void WebServerInside::listen() {
   info.retry_and_idle_policy = &kIdle;
   info.options = LWS_SERVER_OPTION_SKIP_SERVER_CANONICAL_NAME | LWS_SERVER_OPTION_FAIL_UPON_UNABLE_TO_BIND;
   if (options.listen.host.find(':') == std::string::npos) info.options |= LWS_SERVER_OPTION_DISABLE_IPV6;
-  if (is_tls()) {
+  if (options.is_tls()) {
     info.ssl_cert_filepath = options.certificate.c_str();
     info.ssl_private_key_filepath = options.key.c_str();
-    // Who asks in the clear gets a refusal that can be read, and is logged: problem().
+    // Who asks in the clear gets a refusal that can be read, and is logged: WebDoor.
     info.options |= LWS_SERVER_OPTION_DO_SSL_GLOBAL_INIT | LWS_SERVER_OPTION_ALLOW_NON_SSL_ON_SSL_PORT |
                     LWS_SERVER_OPTION_ALLOW_HTTP_ON_HTTPS_LISTENER;
   }
@@ -284,7 +199,7 @@ void WebServerInside::listen() {
     throw std::runtime_error("--listen " + options.listen.web_host() + ":" + std::to_string(options.listen.port) +
                              ": cannot listen there; take another port (0: a free one), an address of this machine, "
                              "and a certificate and key that can be read");
-  port = static_cast<std::uint16_t>(lws_get_vhost_listen_port(vhost));
+  door.port = static_cast<std::uint16_t>(lws_get_vhost_listen_port(vhost));
   lws_sock_file_fd_type others{};
   others.filefd = ::dup(gateway.poller().fd());  // the library closes it
   if (lws_adopt_descriptor_vhost(vhost, LWS_ADOPT_RAW_FILE_DESC, others, "http", nullptr) == nullptr)
@@ -322,8 +237,8 @@ WebServer::WebServer(const WebOptions& options, Gateway& gateway)
 WebServer::~WebServer() { lws_context_destroy(inside_->context); }
 
 std::string WebServer::address() const {
-  return std::string(inside_->is_tls() ? "https://" : "http://") + inside_->options.listen.web_host() + ":" +
-         std::to_string(inside_->port) + "/";
+  return std::string(inside_->options.is_tls() ? "https://" : "http://") + inside_->options.listen.web_host() + ":" +
+         std::to_string(inside_->door.port) + "/";
 }
 
 void WebServer::run() { inside_->run(); }

@@ -14,6 +14,7 @@ struct WebOptions {
   std::string certificate, key;  // PEM files; empty: plain HTTP
   std::string page;              // file that / shows
   std::string runs;              // folder of recorded runs; empty: none are shown
+  bool is_tls() const { return !certificate.empty(); }
 };
 
 struct WebServerInside;

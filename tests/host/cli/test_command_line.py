@@ -382,7 +382,9 @@ class Help(unittest.TestCase):
             code, out, error = liana(*words)
             self.assertEqual((code, out), (2, ""), words)
             self.assertIn(named, error)
-            self.assertIn("export" if words[:1] == ["robot"] else "run, check, status, estop, clear", error)
+            self.assertIn(
+                "export" if words[:1] == ["robot"] else "run, check, console, view, status, estop, clear", error
+            )
             self.assertEqual(error.count("\n"), 1, error)
 
     def test_an_option_that_a_command_does_not_have_is_named_whatever_else_is_missing(self):

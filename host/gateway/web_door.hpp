@@ -1,0 +1,40 @@
+// Who is let in over HTTP, and what is shown to whom: what comes before a WebSocket.
+#pragma once
+
+#include <libwebsockets.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "host/gateway/gateway.hpp"
+#include "host/gateway/web_server.hpp"
+
+namespace liana::gateway {
+
+class WebDoor {
+ public:
+  static constexpr const char* kProtocol = "liana-console-1";
+
+  // Both must outlive this.
+  WebDoor(const WebOptions& options, Gateway& gateway) : options_(options), gateway_(gateway) {}
+
+  std::uint16_t port = 0;  // at which the gateway listens
+
+  // Before a connection becomes a WebSocket: 0 lets it, more than 0 says that it was answered.
+  int admit(lws* wsi);
+  // Answers a request; returns what the callback of libwebsockets has to return.
+  int serve(lws* wsi, const std::string& path);
+
+ private:
+  std::optional<std::string> problem(lws* wsi, const char** what) const;
+  int refuse(lws* wsi, const char* what, unsigned int status, const std::string& why);
+
+  const WebOptions& options_;
+  Gateway& gateway_;
+};
+
+// The address at the other end.
+std::string peer_of(lws* wsi);
+
+}  // namespace liana::gateway
