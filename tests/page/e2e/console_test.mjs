@@ -1,8 +1,10 @@
 // The console against the real system: open, watch, take motion, steer by keys and mouse, hold, retract, stop, reconnect.
 import assert from 'node:assert/strict';
+import { writeFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { open_browser, open_page, picture, serious_findings, until } from './browser.mjs';
-import { process_called, start_console } from './system.mjs';
+import { process_called, screens, start_console } from './system.mjs';
 
 let system, chromium, page;
 
@@ -52,6 +54,34 @@ test('a held key moves the tip up through verification, and letting go brings it
   await page.keyboard.up('KeyE');
   const to = await is_at_rest('after');
   assert.ok(height(to) < height(from) + 0.3);
+});
+
+test('goals go out 50 times a second while a key is held, and the time from key to setpoint is measured', async () => {
+  await is_at_rest('before');
+  const from = await page.evaluate(() => {
+    const { live, jogger } = window.liana;
+    const z = () => live.sample.numbers.get('setpoint_cp')[2];
+    const from_z = z();
+    const take = live.take_record.bind(live);
+    window.moved_ms = null;
+    live.take_record = (bytes, now_s) => {
+      const sequence = take(bytes, now_s);
+      if (window.moved_ms === null && Math.abs(z() - from_z) > 2e-5) window.moved_ms = performance.now();
+      return sequence;
+    };
+    window.addEventListener('keydown', (event) => (window.pressed_ms ??= event.timeStamp), { capture: true });
+    return { sent: jogger.sent, time_s: live.sample.time_s };
+  });
+  await page.focus('canvas.scene');
+  await page.keyboard.down('KeyQ');
+  await page.waitForTimeout(3000);
+  const measured = await page.evaluate(() => ({ sent: window.liana.jogger.sent, time_s: window.liana.live.sample.time_s, latency_ms: window.moved_ms - window.pressed_ms, passed_ms: performance.now() - window.pressed_ms }));
+  await page.keyboard.up('KeyQ');
+  await is_at_rest('after');
+  const table = { goals_per_s: (1000 * (measured.sent - from.sent)) / measured.passed_ms, key_to_setpoint_ms: measured.latency_ms, arm_time_per_time: (1000 * (measured.time_s - from.time_s)) / measured.passed_ms };
+  writeFileSync(join(screens, 'input.json'), JSON.stringify(table, null, 1));
+  console.log(table);
+  assert.ok(measured.sent - from.sent > 20 && measured.latency_ms > 0);
 });
 
 test('the mouse drags the ball at the tip, and dropping it brings the arm to rest', async () => {

@@ -4,6 +4,7 @@ import { chain_of, type ArmChain } from '../model/arm_chain';
 import type { CableRobot, Robot } from '../model/robot';
 import { scale_of, tension_colour, type TensionScale } from '../model/tension_colour';
 import { segment_colour } from './palette';
+import { paint, shaded } from './shade';
 
 const kSides = 8;
 const kDiscThickness_m = 0.008;
@@ -38,6 +39,7 @@ export class ArmBody {
   readonly group = new THREE.Group();
   readonly chain: ArmChain;
   private readonly links: THREE.InstancedMesh;
+  readonly details: THREE.Object3D[]; // what the tip's camera need not see of its own arm
   private readonly discs: THREE.InstancedMesh;
   private readonly cables: Cables | null;
   private held = '';
@@ -47,12 +49,13 @@ export class ArmBody {
     const { pieces } = this.chain;
     const is_cable = robot.kind !== 'serial';
     const core = is_cable ? kLinkRadius_m : 0.7 * kSerialRadius_m;
-    this.links = new THREE.InstancedMesh(rod_geometry(core), new THREE.MeshLambertMaterial(), pieces.length);
-    this.discs = new THREE.InstancedMesh(rod_geometry(module_radius_m(robot)), new THREE.MeshLambertMaterial(), 2 * pieces.length);
+    this.links = new THREE.InstancedMesh(shaded(rod_geometry(core, kSides, true)), paint(), pieces.length);
+    this.discs = new THREE.InstancedMesh(shaded(rod_geometry(module_radius_m(robot))), paint(), 2 * pieces.length);
     this.cables = is_cable ? new Cables(robot, this.chain) : null;
     for (const mesh of [this.links, this.discs]) mesh.frustumCulled = false;
     this.group.add(this.links, this.discs);
     if (this.cables) this.group.add(this.cables.lines);
+    this.details = [this.discs, ...(this.cables ? [this.cables.lines] : [])];
     this.face_m = is_cable ? robot.cables.face_offset_m : 0;
     this.paint(new Set());
   }

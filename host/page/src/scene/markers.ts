@@ -102,21 +102,22 @@ export class GoalCross {
   }
 }
 
-// Balls at the ends of segments (nodes), and at the places where a shape asks them to be.
+// Balls at the ends of segments (nodes).
 export class NodeBalls {
-  readonly group = new THREE.Group();
-  private readonly balls: THREE.Mesh[] = [];
+  readonly mesh: THREE.InstancedMesh;
 
   constructor(count: number, colours: SceneColours) {
-    const geometry = new THREE.SphereGeometry(0.036, 12, 8);
-    for (let i = 0; i < count; ++i) {
-      const material = new THREE.MeshBasicMaterial({ color: colours.held, transparent: true, opacity: 0.35, depthWrite: false });
-      this.balls.push(new THREE.Mesh(geometry, material));
-    }
-    this.group.add(...this.balls);
+    const material = new THREE.MeshBasicMaterial({ color: colours.held, transparent: true, opacity: 0.35, depthWrite: false });
+    this.mesh = new THREE.InstancedMesh(new THREE.SphereGeometry(0.036, 10, 6), material, count);
+    this.mesh.frustumCulled = false;
   }
 
   set(nodes_m: ArrayLike<number>): void {
-    this.balls.forEach((ball, i) => ball.position.set(nodes_m[3 * i], nodes_m[3 * i + 1], nodes_m[3 * i + 2]));
+    const matrices = this.mesh.instanceMatrix.array as Float32Array;
+    for (let i = 0; i < this.mesh.count; ++i) {
+      matrices[16 * i] = matrices[16 * i + 5] = matrices[16 * i + 10] = matrices[16 * i + 15] = 1;
+      for (let r = 0; r < 3; ++r) matrices[16 * i + 12 + r] = nodes_m[3 * i + r];
+    }
+    this.mesh.instanceMatrix.needsUpdate = true;
   }
 }

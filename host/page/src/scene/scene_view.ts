@@ -63,9 +63,9 @@ export class SceneView {
     this.nodes = new NodeBalls(this.arm.chain.nodes.length / 3, this.colours);
     this.trail = new Trail(this.colours.trail);
     this.way = new Trail(this.colours.way);
-    const world = [this.arm.group, this.ghost.mesh, this.predicted.mesh, this.closest.group, this.goal.group, this.nodes.group];
+    const world = [this.arm.group, this.ghost.mesh, this.predicted.mesh, this.closest.group, this.goal.group, this.nodes.mesh];
     this.stage.scene.add(surroundings(scene, robot, this.colours), ...world, this.way.line, this.trail.line);
-    this.stage.hidden_from_tip = [...world.slice(1), this.way.line, this.trail.line];
+    this.stage.hidden_from_tip = [...world.slice(1), ...this.arm.details, this.way.line, this.trail.line];
     this.labels = new Labels(this.stage);
     this.views = views_of(robot, scene);
     this.view = this.views[0];

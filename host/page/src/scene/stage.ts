@@ -39,12 +39,6 @@ export class Stage {
     this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
     this.renderer.autoClear = true;
     this.tip_camera.matrixAutoUpdate = false;
-    const sky = new THREE.HemisphereLight(0xffffff, 0x556677, 2.3);
-    sky.position.set(0, 0, 1);
-    this.scene.add(sky);
-    const sun = new THREE.DirectionalLight(0xffffff, 1.7);
-    sun.position.set(-2, -4, 5);
-    this.scene.add(sun);
     this.controls = new OrbitControls(this.camera, canvas);
   }
 

@@ -25,7 +25,8 @@ export class Vr {
   sent = 0;
   scale = 1;
   rotation_scale = 1;
-  node: number;
+  node: number; // that the left handle moves; 0: none
+  anywhere = false; // inside the slit, too
   private session: XRSession | null = null;
   private readonly rig: Rig;
   private readonly board = new Board();
@@ -93,7 +94,7 @@ export class Vr {
 
   // Tells lianad how the handles steer.
   use_device(): void {
-    const request = { op: 'use_device', device: 'vr', scale: this.scale, rotation_scale: this.rotation_scale, node: this.node };
+    const request = { op: 'use_device', device: 'vr', scale: this.scale, rotation_scale: this.rotation_scale, node: this.node, anywhere: this.anywhere };
     void this.connection.request(request).then((answer: Answer) => (this.said = answer.ok ? '' : `handles: ${answer.message ?? answer.code}`));
   }
 
