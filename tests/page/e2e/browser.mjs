@@ -56,7 +56,10 @@ export async function until(page, what, holds) {
   for (;;) {
     const now = await state(page);
     if (holds(now)) return now;
-    if (Date.now() > end_ms) throw new Error(`never came: ${what}; last: ${JSON.stringify(now).slice(0, 1500)}`);
+    if (Date.now() > end_ms) {
+      const { drives, buses, friction, ...facts } = now.facts; // the long ones
+      throw new Error(`never came: ${what}; last: ${JSON.stringify({ ...now, facts })}`);
+    }
     await page.waitForTimeout(100);
   }
 }

@@ -3,6 +3,7 @@ import type { Sample } from '../data/sample';
 import { value, values } from '../data/sample';
 import type { Condition } from '../model/alarms';
 import type { CableRobot } from '../model/robot';
+import { refusal_row } from '../model/tables';
 import { sentence_of } from '../model/sentence';
 import { SceneView } from '../scene/scene_view';
 import { scene_colours, type Theme } from '../scene/palette';
@@ -24,12 +25,13 @@ import { Live } from './live';
 import { LiveEvents } from './live_events';
 import { LivePlots } from './live_plots';
 import { LookBack } from './look_back';
-import { kProtocol, type Answer, type Welcome } from './protocol';
+import { kProtocol, type Answer, type FromGateway, type Welcome } from './protocol';
 import { RunList } from './run_list';
 import { StatusBar } from './status_bar';
 import { StopButton } from './stop_button';
 import { kept_token, token_form } from './token_form';
 
+const kPathRefused = 207; // M_e of a path that was looked at as a whole
 const kWords_ms = 250; // texts are written anew at most so often
 
 // Of each frame that was drawn.
@@ -67,7 +69,7 @@ export class LivePage {
       wants_token: (why) => this.middle.replaceChildren(token_form(why, () => this.connection.open())),
       status: (text) => (this.live.status = text),
       welcome: (message) => this.welcome(message),
-      message: (message) => this.live.take(message),
+      message: (message) => this.message(message),
       record: (bytes) => this.record(bytes),
     });
     this.jogger = new Jogger(this.live, this.connection);
@@ -174,6 +176,16 @@ export class LivePage {
     } catch (error) {
       this.say_answer('VR', { op: 'answer', ok: false, code: 'no session', message: String(error) });
     }
+  }
+
+  private message(message: FromGateway): void {
+    const newest = this.live.events.length === 0 ? 0 : this.live.events[this.live.events.length - 1].sequence;
+    this.live.take(message);
+    // What verification refuses comes after the answer that a request was taken.
+    if (message.op !== 'event' || message.sequence <= newest || newest === 0) return;
+    if (message.kind !== 'verdict' && !(message.kind === 'path' && message.number === 0)) return;
+    const row = refusal_row(message.number === 0 ? kPathRefused : message.number);
+    this.say_answer('verification', { op: 'answer', ok: false, code: `refused ${row?.number ?? ''} ${row?.name ?? ''}`, message: `${message.text}. ${row?.remedy ?? ''}` });
   }
 
   private record(bytes: ArrayBuffer): number | null {
