@@ -1,4 +1,5 @@
 import assert from 'node:assert/strict';
+import { webcrypto } from 'node:crypto';
 import { test } from 'node:test';
 import type { Layout } from '../../host/page/src/data/record';
 import { History } from '../../host/page/src/live/history';
@@ -7,6 +8,8 @@ import { Rate } from '../../host/page/src/live/rate';
 import { StateAge } from '../../host/page/src/live/state_age';
 import { AlarmBook, conditions_of, type Condition } from '../../host/page/src/model/alarms';
 import { near } from './support';
+
+if (!('crypto' in globalThis)) Object.assign(globalThis, { crypto: webcrypto }); // Node 18
 
 test('the credit of a record is its sequence, little-endian', () => {
   assert.deepEqual([...new Uint8Array(credit_of(0x01020304))], [4, 3, 2, 1]);

@@ -14,6 +14,9 @@ declare module 'node:assert/strict' {
 declare module 'node:test' {
   export function test(sentence: string, body: () => void | Promise<void>): void;
 }
+declare module 'node:crypto' {
+  export const webcrypto: Crypto;
+}
 declare module 'node:fs' {
   export function readFileSync(path: string, encoding: 'utf8'): string;
 }

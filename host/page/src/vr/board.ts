@@ -19,11 +19,14 @@ export class Board {
     this.canvas.height = kHeight_px;
     this.texture = new THREE.CanvasTexture(this.canvas);
     this.mesh = new THREE.Mesh(new THREE.PlaneGeometry(0.9, 0.45), new THREE.MeshBasicMaterial({ map: this.texture }));
-    this.mesh.position.set(-0.5, 1.15, -1.3);
-    this.mesh.rotation.set(-0.25, 0.35, 0);
+    this.mesh.position.set(-0.95, 1.2, -1.1);
+    this.mesh.rotation.set(-0.2, 0.7, 0, 'YXZ');
     this.tip_picture = new THREE.Mesh(new THREE.PlaneGeometry(0.56, 0.364), new THREE.MeshBasicMaterial({ map: this.target.texture }));
-    this.tip_picture.position.set(0.45, 1.15, -1.35);
-    this.tip_picture.rotation.set(-0.25, -0.3, 0);
+    this.tip_picture.position.set(0.85, 1.2, -1.1);
+    this.tip_picture.rotation.set(-0.2, -0.65, 0, 'YXZ');
+    const frame = new THREE.Mesh(new THREE.PlaneGeometry(0.6, 0.404), new THREE.MeshBasicMaterial({ color: '#7c8a99' }));
+    frame.position.z = -0.005;
+    this.tip_picture.add(frame);
   }
 
   // The first line is the largest; writes nothing when nothing changed.

@@ -2,13 +2,13 @@
 import * as THREE from 'three';
 import { device_from_headset } from './handles';
 
-const kPlace_m = new THREE.Vector3(-0.9, 0.9, -1.1); // the floor under the person, in the base frame, at scale 1
+const kPlace_m = new THREE.Vector3(-1.2, -0.75, -1.1); // the floor under the person, in the base frame, at scale 1
 const kWorldScales = [0.25, 0.5, 1];
 const kTurn_rad = Math.PI / 6;
 
 export class Rig {
   readonly group = new THREE.Group();
-  turn_rad = -0.35; // the arm lies before the person
+  turn_rad = 0.1; // obstacle to the left, arm and slit ahead
   private scale = 1; // index of kWorldScales
 
   constructor(private readonly reach_m: number) {
