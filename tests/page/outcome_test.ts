@@ -40,6 +40,16 @@ test('a run that ended with a refused command names its refusal and what to do i
   assert.match(outcome.todo.join(' '), /leaves the body named more room/);
 });
 
+test('a step that ran into its time limit is named with its end, not with what was refused on the way back', () => {
+  const outcome = outcome_of(head({
+    report: { outcome: 'aborted', reason: 'time limit of 2 s passed; retracted', faults: [], steps: [done, { ...done, name: 'into the slit', duration_s: 2, outcome: 'failed', reason: 'time limit of 2 s passed' }] },
+    events: [{ sequence: 1, tick: 9000, kind: 'verdict', number: 211, subject: 'simulation', values: { command: 9 }, text: 'slack' }],
+  }));
+  assert.equal(outcome.tick, 700);
+  assert.equal(outcome.where, 'at 2.8 s, in step 2 of 2: into the slit');
+  assert.equal(outcome.why, 'time limit of 2 s passed; retracted');
+});
+
 test('a success is one line with its figures', () => {
   const outcome = outcome_of(head({ report: { outcome: 'success', duration_s: 204.08, verified_clearance_m: { min: 0.0106 }, tip_error_m: 0.0009 } }));
   assert.equal(outcome.what, 'Success: 204.1 s, at least 10.6 mm clear of everything, tip 0.9 mm from its goal in the end');

@@ -14,17 +14,26 @@ export interface Outcome {
   tick: number | null; // the moment to look at
 }
 
+const kNoticed_s = 0.5; // between a fault and what the mission says of it, at most
+
 function where_of(head: RunHead, tick: number): string {
   const step = head.steps[last_before(head.steps, tick)];
   const at = `at ${(tick * head.period_s).toFixed(1)} s`;
   return step ? `${at}, in step ${step.index} of ${Math.max(step.index, head.report?.steps?.length ?? head.steps.length)}: ${step.name}` : at;
 }
 
-// The event that ended it: the first fault or stop; else the last thing that was refused.
-function cause_of(events: readonly LianaEvent[]): LianaEvent | undefined {
-  const hard = events.find((e) => e.kind === 'fault' || e.kind === 'boot_problem' || e.kind === 'stop');
+// When the step that failed was over; null: no step did. What came later followed from it.
+function end_of_step(head: RunHead, name: string | undefined, duration_s: number): number | null {
+  const begun = head.steps.filter((step) => step.name === name).pop();
+  return begun ? begun.tick + Math.round(duration_s / head.period_s) : null;
+}
+
+// The event that ended it: the first fault or stop; else the last thing that was refused until then.
+function cause_of(events: readonly LianaEvent[], until: number): LianaEvent | undefined {
+  const before = events.filter((e) => e.tick <= until);
+  const hard = before.find((e) => e.kind === 'fault' || e.kind === 'boot_problem' || e.kind === 'stop');
   if (hard) return hard;
-  const refused = events.filter((e) => e.kind === 'verdict' || (e.kind === 'path' && e.number === 0) || e.kind === 'refusal');
+  const refused = before.filter((e) => e.kind === 'verdict' || (e.kind === 'path' && e.number === 0) || e.kind === 'refusal');
   return refused[refused.length - 1];
 }
 
@@ -56,8 +65,10 @@ export function outcome_of(head: RunHead): Outcome {
 
 function failure_of(head: RunHead): Outcome {
   const report = head.report!;
-  const cause = cause_of(head.events);
   const failed = report.steps?.find((step) => step.outcome !== 'success');
+  const end = failed ? end_of_step(head, failed.name, failed.duration_s) : null;
+  const cause = cause_of(head.events, end === null ? Infinity : end + kNoticed_s / head.period_s);
+  const tick = cause?.tick ?? end;
   const todo = new Set<string>();
   for (const fault of report.faults ?? []) todo.add(fault.remedy ?? fault_row(fault.number)?.remedy ?? '');
   if (cause) todo.add(remedy_of(cause, head.commands) ?? '');
@@ -65,14 +76,14 @@ function failure_of(head: RunHead): Outcome {
   for (const criterion of todo.size === 0 ? report.criteria ?? [] : []) {
     if (!criterion.met) todo.add(`${criterion.name} is ${criterion.value}, its limit is ${criterion.limit}: look at where that was.`);
   }
-  if (todo.size === 0) todo.add('Look at the events below; every refused request says what it would have taken.');
-  const whys = [cause && `${cause.subject}: ${cause.text}`, failed?.reason, report.reason].filter((text): text is string => !!text);
+  if (todo.size === 0) todo.add('Look at that moment: what the step still waited for stands above, what the arm did in plots and events.');
+  const whys = [cause && `${cause.subject}: ${cause.text}`, report.reason?.includes(failed?.reason ?? '') ? '' : failed?.reason, report.reason].filter((text): text is string => !!text);
   return {
     success: false,
     what: `${report.mission ?? head.title} ${report.outcome ?? 'failed'}${failed ? ` in "${failed.name}"` : ''}`,
-    where: cause ? where_of(head, cause.tick) : '',
+    where: tick === null ? '' : where_of(head, tick),
     why: [...new Set(whys)].join(' \u2013 '),
     todo: [...todo],
-    tick: cause?.tick ?? null,
+    tick,
   };
 }
