@@ -73,8 +73,8 @@ function failure_of(head: RunHead): Outcome {
   for (const fault of report.faults ?? []) todo.add(fault.remedy ?? fault_row(fault.number)?.remedy ?? '');
   if (cause) todo.add(remedy_of(cause, head.commands) ?? '');
   todo.delete('');
-  for (const criterion of todo.size === 0 ? report.criteria ?? [] : []) {
-    if (!criterion.met) todo.add(`${criterion.name} is ${criterion.value}, its limit is ${criterion.limit}: look at where that was.`);
+  for (const criterion of todo.size === 0 && !failed ? report.criteria ?? [] : []) {
+    if (!criterion.met) todo.add(`${criterion.name.replaceAll('_', ' ')} is ${Number(criterion.value.toPrecision(4))}, its limit is ${criterion.limit}: look at where that was.`);
   }
   if (todo.size === 0) todo.add('Look at that moment: what the step still waited for stands above, what the arm did in plots and events.');
   const whys = [cause && `${cause.subject}: ${cause.text}`, report.reason?.includes(failed?.reason ?? '') ? '' : failed?.reason, report.reason].filter((text): text is string => !!text);
