@@ -31,7 +31,8 @@ class Surroundings {
   }
 
   ball(centre: Triple, radius_m: number, colour: string): void {
-    this.solid.add(new THREE.SphereGeometry(radius_m, 20, 14), at(vector(centre)), colour, true);
+    const is_small = radius_m < 0.1;
+    this.solid.add(new THREE.SphereGeometry(radius_m, is_small ? 10 : 20, is_small ? 6 : 14), at(vector(centre)), colour, true);
   }
 
   convex(body: Convex): void {
