@@ -148,7 +148,7 @@ export class SceneView {
     inset.left = width - inset.width - 8;
     this.stage.inset = inset;
     Object.assign(this.tip_frame.style, { left: `${inset.left}px`, top: `${inset.top}px`, width: `${inset.width}px`, height: `${inset.height}px` });
-    this.draw_soon(false);
+    this.stage.render(this.arm.chain.tip); // at once: another size has emptied the canvas, and nobody may see that
   }
 
   private draw(now_ms: number): void {
