@@ -151,6 +151,12 @@ void print_check(const archive::Check& check) {
   std::printf("%s, %.1f MB\n", check.problems.empty() ? "whole" : "NOT whole", static_cast<double>(check.bytes) / 1e6);
 }
 
+archive::Span span_of(const LogOptions& options, const archive::Reader& reader) {
+  if (options.from_s > options.to_s)
+    throw system::BadInput("log: --from is later than --to: nothing lies between; exchange them");
+  return reader.span_of(options.from_s, options.to_s);
+}
+
 }  // namespace
 
 int log_list_command(const LogOptions& options) {
@@ -166,7 +172,7 @@ int log_list_command(const LogOptions& options) {
 
 int log_show_command(const LogOptions& options) {
   const archive::Reader reader = reader_of(options.run);
-  const archive::Span span = reader.span_of(options.from_s, options.to_s);
+  const archive::Span span = span_of(options, reader);
   const double period_s = reader.life().period_s;
   ByCommand refused;
   for (archive::Command& command : reader.commands(span, true)) refused[command.sequence] = std::move(command);
@@ -197,7 +203,7 @@ int log_export_command(const LogOptions& options) {
   Json written = Json::array();
   for (const auto& [unit, file, write] : kinds) {
     if (file.empty()) continue;
-    const std::uint64_t count = write(reader, reader.span_of(options.from_s, options.to_s), file);
+    const std::uint64_t count = write(reader, span_of(options, reader), file);
     if (!options.json) std::printf("%s: %" PRIu64 " %s\n", file.c_str(), count, unit);
     written.push_back({{"file", file}, {"count", count}, {"unit", unit}});
   }
