@@ -25,7 +25,7 @@ test('of a failed run it says what failed, where, why, and the remedy of the fau
   }));
   assert.equal(outcome.success, false);
   assert.equal(outcome.what, 'slit_crossing failed in "into the slit"');
-  assert.equal(outcome.where, 'at 1.0 s, in step 2 of 2: into the slit');
+  assert.equal(outcome.where, 'at 1.0 s, in step 2: into the slit');
   assert.match(outcome.why, /^drive 7: cable_break: gone/);
   assert.match(outcome.todo[0], /look at the cable and its clamp/);
   assert.equal(outcome.tick, 250);
@@ -46,7 +46,7 @@ test('a step that ran into its time limit is named with its end, not with what w
     events: [{ sequence: 1, tick: 9000, kind: 'verdict', number: 211, subject: 'simulation', values: { command: 9 }, text: 'slack' }],
   }));
   assert.equal(outcome.tick, 700);
-  assert.equal(outcome.where, 'at 2.8 s, in step 2 of 2: into the slit');
+  assert.equal(outcome.where, 'at 2.8 s, in step 2: into the slit');
   assert.equal(outcome.why, 'time limit of 2 s passed; retracted');
 });
 

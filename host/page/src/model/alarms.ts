@@ -107,7 +107,7 @@ export function conditions_of(facts: Facts): Condition[] {
   const { clearance, stop, friction } = facts;
   if (stop) {
     conditions.push({ key: 'stop', priority: 1, title: `emergency stop by ${stop.by}`, cause: stop.reason || 'No reason was given.',
-      todo: 'Find out why. Then take motion, which clears the stop, and enable.' });
+      todo: 'Find out why. Then clear and enable; who does not own motion takes it first.' });
   }
   if (clearance?.level === 'refuse') {
     conditions.push({ key: 'clearance', priority: 1, title: `no verified clearance from the ${clearance.body}`, cause: 'The arm may touch it.', todo: 'Retract.' });

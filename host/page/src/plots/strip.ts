@@ -69,8 +69,10 @@ export class Strip {
     this.plot.setSize({ width, height: height - kTitle_px });
   }
 
+  // NaN is a value that is not there; uPlot calls it null, and knows no scale where it finds one.
   set(data: uPlot.AlignedData): void {
-    this.plot.setData(data);
+    const known = data.map((column) => (Array.prototype.some.call(column, Number.isNaN) ? Array.from(column, (v) => (Number.isNaN(v) ? null : v)) : column));
+    this.plot.setData(known as uPlot.AlignedData);
   }
 
   private clear(u: uPlot, colour: string): void {

@@ -19,7 +19,7 @@ const kNoticed_s = 0.5; // between a fault and what the mission says of it, at m
 function where_of(head: RunHead, tick: number): string {
   const step = head.steps[last_before(head.steps, tick)];
   const at = `at ${(tick * head.period_s).toFixed(1)} s`;
-  return step ? `${at}, in step ${step.index} of ${Math.max(step.index, head.report?.steps?.length ?? head.steps.length)}: ${step.name}` : at;
+  return step ? `${at}, in step ${step.index}: ${step.name}` : at;
 }
 
 // When the step that failed was over; null: no step did. What came later followed from it.

@@ -1,4 +1,5 @@
-// Goals of all angles: by sliders, or a named pose of the robot table; nothing moves before "go".
+// Goals of all angles: by sliders, or a named pose of the robot table; nothing moves before "go". What nobody has touched
+// stays where the arm is commanded to be.
 import { values } from '../data/sample';
 import type { Connection } from '../live/connection';
 import type { Live } from '../live/live';
@@ -12,6 +13,7 @@ export class JointPanel {
   private readonly sliders: HTMLInputElement[];
   private readonly outputs: HTMLElement[];
   private readonly now: HTMLElement[];
+  private readonly touched = new Set<number>();
 
   constructor(private readonly live: Live, welcome: Welcome, connection: Connection, answered: (what: string, answer: Answer) => void) {
     const { robot } = welcome;
@@ -20,31 +22,53 @@ export class JointPanel {
     this.now = Array.from({ length: count }, () => h('span', { class: 'now' }));
     this.sliders = Array.from({ length: count }, (_, i) => {
       const [min, max] = angle_range_deg(robot, i);
-      return h('input', { type: 'range', min, max, step: 0.1, value: 0, 'aria-label': `goal of ${angle_name(robot, i)} in degrees`, oninput: () => this.say() });
+      return h('input', { type: 'range', min, max, step: 0.1, value: 0, 'aria-label': `goal of ${angle_name(robot, i)} in degrees`, oninput: () => this.touch(i) });
     });
     const rows = this.sliders.map((slider, i) =>
       h('div', { class: 'joint' }, h('span', { class: 'name', style: `border-color:${segment_colour(robot.kind === 'serial' ? i : i >> 1)}` }, angle_name(robot, i)), slider, this.outputs[i], this.now[i]));
     const poses = h('select', { 'aria-label': 'named pose', onchange: () => this.set(robot.named_poses_deg[poses.value] ?? []) },
       h('option', { value: '' }, 'named pose'), ...Object.keys(robot.named_poses_deg).map((name) => h('option', { value: name }, name.replaceAll('_', ' '))));
-    const goal = () => this.sliders.map((slider) => Number(slider.value));
     this.element = h('section', { class: 'card', 'aria-label': 'Angles' }, h('h2', {}, 'Angles [deg]'), ...rows,
       h('div', { class: 'filter' }, poses,
         h('button', { type: 'button', onclick: () => this.reset() }, 'as they are now'),
-        h('button', { type: 'button', 'data-action': 'go', title: 'all angles together, verified, at most 2 deg/s', onclick: () => void connection.request({ op: 'move_jp', goal_deg: goal() }).then((answer) => answered('angles', answer)) }, 'go')));
-    this.say();
+        h('button', { type: 'button', 'data-action': 'go', title: 'all angles together, verified, at most 2 deg/s', onclick: () => void connection.request({ op: 'move_jp', goal_deg: this.goal_deg() }).then((answer) => answered('angles', answer)) }, 'go')));
   }
 
+  // All sliders follow the arm again.
   reset(): void {
-    if (this.live.sample) this.set([...values(this.live.sample, 'measured_js_deg')]);
+    this.touched.clear();
+    this.update();
   }
 
   update(): void {
     const measured = this.live.sample ? values(this.live.sample, 'measured_js_deg') : [];
     this.now.forEach((element, i) => set_text(element, i < measured.length ? measured[i].toFixed(1) : ''));
+    this.commanded_deg().forEach((angle_deg, i) => {
+      if (!this.touched.has(i) && i < this.sliders.length) this.sliders[i].value = String(angle_deg);
+    });
+    this.say();
+  }
+
+  private commanded_deg(): number[] {
+    return this.live.sample ? [...values(this.live.sample, 'setpoint_js_deg')] : [];
+  }
+
+  private goal_deg(): number[] {
+    const commanded = this.commanded_deg();
+    return this.sliders.map((slider, i) => (this.touched.has(i) ? Number(slider.value) : commanded[i]));
+  }
+
+  private touch(i: number): void {
+    this.touched.add(i);
+    this.say();
   }
 
   private set(angles_deg: ArrayLike<number>): void {
-    this.sliders.forEach((slider, i) => (slider.value = String(angles_deg[i] ?? slider.value)));
+    this.sliders.forEach((slider, i) => {
+      if (angles_deg[i] === undefined) return;
+      slider.value = String(angles_deg[i]);
+      this.touched.add(i);
+    });
     this.say();
   }
 
