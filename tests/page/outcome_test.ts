@@ -26,7 +26,7 @@ test('of a failed run it says what failed, where, why, and the remedy of the fau
   assert.equal(outcome.success, false);
   assert.equal(outcome.what, 'slit_crossing failed in "into the slit"');
   assert.equal(outcome.where, 'at 1.0 s, in step 2: into the slit');
-  assert.match(outcome.why, /^drive 7: cable_break: gone/);
+  assert.match(outcome.why, /^drive 7 \(node 8, segment 3\): cable_break: gone/);
   assert.match(outcome.todo[0], /look at the cable and its clamp/);
   assert.equal(outcome.tick, 250);
 });

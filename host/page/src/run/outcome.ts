@@ -22,6 +22,15 @@ function where_of(head: RunHead, tick: number): string {
   return step ? `${at}, in step ${step.index}: ${step.name}` : at;
 }
 
+// Drives count from 0, in the order of the cables; on the bus they are nodes, which count from 1 (docs/drives.md).
+function where_it_is(subject: string, robot: RunHead['robot']): string {
+  const drive = /^drive (\d+)$/.exec(subject);
+  if (!drive) return subject;
+  const index = Number(drive[1]);
+  const segments = robot.kind === 'serial' ? [] : robot.cables.phase_deg.flatMap((cables, segment) => cables.map(() => segment + 1));
+  return `${subject} (node ${index + 1}${segments[index] ? `, segment ${segments[index]}` : ''})`;
+}
+
 // When the step that failed was over; null: no step did. What came later followed from it.
 function end_of_step(head: RunHead, name: string | undefined, duration_s: number): number | null {
   const begun = head.steps.filter((step) => step.name === name).pop();
@@ -77,7 +86,7 @@ function failure_of(head: RunHead): Outcome {
     if (!criterion.met) todo.add(`${criterion.name.replaceAll('_', ' ')} is ${Number(criterion.value.toPrecision(4))}, its limit is ${criterion.limit}: look at where that was.`);
   }
   if (todo.size === 0) todo.add('Look at that moment: what the step still waited for stands above, what the arm did in plots and events.');
-  const whys = [cause && `${cause.subject}: ${cause.text}`, report.reason?.includes(failed?.reason ?? '') ? '' : failed?.reason, report.reason].filter((text): text is string => !!text);
+  const whys = [cause && `${where_it_is(cause.subject, head.robot)}: ${cause.text}`, report.reason?.includes(failed?.reason ?? '') ? '' : failed?.reason, report.reason].filter((text): text is string => !!text);
   return {
     success: false,
     what: `${report.mission ?? head.title} ${report.outcome ?? 'failed'}${failed ? ` in "${failed.name}"` : ''}`,
