@@ -81,7 +81,7 @@ test('the page of a run that failed says what failed, where, why and what to do,
   const finding = await text(page, '.finding');
   assert.match(finding, /slit_crossing failed in "around the obstacle to the panel edge"/);
   assert.match(finding, /at 14\.0 s, in step 2/);
-  assert.match(finding, /drive 7: cable_break/);
+  assert.match(finding, /drive 7 \(node 8, segment 3\): cable_break/);
   assert.match(finding, /look at the cable and its clamp/);
   assert.match(await text(page, '.clock'), /^14\.0/);
   await picture(page, 'run_failed');
