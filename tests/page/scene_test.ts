@@ -4,7 +4,7 @@ import { pitch_budget } from '../../host/page/src/model/pitch_budget';
 import { length_text, sentence_of } from '../../host/page/src/model/sentence';
 import { scale_of, tension_colour } from '../../host/page/src/model/tension_colour';
 import { moved, rotated, turn_between } from '../../host/page/src/model/vector';
-import { FramePace } from '../../host/page/src/scene/frame_pace';
+import { FramePace, FrameTurns } from '../../host/page/src/scene/frame_pace';
 import { push_apart } from '../../host/page/src/scene/push_apart';
 import { kArm, near, sample_of } from './support';
 
@@ -76,6 +76,28 @@ test('the picture becomes coarser while states wait long, and finer again only a
   assert.equal(pace.pixel_ratio, coarse);
   frames(15, 30);
   assert.equal(pace.pixel_ratio, 1);
+});
+
+test('every turn of the screen is drawn, every second one for a minute after states were in no frame', () => {
+  const turns = new FrameTurns();
+  const kTurn_ms = 1000 / 60;
+  let now_ms = 0;
+  const share_drawn = (misses: boolean, seconds: number) => {
+    let drawn = 0;
+    const all = Math.round((1000 * seconds) / kTurn_ms);
+    for (let i = 0; i < all; ++i) {
+      now_ms += kTurn_ms;
+      if (!turns.takes(now_ms)) continue;
+      ++drawn;
+      turns.drawn(now_ms, misses);
+    }
+    return drawn / all;
+  };
+  assert.equal(share_drawn(false, 10), 1);
+  share_drawn(true, 3);
+  assert.ok(near(share_drawn(true, 50), 0.5, 0.02));
+  share_drawn(false, 10);
+  assert.equal(share_drawn(false, 10), 1);
 });
 
 test('a pose moves along the axes of base or tip and turns about them', () => {

@@ -9,7 +9,7 @@ import type { Live } from './live';
 import type { Welcome } from './protocol';
 
 const kEvery = 3; // rows: a thousand points a minute
-const kPeriod_ms = 200;
+const kPeriod_ms = 250;
 const kStrip_px = 112;
 
 export class LivePlots {

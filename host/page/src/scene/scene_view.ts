@@ -8,6 +8,7 @@ import { h, set_class, set_text } from '../ui/dom';
 import { ArmBody, GhostArm } from './arm_body';
 import { Labels, type Label } from './labels';
 import { legend_of } from './legend';
+import { FrameTurns } from './frame_pace';
 import { ClosestPoint, GoalCross, NodeBalls, Trail } from './markers';
 import { scene_colours, type Theme } from './palette';
 import { Stage } from './stage';
@@ -44,9 +45,11 @@ export class SceneView {
   private view: View;
   private sample: Sample | null = null;
   private is_due = false;
-  private had_state = false;
+  private had_state = false; // one came since the last frame
+  private has_missed_one = false; // one more came
   private labels_at_ms = 0;
   private waits_since_ms = 0;
+  private readonly turns = new FrameTurns();
   private readonly drawn_angles = new Float32Array(16);
 
   // Throws when the browser has no WebGL.
@@ -133,6 +136,7 @@ export class SceneView {
 
   private draw_soon(is_state: boolean): void {
     if (is_state && !this.had_state) this.waits_since_ms = performance.now();
+    this.has_missed_one ||= is_state && this.had_state;
     this.had_state ||= is_state;
     if (this.is_due || this.stage.renderer.xr.isPresenting) return;
     this.is_due = true;
@@ -154,6 +158,7 @@ export class SceneView {
   private draw(now_ms: number): void {
     this.is_due = false;
     if (this.stage.renderer.xr.isPresenting) return;
+    if (!this.turns.takes(now_ms)) return this.draw_soon(false);
     if (this.sample) this.move_all(this.sample);
     const tip = this.arm.chain.tip;
     if (this.view.follows_tip) this.stage.follow(tip.subarray(12, 15));
@@ -165,7 +170,8 @@ export class SceneView {
     }
     const done_ms = performance.now();
     const is_coarser_or_finer = this.had_state && this.stage.pace.drawn(done_ms, done_ms - this.waits_since_ms);
-    this.had_state = false;
+    if (this.had_state) this.turns.drawn(now_ms, this.has_missed_one);
+    this.had_state = this.has_missed_one = false;
     if (is_coarser_or_finer) this.resize();
     this.on_drawn(now_ms);
   }
