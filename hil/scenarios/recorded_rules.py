@@ -353,6 +353,8 @@ def faults_not_latched(ticks, limits):
     """Whatever the reports show wrong is latched in the same tick; a full list counts what it has no place for."""
     watch, complaints, unplaced = Watch(limits), [], set()
     for before, now in neighbours(ticks):
+        if now.dropped < before.dropped:  # an operator's clear emptied the list: what is gone needs no place any more
+            unplaced = set()
         unplaced |= set(watch.due(before, now)) - names(now)
         unplaced -= names(now)
         absent = unplaced if len(unplaced) > now.dropped else ()

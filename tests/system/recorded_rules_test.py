@@ -266,6 +266,8 @@ class Rules(unittest.TestCase):
         silent = changed(5, age=(3, 3), faults=(fault(3002, 0),))
         self.broken(rules.faults_not_latched(silent, kLimits), "(3002, 1)")
         self.assertEqual(rules.faults_not_latched([tick._replace(dropped=1) for tick in silent], kLimits), [])
+        cleared = [tick._replace(dropped=1) for tick in silent] + [kGood._replace(tick=len(silent) + 1)]
+        self.assertEqual(rules.faults_not_latched(cleared, kLimits), [], "an operator's clear emptied the full list")
         stopping = kGood._replace(tick=4, **kStopped)
         ended = kGood._replace(tick=5, **{**kStopped, "state": "FAULT", "age": (3, 3), "dropped": 1})
         self.broken(rules.stops_not_confirmed([stopping, ended]), "drive 1", "3008")
