@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "hil/config/start_angles.hpp"
 #include "hil/math/random.hpp"
 
 namespace liana::bench {
@@ -46,14 +47,11 @@ TrueParameters spread_parameters(const RobotConfig& robot, const std::string& ph
 }
 
 Theta start_pose(const RobotConfig& robot, const std::string& name, double spread_rad, std::uint64_t seed) {
-  const auto pose = robot.named_poses_rad.find(name);
-  if (pose == robot.named_poses_rad.end())
-    throw std::runtime_error("--start-pose: \"" + name + "\" is not in the robot's named_poses_deg; allowed are " +
-                             names_of(robot.named_poses_rad));
+  const std::vector<double> pose_rad = start_angles_rad(robot.named_poses_rad, robot.theta_count(), name);
   Random offsets(seed, "start pose");
   Theta theta{};
   for (std::size_t i = 0; i < robot.theta_count(); ++i)
-    theta[i] = pose->second[i] + offsets.uniform(-spread_rad, spread_rad);
+    theta[i] = pose_rad[i] + offsets.uniform(-spread_rad, spread_rad);
   return theta;
 }
 

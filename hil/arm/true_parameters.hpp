@@ -21,7 +21,7 @@ struct TrueParameters {
 TrueParameters table_parameters(const RobotConfig& robot, const std::string& physics);
 // EA +-5 %, mu +-20 %, hole radius +-0.02 mm (one draw each), cable zero +-0.05 mm and torque gain +-1 % per cable.
 TrueParameters spread_parameters(const RobotConfig& robot, const std::string& physics, std::uint64_t seed);
-// Named pose plus uniform +-`spread_rad` per angle; throws std::runtime_error for an unknown name.
+// Named pose, or angles in degrees, plus uniform +-`spread_rad` per angle; throws std::runtime_error for anything else.
 Theta start_pose(const RobotConfig& robot, const std::string& name, double spread_rad, std::uint64_t seed);
 
 }  // namespace liana::bench

@@ -1,7 +1,6 @@
 #include "hil/serial/true_arm.hpp"
 
-#include <stdexcept>
-
+#include "hil/config/start_angles.hpp"
 #include "hil/math/random.hpp"
 
 namespace liana::bench {
@@ -14,21 +13,13 @@ constexpr double kLengthSpread_m = 0.5e-3;
 constexpr double kGainSpread = 0.01;
 constexpr double kStartSpread_rad = 0.5 * kRadPerDeg;
 
-const std::vector<double>& pose_of(const SerialRobotConfig& robot, const std::string& name) {
-  const auto pose = robot.named_poses_rad.find(name);
-  if (pose != robot.named_poses_rad.end()) return pose->second;
-  std::string names;
-  for (const auto& [known, angles] : robot.named_poses_rad) names += (names.empty() ? "" : ", ") + known;
-  throw std::runtime_error("--start-pose: \"" + name + "\" is not in the robot's named_poses_deg; allowed are " +
-                           names);
-}
-
 }  // namespace
 
 TrueArm true_arm(const SerialRobotConfig& robot, const std::string& start_pose, bool spread, bool fixture,
                  std::uint64_t seed) {
   const std::size_t joints = robot.joints.size();
-  TrueArm arm{robot, std::vector<double>(joints, 0.0), std::vector<double>(joints, 1.0), pose_of(robot, start_pose)};
+  TrueArm arm{robot, std::vector<double>(joints, 0.0), std::vector<double>(joints, 1.0),
+              start_angles_rad(robot.named_poses_rad, joints, start_pose)};
   if (!spread) return arm;
   Random lengths(seed, "link lengths"), zeros(seed, "joint zeros"), gains(seed, "torque gains"),
       start(seed, "start pose");

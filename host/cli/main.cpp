@@ -132,12 +132,18 @@ void add_plan(CLI::App& app, Action& action, PlanOptions& plan) {
 void add_mission_options(CLI::App& sub, liana::system::RunOptions& run) {
   sub.add_option("mission", run.mission, "a name under lua/missions, a file, or a plan (JSON of liana plan --out)")
       ->required();
-  sub.add_option("--robot", run.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  sub.add_option(
+      "--robot", run.robot,
+      "robot table: a name under lua/robots or a file; where not given that of a plan, zhu2022 for a mission");
   sub.add_option("--scene", run.scene,
-                 "scene table: a name under lua/scenes or a file; panel_slit where not given, for a serial arm none");
+                 "scene table: a name under lua/scenes or a file; where not given that of a plan, for a mission "
+                 "panel_slit, for a serial arm none");
   sub.add_option("--bus", run.bus,
                  "bus table: a name under lua/buses or a file; where not given embedded_ROBOT if there is such a "
-                 "table, else embedded");
+                 "table, else one for the robot's drives on simulated buses");
+  sub.add_option("--start-pose", run.start_pose,
+                 "where the simulated arm begins: a named pose of the robot, or all its angles, t1,t2,... deg; where "
+                 "not given the table's start_pose, else prepare or zero");
   sub.add_option("--physics", run.physics, "nominal, ideal or worn")
       ->capture_default_str()
       ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
@@ -187,12 +193,14 @@ void add_console(CLI::App& app, Action& action, ConsoleOptions& console) {
   sub->add_option("--api", console.api,
                   "API socket of a lianad; where not given, that of the one running system, or a simulated arm");
   sub->add_flag("--simulate", console.simulate, "start a simulated arm, also where a system runs");
-  sub->add_option("--robot", console.run.robot, "of the simulated arm: a name under lua/robots or a file")
-      ->capture_default_str();
+  sub->add_option("--robot", console.run.robot,
+                  "of the simulated arm: a name under lua/robots or a file; zhu2022 where not given");
   sub->add_option("--scene", console.run.scene,
                   "of the simulated arm: a name under lua/scenes or a file; panel_slit where not given, for a serial "
                   "arm none");
   sub->add_option("--bus", console.run.bus, "of the simulated arm: an embedded bus table");
+  sub->add_option("--start-pose", console.run.start_pose,
+                  "of the simulated arm: a named pose of the robot, or all its angles, t1,t2,... deg");
   sub->add_option("--physics", console.run.physics, "of the simulated arm: nominal, ideal or worn")
       ->capture_default_str()
       ->check(CLI::IsMember({"nominal", "ideal", "worn"}));

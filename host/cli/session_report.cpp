@@ -20,7 +20,7 @@ report::Criteria criteria(const std::string& robot_file, const std::string& phys
 report::ReportSources report_sources(const system::RunOptions& options, const system::SystemLayout& plan,
                                      const system::RunSession& session, const system::RunEnd& end) {
   report::ReportSources sources;
-  sources.robot = options.robot;
+  sources.robot = plan.robot;
   sources.mission = options.mission;
   sources.physics = options.physics;
   sources.seed = options.seed;

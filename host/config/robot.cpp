@@ -11,7 +11,7 @@ RobotConfig read_robot(const Json& json, const std::string& file, const std::str
   const Field table(json, file, "");
   check_kind(table, "robot");
   table.only({"format", "kind", "name", "segments", "module", "joint", "cables", "tension", "drives", "limits",
-              "named_poses_deg"});
+              "named_poses_deg", "start_pose"});
   RobotConfig out;
   out.name = table.at("name").name(40);
   read_arm(table, out);
@@ -19,6 +19,7 @@ RobotConfig read_robot(const Json& json, const std::string& file, const std::str
   read_drives(table, out);
   read_limits(table.at("limits"), out.table.limits);
   read_named_poses(table.at("named_poses_deg"), out);
+  out.start_pose = read_start_pose(table, out.named_poses_deg);
   out.canonical_json = canonical_json(json);
   return out;
 }
@@ -33,6 +34,10 @@ RobotConfig parse_robot(const std::string& text, const std::string& file, const 
   out.table.tick_s = buses.tick_s();
   out.table.interval_ticks = buses.interval_ticks();
   return out;
+}
+
+RobotConfig parse_robot_alone(const std::string& text, const std::string& file) {
+  return read_robot(parse_json(text, file), file, "nominal");
 }
 
 RobotConfig load_robot(const std::string& path, const std::string& physics, const BusesConfig& buses) {

@@ -96,4 +96,11 @@ void read_named_poses(const Field& field, RobotConfig& out) {
   }
 }
 
+std::string read_start_pose(const Field& table, const std::map<std::string, std::vector<double>>& named_poses_deg) {
+  if (!table.json().contains("start_pose")) return "";
+  std::vector<std::string> names;
+  for (const auto& [name, angles_deg] : named_poses_deg) names.push_back(name);
+  return table.at("start_pose").choice(names);
+}
+
 }  // namespace liana::config

@@ -33,6 +33,12 @@ void check_nodes(const std::string& robot, std::int32_t drives, const std::strin
 // Motion limits.
 void read_limits(const Field& field, cable::MotionLimits& limits);
 
+// The optional start_pose: one of the named poses; empty where the table does not say.
+std::string read_start_pose(const Field& table, const std::map<std::string, std::vector<double>>& named_poses_deg);
+
+// A cable robot's table by itself, with nominal friction and without what buses decide (tick, T_c).
+RobotConfig parse_robot_alone(const std::string& text, const std::string& file);
+
 // Named poses within the theta limits; "zero" must be there.
 void read_named_poses(const Field& field, RobotConfig& out);
 

@@ -121,7 +121,8 @@ void read_poses(const Field& field, SerialRobotConfig& out) {
 SerialRobotConfig read_serial_robot(const Json& json, const std::string& file) {
   const Field table(json, file, "");
   check_kind(table, "serial");
-  table.only({"format", "kind", "name", "joints", "mass", "friction", "drives", "limits", "named_poses_deg"});
+  table.only(
+      {"format", "kind", "name", "joints", "mass", "friction", "drives", "limits", "named_poses_deg", "start_pose"});
   SerialRobotConfig out;
   out.name = table.at("name").name(40);
   read_joints(table.at("joints"), out);
@@ -129,6 +130,7 @@ SerialRobotConfig read_serial_robot(const Json& json, const std::string& file) {
   read_joint_drives(table.at("drives"), out);
   read_tip_limits(table.at("limits"), out.table.tip);
   read_poses(table.at("named_poses_deg"), out);
+  out.start_pose = read_start_pose(table, out.named_poses_deg);
   out.canonical_json = canonical_json(json);
   return out;
 }

@@ -23,6 +23,7 @@ struct SerialRobotConfig {
   std::vector<std::uint32_t> drive_serials;                    // what 0x1018:4 must say; empty: anything
   std::int32_t calibration_days = 0;                           // how old a calibration may be
   std::map<std::string, std::vector<double>> named_poses_deg;  // joint_count angles each
+  std::string start_pose;  // which of them a simulated arm begins with; empty: the table does not say
   std::string canonical_json;
 };
 

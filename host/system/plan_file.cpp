@@ -14,6 +14,10 @@ namespace {
 constexpr std::size_t kMostWaypoints = 2000;  // a followed curve has as many as it needs
 constexpr double kRounding_m = 1e-9;          // of angles that became degrees in between
 
+Json read_plan(const std::string& file) {
+  return config::parse_json(config::read_text_file(file), file, "give a file that liana plan --out has written");
+}
+
 void check_scene(const std::string& file, const Json& plan, const config::SceneConfig& scene) {
   const Json& of_plan = plan.member_or_null("inputs").member_or_null("scene");
   if (of_plan == Json::parse(scene.canonical_json)) return;
@@ -35,10 +39,18 @@ plan::Path read_waypoints(const config::Field& plan, const cable::RobotTable& ta
 
 }  // namespace
 
-void check_plan_file(const std::string& file, const config::RobotConfig& robot, const config::SceneConfig& scene) {
-  const Json content = checked([&] {
-    return config::parse_json(config::read_text_file(file), file, "give a file that liana plan --out has written");
+Json tables_of_plan(const std::string& file) {
+  return checked([&] {
+    const Json content = read_plan(file);
+    const config::Field inputs = config::Field(content, file, "").at("inputs");
+    inputs.at("robot").at("name");
+    inputs.at("scene").at("name");
+    return Json{{"robot", inputs.json().at("robot")}, {"scene", inputs.json().at("scene")}};
   });
+}
+
+void check_plan_file(const std::string& file, const config::RobotConfig& robot, const config::SceneConfig& scene) {
+  const Json content = checked([&] { return read_plan(file); });
   check_scene(file, content, scene);
   const config::Field plan(content, file, "");
   plan::PlanRequest limits;

@@ -4,8 +4,12 @@
 #include <string>
 
 #include "host/config/config.hpp"
+#include "host/json/json.hpp"
 
 namespace liana::system {
+
+// The tables that a plan was made with: members robot and scene. Throws BadInput where the file is no plan.
+Json tables_of_plan(const std::string& file);
 
 // The plan's way, put to the independent check again (docs/planning.md): its clearance is still inputs.margin_m, its
 // steps are within inputs.max_step_deg. `robot`: as for planning. Throws BadInput naming file, field and what is wrong:

@@ -7,16 +7,17 @@
 namespace liana::system {
 
 struct RunOptions {
-  std::string mission;  // empty: none (liana latency, liana console)
-  std::string robot = "zhu2022";
-  std::string scene;          // empty: panel_slit, for a serial arm none
-  std::string bus;            // empty: embedded_ROBOT where there is such a table, else embedded
+  std::string mission;        // empty: none (liana latency, liana console)
+  std::string robot;          // empty: that of the plan, zhu2022 for a mission
+  std::string scene;          // empty: that of the plan; for a mission panel_slit, for a serial arm none
+  std::string bus;            // empty: as buses_of (tables.hpp) has it
   std::string time;           // empty: fast, or real on SocketCAN
   bool simulated_arm = true;  // false: real drives are on the buses, there is no bench
   std::string physics = "nominal";
   std::string true_physics;  // empty: as physics; else what the simulated arm really has, and nobody declares
   std::string arm = "full";  // or light, which needs physics ideal
-  std::string fixture;       // empty: the bench's start pose; a named pose: the simulated arm lies exactly there
+  std::string start_pose;    // of the simulated arm: empty, a named pose, or angles (start_pose.hpp)
+  std::string fixture;       // empty: it begins near its start pose; a named pose: the simulated arm lies exactly there
   std::string in_pose;       // empty: nobody knows; a named pose: lianad enables only an arm that lies there, and the
                              // simulated one does
   std::string cross_wired;   // empty, or two drives whose cables are exchanged, e.g. 3,4

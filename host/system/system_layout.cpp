@@ -21,6 +21,7 @@
 #include "host/system/plan_file.hpp"
 #include "host/system/process.hpp"
 #include "host/system/runs.hpp"
+#include "host/system/start_pose.hpp"
 #include "host/system/tables.hpp"
 
 namespace liana::system {
@@ -29,7 +30,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFreeStep_s = "0.004";  // of a dry run's physics: a run takes a quarter
-constexpr const char* kRestWithin_s = "10";   // an arm whose cable broke may swing for longer; the report says so
+constexpr const char* kDefaultRobot = "zhu2022";
+constexpr const char* kRestWithin_s = "10";  // an arm whose cable broke may swing for longer; the report says so
 
 std::string record_directory(const std::string& path) {
   std::error_code error;
@@ -140,7 +142,8 @@ ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool
                     "--seed", std::to_string(options.seed), "--summary", plan.file("bench_summary.json")}};
   if (plan.keeps_traffic || plan.is_dry_run) append(call.argv, {"--truth", plan.file("truth.bin")});
   const std::string& fixture = options.in_pose.empty() ? options.fixture : options.in_pose;
-  if (!fixture.empty()) append(call.argv, {"--start-pose", fixture, "--fixture"});
+  append(call.argv, {"--start-pose", fixture.empty() ? options.start_pose : fixture});
+  if (!fixture.empty()) append(call.argv, {"--fixture"});
   if (!options.cross_wired.empty()) append(call.argv, {"--cross-wired", options.cross_wired});
   if (!options.faults.empty()) append(call.argv, {"--faults", options.faults});
   if (!options.scene_offset.empty()) append(call.argv, {"--scene-offset", options.scene_offset});
@@ -166,29 +169,59 @@ ProgramCall mission_call(const SystemLayout& plan, const RunOptions& options) {
            "--report", plan.file("mission.json"), "--lockstep", "--progress"}};
 }
 
-// A robot may have a bus table of its own, for its own drives.
-RunOptions with_defaults(RunOptions options, bool is_serial) {
-  if (options.scene.empty()) options.scene = is_serial ? "none" : "panel_slit";
-  if (options.bus.empty()) {
-    const std::string own = "embedded_" + options.robot;
-    options.bus = fs::exists(std::string(LIANA_LUA_DIR "/buses/") + own + ".lua") ? own : "embedded";
-  }
-  return options;
+// The table that a plan was made with, called by its own name; empty when the mission is no plan.
+std::optional<TableText> table_of_plan(const std::string& mission, const std::string& kind) {
+  if (!mission.ends_with(".json")) return std::nullopt;
+  const Json table = tables_of_plan(mission).member_or_null(kind);
+  return TableText{table.value("name", kind), table.dump()};
 }
 
-void check_options_of_cable_robot(const RunOptions& options, const std::string& text,
-                                  const config::BusesConfig& buses) {
+// What a run takes that is not told more: the robot and the scene of its plan, else those of the slit crossing.
+TableText robot_of(const RunOptions& options) {
+  if (!options.robot.empty()) return {options.robot, evaluate_table("robot", options.robot)};
+  if (const auto planned = table_of_plan(options.mission, "robot")) return *planned;
+  return {kDefaultRobot, evaluate_table("robot", kDefaultRobot)};
+}
+
+TableText scene_of(const RunOptions& options, bool is_serial) {
+  if (options.scene.empty()) {
+    if (const auto planned = table_of_plan(options.mission, "scene")) return *planned;
+  }
+  const std::string name = !options.scene.empty() ? options.scene : is_serial ? "none" : "panel_slit";
+  return {name, evaluate_table("scene", name)};
+}
+
+void check_mission_with(const std::string& robot, const std::string& mission, const std::string& scratch) {
+  const std::string file = scratch + "/robot.json";
+  try {
+    write_output(file, robot);
+    check_mission(mission, file);
+    fs::remove(file);
+  } catch (...) {
+    fs::remove_all(scratch);
+    throw;
+  }
+}
+
+// The start pose, too, is looked at: a robot that begins inside a body fails much later, and for no visible reason.
+std::string check_options_of_cable_robot(const RunOptions& options, const std::string& text, const SystemLayout& plan) {
   const config::RobotConfig robot =
-      checked([&] { return config::parse_robot(text, options.robot, options.physics, buses); });
+      checked([&] { return config::parse_robot(text, options.robot, options.physics, plan.buses); });
   if (!options.calibration.empty())
     checked([&] { return calibration::load_calibration(options.calibration, robot, calibration::today_utc()); });
   if (!options.in_pose.empty()) check_in_pose(robot, options.in_pose);
   check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
+  if (options.mission.ends_with(".json")) check_plan_file(options.mission, robot, plan.scene);
+  if (!options.simulated_arm) return "";
+  const StartPose start = start_pose_of(robot, options.start_pose);
+  check_start_is_free(robot, plan.scene, start);
+  return start.text;
 }
 
-void check_options_of_serial_robot(const RunOptions& options, const std::string& text,
-                                   const config::BusesConfig& buses) {
-  checked([&] { return config::parse_serial_robot(text, options.robot, buses); });
+std::string check_options_of_serial_robot(const RunOptions& options, const std::string& text,
+                                          const config::BusesConfig& buses) {
+  const config::SerialRobotConfig robot =
+      checked([&] { return config::parse_serial_robot(text, options.robot, buses); });
   const auto refuse = [&](const char* option, bool given, const char* why) {
     if (given) throw BadInput(std::string(option) + ": robot " + options.robot + " has a serial arm: " + why);
   };
@@ -197,6 +230,7 @@ void check_options_of_serial_robot(const RunOptions& options, const std::string&
   refuse("--cross-wired", !options.cross_wired.empty(), "it has no cables to swap; leave it out");
   refuse("--physics", options.physics != "nominal", "its bench knows nominal only; leave it out");
   refuse("mission", options.mission.ends_with(".json"), "plans are for cable arms; give a mission");
+  return start_pose_of(robot, options.start_pose).text;
 }
 
 void write_tables(const SystemLayout& plan, const std::string& robot, const std::string& scene,
@@ -221,26 +255,23 @@ std::string directory_of(const SystemLayout& plan, const RunOptions& options) {
 }  // namespace
 
 SystemLayout make_layout(const RunOptions& given) {
-  const std::string robot_text = evaluate_table("robot", given.robot);
+  RunOptions options = given;
   SystemLayout plan;
-  plan.is_serial = checked([&] { return config::robot_kind(robot_text, given.robot); }) == "serial";
-  const RunOptions options = with_defaults(given, plan.is_serial);
-  const std::string buses_text = evaluate_table("buses", options.bus);
-  const std::string scene_text = evaluate_table("scene", options.scene);
-  plan.buses = checked([&] { return config::parse_buses(buses_text, options.bus); });
-  if (plan.is_serial) {
-    check_options_of_serial_robot(options, robot_text, plan.buses);
-  } else {
-    check_options_of_cable_robot(options, robot_text, plan.buses);
-  }
-  const bool has_mission = !options.mission.empty();
-  if (has_mission) check_mission(options.mission, options.robot);
-  plan.scene = checked([&] { return config::parse_scene(scene_text, options.scene); });
+  const TableText robot = robot_of(options);
+  options.robot = robot.name;
+  plan.robot = robot.name;
+  plan.is_serial = checked([&] { return config::robot_kind(robot.json, robot.name); }) == "serial";
+  const TableText buses = buses_of(robot.name, robot.json, options.bus);
+  const TableText scene = scene_of(options, plan.is_serial);
+  options.scene = scene.name;
+  plan.buses = checked([&] { return config::parse_buses(buses.json, buses.name); });
+  plan.scene = checked([&] { return config::parse_scene(scene.json, scene.name); });
   if (!plan.scene.camera || !plan.scene.contact)
     throw BadInput("--scene: '" + options.scene + "': has no " + (plan.scene.camera ? "contact" : "camera") +
                    ", which the bench needs; add it (docs/formats.md)");
-  if (options.mission.ends_with(".json"))
-    check_plan_file(options.mission, robot_for_kinematics(options.robot), plan.scene);
+  const bool has_mission = !options.mission.empty();
+  options.start_pose = plan.is_serial ? check_options_of_serial_robot(options, robot.json, plan.buses)
+                                      : check_options_of_cable_robot(options, robot.json, plan);
   if (options.is_dry_run) check_virtual(plan.buses);
   check_interfaces(plan.buses);
   plan.time_mode = time_mode_of(options, plan.buses);
@@ -250,8 +281,9 @@ SystemLayout make_layout(const RunOptions& given) {
   plan.has_recorder = (has_mission || options.has_console) && !plan.is_dry_run;
   plan.keeps_traffic = !plan.is_dry_run && (has_mission || !options.has_console);
   plan.socket_dir = temporary_directory();
+  if (has_mission) check_mission_with(robot.json, options.mission, plan.socket_dir);
   plan.directory = directory_of(plan, options);
-  write_tables(plan, robot_text, scene_text, buses_text);
+  write_tables(plan, robot.json, scene.json, buses.json);
   const bool embedded = plan.buses.backend == "embedded";
   if (embedded) plan.programs.push_back(bus_call(plan));
   plan.programs.push_back(daemon_call(plan, options, embedded));

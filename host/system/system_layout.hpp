@@ -27,6 +27,7 @@ struct SystemLayout {
   std::string time_mode;
   config::BusesConfig buses;
   config::SceneConfig scene;
+  std::string robot;                  // its table's name or file, or the name of that in a plan
   bool is_serial = false;             // the robot has a serial arm
   std::vector<ProgramCall> programs;  // in the order in which they start
 

@@ -4,10 +4,15 @@
 #include <fstream>
 #include <iterator>
 
+#include "host/config/bench_buses.hpp"
 #include "host/system/process.hpp"
 
 namespace liana::system {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int32_t kDrivesOfEmbedded = 15;
 
 // The evaluator's first line, without its program name: one message for the user.
 std::string first_message(const Captured& captured) {
@@ -56,10 +61,21 @@ config::SceneConfig scene_of(const std::string& name) {
   return checked([&] { return config::parse_scene(scene, name); });
 }
 
+TableText buses_of(const std::string& robot, const std::string& robot_json, const std::string& given) {
+  if (!given.empty()) return {given, evaluate_table("buses", given)};
+  const std::string own = "embedded_" + robot;
+  if (fs::exists(std::string(LIANA_LUA_DIR "/buses/") + own + ".lua")) return {own, evaluate_table("buses", own)};
+  const std::int32_t drives = checked([&] { return config::drive_count(robot_json, robot); });
+  if (drives == kDrivesOfEmbedded) return {"embedded", evaluate_table("buses", "embedded")};
+  return {"bench_" + std::to_string(drives), config::bench_buses(drives)};
+}
+
 config::RobotConfig robot_for_kinematics(const std::string& name) {
   const std::string robot = evaluate_table("robot", name);
-  const std::string buses = evaluate_table("buses", "embedded");
-  return checked([&] { return config::parse_robot(robot, name, "nominal", config::parse_buses(buses, "embedded")); });
+  return checked([&] {
+    const TableText buses = buses_of(name, robot, "");
+    return config::parse_robot(robot, name, "nominal", config::parse_buses(buses.json, buses.name));
+  });
 }
 
 std::optional<config::SerialRobotConfig> serial_robot_for_kinematics(const std::string& name) {

@@ -32,7 +32,17 @@ auto checked(const Loader& loader) {
 // A scene, checked.
 config::SceneConfig scene_of(const std::string& name);
 
-// The robot as pose and ik need it, on the default buses.
+// A table that was found or made: what messages call it, and its canonical JSON.
+struct TableText {
+  std::string name;
+  std::string json;
+};
+
+// The bus table of a robot: `given`; where that is empty embedded_ROBOT if there is such a table, `embedded` for as
+// many drives as that has, else one made for the drives of `robot_json` (config/bench_buses.hpp).
+TableText buses_of(const std::string& robot, const std::string& robot_json, const std::string& given);
+
+// A cable robot as commands need it that move nothing, on the buses that it would be simulated with.
 config::RobotConfig robot_for_kinematics(const std::string& name);
 
 // The same for a serial arm, without buses; empty when the robot is of another kind.

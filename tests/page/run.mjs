@@ -1,5 +1,6 @@
 // Runs the tests of the page: type check, plain modules, and end to end in Chromium against the real system.
-//   node tests/page/run.mjs [unit|console|run_page|frames|vr ...]; all without a name. Needs `npm ci` in host/page.
+//   node tests/page/run.mjs [unit|console|run_page|frames|vr ...] [--judge-times]; all without a name. Needs `npm ci` in
+//   host/page. --judge-times: frames must hold their figures, not only their ratio (docs/console.md).
 import { spawnSync } from 'node:child_process';
 import { existsSync, readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -21,7 +22,8 @@ if (!existsSync(join(page, 'node_modules', 'playwright-core'))) {
   process.exit(2);
 }
 const suites = readdirSync(join(here, 'e2e')).filter((file) => file.endsWith('_test.mjs')).map((file) => file.replace('_test.mjs', ''));
-const wanted = process.argv.slice(2);
+const options = process.argv.slice(2).filter((word) => word === '--judge-times');
+const wanted = process.argv.slice(2).filter((word) => !options.includes(word));
 const unknown = wanted.filter((name) => name !== 'unit' && !suites.includes(name));
 if (unknown.length > 0) {
   console.error(`tests/page: no tests ${unknown.join(', ')}; there are unit, ${suites.join(', ')}`);
@@ -36,4 +38,4 @@ if (is_built && is_wanted('unit')) {
   if (run('unit tests', process.execPath, ['build.mjs', '--tests'], page))
     run('unit tests', process.execPath, ['--test', ...readdirSync(built).filter((file) => file.endsWith('.mjs')).map((file) => join(built, file))]);
 }
-if (is_built) for (const suite of suites.filter(is_wanted)) run(suite, process.execPath, [join(here, 'e2e', `${suite}_test.mjs`)]);
+if (is_built) for (const suite of suites.filter(is_wanted)) run(suite, process.execPath, [join(here, 'e2e', `${suite}_test.mjs`), ...options]);

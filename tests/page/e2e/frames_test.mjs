@@ -1,5 +1,6 @@
 // What a picture costs while a paced mission runs and everything is shown: CPU time of all browser processes, intervals,
-// age of what is seen. CPU time is judged; intervals and age only where the rest of the machine left room.
+// age of what is seen. A test judges no time but a ratio: CPU time of a picture against that of a fixed computation on the
+// same machine. --judge-times (`./dev numbers frames`) judges the figures themselves, on a machine that does nothing else.
 import assert from 'node:assert/strict';
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -8,14 +9,30 @@ import { open_browser, open_page, picture } from './browser.mjs';
 import { cpu_ms, liana, machine_ms, screens, start } from './system.mjs';
 
 const kMeasured_s = 30;
+const kMostYardsticks = 1.0; // a picture takes 0.6 to 0.7 on a quiet machine; more beside work that takes caches
 const kMostCpu_ms = 33; // a presented frame
-const kMostCpuBeside_ms = 50; // beside work that takes caches and memory, and lets fewer frames share what every second costs
-const kQuietCores = 0.3; // of others, below which intervals are judged
+const kMost_ms = { interval_p99: 40, age_median: 40, age_p99: 100 };
+const kQuietCores = 0.3; // of others, above which nothing can be said about times
+const judges_times = process.argv.includes('--judge-times');
 
 const sorted = (values) => [...values].sort((a, b) => a - b);
 const rank = (values, share) => sorted(values)[Math.min(values.length - 1, Math.ceil(share * values.length) - 1)] ?? NaN;
 
-test('a presented frame costs at most 33 ms of CPU while a paced mission runs and everything is shown', async () => {
+// CPU time of a computation like that of a picture drawn in software: the median of five, 640 x 360 points shaded 20 times.
+function yardstick_ms() {
+  const points = new Float32Array(640 * 360);
+  const times = [1, 2, 3, 4, 5].map(() => {
+    const before = process.cpuUsage();
+    for (let turn = 0; turn < 20; ++turn)
+      for (let i = 0; i < points.length; ++i) points[i] = 0.5 * points[i] + Math.sqrt(((i * 7919 + turn) & 65535) + points[(i * 31) % points.length]);
+    const { user, system } = process.cpuUsage(before);
+    return (user + system) / 1000;
+  });
+  return rank(times, 0.5);
+}
+
+test('a presented frame costs little CPU while a paced mission runs and everything is shown', async () => {
+  const yardstick = yardstick_ms();
   const run = start(liana, ['run', 'slit_crossing', '--seed', '3', '--time', 'paced', '--console']);
   const chromium = await open_browser();
   try {
@@ -37,6 +54,8 @@ test('a presented frame costs at most 33 ms of CPU while a paced mission runs an
     const table = {
       frames_per_s: (1000 * frames) / passed_ms,
       cpu_ms_per_frame: browser_ms / frames,
+      yardsticks_per_frame: browser_ms / frames / yardstick,
+      yardstick_ms: yardstick,
       interval_ms: { median: rank(seen.intervals_ms, 0.5), p90: rank(seen.intervals_ms, 0.9), p99: rank(seen.intervals_ms, 0.99), worst: Math.max(...seen.intervals_ms) },
       age_ms: { median: rank(seen.ages_ms, 0.5), p99: rank(seen.ages_ms, 0.99) },
       others_cores: others,
@@ -45,10 +64,12 @@ test('a presented frame costs at most 33 ms of CPU while a paced mission runs an
     };
     writeFileSync(join(screens, 'frames.json'), JSON.stringify(table, null, 1));
     console.log(table);
-    const most_ms = others < kQuietCores ? kMostCpu_ms : kMostCpuBeside_ms;
-    assert.ok(table.cpu_ms_per_frame <= most_ms, `${table.cpu_ms_per_frame.toFixed(1)} ms, allowed ${most_ms} beside ${others.toFixed(2)} cores`);
-    if (others < kQuietCores) assert.ok(table.interval_ms.p99 <= 40 && table.age_ms.median <= 40 && table.age_ms.p99 <= 100, JSON.stringify(table));
-    else console.log(`others took ${others.toFixed(2)} cores: intervals and age are reported, not judged`);
+    assert.ok(table.yardsticks_per_frame <= kMostYardsticks, `${table.yardsticks_per_frame.toFixed(2)} times the fixed computation, allowed ${kMostYardsticks}`);
+    if (!judges_times) return;
+    assert.ok(others < kQuietCores, `other programs took ${others.toFixed(2)} cores: measure on a machine that does nothing else`);
+    const { interval_ms: interval, age_ms: age } = table;
+    assert.ok(table.cpu_ms_per_frame <= kMostCpu_ms, `${table.cpu_ms_per_frame.toFixed(1)} ms of CPU a picture, allowed ${kMostCpu_ms}`);
+    assert.ok(interval.p99 <= kMost_ms.interval_p99 && age.median <= kMost_ms.age_median && age.p99 <= kMost_ms.age_p99, JSON.stringify(table));
   } finally {
     await chromium.close();
     await run.stop();

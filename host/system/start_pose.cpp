@@ -1,0 +1,100 @@
+#include "host/system/start_pose.hpp"
+
+#include <charconv>
+#include <cstdio>
+#include <string_view>
+
+#include "firmware_like/math/trig.hpp"
+#include "host/config/field.hpp"
+#include "host/plan/check/plan_check.hpp"
+#include "host/system/errors.hpp"
+
+namespace liana::system {
+namespace {
+
+using Poses = std::map<std::string, std::vector<double>>;
+
+// What is common to both kinds of arm: its poses, which of them a run begins with, and what its angles may be.
+struct Choice {
+  const std::string& robot;
+  const Poses& poses;
+  const std::string& of_table;
+  std::vector<config::Range> range_deg;  // of every angle
+};
+
+[[noreturn]] void refuse(const Choice& choice, const std::string& given, const std::string& allowed) {
+  throw BadInput("--start-pose: '" + given + "': allowed for robot " + choice.robot + ": " + allowed);
+}
+
+std::string names(const Poses& poses) {
+  std::string list;
+  for (const auto& [name, angles_deg] : poses) list += (list.empty() ? "" : ", ") + name;
+  return list;
+}
+
+std::optional<std::vector<double>> numbers_in(std::string_view text) {
+  std::vector<double> numbers;
+  while (true) {
+    const std::size_t comma = std::min(text.find(','), text.size());
+    double number = 0.0;
+    const char* end = text.data() + comma;
+    const auto [stopped, error] = std::from_chars(text.data(), end, number);
+    if (error != std::errc() || stopped != end) return std::nullopt;
+    numbers.push_back(number);
+    if (comma == text.size()) return numbers;
+    text.remove_prefix(comma + 1);
+  }
+}
+
+std::string default_of(const Choice& choice) {
+  if (!choice.of_table.empty()) return choice.of_table;
+  for (const char* name : {"prepare", "zero"})
+    if (choice.poses.contains(name)) return name;
+  return choice.poses.begin()->first;
+}
+
+StartPose chosen(const Choice& choice, const std::string& given) {
+  const std::string text = given.empty() ? default_of(choice) : given;
+  if (const auto pose = choice.poses.find(text); pose != choice.poses.end()) return {text, pose->second};
+  const auto numbers = numbers_in(text);
+  const std::size_t count = choice.range_deg.size();
+  if (!numbers || numbers->size() != count)
+    refuse(choice, text, names(choice.poses) + ", or its " + std::to_string(count) + " angles in degrees");
+  for (std::size_t i = 0; i < count; ++i) {
+    if (choice.range_deg[i].contains((*numbers)[i])) continue;
+    refuse(choice, text, "angle " + std::to_string(i + 1) + " in " + choice.range_deg[i].text() + " deg");
+  }
+  return {text, *numbers};
+}
+
+}  // namespace
+
+StartPose start_pose_of(const config::RobotConfig& robot, const std::string& given) {
+  Choice choice{robot.name, robot.named_poses_deg, robot.start_pose, {}};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(robot.table.theta_count()); ++k) {
+    const double limit_deg = robot.table.segment[k / 2].theta_limit_rad / kDegree;
+    choice.range_deg.push_back({-limit_deg, limit_deg});
+  }
+  return chosen(choice, given);
+}
+
+StartPose start_pose_of(const config::SerialRobotConfig& robot, const std::string& given) {
+  Choice choice{robot.name, robot.named_poses_deg, robot.start_pose, {}};
+  for (std::size_t i = 0; i < robot.table.joints(); ++i)
+    choice.range_deg.push_back({robot.table.joint[i].low_rad / kDegree, robot.table.joint[i].high_rad / kDegree});
+  return chosen(choice, given);
+}
+
+void check_start_is_free(const config::RobotConfig& robot, const config::SceneConfig& scene, const StartPose& start) {
+  cable::ThetaVector theta_rad{};
+  for (std::size_t k = 0; k < start.angles_deg.size(); ++k) theta_rad[k] = kDegree * start.angles_deg[k];
+  const plan::PlanCheck check = plan::check_plan(robot, scene, {theta_rad}, plan::plain_tip(robot.table, theta_rad));
+  if (check.min_clearance_m > 0.0) return;
+  char text[64];
+  std::snprintf(text, sizeof text, "link %d stands %.1f mm inside body ", check.nearest_link,
+                -1000.0 * check.min_clearance_m);
+  throw BadInput("--scene: '" + scene.name + "': at the start pose " + start.text + " " + text + check.nearest +
+                 "; move the body, or give another --start-pose");
+}
+
+}  // namespace liana::system

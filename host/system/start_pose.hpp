@@ -1,0 +1,29 @@
+// Where a simulated arm stands when a run begins.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "host/config/config.hpp"
+#include "host/config/serial_robot.hpp"
+
+namespace liana::system {
+
+// A pose as the bench takes it, and its angles.
+struct StartPose {
+  std::string text;  // a name of the robot's, or angles in degrees, comma-separated
+  std::vector<double> angles_deg;
+};
+
+// What `--start-pose` says: a named pose or all angles in degrees. Where nothing is given: the table's start_pose, else
+// `prepare` where there is such a pose, else `zero`, or the first by name. Throws BadInput with the poses there are, or
+// the range that an angle left.
+StartPose start_pose_of(const config::RobotConfig& robot, const std::string& given);
+StartPose start_pose_of(const config::SerialRobotConfig& robot, const std::string& given);
+
+// Throws BadInput naming body and link when the arm would begin inside a body of the scene.
+void check_start_is_free(const config::RobotConfig& robot, const config::SceneConfig& scene, const StartPose& start);
+
+}  // namespace liana::system
