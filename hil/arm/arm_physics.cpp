@@ -19,7 +19,8 @@ ArmPhysics::ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const
       theta_(start_rad) {
   chain_.place(theta_);
   paths_.update(theta_);
-  const CableValues tension = balanced_tensions(paths_, thetas_, kStartTensionN, kStartFloorN);
+  const CableValues tension = balanced_tensions(paths_, thetas_, kStartTensionOfPlan * robot.plan_tension_N,
+                                                kStartFloorOfPlan * robot.plan_tension_N);
   for (std::size_t c = 0; c < paths_.cable_count(); ++c)
     lines_.emplace_back(paths_, c, robot.lead_m, truth.EA_N, truth.mu, tension[c]);
 }

@@ -5,8 +5,9 @@
 
 namespace liana::bench {
 
-constexpr double kStartTensionN = 30.0;
-constexpr double kStartFloorN = 15.0;
+// Before anybody pulls on purpose: of what the robot's table plans.
+constexpr double kStartTensionOfPlan = 0.75;
+constexpr double kStartFloorOfPlan = 0.375;
 
 // Nearest balanced tensions to `wanted_N` everywhere with none below `floor_N` (alternating projections on the null
 // space of the transposed cable Jacobian and the floor). Throws std::runtime_error when there are none.

@@ -37,7 +37,8 @@ void read_mechanics(const JsonFile& file, RobotConfig& robot) {
   robot.viscous_Nms_per_rad = file.number("/joint/viscous_Nms_per_rad", 0.0, 100.0);
   robot.hole_radius_m = file.number("/cables/hole_radius_m", 0.001, 0.5);
   robot.face_offset_m = file.number("/cables/face_offset_m", 0.0, 0.5);
-  robot.cable_EA_N = file.number("/cables/EA_N", 1e3, 1e8);
+  robot.cable_EA_N = file.number("/cables/EA_N", 1e2, 1e8);
+  robot.plan_tension_N = file.number("/tension/plan_N", 1e-3, 1e6);
   robot.lead_m = file.number("/cables/lead_m", 0.01, 10.0);
   for (const auto& name : file.keys("/cables/friction_mu"))
     robot.friction_mu[name] = file.number("/cables/friction_mu/" + name, 0.0, 0.5);

@@ -31,6 +31,7 @@ struct RobotConfig {
   double hole_radius_m = 0.0;
   double face_offset_m = 0.0;
   double cable_EA_N = 0.0;
+  double plan_tension_N = 0.0;
   double lead_m = 0.0;
   std::map<std::string, double> friction_mu;  // by physics name
   double drum_radius_m = 0.0;

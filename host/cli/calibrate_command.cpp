@@ -18,11 +18,22 @@
 namespace liana::cli {
 namespace {
 
-std::vector<std::string> names_in(const std::string& list) {
+constexpr const char* kFixtures = "zero,fixture,prepare";
+
+// The poses for which there are fixtures: those asked for, else those of the table.
+std::vector<std::string> poses_of(const CalibrateOptions& options, const config::RobotConfig& robot) {
+  if (options.poses.empty() && !robot.fixture_poses.empty()) return robot.fixture_poses;
   std::vector<std::string> names;
+  const std::string list = options.poses.empty() ? kFixtures : options.poses;
   std::istringstream in(list);
   for (std::string name; std::getline(in, name, ',');) names.push_back(name);
   return names;
+}
+
+std::string list_of(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
+  return list;
 }
 
 // What runs in any case.
@@ -149,11 +160,15 @@ int measure_friction(const CalibrateOptions& options, bool simulated, const conf
 
 int calibrate_command(const CalibrateOptions& options) {
   const std::string text = system::evaluate_table("robot", options.robot);
-  const config::BusesConfig buses =
-      system::checked([&] { return config::parse_buses(system::evaluate_table("buses", options.bus), options.bus); });
+  if (system::checked([&] { return config::robot_kind(text, options.robot); }) == "serial")
+    throw system::BadInput("--robot: '" + options.robot +
+                           "': has a serial arm, whose encoders are absolute: allowed a cable arm; its zeros are "
+                           "drives.zero_counts of its table");
+  const system::TableText table = system::buses_of(options.robot, text, options.bus);
+  const config::BusesConfig buses = system::checked([&] { return config::parse_buses(table.json, table.name); });
   const bool simulated = buses.backend == "embedded";
   if (!simulated && !options.cross_wired.empty())
-    throw system::BadInput("--cross-wired: '" + options.cross_wired + "': bus table " + options.bus +
+    throw system::BadInput("--cross-wired: '" + options.cross_wired + "': bus table " + table.name +
                            " has real drives: allowed with the simulated arm only, --bus=embedded: leave it out");
   const config::RobotConfig robot =
       system::checked([&] { return config::parse_robot(text, options.robot, options.physics, buses); });
@@ -162,13 +177,14 @@ int calibrate_command(const CalibrateOptions& options) {
   if (options.friction) return measure_friction(options, simulated, robot);
   if (!options.calibration.empty())
     throw system::BadInput("--calibration: '" + options.calibration + "': allowed with --friction only: leave it out");
-  const std::vector<std::string> poses = names_in(options.poses);
+  const std::vector<std::string> poses = poses_of(options, robot);
   std::vector<cable::ThetaVector> thetas_rad;
   try {
     for (const std::string& pose : poses) thetas_rad.push_back(calibration::named_pose_rad(robot, pose));
     calibration::check_poses(robot, thetas_rad);
   } catch (const std::runtime_error& error) {
-    throw system::BadInput("--poses: '" + options.poses + "': " + error.what());
+    throw system::BadInput("--poses: '" + list_of(poses) + "': " + error.what() +
+                           "; or name them in the table, fixture_poses");
   }
   const calibration::CalibrationResult result =
       calibration::calibrate(robot, read_all(options, simulated, poses, thetas_rad), calibration::today_utc());

@@ -106,8 +106,8 @@ int view_command(const ViewOptions& options);
 
 struct CalibrateOptions {
   std::string robot = "zhu2022";
-  std::string bus = "embedded";
-  std::string poses = "zero,fixture,prepare";  // named poses of the fixtures
+  std::string bus;    // empty: as for a run
+  std::string poses;  // named poses of the fixtures; empty: those of the table, else zero, fixture and prepare
   std::string physics = "nominal";
   std::string cross_wired;  // empty, or two drives of the simulated arm whose cables are exchanged
   std::string out_file;     // empty: the calibration is only printed
@@ -123,7 +123,8 @@ int calibrate_command(const CalibrateOptions& options);
 struct LatencyOptions {
   std::string rate_hz;  // empty: that of the bus table, 250 where none is given
   double seconds = 10.0;
-  std::string buses;         // empty: the embedded table of the rate
+  std::string robot;         // empty: zhu2022
+  std::string buses;         // empty: the embedded table of the rate, or of the robot
   std::string arm = "full";  // or light, for slow machines
   bool json = false;
 };

@@ -61,6 +61,7 @@ void require_no_wishes(const ConsoleOptions& options, const std::string& api) {
   refuse("--robot", run.robot != none.robot);
   refuse("--scene", run.scene != none.scene);
   refuse("--bus", run.bus != none.bus);
+  refuse("--start-pose", run.start_pose != none.start_pose);
   refuse("--physics", run.physics != none.physics);
   refuse("--calibration", run.calibration != none.calibration);
   refuse("--seed", run.seed != none.seed);

@@ -48,6 +48,16 @@ Json json_of(std::span<const verify::RefusalRow> rows) {
   return list;
 }
 
+report::FaultTimes times_of(const std::string& robot) {
+  const std::string text = system::evaluate_table("robot", robot);
+  const system::TableText buses = system::buses_of(robot, text, "");
+  return system::checked([&]() -> report::FaultTimes {
+    const config::BusesConfig parsed = config::parse_buses(buses.json, buses.name);
+    if (config::robot_kind(text, robot) == "serial") return {parsed.tick_s()};
+    return {parsed.tick_s(), config::parse_robot(text, robot, "nominal", parsed).table.segment_count};
+  });
+}
+
 void print_refusals(const FaultsOptions& options) {
   const std::span<const verify::RefusalRow> rows = verify::refusal_table();
   if (options.json) {
@@ -69,7 +79,7 @@ int faults_command(const FaultsOptions& options) {
     print_refusals(options);
     return system::kExitOk;
   }
-  const std::vector<report::FaultRow> rows = report::fault_rows(system::robot_for_kinematics(options.robot).table);
+  const std::vector<report::FaultRow> rows = report::fault_rows(times_of(options.robot));
   if (options.json) {
     std::puts(json_of(rows).dump(1).c_str());
   } else if (options.markdown) {

@@ -7,12 +7,13 @@
 #include "host/report/latency_report.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/latency_session.hpp"
+#include "host/system/start_pose.hpp"
 #include "host/system/system_layout.hpp"
 
 namespace liana::cli {
 namespace {
 
-// The project's embedded tables by rate: which rate a table can carry is a matter of its buses.
+// The shipped robot's embedded tables by rate: which rate a table can carry is a matter of its buses.
 struct RateTable {
   const char* rate_hz;
   const char* name;
@@ -20,7 +21,7 @@ struct RateTable {
 constexpr std::array<RateTable, 2> kTables{{{"250", "embedded"}, {"500", "embedded_500"}}};
 
 std::string table_of(const LatencyOptions& options) {
-  if (!options.buses.empty()) return options.buses;
+  if (!options.buses.empty() || !options.robot.empty()) return options.buses;
   if (options.rate_hz.empty()) return kTables.front().name;
   for (const RateTable& table : kTables) {
     if (parse_number("--rate", options.rate_hz) == parse_number("--rate", table.rate_hz)) return table.name;
@@ -48,10 +49,11 @@ report::LatencyMeasurement measured(const system::SystemLayout& plan, double sec
 
 int latency_command(const LatencyOptions& options) {
   system::RunOptions run;
+  run.robot = options.robot;
   run.bus = table_of(options);
   run.time = "real";
   run.arm = options.arm;
-  run.fixture = "fixture";  // bent: the tip of a straight arm can go nowhere
+  run.fixture = system::bent_pose(options.robot);
   if (options.arm == "light") run.physics = "ideal";
   const system::SystemLayout plan = system::for_latency(system::make_layout(run));
   try {

@@ -231,9 +231,10 @@ void add_calibrate(CLI::App& app, Action& action, CalibrateOptions& calibrate) {
       add(app, action, "calibrate", "zeros, drums, directions and wiring of all drives, with the arm in fixtures",
           calibrate, calibrate_command);
   sub->add_option("--robot", calibrate.robot, "robot table")->capture_default_str();
-  sub->add_option("--bus", calibrate.bus, "bus table")->capture_default_str();
-  sub->add_option("--poses", calibrate.poses, "named poses of the robot for which there are fixtures, two or more")
-      ->capture_default_str();
+  sub->add_option("--bus", calibrate.bus, "bus table; where not given as for liana run");
+  sub->add_option("--poses", calibrate.poses,
+                  "named poses of the robot for which there are fixtures, two or more; where not given the table's "
+                  "fixture_poses, else zero,fixture,prepare");
   sub->add_option("--physics", calibrate.physics, "nominal, ideal or worn")
       ->capture_default_str()
       ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
@@ -254,6 +255,7 @@ void add_latency(CLI::App& app, Action& action, LatencyOptions& latency) {
   CLI::App* sub =
       add(app, action, "latency", "how late this machine wakes lianad's real-time thread, and how long its ticks take",
           latency, latency_command);
+  sub->add_option("--robot", latency.robot, "robot table: a name under lua/robots or a file; zhu2022 where not given");
   sub->add_option("--rate", latency.rate_hz, "250 or 500 Hz")->default_str("250");
   sub->add_option_function<std::string>(
          "--seconds",
@@ -262,8 +264,9 @@ void add_latency(CLI::App& app, Action& action, LatencyOptions& latency) {
          },
          "how long to measure; 0.1 to 86400")
       ->default_str("10");
-  sub->add_option("--buses", latency.buses,
-                  "bus table, in place of the embedded one of the rate: vcan, or a table of your interfaces");
+  sub->add_option(
+      "--buses", latency.buses,
+      "bus table, in place of the embedded one of the rate or the robot: vcan, or a table of your interfaces");
   sub->add_option("--arm", latency.arm,
                   "the bench's arm model: full, or light (no inertia, contact or cable friction) for slow machines")
       ->capture_default_str()

@@ -86,7 +86,8 @@ struct RobotConfig {
   Machine machine;                                             // that of the buses
   double friction_band = 0.2;                                  // share by which true friction may differ from mu
   std::map<std::string, std::vector<double>> named_poses_deg;  // theta_count angles each; "zero" always exists
-  std::string start_pose;  // which of them a simulated arm begins with; empty: the table does not say
+  std::string start_pose;                  // which of them a simulated arm begins with; empty: the table does not say
+  std::vector<std::string> fixture_poses;  // those with fixtures, for calibration; empty: the table does not say
   std::string canonical_json;
 };
 

@@ -11,7 +11,7 @@ RobotConfig read_robot(const Json& json, const std::string& file, const std::str
   const Field table(json, file, "");
   check_kind(table, "robot");
   table.only({"format", "kind", "name", "segments", "module", "joint", "cables", "tension", "drives", "limits",
-              "named_poses_deg", "start_pose"});
+              "named_poses_deg", "start_pose", "fixture_poses"});
   RobotConfig out;
   out.name = table.at("name").name(40);
   read_arm(table, out);
@@ -20,6 +20,7 @@ RobotConfig read_robot(const Json& json, const std::string& file, const std::str
   read_limits(table.at("limits"), out.table.limits);
   read_named_poses(table.at("named_poses_deg"), out);
   out.start_pose = read_start_pose(table, out.named_poses_deg);
+  out.fixture_poses = read_fixture_poses(table, out.named_poses_deg);
   out.canonical_json = canonical_json(json);
   return out;
 }

@@ -96,11 +96,33 @@ void read_named_poses(const Field& field, RobotConfig& out) {
   }
 }
 
-std::string read_start_pose(const Field& table, const std::map<std::string, std::vector<double>>& named_poses_deg) {
-  if (!table.json().contains("start_pose")) return "";
+namespace {
+
+std::vector<std::string> names_of(const std::map<std::string, std::vector<double>>& named_poses_deg) {
   std::vector<std::string> names;
   for (const auto& [name, angles_deg] : named_poses_deg) names.push_back(name);
-  return table.at("start_pose").choice(names);
+  return names;
+}
+
+}  // namespace
+
+std::string read_start_pose(const Field& table, const std::map<std::string, std::vector<double>>& named_poses_deg) {
+  return table.json().contains("start_pose") ? table.at("start_pose").choice(names_of(named_poses_deg)) : "";
+}
+
+std::vector<std::string> read_fixture_poses(const Field& table,
+                                            const std::map<std::string, std::vector<double>>& named_poses_deg) {
+  std::vector<std::string> poses;
+  if (!table.json().contains("fixture_poses")) return poses;
+  const Field list = table.at("fixture_poses");
+  list.size(2, named_poses_deg.size(), "name two or more poses for which there are fixtures");
+  for (std::size_t i = 0; i < list.json().size(); ++i) {
+    const std::string name = list.element(i).choice(names_of(named_poses_deg));
+    if (std::find(poses.begin(), poses.end(), name) != poses.end())
+      list.element(i).refuse("each pose once", "leave it out");
+    poses.push_back(name);
+  }
+  return poses;
 }
 
 }  // namespace liana::config

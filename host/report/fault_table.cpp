@@ -19,9 +19,11 @@ struct Detection {
   int within_ticks;
 };
 
+int of_cables(const FaultTimes& times, int ticks) { return times.segments > 0 ? ticks : -1; }
+
 // No default: a number without a detection does not compile.
-Detection detection_of(FaultNumber number, const cable::RobotTable& table) {
-  const int heartbeat_period = static_cast<int>(std::ceil(kHeartbeatPeriod_s / table.tick_s));
+Detection detection_of(FaultNumber number, const FaultTimes& times) {
+  const int heartbeat_period = static_cast<int>(std::ceil(kHeartbeatPeriod_s / times.tick_s));
   switch (number) {
     case FaultNumber::kNone:
       break;
@@ -35,7 +37,7 @@ Detection detection_of(FaultNumber number, const cable::RobotTable& table) {
       return {"serial arm: encoder against the tick before, over three times the joint's rate", 1};
     case FaultNumber::kDriveMissing:
       return {"watchdog: age of the drive's heartbeat, more than 0.3 s",
-              heartbeat_age_ticks(table.tick_s) + heartbeat_period};
+              heartbeat_age_ticks(times.tick_s) + heartbeat_period};
     case FaultNumber::kDriveSilent:
       return {"watchdog: age of the drive's report, more than 2 ticks", kFeedbackAgeTicks + 1};
     case FaultNumber::kDriveFault:
@@ -54,30 +56,30 @@ Detection detection_of(FaultNumber number, const cable::RobotTable& table) {
     case FaultNumber::kBusLost:
       return {"interface down or in bus-off (1 tick), or no drive of the bus is heard", kFeedbackAgeTicks + 1};
     case FaultNumber::kCableSlack:
-      return {"watchdog: motor tension under the floor, in a row", cable::kSlackDebounceTicks};
+      return {"watchdog: motor tension under the floor, in a row", of_cables(times, cable::kSlackDebounceTicks)};
     case FaultNumber::kCableOverload:
-      return {"watchdog: motor tension over the hard limit, in a row", cable::kOverloadDebounceTicks};
+      return {"watchdog: motor tension over the hard limit, in a row", of_cables(times, cable::kOverloadDebounceTicks)};
     case FaultNumber::kTensionAlarm:
-      return {"watchdog: motor tension over the alarm limit, in a row", cable::kAlarmDebounceTicks};
+      return {"watchdog: motor tension over the alarm limit, in a row", of_cables(times, cable::kAlarmDebounceTicks)};
     case FaultNumber::kHomingImplausible:
       return {
           "cable watch: the part of a segment's lengths that no two angles explain, against its value when the arm was "
           "enabled, in a row",
-          cable::kContradictionTicks + table.segment_count - 1};
+          of_cables(times, cable::kContradictionTicks + times.segments - 1)};
     case FaultNumber::kCableSlip:
       return {"cable watch: tension and length of a cable against the tick before, over the limit, and still there",
-              cable::kJumpConfirmTicks};
+              of_cables(times, cable::kJumpConfirmTicks)};
     case FaultNumber::kCableBreak:
       return {"watchdog: motor tension under the floor while its 20 ms low-pass is not, in a row",
-              cable::kBreakDebounceTicks};
+              of_cables(times, cable::kBreakDebounceTicks)};
     case FaultNumber::kTensionScatters:
       return {"cable watch: the same as 5005, but back again, three times (in a row: 4 ticks)",
-              cable::kScatterReversals + 1};
+              of_cables(times, cable::kScatterReversals + 1)};
     case FaultNumber::kBodyContact:
       return {
           "contact watch: torque about a segment's angles that cables, friction, inertia and a push at the tip do not "
           "explain, low-passed over 0.6 s, in a row",
-          static_cast<int>(cable::kFrictionTicks) * table.theta_count() * (cable::kContactSweeps + 1)};
+          of_cables(times, static_cast<int>(cable::kFrictionTicks) * 2 * times.segments * (cable::kContactSweeps + 1))};
     case FaultNumber::kFrictionNotAsDeclared:
       return {
           "friction watch: mu found from the balance of torques, less twice its uncertainty, over what can be "
@@ -96,10 +98,10 @@ std::string stops_by(const FaultInfo& info) {
 
 }  // namespace
 
-std::vector<FaultRow> fault_rows(const cable::RobotTable& table) {
+std::vector<FaultRow> fault_rows(const FaultTimes& times) {
   std::vector<FaultRow> rows;
   for (const FaultInfo& info : all_faults().subspan(1)) {
-    const Detection detection = detection_of(info.number, table);
+    const Detection detection = detection_of(info.number, times);
     rows.push_back({info, detection.detector, detection.within_ticks, stops_by(info)});
   }
   return rows;

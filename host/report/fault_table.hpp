@@ -2,10 +2,10 @@
 // remedies are the core's own; times come from its constants and from the robot table.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
 #include "firmware_like/safety/faults.hpp"
 
 namespace liana::report {
@@ -17,8 +17,14 @@ struct FaultRow {
   std::string stops_by;       // "hold", "stop", "stop at once", "off at once"
 };
 
-// All numbers but none, ascending, for this robot at its tick.
-std::vector<FaultRow> fault_rows(const cable::RobotTable& table);
+// What the times depend on.
+struct FaultTimes {
+  double tick_s = 0.0;
+  std::int32_t segments = 0;  // of a cable arm; 0: a serial arm, which has none of its faults
+};
+
+// All numbers but none, ascending, for a robot. For a serial arm those of cables have no time.
+std::vector<FaultRow> fault_rows(const FaultTimes& times);
 
 // The table as it stands in docs/faults.md.
 std::string markdown_of(const std::vector<FaultRow>& rows);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
@@ -19,7 +20,8 @@ constexpr double kReadyTimeout_s = 20.0;  // boot and enabling, each; they take 
 constexpr double kAnswerTimeout_s = 10.0;
 constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
 constexpr double kLook_s = 0.05;
-constexpr double kWay_m = 0.1;        // the tip's, to and fro along the base's z
+constexpr double kWay_m = 0.1;        // the tip's, to and fro along the base's z, at most
+constexpr double kWayOfReach = 0.16;  // of how far the tip is from the base
 constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
 // Bus and bench stand for hardware, which is never late for want of a processor; under lianad's real-time thread (80).
 constexpr int kHardwarePriority = 70;
@@ -88,7 +90,8 @@ void LatencySession::keep_moving() {
   if (state_.value("is_busy", true) || !state_.contains("setpoint_cp")) return;
   if (ends_.empty()) {
     Json away = state_["setpoint_cp"];
-    away[2] = away[2].get<double>() + kWay_m;
+    const double reach_m = std::hypot(away[0].get<double>(), away[1].get<double>(), away[2].get<double>());
+    away[2] = away[2].get<double>() + std::min(kWay_m, kWayOfReach * reach_m);
     ends_ = {away, state_["setpoint_cp"]};
   }
   if (ask({{"op", "move_cp"}, {"goal", ends_[0]}}).value("op", "") != "ok") return;

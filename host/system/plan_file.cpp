@@ -49,6 +49,15 @@ Json tables_of_plan(const std::string& file) {
   });
 }
 
+std::string start_of_plan(const std::string& file) {
+  const Json rows = checked([&] { return read_plan(file); }).member_or_null("waypoints_deg");
+  std::string angles;
+  if (!rows.is_array() || rows.empty() || !rows.front().is_array())
+    return angles;  // check_plan_file says what is wrong
+  for (const Json& angle_deg : rows.front()) angles += (angles.empty() ? "" : ",") + angle_deg.dump();
+  return angles;
+}
+
 void check_plan_file(const std::string& file, const config::RobotConfig& robot, const config::SceneConfig& scene) {
   const Json content = checked([&] { return read_plan(file); });
   check_scene(file, content, scene);

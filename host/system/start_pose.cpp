@@ -1,6 +1,8 @@
 #include "host/system/start_pose.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <string_view>
 
@@ -8,6 +10,7 @@
 #include "host/config/field.hpp"
 #include "host/plan/check/plan_check.hpp"
 #include "host/system/errors.hpp"
+#include "host/system/tables.hpp"
 
 namespace liana::system {
 namespace {
@@ -46,11 +49,28 @@ std::optional<std::vector<double>> numbers_in(std::string_view text) {
   }
 }
 
+// Least bent angle and the sum of all.
+std::pair<double, double> bend_of(const std::vector<double>& angles_deg) {
+  std::pair<double, double> bend{std::fabs(angles_deg.front()), 0.0};
+  for (const double angle_deg : angles_deg) {
+    bend.first = std::min(bend.first, std::fabs(angle_deg));
+    bend.second += std::fabs(angle_deg);
+  }
+  return bend;
+}
+
 std::string default_of(const Choice& choice) {
   if (!choice.of_table.empty()) return choice.of_table;
   for (const char* name : {"prepare", "zero"})
     if (choice.poses.contains(name)) return name;
   return choice.poses.begin()->first;
+}
+
+constexpr double kRounding_deg = 1e-9;  // of limits that were radians in between
+
+bool is_within(const config::Range& range_deg, double angle_deg) {
+  return range_deg.contains(angle_deg) || range_deg.contains(angle_deg - kRounding_deg) ||
+         range_deg.contains(angle_deg + kRounding_deg);
 }
 
 StartPose chosen(const Choice& choice, const std::string& given) {
@@ -61,7 +81,7 @@ StartPose chosen(const Choice& choice, const std::string& given) {
   if (!numbers || numbers->size() != count)
     refuse(choice, text, names(choice.poses) + ", or its " + std::to_string(count) + " angles in degrees");
   for (std::size_t i = 0; i < count; ++i) {
-    if (choice.range_deg[i].contains((*numbers)[i])) continue;
+    if (is_within(choice.range_deg[i], (*numbers)[i])) continue;
     refuse(choice, text, "angle " + std::to_string(i + 1) + " in " + choice.range_deg[i].text() + " deg");
   }
   return {text, *numbers};
@@ -83,6 +103,17 @@ StartPose start_pose_of(const config::SerialRobotConfig& robot, const std::strin
   for (std::size_t i = 0; i < robot.table.joints(); ++i)
     choice.range_deg.push_back({robot.table.joint[i].low_rad / kDegree, robot.table.joint[i].high_rad / kDegree});
   return chosen(choice, given);
+}
+
+std::string bent_pose(const std::string& robot) {
+  const std::string name = robot.empty() ? kDefaultRobot : robot;
+  const std::optional<config::SerialRobotConfig> serial = serial_robot_for_kinematics(name);
+  const Poses poses = serial ? serial->named_poses_deg : robot_for_kinematics(name).named_poses_deg;
+  const auto most = std::max_element(
+      poses.begin(), poses.end(), [](const auto& a, const auto& b) { return bend_of(a.second) < bend_of(b.second); });
+  if (bend_of(most->second).second > 0.0) return most->first;
+  throw BadInput("--robot: '" + name + "': its named poses are all straight, and the tip of a straight arm can go " +
+                 "nowhere: add a bent one to named_poses_deg");
 }
 
 void check_start_is_free(const config::RobotConfig& robot, const config::SceneConfig& scene, const StartPose& start) {

@@ -23,6 +23,10 @@ struct StartPose {
 StartPose start_pose_of(const config::RobotConfig& robot, const std::string& given);
 StartPose start_pose_of(const config::SerialRobotConfig& robot, const std::string& given);
 
+// For a robot that shall move its tip from where it is: of its named poses the one that is bent most, measured by its
+// least bent angle, then by the sum of all; `robot` is a table's name or file, empty for the one that runs take.
+std::string bent_pose(const std::string& robot);
+
 // Throws BadInput naming body and link when the arm would begin inside a body of the scene.
 void check_start_is_free(const config::RobotConfig& robot, const config::SceneConfig& scene, const StartPose& start);
 

@@ -30,8 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFreeStep_s = "0.004";  // of a dry run's physics: a run takes a quarter
-constexpr const char* kDefaultRobot = "zhu2022";
-constexpr const char* kRestWithin_s = "10";  // an arm whose cable broke may swing for longer; the report says so
+constexpr const char* kRestWithin_s = "10";   // an arm whose cable broke may swing for longer; the report says so
 
 std::string record_directory(const std::string& path) {
   std::error_code error;
@@ -211,9 +210,11 @@ std::string check_options_of_cable_robot(const RunOptions& options, const std::s
     checked([&] { return calibration::load_calibration(options.calibration, robot, calibration::today_utc()); });
   if (!options.in_pose.empty()) check_in_pose(robot, options.in_pose);
   check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
-  if (options.mission.ends_with(".json")) check_plan_file(options.mission, robot, plan.scene);
+  const bool is_plan = options.mission.ends_with(".json");
+  if (is_plan) check_plan_file(options.mission, robot, plan.scene);
   if (!options.simulated_arm) return "";
-  const StartPose start = start_pose_of(robot, options.start_pose);
+  const StartPose start =
+      start_pose_of(robot, is_plan && options.start_pose.empty() ? start_of_plan(options.mission) : options.start_pose);
   check_start_is_free(robot, plan.scene, start);
   return start.text;
 }

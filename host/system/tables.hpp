@@ -29,6 +29,8 @@ auto checked(const Loader& loader) {
   }
 }
 
+constexpr const char* kDefaultRobot = "zhu2022";
+
 // A scene, checked.
 config::SceneConfig scene_of(const std::string& name);
 

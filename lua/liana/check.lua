@@ -123,11 +123,24 @@ local function action_suits(where, field, action, robot, refusal_of)
   accepted(("%s: %s: %s"):format(where, field, use.action), robot, refusal_of, use.command, fields)
 end
 
+local kTipValues = 6 -- position and attitude, which the tip keeps while angles go to where they are held
+
+local function holds_fit(where, hold, robot)
+  local held, angles = 0, robot.segments and 2 * #robot.segments or #robot.joints
+  for _ in pairs(hold) do held = held + 1 end
+  local most = math.max(0, angles - kTipValues)
+  if held <= most then return end
+  refuse(where, "hold", held .. (held == 1 and " angle" or " angles"),
+    ("at most %d (robot %s has %d angles, of which its tip needs %d)"):format(most, robot.name, angles, kTipValues),
+    "hold fewer, or turn the angles with move_jp")
+end
+
 local function step_suits(where, step, robot, refusal_of)
   for theta, target_deg in pairs(step.hold) do
     local held = { { theta = theta, target_deg = target_deg } }
     accepted(("%s: hold[%s]"):format(where, theta), robot, refusal_of, "hold_theta", { held = held })
   end
+  holds_fit(where, step.hold, robot)
   if step.device ~= "none" then
     local fields = { device = step.device }
     for field, value in pairs(step.steer) do fields[field] = value end

@@ -105,6 +105,7 @@ def robot():
             "lead_m": 0.5,
             "friction_mu": {"nominal": 0.05, "ideal": 0, "worn": 0.10},
         },
+        "tension": {"plan_N": 40},
         "drives": {
             "drum_radius_m": 0.015,
             "counts_per_turn": 65536,

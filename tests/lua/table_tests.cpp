@@ -128,9 +128,10 @@ TEST(Eval, RefusesWhatIsNoShapeFile) {
 TEST(Eval, NamesWhatThereIsWhenANameIsUnknown) {
   const Ended ended = run_program("eval buses can9");
   EXPECT_EQ(ended.code, 2);
-  EXPECT_NE(ended.error.find(
-                "can9: allowed embedded, embedded_500, embedded_micro, embedded_micro_single, embedded_single, vcan"),
-            std::string::npos)
+  EXPECT_NE(
+      ended.error.find("can9: allowed embedded, embedded_500, embedded_micro, embedded_micro_single, embedded_single, "
+                       "embedded_three_segment_lab, vcan"),
+      std::string::npos)
       << ended.error;
 }
 
@@ -188,6 +189,9 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "step 1 \"a\": hold[11]: entry 1 of held: theta = 11: allowed 1 to 10: choose another value (robot zhu2022)"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [9] = 45 } }",
        "hold[9]: entry 1 of held: target_deg = 45: allowed -20 to 20 deg: choose another value (robot zhu2022)"},
+      {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', hold = { [1] = 0, [3] = 0, "
+       "[5] = 0, [7] = 0, [9] = 0 } }",
+       "step 1 \"a\": hold: 5 angles: allowed at most 4 (robot zhu2022 has 10 angles, of which its tip needs 6)"},
       {"step 'a' { device = 'vr', steer = { node = 5 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        "steer: node = 5: allowed 0 to 4: choose another value (robot zhu2022)"},
       {"step 'a' { device = 'vr', steer = { speed_m_s = 0.5 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",

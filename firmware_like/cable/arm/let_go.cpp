@@ -31,7 +31,7 @@ TensionPlan plan_without(const RobotTable& table, const CableLayout& layout, con
                          const TensionRatio& ratio, std::int32_t segment) noexcept {
   TensionRatio without = ratio;  // a loose cable carries nothing to any joint
   SegmentVector lift_N;
-  lift_N.fill(-kLetGoLower_N);
+  lift_N.fill(-kLetGoLower_N * table.tension.scale());
   for (std::size_t c = 0; c < as_index(layout.cable_count); ++c) {
     if (layout.segment[c] == segment) without[c] = {};
   }

@@ -19,7 +19,8 @@ constexpr double kLetGo_m = 0.005;
 // The most that a drum may let out in one tick, and only in the tick in which the segment is let go: that, and the
 // stretch of tensions that are planned lower from then on. Drives take it as a step of their targets.
 constexpr double kLetGoStep_m = 0.008;
-// So far down goes the plan of all other cables: what they pull at the segment's joints has nothing against it.
+// So far down goes the plan of all other cables (times TensionLimits::scale): what they pull at the segment's joints
+// has nothing against it.
 constexpr double kLetGoLower_N = 25.0;
 // A cable that is missed for so many ticks after its first sample is broken: its segment is wound back to where it is
 // taut at the planned pose, which is nothing to the cables that are left and keeps an arm that has all of them where it

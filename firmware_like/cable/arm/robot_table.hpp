@@ -38,6 +38,10 @@ struct TensionLimits {
   double ceiling_free_N = 0.0;    // most in free motion
   double alarm_N = 0.0;
   double hard_limit_N = 0.0;
+
+  // Constants of the tension plan were found on an arm that plans 40 N; another arm's are in proportion. Exactly 1
+  // there.
+  double scale() const noexcept { return plan_N / 40.0; }
 };
 
 // How well cables have to agree with what is known about them (docs/cables.md). The defaults fit readings of 0.6 N and

@@ -27,12 +27,13 @@ void spare_cables(const RobotTable& table, const CableLayout& layout, const Faul
   SegmentVector wanted_N = lift_N;
   for (std::int32_t i = 0; i < faults.count; ++i) {
     const Fault& fault = faults.fault[as_index(i)];
-    const double asked = asked_N(fault.number);
+    const double asked = asked_N(fault.number) * table.tension.scale();
     if (asked == 0.0 || fault.index < 0 || fault.index >= layout.cable_count) continue;
+    const double least_N = -kSparing_N * table.tension.scale();
     double& wanted = wanted_N[as_index(layout.segment[as_index(fault.index)])];
-    if (wanted > -kSparing_N) wanted = asked;
+    if (wanted > least_N) wanted = asked;
   }
-  const double step_N = kSparingRate_N_s * table.tick_s;
+  const double step_N = kSparingRate_N_s * table.tension.scale() * table.tick_s;
   for (std::size_t j = 0; j < as_index(table.segment_count); ++j)
     lift_N[j] += clamp(wanted_N[j] - lift_N[j], -step_N, step_N);
 }

@@ -6,8 +6,8 @@
 
 namespace liana::cable {
 
-// A segment with a cable that slipped, creeps or was overloaded is pulled so much less, one with a slack cable so much
-// more: a fourth of the planned level, which leaves every other cable over its floor.
+// Times TensionLimits::scale. A segment with a cable that slipped, creeps or was overloaded is pulled so much less, one
+// with a slack cable so much more: a fourth of the planned level, which leaves every other cable over its floor.
 constexpr double kSparing_N = 10.0;
 constexpr double kSparingRate_N_s = 5.0;  // slower than the arm's modes
 

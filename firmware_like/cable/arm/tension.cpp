@@ -52,6 +52,8 @@ AnchoredVector pull_together(const SegmentBalance& b, Index n) noexcept {
   return x;
 }
 
+constexpr double kSmoothWidth_N = 2.0;  // over which floor, margin and ceiling take force
+
 // Shifts s such that t + s null keeps every cable of a segment on the right side, smooth.
 struct Shifts {
   double wanted = 0.0;  // least s >= 0 over the floor and its margin
@@ -60,15 +62,14 @@ struct Shifts {
 };
 
 Shifts shifts_for(const AnchoredVector& t, const AnchoredVector& null, Index n, const TensionLimits& limits,
-                  double margin_N) noexcept {
-  constexpr double kWidth_N = 2.0;
+                  double margin_N, double width_N) noexcept {
   Shifts s;
   for (Index i = 0; i < n; ++i) {
     if (!(null[i] > 0.05)) continue;
-    const double per_N = 1.0 / null[i], to_floor = (limits.floor_motor_N + kWidth_N - t[i]) * per_N;
-    s.wanted = smooth_maximum(s.wanted, to_floor + margin_N * per_N, kWidth_N);
-    s.least = smooth_maximum(s.least, to_floor, kWidth_N);
-    s.most = -smooth_maximum(-s.most, (t[i] - kCeilingShare * limits.ceiling_free_N) * per_N, kWidth_N);
+    const double per_N = 1.0 / null[i], to_floor = (limits.floor_motor_N + width_N - t[i]) * per_N;
+    s.wanted = smooth_maximum(s.wanted, to_floor + margin_N * per_N, width_N);
+    s.least = smooth_maximum(s.least, to_floor, width_N);
+    s.most = -smooth_maximum(-s.most, (t[i] - kCeilingShare * limits.ceiling_free_N) * per_N, width_N);
   }
   return s;
 }
@@ -80,8 +81,10 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
   TensionPlan plan;
   const Index cables = static_cast<Index>(table.cable_count());
   Index first = cables;
+  const double scale = table.tension.scale(), width_N = kSmoothWidth_N * scale;
   const double margin_N =
-      table.friction_mu > kMarginFriction ? kFloorMargin_N * kMarginFriction / table.friction_mu : kFloorMargin_N;
+      scale *
+      (table.friction_mu > kMarginFriction ? kFloorMargin_N * kMarginFriction / table.friction_mu : kFloorMargin_N);
   for (std::int32_t m = table.segment_count - 1; m >= 0; --m) {
     const Index j = static_cast<Index>(m);
     const Index n = static_cast<Index>(table.segment[j].cables);
@@ -109,20 +112,21 @@ TensionPlan plan_tension(const RobotTable& table, const CableGeometry& geometry,
       t.fill(table.tension.plan_N);
     }
     // The margin over the floor gives way to the ceiling, the floor itself does not.
-    const Shifts s = shifts_for(t, null, n, table.tension, margin_N + lift_N[j]);
-    const double shift = smooth_maximum(s.least, -smooth_maximum(-s.wanted, -s.most, 2.0), 2.0);
+    const Shifts s = shifts_for(t, null, n, table.tension, margin_N + lift_N[j], width_N);
+    const double shift = smooth_maximum(s.least, -smooth_maximum(-s.wanted, -s.most, width_N), width_N);
     for (Index i = 0; i < n; ++i) {
       plan.motor_N[first + i] = t[i] + shift * null[i];
       plan.ceiling_exceeded = plan.ceiling_exceeded || plan.motor_N[first + i] > table.tension.ceiling_free_N;
     }
-    plan.floor_acted = plan.floor_acted || s.least > 2.0;  // the floor itself, not the margin over it
+    plan.floor_acted = plan.floor_acted || s.least > width_N;  // the floor itself, not the margin over it
   }
   return plan;
 }
 
 void keep_taut(const RobotTable& table, const CableVector& tension_N, SegmentVector& lift_N) noexcept {
-  const double limit_N = kLiftLimit_N * larger(0.0, 1.0 - table.friction_mu / kMarginFriction);
-  const double enough_N = table.tension.floor_motor_N + kLiftBelow_N;
+  const double scale = table.tension.scale();
+  const double limit_N = scale * kLiftLimit_N * larger(0.0, 1.0 - table.friction_mu / kMarginFriction);
+  const double enough_N = table.tension.floor_motor_N + scale * kLiftBelow_N;
   Index c = 0;
   for (Index j = 0; j < static_cast<Index>(table.segment_count); ++j) {
     double missing_N = 0.0;

@@ -13,6 +13,8 @@
 
 namespace liana::cable {
 
+// All newtons below are those of an arm that plans 40 N, and are taken times TensionLimits::scale.
+//
 // Planned tension stays this far above the floor: motion and unknown friction take up to 20 N off a cable (measured
 // over whole missions).
 constexpr double kFloorMargin_N = 22.0;

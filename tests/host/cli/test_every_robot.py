@@ -1,0 +1,224 @@
+"""Every command for every robot: the shipped arms, and arms that the test makes up by seed (2 to 8 segments, 3 or 4 cables
+each), with nothing but a robot table.
+"""
+import json
+import math
+import pathlib
+import random
+import sys
+import tempfile
+import unittest
+
+from programs import liana, liana_json
+
+SHIPPED = {
+    "three_segment_lab": ("lab_tour", "lab_box", "-6,3,5,-5,8,4"),
+    "tdcr_benchmark": ("tdcr_tour", "none", "2,5,-1,4"),
+}
+MADE_UP = 4
+MOST_DRIVES = 32
+
+TOUR = """
+local liana = require "liana"
+local function pose(name)
+  return liana.step(name) {
+    device = "none", run = liana.move_to(name), exit = liana.all { liana.at_pose(name, 0.5), liana.at_rest() },
+    time_limit_s = 200, on_fail = "hold",
+  }
+end
+return liana.mission "tour" { pose "first", pose "second" }
+"""
+
+
+def joined(numbers):
+    return ",".join(repr(float(x)) for x in numbers)
+
+
+def table_of(seed):
+    """A robot as a lab might build it: everything is drawn, within what the loader allows."""
+    draw = random.Random(seed)
+    count = draw.randint(2, 8)
+    cables = [draw.choice((3, 4)) for _ in range(count)]
+    while sum(cables) > MOST_DRIVES:
+        cables[cables.index(4)] = 3
+    step = 360.0 / (12 * count)
+    limit = draw.uniform(8, 15)
+    segments = [
+        {"modules": draw.randint(4, 8), "module_length_m": round(draw.uniform(0.05, 0.12), 3), "theta_limit_deg": limit}
+        for _ in range(count)
+    ]
+    radius = draw.uniform(0.02, 0.04)
+
+    def pose(share):
+        return [round(draw.uniform(-share, share) * limit, 2) for _ in range(2 * count)]
+
+    return {
+        "format": 1,
+        "kind": "robot",
+        "name": f"made_up_{seed}",
+        "segments": segments,
+        "module": {"mass_kg": round(draw.uniform(0.1, 0.3), 3), "radius_m": radius},
+        "joint": {"viscous_Nms_per_rad": 0.4},
+        "cables": {
+            "hole_radius_m": 0.8 * radius,
+            "face_offset_m": 0.008,
+            "phase_deg": [[360.0 / n * c + step * j for c in range(n)] for j, n in enumerate(cables)],
+            "EA_N": 200000,
+            "lead_m": 0.4,
+            "friction_mu": {"nominal": 0.04, "ideal": 0, "worn": 0.08},
+        },
+        "tension": {
+            "plan_N": 40,
+            "floor_motor_N": 15,
+            "floor_anywhere_N": 1,
+            "ceiling_free_N": 180,
+            "alarm_N": 400,
+            "hard_limit_N": 600,
+        },
+        "drives": {
+            "drum_radius_m": 0.015,
+            "counts_per_turn": 65536,
+            "gear": 1,
+            "servo_time_constant_s": 0.03,
+            "rated_torque_Nm": 9,
+            "identity": {"vendor": 19529, "product": 1, "revision": 1},
+            "direction": [draw.choice((-1, 1)) for _ in range(sum(cables))],
+            "zero_counts": [1000000] * sum(cables),
+        },
+        "limits": {
+            "theta_rate_deg_s": 2,
+            "theta_accel_deg_s2": 4,
+            "tip_speed_m_s": 0.1,
+            "tip_speed_slit_m_s": 0.03,
+            "tip_accel_m_s2": 0.14,
+            "tip_jerk_m_s3": 1,
+            "tip_rate_deg_s": 20,
+            "tip_angular_accel_deg_s2": 40,
+            "tip_angular_jerk_deg_s3": 400,
+            "cable_speed_m_s": 0.01,
+        },
+        "named_poses_deg": {"zero": [0] * (2 * count), "first": pose(0.3), "second": pose(0.3)},
+        "start_pose": "first",
+    }
+
+
+def product(a, b):
+    return [[sum(a[i][k] * b[k][j] for k in range(4)) for j in range(4)] for i in range(4)]
+
+
+def turn(axis, angle_deg):
+    c, s = math.cos(math.radians(angle_deg)), math.sin(math.radians(angle_deg))
+    if axis == "y":
+        return [[c, 0, s, 0], [0, 1, 0, 0], [-s, 0, c, 0], [0, 0, 0, 1]]
+    return [[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+
+
+def tip_of(table, theta_deg):
+    """The tip, one universal joint after the other (docs/formats.md): the least that an arm is, written once more."""
+    pose = [[float(i == j) for j in range(4)] for i in range(4)]
+    for j, segment in enumerate(table["segments"]):
+        pitch, yaw = turn("z", theta_deg[2 * j]), turn("y", theta_deg[2 * j + 1])
+        along = [[1, 0, 0, segment["module_length_m"]], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
+        for k in range(segment["modules"]):
+            pose = product(pose, product(pitch, yaw) if k % 2 == 0 else product(yaw, pitch))
+            pose = product(pose, along)
+    return pose
+
+
+class EveryRobot(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="liana-test-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def crosses(self, robot, mission, scene):
+        """The mission succeeds on the simulated arm, and its recording is played again without a difference."""
+        record = self.folder / f"record_{pathlib.Path(robot).stem}"
+        code, _, error = liana(
+            "run",
+            mission,
+            "--robot",
+            robot,
+            "--scene",
+            scene,
+            "--record",
+            record,
+            "--json",
+            self.folder / "report.json",
+        )
+        report = json.loads((self.folder / "report.json").read_text()) if code in (0, 1) else {}
+        self.assertEqual((code, report.get("outcome")), (0, "success"), error)
+        self.assertEqual(liana_json("replay", record)["differing_ticks"], 0)
+
+    def is_served(self, robot, goal_deg):
+        """What needs no motion works, with nothing but the robot's table."""
+        angles = goal_deg.count(",") + 1
+        zero = ",".join(["0"] * angles)
+        half = joined(0.5 * float(angle) for angle in goal_deg.split(","))
+        self.assertIn("tip_pose", liana_json("pose", "--robot", robot, f"--theta-deg={goal_deg}"))
+        self.assertTrue(liana_json("reach", "--robot", robot)["boundary"])
+        self.assertTrue(liana_json("faults", "--robot", robot))
+        verdict = liana_json(
+            "verify", "--robot", robot, "--scene", "none", f"--from-deg={half}", f"--to-deg={half}", "--duration=0.02"
+        )
+        self.assertTrue(verdict["accepted"], verdict)
+        plan = self.folder / "plan.json"
+        planned = ("--robot", robot, "--scene", "none", f"--from-deg={zero}", f"--to-deg={half}", "--waypoints", 3)
+        self.assertEqual(liana("plan", *planned, "--out", plan)[0], 0)
+        self.assertEqual(liana("robot", "export", robot)[0], 0)
+
+    def test_the_shipped_arms_are_served_and_do_their_tours(self):
+        for robot, (mission, scene, goal_deg) in SHIPPED.items():
+            with self.subTest(robot):
+                self.is_served(robot, goal_deg)
+                self.crosses(robot, mission, scene)
+
+    def test_the_shipped_arms_are_calibrated_in_the_fixtures_of_their_tables(self):
+        for robot in SHIPPED:
+            with self.subTest(robot):
+                code, out, error = liana("calibrate", "--robot", robot, "--json")
+                self.assertEqual(code, 0, out + error)
+
+    def test_a_plan_is_carried_out_with_its_own_robot_and_scene_from_where_it_begins(self):
+        plan = self.folder / "plan.json"
+        words = (
+            "--robot",
+            "three_segment_lab",
+            "--scene",
+            "lab_box",
+            "--from-deg=2,1,-3,4,0,-2",
+            "--to-deg=-6,3,5,-5,8,4",
+        )
+        self.assertEqual(liana("plan", *words, "--waypoints", 5, "--out", plan)[0], 0)
+        report = self.folder / "report.json"
+        code, _, error = liana("run", plan, "--json", report)
+        self.assertEqual(code, 0, error)
+        self.assertEqual(json.loads(report.read_text())["robot"], "three_segment_lab")
+
+    def test_arms_made_up_by_seed_agree_with_their_kinematics_written_once_more(self):
+        for seed in range(100):
+            table = table_of(seed)
+            file = self.folder / "robot.json"
+            file.write_text(json.dumps(table))
+            draw = random.Random(f"angles {seed}")
+            limit = table["segments"][0]["theta_limit_deg"]
+            theta_deg = [draw.uniform(-limit, limit) for _ in range(2 * len(table["segments"]))]
+            told = liana_json("pose", "--robot", file, f"--theta-deg={joined(theta_deg)}")["tip_pose"]
+            expected = tip_of(table, theta_deg)
+            worst = max(abs(told[i][j] - expected[i][j]) for i in range(4) for j in range(4))
+            self.assertLess(worst, 1e-9, f"seed {seed}")
+
+    def test_arms_made_up_by_seed_are_served_and_do_a_mission(self):
+        mission = self.folder / "tour.lua"
+        mission.write_text(TOUR)
+        for seed in range(MADE_UP):
+            table = table_of(seed)
+            file = self.folder / f"robot_{seed}.json"
+            file.write_text(json.dumps(table))
+            with self.subTest(seed=seed, segments=len(table["segments"]), drives=len(table["drives"]["direction"])):
+                self.is_served(file, joined(table["named_poses_deg"]["second"]))
+                self.crosses(file, mission, "none")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
