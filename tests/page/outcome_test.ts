@@ -58,3 +58,13 @@ test('a success is one line with its figures', () => {
 test('a run without a report says so', () => {
   assert.match(outcome_of(head({})).what, /no report/);
 });
+
+test('a reason that event, step and report spell differently is said once', () => {
+  const why = 'goal = 9: allowed -5 to 5 [m]: choose a goal within reach';
+  const reason = `move_cp refused: out_of_range: ${why}`;
+  const outcome = outcome_of(head({
+    report: { outcome: 'refused', reason: `${reason}; retracted`, faults: [], steps: [{ ...done, outcome: 'refused', reason }] },
+    events: [{ sequence: 1, tick: 110, kind: 'refusal', number: 6, subject: 'mission', values: {}, text: `move_cp refused (out_of_range): ${why}` }],
+  }));
+  assert.equal(outcome.why, `mission: move_cp refused (out_of_range): ${why} \u2013 retracted`);
+});

@@ -1,8 +1,7 @@
 // Which device steers, how its motion is mapped, and what is left of the room: clearance and pitch budget.
 import { value, values } from '../data/sample';
-import type { Connection } from '../live/connection';
 import type { Live } from '../live/live';
-import type { Answer } from '../live/protocol';
+import type { Ask } from '../live/told';
 import { pitch_budget } from '../model/pitch_budget';
 import { length_text } from '../model/sentence';
 import { h, set_class, set_text } from '../ui/dom';
@@ -34,7 +33,7 @@ export class DevicePanel {
   private readonly mode = h('p');
   private readonly device = h('p');
 
-  constructor(private readonly live: Live, connection: Connection, answered: (what: string, answer: Answer) => void) {
+  constructor(private readonly live: Live, ask: Ask) {
     const device = h('select', { 'aria-label': 'device that steers' }, ...['none', 'vr', 'hand'].map((d) => h('option', { value: d }, d === 'none' ? 'no device' : d === 'vr' ? 'VR handles' : 'hand controller')));
     const scale = h('input', { type: 'number', value: 1, min: 0.01, max: 100, step: 0.5, class: 'metres', 'aria-label': 'way of the tip for a way of the hand' });
     const node = h('select', { 'aria-label': 'node of the left hand' }, ...[0, 1, 2, 3, 4].map((n) => h('option', { value: n, selected: n === 3 }, n === 0 ? 'no node' : `left: node ${n}`)));
@@ -42,7 +41,7 @@ export class DevicePanel {
     this.element = h('section', { class: 'card', 'aria-label': 'Room and device' }, h('h2', {}, 'Room and device'),
       this.clearance.element, this.budget.element, this.limit.element, this.mode, this.device,
       h('div', { class: 'filter' }, device, h('label', {}, 'scale ', scale), node,
-        h('button', { type: 'button', onclick: () => void connection.request(use()).then((answer) => answered('device', answer)) }, 'use')));
+        h('button', { type: 'button', onclick: () => ask('device', use()) }, 'use')));
   }
 
   update(now_s: number): void {
