@@ -80,7 +80,8 @@ Written write_archive(const std::string& folder, std::uint64_t seconds) {
   archive::Ledger ledger(folder);
   const std::uint64_t life = ledger.begin({"hash", "{}", "{}", "{}", "fast", kPeriod_s, "", "numbers"}).life;
   ledger.set_layout(layout());
-  archive::TelemetryFiles telemetry(folder, life, kPeriod_s, {}, [&](const archive::Gap&) { ++written.gaps; });
+  archive::TelemetryFiles telemetry(
+      folder, life, kPeriod_s, {}, [&](const archive::Gap&) { ++written.gaps; }, [](std::uint64_t) {});
   Source source;
   std::uint32_t number = 0;
   for (std::uint64_t tick = 0; tick < seconds * kSecond; tick += kInterval) {
