@@ -1,8 +1,10 @@
 #include "host/archive/second_figures.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 #include "host/telemetry/record.hpp"
 
@@ -10,6 +12,34 @@ namespace liana::archive {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // SQLite keeps it as NULL
+
+// What is worth a plot over hours; all numbers would take as much room as the records themselves.
+constexpr std::array<std::string_view, 19> kPlotted{"measured_js_deg",
+                                                    "measured_cp",
+                                                    "tension_N",
+                                                    "torque_Nm",
+                                                    "drives.torque_permille",
+                                                    "buses.measured_load",
+                                                    "buses.errors",
+                                                    "clearance.distance_m",
+                                                    "clearance.bound_m",
+                                                    "clearance.picture_age_s",
+                                                    "shape.missing_m",
+                                                    "friction.mu",
+                                                    "friction.sd",
+                                                    "contact.torque_Nm",
+                                                    "verdict.share",
+                                                    "device_samples",
+                                                    "overruns",
+                                                    "refusals",
+                                                    "tick_us"};
+
+telemetry::Layout plotted(telemetry::Layout layout) {
+  std::erase_if(layout.places, [](const telemetry::Place& place) {
+    return std::ranges::find(kPlotted, place.field.path) == kPlotted.end();
+  });
+  return layout;
+}
 
 std::vector<std::string> columns_of(const telemetry::Layout& layout) {
   std::vector<std::string> columns;
@@ -61,7 +91,7 @@ std::vector<std::string> split(const std::string& records, std::size_t bytes) {
 }  // namespace
 
 SecondFigures::SecondFigures(Database& database, const telemetry::Layout& layout)
-    : layout_(layout), insert_(insert_into_table(database, columns_of(layout))) {}
+    : layout_(plotted(layout)), insert_(insert_into_table(database, columns_of(layout_))) {}
 
 void SecondFigures::write(const std::string& records) {
   const std::vector<std::string> each = split(records, layout_.bytes);

@@ -1,4 +1,5 @@
-// Telemetry by the second, for plots over hours: least, mean and largest of every number, in a table that SQL reads.
+// Telemetry by the second, for plots over hours: least, mean and largest of what people plot, in a table that SQL
+// reads.
 #pragma once
 
 #include <string>
@@ -10,8 +11,8 @@
 namespace liana::archive {
 
 // The table `tm_1s` of one file: a row for each second, `first_tick`, `time_s`, `count` of records, then NAME_min,
-// NAME_mean and NAME_max of every value of the layout; NAME is the field's path with _ for the dot, and _1, _2, ...
-// where it has several. NULL: no number in this second.
+// NAME_mean and NAME_max of every value of the fields of docs/formats.md; NAME is the field's path with _ for the dot,
+// and _1, _2, ... where it has several. NULL: no number in this second.
 class SecondFigures {
  public:
   // Makes the table when it is missing. Throws DatabaseError.

@@ -5,6 +5,8 @@ import { name_problem } from '../../host/page/src/live/own_name';
 import type { Alarm } from '../../host/page/src/model/alarms';
 import { alarm_badge, owner_badge, state_badge } from '../../host/page/src/model/badges';
 import { ending_of, refusal_words, type Ending, type Taken } from '../../host/page/src/model/ending';
+import { hardware_text } from '../../host/page/src/model/hardware';
+import { sample_of } from './support';
 
 const resting: Facts = { state: 'ENABLED', at_rest: true, is_busy: false, faults: [], stop: null, owner: 'anna' };
 const moving: Facts = { ...resting, at_rest: false, is_busy: true };
@@ -84,4 +86,11 @@ test('alarms that are over or seen are not counted as alarms', () => {
 test('a name is what the gateway takes: 1 to 32 bytes, no control characters', () => {
   for (const good of ['anna', 'browser-3f2a', 'Zoe \u00e9']) assert.equal(name_problem(good), '');
   for (const bad of ['', 'a\nb', '\u20ac'.repeat(11)]) assert.match(name_problem(bad), /1 to 32 bytes/);
+});
+
+test('the largest motor current is named with its drive, the tick where there is real time', () => {
+  const sample = sample_of({ 'drives.torque_permille': [120, -342, 80] }, resting);
+  assert.equal(hardware_text(sample), 'Largest motor current 34 % of rated (node 2).');
+  assert.match(hardware_text(sample_of({ 'drives.torque_permille': [0], tick_us: [143] }, resting)), /0 % of rated \(node 1\)\. Longest tick 143 us\.$/);
+  assert.equal(hardware_text(sample_of({}, resting)), '');
 });

@@ -79,7 +79,10 @@ export class LivePage {
     this.stop = new StopButton(this.live, this.connection);
     this.stop.on_press = () => this.jogger.let_go();
     this.status = new StatusBar(this.live);
-    this.alarms = new AlarmPanel(this.live, () => this.words());
+    this.alarms = new AlarmPanel(this.live, () => {
+      this.alarms.update();
+      this.words();
+    });
     this.look_back = new LookBack(this.live, () => this.draw());
     const header = h('header', { class: 'top' }, h('h1', {}, 'Liana'), this.sentence, this.status.element, this.vr_button, theme_button((theme) => this.build(theme)), this.stop.element);
     const told = h('div', { class: 'told' }, this.told.element, this.stop.report);
