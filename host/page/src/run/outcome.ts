@@ -62,6 +62,14 @@ function words_of(text: string): string {
   return text.toLowerCase().match(/[\p{L}\p{N}.]+/gu)?.join(' ') ?? '';
 }
 
+// "the arm is FAULT (stop category off), faults: 5006 cable_break 7": what the mission saw of a fault or stop. Says it more
+// than the event that ended the run does?
+function says_more(reason: string, cause: LianaEvent | undefined): boolean {
+  const seen = /the arm is [A-Z]+ \(stop category \w+\), faults: (.+)$/.exec(reason);
+  if (!seen || !cause) return true;
+  return seen[1].split(', ').some((fault) => fault !== 'none named' && !fault.startsWith(`${cause.number} `));
+}
+
 // The event that ended it, then what else report and step say; nothing is said twice.
 function why_of(cause: LianaEvent | undefined, robot: RunHead['robot'], reasons: readonly string[]): string {
   const subject = cause ? where_it_is(cause.subject, robot) : '';
@@ -69,7 +77,7 @@ function why_of(cause: LianaEvent | undefined, robot: RunHead['robot'], reasons:
   const first = cause ? `${is_named ? '' : `${subject}: `}${cause.text}` : '';
   const more: string[] = [];
   for (const reason of reasons.flatMap((text) => text.split('; '))) {
-    if (![first, ...more].some((said) => words_of(said).includes(words_of(reason)))) more.push(reason);
+    if (says_more(reason, cause) && ![first, ...more].some((said) => words_of(said).includes(words_of(reason)))) more.push(reason);
   }
   return [first, more.join('; ')].filter((text) => text !== '').join(' \u2013 ');
 }
