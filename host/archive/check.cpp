@@ -37,6 +37,8 @@ LifeCheck check_life(const Reader& reader, std::vector<std::string>& problems) {
   life.commands = counts.commands;
   life.refused = counts.refused;
   check_events(reader, life, problems);
+  for (const std::string& file : reader.missing_files())
+    problems.push_back(reader.folder() + "/" + file + ": is missing; copy it from where the run was recorded");
   check_telemetry(reader, life);
   return life;
 }

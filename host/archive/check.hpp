@@ -19,7 +19,7 @@ struct LifeCheck {
 };
 
 struct Check {
-  std::vector<std::string> problems;  // empty: every file is whole, and every row can be read
+  std::vector<std::string> problems;  // empty: every file is there and whole, and every row can be read
   std::vector<LifeCheck> lives;
   std::uint64_t bytes = 0;  // of all files
 };

@@ -77,6 +77,13 @@ Statement::Statement(const Database& database, const std::string& sql) : databas
 
 void Statement::reset() { sqlite3_reset(prepared(handle_.get())); }
 
+void Statement::run_row(const std::vector<double>& values) {
+  reset();
+  for (std::size_t i = 0; i < values.size(); ++i) put(static_cast<int>(i) + 1, values[i]);
+  while (step()) {
+  }
+}
+
 bool Statement::step() {
   const int code = sqlite3_step(prepared(handle_.get()));
   if (code == SQLITE_ROW) return true;

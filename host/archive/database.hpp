@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace liana::archive {
 
@@ -64,6 +65,8 @@ class Statement {
     while (step()) {
     }
   }
+  // The same with numbers only, whole ones as such where their column is INTEGER; NaN is NULL.
+  void run_row(const std::vector<double>& values);
   // Gives the values; rows follow by step().
   template <class... Values>
   void bind(const Values&... values) {

@@ -1,5 +1,7 @@
 #include "host/archive/ledger.hpp"
 
+#include <utility>
+
 #include "host/archive/schema.hpp"
 #include "host/event/event_json.hpp"
 #include "host/json/json.hpp"
@@ -13,6 +15,7 @@ Ledger::Ledger(const std::string& folder) : database_(folder + "/" + kArchiveFil
   event_.emplace(database_, "INSERT OR IGNORE INTO event VALUES(?,?,?,?,?,?,?,?)");
   command_.emplace(database_, "INSERT OR REPLACE INTO command VALUES(?,?,?,?,?,?,?,?,?,?)");
   gap_.emplace(database_, "INSERT INTO gap VALUES(?,?,?,?,?,?)");
+  telemetry_file_.emplace(database_, "INSERT OR IGNORE INTO telemetry_file VALUES(?,?)");
 }
 
 Ledger::Begun Ledger::begin(const Life& life, std::uint64_t next_event) {
@@ -64,6 +67,11 @@ void Ledger::add(const Gap& gap) {
   wait([this, gap, life = life_] { gap_->run(life, gap.first_tick, gap.last_tick, gap.what, gap.count, gap.text); });
 }
 
+void Ledger::add_telemetry_file(std::uint64_t first_tick) {
+  if (waiting_.size() < kMostWaiting) ++files_waiting_;
+  wait([this, first_tick, life = life_] { telemetry_file_->run(life, first_tick); });
+}
+
 bool Ledger::commit() {
   if (waiting_.empty()) return true;
   try {
@@ -74,7 +82,7 @@ bool Ledger::commit() {
     if (!error.is_full) throw;
     return false;
   }
-  durable_ += waiting_.size();
+  durable_ += waiting_.size() - std::exchange(files_waiting_, 0);
   waiting_.clear();
   return true;
 }
@@ -84,6 +92,7 @@ void Ledger::finish() {
   event_.reset();
   command_.reset();
   gap_.reset();
+  telemetry_file_.reset();
   database_.finish();
 }
 

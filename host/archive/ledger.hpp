@@ -37,12 +37,14 @@ class Ledger {
   void add(const event::Event& event);
   void add(const Command& command);
   void add(const Gap& gap);
+  // A file of telemetry that begins at this tick is there; a gap tells when it is dropped.
+  void add_telemetry_file(std::uint64_t first_tick);
   // Whether rows wait for commit().
   bool is_waiting() const { return !waiting_.empty(); }
   // Makes all that was added outlive loss of power: milliseconds, at worst half a second. False when the disk takes no
   // more: then all of it waits for the next try. Throws DatabaseError for anything else.
   bool commit();
-  // Rows that are durable, of this object; and those that found no place to wait.
+  // Events, commands and gaps that are durable, of this object; and rows that found no place to wait.
   std::uint64_t durable() const { return durable_; }
   std::uint64_t lost() const { return lost_; }
 
@@ -53,9 +55,10 @@ class Ledger {
   void wait(std::function<void()> insert);
 
   Database database_;
-  std::optional<Statement> event_, command_, gap_;
+  std::optional<Statement> event_, command_, gap_, telemetry_file_;
   std::uint64_t life_ = 0, durable_ = 0, lost_ = 0;
   std::vector<std::function<void()>> waiting_;
+  std::size_t files_waiting_ = 0;  // of these, files of telemetry
 };
 
 }  // namespace liana::archive

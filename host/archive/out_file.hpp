@@ -1,9 +1,10 @@
-// A file that is written in one go: what the disk refused is said at the end.
+// A file that is written in one go: the first thing that the disk refused is said, with its reason.
 #pragma once
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -12,19 +13,27 @@ namespace liana::archive {
 
 class OutFile {
  public:
-  explicit OutFile(const std::string& path) : path_(path), file_(path, std::ios::binary) { require("cannot be made"); }
-  void write(std::string_view text) { file_.write(text.data(), static_cast<std::streamsize>(text.size())); }
+  // Throws std::runtime_error with path and reason, as write() and finish() do.
+  explicit OutFile(const std::string& path) : path_(path), file_(std::fopen(path.c_str(), "wb")) {
+    if (!file_) refuse("cannot be made");
+  }
+  void write(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), file_.get()) != text.size()) refuse("cannot be written");
+  }
   void finish() {
-    file_.flush();
-    require("cannot be written");
+    if (std::fflush(file_.get()) != 0) refuse("cannot be written");
   }
 
  private:
-  void require(const char* problem) const {
-    if (!file_) throw std::runtime_error(path_ + ": " + problem + ": " + std::strerror(errno));
+  // At once: whatever comes between would leave its own reason.
+  [[noreturn]] void refuse(const char* problem) const {
+    throw std::runtime_error(path_ + ": " + problem + ": " + std::strerror(errno));
   }
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
   std::string path_;
-  std::ofstream file_;
+  std::unique_ptr<std::FILE, Close> file_;
 };
 
 }  // namespace liana::archive

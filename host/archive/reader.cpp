@@ -175,6 +175,27 @@ Counts Reader::counts() const {
           count("SELECT count(*) FROM command" + life + " AND released=0")};
 }
 
+std::vector<std::string> Reader::missing_files() const {
+  std::vector<std::uint64_t> first_ticks;
+  if (count("SELECT count(*) FROM sqlite_master WHERE name='telemetry_file'") != 0) {
+    Statement row(database_,
+                  "SELECT first_tick FROM telemetry_file AS file WHERE life=? AND NOT EXISTS (SELECT * FROM gap WHERE "
+                  "gap.life=file.life AND gap.what='telemetry' AND gap.first_tick=file.first_tick AND gap.count=0)");
+    row.bind(life_number_);
+    while (row.step()) first_ticks.push_back(row.count(0));
+  }
+  std::vector<std::string> missing;
+  for (const std::uint64_t first_tick : first_ticks) {
+    const fs::path file = segment_path(folder_, life_number_, first_tick);
+    if (!fs::exists(file)) missing.push_back(file.filename());
+  }
+  const bool has_any = !touched(folder_, life_number_, kAll).empty();
+  const bool is_explained = std::ranges::any_of(gaps(), [](const Gap& gap) { return gap.what == "telemetry"; });
+  if (first_ticks.empty() && layout_ && finished_ && !has_any && !is_explained)
+    missing.push_back("telemetry-" + std::to_string(life_number_) + "-*.db");
+  return missing;
+}
+
 std::uint64_t Reader::bytes() const {
   std::vector<Segment> files = segments_in(folder_);
   files.push_back({0, 0, database_.path()});

@@ -50,6 +50,9 @@ class Reader {
   std::vector<Facts> facts(Span span = kAll) const;
 
   Counts counts() const;
+  // Names of telemetry files of this life that were written and are not there, though no gap tells that they were
+  // dropped. An archive of a version that kept no list of them is only asked whether there is any.
+  std::vector<std::string> missing_files() const;
   // Of all lives: bytes of all files, and what SQLite finds wrong in them.
   std::uint64_t bytes() const;
   std::vector<std::string> problems() const;

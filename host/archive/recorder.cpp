@@ -26,7 +26,9 @@ Recorder::Recorder(const std::string& folder, const Life& life, int interval_tic
       period_s_(life.period_s),
       interval_ticks_(static_cast<std::uint64_t>(interval_ticks)),
       least_ticks_(ticks_of(kRecord_s, life.period_s)),
-      telemetry_(folder, begun_.life, life.period_s, limits, [this](const Gap& gap) { note_gap(gap); }) {
+      telemetry_(
+          folder, begun_.life, life.period_s, limits, [this](const Gap& gap) { note_gap(gap); },
+          [this](std::uint64_t first_tick) { ledger_.add_telemetry_file(first_tick); }) {
   if (begun_.goes_on) go_on_after(folder);
 }
 
@@ -63,6 +65,7 @@ void Recorder::take_state(const Json& state) {
   if (!layout_) {
     layout_ = telemetry::layout_of(state);
     ledger_.set_layout(telemetry::to_json(*layout_));
+    telemetry_.set_layout(*layout_);
   }
   if (states_ > 0 && tick > last_tick_ + interval_ticks_) {
     const std::uint64_t missing = (tick - last_tick_) / interval_ticks_ - 1;

@@ -12,6 +12,8 @@ CREATE TABLE IF NOT EXISTS command(life INTEGER, sequence INTEGER, tick INTEGER,
   share REAL, name TEXT, text TEXT, remedy TEXT, margin TEXT, PRIMARY KEY(life, sequence)) WITHOUT ROWID;
 CREATE TABLE IF NOT EXISTS gap(life INTEGER, first_tick INTEGER, last_tick INTEGER, what TEXT, count INTEGER,
   text TEXT);
+CREATE TABLE IF NOT EXISTS telemetry_file(life INTEGER, first_tick INTEGER, PRIMARY KEY(life, first_tick))
+  WITHOUT ROWID;
 PRAGMA user_version=1;
 COMMIT;
 )";

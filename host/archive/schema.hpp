@@ -3,7 +3,7 @@
 
 namespace liana::archive {
 
-constexpr const char* kArchiveFile = "archive.db";  // life, event, command, gap: never dropped
+constexpr const char* kArchiveFile = "archive.db";  // life, event, command, gap, telemetry_file: never dropped
 // `PRAGMA user_version` of both is 1.
 extern const char* const kArchiveSchema;
 extern const char* const kTelemetrySchema;

@@ -1,6 +1,7 @@
 #include "host/archive/stretches.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <stdexcept>
 
 #include "host/json/json.hpp"
@@ -15,8 +16,14 @@ constexpr double kStretch_s = 60.0;
 
 Stretches::Stretches(const Reader& reader, Span span) : reader_(reader), span_(span) {
   const auto recorded = reader.recorded();
-  if (!recorded || recorded->first > span.last || recorded->last < span.first)
-    throw std::runtime_error("the archive holds no telemetry of this time");
+  if (!recorded) throw std::runtime_error(reader.folder() + ": the archive holds no telemetry");
+  if (recorded->first > span.last || recorded->last < span.first) {
+    char has[80];
+    const double period_s = reader.life().period_s;
+    std::snprintf(has, sizeof has, "it has %.3f to %.3f s", static_cast<double>(recorded->first) * period_s,
+                  static_cast<double>(recorded->last) * period_s);
+    throw std::runtime_error(reader.folder() + ": the archive holds no telemetry of this time; " + has);
+  }
   span_ = {std::max(span.first, recorded->first), std::min(span.last, recorded->last)};
 }
 

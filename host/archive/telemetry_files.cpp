@@ -23,14 +23,21 @@ Database made(const std::string& path) {
 
 }  // namespace
 
-TelemetryFiles::File::File(const std::string& path)
+TelemetryFiles::File::File(const std::string& path, const std::optional<telemetry::Layout>& layout)
     : database(made(path)),
       telemetry(database, "INSERT OR REPLACE INTO telemetry VALUES(?,?,?,?)"),
-      facts(database, "INSERT OR REPLACE INTO facts VALUES(?,?,?,?)") {}
+      facts(database, "INSERT OR REPLACE INTO facts VALUES(?,?,?,?)") {
+  if (layout) figures.emplace(database, *layout);
+}
 
 TelemetryFiles::TelemetryFiles(std::string folder, std::uint64_t life, double period_s, TelemetryLimits limits,
-                               std::function<void(const Gap&)> on_gap)
-    : folder_(std::move(folder)), life_(life), period_s_(period_s), limits_(limits), on_gap_(std::move(on_gap)) {}
+                               std::function<void(const Gap&)> on_gap, std::function<void(std::uint64_t)> on_file)
+    : folder_(std::move(folder)),
+      life_(life),
+      period_s_(period_s),
+      limits_(limits),
+      on_gap_(std::move(on_gap)),
+      on_file_(std::move(on_file)) {}
 
 void TelemetryFiles::set_facts(const Facts& facts) { waiting_.push_back(facts); }
 
@@ -54,7 +61,7 @@ void TelemetryFiles::open_file(std::uint64_t first_tick) {
   if (file_) file_->database.finish();
   const Segment next{life_, first_tick, segment_path(folder_, life_, first_tick)};
   try {
-    file_ = std::make_unique<File>(next.path);
+    file_ = std::make_unique<File>(next.path, layout_);
   } catch (const DatabaseError&) {
     remove_segment(next);
     throw;
@@ -72,7 +79,9 @@ void TelemetryFiles::write() {
   for (const Facts& facts : waiting_) write_facts(facts, facts.tick);
   const std::string blob = packed(records_, records_.size() / count_);
   file_->telemetry.run(first_tick_, last_tick_, count_, Blob{blob});
+  if (file_->figures) file_->figures->write(records_);
   second.commit();
+  if (!std::exchange(file_->is_told, true)) on_file_(file_->first_tick);
 }
 
 // Whole where a file begins and from time to time, else what has changed.

@@ -11,6 +11,8 @@
 
 #include "host/archive/database.hpp"
 #include "host/archive/rows.hpp"
+#include "host/archive/second_figures.hpp"
+#include "host/telemetry/layout.hpp"
 
 namespace liana::archive {
 
@@ -26,10 +28,13 @@ constexpr const char* kRoomForRows = "the disk is full: room for commands and ev
 
 class TelemetryFiles {
  public:
-  // `on_gap` hears of everything that is not, or no longer, there. Files are made with the first second.
+  // `on_gap` hears of everything that is not, or no longer, there, `on_file` of every file as soon as something durable
+  // is in it, by its first tick. Files are made with the first second.
   TelemetryFiles(std::string folder, std::uint64_t life, double period_s, TelemetryLimits limits,
-                 std::function<void(const Gap&)> on_gap);
+                 std::function<void(const Gap&)> on_gap, std::function<void(std::uint64_t)> on_file);
 
+  // What records hold, for their figures by the second (SecondFigures); before the first record.
+  void set_layout(const telemetry::Layout& layout) { layout_ = layout; }
   // Facts that hold from this record on; call it before add() of that record.
   void set_facts(const Facts& facts);
   // One record; ticks rise. Writes when a second is together.
@@ -45,10 +50,12 @@ class TelemetryFiles {
 
  private:
   struct File {
-    explicit File(const std::string& path);
+    File(const std::string& path, const std::optional<telemetry::Layout>& layout);
     Database database;
     Statement telemetry, facts;
+    std::optional<SecondFigures> figures;
     std::uint64_t first_tick = 0;
+    bool is_told = false;          // on_file_ has heard of it
     std::optional<Facts> told;     // the newest facts in it
     std::uint64_t whole_tick = 0;  // of the last ones that were written whole
   };
@@ -65,6 +72,8 @@ class TelemetryFiles {
   const double period_s_;
   const TelemetryLimits limits_;
   const std::function<void(const Gap&)> on_gap_;
+  const std::function<void(std::uint64_t)> on_file_;
+  std::optional<telemetry::Layout> layout_;
   std::unique_ptr<File> file_;
   std::string records_;  // of this second
   std::uint64_t first_tick_ = 0, last_tick_ = 0, count_ = 0;

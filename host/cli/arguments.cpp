@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/math/trig.hpp"
@@ -27,6 +28,15 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     if (at == std::string_view::npos) return parts;
     text.remove_prefix(at + 1);
   }
+}
+
+// All of `text`; nothing when it is no finite number.
+std::optional<double> finite_number(std::string_view text) {
+  double value = 0.0;
+  const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
 }
 
 std::string short_number(double value) {
@@ -62,20 +72,17 @@ double checked_angle_deg(std::string_view option, std::string_view text, const c
 }  // namespace
 
 double parse_number(std::string_view option, std::string_view text) {
-  double value = 0.0;
-  const std::string_view digits = text.starts_with('+') ? text.substr(1) : text;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value))
-    refuse(option, text, "a finite number");
-  return value;
+  const std::optional<double> value = finite_number(text);
+  if (!value) refuse(option, text, "a finite number");
+  return *value;
 }
 
 double parse_number_in(std::string_view option, std::string_view text, double least, double most,
                        std::string_view unit) {
-  const double value = parse_number(option, text);
-  if (value < least || value > most)
+  const std::optional<double> value = finite_number(text);
+  if (!value || *value < least || *value > most)
     refuse(option, text, short_number(least) + " to " + short_number(most) + " " + std::string(unit));
-  return value;
+  return *value;
 }
 
 std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most,

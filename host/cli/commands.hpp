@@ -95,7 +95,7 @@ struct ConsoleOptions {
 int console_command(const ConsoleOptions& options);
 
 struct ViewOptions {
-  std::string run;       // its folder, or its name among the newest; empty: the newest
+  std::string run;       // its folder, or its name among the newest; empty: the one that ended last
   bool live = false;     // the console of what runs, in place of a run's page
   std::string api;       // with live: as for the console
   std::string out_file;  // empty: page.html in the run's folder
@@ -164,7 +164,7 @@ struct MissionOptions {
 int mission_command(const MissionOptions& options);
 
 struct CommandsOptions {
-  std::string run;          // folder of a run, or its file of commands; empty: the newest run
+  std::string run;          // its folder, its name among the newest, or its file of commands; empty: the newest
   std::uint32_t last = 20;  // so many of the newest
   bool refused = false;     // only those
   bool margins = false;     // what all of them left of the limits, in place of a list
@@ -173,10 +173,12 @@ struct CommandsOptions {
 // What became of the commands of a run: both verdicts, release, start, completion, refusals.
 int commands_command(const CommandsOptions& options);
 
+constexpr double kLatestArmTime_s = 1e9;
+
 struct LogOptions {
   std::string run;      // a folder, or the name of one of the newest runs; empty: the newest
   double from_s = 0.0;  // arm time
-  double to_s = 1e9;
+  double to_s = kLatestArmTime_s;
   std::string csv, mcap, candump;  // of log export: files
   bool json = false;
 };

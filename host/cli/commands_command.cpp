@@ -5,10 +5,10 @@
 #include <fstream>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/run_choice.hpp"
 #include "host/json/json.hpp"
 #include "host/report/command_json.hpp"
 #include "host/system/errors.hpp"
-#include "host/system/runs.hpp"
 #include "host/verify/refusal_table.hpp"
 
 namespace liana::cli {
@@ -18,17 +18,15 @@ namespace fs = std::filesystem;
 using event::Dispatch;
 using report::CommandLife;
 
+constexpr const char* kCommandsFile = "commands.txt";
+
 // The file of the run that is named, of the newest run when none is.
 fs::path file_of(const std::string& run) {
-  if (!run.empty()) {
-    const fs::path path = fs::is_directory(run) ? fs::path(run) / "commands.txt" : fs::path(run);
-    if (fs::exists(path)) return path;
-    throw system::BadInput("'" + path.string() + "': no such file; give the folder of a run, or its commands.txt");
-  }
-  for (const std::string& each : system::kept_runs(system::runs_folder())) {
-    if (const fs::path path = fs::path(each) / "commands.txt"; fs::exists(path)) return path;
-  }
-  throw system::BadInput("'" + system::runs_folder() + "' keeps no run yet; name the folder of a run");
+  const fs::path found = run.empty() ? newest_run_with("commands", kCommandsFile) : named_run("commands", run);
+  const fs::path path = fs::is_directory(found) ? found / kCommandsFile : found;
+  if (fs::exists(path)) return path;
+  throw system::BadInput("commands: '" + found.string() + "': holds no " + kCommandsFile +
+                         "; give another run (liana log list), or a commands.txt");
 }
 
 std::string outcome(const CommandLife& life) {

@@ -10,9 +10,11 @@
 #include "host/archive/export.hpp"
 #include "host/archive/reader.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/run_choice.hpp"
 #include "host/event/event_json.hpp"
 #include "host/json/json.hpp"
 #include "host/system/errors.hpp"
+#include "host/system/output.hpp"
 #include "host/system/runs.hpp"
 
 namespace liana::cli {
@@ -20,28 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The folder of the run that is named, of the newest with an archive when none is.
-std::string folder_of(const std::string& run) {
-  for (const std::string& path : {run, system::runs_folder() + "/" + run}) {
-    if (!run.empty() && fs::exists(path)) return path;
-  }
-  if (!run.empty())
-    throw system::BadInput("'" + run + "': no folder, and no run in " + system::runs_folder() + "; see liana log list");
-  for (const std::string& path : system::kept_runs(system::runs_folder())) {
-    if (fs::exists(path + "/archive.db")) return path;
-  }
-  throw system::BadInput("'" + system::runs_folder() + "' keeps no run yet; name the folder of a run");
-}
-
-archive::Reader reader_of(const std::string& run) {
-  try {
-    return archive::Reader(folder_of(run));
-  } catch (const archive::DatabaseError&) {
-    throw;
-  } catch (const std::runtime_error& error) {
-    throw system::BadInput(error.what());
-  }
-}
+archive::Reader reader_of(const std::string& run) { return archive::Reader(archive_folder("log", run)); }
 
 std::string report_text(const std::string& folder, const char* member, const char* fallback) {
   std::ifstream file(folder + "/report.json");
@@ -151,9 +132,16 @@ void print_check(const archive::Check& check) {
   std::printf("%s, %.1f MB\n", check.problems.empty() ? "whole" : "NOT whole", static_cast<double>(check.bytes) / 1e6);
 }
 
+std::string seconds(double value_s) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g s", value_s);
+  return text;
+}
+
 archive::Span span_of(const LogOptions& options, const archive::Reader& reader) {
   if (options.from_s > options.to_s)
-    throw system::BadInput("log: --from is later than --to: nothing lies between; exchange them");
+    throw system::BadInput("log: --from " + seconds(options.from_s) + ", --to " + seconds(options.to_s) +
+                           ": nothing lies between; allowed: --from 0 to --to; exchange them");
   return reader.span_of(options.from_s, options.to_s);
 }
 
@@ -194,14 +182,18 @@ int log_show_command(const LogOptions& options) {
 
 int log_export_command(const LogOptions& options) {
   using Write = std::uint64_t (*)(const archive::Reader&, archive::Span, const std::string&);
-  const std::tuple<const char*, std::string, Write> kinds[]{{"rows", options.csv, archive::write_csv},
-                                                            {"messages", options.mcap, archive::write_mcap},
-                                                            {"frames", options.candump, archive::write_candump}};
+  const std::tuple<const char*, const char*, std::string, Write> kinds[]{
+      {"--csv", "rows", options.csv, archive::write_csv},
+      {"--mcap", "messages", options.mcap, archive::write_mcap},
+      {"--candump", "frames", options.candump, archive::write_candump}};
   if (options.csv.empty() && options.mcap.empty() && options.candump.empty())
     throw system::BadInput("log export: no file given; give --csv, --mcap or --candump");
+  for (const auto& [option, unit, file, write] : kinds) {
+    if (!file.empty()) system::check_output(option, file);
+  }
   const archive::Reader reader = reader_of(options.run);
   Json written = Json::array();
-  for (const auto& [unit, file, write] : kinds) {
+  for (const auto& [option, unit, file, write] : kinds) {
     if (file.empty()) continue;
     const std::uint64_t count = write(reader, span_of(options, reader), file);
     if (!options.json) std::printf("%s: %" PRIu64 " %s\n", file.c_str(), count, unit);
@@ -212,7 +204,7 @@ int log_export_command(const LogOptions& options) {
 }
 
 int log_verify_command(const LogOptions& options) {
-  const archive::Check check = archive::check(folder_of(options.run));
+  const archive::Check check = archive::check(reader_of(options.run).folder());
   if (options.json) {
     std::puts(check_json(check).dump(-1, Json::BadUtf8::kReplace).c_str());
   } else {

@@ -213,7 +213,8 @@ void add_console(CLI::App& app, Action& action, ConsoleOptions& console) {
 void add_view(CLI::App& app, Action& action, ViewOptions& view) {
   CLI::App* sub =
       add(app, action, "view", "the page of a run: what happened, in one file for a browser", view, view_command);
-  CLI::Option* run = sub->add_option("run", view.run, "folder or name of a run; where not given, the newest");
+  CLI::Option* run = sub->add_option(
+      "run", view.run, "a folder, or the name of one of the newest runs; where not given, the one that ended last");
   CLI::Option* out = sub->add_option("--out", view.out_file, "write the page here, not as page.html beside the run");
   sub->add_flag("--live", view.live, "the console of a running system instead")->excludes(run)->excludes(out);
   sub->add_option("--api", view.api, "with --live: API socket of a lianad")->needs("--live");
@@ -297,11 +298,27 @@ void add_mission(CLI::App& app, Action& action, MissionOptions& mission) {
 void add_commands(CLI::App& app, Action& action, CommandsOptions& commands) {
   CLI::App* sub = add(app, action, "commands", "what became of the commands of a run: verdicts, margins, refusals",
                       commands, commands_command);
-  sub->add_option("run", commands.run, "folder of a run, or its commands.txt; where not given, the newest run");
-  sub->add_option("--last", commands.last, "so many of the newest")->capture_default_str();
+  sub->add_option("run", commands.run,
+                  "a folder, the name of one of the newest runs, or a commands.txt; where not given, the newest run");
+  sub->add_option_function<std::string>(
+         "--last",
+         [&commands](const std::string& text) {
+           commands.last = static_cast<std::uint32_t>(parse_whole("--last", text, 1, 1000000000));
+         },
+         "so many of the newest; 1 to 1000000000")
+      ->default_str("20");
   sub->add_flag("--refused", commands.refused, "only refused ones");
   sub->add_flag("--margins", commands.margins, "what they all left of the limits, in place of a list");
   sub->add_flag("--json", commands.json, "print JSON, one line for each command");
+}
+
+void add_arm_time(CLI::App& sub, const char* option, double& value_s) {
+  sub.add_option_function<std::string>(
+      option,
+      [&value_s, option](const std::string& text) {
+        value_s = parse_number_in(option, text, 0.0, kLatestArmTime_s, "s of arm time");
+      },
+      "arm time, s; 0 to 1e9");
 }
 
 void add_log(CLI::App& app, Action& action, LogOptions& log) {
@@ -316,8 +333,8 @@ void add_log(CLI::App& app, Action& action, LogOptions& log) {
   for (CLI::App* sub : {show, exported, verify})
     sub->add_option("run", log.run, "a folder, or the name of one of the newest runs; the newest where not given");
   for (CLI::App* sub : {show, exported}) {
-    sub->add_option("--from", log.from_s, "arm time, s");
-    sub->add_option("--to", log.to_s, "arm time, s");
+    add_arm_time(*sub, "--from", log.from_s);
+    add_arm_time(*sub, "--to", log.to_s);
   }
   exported->add_option("--csv", log.csv, "file for telemetry as a table");
   exported->add_option("--mcap", log.mcap, "file for the arm in its scene, angles, events, as Foxglove shows them");
@@ -340,7 +357,9 @@ void add_tools(CLI::App& app, Action& action, ReplayOptions& replay, ExportOptio
                std::string& shell) {
   CLI::App* sub = add(app, action, "replay", "run a recording through the core again and compare every output", replay,
                       replay_command);
-  sub->add_option("directory", replay.directory, "what `liana run --record` wrote")->required();
+  sub->add_option("directory", replay.directory,
+                  "what `liana run --record` wrote: a folder, or the name of one of the newest runs")
+      ->required();
   sub->add_flag("--json", replay.json, "print JSON");
 
   CLI::App* robot = app.add_subcommand("robot", "robot tables");
@@ -409,13 +428,33 @@ std::vector<std::string> arguments_of(const CLI::App& app, int argc, char** argv
   return words;
 }
 
+struct Chosen {
+  const CLI::App* command;
+  std::string words;  // of it, each after a blank
+};
+
+// The command that was being read.
+Chosen chosen(const CLI::App& app) {
+  Chosen found{&app, ""};
+  while (!found.command->get_subcommands().empty()) {
+    found.command = found.command->get_subcommands().front();
+    found.words += " " + found.command->get_name();
+  }
+  return found;
+}
+
+// An option at the end of the line, or before another one, whose value was forgotten: what its value may be is said.
+std::string missing_value_text(const CLI::App& app, const std::string& error) {
+  const auto [command, words] = chosen(app);
+  const std::string name = error.substr(0, error.find(':'));
+  const CLI::Option* option = name.starts_with("--") ? command->get_option_no_throw(name) : nullptr;
+  const std::string see = "; see liana" + words + " --help";
+  return option == nullptr ? error + see : name + ": no value given; allowed: " + option->get_description() + see;
+}
+
 // A word that the command has no place for.
 std::string extra_word_text(const CLI::App& app) {
-  std::string command;
-  for (const CLI::App* at = &app; !at->get_subcommands().empty();) {
-    at = at->get_subcommands().front();
-    command += " " + at->get_name();
-  }
+  const std::string command = chosen(app).words;
   const std::vector<std::string> words = app.remaining(true);
   return "'" + (words.empty() ? "" : words.front()) + "': liana" + command +
          " takes no such word; leave it out, or see liana" + command + " --help";
@@ -488,6 +527,9 @@ int run(int argc, char** argv) {
     return ExitCode::kExitBadInput;
   } catch (const CLI::ExtrasError&) {
     std::fprintf(stderr, "liana: %s\n", extra_word_text(app).c_str());
+    return ExitCode::kExitBadInput;
+  } catch (const CLI::ArgumentMismatch& error) {
+    std::fprintf(stderr, "liana: %s\n", missing_value_text(app, error.what()).c_str());
     return ExitCode::kExitBadInput;
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "host/cli/commands.hpp"
+#include "host/cli/run_choice.hpp"
 #include "host/json/json.hpp"
 #include "host/record/images_check.hpp"
 #include "host/record/recording.hpp"
@@ -48,13 +49,14 @@ void print_text(const record::ReplayResult& result, const record::ImagesCheck& i
 }  // namespace
 
 int replay_command(const ReplayOptions& options) {
-  const std::filesystem::path file = std::filesystem::path(options.directory) / record::kRecordingFile;
+  const std::string directory = named_run("replay", options.directory);
+  const std::filesystem::path file = std::filesystem::path(directory) / record::kRecordingFile;
   if (!std::filesystem::exists(file)) {
-    throw system::BadInput("replay: '" + options.directory + "': holds no " + record::kRecordingFile +
+    throw system::BadInput("replay: '" + directory + "': holds no " + record::kRecordingFile +
                            "; give a directory that liana run --record wrote");
   }
-  const record::ReplayResult result = record::replay(options.directory);
-  const record::ImagesCheck images = record::check_images(options.directory, result.is_serial);
+  const record::ReplayResult result = record::replay(directory);
+  const record::ImagesCheck images = record::check_images(directory, result.is_serial);
   if (options.json) {
     print_json(result, images);
   } else {
@@ -75,7 +77,7 @@ int replay_command(const ReplayOptions& options) {
   }
   if (!images.good()) {
     std::fprintf(stderr, "liana: %s/%s: %s; take a good copy of the file: a replay from mid-run needs it\n",
-                 options.directory.c_str(), record::kImagesFile, images.state.c_str());
+                 directory.c_str(), record::kImagesFile, images.state.c_str());
   }
   return result.complete && images.good() && result.ticks > 0 && result.differing_ticks == 0 ? system::kExitOk
                                                                                              : system::kExitFailure;

@@ -3,6 +3,11 @@
 #include <CLI/CLI.hpp>
 
 namespace liana::command_line {
+namespace {
+
+constexpr int kBadInput = 2;  // of every program
+
+}  // namespace
 
 Option& Option::required() {
   option_->required();
@@ -51,7 +56,7 @@ std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
   try {
     app_->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app_->exit(error);
+    return app_->exit(error) == 0 ? 0 : kBadInput;
   }
   return std::nullopt;
 }

@@ -85,6 +85,8 @@ void Service::idle(double timeout_s) {
 
 void Service::publish_state() {
   if (!server_.has_subscriber(api::Topic::kState)) return;
+  if (config_.time_mode == timing::TimeMode::kReal)
+    notes_.tick_us = tick_watch_.longest_us(desk_.link().timing.tick_us.counts()).value_or(0);
   const Json state = state_message(config_.buses, desk_, owner_, notes_, log_.shown());
   const char* name = state_name(desk_);
   server_.publish(api::Topic::kState, state.dump(),

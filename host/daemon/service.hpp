@@ -19,6 +19,7 @@
 #include "host/daemon/service_events.hpp"
 #include "host/daemon/setpoint_stream.hpp"
 #include "host/daemon/state_message.hpp"
+#include "host/daemon/tick_watch.hpp"
 #include "host/daemon/way_file.hpp"
 #include "host/event/event_log.hpp"
 #include "host/event/line_file.hpp"
@@ -144,6 +145,7 @@ class Service : private api::ApiHandler {
   };
   std::deque<CameraFrame> camera_;
   std::uint64_t clear_seen_tick_ = 0;
+  TickWatch tick_watch_;
   control::Overruns overruns_before_;  // at the last reset of the timing
   std::optional<std::uint64_t> mission_end_tick_, shutdown_tick_;
   std::uint64_t moved_tick_ = 0;            // the last after the mission's end in which the arm was led on

@@ -135,7 +135,7 @@ event::Event refusal_event(const std::string& client, const std::string& op, con
 event::Event owner_event(event::OwnerEvent what, const std::string& client) {
   const std::string name = "'" + client + "'";
   const std::string text = what == event::OwnerEvent::kAcquired   ? name + " owns motion"
-                           : what == event::OwnerEvent::kReleased ? name + " released motion: the arm holds"
+                           : what == event::OwnerEvent::kReleased ? name + " gave back motion: the arm holds"
                                                                   : "the owner of motion died: the arm holds";
   return {.kind = event::EventKind::kOwner, .number = event::number_of(what), .subject = client, .text = text};
 }

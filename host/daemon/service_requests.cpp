@@ -97,8 +97,8 @@ Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fie
   if (boot_seen_ == control::BootPhase::kBooting) throw api::RequestError("busy", "the drives are still booting");
   if (command == "enable") {
     if (const auto& stop = notes_.stop.order()) {
-      throw api::RequestError("refused",
-                              text_of(*stop) + " is in force: a client has to acquire motion anew, or to send clear");
+      throw api::RequestError(
+          "refused", text_of(*stop) + " is in force: a client has to take motion anew (acquire), or to send clear");
     }
     if (stop_tick_ == tick()) throw api::RequestError("refused", "a stop was asked for in the same command interval");
     if (now().faults.count > 0) throw api::RequestError("fault", "a fault is latched: clear it first");

@@ -58,7 +58,8 @@ Json drives_json(const Desk& desk, const std::vector<std::uint32_t>& serials) {
   for (std::size_t i = 0; i < desk.drive_count(); ++i) {
     Json drive{{"node", node_of_drive(i)},
                {"state", drive_state_name(decode(desk.inputs().drive[i].statusword))},
-               {"serial", serials.empty() ? Json() : Json(serials[i])}};
+               {"serial", serials.empty() ? Json() : Json(serials[i])},
+               {"torque_permille", desk.inputs().drive[i].torque_permille}};
     desk.add_drive_state(i, drive);
     drives.push_back(std::move(drive));
   }
@@ -150,6 +151,7 @@ Json state_message(const config::BusesConfig& buses, const Desk& desk, const Own
              {"stop_category", stop_name(o.stop_category)},
              {"faults", faults_json(o.faults)},
              {"limits", limits_json(o.limits)}};
+  if (notes.tick_us) state["tick_us"] = *notes.tick_us;
   desk.add_state(state);
   add_boot_faults(state, notes.boot_problems);
   return state;

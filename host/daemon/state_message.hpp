@@ -1,7 +1,9 @@
 // The state message (docs/api.md) from what the arm reports and what the service knows.
 #pragma once
 
+#include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,7 +26,8 @@ struct Notes {
   std::vector<control::BootProblem> boot_problems;  // faults of drives that did not boot
   EmergencyStop stop;
   bool stopping = false;
-  std::vector<std::uint32_t> serials;  // of the drives, once they are booted
+  std::vector<std::uint32_t> serials;    // of the drives, once they are booted
+  std::optional<std::uint32_t> tick_us;  // longest tick of the last command interval; nothing in virtual time
 };
 
 // Name of the operating state in the API.

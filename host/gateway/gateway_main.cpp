@@ -33,6 +33,17 @@ void require_safe(const Options& options, const ListenAddress& listen) {
   if (options.certificate.empty()) throw std::runtime_error(where + "give --cert and --key for TLS");
 }
 
+// What fails from here on is no longer what was given.
+int serve(WebServer& server) {
+  try {
+    server.run();
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "liana-gateway: %s\n", error.what());
+    return 1;
+  }
+}
+
 int run(const Options& options) {
   const ListenAddress listen = parse_listen_address(options.listen);
   require_safe(options, listen);
@@ -44,8 +55,7 @@ int run(const Options& options) {
   WebServer server({listen, options.certificate, options.key, options.page, options.runs}, gateway);
   std::puts(server.address().c_str());
   std::fflush(stdout);
-  server.run();
-  return 0;
+  return serve(server);
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ class McapWriter {
   void finish();
 
  private:
+  void note(bool good);
   std::uint64_t record(std::uint8_t opcode, std::string_view content);  // returns where it begins
   void close_chunk();
   void write(std::string_view bytes);
@@ -55,7 +56,7 @@ class McapWriter {
   mcap::OpenChunk chunk_;
   mcap::Summary summary_;
   std::uint16_t channels_ = 0;
-  bool failed_ = false;
+  int failure_ = 0;  // errno of the first write that failed
 };
 
 // What a reader calls; unset members are skipped.

@@ -29,10 +29,15 @@ McapWriter::McapWriter(const std::string& path, const std::string& library)
 
 McapWriter::~McapWriter() = default;
 
+// The reason of the first failure is what finish() says.
+void McapWriter::note(bool good) {
+  if (!good && failure_ == 0) failure_ = errno;
+}
+
 void McapWriter::write(std::string_view bytes) {
   crc_.add(bytes);
   written_ += bytes.size();
-  failed_ = std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size() || failed_;
+  note(std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) == bytes.size());
 }
 
 std::uint64_t McapWriter::record(std::uint8_t opcode, std::string_view content) {
@@ -102,7 +107,7 @@ void McapWriter::close_chunk() {
   }
   summary_.note_chunk(chunk_, offset, length, content, index_offsets, written_ - offset - length);
   chunk_ = OpenChunk{};
-  std::fflush(file_.get());
+  note(std::fflush(file_.get()) == 0);
 }
 
 void McapWriter::finish() {
@@ -112,8 +117,10 @@ void McapWriter::finish() {
   record(kDataEnd, data_end);
   write(summary_.bytes(written_));
   write(kMagic);
-  failed_ = std::fflush(file_.get()) != 0 || failed_;
-  if (failed_) throw std::runtime_error("recording " + path_ + ": a write failed (disk full?); the file is incomplete");
+  note(std::fflush(file_.get()) == 0);
+  if (failure_ != 0)
+    throw std::runtime_error("recording " + path_ + ": cannot be written: " + std::strerror(failure_) +
+                             "; the file is incomplete");
 }
 
 }  // namespace liana::record

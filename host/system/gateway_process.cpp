@@ -59,7 +59,8 @@ void GatewayProcess::start(const std::string& listen) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPatience_s);
   while (std::chrono::steady_clock::now() < deadline) {
     const std::optional<ChildEnd> end = child_->poll();
-    if (end) throw BadInput(without_name(child_->last_lines(1)));
+    if (end && end->code == kExitBadInput) throw BadInput(without_name(child_->last_lines(1)));
+    if (end) throw std::runtime_error("liana-gateway " + how(*end) + "\n" + child_->last_lines(kShownLines));
     address_ = address_in(log_file_);
     if (!address_.empty()) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

@@ -24,11 +24,14 @@ std::string variable(const char* name) {
   return value == nullptr ? "" : value;
 }
 
+constexpr const char* kPage = "page.html";
+
 // A run that goes on writes, so that it is never old.
 fs::file_time_type newest_change(const fs::path& run) {
   std::error_code gone;  // other runs end at the same time
   fs::file_time_type newest = fs::file_time_type::min();
   for (const fs::directory_entry& entry : fs::directory_iterator(run, gone)) {
+    if (entry.path().filename() == kPage) continue;  // made whenever somebody looks
     const fs::file_time_type when = entry.last_write_time(gone);
     if (!gone) newest = std::max(newest, when);
   }

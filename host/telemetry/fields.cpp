@@ -2,7 +2,7 @@
 
 namespace liana::telemetry {
 
-const std::array<Field, 38> kFields{{
+const std::array<Field, 40> kFields{{
     {"measured_js_deg", "deg", Shape::kJoints},
     {"setpoint_js_deg", "deg", Shape::kJoints},
     {"verdict.twin_js_deg", "deg", Shape::kJoints},
@@ -15,6 +15,7 @@ const std::array<Field, 38> kFields{{
     {"torque_Nm", "Nm", Shape::kFound},
     {"drives.position_m", "m", Shape::kEach},
     {"drives.position_deg", "deg", Shape::kEach},
+    {"drives.torque_permille", "permille of rated", Shape::kEach},
     {"buses.measured_load", "1", Shape::kEach},
     {"buses.frames", "1", Shape::kEach},
     {"buses.errors", "1", Shape::kEach},
@@ -38,6 +39,7 @@ const std::array<Field, 38> kFields{{
     {"verdict.margins", "m, deg, deg/s, N, us", Shape::kFive},
     {"device_samples", "1", Shape::kOne},
     {"overruns", "1", Shape::kOne},
+    {"tick_us", "us", Shape::kOne},
     {"refusals", "1", Shape::kOne},
     {"path.share", "1", Shape::kOne},
     {"retract.points_left", "1", Shape::kOne},

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "host/archive/out_file.hpp"
 #include "host/archive/reader.hpp"
 #include "host/event/event_json.hpp"
 
@@ -63,10 +64,9 @@ bool is_page_built() { return fs::exists(built_page()); }
 
 std::size_t write_page(const std::string& folder, const std::string& file) {
   const std::string page = page_of(run_in(folder), text_of(built_page()));
-  std::ofstream out(file, std::ios::binary);
-  out << page;
-  out.close();
-  if (!out) throw std::runtime_error("'" + file + "': cannot be written; give another place with --out");
+  archive::OutFile out(file);
+  out.write(page);
+  out.finish();
   return page.size();
 }
 

@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kPeriod_s = 0.004;
 constexpr std::uint64_t kInterval = 5, kSecond = 250;
-constexpr std::size_t kFields = 120;
+constexpr std::size_t kFields = 120, kPlotted = 64;  // of these, those that have figures by the second
 constexpr double kDay_s = 86400.0, kMost_bytes = 1.0e9;
 constexpr int kMinutes = 200;  // that are read again
 
@@ -36,7 +36,9 @@ double seconds_since(Clock::time_point begin) { return std::chrono::duration<dou
 Json layout() {
   return {{"version", 1},
           {"bytes", 24 + 4 * kFields},
-          {"fields", {{{"name", "tension_N"}, {"unit", "N"}, {"offset", 24}, {"count", kFields}}}}};
+          {"fields",
+           {{{"name", "node_m"}, {"unit", "m"}, {"offset", 24}, {"count", kFields - kPlotted}},
+            {{"name", "tension_N"}, {"unit", "N"}, {"offset", 24 + 4 * (kFields - kPlotted)}, {"count", kPlotted}}}}};
 }
 
 class Source {
@@ -80,7 +82,9 @@ Written write_archive(const std::string& folder, std::uint64_t seconds) {
   archive::Ledger ledger(folder);
   const std::uint64_t life = ledger.begin({"hash", "{}", "{}", "{}", "fast", kPeriod_s, "", "numbers"}).life;
   ledger.set_layout(layout());
-  archive::TelemetryFiles telemetry(folder, life, kPeriod_s, {}, [&](const archive::Gap&) { ++written.gaps; });
+  archive::TelemetryFiles telemetry(
+      folder, life, kPeriod_s, {}, [&](const archive::Gap&) { ++written.gaps; }, [](std::uint64_t) {});
+  telemetry.set_layout(telemetry::layout_from(layout()));
   Source source;
   std::uint32_t number = 0;
   for (std::uint64_t tick = 0; tick < seconds * kSecond; tick += kInterval) {

@@ -58,3 +58,20 @@ test('a success is one line with its figures', () => {
 test('a run without a report says so', () => {
   assert.match(outcome_of(head({})).what, /no report/);
 });
+
+test('what the mission saw of the fault that ended the run is not said beside it, what else it saw is', () => {
+  const events = [{ sequence: 1, tick: 250, kind: 'fault', number: 5006, subject: 'drive 7', values: {}, text: 'cable_break: gone' }];
+  const why = (faults: string) => outcome_of(head({ report: { outcome: 'failed', reason: `the arm is STOPPING (stop category stop), faults: ${faults}`, faults: [], steps: [] }, events })).why;
+  assert.equal(why('5006 cable_break 7'), 'drive 7 (node 8, segment 3): cable_break: gone');
+  assert.match(why('5006 cable_break 7, 3002 drive_silent 4'), / \u2013 the arm is STOPPING .*3002 drive_silent 4$/);
+});
+
+test('a reason that event, step and report spell differently is said once', () => {
+  const why = 'goal = 9: allowed -5 to 5 [m]: choose a goal within reach';
+  const reason = `move_cp refused: out_of_range: ${why}`;
+  const outcome = outcome_of(head({
+    report: { outcome: 'refused', reason: `${reason}; retracted`, faults: [], steps: [{ ...done, outcome: 'refused', reason }] },
+    events: [{ sequence: 1, tick: 110, kind: 'refusal', number: 6, subject: 'mission', values: {}, text: `move_cp refused (out_of_range): ${why}` }],
+  }));
+  assert.equal(outcome.why, `mission: move_cp refused (out_of_range): ${why} \u2013 retracted`);
+});

@@ -1,10 +1,12 @@
 """The flight recorder of every run: what it leaves without being asked, and that its death does not harm the run (A36,
 A30).
 """
+import contextlib
 import csv
 import json
 import math
 import os
+import shutil
 import signal
 import sqlite3
 import time
@@ -119,6 +121,52 @@ class RunsWithoutRecord(SystemTest):
         done = self.log("verify", str(copy))
         self.assertEqual(done.returncode, 1)
         self.assertIn("NOT whole", done.stdout)
+
+    def test_telemetry_that_is_missing_is_named(self):
+        copy = self.home / "without_telemetry"
+        copy.mkdir()
+        (copy / "archive.db").write_bytes((self.folder / "archive.db").read_bytes())
+        done = self.log("verify", str(copy))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("telemetry-1-000000000000.db: is missing", done.stdout)
+
+    def test_what_a_full_disk_refuses_is_said_to_be_so(self):
+        for option in ("--csv", "--mcap"):
+            done = self.log("export", option, "/dev/full")
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertIn("/dev/full: cannot be written: No space left on device", done.stderr)
+        done = self.log("export", "--csv", "/no/such/folder/file")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--csv: '/no/such/folder/file': cannot be written: No such file", done.stderr)
+
+    def test_the_name_of_a_run_is_taken_everywhere(self):
+        home = {**os.environ, "XDG_STATE_HOME": str(self.home)}
+        by_name = run("liana", "commands", self.folder.name, "--json", env=home)
+        by_folder = run("liana", "commands", self.folder, "--json", env=home)
+        self.assertEqual((by_name.returncode, by_name.stdout), (0, by_folder.stdout))
+        self.assertGreater(by_name.stdout.count("\n"), 10)
+        replayed = run("liana", "replay", self.folder.name, env=home)
+        self.assertEqual(replayed.returncode, 2)
+        self.assertIn(f"{self.folder}': holds no ticks.mcap", replayed.stderr)
+        for command in ("commands", "replay", "view"):
+            refused = run("liana", command, "liana-run-nosuch", env=home)
+            self.assertEqual(refused.returncode, 2)
+            self.assertIn("liana-run-nosuch': no such folder, and no run in", refused.stderr)
+
+    def test_a_page_is_of_the_run_that_ended_last_not_of_one_that_goes_on(self):
+        if not (SOURCE / "build/page/view.html").exists():
+            self.skipTest("the page is not built")
+        going_on = self.folder.with_name("liana-run-goes-on")
+        going_on.mkdir()
+        self.addCleanup(shutil.rmtree, going_on)
+        (going_on / "archive.db").write_bytes((self.folder / "archive.db").read_bytes())
+        with contextlib.closing(sqlite3.connect(going_on / "archive.db")) as archive:
+            archive.execute("UPDATE life SET finished=0")
+            archive.commit()
+        shown = run("liana", "view", "--json", env={**os.environ, "XDG_STATE_HOME": str(self.home)})
+        self.assertEqual(shown.returncode, 0, shown.stderr)
+        self.assertEqual(json.loads(shown.stdout)["run"], str(self.folder))
+        self.assertIn("liana view liana-run-goes-on shows it", shown.stderr)
 
 
 class RunsWithRecord(SystemTest):

@@ -86,6 +86,7 @@ class WhatAClientSees(GatewayTest):
             "tension_N": said["tension_N"],
             "node_m": sum(said["node_m"], []),
             "drives.position_m": [drive["position_m"] for drive in said["drives"]],
+            "drives.torque_permille": [drive["torque_permille"] for drive in said["drives"]],
             "buses.frames": [bus["frames"] for bus in said["buses"]],
             "friction.mu": [said["friction"]["mu"]],
         }

@@ -128,6 +128,52 @@ TEST_F(Archive, TelemetryIsNotDenserThan50Hz) {
   EXPECT_EQ(recorder.states(), 1000u);
 }
 
+TEST_F(Archive, EverySecondHasItsLeastMeanAndLargestInATableThatSqlReads) {
+  Recorder recorder = this->recorder({.file_s = 2.0});
+  states(recorder, 0, 1245);
+  recorder.finish();
+  std::size_t rows = 0;
+  for (const Segment& file : segments_in(folder_)) {
+    const Database database(file.path, Database::Open::kRead);
+    Statement row(database,
+                  "SELECT first_tick, time_s, count, measured_js_deg_4_min, measured_js_deg_4_mean, "
+                  "measured_js_deg_4_max FROM tm_1s ORDER BY first_tick");
+    while (row.step()) {
+      ASSERT_EQ(row.count(0), rows * 250);
+      EXPECT_DOUBLE_EQ(row.real(1), static_cast<double>(rows));
+      EXPECT_EQ(row.count(2), 50u);
+      double least = 2.0, most = -2.0, sum = 0.0;
+      for (std::uint64_t tick = rows * 250; tick < (rows + 1) * 250; tick += kInterval) {
+        const double value = static_cast<double>(state_at(tick)["measured_js_deg"][3].get<float>());
+        least = std::min(least, value);
+        most = std::max(most, value);
+        sum += value;
+      }
+      EXPECT_EQ(row.real(3), least);
+      EXPECT_DOUBLE_EQ(row.real(4), sum / 50.0);
+      EXPECT_EQ(row.real(5), most);
+      ++rows;
+    }
+  }
+  EXPECT_EQ(rows, 5u);
+}
+
+TEST_F(Archive, ANumberThatIsNotThereForASecondIsNullInIt) {
+  Recorder recorder = this->recorder();
+  for (std::uint64_t tick = 0; tick < 500; tick += kInterval) {
+    Json state = state_at(tick);
+    state["clearance"] = tick < 250 ? Json() : Json{{"distance_m", 0.25}};
+    recorder.take(state);
+  }
+  recorder.finish();
+  const Database database(segments_in(folder_).at(0).path, Database::Open::kRead);
+  Statement row(database, "SELECT clearance_distance_m_min, clearance_distance_m_mean FROM tm_1s ORDER BY first_tick");
+  ASSERT_TRUE(row.step());
+  EXPECT_TRUE(row.is_null(0) && row.is_null(1));
+  ASSERT_TRUE(row.step());
+  EXPECT_EQ(row.real(1), 0.25);
+}
+
 TEST_F(Archive, ASecondLifeInTheSameFolderIsApartFromTheFirst) {
   for (const std::uint64_t last : {500u, 250u}) {
     Recorder recorder = this->recorder();

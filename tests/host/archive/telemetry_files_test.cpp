@@ -21,12 +21,18 @@ std::string noise(std::uint64_t seed) {
 class Telemetry : public ArchiveFolder {
  protected:
   TelemetryFiles files(TelemetryLimits limits) {
-    return {folder_, 1, kPeriod_s, limits, [this](const Gap& gap) { gaps_.push_back(gap); }};
+    return {folder_,
+            1,
+            kPeriod_s,
+            limits,
+            [this](const Gap& gap) { gaps_.push_back(gap); },
+            [this](std::uint64_t first_tick) { files_.push_back(first_tick); }};
   }
   static void fill(TelemetryFiles& files, std::uint64_t first_s, std::uint64_t end_s) {
     for (std::uint64_t tick = first_s * 250; tick < end_s * 250; tick += kInterval) files.add(tick, noise(tick));
   }
   std::vector<Gap> gaps_;
+  std::vector<std::uint64_t> files_;
 };
 
 TEST_F(Telemetry, ANewFileBeginsWhenTheOldOneIsLongEnough) {
@@ -37,6 +43,7 @@ TEST_F(Telemetry, ANewFileBeginsWhenTheOldOneIsLongEnough) {
   ASSERT_EQ(found.size(), 4u);
   for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i].first_tick, i * 2500);
   EXPECT_TRUE(gaps_.empty());
+  EXPECT_EQ(files_, (std::vector<std::uint64_t>{0, 2500, 5000, 7500}));
 }
 
 TEST_F(Telemetry, BeyondItsLimitTheOldestFilesGoAndThatIsSaid) {

@@ -417,6 +417,30 @@ class Help(unittest.TestCase):
             self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
             self.assertIn(said, error)
 
+    def test_bad_input_of_log_view_and_commands_is_named_with_what_is_allowed(self):
+        for words, said in [
+            (["log", "show", "--from", "nan"], "--from: 'nan': allowed: 0 to 1e+09 s"),
+            (["log", "show", "--to", "inf"], "--to: 'inf': allowed: 0 to 1e+09 s"),
+            (["log", "export", "--from", "-1"], "--from: '-1': allowed: 0 to 1e+09 s"),
+            (["log", "export", "--from", "soon"], "--from: 'soon': allowed: 0 to 1e+09 s"),
+            (["commands", "--last", "0"], "--last: '0': allowed: a whole number from 1 to 1000000000"),
+            (["commands", "--last", "all"], "--last: 'all': allowed: a whole number from 1 to 1000000000"),
+            (["view", "--out", "/no/such/folder/page.html"], "--out: '/no/such/folder/page.html'"),
+            (["log", "show", "--from"], "--from: no value given; allowed: arm time, s; 0 to 1e9; see liana log show"),
+            (["console", "--listen"], "--listen: no value given; allowed: "),
+            (["log", "verify", "nosuch"], "log: 'nosuch': no such folder, and no run in"),
+            (["log", "verify", "/tmp"], "log: '/tmp': holds no archive.db"),
+        ]:
+            code, out, error = liana(*words)
+            self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
+            self.assertIn(said, error)
+
+    def test_bad_options_of_gateway_recorder_and_controller_end_with_2(self):
+        for name in ("liana-gateway", "liana-archive", "lianad"):
+            done = subprocess.run([str(BIN / name), "--nosuch"], capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
+            self.assertNotEqual(done.stderr, "")
+
     def test_bad_input_of_check_is_named_before_anything_starts(self):
         for words, said in [
             ([], "mission is required"),

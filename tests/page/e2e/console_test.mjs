@@ -6,7 +6,7 @@ import { after, before, test } from 'node:test';
 import { open_browser, open_page, picture, serious_findings, until } from './browser.mjs';
 import { process_called, screens, start_console } from './system.mjs';
 
-let system, chromium, page;
+let system, chromium, page, own_name;
 
 before(async () => {
   system = await start_console();
@@ -39,10 +39,12 @@ test('the page shows the running arm, says what it does in one sentence, and loa
 
 test('two clicks bring the arm to where the mouse can move it: take motion, enable', async () => {
   await press('take motion');
-  await until(page, 'motion is ours', (now) => now.facts.owner === now.name);
+  ({ name: own_name } = await until(page, 'motion is ours', (now) => now.facts.owner === now.name));
   await press('enable');
+  await page.waitForFunction(() => document.querySelector('.answer').textContent === 'enable: taken');
   await until(page, 'enabled', (now) => now.facts.state === 'ENABLED');
   await is_at_rest('enabling');
+  await page.waitForFunction(() => document.querySelector('.answer').textContent === 'enable: done');
 });
 
 test('a held key moves the tip up through verification, and letting go brings it to rest', async () => {
@@ -117,13 +119,29 @@ test('what lianad refuses is shown with its own words', async () => {
 
 test('somebody else sees the same arm, and cannot take motion from its owner', async () => {
   const other = await open_page(chromium.browser, system.address);
-  await until(other, 'the same owner', (now) => now.facts.owner === 'browser');
+  await until(other, 'the same owner', (now) => now.facts.owner === own_name);
   await other.click('[data-action="take motion"]');
   await other.waitForFunction(() => document.querySelector('.answer').classList.contains('bad'));
-  assert.match(await other.textContent('.answer'), /take motion: not_owner: 'browser' owns motion/);
+  assert.match(await other.textContent('.answer'), new RegExp(`take motion: not_owner: '${own_name}' owns motion`));
   await other.click('[data-jog="z+"]');
   await other.waitForFunction(() => /step z\+: not_owner/.test(document.querySelector('.answer').textContent));
   await other.close();
+});
+
+test('every browser has a name of its own, and a person gives it another once, also after loading the page again', async () => {
+  assert.match(own_name, /^browser-[0-9a-f]{4}$/);
+  const other = await open_page(chromium.browser, system.address);
+  const first = await until(other, 'a name', (now) => now.name !== undefined);
+  assert.notEqual(first.name, own_name);
+  await other.fill('[aria-label="your name"]', 'anna');
+  await other.click('button:has-text("call me so")');
+  await until(other, 'the new name', (now) => now.name === 'anna');
+  await other.reload();
+  await until(other, 'the name again', (now) => /^anna/.test(now.name));
+  await other.close();
+  await page.fill('[aria-label="your name"]', 'ben');
+  await page.click('button:has-text("call me so")');
+  await page.waitForSelector('form:has-text("Give back motion first")');
 });
 
 test('retract goes back along the verified path, hold ends it', async () => {
@@ -166,9 +184,9 @@ test('Escape stops the arm wherever the focus is, and the controller acknowledge
   await page.click('#tab-Steer');
   await page.focus('input.metres');
   await page.keyboard.press('Escape');
-  await until(page, 'the stop in the state', (now) => now.facts.stop?.by === 'browser' && now.facts.state === 'DISABLED');
+  await until(page, 'the stop in the state', (now) => now.facts.stop?.by === own_name && now.facts.state === 'DISABLED');
   await page.waitForFunction(() => /stop answered after \d+ ms, in force since tick \d+/.test(document.querySelector('.stop-report').textContent));
-  await page.waitForFunction(() => [...document.querySelectorAll('.alarm')].some((alarm) => /emergency stop by browser/.test(alarm.textContent)));
+  await page.waitForSelector(`.alarm:has-text("emergency stop by ${own_name}")`);
   await picture(page, 'console_stopped');
 });
 
@@ -188,8 +206,11 @@ test('the stop button works in every tab and in a narrow window', async () => {
 });
 
 test('an alarm is acknowledged by name and stays as long as its cause', async () => {
-  await page.click('.alarm:has-text("emergency stop by browser") button');
-  await page.waitForSelector('.alarm:has-text("emergency stop by browser"):has-text("seen by browser")');
+  const alarm = `.alarm:has-text("emergency stop by ${own_name}")`;
+  await page.waitForSelector('.alarm-count:has-text("1 alarm")');
+  await page.click(`${alarm} button`);
+  await page.waitForSelector(`${alarm}:has-text("seen by ${own_name}")`);
+  assert.equal(await page.isVisible('.alarm-count'), false);
 });
 
 test('when the gateway dies the page says so, and goes on by itself when it is back', async () => {
@@ -197,6 +218,10 @@ test('when the gateway dies the page says so, and goes on by itself when it is b
   assert.ok(gateway, 'the gateway is found');
   process.kill(gateway, 'SIGKILL');
   await page.waitForFunction(() => document.querySelector('.status .badge:last-child').textContent === 'NOT LIVE');
+  const [state] = await page.$$('.status .badge');
+  assert.match(await state.textContent(), /^was /);
+  assert.match(await state.getAttribute('class'), /stale/);
+  assert.doesNotMatch(await state.getAttribute('class'), /good/);
   await page.waitForFunction(() => document.querySelector('.status .badge:last-child').textContent === 'live', null, { timeout: 60000 });
   const back = await until(page, 'a state again', (now) => now.time_s > 0);
   await until(page, 'a newer state', (now) => now.time_s > back.time_s);

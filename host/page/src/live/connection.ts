@@ -2,6 +2,7 @@
 import { credit_of, kSubprotocol, proof_of, type Answer, type FromGateway, type Token, type Welcome } from './protocol';
 
 export interface Listener {
+  name(): string; // who we are, where no token says it
   token(): Token | null; // null: none is known
   wants_token(why: string): void; // the person has to say one; then Connection.open() again
   status(text: string): void; // empty: all is well
@@ -38,6 +39,12 @@ export class Connection {
       else this.take_record(event.data as ArrayBuffer);
     };
     socket.onclose = (event) => this.closed(event);
+  }
+
+  // Says hello anew, under another name.
+  again(): void {
+    this.retry_ms = 0;
+    this.socket?.close();
   }
 
   // Asks lianad; errors are answers, too, also that nothing came back.
@@ -96,11 +103,11 @@ export class Connection {
   }
 
   private async hello(nonce: string, needs_proof: boolean): Promise<void> {
-    if (!needs_proof) return this.socket?.send(JSON.stringify({ op: 'hello', name: 'browser' }));
+    if (!needs_proof) return this.socket?.send(JSON.stringify({ op: 'hello', name: this.listener.name() }));
     const token = this.listener.token();
     if (!token) return this.ask_for_token('This gateway asks who you are.');
     const proof = await proof_of(token.secret, nonce);
-    this.socket?.send(JSON.stringify({ op: 'hello', name: 'browser', token_name: token.name, proof }));
+    this.socket?.send(JSON.stringify({ op: 'hello', token_name: token.name, proof }));
   }
 
   private ask_for_token(why: string): void {
@@ -124,6 +131,6 @@ export class Connection {
     if (event.code === kPolicyViolated && !was_welcome && this.listener.token()) return this.ask_for_token(event.reason || 'The gateway refused this token.');
     this.listener.status(event.reason ? `the gateway closed the connection: ${event.reason}` : 'no connection to the gateway; trying again');
     window.setTimeout(() => this.open(), this.retry_ms);
-    this.retry_ms = Math.min(kLastRetry_ms, 2 * this.retry_ms);
+    this.retry_ms = Math.min(kLastRetry_ms, Math.max(kFirstRetry_ms, 2 * this.retry_ms));
   }
 }

@@ -31,6 +31,16 @@ export class Live {
     return reader && reader.sequence > 0 ? { tick: reader.tick, time_s: reader.time_s, numbers: reader.numbers, facts } : null;
   }
 
+  // Does what is shown come from the arm now?
+  is_live(now_s: number): boolean {
+    return this.status === '' && !(now_s - this.came_s > kSilent_s);
+  }
+
+  // Sequence of the newest event; 0 before the first.
+  get newest_event(): number {
+    return this.events[this.events.length - 1]?.sequence ?? 0;
+  }
+
   get is_mine(): boolean {
     return !!this.welcome && this.facts.owner === this.welcome.name;
   }
@@ -72,7 +82,7 @@ export class Live {
     if (!this.welcome) return this.alarms.update(conditions, now_s); // the page has only begun; its title says so
     if (this.status) {
       conditions.push({ key: 'link', priority: 1, passes: true, title: 'nothing comes from the arm', cause: this.status, todo: 'What is shown is old. To stop the arm use the switch beside it, or liana estop.' });
-    } else if (now_s - this.came_s > kSilent_s) {
+    } else if (!this.is_live(now_s)) {
       conditions.push({ key: 'link', priority: 1, passes: true, title: 'nothing comes from the arm', cause: `No state for ${kSilent_s} s.`, todo: 'What is shown is old: wait, or look at lianad.' });
     }
     return this.alarms.update(conditions, now_s);

@@ -3,7 +3,6 @@ import type { Sample } from '../data/sample';
 import { value, values } from '../data/sample';
 import type { Condition } from '../model/alarms';
 import type { CableRobot } from '../model/robot';
-import { refusal_row } from '../model/tables';
 import { sentence_of } from '../model/sentence';
 import { SceneView } from '../scene/scene_view';
 import { scene_colours, type Theme } from '../scene/palette';
@@ -25,13 +24,14 @@ import { Live } from './live';
 import { LiveEvents } from './live_events';
 import { LivePlots } from './live_plots';
 import { LookBack } from './look_back';
-import { kProtocol, type Answer, type FromGateway, type Welcome } from './protocol';
+import { own_name } from './own_name';
+import { kProtocol, type FromGateway, type Welcome } from './protocol';
 import { RunList } from './run_list';
 import { StatusBar } from './status_bar';
 import { StopButton } from './stop_button';
+import { Told } from './told';
 import { kept_token, token_form } from './token_form';
 
-const kPathRefused = 207; // M_e of a path that was looked at as a whole
 const kWords_ms = 250; // texts are written anew at most so often
 
 // Of each frame that was drawn.
@@ -50,7 +50,7 @@ export class LivePage {
   private readonly alarms: AlarmPanel;
   private readonly look_back: LookBack;
   private readonly sentence = h('p', { class: 'sentence' });
-  private readonly note = h('p', { class: 'answer', role: 'status' });
+  private readonly told: Told;
   private readonly middle = h('div', { class: 'middle' }, h('p', { class: 'no-scene' }, 'waiting for the arm'));
   private panels: { update(now_s: number): void }[] = [];
   private scene: SceneView | null = null;
@@ -65,6 +65,7 @@ export class LivePage {
 
   constructor(url: string) {
     this.connection = new Connection(url, {
+      name: own_name,
       token: kept_token,
       wants_token: (why) => this.middle.replaceChildren(token_form(why, () => this.connection.open())),
       status: (text) => (this.live.status = text),
@@ -72,15 +73,19 @@ export class LivePage {
       message: (message) => this.message(message),
       record: (bytes) => this.record(bytes),
     });
+    this.told = new Told(this.live, this.connection);
     this.jogger = new Jogger(this.live, this.connection);
-    this.jogger.on_error = (answer) => this.say_answer('jog', answer);
+    this.jogger.on_error = (answer) => this.told.error('jog', answer);
     this.stop = new StopButton(this.live, this.connection);
     this.stop.on_press = () => this.jogger.let_go();
     this.status = new StatusBar(this.live);
-    this.alarms = new AlarmPanel(this.live, () => this.alarms.update());
+    this.alarms = new AlarmPanel(this.live, () => {
+      this.alarms.update();
+      this.words();
+    });
     this.look_back = new LookBack(this.live, () => this.draw());
     const header = h('header', { class: 'top' }, h('h1', {}, 'Liana'), this.sentence, this.status.element, this.vr_button, theme_button((theme) => this.build(theme)), this.stop.element);
-    const told = h('div', { class: 'told' }, this.note, this.stop.report);
+    const told = h('div', { class: 'told' }, this.told.element, this.stop.report);
     this.element = h('div', { class: 'page live' }, header, told, this.alarms.element, this.middle, this.look_back.element);
     document.addEventListener('keydown', (event) => this.key_down(event), { capture: true });
     document.addEventListener('keyup', (event) => this.jogger.release(event.code));
@@ -113,6 +118,7 @@ export class LivePage {
       return;
     }
     this.jogger.let_go();
+    this.told.forget();
     this.live.take_welcome(welcome);
     this.look_back.go_to(null);
     const robot = JSON.stringify([welcome.robot, welcome.scene, welcome.layout]);
@@ -125,12 +131,12 @@ export class LivePage {
     const { welcome } = this.live;
     if (!welcome) return;
     this.scene?.stage.renderer.dispose();
-    const answered = (what: string, answer: Answer) => this.say_answer(what, answer);
-    const motion = new MotionPanel(this.live, this.connection, answered);
-    const joints = new JointPanel(this.live, welcome, this.connection, answered);
-    const device = new DevicePanel(this.live, this.connection, answered);
-    const jog = new JogPanel(this.live, this.connection, this.jogger, answered);
-    const shape = welcome.robot.kind === 'serial' ? null : new ShapePanel(this.live, welcome.robot, this.connection, answered);
+    const { ask } = this.told;
+    const motion = new MotionPanel(this.live, this.connection, ask);
+    const joints = new JointPanel(this.live, welcome, ask);
+    const device = new DevicePanel(this.live, ask);
+    const jog = new JogPanel(this.live, this.jogger, ask);
+    const shape = welcome.robot.kind === 'serial' ? null : new ShapePanel(this.live, welcome.robot, ask);
     this.panels = [motion, device, joints, ...(shape ? [shape] : [])];
     const steer = h('div', { class: 'panel' }, motion.element, device.element, jog.element, joints.element, shape?.element);
     const go_to = (time_s: number) => this.look_back.go_to(time_s);
@@ -174,18 +180,14 @@ export class LivePage {
     try {
       await this.vr?.begin();
     } catch (error) {
-      this.say_answer('VR', { op: 'answer', ok: false, code: 'no session', message: String(error) });
+      this.told.error('VR', { op: 'answer', ok: false, code: 'no session', message: String(error) });
     }
   }
 
   private message(message: FromGateway): void {
-    const newest = this.live.events.length === 0 ? 0 : this.live.events[this.live.events.length - 1].sequence;
+    const newest = this.live.newest_event;
     this.live.take(message);
-    // What verification refuses comes after the answer that a request was taken.
-    if (message.op !== 'event' || message.sequence <= newest || newest === 0) return;
-    if (message.kind !== 'verdict' && !(message.kind === 'path' && message.number === 0)) return;
-    const row = refusal_row(message.number === 0 ? kPathRefused : message.number);
-    this.say_answer('verification', { op: 'answer', ok: false, code: `refused ${row?.number ?? ''} ${row?.name ?? ''}`, message: `${message.text}. ${row?.remedy ?? ''}` });
+    if (message.op === 'event' && message.sequence > newest && newest !== 0) this.told.event(message);
   }
 
   private record(bytes: ArrayBuffer): number | null {
@@ -199,7 +201,7 @@ export class LivePage {
     const sample = this.look_back.sample();
     if (!sample || !this.scene) return;
     if (this.handle) {
-      this.handle.is_enabled = this.live.is_mine && sample.facts.state === 'ENABLED' && this.look_back.time_s === null;
+      this.handle.is_enabled = this.live.status === '' && this.live.is_mine && sample.facts.state === 'ENABLED' && this.look_back.time_s === null;
       this.handle.place(values(sample, 'setpoint_cp'));
       this.scene.tip_label = this.handle.is_enabled && !this.jogger.is_jogging ? 'drag the tip' : '';
     }
@@ -219,20 +221,23 @@ export class LivePage {
   private words(): void {
     const now_s = performance.now() / 1000;
     if (this.live.update_alarms(now_s, this.more_conditions())) this.alarms.update();
-    this.status.update();
+    this.status.update(now_s);
+    this.told.update();
     this.stop.update();
     this.look_back.update();
     for (const panel of this.panels) panel.update(now_s);
     const sample = this.look_back.sample();
     const { welcome } = this.live;
     if (!sample || !welcome) return set_text(this.sentence, this.live.status);
-    set_text(this.sentence, sentence_of(sample, welcome.robot, welcome.scene, null));
+    const is_live = this.live.is_live(now_s);
+    this.sentence.classList.toggle('stale', !is_live);
+    set_text(this.sentence, `${is_live ? '' : 'last heard: '}${sentence_of(sample, welcome.robot, welcome.scene, null)}`);
     this.scene?.say_in_corner(this.corner(sample, now_s));
   }
 
   // Age of what is seen, how often states come, how fine the picture is.
   private corner(sample: Sample, now_s: number): string {
-    if (this.live.status) return 'NOT LIVE';
+    if (!this.live.is_live(now_s)) return 'NOT LIVE';
     const age_ms = 1000 * this.shown_age_s;
     const ratio = this.scene?.stage.pace.pixel_ratio ?? 1;
     const coarse = ratio < 1 ? `, picture at ${Math.round(100 * ratio)} %` : '';
@@ -241,16 +246,11 @@ export class LivePage {
     return `age ${age_ms.toFixed(0)} ms, ${this.live.states.per_second(now_s)} states/s${coarse}${path}`;
   }
 
-  private say_answer(what: string, answer: Answer): void {
-    this.note.classList.toggle('bad', !answer.ok);
-    set_text(this.note, answer.ok ? `${what}: done` : `${what}: ${answer.code ?? 'error'}: ${answer.message ?? ''}`);
-  }
-
   private key_down(event: KeyboardEvent): void {
     const action = action_of(event, is_field(event.target as HTMLElement));
     if (!action || event.repeat) return;
     if (action.kind === 'stop') void this.stop.press();
-    if (action.kind === 'hold') void this.connection.request({ op: 'hold' }).then((answer) => this.say_answer('hold', answer));
+    if (action.kind === 'hold') this.told.ask('hold', { op: 'hold' });
     if (action.kind === 'jog') this.jogger.press(event.code, action.direction);
     if (action.kind === 'view') {
       const view = this.scene?.views[action.index];

@@ -34,6 +34,17 @@ function angle_groups(robot: Robot): Group[] {
   ];
 }
 
+// What the drives report: share of the rated torque, which is that of the rated current.
+function current_group(robot: Robot): Group {
+  const serial = robot.kind === 'serial';
+  const count = serial ? robot.joints.length : 3 * robot.segments.length;
+  const sources = Array.from({ length: count }, (_, i) => {
+    const segment = serial ? i : Math.floor(i / 3);
+    return source('drives.torque_permille', i, serial ? String(i + 1) : `${segment + 1}.${(i % 3) + 1}`, segment_colour(segment), 0.1);
+  });
+  return { name: 'current', title: 'motor current, of rated [%]', sources };
+}
+
 function force_groups(robot: Robot): Group[] {
   if (robot.kind === 'serial') {
     const joints = robot.joints.map((_, i) => source('torque_Nm', i, String(i + 1), segment_colour(i)));
@@ -70,7 +81,8 @@ export function groups_of(robot: Robot, has: Has): Group[] {
     title: 'nearest limit, share used [%]',
     sources: [source('verdict.share', 0, 'verdict', '#c96bb0', 100)],
   };
-  return [...angle_groups(robot), ...force_groups(robot), clearance, verdict, bus, error]
+  const tick: Group = { name: 'tick', title: 'longest tick in real time [us]', sources: [source('tick_us', 0, 'tick', '#4e9bd6')] };
+  return [...angle_groups(robot), ...force_groups(robot), current_group(robot), clearance, verdict, bus, tick, error]
     .map((group) => ({ ...group, sources: group.sources.filter((s) => has(s.field, s.index)) }))
     .filter((group) => group.sources.length > 0);
 }

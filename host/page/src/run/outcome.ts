@@ -57,6 +57,31 @@ function remedy_of(event: LianaEvent, commands: readonly Command[]): string | un
   return undefined;
 }
 
+// Letters and figures alone: the same reason comes in several spellings ("move_cp refused (busy): x", "move_cp refused: busy: x").
+function words_of(text: string): string {
+  return text.toLowerCase().match(/[\p{L}\p{N}.]+/gu)?.join(' ') ?? '';
+}
+
+// "the arm is FAULT (stop category off), faults: 5006 cable_break 7": what the mission saw of a fault or stop. Says it more
+// than the event that ended the run does?
+function says_more(reason: string, cause: LianaEvent | undefined): boolean {
+  const seen = /the arm is [A-Z]+ \(stop category \w+\), faults: (.+)$/.exec(reason);
+  if (!seen || !cause) return true;
+  return seen[1].split(', ').some((fault) => fault !== 'none named' && !fault.startsWith(`${cause.number} `));
+}
+
+// The event that ended it, then what else report and step say; nothing is said twice.
+function why_of(cause: LianaEvent | undefined, robot: RunHead['robot'], reasons: readonly string[]): string {
+  const subject = cause ? where_it_is(cause.subject, robot) : '';
+  const is_named = !cause || subject === '' || words_of(cause.text).includes(words_of(subject));
+  const first = cause ? `${is_named ? '' : `${subject}: `}${cause.text}` : '';
+  const more: string[] = [];
+  for (const reason of reasons.flatMap((text) => text.split('; '))) {
+    if (says_more(reason, cause) && ![first, ...more].some((said) => words_of(said).includes(words_of(reason)))) more.push(reason);
+  }
+  return [first, more.join('; ')].filter((text) => text !== '').join(' \u2013 ');
+}
+
 export function outcome_of(head: RunHead): Outcome {
   const report = head.report ?? {};
   if (!head.report) {
@@ -86,12 +111,11 @@ function failure_of(head: RunHead): Outcome {
     if (!criterion.met) todo.add(`${criterion.name.replaceAll('_', ' ')} is ${Number(criterion.value.toPrecision(4))}, its limit is ${criterion.limit}: look at where that was.`);
   }
   if (todo.size === 0) todo.add('Look at that moment: what the step still waited for stands above, what the arm did in plots and events.');
-  const whys = [cause && `${where_it_is(cause.subject, head.robot)}: ${cause.text}`, report.reason?.includes(failed?.reason ?? '') ? '' : failed?.reason, report.reason].filter((text): text is string => !!text);
   return {
     success: false,
     what: `${report.mission ?? head.title} ${report.outcome ?? 'failed'}${failed ? ` in "${failed.name}"` : ''}`,
     where: tick === null ? '' : where_of(head, tick),
-    why: [...new Set(whys)].join(' \u2013 '),
+    why: why_of(cause, head.robot, [report.reason ?? '', failed?.reason ?? '']),
     todo: [...todo],
     tick,
   };

@@ -5,7 +5,7 @@ import { fault_row } from '../model/tables';
 
 export interface Action {
   name: string;
-  request: object;
+  request: { op: string; command?: string };
   does: string; // what will happen
   // Why not now; empty: it can be asked for. lianad decides in the end.
   blocked(facts: Facts, is_mine: boolean): string;
@@ -44,7 +44,7 @@ export const kActions: readonly Action[] = [
     does: 'You alone can move the arm from now on. An emergency stop is cleared by it.',
     blocked: (facts, is_mine) => (is_mine ? 'It is yours.' : facts.owner ? `${facts.owner} has it.` : ''),
   },
-  { name: 'give back', request: { op: 'release' }, does: 'The arm comes to rest and holds; somebody else may take motion.', blocked: mine(() => '') },
+  { name: 'give back motion', request: { op: 'release' }, does: 'The arm comes to rest and holds; somebody else may take motion.', blocked: mine(() => '') },
   {
     name: 'enable', request: { op: 'state_command', command: 'enable' },
     does: 'Brakes open, cables are tightened as planned (some seconds); the arm stays where it is.', blocked: mine(enable_blocked),

@@ -1,9 +1,9 @@
 // Which device steers, how its motion is mapped, and what is left of the room: clearance and pitch budget.
 import { value, values } from '../data/sample';
-import type { Connection } from '../live/connection';
 import type { Live } from '../live/live';
-import type { Answer } from '../live/protocol';
+import type { Ask } from '../live/told';
 import { pitch_budget } from '../model/pitch_budget';
+import { hardware_text } from '../model/hardware';
 import { length_text } from '../model/sentence';
 import { h, set_class, set_text } from '../ui/dom';
 
@@ -33,16 +33,17 @@ export class DevicePanel {
   private readonly limit = new Bar('nearest limit');
   private readonly mode = h('p');
   private readonly device = h('p');
+  private readonly hardware = h('p', { class: 'hardware' });
 
-  constructor(private readonly live: Live, connection: Connection, answered: (what: string, answer: Answer) => void) {
+  constructor(private readonly live: Live, ask: Ask) {
     const device = h('select', { 'aria-label': 'device that steers' }, ...['none', 'vr', 'hand'].map((d) => h('option', { value: d }, d === 'none' ? 'no device' : d === 'vr' ? 'VR handles' : 'hand controller')));
     const scale = h('input', { type: 'number', value: 1, min: 0.01, max: 100, step: 0.5, class: 'metres', 'aria-label': 'way of the tip for a way of the hand' });
     const node = h('select', { 'aria-label': 'node of the left hand' }, ...[0, 1, 2, 3, 4].map((n) => h('option', { value: n, selected: n === 3 }, n === 0 ? 'no node' : `left: node ${n}`)));
     const use = () => ({ op: 'use_device', device: device.value, scale: Number(scale.value), node: device.value === 'vr' ? Number(node.value) : 0 });
     this.element = h('section', { class: 'card', 'aria-label': 'Room and device' }, h('h2', {}, 'Room and device'),
-      this.clearance.element, this.budget.element, this.limit.element, this.mode, this.device,
+      this.clearance.element, this.budget.element, this.limit.element, this.mode, this.device, this.hardware,
       h('div', { class: 'filter' }, device, h('label', {}, 'scale ', scale), node,
-        h('button', { type: 'button', onclick: () => void connection.request(use()).then((answer) => answered('device', answer)) }, 'use')));
+        h('button', { type: 'button', onclick: () => ask('device', use()) }, 'use')));
   }
 
   update(now_s: number): void {
@@ -61,6 +62,7 @@ export class DevicePanel {
     const held = (facts.held ?? []).map((theta) => `theta ${theta}`).join(', ');
     set_text(this.mode, `Mode ${free}+${facts.held?.length ?? 0}: ${held ? `${held} held (S2, white discs)` : 'all angles follow the tip'}`);
     this.say_device(now_s);
+    set_text(this.hardware, hardware_text(sample));
   }
 
   private say_device(now_s: number): void {

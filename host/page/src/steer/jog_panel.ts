@@ -1,8 +1,7 @@
 // The tip by buttons: a short press is a step along a verified line, a long one jogs while it is held.
 import { is_known, values } from '../data/sample';
-import type { Connection } from '../live/connection';
 import type { Live } from '../live/live';
-import type { Answer } from '../live/protocol';
+import type { Ask } from '../live/told';
 import { moved } from '../model/vector';
 import { h } from '../ui/dom';
 import type { Jogger } from './jogger';
@@ -33,7 +32,7 @@ export class JogPanel {
   private step_m = 0.02;
   private step_rad = 0.06;
 
-  constructor(private readonly live: Live, private readonly connection: Connection, private readonly jogger: Jogger, private readonly answered: (what: string, answer: Answer) => void) {
+  constructor(private readonly live: Live, private readonly jogger: Jogger, private readonly ask: Ask) {
     const steps = h('select', { 'aria-label': 'step of a short press', onchange: () => this.set_step(Number(steps.value)) },
       ...kSteps_mm.map((s) => h('option', { value: s, selected: s === 20 }, `${s} mm, ${(s * 0.18).toFixed(1)} deg`)));
     const speeds = h('select', { 'aria-label': 'speed while held', onchange: () => this.set_speed(Number(speeds.value)) },
@@ -88,6 +87,6 @@ export class JogPanel {
     const way = direction.slice(0, 3).map((d) => d * this.step_m);
     const turn = direction.slice(3).map((d) => d * this.step_rad);
     const goal = moved(commanded, way, turn, this.jogger.speed.in_tip);
-    void this.connection.request({ op: 'move_cp', goal }).then((answer) => this.answered(`step ${name}`, answer));
+    this.ask(`step ${name}`, { op: 'move_cp', goal });
   }
 }

@@ -1,9 +1,9 @@
 // Goals of all angles: by sliders, or a named pose of the robot table; nothing moves before "go". What nobody has touched
 // stays where the arm is commanded to be.
 import { values } from '../data/sample';
-import type { Connection } from '../live/connection';
 import type { Live } from '../live/live';
-import type { Answer, Welcome } from '../live/protocol';
+import type { Welcome } from '../live/protocol';
+import type { Ask } from '../live/told';
 import { angle_count, angle_name, angle_range_deg } from '../model/robot';
 import { segment_colour } from '../scene/palette';
 import { h, set_text } from '../ui/dom';
@@ -15,7 +15,7 @@ export class JointPanel {
   private readonly now: HTMLElement[];
   private readonly touched = new Set<number>();
 
-  constructor(private readonly live: Live, welcome: Welcome, connection: Connection, answered: (what: string, answer: Answer) => void) {
+  constructor(private readonly live: Live, welcome: Welcome, ask: Ask) {
     const { robot } = welcome;
     const count = angle_count(robot);
     this.outputs = Array.from({ length: count }, () => h('output', {}));
@@ -31,7 +31,7 @@ export class JointPanel {
     this.element = h('section', { class: 'card', 'aria-label': 'Angles' }, h('h2', {}, 'Angles [deg]'), ...rows,
       h('div', { class: 'filter' }, poses,
         h('button', { type: 'button', onclick: () => this.reset() }, 'as they are now'),
-        h('button', { type: 'button', 'data-action': 'go', title: 'all angles together, verified, at most 2 deg/s', onclick: () => void connection.request({ op: 'move_jp', goal_deg: this.goal_deg() }).then((answer) => answered('angles', answer)) }, 'go')));
+        h('button', { type: 'button', 'data-action': 'go', title: 'all angles together, verified, at most 2 deg/s', onclick: () => ask('angles', { op: 'move_jp', goal_deg: this.goal_deg() }) }, 'go')));
   }
 
   // All sliders follow the arm again.

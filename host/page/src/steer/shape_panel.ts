@@ -1,8 +1,7 @@
 // Shape of a cable arm: where a node should be while the tip stays, and pitch angles that are held.
 import { value, values } from '../data/sample';
-import type { Connection } from '../live/connection';
 import type { Live } from '../live/live';
-import type { Answer } from '../live/protocol';
+import type { Ask } from '../live/told';
 import type { CableRobot } from '../model/robot';
 import { h, set_text } from '../ui/dom';
 
@@ -14,12 +13,11 @@ export class ShapePanel {
   private readonly boxes: HTMLInputElement[];
   private readonly held_now = h('span', { class: 'hint' });
 
-  constructor(private readonly live: Live, robot: CableRobot, private readonly connection: Connection, private readonly answered: (what: string, answer: Answer) => void) {
+  constructor(private readonly live: Live, robot: CableRobot, ask: Ask) {
     const nodes = robot.segments.slice(0, -1).map((_, m) => m + 1);
     this.node = h('select', { 'aria-label': 'node', onchange: () => this.take() }, ...nodes.map((n) => h('option', { value: n, selected: n === 3 }, `node ${n}`)));
     this.fields = ['x', 'y', 'z'].map((axis) => h('input', { type: 'number', step: 0.01, 'aria-label': `${axis} of the node in metres`, class: 'metres' }));
     const search = h('input', { type: 'checkbox' });
-    const request = (name: string, body: object) => void this.connection.request(body).then((answer) => this.answered(name, answer));
     const place = () => this.fields.map((field) => Number(field.value));
     this.boxes = robot.segments.map((_, m) => h('input', { type: 'checkbox', 'aria-label': `hold the pitch of segment ${m + 1} at 0` }));
     const held = () => this.boxes.flatMap((box, m) => (box.checked ? [{ theta: 2 * m + 1, target_deg: 0 }] : []));
@@ -27,11 +25,11 @@ export class ShapePanel {
       h('div', { class: 'filter' }, this.node, ...this.fields, ' m'),
       h('div', { class: 'filter' },
         h('button', { type: 'button', onclick: () => this.take() }, 'as it is now'),
-        h('button', { type: 'button', onclick: () => request('shape', { op: 'shape', nodes: [{ node: Number(this.node.value), position_m: place() }], search: search.checked }) }, 'go'),
-        h('button', { type: 'button', onclick: () => request('shape', { op: 'shape', nodes: [] }) }, 'no target'),
+        h('button', { type: 'button', onclick: () => ask('shape', { op: 'shape', nodes: [{ node: Number(this.node.value), position_m: place() }], search: search.checked }) }, 'go'),
+        h('button', { type: 'button', onclick: () => ask('shape', { op: 'shape', nodes: [] }) }, 'no target'),
         h('label', { title: 'the best of all shapes is looked for first; the arm has to be at rest, and its middle may move far' }, search, 'search'), this.missing),
       h('div', { class: 'filter' }, 'hold pitch at 0: ', ...this.boxes.map((box, m) => h('label', {}, box, String(m + 1))),
-        h('button', { type: 'button', title: 'held angles go to their targets slowly while the tip stays', onclick: () => request('hold angles', { op: 'hold_theta', held: held() }) }, 'go'), this.held_now));
+        h('button', { type: 'button', title: 'held angles go to their targets slowly while the tip stays', onclick: () => ask('hold angles', { op: 'hold_theta', held: held() }) }, 'go'), this.held_now));
   }
 
   update(): void {
