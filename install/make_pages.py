@@ -85,12 +85,12 @@ def write_pages(folder, program, words, version):
         write_pages(folder, program, [*words, command], version)
 
 
-def write_completion(folder, liana, shell, place):
+def write_completion(liana, shell, *files):
     """Without the line that names the program that was asked: the installed one is found by its name."""
     lines = [line for line in say(liana, "completion", shell).splitlines() if not line.startswith("_liana_program=")]
-    file = folder / place
-    file.parent.mkdir(parents=True)
-    file.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    for file in files:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 def main(folder, *programs):
@@ -102,8 +102,9 @@ def main(folder, *programs):
         name = pathlib.Path(program).name
         write_pages(manual, program, [name], say(program, "--version").strip())
         if name == "liana":
-            write_completion(share, program, "bash", "bash-completion/completions/liana")
-            write_completion(share, program, "zsh", "zsh/site-functions/_liana")
+            completions = share / "bash-completion" / "completions"  # bash loads a file by the name of the command
+            write_completion(program, "bash", completions / "liana", completions / "liana-mission")
+            write_completion(program, "zsh", share / "zsh" / "site-functions" / "_liana")
     return 0
 
 

@@ -99,7 +99,7 @@ constexpr const char* kZsh = R"zsh(_liana() {
   local path_=liana before=${words[CURRENT-1]} i
   local -a list
   for ((i = 2; i < CURRENT; ++i)); do
-    [[ -z ${_liana_commands[(r)$path_ ${words[i]}]} ]] || path_+=" ${words[i]}"
+    [[ -z ${_liana_commands[(re)$path_ ${words[i]}]} ]] || path_+=" ${words[i]}"
   done
   if [[ $before == --* ]] && _liana_values $before; then return; fi
   _liana_values $path_
@@ -133,7 +133,7 @@ void print_bash(const std::vector<CommandHelp>& commands) {
     std::printf("    %s) COMPREPLY=($(compgen -W \"%s%s\" -- \"$2\")%s) ;;\n", quoted(values.after).c_str(),
                 values.words, names.c_str(), values.files ? " $(compgen -f -- \"$2\")" : "");
   }
-  std::puts("    *) return 1 ;;\n  esac\n}");
+  std::puts("    *) return 1 ;;\n  esac\n  return 0\n}");
   std::fputs(kBash, stdout);
 }
 

@@ -142,7 +142,8 @@ class Installed(unittest.TestCase):
     def test_a_client_prints_the_state_of_a_running_system(self):
         programs = [self.build_by_cmake("state_client"), self.build_by_pkg_config("state_client", "liana-client")]
         words = ["console", "--simulate", "--robot", "micro", "--listen", "127.0.0.1:0", "--json"]
-        console = subprocess.Popen([str(self.prefix / "bin" / "liana"), *words], stdout=subprocess.PIPE, text=True)
+        command = [str(self.prefix / "bin" / "liana"), *words]
+        console = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         try:
             socket = json.loads(console.stdout.readline())["api"]
             for program in programs:
@@ -194,8 +195,12 @@ class Removed(unittest.TestCase):
         before = manifest.read_bytes() if manifest.exists() else None
         self.addCleanup(lambda: manifest.write_bytes(before) if before else manifest.unlink(missing_ok=True))
 
-    def test_the_target_uninstall_leaves_nothing(self):
+    def test_systemd_finds_nothing_wrong_with_the_unit_and_the_target_uninstall_leaves_nothing(self):
         install(self.folder / "prefix")
+        unit = self.folder / "lianad@left.service"
+        shutil.copy(self.folder / "prefix" / "lib" / "systemd" / "system" / "lianad@.service", unit)
+        verified = run("systemd-analyze", "verify", "--man=no", unit)
+        self.assertNotIn(unit.name, verified.stdout + verified.stderr)
         run("cmake", "--build", BUILD, "--target", "uninstall")
         self.assertEqual(files_in(self.folder / "prefix"), [])
 
