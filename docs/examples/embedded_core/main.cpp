@@ -3,12 +3,9 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "firmware_like/cable/arm/payout.hpp"
-#include "firmware_like/cable/arm/tension.hpp"
 #include "firmware_like/cable_controller.hpp"
 #include "firmware_like/command/release.hpp"
 #include "firmware_like/drive/ideal_drive.hpp"
-#include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/trig.hpp"
 
 namespace liana::cable {
@@ -37,31 +34,23 @@ RobotTable two_segments() {
   return robot;
 }
 
-// Drives that are switched off while the arm is straight: every cable at its zero, pulled as the plan has it.
-Inputs at_start(const RobotTable& robot, CableVector& plan_N) {
-  const CableLayout layout = cable_layout(robot);
-  const ArmTrig trig = arm_trig(robot, ThetaVector{});
-  const CableGeometry geometry = cable_geometry(robot, layout, trig);
-  const TensionRatio ratio = tension_ratio(robot, layout, trig, SlipState{});
-  plan_N = plan_tension(robot, geometry, ratio, SegmentVector{}).motor_N;
-  const CableVector payout_m = payout_for(robot, layout, geometry.part_m, ratio, plan_N);
-  Inputs inputs;
+// Drives that are switched off, every cable at its zero: the arm is straight, and nothing pulls.
+DriveFeedbacks switched_off(const RobotTable& robot) {
+  DriveFeedbacks drives{};
   for (std::size_t c = 0; c < static_cast<std::size_t>(robot.cable_count()); ++c) {
-    const double zero_m = layout.zero_length_m[c] + robot.lead_m;
-    inputs.drive[c].position_counts = to_counts(counts_at_payout(robot.drive[c], zero_m, payout_m[c])).value;
-    inputs.drive[c].statusword = 0x0250;  // CiA 402: switch on disabled
-    inputs.drive[c].operational = 1;
-    inputs.drive[c].torque_permille = static_cast<std::int16_t>(plan_N[c] / robot.drive[c].newtons_per_permille);
+    drives[c].position_counts = robot.drive[c].zero_counts;
+    drives[c].statusword = 0x0250;  // CiA 402: switch on disabled
+    drives[c].operational = 1;
   }
-  return inputs;
+  return drives;
 }
 
 // Enables the arm, bends it, and says whether it stands where it was told to.
 bool move() {
   const RobotTable robot = two_segments();
   Controller controller(robot);
-  CableVector plan_N{};
-  Inputs inputs = at_start(robot, plan_N);
+  Inputs inputs;
+  inputs.drive = switched_off(robot);
   Setpoint goal;
   goal.kind = CommandKind::kJoint;
   goal.joint_rad = {5.0 * kDegree, 0.0, -5.0 * kDegree, 3.0 * kDegree};

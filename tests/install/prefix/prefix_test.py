@@ -122,6 +122,13 @@ class Installed(unittest.TestCase):
             self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), done.stderr)
             self.assertIn(named, done.stderr)
 
+    def test_the_python_client_finds_the_programs_of_its_prefix(self):
+        code = "from liana import system; print(system.binaries()); print(system.table('robot', 'micro'))"
+        where = {"PYTHONPATH": str(self.prefix / "share" / "liana" / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
+        binaries, robot = run(sys.executable, "-c", code, environment=where).stdout.splitlines()[:2]
+        self.assertEqual(binaries, str(self.prefix / "bin"))
+        self.assertEqual(json.loads(robot)["name"], "micro")
+
     def build_by_cmake(self, example):
         folder = self.folder / "cmake" / example
         run("cmake", "-S", EXAMPLES / example, "-B", folder, f"-DCMAKE_PREFIX_PATH={self.prefix}")
