@@ -1,5 +1,5 @@
 # cmake -P PREFIX/share/liana/uninstall.cmake: removes what was installed, and folders that are empty then; also where
-# the prefix was moved.
+# the prefix was moved. In /usr and /usr/local folders without Liana's name are the system's, and stay.
 cmake_path(SET here NORMALIZE "${CMAKE_CURRENT_LIST_DIR}")
 cmake_path(SET prefix NORMALIZE "${here}/../..")
 file(STRINGS "${here}/installed_files.txt" files)
@@ -7,6 +7,9 @@ set(folders "")
 foreach(file IN LISTS files)
   file(REMOVE "${prefix}/${file}")
   cmake_path(GET file PARENT_PATH folder)
+  if(file MATCHES "\\.py$")
+    file(REMOVE_RECURSE "${prefix}/${folder}/__pycache__")  # Python's own, of this file
+  endif()
   while(folder)
     list(APPEND folders "${folder}")
     cmake_path(GET folder PARENT_PATH folder)
@@ -14,6 +17,9 @@ foreach(file IN LISTS files)
 endforeach()
 list(REMOVE_DUPLICATES folders)
 list(SORT folders ORDER DESCENDING)  # a folder after those in it
+if(prefix MATCHES "/usr(/local)?/?$")
+  list(FILTER folders INCLUDE REGEX "[Ll]iana")
+endif()
 foreach(folder IN LISTS folders)
   file(GLOB left "${prefix}/${folder}/*" "${prefix}/${folder}/.[!.]*")
   if(NOT left)

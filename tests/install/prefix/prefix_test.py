@@ -204,6 +204,8 @@ class Removed(unittest.TestCase):
 
     def test_systemd_finds_nothing_wrong_with_the_unit_and_the_target_uninstall_leaves_nothing(self):
         install(self.folder / "prefix")
+        where = {"PYTHONPATH": str(self.folder / "prefix" / "share" / "liana" / "python")}
+        run(sys.executable, "-c", "import liana", environment=where)  # leaves __pycache__
         unit = self.folder / "lianad@left.service"
         shutil.copy(self.folder / "prefix" / "lib" / "systemd" / "system" / "lianad@.service", unit)
         verified = run("systemd-analyze", "verify", "--man=no", unit)
@@ -229,7 +231,9 @@ class Removed(unittest.TestCase):
         self.assertIn("ExecStart=/usr/bin/lianad ", unit)
         self.assertEqual(files_in(self.folder)[0], "usr")
         run("cmake", "--build", BUILD, "--target", "uninstall", environment={"DESTDIR": str(self.folder)})
-        self.assertEqual(files_in(self.folder), ["usr"])
+        left = [path for path in usr.rglob("*") if not path.is_dir() or "liana" in path.name.lower()]
+        self.assertEqual(left, [])
+        self.assertTrue((usr / "bin").is_dir(), "the system's own folder")
 
 
 if __name__ == "__main__":
