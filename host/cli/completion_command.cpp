@@ -104,7 +104,7 @@ constexpr const char* kZsh = R"zsh(_liana() {
   if [[ $before == --* ]] && _liana_values $before; then return; fi
   _liana_values $path_
   _liana_list $path_
-  _describe -o 'liana' list
+  _describe 'liana' list
 }
 if [[ ${funcstack[1]} == _liana ]]; then _liana "$@"; else compdef _liana liana; fi
 )zsh";
