@@ -137,6 +137,7 @@ std::size_t angles_of(const liana::bench::BenchOptions& options) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Simulated CiA 402 drives and arm physics on the other end of the bus"};
+  app.set_version_flag("--version", "liana-bench " LIANA_VERSION, "say which version");
   Paths paths;
   liana::bench::BenchOptions options;
   bool no_spread = false;

@@ -208,7 +208,18 @@ int export_command(const ExportOptions& options);
 // What this host can and cannot do, and what to do about it; exit code 0 always, it only tells.
 int doctor_command(bool json);
 
-// Bash completion of `liana` on standard output.
-int completion_command(const std::string& shell);
+// What --help tells of one command, for completion.
+struct CommandHelp {
+  struct Word {
+    std::string name;   // of an option or a command below this one
+    std::string about;  // its sentence
+  };
+  std::string path;  // "liana", "liana robot export"
+  std::vector<Word> words;
+};
+
+// Completion of `liana` on standard output for a shell, bash or zsh; or, what completion itself asks for, the names
+// that there are of robots, scenes, buses or missions.
+int completion_command(const std::string& what, const std::vector<CommandHelp>& commands);
 
 }  // namespace liana::cli

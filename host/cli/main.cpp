@@ -7,6 +7,7 @@
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
+#include "host/places/places.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/interrupt.hpp"
 #include "host/system/output.hpp"
@@ -17,6 +18,8 @@ namespace {
 
 using liana::system::ExitCode;
 using Action = std::function<int()>;
+
+constexpr const char* kLuaDir = "--lua-dir";
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 failed, 2 bad input (one message on standard error), 3 inverse kinematics did not converge "
@@ -353,6 +356,29 @@ void add_client(CLI::App& app, Action& action, const char* name, const char* tex
                 one ? "print JSON, also when nothing could be cleared" : "print JSON, one line for each system");
 }
 
+// The options and commands of `app` and of all commands below it.
+std::vector<CommandHelp> help_of(const CLI::App& app, const std::string& path) {
+  std::vector<CommandHelp> all{{path, {}}};
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; })) {
+    all.front().words.push_back({sub->get_name(), sub->get_description()});
+    const std::vector<CommandHelp> below = help_of(*sub, path + " " + sub->get_name());
+    all.insert(all.end(), below.begin(), below.end());
+  }
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames())
+      all.front().words.push_back({"--" + name, option->get_description()});
+  }
+  return all;
+}
+
+// Options that stand before the command: for every command the same.
+void add_global(CLI::App& app) {
+  app.set_version_flag("--version", "liana " LIANA_VERSION, "say which version");
+  app.add_option_function<std::string>(
+      kLuaDir, [](const std::string& folder) { liana::places::search_first(kLuaDir, folder); },
+      "before the command: a folder of tables and missions that is searched first (docs/installing.md)");
+}
+
 void add_tools(CLI::App& app, Action& action, ReplayOptions& replay, ExportOptions& exported, bool& doctor_json,
                std::string& shell) {
   CLI::App* sub = add(app, action, "replay", "run a recording through the core again and compare every output", replay,
@@ -375,8 +401,9 @@ void add_tools(CLI::App& app, Action& action, ReplayOptions& replay, ExportOptio
   sub->callback([&] { action = [&] { return doctor_command(doctor_json); }; });
 
   sub = app.add_subcommand("completion", "tab completion: source <(liana completion bash)");
-  sub->add_option("shell", shell, "bash")->capture_default_str();
-  sub->callback([&] { action = [&] { return completion_command(shell); }; });
+  sub->add_option("shell", shell, "bash or zsh; or robots, scenes, buses, missions: the names that there are")
+      ->capture_default_str();
+  sub->callback([&] { action = [&] { return completion_command(shell, help_of(app, "liana")); }; });
   app.add_subcommand("help", "this text, or `liana help COMMAND`");
 }
 
@@ -415,15 +442,30 @@ void check_command(const CLI::App& app, const std::string& before, std::span<con
   throw liana::system::BadInput(problem + "; liana " + before + "knows: " + names + "; see liana help");
 }
 
+// The words from the command on: only --lua-dir may stand before it.
+std::span<const std::string> after_global_options(std::span<const std::string> words) {
+  while (!words.empty()) {
+    if (words.front().starts_with(std::string(kLuaDir) + "=")) {
+      words = words.subspan(1);
+    } else if (words.front() == kLuaDir && words.size() > 1) {
+      words = words.subspan(2);
+    } else {
+      return words;
+    }
+  }
+  return words;
+}
+
 // `help` and `help COMMAND` are `--help` and `COMMAND --help`.
 std::vector<std::string> arguments_of(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> words(argv + 1, argv + argc);
-  if (!words.empty() && words.front() == "help") {
-    words.erase(words.begin());
+  const auto command = words.end() - std::ssize(after_global_options(words));
+  if (command != words.end() && *command == "help") {
+    words.erase(command);
     words.push_back("--help");
   }
   check_values(words);
-  check_command(app, "", words);
+  check_command(app, "", after_global_options(words));
   std::reverse(words.begin(), words.end());  // as CLI11 wants it
   return words;
 }
@@ -479,6 +521,7 @@ int run(int argc, char** argv) {
   CLI::App app("Liana: control of cable-driven snake arms", "liana");
   app.require_subcommand(1);
   app.footer(kFooter);
+  add_global(app);
   Action action;
   PoseOptions pose;
   IkOptions ik;
@@ -522,9 +565,6 @@ int run(int argc, char** argv) {
   add_tools(app, action, replay, exported, doctor_json, shell);
   try {
     app.parse(arguments_of(app, argc, argv));
-  } catch (const liana::system::BadInput& error) {
-    std::fprintf(stderr, "liana: %s\n", error.what());
-    return ExitCode::kExitBadInput;
   } catch (const CLI::ExtrasError&) {
     std::fprintf(stderr, "liana: %s\n", extra_word_text(app).c_str());
     return ExitCode::kExitBadInput;
@@ -534,6 +574,9 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     std::fprintf(stderr, "liana: %s; see liana help\n", error.what());
+    return ExitCode::kExitBadInput;
+  } catch (const std::runtime_error& error) {  // of our own checks
+    std::fprintf(stderr, "liana: %s\n", error.what());
     return ExitCode::kExitBadInput;
   }
   return perform(action);

@@ -53,6 +53,8 @@ CommandLine::CommandLine(const std::string& about, const std::string& name) : Co
 CommandLine::~CommandLine() { delete app_; }
 
 std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
+  const std::string program = argv[0];
+  app_->set_version_flag("--version", program.substr(program.rfind('/') + 1) + " " LIANA_VERSION, "say which version");
   try {
     app_->parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -10,6 +10,7 @@
 #include "host/command_line/command_line.hpp"
 #include "host/gateway/gateway.hpp"
 #include "host/gateway/web_server.hpp"
+#include "host/places/places.hpp"
 
 namespace {
 
@@ -18,7 +19,7 @@ using namespace liana::gateway;
 constexpr int kNice = 5;  // whatever clients do here, lianad has its turn first
 
 struct Options {
-  std::string api, listen = "127.0.0.1:8765", token_file, certificate, key, runs, page = LIANA_PAGE_DIR "/console.html";
+  std::string api, listen = "127.0.0.1:8765", token_file, certificate, key, runs, page;
 };
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -52,7 +53,8 @@ int run(const Options& options) {
   std::signal(SIGPIPE, SIG_IGN);
   ::setpriority(PRIO_PROCESS, 0, kNice);
   Gateway gateway(options.api, tokens ? &*tokens : nullptr, listen.is_loopback(), now_s);
-  WebServer server({listen, options.certificate, options.key, options.page, options.runs}, gateway);
+  const std::string page = options.page.empty() ? liana::places::page_file("console.html") : options.page;
+  WebServer server({listen, options.certificate, options.key, page, options.runs}, gateway);
   std::puts(server.address().c_str());
   std::fflush(stdout);
   return serve(server);
@@ -68,7 +70,7 @@ int main(int argc, char** argv) {
   line.option("--token-file", options.token_file, "lines NAME ROLE TOKEN, mode 0600; needed beyond loopback");
   line.option("--cert", options.certificate, "certificate for TLS, PEM; needed beyond loopback");
   line.option("--key", options.key, "its key, PEM");
-  line.option("--page", options.page, "file that / shows").with_default_shown();
+  line.option("--page", options.page, "file that / shows; where not given the built console");
   line.option("--runs", options.runs, "folder of recorded runs that /runs and /run/NAME show; none where not given");
   if (const auto code = line.parse(argc, argv)) return *code;
   try {

@@ -79,16 +79,16 @@ void check_against_robot(Script& script, const Json& robot) {
   lua_pop(state, 1);
 }
 
-void load_mission(Script& script, const std::string& lua_dir, const std::string& name) {
-  const ScriptFile file = find_script(lua_dir, "mission", name);
+void load_mission(Script& script, const LuaFolders& lua_folders, const std::string& name) {
+  const ScriptFile file = find_script(lua_folders, "mission", name);
   naming_file(file.display, [&] {
     push_mission(script, file);
     describe(script, file.display);
   });
 }
 
-std::string evaluate(Script& script, const std::string& lua_dir, const std::string& kind, const std::string& name) {
-  const ScriptFile file = find_script(lua_dir, kind, name);
+std::string evaluate(Script& script, const LuaFolders& lua_folders, const std::string& kind, const std::string& name) {
+  const ScriptFile file = find_script(lua_folders, kind, name);
   Json result;
   naming_file(file.display, [&] {
     script.run(file);
@@ -98,9 +98,9 @@ std::string evaluate(Script& script, const std::string& lua_dir, const std::stri
   return config::check_table(kind, result, file.display);
 }
 
-std::string evaluate_mission(Script& script, const std::string& lua_dir, const std::string& name,
+std::string evaluate_mission(Script& script, const LuaFolders& lua_folders, const std::string& name,
                              const std::string& robot_json) {
-  const ScriptFile file = find_script(lua_dir, "mission", name);
+  const ScriptFile file = find_script(lua_folders, "mission", name);
   Json result;
   naming_file(file.display, [&] {
     const Json robot = Json::parse(robot_json);

@@ -9,15 +9,15 @@
 namespace liana::script {
 
 // Canonical JSON of a robot, scene or buses table. Throws std::runtime_error with one message.
-std::string evaluate(Script& script, const std::string& lua_dir, const std::string& kind, const std::string& name);
+std::string evaluate(Script& script, const LuaFolders& lua_folders, const std::string& kind, const std::string& name);
 
 // Canonical JSON of a mission's structure, after a check that the robot (canonical JSON) can do it. Throws as evaluate
 // does.
-std::string evaluate_mission(Script& script, const std::string& lua_dir, const std::string& name,
+std::string evaluate_mission(Script& script, const LuaFolders& lua_folders, const std::string& name,
                              const std::string& robot_json);
 
 // Runs a mission file and leaves the checked mission on the stack. Throws as evaluate does.
-void load_mission(Script& script, const std::string& lua_dir, const std::string& name);
+void load_mission(Script& script, const LuaFolders& lua_folders, const std::string& name);
 
 // Refuses the checked mission on the stack, which stays there, when the robot (canonical JSON) cannot do it. Throws as
 // evaluate does.

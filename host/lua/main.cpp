@@ -11,10 +11,13 @@
 #include "host/lua/evaluate.hpp"
 #include "host/lua/mission_run.hpp"
 #include "host/lua/watchdog.hpp"
+#include "host/places/places.hpp"
 
 using namespace liana::script;
 
 namespace {
+
+constexpr const char* kLuaDirAbout = "a folder of tables and missions that is searched first (docs/installing.md)";
 
 // Runs `body`; bad input becomes one message on standard error and exit code 2.
 int with_message(const std::function<int()>& body) {
@@ -27,20 +30,22 @@ int with_message(const std::function<int()>& body) {
 }
 
 struct EvalOptions {
-  std::string lua_dir, kind, name, robot = "zhu2022";
+  LuaFolders lua_folders;
+  std::string kind, name, robot = "zhu2022";
 };
 
 std::string robot_json(const EvalOptions& options, Activity& activity) {
   if (options.robot.ends_with(".json")) return liana::config::read_text_file(options.robot);
-  Script script(ScriptLimits{}, options.lua_dir, activity);
-  return evaluate(script, options.lua_dir, "robot", options.robot);
+  Script script(ScriptLimits{}, options.lua_folders, activity);
+  return evaluate(script, options.lua_folders, "robot", options.robot);
 }
 
 int evaluate_and_print(const EvalOptions& options, Activity& activity) {
-  Script script(ScriptLimits{}, options.lua_dir, activity);
-  const std::string text = options.kind == "mission"
-                               ? evaluate_mission(script, options.lua_dir, options.name, robot_json(options, activity))
-                               : evaluate(script, options.lua_dir, options.kind, options.name);
+  Script script(ScriptLimits{}, options.lua_folders, activity);
+  const std::string text =
+      options.kind == "mission"
+          ? evaluate_mission(script, options.lua_folders, options.name, robot_json(options, activity))
+          : evaluate(script, options.lua_folders, options.kind, options.name);
   std::printf("%s\n", text.c_str());
   return 0;
 }
@@ -103,19 +108,19 @@ int bindings_command() {
 int main(int argc, char** argv) {
   liana::command_line::CommandLine line("Evaluates Liana's Lua tables and runs missions");
   MissionOptions options;
-  options.lua_dir = LIANA_LUA_DIR;
+  std::string lua_dir;
   EvalOptions evaluated;
   liana::command_line::Command eval = line.command("eval", "check a table and print it as canonical JSON");
   eval.option("kind", evaluated.kind, "robot, scene, buses or mission").required();
   eval.option("name", evaluated.name, "a name in the Lua folder or a file").required();
   eval.option("--robot", evaluated.robot, "robot a mission is checked against: a name or exported JSON")
       .with_default_shown();
-  eval.option("--lua-dir", options.lua_dir, "the Lua folder");
+  eval.option("--lua-dir", lua_dir, kLuaDirAbout);
   liana::command_line::Command run = line.command(
       "run", "run a mission; exit 0 on success, 1 when not, 2 for bad input, 4 when the script had to be killed");
   run.option("--api", options.api, "socket of lianad").required();
   run.option("--mission", options.mission, "a name in lua/missions or a file").required();
-  run.option("--lua-dir", options.lua_dir, "the Lua folder");
+  run.option("--lua-dir", lua_dir, kLuaDirAbout);
   run.option("--report", options.report_file, "file for the report (JSON)");
   run.flag("--lockstep", options.lockstep, "let virtual time wait for this mission");
   run.flag("--progress", options.progress, "print a line when a step begins and ends");
@@ -123,7 +128,8 @@ int main(int argc, char** argv) {
   liana::command_line::Command list = line.command("bindings", "print the commands a mission can give, as JSON");
   if (const auto code = line.parse(argc, argv)) return *code == 0 ? 0 : kExitBadInput;
   return with_message([&] {
-    evaluated.lua_dir = options.lua_dir;
+    if (!lua_dir.empty()) liana::places::search_first("--lua-dir", lua_dir);
+    evaluated.lua_folders = options.lua_folders = liana::places::lua_folders();
     if (eval.chosen()) return eval_command(evaluated);
     return list.chosen() ? bindings_command() : run_command(options);
   });

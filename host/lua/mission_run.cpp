@@ -101,8 +101,8 @@ int run_connected(const MissionOptions& options, Activity& activity, Script& scr
 }  // namespace
 
 int run_mission(const MissionOptions& options, Activity& activity) {
-  Script script(ScriptLimits{}, options.lua_dir, activity);
-  load_mission(script, options.lua_dir, options.mission);
+  Script script(ScriptLimits{}, options.lua_folders, activity);
+  load_mission(script, options.lua_folders, options.mission);
   return run_connected(options, activity, script);
 }
 

@@ -11,7 +11,7 @@ namespace liana::script {
 struct MissionOptions {
   std::string api;      // socket of lianad
   std::string mission;  // name or file
-  std::string lua_dir;
+  LuaFolders lua_folders;
   std::string report_file;  // empty = none
   bool lockstep = false;
   bool progress = false;  // one line per step begin and end

@@ -138,7 +138,7 @@ void open_libraries(lua_State* state) {
 bool push_module_chunk(lua_State* state, const char* name, std::array<char, 400>& problem) {
   ScriptFile file;
   try {
-    file = find_module(script_budget(state).lua_dir, name);
+    file = find_module(script_budget(state).lua_folders, name);
   } catch (const std::exception& error) {
     put_text(problem, error.what());
     return false;

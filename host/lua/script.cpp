@@ -66,10 +66,10 @@ int load_in_protection(lua_State* state) {
 
 }  // namespace
 
-Script::Script(const ScriptLimits& limits, const std::string& lua_dir, Activity& activity) {
+Script::Script(const ScriptLimits& limits, const LuaFolders& lua_folders, Activity& activity) {
   budget_.limits = limits;
   budget_.activity = &activity;
-  budget_.lua_dir = lua_dir;
+  budget_.lua_folders = lua_folders;
   state_ = lua_newstate(allocate, &budget_);
   if (state_ == nullptr) throw std::runtime_error("Lua does not start: no memory");
   *static_cast<Budget**>(lua_getextraspace(state_)) = &budget_;  // coroutines inherit it

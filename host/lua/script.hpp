@@ -23,7 +23,7 @@ struct ScriptLimits {
 class Script {
  public:
   // `activity` is told where the script is; it must outlive the script.
-  Script(const ScriptLimits& limits, const std::string& lua_dir, Activity& activity);
+  Script(const ScriptLimits& limits, const LuaFolders& lua_folders, Activity& activity);
   ~Script();
   Script(const Script&) = delete;
   Script& operator=(const Script&) = delete;
@@ -44,7 +44,7 @@ class Script {
     std::size_t memory_used = 0;
     std::int64_t instructions_used = 0;
     Activity* activity = nullptr;
-    std::string lua_dir;
+    LuaFolders lua_folders;
   };
 
  private:

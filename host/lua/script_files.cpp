@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <optional>
+#include <set>
 #include <stdexcept>
 #include <vector>
 
@@ -29,36 +31,50 @@ ScriptFile read_script(const fs::path& path, const std::string& display) {
   return {display, std::move(text), path.has_parent_path() ? path.parent_path().string() : "."};
 }
 
-std::string names_in(const fs::path& folder) {
-  std::vector<std::string> names;
+// The names of all scripts of a kind, in alphabetical order.
+std::string names_of(const LuaFolders& lua_folders, const std::string& kind_folder) {
+  std::set<std::string> names;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.path().extension() == ".lua") names.push_back(entry.path().stem().string());
+  for (const fs::path folder : lua_folders.in_turn) {
+    for (const auto& entry : fs::directory_iterator(folder / kind_folder, error)) {
+      if (entry.path().extension() == ".lua") names.insert(entry.path().stem().string());
+    }
   }
-  std::sort(names.begin(), names.end());
   std::string text;
   for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text.empty() ? "nothing in " + folder.string() : text;
+  return text.empty() ? "nothing in " + kind_folder + " of " + lua_folders.in_turn.back() : text;
+}
+
+// The first of `names` below a Lua folder that is a file; empty when there is none.
+std::optional<fs::path> first_file(const LuaFolders& lua_folders, const std::vector<std::string>& names) {
+  std::error_code error;
+  for (const fs::path folder : lua_folders.in_turn) {
+    for (const std::string& name : names) {
+      if (fs::is_regular_file(folder / name, error)) return folder / name;
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
-ScriptFile find_script(const std::string& lua_dir, const std::string& kind, const std::string& name) {
+ScriptFile find_script(const LuaFolders& lua_folders, const std::string& kind, const std::string& name) {
   const auto folder = kFolders.find(kind);
   if (folder == kFolders.end())
     throw std::runtime_error("kind: " + kind + ": allowed robot, scene, buses, mission: use one of these words");
   const bool is_file =
       name.find('/') != std::string::npos || name.ends_with(".lua") || (kind == "mission" && name.ends_with(".json"));
   if (is_file) return read_script(name, name);
-  const fs::path path = fs::path(lua_dir) / folder->second / (name + ".lua");
-  if (!fs::exists(path)) {
-    throw std::runtime_error(kind + ": " + name + ": allowed " + names_in(path.parent_path()) +
+  const std::string display = folder->second + "/" + name + ".lua";
+  const std::optional<fs::path> path = first_file(lua_folders, {display});
+  if (!path) {
+    throw std::runtime_error(kind + ": " + name + ": allowed " + names_of(lua_folders, folder->second) +
                              ": give one of these names or a file");
   }
-  return read_script(path, folder->second + "/" + name + ".lua");
+  return read_script(*path, display);
 }
 
-ScriptFile find_module(const std::string& lua_dir, const std::string& name) {
+ScriptFile find_module(const LuaFolders& lua_folders, const std::string& name) {
   const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.'; };
   if (name.empty() || name.size() > 80 || name.front() == '.' || name.find("..") != std::string::npos ||
       !std::all_of(name.begin(), name.end(), allowed)) {
@@ -67,8 +83,10 @@ ScriptFile find_module(const std::string& lua_dir, const std::string& name) {
   }
   std::string relative = name;
   std::replace(relative.begin(), relative.end(), '.', '/');
-  if (fs::is_directory(fs::path(lua_dir) / relative)) relative += "/init";
-  return read_script(fs::path(lua_dir) / (relative + ".lua"), relative + ".lua");
+  const std::string file = relative + ".lua", init = relative + "/init.lua";
+  const std::optional<fs::path> path = first_file(lua_folders, {init, file});
+  const bool is_init = path && path->filename() == "init.lua" && !name.ends_with("init");
+  return read_script(path.value_or(file), is_init ? init : file);
 }
 
 }  // namespace liana::script

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace liana::script {
 
@@ -12,12 +14,21 @@ struct ScriptFile {
   std::string folder{};  // where it lies
 };
 
+// Folders in which scripts and modules are looked up by name, in turn.
+struct LuaFolders {
+  LuaFolders() = default;
+  LuaFolders(std::vector<std::string> folders) : in_turn(std::move(folders)) {}
+  LuaFolders(const char* folder) : in_turn{folder} {}
+
+  std::vector<std::string> in_turn;
+};
+
 // The script called `name` of kind robot, scene, buses or mission: a name in its folder, or a file (contains '/', ends
 // in .lua, or in .json for a mission: a plan). Throws std::runtime_error when there is none, naming those there are.
-ScriptFile find_script(const std::string& lua_dir, const std::string& kind, const std::string& name);
+ScriptFile find_script(const LuaFolders& lua_folders, const std::string& kind, const std::string& name);
 
-// The file of module `name` ("liana", "liana.geometry", "robots.zhu2022"): only letters, digits, '_' and '.', only
-// below the Lua folder.
-ScriptFile find_module(const std::string& lua_dir, const std::string& name);
+// The first file of module `name` ("liana", "liana.geometry", "robots.zhu2022"): only letters, digits, '_' and '.',
+// only below the Lua folders.
+ScriptFile find_module(const LuaFolders& lua_folders, const std::string& name);
 
 }  // namespace liana::script

@@ -19,6 +19,8 @@
 #include <thread>
 #include <utility>
 
+#include "host/places/places.hpp"
+
 namespace liana::system {
 namespace {
 
@@ -178,10 +180,10 @@ Captured run_and_capture(const std::vector<std::string>& argv) {
 }
 
 std::string sibling_program(const std::string& name) {
-  const auto path = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+  const std::string path = places::program_folder() + "/" + name;
   if (access(path.c_str(), X_OK) != 0)
-    throw std::runtime_error(path.string() + ": this program is missing; build it with ./dev build");
-  return path.string();
+    throw std::runtime_error(path + ": this program is missing; build it with ./dev build, or install it again");
+  return path;
 }
 
 }  // namespace liana::system

@@ -16,6 +16,7 @@
 #include "host/calibration/fixture.hpp"
 #include "host/config/field.hpp"
 #include "host/config/serial_robot.hpp"
+#include "host/places/places.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/output.hpp"
 #include "host/system/plan_file.hpp"
@@ -158,8 +159,9 @@ ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool
 
 ProgramCall operator_call(const SystemLayout& plan, const RunOptions& options) {
   return {"liana-operator",
-          {sibling_program("liana-operator"), "--api", plan.api_socket(), "--recordings", LIANA_LUA_DIR "/recordings",
-           "--scene", plan.file("scene.json"), "--seed", std::to_string(options.seed), "--lockstep"}};
+          {sibling_program("liana-operator"), "--api", plan.api_socket(), "--recordings",
+           places::shipped_lua_folder() + "/recordings", "--scene", plan.file("scene.json"), "--seed",
+           std::to_string(options.seed), "--lockstep"}};
 }
 
 ProgramCall mission_call(const SystemLayout& plan, const RunOptions& options) {

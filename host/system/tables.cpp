@@ -1,10 +1,12 @@
 #include "host/system/tables.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include "host/config/bench_buses.hpp"
+#include "host/places/places.hpp"
 #include "host/system/process.hpp"
 
 namespace liana::system {
@@ -36,6 +38,13 @@ std::string read_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
+// Whether a Lua folder has a table of this name.
+bool is_shipped_or_own(const std::string& kind, const std::string& name) {
+  const std::vector<std::string> folders = checked(places::lua_folders);
+  return std::any_of(folders.begin(), folders.end(),
+                     [&](const std::string& folder) { return fs::exists(folder + "/" + kind + "/" + name + ".lua"); });
+}
+
 void refuse_directory(const std::string& kind, const std::string& name) {
   std::error_code unreadable;
   const bool is_file = name.find('/') != std::string::npos || name.ends_with(".json");
@@ -64,7 +73,7 @@ config::SceneConfig scene_of(const std::string& name) {
 TableText buses_of(const std::string& robot, const std::string& robot_json, const std::string& given) {
   if (!given.empty()) return {given, evaluate_table("buses", given)};
   const std::string own = "embedded_" + robot;
-  if (fs::exists(std::string(LIANA_LUA_DIR "/buses/") + own + ".lua")) return {own, evaluate_table("buses", own)};
+  if (is_shipped_or_own("buses", own)) return {own, evaluate_table("buses", own)};
   const std::int32_t drives = checked([&] { return config::drive_count(robot_json, robot); });
   if (drives == kDrivesOfEmbedded) return {"embedded", evaluate_table("buses", "embedded")};
   return {"bench_" + std::to_string(drives), config::bench_buses(drives)};

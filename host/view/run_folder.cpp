@@ -8,6 +8,7 @@
 #include "host/archive/out_file.hpp"
 #include "host/archive/reader.hpp"
 #include "host/event/event_json.hpp"
+#include "host/places/places.hpp"
 
 namespace liana::view {
 namespace {
@@ -58,7 +59,7 @@ RunData run_in(const std::string& folder) {
   return run;
 }
 
-std::string built_page() { return LIANA_PAGE_DIR "/view.html"; }
+std::string built_page() { return places::page_file("view.html"); }
 
 bool is_page_built() { return fs::exists(built_page()); }
 

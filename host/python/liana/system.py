@@ -1,6 +1,6 @@
 """Liana's programs as `liana run` starts them, in virtual time and a folder of their own, for scenarios and tests.
 
-Programs are those in $LIANA_BIN; without it, of this tree (build/bin).
+Programs are those in $LIANA_BIN; without it, of the prefix that this is installed in, or of this tree (build/bin).
 """
 from __future__ import annotations
 
@@ -21,7 +21,10 @@ from liana import client as clients
 from liana.client import Client, Connection, LianaError, Message, wait_until
 from liana.recordings import Event, Truth, read_events
 
-SOURCE = pathlib.Path(__file__).resolve().parents[3]
+HERE = pathlib.Path(__file__).resolve()
+IS_INSTALLED = HERE.parents[2] == HERE.parents[4] / "share" / "liana"
+BINARIES = HERE.parents[4] / "bin" if IS_INSTALLED else HERE.parents[3] / "build" / "bin"
+LUA = HERE.parents[2 if IS_INSTALLED else 3] / "lua"
 BAD_INPUT = 2  # exit code of every program that refuses what it was given
 
 
@@ -31,7 +34,7 @@ class ProgramRefused(LianaError):
 
 def binaries() -> pathlib.Path:
     """The folder of the programs."""
-    return pathlib.Path(os.environ.get("LIANA_BIN") or SOURCE / "build" / "bin").absolute()
+    return pathlib.Path(os.environ.get("LIANA_BIN") or BINARIES).absolute()
 
 
 def program(name: str) -> str:
@@ -156,7 +159,7 @@ class System:
 
     def start_operator(self) -> None:
         """The simulated person at the hand controllers."""
-        recordings, scene = SOURCE / "lua" / "recordings", self.directory / "scene.json"
+        recordings, scene = LUA / "recordings", self.directory / "scene.json"
         words = ["--api", self.api, "--recordings", recordings, "--scene", scene, "--seed", self.seed, "--lockstep"]
         self.start("liana-operator", *words)
 

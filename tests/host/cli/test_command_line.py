@@ -480,6 +480,11 @@ class Help(unittest.TestCase):
             ("liana run --bus vc", "vcan"),
             ("liana plan --follow sl", "slit"),
             ("liana cl", "clear"),
+            ("liana console --sim", "--simulate"),
+            ("liana log ex", "export"),
+            ("liana log export --cand", "--candump"),
+            ("liana robot export zh", "zhu2022"),
+            ("liana --lua", "--lua-dir"),
             ("liana-mission eval sc", "scene"),
             ("liana-mission eval scene pa", "panel_slit"),
         ]:
