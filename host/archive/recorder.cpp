@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "host/archive/reader.hpp"
+#include "host/archive/ring_files.hpp"
 #include "host/event/event_json.hpp"
 #include "host/telemetry/record.hpp"
 
@@ -21,18 +22,19 @@ std::uint64_t ticks_of(double seconds, double period_s) {
 
 Recorder::Recorder(const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits,
                    std::uint64_t next_event)
-    : ledger_(folder),
+    : folder_(folder),
+      ledger_(folder),
       begun_(ledger_.begin(life, next_event)),
       period_s_(life.period_s),
       interval_ticks_(static_cast<std::uint64_t>(interval_ticks)),
       least_ticks_(ticks_of(kRecord_s, life.period_s)),
       telemetry_(folder, begun_.life, life.period_s, limits, [this](const Gap& gap) { note_gap(gap); }) {
-  if (begun_.goes_on) go_on_after(folder);
+  if (begun_.goes_on) go_on_after_cut();
 }
 
 // Numbers of records and facts go on, too.
-void Recorder::go_on_after(const std::string& folder) {
-  const Reader before(folder);
+void Recorder::go_on_after_cut() {
+  const Reader before(folder_);
   const auto recorded = before.recorded();
   if (!recorded) return;
   const std::vector<std::string> newest = before.telemetry({recorded->last, recorded->last});
@@ -103,16 +105,17 @@ void Recorder::note_gap(const Gap& gap) {
   std::fprintf(stderr, "liana-archive: alarm: %s of ticks %llu to %llu are missing: %s\n", gap.what.c_str(),
                static_cast<unsigned long long>(gap.first_tick), static_cast<unsigned long long>(gap.last_tick),
                gap.text.c_str());
-  was_disk_full_ = was_disk_full_ || gap.text == kDiskFull || gap.text == kRoomForRows;
+  was_disk_full_ = was_disk_full_ || gap.text == kDiskFull || gap.text == kRoomForRows || gap.text == kRoomOnDisk;
   ledger_.add(gap);
 }
 
-// A full disk: telemetry makes room. Where that is not enough all waits, and is tried again with what comes next.
+// A full disk: the ring makes room, then telemetry. Where that is not enough all waits, and is tried again with what
+// comes next.
 void Recorder::commit() {
   must_commit_ = false;
   last_commit_ = last_tick_;
   bool done = ledger_.commit();
-  while (!done && telemetry_.make_room()) done = ledger_.commit();
+  while (!done && (drop_oldest_ring_file(folder_) || telemetry_.make_room())) done = ledger_.commit();
   if (!done && !is_alarmed_) std::fputs("liana-archive: alarm: the disk is full: events and commands wait\n", stderr);
   is_alarmed_ = !done;
   was_disk_full_ = was_disk_full_ || !done;

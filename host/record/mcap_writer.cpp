@@ -102,7 +102,7 @@ void McapWriter::close_chunk() {
   }
   summary_.note_chunk(chunk_, offset, length, content, index_offsets, written_ - offset - length);
   chunk_ = OpenChunk{};
-  std::fflush(file_.get());
+  failed_ = std::fflush(file_.get()) != 0 || failed_;
 }
 
 void McapWriter::finish() {
