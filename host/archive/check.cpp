@@ -32,12 +32,14 @@ LifeCheck check_life(const Reader& reader, std::vector<std::string>& problems) {
   LifeCheck life;
   life.number = reader.life_number();
   life.finished = reader.is_finished();
+  life.period_s = reader.life().period_s;
   life.gaps = reader.gaps();
   const Counts counts = reader.counts();
   life.commands = counts.commands;
   life.refused = counts.refused;
   check_events(reader, life, problems);
   check_telemetry(reader, life);
+  life.ring = check_ring(reader.folder(), life.number, problems);
   return life;
 }
 
@@ -52,6 +54,7 @@ Check check(const std::string& folder) {
   for (std::uint64_t life = 1; life <= newest.lives(); ++life) {
     try {
       result.lives.push_back(check_life(Reader(folder, life), result.problems));
+      result.bytes += result.lives.back().ring.bytes;
     } catch (const std::runtime_error& error) {
       result.problems.push_back(error.what());
     }

@@ -177,6 +177,7 @@ struct LogOptions {
   double from_s = 0.0;  // arm time
   double to_s = 1e9;
   std::string csv, mcap, candump;  // of log export: files
+  std::string ticks;               // of log export: a folder
   bool json = false;
 };
 // The newest runs: name, begin, how each ended, length and size.

@@ -13,6 +13,7 @@ struct FieldWidths {
   std::string inputs;       // up to telecommand_present, which is the last byte
   std::string telecommand;  // what follows where that is 1
   std::string outputs;
+  bool operator==(const FieldWidths&) const = default;
 };
 
 // Of a robot with so many drives, thetas and segments.
