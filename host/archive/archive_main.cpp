@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "host/api/client.hpp"
+#include "host/archive/alarms.hpp"
 #include "host/archive/inbox.hpp"
 #include "host/archive/recorder.hpp"
 #include "host/archive/ring_thread.hpp"
@@ -48,10 +49,11 @@ liana::archive::Life life_from(const liana::record::RecordingInfo& info) {
 // Where everything goes: the archive and, with --record, the files of every tick and of every state as it came.
 class Books {
  public:
-  Books(const std::string& folder, const std::string& record, const Json& welcome)
+  Books(const std::string& folder, const std::string& record, const Json& welcome, liana::archive::Alarms& alarms)
       : info_(info_from(welcome)),
         life_(life_from(info_)),
-        recorder_(folder, life_, welcome.at("interval_ticks"), {}, welcome.at("events").at("next")) {
+        recorder_(folder, life_, welcome.at("interval_ticks"), {}, welcome.at("events").at("next"),
+                  [&alarms](const std::string& text, std::uint64_t count) { alarms.add(text, count); }) {
     if (record.empty()) return;
     ticks_.emplace(record, info_);
     states_.emplace(record, info_.period_s);
@@ -95,14 +97,17 @@ class Books {
 };
 
 // Until lianad ends or a signal comes. A state is answered with done, so that in lockstep time no tick is ever lost.
-void read_until_end(liana::api::ApiClient& client, Inbox& inbox, liana::archive::RingThread& ring, bool records_ticks) {
+void read_until_end(liana::api::ApiClient& client, Inbox& inbox, liana::archive::RingThread& ring,
+                    liana::archive::Alarms& alarms, bool records_ticks) {
   std::string packet;
   while (g_stop == 0 && !inbox.is_closed()) {
     if (!client.receive_bytes(packet, 0.5)) continue;
     Json message;
     if (packet[0] == '{') message = Json::parse(packet);
-    if (message.is_object() && message.value("op", "") == "state")
+    if (message.is_object() && message.value("op", "") == "state") {
+      if (const auto alarm = alarms.take()) client.send(*alarm);
       client.send({{"op", "done"}, {"tick", message.at("tick")}});
+    }
     ring.take(packet, message);
     if (!message.is_null() || records_ticks) inbox.put({std::move(packet), std::move(message)});
   }
@@ -133,13 +138,14 @@ int run(const std::string& api, const std::string& folder, const std::string& re
   client.send(hello());
   const std::optional<Json> welcome = client.receive(30.0);
   if (!welcome) throw std::runtime_error("lianad did not answer the archive's hello within 30 s");
-  Books books(folder, record, *welcome);
+  liana::archive::Alarms alarms;
+  Books books(folder, record, *welcome, alarms);
   Inbox inbox;
   std::exception_ptr problem;
   std::thread writer([&] { problem = write_until_closed(books, inbox); });
   liana::archive::RingThread ring(folder, books.life_number(), books.life(), inbox);
   try {
-    read_until_end(client, inbox, ring, !record.empty());
+    read_until_end(client, inbox, ring, alarms, !record.empty());
   } catch (const std::runtime_error& gone) {
     std::fprintf(stderr, "liana-archive: %s; finishing the recording\n", gone.what());
   }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "host/archive/reader.hpp"
 #include "host/archive/ring_files.hpp"
@@ -21,8 +22,9 @@ std::uint64_t ticks_of(double seconds, double period_s) {
 }  // namespace
 
 Recorder::Recorder(const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits,
-                   std::uint64_t next_event)
+                   std::uint64_t next_event, OnAlarm on_alarm)
     : folder_(folder),
+      on_alarm_(std::move(on_alarm)),
       ledger_(folder),
       begun_(ledger_.begin(life, next_event)),
       period_s_(life.period_s),
@@ -102,10 +104,12 @@ void Recorder::take_verdict(std::uint64_t tick, const Json& verdict) {
 }
 
 void Recorder::note_gap(const Gap& gap) {
-  std::fprintf(stderr, "liana-archive: alarm: %s of ticks %llu to %llu are missing: %s\n", gap.what.c_str(),
-               static_cast<unsigned long long>(gap.first_tick), static_cast<unsigned long long>(gap.last_tick),
-               gap.text.c_str());
-  was_disk_full_ = was_disk_full_ || gap.text == kDiskFull || gap.text == kRoomForRows || gap.text == kRoomOnDisk;
+  const std::string text = gap.what + " of ticks " + std::to_string(gap.first_tick) + " to " +
+                           std::to_string(gap.last_tick) + " are missing: " + gap.text;
+  std::fprintf(stderr, "liana-archive: alarm: %s\n", text.c_str());
+  const bool is_of_disk = gap.text == kDiskFull || gap.text == kRoomForRows || gap.text == kRoomOnDisk;
+  if (is_of_disk || gap.what == "ticks") on_alarm_(text, gap.count);
+  was_disk_full_ = was_disk_full_ || is_of_disk;
   ledger_.add(gap);
 }
 
@@ -116,7 +120,10 @@ void Recorder::commit() {
   last_commit_ = last_tick_;
   bool done = ledger_.commit();
   while (!done && (drop_oldest_ring_file(folder_) || telemetry_.make_room())) done = ledger_.commit();
-  if (!done && !is_alarmed_) std::fputs("liana-archive: alarm: the disk is full: events and commands wait\n", stderr);
+  if (!done && !is_alarmed_) {
+    std::fputs("liana-archive: alarm: the disk is full: events and commands wait\n", stderr);
+    on_alarm_("the disk is full: events and commands wait", 0);
+  }
   is_alarmed_ = !done;
   was_disk_full_ = was_disk_full_ || !done;
 }

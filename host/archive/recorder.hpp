@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -17,8 +18,11 @@ class Recorder {
  public:
   // Begins a life in the archive of the folder, which must exist, or goes on with one whose recorder was cut off
   // (Ledger::begin); what happened since then and before the next state is a gap. Throws DatabaseError.
-  Recorder(const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits = {},
-           std::uint64_t next_event = 0);
+  // `on_alarm` hears what a full disk takes and what the ring misses, in words for an operator, and of how many.
+  using OnAlarm = std::function<void(const std::string& text, std::uint64_t count)>;
+  Recorder(
+      const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits = {},
+      std::uint64_t next_event = 0, OnAlarm on_alarm = [](const std::string&, std::uint64_t) {});
 
   // One message of lianad: `state`, `event` or `events_lost`; others are ignored. Throws JsonError for one that is not
   // as docs/api.md says, DatabaseError when the archive cannot be written for another reason than a full disk.
@@ -45,6 +49,7 @@ class Recorder {
   void go_on_after_cut();
 
   const std::string folder_;
+  const OnAlarm on_alarm_;
   Ledger ledger_;
   const Ledger::Begun begun_;
   const double period_s_;
