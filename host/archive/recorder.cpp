@@ -128,10 +128,20 @@ void Recorder::commit() {
   was_disk_full_ = was_disk_full_ || !done;
 }
 
+// To leave plain files takes room, too.
 void Recorder::finish() {
-  telemetry_.finish();
+  const auto with_room = [this](const auto& act) {
+    for (;;) {
+      try {
+        return act();
+      } catch (const DatabaseError& error) {
+        if (!error.is_full || !drop_oldest_ring_file(folder_, false)) throw;
+      }
+    }
+  };
+  with_room([this] { telemetry_.finish(); });
   commit();
-  ledger_.finish();
+  with_room([this] { ledger_.finish(); });
 }
 
 }  // namespace liana::archive
