@@ -135,6 +135,10 @@ constexpr std::array kUseDevice{
 constexpr std::array kMissionControl{word("command", kMissionCommands, "what the mission should do")};
 constexpr std::array kRetract{
     integer("until_tick", 0.0, kBiggestWhole, "not farther back than the arm was then").otherwise(0.0)};
+constexpr std::array kArchiveAlarm{
+    text("text", 256, "what is lost or waits, and why"),
+    integer("count", 0.0, kBiggestWhole, "how many records, ticks or rows are lost so far by it"),
+};
 constexpr std::array kTool{text("command", 64, "what the tool should do")};
 constexpr std::array kStop{text("reason", 200, "why, shown by `state`: any JSON value, cut to 200 bytes").optional()};
 constexpr std::array kTiming{flag("reset", "all counts begin anew after this answer").otherwise(0.0)};

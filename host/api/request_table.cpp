@@ -116,6 +116,10 @@ constexpr std::array kTable{
                .fields = kDevice,
                .roles = only(Role::kOperator),
                .arms = kCableArm},
+    RequestRow{.op = "archive_alarm",
+               .doc = "The flight recorder loses something, as on a full disk; becomes an event.",
+               .fields = kArchiveAlarm,
+               .roles = only(Role::kArchive)},
     RequestRow{.op = "camera", .doc = "What the tip camera has seen.", .fields = kCamera, .roles = only(Role::kCamera)},
 };
 

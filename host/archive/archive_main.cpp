@@ -1,5 +1,5 @@
-// liana-archive: the flight recorder of a run. Writes what lianad says into an archive (docs/archive.md) and, with
-// --record, every tick into MCAP files. lianad itself writes neither.
+// liana-archive: the flight recorder of a run. Writes what lianad says into an archive (docs/archive.md), every tick
+// into its ring and, with --record, into MCAP files. lianad itself writes none of them.
 #include <csignal>
 #include <cstdio>
 #include <ctime>
@@ -9,8 +9,10 @@
 #include <utility>
 
 #include "host/api/client.hpp"
+#include "host/archive/alarms.hpp"
 #include "host/archive/inbox.hpp"
 #include "host/archive/recorder.hpp"
+#include "host/archive/ring_thread.hpp"
 #include "host/command_line/command_line.hpp"
 #include "host/json/json.hpp"
 #include "host/record/build_id.hpp"
@@ -47,9 +49,11 @@ liana::archive::Life life_from(const liana::record::RecordingInfo& info) {
 // Where everything goes: the archive and, with --record, the files of every tick and of every state as it came.
 class Books {
  public:
-  Books(const std::string& folder, const std::string& record, const Json& welcome)
+  Books(const std::string& folder, const std::string& record, const Json& welcome, liana::archive::Alarms& alarms)
       : info_(info_from(welcome)),
-        recorder_(folder, life_from(info_), welcome.at("interval_ticks"), {}, welcome.at("events").at("next")) {
+        life_(life_from(info_)),
+        recorder_(folder, life_, welcome.at("interval_ticks"), {}, welcome.at("events").at("next"),
+                  [&alarms](const std::string& text, std::uint64_t count) { alarms.add(text, count); }) {
     if (record.empty()) return;
     ticks_.emplace(record, info_);
     states_.emplace(record, info_.period_s);
@@ -60,8 +64,9 @@ class Books {
       return;
     }
     recorder_.take(letter.message);
-    if (!states_) return;
     const std::string op = letter.message.value("op", "");
+    if (op == "gap") recorder_.note_gap(liana::archive::gap_from(letter.message));
+    if (!states_) return;
     if (op == "event" || op == "events_lost") states_->take_event(letter.packet, letter.message);
     if (op == "state") states_->take(letter.packet, letter.message);
   }
@@ -70,6 +75,8 @@ class Books {
     if (ticks_) ticks_->finish();
     if (states_) states_->finish();
   }
+  const liana::archive::Life& life() const { return life_; }
+  std::uint64_t life_number() const { return recorder_.life(); }
   bool is_whole() const { return !recorder_.was_disk_full(); }
   void tell(const std::string& record) const {
     const auto number = [](std::uint64_t count) { return static_cast<unsigned long long>(count); };
@@ -83,21 +90,26 @@ class Books {
 
  private:
   liana::record::RecordingInfo info_;
+  liana::archive::Life life_;
   liana::archive::Recorder recorder_;
   std::optional<liana::record::Recording> ticks_;
   std::optional<liana::record::StateRecording> states_;
 };
 
 // Until lianad ends or a signal comes. A state is answered with done, so that in lockstep time no tick is ever lost.
-void read_until_end(liana::api::ApiClient& client, Inbox& inbox) {
+void read_until_end(liana::api::ApiClient& client, Inbox& inbox, liana::archive::RingThread& ring,
+                    liana::archive::Alarms& alarms, bool records_ticks) {
   std::string packet;
   while (g_stop == 0 && !inbox.is_closed()) {
     if (!client.receive_bytes(packet, 0.5)) continue;
     Json message;
     if (packet[0] == '{') message = Json::parse(packet);
-    if (message.is_object() && message.value("op", "") == "state")
+    if (message.is_object() && message.value("op", "") == "state") {
+      if (const auto alarm = alarms.take()) client.send(*alarm);
       client.send({{"op", "done"}, {"tick", message.at("tick")}});
-    inbox.put({std::move(packet), std::move(message)});
+    }
+    ring.take(packet, message);
+    if (!message.is_null() || records_ticks) inbox.put({std::move(packet), std::move(message)});
   }
 }
 
@@ -112,42 +124,48 @@ std::exception_ptr write_until_closed(Books& books, Inbox& inbox) {
   }
 }
 
-Json hello(bool every_tick) {
-  Json topics = {"state", "event"};
-  if (every_tick) topics.push_back("tick");
-  return {{"op", "hello"},    {"name", "archive"},   {"role", "archive"},
-          {"lockstep", true}, {"subscribe", topics}, {"events_from", 1}};
+Json hello() {
+  return {{"op", "hello"},
+          {"name", "archive"},
+          {"role", "archive"},
+          {"lockstep", true},
+          {"subscribe", {"state", "event", "tick"}},
+          {"events_from", 1}};
 }
 
 int run(const std::string& api, const std::string& folder, const std::string& record) {
   liana::api::ApiClient client = liana::api::ApiClient::connect(api, 10.0);
-  client.send(hello(!record.empty()));
+  client.send(hello());
   const std::optional<Json> welcome = client.receive(30.0);
   if (!welcome) throw std::runtime_error("lianad did not answer the archive's hello within 30 s");
-  Books books(folder, record, *welcome);
+  liana::archive::Alarms alarms;
+  Books books(folder, record, *welcome, alarms);
   Inbox inbox;
   std::exception_ptr problem;
   std::thread writer([&] { problem = write_until_closed(books, inbox); });
+  liana::archive::RingThread ring(folder, books.life_number(), books.life(), inbox);
   try {
-    read_until_end(client, inbox);
+    read_until_end(client, inbox, ring, alarms, !record.empty());
   } catch (const std::runtime_error& gone) {
     std::fprintf(stderr, "liana-archive: %s; finishing the recording\n", gone.what());
   }
+  ring.finish();
   inbox.close();
   writer.join();
   books.finish();
   if (problem) std::rethrow_exception(problem);
   books.tell(record);
-  return books.is_whole() ? 0 : 1;
+  ring.tell();
+  return books.is_whole() && ring.is_good() ? 0 : 1;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   std::string api, folder, record;
-  liana::command_line::CommandLine line("The flight recorder: events, commands and telemetry of a run");
+  liana::command_line::CommandLine line("The flight recorder: events, commands, telemetry and every tick of a run");
   line.option("--api", api, "API socket of lianad").required();
-  line.option("--archive", folder, "folder for archive.db and telemetry; where not given, that of --record")
+  line.option("--archive", folder, "folder for archive.db, telemetry and ring; where not given, that of --record")
       .existing_folder();
   line.option("--record", record, "folder for ticks.mcap, images.mcap and state.mcap").existing_folder();
   if (const auto code = line.parse(argc, argv)) return *code;

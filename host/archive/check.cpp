@@ -32,6 +32,7 @@ LifeCheck check_life(const Reader& reader, std::vector<std::string>& problems) {
   LifeCheck life;
   life.number = reader.life_number();
   life.finished = reader.is_finished();
+  life.period_s = reader.life().period_s;
   life.gaps = reader.gaps();
   const Counts counts = reader.counts();
   life.commands = counts.commands;
@@ -40,6 +41,7 @@ LifeCheck check_life(const Reader& reader, std::vector<std::string>& problems) {
   for (const std::string& file : reader.missing_files())
     problems.push_back(reader.folder() + "/" + file + ": is missing; copy it from where the run was recorded");
   check_telemetry(reader, life);
+  life.ring = check_ring(reader.folder(), life.number, problems);
   return life;
 }
 
@@ -54,6 +56,7 @@ Check check(const std::string& folder) {
   for (std::uint64_t life = 1; life <= newest.lives(); ++life) {
     try {
       result.lives.push_back(check_life(Reader(folder, life), result.problems));
+      result.bytes += result.lives.back().ring.bytes;
     } catch (const std::runtime_error& error) {
       result.problems.push_back(error.what());
     }

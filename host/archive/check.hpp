@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/archive/ring_reader.hpp"
 #include "host/archive/rows.hpp"
 
 namespace liana::archive {
@@ -13,9 +14,11 @@ namespace liana::archive {
 struct LifeCheck {
   std::uint64_t number = 0;
   bool finished = false;
+  double period_s = 0.0;            // of the ticks
   double from_s = 0.0, to_s = 0.0;  // of telemetry, arm time
   std::uint64_t events = 0, commands = 0, refused = 0, records = 0;
   std::vector<Gap> gaps;
+  RingCheck ring;  // its ticks, at control rate
 };
 
 struct Check {
@@ -24,8 +27,8 @@ struct Check {
   std::uint64_t bytes = 0;  // of all files
 };
 
-// Reads all of it: a second for 24 hours and more. `folder`: that of a run. Throws std::runtime_error where there is no
-// archive.
+// Reads all of it: of 24 hours a second, and a minute for their ring. `folder`: that of a run. Throws
+// std::runtime_error where there is no archive.
 Check check(const std::string& folder);
 
 }  // namespace liana::archive

@@ -23,4 +23,16 @@ std::uint64_t write_mcap(const Reader& reader, Span span, const std::string& fil
 // that failed.
 std::uint64_t write_candump(const Reader& reader, Span span, const std::string& file);
 
+// Control ticks out of the ring, as `liana run --record` writes them: `folder`, which is made, gets ticks.mcap and
+// images.mcap, which `liana replay` runs. Outputs that are no longer kept are made again from the Inputs, and taken
+// only where they match the checksum of those that were. Throws std::runtime_error when the ring holds nothing of the
+// span, is damaged, or of a build with other fields, and when the folder holds a recording.
+struct TicksWritten {
+  std::uint64_t ticks = 0;       // that were written
+  std::uint64_t made_again = 0;  // of these: their Outputs
+  std::uint64_t left_out = 0;    // no Outputs are kept, and no image of this build goes before them
+  std::uint64_t differing = 0;   // this core gives other Outputs than those that were
+};
+TicksWritten write_ticks(const Reader& reader, Span span, const std::string& folder);
+
 }  // namespace liana::archive

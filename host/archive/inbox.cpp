@@ -6,10 +6,18 @@ namespace liana::archive {
 
 void Inbox::put(Letter letter) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return closed_ || letters_.size() < kMost; });
+  changed_.wait(lock, [this] { return closed_ || letters_.size() < most_; });
   if (closed_) return;
   letters_.push_back(std::move(letter));
   changed_.notify_all();
+}
+
+bool Inbox::try_put(Letter letter) {
+  const std::lock_guard lock(mutex_);
+  if (letters_.size() >= most_) return false;
+  if (!closed_) letters_.push_back(std::move(letter));
+  changed_.notify_all();
+  return true;
 }
 
 std::optional<Inbox::Letter> Inbox::take() {

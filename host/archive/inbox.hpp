@@ -23,8 +23,12 @@ class Inbox {
     Json message;        // null for a packet that is no JSON
   };
 
+  explicit Inbox(std::size_t most = kMost) : most_(most) {}
+
   // Waits while it is full; what comes after close() is thrown away.
   void put(Letter letter);
+  // Does not wait: false where it is full, and the letter is thrown away.
+  bool try_put(Letter letter);
   // Waits for one; nothing after close(), when all have been taken.
   std::optional<Letter> take();
   // Nobody waits any more.
@@ -32,6 +36,7 @@ class Inbox {
   bool is_closed();
 
  private:
+  const std::size_t most_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Letter> letters_;

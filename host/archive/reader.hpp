@@ -13,12 +13,6 @@
 
 namespace liana::archive {
 
-// A stretch of ticks, both ends included.
-struct Span {
-  std::uint64_t first = 0, last = 0;
-};
-constexpr Span kAll{0, INT64_MAX};
-
 struct Counts {
   std::uint64_t events = 0, commands = 0, refused = 0;
 };

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "host/archive/reader.hpp"
+#include "host/archive/ring_files.hpp"
 #include "host/event/event_json.hpp"
 #include "host/telemetry/record.hpp"
 
@@ -20,8 +22,10 @@ std::uint64_t ticks_of(double seconds, double period_s) {
 }  // namespace
 
 Recorder::Recorder(const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits,
-                   std::uint64_t next_event)
-    : ledger_(folder),
+                   std::uint64_t next_event, OnAlarm on_alarm)
+    : folder_(folder),
+      on_alarm_(std::move(on_alarm)),
+      ledger_(folder),
       begun_(ledger_.begin(life, next_event)),
       period_s_(life.period_s),
       interval_ticks_(static_cast<std::uint64_t>(interval_ticks)),
@@ -29,12 +33,12 @@ Recorder::Recorder(const std::string& folder, const Life& life, int interval_tic
       telemetry_(
           folder, begun_.life, life.period_s, limits, [this](const Gap& gap) { note_gap(gap); },
           [this](std::uint64_t first_tick) { ledger_.add_telemetry_file(first_tick); }) {
-  if (begun_.goes_on) go_on_after(folder);
+  if (begun_.goes_on) go_on_after_cut();
 }
 
 // Numbers of records and facts go on, too.
-void Recorder::go_on_after(const std::string& folder) {
-  const Reader before(folder);
+void Recorder::go_on_after_cut() {
+  const Reader before(folder_);
   const auto recorded = before.recorded();
   if (!recorded) return;
   const std::vector<std::string> newest = before.telemetry({recorded->last, recorded->last});
@@ -103,28 +107,44 @@ void Recorder::take_verdict(std::uint64_t tick, const Json& verdict) {
 }
 
 void Recorder::note_gap(const Gap& gap) {
-  std::fprintf(stderr, "liana-archive: alarm: %s of ticks %llu to %llu are missing: %s\n", gap.what.c_str(),
-               static_cast<unsigned long long>(gap.first_tick), static_cast<unsigned long long>(gap.last_tick),
-               gap.text.c_str());
-  was_disk_full_ = was_disk_full_ || gap.text == kDiskFull || gap.text == kRoomForRows;
+  const std::string text = gap.what + " of ticks " + std::to_string(gap.first_tick) + " to " +
+                           std::to_string(gap.last_tick) + " are missing: " + gap.text;
+  std::fprintf(stderr, "liana-archive: alarm: %s\n", text.c_str());
+  const bool is_of_disk = gap.text == kDiskFull || gap.text == kRoomForRows || gap.text == kRoomOnDisk;
+  if (is_of_disk || gap.what == "ticks") on_alarm_(text, gap.count);
+  was_disk_full_ = was_disk_full_ || is_of_disk;
   ledger_.add(gap);
 }
 
-// A full disk: telemetry makes room. Where that is not enough all waits, and is tried again with what comes next.
+// A full disk: the ring makes room, then telemetry. Where that is not enough all waits, and is tried again with what
+// comes next.
 void Recorder::commit() {
   must_commit_ = false;
   last_commit_ = last_tick_;
   bool done = ledger_.commit();
-  while (!done && telemetry_.make_room()) done = ledger_.commit();
-  if (!done && !is_alarmed_) std::fputs("liana-archive: alarm: the disk is full: events and commands wait\n", stderr);
+  while (!done && (drop_oldest_ring_file(folder_) || telemetry_.make_room())) done = ledger_.commit();
+  if (!done && !is_alarmed_) {
+    std::fputs("liana-archive: alarm: the disk is full: events and commands wait\n", stderr);
+    on_alarm_("the disk is full: events and commands wait", 0);
+  }
   is_alarmed_ = !done;
   was_disk_full_ = was_disk_full_ || !done;
 }
 
+// To leave plain files takes room, too.
 void Recorder::finish() {
-  telemetry_.finish();
+  const auto with_room = [this](const auto& act) {
+    for (;;) {
+      try {
+        return act();
+      } catch (const DatabaseError& error) {
+        if (!error.is_full || !drop_oldest_ring_file(folder_, false)) throw;
+      }
+    }
+  };
+  with_room([this] { telemetry_.finish(); });
   commit();
-  ledger_.finish();
+  with_room([this] { ledger_.finish(); });
 }
 
 }  // namespace liana::archive

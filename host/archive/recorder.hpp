@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -17,15 +18,21 @@ class Recorder {
  public:
   // Begins a life in the archive of the folder, which must exist, or goes on with one whose recorder was cut off
   // (Ledger::begin); what happened since then and before the next state is a gap. Throws DatabaseError.
-  Recorder(const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits = {},
-           std::uint64_t next_event = 0);
+  // `on_alarm` hears what a full disk takes and what the ring misses, in words for an operator, and of how many.
+  using OnAlarm = std::function<void(const std::string& text, std::uint64_t count)>;
+  Recorder(
+      const std::string& folder, const Life& life, int interval_ticks, TelemetryLimits limits = {},
+      std::uint64_t next_event = 0, OnAlarm on_alarm = [](const std::string&, std::uint64_t) {});
 
   // One message of lianad: `state`, `event` or `events_lost`; others are ignored. Throws JsonError for one that is not
   // as docs/api.md says, DatabaseError when the archive cannot be written for another reason than a full disk.
   void take(const Json& message);
+  // Something else of the run that is not there (host/archive/ring.hpp): said on standard error, and kept.
+  void note_gap(const Gap& gap);
   // Writes what waits and leaves plain files.
   void finish();
 
+  std::uint64_t life() const { return begun_.life; }
   std::uint64_t states() const { return states_; }
   // Events, commands and gaps that outlive loss of power; and those that a full disk took.
   std::uint64_t durable() const { return ledger_.durable(); }
@@ -37,11 +44,12 @@ class Recorder {
   void take_state(const Json& state);
   void take_verdict(std::uint64_t tick, const Json& verdict);
   void take_facts(std::uint64_t tick, const Json& state);
-  void note_gap(const Gap& gap);
   void commit();
 
-  void go_on_after(const std::string& folder);
+  void go_on_after_cut();
 
+  const std::string folder_;
+  const OnAlarm on_alarm_;
   Ledger ledger_;
   const Ledger::Begun begun_;
   const double period_s_;

@@ -8,6 +8,12 @@
 
 namespace liana::archive {
 
+// A stretch of ticks, both ends included.
+struct Span {
+  std::uint64_t first = 0, last = 0;
+};
+constexpr Span kAll{0, INT64_MAX};
+
 // One life of lianad.
 struct Life {
   std::string config_hash, robot, scene, buses;  // the last three: JSON, as the welcome has them

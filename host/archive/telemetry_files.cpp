@@ -5,6 +5,7 @@
 
 #include "host/archive/chunk.hpp"
 #include "host/archive/facts_change.hpp"
+#include "host/archive/ring_files.hpp"
 #include "host/archive/schema.hpp"
 #include "host/archive/segments.hpp"
 #include "host/json/json.hpp"
@@ -105,7 +106,7 @@ void TelemetryFiles::flush() {
     } catch (const DatabaseError& error) {
       if (!error.is_full) throw;
       if (file_) file_->told.reset();  // it was not written
-      if (drop_oldest(kDiskFull, false)) continue;
+      if (drop_oldest_ring_file(folder_) || drop_oldest(kDiskFull, false)) continue;
       lose_second();
       break;
     }

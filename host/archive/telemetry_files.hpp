@@ -25,6 +25,7 @@ struct TelemetryLimits {
 constexpr const char* kTooOld = "older than the archive keeps";
 constexpr const char* kDiskFull = "the disk is full";
 constexpr const char* kRoomForRows = "the disk is full: room for commands and events";
+constexpr const char* kRoomOnDisk = "the disk is full: the oldest ticks of the ring go from here on";
 
 class TelemetryFiles {
  public:
@@ -39,7 +40,8 @@ class TelemetryFiles {
   void set_facts(const Facts& facts);
   // One record; ticks rise. Writes when a second is together.
   void add(std::uint64_t tick, const std::string& record);
-  // Writes what waits. A full disk costs the oldest file, and where there is none this second. Throws DatabaseError
+  // Writes what waits. A full disk costs the oldest file of the ring, then of telemetry, and where there is none this
+  // second. Throws DatabaseError
   // for anything else.
   void flush();
   // Makes room for what may not be dropped: the oldest file goes, in the end the one that is written. False: there is

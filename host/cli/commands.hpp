@@ -180,6 +180,7 @@ struct LogOptions {
   double from_s = 0.0;  // arm time
   double to_s = kLatestArmTime_s;
   std::string csv, mcap, candump;  // of log export: files
+  std::string ticks;               // of log export: a folder
   bool json = false;
 };
 // The newest runs: name, begin, how each ended, length and size.

@@ -9,6 +9,7 @@
 #include "host/archive/check.hpp"
 #include "host/archive/export.hpp"
 #include "host/archive/reader.hpp"
+#include "host/archive/ring_reader.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/run_choice.hpp"
 #include "host/event/event_json.hpp"
@@ -31,6 +32,22 @@ std::string report_text(const std::string& folder, const char* member, const cha
   return found.is_string() ? found.text() : fallback;
 }
 
+// Which time the control ticks are of; null without any.
+Json ring_json(const archive::RingReader& ring, double period_s) {
+  const auto ticks = ring.recorded();
+  if (!ticks) return nullptr;
+  return {{"from_s", static_cast<double>(ticks->first) * period_s},
+          {"to_s", static_cast<double>(ticks->last) * period_s},
+          {"bytes", ring.bytes()}};
+}
+
+std::string ring_text(const Json& ring) {
+  if (!ring.is_object()) return "-";
+  char text[64];
+  std::snprintf(text, sizeof text, "%.1f-%.1f s", ring.value("from_s", 0.0), ring.value("to_s", 0.0));
+  return text;
+}
+
 // One line of the list; an archive that cannot be read says why in place of its outcome.
 Json run_json(const std::string& folder) {
   Json run{{"name", fs::path(folder).filename().string()},
@@ -44,7 +61,9 @@ Json run_json(const std::string& folder) {
     run["lives"] = reader.lives();
     run["finished"] = reader.is_finished();
     run["length_s"] = recorded ? static_cast<double>(recorded->last) * reader.life().period_s : 0.0;
-    run["bytes"] = reader.bytes();
+    const archive::RingReader ring(folder, reader.life_number());
+    run["bytes"] = reader.bytes() + ring.bytes();
+    run["ring"] = ring_json(ring, reader.life().period_s);
   } catch (const std::runtime_error& error) {
     run["problem"] = error.what();
   }
@@ -56,9 +75,9 @@ void print_run(const Json& run) {
     std::printf("%-18s %s\n", run.at("name").text().c_str(), run.at("problem").text().c_str());
     return;
   }
-  std::printf("%-18s %-20s %-9s %8.1f s %7.1f MB  %s\n", run.at("name").text().c_str(),
+  std::printf("%-18s %-20s %-9s %8.1f s %7.1f MB  ticks %-16s  %s\n", run.at("name").text().c_str(),
               run.at("started_utc").text().c_str(), run.at("outcome").text().c_str(), run.value("length_s", 0.0),
-              run.value("bytes", 0.0) / 1e6, run.at("mission").text().c_str());
+              run.value("bytes", 0.0) / 1e6, ring_text(run.at("ring")).c_str(), run.at("mission").text().c_str());
 }
 
 using ByCommand = std::map<std::uint64_t, archive::Command>;
@@ -94,6 +113,29 @@ void print_shown(const Json& line) {
   if (!remedy.empty()) std::printf("%26s what to do: %s\n", "", remedy.c_str());
 }
 
+Json ring_check_json(const archive::LifeCheck& life) {
+  const archive::RingCheck& ring = life.ring;
+  return {{"from_s", static_cast<double>(ring.first_tick) * life.period_s},
+          {"to_s", static_cast<double>(ring.last_tick) * life.period_s},
+          {"ticks", ring.ticks},
+          {"full_ticks", ring.full_ticks},
+          {"missing", ring.missing},
+          {"images", ring.images},
+          {"files", ring.files},
+          {"cut_short", ring.cut_short},
+          {"bytes", ring.bytes}};
+}
+
+void print_ring(const archive::LifeCheck& life) {
+  const archive::RingCheck& ring = life.ring;
+  std::printf("  ring: %.1f to %.1f s, %" PRIu64 " ticks, %" PRIu64 " of them with Outputs, %" PRIu64
+              " missing, %" PRIu64 " files (%.1f MB)",
+              static_cast<double>(ring.first_tick) * life.period_s, static_cast<double>(ring.last_tick) * life.period_s,
+              ring.ticks, ring.full_ticks, ring.missing, ring.files, static_cast<double>(ring.bytes) / 1e6);
+  if (ring.cut_short > 0) std::printf(", %" PRIu64 " not ended: all that is in them is good", ring.cut_short);
+  std::puts("");
+}
+
 Json check_json(const archive::Check& check) {
   Json lives = Json::array();
   for (const archive::LifeCheck& life : check.lives) {
@@ -113,6 +155,7 @@ Json check_json(const archive::Check& check) {
                      {"commands", life.commands},
                      {"refused", life.refused},
                      {"records", life.records},
+                     {"ring", ring_check_json(life)},
                      {"gaps", gaps}});
   }
   return {{"whole", check.problems.empty()}, {"problems", check.problems}, {"bytes", check.bytes}, {"lives", lives}};
@@ -125,11 +168,38 @@ void print_check(const archive::Check& check) {
                 " commands, %" PRIu64 " refused, %zu gaps%s\n",
                 life.number, life.from_s, life.to_s, life.records, life.events, life.commands, life.refused,
                 life.gaps.size(), life.finished ? "" : "; its recorder still writes, or was killed");
+    print_ring(life);
     for (const archive::Gap& gap : life.gaps)
       std::printf("  gap: %s, ticks %" PRIu64 " to %" PRIu64 ", %" PRIu64 ": %s\n", gap.what.c_str(), gap.first_tick,
                   gap.last_tick, gap.count, gap.text.c_str());
   }
   std::printf("%s, %.1f MB\n", check.problems.empty() ? "whole" : "NOT whole", static_cast<double>(check.bytes) / 1e6);
+}
+
+// 0 when no tick of the time was left out and none differs.
+int export_ticks(const archive::Reader& reader, archive::Span span, const LogOptions& options, Json& written) {
+  const archive::TicksWritten result = archive::write_ticks(reader, span, options.ticks);
+  written.push_back({{"file", options.ticks},
+                     {"count", result.ticks},
+                     {"unit", "ticks"},
+                     {"made_again", result.made_again},
+                     {"left_out", result.left_out},
+                     {"differing", result.differing}});
+  if (!options.json) {
+    std::printf("%s: %" PRIu64 " ticks, Outputs of %" PRIu64 " of them made again from their Inputs\n",
+                options.ticks.c_str(), result.ticks, result.made_again);
+  }
+  if (result.left_out > 0) {
+    std::fprintf(stderr,
+                 "liana: %" PRIu64
+                 " ticks were left out: their Outputs are not kept, and no image of this build goes "
+                 "before them; the build that recorded makes them again, or begin later\n",
+                 result.left_out);
+  }
+  if (result.differing > 0)
+    std::fprintf(stderr, "liana: this core gives other Outputs for %" PRIu64 " ticks than they had\n",
+                 result.differing);
+  return result.left_out + result.differing == 0 ? system::kExitOk : system::kExitFailure;
 }
 
 std::string seconds(double value_s) {
@@ -186,8 +256,8 @@ int log_export_command(const LogOptions& options) {
       {"--csv", "rows", options.csv, archive::write_csv},
       {"--mcap", "messages", options.mcap, archive::write_mcap},
       {"--candump", "frames", options.candump, archive::write_candump}};
-  if (options.csv.empty() && options.mcap.empty() && options.candump.empty())
-    throw system::BadInput("log export: no file given; give --csv, --mcap or --candump");
+  if (options.csv.empty() && options.mcap.empty() && options.candump.empty() && options.ticks.empty())
+    throw system::BadInput("log export: no file given; give --csv, --mcap, --candump or --ticks");
   for (const auto& [option, unit, file, write] : kinds) {
     if (!file.empty()) system::check_output(option, file);
   }
@@ -199,8 +269,10 @@ int log_export_command(const LogOptions& options) {
     if (!options.json) std::printf("%s: %" PRIu64 " %s\n", file.c_str(), count, unit);
     written.push_back({{"file", file}, {"count", count}, {"unit", unit}});
   }
+  const int code =
+      options.ticks.empty() ? system::kExitOk : export_ticks(reader, span_of(options, reader), options, written);
   if (options.json) std::puts(written.dump().c_str());
-  return system::kExitOk;
+  return code;
 }
 
 int log_verify_command(const LogOptions& options) {

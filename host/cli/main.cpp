@@ -331,8 +331,8 @@ void add_log(CLI::App& app, Action& action, LogOptions& log) {
   CLI::App* show = add(*all, action, "show", "events, refusals, faults, steps of a run", log, log_show_command);
   CLI::App* verify =
       add(*all, action, "verify", "whether an archive is whole, and what it holds", log, log_verify_command);
-  CLI::App* exported =
-      add(*all, action, "export", "a run for other tools: CSV, MCAP (Foxglove), candump", log, log_export_command);
+  CLI::App* exported = add(*all, action, "export", "a run for other tools: CSV, MCAP (Foxglove), candump, ticks", log,
+                           log_export_command);
   for (CLI::App* sub : {show, exported, verify})
     sub->add_option("run", log.run, "a folder, or the name of one of the newest runs; the newest where not given");
   for (CLI::App* sub : {show, exported}) {
@@ -342,6 +342,7 @@ void add_log(CLI::App& app, Action& action, LogOptions& log) {
   exported->add_option("--csv", log.csv, "file for telemetry as a table");
   exported->add_option("--mcap", log.mcap, "file for the arm in its scene, angles, events, as Foxglove shows them");
   exported->add_option("--candump", log.candump, "file for the traffic of all buses");
+  exported->add_option("--ticks", log.ticks, "folder for every control tick, as --record writes it: liana replay");
   for (CLI::App* sub : {list, show, exported, verify}) sub->add_flag("--json", log.json, "print JSON");
 }
 

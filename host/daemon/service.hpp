@@ -89,6 +89,7 @@ class Service : private api::ApiHandler {
   Json on_shutdown(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_announce(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_mission_control(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_archive_alarm(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_operator_says(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_device(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_camera(const api::ClientInfo& client, const api::Arguments& fields);

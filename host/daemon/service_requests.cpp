@@ -18,6 +18,7 @@ const std::map<std::string, Service::Handler>& Service::handlers() {
                                                         {"announce", &Service::on_announce},
                                                         {"mission_control", &Service::on_mission_control},
                                                         {"operator_says", &Service::on_operator_says},
+                                                        {"archive_alarm", &Service::on_archive_alarm},
                                                         {"device", &Service::on_device},
                                                         {"camera", &Service::on_camera},
                                                         {"timing", &Service::on_timing}};
@@ -171,6 +172,16 @@ Json Service::on_operator_says(const api::ClientInfo& client, const api::Argumen
   const std::string what = fields.text("what");
   notes_.operator_says = {{"what", what}, {"tick", tick()}};
   note({.kind = event::EventKind::kOperator, .subject = client.name, .text = what});
+  return Json::object();
+}
+
+// Nothing of the arm depends on the archive: it is said, and the arm goes on.
+Json Service::on_archive_alarm(const api::ClientInfo& client, const api::Arguments& fields) {
+  note({.kind = event::EventKind::kHostTrouble,
+        .number = event::number_of(event::HostTroubleEvent::kArchive),
+        .subject = printable(client.name),
+        .values = {{"count", static_cast<double>(fields.integer("count"))}},
+        .text = "archive: " + printable(fields.text("text"))});
   return Json::object();
 }
 

@@ -48,6 +48,7 @@ enum class HostTroubleEvent : std::uint8_t {
   kEventFile = 7,      // the file of events takes no more
   kEventFileGood = 8,  // it takes events again; `count` are missing in it
   kWayFile = 9,        // the file that keeps the way back takes no more
+  kArchive = 10,       // the flight recorder loses something; `count` of it, 0: it makes room on a full disk
 };
 enum class PathEvent : std::uint8_t { kRefused = 0, kBegins = 1, kArrives = 2, kStops = 3 };
 enum class WayEvent : std::uint8_t {

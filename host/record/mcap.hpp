@@ -35,6 +35,8 @@ class McapWriter {
   void write_message(std::uint16_t channel, std::uint32_t sequence, std::uint64_t time_ns, std::string_view data);
   // Hands all that was written so far to the system: it outlives the process.
   void flush() { close_chunk(); }
+  // The disk has refused a write since the file was made: what follows it is no use.
+  bool has_failed() const { return failure_ != 0; }
   // Ends the file properly, with the checksums of the format (data section, summary); throws std::runtime_error when
   // the disk refused any write. A file without it can still be read.
   void finish();

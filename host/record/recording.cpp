@@ -5,7 +5,6 @@
 #include "host/record/codec.hpp"
 #include "host/record/image.hpp"
 #include "host/record/serialise.hpp"
-#include "host/record/tick_packet.hpp"
 #include "host/record/visit_serial.hpp"
 
 namespace liana::record {
@@ -82,7 +81,7 @@ Recording::Recording(const std::string& directory, const RecordingInfo& info)
   constexpr const char* kImageSchema = "next_tick 8, fresh 1, robot table, fields of the Controller";
   start_ = ticks_file_.add_channel({kStartTopic, kImageEncoding, kImageEncoding, kImageSchema});
   image_ = images_file_.add_channel({kImageTopic, kImageEncoding, kImageEncoding, kImageSchema});
-  ticks_file_.add_metadata("run", {{"build_id", build_id()},
+  ticks_file_.add_metadata("run", {{"build_id", info.recorded_by.empty() ? build_id() : info.recorded_by},
                                    {"config_hash", info.config_hash},
                                    {"robot", info.robot_json},
                                    {"scene", info.scene_json},
@@ -104,17 +103,18 @@ void Recording::add_tick_channels(const RecordedCounts& counts) {
 }
 
 template <class Arm>
-void Recording::take_packet(std::string_view packet) {
-  if (tick_packet_kind(packet) == TickPacket::kImage) {
-    const auto image = parse_image<Arm>(packet.substr(1));
-    McapWriter& file = image.fresh ? ticks_file_ : images_file_;
-    write(file, image.fresh ? start_ : image_, image.next_tick, packet.substr(1));
-    file.flush();
-    return;
-  }
-  const TickParts parts = split_tick_packet(packet);
+void Recording::take_image(std::string_view data) {
+  const auto image = parse_image<Arm>(data);
+  McapWriter& file = image.fresh ? ticks_file_ : images_file_;
+  write(file, image.fresh ? start_ : image_, image.next_tick, data);
+  file.flush();
+}
+
+void Recording::take(const TickParts& parts) {
   const std::uint64_t tick = tick_of(parts.inputs);
-  if (inputs_ == 0) add_tick_channels<Arm>(parts.counts);
+  if (inputs_ == 0) {
+    is_serial_ ? add_tick_channels<serial::SerialArm>(parts.counts) : add_tick_channels<cable::CableArm>(parts.counts);
+  }
   write(ticks_file_, inputs_, tick, parts.inputs);
   write(ticks_file_, outputs_, tick, parts.outputs);
   dropped_ = parts.dropped;
@@ -122,7 +122,9 @@ void Recording::take_packet(std::string_view packet) {
 }
 
 void Recording::take(std::string_view packet) {
-  is_serial_ ? take_packet<serial::SerialArm>(packet) : take_packet<cable::CableArm>(packet);
+  if (tick_packet_kind(packet) == TickPacket::kTick) return take(split_tick_packet(packet));
+  const std::string_view image = packet.substr(1);
+  is_serial_ ? take_image<serial::SerialArm>(image) : take_image<cable::CableArm>(image);
 }
 
 void Recording::finish() {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "host/record/mcap.hpp"
+#include "host/record/tick_packet.hpp"
 #include "host/record/visit.hpp"
 
 namespace liana::record {
@@ -23,6 +24,7 @@ constexpr const char* kImageTopic = "controller_image";
 struct RecordingInfo {
   std::string config_hash, robot_json, scene_json, buses_json, time_mode;
   double period_s = 0.0;
+  std::string recorded_by{};  // build id of the core that ticked; empty: this one
 };
 
 class Recording {
@@ -31,6 +33,8 @@ class Recording {
   Recording(const std::string& directory, const RecordingInfo& info);
   // Takes one binary packet of the API topic `tick`.
   void take(std::string_view packet);
+  // The same of a tick that was taken apart.
+  void take(const TickParts& parts);
   // Writes how many ticks there are and were lost, and ends the files.
   void finish();
   std::uint64_t ticks() const { return ticks_; }
@@ -39,7 +43,7 @@ class Recording {
  private:
   void write(McapWriter& file, std::uint16_t channel, std::uint64_t tick, std::string_view data);
   template <class Arm>
-  void take_packet(std::string_view packet);
+  void take_image(std::string_view image);
   template <class Arm>
   void add_tick_channels(const RecordedCounts& counts);
 

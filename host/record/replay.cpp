@@ -5,15 +5,12 @@
 #include <optional>
 #include <stdexcept>
 
-#include "firmware_like/cable_controller.hpp"
-#include "firmware_like/serial_controller.hpp"
 #include "host/record/build_id.hpp"
 #include "host/record/codec.hpp"
-#include "host/record/image.hpp"
+#include "host/record/core_again.hpp"
 #include "host/record/mcap.hpp"
 #include "host/record/recording.hpp"
 #include "host/record/serialise.hpp"
-#include "host/record/visit_serial.hpp"
 
 namespace liana::record {
 
@@ -49,16 +46,13 @@ class Replayer {
     result_.recorded_by = found->second;
     result_.same_build = found->second == build_id();
   }
-  bool started() const { return controller_.has_value(); }
+  bool started() const { return core_.has_value(); }
 
  private:
   bool start_from(std::string_view data, const std::string& file) {
     const ControllerImage<Arm> image = parse_image<Arm>(data, file);
     if (!image.fresh && !result_.same_build) return false;
-    controller_.emplace(image.fresh ? Controller<Arm>(image.table)
-                                    : controller_from<Arm>(image.state, image.table, file));
-    next_tick_ = image.next_tick;
-    counts_ = counts_of(image.table);
+    core_.emplace(image, file);
     return true;
   }
 
@@ -84,19 +78,13 @@ class Replayer {
   void inputs(std::string_view data) {
     expected_.clear();
     std::uint64_t tick = 0;
-    std::uint32_t lost_ticks = 0;
     Reader head(data);
     head("tick", tick);
-    head("lost_ticks", lost_ticks);
-    // Deadlines that were lost are no gap: the core had no tick.
-    const bool follows = controller_ && tick == next_tick_ + lost_ticks;
-    if (!follows && !resume_at(tick)) {
+    if (!(core_ && core_->is_next(data)) && !resume_at(tick)) {
       ++result_.missing_ticks;
       return;
     }
-    const Inputs<Arm> in = RecordingDecoder::recorded_inputs<Arm>(data, counts_);
-    append_recorded(expected_, controller_->tick(in), counts_);
-    next_tick_ = in.tick + 1;
+    expected_ = core_->tick(data);
   }
 
   void outputs(std::string_view data) {
@@ -104,18 +92,16 @@ class Replayer {
     ++result_.ticks;
     if (data == expected_) return;
     if (result_.differing_ticks++ > 0) return;
-    result_.first_differing_tick = next_tick_ - 1;
+    result_.first_differing_tick = core_->next_tick() - 1;
     std::size_t at = 0;
     while (at < data.size() && at < expected_.size() && data[at] == expected_[at]) ++at;
-    result_.first_differing_field = outputs_field_at<Arm>(at, counts_);
+    result_.first_differing_field = outputs_field_at<Arm>(at, core_->counts());
   }
 
   ReplayResult& result_;
   std::string directory_;
   std::optional<Images> images_;
-  std::optional<Controller<Arm>> controller_;
-  RecordedCounts counts_;
-  std::uint64_t next_tick_ = 0;
+  std::optional<CoreAgain<Arm>> core_;
   std::string expected_;
 };
 

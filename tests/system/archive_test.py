@@ -14,7 +14,7 @@ import unittest
 
 from killed_test import children_of
 from support import MISSIONS, SOURCE, SystemTest, start_run
-from liana.recordings import Truth
+from liana.recordings import Recording, Truth
 from liana.system import run
 
 MISSION = MISSIONS / "short.lua"
@@ -51,7 +51,9 @@ class RunsWithoutRecord(SystemTest):
     def test_leave_what_lasts_and_nothing_else_anywhere(self):
         names = {file.name for file in self.folder.iterdir()}
         page = {"page.html"} if (SOURCE / "build/page/view.html").exists() else set()
-        self.assertEqual(names, LASTING | {"truth.bin", "telemetry-1-000000000000.db"} | page)
+        ring = {name for name in names if name.startswith("ring-")}
+        self.assertEqual(names - ring, LASTING | {"truth.bin", "telemetry-1-000000000000.db"} | page)
+        self.assertEqual({name.rsplit("-", 1)[0] for name in ring}, {"ring-inputs-1", "ring-outputs-1"})
         self.assertEqual(list(self.home.glob("liana-run-*")), [])
 
     def test_every_event_of_the_file_is_in_the_archive(self):
@@ -105,10 +107,30 @@ class RunsWithoutRecord(SystemTest):
         self.assertIn("holds no bus traffic; runs with --record have it", done.stderr)
         self.assertFalse((self.home / "bus.log").exists())
 
+    def test_every_tick_is_in_the_ring_though_nobody_asked_for_a_recording(self):
+        (life,) = json.loads(self.log("verify", "--json").stdout)["lives"]
+        ring = life["ring"]
+        self.assertEqual((ring["missing"], ring["cut_short"]), (0, 0))
+        self.assertEqual(ring["full_ticks"], ring["ticks"])
+        self.assertEqual(ring["ticks"], round((ring["to_s"] - ring["from_s"]) / 0.004) + 1)
+        self.assertGreater(ring["to_s"], json.loads((self.folder / "report.json").read_text())["duration_s"])
+        (listed,) = json.loads(self.log("list", "--json").stdout)
+        self.assertEqual([listed["ring"][end] for end in ("from_s", "to_s")], [ring["from_s"], ring["to_s"]])
+
+    def test_two_seconds_that_are_cut_out_of_the_ring_replay_bit_by_bit(self):
+        cut = self.home / "cut"
+        done = self.log("export", "--ticks", str(cut), "--from", "3", "--to", "5", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        (written,) = json.loads(done.stdout)
+        self.assertEqual((written["count"], written["left_out"], written["differing"]), (501, 0, 0))
+        replayed = json.loads(run("liana", "replay", cut, "--json").stdout)
+        self.assertEqual([replayed[key] for key in ("ticks", "differing_ticks", "missing_ticks")], [501, 0, 0])
+        self.assertEqual([tick.tick for tick in Recording(cut / "ticks.mcap").ticks], list(range(750, 1251)))
+
     def test_an_export_without_a_file_is_refused(self):
         done = self.log("export")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("--csv, --mcap or --candump", done.stderr)
+        self.assertIn("--csv, --mcap, --candump or --ticks", done.stderr)
 
     def test_a_damaged_archive_is_said_to_be_so(self):
         copy = self.home / "copy"

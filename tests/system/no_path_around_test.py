@@ -48,6 +48,7 @@ REQUESTS = {
     "announce": lambda state: {"step": {"index": 1, "name": "a step", "device": "none"}},
     "mission_control": lambda state: {"command": "resume"},
     "operator_says": lambda state: {"what": "arrived"},
+    "archive_alarm": lambda state: {"text": "the disk is full", "count": 1},
     "device": lambda state: {"device": "hand", "samples": [kHand]},
     "camera": lambda state: {"capture_time_s": state["time_s"], "slit": kTip, "rod": kTip},
 }

@@ -5,6 +5,7 @@
 #include "host/archive/check.hpp"
 #include "host/archive/reader.hpp"
 #include "host/archive/recorder.hpp"
+#include "host/archive/ring_files.hpp"
 #include "tests/host/archive/archive_folder.hpp"
 #include "tests/host/archive/small_disk.hpp"
 
@@ -55,12 +56,17 @@ int verdict_on(const std::string& folder, std::uint64_t told) {
 class FullDisk : public ArchiveFolder {
  protected:
   // 20 s a file.
-  Recorder recorder() const { return {folder_, life(), kInterval, {.file_s = 20.0}}; }
+  Recorder recorder() {
+    return {folder_,          life(), kInterval,
+            {.file_s = 20.0}, 0,      [this](const std::string& text, std::uint64_t) {
+              alarms_.push_back(text); }};
+  }
   void expect_zero(const char* size, const std::function<int()>& act) const {
     const int code = on_small_disk(folder_, size, act);
     if (code == kNoDisk) GTEST_SKIP() << "no file system can be mounted here";
     EXPECT_EQ(code, 0);
   }
+  std::vector<std::string> alarms_;
 };
 
 TEST_F(FullDisk, DropsTheOldestTelemetryAndKeepsTheNewest) {
@@ -71,7 +77,22 @@ TEST_F(FullDisk, DropsTheOldestTelemetryAndKeepsTheNewest) {
     recorder.finish();
     const auto recorded = Reader(folder_).recorded();
     if (!recorded || recorded->first < 200 * kSecond || recorded->last < 399 * kSecond) return 10;
+    if (alarms_.empty() || alarms_[0].find("the disk is full") == std::string::npos) return 11;
     return recorder.lost() == 0 ? verdict_on(folder_, feed.told()) : 7;
+  });
+}
+
+TEST_F(FullDisk, TakesTheRingBeforeTelemetry) {
+  expect_zero("6m", [this] {
+    for (std::uint64_t tick = 0; tick < 5; ++tick)
+      std::ofstream(ring_path(folder_, RingKind::kInputs, 1, tick)) << std::string(700000, 'x');
+    Recorder recorder = this->recorder();
+    Feed feed(recorder);
+    feed.go_on(80);  // 3.2 MB
+    recorder.finish();
+    if (ring_files(folder_).size() == 5) return 11;
+    const auto recorded = Reader(folder_).recorded();
+    return recorded && recorded->first <= kSecond && recorder.lost() == 0 ? 0 : 12;
   });
 }
 

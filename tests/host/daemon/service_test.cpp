@@ -446,6 +446,20 @@ TEST_F(ServiceOverSocket, WhatMissionAndOperatorTellEachOtherIsRepeated) {
   EXPECT_TRUE(state(mission)["step"].is_null());
 }
 
+TEST_F(ServiceOverSocket, AFullDiskOfTheFlightRecorderIsAnEventAndNobodyElseCanSayIt) {
+  api::ApiClient archive = join("archive"), person = join("client");
+  const Json alarm{
+      {"op", "archive_alarm"}, {"text", "ticks of ticks 5 to 9 are missing: the disk is full"}, {"count", 5}};
+  EXPECT_EQ(ask(archive, alarm), "ok");
+  EXPECT_NE(ask(person, alarm), "ok");
+  const Json events = state(person)["events"];
+  ASSERT_FALSE(events.empty());
+  const auto is_said = [](const Json& event) {
+    return event.at("text").text() == "archive: ticks of ticks 5 to 9 are missing: the disk is full";
+  };
+  EXPECT_EQ(std::count_if(events.begin(), events.end(), is_said), 1);
+}
+
 TEST_F(ServiceOverSocket, ACameraFrameIsForwardedWhenEveryRunHasReceivedIt) {
   api::ApiClient camera = join("camera", Json::array()), person = join("operator", {"camera"});
   camera.send({{"op", "camera"}, {"capture_time_s", 0.0}, {"slit", nullptr}, {"rod", nullptr}});

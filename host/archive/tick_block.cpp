@@ -1,0 +1,130 @@
+#include "host/archive/tick_block.hpp"
+
+#include "host/archive/chunk.hpp"
+#include "host/archive/field_words.hpp"
+#include "host/record/codec.hpp"
+#include "host/record/crc32.hpp"
+
+namespace liana::archive {
+namespace {
+
+constexpr const char* kCrcWidth = "4";
+constexpr std::uint32_t kMostTicks = 100000;  // of a message: no robot ticks so often in a second
+
+std::uint32_t crc_of(std::string_view bytes) {
+  record::Crc32 crc;
+  crc.add(bytes);
+  return crc.value();
+}
+
+// What stands at the front of a message.
+struct Head {
+  Span span;
+  std::uint32_t count = 0;
+};
+
+Head head_of(record::Reader& reader) {
+  Head head;
+  reader("first_tick", head.span.first);
+  reader("last_tick", head.span.last);
+  reader("count", head.count);
+  if (head.count > kMostTicks) throw std::runtime_error("a second of ticks is damaged; take a good copy of the file");
+  return head;
+}
+
+}  // namespace
+
+std::uint64_t tick_of(std::string_view fields) {
+  std::uint64_t tick = 0;
+  record::Reader reader(fields);
+  reader("tick", tick);
+  return tick;
+}
+
+void TickBlock::add(std::string_view inputs, std::string_view outputs) {
+  const std::size_t fixed = bytes_of_fields(widths_.inputs);
+  append_words(inputs_, inputs.substr(0, fixed), widths_.inputs);
+  record::Writer writer(inputs_);
+  writer("outputs_crc", crc_of(outputs));
+  if (inputs.size() > fixed) {
+    append_words(telecommands_, inputs.substr(fixed), widths_.telecommand);
+    ++telecommand_count_;
+  }
+  append_words(outputs_, outputs, widths_.outputs);
+  last_tick_ = tick_of(inputs);
+  if (count_++ == 0) first_tick_ = last_tick_;
+}
+
+std::string TickBlock::inputs_message() const {
+  const std::string inputs = packed(inputs_, bytes_of_words(widths_.inputs + kCrcWidth));
+  std::string out;
+  record::Writer writer(out);
+  writer("first_tick", first_tick_);
+  writer("last_tick", last_tick_);
+  writer("count", count_);
+  writer("telecommands", telecommand_count_);
+  writer("inputs_bytes", static_cast<std::uint32_t>(inputs.size()));
+  out += inputs;
+  if (telecommand_count_ > 0) out += packed(telecommands_, bytes_of_words(widths_.telecommand));
+  return out;
+}
+
+std::string TickBlock::outputs_message() const {
+  std::string out;
+  record::Writer writer(out);
+  writer("first_tick", first_tick_);
+  writer("last_tick", last_tick_);
+  writer("count", count_);
+  return out + packed(outputs_, bytes_of_words(widths_.outputs));
+}
+
+void TickBlock::clear() {
+  inputs_.clear();
+  telecommands_.clear();
+  outputs_.clear();
+  count_ = telecommand_count_ = 0;
+}
+
+Span span_of_block(std::string_view message) {
+  record::Reader reader(message);
+  return head_of(reader).span;
+}
+
+std::vector<RingTick> ticks_of(std::string_view inputs_message, const record::FieldWidths& widths) {
+  record::Reader reader(inputs_message);
+  const Head head = head_of(reader);
+  std::uint32_t telecommand_count = 0, inputs_bytes = 0;
+  reader("telecommands", telecommand_count);
+  reader("inputs_bytes", inputs_bytes);
+  const std::string_view rest = inputs_message.substr(reader.position());
+  if (telecommand_count > head.count || inputs_bytes > rest.size())
+    throw std::runtime_error("a second of ticks is damaged; take a good copy of the file");
+  const auto words = unpacked(rest.substr(0, inputs_bytes), head.count, bytes_of_words(widths.inputs + kCrcWidth));
+  std::vector<std::string> telecommands;
+  if (telecommand_count > 0)
+    telecommands = unpacked(rest.substr(inputs_bytes), telecommand_count, bytes_of_words(widths.telecommand));
+  std::vector<RingTick> ticks;
+  std::size_t used = 0;
+  for (const std::string& each : words) {
+    RingTick tick{.inputs = fields_of(each, widths.inputs)};
+    tick.tick = tick_of(tick.inputs);
+    record::Reader crc(std::string_view(each).substr(bytes_of_words(widths.inputs)));
+    crc("outputs_crc", tick.outputs_crc);
+    if (tick.inputs.back() != '\0' && used < telecommands.size())
+      tick.inputs += fields_of(telecommands[used++], widths.telecommand);
+    ticks.push_back(std::move(tick));
+  }
+  return ticks;
+}
+
+std::vector<std::string> outputs_of(std::string_view outputs_message, const record::FieldWidths& widths) {
+  record::Reader reader(outputs_message);
+  const Head head = head_of(reader);
+  std::vector<std::string> outputs;
+  for (const std::string& words :
+       unpacked(outputs_message.substr(reader.position()), head.count, bytes_of_words(widths.outputs)))
+    outputs.push_back(fields_of(words, widths.outputs));
+  return outputs;
+}
+
+}  // namespace liana::archive
