@@ -112,6 +112,7 @@ Written write_ring(const std::string& folder, const Source& source, std::uint64_
       written.most_bytes = std::max(written.most_bytes, archive::RingReader(folder, 1).bytes());
   }
   ring.finish();
+  written.most_bytes = std::max(written.most_bytes, archive::RingReader(folder, 1).bytes());
   written.missing = ring.missing();
   written.seconds = seconds_since(begin);
   return written;

@@ -1,4 +1,5 @@
-// The control-rate ring holds every tick as it came, stays within its limits, and keeps what surrounds a fault.
+// The control-rate ring holds every tick as it came, stays within its limits, and keeps what surrounds a fault
+// (req:A36).
 #include "host/archive/ring.hpp"
 
 #include <signal.h>
