@@ -185,7 +185,7 @@ TableText robot_of(const RunOptions& options) {
 }
 
 TableText scene_of(const RunOptions& options, bool is_serial) {
-  if (options.scene.empty()) {
+  if (options.scene.empty() && !is_serial) {
     if (const auto planned = table_of_plan(options.mission, "scene")) return *planned;
   }
   const std::string name = !options.scene.empty() ? options.scene : is_serial ? "none" : "panel_slit";

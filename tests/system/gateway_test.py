@@ -95,6 +95,7 @@ class WhatAClientSees(GatewayTest):
                 self.assertEqual(console.state[name], [struct.unpack("f", struct.pack("f", n))[0] for n in numbers])
         self.assertEqual(console.state["time_s"], said["time_s"])
         console.until(lambda me: me.header[1] == me.facts_number)
+        wait_until(lambda: console.state["tick"] in self.states, "the state of the facts")
         for name in ("state", "is_homed", "owner", "held", "faults"):
             self.assertEqual(console.facts[name], self.states[console.state["tick"]][name], name)
         self.assertNotIn("measured_js_deg", console.facts)
