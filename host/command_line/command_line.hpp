@@ -60,8 +60,8 @@ class CommandLine : public Command {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  // Sets the values. Returns the exit code when there is nothing left to do: 0 after --help and --version (every program
-  // has them), else 2, and what is wrong has been written to standard error.
+  // Sets the values. Returns the exit code when there is nothing left to do: 0 after --help and --version (every
+  // program has them), else 2, and what is wrong has been written to standard error.
   std::optional<int> parse(int argc, const char* const* argv);
 };
 
