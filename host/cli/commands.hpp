@@ -206,6 +206,25 @@ struct ExportOptions {
 // A robot table as canonical JSON.
 int export_command(const ExportOptions& options);
 
+struct RobotCheckOptions {
+  std::string robot = "zhu2022";
+  std::string bus;       // empty: as for a run
+  std::string svg_file;  // empty: no picture
+  bool json = false;
+};
+// What of a robot fits: capacity, bus load, workspace, tensions at its poses, holes, fixtures; exit code 1 when
+// something does not, which it names. Cost: about a second for the workspace.
+int robot_check_command(const RobotCheckOptions& options);
+
+struct RobotNewOptions {
+  std::string name;  // of the robot
+  std::string file;  // empty: NAME.lua
+  // Empty: asked for where a person sits there, else a usual value.
+  std::string segments, modules, module_length_m, radius_m, cables, theta_limit_deg;
+};
+// Writes a commented robot table from a few answers and prints its path.
+int robot_new_command(const RobotNewOptions& options);
+
 // What this host can and cannot do, and what to do about it; exit code 0 always, it only tells.
 int doctor_command(bool json);
 

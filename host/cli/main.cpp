@@ -380,22 +380,42 @@ void add_global(CLI::App& app) {
       "before the command: a folder of tables and missions that is searched first (docs/installing.md)");
 }
 
-void add_tools(CLI::App& app, Action& action, ReplayOptions& replay, ExportOptions& exported, bool& doctor_json,
-               std::string& shell) {
+void add_robot(CLI::App& app, Action& action, ExportOptions& exported, RobotCheckOptions& checked,
+               RobotNewOptions& made) {
+  CLI::App* robot = app.add_subcommand("robot", "robot tables");
+  robot->require_subcommand(1);
+  CLI::App* sub = add(*robot, action, "export", "a robot table as canonical JSON", exported, export_command);
+  sub->add_option("robot", exported.robot, "a name under lua/robots or a file")->capture_default_str();
+  sub->add_option("--robot", exported.robot, "the same as an option");
+  sub->add_option("--out", exported.file, "file to write; standard output where not given");
+  sub->add_flag("--json")->description("the output is JSON with or without it");
+
+  sub = add(*robot, action, "check", "what of a robot fits: capacity, bus load, workspace, tensions, holes, fixtures",
+            checked, robot_check_command);
+  sub->add_option("robot", checked.robot, "a name under lua/robots or a file")->capture_default_str();
+  sub->add_option("--robot", checked.robot, "the same as an option");
+  sub->add_option("--bus", checked.bus, "bus table; where not given as for liana run");
+  sub->add_option("--svg", checked.svg_file, "draw the discs' holes and the cables' routing to this file");
+  sub->add_flag("--json", checked.json, "print JSON");
+
+  sub = add(*robot, action, "new", "write a commented robot table from a few answers", made, robot_new_command);
+  sub->add_option("name", made.name, "name of the robot: small letters, digits, _")->required();
+  sub->add_option("--out", made.file, "file to write; NAME.lua where not given");
+  sub->add_option("--segments", made.segments, "segments that bend by themselves, 1 to 8");
+  sub->add_option("--modules", made.modules, "universal joints in each, 1 to 16");
+  sub->add_option("--module-length", made.module_length_m, "from one joint to the next, 0.005 to 1 m");
+  sub->add_option("--radius", made.radius_m, "of the discs, 0.002 to 0.5 m");
+  sub->add_option("--cables", made.cables, "that end in each segment, 3 or 4");
+  sub->add_option("--theta-limit", made.theta_limit_deg, "most that a joint turns about each axis, 1 to 60 deg");
+}
+
+void add_tools(CLI::App& app, Action& action, ReplayOptions& replay, bool& doctor_json, std::string& shell) {
   CLI::App* sub = add(app, action, "replay", "run a recording through the core again and compare every output", replay,
                       replay_command);
   sub->add_option("directory", replay.directory,
                   "what `liana run --record` wrote: a folder, or the name of one of the newest runs")
       ->required();
   sub->add_flag("--json", replay.json, "print JSON");
-
-  CLI::App* robot = app.add_subcommand("robot", "robot tables");
-  robot->require_subcommand(1);
-  sub = add(*robot, action, "export", "a robot table as canonical JSON", exported, export_command);
-  sub->add_option("robot", exported.robot, "a name under lua/robots or a file")->capture_default_str();
-  sub->add_option("--robot", exported.robot, "the same as an option");
-  sub->add_option("--out", exported.file, "file to write; standard output where not given");
-  sub->add_flag("--json")->description("the output is JSON with or without it");
 
   sub = app.add_subcommand("doctor", "what this host can and cannot do, and what to do about it");
   sub->add_flag("--json", doctor_json, "print JSON");
@@ -541,6 +561,8 @@ int run(int argc, char** argv) {
   MissionOptions mission;
   ReplayOptions replay;
   ExportOptions exported;
+  RobotCheckOptions robot_check;
+  RobotNewOptions robot_new;
   bool doctor_json = false;
   std::string shell = "bash";
   add_kinematics(app, action, pose, ik);
@@ -563,7 +585,8 @@ int run(int argc, char** argv) {
   add_commands(app, action, commands);
   add_log(app, action, log);
   add_mission(app, action, mission);
-  add_tools(app, action, replay, exported, doctor_json, shell);
+  add_robot(app, action, exported, robot_check, robot_new);
+  add_tools(app, action, replay, doctor_json, shell);
   try {
     app.parse(arguments_of(app, argc, argv));
   } catch (const CLI::ExtrasError&) {

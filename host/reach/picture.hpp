@@ -20,6 +20,10 @@ std::string region_picture(const config::RobotConfig& robot, const config::Scene
 // Least singular value, condition number and limit margins over the way, the worst places marked.
 std::string path_picture(const config::RobotConfig& robot, const PathReport& report, std::uint32_t held_mask);
 
+// The holes of a disc, and every cable from the root to the disc that it ends at; cables are numbered as their drives,
+// from 1.
+std::string routing_picture(const config::RobotConfig& robot);
+
 // "theta 7 = 0.5, theta 9 = 0 deg", or "none".
 std::string held_text(const RobotTable& table, std::uint32_t held_mask, const ThetaVector& held_rad);
 

@@ -166,6 +166,9 @@ class EveryRobot(unittest.TestCase):
         planned = ("--robot", robot, "--scene", "none", f"--from-deg={zero}", f"--to-deg={half}", "--waypoints", 3)
         self.assertEqual(liana("plan", *planned, "--out", plan)[0], 0)
         self.assertEqual(liana("robot", "export", robot)[0], 0)
+        checked = liana_json("robot", "check", robot, "--svg", self.folder / "routing.svg")
+        self.assertEqual(checked["problems"], [])
+        self.assertIn("Cable routing", (self.folder / "routing.svg").read_text())
 
     def test_the_shipped_arms_are_served_and_do_their_tours(self):
         for robot, (mission, scene, goal_deg) in SHIPPED.items():
@@ -178,6 +181,63 @@ class EveryRobot(unittest.TestCase):
             with self.subTest(robot):
                 code, out, error = liana("calibrate", "--robot", robot, "--json")
                 self.assertEqual(code, 0, out + error)
+
+    def test_what_does_not_fit_is_named(self):
+        table = json.loads(liana("robot", "export", "three_segment_lab")[1])
+        table["cables"]["phase_deg"][1] = table["cables"]["phase_deg"][0]
+        table["tension"]["ceiling_free_N"] = 31
+        table["fixture_poses"] = ["zero", "park"]
+        file = self.folder / "robot.json"
+        file.write_text(json.dumps(table))
+        checked = liana_json("robot", "check", file, expected=(1,))
+        text = "\n".join(checked["problems"])
+        for named in ("cables 1 and 4: their holes are 0.0 mm apart", "pose look: tensions of ", "fixture_poses: "):
+            self.assertIn(named, text)
+        code, out, _ = liana("robot", "check", file)
+        self.assertEqual((code, out.splitlines()[-1]), (1, "does NOT fit as it is"))
+
+    def new(self, name, *answers):
+        """A table that `liana robot new` writes."""
+        file = self.folder / f"{name}.lua"
+        self.assertEqual(liana("robot", "new", name, "--out", file, *answers)[0], 0)
+        return file
+
+    def test_a_new_table_fits_whatever_was_answered(self):
+        for segments, cables, modules, length_m, radius_m, limit_deg in (
+            (1, 3, 16, 0.02, 0.01, 5),
+            (2, 4, 4, 0.01, 0.008, 9),
+            (4, 3, 10, 0.1, 0.05, 20),
+            (8, 3, 2, 0.3, 0.1, 30),
+            (8, 4, 8, 0.05, 0.02, 8),
+        ):
+            words = ("--segments", segments, "--cables", cables, "--modules", modules, "--module-length", length_m)
+            file = self.new(f"new_{segments}_{cables}", *words, "--radius", radius_m, "--theta-limit", limit_deg)
+            with self.subTest(segments=segments, cables=cables):
+                checked = liana_json("robot", "check", file)
+                self.assertEqual((checked["problems"], checked["cables"]), ([], segments * cables))
+
+    def test_a_new_arm_moves_at_once(self):
+        mission = self.folder / "tour.lua"
+        mission.write_text(TOUR.replace('"first"', '"bent"').replace('"second"', '"back"'))
+        self.crosses(self.new("desk_arm"), mission, "none")
+
+    def test_what_no_arm_can_have_is_refused_before_a_file_is_written(self):
+        for words, named in (
+            (("Desk", "--out"), "small letters"),
+            (("desk", "--segments", 9, "--out"), "--segments: '9': allowed: a whole number from 1 to 8"),
+            (("desk", "--cables", "many", "--out"), "--cables"),
+            (("desk", "--radius", "nan", "--out"), "--radius"),
+        ):
+            file = self.folder / "refused.lua"
+            code, out, error = liana("robot", "new", *words, file)
+            self.assertEqual((code, out, file.exists()), (2, "", False), words)
+            self.assertIn(named, error)
+        file = self.new("desk")
+        self.assertIn("exists already", liana("robot", "new", "desk", "--out", file)[2])
+
+    def test_a_robot_with_a_serial_arm_is_checked_for_its_buses(self):
+        self.assertEqual(liana_json("robot", "check", "micro")["joints"], 7)
+        self.assertEqual(liana("robot", "check", "micro", "--svg", self.folder / "none.svg")[0], 2)
 
     def test_a_plan_is_carried_out_with_its_own_robot_and_scene_from_where_it_begins(self):
         plan = self.folder / "plan.json"

@@ -1,0 +1,160 @@
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "firmware_like/cable/arm/robot_table.hpp"
+#include "host/cli/arguments.hpp"
+#include "host/cli/commands.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/output.hpp"
+
+namespace liana::cli {
+namespace {
+
+struct Answers {
+  int segments = 0, modules = 0, cables = 0;
+  double length_m = 0.0, radius_m = 0.0, theta_limit_deg = 0.0;
+};
+
+// What was given as an option; else what a person types, where one sits there; else the value in brackets.
+class Asking {
+ public:
+  Asking() : is_person_(isatty(STDIN_FILENO) != 0) {}
+
+  double number(const char* option, const std::string& given, const char* question, double otherwise, double least,
+                double most, const char* unit) const {
+    const std::string text = given.empty() ? typed(question, otherwise, unit) : given;
+    return text.empty() ? otherwise : parse_number_in(option, text, least, most, unit);
+  }
+  int whole(const char* option, const std::string& given, const char* question, int otherwise, int least,
+            int most) const {
+    const std::string text = given.empty() ? typed(question, otherwise, "") : given;
+    return text.empty() ? otherwise : static_cast<int>(parse_whole(option, text, least, most));
+  }
+
+ private:
+  std::string typed(const char* question, double otherwise, const char* unit) const {
+    std::string line;
+    if (!is_person_) return line;
+    std::fprintf(stderr, "%s [%g%s%s] ", question, otherwise, *unit == '\0' ? "" : " ", unit);
+    std::getline(std::cin, line);
+    return line;
+  }
+
+  bool is_person_;
+};
+
+Answers ask(const RobotNewOptions& options) {
+  const Asking asking;
+  Answers answers;
+  answers.segments =
+      asking.whole("--segments", options.segments, "segments that bend by themselves?", 3, 1, cable::kMaxSegments);
+  answers.modules =
+      asking.whole("--modules", options.modules, "universal joints in each segment?", 6, 1, cable::kMaxModules);
+  answers.length_m =
+      asking.number("--module-length", options.module_length_m, "from one joint to the next?", 0.08, 0.005, 1.0, "m");
+  answers.radius_m = asking.number("--radius", options.radius_m, "radius of the discs?", 0.025, 0.002, 0.5, "m");
+  answers.cables = asking.whole("--cables", options.cables, "cables that end in each segment?", 3, 3, 4);
+  answers.theta_limit_deg = asking.number("--theta-limit", options.theta_limit_deg,
+                                          "most that a joint turns about each axis?", 15.0, 1.0, 60.0, "deg");
+  const int cables = answers.segments * answers.cables;
+  if (cables > cable::kMaxCables)
+    throw system::BadInput("--cables: " + std::to_string(answers.cables) + " in each of " +
+                           std::to_string(answers.segments) + " segments are " + std::to_string(cables) + ": allowed " +
+                           std::to_string(cable::kMaxCables) + " in all; give fewer");
+  return answers;
+}
+
+std::string filled(const char* format, auto... values) {
+  char text[512];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+std::string head(const std::string& name, const Answers& a) {
+  return "-- " + name +
+         ": written by `liana robot new`. What it asked for is marked; everything else is assumed from it, and yours "
+         "to\n" +
+         "-- correct (docs/your-own-arm.md, docs/formats.md). `liana robot check` says whether it fits.\n\n" +
+         filled("local kSegments, kCables = %d, %d -- asked: segments, and cables that end in each\n", a.segments,
+                a.cables) +
+         filled("local segment = { modules = %d, module_length_m = %g, theta_limit_deg = %g } -- asked\n\n", a.modules,
+                a.length_m, a.theta_limit_deg) +
+         "-- The holes of a segment's cables are evenly spread; each segment's set is turned so that no two cables "
+         "share a hole.\n"
+         "local segments, phase_deg, direction, zero_counts = {}, {}, {}, {}\n"
+         "for m = 1, kSegments do\n"
+         "  segments[m], phase_deg[m] = segment, {}\n"
+         "  for c = 1, kCables do\n"
+         "    phase_deg[m][c] = 360 / kCables * (c - 1) + 360 / (kCables * kSegments) * (m - 1)\n"
+         "    direction[#direction + 1] = 1 -- counts grow while cable is paid out; -1 where a drum is mirrored\n"
+         "    zero_counts[#zero_counts + 1] = 500000 -- what the drive reads with the arm straight; `liana calibrate` "
+         "finds it\n"
+         "  end\n"
+         "end\n\n"
+         "local zero, bent, back = {}, {}, {} -- poses: pitch, yaw of segment 1, 2, ...\n"
+         "for k = 1, 2 * kSegments do\n" +
+         filled("  zero[k], bent[k], back[k] = 0, %g * (k %% 2 == 0 and -1 or 1), %g * (k %% 3 == 0 and -1 or 1)\n",
+                0.4 * a.theta_limit_deg, 0.3 * a.theta_limit_deg) +
+         "end\n\n";
+}
+
+// Sizes in proportion to an arm of 1.44 m with discs of 25 mm radius.
+std::string body(const std::string& name, const Answers& a) {
+  const double arm_m = a.segments * a.modules * a.length_m, size = a.radius_m / 0.025;
+  const double plan_N = 30.0 * size * size, drum_m = 0.012 * std::sqrt(size), hard_N = 15.0 * plan_N;
+  const double mass_kg = 0.2 * size * size * (a.length_m / 0.08), reach = std::min(1.0, arm_m / 1.44);
+  return filled("return {\n  format = 1, kind = \"robot\", name = \"%s\",\n  segments = segments,\n", name.c_str()) +
+         filled("  module = { mass_kg = %.4g, radius_m = %g }, -- radius asked; weigh one\n", mass_kg, a.radius_m) +
+         filled("  joint = { viscous_Nms_per_rad = %.3g },\n", 0.3 * size * size) + "  cables = {\n" +
+         filled("    hole_radius_m = %.4g,\n    face_offset_m = %.4g, -- disc faces before and after a joint centre\n",
+                0.8 * a.radius_m, 0.1 * a.length_m) +
+         filled("    phase_deg = phase_deg,\n    EA_N = %.4g, -- stiffness of the rope: modulus times area\n",
+                std::max(1500.0, 150000.0 * size * size)) +
+         filled("    lead_m = %.3g, -- free cable between drum and first disc\n", 0.2 * arm_m) +
+         "    friction_mu = { nominal = 0.05, ideal = 0, worn = 0.10 }, -- of a cable in its holes; `liana calibrate "
+         "--friction`\n"
+         "  },\n" +
+         filled(
+             "  tension = { plan_N = %.3g, floor_motor_N = %.3g, floor_anywhere_N = %.3g, ceiling_free_N = %.3g, "
+             "alarm_N = %.3g, hard_limit_N = %.3g },\n",
+             plan_N, plan_N / 3.0, plan_N / 30.0, 5.0 * plan_N, 10.0 * plan_N, hard_N) +
+         "  drives = {\n" +
+         filled("    drum_radius_m = %.4g,\n    counts_per_turn = 65536,\n    gear = 1, -- motor turns per drum turn\n",
+                drum_m) +
+         filled(
+             "    servo_time_constant_s = 0.03,\n    rated_torque_Nm = %.3g, -- at the drum: what the hard limit "
+             "needs\n",
+             1.05 * hard_N * drum_m) +
+         "    identity = { vendor = 0x4C49, product = 1, revision = 1 }, -- object 0x1018 of your drives\n"
+         "    direction = direction,\n    zero_counts = zero_counts,\n  },\n"
+         "  limits = { -- slow, as for a first motion\n    theta_rate_deg_s = 2,\n    theta_accel_deg_s2 = 4,\n" +
+         filled("    tip_speed_m_s = %.3g,\n    tip_speed_slit_m_s = %.3g,\n    tip_accel_m_s2 = %.3g,\n", 0.1 * reach,
+                0.03 * reach, 0.15 * reach) +
+         "    tip_jerk_m_s3 = 1,\n    tip_rate_deg_s = 20,\n    tip_angular_accel_deg_s2 = 40,\n"
+         "    tip_angular_jerk_deg_s3 = 400,\n    cable_speed_m_s = 0.010,\n  },\n"
+         "  named_poses_deg = { zero = zero, bent = bent, back = back },\n"
+         "  start_pose = \"bent\",\n}\n";
+}
+
+}  // namespace
+
+int robot_new_command(const RobotNewOptions& options) {
+  const bool is_name = !options.name.empty() && options.name.size() <= 40 &&
+                       options.name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
+  if (!is_name)
+    throw system::BadInput("robot new: name: '" + options.name +
+                           "': allowed 1 to 40 small letters, digits and _; choose another");
+  const std::string file = options.file.empty() ? options.name + ".lua" : options.file;
+  if (access(file.c_str(), F_OK) == 0)
+    throw system::BadInput("robot new: " + file + ": exists already; give another --out, or move it away");
+  system::check_output("--out", file);
+  const Answers answers = ask(options);
+  system::write_output(file, head(options.name, answers) + body(options.name, answers));
+  std::printf("%s\nnext: liana robot check %s\n", file.c_str(), file.c_str());
+  return system::kExitOk;
+}
+
+}  // namespace liana::cli
