@@ -1,4 +1,4 @@
-// Jogging the tip: a stream of servo_cp at 50 Hz while keys, buttons or the mouse ask for it, and a hold when they let go.
+// Jogging the tip: a stream of servo_cp at 60 Hz while keys, buttons or the mouse ask for it, and a hold when they let go.
 import { is_known, values } from '../data/sample';
 import type { Connection } from '../live/connection';
 import type { Live } from '../live/live';
@@ -7,7 +7,7 @@ import type { Pose } from '../model/vector';
 import { next_goal, sum_of, towards, type JogSpeed } from './jog';
 import type { Direction } from './keyboard';
 
-const kPeriod_ms = 20;
+const kPeriod_ms = 16;
 const kTimeToLive_s = 0.3; // the arm holds when this page stops sending
 
 export class Jogger {
