@@ -22,7 +22,10 @@ std::vector<std::string> names_of(const config::BusesConfig& buses) {
 // in a queue for the bus to come back.
 constexpr std::uint16_t kFarewellTicks = 25;
 
-std::uint16_t older(std::uint16_t age) { return narrow<std::uint16_t>(static_cast<std::uint32_t>(age) + 1); }
+// Ticks that were lost made everything older, too.
+std::uint16_t older(std::uint16_t age, const timing::TickStart& start) {
+  return narrow<std::uint16_t>(static_cast<std::uint64_t>(age) + 1 + start.lost_ticks);
+}
 
 bool is_out(bus::BusState state) { return state == bus::BusState::kDown || state == bus::BusState::kBusOff; }
 
@@ -44,8 +47,8 @@ void DriveLine::collect(const timing::TickStart& start, CycleInputs& inputs) noe
   inputs.lost_ticks = start.lost_ticks;
   inputs.request = Request::kNone;
   for (std::size_t i = 0; i < drives_.size(); ++i)
-    inputs.drive[i].feedback_age_ticks = older(inputs.drive[i].feedback_age_ticks);
-  for (std::uint16_t& ticks : silent_ticks_) ticks = older(ticks);
+    inputs.drive[i].feedback_age_ticks = older(inputs.drive[i].feedback_age_ticks, start);
+  for (std::uint16_t& ticks : silent_ticks_) ticks = older(ticks, start);
   bus::ReceivedFrame received;
   while (bus_.receive(received)) {
     if (master_.on_frame(received.bus, received.frame, start.tick)) continue;
