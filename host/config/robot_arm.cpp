@@ -89,7 +89,7 @@ void read_named_poses(const Field& field, RobotConfig& out) {
     pose.size(angles, angles, "give pitch and yaw of every segment, in degrees");
     std::vector<double> theta_deg;
     for (std::size_t i = 0; i < angles; ++i) {
-      const double limit_deg = out.table.segment[i / 2].theta_limit_rad / kRadPerDeg;
+      const double limit_deg = rounded_deg(out.table.segment[i / 2].theta_limit_rad);
       theta_deg.push_back(pose.element(i).number({-limit_deg, limit_deg}));
     }
     out.named_poses_deg.emplace(name, theta_deg);

@@ -8,6 +8,7 @@
 
 #include "firmware_like/math/trig.hpp"
 #include "host/config/field.hpp"
+#include "host/config/robot_parts.hpp"
 #include "host/plan/check/plan_check.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/tables.hpp"
@@ -66,13 +67,6 @@ std::string default_of(const Choice& choice) {
   return choice.poses.begin()->first;
 }
 
-constexpr double kRounding_deg = 1e-9;  // of limits that were radians in between
-
-bool is_within(const config::Range& range_deg, double angle_deg) {
-  return range_deg.contains(angle_deg) || range_deg.contains(angle_deg - kRounding_deg) ||
-         range_deg.contains(angle_deg + kRounding_deg);
-}
-
 StartPose chosen(const Choice& choice, const std::string& given) {
   const std::string text = given.empty() ? default_of(choice) : given;
   if (const auto pose = choice.poses.find(text); pose != choice.poses.end()) return {text, pose->second};
@@ -81,7 +75,7 @@ StartPose chosen(const Choice& choice, const std::string& given) {
   if (!numbers || numbers->size() != count)
     refuse(choice, text, names(choice.poses) + ", or its " + std::to_string(count) + " angles in degrees");
   for (std::size_t i = 0; i < count; ++i) {
-    if (is_within(choice.range_deg[i], (*numbers)[i])) continue;
+    if (choice.range_deg[i].contains((*numbers)[i])) continue;
     refuse(choice, text, "angle " + std::to_string(i + 1) + " in " + choice.range_deg[i].text() + " deg");
   }
   return {text, *numbers};
@@ -92,7 +86,7 @@ StartPose chosen(const Choice& choice, const std::string& given) {
 StartPose start_pose_of(const config::RobotConfig& robot, const std::string& given) {
   Choice choice{robot.name, robot.named_poses_deg, robot.start_pose, {}};
   for (std::size_t k = 0; k < static_cast<std::size_t>(robot.table.theta_count()); ++k) {
-    const double limit_deg = robot.table.segment[k / 2].theta_limit_rad / kDegree;
+    const double limit_deg = config::rounded_deg(robot.table.segment[k / 2].theta_limit_rad);
     choice.range_deg.push_back({-limit_deg, limit_deg});
   }
   return chosen(choice, given);
@@ -101,7 +95,8 @@ StartPose start_pose_of(const config::RobotConfig& robot, const std::string& giv
 StartPose start_pose_of(const config::SerialRobotConfig& robot, const std::string& given) {
   Choice choice{robot.name, robot.named_poses_deg, robot.start_pose, {}};
   for (std::size_t i = 0; i < robot.table.joints(); ++i)
-    choice.range_deg.push_back({robot.table.joint[i].low_rad / kDegree, robot.table.joint[i].high_rad / kDegree});
+    choice.range_deg.push_back(
+        {config::rounded_deg(robot.table.joint[i].low_rad), config::rounded_deg(robot.table.joint[i].high_rad)});
   return chosen(choice, given);
 }
 

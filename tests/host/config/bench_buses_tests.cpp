@@ -68,5 +68,11 @@ TEST(NamedPoses, StartAndFixturesMayBeNamedAndMustExist) {
   EXPECT_NE(refusal_of("fixture_poses", {"zero", "nowhere"}).find("fixture_a"), std::string::npos);
 }
 
+TEST(NamedPoses, MayBeExactlyAtTheLimit) {
+  const Json at_limit = {15, -15, 15, -15, 15, -15};
+  EXPECT_EQ(lab_with("named_poses_deg/look", at_limit).named_poses_deg.at("look").front(), 15.0);
+  EXPECT_NE(refusal_of("named_poses_deg/look", {15.001, 0, 0, 0, 0, 0}).find("allowed -15 to 15"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace liana::config
