@@ -1,5 +1,6 @@
 -- Actions for `run` of a step and `finish` of a mission: functions of arm.
 local need = require "liana.need"
+local position = require "liana.position"
 local uses = require "liana.uses"
 
 local actions = {}
@@ -10,7 +11,7 @@ function actions.move_to(name, rate_deg_s)
   if rate_deg_s ~= nil then need("move_to", "rate_deg_s", rate_deg_s, "number") end
   local fields = { rate_deg_s = rate_deg_s }
   return uses.noted(function(arm) arm.move_jp { goal_deg = arm.named_pose(name), rate_deg_s = rate_deg_s } end,
-    { action = "move_to", pose = name, command = "move_jp", fields = fields })
+    { action = "move_to", pose = name, command = "move_jp", fields = fields, at = position(1) })
 end
 
 -- Steers nodes by null-space targets { { node = 3, position_m = {x, y, z}, weight = 1, threshold_m = 0.01 }, ... } and pushes
@@ -21,7 +22,7 @@ function actions.shape(nodes, keep_clear, search)
   if keep_clear ~= nil then need("shape", "keep_clear", keep_clear, "table") end
   if search ~= nil then need("shape", "search", search, "boolean") end
   local fields = { nodes = nodes, keep_clear = keep_clear, search = search }
-  return uses.noted(function(arm) arm.shape(fields) end, { action = "shape", command = "shape", fields = fields })
+  return uses.noted(function(arm) arm.shape(fields) end, { action = "shape", command = "shape", fields = fields, at = position(1) })
 end
 
 -- A command to the tool at the tip.

@@ -221,7 +221,7 @@ function arm.hold() end
 ---what the tool should do
 ---@field command string
 
----A command to the tool at the tip; logged.
+---A command to the tool at the tip; how it goes is `tool` of the state.
 ---@param fields arm.tool
 ---@return integer id
 function arm.tool(fields) end
@@ -244,12 +244,16 @@ function arm.stop(fields) end
 ---@field device string
 ---what the operator should do
 ---@field task? string
+---how many steps of the mission have begun, this one included
+---@field entry? integer
 ---what the step waits for people for
 ---@field waits? string
 
 ---@class arm.announce
 ---the step that begins; null or left out: the mission has ended
 ---@field step? arm.announce.step
+---the condition that ended the step before
+---@field after? string
 
 ---Tells the operator which step runs.
 ---@param fields arm.announce

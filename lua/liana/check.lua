@@ -1,5 +1,9 @@
--- Checks a mission's structure before anything moves; every refusal says step, field, value, what is allowed and what to do.
+-- Checks a mission's structure before anything moves; every refusal says where the step stands, step, field, value, what
+-- is allowed and what to do. What the robot cannot do is liana.against's.
+local refuse = require "liana.refuse"
+local step_fields = require "liana.step_fields"
 local uses = require "liana.uses"
+local ways = require "liana.ways"
 
 local check = {}
 
@@ -7,14 +11,15 @@ local kDevices = { vr = true, hand = true, none = true }
 local kOnFail = { retract = true, hold = true, stop = true, pause = true }
 local kDefaultEnterLimit_s = 10
 
-local function refuse(where, field, value, allowed, advice)
-  error(where .. ": " .. field .. ": " .. tostring(value) .. ": allowed " .. allowed .. ": " .. advice, 0)
-end
-
-local function is_condition(value) return type(value) == "table" and type(value.met) == "function" end
+local function is_condition(value) return type(value) == "table" and type(value.met) == "function" and type(value.text) == "string" end
 
 local function seconds_up_to(most_s)
   return { allowed = "seconds over 0, up to " .. most_s, ok = function(v) return type(v) == "number" and v > 0 and v <= most_s end }
+end
+
+local function text_up_to(most)
+  local function ok(v) return type(v) == "string" and #v >= 1 and #v <= most end
+  return { allowed = ("a text of 1 to %d bytes"):format(most), ok = ok }
 end
 
 local function one_of(words, text)
@@ -28,26 +33,68 @@ local action_rule = { allowed = "an action such as move_to \"prepare\", or a fun
 local function is_table(value) return type(value) == "table" end
 
 local kStep = {
+  at = { allowed = "nothing", ok = function(v) return type(v) == "string" end }, -- where it stands, noted by liana.step
   name = { allowed = "a text of 1 to 60 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 60 end, required = true },
   device = { allowed = "\"vr\", \"hand\" or \"none\"", ok = one_of(kDevices).ok, required = true },
-  exit = { allowed = condition_rule.allowed, ok = is_condition, required = true },
+  exit = condition_rule,
   time_limit_s = { allowed = "seconds over 0, up to 3600", ok = seconds_up_to(3600).ok, required = true },
   on_fail = { allowed = "\"retract\", \"hold\", \"stop\" or \"pause\"", ok = one_of(kOnFail).ok, required = true },
   enter = condition_rule,
   enter_limit_s = seconds_up_to(3600),
+  fail_when = condition_rule,
   hold = { allowed = "{ [theta] = degrees }, such as { [9] = 0 }", ok = is_table },
   steer = { allowed = "a table with fields of use_device, such as { scale = 4 }", ok = is_table },
   run = action_rule,
-  confirm = { allowed = "a text of 1 to 80 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 80 end },
-  task = { allowed = "a text of 1 to 40 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 40 end },
+  plan = text_up_to(200),
+  next = { allowed = "ways, such as \"name\" or { step = \"name\", when = condition }", ok = function(v) return v ~= nil end },
+  confirm = text_up_to(80),
+  task = text_up_to(40),
 }
+
+-- A step's name in messages, behind where it stands in the script; `mission` is that of the mission.
+function check.where_of(mission, step)
+  local name = type(step.name) == "string" and " \"" .. step.name .. "\"" or ""
+  return (type(step.at) == "string" and step.at or "") .. mission .. name
+end
+
+-- What a device's operator can be told to do; any recording's name for `vr`.
+local kHandTasks = { slit = true, rod = true }
+
+local function check_task(where, fields)
+  if fields.task == nil then return end
+  if fields.device == "none" then refuse(where, "task", fields.task, "only with device vr or hand", "name the device or remove task") end
+  if fields.device == "hand" and not kHandTasks[fields.task] then
+    refuse(where, "task", fields.task, "\"slit\" or \"rod\" for device hand", "name one of them or remove task")
+  end
+  if fields.device == "vr" and not fields.task:find("^[%w_-]+$") then
+    refuse(where, "task", fields.task, "the name of a recording: letters, digits, _ and -", "correct the name")
+  end
+end
+
+-- What a plan says itself, and what needs it.
+local function check_plan(where, fields)
+  if fields.plan == nil then
+    if fields.exit == nil then refuse(where, "exit", "missing", condition_rule.allowed, "add the field") end
+    return
+  end
+  for _, field in ipairs { "run", "exit" } do
+    if fields[field] ~= nil then refuse(where, field, "given", "nothing beside plan, which says it", "remove it, or make it a step of its own") end
+  end
+  if fields.device ~= "none" then refuse(where, "device", fields.device, "\"none\" beside plan", "correct the device") end
+end
+
+local function field_names()
+  local names = {}
+  for i, field in ipairs(step_fields) do names[i] = field[1] end
+  return table.concat(names, ", ")
+end
 
 local function check_step(where, fields)
   if type(fields) ~= "table" then refuse(where, "step", fields, "step \"name\" { ... }", "write the step with step") end
-  if type(fields.name) == "string" then where = where .. " \"" .. fields.name .. "\"" end
+  where = check.where_of(where, fields)
   for field, value in pairs(fields) do
     local rule = kStep[field]
-    if not rule then refuse(where, tostring(field), value, "no such field", "remove it or correct its spelling") end
+    if not rule then refuse(where, tostring(field), value, "no such field, but " .. field_names(), "remove it or correct its spelling") end
     if not rule.ok(value) then refuse(where, field, value, rule.allowed, "correct the step") end
   end
   for field, rule in pairs(kStep) do
@@ -59,24 +106,48 @@ local function check_step(where, fields)
   if fields.steer and fields.steer.device then
     refuse(where, "steer.device", fields.steer.device, "nothing", "name the device in the step's own field")
   end
+  check_task(where, fields)
+  check_plan(where, fields)
 end
 
--- The step with defaults; what it holds is what the step before held unless it says otherwise.
-local function filled_in(fields, held_before)
+-- The step with defaults.
+local function filled_in(fields)
   local step = {
-    hold = held_before, steer = {}, run = function() end, enter_limit_s = kDefaultEnterLimit_s,
-    enter = { text = "none", met = function() return true end },
+    steer = {}, run = function() end, enter_limit_s = kDefaultEnterLimit_s,
+    enter = { text = "none", met = function() return true end }, fail_when = { text = "never", met = function() return false end },
+    at = "",
   }
   for field, value in pairs(fields) do step[field] = value end
+  step.enters_when = fields.enter
   return step
 end
 
--- A checked mission { name, steps, finish }; raises a message without position on the first fault.
-function check.mission(name, fields)
-  local where = "mission " .. tostring(name)
-  if type(name) ~= "string" or not name:find("^[%w_-]+$") then refuse("mission", "name", name, "letters, digits, _ and -", "choose another name") end
+-- Step `number` of a checked mission in messages.
+function check.step_where(mission, number)
+  return check.where_of(("mission %s: step %d"):format(mission.name, number), mission.steps[number])
+end
+
+-- What depends on the steps together: what comes after each, and what each holds.
+local function settle(mission)
+  local function where_of(i) return check.step_where(mission, i) end
+  ways.resolve(mission.steps, where_of)
+  ways.settle_holds(mission.steps, where_of)
+  for i, step in ipairs(mission.steps) do
+    for _ in pairs(step.plan and step.hold or {}) do
+      refuse(where_of(i), "hold", "something held", "{} beside plan, which turns every angle", "write hold = {}")
+    end
+  end
+end
+
+-- A checked mission { name, steps, finish, at }; raises a message on the first fault. `at`: where it stands in the script.
+function check.mission(name, fields, at)
+  local called = "mission " .. tostring(name)
+  local where = at .. called
+  if type(name) ~= "string" or not name:find("^[%w_-]+$") then
+    refuse(at .. "mission", "name", name, "letters, digits, _ and -", "choose another name")
+  end
   if type(fields) ~= "table" then refuse(where, "steps", fields, "a table of steps", "write mission \"name\" { step ... }") end
-  local mission = { is_mission = true, name = name, steps = {}, finish = fields.finish or function() end }
+  local mission = { is_mission = true, name = name, at = at, steps = {}, finish = fields.finish or function() end }
   for key, value in pairs(fields) do
     if key == "finish" then
       if type(value) ~= "function" then refuse(where, "finish", value, action_rule.allowed, "correct the field") end
@@ -85,81 +156,18 @@ function check.mission(name, fields)
     end
   end
   for i, step in ipairs(fields) do
-    check_step(where .. ": step " .. i, step)
-    mission.steps[i] = filled_in(step, i > 1 and mission.steps[i - 1].hold or {})
+    check_step(called .. ": step " .. i, step)
+    mission.steps[i] = filled_in(step)
   end
   if #mission.steps == 0 then refuse(where, "steps", "none", "at least one step", "add a step") end
+  settle(mission)
   return mission
 end
 
-local function require_mission(mission)
+-- Refuses what a file returned when it is no mission.
+function check.require_mission(mission)
   if type(mission) == "table" and mission.is_mission == true then return end
   refuse("mission", "file", type(mission), "return liana.mission \"name\" { ... }", "return the mission at the end of the file")
-end
-
-local function has_poses(where, field, names, robot)
-  local known = {}
-  for name in pairs(robot.named_poses_deg) do known[#known + 1] = name end
-  for _, name in ipairs(names) do
-    if robot.named_poses_deg[name] == nil then
-      local allowed = table.concat(known, ", ") .. " (robot " .. robot.name .. ")"
-      refuse(where, field, "pose " .. tostring(name), allowed, "name one of them or add the pose")
-    end
-  end
-end
-
--- Raises what lianad would refuse about a command.
-local function accepted(where, robot, refusal_of, command, fields)
-  local refusal = refusal_of(command, fields)
-  if refusal then error(("%s: %s (robot %s)"):format(where, refusal, robot.name), 0) end
-end
-
-local function action_suits(where, field, action, robot, refusal_of)
-  local use = uses.of(action)
-  has_poses(where, field, { use.pose }, robot)
-  if not use.command then return end
-  local fields = { goal_deg = use.pose and robot.named_poses_deg[use.pose] }
-  for key, value in pairs(use.fields) do fields[key] = value end
-  accepted(("%s: %s: %s"):format(where, field, use.action), robot, refusal_of, use.command, fields)
-end
-
-local kTipValues = 6 -- position and attitude, which the tip keeps while angles go to where they are held
-
-local function holds_fit(where, hold, robot)
-  local held, angles = 0, robot.segments and 2 * #robot.segments or #robot.joints
-  for _ in pairs(hold) do held = held + 1 end
-  local most = math.max(0, angles - kTipValues)
-  if held <= most then return end
-  refuse(where, "hold", held .. (held == 1 and " angle" or " angles"),
-    ("at most %d (robot %s has %d angles, of which its tip needs %d)"):format(most, robot.name, angles, kTipValues),
-    "hold fewer, or turn the angles with move_jp")
-end
-
-local function step_suits(where, step, robot, refusal_of)
-  for theta, target_deg in pairs(step.hold) do
-    local held = { { theta = theta, target_deg = target_deg } }
-    accepted(("%s: hold[%s]"):format(where, theta), robot, refusal_of, "hold_theta", { held = held })
-  end
-  holds_fit(where, step.hold, robot)
-  if step.device ~= "none" then
-    local fields = { device = step.device }
-    for field, value in pairs(step.steer) do fields[field] = value end
-    accepted(where .. ": steer", robot, refusal_of, "use_device", fields)
-  end
-  has_poses(where, "enter", step.enter.poses or {}, robot)
-  action_suits(where, "run", step.run, robot, refusal_of)
-  has_poses(where, "exit", step.exit.poses or {}, robot)
-end
-
--- Refuses what this robot (docs/formats.md) cannot do: angles and nodes it does not have, targets beyond its limits, poses
--- it does not know. refusal_of(command, fields) says what lianad would refuse, or nothing.
-function check.against(mission, robot, refusal_of)
-  require_mission(mission)
-  local where = "mission " .. mission.name
-  for i, step in ipairs(mission.steps) do
-    step_suits(where .. ": step " .. i .. " \"" .. step.name .. "\"", step, robot, refusal_of)
-  end
-  action_suits(where, "finish", mission.finish, robot, refusal_of)
 end
 
 local function sorted_held(hold)
@@ -168,14 +176,24 @@ local function sorted_held(hold)
   return held
 end
 
+local function described_ways(step)
+  local out = {}
+  for i, way in ipairs(step.ways) do
+    out[i] = { step = way.step, when = way.when and way.when.text, on = way.on, at_most = way.at_most }
+  end
+  return out
+end
+
 -- Plain data about a mission, for `liana-mission eval mission`.
 function check.describe(mission)
-  require_mission(mission)
+  check.require_mission(mission)
   local steps = {}
   for i, step in ipairs(mission.steps) do
     steps[i] = {
       name = step.name, device = step.device, held_theta = sorted_held(step.hold), time_limit_s = step.time_limit_s,
-      on_fail = step.on_fail, confirm = step.confirm, enter = step.enter.text, exit = step.exit.text,
+      on_fail = step.on_fail, confirm = step.confirm, task = step.task, at = step.at, enter = step.enter.text, exit = step.exit.text,
+      fail_when = step.fail_when.text, next = described_ways(step), plan = step.plan, start_deg = step.start_deg,
+      goal_deg = step.goal_deg, goal_pose = uses.of(step.run).pose,
     }
   end
   return { format = 1, kind = "mission", name = mission.name, steps = steps }

@@ -1,7 +1,9 @@
--- Conditions for `enter` and `exit` of steps. A condition is { text, met(arm) -> boolean }; the text appears when it is not met in time.
+-- Conditions for `enter`, `exit` and `fail_when` of steps. A condition is { text, met(arm) -> boolean, what of it is met };
+-- the text appears when it is not met in time, and what is met when it ends a step.
 -- `arm` is the view of lua/liana/view.lua: the last state, the scene, the robot, and what happened since the step began.
 local geometry = require "liana.geometry"
 local need = require "liana.need"
+local position = require "liana.position"
 
 local conditions = {}
 
@@ -9,16 +11,24 @@ local conditions = {}
 function conditions.condition(text, met)
   need("condition", "text", text, "string")
   need("condition", "met", met, "function")
-  return { text = text, met = met }
+  return { text = text, met = function(arm)
+    if met(arm) then return true, text end
+    return false
+  end }
 end
 
 local condition = conditions.condition
 
--- The same, remembering which named poses of the robot it uses; a mission is checked for them before it starts.
-local function condition_on(poses, text, met) return { text = text, met = met, poses = poses } end
+-- The same, remembering which named pose of the robot it uses; a mission is checked for it before it starts.
+local function condition_on(name, at, text, met)
+  local made = condition(text, met)
+  made.poses = { { name = name, at = at } }
+  return made
+end
 
 local function need_conditions(what, list)
   need(what, "list", list, "table")
+  if #list == 0 then error(what .. ": list: empty: allowed one condition or more, such as at_rest(): correct the call", 3) end
   for i, each in ipairs(list) do
     if type(each) ~= "table" or type(each.met) ~= "function" then
       error(("%s: entry %d: %s: allowed conditions, such as at_rest(): correct the call"):format(what, i, tostring(each)), 3)
@@ -29,7 +39,7 @@ end
 local function poses_of(list)
   local poses = {}
   for _, each in ipairs(list) do
-    for _, name in ipairs(each.poses or {}) do poses[#poses + 1] = name end
+    for _, pose in ipairs(each.poses or {}) do poses[#poses + 1] = pose end
   end
   return poses
 end
@@ -43,23 +53,27 @@ end
 -- Met when all of the list are.
 function conditions.all(list)
   need_conditions("all", list)
-  return condition_on(poses_of(list), texts(list, " and "), function(arm)
-    for _, each in ipairs(list) do
-      if not each.met(arm) then return false end
+  return { text = texts(list, " and "), poses = poses_of(list), met = function(arm)
+    local met = {}
+    for i, each in ipairs(list) do
+      local is_met, what = each.met(arm)
+      if not is_met then return false end
+      met[i] = what or each.text
     end
-    return true
-  end)
+    return true, table.concat(met, " and ")
+  end }
 end
 
--- Met when one of the list is.
+-- Met when one of the list is: the first that is met is named.
 function conditions.any(list)
   need_conditions("any", list)
-  return condition_on(poses_of(list), texts(list, " or "), function(arm)
+  return { text = texts(list, " or "), poses = poses_of(list), met = function(arm)
     for _, each in ipairs(list) do
-      if each.met(arm) then return true end
+      local is_met, what = each.met(arm)
+      if is_met then return true, what or each.text end
     end
     return false
-  end)
+  end }
 end
 
 -- The arm stands still.
@@ -67,12 +81,17 @@ function conditions.at_rest()
   return condition("arm at rest", function(arm) return arm.state.at_rest and not arm.state.is_busy end)
 end
 
+-- The tool has carried out its last command.
+function conditions.tool_done()
+  return condition("tool done", function(arm) return arm.state.tool ~= nil and arm.state.tool.phase == "done" end)
+end
+
 -- Every joint setpoint within tolerance_deg (default 0.02) of a named pose of the robot.
 function conditions.at_pose(name, tolerance_deg)
   need("at_pose", "name", name, "string")
   tolerance_deg = tolerance_deg or 0.02
-  need("at_pose", "tolerance_deg", tolerance_deg, "number")
-  return condition_on({ name }, "at pose " .. name, function(arm)
+  need("at_pose", "tolerance_deg", tolerance_deg, "number over 0")
+  return condition_on(name, position(1), "at pose " .. name, function(arm)
     for i, target_deg in ipairs(arm.named_pose(name)) do
       if math.abs(arm.state.setpoint_js_deg[i] - target_deg) > tolerance_deg then return false end
     end
@@ -83,8 +102,8 @@ end
 -- The tip within distance_m of where a named pose puts it.
 function conditions.tip_near_pose(name, distance_m)
   need("tip_near_pose", "name", name, "string")
-  need("tip_near_pose", "distance_m", distance_m, "number")
-  return condition_on({ name }, ("tip within %g m of pose %s"):format(distance_m, name), function(arm)
+  need("tip_near_pose", "distance_m", distance_m, "number over 0")
+  return condition_on(name, position(1), ("tip within %g m of pose %s"):format(distance_m, name), function(arm)
     local there = geometry.tip(arm.robot, arm.named_pose(name)).position
     return geometry.distance(arm.tip(), there) <= distance_m
   end)
@@ -92,7 +111,7 @@ end
 
 -- The tip within distance_m of the press rod.
 function conditions.tip_near_rod(distance_m)
-  need("tip_near_rod", "distance_m", distance_m, "number")
+  need("tip_near_rod", "distance_m", distance_m, "number over 0")
   return condition(("tip within %g m of the rod"):format(distance_m), function(arm)
     return geometry.distance(arm.tip_in_drawing(), arm.part_of_scene("rod").position_m) <= distance_m
   end)
@@ -112,7 +131,7 @@ end
 
 -- The tip at most distance_m off the middle plane of the slit.
 function conditions.tip_in_plane(distance_m)
-  need("tip_in_plane", "distance_m", distance_m, "number")
+  need("tip_in_plane", "distance_m", distance_m, "number over 0")
   return condition(("tip within %g m of the slit plane"):format(distance_m), function(arm)
     return math.abs(arm.slit_offset()) <= distance_m
   end)

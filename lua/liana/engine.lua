@@ -1,6 +1,7 @@
 -- Runs a mission: one call per state from lianad (every command interval), never blocking.
--- boot -> (enter -> confirm -> run) for each step -> finish -> over; any fault leads through the step's on_fail to over,
--- with on_fail = "pause" to stuck, and from there on people's word through boot to the step again. People may pause it.
+-- boot -> (enter -> confirm -> run) for each step -> finish -> over; which step is next, lua/liana/ways.lua says. Any fault
+-- leads through the step's on_fail to over, with on_fail = "pause" to stuck, and from there on people's word through boot to
+-- the step again; a failure that `next` has a way for leads through recover to that step. People may pause it.
 local view = require "liana.view"
 
 local engine = {}
@@ -8,8 +9,11 @@ local engine = {}
 local kBootLimit_s = 60 -- drives boot, home and enable in this time or the mission fails
 local kSettle_s = 0.1 -- commands need a few intervals before the state shows them
 local kFinishLimit_s = 5
+local kToolLimit_s = 30 -- the tool says in this time how its last command ended
 local kRetractStall_s = 60 -- the way back comes on by a point of its path in this time or the mission ends
 local kPatience_s = 3600 -- of this time a mission waits for people at most
+local kMostSteps = 1000 -- begin in one run
+local kRecoverLimit_s = 30 -- the arm is at rest in this time after a failed step that another one follows
 local kRetry_s = 2 -- between attempts that lianad answers with busy or refused
 
 local Runner = {}
@@ -28,13 +32,14 @@ local function tracked(commands, pending)
   return out
 end
 
--- A runner for a checked mission. `native` has commands (the bindings), progress(event) and report(table); `name` is ours at lianad.
+-- A runner for a checked mission. `native` has commands (the bindings), progress(event), report(table) and attempt(function, ...),
+-- which is pcall with a budget of its own; `name` is ours at lianad.
 function engine.new(mission, welcome, native, name)
   local pending = {} -- request id -> command
   return setmetatable({
     mission = mission, native = native, name = name, arm = view.new(tracked(native.commands, pending), welcome),
     phase = "boot", index = 0, pending = pending, not_before = 0, first_retract_tick = nil, current_hold = {},
-    index_to_begin = 1, single_step = false,
+    index_to_begin = 1, single_step = false, taken = {}, -- of each way how often
     boot_reason = "state_command got no refusal",
     report = { mission = mission.name, outcome = "failed", reason = "", steps = {}, duration_s = 0 },
   }, Runner)
@@ -96,28 +101,41 @@ local function held_list(hold)
 end
 
 function Runner:begin_step(index, goes_on)
+  if #self.report.steps >= kMostSteps then return self:fail("failed", ("%d steps have begun, more than a run may have"):format(kMostSteps)) end
   self.index = index
   local step, state = self:step(), self.arm.state
   self.record = {
-    name = step.name, device = step.device, held_theta = held_list(step.hold), outcome = "running", reason = "",
+    index = index, name = step.name, device = step.device, held_theta = held_list(step.hold), outcome = "running", reason = "", ended_by = "",
     start_tick = state.tick, end_tick = state.tick, duration_s = 0,
   }
-  self.report.steps[index] = self.record
+  self.report.steps[#self.report.steps + 1] = self.record
   self.refusals_before = state.refusals
   if step.on_fail == "retract" and not self.first_retract_tick then self.first_retract_tick = state.tick end
   self.arm.begin_tick, self.arm.was_engaged, self.arm.must_hold = state.tick, false, step.hold
   self.has_entered, self.is_confirmed, self.waited_s = false, step.confirm == nil, 0
-  self:announce_step()
+  self:announce_step(nil, self:after())
   self.native.progress { event = "begin", index = index, count = #self.mission.steps, name = step.name, device = step.device, time_s = state.time_s }
   self.native.report(self.report)
   self:enter_phase("enter")
   if self.single_step and not goes_on then self:pause("one step at a time") end
 end
 
--- Tells everybody which step runs, and what it waits for.
-function Runner:announce_step(waits)
+local kLongestText = 120 -- of what lianad is told about steps [bytes]
+
+-- The beginning of a text of the script's, at most `length` bytes, that no limit on packets and no encoding keeps from lianad.
+local function printable(text, length) return (text:sub(1, length):gsub("[^\32-\126]", "?")) end
+
+-- Tells everybody which step runs, what it waits for, and what ended the one before.
+function Runner:announce_step(waits, after)
   local step = self:step()
-  self:request("announce", { step = { index = self.index, name = step.name, device = step.device, task = step.task, waits = waits } })
+  local told = { index = self.index, name = step.name, device = step.device, task = step.task, waits = waits, entry = #self.report.steps }
+  self:request("announce", { step = told, after = after })
+end
+
+-- What ended the step before, as lianad is told.
+function Runner:after()
+  if self.ended_by == nil then return nil end
+  return printable(self.ended_by, kLongestText)
 end
 
 local function same_hold(a, b)
@@ -134,11 +152,29 @@ function Runner:send_hold(hold)
   self.current_hold = hold
 end
 
+-- Calls what the script has for `field`: whether that went well, and what it returned. An error in it fails the step.
+function Runner:call(field, script)
+  local is_fine, result, more = self.native.attempt(script, self.arm)
+  if not is_fine then self:fail("failed", ("error in %s: %s"):format(field, result)) end
+  return is_fine, result, more
+end
+
+-- Whether a condition of the step is met, and what of it; nothing of it after an error.
+function Runner:is_met(field)
+  local condition = self:step()[field]
+  local is_fine, met, what = self:call(field, condition.met)
+  if not (is_fine and met) then return false, nil, is_fine end
+  return true, what or condition.text, true
+end
+
 local function enter(runner)
   local step = runner:step()
-  if not runner.has_entered and not step.enter.met(runner.arm) then
-    if runner:phase_s() > step.enter_limit_s then runner:fail("failed", "cannot enter, not met: " .. step.enter.text) end
-    return
+  if not runner.has_entered then
+    local is_met, _, is_fine = runner:is_met("enter")
+    if is_fine and not is_met and runner:phase_s() > step.enter_limit_s then
+      runner:fall_short("failed", "cannot enter, not met: " .. step.enter.text)
+    end
+    if not is_met then return end
   end
   runner.has_entered = true
   if not runner.is_confirmed then return runner:wait_for_people("confirm", "confirm: " .. step.confirm) end
@@ -148,14 +184,13 @@ local function enter(runner)
     for field, value in pairs(step.steer) do fields[field] = value end
     runner:request("use_device", fields)
   end
-  step.run(runner.arm)
-  runner:enter_phase("run")
+  if runner:call("run", step.run) then runner:enter_phase("run") end
 end
 
 -- ---- people ---------------------------------------------------------------------------------------------------------
 
 function Runner:wait_for_people(phase, why)
-  self:announce_step((string.char(why:byte(1, 120)):gsub("[^\32-\126]", "?"))) -- no reason may keep lianad from taking it
+  self:announce_step(printable(why, kLongestText))
   self.native.progress {
     event = "wait", index = self.index, count = #self.mission.steps, name = self:step().name, reason = why,
     time_s = self.arm.state.time_s,
@@ -163,11 +198,15 @@ function Runner:wait_for_people(phase, why)
   self:enter_phase(phase)
 end
 
--- The arm holds; nothing goes on until somebody says so. The step's time stands still.
-function Runner:pause(why)
+function Runner:stand_still()
   self:request("hold")
   if self:step().device ~= "none" and self.phase == "run" then self:request("use_device", { device = "none" }) end
   self.current_hold = { paused = true } -- holds of its own: what was under way has to be asked for again
+end
+
+-- The arm holds; nothing goes on until somebody says so. The step's time stands still.
+function Runner:pause(why)
+  self:stand_still()
   self:wait_for_people("paused", "paused: " .. why)
 end
 
@@ -210,7 +249,7 @@ end
 function kAsked.abort(runner, by)
   local reason = "ended by " .. by
   if runner.phase == "stuck" then return runner:over(runner.failed_outcome, runner.failed_reason .. "; " .. reason) end
-  if kUnderWay[runner.phase] or runner.phase == "paused" then runner:fail("aborted", reason, true) end
+  if kUnderWay[runner.phase] or runner.phase == "recover" or runner.phase == "paused" then runner:fail("aborted", reason, true) end
 end
 
 -- What somebody has asked for since the last look (docs/api.md, mission_control).
@@ -237,8 +276,19 @@ end
 local function refused_motion(runner)
   local state = runner.arm.state
   if runner:step().device ~= "none" or state.refusals == runner.refusals_before then return false end
-  runner:fail("refused", "lianad refused the motion: " .. state.verdict.text)
+  runner:fall_short("refused", "lianad refused the motion: " .. state.verdict.text)
   return true
+end
+
+-- Looks at `fail_when`, then at `exit`. True when one of them, or an error in it, has ended the step.
+local function ended_by_condition(runner)
+  local has_failed, why, is_fine = runner:is_met("fail_when")
+  if has_failed then runner:fall_short("failed", "fail_when: " .. why, why) end
+  if has_failed or not is_fine then return true end
+  if runner:waiting() then return false end
+  local is_over, what, is_well = runner:is_met("exit")
+  if is_over then runner:end_step(what) end
+  return is_over or not is_well
 end
 
 local function run(runner)
@@ -246,37 +296,95 @@ local function run(runner)
   if refused_motion(runner) then return end
   local fresh = runner:phase_s() >= kSettle_s -- before, the state may still speak of the step before
   if fresh and arm.state.device_engaged then arm.was_engaged = true end
-  if fresh and not runner:waiting() and step.exit.met(arm) then return runner:end_step() end
+  if fresh and ended_by_condition(runner) then return end
   if arm.elapsed_s(arm.begin_tick) - runner.waited_s > step.time_limit_s then
     local busy = arm.state.is_busy and " while the arm was still moving" or ""
-    runner:fail("failed", ("time limit of %g s passed%s, not met: %s"):format(step.time_limit_s, busy, step.exit.text))
+    runner:fall_short("failed", ("time limit of %g s passed%s, not met: %s"):format(step.time_limit_s, busy, step.exit.text))
   end
 end
 
-function Runner:close_record(outcome, reason)
+-- `ended_by`: the condition that ended the step, where one did.
+function Runner:close_record(outcome, reason, ended_by)
   local record, state = self.record, self.arm.state
-  record.outcome, record.reason, record.end_tick = outcome, reason, state.tick
+  record.outcome, record.reason, record.ended_by, record.end_tick = outcome, reason, ended_by or "", state.tick
+  self.ended_by = ended_by
   record.duration_s = self.arm.elapsed_s(record.start_tick)
   self.native.progress {
     event = "end", index = self.index, count = #self.mission.steps, name = record.name, device = record.device, outcome = outcome,
-    reason = reason, duration_s = record.duration_s, time_s = state.time_s,
+    reason = reason, ended_by = record.ended_by, duration_s = record.duration_s, time_s = state.time_s,
   }
   self.native.report(self.report)
 end
 
-function Runner:end_step()
-  self:close_record("success", "")
+function Runner:end_step(ended_by)
+  self:close_record("success", "", ended_by)
   if self:step().device ~= "none" then self:request("use_device", { device = "none" }) end
-  if self.index < #self.mission.steps then return self:begin_step(self.index + 1) end
-  self.report.repair_tick = self.arm.state.tick
-  self.report.duration_s = self.arm.elapsed_s(self.report.steps[1].start_tick)
-  self.mission.finish(self.arm)
-  self:enter_phase("finish")
+  local target, is_fine = self:way_on("success")
+  if is_fine then self:go_to(target or self.index + 1) end
 end
 
+-- The step that `next` leads to on this outcome, if it does, and whether no condition in it has failed.
+function Runner:way_on(outcome)
+  for _, way in ipairs(self:step().ways) do
+    if way.on == outcome and (way.at_most == nil or (self.taken[way] or 0) < way.at_most) then
+      local is_fine, is_met = true, true
+      if way.when then is_fine, is_met = self:call("next", way.when.met) end
+      if not is_fine then return nil, false end
+      if is_met then
+        self.taken[way] = (self.taken[way] or 0) + 1
+        self.record.next = way.step
+        return way.target, true
+      end
+    end
+  end
+  return nil, true
+end
+
+-- To step `index`, or to the end behind the last.
+function Runner:go_to(index)
+  if index <= #self.mission.steps then return self:begin_step(index) end
+  self.report.repair_tick = self.arm.state.tick
+  self.report.duration_s = self.arm.elapsed_s(self.report.steps[1].start_tick)
+  self.tool_number = self.arm.state.tool and self.arm.state.tool.number or 0
+  if self:call("finish", self.mission.finish) then self:enter_phase("finish") end
+end
+
+local kToolUnderWay = { asked = true, acting = true }
+
+-- What the mission ends with is over when lianad has taken it; a command to the tool when the tool has carried it out.
 local function finish(runner)
-  if not runner:waiting() then return runner:over("success", "") end
-  if runner:phase_s() > kFinishLimit_s then runner:over("failed", "no answer to the last command") end
+  if runner:waiting() then
+    if runner:phase_s() > kFinishLimit_s then runner:over("failed", "no answer to the last command") end
+    return
+  end
+  if runner:phase_s() < kSettle_s then return end -- the state may still be from before
+  local tool = runner.arm.state.tool
+  if not tool or tool.number == runner.tool_number or tool.phase == "done" then return runner:over("success", "") end
+  if not kToolUnderWay[tool.phase] then return runner:over("failed", ("tool: %s %s: %s"):format(tool.command, tool.phase, tool.reason)) end
+  if runner:phase_s() > kToolLimit_s then
+    runner:over("failed", ("tool: %s did not end within %g s; it is %s"):format(tool.command, kToolLimit_s, tool.phase))
+  end
+end
+
+-- The step has not done what it should: on to where `next` leads then, at rest first, or else what on_fail says.
+function Runner:fall_short(outcome, reason, ended_by)
+  self:close_record(outcome, reason, ended_by)
+  local target, is_fine = self:way_on("failure")
+  if not is_fine then return end
+  if not target then return self:fail(outcome, reason) end
+  self:forget_requests()
+  self:stand_still()
+  self.failed_outcome, self.failed_reason, self.recovers_to = outcome, reason, target
+  self:enter_phase("recover")
+end
+
+local function recover(runner)
+  if runner:phase_s() > kRecoverLimit_s then
+    return runner:fail("failed", ("%s; not at rest %g s after that"):format(runner.failed_reason, kRecoverLimit_s))
+  end
+  if runner:waiting() or runner:phase_s() < kSettle_s or not runner.arm.state.at_rest then return end
+  runner.failed_outcome, runner.failed_reason = nil, nil
+  runner:go_to(runner.recovers_to)
 end
 
 -- ---- failing ------------------------------------------------------------------------------------------------------
@@ -287,17 +395,17 @@ function Runner:fault_names()
   return #names > 0 and table.concat(names, ", ") or "none named"
 end
 
--- A reason that no limit on packets and no encoding can keep from lianad, which shows 200 bytes of it. The report has
--- the whole text.
-local function short(reason)
-  return (string.char(reason:byte(1, 200)):gsub("[^\32-\126]", "?"))
+-- Answers that still come are those of a step that is over.
+function Runner:forget_requests()
+  for id in pairs(self.pending) do self.pending[id] = nil end
 end
 
 -- Ends the step with `outcome` and does what the step says; without a step, holds. `for_good`: does not wait for people.
-function Runner:fail(outcome, reason, for_good)
+-- `ended_by` as for close_record.
+function Runner:fail(outcome, reason, for_good, ended_by)
   local step = self:step()
-  if self.record and self.record.outcome == "running" then self:close_record(outcome, reason) end
-  for id in pairs(self.pending) do self.pending[id] = nil end
+  if self.record and self.record.outcome == "running" then self:close_record(outcome, reason, ended_by) end
+  self:forget_requests()
   self.failed_outcome, self.failed_reason = outcome, reason
   local action = step and step.on_fail or "hold"
   if action == "pause" and not for_good then return self:get_stuck() end
@@ -306,7 +414,7 @@ function Runner:fail(outcome, reason, for_good)
     self:request("retract", { until_tick = self.first_retract_tick })
     return self:enter_phase("retract")
   end
-  if self.owned or action == "stop" then self:request(action, action == "stop" and { reason = short(reason) } or {}) end
+  if self.owned or action == "stop" then self:request(action, action == "stop" and { reason = printable(reason, 200) } or {}) end
   self:enter_phase("give_up")
 end
 
@@ -346,7 +454,7 @@ function Runner:over(outcome, reason)
   if self.report.repair_tick == nil and self.report.steps[1] then
     self.report.duration_s = self.arm.elapsed_s(self.report.steps[1].start_tick)
   end
-  self.arm.announce {}
+  self.arm.announce { after = self:after() }
   if self.owned then self.arm.release {} end
   self.phase = "over"
   self.native.report(self.report)
@@ -375,7 +483,7 @@ end
 
 -- A fault that only holds the arm leaves it enabled and at rest, as if it had arrived.
 local function held_by_fault(runner)
-  local under_way = kUnderWay[runner.phase] or runner.phase == "finish"
+  local under_way = kUnderWay[runner.phase] or runner.phase == "recover" or runner.phase == "finish"
   if not under_way or #runner.arm.state.faults == 0 then return false end
   runner:fail("failed", "fault " .. runner:fault_names())
   return true
@@ -390,7 +498,7 @@ end
 local kBootRetry = { busy = true, refused = true }
 
 local kPhases = {
-  boot = boot, enter = enter, confirm = wait, paused = wait, stuck = wait_stuck, run = run, finish = finish,
+  boot = boot, enter = enter, confirm = wait, paused = wait, stuck = wait_stuck, run = run, recover = recover, finish = finish,
   retract = retract, give_up = give_up,
 }
 
@@ -428,6 +536,7 @@ function Runner:on_answer(message)
     self.failed_reason = self.failed_reason .. "; " .. reason
     return self:enter_phase("give_up")
   end
+  if kUnderWay[self.phase] then return self:fall_short("refused", reason) end
   self:fail("refused", reason)
 end
 

@@ -6,10 +6,11 @@
 --     finish = tool "repair",
 --   }
 --
--- Steps run in the order in which they are written. lua/README.md says what each field means.
+-- Steps run in the order in which they are written, or as their `next` says. docs/missions.md says what each field means.
 local actions = require "liana.actions"
 local check = require "liana.check"
 local conditions = require "liana.conditions"
+local position = require "liana.position"
 
 local liana = {}
 
@@ -18,15 +19,18 @@ for name, condition in pairs(conditions) do liana[name] = condition end
 
 -- A step: a name, then its fields (lua/liana/check.lua lists them).
 function liana.step(name)
+  local at = position(1)
   return function(fields)
-    fields.name = name
+    if type(fields) ~= "table" then error("step: fields: " .. type(fields) .. ": allowed step \"name\" { ... }: correct the call", 2) end
+    fields.name, fields.at = name, at
     return fields
   end
 end
 
 -- A mission: a name, then its steps in order, and what to do at the end. Refuses anything it does not know.
 function liana.mission(name)
-  return function(fields) return check.mission(name, fields) end
+  local at = position(1)
+  return function(fields) return check.mission(name, fields, at) end
 end
 
 return liana

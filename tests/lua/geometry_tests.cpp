@@ -46,7 +46,7 @@ TEST(LuaGeometry, TheTipInTheDrawingIsWhereTheSceneWouldHaveItHadItNotBeenShifte
 
 Json golden_cases() { return Json::parse(read_file(LIANA_SOURCE_DIR "/tests/golden/arm.json"))["cases"]; }
 
-// A2, A51: golden forward kinematics.
+// req:A35 req:A51
 TEST(LuaGeometry, TipAndSegmentEndsAgreeWithTheGoldenValues) {
   for (const auto& golden : golden_cases()) {
     const auto ends = evaluate_lua(golden["theta_deg"], "geometry.segment_ends(robot, theta_deg)");

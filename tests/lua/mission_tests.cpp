@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "host/json/json.hpp"
 #include "tests/lua/fake_lianad.hpp"
 #include "tests/lua/program.hpp"
@@ -47,7 +49,8 @@ std::string one_step(const TemporaryFolder& folder, const std::string& body) {
                           "\n device = 'none', time_limit_s = 5, on_fail = 'hold' } }\n");
 }
 
-// A50, A40: six steps, 10+0, 9+1, 8+2, then the repair command.
+// 10+0, 9+1, 8+2, then the repair command.
+// req:A7 req:A40 req:A50
 TEST(Mission, CrossesTheSlitInSixSteps) {
   const MissionRun run = run_mission_against({}, "slit_crossing", " --progress");
   ASSERT_EQ(run.ended.code, 0) << run.ended.error;
@@ -229,7 +232,9 @@ TEST(Mission, GoesOnFromItsStepAfterAFaultWasCleared) {
   EXPECT_EQ(run.ops("acquire").size(), 2u) << "others may own motion meanwhile: to clear";
   ASSERT_EQ(waits_of(run).size(), 1u);
   EXPECT_NE(waits_of(run)[0].find("failed: fault 5001 cable_slack"), std::string::npos);
-  EXPECT_EQ(run.report["steps"].size(), 2u);
+  ASSERT_EQ(run.report["steps"].size(), 3u) << "the one that failed stays in the report";
+  EXPECT_EQ(run.report["steps"][1]["outcome"], "failed");
+  EXPECT_EQ(run.report["steps"][2]["index"], 2);
 }
 
 TEST(Mission, ThatWaitsAfterAFaultIsEndedBySomebodyToo) {
@@ -291,7 +296,7 @@ TEST(Mission, AStepThatWasCutOffLastedUntilTheLastState) {
   const MissionRun run =
       run_mission_against({}, one_step(folder,
                                        "exit = liana.condition('never', function(arm) if arm.elapsed_s(arm.begin_tick) "
-                                       "> 1 then error 'x' end end),"));
+                                       "> 1 then xpcall(error, function() while true do end end) end end),"));
   EXPECT_EQ(run.report["outcome"], "failed");
   EXPECT_GT(run.report["steps"][0]["duration_s"].get<double>(), 1.0);
   EXPECT_EQ(run.report["duration_s"], run.report["steps"][0]["duration_s"]);
@@ -355,6 +360,199 @@ TEST(Mission, AnErrorInAStepNamesFileAndLineAndHolds) {
       << run.ended.error;
 }
 
+// Errors of every kind, wherever the script is asked: what has to follow a failure is done.
+TEST(Mission, AnErrorWhereverAStepAsksTheScriptRunsOnFail) {
+  const std::string fails = "local function fails(arm) if arm.elapsed_s(arm.begin_tick) > 0.3 then %s end end\n";
+  const std::map<std::string, std::string> errors = {
+      {"error 'too cold'", "given.lua:2: too cold"},
+      {"while true do end", "computes too long"},
+      {"local t = {} while true do t[#t + 1] = {} end", "too much memory"},
+      {"local x = 1 + {}", "attempt to perform arithmetic"}};
+  const std::map<std::string, std::string> steps = {
+      {"exit", "exit = liana.all { liana.any { liana.condition('c', fails) } }"},
+      {"fail_when",
+       "exit = liana.condition('no', function() return false end), fail_when = liana.condition('c', fails)"},
+      {"enter", "exit = liana.at_rest(), enter = liana.condition('c', fails)"},
+      {"run", "exit = liana.at_rest(), run = function(arm) fails({ elapsed_s = function() return 1 end }) end"}};
+  const TemporaryFolder folder;
+  for (const auto& [code, text] : errors) {
+    for (const auto& [field, step] : steps) {
+      std::string head = fails;
+      const std::string mission = folder.write(
+          "given.lua",
+          "local liana = require 'liana'\n" + head.replace(head.find("%s"), 2, code) +
+              "return liana.mission 'given' { liana.step 'only' { device = 'none', time_limit_s = 5, on_fail = "
+              "'retract', " +
+              step + " } }\n");
+      const MissionRun run = run_mission_against({}, mission);
+      EXPECT_EQ(run.ended.code, 1) << field << " " << code;
+      EXPECT_EQ(run.last_command(), "retract") << field << " " << code;
+      EXPECT_EQ(run.report["outcome"], "aborted") << field << " " << code;
+      const std::string reason = run.report["reason"];
+      EXPECT_NE(reason.find("error in " + field + ": "), std::string::npos) << reason;
+      EXPECT_NE(reason.find(text), std::string::npos) << reason;
+    }
+  }
+}
+
+TEST(Mission, WhatAStepFailsWhenItIsMetEndsItByName) {
+  const TemporaryFolder folder;
+  const MissionRun run = run_mission_against(
+      {},
+      folder.write("given.lua",
+                   "local liana = require 'liana'\n"
+                   "local function after(s) return function(arm) return arm.elapsed_s(arm.begin_tick) > s end end\n"
+                   "return liana.mission 'given' { liana.step 'only' { device = 'none', time_limit_s = 5, on_fail = "
+                   "'retract', exit = liana.condition('later', after(0.5)), fail_when = liana.any { "
+                   "liana.condition('never', after(9)), liana.condition('half a second', after(0.5)) } } }\n"));
+  EXPECT_EQ(run.report["outcome"], "aborted");
+  EXPECT_EQ(run.report["steps"][0]["outcome"], "failed") << "looked at before exit";
+  EXPECT_EQ(run.report["steps"][0]["ended_by"], "half a second");
+  EXPECT_EQ(run.report["steps"][0]["reason"], "fail_when: half a second");
+  EXPECT_EQ(run.last_command(), "retract");
+}
+
+// Steps a, b, c, ...: each with what it gives, ended by what `ends` says it is.
+std::string steps_with(const TemporaryFolder& folder, const std::vector<std::string>& fields,
+                       const std::string& head = "") {
+  std::string text =
+      "local liana = require 'liana'\nlocal function c(name, met) return liana.condition(name, met or "
+      "function() return true end) end\nlocal function after(s) return c(s .. ' s', function(arm) return "
+      "arm.elapsed_s(arm.begin_tick) > s end) end\n" +
+      head + "return liana.mission 'given' {\n";
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const bool says = fields[i].find("exit =") != std::string::npos || fields[i].find("plan =") != std::string::npos;
+    const std::string own = says ? "" : "exit = c 'done', ";
+    text += std::string("liana.step '") + static_cast<char>('a' + i) +
+            "' { device = 'none', time_limit_s = 5, on_fail = 'retract', " + own + fields[i] + " },\n";
+  }
+  return folder.write("given.lua", text + "}\n");
+}
+
+std::string order_of(const MissionRun& run) {
+  std::string names;
+  for (const Json& step : run.report["steps"]) names += step["name"].get<std::string>();
+  return names;
+}
+
+TEST(Mission, GoesOnWhereNextLeads) {
+  const TemporaryFolder folder;
+  const auto order = [&](const std::vector<std::string>& fields, const std::string& head = "") {
+    const MissionRun run = run_mission_against({}, steps_with(folder, fields, head));
+    EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
+    return order_of(run);
+  };
+  EXPECT_EQ(order({"next = { { step = 'c' }, { step = 'b', on = 'failure' } }", "next = 'finish'", "next = 'finish'"}),
+            "ac");
+  EXPECT_EQ(order({"", "next = { step = 'a', at_most = 2 }", ""}), "abababc");
+  EXPECT_EQ(
+      order({"", "next = { { step = 'a', when = c 'yes', at_most = 1 }, { step = 'finish', when = c 'yes' } }", ""}),
+      "abab");
+  EXPECT_EQ(order({"next = { step = 'c', when = c('no', function() return false end) }", "", ""}), "abc");
+  EXPECT_EQ(order({"exit = liana.any { after(9), fast }, next = { { step = 'b', when = after(9) }, { step = 'c', when "
+                   "= fast } }",
+                   "next = 'finish'", ""},
+                  "local fast = after(0.2)\n"),
+            "ac")
+      << "by the condition that ended the step";
+}
+
+TEST(Mission, AStepThatFallsShortIsFollowedByTheStepNextNamesForThat) {
+  const TemporaryFolder folder;
+  const std::string never = "exit = after(99), ", again = "next = { step = 'b', on = 'failure' }";
+  for (const std::string& fails : std::vector<std::string>{"time_limit_s = 0.5, ", "fail_when = after(0.2), ",
+                                                           "enter = after(99), enter_limit_s = 0.5, "}) {
+    const MissionRun run =
+        run_mission_against({}, steps_with(folder, {never + fails + again, "run = liana.move_to 'prepare'"}));
+    EXPECT_EQ(run.report["outcome"], "success") << fails << run.ended.error;
+    EXPECT_EQ(order_of(run), "ab");
+    EXPECT_EQ(run.report["steps"][0]["outcome"], "failed") << fails;
+    EXPECT_EQ(run.report["steps"][0]["next"], "b");
+    EXPECT_EQ(run.ops("hold").size(), 1u) << "at rest first";
+    EXPECT_TRUE(run.ops("retract").empty());
+  }
+  const std::string twice = never + "fail_when = after(0.2), next = { step = 'a', on = 'failure', at_most = 2 }";
+  const MissionRun spent = run_mission_against({}, steps_with(folder, {twice}));
+  EXPECT_EQ(order_of(spent), "aaa");
+  EXPECT_EQ(spent.last_command(), "retract") << "and then what on_fail says";
+  EXPECT_EQ(spent.report["outcome"], "aborted");
+  const MissionRun refused = run_mission_against({.refuse = {{"move_jp", "out_of_range"}}},
+                                                 steps_with(folder, {"run = liana.move_to 'prepare', " + again, ""}));
+  EXPECT_EQ(order_of(refused), "ab") << refused.ended.error;
+  EXPECT_EQ(refused.report["steps"][0]["outcome"], "refused");
+}
+
+TEST(Mission, FaultsAndErrorsOfTheScriptAreNoFailureThatNextLeadsOnFrom) {
+  const TemporaryFolder folder;
+  const std::string again = ", next = { step = 'b', on = 'failure' }";
+  const MissionRun fault =
+      run_mission_against({.hold_fault_in_step = 1}, steps_with(folder, {"exit = after(3)" + again, ""}));
+  EXPECT_EQ(order_of(fault), "a");
+  EXPECT_EQ(fault.last_command(), "retract");
+  const MissionRun error =
+      run_mission_against({}, steps_with(folder, {"exit = c('c', function() error 'x' end)" + again, ""}));
+  EXPECT_EQ(order_of(error), "a");
+  const MissionRun in_next = run_mission_against(
+      {}, steps_with(folder, {"next = { step = 'b', when = c('c', function() error 'x' end) }", ""}));
+  EXPECT_EQ(order_of(in_next), "a");
+  EXPECT_NE(in_next.report["reason"].get<std::string>().find("error in next: "), std::string::npos) << in_next.report;
+}
+
+TEST(Mission, NoRunHasMoreThanAThousandSteps) {
+  const TemporaryFolder folder;
+  const MissionRun run = run_mission_against({}, steps_with(folder, {"", "next = { step = 'a', at_most = 1000 }"}));
+  EXPECT_EQ(run.report["steps"].size(), 1000u);
+  EXPECT_NE(run.report["reason"].get<std::string>().find("1000 steps have begun, more than a run may have"),
+            std::string::npos);
+  EXPECT_EQ(run.last_command(), "retract");
+}
+
+TEST(Mission, WhatIsHeldFollowsTheWayThatWasTaken) {
+  const TemporaryFolder folder;
+  const MissionRun run =
+      run_mission_against({}, steps_with(folder, {"hold = { [9] = 0 }, next = 'c'", "hold = {}, next = 'finish'", "",
+                                                  "next = { step = 'b' , at_most = 1 }"}));
+  EXPECT_EQ(order_of(run), "acdb") << run.ended.error;
+  EXPECT_EQ(run.report["steps"][1]["held_theta"], Json({9}));
+  EXPECT_EQ(run.ops("hold_theta").size(), 2u);
+}
+
+TEST(Mission, APlanIsAStepBetweenOthersAndWhatItNeedsIsRequiredFromBesideTheMission) {
+  const TemporaryFolder folder;
+  const std::string start = "[-8.5,0,-12,0,8,-2,13,0,12,-2]", end = "[-7.5,0,-12,0,8,-2,13,0,12,-1]";
+  folder.write("way.json",
+               R"({"outcome":"solved","inputs":{"margin_m":0.004},"waypoints_deg":[)" + start + "," + end + "]}");
+  folder.write("helpers.lua", "return { pose = 'prepare' }\n");
+  const MissionRun planned = run_mission_against(
+      {}, steps_with(folder, {"run = liana.move_to(require('helpers').pose)", "plan = 'way.json'", ""}));
+  EXPECT_EQ(planned.report["outcome"], "success") << planned.ended.error;
+  EXPECT_EQ(order_of(planned), "abc");
+  ASSERT_EQ(planned.ops("move_path").size(), 1u);
+  EXPECT_EQ(Json::parse(planned.ops("move_path")[0])["points_deg"], Json::parse("[" + start + "," + end + "]"));
+  EXPECT_EQ(planned.report["steps"][1]["ended_by"], "at the last waypoint and path ended and arm at rest");
+}
+
+TEST(Mission, TheReportTheTerminalAndLianadAreToldWhichConditionEndedAStep) {
+  const TemporaryFolder folder;
+  const std::string mission = folder.write(
+      "given.lua",
+      "local liana = require 'liana'\n"
+      "local function c(name, is) return liana.condition(name, function() return is end) end\n"
+      "local function step(name) return liana.step(name) { device = 'none', time_limit_s = 5, on_fail = 'hold',\n"
+      " exit = liana.all { c('a', true), liana.any { c('b', false), c('c', true), c('d', true) }, liana.at_rest() } } "
+      "end\n"
+      "return liana.mission 'given' { step 'one', step 'two' }\n");
+  const MissionRun run = run_mission_against({}, mission, " --progress");
+  EXPECT_EQ(run.report["outcome"], "success") << run.ended.error;
+  EXPECT_EQ(run.report["steps"][0]["ended_by"], "a and c and arm at rest");
+  EXPECT_NE(run.ended.out.find(" s: a and c and arm at rest"), std::string::npos) << run.ended.out;
+  ASSERT_EQ(run.ops("announce").size(), 3u);
+  EXPECT_FALSE(Json::parse(run.ops("announce")[0]).contains("after"));
+  EXPECT_EQ(Json::parse(run.ops("announce")[1])["after"], "a and c and arm at rest");
+  EXPECT_EQ(Json::parse(run.ops("announce")[2])["after"], "a and c and arm at rest");
+  EXPECT_EQ(Json::parse(run.ops("announce")[1])["step"]["entry"], 2);
+}
+
 TEST(Mission, AWrongCommandNamesItsField) {
   const TemporaryFolder folder;
   const MissionRun run = run_mission_against(
@@ -379,7 +577,7 @@ TEST(Mission, TheWatchdogKillsWhatTheBudgetCannotStop) {
   const MissionRun run = run_mission_against(
       {}, one_step(folder,
                    "exit = liana.condition('never', function() xpcall(error, function() while true do end end) end),"));
-  EXPECT_EQ(run.ended.code, 4);
+  EXPECT_EQ(run.ended.code, 1);
   EXPECT_NE(run.ended.error.find("given.lua: computed for more than 2 s"), std::string::npos) << run.ended.error;
   EXPECT_NE(run.ended.error.find("given.lua:3"), std::string::npos) << run.ended.error;
   EXPECT_EQ(run.report["outcome"], "failed");

@@ -39,7 +39,12 @@ TEST(Sandbox, EveryAttackEndsWithOneClearMessage) {
                                        {"function_in_table", "name: function: allowed"},
                                        {"mixed_keys", "boxes: a table: allowed lists 1..n without gaps"},
                                        {"error_value", "raised a table"},
-                                       {"nothing", "named fields"}};
+                                       {"nothing", "named fields"},
+                                       {"json_bomb", "a table: allowed 16 MiB in all"},
+                                       {"same_text_many_times", "a table: allowed 16 MiB in all"},
+                                       {"address", "%p is not allowed"},
+                                       {"address_of_text", "table               |function|  2.0"},
+                                       {"terminal", "?[2Jgone? ?31m"}};
   for (const Attack& attack : attacks) {
     const Ended ended =
         run_program("eval robot " LIANA_SOURCE_DIR "/tests/lua/attacks/" + std::string(attack.file) + ".lua");
@@ -47,6 +52,19 @@ TEST(Sandbox, EveryAttackEndsWithOneClearMessage) {
     EXPECT_EQ(ended.out, "") << attack.file;
     EXPECT_NE(ended.error.find(attack.message), std::string::npos) << attack.file << ": " << ended.error;
   }
+}
+
+TEST(Sandbox, WhatAScriptPrintsIsBoundedAndCannotSteerATerminal) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("printing.lua", R"(
+    print("\27[31mred", nil, 7, {})
+    for _ = 1, 200000 do print("more") end
+    error("the end", 0))");
+  const Ended ended = run_program("eval robot " + file);
+  EXPECT_EQ(ended.error.substr(0, 26), "?[31mred\tnil\t7\ttable\nmore\n");
+  EXPECT_LT(ended.error.size(), 257u << 10);
+  EXPECT_NE(ended.error.find("print: over 256 KiB: the rest is left out\n"), std::string::npos);
+  EXPECT_NE(ended.error.find("the end"), std::string::npos);
 }
 
 // Keys of a table in the order of pairs, and some random numbers: both must not depend on the process.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 
 #include "host/json/json.hpp"
 
@@ -19,6 +20,16 @@ TEST(Eval, PrintsTheSameCanonicalTextTwice) {
     EXPECT_EQ(first.out, run_program("eval " + table).out);
     EXPECT_EQ(first.out.find(' '), std::string::npos) << table;
   }
+}
+
+TEST(Eval, ABusTableBringsTheDriveTypesThatItNames) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("given.lua",
+                                        "local t = require 'buses.embedded'\n"
+                                        "t.drives = { { type = 'cia402_csp', nodes = { 3, 9 } } }\nreturn t\n");
+  const Ended ended = run_program("eval buses " + file);
+  ASSERT_EQ(ended.code, 0) << ended.error;
+  EXPECT_EQ(Json::parse(ended.out)["drive_types"]["cia402_csp"]["name"], "cia402_csp");
 }
 
 struct Change {
@@ -57,7 +68,12 @@ TEST(Eval, RefusesMalformedLuaTablesByField) {
       {"buses", "buses.embedded_single", "t.rate_hz = 250", "given.lua: buses[1].nodes: "},
       {"buses", "buses.embedded", "t.backend = 'ethernet'",
        "given.lua: backend: \"ethernet\": allowed embedded, socketcan"},
-      {"buses", "buses.embedded", "t.kind = 'robot'", "given.lua: kind: \"robot\": allowed buses"}};
+      {"buses", "buses.embedded", "t.kind = 'robot'", "given.lua: kind: \"robot\": allowed buses"},
+      {"buses", "buses.embedded", "t.drives = { { type = 'nobodys', nodes = { 1 } } }",
+       "given.lua: drive: nobodys: allowed cia402_csp"},
+      {"buses", "buses.embedded", "t.drives = { { typ = 'cia402_csp', nodes = { 1 } } }",
+       "given.lua: drives[1].type: missing"},
+      {"drive", "drives.cia402_csp", "t.polarity = 3", "given.lua: polarity: 3: allowed 0, 64, 128 or 192"}};
   const TemporaryFolder folder;
   for (const Change& change : changes) {
     const std::string file = folder.write(
@@ -135,13 +151,14 @@ TEST(Eval, NamesWhatThereIsWhenANameIsUnknown) {
       << ended.error;
 }
 
+// req:A50 req:A52
 TEST(Eval, DescribesTheSlitCrossing) {
   const Ended ended = run_program("eval mission slit_crossing");
   ASSERT_EQ(ended.code, 0) << ended.error;
   const auto mission = Json::parse(ended.out);
-  ASSERT_EQ(mission["steps"].size(), 6u);  // A50: six steps
+  ASSERT_EQ(mission["steps"].size(), 6u);
   EXPECT_EQ(mission["steps"][1]["device"], "vr");
-  EXPECT_EQ(mission["steps"][4]["held_theta"], Json({7, 9}));  // A52: X5 first, then X4
+  EXPECT_EQ(mission["steps"][4]["held_theta"], Json({7, 9}));  // X5 first, then X4
   EXPECT_EQ(mission["steps"][3]["held_theta"], Json({9}));
 }
 
@@ -238,6 +255,195 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
   }
 }
 
+// A script of several lines: the line is that of the step, or of the condition or action in it.
+TEST(Eval, RefusalsOfAStepNameItsOwnLine) {
+  const TemporaryFolder folder;
+  const std::string head = "local liana = require 'liana'\n\nreturn liana.mission 'm' {\n", tail = " },\n}\n";
+  const std::string good =
+      "  liana.step 'a' { device = 'none', exit = liana.at_rest(),\n   time_limit_s = 1, on_fail = 'hold'";
+  const auto eval = [&](const std::string& more) {
+    return run_program("eval mission " + folder.write("given.lua", head + good + " },\n" + good + more + tail)).error;
+  };
+  EXPECT_EQ(eval(""), "");
+  for (const auto& [fields, line] : std::vector<std::pair<std::string, std::string>>{
+           {", time = 1", "given.lua:6: mission m: step 2 \"a\": time: "},
+           {", hold = { [99] = 0 }", "given.lua:6: mission m: step 2 \"a\": hold[99]: "},
+           {",\n fail_when = liana.at_pose 'x'", "given.lua:8: mission m: step 2 \"a\": fail_when: pose x: "},
+           {",\n\n run = liana.move_to('prepare', 9)",
+            "given.lua:9: mission m: step 2 \"a\": run: move_to: rate_deg_s"},
+           {", fail_when = 3", "given.lua:6: mission m: step 2 \"a\": fail_when: 3: allowed a condition"},
+           {", fail_when = { met = function() end }",
+            "given.lua:6: mission m: step 2 \"a\": fail_when: table: allowed a condition"},
+           {", enter = liana.any {}", "given.lua:7: any: list: empty: allowed one condition or more"},
+           {", enter = liana.at_pose('prepare', -1)",
+            "given.lua:7: at_pose: tolerance_deg: -1: allowed a number over 0"}}) {
+    EXPECT_NE(eval(fields).find("liana-mission: " + folder.file(line)), std::string::npos) << fields << eval(fields);
+  }
+}
+
+TEST(Eval, RefusesWaysThatLeadNowhereOrForEverByStepAndLine) {
+  const TemporaryFolder folder;
+  const auto eval = [&](const std::string& a, const std::string& b, const std::string& c) {
+    const std::string rest = " device = 'none', exit = liana.at_rest(), time_limit_s = 1, on_fail = 'hold', ";
+    return run_program(
+               "eval mission " +
+               folder.write("given.lua", "local liana = require 'liana'\nreturn liana.mission 'm' {\nliana.step 'a' {" +
+                                             rest + a + " },\nliana.step 'b' {" + rest + b + " },\nliana.step 'c' {" +
+                                             rest + c + " } }\n"))
+        .error;
+  };
+  EXPECT_EQ(eval("next = 'c'", "next = 'finish'", "next = { step = 'b', at_most = 3 }"), "");
+  struct Bad {
+    std::string a, b, c, message;
+  };
+  for (const Bad& bad : std::vector<Bad>{
+           {"", "next = 'd'", "", "4: mission m: step 2 \"b\": next: step: d: allowed \"a\", \"b\", \"c\", \"finish\""},
+           {"", "next = 'a'", "",
+            "4: mission m: step 2 \"b\": next: at_most: missing: allowed a whole number from 1 to 1000"},
+           {"", "next = { { step = 'b' } }", "", "4: mission m: step 2 \"b\": next[1]: at_most: missing"},
+           {"next = 'c'", "", "", "4: mission m: step 2 \"b\": step: never begins"},
+           {"", "next = { step = 'a', at_most = 0 }", "", "next: at_most: 0: allowed a whole number"},
+           {"", "next = { step = 'a', at_most = 1.5 }", "", "next: at_most: 1.5: allowed a whole number"},
+           {"", "next = { step = 'a', times = 2 }", "", "next: times: 2: allowed step, when, on, at_most"},
+           {"", "next = { stp = 'a' }", "", "next: a table without step: allowed \"name\""},
+           {"", "next = function() return 'a' end", "", "next: function: allowed \"name\""},
+           {"", "next = 3", "", "next: 3: allowed \"name\""},
+           {"", "next = { 'c' }", "", "next[1]: way: c: allowed { step = \"name\""},
+           {"", "next = { step = 'c', when = true }", "", "next: when: true: allowed a condition"},
+           {"", "next = { step = 'c', on = 'fault' }", "", "next: on: fault: allowed \"success\" or \"failure\""},
+           {"", "next = { { step = 'c' }, { step = 'a', at_most = 1 } }", "", "next[2]: way: never taken"},
+           {"", "next = { step = 'c', when = liana.at_pose 'x' }", "", "next: pose x: allowed fixture"},
+           {"hold = { [9] = 0 }, next = { step = 'c', when = liana.at_rest() }", "hold = {}", "",
+            "5: mission m: step 3 \"c\": hold: missing: allowed after \"a\" the arm holds { [9] = 0 }, after \"b\" {}: "
+            "say"},
+           {"", "hold = { [9] = 0 }, next = { step = 'a', at_most = 1 }", "",
+            "3: mission m: step 1 \"a\": hold: missing: allowed after the start the arm holds {}, after \"b\" { [9] = "
+            "0 }"}}) {
+    const std::string error = eval(bad.a, bad.b, bad.c);
+    EXPECT_NE(error.find(bad.message), std::string::npos) << bad.message << "\n" << error;
+    EXPECT_NE(error.find("given.lua:"), std::string::npos) << error;
+  }
+}
+
+TEST(Eval, RequireFindsWhatLiesBesideTheMissionAndNothingElse) {
+  const TemporaryFolder folder, elsewhere;
+  std::filesystem::create_directory(folder.file("parts"));
+  folder.write("Helpers.lua", "return 'prepare'\n");
+  folder.write("parts/pose-2.lua", "return require 'Helpers'\n");
+  folder.write("liana.lua", "error 'not this one'\n");
+  folder.write("fails.lua", "local x = nil + 1\n");
+  folder.write("silent.lua", "local x = 1\n");
+  folder.write("circle.lua", "return require 'circle'\n");
+  elsewhere.write("secret.lua", "return 'prepare'\n");
+  std::filesystem::create_symlink(elsewhere.file("secret.lua"), folder.file("linked.lua"));
+  const auto eval = [&](const std::string& required) {
+    return run_program(
+        "eval mission " +
+        folder.write("given.lua", "local liana = require 'liana'\nlocal pose = " + required +
+                                      "\nreturn liana.mission 'm' { liana.step 'a' { device = 'none', run = "
+                                      "liana.move_to(pose), exit = liana.at_rest(), time_limit_s = 1, on_fail = "
+                                      "'hold' } }\n"));
+  };
+  const Ended good = eval("require 'parts.pose-2'");
+  ASSERT_EQ(good.code, 0) << good.error;
+  const Json files = Json::parse(good.out)["files"];
+  ASSERT_EQ(files.size(), 3u) << "what the run is made of: " << files;
+  EXPECT_EQ(files[0]["file"], "given.lua");
+  EXPECT_EQ(files[1]["file"], "parts/pose-2.lua");
+  EXPECT_EQ(files[2]["sha256"].text().size(), 64u);
+  const std::string home = std::filesystem::canonical(folder.file(".")).string();
+  for (const auto& [required, message] : std::vector<std::pair<std::string, std::string>>{
+           {"require 'nothing'",
+            "given.lua:2: require: nothing.lua: no such file in " + home + ": allowed files in the folder"},
+           {"require 'nothing'", "(looked in " LIANA_SOURCE_DIR "/lua before)"},
+           {"require 'linked'", "require: linked.lua: leads out of " + home},
+           {"require '../secret'", "require: ../secret: allowed modules of the Lua folder"},
+           {"require '/etc/passwd'", "require: /etc/passwd: allowed modules"},
+           {"require 'fails'", "fails.lua:1: attempt to perform arithmetic"},
+           {"require 'silent'", "require: silent: the module returns nothing"},
+           {"require 'circle'", "modules require each other in a circle"},
+           {"select(2, pcall(require, 'fails')) and require 'fails'", "fails.lua:1: attempt to perform arithmetic"}}) {
+    const Ended ended = eval(required);
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_NE(ended.error.find(message), std::string::npos) << required << " -> " << ended.error;
+  }
+}
+
+TEST(Eval, APlanAsAStepIsCheckedAgainstItsRobotAndTheStepsBefore) {
+  const TemporaryFolder folder;
+  const std::string robot = run_program("eval robot zhu2022").out, zero = "[0,0,0,0,0,0,0,0,0,0]";
+  const auto plan = [&](const std::string& first, const std::string& of) {
+    folder.write("way.json", R"({"outcome":"solved","waypoints_deg":[)" + first + "," + zero +
+                                 R"(],"inputs":{"robot":)" + of + "}}");
+  };
+  const auto eval = [&](const std::string& fields, const std::string& before = "run = liana.move_to 'zero'") {
+    return run_program(
+        "eval mission " +
+        folder.write(
+            "given.lua",
+            "local liana = require 'liana'\nlocal t = { device = 'none', time_limit_s = 1, on_fail = 'hold' }\n"
+            "local function step(name, f) for k, v in pairs(t) do f[k] = f[k] or v end return liana.step(name)(f) end\n"
+            "return liana.mission 'm' { step('a', { exit = liana.at_rest(), " +
+                before + " }), step('b', { " + fields + " }) }\n"));
+  };
+  plan("[0,0,0,0,0,0,0,0,0,0.5]", robot);
+  const Ended good = eval("plan = 'way.json'");
+  ASSERT_EQ(good.code, 0) << good.error;
+  const Json step = Json::parse(good.out)["steps"][1];
+  EXPECT_EQ(step["enter"], "arm within 1 deg of the plan's start");
+  EXPECT_EQ(step["goal_deg"], Json::parse(zero));
+  const auto refused = [&](const std::string& fields, const std::string& message,
+                           const std::string& before = "run = liana.move_to 'zero'") {
+    const Ended ended = eval(fields, before);
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_NE(ended.error.find(message), std::string::npos) << message << "\n" << ended.error;
+  };
+  refused("plan = 'way.json'",
+          "step 2 \"b\": plan: begins with theta 1 at 0 deg: allowed within 1 deg of -8.5, where step 1 \"a\" ends",
+          "run = liana.move_to 'prepare'");
+  refused("plan = 'way.json', exit = liana.at_rest()", "step 2 \"b\": exit: given: allowed nothing beside plan");
+  refused("plan = 'way.json', device = 'vr'", "device: vr: allowed \"none\" beside plan");
+  refused("plan = 'way.json'", "step 2 \"b\": hold: something held: allowed {} beside plan", "hold = { [9] = 0 }");
+  refused("plan = 'none.json'", "plan: none.json: no such file in ");
+  refused("plan = '../way.json'", "plan: ../way.json: leads out of ");
+  refused("plan = '/etc/passwd'", "plan: /etc/passwd: leads out of ");
+  plan(zero, run_program("eval robot three_segment_lab").out);
+  refused("plan = 'way.json'", "inputs.robot: made for robot three_segment_lab, not for zhu2022");
+  folder.write("way.json", R"({"points_m":[[0,0,0],[1,0,0]]})");
+  refused("plan = 'way.json'", "missing: this is a curve: allowed solved: plan it: liana plan --follow=CURVE");
+  folder.write("way.json", "{");
+  refused("plan = 'way.json'", "step 2 \"b\": plan: way.json");
+}
+
+TEST(Eval, ATaskIsARecordingBesideTheMissionOrIsRefused) {
+  const TemporaryFolder folder;
+  const auto eval = [&](const std::string& fields) {
+    return run_program("eval mission " +
+                       folder.write("given.lua",
+                                    "local liana = require 'liana'\nreturn liana.mission 'm' { liana.step 'a' {\n"
+                                    "exit = liana.at_rest(), time_limit_s = 1, on_fail = 'hold', " +
+                                        fields + " } }\n"))
+        .error;
+  };
+  EXPECT_EQ(eval("device = 'vr', task = 'panel_edge_vr'"), "") << "one of Liana's own";
+  EXPECT_EQ(eval("device = 'hand', task = 'rod'"), "");
+  const std::string missing = eval("device = 'vr', task = 'my_hand'");
+  EXPECT_NE(
+      missing.find("given.lua:2: mission m: step 1 \"a\": task: my_hand: no recording my_hand.hand: allowed one in " +
+                   folder.file("").substr(0, folder.file("").size() - 1)),
+      std::string::npos)
+      << missing;
+  folder.write("my_hand.hand", "liana-hand 1 hand\n");
+  EXPECT_NE(eval("device = 'vr', task = 'my_hand'").find("holds no VR handles"), std::string::npos);
+  folder.write("my_hand.hand", "liana-hand 1 vr\n");
+  EXPECT_EQ(eval("device = 'vr', task = 'my_hand'"), "");
+  EXPECT_NE(eval("device = 'vr', task = '../my_hand'").find("task: ../my_hand: allowed the name of a recording"),
+            std::string::npos);
+  EXPECT_NE(eval("device = 'hand', task = 'my_hand'").find("task: my_hand: allowed \"slit\" or \"rod\""),
+            std::string::npos);
+  EXPECT_NE(eval("device = 'none', task = 'rod'").find("task: rod: allowed only with device"), std::string::npos);
+}
+
 TEST(Eval, APlanIsAMissionOfOneStepThatNamesIt) {
   const TemporaryFolder folder;
   const std::string zero = "[0,0,0,0,0,0,0,0,0,0]";
@@ -261,7 +467,8 @@ TEST(Eval, APlanIsAMissionOfOneStepThatNamesIt) {
   EXPECT_NE(run_program(plan("solved", zero + ",[1]", robot))
                 .error.find("entry 2 of points_deg: entry 2 = 1 entries: allowed an array of 10 numbers"),
             std::string::npos);
-  EXPECT_NE(run_program(plan("solved", zero + "," + zero, "{}")).error.find("inputs.robot: another robot than zhu2022"),
+  EXPECT_NE(run_program(plan("solved", zero + "," + zero, "{}"))
+                .error.find("inputs.robot: made for other tables of robot zhu2022"),
             std::string::npos);
 }
 

@@ -1,0 +1,103 @@
+-- Checks a mission against the robot that shall do it, before anything moves.
+local check = require "liana.check"
+local plan_step = require "liana.plan_step"
+local refuse = require "liana.refuse"
+local uses = require "liana.uses"
+local ways = require "liana.ways"
+
+-- `where` with the line of the call at `at`, where that is known, in place of the step's own.
+local function at_call(where, at, own)
+  if at == nil or at == "" then return where end
+  return at .. where:sub(#own + 1)
+end
+
+local function has_pose(where, field, name, robot)
+  if name == nil or robot.named_poses_deg[name] ~= nil then return end
+  local known = {}
+  for each in pairs(robot.named_poses_deg) do known[#known + 1] = each end
+  local allowed = table.concat(known, ", ") .. " (robot " .. robot.name .. ")"
+  refuse(where, field, "pose " .. tostring(name), allowed, "name one of them or add the pose")
+end
+
+local function condition_suits(where, field, condition, own, robot)
+  for _, pose in ipairs(condition.poses or {}) do has_pose(at_call(where, pose.at, own), field, pose.name, robot) end
+end
+
+-- Raises what lianad would refuse about a command.
+local function accepted(where, robot, refusal_of, command, fields)
+  local refusal = refusal_of(command, fields)
+  if refusal then error(("%s: %s (robot %s)"):format(where, refusal, robot.name), 0) end
+end
+
+local function action_suits(where, field, action, own, robot, refusal_of)
+  local use = uses.of(action)
+  where = at_call(where, use.at, own)
+  has_pose(where, field, use.pose, robot)
+  if not use.command then return end
+  local fields = { goal_deg = use.pose and robot.named_poses_deg[use.pose] }
+  for key, value in pairs(use.fields) do fields[key] = value end
+  accepted(("%s: %s: %s"):format(where, field, use.action), robot, refusal_of, use.command, fields)
+end
+
+local kTipValues = 6 -- position and attitude, which the tip keeps while angles go to where they are held
+
+local function holds_fit(where, hold, robot)
+  local held, angles = 0, robot.segments and 2 * #robot.segments or #robot.joints
+  for _ in pairs(hold) do held = held + 1 end
+  local most = math.max(0, angles - kTipValues)
+  if held <= most then return end
+  refuse(where, "hold", held .. (held == 1 and " angle" or " angles"),
+    ("at most %d (robot %s has %d angles, of which its tip needs %d)"):format(most, robot.name, angles, kTipValues),
+    "hold fewer, or turn the angles with move_jp")
+end
+
+local function step_suits(where, step, robot, refusal_of)
+  for theta, target_deg in pairs(step.hold) do
+    local held = { { theta = theta, target_deg = target_deg } }
+    accepted(("%s: hold[%s]"):format(where, theta), robot, refusal_of, "hold_theta", { held = held })
+  end
+  holds_fit(where, step.hold, robot)
+  if step.device ~= "none" then
+    local fields = { device = step.device }
+    for field, value in pairs(step.steer) do fields[field] = value end
+    accepted(where .. ": steer", robot, refusal_of, "use_device", fields)
+  end
+  action_suits(where, "run", step.run, step.at, robot, refusal_of)
+  for _, field in ipairs { "enter", "fail_when", "exit" } do condition_suits(where, field, step[field], step.at, robot) end
+  for _, way in ipairs(step.ways) do
+    if way.when then condition_suits(where, "next", way.when, step.at, robot) end
+  end
+end
+
+-- Where a step leaves the arm, as far as that is known before: a named pose, or the end of a plan.
+local function end_of(step, robot)
+  local pose = uses.of(step.run).pose
+  return step.goal_deg or pose and robot.named_poses_deg[pose]
+end
+
+-- A plan begins where the steps before it end.
+local function leads_to_plans(mission, i, robot)
+  local step, before = mission.steps[i], end_of(mission.steps[i], robot)
+  for _, target in ipairs(before and ways.followers(mission.steps, i) or {}) do
+    local plan = mission.steps[target]
+    for theta, start_deg in ipairs(plan and plan.start_deg or {}) do
+      if math.abs(start_deg - before[theta]) > plan_step.kAtStart_deg then
+        refuse(check.step_where(mission, target), "plan", ("begins with theta %d at %g deg"):format(theta, start_deg),
+          ("within %g deg of %g, where step %d \"%s\" ends"):format(plan_step.kAtStart_deg, before[theta], i, step.name),
+          "go to the plan's start first, or plan from there")
+      end
+    end
+  end
+end
+
+-- Refuses what this robot (docs/formats.md) cannot do: angles and nodes it does not have, targets beyond its limits, poses
+-- it does not know. refusal_of(command, fields) says what lianad would refuse, or nothing.
+return function(mission, robot, refusal_of)
+  check.require_mission(mission)
+  local called = "mission " .. mission.name
+  for i, step in ipairs(mission.steps) do
+    step_suits(check.step_where(mission, i), step, robot, refusal_of)
+  end
+  for i in ipairs(mission.steps) do leads_to_plans(mission, i, robot) end
+  action_suits(mission.at .. called, "finish", mission.finish, mission.at, robot, refusal_of)
+end

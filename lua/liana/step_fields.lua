@@ -1,0 +1,17 @@
+-- What each field of a step means, in the order in which docs/missions.md lists them (docs/mission_page.py makes the page of it).
+return {
+  { "device", "who steers: `\"vr\"`, `\"hand\"` or `\"none\"`" },
+  { "steer", "how hand motion maps: `scale`, `rotation_scale`, `node` (which the left VR hand moves), `speed_m_s`" },
+  { "task", "what the operator does: for `vr` the recording `NAME.hand` beside the mission or of Liana's, for `hand` `\"slit\"` or `\"rod\"`" },
+  { "hold", "held angles and their targets in degrees, `{ [9] = 0 }`; left out: what every step that leads here holds; `{}` releases all" },
+  { "enter", "condition to begin; waited for up to `enter_limit_s`" },
+  { "enter_limit_s", "how long to wait for `enter` (else 10 s)" },
+  { "run", "what to do at the beginning: an action, or a function of `arm`" },
+  { "plan", "instead of `run` and `exit`: a plan's file beside the mission, gone through from rest to rest" },
+  { "exit", "condition to end with success" },
+  { "fail_when", "condition to end as failed, by name; looked at before `exit` in every command interval, from 0.1 s after `run`" },
+  { "time_limit_s", "the step fails after this time of the arm" },
+  { "on_fail", "`\"hold\"`, `\"stop\"` (brakes, disable), `\"retract\"` (back to where the first step with it began) or `\"pause\"` (for people)" },
+  { "next", "where to go on, see [branches and loops](#branches-and-loops); left out: to the step written next" },
+  { "confirm", "what people have to confirm before the step begins, such as `\"cover removed\"`" },
+}

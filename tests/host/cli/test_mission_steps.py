@@ -1,0 +1,130 @@
+"""Missions that branch, loop, follow plans and are made of several files, on the simulated arm of three_segment_lab."""
+import json
+import pathlib
+import shutil
+import sys
+import tempfile
+import unittest
+
+from programs import ROOT, liana, liana_json
+
+LUA = ROOT / "lua"
+
+SCENE_WITH_BODY = """
+local t = require "scenes.lab_box"
+t.boxes[#t.boxes + 1] = { name = "crate", center_m = { %s }, half_extent_m = { 0.05, 0.05, 0.05 },
+  rotation = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } }
+return t
+"""
+
+
+class MissionSteps(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="liana-test-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_mission(self, mission, *options):
+        report = self.folder / "report.json"
+        code, out, error = liana("run", mission, "--robot", "three_segment_lab", *options, "--json", report)
+        return code, json.loads(report.read_text()) if report.exists() else {}, error
+
+    def copy_of_example(self):
+        shutil.copytree(LUA / "missions" / "lab_search", self.folder / "lab_search")
+        shutil.copy(LUA / "missions" / "lab_search.lua", self.folder / "lab_search.lua")
+        return self.folder / "lab_search.lua"
+
+    def test_the_example_follows_its_plan_looks_three_times_and_goes_home(self):
+        record = self.folder / "record"
+        code, report, error = self.run_mission("lab_search", "--scene", "lab_box", "--record", record)
+        self.assertEqual((code, report.get("outcome")), (0, "success"), error)
+        names = [step["name"] for step in report["steps"]]
+        self.assertEqual(names[1:5], ["along the plan"] + 3 * ["look around"])
+        self.assertIn(names[5:], (["home"], ["home gently"]))
+        self.assertEqual(report["steps"][1]["ended_by"], "at the last waypoint and path ended and arm at rest")
+        files = [file["file"] for file in report["mission_files"]]
+        self.assertEqual(files, ["lab_search.lua", "lab_search/parts.lua", "lab_search/way.json"])
+        for file in files:
+            kept, own = record / "mission_files" / file, LUA / "missions" / file
+            self.assertEqual(kept.read_bytes(), own.read_bytes())
+
+    def test_a_look_that_is_given_up_goes_home_gently(self):
+        mission = self.copy_of_example()
+        mission.write_text(mission.read_text().replace("kMostTension_N = 100", "kMostTension_N = 5"))
+        code, report, error = self.run_mission(mission, "--scene", "lab_box")
+        self.assertEqual((code, report.get("outcome")), (0, "success"), error)
+        self.assertEqual([step["name"] for step in report["steps"]][2:], ["look around", "home gently"])
+        self.assertEqual(report["steps"][2]["outcome"], "failed")
+        self.assertEqual(report["steps"][2]["ended_by"], "a cable over 5 N")
+
+    def test_a_pose_inside_a_body_is_refused_by_step_body_and_link(self):
+        tip = liana_json("pose", "--robot", "three_segment_lab", "--theta-deg=-6,3,5,-5,8,4")["tip_pose"]
+        pose = [row[3] for row in tip[:3]]
+        scene = self.folder / "crate.lua"
+        scene.write_text(SCENE_WITH_BODY % ", ".join(str(x) for x in pose))
+        code, _, error = self.run_mission("lab_tour", "--scene", scene)
+        self.assertEqual(code, 2, error)
+        self.assertIn("missions/lab_tour.lua:", error)
+        self.assertIn('step 2 "pose look": at pose look link 18 stands', error)
+        self.assertIn("inside body crate", error)
+
+    def test_a_plan_of_another_scene_and_one_that_begins_elsewhere_are_refused_by_their_step(self):
+        code, _, error = self.run_mission("lab_search", "--scene", "none")
+        self.assertEqual(code, 2, error)
+        self.assertIn('step 2 "along the plan": plan: ', error)
+        self.assertIn("was made for another scene, 'lab_box'", error)
+        mission = self.copy_of_example()
+        text = mission.read_text()
+        begin, end = text.index('  liana.step "to where'), text.index('  liana.step "along')
+        mission.write_text(text[:begin] + text[end:])
+        code, _, error = self.run_mission(mission, "--scene", "lab_box", "--start-pose", "look")
+        self.assertEqual(code, 2, error)
+        self.assertIn('step 1 "along the plan": the plan begins with theta 1 at 5 deg', error)
+        self.assertIn("--start-pose=5.0,-4.0,3.0,6.0,-4.0,2.0", error)
+
+    def test_a_plan_that_was_edited_or_begins_elsewhere_is_refused_before_anything_starts(self):
+        plan = self.folder / "plan.json"
+        motion = ("--from-deg=5,-4,3,6,-4,2", "--to-deg=6,-4,3,6,-4,2", "--waypoints", 3)
+        planned = liana("plan", "--robot", "three_segment_lab", "--scene", "none", *motion, "--out", plan)
+        self.assertEqual(planned[0], 0, planned)
+        code, _, error = liana("run", plan, "--start-pose", "zero")
+        self.assertEqual(code, 2, error)
+        self.assertIn("the plan begins with theta 1 at 5 deg, the arm at start pose zero with 0", error)
+        code, _, error = liana("run", plan, "--robot", "zhu2022")
+        self.assertEqual(code, 2, error)
+        self.assertIn("made for robot three_segment_lab, not for zhu2022", error)
+        content = json.loads(plan.read_text())
+        content["waypoints_deg"][1][0] += 0.01
+        plan.write_text(json.dumps(content))
+        code, _, error = liana("run", plan)
+        self.assertEqual(code, 2, error)
+        self.assertIn("digest: the file is not what liana plan wrote, somebody has edited it", error)
+
+    def test_robot_check_names_what_no_winch_and_no_rope_can_do(self):
+        table = (LUA / "robots" / "three_segment_lab.lua").read_text()
+        for old, new, problem in (
+            ("drum_radius_m = 0.012", "drum_radius_m = 1e-9", "drives.drum_radius_m: 1e-09: allowed 0.001 to 0.5 m"),
+            ("mass_kg = 0.2", "mass_kg = 60", "module.mass_kg: 60: a cable would pull"),
+            ("zero = { 0, 0, 0,", "zero = { 0, 2, 0,", "named_poses_deg.zero: angle 2 is 2 deg: allowed 0"),
+        ):
+            robot = self.folder / "robot.lua"
+            robot.write_text(table.replace(old, new))
+            code, out, error = liana("robot", "check", robot)
+            self.assertEqual(code, 1, out + error)
+            self.assertIn(problem, out + error)
+
+    def test_verification_says_that_the_arm_is_inside_a_body(self):
+        tip = liana_json("pose", "--robot", "three_segment_lab", "--theta-deg=-6,3,5,-5,8,4")["tip_pose"]
+        pose = [row[3] for row in tip[:3]]
+        scene = self.folder / "crate.lua"
+        scene.write_text(SCENE_WITH_BODY % ", ".join(str(x) for x in pose))
+        motion = ("--from-deg=-6,3,5,-5,8,4", "--to-deg=-6,3,5,-5,8,4", "--duration=1")
+        verdict = liana_json("verify", "--robot", "three_segment_lab", "--scene", scene, *motion)
+        self.assertTrue(verdict["inside"])
+        self.assertIn("slowly", verdict)
+        free = liana_json("verify", "--robot", "three_segment_lab", "--scene", "none", *motion)
+        self.assertEqual((free["inside"], free["margins"]["clearance_m"]), (False, None))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,1 @@
+error(string.format("%-20s|%s|%5.1f", {}, print, 2), 0)
