@@ -53,11 +53,18 @@ const std::vector<Kind>& kinds() {
        {{"length_m", &P::length_m, -0.1, 0.1, false, true}, {"slots", &P::slots, 1, 100000, true, false}}},
       {"cable_break", FaultKind::kCableBreak, false, {}},
       {"motor_saturation", FaultKind::kMotorSaturation, true, {{"tension_N", &P::tension_N, 0, 1e4, false, true}}},
+      {"no_reports", FaultKind::kNoReports, true, {}},
+      {"node_twice", FaultKind::kNodeTwice, true, {}},
+      {"slow_reset", FaultKind::kSlowReset, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
+      {"slow_power", FaultKind::kSlowPower, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
+      {"slow_sdo", FaultKind::kSlowSdo, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
       {"camera_frozen", FaultKind::kCameraFrozen, true, {}},
       {"camera_late", FaultKind::kCameraLate, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
       {"camera_jump", FaultKind::kCameraJump, true, {{"length_m", &P::length_m, -1, 1, false, true}}},
       {"camera_mirrored", FaultKind::kCameraMirrored, true, {}},
-      {"camera_dropped", FaultKind::kCameraDropped, true, {}}};
+      {"camera_dropped", FaultKind::kCameraDropped, true, {}},
+      {"tool_jams", FaultKind::kToolJams, true, {}},
+      {"tool_silent", FaultKind::kToolSilent, true, {}}};
   return all;
 }
 
@@ -159,13 +166,13 @@ FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size
                        std::size_t theta_count) {
   const Kind& kind = read_kind(file, field + "/kind");
   std::vector<std::string> allowed{"kind", "at_slot", "when"};
-  if (!is_of_camera(kind.kind)) allowed.emplace_back("drive");
+  if (!is_at_the_tip(kind.kind)) allowed.emplace_back("drive");
   if (kind.can_end) allowed.emplace_back("for_slots");
   for (const Parameter& parameter : kind.parameters) allowed.emplace_back(parameter.name);
   refuse_others(file, field, allowed);
 
   FaultConfig fault;
-  if (!is_of_camera(kind.kind)) fault.drives = read_drives(file, field + "/drive", drive_count);
+  if (!is_at_the_tip(kind.kind)) fault.drives = read_drives(file, field + "/drive", drive_count);
   fault.kind = kind.kind;
   fault.name = kind.name;
   if (file.has(field + "/at_slot") == file.has(field + "/when"))
@@ -179,9 +186,10 @@ FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size
 
 }  // namespace
 
-bool is_of_camera(FaultKind kind) {
+bool is_at_the_tip(FaultKind kind) {
   return kind == FaultKind::kCameraFrozen || kind == FaultKind::kCameraLate || kind == FaultKind::kCameraJump ||
-         kind == FaultKind::kCameraMirrored || kind == FaultKind::kCameraDropped;
+         kind == FaultKind::kCameraMirrored || kind == FaultKind::kCameraDropped || kind == FaultKind::kToolJams ||
+         kind == FaultKind::kToolSilent;
 }
 
 std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count, std::size_t theta_count) {

@@ -27,15 +27,22 @@ enum class FaultKind {
   kCableSlip,
   kCableBreak,
   kMotorSaturation,
+  kNoReports,
+  kNodeTwice,
+  kSlowReset,
+  kSlowPower,
+  kSlowSdo,
   kCameraFrozen,
   kCameraLate,
   kCameraJump,
   kCameraMirrored,
-  kCameraDropped
+  kCameraDropped,
+  kToolJams,
+  kToolSilent
 };
 
 // These happen to the tip camera; they have no drive.
-bool is_of_camera(FaultKind kind);
+bool is_at_the_tip(FaultKind kind);
 
 // What a kind can be told; the kinds that have no use for a value ignore it.
 struct FaultParameters {

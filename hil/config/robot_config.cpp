@@ -63,6 +63,8 @@ void read_drives(const JsonFile& file, RobotConfig& robot) {
     if (file.has("/drives/serials"))
       robot.drives[i].serial = static_cast<std::uint32_t>(file.number(at("/drives/serials", i), 1.0, 4294967295.0));
   }
+  if (file.has("/limits/cable_speed_m_s"))
+    robot.fastest_counts_per_s = file.number("/limits/cable_speed_m_s", 0.0, 10.0) / robot.metres_per_count();
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ struct RobotConfig {
   std::uint32_t product = 0;
   std::uint32_t revision = 0;
   std::vector<DriveConfig> drives;
+  double fastest_counts_per_s = 0.0;  // command that the table allows; 0 where it does not say
   std::map<std::string, std::vector<double>> named_poses_rad;
 
   std::size_t theta_count() const { return 2 * segments.size(); }

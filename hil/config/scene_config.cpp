@@ -130,7 +130,13 @@ BusesConfig load_buses(const std::string& path) {
     const std::string nodes = at("/buses", b) + "/nodes";
     for (std::size_t i = 0; i < file.size(nodes); ++i) buses.nodes.back().push_back(file.integer(at(nodes, i), 1, 126));
   }
+  buses.dictionaries = read_dictionaries(file);
   return buses;
+}
+
+DictionaryConfig BusesConfig::dictionary_of(int node) const {
+  const auto found = dictionaries.find(node);
+  return found == dictionaries.end() ? DictionaryConfig{} : found->second;
 }
 
 std::size_t BusesConfig::bus_of(int node) const {

@@ -3,10 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "hil/config/dictionary_config.hpp"
 #include "hil/math/vec3.hpp"
 
 namespace liana::bench {
@@ -82,8 +84,10 @@ struct BusesConfig {
   std::vector<std::string> names;
   std::vector<std::vector<int>> nodes;
   std::uint32_t period_us = 4000;
+  std::map<int, DictionaryConfig> dictionaries;  // of drives whose dictionary is not the bench's own
   // Bus of a node (0-based); throws std::runtime_error when it is on none.
   std::size_t bus_of(int node) const;
+  DictionaryConfig dictionary_of(int node) const;
 };
 
 // All loaders throw std::runtime_error naming file, field, value and allowed range.

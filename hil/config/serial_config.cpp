@@ -1,5 +1,7 @@
 #include "hil/config/serial_config.hpp"
 
+#include <algorithm>
+
 #include "hil/config/json_file.hpp"
 
 namespace liana::bench {
@@ -25,6 +27,8 @@ void read_joints(const JsonFile& file, SerialRobotConfig& robot) {
       joint.offset_rad = kRadPerDeg * file.number(field + "/offset_deg", -360.0, 360.0);
     joint.low_rad = kRadPerDeg * file.number(field + "/low_deg", -720.0, 720.0);
     joint.high_rad = kRadPerDeg * file.number(field + "/high_deg", -720.0, 720.0);
+    if (file.has(field + "/rate_deg_s"))
+      joint.rate_rad_s = kRadPerDeg * file.number(field + "/rate_deg_s", 0.0, 1000.0);
     robot.joints.push_back(joint);
   }
 }
@@ -57,6 +61,8 @@ void read_drives(const JsonFile& file, SerialRobotConfig& robot) {
     if (file.has("/drives/serials"))
       robot.drives[i].serial = static_cast<std::uint32_t>(file.number(at("/drives/serials", i), 1.0, kMaxU32));
   }
+  for (const JointConfig& joint : robot.joints)
+    robot.fastest_counts_per_s = std::max(robot.fastest_counts_per_s, joint.rate_rad_s / robot.rad_per_count());
 }
 
 }  // namespace

@@ -18,6 +18,7 @@ struct JointConfig {
   double offset_rad = 0.0;
   double low_rad = 0.0;
   double high_rad = 0.0;
+  double rate_rad_s = 0.0;  // fastest command; 0 where the table does not say
 };
 
 struct SerialRobotConfig {
@@ -37,6 +38,7 @@ struct SerialRobotConfig {
   std::uint32_t product = 0;
   std::uint32_t revision = 0;
   std::vector<DriveConfig> drives;
+  double fastest_counts_per_s = 0.0;  // command that the table allows; 0 where it does not say
   std::map<std::string, std::vector<double>> named_poses_rad;
 
   // Joint angle per encoder count [rad].

@@ -27,7 +27,7 @@ Drive::Drive(const DriveSettings& settings, double start_counts)
 // -------------------------------------------------------------------------------------------------------------------
 
 void Drive::receive(const CanFrame& frame, FrameList& out) {
-  if (dead_) return;
+  if (dead_ || reset_at_us_) return;
   ++counts_.received;
   now_us_ = std::max(now_us_, frame.time_us);
   const auto node = static_cast<std::uint32_t>(settings_.node);
@@ -38,8 +38,9 @@ void Drive::receive(const CanFrame& frame, FrameList& out) {
     response.id = 0x580 + node;
     sample();
     const bool listens = nmt_ == NmtState::kPreOperational || nmt_ == NmtState::kOperational;
-    if (listens && sdo_.answer(frame, response)) send(response, out);
-    return;
+    if (!listens || !sdo_.answer(frame, response)) return;
+    answers_.push_back({now_us_ + defects_.sdo_us, response});
+    return send_late(out);
   }
   if (frame.id > 0x700 && frame.id < 0x780) return handle_heartbeat(frame, out);
   handle_rpdo(frame, out);
@@ -50,6 +51,14 @@ void Drive::send(CanFrame frame, FrameList& out) {
   frame.bus = settings_.bus;
   out.push_back(frame);
   ++counts_.sent;
+  if (!defects_.twice) return;
+  if ((frame.id & 0x780) == 0x180) frame.data[3] ^= 0x40;  // the other one stands elsewhere
+  out.push_back(frame);
+}
+
+void Drive::send_late(FrameList& out) {
+  for (; !answers_.empty() && answers_.front().at_us <= now_us_; answers_.pop_front())
+    send(answers_.front().frame, out);
 }
 
 void Drive::send_emergency(std::uint16_t code, FrameList& out) {
@@ -58,7 +67,8 @@ void Drive::send_emergency(std::uint16_t code, FrameList& out) {
   frame.id = 0x080 + static_cast<std::uint32_t>(settings_.node);
   frame.length = 8;
   put_little_endian(frame.data.data(), 2, code);
-  frame.data[2] = static_cast<std::uint8_t>(objects_.get(0x1001));
+  // Bit 0 stands for any error (CiA 301, 7.5.2.2), also for one that leaves no trace.
+  frame.data[2] = static_cast<std::uint8_t>(objects_.get(0x1001) | (code == 0 ? 0 : 1));
   send(frame, out);
   if (code == 0) return;
   objects_.set(0x1003, 0, 1);
@@ -79,7 +89,7 @@ void Drive::handle_nmt(const CanFrame& frame, FrameList& out) {
       return enter_nmt(NmtState::kPreOperational);
     case 0x81:
     case 0x82:
-      return reset_communication(out);
+      return begin_reset(frame.data[0] == 0x81, out);
     default:
       return;
   }
@@ -89,8 +99,28 @@ void Drive::enter_nmt(NmtState state) {
   nmt_ = state;
   targets_.armed = false;
   pending_ = {};
+  last_sent_ = {};
   late_.clear();
   if (state != NmtState::kOperational) stop_by_itself();  // 6007: without PDOs nobody steers
+}
+
+void Drive::begin_reset(bool of_node, FrameList& out) {
+  if (of_node) reset_node();
+  answers_.clear();
+  if (defects_.reset_us == 0) return reset_communication(out);
+  enter_nmt(NmtState::kInitialising);
+  reset_at_us_ = now_us_ + defects_.reset_us;  // tick() ends it
+}
+
+// Application objects get their power-on values, too, and a fault is forgotten (CiA 301, 7.3.2.2).
+void Drive::reset_node() {
+  objects_ = make_objects(settings_);
+  controlword_ = 0;
+  following_error_ = false;
+  emergencies_.clear();
+  sample();
+  objects_.set(0x607A, 0, objects_.get(0x6064));
+  enter_power(PowerState::kSwitchOnDisabled);
 }
 
 // Both resets: communication objects get their power-on values, the brake closes, boot-up is sent again.
@@ -103,13 +133,15 @@ void Drive::reset_communication(FrameList& out) {
         if (const Object* object = fresh.find(index, sub)) objects_.set(index, sub, object->value);
     }
   }
-  objects_.set(0x1016, 1, 0);
-  objects_.set(0x1017, 0, 0);
+  objects_.set(0x1016, 1, fresh.get(0x1016, 1));
+  objects_.set(0x1017, 0, fresh.get(0x1017));
+  if (const Object* behaviour = fresh.find(0x1029, 1)) objects_.set(0x1029, 1, behaviour->value);
   objects_.set(0x1001, 0, 0);
   rebuild_pdos();
   master_ = {};
   targets_ = {};
   pending_ = {};
+  last_sent_ = {};
   late_.clear();
   connection_lost_ = targets_lost_ = false;
   if (power_ != PowerState::kFault) enter_power(PowerState::kSwitchOnDisabled);
@@ -190,8 +222,14 @@ void Drive::handle_sync(FrameList& out) {
 
 void Drive::send_process_data(FrameList& out) {
   FrameList sampled;
-  for (const Pdo& pdo : transmit_pdos_)
-    if (pdo.enabled() && pdo.length() > 0 && counts_.syncs % pdo.every_nth_sync() == 0) sampled.push_back(pdo.pack());
+  for (std::size_t i = 0; i < transmit_pdos_.size(); ++i) {
+    const Pdo& pdo = transmit_pdos_[i];
+    if (!pdo.enabled() || pdo.length() == 0 || defects_.no_reports) continue;
+    const CanFrame frame = pdo.pack();
+    if (!is_due(i, frame)) continue;
+    sampled.push_back(frame);
+    last_sent_[i] = frame;
+  }
   late_.push_back(std::move(sampled));
   if (late_.size() <= defects_.late_cycles) return;
   for (CanFrame frame : late_[late_.size() - 1 - defects_.late_cycles]) {
@@ -199,6 +237,13 @@ void Drive::send_process_data(FrameList& out) {
     send(frame, out);
   }
   while (late_.size() > defects_.late_cycles) late_.pop_front();
+}
+
+// Type 0 sends at a SYNC before which something has changed, 1 to 240 at every n-th (CiA 301, 7.5.2.37).
+bool Drive::is_due(std::size_t pdo, const CanFrame& sampled) const {
+  const std::uint32_t every = transmit_pdos_[pdo].every_nth_sync();
+  if (every != 0) return counts_.syncs % every == 0;
+  return !last_sent_[pdo] || last_sent_[pdo]->data != sampled.data;
 }
 
 void Drive::sample() {

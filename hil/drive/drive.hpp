@@ -71,12 +71,16 @@ class Drive {
   std::uint32_t guard(const Object& object, std::int64_t value) const;
   void written(const Object& object);
   void handle_nmt(const CanFrame& frame, FrameList& out);
+  void begin_reset(bool of_node, FrameList& out);
+  void reset_node();
   void reset_communication(FrameList& out);
   void enter_nmt(NmtState state);
   void handle_sync(FrameList& out);
   void handle_rpdo(const CanFrame& frame, FrameList& out);
   void handle_heartbeat(const CanFrame& frame, FrameList& out);
   void rebuild_pdos();
+  void behave_on_lost_heartbeat();
+  void lead_to(PowerState state);
   void act_on_controlword(std::uint16_t controlword);
   void enter_power(PowerState state);
   void stop_by_itself();
@@ -85,7 +89,9 @@ class Drive {
   void supervise_following(std::uint64_t now_us);
   void sample();
   void send_process_data(FrameList& out);
+  bool is_due(std::size_t pdo, const CanFrame& sampled) const;
   void send(CanFrame frame, FrameList& out);
+  void send_late(FrameList& out);
   void send_emergency(std::uint16_t code, FrameList& out);
 
   struct Supervised {
@@ -100,6 +106,7 @@ class Drive {
   std::vector<Pdo> receive_pdos_;
   std::vector<Pdo> transmit_pdos_;
   std::array<std::optional<CanFrame>, kPdoCount> pending_;
+  std::array<std::optional<CanFrame>, kPdoCount> last_sent_;  // of each TPDO, since operational
   NmtState nmt_ = NmtState::kInitialising;
   PowerState power_ = PowerState::kSwitchOnDisabled;
   std::uint16_t controlword_ = 0;
@@ -109,6 +116,17 @@ class Drive {
   bool targets_lost_ = false;  // of it the RPDO half: a heartbeat alone does not bring it back
   DriveDefects defects_;
   std::deque<FrameList> late_;  // sampled, not sent yet
+  struct Later {
+    std::uint64_t at_us = 0;
+    CanFrame frame;
+  };
+  std::deque<Later> answers_;  // of SDO, not sent yet
+  struct Slow {
+    PowerState to;
+    std::uint64_t at_us;
+  };
+  std::optional<Slow> transition_;            // under way
+  std::optional<std::uint64_t> reset_at_us_;  // a reset is under way, deaf until then
   double measured_permille_ = 0.0;
   double position_error_counts_ = 0.0;
   double encoder_offset_counts_ = 0.0;

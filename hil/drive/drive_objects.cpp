@@ -1,5 +1,11 @@
 #include "hil/drive/drive_objects.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "hil/drive/dictionary_changes.hpp"
+
 namespace liana::bench {
 
 namespace {
@@ -24,6 +30,8 @@ constexpr Object kCommon[] = {
     {0x1016, 1, kU32, kReadWrite, false, 0, 0, 0x7FFFFF},  // consumer heartbeat: node << 16 | ms
     {0x1017, 0, kU16, kReadWrite, false, 0, 0, 65535},     // producer heartbeat [ms]
     {0x1018, 0, kU8, kReadOnly, false, 4, 0, 255},
+    {0x1029, 0, kU8, kReadOnly, false, 1, 0, 255},
+    {0x1029, 1, kU8, kReadWrite, false, 0, 0, 2},      // master lost: 0 pre-operational, 1 no change, 2 stopped
     {0x6007, 0, kI16, kReadWrite, false, 3, 0, 3},     // abort connection: 3 = quick stop
     {0x603F, 0, kU16, kReadOnly, true, 0, 0, 65535},   // last error code
     {0x6040, 0, kU16, kReadWrite, true, 0, 0, 65535},  // controlword
@@ -40,7 +48,6 @@ constexpr Object kCommon[] = {
     {0x6072, 0, kU16, kReadWrite, true, 1000, 0, 3000},        // max torque [permille]
     {0x6077, 0, kI16, kReadOnly, true, 0, -32768, 32767},      // torque [permille of rated]
     {0x607A, 0, kI32, kReadWrite, true, 0, kI32Min, kI32Max},  // target position
-    {0x6085, 0, kU32, kReadWrite, false, 200000, 1, kU32Max},  // quick-stop deceleration [counts/s^2]
     {0x608F, 0, kU8, kReadOnly, false, 2, 0, 255},
     {0x608F, 2, kU32, kReadOnly, false, 1, 0, kU32Max},  // motor revolutions
     {0x60C2, 0, kU8, kReadOnly, false, 2, 0, 255},
@@ -64,6 +71,12 @@ void add_pdo(std::vector<Object>& objects, std::uint16_t number, int node, bool 
     objects.push_back({mapping, entry, kU32, kReadWrite, false, 0, 0, kU32Max});
 }
 
+// Set up as a drive has to be: from its fastest command it rests within 67 ms.
+std::int64_t quick_stop_deceleration(const DriveSettings& settings) {
+  constexpr double kLeast = 200000.0, kPerSecond = 15.0;  // increments/s^2; and those per increment/s
+  return std::llround(std::max(kLeast, kPerSecond * settings.fastest_counts_per_s) / settings.counts_per_speed_unit());
+}
+
 }  // namespace
 
 ObjectDictionary make_objects(const DriveSettings& settings) {
@@ -73,11 +86,19 @@ ObjectDictionary make_objects(const DriveSettings& settings) {
     objects.push_back({0x1018, static_cast<std::uint8_t>(i + 1), kU32, kReadOnly, false, identity[i], 0, kU32Max});
   objects.push_back({0x1014, 0, kU32, kReadOnly, false, 0x80 + settings.node, 0, kU32Max});
   objects.push_back({0x608F, 1, kU32, kReadOnly, false, settings.counts_per_turn, 0, kU32Max});
-  objects.push_back({0x6076, 0, kU32, kReadOnly, false, settings.rated_torque_mNm, 0, kU32Max});
+  const auto motor_turns = static_cast<std::int64_t>(std::llround(1000.0 * settings.gear));
+  const std::int64_t divisor = std::gcd(motor_turns, std::int64_t{1000});
+  objects.push_back({0x6091, 0, kU8, kReadOnly, false, 2, 0, 255});
+  objects.push_back({0x6091, 1, kU32, kReadOnly, false, motor_turns / divisor, 0, kU32Max});
+  objects.push_back({0x6091, 2, kU32, kReadOnly, false, 1000 / divisor, 0, kU32Max});
+  objects.push_back({0x6085, 0, kU32, kReadWrite, false, quick_stop_deceleration(settings), 1, kU32Max});
+  const double rated_torque = settings.rated_torque_mNm * settings.dictionary.rated_torque_per_mNm;
+  objects.push_back({0x6076, 0, kU32, kReadOnly, false, std::llround(rated_torque), 0, kU32Max});
   for (std::uint16_t number = 0; number < 4; ++number) {
     add_pdo(objects, number, settings.node, true);
     add_pdo(objects, number, settings.node, false);
   }
+  change_objects(settings.dictionary, objects);
   return ObjectDictionary(std::move(objects));
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "hil/config/dictionary_config.hpp"
 #include "hil/drive/object_dictionary.hpp"
 
 namespace liana::bench {
@@ -17,11 +18,19 @@ struct DriveSettings {
   std::uint32_t serial = 0;
   std::uint32_t counts_per_turn = 65536;
   std::uint32_t rated_torque_mNm = 9000;
+  double gear = 1.0;                  // motor turns per turn behind the gear, to three decimals
+  double fastest_counts_per_s = 0.0;  // that it will be told; 0: not known
   double servo_time_constant_s = 0.03;
   int pull_direction = -1;  // sign of counts that winds cable up
+  DictionaryConfig dictionary;
+
+  // Increments in a unit of 6085.
+  double counts_per_speed_unit() const { return dictionary.speeds_in_rpm ? counts_per_turn / 60.0 : 1.0; }
 };
 
-// Power-on values: PDO 1 of each direction enabled with its predefined COB-ID and no mapping, PDOs 2 to 4 disabled.
+// The bench's own dictionary as `dictionary` changes it; throws std::runtime_error naming an object that it does not
+// have. Power-on values: PDO 1 of each direction enabled with its predefined COB-ID and no mapping, PDOs 2 to 4
+// disabled.
 ObjectDictionary make_objects(const DriveSettings& settings);
 
 }  // namespace liana::bench

@@ -33,11 +33,22 @@ void Drive::act_on_controlword(std::uint16_t controlword) {
   if (safe_torque_off_) return;
   const PowerState next = next_state(power_, decode_command(controlword));
   const bool mode_missing = next == PowerState::kOperationEnabled && objects_.get(0x6061) != kCyclicSynchronousPosition;
-  if (next != power_ && !mode_missing) enter_power(next);
+  if (mode_missing) return;
+  lead_to(next);
+}
+
+// Towards Operation enabled a drive may take its time; back it goes at once.
+void Drive::lead_to(PowerState state) {
+  const bool is_slow = defects_.power_us != 0 && state > power_ && state <= PowerState::kOperationEnabled;
+  if (!is_slow || state == power_) transition_.reset();
+  if (state == power_) return;
+  if (!is_slow) return enter_power(state);
+  if (!transition_ || transition_->to != state) transition_ = Slow{state, now_us_ + defects_.power_us};
 }
 
 void Drive::enter_power(PowerState state) {
   power_ = state;
+  transition_.reset();
   following_error_ = false;
   following_since_us_ = now_us_;
   switch (state) {
@@ -47,7 +58,7 @@ void Drive::enter_power(PowerState state) {
       ++counts_.quick_stops;
       [[fallthrough]];
     case PowerState::kFaultReactionActive:
-      motor_.set_deceleration(static_cast<double>(objects_.get(0x6085)));
+      motor_.set_deceleration(static_cast<double>(objects_.get(0x6085)) * settings_.counts_per_speed_unit());
       return motor_.set_mode(MotorMode::kRamp);
     default:
       return motor_.set_mode(MotorMode::kBraked);
@@ -78,6 +89,8 @@ void Drive::set_safe_torque_off() {
 
 void Drive::power_off() {
   dead_ = true;
+  reset_at_us_.reset();
+  answers_.clear();
   enter_power(PowerState::kSwitchOnDisabled);
 }
 
@@ -107,16 +120,25 @@ void Drive::set_measured(double permille, double position_error_counts) {
 
 void Drive::connection_lost(std::uint16_t code, FrameList& out) {
   connection_lost_ = true;
-  objects_.set(0x1001, 0, objects_.get(0x1001) | kCommunicationError);
+  objects_.set(0x1001, 0, objects_.get(0x1001) | kGenericError | kCommunicationError);
   send_emergency(code, out);
   stop_by_itself();
+}
+
+// 0x1029:1 (CiA 301, 7.5.2.32); without it, as with 0.
+void Drive::behave_on_lost_heartbeat() {
+  const Object* object = objects_.find(0x1029, 1);
+  const std::int64_t behaviour = object == nullptr ? 0 : object->value;
+  if (behaviour == 0 && nmt_ == NmtState::kOperational) enter_nmt(NmtState::kPreOperational);
+  if (behaviour == 2) enter_nmt(NmtState::kStopped);
 }
 
 void Drive::connection_back(FrameList& out) {
   const std::uint64_t allowed_us = 1000 * static_cast<std::uint64_t>(objects_.get(0x1016, 1) & 0xFFFF);
   if (allowed_us != 0 && now_us_ - master_.last_us > allowed_us) return;  // only half of it is back
   connection_lost_ = false;
-  objects_.set(0x1001, 0, objects_.get(0x1001) & ~static_cast<std::int64_t>(kCommunicationError));
+  const bool is_fault = power_ == PowerState::kFault || power_ == PowerState::kFaultReactionActive;
+  objects_.set(0x1001, 0, is_fault ? kGenericError : 0);
   send_emergency(0, out);
 }
 
@@ -137,7 +159,11 @@ void Drive::supervise_following(std::uint64_t now_us) {
 void Drive::tick(std::uint64_t now_us, FrameList& out) {
   if (dead_) return;
   now_us_ = std::max(now_us_, now_us);
+  if (reset_at_us_ && now_us_ < *reset_at_us_) return;
+  reset_at_us_.reset();
   if (nmt_ == NmtState::kInitialising) reset_communication(out);
+  send_late(out);
+  if (transition_ && now_us_ >= transition_->at_us) enter_power(transition_->to);
 
   const std::uint64_t heartbeat_us = 1000 * static_cast<std::uint64_t>(objects_.get(0x1017));
   if (heartbeat_us != 0 && now_us_ >= next_heartbeat_us_) {
@@ -152,6 +178,7 @@ void Drive::tick(std::uint64_t now_us, FrameList& out) {
   if (master_.armed && allowed_us != 0 && now_us_ - master_.last_us > allowed_us) {
     master_.armed = false;
     connection_lost(kHeartbeatLost, out);
+    behave_on_lost_heartbeat();
   }
   const std::uint64_t deadline_us = receive_pdos_[0].deadline_us();
   if (targets_.armed && deadline_us != 0 && now_us_ - targets_.last_us > deadline_us) {

@@ -55,21 +55,26 @@ Object* ObjectDictionary::find(std::uint16_t index, std::uint8_t sub) {
   return const_cast<Object*>(std::as_const(*this).find(index, sub));
 }
 
+const Object* ObjectDictionary::find_public(std::uint16_t index, std::uint8_t sub) const {
+  const Object* object = find(index, sub);
+  return object == nullptr || object->is_hidden ? nullptr : object;
+}
+
 std::uint32_t ObjectDictionary::missing(std::uint16_t index) const {
-  const bool known =
-      std::any_of(objects_.begin(), objects_.end(), [index](const Object& object) { return object.index == index; });
+  const bool known = std::any_of(objects_.begin(), objects_.end(),
+                                 [index](const Object& object) { return object.index == index && !object.is_hidden; });
   return known ? abort_code::kNoSub : abort_code::kNoObject;
 }
 
 std::uint32_t ObjectDictionary::check_read(std::uint16_t index, std::uint8_t sub) const {
-  const Object* object = find(index, sub);
+  const Object* object = find_public(index, sub);
   if (object == nullptr) return missing(index);
   return object->access == Access::kWriteOnly ? abort_code::kWriteOnly : abort_code::kNone;
 }
 
 std::uint32_t ObjectDictionary::check_write(std::uint16_t index, std::uint8_t sub, const std::uint8_t* bytes,
                                             std::size_t size) const {
-  const Object* object = find(index, sub);
+  const Object* object = find_public(index, sub);
   if (object == nullptr) return missing(index);
   if (object->access == Access::kReadOnly) return abort_code::kReadOnly;
   if (size != size_of(object->type)) return size > size_of(object->type) ? abort_code::kTooLong : abort_code::kTooShort;

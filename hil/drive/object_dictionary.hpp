@@ -40,7 +40,8 @@ struct Object {
   std::int64_t value = 0;
   std::int64_t low = 0;
   std::int64_t high = 0;
-  const char* text = "";  // for kText
+  const char* text = "";   // for kText
+  bool is_hidden = false;  // the drive's own affair: nobody else finds it
 };
 
 // Bytes on the wire; 0 for text.
@@ -58,6 +59,11 @@ class ObjectDictionary {
   // Value of an entry that exists (the drive's own use).
   std::int64_t get(std::uint16_t index, std::uint8_t sub = 0) const { return find(index, sub)->value; }
   void set(std::uint16_t index, std::uint8_t sub, std::int64_t value) { find(index, sub)->value = value; }
+
+  // The same for others than the drive: not what is hidden.
+  const Object* find_public(std::uint16_t index, std::uint8_t sub) const;
+  // All entries, by index, then sub-index.
+  const std::vector<Object>& all() const { return objects_; }
 
   // What an SDO read or write of `size` bytes would be refused with, kNone if allowed.
   std::uint32_t check_read(std::uint16_t index, std::uint8_t sub) const;

@@ -14,7 +14,7 @@ std::uint8_t entry_sub(std::int64_t entry) { return static_cast<std::uint8_t>(en
 std::size_t entry_bits(std::int64_t entry) { return static_cast<std::size_t>(entry & 0xFF); }
 
 std::uint32_t check_entry(const ObjectDictionary& objects, std::int64_t entry, bool receive) {
-  const Object* object = objects.find(entry_index(entry), entry_sub(entry));
+  const Object* object = objects.find_public(entry_index(entry), entry_sub(entry));
   if (object == nullptr) return abort_code::kNoObject;
   const bool right_way = !receive || object->access != Access::kReadOnly;
   return object->mappable && right_way && entry_bits(entry) == 8 * size_of(object->type) ? abort_code::kNone
@@ -61,7 +61,7 @@ Pdo::Pdo(ObjectDictionary& objects, std::uint16_t number, bool receive) {
   const std::int64_t cob = objects.get(communication, 1);
   enabled_ = (cob & kDisabledBit) == 0;
   cob_id_ = static_cast<std::uint32_t>(cob & 0x7FF);
-  every_nth_sync_ = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(objects.get(communication, 2)));
+  every_nth_sync_ = static_cast<std::uint32_t>(objects.get(communication, 2));
   deadline_us_ = 1000 * static_cast<std::uint64_t>(objects.get(communication, 5));
   for (std::int64_t i = 1; i <= objects.get(mapping, 0); ++i) {
     const std::int64_t entry = objects.get(mapping, static_cast<std::uint8_t>(i));

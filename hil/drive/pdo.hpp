@@ -26,7 +26,7 @@ class Pdo {
   bool enabled() const { return enabled_; }
   std::uint32_t cob_id() const { return cob_id_; }
   std::uint8_t length() const { return length_; }
-  // SYNCs between transmissions; 0 only when something changed is treated as 1.
+  // SYNCs between transmissions; 0: at those before which something has changed.
   std::uint32_t every_nth_sync() const { return every_nth_sync_; }
   std::uint64_t deadline_us() const { return deadline_us_; }
 

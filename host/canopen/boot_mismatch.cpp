@@ -23,35 +23,70 @@ std::string advice(const BootMismatch& m) {
   if (m.index == 0x1000 || m.index == 0x1018)
     return "another drive is connected under this node id, or the robot table is wrong";
   if (m.written) return "the drive does not keep what it is told; it may be the wrong type or have other firmware";
+  if (m.rule == BootRule::kAtLeast || m.rule == BootRule::kRange)
+    return "set it with the maker's tool, or slow the arm down in the robot table";
   return "the drive is set up for another motor or drum, or the robot table is wrong";
+}
+
+std::string range(std::uint32_t low, std::uint32_t high) {
+  return std::to_string(static_cast<std::int32_t>(low)) + " to " + std::to_string(static_cast<std::int32_t>(high));
+}
+
+std::string difference(const BootMismatch& m) {
+  switch (m.rule) {
+    case BootRule::kAtLeast:
+      return "the arm needs at least " + number(m.expected) + ", found " + number(m.found);
+    case BootRule::kRange:
+      return "the arm needs " + range(m.expected_before, m.expected) + ", found " + range(m.found_before, m.found);
+    case BootRule::kPair:
+      return "expected " + number(m.expected_before) + " to " + number(m.expected) + ", found " +
+             number(m.found_before) + " to " + number(m.found);
+    case BootRule::kAnyTarget:
+    case BootRule::kEqual:
+      break;
+  }
+  return "expected " + number(m.expected) + ", found " + number(m.found);
+}
+
+// What was refused, and what is there instead.
+std::string refusal(const BootMismatch& m) {
+  const std::string code = " refused with abort code " + hex("0x%08X", m.abort_code) + ", " + abort_text(m.abort_code);
+  if (!m.written) return "reading" + code;
+  return "writing " + number(m.expected) + code + (m.has_found ? ", and found " + number(m.found) : "");
+}
+
+std::string text_of(const BootMismatch& m) {
+  switch (m.failure) {
+    case BootFailure::kNone:
+      return "ok";
+    case BootFailure::kNoBootUp:
+      return "no boot-up message after reset communication: the drive is missing, without power, or has another node "
+             "id or bit rate";
+    case BootFailure::kNoAnswer:
+      return object_text(m) + "no answer: the drive fell silent; check its power and the cable";
+    case BootFailure::kAborted:
+      return object_text(m) + refusal(m) +
+             ": is it the drive of the robot table? If it is, say in its drive type what it has (docs/drives.md)";
+    case BootFailure::kValue:
+      return object_text(m) + difference(m) + ": " + advice(m);
+    case BootFailure::kRestarts:
+      return "it keeps restarting while it is configured: check its supply";
+    case BootFailure::kNotOperational:
+      return "does not become operational after NMT start; last state heard " + hex("0x%02X", m.found) +
+             ": its error register (0x1001) says more";
+  }
+  return "";
 }
 
 }  // namespace
 
-std::string describe(const BootMismatch& m, const std::string& bus_name) {
-  const std::string who = "node " + std::to_string(m.node) + " on " + bus_name + ": ";
-  switch (m.failure) {
-    case BootFailure::kNone:
-      return who + "ok";
-    case BootFailure::kNoBootUp:
-      return who +
-             "no boot-up message after reset communication: the drive is missing, without power, or has another node "
-             "id or bit rate";
-    case BootFailure::kNoAnswer:
-      return who + object_text(m) + "no answer: the drive fell silent; check its power and the cable";
-    case BootFailure::kAborted:
-      return who + object_text(m) + (m.written ? "writing " + number(m.expected) : "reading") +
-             " refused with abort code " + hex("0x%08X", m.abort_code) + ", " + abort_text(m.abort_code) +
-             ": is it the drive of the robot table?";
-    case BootFailure::kValue:
-      return who + object_text(m) + "expected " + number(m.expected) + ", found " + number(m.found) + ": " + advice(m);
-    case BootFailure::kRestarts:
-      return who + "it keeps restarting while it is configured: check its supply";
-    case BootFailure::kNotOperational:
-      return who + "does not become operational after NMT start; last state heard " + hex("0x%02X", m.found) +
-             ": its error register (0x1001) says more";
+std::string describe(std::span<const BootMismatch> mismatches, std::uint32_t more, const std::string& bus_name) {
+  std::string text;
+  for (const BootMismatch& mismatch : mismatches) {
+    const std::string who = "node " + std::to_string(mismatch.node) + " on " + bus_name + ": ";
+    text += (text.empty() ? who : "; ") + text_of(mismatch);
   }
-  return who;
+  return more == 0 ? text : text + "; and " + std::to_string(more) + " more";
 }
 
 }  // namespace liana::canopen

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+
+#include "host/canopen/boot_plan.hpp"
 
 namespace liana::canopen {
 
@@ -27,10 +30,14 @@ struct BootMismatch {
   std::uint32_t expected = 0;
   std::uint32_t found = 0;  // kNotOperational: last NMT state heard
   std::uint32_t abort_code = 0;
+  bool has_found = false;  // kAborted: what could not be written was read instead
+  BootRule rule = BootRule::kEqual;
+  std::uint32_t expected_before = 0;  // kPair, kRange: of the object before it
+  std::uint32_t found_before = 0;
 };
 
-// "node 3 on can0: object 0x1018:2 (product code): expected 1 (0x1), found 2 (0x2): what to do". Allocates: not for the
-// real-time thread.
-std::string describe(const BootMismatch& mismatch, const std::string& bus_name);
+// "node 3 on can0: object 0x1018:2 (product code): expected 1 (0x1), found 2 (0x2): what to do", and the same for each
+// further one of the node, behind "; "; `more` is how many are not among them. Allocates: not for the real-time thread.
+std::string describe(std::span<const BootMismatch> mismatches, std::uint32_t more, const std::string& bus_name);
 
 }  // namespace liana::canopen

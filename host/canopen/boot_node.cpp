@@ -1,7 +1,6 @@
 #include "host/canopen/boot_node.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "host/canopen/messages.hpp"
@@ -9,24 +8,41 @@
 namespace liana::canopen {
 namespace {
 
-constexpr int kAttempts = 3;     // per transfer: every object may be read or written twice
 constexpr int kMaxRestarts = 3;  // a slow drive may see two resets
+
+bool is_identity(const BootObject& object) { return object.index == 0x1000 || object.index == 0x1018; }
 
 }  // namespace
 
-BootTiming boot_timing(double rate_hz) {
+BootTiming boot_timing(double rate_hz, const config::DriveTimes& allowed) {
   const auto ticks = [rate_hz](double seconds) {
     return static_cast<std::uint32_t>(std::max(2.0, std::ceil(seconds * rate_hz)));
   };
-  return {ticks(0.5), ticks(10.0), ticks(0.3), ticks(0.25), ticks(1.0)};
+  return {ticks(1.0),
+          ticks(4.0),
+          ticks(allowed.boot_up_s),
+          ticks(allowed.sdo_answer_s),
+          ticks(0.25),
+          ticks(allowed.operational_s)};
 }
 
-BootNode::BootNode(const DriveExpectation& drive, const BootTiming& timing)
-    : bus_(drive.bus), node_(drive.node), timing_(timing), plan_(drive), sdo_(drive.node, timing.sdo_ticks) {}
+BootNode::BootNode(const DriveExpectation& drive, const BootTiming& timing, bool look_only)
+    : bus_(drive.bus),
+      node_(drive.node),
+      timing_(timing),
+      look_only_(look_only),
+      plan_(drive),
+      outcomes_(plan_.objects().size()),
+      sdo_(drive.node, timing.sdo_ticks) {}
 
 void BootNode::enter(NodePhase phase) noexcept {
   phase_ = phase;
   waited_ticks_ = 0;
+}
+
+bool BootNode::is_missing() const noexcept {
+  const BootFailure failure = mismatch_count_ == 0 ? BootFailure::kNone : mismatches_[mismatch_count_ - 1].failure;
+  return phase_ == NodePhase::kFailed && (failure == BootFailure::kNoBootUp || failure == BootFailure::kNoAnswer);
 }
 
 void BootNode::allow_start() noexcept {
@@ -47,101 +63,156 @@ void BootNode::advance() noexcept {
   ++waited_ticks_;
   switch (phase_) {
     case NodePhase::kReset:
-      out_ = nmt_frame(kNmtResetCommunication, node_);
-      out_waiting_ = true;
+      send_nmt(kNmtResetCommunication);
+      without_boot_up_ = 0;
+      reset_wait_ = timing_.reset_ticks;
       return enter(NodePhase::kWaitBootUp);
     case NodePhase::kWaitBootUp:
-      if (++without_boot_up_ >= timing_.boot_up_ticks) return fail(BootFailure::kNoBootUp);
-      if (waited_ticks_ >= timing_.reset_ticks) enter(NodePhase::kReset);
-      return;
+      return wait_for_boot_up();
     case NodePhase::kObjects:
       if (sdo_.status() != SdoStatus::kBusy) finish_transfer();
       return;
     case NodePhase::kStart:
-      send_start();
+      send_nmt(kNmtStart);
       return enter(NodePhase::kWaitOperational);
     case NodePhase::kWaitOperational:  // nobody confirms a start: a lost one is sent again
       if (waited_ticks_ >= timing_.operational_ticks) return fail(BootFailure::kNotOperational, last_state_);
-      if (waited_ticks_ % timing_.start_ticks == 0) send_start();
+      if (waited_ticks_ % timing_.start_ticks == 0) send_nmt(kNmtStart);
       return;
+    case NodePhase::kFailed:  // it may have come without a word: with its cable, after its boot-up message
+      if (!is_missing() || waited_ticks_ < timing_.most_reset_ticks) return;
+      waited_ticks_ = 0;
+      return send_nmt(kNmtResetCommunication);
     case NodePhase::kConfigured:
     case NodePhase::kOperational:
-    case NodePhase::kFailed:
       return;
   }
 }
 
-void BootNode::send_start() noexcept {
-  out_ = nmt_frame(kNmtStart, node_);
+void BootNode::wait_for_boot_up() noexcept {
+  if (++without_boot_up_ >= timing_.boot_up_ticks) return fail(BootFailure::kNoBootUp);
+  if (waited_ticks_ < reset_wait_) return;
+  waited_ticks_ = 0;
+  reset_wait_ = std::min(2 * reset_wait_, timing_.most_reset_ticks);
+  send_nmt(kNmtResetCommunication);
+}
+
+void BootNode::send_nmt(std::uint8_t command) noexcept {
+  out_ = nmt_frame(command, node_);
   out_waiting_ = true;
 }
 
 void BootNode::begin_object() noexcept {
-  attempts_ = 0;
-  reading_back_ = false;
-  if (!object().write) return begin_read();
-  std::array<std::uint8_t, 4> bytes{};
-  put_u32(bytes.data(), 4, object().value);
-  sdo_.start_download(object().index, object().sub, {bytes.data(), object().bytes});
+  // Another drive than expected is only read: nobody knows what a write would do there.
+  transfer_.begin(plan_, at_, look_only_ || is_another_, sdo_);
 }
 
-void BootNode::begin_read() noexcept { sdo_.start_upload(object().index, object().sub); }
-
 void BootNode::finish_transfer() noexcept {
-  if (sdo_.status() == SdoStatus::kTimeout) {
-    if (++attempts_ >= kAttempts) return fail(BootFailure::kNoAnswer);
-    const int attempts = attempts_;
-    if (reading_back_) {
-      begin_read();
-    } else {
-      begin_object();
-    }
-    attempts_ = attempts;
-    return;
+  const std::optional<std::uint32_t> before = at_ == 0 ? std::nullopt : outcomes_[at_ - 1].found;
+  const TransferEnd end = transfer_.advance(plan_, before, sdo_);
+  if (end == TransferEnd::kNotYet) return;
+  outcomes_[at_] = {transfer_.found(), end != TransferEnd::kRight && end != TransferEnd::kMissing};
+  switch (end) {
+    case TransferEnd::kAborted:
+      return refused(BootFailure::kAborted);
+    case TransferEnd::kWrong:
+      return refused(BootFailure::kValue);
+    case TransferEnd::kSilent:
+      return fail(BootFailure::kNoAnswer);
+    case TransferEnd::kRight:
+      if (transfer_.found()) plan_.keep(at_, *transfer_.found());
+      [[fallthrough]];
+    case TransferEnd::kMissing:
+    case TransferEnd::kNotYet:
+      return next_object();
   }
-  if (sdo_.status() == SdoStatus::kAborted) {
-    const bool missing = sdo_.abort_code() == kAbortNoObject || sdo_.abort_code() == kAbortNoSubIndex;
-    if (object().may_be_missing && missing) return next_object();
-    return fail(BootFailure::kAborted);
-  }
-  if (object().write && !reading_back_) {
-    reading_back_ = true;
-    attempts_ = 0;
-    return begin_read();
-  }
-  const std::uint32_t found = sdo_.value();
-  if ((found & object().mask) != (object().value & object().mask)) return fail(BootFailure::kValue, found);
-  plan_.keep(at_, found);
+}
+
+// The rest of the plan is gone through all the same, so that what else does not fit is told at once.
+void BootNode::refused(BootFailure failure) noexcept {
+  BootMismatch mismatch = {failure, bus_, node_};
+  mismatch.index = object().index;
+  mismatch.sub = failure == BootFailure::kValue ? plan_.sub_to_blame(at_, *transfer_.found()) : object().sub;
+  mismatch.written = object().write;
+  mismatch.object_name = object().name.c_str();
+  mismatch.rule = object().rule;
+  mismatch.expected_before = object().before;
+  mismatch.found_before = at_ == 0 ? 0 : outcomes_[at_ - 1].found.value_or(0);
+  mismatch.expected = object().value & object().mask;
+  mismatch.found = transfer_.found().value_or(0) & object().mask;
+  mismatch.has_found = transfer_.found().has_value();
+  mismatch.abort_code = failure == BootFailure::kAborted ? transfer_.abort_code() : 0;
+  if (is_identity(object())) is_another_ = true;
+  note(mismatch);
   next_object();
 }
 
+// Objects that cannot be right when others are not, and those of a list that has ended, are left out.
 void BootNode::next_object() noexcept {
-  if (++at_ == plan_.objects().size()) return enter(NodePhase::kConfigured);
-  begin_object();
+  const bool list_ends = object().ends_list_if_missing && !outcomes_[at_].found && !outcomes_[at_].is_refused;
+  const std::string& list = object().name;
+  for (++at_; at_ < plan_.objects().size(); ++at_) {
+    if (list_ends && object().name == list) continue;
+    if (!lacks_what_it_needs()) return begin_object();
+    outcomes_[at_] = {std::nullopt, true};
+  }
+  enter(mismatch_count_ == 0 ? NodePhase::kConfigured : NodePhase::kFailed);
 }
 
-void BootNode::on_heartbeat(std::uint8_t state, bool all_were_operational) noexcept {
+bool BootNode::lacks_what_it_needs() const noexcept {
+  for (std::size_t i = object().needs_from; i < object().needs_to && !look_only_; ++i)
+    if (outcomes_[i].is_refused) return true;
+  return false;
+}
+
+void BootNode::on_heartbeat(std::uint8_t state) noexcept {
   last_state_ = state & 0x7F;
   if (last_state_ == kStateOperational && phase_ == NodePhase::kWaitOperational) return enter(NodePhase::kOperational);
-  if (last_state_ == kStateBootUp) restart(all_were_operational);
+  if (last_state_ == kStateBootUp) restart();
 }
 
-// A boot-up message: the first one is what we wait for; after a later one everything we wrote is gone.
-void BootNode::restart(bool all_were_operational) noexcept {
-  if (phase_ == NodePhase::kOperational || (all_were_operational && phase_ == NodePhase::kFailed)) {
-    restarts_ = 0;
-    mismatch_ = BootMismatch{};
-    enter(NodePhase::kConfigured);
-  }
-  const bool waiting = phase_ == NodePhase::kWaitBootUp && !out_waiting_;
-  const bool configured =
-      phase_ == NodePhase::kObjects || phase_ == NodePhase::kConfigured || phase_ == NodePhase::kWaitOperational;
-  if (!waiting && !configured) return;
-  if (configured && ++restarts_ > kMaxRestarts) return fail(BootFailure::kRestarts);
+void BootNode::begin_plan() noexcept {
   at_ = 0;
+  is_another_ = false;
+  forget_mismatches();
+  std::fill(outcomes_.begin(), outcomes_.end(), BootOutcome{});
   out_waiting_ = false;
   enter(NodePhase::kObjects);
   begin_object();
+}
+
+// A boot-up message: the first one is what we wait for; after a later one everything we wrote is gone.
+void BootNode::restart() noexcept {
+  switch (phase_) {
+    case NodePhase::kReset:
+      return;
+    case NodePhase::kWaitBootUp:
+      if (!out_waiting_) begin_plan();
+      return;
+    case NodePhase::kFailed:
+      if (mismatch_count_ > 0 && mismatches_[mismatch_count_ - 1].failure == BootFailure::kRestarts) return;
+      [[fallthrough]];
+    case NodePhase::kOperational:
+      restarts_ = 0;
+      return begin_plan();
+    case NodePhase::kObjects:
+    case NodePhase::kConfigured:
+    case NodePhase::kStart:
+    case NodePhase::kWaitOperational:
+      if (++restarts_ > kMaxRestarts) return fail(BootFailure::kRestarts);
+      return begin_plan();
+  }
+}
+
+void BootNode::recover(NodeSeen seen) noexcept {
+  const bool is_booted = phase_ == NodePhase::kOperational;
+  const bool waits_long = phase_ == NodePhase::kWaitBootUp && waited_ticks_ >= timing_.reset_ticks;
+  if (is_booted && seen == NodeSeen::kWell) return;
+  if (!is_booted && !waits_long && phase_ != NodePhase::kFailed) return;
+  restarts_ = 0;
+  if (is_booted && seen == NodeSeen::kPreOperational) return begin_plan();
+  forget_mismatches();
+  enter(NodePhase::kReset);
 }
 
 void BootNode::on_sdo_response(const bus::CanFrame& frame) noexcept {
@@ -149,18 +220,29 @@ void BootNode::on_sdo_response(const bus::CanFrame& frame) noexcept {
 }
 
 void BootNode::fail(BootFailure failure, std::uint32_t found) noexcept {
-  mismatch_ = {failure, bus_, node_};
-  mismatch_.found = found;
+  BootMismatch mismatch = {failure, bus_, node_};
   if (phase_ == NodePhase::kObjects) {
-    mismatch_.index = object().index;
-    mismatch_.sub = object().sub;
-    mismatch_.written = object().write;
-    mismatch_.object_name = object().name;
-    mismatch_.expected = object().value & object().mask;
-    mismatch_.found = found & object().mask;
-    mismatch_.abort_code = sdo_.abort_code();
+    mismatch.index = object().index;
+    mismatch.sub = object().sub;
+    mismatch.object_name = object().name.c_str();
   }
+  mismatch.found = found;
+  note(mismatch);
   enter(NodePhase::kFailed);
+}
+
+// The last place is for what ended the plan.
+void BootNode::note(const BootMismatch& mismatch) noexcept {
+  if (mismatch_count_ == kMostMismatches) {
+    ++more_mismatches_;
+    --mismatch_count_;
+  }
+  mismatches_[mismatch_count_++] = mismatch;
+}
+
+void BootNode::forget_mismatches() noexcept {
+  mismatch_count_ = 0;
+  more_mismatches_ = 0;
 }
 
 }  // namespace liana::canopen

@@ -6,13 +6,17 @@
 
 namespace liana::canopen {
 
+BootSequence::BootSequence(const std::vector<DriveExpectation>& drives, double rate_hz) {
+  nodes_.reserve(drives.size());
+  for (const DriveExpectation& drive : drives) nodes_.emplace_back(drive, boot_timing(rate_hz, drive.type.times));
+}
+
 BootSequence::BootSequence(const std::vector<DriveExpectation>& drives, const BootTiming& timing) {
   nodes_.reserve(drives.size());
   for (const DriveExpectation& drive : drives) nodes_.emplace_back(drive, timing);
 }
 
 void BootSequence::step(bus::DriveBus& bus) noexcept {
-  if (state_ != BootState::kRunning) return;
   for (BootNode& node : nodes_) {
     bus::CanFrame frame;
     if (node.step(frame)) node.sent(bus.send(node.bus(), frame) == bus::SendResult::kOk);
@@ -28,10 +32,15 @@ void BootSequence::on_frame(int bus, const bus::CanFrame& frame) noexcept {
     if (from.kind == FrameKind::kSdoResponse) {
       node.on_sdo_response(frame);
     } else if (frame.length == 1) {
-      node.on_heartbeat(frame.data[0], was_operational_);
-      if (was_operational_ && node.phase() == NodePhase::kObjects) state_ = BootState::kRunning;
+      node.on_heartbeat(frame.data[0]);
+      if (node.phase() == NodePhase::kObjects) state_ = BootState::kRunning;
     }
   }
+}
+
+void BootSequence::recover(std::size_t drive, NodeSeen seen) noexcept {
+  nodes_[drive].recover(seen);
+  if (nodes_[drive].phase() < NodePhase::kConfigured) state_ = BootState::kRunning;
 }
 
 int BootSequence::count(NodePhase least, NodePhase most) const noexcept {
@@ -41,16 +50,17 @@ int BootSequence::count(NodePhase least, NodePhase most) const noexcept {
 }
 
 void BootSequence::update_state() noexcept {
-  const int all = static_cast<int>(nodes_.size());
   const int failed = count(NodePhase::kFailed, NodePhase::kFailed);
-  const int still_busy = count(NodePhase::kReset, NodePhase::kObjects);
-  if (count(NodePhase::kOperational, NodePhase::kOperational) == all) {
-    state_ = BootState::kOperational;
-    was_operational_ = true;
+  const int operational = count(NodePhase::kOperational, NodePhase::kOperational);
+  const bool all_configured = count(NodePhase::kConfigured, NodePhase::kOperational) == static_cast<int>(nodes_.size());
+  if (all_configured) {
+    for (BootNode& node : nodes_) node.allow_start();
   }
-  if (failed > 0 && still_busy == 0) state_ = BootState::kFailed;
-  if (failed > 0 || still_busy > 0) return;
-  for (BootNode& node : nodes_) node.allow_start();
+  const bool is_busy = count(NodePhase::kReset, NodePhase::kObjects) > 0;
+  const bool starts = count(NodePhase::kStart, NodePhase::kWaitOperational) > 0;
+  state_ = BootState::kRunning;
+  if (operational == static_cast<int>(nodes_.size())) state_ = BootState::kOperational;
+  if (failed > 0 && !is_busy && !starts) state_ = BootState::kFailed;
 }
 
 BootProgress BootSequence::progress() const noexcept {

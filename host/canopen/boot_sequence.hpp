@@ -22,22 +22,27 @@ struct BootProgress {
 
 class BootSequence {
  public:
+  // Each drive has the time that its type allows, at so many ticks a second.
+  BootSequence(const std::vector<DriveExpectation>& drives, double rate_hz);
+  // All have the same.
   BootSequence(const std::vector<DriveExpectation>& drives, const BootTiming& timing);
 
   // Once per tick, after the received frames have been passed to on_frame(): sends what each node needs next.
   // No node is started before all are configured; when one fails, the others go on to the end of their plan and none is
-  // started.
+  // started. Missing nodes are asked for again and again, also after that: one that comes late is booted.
   void step(bus::DriveBus& bus) noexcept;
-  // Boot-up messages, heartbeats and SDO responses; other frames are ignored. When all were operational once and one
-  // restarts, it alone is booted again (CiA 302-2, boot of a slave that comes back): the state is kRunning until it is
-  // done.
+  // Boot-up messages, heartbeats and SDO responses; other frames are ignored. A node that restarts is booted again,
+  // alone (CiA 302-2, boot of a slave that comes back): the state is kRunning until it is done.
   void on_frame(int bus, const bus::CanFrame& frame) noexcept;
+  // Somebody wants a drive back (clear): BootNode::recover.
+  void recover(std::size_t drive, NodeSeen seen) noexcept;
 
   BootState state() const noexcept { return state_; }
   BootProgress progress() const noexcept;
-  // One entry per drive, in the order given; failure kNone = ok so far.
+  // One entry per drive, in the order given; no mismatches = ok so far.
   std::size_t node_count() const noexcept { return nodes_.size(); }
-  const BootMismatch& mismatch(std::size_t drive) const noexcept { return nodes_[drive].mismatch(); }
+  std::span<const BootMismatch> mismatches(std::size_t drive) const noexcept { return nodes_[drive].mismatches(); }
+  std::uint32_t more_mismatches(std::size_t drive) const noexcept { return nodes_[drive].more_mismatches(); }
   std::uint32_t serial(std::size_t drive) const noexcept { return nodes_[drive].serial(); }
   NodePhase phase(std::size_t drive) const noexcept { return nodes_[drive].phase(); }
 
@@ -47,7 +52,6 @@ class BootSequence {
 
   std::vector<BootNode> nodes_;
   BootState state_ = BootState::kRunning;
-  bool was_operational_ = false;  // all were, once
 };
 
 }  // namespace liana::canopen

@@ -1,10 +1,15 @@
 #include "host/canopen/drive_expectation.hpp"
-#include "firmware_like/drive/pdo.hpp"
 
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+
+#include "firmware_like/cable/arm/cables.hpp"
+#include "firmware_like/cable/arm/drive_limits.hpp"
+#include "firmware_like/drive/pdo.hpp"
+#include "firmware_like/serial/drive_units.hpp"
+#include "host/config/drive_types_of_buses.hpp"
 
 namespace liana::canopen {
 namespace {
@@ -43,13 +48,19 @@ DriveExpectation common_expectation(const Robot& robot, const config::BusesConfi
   return common;
 }
 
-// One drive per window of following error [counts].
+// What of one drive is its own.
+struct OwnDrive {
+  double window_counts = 0.0;  // of following error
+  DriveDemand demand;
+};
+
 template <class Robot>
-std::vector<DriveExpectation> expectations(const Robot& robot, const std::vector<double>& window_counts,
+std::vector<DriveExpectation> expectations(const Robot& robot, const std::vector<OwnDrive>& own,
                                            const config::BusesConfig& buses) {
   const DriveExpectation common = common_expectation(robot, buses);
+  const std::map<std::int32_t, config::DriveType> types = config::drive_types(buses);
   std::vector<DriveExpectation> drives;
-  for (std::size_t i = 0; i < window_counts.size(); ++i) {
+  for (std::size_t i = 0; i < own.size(); ++i) {
     const auto node = static_cast<std::int32_t>(node_of_drive(i));
     DriveExpectation drive = common;
     drive.node = static_cast<std::uint8_t>(node);
@@ -59,7 +70,9 @@ std::vector<DriveExpectation> expectations(const Robot& robot, const std::vector
                                robot.name + " is on no bus; each drive must be on exactly one");
     }
     if (!robot.drive_serials.empty()) drive.serial = robot.drive_serials[i];
-    drive.following_window_counts = rounded(window_counts[i]);
+    if (const auto named = types.find(node); named != types.end()) drive.type = named->second;
+    drive.following_window_counts = rounded(own[i].window_counts);
+    drive.demand = own[i].demand;
     drives.push_back(drive);
   }
   return drives;
@@ -68,18 +81,31 @@ std::vector<DriveExpectation> expectations(const Robot& robot, const std::vector
 }  // namespace
 
 std::vector<DriveExpectation> drive_expectations(const config::RobotConfig& robot, const config::BusesConfig& buses) {
-  std::vector<double> window_counts;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(robot.table.cable_count()); ++i)
-    window_counts.push_back(kFollowingWindow_m / robot.table.drive[i].metres_per_count);
-  return expectations(robot, window_counts, buses);
+  const cable::RobotTable& table = robot.table;
+  cable::CableVector zero_payout_m = cable::cable_layout(table).zero_length_m;
+  for (double& each : zero_payout_m) each += table.lead_m;
+  const GateLimits limits = cable::make_gate_limits(table, zero_payout_m);
+  std::vector<OwnDrive> own;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
+    const double metres_per_count = table.drive[i].metres_per_count;
+    own.push_back(
+        {kFollowingWindow_m / metres_per_count,
+         {limits.drive[i].least_counts, limits.drive[i].most_counts, table.limits.cable_speed_m_s / metres_per_count}});
+  }
+  return expectations(robot, own, buses);
 }
 
 std::vector<DriveExpectation> drive_expectations(const config::SerialRobotConfig& robot,
                                                  const config::BusesConfig& buses) {
-  std::vector<double> window_counts;
-  for (std::size_t i = 0; i < robot.table.joints(); ++i)
-    window_counts.push_back(kFollowingWindow_rad / robot.table.drive[i].rad_per_count);
-  return expectations(robot, window_counts, buses);
+  const GateLimits limits = serial::make_gate_limits(robot.table);
+  std::vector<OwnDrive> own;
+  for (std::size_t i = 0; i < robot.table.joints(); ++i) {
+    const double rad_per_count = robot.table.drive[i].rad_per_count;
+    own.push_back(
+        {kFollowingWindow_rad / rad_per_count,
+         {limits.drive[i].least_counts, limits.drive[i].most_counts, robot.table.joint[i].rate_rad_s / rad_per_count}});
+  }
+  return expectations(robot, own, buses);
 }
 
 }  // namespace liana::canopen

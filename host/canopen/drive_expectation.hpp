@@ -6,14 +6,23 @@
 #include <vector>
 
 #include "host/config/config.hpp"
+#include "host/config/drive_type.hpp"
 #include "host/config/serial_robot.hpp"
 
 namespace liana::canopen {
 
+// What the arm asks of one drive, in increments of its encoder and seconds.
+struct DriveDemand {
+  double least_counts = 0.0;  // positions that it must be able to have
+  double most_counts = 0.0;
+  double counts_per_s = 0.0;  // fastest command
+};
+
 struct DriveExpectation {
   int bus = 0;            // 0-based
   std::uint8_t node = 1;  // 1..126
-  // Must be found.
+  config::DriveType type;
+  // Must be found, unless the type knows better.
   std::uint32_t vendor = 0;             // 1018:1
   std::uint32_t product = 0;            // 1018:2
   std::uint32_t revision = 0;           // 1018:3
@@ -22,14 +31,13 @@ struct DriveExpectation {
   std::uint32_t gear_drum_turns = 1;    // 6091:2
   std::uint32_t rated_torque_mNm = 0;   // 6076
   std::optional<std::uint32_t> serial;  // 1018:4; without it, any: but the one found first has to stay
+  DriveDemand demand;                   // 607D, 607F, 6080, 60C5, 6085
   // Is written.
   config::InterpolationPeriod period{};       // 60C2, the SYNC period
   std::uint16_t rpdo_deadline_ms = 0;         // 1400:5
   std::uint16_t heartbeat_ms = 100;           // 1017
   std::uint16_t master_timeout_ms = 300;      // 1016:1
-  std::uint16_t max_torque_permille = 1000;   // 6072
   std::uint32_t following_window_counts = 0;  // 6065
-  std::uint16_t following_time_ms = 100;      // 6066
 };
 
 // One expectation per drive, in the order of the cables or joints. Throws std::runtime_error when a node is on no bus.

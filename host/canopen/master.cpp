@@ -10,7 +10,7 @@ constexpr std::int32_t kHeartbeatsMissed = 3;
 }  // namespace
 
 Master::Master(const std::vector<DriveExpectation>& drives, const config::BusesConfig& buses)
-    : boot_(drives, boot_timing(buses.rate_hz)),
+    : boot_(drives, buses.rate_hz),
       producer_(buses.heartbeat_ms, buses.rate_hz),
       monitor_(kHeartbeatsMissed * buses.heartbeat_ms, buses.rate_hz) {}
 
@@ -36,6 +36,14 @@ void Master::step(bus::DriveBus& bus) noexcept {
   monitor_.step();
   producer_.step(bus);
   boot_.step(bus);
+}
+
+void Master::recover(std::size_t drive, std::uint8_t node, bool reports) noexcept {
+  const std::uint8_t state = monitor_.state(node);
+  NodeSeen seen = NodeSeen::kLost;
+  if (!monitor_.lost(node) && state == kStatePreOperational) seen = NodeSeen::kPreOperational;
+  if (!monitor_.lost(node) && state == kStateOperational && reports) seen = NodeSeen::kWell;
+  boot_.recover(drive, seen);
 }
 
 void Master::command_all(bus::DriveBus& bus, std::uint8_t nmt_command) noexcept {

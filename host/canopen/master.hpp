@@ -18,6 +18,8 @@ class Master {
   bool on_frame(int bus, const bus::CanFrame& frame, std::uint64_t tick) noexcept;
   // Once per tick, after the frames of the tick: heartbeat out, ages up, next SDO requests of the boot.
   void step(bus::DriveBus& bus) noexcept;
+  // Somebody wants a booted drive back (clear): BootNode::recover, by what is heard of it. `reports`: its TPDO comes.
+  void recover(std::size_t drive, std::uint8_t node, bool reports) noexcept;
   // NMT command to all drives of all buses, as kNmtStop.
   static void command_all(bus::DriveBus& bus, std::uint8_t nmt_command) noexcept;
 

@@ -10,12 +10,20 @@ namespace {
 constexpr std::size_t kSegmentBytes = 7;
 constexpr std::uint8_t kToggleBit = 0x10;
 constexpr std::uint8_t kAbortCommandByte = 0x80;
+constexpr std::uint8_t kSpecifierMask = 0xE0;
+
+// Server command specifiers (CiA 301, 7.2.4.3), in their place in the command byte.
+constexpr std::uint8_t kUploadSegmentAnswer = 0x00;
+constexpr std::uint8_t kDownloadSegmentAnswer = 0x20;
+constexpr std::uint8_t kUploadAnswer = 0x40;
+constexpr std::uint8_t kDownloadAnswer = 0x60;
 
 std::uint8_t toggle_bit(bool toggle) noexcept { return toggle ? kToggleBit : std::uint8_t{0}; }
 
 }  // namespace
 
 void SdoClient::begin(bool download, std::uint16_t index, std::uint8_t sub) noexcept {
+  if (index != index_ || sub != sub_) late_answers_ = 0;  // answers name their object: none is taken for another's
   download_ = download;
   index_ = index;
   sub_ = sub;
@@ -33,10 +41,7 @@ void SdoClient::request(std::uint8_t command) noexcept {
   request_.id = kSdoRequestBase + node_;
   request_.length = 8;
   request_.data[0] = command;
-  if (phase_ == Phase::kInitiate || command == kAbortCommandByte) {
-    put_u32(&request_.data[1], 2, index_);
-    request_.data[3] = sub_;
-  }
+  if (phase_ == Phase::kInitiate) put_object(request_);
   pending_ = true;
   waited_ticks_ = 0;
 }
@@ -67,6 +72,11 @@ void SdoClient::start_download(std::uint16_t index, std::uint8_t sub, std::span<
 }
 
 bool SdoClient::take_request(bus::CanFrame& frame) noexcept {
+  if (abort_pending_) {
+    frame = abort_;
+    abort_pending_ = false;
+    return true;
+  }
   if (!pending_) return false;
   frame = request_;
   pending_ = false;
@@ -77,16 +87,33 @@ bool SdoClient::answers_this_object(const bus::CanFrame& frame) const noexcept {
   return get_u32(&frame.data[1], 2) == index_ && frame.data[3] == sub_;
 }
 
+bool SdoClient::answers_request(std::uint8_t command) const noexcept {
+  const bool initiate = phase_ == Phase::kInitiate;
+  const std::uint8_t wanted = download_ ? (initiate ? kDownloadAnswer : kDownloadSegmentAnswer)
+                                        : (initiate ? kUploadAnswer : kUploadSegmentAnswer);
+  return (command & kSpecifierMask) == wanted;
+}
+
+// A server answers in order, so that a write's answer after its time comes before that of the read-back. An abort does
+// not say which of the two it answers.
+bool SdoClient::is_late(const bus::CanFrame& frame) noexcept {
+  const std::uint8_t given_up = late_download_ ? kDownloadAnswer : kUploadAnswer;
+  const bool fits = frame.data[0] == kAbortCommandByte || (frame.data[0] & kSpecifierMask) == given_up;
+  if (late_answers_ == 0 || late_download_ == download_ || !fits) return false;
+  --late_answers_;
+  return true;
+}
+
 void SdoClient::on_response(const bus::CanFrame& frame) noexcept {
   if (status_ != SdoStatus::kBusy || pending_ || frame.length != 8) return;
-  waited_ticks_ = 0;
+  const bool names_object = phase_ == Phase::kInitiate || frame.data[0] == kAbortCommandByte;
+  if (names_object && (!answers_this_object(frame) || is_late(frame))) return;
   if (frame.data[0] == kAbortCommandByte) {
-    if (!answers_this_object(frame)) return;  // of an earlier transfer
     status_ = SdoStatus::kAborted;
     abort_code_ = get_u32(&frame.data[4], 4);
     return;
   }
-  if (phase_ == Phase::kInitiate && !answers_this_object(frame)) return;
+  if (!answers_request(frame.data[0])) return;
   if (download_) return on_download_answer(frame);
   if (phase_ == Phase::kInitiate) return on_upload_initiated(frame);
   on_upload_segment(frame);
@@ -94,7 +121,6 @@ void SdoClient::on_response(const bus::CanFrame& frame) noexcept {
 
 void SdoClient::on_upload_initiated(const bus::CanFrame& frame) noexcept {
   const std::uint8_t command = frame.data[0];
-  if ((command & 0xE0) != 0x40) return fail(kAbortCommand);
   const bool sized = (command & 1) != 0;
   if ((command & 2) != 0) {
     size_ = sized ? 4U - ((command >> 2) & 3U) : 4U;
@@ -112,14 +138,15 @@ void SdoClient::request_upload_segment() noexcept { request(static_cast<std::uin
 
 void SdoClient::on_upload_segment(const bus::CanFrame& frame) noexcept {
   const std::uint8_t command = frame.data[0];
-  if ((command & 0xE0) != 0x00) return fail(kAbortCommand);
   if ((command & kToggleBit) != toggle_bit(toggle_)) return fail(kAbortToggle);
   const std::size_t count = kSegmentBytes - ((command >> 1) & 7U);
+  const bool last = (command & 1) != 0;
+  if (count == 0 && !last) return fail(kAbortCommand);  // it would go on for ever
   if (size_ + count > kSdoBufferBytes) return fail(kAbortMemory);
   std::copy_n(frame.data.begin() + 1, count, buffer_.begin() + static_cast<std::ptrdiff_t>(size_));
   size_ += count;
   toggle_ = !toggle_;
-  if ((command & 1) == 0) return request_upload_segment();
+  if (!last) return request_upload_segment();
   if (announced_ != 0 && announced_ != size_) return fail(kAbortGeneral);
   status_ = SdoStatus::kDone;
 }
@@ -127,7 +154,6 @@ void SdoClient::on_upload_segment(const bus::CanFrame& frame) noexcept {
 void SdoClient::on_download_answer(const bus::CanFrame& frame) noexcept {
   const std::uint8_t command = frame.data[0];
   if (phase_ == Phase::kInitiate) {
-    if (command != 0x60) return fail(kAbortCommand);
     if (size_ <= 4) {
       status_ = SdoStatus::kDone;
       return;
@@ -135,7 +161,6 @@ void SdoClient::on_download_answer(const bus::CanFrame& frame) noexcept {
     phase_ = Phase::kSegments;
     return request_download_segment();
   }
-  if ((command & 0xE0) != 0x20) return fail(kAbortCommand);
   if ((command & kToggleBit) != toggle_bit(toggle_)) return fail(kAbortToggle);
   toggle_ = !toggle_;
   if (!last_segment_sent_) return request_download_segment();
@@ -152,9 +177,16 @@ void SdoClient::request_download_segment() noexcept {
 }
 
 void SdoClient::tick() noexcept {
-  if (status_ != SdoStatus::kBusy || pending_) return;
+  if (status_ != SdoStatus::kBusy) return;
   if (++waited_ticks_ < timeout_ticks_) return;
-  fail(kAbortTimeout);
+  if (pending_) {  // the bus never took the request: the server knows nothing of it
+    pending_ = false;
+    abort_code_ = kAbortTimeout;
+  } else {
+    late_answers_ = late_download_ == download_ ? late_answers_ + 1 : 1;
+    late_download_ = download_;
+    fail(kAbortTimeout);
+  }
   status_ = SdoStatus::kTimeout;
 }
 
@@ -162,8 +194,15 @@ void SdoClient::tick() noexcept {
 void SdoClient::fail(std::uint32_t code) noexcept {
   status_ = SdoStatus::kAborted;
   abort_code_ = code;
-  request(kAbortCommandByte);
-  put_u32(&request_.data[4], 4, code);
+  abort_ = {kSdoRequestBase + node_, 8, {kAbortCommandByte}, 0};
+  put_object(abort_);
+  put_u32(&abort_.data[4], 4, code);
+  abort_pending_ = true;
+}
+
+void SdoClient::put_object(bus::CanFrame& frame) const noexcept {
+  put_u32(&frame.data[1], 2, index_);
+  frame.data[3] = sub_;
 }
 
 std::uint32_t SdoClient::value() const noexcept { return get_u32(buffer_.data(), std::min<std::size_t>(size_, 4)); }

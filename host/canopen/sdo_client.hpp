@@ -1,4 +1,8 @@
-// SDO client for one node (CiA 301): expedited and segmented transfers. Never waits; time is counted in ticks.
+// SDO client for one node (CiA 301, 7.2.4): expedited and segmented transfers. Never waits; time is counted in ticks.
+//
+// A transfer always ends: each request has `timeout_ticks` for its answer, whatever else is heard meanwhile, and an
+// object has at most kSdoBufferBytes, of which every segment brings one at least. What comes on the node's COB-ID but
+// answers nothing that was asked (another tool's transfer, an answer after its time) is ignored.
 #pragma once
 
 #include <array>
@@ -33,14 +37,14 @@ enum class SdoStatus : std::uint8_t {
 
 class SdoClient {
  public:
-  // Talks to `node` 1..127; gives up after `timeout_ticks` (at least 1) ticks without an answer.
+  // Talks to `node` 1..127; gives up `timeout_ticks` (at least 1) ticks after a request without its answer.
   SdoClient(std::uint8_t node, std::uint32_t timeout_ticks) noexcept : node_(node), timeout_ticks_(timeout_ticks) {}
 
   // Begins to read an object; the request is ready in take_request().
   void start_upload(std::uint16_t index, std::uint8_t sub) noexcept;
   // Begins to write 1..kSdoBufferBytes bytes (more are refused with kAborted, kAbortMemory).
   void start_download(std::uint16_t index, std::uint8_t sub, std::span<const std::uint8_t> bytes) noexcept;
-  // The next frame to send, if there is one.
+  // The next frame to send, if there is one: of a transfer that was given up first the abort, which frees the server.
   bool take_request(bus::CanFrame& frame) noexcept;
   // A frame with COB-ID 0x580 + node.
   void on_response(const bus::CanFrame& frame) noexcept;
@@ -65,6 +69,9 @@ class SdoClient {
   void request_upload_segment() noexcept;
   void request_download_segment() noexcept;
   bool answers_this_object(const bus::CanFrame& frame) const noexcept;
+  bool answers_request(std::uint8_t command) const noexcept;
+  bool is_late(const bus::CanFrame& frame) noexcept;
+  void put_object(bus::CanFrame& frame) const noexcept;
   void fail(std::uint32_t code) noexcept;
 
   std::uint8_t node_;
@@ -75,7 +82,10 @@ class SdoClient {
   bool download_ = false;
   bool toggle_ = false;
   bool last_segment_sent_ = false;
-  bool pending_ = false;  // request_ is waiting to be taken
+  bool pending_ = false;            // request_ is waiting to be taken
+  bool abort_pending_ = false;      // abort_ is, before it
+  std::uint32_t late_answers_ = 0;  // to requests for this object that were given up, and may still come
+  bool late_download_ = false;      // what those requests were
   Phase phase_ = Phase::kInitiate;
   SdoStatus status_ = SdoStatus::kIdle;
   std::uint32_t abort_code_ = 0;
@@ -84,6 +94,7 @@ class SdoClient {
   std::size_t announced_ = 0;  // upload: size the server announced, 0 = none
   std::size_t at_ = 0;         // download: bytes already sent
   bus::CanFrame request_;
+  bus::CanFrame abort_;
 };
 
 }  // namespace liana::canopen

@@ -100,17 +100,104 @@ TEST(SdoClient, ReportsTheAbortCodeOfTheServer) {
   EXPECT_STREQ(abort_text(0x12345678), "unknown abort code");
 }
 
+void pass(SdoClient& client, std::uint32_t ticks) {
+  for (std::uint32_t i = 0; i < ticks; ++i) client.tick();
+}
+
 TEST(SdoClient, GivesUpAfterItsTicksAndTellsTheServer) {
   SdoClient client(kNode, kTimeoutTicks);
   client.start_upload(0x1000, 0);
-  for (int i = 0; i < 20; ++i) client.tick();
-  EXPECT_EQ(client.status(), SdoStatus::kBusy) << "a request that has not been sent cannot time out";
   request_of(client);
-  for (std::uint32_t i = 1; i < kTimeoutTicks; ++i) client.tick();
+  pass(client, kTimeoutTicks - 1);
   EXPECT_EQ(client.status(), SdoStatus::kBusy);
   client.tick();
   EXPECT_EQ(client.status(), SdoStatus::kTimeout);
-  EXPECT_EQ(request_of(client), (std::vector<int>{0x80, 0x00, 0x10, 0, 0x00, 0x00, 0x04, 0x05}));
+  client.start_upload(0x1000, 0);
+  EXPECT_EQ(request_of(client), (std::vector<int>{0x80, 0x00, 0x10, 0, 0x00, 0x00, 0x04, 0x05}))
+      << "the abort goes out even when the next transfer begins at once";
+  EXPECT_EQ(request_of(client)[0], 0x40);
+  EXPECT_TRUE(request_of(client).empty());
+}
+
+TEST(SdoClient, ARequestThatTheBusNeverTakesTimesOutToo) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x1000, 0);
+  pass(client, kTimeoutTicks);
+  EXPECT_EQ(client.status(), SdoStatus::kTimeout);
+  EXPECT_TRUE(request_of(client).empty()) << "the server knows nothing of it: there is nothing to abort";
+}
+
+TEST(SdoClient, NoStrayKeepsATransferAliveBeyondItsTime) {
+  const std::initializer_list<int> strays[] = {
+      {0x43, 0x01, 0x10, 0, 1, 2, 3, 4},          // an answer to a read of another object
+      {0x80, 0x01, 0x10, 0, 0, 0, 2, 6},          // another object's abort
+      {0x60, 0x00, 0x10, 0},                      // a write of this object by somebody else
+      {0x00, 'a', 'b', 'c', 'd', 'e', 'f', 'g'},  // segments of another tool's transfer, both ways
+      {0x10, 0x00, 0x10, 0, 'd', 'e', 'f', 'g'},
+      {0x20, 0x00, 0x10, 0},
+      {0xC1, 0x00, 0x10, 0, 9, 9, 9, 9},  // block transfer
+  };
+  for (const auto& stray : strays) {
+    SdoClient client(kNode, kTimeoutTicks);
+    client.start_upload(0x1000, 0);
+    request_of(client);
+    for (std::uint32_t i = 1; i < kTimeoutTicks; ++i) {
+      client.on_response(response(stray));
+      client.tick();
+      ASSERT_EQ(client.status(), SdoStatus::kBusy) << "of command byte " << *stray.begin();
+    }
+    client.on_response(response(stray));
+    client.tick();
+    EXPECT_EQ(client.status(), SdoStatus::kTimeout) << "of command byte " << *stray.begin();
+  }
+}
+
+TEST(SdoClient, ASecondAnswerToAWriteIsNotTakenForThatOfItsReadBack) {
+  const std::uint8_t value[] = {7};
+  for (const int late : {0x60, 0x80}) {
+    SdoClient client(kNode, kTimeoutTicks);
+    client.start_download(0x6060, 0, value);
+    request_of(client);
+    pass(client, kTimeoutTicks);
+    client.start_download(0x6060, 0, value);
+    request_of(client);                                   // the abort
+    request_of(client);                                   // the write again
+    client.on_response(response({0x60, 0x60, 0x60, 0}));  // the first one's answer
+    ASSERT_EQ(client.status(), SdoStatus::kDone);
+    client.start_upload(0x6060, 0);
+    request_of(client);
+    client.on_response(response({late, 0x60, 0x60, 0, 0x22, 0, 0, 0x08}));  // the second one's
+    EXPECT_EQ(client.status(), SdoStatus::kBusy) << "of command byte " << late;
+    client.on_response(response({0x4F, 0x60, 0x60, 0, 7}));
+    EXPECT_EQ(client.status(), SdoStatus::kDone);
+    EXPECT_EQ(client.value(), 7U);
+  }
+}
+
+TEST(SdoClient, AnAbortIsTakenForALateOneOnlyAsOftenAsOneIsOwed) {
+  const std::uint8_t value[] = {7};
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_download(0x6060, 0, value);
+  request_of(client);
+  pass(client, kTimeoutTicks);
+  request_of(client);  // the abort
+  client.start_upload(0x6060, 0);
+  request_of(client);
+  client.on_response(response({0x80, 0x60, 0x60, 0, 0x01, 0x00, 0x01, 0x06}));
+  EXPECT_EQ(client.status(), SdoStatus::kBusy) << "the answer to the write that was given up";
+  client.on_response(response({0x80, 0x60, 0x60, 0, 0x01, 0x00, 0x01, 0x06}));
+  EXPECT_EQ(client.status(), SdoStatus::kAborted);
+}
+
+TEST(SdoClient, SegmentsWithoutDataDoNotGoOnForEver) {
+  SdoClient client(kNode, kTimeoutTicks);
+  client.start_upload(0x1008, 0);
+  request_of(client);
+  client.on_response(response({0x40, 0x08, 0x10, 0}));
+  request_of(client);
+  client.on_response(response({7 << 1}));
+  EXPECT_EQ(client.status(), SdoStatus::kAborted);
+  EXPECT_EQ(client.abort_code(), kAbortCommand);
 }
 
 TEST(SdoClient, AbortsWhenTheToggleBitDoesNotAlternate) {
@@ -132,6 +219,7 @@ TEST(SdoClient, RefusesObjectsLongerThanItsBufferBothWays) {
   client.on_response(response({0x41, 0x08, 0x10, 0, 65, 0, 0, 0}));
   EXPECT_EQ(client.abort_code(), kAbortMemory);
   client.start_upload(0x1008, 0);
+  EXPECT_EQ(request_of(client)[0], 0x80);
   request_of(client);
   client.on_response(response({0x40, 0x08, 0x10, 0}));  // size not announced
   for (int i = 0; i < 10; ++i) {
@@ -156,15 +244,6 @@ TEST(SdoClient, IgnoresAnswersToAnotherObjectAndAnswersNobodyAskedFor) {
   EXPECT_EQ(client.status(), SdoStatus::kBusy);
   client.on_response(response({0x43, 0x00, 0x10, 0, 1, 2, 3, 4}));
   EXPECT_EQ(client.value(), 0x04030201U);
-}
-
-TEST(SdoClient, AnAnswerThatIsNoSdoCommandAborts) {
-  SdoClient client(kNode, kTimeoutTicks);
-  client.start_upload(0x1000, 0);
-  request_of(client);
-  client.on_response(response({0x60, 0x00, 0x10, 0}));  // the answer to a write
-  EXPECT_EQ(client.status(), SdoStatus::kAborted);
-  EXPECT_EQ(client.abort_code(), kAbortCommand);
 }
 
 }  // namespace

@@ -148,6 +148,9 @@ config::RobotConfig robot_with_three_cables() {
   robot.name = "test";
   robot.table.segment_count = 1;
   robot.table.segment[0].cables = 3;
+  robot.table.cable_EA_N = 1e5;
+  robot.table.tick_s = 0.004;
+  robot.table.limits.cable_speed_m_s = 0.01;
   for (auto& drive : robot.table.drive) drive.metres_per_count = 1e-6;
   robot.identity = {0x4C49, 1, 2};
   robot.rated_torque_Nm = 9;
@@ -175,6 +178,7 @@ TEST(Expectations, FollowFromRobotAndBusTable) {
   EXPECT_EQ(drives[0].following_window_counts, 5000U);
   EXPECT_EQ(drives[0].period.value, 4);
   EXPECT_EQ(drives[0].period.exponent, -3);
+  EXPECT_NEAR(drives[0].demand.counts_per_s, 10000, 1e-6);
   EXPECT_EQ(drive_expectations(robot_with_three_cables(), buses_at(800))[0].rpdo_deadline_ms, 4)
       << "3.75 ms, rounded up";
 }

@@ -1,0 +1,332 @@
+// `liana drive`: one motor on a desk, before there is a robot table.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "host/canopen/boot_mismatch.hpp"
+#include "host/cli/arguments.hpp"
+#include "host/cli/commands.hpp"
+#include "host/config/drive_type.hpp"
+#include "host/config/field.hpp"
+#include "host/desk/desk.hpp"
+#include "host/json/json.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/interrupt.hpp"
+#include "host/system/tables.hpp"
+
+namespace liana::cli {
+namespace {
+
+using canopen::SdoStatus;
+
+constexpr int kNobodyAnswers = 3;  // exit code
+constexpr double kRate_hz = 100.0;
+constexpr std::int64_t kMostNode = 126;
+
+// The table that --bus names, or one bus of the interface that --can names.
+config::BusesConfig buses_of(const DriveOptions& options) {
+  if (options.can.empty() == options.bus.empty())
+    throw system::BadInput("drive: say which bus: --can INTERFACE, or --bus TABLE (allowed is one of them)");
+  if (!options.bus.empty()) {
+    const std::string table = system::evaluate_table("buses", options.bus);
+    return system::checked([&] { return config::parse_buses(table, options.bus); });
+  }
+  config::BusesConfig buses;
+  buses.name = "desk";
+  buses.backend = "socketcan";
+  buses.rate_hz = kRate_hz;
+  buses.command_interval_s = 1.0 / kRate_hz;
+  const auto bitrate = static_cast<std::int32_t>(parse_whole("--bitrate", options.bitrate, 10000, 1000000, "bit/s"));
+  buses.buses = {{options.can, bitrate, {1}}};
+  buses.heartbeat_ms = 100;
+  buses.max_load = 1.0;
+  return buses;
+}
+
+// Open buses and the places on them.
+struct Session {
+  explicit Session(const DriveOptions& options)
+      : buses(buses_of(options)), desk(buses, time_of(options), options.bus_socket, guard.any()) {}
+
+  static timing::TimeMode time_of(const DriveOptions& options) {
+    const auto mode = timing::time_mode_from(options.time);
+    if (!mode) throw system::BadInput("--time: " + options.time + ": allowed are fast, paced and real");
+    return *mode;
+  }
+  // The node of --node, on the bus that the table has it on, else on the first.
+  desk::Place place(const DriveOptions& options) const {
+    const auto node = static_cast<std::uint8_t>(parse_whole("--node", options.node, 1, kMostNode));
+    return {std::max(0, buses.bus_of_node(node)), node};
+  }
+  std::string where(desk::Place at) const {
+    return "node " + std::to_string(at.node) + " on " + buses.buses[static_cast<std::size_t>(at.bus)].name;
+  }
+
+  system::InterruptGuard guard;
+  config::BusesConfig buses;
+  desk::Desk desk;
+};
+
+config::ObjectId object_of(const std::string& text) {
+  const Json json = text;
+  return system::checked([&] { return config::parse_object(config::Field(json, "drive", "OBJECT"), text); });
+}
+
+std::string hex(std::uint32_t value, int digits) {
+  char text[16];
+  std::snprintf(text, sizeof text, "0x%0*X", digits, value);
+  return text;
+}
+
+// One exit code for what came of a transfer, told with `what` where it failed.
+int tell_failure(const Session& session, desk::Place at, const std::string& what, const desk::Answer& answer,
+                 bool json) {
+  const bool silent = answer.status == SdoStatus::kTimeout;
+  const std::string why =
+      silent ? "no answer within 1 s: the node is missing, stopped, or has another id or bit rate"
+             : "refused with abort code " + hex(answer.abort_code, 8) + ", " + canopen::abort_text(answer.abort_code);
+  if (json) {
+    Json said = {{"node", at.node}, {"ok", false}, {"why", why}};
+    if (!silent) said["abort_code"] = answer.abort_code;
+    std::printf("%s\n", said.dump().c_str());
+  }
+  std::fprintf(stderr, "liana: %s: %s: %s\n", session.where(at).c_str(), what.c_str(), why.c_str());
+  return silent ? kNobodyAnswers : system::ExitCode::kExitFailure;
+}
+
+std::int64_t as_signed(const desk::Answer& answer) {
+  const std::uint32_t value = answer.value();
+  const std::size_t bits = 8 * std::min<std::size_t>(4, answer.bytes.size());
+  if (bits == 0 || bits == 32) return static_cast<std::int32_t>(value);
+  return (value >> (bits - 1)) != 0 ? static_cast<std::int64_t>(value) - (std::int64_t{1} << bits) : value;
+}
+
+// A value of up to four bytes as number, anything longer as text.
+Json value_json(const desk::Answer& answer) {
+  Json out = {{"bytes", answer.bytes}, {"unsigned", answer.value()}, {"signed", as_signed(answer)}};
+  if (answer.bytes.size() > 4)
+    out = {{"bytes", answer.bytes}, {"text", std::string(answer.bytes.begin(), answer.bytes.end())}};
+  return out;
+}
+
+std::string value_text(const desk::Answer& answer) {
+  if (answer.bytes.size() > 4) return "\"" + std::string(answer.bytes.begin(), answer.bytes.end()) + "\"";
+  const std::int64_t number = as_signed(answer);
+  std::string text =
+      hex(answer.value(), 2 * static_cast<int>(answer.bytes.size())) + "  " + std::to_string(answer.value());
+  if (number < 0) text += "  " + std::to_string(number);
+  return text + "  (" + std::to_string(8 * answer.bytes.size()) + " bits)";
+}
+
+void refuse_beside_a_master(Session& session) {
+  if (session.desk.hears_master())
+    throw std::runtime_error("drive: another master (node 127) is on this bus: end lianad first");
+}
+
+Json found_json(Session& session, desk::Place at) {
+  Json out = {{"bus", session.buses.buses[static_cast<std::size_t>(at.bus)].name}, {"node", at.node}};
+  const auto add = [&](const char* key, std::uint16_t index, std::uint8_t sub) {
+    const desk::Answer answer = session.desk.read(at, index, sub);
+    if (!answer.is_done()) return;
+    if (answer.bytes.size() > 4) {
+      out[key] = std::string(answer.bytes.begin(), answer.bytes.end());
+    } else {
+      out[key] = answer.value();
+    }
+  };
+  add("device_type", 0x1000, 0);
+  add("vendor", 0x1018, 1);
+  add("product", 0x1018, 2);
+  add("revision", 0x1018, 3);
+  add("serial", 0x1018, 4);
+  add("name", 0x1008, 0);
+  add("modes", 0x6502, 0);
+  return out;
+}
+
+std::string described(const Json& found) {
+  const auto number = [&](const char* key) {
+    return found.contains(key) ? hex(found[key].get<std::uint32_t>(), 1) : std::string("-");
+  };
+  const bool has_csp = (found.value<std::uint32_t>("modes", 0) & 0x80) != 0;
+  return found["bus"].text() + " node " + std::to_string(found["node"].get<int>()) + ": vendor " + number("vendor") +
+         ", product " + number("product") + ", revision " + number("revision") + ", serial " + number("serial") +
+         (found.contains("name") && found["name"].is_string() ? ", \"" + found["name"].text() + "\"" : "") +
+         (found.contains("modes") ? (has_csp ? ", has csp" : ", has no csp") : ", is no CiA 402 drive");
+}
+
+config::DriveType type_of(const DriveOptions& options) {
+  const std::string table = system::evaluate_table("drive", options.type);
+  return system::checked(
+      [&] { return config::parse_drive_type(config::parse_json(table, options.type), options.type); });
+}
+
+// What the drive says of itself stands for a robot table that there is not yet: identity, encoder, gear, torque.
+canopen::DriveExpectation expectation(Session& session, desk::Place at, const DriveOptions& options) {
+  const auto said = [&](std::uint16_t index, std::uint8_t sub, std::uint32_t otherwise) {
+    const desk::Answer answer = session.desk.read(at, index, sub);
+    return answer.is_done() ? answer.value() : otherwise;
+  };
+  canopen::DriveExpectation drive;
+  drive.bus = at.bus;
+  drive.node = at.node;
+  drive.type = type_of(options);
+  drive.vendor = said(0x1018, 1, 0);
+  drive.product = said(0x1018, 2, 0);
+  drive.revision = said(0x1018, 3, 0);
+  drive.counts_per_turn = std::max(1U, said(0x608F, 1, 65536));
+  drive.gear_motor_turns = std::max(1U, said(0x6091, 1, 1));
+  drive.gear_drum_turns = std::max(1U, said(0x6091, 2, 1));
+  drive.rated_torque_mNm =
+      static_cast<std::uint32_t>(std::lround(1000.0 * said(0x6076, 0, 0) / drive.type.units.rated_torque_per_Nm));
+  drive.period = config::interpolation_period(session.buses.period_us());
+  drive.rpdo_deadline_ms = static_cast<std::uint16_t>((3 * session.buses.period_us() + 999) / 1000);
+  return drive;
+}
+
+std::string name_of(const canopen::BootObject& object) {
+  return config::object_name({object.index, object.sub}) + " (" + object.name + ")";
+}
+
+// What the boot would find missing, and what it would write over something else.
+Json outlook(const canopen::BootNode& node) {
+  Json missing = Json::array(), written = Json::array();
+  const std::span<const canopen::BootObject> objects = node.plan().objects();
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const canopen::BootOutcome& outcome = node.outcomes()[i];
+    const bool spare_pdo = objects[i].keep != 0 && objects[i].may_be_missing;
+    if (!outcome.found && !outcome.is_refused && !spare_pdo) missing.push_back(name_of(objects[i]));
+    const bool differs = outcome.found && ((*outcome.found ^ objects[i].value) & objects[i].mask) != 0;
+    if (objects[i].write && differs && (objects[i].index & 0xFD00) != 0x1400 && (objects[i].index & 0xFC00) != 0x1800)
+      written.push_back({{"object", name_of(objects[i])}, {"found", *outcome.found}, {"to", objects[i].value}});
+  }
+  return {{"not_there", missing}, {"would_be_written", written}};
+}
+
+void print_outlook(const Json& said) {
+  for (const Json& each : said["not_there"]) std::printf("  not there, so not checked: %s\n", each.text().c_str());
+  for (const Json& each : said["would_be_written"])
+    std::printf("  would be written: %s: %u, now %u\n", each["object"].text().c_str(), each["to"].get<std::uint32_t>(),
+                each["found"].get<std::uint32_t>());
+}
+
+}  // namespace
+
+int drive_scan_command(const DriveOptions& options) {
+  const auto first = static_cast<std::uint8_t>(parse_whole("--first", options.first, 1, kMostNode));
+  const auto last = static_cast<std::uint8_t>(parse_whole("--last", options.last, first, kMostNode));
+  Session session(options);
+  Json all = Json::array();
+  for (const desk::Place at : session.desk.scan(first, last)) all.push_back(found_json(session, at));
+  if (options.json) {
+    std::printf("%s\n", all.dump().c_str());
+  } else {
+    for (const Json& each : all) std::printf("%s\n", described(each).c_str());
+    if (all.empty()) std::printf("nobody answers: check supply, bit rate, termination and node ids\n");
+  }
+  return all.empty() ? kNobodyAnswers : system::ExitCode::kExitOk;
+}
+
+int drive_read_command(const DriveOptions& options) {
+  const config::ObjectId object = object_of(options.object);
+  Session session(options);
+  const desk::Place at = session.place(options);
+  const desk::Answer answer = session.desk.read(at, object.index, object.sub);
+  if (!answer.is_done())
+    return tell_failure(session, at, "reading " + config::object_name(object), answer, options.json);
+  if (options.json) {
+    Json said = value_json(answer);
+    said["node"] = at.node;
+    said["object"] = config::object_name(object);
+    said["ok"] = true;
+    std::printf("%s\n", said.dump().c_str());
+  } else {
+    std::printf("%s = %s\n", config::object_name(object).c_str(), value_text(answer).c_str());
+  }
+  return system::ExitCode::kExitOk;
+}
+
+int drive_write_command(const DriveOptions& options) {
+  const config::ObjectId object = object_of(options.object);
+  const std::int64_t bits = parse_whole("--bits", options.bits, 8, 32, "8, 16 or 32");
+  if (bits != 8 && bits != 16 && bits != 32) throw system::BadInput("--bits: " + options.bits + ": allowed 8, 16, 32");
+  const std::int64_t most = (std::int64_t{1} << bits) - 1;
+  const std::int64_t value = parse_whole("VALUE", options.value, -(most / 2) - 1, most);
+  if (object.index == 0x6040 || object.index == 0x6060)
+    throw system::BadInput("OBJECT: " + options.object + ": this switches torque: allowed is any other object");
+  std::array<std::uint8_t, 4> bytes{};
+  for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(value >> (8 * i));
+  Session session(options);
+  refuse_beside_a_master(session);
+  const desk::Place at = session.place(options);
+  const std::string what = "writing " + options.value + " to " + config::object_name(object);
+  const desk::Answer written =
+      session.desk.write(at, object.index, object.sub, {bytes.data(), static_cast<std::size_t>(bits / 8)});
+  if (!written.is_done()) return tell_failure(session, at, what, written, options.json);
+  const desk::Answer answer = session.desk.read(at, object.index, object.sub);
+  const bool kept = answer.is_done() && answer.value() == (static_cast<std::uint32_t>(value) & most);
+  if (options.json) {
+    Json said = value_json(answer);
+    said["node"] = at.node;
+    said["object"] = config::object_name(object);
+    said["ok"] = kept;
+    std::printf("%s\n", said.dump().c_str());
+  } else {
+    std::printf("%s = %s%s\n", config::object_name(object).c_str(), value_text(answer).c_str(),
+                kept ? "" : ": the drive did not keep it");
+  }
+  return kept ? system::ExitCode::kExitOk : system::ExitCode::kExitFailure;
+}
+
+int drive_watch_command(const DriveOptions& options) {
+  const config::ObjectId object = object_of(options.object);
+  const double period_s = 1.0 / parse_number_in("--rate", options.rate_hz, 0.1, 20.0, "Hz");
+  const double seconds = parse_number_in("--seconds", options.seconds, 0.1, 86400.0, "s");
+  Session session(options);
+  const desk::Place at = session.place(options);
+  for (double at_s = 0.0; at_s < seconds; at_s += period_s) {
+    const desk::Answer answer = session.desk.read(at, object.index, object.sub);
+    if (!answer.is_done())
+      return tell_failure(session, at, "reading " + config::object_name(object), answer, options.json);
+    if (options.json) {
+      Json said = value_json(answer);
+      said["time_s"] = at_s;
+      std::printf("%s\n", said.dump().c_str());
+    } else {
+      std::printf("%8.2f s  %s\n", at_s, value_text(answer).c_str());
+    }
+    std::fflush(stdout);
+    session.desk.wait(period_s);
+  }
+  return system::ExitCode::kExitOk;
+}
+
+int drive_check_command(const DriveOptions& options) {
+  type_of(options);  // bad input before anything is asked
+  Session session(options);
+  refuse_beside_a_master(session);
+  const desk::Place at = session.place(options);
+  if (const desk::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
+    return tell_failure(session, at, "reading 1000", there, options.json);
+  const std::unique_ptr<canopen::BootNode> node = session.desk.look_at_boot(expectation(session, at, options));
+  const std::string bus = session.buses.buses[static_cast<std::size_t>(at.bus)].name;
+  Json said = outlook(*node);
+  said["node"] = at.node;
+  said["type"] = options.type;
+  said["ok"] = node->mismatches().empty();
+  said["refusals"] = Json::array();
+  for (const canopen::BootMismatch& mismatch : node->mismatches())
+    said["refusals"].push_back(canopen::describe({&mismatch, 1}, 0, bus));
+  if (options.json) {
+    std::printf("%s\n", said.dump().c_str());
+  } else {
+    for (const Json& each : said["refusals"]) std::printf("refused: %s\n", each.text().c_str());
+    if (node->mismatches().empty())
+      std::printf("%s answers as a %s has to; nothing was written\n", session.where(at).c_str(), options.type.c_str());
+    print_outlook(said);
+  }
+  return node->mismatches().empty() ? system::ExitCode::kExitOk : system::ExitCode::kExitFailure;
+}
+
+}  // namespace liana::cli

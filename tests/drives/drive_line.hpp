@@ -1,0 +1,114 @@
+// Drives of the bench and the host's boot of them, without buses and arm between.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hil/drive/drive.hpp"
+#include "host/canopen/boot_sequence.hpp"
+
+namespace liana::test {
+
+// Frames wait here until the drives get them.
+class FrameQueue final : public bus::DriveBus {
+ public:
+  int bus_count() const noexcept override { return 1; }
+  timing::TimeMode time_mode() const noexcept override { return timing::TimeMode::kFast; }
+  timing::TickStart begin_tick(std::uint64_t tick) noexcept override { return {tick, 0, 0, false}; }
+  bus::SendResult send(int, const bus::CanFrame& frame) noexcept override {
+    frames.push_back(frame);
+    return bus::SendResult::kOk;
+  }
+  void wait_feedback(int) noexcept override {}
+  bool receive(bus::ReceivedFrame&) noexcept override { return false; }
+  void end_tick() noexcept override {}
+  const bus::DriveBusStats& stats(int) const noexcept override { return stats_; }
+  std::uint64_t now_us() const noexcept override { return 0; }
+
+  std::vector<bus::CanFrame> frames;
+
+ private:
+  bus::DriveBusStats stats_;
+};
+
+// One drive, booted as `expected` says, at 250 Hz.
+class BootedDrive {
+ public:
+  BootedDrive(const canopen::DriveExpectation& expected, const bench::DriveSettings& settings)
+      : drive(settings, 1000.0), boot({expected}, kRate_hz) {}
+
+  // Until the boot has ended, 400 s at most.
+  void run_boot() {
+    for (int tick = 0; tick < 100000 && boot.state() == canopen::BootState::kRunning; ++tick) {
+      boot.step(queue);
+      pass_on();
+    }
+  }
+
+  // One period: SYNC, motion, and the target for the next.
+  void cycle(std::uint16_t controlword, std::int32_t target) {
+    bus::CanFrame command{0x200U + static_cast<std::uint32_t>(drive.node()), 6, {}, 0};
+    for (std::size_t i = 0; i < 2; ++i) command.data[i] = static_cast<std::uint8_t>(controlword >> (8 * i));
+    for (std::size_t i = 0; i < 4; ++i)
+      command.data[2 + i] = static_cast<std::uint8_t>(static_cast<std::uint32_t>(target) >> (8 * i));
+    queue.frames = {{0x080, 0, {}, 0}, {0x77F, 1, {0x05}, 0}, command};
+    pass_on();
+    for (int i = 0; i < 4; ++i) drive.move(0.001, 50.0);
+  }
+
+  // Through the states of CiA 402 to Operation enabled.
+  void enable(std::int32_t target) {
+    constexpr std::array<std::uint16_t, 6> kCommands{0x00, 0x06, 0x07, 0x0F, 0x0F, 0x0F};
+    for (const std::uint16_t controlword : kCommands) cycle(controlword, target);
+  }
+
+  std::string refusals() const { return describe(boot.mismatches(0), boot.more_mismatches(0), "can0"); }
+
+  bench::Drive drive;
+  canopen::BootSequence boot;
+  FrameQueue queue;
+  std::vector<std::uint16_t> emergencies;
+  std::size_t answer_ticks = 0;   // what the drive says arrives so much later
+  std::uint64_t power_ticks = 0;  // before this one it has no power
+
+ private:
+  static constexpr double kRate_hz = 250.0;
+  static constexpr std::uint64_t kPeriod_us = 4000;
+
+  void pass_on() {
+    now_us_ += kPeriod_us;
+    if (now_us_ / kPeriod_us < power_ticks) return queue.frames.clear();
+    bench::FrameList out;
+    for (const bus::CanFrame& frame : queue.frames) {
+      bench::CanFrame there;
+      there.time_us = now_us_;
+      there.id = frame.id;
+      there.length = frame.length;
+      std::copy(frame.data.begin(), frame.data.begin() + frame.length, there.data.begin());
+      drive.receive(there, out);
+    }
+    queue.frames.clear();
+    drive.tick(now_us_, out);
+    on_the_way_.push_back(std::move(out));
+    if (on_the_way_.size() <= answer_ticks) return;
+    const bench::FrameList arrived = std::move(on_the_way_.front());
+    on_the_way_.pop_front();
+    for (const bench::CanFrame& frame : arrived) {
+      bus::CanFrame here{frame.id, frame.length, {}, 0};
+      std::copy(frame.data.begin(), frame.data.begin() + frame.length, here.data.begin());
+      if (here.id == 0x080U + static_cast<std::uint32_t>(drive.node()))
+        emergencies.push_back(static_cast<std::uint16_t>(here.data[0] | here.data[1] << 8));
+      boot.on_frame(0, here);
+    }
+  }
+
+  std::deque<bench::FrameList> on_the_way_;
+  std::uint64_t now_us_ = 0;
+};
+
+}  // namespace liana::test

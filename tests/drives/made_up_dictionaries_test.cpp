@@ -1,0 +1,149 @@
+// Dictionaries drawn by seed: objects missing, read-only, with other values, slow or silent. Each drive boots, or is
+// refused with exactly the objects that are in the way, as counted here from CiA 301 and 402, not by the boot's own
+// plan.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <set>
+
+#include "tests/drives/drive_line.hpp"
+
+namespace liana {
+namespace {
+
+using Place = std::pair<std::uint16_t, std::uint8_t>;
+
+constexpr std::uint32_t kCounts = 65536;
+
+// What the boot wants of an object, said once more.
+struct Wanted {
+  std::int64_t value;     // that it must have, or at least, or is told to have
+  bool is_told = false;   // written; else only read
+  bool is_least = false;  // more is right, too
+  bool must_exist = false;
+};
+
+const std::map<Place, Wanted>& wanted() {
+  static const std::map<Place, Wanted> all = {{{0x6502, 0}, {0x80, false, false, true}},
+                                              {{0x608F, 1}, {kCounts}},
+                                              {{0x6076, 0}, {9000}},
+                                              {{0x607E, 0}, {0}},
+                                              {{0x60A8, 0}, {0x00B50000, true}},
+                                              {{0x6080, 0}, {7, false, true}},
+                                              {{0x607F, 0}, {7000, false, true}},
+                                              {{0x60C5, 0}, {70000, false, true}},
+                                              {{0x6085, 0}, {70000, false, true}},
+                                              {{0x6060, 0}, {8, true, false, true}},
+                                              {{0x60C2, 1}, {4, true, false, true}},
+                                              {{0x60C2, 2}, {-3, true, false, true}},
+                                              {{0x6072, 0}, {1000, true}},
+                                              {{0x6065, 0}, {3476, true}},
+                                              {{0x6066, 0}, {100, true}},
+                                              {{0x605A, 0}, {2, true}},
+                                              {{0x605E, 0}, {2, true}},
+                                              {{0x6007, 0}, {3, true}},
+                                              {{0x1017, 0}, {100, true, false, true}},
+                                              {{0x1400, 5}, {12, true}}};
+  return all;
+}
+
+bench::AddedObject added(std::uint16_t index, const char* type, std::int64_t value) {
+  return {{index, {}}, type, false, value, {}, {}};
+}
+
+// One made-up drive, and which objects are in its way.
+struct MadeUp {
+  bench::DriveSettings settings;
+  std::size_t answer_ticks = 0;
+  std::uint64_t power_ticks = 0;
+  std::set<Place> in_the_way;
+};
+
+constexpr std::size_t kSlow = 50, kTooSlow = 1000;    // an answer may take 250 ticks, and is asked for three times
+constexpr std::uint64_t kLate = 1000, kNever = 2600;  // the boot-up may take 2500
+constexpr Place kSilent{0xFFFF, 0}, kNoObject{0, 0};
+
+MadeUp make_up(std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto one_in = [&](unsigned count) { return random() % count == 0; };
+  MadeUp drive;
+  drive.settings.vendor = 0x4C49;
+  drive.settings.product = drive.settings.revision = 1;
+  drive.settings.serial = 1001;
+  bench::DictionaryConfig& dictionary = drive.settings.dictionary;
+  dictionary.added = {added(0x60A8, "u32", 0x00B50000), added(0x607E, "u8", 0), added(0x607F, "u32", 20000),
+                      added(0x6080, "u32", 3000), added(0x60C5, "u32", 900000)};
+  for (const auto& [place, want] : wanted()) {
+    const bench::ObjectPlace there{place.first, place.second};
+    if (one_in(6)) {
+      dictionary.absent.push_back(there);
+      if (want.must_exist) drive.in_the_way.insert(place);
+      continue;
+    }
+    const bool is_other = one_in(5);
+    std::int64_t value = want.value;
+    if (is_other) value = want.is_least ? want.value - 1 : (place.first == 0x607E ? 0x80 : want.value + 1);
+    if (place.first == 0x6502 && is_other) value = 0x01;
+    dictionary.values[there] = value;
+    const bool is_fixed = one_in(4);
+    if (is_fixed) dictionary.read_only.push_back(there);
+    const bool stays_wrong = is_other && (!want.is_told || is_fixed);
+    if (stays_wrong) drive.in_the_way.insert(place);
+  }
+  if (one_in(5)) drive.answer_ticks = kSlow;
+  if (one_in(5)) drive.power_ticks = kLate;
+  if (one_in(15)) {
+    drive.answer_ticks = kTooSlow;
+    drive.in_the_way = {kSilent};
+  }
+  if (one_in(15)) {
+    drive.power_ticks = kNever;
+    drive.in_the_way = {kNoObject};
+  }
+  return drive;
+}
+
+canopen::DriveExpectation expectation() {
+  canopen::DriveExpectation drive;
+  drive.vendor = 0x4C49;
+  drive.product = drive.revision = 1;
+  drive.serial = 1001;
+  drive.counts_per_turn = kCounts;
+  drive.rated_torque_mNm = 9000;
+  drive.demand = {-100000, 100000, 7000};
+  drive.period = {4, -3};
+  drive.rpdo_deadline_ms = 12;
+  drive.following_window_counts = 3476;
+  return drive;
+}
+
+std::set<Place> named(const test::BootedDrive& bench) {
+  std::set<Place> out;
+  for (const canopen::BootMismatch& mismatch : bench.boot.mismatches(0)) {
+    const bool is_silent = mismatch.failure == canopen::BootFailure::kNoAnswer;
+    out.insert(is_silent ? kSilent : Place{mismatch.index, mismatch.sub});
+  }
+  return out;
+}
+
+TEST(MadeUpDictionaries, EachBootsOrIsRefusedWithEveryReasonNamed) {
+  int booted = 0;
+  for (std::uint32_t seed = 1; seed <= 50; ++seed) {
+    const MadeUp drive = make_up(seed);
+    test::BootedDrive bench(expectation(), drive.settings);
+    bench.answer_ticks = drive.answer_ticks;
+    bench.power_ticks = drive.power_ticks;
+    bench.run_boot();
+    EXPECT_EQ(named(bench), drive.in_the_way) << "seed " << seed << ": " << bench.refusals();
+    EXPECT_EQ(bench.boot.state(),
+              drive.in_the_way.empty() ? canopen::BootState::kOperational : canopen::BootState::kFailed)
+        << "seed " << seed;
+    booted += drive.in_the_way.empty() ? 1 : 0;
+  }
+  EXPECT_GT(booted, 2) << "the draw has to leave some that boot";
+  EXPECT_LT(booted, 48) << "and some that do not";
+}
+
+}  // namespace
+}  // namespace liana
