@@ -10,7 +10,7 @@ stds.liana = {
       },
     },
     string = {
-      fields = { "byte", "char", "find", "format", "gmatch", "gsub", "len", "lower", "match", "rep", "reverse", "upper" },
+      fields = { "byte", "char", "find", "format", "gmatch", "gsub", "len", "lower", "match", "rep", "reverse", "sub", "upper" },
     },
     table = { fields = { "concat", "insert", "pack", "remove", "sort", "unpack" } },
     coroutine = { fields = { "create", "isyieldable", "resume", "running", "status", "wrap", "yield" } },

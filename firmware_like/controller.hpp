@@ -94,6 +94,7 @@ std::int32_t Controller<A>::watch(const Inputs<A>& inputs) noexcept {
   const WatchScope scope = watch_scope(supervisor_);
   Watch out(inputs.tick, faults_);
   watch_cycle(scope, inputs, out);
+  watch_from_start(link_limits_, link_);
   for (std::int32_t drive = 0; drive < link_limits_.drive_count; ++drive) {
     const std::size_t i = as_index(drive);
     watch_drive(link_limits_, scope, inputs.drive[i], drive, link_, out);

@@ -13,6 +13,7 @@
 
 namespace {
 
+constexpr int kBadInput = 2;      // exit code
 constexpr double kRunOn_s = 0.5;  // longer than every deadline of the drives
 
 struct Paths {
@@ -25,6 +26,11 @@ struct Paths {
   std::string cross_wired;
   std::string scene_offset;
 };
+
+std::string whole_number_problem(const std::string& text) {
+  const bool is_whole = text.find_first_not_of("0123456789") == std::string::npos;
+  return is_whole ? "" : "'" + text + "': allowed: a whole number, 0 or more";
+}
 
 void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, bool& no_spread) {
   app.add_option("--robot", paths.robot, "robot JSON")->required();
@@ -39,7 +45,9 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
                  "arm model: full, or light for slow machines (no inertia, no contact; with --physics ideal only)")
       ->capture_default_str();
   app.add_option("--physics", options.physics, "friction: nominal, ideal or worn")->capture_default_str();
-  app.add_option("--seed", options.seed, "true parameters, start offset and noise")->capture_default_str();
+  app.add_option("--seed", options.seed, "true parameters, start offset and noise; 0 or more")
+      ->check(whole_number_problem)  // -1 would wrap
+      ->capture_default_str();
   app.add_option("--truth", options.truth_path, "write truth rows here");
   app.add_option("--summary", options.summary_path, "write a JSON summary here at the end");
   app.add_option("--faults", paths.faults, "JSON list of faults to inject");
@@ -59,6 +67,12 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
       ->capture_default_str();
   app.add_option("--scene-offset", paths.scene_offset,
                  "MM,DEG: the scene really is so far from where its table has it, in a direction drawn from the seed");
+  app.add_option("--gravity", options.gravity_share,
+                 "share of the arm's weight that counterweights leave, from 0 to 1; down is -z of the base frame")
+      ->check(CLI::Range(0.0, 1.0));
+  app.add_option("--linkage-error", options.linkage_error,
+                 "share by which the joints of a segment bend unevenly at most, from 0 to 0.5, drawn from the seed")
+      ->check(CLI::Range(0.0, 0.5));
   app.add_flag("--fixture", options.fixture, "the arm starts exactly in its start pose");
   app.add_option("--cross-wired", paths.cross_wired, "two drives, e.g. 3,4, that have each other's cable");
   app.add_flag("--no-spread", no_spread, "the arm is exactly as the table says (for tests)");
@@ -133,6 +147,17 @@ std::size_t angles_of(const liana::bench::BenchOptions& options) {
   return options.serial_robot ? options.serial_robot->joints.size() : options.robot.theta_count();
 }
 
+// What fails here is no longer what was given.
+int run(liana::bench::Bench& bench, liana::bench::Bus& bus) {
+  try {
+    bench.run(bus);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "liana-bench: " << error.what() << '\n';
+    return 1;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -143,10 +168,16 @@ int main(int argc, char** argv) {
   bool no_spread = false;
   options.run_on_s = kRunOn_s;
   declare(app, paths, options, no_spread);
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::cerr << "liana-bench: " << error.what() << "; see liana-bench --help\n";
+    return kBadInput;
+  }
   if (paths.bus_socket.empty() && app.count("--can") == 0) {
     std::cerr << "liana-bench: say where the bus is: --bus-socket PATH or --can [IF,IF]\n";
-    return 2;
+    return kBadInput;
   }
   liana::bench::end_on_signals();
   try {
@@ -160,10 +191,9 @@ int main(int argc, char** argv) {
     if (!paths.cross_wired.empty()) options.cross_wired = two_drives(paths.cross_wired, drives_of(options));
     liana::bench::Bench bench(options);
     const auto bus = open_bus(paths, options.buses);
-    bench.run(*bus);
+    return run(bench, *bus);
   } catch (const std::exception& error) {
     std::cerr << "liana-bench: " << error.what() << '\n';
-    return 2;
+    return kBadInput;
   }
-  return 0;
 }

@@ -20,7 +20,7 @@ enum Condition : std::uint32_t {
   kAllEnabled = 1u << 7,     // every drive in Operation enabled
   kAllOff = 1u << 8,         // every drive known to be without power
   // Motion.
-  kAtRest = 1u << 9,  // commanded motion has ended, for kRestTicks in a row
+  kAtRest = 1u << 9,  // commanded motion has ended, for Patience::rest in a row
   kPrepared = 1u << 10,
   // What is asked.
   kAskEnable = 1u << 11,
@@ -36,7 +36,7 @@ enum Condition : std::uint32_t {
   kBudgetSpent = 1u << 19,  // the phase's largest number of ticks has passed
   // Nothing is wrong in this tick (latched or not).
   kCausesGone = 1u << 20,
-  kFaultPersists = 1u << 21,  // something has been wrong for kPersistTicks in a row, without a retreat that moves
+  kFaultPersists = 1u << 21,  // something has been wrong for Patience::persist in a row, without a retreat that moves
 };
 
 // Every drive is heard and the measured pose is trusted: what a retreat needs besides faults that allow it.

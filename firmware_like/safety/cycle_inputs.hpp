@@ -12,6 +12,7 @@ struct CycleInputs {
   std::uint64_t tick = 0;
   std::uint32_t lost_ticks = 0;     // deadlines missed just before this tick
   std::uint32_t lost_bus_mask = 0;  // bit b: bus b is down
+  std::uint32_t twice_mask = 0;     // bit i: somebody else speaks under the identifiers of drive i, too
   Request request = Request::kNone;
   DriveFeedbacks drive{};
 };

@@ -38,28 +38,30 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
       return 11;
     case kDriveStopTimeout:
       return 12;
-    case kBusLost:
+    case kNodeTwice:
       return 13;
-    case kCableSlack:
+    case kBusLost:
       return 14;
-    case kCableOverload:
+    case kCableSlack:
       return 15;
-    case kTensionAlarm:
+    case kCableOverload:
       return 16;
-    case kHomingImplausible:
+    case kTensionAlarm:
       return 17;
-    case kCableSlip:
+    case kHomingImplausible:
       return 18;
-    case kCableBreak:
+    case kCableSlip:
       return 19;
-    case kTensionScatters:
+    case kCableBreak:
       return 20;
-    case kBodyContact:
+    case kTensionScatters:
       return 21;
-    case kFrictionNotAsDeclared:
+    case kBodyContact:
       return 22;
-    case kGateRefused:
+    case kFrictionNotAsDeclared:
       return 23;
+    case kGateRefused:
+      return 24;
   }
   return 0;
 }
@@ -67,7 +69,7 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
 constexpr StopCategory kHold = StopCategory::kHold;
 constexpr StopCategory kStop = StopCategory::kStop;
 
-constexpr std::array<FaultInfo, 24> kFaultTable{{
+constexpr std::array<FaultInfo, 25> kFaultTable{{
     {kNone, "none", StopCategory::kNone, false, true, "No fault.", "Nothing to do."},
     {kCommandInvalid, "command_invalid", kHold, false, true,
      "A released command held a value that is not finite or out of range.",
@@ -83,9 +85,9 @@ constexpr std::array<FaultInfo, 24> kFaultTable{{
     {kJointJump, "joint_jump", kStop, true, false, "A joint's encoder changed faster than the joint can turn.",
      "Check the encoder and its cable; compare the joint's angle with the arm by eye, then clear and enable again."},
     {kDriveMissing, "drive_missing", kStop, true, false, "A drive sent no heartbeat within the allowed time.",
-     "Check the drive's supply and its bus connector; when it comes back it is booted by itself: then clear."},
+     "Check the drive's supply and its bus connector, then clear, which boots what came back."},
     {kDriveSilent, "drive_silent", kStop, true, false, "A drive sent no feedback for more than two ticks.",
-     "Check the bus for errors and load, and the drive's supply, then clear."},
+     "Check the bus for errors and load, and the drive's supply, then clear, which boots what came back."},
     {kDriveFault, "drive_fault", kStop, true, false, "A drive reports a fault; the detail is its emergency code.",
      "Look the emergency code up in the drive's manual and remove the cause; clear resets the drive."},
     {kDriveLeftOperation, "drive_left_operation", kStop, true, false,
@@ -98,11 +100,16 @@ constexpr std::array<FaultInfo, 24> kFaultTable{{
      "A motor does not follow its target within the allowed lag.",
      "Check brake, drum and cable for blockage; compare the servo time constant with the robot table, then clear."},
     {kDriveNotOperational, "drive_not_operational", kStop, true, false, "A drive left the NMT state operational.",
-     "The drive restarted or was stopped by another master; a restarted drive is booted by itself, a stopped one needs "
-     "a reset: then "
-     "clear."},
+     "The drive restarted, lost the master's heartbeat, or was stopped by another master; a restarted drive is booted "
+     "by "
+     "itself, the others by clear."},
     {kDriveStopTimeout, "drive_stop_timeout", kStop, true, false, "A drive did not confirm that it is without power.",
      "Use the STO switch; do not approach the arm before the drive shows Switch on disabled, then clear."},
+    {kNodeTwice, "node_twice", kStop, true, false,
+     "Somebody else speaks under the identifiers of a drive: two drives have one node id, or another master commands "
+     "it.",
+     "Look for a second drive with this node id, or another program that commands drives; give each drive an id of its "
+     "own or end the program, then clear."},
     {kBusLost, "bus_lost", kStop, true, false, "A drive bus is down, in bus-off, or none of its drives is heard.",
      "Check connector, termination and interface state of the bus, then clear."},
     {kCableSlack, "cable_slack", kHold, false, true, "A cable's tension stayed under the floor.",

@@ -25,6 +25,7 @@ enum class FaultNumber : std::uint16_t {
   kFollowingError = 3006,       // motor does not follow its target
   kDriveNotOperational = 3007,  // NMT state is no longer operational
   kDriveStopTimeout = 3008,     // drive did not confirm that it is without power
+  kNodeTwice = 3009,            // somebody else speaks under the identifiers of a drive
   kBusLost = 4001,
   kCableSlack = 5001,             // tension under the floor for too long
   kCableOverload = 5002,          // tension over the hard limit

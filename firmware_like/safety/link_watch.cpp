@@ -5,7 +5,7 @@
 namespace liana {
 namespace {
 
-// Heartbeat, NMT state and age of feedback, for a drive that has been alive.
+// Heartbeat, NMT state and age of feedback, for a drive that has been alive, or should have been.
 void watch_link(const LinkLimits& limits, const DriveFeedback& drive, std::int32_t i, LinkWatchState& state,
                 Watch& out) noexcept {
   const std::uint32_t bit = 1U << static_cast<std::uint32_t>(i);
@@ -54,6 +54,9 @@ void Watch::debounced(bool is_wrong, std::uint16_t debounce, std::uint16_t& tick
 void watch_cycle(WatchScope scope, const CycleInputs& inputs, Watch& out) noexcept {
   for (std::int32_t bus = 0; inputs.lost_bus_mask != 0 && bus < 32; ++bus) {
     if ((inputs.lost_bus_mask >> static_cast<std::uint32_t>(bus)) & 1U) out.wrong(FaultNumber::kBusLost, bus, 0);
+  }
+  for (std::int32_t drive = 0; inputs.twice_mask != 0 && drive < kMaxDrives; ++drive) {
+    if ((inputs.twice_mask >> static_cast<std::uint32_t>(drive)) & 1U) out.wrong(FaultNumber::kNodeTwice, drive, 0);
   }
   if (scope.powered && inputs.lost_ticks > kToleratedLostTicks) {
     out.wrong(FaultNumber::kTicksLost, -1, narrow<std::uint16_t>(inputs.lost_ticks));

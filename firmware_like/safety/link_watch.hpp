@@ -8,6 +8,7 @@
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/safety/cycle_inputs.hpp"
 #include "firmware_like/safety/faults.hpp"
+#include "firmware_like/safety/patience.hpp"
 
 namespace liana {
 
@@ -15,6 +16,8 @@ constexpr std::uint16_t kFeedbackAgeTicks = 2;    // a TPDO may be missing for t
 constexpr std::uint32_t kToleratedLostTicks = 2;  // drives quick-stop by themselves after three periods without RPDO
 constexpr double kHeartbeatTimeout_s = 0.3;       // drives produce one every 0.1 s
 constexpr std::uint16_t kFollowingDebounceTicks = 5;
+constexpr std::uint16_t kTwiceTicks =
+    8;  // in a row with two voices under one drive's identifiers; the host counts them
 constexpr double kFollowingDeadTicks = 4.0;  // target to sample two ticks, feedback up to two ticks old
 
 // How much faster than the arm's own limit a target may move, for the gate and for the following error: room for what
@@ -25,6 +28,7 @@ constexpr double kTargetSpeedMargin = 1.25;
 struct LinkLimits {
   std::int32_t drive_count = 0;
   std::uint16_t heartbeat_age_ticks = 0;
+  Patience patience{};
   std::array<std::int64_t, kMaxDrives> following_counts{};  // largest |sent target - position|
 };
 
@@ -35,7 +39,8 @@ constexpr std::uint16_t heartbeat_age_ticks(double tick_s) noexcept {
 
 // Ticks in a row in which a condition was seen, and what was learned about each drive.
 struct LinkWatchState {
-  std::uint32_t seen_mask = 0;                             // bit i: drive i was alive and operational since start
+  std::uint32_t seen_mask = 0;     // bit i: drive i was alive and operational since start, or should have been
+  std::uint16_t unseen_ticks = 0;  // since start, up to heartbeat_age_ticks: then every drive is watched
   std::array<std::uint16_t, kMaxDrives> emergency_code{};  // last one of the present fault
   std::array<std::uint16_t, kMaxDrives> following_ticks{};
 };
@@ -65,11 +70,21 @@ class Watch {
   std::int32_t active_ = 0;
 };
 
-// Lost buses and deadlines.
+// Lost buses, deadlines, and drives under whose identifiers somebody else speaks.
 void watch_cycle(WatchScope scope, const CycleInputs& inputs, Watch& out) noexcept;
 
-// Heartbeat, NMT state, age of feedback, fault and operation state of one drive. A drive that was never alive is not a
-// fault (it only blocks enabling).
+constexpr std::uint32_t all_drives(std::int32_t drive_count) noexcept {
+  return drive_count >= kMaxDrives ? ~0U : (1U << static_cast<std::uint32_t>(drive_count)) - 1U;
+}
+
+// Drives are booted before the first tick: one that is not heard within the time of a heartbeat is watched all the
+// same.
+inline void watch_from_start(const LinkLimits& limits, LinkWatchState& state) noexcept {
+  if (state.unseen_ticks == limits.heartbeat_age_ticks) return;
+  if (++state.unseen_ticks == limits.heartbeat_age_ticks) state.seen_mask = all_drives(limits.drive_count);
+}
+
+// Heartbeat, NMT state, age of feedback, fault and operation state of one drive that has been alive, or should have.
 void watch_drive(const LinkLimits& limits, WatchScope scope, const DriveFeedback& drive, std::int32_t index,
                  LinkWatchState& state, Watch& out) noexcept;
 

@@ -16,22 +16,30 @@ struct PhaseTraits {
   DriveGoal goal;
   StopCategory stop;
   bool live_targets;
-  std::uint32_t least_ticks;
-  std::uint32_t budget_ticks;
+  std::uint32_t Patience::*least;
+  std::uint32_t Patience::*most;
 };
 
 constexpr std::array<PhaseTraits, kPhaseCount> kPhaseTable{{
-    {OperatingState::kDisabled, DriveGoal::kDisabled, StopCategory::kNone, false, 0, kForever},
-    {OperatingState::kEnabling, DriveGoal::kSwitchedOn, StopCategory::kNone, false, 0, kPoweringBudgetTicks},
-    {OperatingState::kEnabling, DriveGoal::kOperationEnabled, StopCategory::kNone, false, 0, kPoweringBudgetTicks},
-    {OperatingState::kEnabling, DriveGoal::kOperationEnabled, StopCategory::kNone, true, 0, kPreparingBudgetTicks},
-    {OperatingState::kEnabled, DriveGoal::kOperationEnabled, StopCategory::kNone, true, 0, kForever},
-    {OperatingState::kStopping, DriveGoal::kOperationEnabled, StopCategory::kStop, true, 0, kPathStopBudgetTicks},
-    {OperatingState::kStopping, DriveGoal::kSwitchedOn, StopCategory::kStop, false, kBrakingTicks, kBrakingTicks},
-    {OperatingState::kStopping, DriveGoal::kQuickStop, StopCategory::kStop, false, 0, kQuickStopBudgetTicks},
-    {OperatingState::kStopping, DriveGoal::kDisabled, StopCategory::kOff, false, kOffTicks, kOffBudgetTicks},
-    {OperatingState::kFault, DriveGoal::kDisabled, StopCategory::kNone, false, 0, kForever},
-    {OperatingState::kFault, DriveGoal::kFaultReset, StopCategory::kNone, false, kResetTicks, kResetBudgetTicks},
+    {OperatingState::kDisabled, DriveGoal::kDisabled, StopCategory::kNone, false, &Patience::none, &Patience::forever},
+    {OperatingState::kEnabling, DriveGoal::kSwitchedOn, StopCategory::kNone, false, &Patience::none,
+     &Patience::powering},
+    {OperatingState::kEnabling, DriveGoal::kOperationEnabled, StopCategory::kNone, false, &Patience::none,
+     &Patience::powering},
+    {OperatingState::kEnabling, DriveGoal::kOperationEnabled, StopCategory::kNone, true, &Patience::none,
+     &Patience::preparing},
+    {OperatingState::kEnabled, DriveGoal::kOperationEnabled, StopCategory::kNone, true, &Patience::none,
+     &Patience::forever},
+    {OperatingState::kStopping, DriveGoal::kOperationEnabled, StopCategory::kStop, true, &Patience::none,
+     &Patience::path_stop},
+    {OperatingState::kStopping, DriveGoal::kSwitchedOn, StopCategory::kStop, false, &Patience::braking,
+     &Patience::braking},
+    {OperatingState::kStopping, DriveGoal::kQuickStop, StopCategory::kStop, false, &Patience::none,
+     &Patience::quick_stop},
+    {OperatingState::kStopping, DriveGoal::kDisabled, StopCategory::kOff, false, &Patience::off, &Patience::off_budget},
+    {OperatingState::kFault, DriveGoal::kDisabled, StopCategory::kNone, false, &Patience::none, &Patience::forever},
+    {OperatingState::kFault, DriveGoal::kFaultReset, StopCategory::kNone, false, &Patience::reset,
+     &Patience::reset_budget},
 }};
 
 struct Transition {
@@ -103,12 +111,12 @@ std::uint32_t conditions_now(const LinkLimits& limits, const CycleInputs& inputs
   std::uint32_t set = drive_conditions(limits, inputs) | request_conditions(inputs.request, in_force);
   if (arm.homed) set |= kHomed;
   if (arm.prepared) set |= kPrepared;
-  if (state.rest_ticks >= kRestTicks || !traits.live_targets)
+  if (state.rest_ticks >= limits.patience.rest || !traits.live_targets)
     set |= kAtRest;  // without live targets nothing commands motion
   if (active_faults == 0) set |= kCausesGone;
-  if (state.wrong_ticks >= kPersistTicks) set |= kFaultPersists;
-  if (state.phase_ticks >= traits.least_ticks) set |= kCounted;
-  if (state.phase_ticks >= traits.budget_ticks) set |= kBudgetSpent;
+  if (state.wrong_ticks >= limits.patience.persist) set |= kFaultPersists;
+  if (state.phase_ticks >= limits.patience.*traits.least) set |= kCounted;
+  if (state.phase_ticks >= limits.patience.*traits.most) set |= kBudgetSpent;
   return set;
 }
 
@@ -209,9 +217,9 @@ WatchScope watch_scope(const SupervisorState& state) noexcept {
 
 Orders supervise(const LinkLimits& limits, const CycleInputs& inputs, const ArmStatus& arm, CommandKind in_force,
                  std::int32_t active_faults, SupervisorState& state, FaultList& faults) noexcept {
-  count(arm.at_rest, kRestTicks, state.rest_ticks);
+  count(arm.at_rest, limits.patience.rest, state.rest_ticks);
   const bool retreats = in_force == CommandKind::kRetreat && !arm.at_rest;
-  count(active_faults != 0 && !retreats, kPersistTicks, state.wrong_ticks);
+  count(active_faults != 0 && !retreats, limits.patience.persist, state.wrong_ticks);
   std::uint32_t now = conditions_now(limits, inputs, arm, in_force, active_faults, state);
   latch_timeouts(limits, inputs, state.phase, now, faults);
   if (is_clear_due(state.phase, now)) judge_clear(inputs.tick, now, state, faults);

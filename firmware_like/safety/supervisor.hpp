@@ -11,21 +11,6 @@
 
 namespace liana {
 
-// Counted cycles: how long a phase lasts at least, and at most before the supervisor goes on without waiting.
-constexpr std::uint32_t kPoweringBudgetTicks = 250;     // CiA 402 transitions and brakes take well under 0.5 s (500 Hz)
-constexpr std::uint32_t kPreparingBudgetTicks = 15000;  // 60 s at 250 Hz; the ramp takes a few seconds
-constexpr std::uint32_t kRestTicks = 25;                // standing still this long before the brakes close
-constexpr std::uint32_t kPersistTicks = 1250;  // a cause that stays this long turns a hold into a stop (5 s at 250 Hz);
-                                               // counted anew after each tick in which a retreat moves the arm
-constexpr std::uint32_t kPathStopBudgetTicks = 1000;  // full speed to rest takes about 1 s
-constexpr std::uint32_t kBrakingTicks = 25;           // brakes closed this long before power goes
-constexpr std::uint32_t kQuickStopBudgetTicks = 125;
-constexpr std::uint32_t kOffTicks = 3;  // disable voltage is sent at least this often
-constexpr std::uint32_t kOffBudgetTicks = 250;
-constexpr std::uint32_t kResetTicks = 10;  // fault reset edges, and time for the drives to answer
-constexpr std::uint32_t kResetBudgetTicks = 250;
-static_assert(kRestTicks < kPathStopBudgetTicks && kOffTicks < kOffBudgetTicks && kResetTicks < kResetBudgetTicks);
-
 // CRTK-like operating states.
 enum class OperatingState : std::uint8_t { kDisabled = 0, kEnabling = 1, kEnabled = 2, kStopping = 3, kFault = 4 };
 
@@ -55,8 +40,8 @@ struct ClearReport {
 struct SupervisorState {
   Phase phase = Phase::kDisabled;
   std::uint32_t phase_ticks = 0;  // ticks spent in it, saturating
-  std::uint32_t rest_ticks = 0;   // in a row at rest, up to kRestTicks
-  std::uint32_t wrong_ticks = 0;  // in a row with something wrong and no retreat that moves, up to kPersistTicks
+  std::uint32_t rest_ticks = 0;   // in a row at rest, up to Patience::rest
+  std::uint32_t wrong_ticks = 0;  // in a row with something wrong and no retreat that moves, up to Patience::persist
   StopCategory stopped =
       StopCategory::kNone;  // highest category of the stop that led into Fault; kept until the faults are cleared
   ClearReport clear{};

@@ -35,6 +35,7 @@ LinkLimits make_link_limits(const RobotTable& table) noexcept {
   LinkLimits limits{};
   limits.drive_count = table.drive_count();
   limits.heartbeat_age_ticks = heartbeat_age_ticks(table.tick_s);
+  limits.patience = patience(table.tick_s);
   const double delay_s = table.servo_time_constant_s + kFollowingDeadTicks * table.tick_s;
   for (std::size_t i = 0; i < table.joints(); ++i) {
     const double window_rad = kFollowingWindow_rad + kTargetSpeedMargin * table.joint[i].rate_rad_s * delay_s;

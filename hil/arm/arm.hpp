@@ -49,6 +49,8 @@ class Arm {
   virtual const Theta& rate_rad_s() const = 0;
   virtual double motor_tension_N(std::size_t cable) const = 0;
   virtual Pose tip() const = 0;
+  // The press rod is gone from now on.
+  virtual void remove_rod() = 0;
   // 1000 m where the model knows no scene.
   virtual Clearance clearance() const = 0;
   virtual LoadRecord take_record() = 0;

@@ -15,11 +15,15 @@ ArmPhysics::ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const
       thetas_(robot.theta_count()),
       viscous_(robot.viscous_Nms_per_rad),
       chain_(robot, scene),
-      paths_(robot, truth.hole_radius_m),
+      paths_(robot, truth.hole_radius_m, truth.linkage),
       theta_(start_rad) {
+  chain_.set_gravity(truth.gravity_m_s2);
+  chain_.set_linkage(truth.linkage);
   chain_.place(theta_);
   paths_.update(theta_);
-  const CableValues tension = balanced_tensions(paths_, thetas_, kStartTensionOfPlan * robot.plan_tension_N,
+  Theta weight_Nm;
+  chain_.bias(rate_, weight_Nm);
+  const CableValues tension = balanced_tensions(paths_, thetas_, weight_Nm, kStartTensionOfPlan * robot.plan_tension_N,
                                                 kStartFloorOfPlan * robot.plan_tension_N);
   for (std::size_t c = 0; c < paths_.cable_count(); ++c)
     lines_.emplace_back(paths_, c, robot.lead_m, truth.EA_N, truth.mu, tension[c]);
@@ -117,6 +121,11 @@ void ArmPhysics::begin_slot(double duration_s) {
   const double reach = kReserve_m + 3.0 * duration_s * fastest_joint_m_s();
   near_contact_ = std::min({gap.slit_m, gap.sphere_m, gap.convex_m, gap.rod_m}) < reach;
   contact_slots_ += near_contact_ ? 1 : 0;
+}
+
+void ArmPhysics::remove_rod() {
+  scene_.rod.pose.position_m = {kFarAway_m, 0.0, 0.0};
+  chain_.remove_rod();
 }
 
 LoadRecord ArmPhysics::take_record() {

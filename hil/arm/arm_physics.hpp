@@ -1,4 +1,4 @@
-// The arm: ten reduced angles moved by fifteen cables and by contact, no gravity, semi-implicit steps.
+// The arm: reduced angles moved by cables and by contact, with or without weight, semi-implicit steps.
 #pragma once
 
 #include <vector>
@@ -35,10 +35,11 @@ class ArmPhysics final : public Arm {
   double motor_tension_N(std::size_t cable) const override { return lines_[cable].motor_tension_N(); }
   double least_tension_N(std::size_t cable) const { return lines_[cable].least_tension_N(); }
   Pose tip() const override { return chain_.tip(); }
+  void remove_rod() override;
   Clearance clearance() const override { return clearance_of(chain_, scene_, robot_.module_radius_m); }
   // Extremes since the last take_record().
   LoadRecord take_record() override;
-  // Kinetic plus elastic energy [J]; for checks.
+  // Kinetic plus elastic energy, without that of the arm's weight [J]; for checks.
   double energy_J();
 
   // For checks: the mechanical state set from outside, joint damping switched off.

@@ -36,25 +36,41 @@ HoleGap hole_gap(const Bend& bend, double y_m, double z_m, double face_m) {
   return gap;
 }
 
-CablePaths::CablePaths(const RobotConfig& robot, double hole_radius_m) : robot_(robot) {
-  for (std::size_t m = 0; m < robot.segments.size(); ++m)
-    for (const double phase : robot.segments[m].cable_phase_rad)
+CablePaths::CablePaths(const RobotConfig& robot, double hole_radius_m, const Linkage& linkage) : robot_(robot) {
+  std::size_t module = 0;
+  for (std::size_t m = 0; m < robot.segments.size(); ++m) {
+    const SegmentConfig& segment = robot.segments[m];
+    for (const double phase : segment.cable_phase_rad)
       cables_.push_back({m, hole_radius_m * std::cos(phase), hole_radius_m * std::sin(phase)});
+    if (linkage.empty()) joints_.push_back({m, static_cast<double>(segment.modules), {}});
+    for (int i = 0; !linkage.empty() && i < segment.modules; ++i) joints_.push_back({m, 1.0, linkage[module++]});
+  }
   paths_.resize(cables_.size());
+  bends_.resize(joints_.size());
   update(Theta{});
 }
 
 void CablePaths::update(const Theta& theta_rad) {
-  std::array<Bend, kMaxSegments> bends;
-  for (std::size_t j = 0; j < robot_.segments.size(); ++j) bends[j] = Bend::of(theta_rad[2 * j], theta_rad[2 * j + 1]);
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const auto& [segment, count, share] = joints_[i];
+    bends_[i] = Bend::of(share.pitch * theta_rad[2 * segment], share.yaw * theta_rad[2 * segment + 1]);
+  }
   for (std::size_t c = 0; c < cables_.size(); ++c) {
-    for (std::size_t j = 0; j <= cables_[c].segment; ++j) {
+    const Cable& cable = cables_[c];
+    paths_[c] = {};
+    for (std::size_t i = 0; i < joints_.size() && joints_[i].segment <= cable.segment; ++i) {
+      const auto& [segment, count, share] = joints_[i];
+      const HoleGap gap = hole_gap(bends_[i], cable.hole_y_m, cable.hole_z_m, robot_.face_offset_m);
+      SegmentPath& path = paths_[c][segment];
+      path.length_m += count * gap.distance_m;
+      path.d_pitch_m += count * share.pitch * gap.d_pitch_m;
+      path.d_yaw_m += count * share.yaw * gap.d_yaw_m;
+      path.wrap_rad += count * gap.wrap_rad;
+    }
+    for (std::size_t j = 0; j <= cable.segment; ++j) {
       const SegmentConfig& segment = robot_.segments[j];
-      const HoleGap gap = hole_gap(bends[j], cables_[c].hole_y_m, cables_[c].hole_z_m, robot_.face_offset_m);
-      const double inside_link_m = segment.module_length_m - 2.0 * robot_.face_offset_m;
-      const double links = segment.modules - (j == cables_[c].segment ? 1 : 0);  // anchored right after the last joint
-      paths_[c][j] = {segment.modules * gap.distance_m + links * inside_link_m, segment.modules * gap.d_pitch_m,
-                      segment.modules * gap.d_yaw_m, segment.modules * gap.wrap_rad};
+      const double links = segment.modules - (j == cable.segment ? 1 : 0);  // anchored right after the last joint
+      paths_[c][j].length_m += links * (segment.module_length_m - 2.0 * robot_.face_offset_m);
     }
   }
 }

@@ -1,17 +1,18 @@
 // How long each cable is for given joint angles: straight between the holes of a universal joint, straight inside a
-// link (mission A3).
+// link (mission, A3).
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <vector>
 
+#include "hil/arm/linkage.hpp"
 #include "hil/config/robot_config.hpp"
 #include "hil/math/reduced.hpp"
 
 namespace liana::bench {
 
-// Cosine and sine of the pitch and yaw that bend all joints of a segment.
+// Cosine and sine of the pitch and yaw that bend a joint.
 struct Bend {
   double cos_pitch = 1.0;
   double sin_pitch = 0.0;
@@ -43,8 +44,8 @@ struct SegmentPath {
 // All cables through all segments, recomputed by update().
 class CablePaths {
  public:
-  // `hole_radius_m` is the true one; everything else is taken from the table.
-  CablePaths(const RobotConfig& robot, double hole_radius_m);
+  // `hole_radius_m` and `linkage` are the true ones; everything else is taken from the table.
+  CablePaths(const RobotConfig& robot, double hole_radius_m, const Linkage& linkage = {});
 
   void update(const Theta& theta_rad);
 
@@ -63,7 +64,15 @@ class CablePaths {
     double hole_y_m;
     double hole_z_m;
   };
+  // Joints of a segment that bend alike: all of them, or one where the linkage is uneven.
+  struct Joints {
+    std::size_t segment;
+    double count;
+    BendShare share;
+  };
   const RobotConfig robot_;
+  std::vector<Joints> joints_;  // from the base
+  std::vector<Bend> bends_;     // of each of them now
   std::vector<Cable> cables_;
   std::vector<std::array<SegmentPath, kMaxSegments>> paths_;
 };

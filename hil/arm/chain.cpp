@@ -50,14 +50,25 @@ Chain::Chain(const RobotConfig& robot, const SceneConfig& scene, bool with_tendo
       theta_of_hinge_.push_back(2 * s + 1 - first);
     }
   }
+  share_of_hinge_.assign(theta_of_hinge_.size(), 1.0);
   tip_offset_m_ = robot.segments.back().module_length_m;
   place(Theta{});
 }
 
 Chain::~Chain() = default;
 
+void Chain::set_gravity(double down_m_s2) { engine_->model->opt.gravity[2] = -down_m_s2; }
+
+void Chain::set_linkage(const Linkage& linkage) {
+  for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i) {
+    const bool pitch = theta_of_hinge_[i] % 2 == 0;
+    share_of_hinge_[i] = linkage.empty() ? 1.0 : pitch ? linkage[i / 2].pitch : linkage[i / 2].yaw;
+  }
+}
+
 void Chain::place(const Theta& theta_rad) {
-  for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i) engine_->data->qpos[i] = theta_rad[theta_of_hinge_[i]];
+  for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i)
+    engine_->data->qpos[i] = share_of_hinge_[i] * theta_rad[theta_of_hinge_[i]];
   mj_kinematics(engine_->model, engine_->data);
   mj_comPos(engine_->model, engine_->data);
 }
@@ -69,8 +80,9 @@ void Chain::inertia(ThetaMatrix& mass) {
   for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i) {
     const mjtNum* row = engine_->data->qM + engine_->model->dof_Madr[i];
     Theta& to = mass[theta_of_hinge_[i]];
-    for (std::size_t k = 0; k <= i; ++k) to[theta_of_hinge_[i - k]] += row[k];
-    to[theta_of_hinge_[i]] -= 0.5 * row[0];  // the diagonal must count once when the transpose is added
+    const double share = share_of_hinge_[i];
+    for (std::size_t k = 0; k <= i; ++k) to[theta_of_hinge_[i - k]] += share * share_of_hinge_[i - k] * row[k];
+    to[theta_of_hinge_[i]] -= 0.5 * share * share * row[0];  // the diagonal must count once when the transpose is added
   }
   for (std::size_t a = 0; a < thetas_; ++a) {
     for (std::size_t b = 0; b <= a; ++b) {
@@ -83,12 +95,16 @@ void Chain::inertia(ThetaMatrix& mass) {
 
 void Chain::bias(const Theta& rate_rad_s, Theta& force) {
   mjData* data = engine_->data;
-  for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i) data->qvel[i] = rate_rad_s[theta_of_hinge_[i]];
+  for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i)
+    data->qvel[i] = share_of_hinge_[i] * rate_rad_s[theta_of_hinge_[i]];
   mj_comVel(engine_->model, data);
   mj_rne(engine_->model, data, 0, data->qfrc_bias);
   force = {};
-  for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i) force[theta_of_hinge_[i]] += data->qfrc_bias[i];
+  for (std::size_t i = 0; i < theta_of_hinge_.size(); ++i)
+    force[theta_of_hinge_[i]] += share_of_hinge_[i] * data->qfrc_bias[i];
 }
+
+void Chain::remove_rod() { engine_->model->geom_conaffinity[engine_->rod_geom] = 0; }
 
 const std::vector<Contact>& Chain::contacts() {
   const mjModel* model = engine_->model;
@@ -125,7 +141,8 @@ Pose Chain::tip() const {
 void Chain::point_jacobian(std::size_t link, const Vec3& point_m, PointJacobian& jacobian) const {
   jacobian = {};
   for (std::size_t i = 0; i < 2 * (link + 1); ++i) {
-    const Vec3 column = cross(at(engine_->data->xaxis, i), point_m - at(engine_->data->xanchor, i));
+    const Vec3 column =
+        share_of_hinge_[i] * cross(at(engine_->data->xaxis, i), point_m - at(engine_->data->xanchor, i));
     const std::size_t t = theta_of_hinge_[i];
     jacobian[0][t] += column.x;
     jacobian[1][t] += column.y;

@@ -1,4 +1,4 @@
-// The arm as 80 hinges in MuJoCo, seen through the ten reduced angles: positions, inertia, bias forces, contacts.
+// The arm as hinges in MuJoCo, seen through the reduced angles: positions, inertia, bias forces, contacts.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hil/arm/linkage.hpp"
 #include "hil/config/robot_config.hpp"
 #include "hil/config/scene_config.hpp"
 #include "hil/math/reduced.hpp"
@@ -37,8 +38,14 @@ class Chain {
   void place(const Theta& theta_rad);
   // Reduced mass matrix S^T M S [kg.m^2]; upper-left n x n block.
   void inertia(ThetaMatrix& mass);
-  // Reduced Coriolis and centrifugal forces [N.m].
+  // Weight from now on, along -z of the base frame [m/s^2]; 0 at first. Part of bias().
+  void set_gravity(double down_m_s2);
+  // How the joints of each segment share its bend from now on; all alike at first.
+  void set_linkage(const Linkage& linkage);
+  // Reduced Coriolis and centrifugal forces, and weight [N.m].
   void bias(const Theta& rate_rad_s, Theta& force);
+  // The rod is gone from now on.
+  void remove_rod();
   // Overlaps of links with the scene.
   const std::vector<Contact>& contacts();
 
@@ -54,8 +61,9 @@ class Chain {
   std::vector<double> tendon_lengths_m();
   // The unreduced mass matrix, row by row; for checks.
   std::vector<double> full_inertia();
-  // Reduced index of a hinge: the constant selection S.
+  // Reduced index of a hinge, and its angle per reduced angle: the constant matrix S.
   std::size_t theta_of_hinge(std::size_t hinge) const { return theta_of_hinge_[hinge]; }
+  double share_of_hinge(std::size_t hinge) const { return share_of_hinge_[hinge]; }
 
  private:
   struct Engine;
@@ -64,6 +72,7 @@ class Chain {
   std::size_t thetas_ = 0;
   double tip_offset_m_ = 0.0;
   std::vector<std::size_t> theta_of_hinge_;
+  std::vector<double> share_of_hinge_;
   std::vector<Contact> contacts_;
 };
 

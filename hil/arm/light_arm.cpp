@@ -44,8 +44,10 @@ LightArm::LightArm(const RobotConfig& robot, const TrueParameters& truth, const 
       tip_(tip_of(robot, start_rad)) {
   if (truth.mu != 0.0)
     throw std::runtime_error("--arm light has no friction in its cables; give --physics ideal, or --arm full");
+  if (truth.gravity_m_s2 != 0.0 || !truth.linkage.empty())
+    throw std::runtime_error("--arm light has neither weight nor an uneven linkage; leave these out, or --arm full");
   paths_.update(theta_);
-  const CableValues tension = balanced_tensions(paths_, thetas_, kStartTensionOfPlan * robot.plan_tension_N,
+  const CableValues tension = balanced_tensions(paths_, thetas_, Theta{}, kStartTensionOfPlan * robot.plan_tension_N,
                                                 kStartFloorOfPlan * robot.plan_tension_N);
   for (std::size_t c = 0; c < paths_.cable_count(); ++c)
     payout_[c] = (paths_.length_m(c) + robot_.lead_m) / (1.0 + tension[c] / EA_N_);

@@ -26,6 +26,7 @@ class LightArm final : public Arm {
   const Theta& rate_rad_s() const override { return rate_; }
   double motor_tension_N(std::size_t cable) const override { return tension_N_[cable]; }
   Pose tip() const override { return tip_; }
+  void remove_rod() override {}
   Clearance clearance() const override;
   LoadRecord take_record() override;
   ArmCounts counts() const override { return {}; }

@@ -7,10 +7,11 @@ namespace liana::bench {
 
 namespace {
 
-// t := t - J (J^T J)^-1 J^T t
-void project(const CableJacobian& jacobian, std::size_t cables, std::size_t thetas, CableValues& tension) {
+// t := t - J (J^T J)^-1 (J^T t + w)
+void project(const CableJacobian& jacobian, std::size_t cables, std::size_t thetas, const Theta& weight_Nm,
+             CableValues& tension) {
   ThetaMatrix gram{};
-  Theta torque{};
+  Theta torque = weight_Nm;
   for (std::size_t c = 0; c < cables; ++c) {
     for (std::size_t a = 0; a < thetas; ++a) {
       torque[a] += jacobian[c][a] * tension[c];
@@ -26,22 +27,23 @@ void project(const CableJacobian& jacobian, std::size_t cables, std::size_t thet
 
 }  // namespace
 
-CableValues balanced_tensions(const CablePaths& paths, std::size_t theta_count, double wanted_N, double floor_N) {
+CableValues balanced_tensions(const CablePaths& paths, std::size_t theta_count, const Theta& weight_Nm, double wanted_N,
+                              double floor_N) {
   constexpr int kMaxRounds = 10000;
   const std::size_t cables = paths.cable_count();
   const CableJacobian jacobian = paths.jacobian();
   CableValues tension{};
   std::fill_n(tension.begin(), cables, wanted_N);
-  project(jacobian, cables, theta_count, tension);
+  project(jacobian, cables, theta_count, weight_Nm, tension);
   for (int round = 0; round < kMaxRounds; ++round) {
     if (*std::min_element(tension.begin(), tension.begin() + static_cast<std::ptrdiff_t>(cables)) >= floor_N)
       return tension;
     // A little above the floor, so that the rounds end.
     for (std::size_t c = 0; c < cables; ++c) tension[c] = std::max(tension[c], 1.05 * floor_N);
-    project(jacobian, cables, theta_count, tension);
+    project(jacobian, cables, theta_count, weight_Nm, tension);
   }
   throw std::runtime_error(
-      "physics: no balanced tensions above the floor at the start pose; choose another start pose");
+      "physics: no balanced tensions above the floor at the start pose; choose another start pose, or less --gravity");
 }
 
 }  // namespace liana::bench

@@ -40,7 +40,8 @@ void TipCamera::look(double now_s, const Pose& tip) {
   CameraView view;
   view.capture_time_s = now_s;
   if (slit_) view.slit = see(tip, *slit_);
-  view.rod = see(tip, rod_);
+  view.rod = see(tip, rod_);  // noise is drawn whether it is there or not
+  if (!rod_seen_) view.rod.reset();
   if (!defects_.frozen) last_sound_ = view;
   spoil(view);
   if (!defects_.dropped) pending_.push_back(view);

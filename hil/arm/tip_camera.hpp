@@ -31,6 +31,8 @@ class TipCamera {
   // Without a slit only the rod is seen.
   TipCamera(const CameraConfig& config, const std::optional<Pose>& slit, const Pose& rod, std::uint64_t seed);
 
+  // The rod is out of its seat: seen no more.
+  void lose_rod() { rod_seen_ = false; }
   // From the next picture on.
   void suffer(const CameraDefects& defects) { defects_ = defects; }
   // Takes a picture when one is due at `now_s` (seconds from the start, not falling).
@@ -45,6 +47,7 @@ class TipCamera {
   CameraConfig config_;
   std::optional<Pose> slit_;
   Pose rod_;
+  bool rod_seen_ = true;
   Random noise_;
   std::int64_t pictures_ = 0;
   CameraDefects defects_;

@@ -1,5 +1,6 @@
 #include "hil/arm/true_parameters.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "hil/config/start_angles.hpp"
@@ -50,8 +51,12 @@ Theta start_pose(const RobotConfig& robot, const std::string& name, double sprea
   const std::vector<double> pose_rad = start_angles_rad(robot.named_poses_rad, robot.theta_count(), name);
   Random offsets(seed, "start pose");
   Theta theta{};
-  for (std::size_t i = 0; i < robot.theta_count(); ++i)
-    theta[i] = pose_rad[i] + offsets.uniform(-spread_rad, spread_rad);
+  for (std::size_t i = 0; i < robot.theta_count(); ++i) {
+    const double offset_rad = offsets.uniform(-spread_rad, spread_rad),
+                 limit_rad = robot.segments[i / 2].theta_limit_rad;
+    const bool is_beyond = std::fabs(pose_rad[i] + offset_rad) > limit_rad;  // no arm lies beyond its stop
+    theta[i] = pose_rad[i] + (is_beyond ? -offset_rad : offset_rad);
+  }
   return theta;
 }
 

@@ -1,9 +1,10 @@
-// What the arm really is, as opposed to what the table says: drawn from the seed (mission A9).
+// What the arm really is, as opposed to what the table says: drawn from the seed (mission, A9).
 #pragma once
 
 #include <cstdint>
 #include <string>
 
+#include "hil/arm/linkage.hpp"
 #include "hil/config/robot_config.hpp"
 #include "hil/math/reduced.hpp"
 
@@ -13,6 +14,8 @@ struct TrueParameters {
   double EA_N = 0.0;
   double mu = 0.0;
   double hole_radius_m = 0.0;
+  double gravity_m_s2 = 0.0;    // what is left of the arm's weight, along -z of the base frame
+  Linkage linkage;              // empty: all joints of a segment bend alike
   CableValues zero_offset_m{};  // payout beyond what counts and table say
   CableValues torque_gain{};    // measured / true drive torque
 };

@@ -37,7 +37,8 @@ Bench::Bench(const BenchOptions& options)
       plant_(make_plant(options, scene_)),
       injector_(options.faults),
       camera_(scene_.camera, scene_.slit_frame, scene_.rod.pose, options.seed),
-      link_(options.api_socket),
+      camera_link_(options.api_socket, {"camera", ""}),
+      tool_link_(options.api_socket, {"tool", "tool"}),
       log_(options.truth_path, columns_of(*plant_)),
       syncs_(options.buses.names.size(), 0),
       received_(options.buses.names.size(), 0),
@@ -49,8 +50,33 @@ void Bench::begin_slot(std::uint32_t slot, double now_s) {
   record(slot);
   camera_.suffer(camera_defects());
   camera_.look(now_s, plant_->tip());
-  while (const auto view = camera_.deliver(now_s)) link_.send(camera_message(*view));
+  while (const auto view = camera_.deliver(now_s)) camera_link_.send(camera_message(*view));
+  camera_link_.receive([](const std::string&) {});  // answers
+  use_tool(now_s);
   begun_ = slot + 1;
+}
+
+ToolDefects Bench::tool_defects() const {
+  ToolDefects defects;
+  for (std::size_t i = 0; i < injector_.faults().size(); ++i) {
+    if (!injector_.is_on(i)) continue;
+    if (injector_.faults()[i].kind == FaultKind::kToolJams) defects.jams = true;
+    if (injector_.faults()[i].kind == FaultKind::kToolSilent) defects.silent = true;
+  }
+  return defects;
+}
+
+void Bench::use_tool(double now_s) {
+  tool_.suffer(tool_defects());
+  tool_link_.receive([this](const std::string& message) {
+    if (auto command = tool_command(message)) tool_.ask(std::move(*command));
+  });
+  const auto report = tool_.act(now_s, plant_->tip().position_m, scene_.rod.pose.position_m);
+  if (!report) return;
+  tool_link_.send(tool_message(*report));
+  if (!tool_.has_rod()) return;
+  plant_->remove_rod();
+  camera_.lose_rod();
 }
 
 CameraDefects Bench::camera_defects() const {
@@ -114,7 +140,8 @@ void Bench::run(Bus& bus) {
   bool first = true;
   while (bus.wait(wake)) {
     // lianad has said HELLO by now, so its API listens; later this is tried only when a picture is due.
-    if (first) link_.connect(2000);
+    if (first) camera_link_.connect(2000);
+    if (first) tool_link_.connect(2000);
     first = false;
     wake.frames.erase(std::remove_if(wake.frames.begin(), wake.frames.end(),
                                      [&](const CanFrame& f) { return f.bus >= received_.size(); }),
@@ -189,8 +216,13 @@ void Bench::write_summary(const Bus& bus) const {
       {"buses", buses},
       {"frames_refused", bus.refused()},
       {"rod", {rod.x, rod.y, rod.z, rod_attitude.w, rod_attitude.x, rod_attitude.y, rod_attitude.z}},
-      {"camera_sent", link_.sent()},
-      {"camera_lost", link_.lost()},
+      {"camera_sent", camera_link_.sent()},
+      {"camera_lost", camera_link_.lost()},
+      {"tool",
+       {{"number", tool_.last().number},
+        {"phase", tool_.last().phase},
+        {"reason", tool_.last().reason},
+        {"has_rod", tool_.has_rod()}}},
       {"measured", {{"physics_us_per_slot", integrated_ == 0 ? 0.0 : static_cast<double>(physics_us_) / integrated_}}}};
   plant_->summarise(summary);
   std::ofstream file(options_.summary_path);

@@ -1,4 +1,4 @@
-// The bench: drives and arm on one end of the bus, camera and truth on the other.
+// The bench: drives and arm on one end of the bus, camera, tool and truth on the other.
 #pragma once
 
 #include <cstdint>
@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "hil/arm/tip_camera.hpp"
+#include "hil/arm/tip_tool.hpp"
 #include "hil/bench/fault_injector.hpp"
 #include "hil/bench/plant.hpp"
 #include "hil/bench/truth_log.hpp"
+#include "hil/bus/api_link.hpp"
 #include "hil/bus/bus.hpp"
-#include "hil/bus/camera_link.hpp"
 #include "hil/config/robot_config.hpp"
 #include "hil/config/scene_config.hpp"
 #include "hil/config/serial_config.hpp"
@@ -51,6 +52,8 @@ class Bench {
   void catch_up(std::uint32_t slots, double period_s);
   void run_on(std::uint64_t now_us, std::uint32_t period_us);
   CameraDefects camera_defects() const;
+  ToolDefects tool_defects() const;
+  void use_tool(double now_s);
   void write_summary(const Bus& bus) const;
 
   BenchOptions options_;
@@ -58,7 +61,9 @@ class Bench {
   std::unique_ptr<Plant> plant_;
   FaultInjector injector_;
   TipCamera camera_;
-  CameraLink link_;
+  ApiLink camera_link_;
+  TipTool tool_;
+  ApiLink tool_link_;
   TruthLog log_;
   std::vector<std::uint32_t> syncs_;  // per bus, real time
   std::uint64_t last_slot_us_ = 0;    // when the last slot ended, real time

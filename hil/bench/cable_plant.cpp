@@ -13,10 +13,15 @@ namespace liana::bench {
 namespace {
 
 constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
+constexpr double kGravity_m_s2 = 9.80665;  // standard gravity, ISO 80000-3
 constexpr double kStartSpread_rad = 0.5 / kDegPerRad;
 
 TrueParameters parameters_of(const RobotConfig& robot, const ModelOptions& options, std::uint64_t seed) {
-  return options.spread ? spread_parameters(robot, options.physics, seed) : table_parameters(robot, options.physics);
+  TrueParameters truth =
+      options.spread ? spread_parameters(robot, options.physics, seed) : table_parameters(robot, options.physics);
+  truth.gravity_m_s2 = kGravity_m_s2 * options.gravity_share;
+  truth.linkage = uneven_linkage(robot, options.linkage_error, seed);
+  return truth;
 }
 
 std::unique_ptr<Arm> make_arm(const RobotConfig& robot, const SceneConfig& scene, const ModelOptions& options,
@@ -113,7 +118,11 @@ void CablePlant::summarise(nlohmann::json& summary) const {
   summary["mujoco_warnings"] = counts.mujoco_warnings;
   summary["slots_near_contact"] = counts.contact_slots;
   summary["friction_sweeps_max"] = counts.most_sweeps;
-  summary["true_parameters"] = {{"EA_N", truth_.EA_N}, {"mu", truth_.mu}, {"hole_radius_m", truth_.hole_radius_m}};
+  summary["true_parameters"] = {{"EA_N", truth_.EA_N},
+                                {"mu", truth_.mu},
+                                {"hole_radius_m", truth_.hole_radius_m},
+                                {"gravity_m_s2", truth_.gravity_m_s2},
+                                {"linkage_error", options_.linkage_error}};
 }
 
 }  // namespace liana::bench

@@ -20,6 +20,7 @@ class CablePlant final : public Plant {
   void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) override;
   void integrate(double period_s) override;
   Pose tip() const override { return arm_->tip(); }
+  void remove_rod() override { arm_->remove_rod(); }
   double fastest_rad_s() const override;
   std::vector<std::string> truth_columns() const override;
   void add_truth(std::vector<double>& row) override;

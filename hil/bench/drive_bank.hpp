@@ -1,4 +1,4 @@
-// The fifteen drives and what joins them to the arm: counts to cable, tension to torque reading.
+// The drives and what joins them to the arm: counts to cable, tension to torque reading.
 #pragma once
 
 #include <cstdint>

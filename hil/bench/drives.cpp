@@ -2,6 +2,12 @@
 
 namespace liana::bench {
 
+namespace {
+
+std::uint64_t microseconds(double seconds) { return static_cast<std::uint64_t>(1e6 * seconds); }
+
+}  // namespace
+
 Drives::Drives(std::uint32_t product, std::uint64_t seed) : product_(product), fault_noise_(seed, "fault noise") {}
 
 void Drives::add(const DriveSettings& settings, double start_counts) {
@@ -66,6 +72,21 @@ void Drives::begin(const FaultConfig& fault, std::size_t i) {
     case FaultKind::kReboot:
       drive.power_off();
       return drive.power_on();
+    case FaultKind::kNoReports:
+      drive.defects().no_reports = true;
+      return;
+    case FaultKind::kNodeTwice:
+      drive.defects().twice = true;
+      return;
+    case FaultKind::kSlowReset:
+      drive.defects().reset_us = microseconds(with.seconds);
+      return;
+    case FaultKind::kSlowPower:
+      drive.defects().power_us = microseconds(with.seconds);
+      return;
+    case FaultKind::kSlowSdo:
+      drive.defects().sdo_us = microseconds(with.seconds);
+      return;
     case FaultKind::kEncoderJump:
       return drive.jump_encoder(with.counts);
     default:
@@ -93,6 +114,21 @@ void Drives::end(const FaultConfig& fault, std::size_t i) {
       return;
     case FaultKind::kWrongPdoLength:
       defects.pdo_length = none.pdo_length;
+      return;
+    case FaultKind::kNoReports:
+      defects.no_reports = none.no_reports;
+      return;
+    case FaultKind::kNodeTwice:
+      defects.twice = none.twice;
+      return;
+    case FaultKind::kSlowReset:
+      defects.reset_us = none.reset_us;
+      return;
+    case FaultKind::kSlowPower:
+      defects.power_us = none.power_us;
+      return;
+    case FaultKind::kSlowSdo:
+      defects.sdo_us = none.sdo_us;
       return;
     default:
       return end_behind(fault, i);

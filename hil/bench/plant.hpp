@@ -16,6 +16,8 @@ struct ModelOptions {
   std::string arm = "full";  // of a cable arm; or light: no inertia, contact or cable friction
   std::string physics = "nominal";
   std::string start_pose = "prepare";
+  double gravity_share = 0.0;  // what counterweights leave of the arm's weight: 0 none, 1 all; along -z of the base
+  double linkage_error = 0.0;  // most by which a joint's share of its segment's bend differs from even, by seed
   bool spread = true;  // parameters, start pose and noise by seed; false: the table exactly, noise only from the camera
   bool fixture = false;                  // the arm starts exactly in its start pose
   double free_step_s = 0.001;            // of the full arm's physics while nothing can touch; up to 0.004
@@ -37,6 +39,8 @@ class Plant {
   // The physics of one slot.
   virtual void integrate(double period_s) = 0;
   virtual Pose tip() const = 0;
+  // The press rod is gone from now on; nothing where there is none.
+  virtual void remove_rod() = 0;
   // The fastest of its true angles now [rad/s].
   virtual double fastest_rad_s() const = 0;
 

@@ -214,7 +214,7 @@ class SequenceRun:
 
     @staticmethod
     def is_over(state):
-        """A boot that failed stays so."""
+        """Where a boot has failed there is nothing more to strike."""
         return state["state"] == "FAULT" and any("booting failed" in event["text"] for event in state["events"])
 
     def ask(self, client, op, fields):

@@ -295,6 +295,7 @@ class Watch:
     def __init__(self, limits, always=False):
         """`always`: what is watched in an enabled arm only is watched in every state."""
         self.limits, self.always, self.seen, self.wrong_for = limits, always, set(), collections.Counter()
+        self.ticks = 0
 
     def lasting(self, key, is_wrong, ticks):
         self.wrong_for[key] = self.wrong_for[key] + 1 if is_wrong else 0
@@ -303,7 +304,9 @@ class Watch:
     def due(self, before, now):
         """(number, index) of everything that is wrong and must be latched in this tick."""
         powered = self.always or before.state == "ENABLED"
+        self.ticks += 1
         found = [(4001, bus) for bus in range(32) if now.lost_buses >> bus & 1]
+        found += ((3009, drive) for drive in range(32) if now.twice >> drive & 1)
         if powered and now.lost_ticks > kLostTicks:
             found.append((2001, -1))
         for drive, status in enumerate(now.statusword):
@@ -320,7 +323,7 @@ class Watch:
         silent, missing = now.age[drive] > kSilentTicks, now.heartbeat_age[drive] > self.limits.heartbeat_ticks
         if not silent and not missing and now.operational[drive]:
             self.seen.add(drive)
-        elif drive in self.seen:
+        elif drive in self.seen or self.ticks >= self.limits.heartbeat_ticks - 1:  # booted before the first tick
             if silent:
                 yield 3002
             if missing:
@@ -366,7 +369,7 @@ def faults_not_latched(ticks, limits):
 
 
 # Numbers whose cause is plain in the reports, so that the watch here finds exactly what the core may latch.
-kPlain = (2001, 3001, 3002, 3003, 3004, 3007, 4001, 5001, 5002, 5003)
+kPlain = (2001, 3001, 3002, 3003, 3004, 3007, 3009, 4001, 5001, 5002, 5003)
 
 
 def false_alarms(ticks, limits, first_cause):
@@ -429,8 +432,9 @@ def stops_not_confirmed(ticks):
 
 def faults_not_told(ticks, told):
     """Every fault that a client was told of is in the recording, and every recorded one was told; `told`: (number,
-    index, tick).
+    index, tick). Those of a boot that failed come before its first tick.
     """
+    told = {fault for fault in told if fault[2] >= ticks[0].tick}
     recorded = {(fault.number, fault.index, fault.tick) for now in ticks for fault in now.faults}
     due = {fault for fault in recorded if fault[2] < ticks[-1].tick - kTellTicks}
     return [f"fault {fault} was told to the client, but is not recorded" for fault in sorted(told - recorded)] + [

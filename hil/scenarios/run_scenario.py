@@ -196,12 +196,15 @@ class Run(LimitedRun):
         wanted, reach_s = self.expect["after_clear"], self.stand.reach_s
         if self.scenario.numbers:
             client.call("state_command", command="clear")
-            client.until(lambda state: any("cleared" in event["text"] for event in state["events"]), reach_s)
+            told = ("cleared", "booting goes on")  # the second: of drives that were not booted
+            client.until(lambda _: any(text in event["text"] for event in client.events for text in told), reach_s)
         elif client.state["stop"]:
             client.call("state_command", command="clear")
             client.until(lambda state: not state["stop"], reach_s)
         if wanted != "FAULT":
-            client.until(lambda state: state["state"] == "DISABLED" and not state["faults"], reach_s)
+            client.until(
+                lambda state: state["state"] == "DISABLED" and state["is_homed"] and not state["faults"], reach_s
+            )
         if wanted == "ENABLED":
             self.enabled_again = client.state["tick"]
             self.enable(client)

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# req:A55
 """Faults while the arm is inside the slit, judged by the truth against targets written by hand (slit/targets.json).
 
 An operator steers by hand (step 4), the arm goes planar (step 5), the operator steers to the rod (step 6), or the arm

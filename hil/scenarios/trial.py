@@ -10,7 +10,13 @@ from liana.recordings import Recording
 from liana.system import System, run
 
 kNever = 10**9
-kSelfReports = ("noisy", "encoder_jump", "late", "stuck")  # what these drives report is not where their drums are
+kSelfReports = (
+    "noisy",
+    "encoder_jump",
+    "late",
+    "stuck",
+    "node_twice",
+)  # what these drives report is not where their drums are
 
 
 def drives_of(fault, count):
@@ -58,7 +64,13 @@ class Trial:
         self.complaints += recorded_rules.all_complaints(self.recording, enabled, told, left_out, self.first_cause())
         ticks = self.recording.ticks
         self.complaints += truth_rules.all_complaints(
-            self.truth, ticks, robot, self.faults, self.courses, summary.get("physics") != "worn"
+            self.truth,
+            ticks,
+            robot,
+            self.faults,
+            self.courses,
+            summary.get("physics") != "worn",
+            self.first_foreign_command(),
         )
         arrivals = wire_ages.Arrivals([log.read_text() for log in system.bus_logs()], predicates.kLine, period_s)
         self.complaints += wire_ages.wrong_ages(ticks, arrivals, self.strangers()) if ticks else []
@@ -68,6 +80,11 @@ class Trial:
         """The slot in which bench or bus first did something to drives, arm or wires; where nothing ever did, none."""
         begun = [course["begun_slot"] for course in self.courses if course["begun_slot"] is not None]
         return min(begun + [rule["from_slot"] for rule in self.bus_script], default=kNever)
+
+    def first_foreign_command(self):
+        """The slot in which a rule of the bus first sends a drive a target (RPDO1); None, where none does."""
+        sent = [rule for rule in self.bus_script if rule["action"] == "send" and 0x200 < int(rule["id"], 16) < 0x280]
+        return min((rule["from_slot"] for rule in sent), default=None)
 
     def strangers(self):
         """Drives in whose name a rule of the bus speaks; all, where cables are exchanged: nobody is where he was."""

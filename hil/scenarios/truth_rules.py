@@ -91,11 +91,14 @@ def speeds(truth, limits, slots):
     return first_over(truth, "fastest_deg_s", slots, lambda rate: rate > fastest, "an angle turns at {:.2f} deg/s")
 
 
-def all_complaints(truth, ticks, robot, faults, courses, nominal=True):
-    """Everything that breaks a rule; of a serial arm nothing: it has no cables and no scene yet."""
+def all_complaints(truth, ticks, robot, faults, courses, nominal=True, last=None):
+    """Everything that breaks a rule, up to slot `last`, if there is one: from then on somebody else commands a drive. Of a
+    serial arm nothing: it has no cables and no scene yet.
+    """
     if robot.get("kind") == "serial":
         return []
-    limits, end = Limits(robot), sound_until(faults, courses, len(truth.rows))
+    until = len(truth.rows) if last is None else min(last, len(truth.rows))
+    limits, end = Limits(robot), sound_until(faults, courses, until)
     slots = list(under_command(ticks, end))
     taut_end = sound_until(faults, courses, end, kLooseningReadings)
     return (

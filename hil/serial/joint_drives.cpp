@@ -12,12 +12,15 @@ DriveSettings settings_of(const SerialRobotConfig& robot, const BusesConfig& bus
   DriveSettings settings;
   settings.node = static_cast<int>(i) + 1;
   settings.bus = static_cast<std::uint8_t>(buses.bus_of(settings.node));
-  settings.vendor = robot.vendor;
-  settings.product = robot.product;
-  settings.revision = robot.revision;
+  settings.dictionary = buses.dictionary_of(settings.node);
+  settings.vendor = settings.dictionary.vendor.value_or(robot.vendor);
+  settings.product = settings.dictionary.product.value_or(robot.product);
+  settings.revision = settings.dictionary.revision.value_or(robot.revision);
   settings.serial = robot.drives[i].serial;
   settings.counts_per_turn = robot.counts_per_turn;
   settings.rated_torque_mNm = static_cast<std::uint32_t>(std::lround(1000.0 * robot.rated_torque_Nm));
+  settings.gear = robot.gear;
+  settings.fastest_counts_per_s = robot.fastest_counts_per_s;
   settings.servo_time_constant_s = robot.servo_time_constant_s;
   return settings;
 }

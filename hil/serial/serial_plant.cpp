@@ -32,6 +32,8 @@ SerialPlant::SerialPlant(const SerialRobotConfig& robot, const BusesConfig& buse
       drives_(arm_, buses, options.spread, seed),
       torque_Nm_(robot.joints.size(), 0.0) {
   refuse_cable_faults(faults);
+  if (options.gravity_share != 0.0 || options.linkage_error != 0.0)
+    throw std::runtime_error("--gravity, --linkage-error: a serial arm's bench has neither; leave them out");
   if (!options.cross_wired.empty())
     throw std::runtime_error("--cross-wired: a serial arm has no cables to swap; leave it out");
   chain_.place(drives_.joint_rad());

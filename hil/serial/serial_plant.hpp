@@ -20,6 +20,7 @@ class SerialPlant final : public Plant {
   void inject(std::uint32_t slot, FaultInjector& injector) override;
   void exchange(const FrameList& frames, std::uint64_t now_us, FrameList& out) override;
   void integrate(double period_s) override;
+  void remove_rod() override {}
   Pose tip() const override { return chain_.tip(); }
   double fastest_rad_s() const override;
   std::vector<std::string> truth_columns() const override;

@@ -28,10 +28,11 @@ std::string runtime_folder() {
 void require_own(const std::string& folder) {
   struct stat found {};
   if (::lstat(folder.c_str(), &found) != 0) throw std::runtime_error(folder + ": " + std::strerror(errno));
-  if (!S_ISDIR(found.st_mode) || found.st_uid != ::getuid()) {
-    throw std::runtime_error(
-        folder + ": is not a folder of this user; remove it, set XDG_RUNTIME_DIR, or name sockets with --api");
-  }
+  const std::string remedy = "; remove it, set XDG_RUNTIME_DIR, or name sockets with --api";
+  if (!S_ISDIR(found.st_mode) || found.st_uid != ::getuid())
+    throw std::runtime_error(folder + ": is not a folder of this user" + remedy);
+  if ((found.st_mode & (S_IWGRP | S_IWOTH)) != 0)
+    throw std::runtime_error(folder + ": others than this user may write there" + remedy);
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ constexpr std::array kHello{
     text("name", 64, "what lianad calls the client: as owner, in events, as who stopped the arm"),
     word("role", kRoleNames, "what the client is, and with it what it may ask for"),
     flag("lockstep", "virtual time waits for this client's `done`").otherwise(0.0),
-    text("subscribe", 32, "topics that it wants to hear: state, camera, tick, event").optional().list(8),
+    text("subscribe", 32, "topics that it wants to hear: state, camera, tick, event, tool").optional().list(8),
     integer("events_from", 1.0, kBiggestWhole, "sequence of the first event that it wants; left out: from now on")
         .optional(),
 };
@@ -148,10 +148,13 @@ constexpr std::array kStep{
     text("name", 120, "what the step is called"),
     text("device", 16, "who steers"),
     text("task", 40, "what the operator should do").optional(),
+    integer("entry", 1.0, kBiggestWhole, "how many steps of the mission have begun, this one included").optional(),
     text("waits", 120, "what the step waits for people for").optional(),
 };
 constexpr std::array kAnnounce{
-    object("step", kStep, "the step that begins; null or left out: the mission has ended").or_null()};
+    object("step", kStep, "the step that begins; null or left out: the mission has ended").or_null(),
+    text("after", 120, "the condition that ended the step before").optional(),
+};
 constexpr std::array kOperatorSays{
     text("what", 40, "what the operator would say aloud"),
     integer("step", 0.0, 1000.0, "index of the step it is about").optional(),
@@ -176,6 +179,13 @@ constexpr std::array kSources{"vr", "hand"};
 constexpr std::array kDevice{
     word("device", kSources, "where the samples come from"),
     object("samples", kSample, "since the last message, oldest first").list(256),
+};
+constexpr std::array kToolPhases{"acting", "done", "failed"};
+constexpr std::array kToolReport{
+    integer("number", 1.0, kBiggestWhole, "of the command, as the tool was told"),
+    word("phase", kToolPhases, "it acts, it has done it, it has failed"),
+    text("reason", 120, "why it has failed").optional(),
+    number("time_s", 0.0, 1e9, "arm time at which it is so"),
 };
 constexpr std::array kCamera{
     number("capture_time_s", 0.0, 1e9, "arm time of the picture"),

@@ -86,7 +86,7 @@ constexpr std::array kTable{
                .in_missions = true,
                .motion = Motion::kReplaces},
     RequestRow{.op = "tool",
-               .doc = "A command to the tool at the tip; logged.",
+               .doc = "A command to the tool at the tip; how it goes is `tool` of the state.",
                .fields = kTool,
                .owner_only = true,
                .in_missions = true},
@@ -96,7 +96,7 @@ constexpr std::array kTable{
                .in_missions = true,
                .motion = Motion::kReplaces,
                .never_refused = true},
-    RequestRow{.op = "shutdown", .doc = "Ends lianad after a stop."},
+    RequestRow{.op = "shutdown", .doc = "Ends lianad after a stop.", .roles = only(Role::kClient)},
     RequestRow{.op = "timing", .doc = "Times of the real-time thread (real time only).", .fields = kTiming},
     RequestRow{.op = "announce",
                .doc = "Tells the operator which step runs.",
@@ -120,6 +120,10 @@ constexpr std::array kTable{
                .doc = "The flight recorder loses something, as on a full disk; becomes an event.",
                .fields = kArchiveAlarm,
                .roles = only(Role::kArchive)},
+    RequestRow{.op = "tool_report",
+               .doc = "What the tool says of the command it was given.",
+               .fields = kToolReport,
+               .roles = only(Role::kTool)},
     RequestRow{.op = "camera", .doc = "What the tip camera has seen.", .fields = kCamera, .roles = only(Role::kCamera)},
 };
 

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <tuple>
 
 #include "host/api/outbox.hpp"
+#include "host/api/peer.hpp"
 #include "host/api/request_check.hpp"
 #include "host/api/request_error.hpp"
 #include "host/api/request_text.hpp"
@@ -22,9 +24,12 @@ using Clock = std::chrono::steady_clock;
 
 namespace {
 
-constexpr std::size_t kMaxInbox = 512;  // requests waiting for the next interval; beyond it the client's own sends wait
-constexpr std::size_t kMaxWaitingEvents = 64;  // of one subscriber; the others wait in the history
-constexpr std::size_t kMaxClients = 32;        // that have said hello
+// What one client has waiting for the next interval; beyond it the client's own sends wait. Kept as it came: read, it
+// would be up to forty times as large.
+constexpr std::size_t kMaxInbox = 512;          // requests
+constexpr std::size_t kMaxInboxBytes = 262144;  // reached by the last of them at the most
+constexpr std::size_t kMaxWaitingEvents = 64;   // of one subscriber; the others wait in the history
+constexpr std::size_t kMaxClients = 32;         // that have said hello
 // Connections that have not: so many at once, each for so long. They take no place from clients.
 constexpr std::size_t kMaxStrangers = 16;
 constexpr double kStrangerPatience_s = 2.0;
@@ -33,6 +38,10 @@ constexpr double kStrangerPatience_s = 2.0;
 constexpr double kShare_s = 0.002;
 constexpr double kMuch = 16384;                   // bytes lately, of clients that are read only while there is time
 constexpr std::size_t kLongestHeard = 16u << 20;  // of a packet that is too long a request; it may be a stop
+// So late a lockstep client may be in every interval; what goes beyond it adds up.
+constexpr double kFreeLateness_s = 0.5;
+constexpr const char* kOtherUser =
+    R"({"op":"error","code":"refused","message":"lianad talks to programs of its own user, of root and of its --group"})";
 constexpr const char* kNoPlace = "32 clients are connected already; close one (a stop is heard all the same)";
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -88,8 +97,11 @@ struct ApiServer::Client {
   std::array<bool, kTopicNames.size()> subscribed{};
   std::uint64_t done_tick = 0;
   bool has_done = false;
+  Clock::time_point done_at{};
+  double late_s = 0.0;   // in all that virtual time has waited for it, less kFreeLateness_s for every interval
   bool awaited = false;  // was there when waiting began: who joins meanwhile cannot answer a state it never got
-  std::deque<Json> inbox;
+  std::deque<std::string> inbox;
+  std::size_t inbox_bytes = 0;
   std::deque<Json> stops;  // served before everybody's inbox
   Outbox outbox;
   std::uint64_t next_event = 0;  // number of the next one to put into the outbox
@@ -100,11 +112,17 @@ struct ApiServer::Client {
   bool in_lockstep() const { return greeted && info.lockstep && why_closed.empty(); }
   bool is_done(std::uint64_t tick) const { return has_done && done_tick == tick; }
   bool late_for(std::uint64_t tick) const { return in_lockstep() && awaited && !is_done(tick); }
-  bool readable(std::uint64_t tick) const { return inbox.size() < kMaxInbox && !(in_lockstep() && is_done(tick)); }
+  bool has_room() const { return inbox.size() < kMaxInbox && inbox_bytes < kMaxInboxBytes; }
+  bool readable(std::uint64_t tick) const { return has_room() && !(in_lockstep() && is_done(tick)); }
+  // Has left, though what it sent before may not have been read yet.
+  bool has_left() const {
+    pollfd polled{fd.get(), 0, 0};
+    return !why_closed.empty() || (::poll(&polled, 1, 0) > 0 && (polled.revents & (POLLHUP | POLLERR)) != 0);
+  }
 };
 
-ApiServer::ApiServer(const std::string& path, ApiHandler& handler)
-    : listener_(listen_at("--api", path)), handler_(handler) {}
+ApiServer::ApiServer(const std::string& path, ApiHandler& handler, std::optional<gid_t> group)
+    : group_(group), listener_(listen_at("--api", path, group)), handler_(handler) {}
 ApiServer::~ApiServer() = default;
 
 void ApiServer::pump(double timeout_s) {
@@ -168,6 +186,10 @@ void ApiServer::accept_new() {
     if (fd < 0) return;
     auto client = std::make_unique<Client>();
     client->fd = UniqueFd(fd);
+    if (!is_admitted(fd, group_)) {
+      send_packet(fd, kOtherUser);
+      continue;
+    }
     client->info.id = next_id_++;
     while (read_one(*client)) {
       if (client->load > kMaxPacketBytes) break;
@@ -213,11 +235,13 @@ void ApiServer::take_packet(Client& client, const std::string& packet) {
     if (op == "done") {
       client.done_tick = static_cast<std::uint64_t>(session_fields(request).integer("tick"));
       client.has_done = true;
+      client.done_at = Clock::now();
       return;
     }
     if (op == "stop") return take_stop(client, std::move(request));
     if (client.only_stops) throw RequestError("busy", kNoPlace);
-    client.inbox.push_back(std::move(request));
+    client.inbox.push_back(packet);
+    client.inbox_bytes += packet.size();
   } catch (const RequestError& error) {
     if (!take_bad_stop(client, packet, error.what()))
       enqueue(client, Topic::kState, false, error_packet(request, error.code(), error.what()));
@@ -249,6 +273,7 @@ void ApiServer::greet(Client& client, const Json& request) {
   client.info.name = name_of(hello);
   client.info.role = role_of(hello.text("role"));
   client.info.lockstep = hello.flag("lockstep");
+  require_free(client.info);
   subscribe(client, hello);
   client.greeted = true;
   const auto has_place = [](const auto& c) { return c->greeted && !c->only_stops && c->why_closed.empty(); };
@@ -264,14 +289,29 @@ void ApiServer::greet(Client& client, const Json& request) {
   enqueue(client, Topic::kState, false, welcome.dump());
 }
 
+void ApiServer::require_free(const ClientInfo& wanted) const {
+  if ((kSingleRoles & only(wanted.role)) == 0) return;
+  for (const auto& other : clients_) {
+    if (!other->greeted || other->only_stops || other->info.role != wanted.role || other->has_left()) continue;
+    const std::optional<Peer> peer = peer_of(other->fd.get());
+    throw RequestError("busy", std::string("role ") + role_name(wanted.role) + ": '" + other->info.name +
+                                   "' has it (process " + std::to_string(peer ? peer->process : 0) +
+                                   "), and one at a time may: end that one first");
+  }
+}
+
 // Numbers begin anew with every lianad: one that is not there yet was learned from another.
 void ApiServer::subscribe(Client& client, const Arguments& hello) const {
   client.subscribed = {};
   for (const std::string& topic : hello.texts("subscribe")) {
     const auto found = std::find(kTopicNames.begin(), kTopicNames.end(), topic);
-    if (found == kTopicNames.end()) throw RequestError("bad_request", "subscribe: allowed state, camera, tick, event");
+    if (found == kTopicNames.end())
+      throw RequestError("bad_request", "subscribe: allowed state, camera, tick, event, tool");
     client.subscribed[static_cast<std::size_t>(found - kTopicNames.begin())] = true;
   }
+  if (client.subscribed[index_of(Topic::kTick)] && client.info.role != Role::kArchive)
+    throw RequestError("bad_request", "subscribe: tick is for role archive: leave it out");
+  if (client.subscribed[index_of(Topic::kTick)]) client.outbox.set_most_bytes(Outbox::kMaxBytesOfTicks);
   if (client.info.lockstep) client.subscribed[index_of(Topic::kState)] = true;
   client.next_event = events_.next();
   if (!hello.has("events_from")) return;
@@ -299,9 +339,10 @@ void ApiServer::dispatch() {
 void ApiServer::serve(Client& client, double share_s) {
   const Clock::time_point start = Clock::now();
   while (!client.inbox.empty()) {
-    const Json request = std::move(client.inbox.front());
+    const std::string packet = std::move(client.inbox.front());
     client.inbox.pop_front();
-    answer_one(client, request);
+    client.inbox_bytes -= packet.size();
+    serve_one(client, packet);
     if (!client.info.lockstep && seconds_since(start) > share_s) return;
   }
 }
@@ -313,6 +354,9 @@ void ApiServer::serve_stops(Client& client) {
     answer_one(client, stop);
   }
 }
+
+// It was JSON when it came.
+void ApiServer::serve_one(Client& client, const std::string& packet) { answer_one(client, Json::parse(packet)); }
 
 void ApiServer::answer_one(Client& client, const Json& request) {
   try {
@@ -388,16 +432,19 @@ void ApiServer::wait_done(std::uint64_t tick, double timeout_s) {
   lockstep_tick_ = tick;
   for (auto& client : clients_) client->awaited = client->greeted;
   const Clock::time_point start = Clock::now();
-  const auto late = [tick](const auto& client) { return client->late_for(tick); };
-  while (std::any_of(clients_.begin(), clients_.end(), late)) {
-    const double left_s = timeout_s - seconds_since(start);
-    if (left_s > 0.0) {
-      pump(left_s);
-      continue;
-    }
+  const auto left_s = [&](const auto& client) { return timeout_s - client->late_s - seconds_since(start); };
+  for (;;) {
+    double least_left_s = HUGE_VAL;
     for (auto& client : clients_) {
-      if (late(client)) close(*client, "silent in lockstep time");
+      if (client->late_for(tick) && left_s(client) <= 0.0) close(*client, "too late in lockstep time, or silent");
+      if (client->late_for(tick)) least_left_s = std::min(least_left_s, left_s(client));
     }
+    if (least_left_s == HUGE_VAL) break;
+    pump(least_left_s);
+  }
+  for (auto& client : clients_) {
+    const double waited_s = std::chrono::duration<double>(client->done_at - start).count();
+    client->late_s = std::max(0.0, client->late_s + std::max(0.0, waited_s) - kFreeLateness_s);
   }
 }
 

@@ -1,8 +1,11 @@
 // The daemon's end of the API socket: clients, sessions, bounded queues. Never blocks on a client.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,8 +40,9 @@ class ApiHandler {
 
 class ApiServer {
  public:
-  // Listens at `path`; throws std::runtime_error.
-  ApiServer(const std::string& path, ApiHandler& handler);
+  // Listens at `path` for programs of this user and of root, and of members of `group` where one is given; throws
+  // std::runtime_error.
+  ApiServer(const std::string& path, ApiHandler& handler, std::optional<gid_t> group = std::nullopt);
   ~ApiServer();
 
   // Moves packets between sockets and queues, waiting up to `timeout_s` for something to do. A stop of a client outside
@@ -55,8 +59,9 @@ class ApiServer {
   void publish_event(const std::string& packet);
   // Sends what waits for slow readers, at most for `timeout_s`; for the end.
   void deliver(double timeout_s);
-  // Pumps until every lockstep client has answered the state of `tick` with done; drops those silent for `timeout_s`.
-  // What a lockstep client sends after its done, its end included, is read in the next call, so that runs repeat.
+  // Pumps until every lockstep client has answered the state of `tick` with done; drops those silent for `timeout_s`,
+  // and those for which time has waited so long in all, half a second of each interval left out. What a lockstep client
+  // sends after its done, its end included, is read in the next call, so that runs repeat.
   void wait_done(std::uint64_t tick, double timeout_s);
   // From now on lockstep clients are read like all others.
   void end_lockstep() { lockstep_tick_ = UINT64_MAX; }
@@ -78,10 +83,12 @@ class ApiServer {
   void take_packet(Client& client, const std::string& packet);
   bool take_bad_stop(Client& client, const std::string& packet, const std::string& why);
   void greet(Client& client, const Json& request);
+  void require_free(const ClientInfo& wanted) const;
   void subscribe(Client& client, const Arguments& hello) const;
   void take_stop(Client& client, Json stop);
   void serve_stops(Client& client);
   void serve(Client& client, double share_s);
+  void serve_one(Client& client, const std::string& packet);
   void answer_one(Client& client, const Json& request);
   void enqueue(Client& client, Topic topic, bool droppable, const std::string& packet);
   void feed_events(Client& client);
@@ -89,6 +96,7 @@ class ApiServer {
   void close(Client& client, const std::string& why);
   void bury();
 
+  std::optional<gid_t> group_;
   UniqueFd listener_;
   ApiHandler& handler_;
   std::vector<std::unique_ptr<Client>> clients_;  // in serving order

@@ -2,6 +2,7 @@
 
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -73,7 +74,7 @@ bool is_listening(const std::string& path) {
   return ::connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 || errno == EAGAIN;
 }
 
-UniqueFd listen_at(const std::string& option, const std::string& path) {
+UniqueFd listen_at(const std::string& option, const std::string& path, std::optional<gid_t> group) {
   const auto fail = [&](const std::string& why) { throw std::runtime_error(option + " " + path + ": " + why); };
   if (is_listening(path)) fail("another program listens there; end it or give another path");
   std::error_code unreadable;
@@ -87,7 +88,9 @@ UniqueFd listen_at(const std::string& option, const std::string& path) {
   ::unlink(before.c_str());
   UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (fd.get() < 0 || ::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      ::listen(fd.get(), 64) != 0 || ::rename(before.c_str(), path.c_str()) != 0) {
+      ::chmod(before.c_str(), group ? 0660 : 0600) != 0 ||
+      (group && ::chown(before.c_str(), static_cast<uid_t>(-1), *group) != 0) || ::listen(fd.get(), 64) != 0 ||
+      ::rename(before.c_str(), path.c_str()) != 0) {
     fail(std::string("cannot listen: ") + std::strerror(errno) + "; give a path in a folder you may write");
   }
   return fd;

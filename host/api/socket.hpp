@@ -2,7 +2,10 @@
 // embedded bus.
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -46,7 +49,8 @@ bool wait_writable(int fd, double timeout_s);
 bool is_listening(const std::string& path);
 
 // A listening socket at `path`, which the program was given with `option`; replaces a stale socket file. Accepting from
-// it never waits. Throws std::runtime_error when the path is in use, no socket, too long or not writable.
-UniqueFd listen_at(const std::string& option, const std::string& path);
+// it never waits. Whatever the umask, only its user may connect, and members of `group` where one is given. Throws
+// std::runtime_error when the path is in use, no socket, too long or not writable, or cannot be given to the group.
+UniqueFd listen_at(const std::string& option, const std::string& path, std::optional<gid_t> group = std::nullopt);
 
 }  // namespace liana::api

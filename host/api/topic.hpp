@@ -7,9 +7,9 @@
 
 namespace liana::api {
 
-enum class Topic : std::uint8_t { kState, kCamera, kTick, kEvent };
+enum class Topic : std::uint8_t { kState, kCamera, kTick, kEvent, kTool };
 // As in hello, in the order of Topic.
-constexpr std::array<const char*, 4> kTopicNames{"state", "camera", "tick", "event"};
+constexpr std::array<const char*, 5> kTopicNames{"state", "camera", "tick", "event", "tool"};
 
 constexpr std::size_t index_of(Topic topic) { return static_cast<std::size_t>(topic); }
 

@@ -1,4 +1,4 @@
-// From hand motion to tip motion: P_r = a P_m, counted from the pose where the operator engaged (mission figure C2).
+// From hand motion to tip motion: P_r = a P_m, counted from the pose where the operator engaged (mission, C2).
 #pragma once
 
 #include "firmware_like/math/pose.hpp"

@@ -9,6 +9,7 @@
 #include <csignal>
 #include <optional>
 
+#include "host/api/peer.hpp"
 namespace liana::bus_sim {
 namespace {
 
@@ -42,7 +43,7 @@ std::string objection(const wire::Hello& hello, const std::vector<Participant>& 
 
 void admit_one(int listener, const wire::Welcome& welcome, std::vector<Participant>& present) {
   api::UniqueFd socket(accept4(listener, nullptr, nullptr, SOCK_CLOEXEC));
-  if (socket.get() < 0) return;
+  if (socket.get() < 0 || !api::is_admitted(socket.get())) return;
   const std::optional<wire::Hello> hello = read_hello(socket.get());
   if (!hello) return;
   // A whole boot of the other side fits, so that sending hardly ever waits.

@@ -42,6 +42,8 @@ void load_wires(const std::string& path, BusHubOptions& options) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read; give the bus table with --buses");
   const Json table = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
+  if (!table.is_object())
+    throw std::runtime_error(path + ": is no JSON object; write it with liana-mission eval buses");
   const auto rate = field(table, "rate_hz");
   if (!is_within(rate, 1, 10000)) refuse(path, "rate_hz", rate, "is 1 to 10000 Hz");
   options.period_us = static_cast<std::uint32_t>(std::lround(1e6 / rate.get<double>()));

@@ -28,7 +28,25 @@ void end_on_signals() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-void run(const Arguments& arguments) {
+// What fails here is no longer what was given.
+int serve(const Arguments& arguments, liana::timing::TimeMode mode, BusHub& hub) {
+  try {
+    if (mode == liana::timing::TimeMode::kReal) {
+      run_real(hub);
+    } else {
+      run_lockstep(hub, mode == liana::timing::TimeMode::kPaced);
+    }
+    if (!arguments.stats.empty()) write_bus_stats(arguments.stats, hub);
+    std::fprintf(stderr, "liana-bus: %s after %.3f s\n", hub.end_reason().c_str(),
+                 static_cast<double>(hub.now_ns) * 1e-9);
+    return 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "liana-bus: %s\n", error.what());
+    return 1;
+  }
+}
+
+int run(const Arguments& arguments) {
   BusHubOptions options;
   options.time_mode = *liana::timing::time_mode_from(arguments.time);
   options.log_directory = arguments.log_directory;
@@ -36,16 +54,9 @@ void run(const Arguments& arguments) {
   if (!arguments.script.empty())
     options.script = load_fault_script(arguments.script, static_cast<int>(options.wires.size()));
   std::vector<Participant> participants = admit_participants(arguments.socket, welcome_of(options));
-  if (participants.size() < 2) return;
+  if (participants.size() < 2) return 0;
   BusHub hub(options, std::move(participants));
-  if (options.time_mode == liana::timing::TimeMode::kReal) {
-    run_real(hub);
-  } else {
-    run_lockstep(hub, options.time_mode == liana::timing::TimeMode::kPaced);
-  }
-  if (!arguments.stats.empty()) write_bus_stats(arguments.stats, hub);
-  std::fprintf(stderr, "liana-bus: %s after %.3f s\n", hub.end_reason().c_str(),
-               static_cast<double>(hub.now_ns) * 1e-9);
+  return serve(arguments, options.time_mode, hub);
 }
 
 }  // namespace
@@ -59,16 +70,15 @@ int main(int argc, char** argv) {
   line.option("--socket", arguments.socket, "Path of the local socket to listen on").required();
   line.option("--buses", arguments.buses, "Bus table (JSON)").required();
   line.option("--time", arguments.time, "How time passes").one_of({"fast", "paced", "real"}).with_default_shown();
-  line.option("--log", arguments.log_directory, "Directory for one candump log per bus");
+  line.option("--log", arguments.log_directory, "Directory for one candump log per bus").existing_folder();
   line.option("--script", arguments.script, "Scripted losses (JSON)");
   line.option("--stats", arguments.stats, "File for frames, bits and load per bus (JSON), written at the end");
   if (const auto code = line.parse(argc, argv)) return *code == 0 ? 0 : 2;
   end_on_signals();
   try {
-    run(arguments);
+    return run(arguments);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "liana-bus: %s\n", error.what());
     return 2;
   }
-  return 0;
 }

@@ -131,6 +131,12 @@ std::string margins_text(const Json& margins) {
   return text.empty() ? "without margins" : "leaves " + text;
 }
 
+// Null where the scene has no bodies, or the arm never ran.
+std::string clearance_text(const Json& least_m, double arm_s) {
+  if (least_m.is_null()) return arm_s > 0.0 ? "clearance: nothing in the scene\n" : "";
+  return line("least clearance %.1f mm\n", 1e3 * least_m.get<double>());
+}
+
 std::string step_text(const Json& step) {
   std::string text = line("  %7.1f s  ", step.value("duration_s", 0.0)) + step.value("outcome", "") + "  " +
                      step.value("name", "") + " (" + step.value("device", "none") + ")\n";
@@ -181,8 +187,7 @@ std::string check_text(const Json& report) {
   }
   for (const Json& step : report["steps"]) text += step_text(step);
   for (const Json& refusal : report["refusals"]) text += refusal_text(refusal);
-  if (!report["min_clearance_m"].is_null())
-    text += line("least clearance %.1f mm\n", 1e3 * report["min_clearance_m"].get<double>());
+  text += clearance_text(report["min_clearance_m"], arm_s);
   text +=
       line("%.0f commands", report["commands"].get<double>()) + line(", %.0f refused", report["refused"].get<double>());
   const Json& times = report["verify_us"];

@@ -206,6 +206,31 @@ struct ExportOptions {
 // A robot table as canonical JSON.
 int export_command(const ExportOptions& options);
 
+struct DriveOptions {
+  std::string can;                  // a SocketCAN interface; else
+  std::string bus;                  // a bus table
+  std::string bitrate = "1000000";  // of `can`
+  std::string bus_socket;           // of liana-bus, where the table's backend is embedded
+  std::string time = "real";        // of liana-bus
+  std::string node = "1";
+  std::string object;  // "6064", "1018:1"
+  std::string value, bits = "32";
+  std::string first = "1", last = "126";  // node ids
+  std::string rate_hz = "5", seconds = "10";
+  std::string type = "cia402_csp";
+  bool json = false;
+};
+// One motor on a desk. All end with 3 when nobody answers, and with 1 when the drive refuses.
+// Which nodes there are, and what they say of themselves.
+int drive_scan_command(const DriveOptions& options);
+// The value of an object; that it is given, and read back; that it has again and again.
+int drive_read_command(const DriveOptions& options);
+int drive_write_command(const DriveOptions& options);
+int drive_watch_command(const DriveOptions& options);
+// Resets communication and goes through the boot of a drive type, reading only: everything it would refuse, what is
+// missing, and what would be written.
+int drive_check_command(const DriveOptions& options);
+
 struct RobotCheckOptions {
   std::string robot = "zhu2022";
   std::string bus;       // empty: as for a run

@@ -32,6 +32,8 @@ constexpr Values kValues[] = {
     {"--time", "", "fast paced real", false},
     {"--physics", "", "nominal ideal worn", false},
     {"--true-physics", "", "nominal ideal worn", false},
+    {"--gravity", "", "0.01", false},
+    {"--linkage-error", "", "0.01", false},
     {"--arm", "", "full light", false},
     {"--rate", "", "250 500", false},
     {"--record", "", "", true},

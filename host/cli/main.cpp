@@ -7,6 +7,7 @@
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
+#include "host/json/json.hpp"
 #include "host/places/places.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/interrupt.hpp"
@@ -22,9 +23,8 @@ using Action = std::function<int()>;
 constexpr const char* kLuaDir = "--lua-dir";
 
 constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 failed, 2 bad input (one message on standard error), 3 inverse kinematics did not converge "
-    "or there is no "
-    "plan,\n130 interrupted.\n"
+    "Exit codes: 0 done, 1 failed, 2 bad input, 3 inverse kinematics did not converge or there is no plan,\n"
+    "130 interrupted; one message on standard error says what, with --json standard output has it, too.\n"
     "Angles are degrees where the option says deg, lengths metres, poses in the base frame.";
 
 // Adds a subcommand and remembers what to do when it is chosen.
@@ -162,6 +162,14 @@ void add_mission_options(CLI::App& sub, liana::system::RunOptions& run) {
   sub.add_option("--scene-offset", run.scene_offset,
                  "to try it out: MM,DEG, e.g. 10,1; the simulated scene is so far from where its table has it, in a "
                  "direction drawn from the seed");
+  sub.add_option("--gravity", run.gravity_share,
+                 "to try it out: share of the simulated arm's weight that its counterweights leave; down is -z of the "
+                 "base frame")
+      ->check(CLI::Range(0.0, 1.0));
+  sub.add_option("--linkage-error", run.linkage_error,
+                 "to try it out: share by which the simulated joints of a segment bend unevenly at most, 0.01 is 1 %, "
+                 "drawn from the seed")
+      ->check(CLI::Range(0.0, 0.5));
   sub.add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
   add_seed(sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
 }
@@ -380,6 +388,36 @@ void add_global(CLI::App& app) {
       "before the command: a folder of tables and missions that is searched first (docs/installing.md)");
 }
 
+void add_drive(CLI::App& app, Action& action, DriveOptions& drive) {
+  CLI::App* all = app.add_subcommand("drive", "one motor on a desk, before there is a robot table (docs/drives.md)");
+  all->require_subcommand(1);
+  CLI::App* scan = add(*all, action, "scan", "which nodes answer, and what they are", drive, drive_scan_command);
+  CLI::App* read = add(*all, action, "read", "an object of a drive", drive, drive_read_command);
+  CLI::App* write = add(*all, action, "write", "give an object a value, and read it back", drive, drive_write_command);
+  CLI::App* watch = add(*all, action, "watch", "an object, again and again", drive, drive_watch_command);
+  CLI::App* check =
+      add(*all, action, "check", "everything that a boot would refuse; reads only", drive, drive_check_command);
+  for (CLI::App* sub : {scan, read, write, watch, check}) {
+    sub->add_option("--can", drive.can, "SocketCAN interface, e.g. can0");
+    sub->add_option("--bitrate", drive.bitrate, "of --can, bit/s; 10000 to 1000000")->capture_default_str();
+    sub->add_option("--bus", drive.bus, "bus table in place of --can: a name under lua/buses or a file");
+    sub->add_option("--bus-socket", drive.bus_socket, "socket of liana-bus, for a table with the embedded backend");
+    sub->add_option("--time", drive.time, "of that liana-bus: fast, paced or real")->capture_default_str();
+    sub->add_flag("--json", drive.json, "print JSON");
+  }
+  scan->add_option("--first", drive.first, "least node id, 1 to 126")->capture_default_str();
+  scan->add_option("--last", drive.last, "largest node id, to 126")->capture_default_str();
+  for (CLI::App* sub : {read, write, watch, check})
+    sub->add_option("--node", drive.node, "node id, 1 to 126")->capture_default_str();
+  for (CLI::App* sub : {read, write, watch})
+    sub->add_option("object", drive.object, "index, or index:sub-index, e.g. 6064 or 1018:1")->required();
+  write->add_option("value", drive.value, "whole number that fits in --bits")->required();
+  write->add_option("--bits", drive.bits, "size of the object: 8, 16 or 32")->capture_default_str();
+  watch->add_option("--rate", drive.rate_hz, "how often, Hz; 0.1 to 20")->capture_default_str();
+  watch->add_option("--seconds", drive.seconds, "how long; 0.1 to 86400")->capture_default_str();
+  check->add_option("--type", drive.type, "drive type: a name under lua/drives or a file")->capture_default_str();
+}
+
 void add_robot(CLI::App& app, Action& action, ExportOptions& exported, RobotCheckOptions& checked,
                RobotNewOptions& made) {
   CLI::App* robot = app.add_subcommand("robot", "robot tables");
@@ -478,8 +516,7 @@ std::span<const std::string> after_global_options(std::span<const std::string> w
 }
 
 // `help` and `help COMMAND` are `--help` and `COMMAND --help`.
-std::vector<std::string> arguments_of(const CLI::App& app, int argc, char** argv) {
-  std::vector<std::string> words(argv + 1, argv + argc);
+std::vector<std::string> arguments_of(const CLI::App& app, std::vector<std::string> words) {
   const auto command = words.end() - std::ssize(after_global_options(words));
   if (command != words.end() && *command == "help") {
     words.erase(command);
@@ -523,18 +560,44 @@ std::string extra_word_text(const CLI::App& app) {
          " takes no such word; leave it out, or see liana" + command + " --help";
 }
 
-int perform(const Action& action) {
+// Whether standard output takes JSON: with --json; of `run` and `check`, whose --json wants a file, where that is -.
+bool prints_json(std::span<const std::string> words) {
+  words = after_global_options(words);
+  const auto json = std::find_if(words.begin(), words.end(),
+                                 [](const std::string& word) { return word == "--json" || word == "--json=-"; });
+  if (json == words.end()) return false;
+  const bool wants_file = words.front() == "run" || words.front() == "check";
+  return !wants_file || *json == "--json=-" || (json + 1 != words.end() && json[1] == "-");
+}
+
+// How a command ends that has no answer: one message on standard error, and with --json that as JSON in the answer's
+// place. Returns the code.
+class Refusal {
+ public:
+  explicit Refusal(bool as_json) : as_json_(as_json) {}
+  int operator()(ExitCode code, const std::string& text) const {
+    std::fprintf(stderr, "liana: %s\n", text.c_str());
+    if (as_json_)
+      std::printf("%s\n", liana::Json{{"error", {{"exit_code", int{code}}, {"text", text}}}}
+                              .dump(-1, liana::Json::BadUtf8::kReplace)
+                              .c_str());
+    return code;
+  }
+
+ private:
+  bool as_json_;
+};
+
+int perform(const Action& action, const Refusal& refuse) {
   try {
     return action();
   } catch (const liana::system::BadInput& error) {
-    std::fprintf(stderr, "liana: %s\n", error.what());
-    return ExitCode::kExitBadInput;
+    return refuse(ExitCode::kExitBadInput, error.what());
   } catch (const liana::system::Interrupted& error) {
     std::fprintf(stderr, "liana: %s\n", error.what());
     return ExitCode::kExitInterrupted;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "liana: %s\n", error.what());
-    return ExitCode::kExitFailure;
+    return refuse(ExitCode::kExitFailure, error.what());
   }
 }
 
@@ -560,6 +623,7 @@ int run(int argc, char** argv) {
   LogOptions log;
   MissionOptions mission;
   ReplayOptions replay;
+  DriveOptions drive;
   ExportOptions exported;
   RobotCheckOptions robot_check;
   RobotNewOptions robot_new;
@@ -585,25 +649,24 @@ int run(int argc, char** argv) {
   add_commands(app, action, commands);
   add_log(app, action, log);
   add_mission(app, action, mission);
+  add_drive(app, action, drive);
   add_robot(app, action, exported, robot_check, robot_new);
   add_tools(app, action, replay, doctor_json, shell);
+  const std::vector<std::string> words(argv + 1, argv + argc);
+  const Refusal refuse(prints_json(words));
   try {
-    app.parse(arguments_of(app, argc, argv));
+    app.parse(arguments_of(app, words));
   } catch (const CLI::ExtrasError&) {
-    std::fprintf(stderr, "liana: %s\n", extra_word_text(app).c_str());
-    return ExitCode::kExitBadInput;
+    return refuse(ExitCode::kExitBadInput, extra_word_text(app));
   } catch (const CLI::ArgumentMismatch& error) {
-    std::fprintf(stderr, "liana: %s\n", missing_value_text(app, error.what()).c_str());
-    return ExitCode::kExitBadInput;
+    return refuse(ExitCode::kExitBadInput, missing_value_text(app, error.what()));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    std::fprintf(stderr, "liana: %s; see liana help\n", error.what());
-    return ExitCode::kExitBadInput;
+    return refuse(ExitCode::kExitBadInput, std::string(error.what()) + "; see liana help");
   } catch (const std::runtime_error& error) {  // of our own checks
-    std::fprintf(stderr, "liana: %s\n", error.what());
-    return ExitCode::kExitBadInput;
+    return refuse(ExitCode::kExitBadInput, error.what());
   }
-  return perform(action);
+  return perform(action, refuse);
 }
 
 }  // namespace

@@ -12,11 +12,14 @@
 #include "host/system/errors.hpp"
 #include "host/system/interrupt.hpp"
 #include "host/system/output.hpp"
+#include "host/system/plan_file.hpp"
+#include "host/system/silence.hpp"
 #include "host/system/tables.hpp"
 
 namespace liana::cli {
 namespace {
 
+constexpr double kSilent_s = 5.0;  // nothing is said for no longer
 constexpr double kTransitionShare =
     1.0 / 3.0;  // of the way, in which a held angle with another value than the start's gets there
 
@@ -254,7 +257,13 @@ int plan_command(const PlanOptions& options) {
     control.max_iterations = static_cast<std::int32_t>(parse_whole("--iterations", options.max_iterations, 1, 100000));
   if (!options.out_file.empty()) system::check_output("--out", options.out_file);
   const plan::PlanRequest request = request_of(options);
-  control.progress = [](const std::string& line) { std::fprintf(stderr, "plan: %s\n", line.c_str()); };
+  system::Silence silence(kSilent_s, [&request](double since_s) {
+    std::fprintf(stderr, "plan: computing for %.0f s, %d waypoints; Ctrl-C ends it\n", since_s, request.waypoints);
+  });
+  control.progress = [&silence](const std::string& line) {
+    silence.broken();
+    std::fprintf(stderr, "plan: %s\n", line.c_str());
+  };
   control.cancelled = &interrupt.any();
   const auto begin = std::chrono::steady_clock::now();
   const plan::PlanResult result = plan::plan(request, control);
@@ -271,6 +280,7 @@ int plan_command(const PlanOptions& options) {
                  plan::name_of(result.outcome));
   } else if (!options.out_file.empty()) {
     answer["inputs"] = inputs(options, request);
+    answer["digest"] = system::digest_of_plan(answer);
     system::write_output(options.out_file, answer.dump(1) + "\n");
   }
   return exit_code(result.outcome);

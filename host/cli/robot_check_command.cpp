@@ -7,6 +7,7 @@
 #include "host/calibration/calibrate.hpp"
 #include "host/calibration/fixture.hpp"
 #include "host/cli/commands.hpp"
+#include "host/config/field.hpp"
 #include "host/json/json.hpp"
 #include "host/reach/picture.hpp"
 #include "host/reach/region.hpp"
@@ -22,7 +23,7 @@ constexpr std::int32_t kSamples = 5000;  // of the workspace, whose boundary is 
 constexpr std::int32_t kTipValues = 6;   // place and attitude
 
 std::string text(const char* format, auto... values) {
-  char line[200];
+  char line[300];
   std::snprintf(line, sizeof line, format, values...);
   return line;
 }
@@ -106,6 +107,47 @@ void look_at_fixtures(const config::RobotConfig& robot, Json& problems) {
   }
 }
 
+// What the bench takes (hil/config/robot_config.cpp), and no winch is smaller or larger.
+constexpr config::Range kDrum_m{0.001, 0.5};
+
+void look_at_drum(const Json& table, Json& problems) {
+  const double drum_m = table.at("drives").at("drum_radius_m").get<double>();
+  if (kDrum_m.contains(drum_m)) return;
+  problems.push_back(text("drives.drum_radius_m: %g: allowed %s m: give the radius of the drum that winds the cable",
+                          drum_m, kDrum_m.text().c_str()));
+}
+
+void look_at_zero(const config::RobotConfig& robot, Json& problems) {
+  const std::vector<double>& zero_deg = robot.named_poses_deg.at("zero");
+  for (std::size_t k = 0; k < zero_deg.size(); ++k) {
+    if (zero_deg[k] == 0.0) continue;
+    problems.push_back(
+        text("named_poses_deg.zero: angle %zu is %g deg: allowed 0, it is the straight arm: give the "
+             "pose another name",
+             k + 1, zero_deg[k]));
+    return;
+  }
+}
+
+// What the straight arm, turned about its base at the tip's acceleration, asks of one cable there: an arm that needs
+// more than the hard limit does not move as it is planned.
+void look_at_mass(const config::RobotConfig& robot, const Json& table, Json& problems) {
+  const double mass_kg = table.at("module").at("mass_kg").get<double>();
+  double along_m = 0.0, inertia_kgm2 = 0.0;
+  for (const Json& segment : table.at("segments")) {
+    for (int m = 0; m < segment.at("modules").get<int>(); ++m) {
+      along_m += segment.at("module_length_m").get<double>();
+      inertia_kgm2 += mass_kg * along_m * along_m;
+    }
+  }
+  const double needed_N = inertia_kgm2 * robot.table.limits.tip_accel_m_s2 / along_m / robot.table.hole_radius_m;
+  if (needed_N <= robot.table.tension.hard_limit_N) return;
+  problems.push_back(
+      text("module.mass_kg: %g: a cable would pull %.0f N to turn the arm at limits.tip_accel_m_s2: allowed "
+           "up to tension.hard_limit_N, %g N: weigh a module, or lower the acceleration",
+           mass_kg, needed_N, robot.table.tension.hard_limit_N));
+}
+
 Json workspace_of(const cable::RobotTable& table) {
   reach::RegionRequest request;
   request.point.node = table.segment_count;
@@ -137,6 +179,10 @@ Json checked_cable_robot(const config::RobotConfig& robot) {
                {"workspace", workspace_of(table)}};
   look_at_holes(table, problems);
   look_at_fixtures(robot, problems);
+  const Json written = Json::parse(robot.canonical_json);
+  look_at_drum(written, problems);
+  look_at_zero(robot, problems);
+  look_at_mass(robot, written, problems);
   checked["problems"] = problems;
   return checked;
 }

@@ -136,7 +136,9 @@ std::string body(const std::string& name, const Answers& a) {
          "    tip_jerk_m_s3 = 1,\n    tip_rate_deg_s = 20,\n    tip_angular_accel_deg_s2 = 40,\n"
          "    tip_angular_jerk_deg_s3 = 400,\n    cable_speed_m_s = 0.010,\n  },\n"
          "  named_poses_deg = { zero = zero, bent = bent, back = back },\n"
-         "  start_pose = \"bent\",\n}\n";
+         "  start_pose = \"bent\",\n"
+         "  -- fixture_poses = { \"zero\", \"bent\", \"back\" }, -- where you have fixtures, for `liana "
+         "calibrate`\n}\n";
 }
 
 }  // namespace

@@ -4,8 +4,10 @@
 #include <fstream>
 #include <iterator>
 
+#include "host/config/field.hpp"
 #include "host/json/json.hpp"
 #include "host/system/output.hpp"
+#include "host/system/start_pose.hpp"
 
 namespace liana::cli {
 namespace {
@@ -13,6 +15,14 @@ namespace {
 report::Criteria criteria(const std::string& robot_file, const std::string& physics) {
   std::ifstream file(robot_file);
   return report::criteria_of(Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}}), physics);
+}
+
+report::BodyAt body_at(const system::RunOptions& options, const system::SystemLayout& plan) {
+  const config::RobotConfig robot =
+      config::parse_robot(config::read_text_file(plan.file("robot.json")), plan.robot, options.physics, plan.buses);
+  return [robot, scene = plan.scene](const std::vector<double>& theta_deg) {
+    return system::nearest_body(robot, scene, theta_deg);
+  };
 }
 
 }  // namespace
@@ -37,6 +47,10 @@ report::ReportSources report_sources(const system::RunOptions& options, const sy
   sources.welcome = &session.welcome();
   sources.last_state = &session.last_state();
   if (plan.scene.rod) sources.rod = plan.scene.rod->pose;
+  sources.has_slit = plan.scene.slit.has_value();
+  for (const Json& file : plan.mission.value("files", Json::array()))
+    sources.mission_files.push_back({{"file", file.at("file")}, {"sha256", file.at("sha256")}});
+  if (!plan.is_serial) sources.body_at = body_at(options, plan);
   sources.criteria =
       criteria(plan.file("robot.json"), options.true_physics.empty() ? options.physics : options.true_physics);
   return sources;

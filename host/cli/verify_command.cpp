@@ -39,12 +39,19 @@ verify::Verdict verdict_of(const config::RobotConfig& robot, const config::Scene
   return verify::judge_simulated(rules, way, true, simulation.run(start, way), too_near);
 }
 
+// How near a body was; null where the scene has none.
+Json clearance_of(const verify::Verdict& verdict) {
+  return verdict.first.body.empty() ? Json() : Json(verdict.margins.clearance_m);
+}
+
 Json json_of(const verify::Verdict& verdict) {
   const bool refused = !verdict.passed();
   Json out = {{"accepted", !refused},
               {"error", nullptr},
+              {"slowly", verdict.slowly},
+              {"inside", verdict.margins.clearance_m < 0.0},
               {"margins",
-               {{"clearance_m", verdict.margins.clearance_m},
+               {{"clearance_m", clearance_of(verdict)},
                 {"joint_deg", verdict.margins.joint_deg},
                 {"rate_deg_s", verdict.margins.rate_deg_s},
                 {"tension_N", verdict.margins.tension_N},
@@ -67,8 +74,12 @@ void print_summary(const verify::Verdict& verdict) {
     std::printf("refused: %d %s: %s; %s\n", static_cast<int>(verdict.code), row.name, verdict.text.c_str(), row.remedy);
   }
   const verify::Margins& left = verdict.margins;
-  std::printf("left: clearance %.1f mm, angle %.3f deg, rate %.3f deg/s, tension %.1f N, time of a tick %.0f us\n",
-              1000.0 * left.clearance_m, left.joint_deg, left.rate_deg_s, left.tension_N, left.time_us);
+  std::printf("left: ");
+  if (!verdict.first.body.empty()) std::printf("clearance %.1f mm, ", 1000.0 * left.clearance_m);
+  std::printf("angle %.3f deg, rate %.3f deg/s, tension %.1f N, time of a tick %.0f us\n", left.joint_deg,
+              left.rate_deg_s, left.tension_N, left.time_us);
+  if (left.clearance_m < 0.0)
+    std::printf("inside: the arm is in a body on this way; only motion that leads out is let through\n");
   if (!verdict.first.body.empty())
     std::printf("first: %s at %.2f s\n", verdict.first.body.c_str(), verdict.first.time_s);
 }

@@ -1,11 +1,44 @@
 #include "host/command_line/command_line.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cctype>
+#include <cstdio>
 
 namespace liana::command_line {
 namespace {
 
 constexpr int kBadInput = 2;  // of every program
+
+std::string whole_number_problem(const std::string& text) {
+  for (const unsigned char letter : text) {
+    if (std::isdigit(letter) == 0) return "'" + text + "': allowed: a whole number, 0 or more";
+  }
+  return "";
+}
+
+bool has_option(const CLI::App& app, const std::string& name) {
+  if (app.get_option_no_throw(name) != nullptr) return true;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (has_option(*command, name)) return true;
+  }
+  return false;
+}
+
+// The first option that nobody knows; empty where there is none. It is named whatever else is wrong or missing.
+std::string unknown_option(const CLI::App& app, int argc, const char* const* argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    const std::string name = word.substr(0, word.find('='));
+    if (word == "--") break;
+    if (name.starts_with("--") && !has_option(app, name)) return name;
+  }
+  return "";
+}
+
+int refused(const std::string& program, const std::string& problem) {
+  std::fprintf(stderr, "%s: %s; see %s --help\n", program.c_str(), problem.c_str(), program.c_str());
+  return kBadInput;
+}
 
 }  // namespace
 
@@ -34,7 +67,7 @@ Option Command::option(const std::string& name, std::string& value, const std::s
 }
 
 Option Command::option(const std::string& name, std::uint64_t& value, const std::string& about) {
-  return Option(*app_->add_option(name, value, about)->check(CLI::NonNegativeNumber));  // -1 would wrap
+  return Option(*app_->add_option(name, value, about)->check(whole_number_problem));  // -1 would wrap
 }
 
 void Command::flag(const std::string& name, bool& value, const std::string& about) {
@@ -53,12 +86,14 @@ CommandLine::CommandLine(const std::string& about, const std::string& name) : Co
 CommandLine::~CommandLine() { delete app_; }
 
 std::optional<int> CommandLine::parse(int argc, const char* const* argv) {
-  const std::string program = argv[0];
-  app_->set_version_flag("--version", program.substr(program.rfind('/') + 1) + " " LIANA_VERSION, "say which version");
+  const std::string path = argv[0], program = path.substr(path.rfind('/') + 1);
+  app_->set_version_flag("--version", program + " " LIANA_VERSION, "say which version");
+  const std::string unknown = unknown_option(*app_, argc, argv);
+  if (!unknown.empty()) return refused(program, unknown + ": no such option");
   try {
     app_->parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app_->exit(error) == 0 ? 0 : kBadInput;
+    return error.get_exit_code() == 0 ? app_->exit(error) : refused(program, error.what());
   }
   return std::nullopt;
 }

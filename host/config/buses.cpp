@@ -4,6 +4,7 @@
 
 #include "host/config/canonical.hpp"
 #include "host/config/config.hpp"
+#include "host/config/drive_types_of_buses.hpp"
 #include "host/config/field.hpp"
 
 namespace liana::config {
@@ -111,7 +112,7 @@ BusesConfig parse_buses(const std::string& text, const std::string& file) {
   const Field table(json, file, "");
   check_kind(table, "buses");
   table.only({"format", "kind", "name", "backend", "rate_hz", "command_interval_s", "buses", "heartbeat_ms", "max_load",
-              "machine"});
+              "machine", "drives", "drive_types"});
   BusesConfig out;
   out.name = table.at("name").name(40);
   out.backend = table.at("backend").choice({"embedded", "socketcan"});
@@ -124,6 +125,7 @@ BusesConfig parse_buses(const std::string& text, const std::string& file) {
   const std::size_t count = list.size(1, kMaxBuses, "describe each CAN bus");
   std::map<std::int32_t, std::string> owner;
   for (std::size_t i = 0; i < count; ++i) out.buses.push_back(read_bus(list.element(i), owner));
+  check_drive_types(table, out);
   check_timing(table, out);
   check_load(table, out);
   out.canonical_json = canonical_json(json);

@@ -1,5 +1,6 @@
 // Robots: the table put together, alone and with the buses that carry its drives.
 #include "host/config/canonical.hpp"
+#include "host/config/drive_type.hpp"
 #include "host/config/robot_parts.hpp"
 #include "host/config/serial_robot.hpp"
 
@@ -51,7 +52,11 @@ std::string check_table(const std::string& kind, const Json& table, const std::s
   if (kind == "robot") return read_robot(table, file, "nominal").canonical_json;
   if (kind == "scene") return parse_scene(text, file).canonical_json;
   if (kind == "buses") return parse_buses(text, file).canonical_json;
-  throw std::runtime_error("kind: " + kind + ": allowed robot, scene, buses: use one of these words");
+  if (kind == "drive") {
+    parse_drive_type(table, file);
+    return canonical_json(table);
+  }
+  throw std::runtime_error("kind: " + kind + ": allowed robot, scene, buses, drive: use one of these words");
 }
 
 }  // namespace liana::config

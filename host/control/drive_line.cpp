@@ -1,6 +1,7 @@
 #include "host/control/drive_line.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/convert.hpp"
@@ -22,6 +23,9 @@ std::vector<std::string> names_of(const config::BusesConfig& buses) {
 // in a queue for the bus to come back.
 constexpr std::uint16_t kFarewellTicks = 25;
 
+// What a clear waits for drives that have to be booted again: a reset of 3 s, and the boot.
+constexpr double kBringBack_s = 5.0;
+
 // Ticks that were lost made everything older, too.
 std::uint16_t older(std::uint16_t age, const timing::TickStart& start) {
   return narrow<std::uint16_t>(static_cast<std::uint64_t>(age) + 1 + start.lost_ticks);
@@ -33,7 +37,11 @@ bool is_out(bus::BusState state) { return state == bus::BusState::kDown || state
 
 DriveLine::DriveLine(const std::vector<canopen::DriveExpectation>& drives, const config::BusesConfig& buses,
                      bus::DriveBus& bus)
-    : bus_(bus), drives_(drives), bus_names_(names_of(buses)), master_(drives_, buses) {
+    : bus_(bus),
+      drives_(drives),
+      bus_names_(names_of(buses)),
+      master_(drives_, buses),
+      most_bring_back_ticks_(static_cast<std::uint32_t>(std::lround(kBringBack_s * buses.rate_hz))) {
   for (auto& nodes : drive_of_node_) nodes.fill(-1);
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     drive_of_node_[static_cast<std::size_t>(drives_[i].bus)][drives_[i].node] = static_cast<std::int8_t>(i);
@@ -53,16 +61,11 @@ void DriveLine::collect(const timing::TickStart& start, CycleInputs& inputs) noe
   while (bus_.receive(received)) {
     if (master_.on_frame(received.bus, received.frame, start.tick)) continue;
     const canopen::FrameRoute route = canopen::route(received.frame.id);
-    if (route.kind != canopen::FrameKind::kTpdo1) continue;
     const std::int8_t drive = drive_of_node_[static_cast<std::size_t>(received.bus)][route.node];
-    Tpdo1 report;
-    if (drive < 0 || !decode_tpdo1({received.frame.data.data(), received.frame.length}, report)) continue;
-    DriveFeedback& feedback = inputs.drive[static_cast<std::size_t>(drive)];
-    feedback.statusword = report.statusword;
-    feedback.position_counts = report.position_counts;
-    feedback.torque_permille = report.torque_permille;
-    feedback.feedback_age_ticks = 0;
-    silent_ticks_[static_cast<std::size_t>(received.bus)] = 0;
+    if (drive < 0) continue;
+    if (route.kind == canopen::FrameKind::kRpdo1) voices_[static_cast<std::size_t>(drive)].is_another = true;
+    if (route.kind == canopen::FrameKind::kTpdo1)
+      take_report(received.bus, static_cast<std::size_t>(drive), received.frame, inputs);
   }
   for (std::size_t i = 0; i < drives_.size(); ++i) {
     inputs.drive[i].heartbeat_age_ticks = narrow<std::uint16_t>(master_.heartbeats().age_ticks(drives_[i].node));
@@ -70,6 +73,36 @@ void DriveLine::collect(const timing::TickStart& start, CycleInputs& inputs) noe
   }
   take_emergencies(inputs);
   inputs.lost_bus_mask = lost_buses();
+  inputs.twice_mask = drives_heard_twice(start);
+}
+
+void DriveLine::take_report(int bus, std::size_t drive, const bus::CanFrame& frame, CycleInputs& inputs) noexcept {
+  Tpdo1 report;
+  if (!decode_tpdo1({frame.data.data(), frame.length}, report)) return;
+  DriveFeedback& feedback = inputs.drive[drive];
+  feedback.statusword = report.statusword;
+  feedback.position_counts = report.position_counts;
+  feedback.torque_permille = report.torque_permille;
+  feedback.feedback_age_ticks = 0;
+  silent_ticks_[static_cast<std::size_t>(bus)] = 0;
+  Voices& voices = voices_[drive];
+  if (voices.report && *voices.report != frame.data) voices.is_another = true;
+  voices.report = frame.data;
+}
+
+// A frame that comes twice says the same twice, and one that is late comes with the next once: only two voices differ
+// in tick after tick. After lost ticks several reports are due.
+std::uint32_t DriveLine::drives_heard_twice(const timing::TickStart& start) noexcept {
+  std::uint32_t mask = 0;
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    Voices& voices = voices_[i];
+    const bool counts = voices.is_another && start.lost_ticks == 0;
+    voices.ticks = counts ? std::min(narrow<std::uint16_t>(voices.ticks + 1U), kTwiceTicks) : 0;
+    if (voices.ticks == kTwiceTicks) mask |= 1u << i;
+    voices.report.reset();
+    voices.is_another = false;
+  }
+  return mask;
 }
 
 // An interface that is up proves nothing: with its cable off it goes on sending to nobody. A bus is also lost when none
@@ -111,15 +144,46 @@ BootPhase DriveLine::boot_phase() const noexcept {
   return boot == canopen::BootState::kOperational ? BootPhase::kDone : BootPhase::kFailed;
 }
 
-std::vector<BootProblem> DriveLine::boot_problems() const {
+void DriveLine::step_master() noexcept {
+  master_.step(bus_);
+  const canopen::BootState before = boot_seen_;
+  boot_seen_ = master_.boot().state();
+  if (boot_seen_ == canopen::BootState::kFailed && before != boot_seen_) publish_refusals();
+}
+
+void DriveLine::publish_refusals() noexcept {
+  BootRefusals& draft = refusals_.draft();
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const std::span<const canopen::BootMismatch> mismatches = master_.boot().mismatches(i);
+    std::copy(mismatches.begin(), mismatches.end(), draft.drive[i].mismatch.begin());
+    draft.drive[i].count = mismatches.size();
+    draft.drive[i].more = master_.boot().more_mismatches(i);
+  }
+  refusals_.publish();
+}
+
+bool DriveLine::bring_back(const CycleInputs& inputs) noexcept {
+  const bool goes_on = bring_back_tick_ != 0 && inputs.tick == bring_back_tick_ + 1;
+  bring_back_tick_ = inputs.tick;
+  if (!goes_on) {
+    bring_back_ticks_ = 0;
+    for (std::size_t i = 0; i < drives_.size(); ++i)
+      master_.recover(i, drives_[i].node, inputs.drive[i].feedback_age_ticks <= kFeedbackAgeTicks);
+  }
+  return master_.boot().state() != canopen::BootState::kRunning || ++bring_back_ticks_ >= most_bring_back_ticks_;
+}
+
+std::vector<BootProblem> DriveLine::boot_problems() {
+  refusals_.refresh();
   std::vector<BootProblem> problems;
-  for (std::size_t i = 0; i < master_.boot().node_count(); ++i) {
-    const canopen::BootMismatch& mismatch = master_.boot().mismatch(i);
-    if (mismatch.failure == canopen::BootFailure::kNone) continue;
-    const bool missing =
-        mismatch.failure == canopen::BootFailure::kNoBootUp || mismatch.failure == canopen::BootFailure::kNoAnswer;
+  for (std::size_t i = 0; i < drives_.size(); ++i) {
+    const BootRefusals::OfDrive& refused = refusals_.value().drive[i];
+    if (refused.count == 0) continue;
+    const canopen::BootFailure last = refused.mismatch[refused.count - 1].failure;
+    const bool missing = last == canopen::BootFailure::kNoBootUp || last == canopen::BootFailure::kNoAnswer;
     problems.push_back({static_cast<int>(i), missing ? FaultNumber::kDriveMissing : FaultNumber::kDriveNotOperational,
-                        canopen::describe(mismatch, bus_names_[static_cast<std::size_t>(mismatch.bus)])});
+                        canopen::describe({refused.mismatch.data(), refused.count}, refused.more,
+                                          bus_names_[static_cast<std::size_t>(drives_[i].bus)])});
   }
   return problems;
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,19 @@
 #include "host/canopen/master.hpp"
 #include "host/config/config.hpp"
 #include "host/control/boot_problem.hpp"
+#include "host/control/latest_value.hpp"
 
 namespace liana::control {
+
+// Why drives did not boot; as the real-time thread shows it to others.
+struct BootRefusals {
+  struct OfDrive {
+    std::array<canopen::BootMismatch, canopen::kMostMismatches> mismatch{};
+    std::size_t count = 0;
+    std::uint32_t more = 0;
+  };
+  std::array<OfDrive, kMaxDrives> drive{};
+};
 
 enum class BootPhase : std::uint8_t { kBooting = 0, kDone = 1, kFailed = 2 };
 
@@ -24,27 +36,45 @@ class DriveLine {
   // Everything that came in since the last tick, into the inputs of this one; what did not come grows older.
   void collect(const timing::TickStart& start, CycleInputs& inputs) noexcept;
   // Heartbeat out; while booting, the next SDO requests.
-  void step_master() noexcept { master_.step(bus_); }
+  void step_master() noexcept;
+  // Before faults are cleared, in every tick until it is true: drives that are silent, left operational or did not boot
+  // are booted again. True: there is nothing to wait for, or they have had five seconds. No drive may have torque.
+  bool bring_back(const CycleInputs& inputs) noexcept;
   // Targets to every drive that may still hear them.
   void command(const DriveCommands& commands) noexcept;
 
   int drive_count() const noexcept { return static_cast<int>(drives_.size()); }
   BootPhase boot_phase() const noexcept;
-  // After booting has failed: every drive that is to blame. Not for the real-time thread.
-  std::vector<BootProblem> boot_problems() const;
+  // After booting has failed: every drive that is to blame. For one thread beside the real-time thread.
+  std::vector<BootProblem> boot_problems();
   // After booting: serial number of every drive (0x1018:4), 0 where it has none. They do not change any more. Not for
   // the real-time thread.
   std::vector<std::uint32_t> serials() const;
 
  private:
+  void take_report(int bus, std::size_t drive, const bus::CanFrame& frame, CycleInputs& inputs) noexcept;
+  std::uint32_t drives_heard_twice(const timing::TickStart& start) noexcept;
   void take_emergencies(CycleInputs& inputs) noexcept;
   std::uint32_t lost_buses() const noexcept;
+  void publish_refusals() noexcept;
 
   bus::DriveBus& bus_;
   std::vector<canopen::DriveExpectation> drives_;  // bus and node of every drive, in the order of the table
   std::vector<std::string> bus_names_;
   canopen::Master master_;
+  LatestValue<BootRefusals> refusals_{BootRefusals{}};  // since booting failed last
+  canopen::BootState boot_seen_ = canopen::BootState::kRunning;
+  std::uint32_t most_bring_back_ticks_;
+  std::uint32_t bring_back_ticks_ = 0;
+  std::uint64_t bring_back_tick_ = 0;  // the last one in which somebody wanted them back
   std::array<std::array<std::int8_t, 128>, bus::kMaxDriveBuses> drive_of_node_{};  // -1: not ours
+  // Who speaks under the identifiers of a drive: two nodes of one id, or another master.
+  struct Voices {
+    std::optional<std::array<std::uint8_t, 8>> report;  // its first of this tick
+    bool is_another = false;                            // so does somebody else, in this tick
+    std::uint16_t ticks = 0;                            // in a row in which he did
+  };
+  std::array<Voices, kMaxDrives> voices_{};
   std::array<bool, bus::kMaxDriveBuses> has_drives_{};
   std::array<std::uint16_t, bus::kMaxDriveBuses> silent_ticks_{};  // in a row without a report of any drive of the bus
 };

@@ -24,19 +24,29 @@ bool RtCycle<Arm>::run_tick() noexcept {
   times_.heard(bus_.now_us());
   line_.collect(start, report_.inputs);  // TPDOs, heartbeats, emergencies: the inputs of this tick
   line_.step_master();                   // heartbeat out; while booting, the next SDO requests
-  if (report_.boot == BootPhase::kDone) line_.command(core_.step(report_.inputs).drive);
+  step_core();
   bus_.end_tick();
   finish_tick(start);  // what the service side sees
   times_.end(start, bus_.now_us());
   return true;
 }
 
+// A clear waits until the drives that were lost are booted again; without power nobody moves meanwhile. Drives that
+// have not booted have no Controller yet: they are only asked for again.
+template <class Arm>
+void RtCycle<Arm>::step_core() noexcept {
+  const OperatingState state = report_.outputs.state;
+  const bool is_off = state == OperatingState::kDisabled || state == OperatingState::kFault;
+  const bool waits = core_.next_request() == Request::kClear && is_off && !line_.bring_back(report_.inputs);
+  if (report_.boot == BootPhase::kDone) return line_.command(core_.step(report_.inputs, waits).drive);
+  core_.drop_request();
+}
+
 // The Controller starts at the beginning of a command interval, so that recordings and twin images start there, too.
 template <class Arm>
 void RtCycle<Arm>::finish_tick(const timing::TickStart& start) noexcept {
   report_.next_tick = start.tick + 1;
-  if (report_.boot == BootPhase::kBooting && report_.next_tick % interval_ticks_ == 0)
-    report_.boot = line_.boot_phase();
+  if (report_.boot != BootPhase::kDone && report_.next_tick % interval_ticks_ == 0) report_.boot = line_.boot_phase();
   for (int b = 0; b < bus_.bus_count(); ++b) report_.bus[static_cast<std::size_t>(b)] = bus_.stats(b);
   core_.publish(report_);
 }

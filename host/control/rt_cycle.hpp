@@ -22,9 +22,10 @@ class RtCycle {
   bool run_tick() noexcept;
 
   // What the service asks about the drives once they are booted, or have not booted.
-  const DriveLine& line() const { return line_; }
+  DriveLine& line() { return line_; }
 
  private:
+  void step_core() noexcept;
   void finish_tick(const timing::TickStart& start) noexcept;
 
   bus::DriveBus& bus_;

@@ -16,22 +16,31 @@ typename TickCore<Arm>::Command TickCore<Arm>::due_telecommand(std::uint64_t tic
 
 // A stop overtakes what waits, and voids it: an enable that was asked for before it must not follow it.
 template <class Arm>
-Request TickCore<Arm>::due_request() {
+Request TickCore<Arm>::due_request(bool waits) {
   if (link_.stop.take()) {
     for (std::size_t i = 0; i < kMostRequests && link_.requests.front() != nullptr; ++i) link_.requests.pop();
     return Request::kStop;
   }
-  const Request* const next = link_.requests.front();
-  if (next == nullptr) return Request::kNone;
-  const Request request = *next;
-  link_.requests.pop();
-  return request;
+  const Request next = waits ? Request::kNone : next_request();
+  if (!waits) drop_request();
+  return next;
 }
 
 template <class Arm>
-const Outputs<Arm>& TickCore<Arm>::step(Inputs<Arm>& inputs) {
+Request TickCore<Arm>::next_request() const {
+  const Request* const next = link_.requests.front();
+  return next == nullptr ? Request::kNone : *next;
+}
+
+template <class Arm>
+void TickCore<Arm>::drop_request() {
+  if (link_.requests.front() != nullptr) link_.requests.pop();
+}
+
+template <class Arm>
+const Outputs<Arm>& TickCore<Arm>::step(Inputs<Arm>& inputs, bool waits) {
   inputs.telecommand = due_telecommand(inputs.tick);
-  inputs.request = due_request();
+  inputs.request = due_request(waits);
   record_.inputs = inputs;
   record_.outputs = controller_.tick(inputs);
   fresh_ = false;

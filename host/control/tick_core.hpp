@@ -12,9 +12,13 @@ class TickCore {
  public:
   TickCore(const typename Arm::Table& table, ArmLink<Arm>& link) : controller_(table), link_(link) {}
 
-  // One tick: adds a stop that was pressed, or else the next request, and the telecommand that is due to `inputs`, runs
-  // the Controller, and records the tick.
-  const Outputs<Arm>& step(Inputs<Arm>& inputs);
+  // The request that waits longest; kNone when none does.
+  Request next_request() const;
+  // Without a step: that request is done with.
+  void drop_request();
+  // One tick: adds a stop that was pressed, or else the next request, unless it `waits`, and the telecommand that is
+  // due to `inputs`, runs the Controller, and records the tick.
+  const Outputs<Arm>& step(Inputs<Arm>& inputs, bool waits = false);
   // Makes the state after this tick visible to the service; when a command interval has ended, the Controller's image,
   // too.
   void publish(ArmReport<Arm>& report);
@@ -23,7 +27,7 @@ class TickCore {
   using Command = Telecommand<typename Arm::Setpoint>;
 
   Command due_telecommand(std::uint64_t tick);
-  Request due_request();
+  Request due_request(bool waits);
 
   Controller<Arm> controller_;
   ArmLink<Arm>& link_;

@@ -8,6 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "host/api/peer.hpp"
 #include "host/api/registry.hpp"
 #include "host/calibration/calibration.hpp"
 #include "host/canopen/drive_expectation.hpp"
@@ -41,7 +42,7 @@ void handle_signals() {
 
 struct Options {
   std::string robot, scene, buses, api, time = "fast", physics = "nominal", bus_socket, expect, calibration, in_pose,
-                                        events, commands, way_out, verify_times;
+                                        events, commands, way_out, verify_times, group;
 };
 
 std::vector<liana::api::Role> roles_in(const std::string& list) {
@@ -62,6 +63,22 @@ std::optional<liana::api::Registration> registered(const std::string& api) {
   }
 }
 
+int ended_by(const std::exception& problem, int code) {
+  std::fprintf(stderr, "lianad: %s\n", problem.what());
+  return code;
+}
+
+// What fails in `work` is no longer what was given.
+template <class Work>
+int failing(const Work& work) {
+  try {
+    work();
+    return 0;
+  } catch (const std::exception& problem) {
+    return ended_by(problem, 1);
+  }
+}
+
 // What is the same for every robot.
 struct Setup {
   const Options& options;
@@ -74,6 +91,7 @@ struct Setup {
 liana::daemon::ServiceConfig service_config(const Setup& setup, const std::string& robot_json) {
   liana::daemon::ServiceConfig config;
   config.api_path = setup.options.api;
+  if (!setup.options.group.empty()) config.api_group = api::group_named("--group", setup.options.group);
   config.time_mode = setup.mode;
   config.robot_json = robot_json;
   config.scene_json = setup.scene.canonical_json;
@@ -102,18 +120,19 @@ int serve(const Setup& setup, const Robot& robot, liana::control::ArmLink<Arm>& 
   cycle = std::make_unique<liana::control::RtCycle<Arm>>(robot.table, canopen::drive_expectations(robot, setup.buses),
                                                          setup.buses, *bus, link);
   handle_signals();
-  if (setup.mode != liana::timing::TimeMode::kReal) service.wait_for(setup.expected, kExpectTimeout_s);
   const auto stop_limit = static_cast<std::uint64_t>(kStopLimit_s / robot.table.tick_s);
   const liana::daemon::Signalled signalled = [] { return g_signal != 0; };
   const liana::daemon::Ticks ticks{
       [&] { return cycle->run_tick(); },
       [&](const std::function<bool()>& next) { liana::control::stop_without_service(link, stop_limit, next); }};
-  const bool finished = setup.mode == liana::timing::TimeMode::kReal
-                            ? liana::daemon::run_real(service, ticks, signalled)
-                            : liana::daemon::run_lockstep(service, ticks, signalled);
-  service.take_leave();
-  if (!finished) throw std::runtime_error("the bus has ended: liana-bus or the bench left");
-  return 0;
+  return failing([&] {
+    const bool is_real = setup.mode == liana::timing::TimeMode::kReal;
+    if (!is_real) service.wait_for(setup.expected, kExpectTimeout_s);
+    const bool finished = is_real ? liana::daemon::run_real(service, ticks, signalled)
+                                  : liana::daemon::run_lockstep(service, ticks, signalled);
+    service.take_leave();
+    if (!finished) throw std::runtime_error("the bus has ended: liana-bus or the bench left");
+  });
 }
 
 int serve_cable_arm(const Setup& setup) {
@@ -148,8 +167,11 @@ int run(const Options& options) {
                     roles_in(options.expect)};
   const bool is_serial = liana::config::is_serial_robot(options.robot);
   if (*mode == liana::timing::TimeMode::kReal) {
-    liana::control::lock_memory();
-    liana::control::come_before_ordinary_work();
+    const int code = failing([] {
+      liana::control::lock_memory();
+      liana::control::come_before_ordinary_work();
+    });
+    if (code != 0) return code;
   }
   return is_serial ? serve_serial_arm(setup) : serve_cable_arm(setup);
 }
@@ -163,6 +185,7 @@ int main(int argc, char** argv) {
   line.option("--scene", options.scene, "scene JSON").required();
   line.option("--buses", options.buses, "buses JSON").required();
   line.option("--api", options.api, "path of the API socket to listen at").required();
+  line.option("--group", options.group, "group whose members may use the API, beside its own user and root");
   line.option("--time", options.time, "fast, paced or real").with_default_shown();
   line.option("--physics", options.physics, "friction the core is told: nominal, ideal or worn").with_default_shown();
   line.option("--bus-socket", options.bus_socket, "socket of liana-bus (embedded back end)");
@@ -182,8 +205,7 @@ int main(int argc, char** argv) {
   if (const auto code = line.parse(argc, argv)) return *code;
   try {
     return run(options);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "lianad: %s\n", error.what());
-    return 1;
+  } catch (const std::exception& problem) {
+    return ended_by(problem, 2);
   }
 }

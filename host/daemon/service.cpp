@@ -34,7 +34,7 @@ Service::Service(const ServiceConfig& config, Desk& desk)
         server_.publish_event(event::event_json(event).dump(-1, Json::BadUtf8::kReplace));
         if (file_) file_->append(event::event_line(event, config_.buses.tick_s()));
       }),
-      server_(config.api_path, *this) {
+      server_(config.api_path, *this, config.api_group) {
   if (!config.events_file.empty()) file_.emplace(config.events_file, "--events", event::kEventLineHeading);
   if (!config.commands_file.empty()) dispatch_.emplace(config.commands_file);
   if (!config.verify_times_file.empty())
@@ -71,6 +71,7 @@ void Service::cycle() {
   forward_ticks();
   idle(0.0);  // what came from clients outside lockstep
   forward_camera();
+  watch_tool();
   publish_state();
   if (config_.time_mode != timing::TimeMode::kReal) server_.wait_done(tick(), kLockstepPatience_s);
   server_.dispatch();
@@ -148,9 +149,12 @@ void Service::watch_arm() {
   }
   const control::BootPhase boot = desk_.report().boot;
   if (boot == boot_seen_) return;
+  if (boot == control::BootPhase::kBooting) note(boot_goes_on_event());
   boot_seen_ = boot;
+  notes_.boot_problems.clear();
   if (boot == control::BootPhase::kDone) {
     note(booted_event());
+    image_sent_ = false;  // one from the time before, after a boot that had failed, is of another tick
     notes_.serials = config_.serials();
     homing_due_tick_ = tick() + ticks_in(kHoming_s);
   }
@@ -181,13 +185,24 @@ void Service::forward_ticks() {
   image_sent_ = true;
 }
 
-// In lockstep time a frame waits until every run has certainly received it, so that runs repeat; see on_camera.
+// In lockstep time a frame waits until every run has certainly received it, so that runs repeat.
 void Service::forward_camera() {
   while (!camera_.empty() && camera_.front().due_tick <= tick()) {
     server_.publish(api::Topic::kCamera, camera_.front().packet);
     desk_.take_picture(camera_.front().picture);
     camera_.pop_front();
   }
+}
+
+void Service::watch_tool() {
+  if (auto ended = notes_.tool.pass(tick())) note(std::move(*ended));
+}
+
+// What was said at `said_s` of arm time, in the slot that begins then, is certainly here two slots later; one more for
+// rounding. In real time it counts at once.
+std::uint64_t Service::certainly_heard_tick(double said_s) const {
+  if (config_.time_mode == timing::TimeMode::kReal) return 0;
+  return static_cast<std::uint64_t>(std::ceil(said_s / config_.buses.tick_s() - 1e-6)) + 3;
 }
 
 std::optional<LastVerdict> Service::timed_release() {
@@ -245,7 +260,8 @@ void Service::watch_events_file() {
 }
 
 void Service::request(Request what) {
-  if (boot_seen_ != control::BootPhase::kDone)
+  const bool asks_again = boot_seen_ == control::BootPhase::kFailed && what == Request::kClear;
+  if (boot_seen_ != control::BootPhase::kDone && !asks_again)
     return;  // drives that are not booted have no power, and a stop in force keeps it so
   if (!desk_.link().requests.push(what))
     throw api::RequestError("busy", "too many requests are waiting for the next ticks");

@@ -31,6 +31,7 @@ namespace liana::daemon {
 // What the service needs to know about the run.
 struct ServiceConfig {
   std::string api_path;
+  std::optional<gid_t> api_group;  // whose members may use the API, beside the user that lianad runs as
   timing::TimeMode time_mode = timing::TimeMode::kFast;
   std::string robot_json, scene_json;  // canonical
   config::BusesConfig buses;
@@ -93,6 +94,7 @@ class Service : private api::ApiHandler {
   Json on_operator_says(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_device(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_camera(const api::ClientInfo& client, const api::Arguments& fields);
+  Json on_tool_report(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_timing(const api::ClientInfo& client, const api::Arguments& fields);
 
   void require_homed() const;
@@ -115,6 +117,9 @@ class Service : private api::ApiHandler {
   void note_emergencies(const CycleInputs& inputs);
   void forward_ticks();
   void forward_camera();
+  void watch_tool();
+  void require_past(const char* field, double said_s) const;
+  std::uint64_t certainly_heard_tick(double said_s) const;
   void publish_state();
   void release_next();
   std::optional<LastVerdict> timed_release();

@@ -54,6 +54,12 @@ event::Event booted_event() {
           .text = "all drives are booted"};
 }
 
+event::Event boot_goes_on_event() {
+  return {.kind = event::EventKind::kBoot,
+          .number = event::number_of(event::BootEvent::kGoesOn),
+          .text = "booting goes on: a drive has come, or is asked for again"};
+}
+
 std::vector<event::Event> boot_failed_events(const std::vector<control::BootProblem>& problems) {
   std::vector<event::Event> events;
   for (const control::BootProblem& problem : problems)
@@ -156,11 +162,16 @@ event::Event stop_event(const StopOrder& order) {
           .text = text_of(order)};
 }
 
-event::Event step_event(int index, const std::string& name, const std::string& waits) {
+event::Event step_event(int index, const std::string& name, const std::string& waits, const std::string& after) {
   return {.kind = event::EventKind::kStep,
           .number = index,
           .subject = name,
-          .text = "step " + std::to_string(index) + ": " + name + (waits.empty() ? "" : " waits, " + waits)};
+          .text = "step " + std::to_string(index) + ": " + name + (waits.empty() ? "" : " waits, " + waits) +
+                  (after.empty() ? "" : "; what ended the step before: " + after)};
+}
+
+event::Event last_step_event(const std::string& after) {
+  return {.kind = event::EventKind::kStep, .text = "steps over; what ended the last: " + after};
 }
 
 std::vector<event::Event> FaultWatch::changes(const FaultList& now) {

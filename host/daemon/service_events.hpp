@@ -17,6 +17,7 @@
 namespace liana::daemon {
 
 event::Event booted_event();
+event::Event boot_goes_on_event();
 // One for each drive that did not boot, and one for all of them.
 std::vector<event::Event> boot_failed_events(const std::vector<control::BootProblem>& problems);
 event::Event homed_event();
@@ -37,8 +38,11 @@ event::Event owner_event(event::OwnerEvent what, const std::string& client);
 // An owner that streamed tip goals sent none for this long, its own time to live.
 event::Event stands_still_event(const std::string& client, double ttl_s);
 event::Event stop_event(const StopOrder& order);
-// `waits`: what it waits for; empty: it begins, or goes on.
-event::Event step_event(int index, const std::string& name, const std::string& waits = "");
+// `waits`: what it waits for; empty: it begins, or goes on. `after`: the condition that ended the step before, or
+// empty.
+event::Event step_event(int index, const std::string& name, const std::string& waits = "",
+                        const std::string& after = "");
+event::Event last_step_event(const std::string& after);
 
 // Which faults of the core are new.
 class FaultWatch {

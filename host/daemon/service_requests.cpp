@@ -3,10 +3,15 @@
 
 #include "host/api/request_check.hpp"
 #include "host/api/request_error.hpp"
+#include "host/api/request_text.hpp"
 #include "host/daemon/service.hpp"
 #include "host/daemon/timing_message.hpp"
 
 namespace liana::daemon {
+
+namespace {
+constexpr double kRounding_s = 0.1;  // of virtual time: the bench may be some slots ahead
+}  // namespace
 
 const std::map<std::string, Service::Handler>& Service::handlers() {
   static const std::map<std::string, Handler> kHandlers{{"acquire", &Service::on_acquire},
@@ -21,6 +26,7 @@ const std::map<std::string, Service::Handler>& Service::handlers() {
                                                         {"archive_alarm", &Service::on_archive_alarm},
                                                         {"device", &Service::on_device},
                                                         {"camera", &Service::on_camera},
+                                                        {"tool_report", &Service::on_tool_report},
                                                         {"timing", &Service::on_timing}};
   return kHandlers;
 }
@@ -72,6 +78,9 @@ void Service::gone(const api::ClientInfo& client, const std::string& why) {
   note({.kind = event::EventKind::kClient,
         .subject = client.name,
         .text = std::string(api::role_name(client.role)) + " '" + client.name + "' is gone (" + why + ")"});
+  if (client.role == api::Role::kTool) {
+    if (auto lost = notes_.tool.lose()) note(std::move(*lost));
+  }
   if (owner_.gone(client.id)) drop_motion(event::OwnerEvent::kGone, client.name);
   if (config_.ends_with_mission && client.role == api::Role::kMission) mission_end_tick_ = tick();
 }
@@ -93,7 +102,7 @@ Json Service::on_release(const api::ClientInfo& client, const api::Arguments&) {
 
 Json Service::on_state_command(const api::ClientInfo&, const api::Arguments& fields) {
   const std::string command = fields.text("command");
-  if (boot_seen_ == control::BootPhase::kFailed)
+  if (boot_seen_ == control::BootPhase::kFailed && command != "clear")
     throw api::RequestError("fault", "booting failed: " + control::text_of(notes_.boot_problems));
   if (boot_seen_ == control::BootPhase::kBooting) throw api::RequestError("busy", "the drives are still booting");
   if (command == "enable") {
@@ -122,6 +131,8 @@ void Service::require_homed() const {
 }
 
 Json Service::on_tool(const api::ClientInfo& client, const api::Arguments& fields) {
+  const Json told = notes_.tool.ask(fields.text("command"), time_s(), server_.has_role(api::Role::kTool));
+  server_.publish(api::Topic::kTool, told.dump(), true);
   note({.kind = event::EventKind::kTool, .subject = client.name, .text = "tool: " + fields.text("command")});
   return {{"tick", tick()}};
 }
@@ -150,12 +161,18 @@ Json Service::on_shutdown(const api::ClientInfo& client, const api::Arguments&) 
 
 Json Service::on_announce(const api::ClientInfo&, const api::Arguments& fields) {
   notes_.step = nullptr;
-  if (!fields.has("step")) return Json::object();
+  const std::string after = fields.has("after") ? fields.text("after") : "";
+  if (!fields.has("step")) {
+    if (!after.empty()) note(last_step_event(after));
+    return Json::object();
+  }
   const api::Arguments step = fields.object("step");
   notes_.step = {{"index", step.integer("index")}, {"name", step.text("name")}, {"device", step.text("device")}};
   notes_.step["waits"] = step.has("waits") ? Json(step.text("waits")) : Json();
+  if (step.has("task")) notes_.step["task"] = step.text("task");
+  if (step.has("entry")) notes_.step["entry"] = step.integer("entry");
   note(step_event(static_cast<int>(step.integer("index")), step.text("name"),
-                  step.has("waits") ? step.text("waits") : ""));
+                  step.has("waits") ? step.text("waits") : "", after));
   return {{"tick", tick()}};
 }
 
@@ -190,19 +207,29 @@ Json Service::on_device(const api::ClientInfo&, const api::Arguments& fields) {
   return Json::object();
 }
 
+// One clock for all in virtual time: what is said to be of the future would keep those behind it waiting.
+void Service::require_past(const char* field, double said_s) const {
+  if (config_.time_mode == timing::TimeMode::kReal || said_s <= time_s() + kRounding_s) return;
+  throw api::RequestError("out_of_range", std::string(field) + " = " + api::text_of(said_s) + ": allowed 0 to " +
+                                              api::text_of(time_s()) + " s, which is now: give the arm's time");
+}
+
 Json Service::on_camera(const api::ClientInfo&, const api::Arguments& fields) {
   CameraFrame frame{0, fields.json().dump(), {}};
   frame.picture.capture_time_s = fields.number("capture_time_s");
   if (fields.has("slit")) frame.picture.slit_in_tip = fields.pose("slit");
   if (fields.has("rod")) frame.picture.rod_in_tip = fields.pose("rod");
-  if (config_.time_mode != timing::TimeMode::kReal) {
-    // Sent in the slot after capture plus latency, it is certainly here two slots later; one more for rounding.
-    const double ready_s = frame.picture.capture_time_s + config_.camera_latency_s;
-    frame.due_tick = static_cast<std::uint64_t>(std::ceil(ready_s / config_.buses.tick_s() - 1e-6)) + 3;
-  }
+  require_past("capture_time_s", frame.picture.capture_time_s);
+  frame.due_tick = certainly_heard_tick(frame.picture.capture_time_s + config_.camera_latency_s);
   if (camera_.size() >= 64)
     throw api::RequestError("busy", "64 camera frames are waiting: their time stamps lie in the future");
   camera_.push_back(frame);
+  return Json::object();
+}
+
+Json Service::on_tool_report(const api::ClientInfo&, const api::Arguments& fields) {
+  require_past("time_s", fields.number("time_s"));
+  notes_.tool.hear(fields, certainly_heard_tick(fields.number("time_s")));
   return Json::object();
 }
 

@@ -146,6 +146,7 @@ Json state_message(const config::BusesConfig& buses, const Desk& desk, const Own
              {"drives", drives_json(desk, notes.serials)},
              {"buses", buses_json(buses, desk)},
              {"events", events_json(events)},
+             {"tool", notes.tool.json()},
              {"stop", stop_json(notes.stop)},
              {"stopping", notes.stopping},
              {"stop_category", stop_name(o.stop_category)},

@@ -11,6 +11,7 @@
 #include "host/daemon/desk.hpp"
 #include "host/daemon/emergency_stop.hpp"
 #include "host/daemon/owner.hpp"
+#include "host/daemon/tip_tool.hpp"
 #include "host/event/event.hpp"
 #include "host/json/json.hpp"
 
@@ -25,6 +26,7 @@ struct Notes {
   std::uint64_t refusals = 0;
   std::vector<control::BootProblem> boot_problems;  // faults of drives that did not boot
   EmergencyStop stop;
+  TipTool tool;
   bool stopping = false;
   std::vector<std::uint32_t> serials;    // of the drives, once they are booted
   std::optional<std::uint32_t> tick_us;  // longest tick of the last command interval; nothing in virtual time

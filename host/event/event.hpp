@@ -21,7 +21,7 @@ enum class EventKind : std::uint8_t {
   kHostTrouble,  // number: HostTroubleEvent; subject the bus, or what else of the host; `count`
   kClient,       // a client is gone; subject its name
   kOwner,        // number: OwnerEvent; subject the client's name; `ttl_s` of one that stands still
-  kStep,         // number of the step that begins; subject its name
+  kStep,         // number of the step that begins, 0 when the last is over; subject its name
   kOperator,     // subject the operator's name; what he says
   kTool,         // subject the client's name; the command for the repair tool
   kRefusal,      // a request was answered with an error; number: RefusalEvent; subject the client's name
@@ -35,7 +35,7 @@ enum class EventKind : std::uint8_t {
 };
 constexpr std::size_t kEventKinds = 20;
 
-enum class BootEvent : std::uint8_t { kFailed = 0, kDone = 1 };
+enum class BootEvent : std::uint8_t { kFailed = 0, kDone = 1, kGoesOn = 2 };
 enum class HomingEvent : std::uint8_t { kContradicted = 0, kHomed = 1 };
 enum class OwnerEvent : std::uint8_t { kAcquired = 1, kReleased = 2, kGone = 3, kStandsStill = 4 };
 enum class HostTroubleEvent : std::uint8_t {

@@ -31,6 +31,7 @@ Requester::Requester(Poller& poller, const std::string& api, std::string name, s
 bool Requester::connect() {
   if (link_.is_open()) return true;
   if (!link_.connect()) return false;
+  is_welcome_ = false;
   const Json hello{
       {"op", "hello"}, {"name", name_}, {"role", role_}, {"lockstep", false}, {"subscribe", Json::array()}};
   return link_.send(hello.dump());
@@ -50,10 +51,12 @@ void Requester::ask(Json request, std::optional<std::int64_t> id) {
 void Requester::take(const std::string& packet) {
   const Json message = Json::parse_or_null(packet);
   const std::string op = message.value("op", "");
+  if (op == "welcome") is_welcome_ = true;
   if (op != "ok" && op != "error") return;  // its welcome
   const Json* number = message.find("id");
   if (number == nullptr) {
     if (op == "error") answer_(answer_from(message, std::nullopt));
+    if (!is_welcome_) leave();  // another has the role: the next request tries again
     return;
   }
   const auto found = open_.find(number->get<std::uint64_t>());
@@ -61,6 +64,11 @@ void Requester::take(const std::string& packet) {
   const std::int64_t id = found->second;
   open_.erase(found);
   answer_(answer_from(message, id));
+}
+
+void Requester::leave() {
+  link_.close();
+  lost();
 }
 
 void Requester::lost() {

@@ -25,6 +25,8 @@ class Requester {
 
   // Makes the connection unless it is there; false when lianad cannot be reached.
   bool connect();
+  // Gives the role back, for others to have; requests that are open are answered with `away`.
+  void leave();
   // Passes a request on. Without `id` only an error is answered, as lianad does.
   void ask(Json request, std::optional<std::int64_t> id);
 
@@ -36,6 +38,7 @@ class Requester {
   ApiLink link_;
   std::string name_, role_;
   Answer answer_;
+  bool is_welcome_ = false;
   std::uint64_t last_number_ = 0;
   std::map<std::uint64_t, std::int64_t> open_;  // number at lianad: id of the client
 };

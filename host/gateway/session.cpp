@@ -126,6 +126,7 @@ void Session::request(const Json& message, std::optional<std::int64_t> id) {
   if (op == "use_device") operator_->connect();  // lianad asks for an operator before it lets one steer
   const bool of_operator = op == "device" || op == "operator_says";
   (of_operator ? operator_ : client_)->ask(wanted, id);
+  if (op == "release") operator_->leave();  // one operator at a time: whoever takes motion next may steer
 }
 
 void Session::stop(const Json& message, std::optional<std::int64_t> id, double now_s) {

@@ -12,10 +12,13 @@ namespace {
 
 using Library = nlohmann::json;
 
+constexpr std::size_t kLongestMessage = 200;  // the library shows all of a text that does not end
+
 // "[json.exception.parse_error.101] parse error at line ...": the number in brackets says nothing to the reader.
-std::string plain(const std::string& what) {
+std::string plain(std::string what) {
   const auto end = what.find("] ");
-  return what.starts_with("[json.exception") && end != std::string::npos ? what.substr(end + 2) : what;
+  if (what.starts_with("[json.exception") && end != std::string::npos) what.erase(0, end + 2);
+  return what.size() <= kLongestMessage ? what : what.substr(0, kLongestMessage) + "...";
 }
 
 // Builds the value from the parser's events; the parser itself needs no stack, and this one counts its levels.

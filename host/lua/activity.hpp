@@ -16,7 +16,7 @@ struct Activity {
   std::atomic<std::uint64_t> tick{0};   // of the last state
   double period_s = 0.0;                // of a tick, written once before the first state
   std::array<char, 128> mission{};      // what runs
-  std::array<char, 60000> report{};     // last report, JSON
+  std::array<char, 1 << 19> report{};   // last report, JSON
 
   void beat() { beats.fetch_add(1, std::memory_order_relaxed); }
 };

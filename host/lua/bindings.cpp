@@ -9,6 +9,7 @@
 #include "host/json/json.hpp"
 #include "host/lua/activity.hpp"
 #include "host/lua/json_bridge.hpp"
+#include "host/lua/script.hpp"
 
 namespace liana::script {
 namespace {
@@ -123,6 +124,8 @@ void push_native(lua_State* state, RequestSink& sink) {
   lua_setfield(state, -2, "commands");
   add_native(state, sink, "progress", send_progress);
   add_native(state, sink, "report", send_report);
+  lua_pushcfunction(state, attempt);
+  lua_setfield(state, -2, "attempt");
 }
 
 }  // namespace liana::script

@@ -25,7 +25,8 @@ class RequestSink {
   virtual void report(const Json& report) = 0;
 };
 
-// Pushes { commands = { name = function }, progress = function, report = function }; `sink` must outlive the state.
+// Pushes { commands = { name = function }, progress, report, attempt (script.hpp) = functions }; `sink` must outlive
+// the state.
 void push_native(lua_State* state, RequestSink& sink);
 
 // Pushes a function (command, fields) -> what lianad would refuse about them with a robot of these bounds, or nil;

@@ -1,14 +1,19 @@
 #include "host/lua/evaluate.hpp"
 
+#include <filesystem>
 #include <stdexcept>
+#include <vector>
 
 #include "host/api/request_bounds.hpp"
 #include "host/config/canonical.hpp"
 #include "host/config/config.hpp"
 #include "host/config/field.hpp"
+#include "host/config/sha256.hpp"
 #include "host/json/json.hpp"
 #include "host/lua/bindings.hpp"
+#include "host/lua/drive_tables.hpp"
 #include "host/lua/json_bridge.hpp"
+#include "host/lua/recordings.hpp"
 #include "host/lua/scene_shapes.hpp"
 
 namespace liana::script {
@@ -16,14 +21,20 @@ namespace {
 
 constexpr const char* kPlanAdvice = "give a file that liana plan --out has written";
 
-// Adds the file to messages that do not begin with it, such as those of the mission checker.
+// A file as Lua names it in messages: the end of a long name only.
+std::string short_name(const std::string& display) {
+  constexpr std::size_t kLongest = LUA_IDSIZE - 1;
+  return display.size() <= kLongest ? display : "..." + display.substr(display.size() - (kLongest - 3));
+}
+
+// Messages begin with the whole name of the file.
 template <typename Action>
 void naming_file(const std::string& display, const Action& action) {
   try {
     action();
   } catch (const std::runtime_error& error) {
-    const std::string text = error.what();
-    if (text.starts_with(display + ":")) throw;
+    const std::string text = error.what(), said = short_name(display);
+    if (text.starts_with(said + ":")) throw std::runtime_error(display + text.substr(said.size()));
     throw std::runtime_error(display + ": " + text);
   }
 }
@@ -44,23 +55,88 @@ Json describe(Script& script, const std::string& display) {
   return description;
 }
 
-// Leaves the mission of a script on the stack, or of a plan that `liana plan --out` has written.
-void push_mission(Script& script, const ScriptFile& file) {
-  if (!file.display.ends_with(".json")) return script.run(file);
-  const Json plan = config::parse_json(file.text, file.display, kPlanAdvice);
-  script.require("liana.plan_mission");
-  push_in_protection(script, plan);
+bool is_plan(const ScriptFile& file) { return file.display.ends_with(".json"); }
+
+// Leaves liana.plan_step.NAME(...) ready to be called.
+void push_plan_function(Script& script, const char* name) {
+  script.require("liana.plan_step");
+  lua_getfield(script.state(), -1, name);
+  lua_remove(script.state(), -2);
+}
+
+// A mission, or what one is made of, before a robot is known.
+struct Loaded {
+  struct Plan {
+    std::string where;  // in messages
+    Json content;
+  };
+  ScriptFile file;
+  std::vector<Plan> plans;
+  std::vector<ScriptFile> files;  // all that it is made of beside Liana's own
+};
+
+// The plan of one step of the mission on the stack; `step` is an entry of liana.plan_step.files.
+void give_plan(Script& script, Loaded& loaded, const Json& step) {
+  const std::string name = step.value("file", ""), where = step.value("where", "") + ": plan";
+  const ScriptFile file = find_beside(loaded.file.folder, name, where);
+  loaded.plans.push_back({where + ": " + name, config::parse_json(file.text, where + ": " + name, kPlanAdvice)});
+  loaded.files.push_back(file);
+  push_plan_function(script, "give");
+  lua_pushvalue(script.state(), -2);
+  lua_pushinteger(script.state(), step.value("step", 0));
+  push_in_protection(script, loaded.plans.back().content);
+  script.call(3, 0);
+}
+
+void push_mission_of_plan(Script& script, Loaded& loaded) {
+  const std::string& name = loaded.file.display;
+  loaded.plans.push_back({name, config::parse_json(loaded.file.text, name, kPlanAdvice)});
+  push_plan_function(script, "mission");
+  push_in_protection(script, loaded.plans.back().content);
   script.call(1, 1);
+  loaded.files.push_back(loaded.file);
+}
+
+// Leaves the mission of a script on the stack, or of a plan that `liana plan --out` has written.
+Loaded push_mission(Script& script, const ScriptFile& file) {
+  Loaded loaded{file, {}, {}};
+  if (is_plan(file)) {
+    push_mission_of_plan(script, loaded);
+    return loaded;
+  }
+  script.run(file);
+  push_plan_function(script, "files");
+  lua_pushvalue(script.state(), -2);
+  script.call(1, 1);
+  const Json steps = to_json(script.state(), -1, file.display);
+  lua_pop(script.state(), 1);
+  for (const Json& step : steps) give_plan(script, loaded, step);
+  loaded.files.insert(loaded.files.begin(), script.files().begin(), script.files().end());
+  return loaded;
 }
 
 // A plan is a way of the robot that it was made for, and of no other.
-void check_robot_of_plan(const ScriptFile& file, const Json& robot) {
-  if (!file.display.ends_with(".json")) return;
-  const Json plan = config::parse_json(file.text, file.display, kPlanAdvice);
-  if (plan.member_or_null("inputs").member_or_null("robot") == robot) return;
-  throw std::runtime_error(
-      "inputs.robot: another robot than " + robot.value("name", "") +
-      ", or other tables of it: allowed the same: " + "name the robot with --robot, or plan again");
+void check_robot_of_plan(const Loaded::Plan& plan, const Json& robot) {
+  const Json& planned = plan.content.member_or_null("inputs").member_or_null("robot");
+  if (planned == robot) return;
+  const std::string name = robot.value("name", ""),
+                    other = planned.is_object() ? planned.value("name", "") : std::string();
+  const std::string which =
+      other.empty() || other == name ? "other tables of robot " + name : "robot " + other + ", not for " + name;
+  throw std::runtime_error(plan.where + ": inputs.robot: made for " + which +
+                           ": allowed the robot that runs: name that of the plan with --robot, or plan again");
+}
+
+// Name, place and SHA-256 of every file that a mission is made of.
+Json described_files(const Loaded& loaded) {
+  Json files = Json::array();
+  for (const ScriptFile& file : loaded.files) {
+    const std::string name = std::filesystem::path(file.display).filename().string();
+    files.push_back({{"file", file.is_beside ? file.display : name},
+                     {"path", std::filesystem::absolute(std::filesystem::path(file.folder) / name).string()},
+                     {"sha256", config::sha256_hex(file.text)}});
+  }
+  return files;
 }
 
 }  // namespace
@@ -68,22 +144,20 @@ void check_robot_of_plan(const ScriptFile& file, const Json& robot) {
 void check_against_robot(Script& script, const Json& robot) {
   lua_State* state = script.state();
   api::RequestBounds bounds = api::request_bounds(robot);
-  script.require("liana.check");
-  lua_getfield(state, -1, "against");
-  lua_pushvalue(state, -3);
+  script.require("liana.against");
+  lua_pushvalue(state, -2);
   push_in_protection(script, robot);
   lua_pushcfunction(state, push_refusal_protected);
   lua_pushlightuserdata(state, &bounds);
   script.call(1, 1);
   script.call(3, 0);
-  lua_pop(state, 1);
 }
 
 void load_mission(Script& script, const LuaFolders& lua_folders, const std::string& name) {
   const ScriptFile file = find_script(lua_folders, "mission", name);
   naming_file(file.display, [&] {
     push_mission(script, file);
-    describe(script, file.display);
+    check_recordings(describe(script, file.display), recording_folders(lua_folders, file.folder));
   });
 }
 
@@ -94,6 +168,7 @@ std::string evaluate(Script& script, const LuaFolders& lua_folders, const std::s
     script.run(file);
     result = to_json(script.state(), -1, file.display);
     if (kind == "scene") read_shape_files(result, file.folder, file.display);
+    if (kind == "buses") add_drive_types(script, lua_folders, result, file.display);
   });
   return config::check_table(kind, result, file.display);
 }
@@ -104,10 +179,14 @@ std::string evaluate_mission(Script& script, const LuaFolders& lua_folders, cons
   Json result;
   naming_file(file.display, [&] {
     const Json robot = Json::parse(robot_json);
-    push_mission(script, file);
-    check_robot_of_plan(file, robot);
+    const Loaded loaded = push_mission(script, file);
+    for (const Loaded::Plan& plan : loaded.plans) check_robot_of_plan(plan, robot);
     check_against_robot(script, robot);
     result = describe(script, file.display);
+    const std::vector<std::string> folders = recording_folders(lua_folders, file.folder);
+    check_recordings(result, folders);
+    result["recordings"] = folders;
+    result["files"] = described_files(loaded);
   });
   return config::canonical_json(result);
 }

@@ -4,19 +4,24 @@
 #include <stdexcept>
 
 #include "host/json/json.hpp"
+#include "host/lua/printable.hpp"
 #include "host/lua/script.hpp"
 
 namespace liana::script {
 namespace {
 
 constexpr int kDeepest = 24;
+// What one conversion may make: a table that holds one table twice, twenty levels deep, is small in Lua alone.
+constexpr std::size_t kMostBytes = 16u << 20;
+constexpr std::size_t kValueBytes = 64;  // of each value, about
 
 // One conversion; knows where it is for messages.
 class Reader {
  public:
   Reader(lua_State* state, const std::string& file) : state_(state), file_(file) {}
 
-  Json read(int index, const std::string& path, int depth) const {
+  Json read(int index, const std::string& path, int depth) {
+    use(kValueBytes, path);
     switch (lua_type(state_, index)) {
       case LUA_TNIL:
         return nullptr;
@@ -34,10 +39,15 @@ class Reader {
   }
 
  private:
+  void use(std::size_t bytes, const std::string& path) {
+    if (bytes > left_) refuse(path, "a table", "16 MiB in all", "hold less data, and no table many times");
+    left_ -= bytes;
+  }
+
   [[noreturn]] void refuse(const std::string& path, const std::string& value, const std::string& allowed,
                            const std::string& advice) const {
-    throw std::runtime_error(file_ + ": " + (path.empty() ? "result" : path) + ": " + value + ": allowed " + allowed +
-                             ": " + advice);
+    throw std::runtime_error(file_ + ": " + (path.empty() ? "result" : printable(path)) + ": " + value + ": allowed " +
+                             allowed + ": " + advice);
   }
 
   Json number(int index, const std::string& path) const {
@@ -48,9 +58,10 @@ class Reader {
     return value;
   }
 
-  Json text(int index, const std::string& path) const {
+  Json text(int index, const std::string& path) {
     std::size_t length = 0;
     const char* bytes = lua_tolstring(state_, index, &length);
+    use(length, path);
     const std::string value(bytes, length);
     for (const char c : value) {
       if (static_cast<unsigned char>(c) >= 0x80 || static_cast<unsigned char>(c) < 0x20)
@@ -59,7 +70,7 @@ class Reader {
     return value;
   }
 
-  Json table(int index, const std::string& path, int depth) const {
+  Json table(int index, const std::string& path, int depth) {
     if (depth > kDeepest || lua_checkstack(state_, 4) == 0)
       refuse(path, "a table", "at most 24 levels", "look for a table that contains itself");
     const auto length = static_cast<std::size_t>(lua_rawlen(state_, index));
@@ -74,7 +85,7 @@ class Reader {
     refuse(path, "a table", "lists 1..n without gaps, or named fields only", "do not mix them");
   }
 
-  Json array(int index, std::size_t length, const std::string& path, int depth) const {
+  Json array(int index, std::size_t length, const std::string& path, int depth) {
     Json out = Json::array();
     for (std::size_t i = 1; i <= length; ++i) {
       lua_rawgeti(state_, index, static_cast<lua_Integer>(i));
@@ -84,10 +95,11 @@ class Reader {
     return out;
   }
 
-  Json object(int index, const std::string& path, int depth) const {
+  Json object(int index, const std::string& path, int depth) {
     Json out = Json::object();
     for (lua_pushnil(state_); lua_next(state_, index) != 0; lua_pop(state_, 1)) {
       const std::string key = lua_tostring(state_, -2);  // a text already: no conversion in place
+      use(key.size(), path);
       out[key] = read(-1, path.empty() ? key : path + "." + key, depth + 1);
     }
     return out;
@@ -95,6 +107,7 @@ class Reader {
 
   lua_State* state_;
   const std::string& file_;
+  std::size_t left_ = kMostBytes;
 };
 
 void push_list(lua_State* state, const Json& list) {

@@ -71,7 +71,7 @@ int eval_command(const EvalOptions& options) {
 int report_death(const MissionOptions& options, const Activity& activity, const std::string& reason) {
   std::fprintf(stderr, "liana-mission: %s\n", reason.c_str());
   if (!options.report_file.empty()) write_report(options.report_file, failed_report(activity, options.mission, reason));
-  return kExitWatchdog;
+  return kExitNotSuccess;
 }
 
 int run_command(const MissionOptions& options) {
@@ -111,13 +111,13 @@ int main(int argc, char** argv) {
   std::string lua_dir;
   EvalOptions evaluated;
   liana::command_line::Command eval = line.command("eval", "check a table and print it as canonical JSON");
-  eval.option("kind", evaluated.kind, "robot, scene, buses or mission").required();
+  eval.option("kind", evaluated.kind, "robot, scene, buses, drive or mission").required();
   eval.option("name", evaluated.name, "a name in the Lua folder or a file").required();
   eval.option("--robot", evaluated.robot, "robot a mission is checked against: a name or exported JSON")
       .with_default_shown();
   eval.option("--lua-dir", lua_dir, kLuaDirAbout);
   liana::command_line::Command run = line.command(
-      "run", "run a mission; exit 0 on success, 1 when not, 2 for bad input, 4 when the script had to be killed");
+      "run", "run a mission; exit 0 on success, 1 when not or when its process was killed, 2 for bad input");
   run.option("--api", options.api, "socket of lianad").required();
   run.option("--mission", options.mission, "a name in lua/missions or a file").required();
   run.option("--lua-dir", lua_dir, kLuaDirAbout);

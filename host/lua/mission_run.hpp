@@ -20,9 +20,8 @@ struct MissionOptions {
 
 // Exit codes of the mission runner.
 constexpr int kExitSuccess = 0;
-constexpr int kExitNotSuccess = 1;  // refused, aborted or failed: see the report
+constexpr int kExitNotSuccess = 1;  // refused, aborted or failed, its process killed: see the report
 constexpr int kExitBadInput = 2;
-constexpr int kExitWatchdog = 4;
 
 // Runs the mission and returns the exit code; the report is written whatever happens short of the death of this
 // process.

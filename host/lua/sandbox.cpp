@@ -20,8 +20,8 @@ constexpr std::array<const char*, 25> kMath = {"abs",       "ceil",       "floor
                                                "asin",      "acos",       "atan",       "exp",   "log", "fmod", "modf",
                                                "max",       "min",        "pi",         "huge",  "deg", "rad",  "type",
                                                "tointeger", "maxinteger", "mininteger", "random"};
-constexpr std::array<const char*, 12> kString = {"byte", "char",  "find",  "format", "gmatch",  "gsub",
-                                                 "len",  "lower", "match", "rep",    "reverse", "upper"};
+constexpr std::array<const char*, 13> kString = {"byte",  "char",  "find", "format",  "gmatch", "gsub", "len",
+                                                 "lower", "match", "rep",  "reverse", "sub",    "upper"};
 constexpr std::array<const char*, 6> kTable = {"concat", "insert", "pack", "remove", "sort", "unpack"};
 constexpr std::array<const char*, 7> kCoroutine = {"create", "isyieldable", "resume", "running",
                                                    "status", "wrap",        "yield"};
@@ -138,7 +138,9 @@ void open_libraries(lua_State* state) {
 bool push_module_chunk(lua_State* state, const char* name, std::array<char, 400>& problem) {
   ScriptFile file;
   try {
-    file = find_module(script_budget(state).lua_folders, name);
+    Script::Budget& budget = script_budget(state);
+    file = find_module(budget.lua_folders, budget.beside, name);
+    if (file.is_beside) budget.files.push_back(file);
   } catch (const std::exception& error) {
     put_text(problem, error.what());
     return false;
@@ -159,6 +161,12 @@ void give_environment(lua_State* state) {
   lua_setfield(state, -2, "__metatable");
   lua_setmetatable(state, -2);
   lua_setupvalue(state, -2, 1);
+}
+
+// A module that did not load can be asked for again.
+void forget_module(lua_State* state, int modules, const char* name) {
+  lua_pushnil(state);
+  lua_setfield(state, modules, name);
 }
 
 }  // namespace
@@ -197,6 +205,7 @@ void load_chunk(lua_State* state, const ScriptFile& file) {
 int require_module(lua_State* state) {
   const char* name = luaL_checkstring(state, 1);
   lua_getfield(state, LUA_REGISTRYINDEX, kModules);
+  const int modules = lua_gettop(state);
   lua_getfield(state, -1, name);
   if (lua_islightuserdata(state, -1))
     return luaL_error(state, "require: %s: modules require each other in a circle: break the circle", name);
@@ -205,11 +214,22 @@ int require_module(lua_State* state) {
   lua_pushlightuserdata(state, const_cast<char*>(kLoading));
   lua_setfield(state, -2, name);
   std::array<char, 400> problem{};
-  if (!push_module_chunk(state, name, problem)) return luaL_error(state, "%s", problem.data());
+  if (!push_module_chunk(state, name, problem)) {
+    forget_module(state, modules, name);
+    return luaL_error(state, "%s", problem.data());
+  }
   give_environment(state);
-  lua_call(state, 0, 1);
+  if (lua_pcall(state, 0, 1, 0) != LUA_OK) {
+    forget_module(state, modules, name);
+    return lua_error(state);
+  }
+  if (lua_isnil(state, -1)) {
+    forget_module(state, modules, name);
+    return luaL_error(
+        state, "require: %s: the module returns nothing: allowed a table or a function: end it with return", name);
+  }
   lua_pushvalue(state, -1);
-  lua_setfield(state, -3, name);
+  lua_setfield(state, modules, name);
   return 1;
 }
 

@@ -2,8 +2,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstring>
 
+#include "host/lua/printable.hpp"
 #include "host/lua/sandbox.hpp"
+#include "host/lua/script.hpp"
 
 namespace liana::script {
 namespace {
@@ -55,6 +58,27 @@ int capped_sort(lua_State* state) {
   return call_original(state);
 }
 
+// Addresses differ from run to run, and tell where things lie: %p is refused, and what is no text is written as
+// tostring does.
+int plain_format(lua_State* state) {
+  const char* at = luaL_checkstring(state, 1);
+  while ((at = std::strchr(at, '%')) != nullptr) {
+    ++at;
+    at += std::strspn(at, "-+ #0123456789.");
+    if (*at == 'p') return luaL_error(state, "string.format: %%p is not allowed: do without addresses");
+    if (*at != '\0') ++at;
+  }
+  for (int i = 2; i <= lua_gettop(state); ++i) {
+    const int type = lua_type(state, i);
+    if (type == LUA_TNIL || type == LUA_TBOOLEAN || type == LUA_TNUMBER || type == LUA_TSTRING) continue;
+    lua_pushcfunction(state, plain_tostring);
+    lua_pushvalue(state, i);
+    lua_call(state, 1, 1);
+    lua_replace(state, i);
+  }
+  return call_original(state);
+}
+
 // library.name = function with the original as its upvalue.
 void replace(lua_State* state, const char* library, const char* name, lua_CFunction function) {
   lua_getglobal(state, library);
@@ -69,6 +93,7 @@ void replace(lua_State* state, const char* library, const char* name, lua_CFunct
 void cap_libraries(lua_State* state) {
   for (const char* name : {"find", "match", "gmatch", "gsub"}) replace(state, "string", name, capped_match);
   replace(state, "string", "rep", capped_rep);
+  replace(state, "string", "format", plain_format);
   replace(state, "table", "sort", capped_sort);
 }
 
@@ -106,17 +131,34 @@ int plain_tostring(lua_State* state) {
   return 1;
 }
 
+namespace {
+
+// Whether the script may print so much more; says once when it may not.
+bool may_print(Script::Budget& budget, std::size_t bytes) {
+  const std::size_t most = budget.limits.printed_bytes;
+  if (budget.printed_bytes > most) return false;
+  budget.printed_bytes += bytes;
+  if (budget.printed_bytes <= most) return true;
+  std::fprintf(stderr, "print: over %zu KiB: the rest is left out\n", most >> 10);
+  return false;
+}
+
+}  // namespace
+
 int print_to_stderr(lua_State* state) {
   const int count = lua_gettop(state);
+  lua_pushliteral(state, "");
   for (int i = 1; i <= count; ++i) {
+    if (i > 1) lua_pushliteral(state, "\t");
     lua_pushcfunction(state, plain_tostring);
     lua_pushvalue(state, i);
     lua_call(state, 1, 1);
-    const char* text = lua_tostring(state, -1);
-    std::fprintf(stderr, "%s%s", i == 1 ? "" : "\t", text == nullptr ? "?" : text);
-    lua_pop(state, 1);
+    lua_concat(state, i > 1 ? 3 : 2);
   }
-  std::fputc('\n', stderr);
+  std::size_t bytes = 0;
+  const char* text = lua_tolstring(state, -1, &bytes);
+  if (text != nullptr && may_print(script_budget(state), bytes + 1))
+    std::fprintf(stderr, "%s\n", printable({text, bytes}).c_str());
   return 0;
 }
 

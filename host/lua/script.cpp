@@ -1,14 +1,17 @@
 #include "host/lua/script.hpp"
 
+#include <array>
 #include <cstdlib>
 #include <stdexcept>
 
+#include "host/lua/printable.hpp"
 #include "host/lua/sandbox.hpp"
 
 namespace liana::script {
 namespace {
 
 constexpr int kHookInstructions = 1000;
+constexpr std::size_t kLongestError = 2000;  // of an attempt [bytes]
 
 void* allocate(void* user, void* old, std::size_t old_size, std::size_t new_size) {
   auto& budget = *static_cast<Script::Budget*>(user);
@@ -64,7 +67,31 @@ int load_in_protection(lua_State* state) {
   return 1;
 }
 
+// After a script's error: what it was stopped for is not what the next one does.
+void start_afresh(lua_State* state, int status) {
+  script_budget(state).instructions_used = 0;
+  lua_sethook(state, count_hook, LUA_MASKCOUNT, kHookInstructions);
+  if (status == LUA_ERRMEM) lua_gc(state, LUA_GCCOLLECT);
+}
+
 }  // namespace
+
+int attempt(lua_State* state) {
+  luaL_checkany(state, 1);
+  const int status = lua_pcall(state, lua_gettop(state) - 1, LUA_MULTRET, 0);
+  if (status == LUA_OK) {
+    lua_pushboolean(state, 1);
+    lua_insert(state, 1);
+    return lua_gettop(state);
+  }
+  std::array<char, kLongestError> text{};  // no C++ object is left when Lua raises an error below
+  put_text(text, error_text(state, status, script_budget(state).limits));
+  lua_settop(state, 0);
+  start_afresh(state, status);
+  lua_pushboolean(state, 0);
+  lua_pushstring(state, text.data());
+  return 2;
+}
 
 Script::Script(const ScriptLimits& limits, const LuaFolders& lua_folders, Activity& activity) {
   budget_.limits = limits;
@@ -81,6 +108,8 @@ Script::Script(const ScriptLimits& limits, const LuaFolders& lua_folders, Activi
 Script::~Script() { lua_close(state_); }
 
 void Script::run(const ScriptFile& file) {
+  budget_.beside = file.folder;
+  budget_.files.push_back(file);
   FileToLoad request{&file};
   lua_pushcfunction(state_, load_in_protection);
   lua_pushlightuserdata(state_, &request);
@@ -98,7 +127,7 @@ void Script::call(int arguments, int results) {
   budget_.instructions_used = 0;
   const int status = lua_pcall(state_, arguments, results, 0);
   if (status == LUA_OK) return;
-  const std::string text = error_text(state_, status, budget_.limits);
+  const std::string text = printable(error_text(state_, status, budget_.limits));
   lua_pop(state_, 1);
   throw std::runtime_error(text);
 }

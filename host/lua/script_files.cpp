@@ -1,6 +1,7 @@
 #include "host/lua/script_files.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::uintmax_t kLargestScript = 1 << 20;
 const std::map<std::string, std::string> kFolders = {
-    {"robot", "robots"}, {"scene", "scenes"}, {"buses", "buses"}, {"mission", "missions"}};
+    {"robot", "robots"}, {"scene", "scenes"}, {"buses", "buses"}, {"drive", "drives"}, {"mission", "missions"}};
 
 ScriptFile read_script(const fs::path& path, const std::string& display) {
   std::error_code error;
@@ -28,7 +29,7 @@ ScriptFile read_script(const fs::path& path, const std::string& display) {
   std::ifstream in(path, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), {}};
   if (!in) throw std::runtime_error(display + ": cannot be read: allowed a readable Lua file: check its permissions");
-  return {display, std::move(text), path.has_parent_path() ? path.parent_path().string() : "."};
+  return {display, std::move(text), path.has_parent_path() ? path.parent_path().string() : ".", false};
 }
 
 // The names of all scripts of a kind, in alphabetical order.
@@ -43,6 +44,12 @@ std::string names_of(const LuaFolders& lua_folders, const std::string& kind_fold
   std::string text;
   for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
   return text.empty() ? "nothing in " + kind_folder + " of " + lua_folders.in_turn.back() : text;
+}
+
+std::string list_of(const LuaFolders& lua_folders) {
+  std::string text;
+  for (const std::string& folder : lua_folders.in_turn) text += (text.empty() ? "" : ", ") + folder;
+  return text;
 }
 
 // The first of `names` below a Lua folder that is a file; empty when there is none.
@@ -61,7 +68,7 @@ std::optional<fs::path> first_file(const LuaFolders& lua_folders, const std::vec
 ScriptFile find_script(const LuaFolders& lua_folders, const std::string& kind, const std::string& name) {
   const auto folder = kFolders.find(kind);
   if (folder == kFolders.end())
-    throw std::runtime_error("kind: " + kind + ": allowed robot, scene, buses, mission: use one of these words");
+    throw std::runtime_error("kind: " + kind + ": allowed robot, scene, buses, drive, mission: use one of these words");
   const bool is_file =
       name.find('/') != std::string::npos || name.ends_with(".lua") || (kind == "mission" && name.ends_with(".json"));
   if (is_file) return read_script(name, name);
@@ -74,19 +81,44 @@ ScriptFile find_script(const LuaFolders& lua_folders, const std::string& kind, c
   return read_script(*path, display);
 }
 
-ScriptFile find_module(const LuaFolders& lua_folders, const std::string& name) {
-  const auto allowed = [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '.'; };
+ScriptFile find_beside(const std::string& folder, const std::string& name, const std::string& what) {
+  std::error_code error;
+  const fs::path home = fs::canonical(folder, error), path = fs::weakly_canonical(home / name, error);
+  const auto [end, in_path] = std::mismatch(home.begin(), home.end(), path.begin(), path.end());
+  if (error || end != home.end())
+    throw std::runtime_error(what + ": " + name + ": leads out of " + home.string() +
+                             ": allowed files in the folder of the script: put it there");
+  if (!fs::is_regular_file(path, error))
+    throw std::runtime_error(what + ": " + name + ": no such file in " + home.string() +
+                             ": allowed files in the folder of the script: put it there, or correct the name");
+  ScriptFile file = read_script(path, name);
+  file.is_beside = true;
+  return file;
+}
+
+ScriptFile find_module(const LuaFolders& lua_folders, const std::string& beside, const std::string& name) {
+  const auto allowed = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.'; };
   if (name.empty() || name.size() > 80 || name.front() == '.' || name.find("..") != std::string::npos ||
       !std::all_of(name.begin(), name.end(), allowed)) {
     throw std::runtime_error("require: " + name +
-                             ": allowed modules of the Lua folder, such as liana or liana.geometry: correct the name");
+                             ": allowed modules of the Lua folder, such as liana or liana.geometry, and " +
+                             "of the script's own folder, such as helpers or parts.helpers: correct the name");
   }
   std::string relative = name;
   std::replace(relative.begin(), relative.end(), '.', '/');
   const std::string file = relative + ".lua", init = relative + "/init.lua";
   const std::optional<fs::path> path = first_file(lua_folders, {init, file});
   const bool is_init = path && path->filename() == "init.lua" && !name.ends_with("init");
-  return read_script(path.value_or(file), is_init ? init : file);
+  if (path) return read_script(*path, is_init ? init : file);
+  if (beside.empty())
+    throw std::runtime_error("require: " + name + ": no such module: allowed modules of " + list_of(lua_folders) +
+                             ": correct the name");
+  try {
+    std::error_code error;
+    return find_beside(beside, fs::exists(fs::path(beside) / init, error) ? init : file, "require");
+  } catch (const std::runtime_error& problem) {
+    throw std::runtime_error(std::string(problem.what()) + " (looked in " + list_of(lua_folders) + " before)");
+  }
 }
 
 }  // namespace liana::script

@@ -21,9 +21,10 @@ std::string progress_line(const Json& event) {
     std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  device %s", event.value("time_s", 0.0), index, count,
                   name.c_str(), event.value("device", "").c_str());
   } else {
+    const std::string why = event.value("reason", "").empty() ? event.value("ended_by", "") : event.value("reason", "");
     std::snprintf(line, sizeof line, "%8.2f s  step %d/%d  %-36s  %s after %.2f s%s%s", event.value("time_s", 0.0),
                   index, count, name.c_str(), event.value("outcome", "").c_str(), event.value("duration_s", 0.0),
-                  event.value("reason", "").empty() ? "" : ": ", event.value("reason", "").c_str());
+                  why.empty() ? "" : ": ", why.c_str());
   }
   return line;
 }

@@ -2,6 +2,7 @@
 
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +18,11 @@ namespace liana::script {
 namespace {
 
 constexpr long kPoll_ns = 20'000'000;
+#ifdef __SANITIZE_ADDRESS__
+constexpr bool kIsSanitized = true;  // its shadow is larger than any limit
+#else
+constexpr bool kIsSanitized = false;
+#endif
 
 double seconds(clockid_t clock) {
   timespec now{};
@@ -24,8 +30,21 @@ double seconds(clockid_t clock) {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
+// What the script's process may use, whatever gets out of the sandbox: it makes no other one, and writes a report.
+void limit_itself() {
+  const auto limit = [](auto resource, rlim_t most) {
+    const rlimit both{most, most};
+    ::setrlimit(resource, &both);  // a lower limit that is there already stays
+  };
+  if (!kIsSanitized) limit(RLIMIT_AS, 1u << 30);
+  limit(RLIMIT_FSIZE, 64u << 20);
+  limit(RLIMIT_CORE, 0);
+  limit(RLIMIT_NPROC, 0);
+}
+
 [[noreturn]] void run_child(pid_t parent, const std::function<int()>& body) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  limit_itself();
   if (getppid() != parent) _exit(1);  // the parent died before prctl
   const int code = body();
   std::fflush(stdout);

@@ -1,6 +1,7 @@
 // liana-operator: the recorded and simulated person at the input devices, over the interface that live devices use.
 #include <cstdio>
 #include <fstream>
+#include <sstream>
 
 #include "host/api/client.hpp"
 #include "host/command_line/command_line.hpp"
@@ -17,8 +18,8 @@ constexpr double kPoll_s = 1.0;
 // Command line of liana-operator.
 struct OperatorOptions {
   std::string api;
-  std::string recordings;
-  std::string scene;  // empty: the scene lianad runs with
+  std::string recordings;  // folders, separated by ':'
+  std::string scene;       // empty: the scene lianad runs with
   std::uint64_t seed = 1;
   bool lockstep = false;
 };
@@ -29,6 +30,15 @@ Pose pose_of(const config::ScenePose& pose) { return {pose.position_m, pose.quat
 SlitDrawing drawing_of(const config::SceneConfig& scene) {
   if (!scene.slit || !scene.rod) return {};
   return slit_drawing(pose_of(scene.slit->frame), pose_of(scene.rod->pose));
+}
+
+std::vector<std::string> folders_in(const std::string& list) {
+  std::vector<std::string> folders;
+  std::istringstream stream(list);
+  for (std::string folder; std::getline(stream, folder, ':');) {
+    if (!folder.empty()) folders.push_back(folder);
+  }
+  return folders;
 }
 
 Json greet(api::ApiClient& client, const OperatorOptions& options) {
@@ -45,10 +55,19 @@ Json greet(api::ApiClient& client, const OperatorOptions& options) {
   return *welcome;
 }
 
+// A picture that cannot be one is not looked at.
+void look(OperatorSession& session, const Json& message) {
+  try {
+    session.on_camera(message);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "liana-operator: %s\n", error.what());
+  }
+}
+
 // One message in, the answers out; false when lianad stops.
 bool answer(api::ApiClient& client, OperatorSession& session, const Json& message, bool lockstep) {
   const std::string op = message.value("op", "");
-  if (op == "camera") session.on_camera(message);
+  if (op == "camera") look(session, message);
   if (op == "error") std::fprintf(stderr, "liana-operator: refused: %s\n", message.value("message", "").c_str());
   if (op != "state") return true;
   for (const Json& out : session.on_state(message)) client.send(out);
@@ -62,7 +81,7 @@ int operate(const OperatorOptions& options) {
   const config::SceneConfig scene = options.scene.empty()
                                         ? config::parse_scene(welcome.at("scene").dump(), "scene of " + options.api)
                                         : config::load_scene(options.scene);
-  OperatorSession session(options.recordings, drawing_of(scene), HandGains{}, options.seed);
+  OperatorSession session(folders_in(options.recordings), drawing_of(scene), HandGains{}, options.seed);
   for (bool running = true; running;) {
     const auto message = client.receive(kPoll_s);
     if (message) running = answer(client, session, *message, options.lockstep);
@@ -78,7 +97,8 @@ int main(int argc, char** argv) {
   liana::command_line::CommandLine line(
       "The operator as data and as a model that looks: recorded VR handles, simulated hand controller");
   line.option("--api", options.api, "API socket of lianad").required();
-  line.option("--recordings", options.recordings, "folder of the .hand files").required();
+  line.option("--recordings", options.recordings, "folders of the .hand files, separated by ':', searched in turn")
+      .required();
   line.option("--scene", options.scene, "scene JSON the person has as a drawing; default: the one lianad runs with");
   line.option("--seed", options.seed, "seed of tremor, glitches and dropouts");
   line.flag("--lockstep", options.lockstep, "answer every state, so that fast runs repeat");

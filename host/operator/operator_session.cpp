@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "host/json/json.hpp"
 #include "host/operator/device_messages.hpp"
@@ -37,7 +38,8 @@ double positive(const Json& object, const char* key, double otherwise) {
 AnnouncedStep announced_step(const Json& state) {
   const auto found = state.find("step");
   if (found == nullptr || !found->is_object()) return {};
-  return {found->value("index", std::int64_t{-1}), text(*found, "name"), text(*found, "device"), text(*found, "task")};
+  return {found->value("index", std::int64_t{-1}), text(*found, "name"), text(*found, "device"), text(*found, "task"),
+          found->value("entry", std::int64_t{0})};
 }
 
 HandMapping announced_mapping(const Json& state) {
@@ -46,9 +48,19 @@ HandMapping announced_mapping(const Json& state) {
   return {positive(*found, "scale", 1.0), positive(*found, "rotation_scale", 1.0), positive(*found, "speed_m_s", 0.0)};
 }
 
-OperatorSession::OperatorSession(std::string recordings, const SlitDrawing& drawing, const HandGains& gains,
-                                 std::uint64_t seed)
+OperatorSession::OperatorSession(std::vector<std::string> recordings, const SlitDrawing& drawing,
+                                 const HandGains& gains, std::uint64_t seed)
     : recordings_(std::move(recordings)), person_(gains, drawing, seed), seed_(seed) {}
+
+// The first there is; where there is none the last, for the message.
+std::string OperatorSession::recording_called(const std::string& name) const {
+  std::string file;
+  for (const std::string& folder : recordings_) {
+    file = folder + "/" + name + ".hand";
+    if (std::filesystem::exists(file)) break;
+  }
+  return file;
+}
 
 void OperatorSession::begin_step(const AnnouncedStep& step, const Json& state) {
   reported_ = false;
@@ -56,7 +68,7 @@ void OperatorSession::begin_step(const AnnouncedStep& step, const Json& state) {
   vr_.reset();
   if (step.device == "vr") {
     const std::string name = step.task.empty() ? kDefaultRecording : step.task;
-    vr_.emplace(read_vr_recording(recordings_ + "/" + name + ".hand"), VrDisturbance{}, seed_);
+    vr_.emplace(read_vr_recording(recording_called(name)), VrDisturbance{}, seed_);
   } else {
     person_.begin(hand_task(step), announced_mapping(state), now_s_);
   }
@@ -67,7 +79,7 @@ std::vector<Json> OperatorSession::on_state(const Json& state) {
   const double from_s = now_s_ < 0.0 ? to_s : std::max(now_s_, to_s - kLongestGap_s);
   now_s_ = to_s;
   const AnnouncedStep step = announced_step(state);
-  if (step.index != step_.index || step.device != step_.device) steering_ = false;
+  if (step.index != step_.index || step.entry != step_.entry || step.device != step_.device) steering_ = false;
   step_ = step;
   const bool ours = (step.device == "vr" || step.device == "hand") && text(state, "device") == step.device;
   if (ours && !steering_) begin_step(step, state);

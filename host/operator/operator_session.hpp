@@ -17,16 +17,18 @@ namespace liana::operator_side {
 struct AnnouncedStep {
   std::int64_t index = -1;
   std::string name;
-  std::string device;  // vr, hand or none
-  std::string task;    // vr: name of the recording; hand: "slit" or "rod"; empty: told by the step's name
+  std::string device;      // vr, hand or none
+  std::string task;        // vr: name of the recording; hand: "slit" or "rod"; empty: told by the step's name
+  std::int64_t entry = 0;  // grows from step to step, also when a step comes again
 };
 
 // Turns state and camera messages into device samples. Reads of the state only the step, the device, its mapping,
 // whether it is engaged, and the time.
 class OperatorSession {
  public:
-  // `recordings` is the folder of the `.hand` files.
-  OperatorSession(std::string recordings, const SlitDrawing& drawing, const HandGains& gains, std::uint64_t seed);
+  // `recordings` are the folders of the `.hand` files, searched in turn.
+  OperatorSession(std::vector<std::string> recordings, const SlitDrawing& drawing, const HandGains& gains,
+                  std::uint64_t seed);
 
   // Messages to send in answer to one state. Throws std::runtime_error when a recording cannot be read.
   std::vector<Json> on_state(const Json& state);
@@ -39,7 +41,9 @@ class OperatorSession {
   std::vector<Json> steer_hand(double from_s, double to_s, bool engaged);
   void report_arrival(std::vector<Json>& messages, bool arrived, double now_s);
 
-  std::string recordings_;
+  std::string recording_called(const std::string& name) const;
+
+  std::vector<std::string> recordings_;
   HandPerson person_;
   std::uint64_t seed_;
   std::optional<RecordedVr> vr_;

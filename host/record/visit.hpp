@@ -117,6 +117,7 @@ void visit(A& a, T& i) {
   a("tick", i.tick);
   a("lost_ticks", i.lost_ticks);
   a("lost_bus_mask", i.lost_bus_mask);
+  a("twice_mask", i.twice_mask);
   a("request", i.request);
   visit_first(a, "drive", i.drive, counts_of_visitor(a).drives);
 }

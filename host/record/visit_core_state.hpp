@@ -43,6 +43,7 @@ void visit(A& a, Telecommand<Setpoint>& t) {
 template <class A, Like<LinkWatchState> T>
 void visit(A& a, T& s) {
   a("seen_mask", s.seen_mask);
+  a("unseen_ticks", s.unseen_ticks);
   a("emergency_code", s.emergency_code);
   a("following_ticks", s.following_ticks);
 }

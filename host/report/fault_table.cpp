@@ -46,13 +46,16 @@ Detection detection_of(FaultNumber number, const FaultTimes& times) {
       return {"watchdog: statusword of a drive that should be in Operation enabled", 1};
     case FaultNumber::kDriveEnableTimeout:
       return {"supervisor: time in a step of enabling (a ramp of tension has 15000 ticks)",
-              static_cast<int>(kPoweringBudgetTicks) + 1};
+              static_cast<int>(patience(times.tick_s).powering) + 1};
     case FaultNumber::kFollowingError:
       return {"watchdog: sent target less reported place, over the window, in a row", kFollowingDebounceTicks};
     case FaultNumber::kDriveNotOperational:
       return {"watchdog: NMT state in the drive's heartbeat or boot-up", heartbeat_period};
     case FaultNumber::kDriveStopTimeout:
-      return {"supervisor: time until every drive confirms that it is off", static_cast<int>(kOffBudgetTicks) + 1};
+      return {"supervisor: time until every drive confirms that it is off",
+              static_cast<int>(patience(times.tick_s).off_budget) + 1};
+    case FaultNumber::kNodeTwice:
+      return {"host: two reports that differ in one tick, or a command that is not ours, in a row", kTwiceTicks};
     case FaultNumber::kBusLost:
       return {"interface down or in bus-off (1 tick), or no drive of the bus is heard", kFeedbackAgeTicks + 1};
     case FaultNumber::kCableSlack:

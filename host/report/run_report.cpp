@@ -43,7 +43,7 @@ Json steps_of(const Json& known) {
   Json steps = Json::array();
   for (const Json& step : known) {
     Json kept = Json::object();
-    for (const char* key : {"name", "device", "held_theta", "duration_s", "outcome", "reason"}) {
+    for (const char* key : {"name", "device", "held_theta", "duration_s", "outcome", "reason", "ended_by", "next"}) {
       if (step.contains(key)) kept[key] = step[key];
     }
     steps.push_back(kept);
@@ -89,7 +89,9 @@ std::string add_truth(Json& report, const ReportSources& sources, const Window& 
   const Rows rows{truth.row_of_slot(window.first_tick), success ? end : truth.row_count() - 1};
   const StateSample* state = sample_at(sources.states, success ? window.last_tick : UINT64_MAX);
   add_figures(report, truth, rows, true_rod(sources),
-              state != nullptr ? std::optional(state->commanded_tip) : std::nullopt);
+              state != nullptr ? std::optional(state->commanded_tip) : std::nullopt, sources.has_slit);
+  if (sources.body_at && report.value("max_contact_force_N", 0.0) > 0.0)
+    report["contact"] = contact_in(truth, rows, sources.body_at, window.first_tick, period_s);
   add_claims(report, truth, rows, sources.claims, period_s);
   if (!success) add_aftermath(report, truth, end, period_s);
   return judge(report, sources.criteria);
@@ -121,12 +123,21 @@ std::string line(const char* format, double value) {
 }
 
 std::string clearance_text(const Json& report) {
-  constexpr double kNothing_m = 999.0;  // the bench says 1000 where there is nothing
-  const double slit_m = report["min_slit_clearance_m"], sphere_m = report["min_sphere_clearance_m"];
   std::string text;
-  if (slit_m < kNothing_m) text += line(", slit %.1f mm", 1e3 * slit_m);
-  if (sphere_m < kNothing_m) text += line(", sphere %.0f mm", 1e3 * sphere_m);
+  const auto add = [&](const char* key, const char* format) {
+    if (report.contains(key)) text += line(format, 1e3 * report[key].get<double>());
+  };
+  add("min_slit_clearance_m", ", slit %.1f mm");
+  add("min_box_clearance_m", ", boxes %.1f mm");
+  add("min_sphere_clearance_m", ", sphere %.0f mm");
+  if (text.empty()) add("min_clearance_m", ", bodies %.1f mm");
   return "clearance: " + (text.empty() ? "nothing in the scene" : text.substr(2)) + "\n";
+}
+
+// The condition that ended the step, where one did, and where `next` led.
+std::string ended_by(const Json& step) {
+  const std::string condition = step.value("ended_by", ""), next = step.value("next", "");
+  return (condition.empty() ? "" : ": " + condition) + (next.empty() ? "" : " -> " + next);
 }
 
 }  // namespace
@@ -162,6 +173,7 @@ Json make_report(const ReportSources& sources) {
   Json report = {{"outcome", sources.outcome.empty() ? mission.value("outcome", "failed") : sources.outcome},
                  {"robot", sources.robot},
                  {"mission", sources.mission},
+                 {"mission_files", sources.mission_files},
                  {"physics", sources.physics},
                  {"seed", sources.seed},
                  {"time_mode", sources.time_mode},
@@ -196,18 +208,24 @@ std::string report_text(const Json& report) {
   }
   for (const Json& step : report.value("steps", Json::array())) {
     text += line("  %7.1f s  ", step.value("duration_s", 0.0)) + step.value("outcome", "") + "  " +
-            step.value("name", "") + " (" + step.value("device", "none") + ")\n";
+            step.value("name", "") + " (" + step.value("device", "none") + ")" + ended_by(step) + "\n";
   }
   if (report.contains("tip_error_m")) {
     text += line("tip error %.2f mm", 1e3 * report["tip_error_m"].get<double>()) +
             line(", %.3f deg", 57.29577951308232 * report["tip_attitude_error_rad"].get<double>()) +
             line(" (open loop %.1f mm)\n", 1e3 * report.value("open_loop_tip_error_m", 0.0));
   }
-  if (report.contains("min_slit_clearance_m")) {
+  if (report.contains("cable_tension_N")) {
     text += clearance_text(report) + line("contact force %.2f N", report["max_contact_force_N"].get<double>()) +
             line(", cable tension %.1f", report["cable_tension_N"]["min"].get<double>()) +
             line(" to %.1f N", report["cable_tension_N"]["max"].get<double>()) +
             line(", at the motors %.1f at least\n", report["cable_tension_N"]["min_motor"].get<double>());
+  }
+  if (report.contains("contact")) {
+    const Json& contact = report["contact"];
+    text += "touched: link " + contact["link"].dump() + " the body " + contact["body"].text() +
+            line(", %.2f N", contact["force_N"].get<double>()) +
+            line(", first after %.2f s\n", contact["first_s"].get<double>());
   }
   if (report.contains("verified_clearance_m")) {
     const Json& claimed = report["verified_clearance_m"];

@@ -8,7 +8,7 @@
 
 #include "firmware_like/math/pose.hpp"
 #include "host/config/config.hpp"
-#include "host/json/json_fwd.hpp"
+#include "host/json/json.hpp"
 #include "host/report/claimed_clearance.hpp"
 #include "host/report/truth_figures.hpp"
 
@@ -33,6 +33,7 @@ struct ReportSources {
   std::string outcome;                  // overrides the mission's when not empty
   std::string reason;                   // beside an outcome that is not success; the mission's own where empty
   std::string robot, mission, physics;  // as they were given
+  Json mission_files;                   // what the mission was made of: [{"file","sha256"}]; null: unknown
   std::uint64_t seed = 0;
   std::string time_mode;
   std::string truth_file;  // of the bench
@@ -45,6 +46,8 @@ struct ReportSources {
   const Json* welcome = nullptr;         // of lianad
   const Json* last_state = nullptr;      // of lianad
   std::optional<config::ScenePose> rod;  // as the scene has it; none: it has none
+  bool has_slit = false;                 // the scene has one; else its boxes are called boxes
+  BodyAt body_at;                        // empty: no body is named
   Criteria criteria;                     // that a success has to keep, too
 };
 

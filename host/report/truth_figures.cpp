@@ -1,5 +1,6 @@
 #include "host/report/truth_figures.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "host/json/json.hpp"
@@ -25,12 +26,19 @@ void add_speeds(Json& report, const TruthLog& truth, const Rows& rows) {
   report["max_tip_speed_slit_m_s"] = slit_m_s;
 }
 
-void add_cable_figures(Json& report, const TruthLog& truth, const Rows& rows) {
+// Of what the scene has.
+void add_clearance(Json& report, const char* key, double clearance_m) {
+  constexpr double kNothing_m = 999.0;  // the bench says 1000 where there is nothing
+  if (clearance_m < kNothing_m) report[key] = clearance_m;
+}
+
+void add_cable_figures(Json& report, const TruthLog& truth, const Rows& rows, bool has_slit) {
   const auto [first, last] = rows;
   report["final_theta_deg"] = truth.angles_deg("theta_deg_", last);
-  report["min_clearance_m"] = truth.smallest("clearance_m", first, last);
-  report["min_slit_clearance_m"] = truth.smallest("slit_clearance_m", first, last);
-  report["min_sphere_clearance_m"] = truth.smallest("sphere_clearance_m", first, last);
+  add_clearance(report, "min_clearance_m", truth.smallest("clearance_m", first, last));
+  add_clearance(report, has_slit ? "min_slit_clearance_m" : "min_box_clearance_m",
+                truth.smallest("slit_clearance_m", first, last));
+  add_clearance(report, "min_sphere_clearance_m", truth.smallest("sphere_clearance_m", first, last));
   report["max_contact_force_N"] = truth.largest("contact_force_N", first, last);
   report["rod_force_N"] = truth.at(last, "rod_force_N");
   report["cable_tension_N"] = {{"min", truth.smallest("tension_min_N", first, last)},
@@ -68,7 +76,7 @@ Criteria criteria_of(const Json& robot, const std::string& physics) {
 }
 
 void add_figures(Json& report, const TruthLog& truth, const Rows& rows, const std::optional<Pose>& rod,
-                 const std::optional<Pose>& commanded_tip) {
+                 const std::optional<Pose>& commanded_tip, bool has_slit) {
   const Pose tip = truth.tip(rows.last);
   const bool serial = truth.has("joint_deg_1");
   if (rod && !serial) {  // no serial arm presses a rod yet
@@ -79,8 +87,22 @@ void add_figures(Json& report, const TruthLog& truth, const Rows& rows, const st
   if (serial) {
     add_serial_figures(report, truth, rows);
   } else {
-    add_cable_figures(report, truth, rows);
+    add_cable_figures(report, truth, rows, has_slit);
   }
+}
+
+Json contact_in(const TruthLog& truth, const Rows& rows, const BodyAt& body_at, std::uint64_t begin_slot,
+                double period_s) {
+  std::size_t first = rows.last, hardest = rows.first;
+  for (std::size_t row = rows.first; row <= rows.last; ++row) {
+    const double force_N = truth.at(row, "contact_force_N");
+    if (force_N > 0.0) first = std::min(first, row);
+    if (force_N > truth.at(hardest, "contact_force_N")) hardest = row;
+  }
+  Json contact = body_at(truth.angles_deg("theta_deg_", hardest));
+  contact["force_N"] = truth.at(hardest, "contact_force_N");
+  contact["first_s"] = (truth.at(first, "slot") - static_cast<double>(begin_slot)) * period_s;
+  return contact;
 }
 
 std::string judge(Json& report, const Criteria& criteria) {

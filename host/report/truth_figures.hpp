@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "firmware_like/math/pose.hpp"
 #include "host/json/json_fwd.hpp"
@@ -29,8 +31,17 @@ struct Criteria {
 Criteria criteria_of(const Json& robot, const std::string& physics);
 
 // Adds every figure that the truth has; `rod` and `commanded_tip` at the last row: their errors, where they are given.
+// Clearances are of what the scene has; its boxes are a slit's when it `has_slit`.
 void add_figures(Json& report, const TruthLog& truth, const Rows& rows, const std::optional<Pose>& rod,
-                 const std::optional<Pose>& commanded_tip);
+                 const std::optional<Pose>& commanded_tip, bool has_slit);
+
+// Which body of the scene the arm at these angles [deg] is nearest to, or in: {"body","link"}.
+using BodyAt = std::function<Json(const std::vector<double>& theta_deg)>;
+
+// The hardest contact of the arm with a body in these rows, of which one has a contact: {"body","link","force_N",
+// "first_s"}; `first_s`: when it was first touched, after `begin_slot`.
+Json contact_in(const TruthLog& truth, const Rows& rows, const BodyAt& body_at, std::uint64_t begin_slot,
+                double period_s);
 
 // Adds `criteria` (name, value, limit, met) for what the report has figures of; the first that is not met in words,
 // empty when all are.

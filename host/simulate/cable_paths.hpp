@@ -12,7 +12,7 @@ namespace liana::simulate {
 using CableColumn = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMaxCables, 1>;
 using CableMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxCables, kMaxTheta>;
 
-// The cables at one pose: straight from hole to hole across every joint, straight inside the links (mission figure A3).
+// The cables at one pose: straight from hole to hole across every joint, straight inside the links (mission, A3).
 struct CablePaths {
   CableMatrix jacobian_m_rad;     // d path / d theta; zero beyond a cable's own segment
   CableColumn stiffness_N_per_m;  // EA over the free length, drum to anchor

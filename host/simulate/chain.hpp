@@ -1,4 +1,4 @@
-// Kinematics of the simulation: one universal joint after another, as the rows of the source say (mission figure A1).
+// Kinematics of the simulation: one universal joint after another, as the rows of the source say (mission, A1).
 // It shares no code with the core's closed form, so that a mistake in one shows.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Dynamic combination of degrees of freedom (mission figure A5, requirements A38-A41): the arm is split into S1, the
+// Dynamic combination of degrees of freedom (requirements A38 to A41): the arm is split into S1, the
 // segments before the slit, which are free, and S2, the last ones, which lie in the slit's plane: their pitches are
 // held, at 0 or at any other planar target.
 //

@@ -46,7 +46,8 @@ Json hello(const std::string& name, Observer observer) {
   Json subscriptions = Json::array();
   if (observer != Observer::kBlind) subscriptions.push_back("state");
   if (observer == Observer::kClient) subscriptions.push_back("event");
-  const char* role = observer == Observer::kClient ? "client" : "observer";
+  const bool may_own = observer == Observer::kClient || observer == Observer::kOwning;
+  const char* role = may_own ? "client" : "observer";
   return {{"op", "hello"}, {"name", name}, {"role", role}, {"lockstep", false}, {"subscribe", subscriptions}};
 }
 

@@ -20,6 +20,7 @@ std::vector<std::string> systems_to_ask(const std::string& given);
 enum class Observer {
   kBlind,   // sees no states
   kSeeing,  // sees states
+  kOwning,  // sees states, and may own motion and end lianad
   kClient,  // sees states and events, and may own motion
 };
 

@@ -1,7 +1,9 @@
 #include "host/system/plan_file.hpp"
 
 #include "firmware_like/math/trig.hpp"
+#include "host/config/canonical.hpp"
 #include "host/config/field.hpp"
+#include "host/config/sha256.hpp"
 #include "host/json/json.hpp"
 #include "host/plan/check/plan_check.hpp"
 #include "host/plan/plan_refusal.hpp"
@@ -58,9 +60,20 @@ std::string start_of_plan(const std::string& file) {
   return angles;
 }
 
+std::string digest_of_plan(const Json& plan) {
+  const Json content{{"outcome", plan.member_or_null("outcome")},
+                     {"waypoints_deg", plan.member_or_null("waypoints_deg")},
+                     {"inputs", plan.member_or_null("inputs")}};
+  return config::sha256_hex(config::canonical_json(content));
+}
+
 void check_plan_file(const std::string& file, const config::RobotConfig& robot, const config::SceneConfig& scene) {
   const Json content = checked([&] { return read_plan(file); });
   check_scene(file, content, scene);
+  if (content.contains("digest") && content.value("digest", "") != digest_of_plan(content))
+    throw BadInput(file +
+                   ": digest: the file is not what liana plan wrote, somebody has edited it: allowed a plan as it " +
+                   "was checked: plan again");
   const config::Field plan(content, file, "");
   plan::PlanRequest limits;
   limits.robot = robot;

@@ -5,6 +5,7 @@
 #include <sched.h>
 #include <signal.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,6 +26,7 @@ namespace liana::system {
 namespace {
 
 constexpr int kExecFailed = 127;
+constexpr rlim_t kMostAddressSpace = rlim_t{8} << 30;  // of a program that liana starts
 constexpr double kStartTimeout_s = 30.0;
 
 std::vector<char*> exec_arguments(const std::vector<std::string>& argv) {
@@ -38,6 +40,8 @@ std::vector<char*> exec_arguments(const std::vector<std::string>& argv) {
 [[noreturn]] void become(std::vector<char*>& argv, int out_fd, int error_fd, int realtime_priority) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
+  const rlimit address_space{kMostAddressSpace, kMostAddressSpace};
+  setrlimit(RLIMIT_AS, &address_space);  // a lower limit that is there already stays
   sched_param parameters{};
   parameters.sched_priority = realtime_priority;
   if (realtime_priority > 0) sched_setscheduler(0, SCHED_FIFO, &parameters);
@@ -63,24 +67,26 @@ ChildEnd end_of(int status) {
   return {WEXITSTATUS(status), 0};
 }
 
-// Reads both pipes until both are closed.
-void drain(int out_fd, int error_fd, Captured& captured) {
+// Reads both pipes until both are closed; false as soon as one of them has brought too much.
+bool drain(int out_fd, int error_fd, Captured& captured) {
   std::array<pollfd, 2> fds{{{out_fd, POLLIN, 0}, {error_fd, POLLIN, 0}}};
   std::array<std::string*, 2> texts{&captured.out, &captured.error};
   std::array<char, 4096> buffer{};
   for (int open_count = 2; open_count > 0;) {
-    if (poll(fds.data(), fds.size(), -1) < 0 && errno != EINTR) return;
+    if (poll(fds.data(), fds.size(), -1) < 0 && errno != EINTR) return true;
     for (std::size_t i = 0; i < fds.size(); ++i) {
       if (fds[i].fd < 0 || fds[i].revents == 0) continue;
       const ssize_t size = read(fds[i].fd, buffer.data(), buffer.size());
       if (size > 0) {
         texts[i]->append(buffer.data(), static_cast<std::size_t>(size));
+        if (texts[i]->size() > kMostCapturedBytes) return false;
       } else {
         fds[i].fd = -1;
         --open_count;
       }
     }
   }
+  return true;
 }
 
 }  // namespace
@@ -114,9 +120,24 @@ std::optional<ChildEnd> ChildProcess::wait(double timeout_s) {
   return poll();
 }
 
+// The letter behind the name, which may itself hold brackets: T is stopped, t held by a debugger.
+bool ChildProcess::is_stopped() const {
+  if (end_) return false;
+  std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
+  std::string stat;
+  std::getline(file, stat);
+  const std::size_t name_end = stat.rfind(')');
+  return name_end != std::string::npos && name_end + 2 < stat.size() &&
+         (stat[name_end + 2] == 'T' || stat[name_end + 2] == 't');
+}
+
+void ChildProcess::ask_to_end() {
+  if (!poll()) kill(pid_, SIGTERM);
+}
+
 void ChildProcess::end(double grace_s) {
   if (poll()) return;
-  kill(pid_, SIGTERM);
+  ask_to_end();
   if (wait(grace_s)) return;
   kill(pid_, SIGKILL);
   int status = 0;
@@ -169,12 +190,16 @@ Captured run_and_capture(const std::vector<std::string>& argv) {
   close(out[1]);
   close(error[1]);
   Captured captured;
-  drain(out[0], error[0], captured);
+  const bool is_whole = drain(out[0], error[0], captured);
+  if (!is_whole) kill(pid, SIGKILL);
   close(out[0]);
   close(error[0]);
   int status = 0;
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
   }
+  if (!is_whole)
+    throw std::runtime_error(argv[0] + ": printed more than " + std::to_string(kMostCapturedBytes >> 20) +
+                             " MiB and was killed");
   captured.code = end_of(status).code;
   return captured;
 }

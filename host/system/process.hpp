@@ -39,7 +39,13 @@ class ChildProcess {
   std::optional<ChildEnd> poll();
   // Waits at most `timeout_s` for its end.
   std::optional<ChildEnd> wait(double timeout_s);
-  // SIGTERM, and SIGKILL when it is still there after `grace_s`.
+  // Stands still because somebody stopped it (SIGSTOP, a debugger).
+  bool is_stopped() const;
+  // Its process, for people.
+  pid_t process() const { return pid_; }
+  // SIGTERM, unless it has ended.
+  void ask_to_end();
+  // The same, and SIGKILL when it is still there after `grace_s`.
   void end(double grace_s);
   // The last `count` lines of its log.
   std::string last_lines(int count) const;
@@ -65,6 +71,9 @@ struct NamedEnd {
 std::optional<NamedEnd> worst_end(const std::vector<std::unique_ptr<ChildProcess>>& children,
                                   const std::function<bool(const ChildProcess&, const ChildEnd&)>& counts);
 
+// Of what run_and_capture takes from each pipe.
+constexpr std::size_t kMostCapturedBytes = 64u << 20;
+
 // What a short helper program printed.
 struct Captured {
   int code = 0;
@@ -72,7 +81,8 @@ struct Captured {
   std::string error;
 };
 
-// Runs argv to its end and captures what it prints; throws std::runtime_error when it cannot be started.
+// Runs argv to its end and captures what it prints; throws std::runtime_error when it cannot be started, or prints more
+// than kMostCapturedBytes, and is killed for it.
 Captured run_and_capture(const std::vector<std::string>& argv);
 
 // Path of a program that lies beside the running one; throws std::runtime_error when it is not there.

@@ -28,8 +28,10 @@ void Progress::show(const Json& state) {
     say(stamp + phase);
   }
   const auto step = state.find("step");
-  if (step != nullptr && step->is_object() && step->value("index", 0) != step_index_) {
+  const std::int64_t entry = step != nullptr && step->is_object() ? step->value("entry", std::int64_t{0}) : 0;
+  if (step != nullptr && step->is_object() && (step->value("index", 0) != step_index_ || entry != step_entry_)) {
     step_index_ = step->value("index", 0);
+    step_entry_ = entry;
     say(stamp + ("step " + std::to_string(step_index_)) + ": " + step->value("name", "") + " (" +
         step->value("device", "none") + ")");
   }

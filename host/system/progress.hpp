@@ -1,6 +1,7 @@
 // Progress of a run on standard error: a line per step; on a terminal also a live line.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "host/json/json_fwd.hpp"
@@ -22,6 +23,7 @@ class Progress {
   bool terminal_;
   bool live_ = false;
   int step_index_ = 0;
+  std::int64_t step_entry_ = 0;  // a step that comes again has the same index
   std::string phase_;
   double next_live_s_ = 0.0;
 };

@@ -23,11 +23,13 @@ struct RunOptions {
   std::string cross_wired;   // empty, or two drives whose cables are exchanged, e.g. 3,4
   std::string faults;        // empty, or the bench's fault list: a file (docs/hil.md)
   std::string scene_offset;  // empty, or MM,DEG: the simulated scene is so far from where the table has it
-  std::string calibration;   // empty: as the robot table says
-  std::string record_dir;    // empty: nothing is kept
-  std::string report_file;   // empty: a summary on standard output; "-": JSON on standard output
-  bool has_console = false;  // liana-gateway runs beside it and its address is told
-  bool is_dry_run = false;   // liana check: no logs of the buses, quicker physics, what verification took
+  double gravity_share = 0.0;  // what counterweights leave of the simulated arm's weight, 0 to 1
+  double linkage_error = 0.0;  // share by which the simulated joints of a segment bend unevenly at most, 0 to 0.5
+  std::string calibration;     // empty: as the robot table says
+  std::string record_dir;      // empty: nothing is kept
+  std::string report_file;     // empty: a summary on standard output; "-": JSON on standard output
+  bool has_console = false;    // liana-gateway runs beside it and its address is told
+  bool is_dry_run = false;     // liana check: no logs of the buses, quicker physics, what verification took
   std::uint64_t seed = 1;
 };
 

@@ -23,14 +23,18 @@ constexpr double kStopTimeout_s = 15.0;
 constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
 constexpr double kFinishGrace_s = 3.0;  // for the mission runner, when another program has ended
 constexpr double kLook_s = 0.02;
-constexpr double kSilent_s = 10.0;     // without a state: lianad does not go on
-constexpr double kRested_s = 5.0;      // at rest after a failure: it is over
-constexpr double kMostAfter_s = 60.0;  // after a failure, at rest or not
-constexpr double kAftermath_s = 0.5;   // between the end of one program and the ends of those that need it
+constexpr double kSilenceSaid_s = 3.0;  // without a state: people are told, and again every so often
+constexpr double kSilentStop_s = 2.0;   // without a state after a stop: nothing more will come
+constexpr double kSilent_s = 10.0;      // without a state: lianad does not go on
+constexpr double kRested_s = 5.0;       // at rest after a failure: it is over
+constexpr double kMostAfter_s = 60.0;   // after a failure, at rest or not
+constexpr double kAftermath_s = 0.5;    // between the end of one program and the ends of those that need it
 
-Clock::time_point after(double seconds) {
-  return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+Clock::duration seconds(double count) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(count));
 }
+
+Clock::time_point after(double count) { return Clock::now() + seconds(count); }
 
 Pose pose_of(const Json& numbers) {
   Pose pose;
@@ -50,7 +54,7 @@ RunSession::~RunSession() = default;
 RunEnd RunSession::run() {
   std::signal(SIGPIPE, SIG_IGN);
   RunEnd end;
-  Json greeting = hello(kName, Observer::kSeeing);
+  Json greeting = hello(kName, Observer::kOwning);
   greeting["lockstep"] = waits_for_us_;
   if (const std::string problem = system_.start(greeting, interrupts_.any()); !problem.empty()) {
     end = dead_child(false).value_or(RunEnd{"failed", problem, false});
@@ -83,6 +87,7 @@ RunEnd RunSession::watch() {
   while (!system_.any_has_ended([this](const ChildProcess& child) { return matters(child); })) {
     look(kLook_s);
     if (interrupts_.count() > 0) return interrupted();
+    say_silence();
     revive_recorder();
   }
   const RunEnd end = conclusion();
@@ -155,7 +160,10 @@ RunEnd RunSession::interrupted() {
   progress_.say("stopping (again Ctrl-C ends at once)");
   system_.send({{"op", "stop"}, {"reason", "interrupted"}});
   const auto deadline = after(kStopTimeout_s);
-  while (system_.is_connected() && interrupts_.count() < 2 && Clock::now() < deadline && !is_stopped()) look(kLook_s);
+  const auto is_silent = [this] { return Clock::now() > heard_ + seconds(kSilentStop_s); };
+  heard_ = Clock::now();
+  while (system_.is_connected() && interrupts_.count() < 2 && Clock::now() < deadline && !is_stopped() && !is_silent())
+    look(kLook_s);
   return {"aborted", "interrupted: " + how_the_arm_was_left(), false};
 }
 
@@ -190,6 +198,19 @@ void RunSession::look(double timeout_s) {
   }
 }
 
+// Nothing moves any more, and nobody would know why.
+void RunSession::say_silence() {
+  const auto last = std::max(heard_, silence_said_);
+  if (Clock::now() < last + seconds(kSilenceSaid_s)) return;
+  silence_said_ = Clock::now();
+  const std::string still = system_.standing_still();
+  char since[48];
+  std::snprintf(since, sizeof since,
+                "no state of the arm for %.0f s: ", std::chrono::duration<double>(silence_said_ - heard_).count());
+  progress_.say(since + (still.empty() ? "lianad does not go on; the machine may be too busy" : still + " stopped") +
+                "; Ctrl-C ends the run");
+}
+
 void RunSession::look_until(double timeout_s, const std::function<bool()>& is_over) {
   const auto deadline = after(timeout_s);
   while (!is_over() && Clock::now() < deadline) look(kLook_s);
@@ -206,6 +227,7 @@ void RunSession::take(const Json& message) {
 }
 
 void RunSession::keep(const Json& state) {
+  heard_ = Clock::now();
   progress_.show(state);
   states_.push_back({state.value("tick", std::uint64_t{0}), pose_of(state.value("setpoint_cp", Json()))});
   const Json clearance = state.value("clearance", Json());

@@ -1,6 +1,7 @@
 // The processes of one run: started in order, watched, ended together.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -49,6 +50,7 @@ class RunSession {
   RunEnd end_of_mission(const ChildEnd& end);
   RunEnd interrupted();
   void look(double timeout_s);
+  void say_silence();
   void look_until(double timeout_s, const std::function<bool()>& is_over);
   void take(const Json& message);
   void keep(const Json& state);
@@ -62,7 +64,9 @@ class RunSession {
   InterruptGuard interrupts_;
   Progress progress_;
   System system_;
-  int recorders_ = 1;  // that were started
+  int recorders_ = 1;                                                               // that were started
+  std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();  // when the last state came
+  std::chrono::steady_clock::time_point silence_said_ = heard_;
   Json welcome_;
   Json last_state_;
   std::vector<report::StateSample> states_;

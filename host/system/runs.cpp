@@ -15,9 +15,9 @@ namespace {
 namespace fs = std::filesystem;
 
 // How the names begin: beside a file of SQLite may lie two that belong to it.
-constexpr std::array<std::string_view, 11> kLasting{"archive.db",  "telemetry-", "ring-",      "robot.json",
+constexpr std::array<std::string_view, 12> kLasting{"archive.db",  "telemetry-", "ring-",      "robot.json",
                                                     "scene.json",  "buses.json", "events.txt", "commands.txt",
-                                                    "report.json", "truth.bin",  "page.html"};
+                                                    "report.json", "truth.bin",  "page.html",  "mission_files"};
 
 std::string variable(const char* name) {
   const char* value = std::getenv(name);

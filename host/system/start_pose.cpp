@@ -81,6 +81,14 @@ StartPose chosen(const Choice& choice, const std::string& given) {
   return {text, *numbers};
 }
 
+// The independent check of one pose.
+plan::PlanCheck check_of(const config::RobotConfig& robot, const config::SceneConfig& scene,
+                         const std::vector<double>& angles_deg) {
+  cable::ThetaVector theta_rad{};
+  for (std::size_t k = 0; k < angles_deg.size(); ++k) theta_rad[k] = kDegree * angles_deg[k];
+  return plan::check_plan(robot, scene, {theta_rad}, plan::plain_tip(robot.table, theta_rad));
+}
+
 }  // namespace
 
 StartPose start_pose_of(const config::RobotConfig& robot, const std::string& given) {
@@ -111,15 +119,26 @@ std::string bent_pose(const std::string& robot) {
                  "nowhere: add a bent one to named_poses_deg");
 }
 
-void check_start_is_free(const config::RobotConfig& robot, const config::SceneConfig& scene, const StartPose& start) {
-  cable::ThetaVector theta_rad{};
-  for (std::size_t k = 0; k < start.angles_deg.size(); ++k) theta_rad[k] = kDegree * start.angles_deg[k];
-  const plan::PlanCheck check = plan::check_plan(robot, scene, {theta_rad}, plan::plain_tip(robot.table, theta_rad));
-  if (check.min_clearance_m > 0.0) return;
+Json nearest_body(const config::RobotConfig& robot, const config::SceneConfig& scene,
+                  const std::vector<double>& angles_deg) {
+  const plan::PlanCheck check = check_of(robot, scene, angles_deg);
+  return {{"body", check.nearest}, {"link", check.nearest_link}};
+}
+
+std::string inside_body(const config::RobotConfig& robot, const config::SceneConfig& scene,
+                        const std::vector<double>& angles_deg) {
+  const plan::PlanCheck check = check_of(robot, scene, angles_deg);
+  if (check.min_clearance_m > 0.0) return "";
   char text[64];
   std::snprintf(text, sizeof text, "link %d stands %.1f mm inside body ", check.nearest_link,
                 -1000.0 * check.min_clearance_m);
-  throw BadInput("--scene: '" + scene.name + "': at the start pose " + start.text + " " + text + check.nearest +
+  return text + check.nearest;
+}
+
+void check_start_is_free(const config::RobotConfig& robot, const config::SceneConfig& scene, const StartPose& start) {
+  const std::string inside = inside_body(robot, scene, start.angles_deg);
+  if (inside.empty()) return;
+  throw BadInput("--scene: '" + scene.name + "': at the start pose " + start.text + " " + inside +
                  "; move the body, or give another --start-pose");
 }
 

@@ -16,6 +16,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kFinishGrace_s = 3.0;  // for the others to write their summaries after lianad has left
 constexpr double kRestGrace_s = 20.0;   // for a bench, which goes on until its arm is at rest
+constexpr double kLastGrace_s = 1.0;    // from SIGTERM to SIGKILL, for all together
 constexpr double kLook_s = 0.02;
 
 Clock::time_point after(double seconds) {
@@ -93,6 +94,15 @@ bool System::is_running(std::string_view name) const {
                      [&](const auto& child) { return child->name() == name && !child->poll(); });
 }
 
+std::string System::standing_still() const {
+  std::string names;
+  for (const auto& child : children_) {
+    if (child->is_stopped())
+      names += (names.empty() ? "" : ", ") + child->name() + " (process " + std::to_string(child->process()) + ")";
+  }
+  return names;
+}
+
 bool System::all_have_ended() const {
   return std::all_of(children_.begin(), children_.end(), [](const auto& child) { return child->poll().has_value(); });
 }
@@ -104,14 +114,17 @@ void System::dismiss() {
 void System::end(double grace_s, const Sink& sink) {
   dismiss();
   if (!sink) api_.reset();  // a client in lockstep that no longer answers would hold lianad up
-  auto deadline = after(grace_s);
+  auto deadline = after(standing_still().empty() ? grace_s : 0.0);
   while (Clock::now() < deadline && !all_have_ended()) {
     const bool was_connected = is_connected();
     if (const auto message = receive(kLook_s); message && sink) sink(*message);
     if (was_connected && !is_connected())
       deadline = std::min(deadline, after(is_running("liana-bench") ? kRestGrace_s : kFinishGrace_s));
   }
-  for (const auto& child : children_) child->end(1.0);
+  for (const auto& child : children_) child->ask_to_end();
+  const auto last_moment = after(kLastGrace_s);
+  while (Clock::now() < last_moment && !all_have_ended()) sleep(kLook_s);
+  for (const auto& child : children_) child->end(0.0);
   remove_stale_entry();
   while (const auto message = receive(0.0)) {  // what lianad said last may not have been read yet
     if (sink) sink(*message);

@@ -55,11 +55,14 @@ class System {
   // A program of this name was started and has not ended.
   bool is_running(std::string_view name) const;
 
+  // Programs that somebody has stopped, with their processes, in words; empty when there are none.
+  std::string standing_still() const;
+
   // Asks lianad to stop the arm and leave, once.
   void dismiss();
   // Does that unless it was done, waits up to `grace_s` for all programs to end by themselves (bus and bench
-  // then write their summaries), and ends those that have not. What lianad still says goes to `sink`; without one
-  // nobody listens any more.
+  // then write their summaries), and ends those that have not. Where one stands still the others wait in vain, so that
+  // nobody is waited for. What lianad still says goes to `sink`; without one nobody listens any more.
   void end(double grace_s, const Sink& sink = {});
 
  private:

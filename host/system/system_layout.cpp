@@ -1,8 +1,11 @@
 #include "host/system/system_layout.hpp"
 
+#include <fcntl.h>
 #include <net/if.h>
 #include <stdlib.h>
+#include <sys/file.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,6 +21,7 @@
 #include "host/config/serial_robot.hpp"
 #include "host/places/places.hpp"
 #include "host/system/errors.hpp"
+#include "host/system/mission_steps.hpp"
 #include "host/system/output.hpp"
 #include "host/system/plan_file.hpp"
 #include "host/system/process.hpp"
@@ -147,6 +151,8 @@ ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool
   if (!options.cross_wired.empty()) append(call.argv, {"--cross-wired", options.cross_wired});
   if (!options.faults.empty()) append(call.argv, {"--faults", options.faults});
   if (!options.scene_offset.empty()) append(call.argv, {"--scene-offset", options.scene_offset});
+  if (options.gravity_share != 0.0) append(call.argv, {"--gravity", std::to_string(options.gravity_share)});
+  if (options.linkage_error != 0.0) append(call.argv, {"--linkage-error", std::to_string(options.linkage_error)});
   if (!options.mission.empty()) append(call.argv, {"--rest-within", kRestWithin_s});
   if (plan.is_dry_run) append(call.argv, {"--free-step", kFreeStep_s});
   if (embedded) {
@@ -158,10 +164,12 @@ ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool
 }
 
 ProgramCall operator_call(const SystemLayout& plan, const RunOptions& options) {
+  std::string recordings;
+  for (const Json& folder : plan.mission.at("recordings"))
+    recordings += (recordings.empty() ? "" : ":") + folder.text();
   return {"liana-operator",
-          {sibling_program("liana-operator"), "--api", plan.api_socket(), "--recordings",
-           places::shipped_lua_folder() + "/recordings", "--scene", plan.file("scene.json"), "--seed",
-           std::to_string(options.seed), "--lockstep"}};
+          {sibling_program("liana-operator"), "--api", plan.api_socket(), "--recordings", recordings, "--scene",
+           plan.file("scene.json"), "--seed", std::to_string(options.seed), "--lockstep"}};
 }
 
 ProgramCall mission_call(const SystemLayout& plan, const RunOptions& options) {
@@ -192,12 +200,13 @@ TableText scene_of(const RunOptions& options, bool is_serial) {
   return {name, evaluate_table("scene", name)};
 }
 
-void check_mission_with(const std::string& robot, const std::string& mission, const std::string& scratch) {
-  const std::string file = scratch + "/robot.json";
+Json mission_checked_with(const std::string& robot, const std::string& mission) {
+  const std::string scratch = temporary_directory(), file = scratch + "/robot.json";
   try {
     write_output(file, robot);
-    check_mission(mission, file);
-    fs::remove(file);
+    Json description = check_mission(mission, file);
+    fs::remove_all(scratch);
+    return description;
   } catch (...) {
     fs::remove_all(scratch);
     throw;
@@ -214,11 +223,11 @@ std::string check_options_of_cable_robot(const RunOptions& options, const std::s
   check_cross_wired(options.cross_wired, static_cast<std::size_t>(robot.table.cable_count()));
   const bool is_plan = options.mission.ends_with(".json");
   if (is_plan) check_plan_file(options.mission, robot, plan.scene);
-  if (!options.simulated_arm) return "";
   const StartPose start =
       start_pose_of(robot, is_plan && options.start_pose.empty() ? start_of_plan(options.mission) : options.start_pose);
-  check_start_is_free(robot, plan.scene, start);
-  return start.text;
+  if (options.simulated_arm) check_start_is_free(robot, plan.scene, start);
+  if (plan.mission.is_object()) check_steps(plan.mission, robot, plan.scene, options.simulated_arm ? &start : nullptr);
+  return options.simulated_arm ? start.text : "";
 }
 
 std::string check_options_of_serial_robot(const RunOptions& options, const std::string& text,
@@ -231,6 +240,8 @@ std::string check_options_of_serial_robot(const RunOptions& options, const std::
   refuse("--calibration", !options.calibration.empty(), "its encoders are absolute; leave it out");
   refuse("--in-pose", !options.in_pose.empty(), "its encoders are absolute; leave it out");
   refuse("--cross-wired", !options.cross_wired.empty(), "it has no cables to swap; leave it out");
+  refuse("--gravity", options.gravity_share != 0.0, "its bench has no weight; leave it out");
+  refuse("--linkage-error", options.linkage_error != 0.0, "it has no linkage; leave it out");
   refuse("--physics", options.physics != "nominal", "its bench knows nominal only; leave it out");
   refuse("mission", options.mission.ends_with(".json"), "plans are for cable arms; give a mission");
   return start_pose_of(robot, options.start_pose).text;
@@ -273,8 +284,10 @@ SystemLayout make_layout(const RunOptions& given) {
     throw BadInput("--scene: '" + options.scene + "': has no " + (plan.scene.camera ? "contact" : "camera") +
                    ", which the bench needs; add it (docs/formats.md)");
   const bool has_mission = !options.mission.empty();
+  if (has_mission && !plan.is_serial) plan.mission = mission_checked_with(robot.json, options.mission);
   options.start_pose = plan.is_serial ? check_options_of_serial_robot(options, robot.json, plan.buses)
                                       : check_options_of_cable_robot(options, robot.json, plan);
+  if (has_mission && plan.is_serial) plan.mission = mission_checked_with(robot.json, options.mission);
   if (options.is_dry_run) check_virtual(plan.buses);
   check_interfaces(plan.buses);
   plan.time_mode = time_mode_of(options, plan.buses);
@@ -284,9 +297,9 @@ SystemLayout make_layout(const RunOptions& given) {
   plan.has_recorder = (has_mission || options.has_console) && !plan.is_dry_run;
   plan.keeps_traffic = !plan.is_dry_run && (has_mission || !options.has_console);
   plan.socket_dir = temporary_directory();
-  if (has_mission) check_mission_with(robot.json, options.mission, plan.socket_dir);
   plan.directory = directory_of(plan, options);
   write_tables(plan, robot.json, scene.json, buses.json);
+  if (has_mission) keep_mission_files(plan.mission, plan.directory);
   const bool embedded = plan.buses.backend == "embedded";
   if (embedded) plan.programs.push_back(bus_call(plan));
   plan.programs.push_back(daemon_call(plan, options, embedded));
@@ -298,10 +311,39 @@ SystemLayout make_layout(const RunOptions& given) {
   return plan;
 }
 
+namespace {
+
+constexpr const char* kFolderOfRun = "liana-run-";
+constexpr const char* kLock = "lock";  // held for as long as the process lives that made the folder
+
+// Held until this process ends, however it does; false when another one has it, or there is none to take.
+bool hold(const std::string& lock, int flags) {
+  const int fd = ::open(lock.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | flags, 0600);
+  if (fd >= 0 && ::flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
+  if (fd >= 0) ::close(fd);
+  return false;
+}
+
+// Folders of runs that were killed: nobody else tidies up behind them.
+void remove_leftovers() {
+  std::error_code gone;  // other runs tidy up at the same time
+  for (const fs::directory_entry& entry : fs::directory_iterator(fs::temp_directory_path(gone), gone)) {
+    struct stat found {};
+    const bool is_ours = entry.path().filename().string().starts_with(kFolderOfRun) &&
+                         ::lstat(entry.path().c_str(), &found) == 0 && S_ISDIR(found.st_mode) &&
+                         found.st_uid == ::geteuid();
+    if (is_ours && hold(entry.path() / kLock, 0)) fs::remove_all(entry.path(), gone);
+  }
+}
+
+}  // namespace
+
 std::string temporary_directory() {
-  std::string name = (fs::temp_directory_path() / "liana-run-XXXXXX").string();
+  remove_leftovers();
+  std::string name = (fs::temp_directory_path() / (std::string(kFolderOfRun) + "XXXXXX")).string();
   if (mkdtemp(name.data()) == nullptr)
     throw BadInput(name + ": a temporary directory cannot be made; free space there or set TMPDIR");
+  hold(name + "/" + kLock, O_CREAT);
   return name;
 }
 
@@ -327,6 +369,7 @@ void clean_up(const SystemLayout& plan, bool success) {
   std::error_code error;
   fs::remove(plan.api_socket(), error);
   fs::remove(plan.bus_socket(), error);
+  fs::remove(plan.socket_dir + "/" + kLock, error);  // what is kept from here on is no leftover
   const bool is_temporary = plan.directory == plan.socket_dir;
   if (!is_temporary || success) fs::remove_all(plan.socket_dir, error);
   if (is_temporary || plan.keep_directory) return;

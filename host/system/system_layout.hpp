@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "host/config/config.hpp"
+#include "host/json/json.hpp"
 #include "host/system/run_options.hpp"
 
 namespace liana::system {
@@ -29,6 +30,7 @@ struct SystemLayout {
   config::SceneConfig scene;
   std::string robot;                  // its table's name or file, or the name of that in a plan
   bool is_serial = false;             // the robot has a serial arm
+  Json mission;                       // its description (lua/liana/check.lua); null without one
   std::vector<ProgramCall> programs;  // in the order in which they start
 
   std::string file(const std::string& name) const { return directory + "/" + name; }
@@ -43,7 +45,8 @@ struct SystemLayout {
 // no operator either. Throws BadInput.
 SystemLayout make_layout(const RunOptions& given);
 
-// Makes a fresh folder for one run's files under $TMPDIR; its path is short enough for sockets. Throws BadInput.
+// Makes a fresh folder for one run's files under $TMPDIR, locked while this process lives; its path is short enough for
+// sockets. Those of processes that were killed are removed. Throws BadInput.
 std::string temporary_directory();
 
 // Refuses anything but empty text or two different drives from 0 to `drives` - 1, e.g. 3,4. Throws BadInput.

@@ -60,9 +60,9 @@ std::string evaluate_table(const std::string& kind, const std::string& name) {
   return name.ends_with(".json") ? read_file(name) : evaluate({"--", kind, name});
 }
 
-void check_mission(const std::string& name, const std::string& robot) {
+Json check_mission(const std::string& name, const std::string& robot) {
   refuse_directory("mission", name);
-  evaluate({"--robot=" + robot, "--", "mission", name});
+  return Json::parse(evaluate({"--robot=" + robot, "--", "mission", name}));
 }
 
 config::SceneConfig scene_of(const std::string& name) {

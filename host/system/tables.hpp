@@ -7,6 +7,7 @@
 
 #include "host/config/config.hpp"
 #include "host/config/serial_robot.hpp"
+#include "host/json/json.hpp"
 #include "host/system/errors.hpp"
 
 namespace liana::system {
@@ -15,9 +16,9 @@ namespace liana::system {
 // exported). Throws BadInput with the evaluator's one message.
 std::string evaluate_table(const std::string& kind, const std::string& name);
 
-// Checks a mission script against a robot (a name, or exported JSON) without running it; throws BadInput with the
-// evaluator's one message.
-void check_mission(const std::string& name, const std::string& robot);
+// Checks a mission script against a robot (a name, or exported JSON) without running it, and returns its description
+// (lua/liana/check.lua); throws BadInput with the evaluator's one message.
+Json check_mission(const std::string& name, const std::string& robot);
 
 // Runs a loader of host/config and turns its refusal into BadInput.
 template <typename Loader>

@@ -1,4 +1,4 @@
-// What the two verification ends say about a candidate command (mission figure C).
+// What the two verification ends say about a candidate command (mission, C).
 #pragma once
 
 #include <cstdint>

@@ -118,7 +118,7 @@ Json commands_json(const RunData& run) {
 Json steps_json(const std::vector<Json>& events) {
   Json steps = Json::array();
   for (const Json& event : events) {
-    if (event.value("kind", "") != "step") continue;
+    if (event.value("kind", "") != "step" || event.at("number") == 0) continue;  // 0: the last one is over
     steps.push_back({{"index", event.at("number")}, {"name", event.at("subject")}, {"tick", event.at("tick")}});
   }
   return steps;

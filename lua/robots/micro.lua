@@ -1,4 +1,4 @@
--- The small arm of the macro-micro pair that installs payloads (Liu et al., mission B): 7 revolute joints, 5 m.
+-- The small arm of the macro-micro pair that installs payloads (Liu et al.; requirement B1): 7 revolute joints, 5 m.
 -- "source" marks what the paper states; everything else is assumed, with the reason beside it.
 
 -- Assumed: roll-yaw-pitch-pitch-pitch-yaw-roll with the offsets of arms of this class (Canadarm2, ERA); standard DH rows: turn about z by the

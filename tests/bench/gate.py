@@ -1,5 +1,5 @@
 """ctest bench.instructions: the core's operations stay within their limits of instructions (plain -O2, callgrind: the
-same on every day).
+same on every day; req:A10 req:A36 req:A37).
 
 gate.py BENCH_CORE BENCH_WORST CASES BENCH_VERIFY BENCH_DISTANCES: the worst tick is that of the bench's phases, of the
 stored cases and of some random ones; BENCH_VERIFY is what one command costs, with its whole stop.

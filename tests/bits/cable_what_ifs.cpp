@@ -57,6 +57,7 @@ constexpr CableWhatIf kEnabled[] = {
     {kBrief, alarming},
     {kBrief, overloaded},
     {kBrief, Of::bus_lost},
+    {kBrief, Of::twice},
     {kBrief, Of::late},
     {kBrief, Of::nonsense},
     {kBrief, Of::no_telecommands},

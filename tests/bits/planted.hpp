@@ -32,6 +32,7 @@ struct Planted {
   static void not_operational(In& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].operational = 0; }
   static void jumped(In& inputs, std::uint32_t, std::size_t drive) { inputs.drive[drive].position_counts += 200000; }
   static void bus_lost(In& inputs, std::uint32_t, std::size_t) { inputs.lost_bus_mask = 2; }
+  static void twice(In& inputs, std::uint32_t, std::size_t drive) { inputs.twice_mask = 1u << drive; }
   static void late(In& inputs, std::uint32_t age, std::size_t) { inputs.lost_ticks = age == 0 ? 10 : 0; }
 
   static void nonsense(In& inputs, std::uint32_t age, std::size_t) {

@@ -22,21 +22,10 @@ void out_of_reach(serial::Inputs& inputs, std::uint32_t, std::size_t) {
 }
 
 constexpr SerialWhatIf kEnabled[] = {
-    {kBrief, Of::silent},
-    {kBrief, Of::missing},
-    {kBrief, Of::in_fault},
-    {kBrief, Of::off},
-    {kBrief, Of::not_operational},
-    {kBrief, Of::jumped},
-    {kBrief, lagging},
-    {kBrief, Of::bus_lost},
-    {kBrief, Of::late},
-    {kBrief, Of::nonsense},
-    {kBrief, Of::no_telecommands},
-    {kLong, out_of_reach},
-    {kLong, Of::straightened},
-    {kLong, Of::stop},
-    {kLong, Of::silent_then_cleared},
+    {kBrief, Of::silent},          {kBrief, Of::missing},     {kBrief, Of::in_fault}, {kBrief, Of::off},
+    {kBrief, Of::not_operational}, {kBrief, Of::jumped},      {kBrief, lagging},      {kBrief, Of::bus_lost},
+    {kBrief, Of::twice},           {kBrief, Of::late},        {kBrief, Of::nonsense}, {kBrief, Of::no_telecommands},
+    {kLong, out_of_reach},         {kLong, Of::straightened}, {kLong, Of::stop},      {kLong, Of::silent_then_cleared},
 };
 constexpr SerialWhatIf kEnabling[] = {
     {kLong, Of::off},

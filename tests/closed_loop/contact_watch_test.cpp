@@ -14,6 +14,7 @@ namespace {
 
 bool felt(const ArmUnderControl& arm) { return arm.outputs().contact.segment != 0; }
 
+// req:A55
 TEST(ContactWatch, AFreeArmFeelsNothingHoweverItIsMoved) {
   for (std::size_t i = 0; i < free_ways().size(); ++i) {
     const FreeWay& way = free_ways()[i];
@@ -30,6 +31,7 @@ TEST(ContactWatch, AFreeArmFeelsNothingHoweverItIsMoved) {
   }
 }
 
+// req:A55
 TEST(ContactWatch, ABodyThatIsPressedAgainstThePanelIsAFaultThatHoldsWithSegmentAndSize) {
   ArmUnderControl arm({"nominal", 1, true, "press_rod"});
   arm.boot();
@@ -79,6 +81,7 @@ Felt pushed(std::uint64_t seed, std::size_t segment, const Vec3& across) {
   return felt;
 }
 
+// req:A55
 TEST(ContactWatch, APushThatGrowsSlowlyIsFeltOnEverySegment) {
   int named = 0;
   for (std::size_t segment = 0; segment < 5; ++segment) {

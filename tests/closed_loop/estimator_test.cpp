@@ -1,5 +1,5 @@
 // Measured theta: from motor lengths and tensions back to angles, on an arm that is not exactly the table's
-// (requirement A11).
+// (req:A11).
 #include <gtest/gtest.h>
 
 #include "arm_under_control.hpp"

@@ -1,5 +1,5 @@
-// Why the shape is steered: the tip alone leads the arm's middle into the sphere (mission figure A8, requirements A42,
-// A43). Kinematics only.
+// Why the shape is steered: the tip alone leads the arm's middle into the sphere (mission, A8). Kinematics
+// only.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -58,6 +58,7 @@ TEST(Obstacle, TheTipAloneOnAStraightWayLeadsTheArmThroughTheSphere) {
   EXPECT_LT(least_m, 0.1 * thickness_m()) << "the arm's middle goes through the sphere's";
 }
 
+// req:A42
 TEST(Obstacle, SteeringNodeThreeKeepsTheArmTenCentimetresOffTheSphere) {
   const cable::RobotTable& table = robot_table();
   const Leg leg = first_leg(true);

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPhysicsStep_s = 0.001;
 constexpr double kTorqueNoise = 0.003;                   // of the reading, as the bench's drives
-constexpr double kStartSpread_rad = 8.7266462599716e-3;  // 0.5 deg, mission figure A8
+constexpr double kStartSpread_rad = 8.7266462599716e-3;  // 0.5 deg (mission, A8)
 
 bench::TrueParameters parameters(const bench::RobotConfig& robot, const PlantSetup& setup) {
   return setup.spread ? bench::spread_parameters(robot, setup.physics, setup.seed)

@@ -16,7 +16,7 @@ namespace liana::closed_loop {
 struct PlantSetup {
   std::string physics = "nominal";  // friction: nominal, ideal or worn
   std::uint64_t seed = 1;           // of the spread and of the torque noise
-  bool spread = true;  // true parameters and start pose differ from the table (mission figure A9); false: exactly the
+  bool spread = true;  // true parameters and start pose differ from the table (mission, A9); false: exactly the
                        // table, no noise
   std::string start_pose = "prepare";
 };

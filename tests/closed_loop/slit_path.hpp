@@ -1,4 +1,4 @@
-// The whole way of the slit crossing as tip targets, without people and cameras (mission figures A7, A8): what the core
+// The whole way of the slit crossing as tip targets, without people and cameras (mission, A7 and A8): what the core
 // and the arm make of it.
 #pragma once
 

@@ -1,5 +1,5 @@
-// The way through the slit in open loop: no camera, no operator, parameters spread by seed (mission figures A7 to A9,
-// requirements A38 to A41, A47). All figures are the plant's truth.
+// The way through the slit in open loop: no camera, no operator, parameters spread by seed (mission, A7 to A9).
+// All figures are the plant's truth.
 #include <gtest/gtest.h>
 
 #include <ostream>
@@ -26,6 +26,7 @@ class SlitPath : public ::testing::TestWithParam<Arm> {
   const SlitRecord& record() const { return cross_slit(GetParam().physics, GetParam().seed); }
 };
 
+// req:A53
 TEST_P(SlitPath, EndsAtTheRodWithoutAFaultOrAContact) {
   measured("duration", record().seconds, "s");
   measured("largest contact force", record().contact_N, "N");
@@ -34,7 +35,8 @@ TEST_P(SlitPath, EndsAtTheRodWithoutAFaultOrAContact) {
   EXPECT_LT(record().seconds, 216.4);
 }
 
-// A40, A41: 9+1 keeps X5, 8+2 keeps X4 and X5, not only commanded but true.
+// 9+1 keeps X5, 8+2 keeps X4 and X5, not only commanded but true.
+// req:A40 req:A41
 TEST_P(SlitPath, KeepsThePlanarSegmentsPlanarWithinATwentiethOfADegree) {
   measured("largest true |X5| with the tip in the slit", record().x5_deg, "deg");
   measured("largest true |X4| after it was brought to 0", record().x4_deg, "deg");
@@ -44,7 +46,7 @@ TEST_P(SlitPath, KeepsThePlanarSegmentsPlanarWithinATwentiethOfADegree) {
   EXPECT_LT(record().x4_deg, 0.05);
 }
 
-// A47
+// req:A47
 TEST_P(SlitPath, StaysThreeMillimetresOffPanelAndWallAndFiveCentimetresOffTheSphere) {
   measured("least slit clearance", 1000.0 * record().slit_clearance_m, "mm");
   measured("least sphere clearance", 1000.0 * record().sphere_clearance_m, "mm");
@@ -52,7 +54,6 @@ TEST_P(SlitPath, StaysThreeMillimetresOffPanelAndWallAndFiveCentimetresOffTheSph
   EXPECT_GT(record().sphere_clearance_m, 0.050);
 }
 
-// A9
 TEST_P(SlitPath, KeepsEveryCableBetweenFloorAndCeiling) {
   const cable::TensionLimits& limits = robot_table().tension;
   measured("least tension at a motor", record().least_motor_N, "N");
@@ -71,7 +72,8 @@ TEST_P(SlitPath, ArrivesOpenLoopWithinFifteenMillimetres) {
   EXPECT_LT(record().tip_goal_mm, 15.0);
 }
 
-// A11, here with friction that is up to 20 % off what the core is told.
+// Here with friction that is up to 20 % off what the core is told.
+// req:A11
 TEST_P(SlitPath, KnowsItsAnglesWithinATwentiethOfADegreeAllTheWay) {
   measured("largest error of measured theta at the ends of the legs", record().estimate_deg, "deg");
   EXPECT_LT(record().estimate_deg, 0.05);

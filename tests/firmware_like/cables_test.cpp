@@ -36,6 +36,7 @@ double string_length_m(const RobotTable& robot, const ThetaVector& theta, std::s
   return sum;
 }
 
+// req:A11
 TEST(Cables, LengthsAreThoseOfAStringThroughTheHoles) {
   for (const RobotTable& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
     Random random(1);
@@ -64,6 +65,7 @@ TEST(Cables, PartsAddUpToTheLength) {
   }
 }
 
+// req:A5
 TEST(Cables, ZeroLengthIsTheStraightWayToTheLastDisc) {
   const RobotTable robot = zhu2022::table();
   const CableLayout layout = cable_layout(robot);
@@ -109,7 +111,7 @@ TEST(Cables, SegmentsBehindTheAnchorDoNotTouchACable) {
 }
 
 // The lengths of three cables do not sum to a constant: that is why angles from lengths are a least-squares problem
-// (A3).
+// (mission, A3).
 TEST(Cables, ThreeLengthsOfABentSegmentDoNotSumToTheStraightOnes) {
   const RobotTable robot = zhu2022::table();
   ThetaVector theta{};

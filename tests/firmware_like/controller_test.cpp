@@ -90,6 +90,7 @@ TEST(Controller, PretensionComesAsARamp) {
   EXPECT_LE(most_counts, 3);  // 1 mm/s; the cables' top speed is 28 counts a tick
 }
 
+// req:A11 req:A17
 TEST(Controller, FollowsATipTelecommandWithTheMeasuredArm) {
   Rig rig;
   rig.enable();
@@ -182,6 +183,7 @@ TEST(Controller, ATelecommandWaitsForItsFirstTick) {
 }
 
 // The twin: a copy goes on bit by bit as the original does; and two controllers with the same inputs never differ.
+// req:C1
 TEST(Controller, ACopyInMotionContinuesBitIdentically) {
   Rig rig;
   rig.enable();

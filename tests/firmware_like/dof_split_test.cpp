@@ -23,7 +23,8 @@ std::uint32_t bit(std::size_t theta) { return 1u << (theta - 1); }  // theta as 
 
 double pose_difference(const Pose& a, const Pose& b) { return zhu2022::length(pose_error(a, b)); }
 
-TEST(DofSplit, A39TheRootOfTheLastSegmentsFollowsFromTheTipAndTheirAngles) {
+// req:A39
+TEST(DofSplit, TheRootOfTheLastSegmentsFollowsFromTheTipAndTheirAngles) {
   for (const RobotTable& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
     Random random(7);
     for (std::int32_t i = 0; i < 100; ++i) {
@@ -41,8 +42,9 @@ TEST(DofSplit, A39TheRootOfTheLastSegmentsFollowsFromTheTipAndTheirAngles) {
   }
 }
 
-// A39 to its end: S2's pose fixed, S1 solved for S2's root; together they put the tip where it should be.
-TEST(DofSplit, A39SolvingTheFirstSegmentsForTheRootOfTheOthersPutsTheTipOnItsGoal) {
+// To its end: S2's pose fixed, S1 solved for S2's root; together they put the tip where it should be.
+// req:A39
+TEST(DofSplit, SolvingTheFirstSegmentsForTheRootOfTheOthersPutsTheTipOnItsGoal) {
   const RobotTable robot = zhu2022::table();
   RobotTable first = robot;
   first.segment_count = 4;
@@ -80,7 +82,8 @@ std::int32_t planar_of_straight_arm(double mouth_m, const PlanarSwitch& when, st
   return planar_segments(robot, link_points(robot, ThetaVector{}), mouth, when, before);
 }
 
-TEST(DofSplit, A40SegmentsBecomePlanarBeforeTheyReachTheMouth) {
+// req:A40
+TEST(DofSplit, SegmentsBecomePlanarBeforeTheyReachTheMouth) {
   const PlanarSwitch when{0.2, 0.05};
   EXPECT_EQ(planar_of_straight_arm(4.25, when, 0), 0);  // the tip is at 4 m: 10+0
   EXPECT_EQ(planar_of_straight_arm(4.15, when, 0), 1);  // 9+1
@@ -89,7 +92,8 @@ TEST(DofSplit, A40SegmentsBecomePlanarBeforeTheyReachTheMouth) {
   EXPECT_EQ(planar_of_straight_arm(2.55, when, 2), 3);
 }
 
-TEST(DofSplit, A40OnTheWayOutSegmentsAreReleasedFartherAwayThanTheyWereTaken) {
+// req:A40
+TEST(DofSplit, OnTheWayOutSegmentsAreReleasedFartherAwayThanTheyWereTaken) {
   const PlanarSwitch when{0.2, 0.05};
   for (const auto& [gap_m, entering, leaving] : {std::tuple{0.19, 1, 1}, {0.22, 0, 1}, {0.24, 0, 1}, {0.26, 0, 0}}) {
     EXPECT_EQ(planar_of_straight_arm(4.0 + gap_m, when, 0), entering) << gap_m;
@@ -108,7 +112,8 @@ TEST(DofSplit, AnArmBesideOrBehindTheSlitNeedsNoPlanarSegments) {
 }
 
 // The published poses: nothing planar at the panel edge, segments 4 and 5 at the press rod.
-TEST(DofSplit, A40ThePublishedPosesGetTheirCombinations) {
+// req:A40
+TEST(DofSplit, ThePublishedPosesGetTheirCombinations) {
   const RobotTable robot = zhu2022::table();
   const SlitMouth mouth = panel_slit();
   const auto planar_at = [&](const zhu2022::Degrees& theta_deg) {

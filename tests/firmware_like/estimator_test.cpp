@@ -52,6 +52,7 @@ void run(const RobotTable& robot, const Measured& measured, std::int32_t ticks, 
   }
 }
 
+// req:A11
 TEST(Estimator, FindsAnyPoseFromZeroWithinThirtyTicks) {
   for (const RobotTable& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
     Random random(1);
@@ -150,6 +151,7 @@ TEST(Estimator, FindsADeflectedArmToHalfTheSquareOfItsDeflection) {
   }
 }
 
+// req:A2 req:A11
 TEST(CableSolver, UndoesTheCableJacobian) {
   const RobotTable robot = zhu2022::table();
   const CableLayout layout = cable_layout(robot);

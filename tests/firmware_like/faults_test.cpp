@@ -29,6 +29,7 @@ const std::vector<Published> kPublished{
     {FaultNumber::kFollowingError, 3006, "following_error"},
     {FaultNumber::kDriveNotOperational, 3007, "drive_not_operational"},
     {FaultNumber::kDriveStopTimeout, 3008, "drive_stop_timeout"},
+    {FaultNumber::kNodeTwice, 3009, "node_twice"},
     {FaultNumber::kBusLost, 4001, "bus_lost"},
     {FaultNumber::kCableSlack, 5001, "cable_slack"},
     {FaultNumber::kCableOverload, 5002, "cable_overload"},

@@ -163,6 +163,7 @@ TEST(ContactWatch, AFreeArmFeelsNothingWhateverItsFriction) {
   }
 }
 
+// req:A55
 TEST(ContactWatch, APushOnTheBodyIsNoticedWithinThreeSecondsAndItsSegmentNamed) {
   for (const int node : {3, 4}) {
     Swaying arm(0.05, 0.05);
@@ -175,6 +176,7 @@ TEST(ContactWatch, APushOnTheBodyIsNoticedWithinThreeSecondsAndItsSegmentNamed) 
   }
 }
 
+// req:A29
 TEST(ContactWatch, ALightPushAtTheTipIsWhatTheTipIsForAndAHeavyOneIsNot) {
   Swaying light(0.05, 0.05);
   light.run(10.0);

@@ -1,4 +1,4 @@
-// A19, C11: the gate. Every check is tried just inside (unchanged) and just outside (refused for all drives).
+// The gate (req:A19). Every check is tried just inside (unchanged) and just outside (refused for all drives).
 #include "firmware_like/safety/gate.hpp"
 
 #include <gtest/gtest.h>

@@ -46,6 +46,7 @@ GoalIkProblem random_goal(const RobotTable& robot, Random& random, std::uint32_t
 }
 
 // 20,000 of each by tests/numbers/planning_goals.cpp.
+// req:A38
 TEST(GoalIk, FindsRandomGoalsWithTenNineAndEightVariables) {
   constexpr std::int32_t kGoals = 300;
   const RobotTable robot = zhu2022::table();
@@ -103,6 +104,7 @@ TEST(GoalIk, UnreachableGoalsAreSaidToBeUnreachable) {
   }
 }
 
+// req:A41
 TEST(GoalIk, HeldAnglesMayHaveAnyValueAndKeepIt) {
   const RobotTable robot = zhu2022::table();
   GoalIkProblem problem;
@@ -115,8 +117,9 @@ TEST(GoalIk, HeldAnglesMayHaveAnyValueAndKeepIt) {
   expect_honest(robot, problem, result);
 }
 
-// A44: when the targets can all be met, they are.
-TEST(GoalIk, A44MeetsNodeTargetsThatTheGoalsOwnShapeHas) {
+// When the targets can all be met, they are.
+// req:A44
+TEST(GoalIk, MeetsNodeTargetsThatTheGoalsOwnShapeHas) {
   const RobotTable robot = zhu2022::table();
   Random random(2);
   double worst_m = 0.0;
@@ -175,6 +178,7 @@ TEST(GoalIk, TheReachOfANodeIsWhatItsTargetAloneWouldBring) {
   EXPECT_LT(held.now_m - held.least_m, up.now_m - up.least_m);
 }
 
+// req:A42
 TEST(GoalIk, ReportsTheReachOfEveryControlPoint) {
   const RobotTable robot = zhu2022::table();
   GoalIkProblem problem;

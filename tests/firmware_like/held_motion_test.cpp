@@ -107,8 +107,9 @@ Held held_by(const Hold& hold) {
   return out;
 }
 
-// A38, A41: whatever is held goes to its target and then keeps its bits, while the tip is on its way.
-TEST_F(HeldMotion, A38AnyVariablesAtAnyValuesAreHeldExactlyWhileTheTipMoves) {
+// Whatever is held goes to its target and then keeps its bits, while the tip is on its way.
+// req:A38 req:A41
+TEST_F(HeldMotion, AnyVariablesAtAnyValuesAreHeldExactlyWhileTheTipMoves) {
   for (const Hold& hold : kHolds) {
     start(zhu2022::kPanelEdge_deg);
     const Held held = held_by(hold);
@@ -127,10 +128,11 @@ TEST_F(HeldMotion, A38AnyVariablesAtAnyValuesAreHeldExactlyWhileTheTipMoves) {
   }
 }
 
-// A38: bumpless in position and rate. Two numbers per tick while the tip moves and the mask changes again and again:
+// Bumpless in position and rate. Two numbers per tick while the tip moves and the mask changes again and again:
 // how far the angles that the IK asks for go, and how much their rates change. The limiter would hide a bump by leaving
 // the path: it is not in these numbers.
-TEST_F(HeldMotion, A38ChangingWhatIsHeldWhileTheTipMovesChangesRatesNoFasterThanTheJointsCan) {
+// req:A38
+TEST_F(HeldMotion, ChangingWhatIsHeldWhileTheTipMovesChangesRatesNoFasterThanTheJointsCan) {
   const double allowed = robot_.limits.theta_accel_rad_s2 * robot_.tick_s;
   for (const Hold& hold : kHolds) {
     if (hold.near_singular) continue;
@@ -146,7 +148,8 @@ TEST_F(HeldMotion, A38ChangingWhatIsHeldWhileTheTipMovesChangesRatesNoFasterThan
 }
 
 // A released variable goes on from standing still: the freedom that it brings is taken up smoothly.
-TEST_F(HeldMotion, A38ReleasingIsFarBelowWhatTheJointsCan) {
+// req:A38
+TEST_F(HeldMotion, ReleasingIsFarBelowWhatTheJointsCan) {
   const double allowed = robot_.limits.theta_accel_rad_s2 * robot_.tick_s;
   for (const Hold& hold : kHolds) {
     start(zhu2022::kPanelEdge_deg);
@@ -157,8 +160,9 @@ TEST_F(HeldMotion, A38ReleasingIsFarBelowWhatTheJointsCan) {
   }
 }
 
-// A39, A41: segment 5 comes into the plane, at 0 and elsewhere, while the tip stands still or goes on.
-TEST_F(HeldMotion, A41ASegmentComesIntoThePlaneWhileTheTipStaysOrFollows) {
+// At 0 and elsewhere, while the tip stands still or goes on.
+// req:A41
+TEST_F(HeldMotion, ASegmentComesIntoThePlaneWhileTheTipStaysOrFollows) {
   for (const double speed_m_s : {0.0, 0.01}) {
     for (const double from_deg : {-2.0, 1.0, 9.0}) {
       for (const double to_deg : {0.0, 3.0}) {

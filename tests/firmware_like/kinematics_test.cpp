@@ -123,6 +123,7 @@ Jacobian difference_jacobian(const RobotTable& robot, const ThetaVector& theta, 
   return J;
 }
 
+// req:A35 req:A36 req:A51
 TEST(Kinematics, GoldenTipSegmentEndsAndJacobianAreMetTo1e9) {
   const RobotTable robot = zhu2022::table();
   ASSERT_GE(golden().at("cases").size(), 13u);
@@ -142,6 +143,7 @@ TEST(Kinematics, GoldenTipSegmentEndsAndJacobianAreMetTo1e9) {
   }
 }
 
+// req:A11
 TEST(Kinematics, GoldenCableLengthsAreMetTo1e9) {
   const RobotTable robot = zhu2022::table();
   const CableLayout layout = cable_layout(robot);
@@ -156,7 +158,8 @@ TEST(Kinematics, GoldenCableLengthsAreMetTo1e9) {
   }
 }
 
-// A34, A35: the rows (0,-90,odd) (l,0,even) (0,90,even) (l,0,odd), four times per segment.
+// The rows (0,-90,odd) (l,0,even) (0,90,even) (l,0,odd), four times per segment.
+// req:A3 req:A34 req:A35
 TEST(Kinematics, ClosedFormEqualsTheSourcesSixteenRowsPerSegment) {
   const RobotTable robot = zhu2022::table();
   Random random(1);
@@ -194,7 +197,8 @@ TEST(Kinematics, ClosedFormEqualsTheChainOfModulesForOtherArms) {
   }
 }
 
-// A36: J6x10 = J6x80 S.
+// J6x10 = J6x80 S.
+// req:A4 req:A36
 TEST(Kinematics, ReducedJacobianEqualsTheEightyJointJacobianSummed) {
   const RobotTable robot = zhu2022::table();
   Random random(3);
@@ -206,7 +210,8 @@ TEST(Kinematics, ReducedJacobianEqualsTheEightyJointJacobianSummed) {
   }
 }
 
-// A36, A34: also where the straight arm makes closed forms divide by zero.
+// Also where the straight arm makes closed forms divide by zero.
+// req:A36
 TEST(Kinematics, ReducedJacobianEqualsFiniteDifferences) {
   for (const RobotTable& robot : {zhu2022::table(), zhu2022::uneven_table()}) {
     Random random(4);

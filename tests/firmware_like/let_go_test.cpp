@@ -14,6 +14,8 @@
 namespace liana::cable {
 namespace {
 
+constexpr Patience kPatience = patience(0.004);
+
 constexpr std::size_t kCable = 7, kFirst = 6, kEnd = 9;  // of segment 3
 
 // An enabled arm on ideal drives whose reading of one cable can be lost.
@@ -83,7 +85,8 @@ TEST_F(LetGo, ThreeLostSamplesAreABreakThatStopsWithPowerThenBrakes) {
   std::uint32_t ticks = 0;
   for (; ticks < 1000 && rig_.out.state != OperatingState::kFault; ++ticks) tick(true);
   EXPECT_EQ(rig_.out.state, OperatingState::kFault);
-  EXPECT_LE(ticks, 125 + kRestTicks + kBrakingTicks + 10) << "5 mm are wound back at 10 mm/s, where drives have no lag";
+  EXPECT_LE(ticks, 125 + kPatience.rest + kPatience.braking + 10)
+      << "5 mm are wound back at 10 mm/s, where drives have no lag";
   EXPECT_EQ(rig_.out.faults.count, 1) << "the cables that were let go are not slack";
 }
 

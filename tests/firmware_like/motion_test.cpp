@@ -64,6 +64,7 @@ TEST_F(Motion, WithoutASetpointNothingMoves) {
   EXPECT_TRUE(at_rest(robot_, state_));
 }
 
+// req:A17
 TEST_F(Motion, TheTipReachesItsTargetAndThenKeepsIt) {
   const Setpoint setpoint = tip_setpoint({0.10, -0.05, 0.02});
   accept_setpoint(robot_, setpoint, state_);
@@ -81,6 +82,7 @@ TEST_F(Motion, JointAnglesReachTheirTargetExactly) {
 }
 
 // A stream of setpoints on a line, one per interval, is a line at every tick.
+// req:C3
 TEST_F(Motion, InterpolationOverTheCommandIntervalHasNoSteps) {
   const ThetaVector start = theta();
   for (std::int32_t interval = 1; interval <= 200; ++interval) {
@@ -95,8 +97,9 @@ TEST_F(Motion, InterpolationOverTheCommandIntervalHasNoSteps) {
   }
 }
 
-// A38, A41: a held pitch goes to its target at a bounded rate and then keeps its bits while the tip moves on.
-TEST_F(Motion, A41HeldVariablesReachTheirTargetAndStayExactlyThere) {
+// A held pitch goes to its target at a bounded rate and then keeps its bits while the tip moves on.
+// req:A38 req:A41
+TEST_F(Motion, HeldVariablesReachTheirTargetAndStayExactlyThere) {
   accept_setpoint(robot_, tip_setpoint({}, kX5), state_);
   run(1);
   EXPECT_FALSE(state_.held_at_target);
@@ -113,8 +116,9 @@ TEST_F(Motion, A41HeldVariablesReachTheirTargetAndStayExactlyThere) {
   EXPECT_GT(tip().position_m[2], 0.6);
 }
 
-// A38: 10+0, 9+1, 8+2 and back while moving: the fixture checks every tick, and the tip stays on its way.
-TEST_F(Motion, A38SwitchingBetweenTenNineAndEightVariablesIsBumpless) {
+// 10+0, 9+1, 8+2 and back while moving: the fixture checks every tick, and the tip stays on its way.
+// req:A38
+TEST_F(Motion, SwitchingBetweenTenNineAndEightVariablesIsBumpless) {
   for (const std::uint32_t held : {0u, kX5, kX4AndX5, kX5, 0u}) {
     for (std::int32_t interval = 0; interval < 600; ++interval) {
       accept_setpoint(robot_, tip_setpoint({0.0004, 0.0, 0.0}, held), state_);

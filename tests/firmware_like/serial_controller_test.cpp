@@ -44,6 +44,7 @@ TEST(SerialController, AnEncoderOutsideTheJointsRangeIsNotHomedAndKeepsTheArmDis
   EXPECT_EQ(rig.out.state, OperatingState::kDisabled);
 }
 
+// req:C2
 TEST(SerialController, ASilentDriveAtTheStartIsNotHomed) {
   Rig rig;
   for (std::int32_t i = 0; i < 200; ++i) {

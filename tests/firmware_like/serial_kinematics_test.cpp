@@ -94,6 +94,7 @@ TEST(SerialKinematics, TwistIsTheJacobianTimesTheRates) {
 }
 
 // The payload study found 4.93 m from the base flange to the tip.
+// req:B1
 TEST(SerialKinematics, NoTipIsFartherAwayThanTheChainIsLong) {
   const RobotTable robot = micro::table();
   Random random(3);

@@ -32,7 +32,7 @@ bool within_limits(const RobotTable& robot, const ThetaVector& theta) {
   return true;
 }
 
-// A36..A40: ten, nine and eight variables in the iteration.
+// req:A37 req:A38
 TEST(ServoIk, ConvergesFromNearbyWithTenNineAndEightVariables) {
   const RobotTable robot = zhu2022::table();
   for (const std::uint32_t held : {0u, kX5, kX4AndX5}) {
@@ -57,8 +57,9 @@ TEST(ServoIk, WorksOnAnotherArm) {
   EXPECT_LE(error_of(robot, goal, theta), 1e-8);
 }
 
-// A38: locked variables are constant, not nearly constant.
-TEST(ServoIk, A38HeldVariablesKeepTheirBits) {
+// Constant, not nearly constant.
+// req:A38
+TEST(ServoIk, HeldVariablesKeepTheirBits) {
   const RobotTable robot = zhu2022::table();
   Random random(4);
   for (std::int32_t i = 0; i < 200; ++i) {
@@ -75,6 +76,7 @@ TEST(ServoIk, A38HeldVariablesKeepTheirBits) {
   }
 }
 
+// req:A5
 TEST(ServoIk, LimitsAreNeverPassedAndSaidToAct) {
   const RobotTable robot = zhu2022::table();
   Random random(5);
@@ -128,8 +130,7 @@ TEST(ServoIk, TheOthersTakeOverTheShareOfAVariableOnItsLimit) {
   EXPECT_GT(taken_over, 20);
 }
 
-// The straight arm cannot move its tip along itself: the closed forms and the iteration must stay calm there (A34
-// note).
+// The straight arm cannot move its tip along itself: the closed forms and the iteration must stay calm there.
 TEST(ServoIk, TheStraightArmNeitherBlowsUpNorDividesByZero) {
   const RobotTable robot = zhu2022::table();
   for (const double size_deg : {0.0, 1e-10, 1e-6, 1e-3}) {
@@ -164,8 +165,9 @@ TEST(ServoIk, TheStraightArmMovesSidewaysAndSaysWhereItCannotGo) {
   EXPECT_EQ(straight, ThetaVector{});
 }
 
-// A37 and the teleoperation outcomes: each has a name, and the residual points to where the target is.
-TEST(ServoIk, A37EveryOutcomeIsNamedWithTheDirectionThatIsLeft) {
+// The residual points to where the target is.
+// req:A37
+TEST(ServoIk, EveryOutcomeIsNamedWithTheDirectionThatIsLeft) {
   const RobotTable robot = zhu2022::table();
   const auto settle = [&](const Pose& goal, ThetaVector theta, std::uint32_t held = 0) {
     IkReport report;

@@ -1,4 +1,4 @@
-// Shape control in the null space of the tip (A42-A45).
+// Shape control in the null space of the tip.
 #include "firmware_like/cable/shape/shape.hpp"
 
 #include <gtest/gtest.h>
@@ -53,14 +53,16 @@ void run(const RobotTable& robot, const NodeTargets& nodes, std::uint32_t held, 
   }
 }
 
-TEST(Shape, A45TheMiddleNodeComesFirstUnlessWeightsSayOtherwise) {
+// req:A45
+TEST(Shape, TheMiddleNodeComesFirstUnlessWeightsSayOtherwise) {
   const RobotTable robot = zhu2022::table();
   for (const std::int32_t node : {1, 2, 4, 5})
     EXPECT_LT(default_node_weight(robot, node), default_node_weight(robot, 3));
 }
 
-// A43: a true projector, not a damped inverse.
-TEST(Shape, A43ProjectedVectorsDoNotMoveTheTip) {
+// A true projector, not a damped inverse.
+// req:A43
+TEST(Shape, ProjectedVectorsDoNotMoveTheTip) {
   const RobotTable robot = zhu2022::table();
   Random random(1);
   for (const std::uint32_t held : {0u, kX5, kX4AndX5, (1u << 3) | kX4AndX5}) {
@@ -127,8 +129,9 @@ TEST(Shape, TheModelsPullIsDownhill) {
   }
 }
 
-// A43: nothing happens within the threshold.
-TEST(Shape, A43OnlyNodesBeyondTheirThresholdCount) {
+// Nothing happens within the threshold.
+// req:A43
+TEST(Shape, OnlyNodesBeyondTheirThresholdCount) {
   const RobotTable robot = zhu2022::table();
   const ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   const ArmKinematics arm = arm_at(robot, theta);
@@ -147,9 +150,9 @@ TEST(Shape, A43OnlyNodesBeyondTheirThresholdCount) {
   }
 }
 
-// A43, A44: towards a target that another shape with the same tip has d falls, up to the balance with centring, and the
-// tip stays.
-TEST(Shape, A43TheNodeDistanceFallsWhileTheTipStays) {
+// Towards a target that another shape with the same tip has, up to the balance with centring.
+// req:A42 req:A43
+TEST(Shape, TheNodeDistanceFallsWhileTheTipStays) {
   const RobotTable robot = zhu2022::table();
   ThetaVector theta = zhu2022::radians(zhu2022::kPanelEdge_deg);
   ThetaVector other = theta;
@@ -169,8 +172,9 @@ TEST(Shape, A43TheNodeDistanceFallsWhileTheTipStays) {
   EXPECT_LE(last_m, 0.4 * before_m) << before_m;
 }
 
-// A44: weights decide between targets that contradict each other. A45: node 3 with the larger weight wins.
-TEST(Shape, A44A45TheHeavierNodeComesCloser) {
+// Weights decide between targets that contradict each other: node 3 with the larger weight wins.
+// req:A44
+TEST(Shape, TheHeavierNodeComesCloser) {
   const RobotTable robot = zhu2022::table();
   const ThetaVector start = zhu2022::radians(zhu2022::kPanelEdge_deg);
   const ArmKinematics arm = arm_at(robot, start);
@@ -245,8 +249,9 @@ TEST(Shape, ThePitchAheadOfThePlanarPartComesIntoThePlaneFirst) {
   EXPECT_EQ(theta[8], start[8]);
 }
 
-// A43, at every kind of pose: nearly straight, at limits, with rival nodes, with held thetas.
-TEST(Shape, A43TheMoveOfATickDoesNotMoveTheTip) {
+// At every kind of pose: nearly straight, at limits, with rival nodes, with held thetas.
+// req:A43
+TEST(Shape, TheMoveOfATickDoesNotMoveTheTip) {
   const RobotTable robot = zhu2022::table();
   Random random(5);
   for (const std::uint32_t held : {0u, kX5, kX4AndX5}) {
@@ -313,7 +318,8 @@ TEST(Shape, LimitsAreBoundsOfTheSameProblem) {
 }
 
 // 500 cases against the best of 50 solves by tests/numbers/planning_shape.cpp.
-TEST(Shape, A44TheTickEndsWhereTheOfflineSolveFromTheSameStartEnds) {
+// req:A44
+TEST(Shape, TheTickEndsWhereTheOfflineSolveFromTheSameStartEnds) {
   const RobotTable robot = zhu2022::table();
   Random random(7);
   std::int32_t same = 0;

@@ -15,6 +15,8 @@
 namespace liana::cable {
 namespace {
 
+constexpr Patience kPatience = patience(0.004);
+
 using namespace safety_bench;
 
 const LinkLimits kLimits = make_link_limits(table());
@@ -92,7 +94,8 @@ TEST(SupervisorTable, NoStateIsLeftWithoutEndWhateverTheDrivesDo) {
     CycleInputs inputs = healthy(kStatusEnabled, 0);
     const ArmStatus arm{true, false, false};
     std::uint32_t ticks = 0;
-    const std::uint32_t bound = kPathStopBudgetTicks + kQuickStopBudgetTicks + kOffBudgetTicks + kResetBudgetTicks + 10;
+    const std::uint32_t bound =
+        kPatience.path_stop + kPatience.quick_stop + kPatience.off_budget + kPatience.reset_budget + 10;
     bool ended = false;
     for (; ticks < bound && !ended; ++ticks) {
       inputs.request = Request::kStop;
@@ -121,6 +124,7 @@ TEST(SupervisorTable, OnlyAnEnabledArmMovesAndWithAFaultOnlyBackAsTheFaultsTable
   }
 }
 
+// req:C2
 TEST(SupervisorTable, NothingMovesWithAFaultWhileADriveIsNotHeardOrTheArmNotHomed) {
   const auto ordered = [](void (*spoil)(CycleInputs&, ArmStatus&)) {
     SupervisorState state{Phase::kEnabled, 0, 0, 0, {}};

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include <string>
 #include <vector>
 
@@ -10,6 +12,8 @@
 
 namespace liana::cable {
 namespace {
+
+constexpr Patience kPatience = patience(0.004);
 
 using namespace safety_bench;
 
@@ -122,7 +126,7 @@ TEST_F(Operation, OneDriveThatDoesNotEnableAbortsAllWithinTheBudgetAndIsNamed) {
     inputs_.drive[4].statusword = status;
     stuck_drive_ = 4;
     tick(Request::kEnable);
-    const int limit = static_cast<int>(2 * kPoweringBudgetTicks);
+    const int limit = static_cast<int>(2 * kPatience.powering);
     EXPECT_LE(ticks_until(OperatingState::kStopping, limit), limit);
     EXPECT_TRUE(has(faults_, FaultNumber::kDriveEnableTimeout, 4));
     EXPECT_EQ(faults_.fault[0].detail, status);
@@ -133,10 +137,24 @@ TEST_F(Operation, OneDriveThatDoesNotEnableAbortsAllWithinTheBudgetAndIsNamed) {
   }
 }
 
+TEST(PatienceOfTheSupervisor, IsTheSameInSecondsAtEveryRate) {
+  for (const double rate_hz : {200.0, 250.0, 500.0}) {
+    const Patience ticks = patience(1.0 / rate_hz);
+    EXPECT_EQ(ticks.powering, rate_hz) << "three transitions of 0.3 s, of which two are one step";
+    EXPECT_EQ(ticks.preparing, 60 * rate_hz);
+    EXPECT_EQ(ticks.rest, std::lround(0.1 * rate_hz));
+    EXPECT_EQ(ticks.persist, 5 * rate_hz);
+    EXPECT_EQ(ticks.path_stop, 4 * rate_hz);
+    EXPECT_EQ(ticks.quick_stop, std::lround(0.5 * rate_hz));
+    EXPECT_EQ(ticks.off_budget, rate_hz);
+    EXPECT_EQ(ticks.reset_budget, rate_hz);
+  }
+}
+
 TEST_F(Operation, APretensionRampThatNeverEndsIsATimeout) {
   arm_.prepared = false;
   tick(Request::kEnable);
-  const int limit = static_cast<int>(kPreparingBudgetTicks) + 100;
+  const int limit = static_cast<int>(kPatience.preparing) + 100;
   EXPECT_LE(ticks_until(OperatingState::kFault, limit), limit);
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveEnableTimeout, -1));
 }
@@ -146,6 +164,7 @@ struct Blocker {
   void (*apply)(CycleInputs&, ArmStatus&, FaultList&);
 };
 
+// req:C2
 TEST_F(Operation, EnablingIsRefusedAndSaysWhyWhenAnyConditionIsMissing) {
   const std::vector<Blocker> blockers{
       {kBusesUp, [](CycleInputs& in, ArmStatus&, FaultList&) { in.lost_bus_mask = 1; }},
@@ -183,8 +202,8 @@ TEST_F(Operation, DisableStopsAlongThePathThenBrakesThenPowersDown) {
   for (int i = 0; i < 100; ++i) tick();
   EXPECT_EQ(orders_.goal, DriveGoal::kOperationEnabled) << "still decelerating";
   arm_.at_rest = true;
-  for (std::uint32_t i = 1; i < kRestTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
-  for (std::uint32_t i = 0; i < kBrakingTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kSwitchedOn);
+  for (std::uint32_t i = 1; i < kPatience.rest; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
+  for (std::uint32_t i = 0; i < kPatience.braking; ++i) EXPECT_EQ(tick().goal, DriveGoal::kSwitchedOn);
   for (std::uint32_t i = 0; i < kOffTicks; ++i) {
     EXPECT_EQ(tick().goal, DriveGoal::kDisabled);
     EXPECT_EQ(orders_.state, OperatingState::kStopping);
@@ -199,11 +218,11 @@ TEST_F(Operation, RestThatIsInterruptedIsCountedAgain) {
   arm_.at_rest = false;
   tick(Request::kStop);
   arm_.at_rest = true;
-  for (std::uint32_t i = 1; i < kRestTicks; ++i) tick();
+  for (std::uint32_t i = 1; i < kPatience.rest; ++i) tick();
   arm_.at_rest = false;
   tick();
   arm_.at_rest = true;
-  for (std::uint32_t i = 1; i < kRestTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
+  for (std::uint32_t i = 1; i < kPatience.rest; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
   EXPECT_EQ(tick().goal, DriveGoal::kSwitchedOn);
 }
 
@@ -211,7 +230,7 @@ TEST_F(Operation, AStopThatNeverComesToRestEndsInAQuickStop) {
   enable();
   arm_.at_rest = false;
   tick(Request::kStop);
-  for (std::uint32_t i = 1; i < kPathStopBudgetTicks; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
+  for (std::uint32_t i = 1; i < kPatience.path_stop; ++i) EXPECT_EQ(tick().goal, DriveGoal::kOperationEnabled);
   EXPECT_EQ(tick().goal, DriveGoal::kQuickStop);
   EXPECT_LE(ticks_until(OperatingState::kDisabled, 20), 20);
 }
@@ -271,7 +290,7 @@ TEST_F(Operation, AHoldFaultIsNotClearedWhileTheArmStillMoves) {
 TEST_F(Operation, ACauseThatPersistsTurnsAHoldIntoAStop) {
   enable();
   tension_N_[2] = 450.0;
-  for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kPersistTicks - 1; ++i)
+  for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kPatience.persist - 1; ++i)
     ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
   EXPECT_EQ(tick().state, OperatingState::kStopping);
   EXPECT_LE(ticks_until(OperatingState::kFault, 100), 100);
@@ -289,12 +308,12 @@ TEST_F(Operation, ACauseThatPersistsDoesNotStopARetreatThatMovesButCountsAnewAft
   for (std::uint32_t i = 1; i < kAlarmDebounceTicks; ++i) tick();
   in_force_ = CommandKind::kRetreat;
   arm_.at_rest = false;
-  for (std::uint32_t i = 0; i < 3 * kPersistTicks; ++i) {
+  for (std::uint32_t i = 0; i < 3 * kPatience.persist; ++i) {
     ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
     ASSERT_EQ(orders_.may_move, MayMove::kRetreat) << i;
   }
   arm_.at_rest = true;  // its end, or whatever holds it up
-  for (std::uint32_t i = 1; i < kPersistTicks; ++i) ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
+  for (std::uint32_t i = 1; i < kPatience.persist; ++i) ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
   EXPECT_EQ(tick().state, OperatingState::kStopping);
 }
 
@@ -303,7 +322,7 @@ TEST_F(Operation, AnotherCommandThanARetreatDoesNotKeepACauseFromStoppingTheArm)
   tension_N_[2] = 450.0;
   in_force_ = CommandKind::kJoint;
   arm_.at_rest = false;
-  for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kPersistTicks - 1; ++i)
+  for (std::uint32_t i = 1; i < kAlarmDebounceTicks + kPatience.persist - 1; ++i)
     ASSERT_EQ(tick().state, OperatingState::kEnabled) << i;
   EXPECT_EQ(tick().state, OperatingState::kStopping);
 }
@@ -316,7 +335,7 @@ TEST_F(Operation, ADriveThatGoesSilentQuickStopsTheOthersInTheSameTick) {
   EXPECT_FALSE(orders_.live_targets);
   for (std::size_t i = 0; i < static_cast<std::size_t>(kDrives); ++i)
     EXPECT_EQ(sent_[i].controlword, kQuickStopCommand);
-  const int limit = static_cast<int>(kQuickStopBudgetTicks + kOffBudgetTicks) + 2;
+  const int limit = static_cast<int>(kPatience.quick_stop + kPatience.off_budget) + 2;
   EXPECT_LE(ticks_until(OperatingState::kFault, limit), limit)
       << "a drive that cannot confirm does not hold the others up for ever";
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveStopTimeout, 3));
@@ -363,7 +382,7 @@ TEST_F(Operation, AClearWhoseCauseIsStillThereReportsItAndStaysInFault) {
   tick();
   EXPECT_EQ(tick().state, OperatingState::kFault);
   tick(Request::kClear);
-  for (std::uint32_t i = 0; i < kResetBudgetTicks; ++i) tick();
+  for (std::uint32_t i = 0; i < kPatience.reset_budget; ++i) tick();
   EXPECT_EQ(orders_.goal, DriveGoal::kDisabled) << "back from resetting";
   EXPECT_EQ(orders_.state, OperatingState::kFault);
   EXPECT_EQ(state_.clear.missing, kNoDriveInFault | kCausesGone);

@@ -1,4 +1,4 @@
-// Tension plan: balance, floor, ceiling, smoothness; and what a purely geometric command leaves undone (mission A9,
+// Tension plan: balance, floor, ceiling, smoothness; and what a purely geometric command leaves undone (mission, A9;
 // physics section 1).
 #include "firmware_like/cable/arm/tension.hpp"
 
@@ -50,6 +50,7 @@ double least(const RobotTable& robot, const CableVector& motor_N) {
   return *std::min_element(motor_N.begin(), motor_N.begin() + robot.cable_count());
 }
 
+// req:A8
 TEST(Tension, TwoThousandPosesAreInBalanceAndOverTheFloorWhateverTheFriction) {
   for (const double mu : {0.0, zhu2022::kMu}) {
     const RobotTable robot = zhu2022::table(mu);
@@ -259,7 +260,7 @@ SegmentVector lifted_until_taut(const RobotTable& robot, double lost_N, CableVec
   return lift_N;
 }
 
-TEST(Tension, A9_ASegmentWhoseCableLosesTensionIsPulledTighterAndTurnsNoJoint) {
+TEST(Tension, ASegmentWhoseCableLosesTensionIsPulledTighterAndTurnsNoJoint) {
   const RobotTable robot = zhu2022::table(zhu2022::kMu);
   const Planned at = plan_at(robot, kBent_rad, SlipState{});
   const double lost_N =

@@ -1,4 +1,4 @@
-// Operator filter (A16): whatever comes in, velocity, acceleration and jerk stay bounded, and the lag is the stated
+// Operator filter (req:A16): whatever comes in, velocity, acceleration and jerk stay bounded, and the lag is the stated
 // one.
 #include "firmware_like/cable/motion/motion.hpp"
 
@@ -43,7 +43,7 @@ void step(const Pose& target, TipFilterState& state) {
 
 Pose random_pose(Random& random, double range_m) { return {random.vector(range_m), quaternion_of(random.vector(1.5))}; }
 
-TEST(TipFilter, A16RandomTargetsNeverPassTheBounds) {
+TEST(TipFilter, RandomTargetsNeverPassTheBounds) {
   Random random(1);
   TipFilterState state;
   Pose target;
@@ -54,7 +54,7 @@ TEST(TipFilter, A16RandomTargetsNeverPassTheBounds) {
   }
 }
 
-TEST(TipFilter, A16GlitchesAndNoiseNeverPassTheBounds) {
+TEST(TipFilter, GlitchesAndNoiseNeverPassTheBounds) {
   Random random(2);
   TipFilterState state;
   for (std::int32_t i = 0; i < 20000; ++i) {
@@ -66,7 +66,7 @@ TEST(TipFilter, A16GlitchesAndNoiseNeverPassTheBounds) {
   }
 }
 
-TEST(TipFilter, A16WhatIsNotAPoseMakesItBrakeAndStand) {
+TEST(TipFilter, WhatIsNotAPoseMakesItBrakeAndStand) {
   for (const double bad : {kNan, kInf, -kInf}) {
     TipFilterState state;
     const Pose far{{2.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
@@ -146,6 +146,7 @@ TEST(TipFilter, BrakingComesToRestWithinABoundedNumberOfTicks) {
   EXPECT_EQ(norm(state.linear.velocity), 0.0);
 }
 
+// req:A9
 TEST(TipFilter, TheSlitsSpeedLowersTheBoundAndTheRobotsIsTheMost) {
   const RobotTable robot = zhu2022::table();
   EXPECT_EQ(tip_filter_config(robot, robot.limits.tip_speed_slit_m_s).linear.speed, robot.limits.tip_speed_slit_m_s);

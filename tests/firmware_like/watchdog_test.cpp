@@ -60,6 +60,31 @@ TEST_F(WatchdogsOfAnArm, AHeartbeatMayBe300MillisecondsOld) {
   EXPECT_TRUE(has(faults_, FaultNumber::kDriveMissing, 5));
 }
 
+TEST_F(WatchdogsOfAnArm, ADriveUnderWhoseIdentifiersSomebodyElseSpeaksIsNamed) {
+  inputs_.twice_mask = 1u << 4;
+  EXPECT_EQ(run(kUnpowered), 1);
+  EXPECT_TRUE(has(faults_, FaultNumber::kNodeTwice, 4));
+  EXPECT_EQ(faults_.immediate, 1);
+}
+
+TEST(WatchFromStart, ADriveThatIsNeverHeardIsWatchedAfterTheTimeOfAHeartbeat) {
+  LinkLimits limits;
+  limits.drive_count = 3;
+  limits.heartbeat_age_ticks = 75;
+  LinkWatchState state{};
+  FaultList faults{};
+  CycleInputs inputs = healthy(kStatusDisabled);
+  inputs.drive[1].feedback_age_ticks = 0xFFFF;  // its reports never came
+  for (std::uint64_t tick = 1; tick <= 75; ++tick) {
+    EXPECT_EQ(faults.count, 0) << tick;
+    Watch out(tick, faults);
+    watch_from_start(limits, state);
+    for (std::int32_t i = 0; i < 3; ++i) watch_drive(limits, kUnpowered, inputs.drive[as_index(i)], i, state, out);
+  }
+  ASSERT_EQ(faults.count, 1);
+  EXPECT_TRUE(has(faults, FaultNumber::kDriveSilent, 1));
+}
+
 TEST_F(WatchdogsOfAnArm, ADriveThatLeavesNmtOperationalIsReported) {
   inputs_.drive[0].operational = 0;
   run(kUnpowered);

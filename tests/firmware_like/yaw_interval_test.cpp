@@ -51,7 +51,8 @@ bool fits_by_sampling(const RobotTable& robot, const PlanarPart& part, const Sli
 
 // Poses on the way from the panel edge to the rod, S2 of one and two segments: dense sampling agrees inside and outside
 // the interval.
-TEST(DofSplit, A39TheYawIntervalIsWhereS2IsReachableAndInsideTheSlit) {
+// req:A39
+TEST(DofSplit, TheYawIntervalIsWhereS2IsReachableAndInsideTheSlit) {
   const RobotTable robot = zhu2022::table();
   const SlitMouth mouth = panel_slit();
   const ThetaVector rod = zhu2022::radians(zhu2022::kPressRod_deg);

@@ -1,4 +1,4 @@
-"""Readers of others (here @mcap/core, which Foxglove uses) list and decode what a run has recorded (req:A36)."""
+"""Readers of others (here @mcap/core, which Foxglove uses) list and decode what a run has recorded (req:A25)."""
 import json
 import os
 import pathlib

@@ -12,6 +12,7 @@ namespace {
 
 const Pose kTip{{2.5, -0.75, 0.2}, {1.0, 0.0, 0.0, 0.0}};
 
+// req:A7
 TEST(TipCamera, DeliversTwentyFivePicturesASecondEachAHundredMillisecondsLate) {
   const SceneConfig scene = fixture_scene();
   TipCamera camera(scene.camera, scene.slit_frame, scene.rod.pose, 1);

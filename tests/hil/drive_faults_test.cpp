@@ -109,6 +109,66 @@ TEST_F(DriveFaults, ARebootMayGiveItAnotherIdentityThatStays) {
   EXPECT_EQ(read(0x1018, 2), 2U);
 }
 
+TEST_F(DriveFaults, ASlowResetIsSilentAndDeafUntilItsBootUpMessage) {
+  drive_.defects().reset_us = 600000;
+  EXPECT_TRUE(give(0x000, {0x82, kNode}).empty());
+  EXPECT_TRUE(tick(500000).empty());
+  EXPECT_TRUE(give(0x000, {0x82, kNode}).empty()) << "a second reset does not prolong it";
+  const auto boot_up = find(tick(100000), 0x700 + kNode);
+  ASSERT_TRUE(boot_up);
+  EXPECT_EQ(boot_up->data[0], 0);
+  EXPECT_EQ(read(0x6060, 0), 8U) << "it listens again";
+}
+
+TEST_F(DriveFaults, ASlowDriveTakesItsTimeForEachTransitionUpAndNoneForThoseDown) {
+  drive_.defects().power_us = 300000;
+  for (int i = 0; i < 3; ++i) cycle(0x00, 1000);
+  ASSERT_EQ(drive_.power_state(), PowerState::kSwitchOnDisabled);
+  for (const auto& [controlword, state] :
+       {std::pair{0x06, PowerState::kReadyToSwitchOn}, std::pair{0x07, PowerState::kSwitchedOn},
+        std::pair{0x0F, PowerState::kOperationEnabled}}) {
+    for (int i = 0; i < 75; ++i) {
+      give(0x77F, {0x05});
+      cycle(controlword, 1000);
+      ASSERT_NE(drive_.power_state(), state) << i;
+    }
+    for (int i = 0; i < 3; ++i) cycle(controlword, 1000);
+    EXPECT_EQ(drive_.power_state(), state);
+  }
+  cycle(0x00, 1000);
+  cycle(0x00, 1000);
+  EXPECT_EQ(drive_.power_state(), PowerState::kSwitchOnDisabled);
+}
+
+TEST_F(DriveFaults, ASlowSdoServerAnswersAllTheSameInOrder) {
+  drive_.defects().sdo_us = 400000;
+  EXPECT_TRUE(sdo({0x40, 0x00, 0x10, 0}).empty());
+  EXPECT_TRUE(sdo({0x40, 0x18, 0x10, 1}).empty());
+  EXPECT_FALSE(find(tick(399000), 0x580 + kNode));
+  const FrameList out = tick(1000);
+  ASSERT_GE(out.size(), 2U);
+  EXPECT_EQ(out[0].data[1], 0x00);
+  EXPECT_EQ(out[1].data[1], 0x18);
+}
+
+TEST_F(DriveFaults, WithoutReportsAllElseGoesOn) {
+  drive_.defects().no_reports = true;
+  EXPECT_FALSE(report(1000));
+  EXPECT_EQ(read(0x6060, 0), 8U);
+  EXPECT_EQ(drive_.power_state(), PowerState::kOperationEnabled);
+}
+
+TEST_F(DriveFaults, TwoDrivesOfOneNodeIdSayAllTwiceAndReportTwoPlaces) {
+  drive_.defects().twice = true;
+  const FrameList out = cycle(0x0F, 1000);
+  std::vector<CanFrame> reports;
+  for (const CanFrame& frame : out)
+    if (frame.id == kTpdo) reports.push_back(frame);
+  ASSERT_EQ(reports.size(), 2U);
+  EXPECT_NE(reports[0].data, reports[1].data);
+  EXPECT_EQ(give(0x600 + kNode, {0x40, 0x00, 0x10, 0, 0, 0, 0, 0}).size(), 2U);
+}
+
 TEST_F(DriveFaults, AnEncoderThatJumpsMovesTheMotorBackByAsMuchAndReadsTheTargetAgain) {
   settle(1000);
   drive_.jump_encoder(400.0);

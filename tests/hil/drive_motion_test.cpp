@@ -137,6 +137,64 @@ TEST_F(DriveMotion, StopsByItselfWhenTheMasterDies) {
   EXPECT_EQ(emergency(give(0x77F, {0x05})), 0) << "the error is taken back";
 }
 
+TEST_F(DriveMotion, WithoutItsMasterItGoesWhereObject1029Says) {
+  const std::pair<std::uint32_t, NmtState> behaviours[] = {
+      {0, NmtState::kPreOperational}, {1, NmtState::kOperational}, {2, NmtState::kStopped}};
+  for (const auto& [behaviour, state] : behaviours) {
+    give(0x000, {0x82, kNode});
+    configure(0);
+    EXPECT_EQ(write(0x1029, 1, 1, behaviour), 0U);
+    keep_alive();
+    for (int i = 0; i < 70; ++i) cycle(std::nullopt, 0);
+    EXPECT_EQ(drive_.nmt_state(), NmtState::kOperational);
+    for (int i = 0; i < 10; ++i) cycle(std::nullopt, 0);
+    EXPECT_EQ(drive_.nmt_state(), state) << behaviour;
+    keep_alive();
+    cycle(std::nullopt, 0);
+    EXPECT_EQ(drive_.nmt_state(), state) << "the heartbeat alone does not start it again";
+  }
+}
+
+TEST_F(DriveMotion, AnEmergencyHasBit0OfTheErrorRegisterUntilTheErrorIsGone) {
+  enable();
+  keep_alive();
+  std::optional<CanFrame> lost;
+  for (int i = 0; i < 100 && !lost; ++i) lost = find(cycle(0x0F, 1000), 0x080 + kNode);
+  ASSERT_TRUE(lost);
+  EXPECT_EQ(lost->data[2], 0x11);
+  EXPECT_EQ(read(0x1001, 0), 0x11U);
+  const auto back = find(give(0x77F, {0x05}), 0x080 + kNode);
+  ASSERT_TRUE(back);
+  EXPECT_EQ(back->data[2], 0);
+  EXPECT_EQ(read(0x1001, 0), 0U);
+}
+
+TEST_F(DriveMotion, ATpdoOfType0ComesAtASyncOnlyWhenSomethingHasChanged) {
+  give(0x000, {0x80, kNode});
+  EXPECT_EQ(write(0x1800, 1, 4, 0x80000180U + kNode), 0U);
+  EXPECT_EQ(write(0x1800, 2, 1, 0), 0U);
+  EXPECT_EQ(write(0x1800, 1, 4, 0x180U + kNode), 0U);
+  give(0x000, {0x01, kNode});
+  const auto reports = [&] { return find(cycle(std::nullopt, 0), 0x180 + kNode).has_value(); };
+  EXPECT_TRUE(reports()) << "the first one";
+  cycle(std::nullopt, 0);
+  EXPECT_FALSE(reports());
+  drive_.set_measured(77.0);
+  EXPECT_TRUE(reports());
+  EXPECT_FALSE(reports());
+}
+
+TEST_F(DriveMotion, ResetNodeRestoresApplicationObjectsAndResetCommunicationDoesNot) {
+  EXPECT_EQ(write(0x6072, 0, 2, 500), 0U);
+  give(0x000, {0x82, kNode});
+  EXPECT_EQ(read(0x6072, 0), 500U);
+  EXPECT_EQ(read(0x1400, 2), 1U);
+  const FrameList out = give(0x000, {0x81, kNode});
+  EXPECT_TRUE(find(out, 0x700 + kNode));
+  EXPECT_EQ(read(0x6072, 0), 1000U);
+  EXPECT_EQ(read(0x6060, 0), 0U);
+}
+
 TEST_F(DriveMotion, RampsDownOnQuickStop) {
   enable();
   write(0x6085, 0, 4, 100000);

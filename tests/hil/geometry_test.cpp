@@ -23,7 +23,7 @@ Theta theta_of(const nlohmann::json& test) {
   return theta;
 }
 
-// A2, A34
+// req:A11
 TEST(BenchGeometry, CableLengthsAreTheGoldenOnesToANanometre) {
   const RobotConfig robot = fixture_robot();
   CablePaths paths(robot, robot.hole_radius_m);
@@ -34,7 +34,7 @@ TEST(BenchGeometry, CableLengthsAreTheGoldenOnesToANanometre) {
   }
 }
 
-// A35
+// req:A35
 TEST(BenchGeometry, TheTipIsTheGoldenOneToANanometre) {
   Chain chain(fixture_robot(), fixture_scene());
   for (const auto& test : golden_cases()) {
@@ -49,7 +49,7 @@ TEST(BenchGeometry, TheTipIsTheGoldenOneToANanometre) {
   }
 }
 
-// A36
+// req:A36
 TEST(BenchGeometry, ThePointJacobianOfTheTipIsTheGoldenOne) {
   Chain chain(fixture_robot(), fixture_scene());
   for (const auto& test : golden_cases()) {
@@ -80,6 +80,81 @@ TEST(BenchGeometry, MujocoTendonsThroughTheHolesAgreeOverAThousandRandomPoses) {
   RecordProperty("worst_m", std::to_string(worst_m));
 }
 
+// req:A3 req:A8
+TEST(BenchGeometry, AnUnevenLinkageKeepsEverySegmentsMeanAndMujocoTendonsAgree) {
+  const RobotConfig robot = fixture_robot();
+  const Linkage linkage = uneven_linkage(robot, 0.05, 3);
+  ASSERT_EQ(linkage.size(), 40U);
+  for (std::size_t first = 0; first < 40; first += 8) {
+    BendShare mean{0.0, 0.0};
+    double most = 0.0;
+    for (std::size_t i = first; i < first + 8; ++i) {
+      mean = {mean.pitch + linkage[i].pitch / 8.0, mean.yaw + linkage[i].yaw / 8.0};
+      most = std::max({most, std::fabs(linkage[i].pitch - 1.0), std::fabs(linkage[i].yaw - 1.0)});
+    }
+    EXPECT_NEAR(mean.pitch, 1.0, 1e-14);
+    EXPECT_NEAR(mean.yaw, 1.0, 1e-14);
+    EXPECT_GT(most, 0.01);
+    EXPECT_LT(most, 0.1);
+  }
+  Chain chain(robot, fixture_scene(), true);
+  chain.set_linkage(linkage);
+  CablePaths paths(robot, robot.hole_radius_m, linkage), even(robot, robot.hole_radius_m);
+  Random random(12, "uneven poses");
+  double worst_m = 0.0, most_apart_m = 0.0;
+  for (int pose = 0; pose < 100; ++pose) {
+    const Theta theta = random_theta(random, 20.0);
+    chain.place(theta);
+    paths.update(theta);
+    even.update(theta);
+    const auto tendons = chain.tendon_lengths_m();
+    for (std::size_t c = 0; c < 15; ++c) {
+      worst_m = std::max(worst_m, std::fabs(tendons[c] - paths.length_m(c)));
+      most_apart_m = std::max(most_apart_m, std::fabs(paths.length_m(c) - even.length_m(c)));
+    }
+  }
+  EXPECT_LT(worst_m, 1e-6);
+  EXPECT_GT(most_apart_m, 1e-5) << "an uneven linkage that changes no cable is none";
+}
+
+// The work of the weight is the change of height of the links' middles.
+// req:A46
+TEST(BenchGeometry, WeightAndAnUnevenLinkageActByTheDerivativesOfHeightAndTip) {
+  const RobotConfig robot = fixture_robot();
+  Chain chain(robot, fixture_scene());
+  chain.set_gravity(2.0);
+  chain.set_linkage(uneven_linkage(robot, 0.05, 4));
+  const auto height_J = [&](const Theta& theta) {
+    chain.place(theta);
+    double sum_m = 0.0;
+    for (std::size_t i = 0; i < chain.link_count(); ++i)
+      sum_m += 0.5 * (chain.joint_center_m(i).z + chain.joint_center_m(i + 1).z);
+    return 2.0 * robot.module_mass_kg * sum_m;
+  };
+  constexpr double kStep = 1e-5;
+  Random random(13, "weight poses");
+  Theta theta = random_theta(random, 15.0);
+  chain.place(theta);
+  Theta weight_Nm;
+  chain.bias(Theta{}, weight_Nm);
+  PointJacobian jacobian;
+  chain.point_jacobian(39, chain.tip().position_m, jacobian);
+  for (std::size_t i = 0; i < 10; ++i) {
+    const double middle = theta[i];
+    theta[i] = middle + kStep;
+    const double above_J = height_J(theta);
+    const Vec3 ahead_m = chain.tip().position_m;
+    theta[i] = middle - kStep;
+    const double below_J = height_J(theta);
+    const Vec3 moved_m = ahead_m - chain.tip().position_m;
+    theta[i] = middle;
+    EXPECT_NEAR(weight_Nm[i], (above_J - below_J) / (2.0 * kStep), 1e-5) << "theta " << i;
+    EXPECT_NEAR(jacobian[0][i], moved_m.x / (2.0 * kStep), 1e-6);
+    EXPECT_NEAR(jacobian[1][i], moved_m.y / (2.0 * kStep), 1e-6);
+    EXPECT_NEAR(jacobian[2][i], moved_m.z / (2.0 * kStep), 1e-6);
+  }
+}
+
 TEST(BenchGeometry, CableDerivativesAreTheDifferencesOfLengths) {
   const RobotConfig robot = fixture_robot();
   CablePaths paths(robot, robot.hole_radius_m);
@@ -105,6 +180,7 @@ TEST(BenchGeometry, CableDerivativesAreTheDifferencesOfLengths) {
   }
 }
 
+// req:A3 req:A4
 TEST(BenchGeometry, TheReducedInertiaIsTheFullOneBetweenSelections) {
   Chain chain(fixture_robot(), fixture_scene());
   Random random(9, "inertia poses");

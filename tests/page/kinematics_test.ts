@@ -7,6 +7,7 @@ interface Golden {
   cases: { name: string; theta_deg: number[]; tip_pose: number[][]; segment_ends_m: number[][] }[];
 }
 
+// req:A35
 test('the cable arm stands where the golden values have it, at all its nodes and its tip', () => {
   const chain = chain_of(kArm);
   for (const golden of (json_file('tests/golden/arm.json') as Golden).cases) {

@@ -38,6 +38,7 @@ test('a cable is blue at the floor, pale as planned, red at the ceiling, grey wh
   assert.deepEqual(tension_colour(NaN, scale), [0.5, 0.5, 0.5]);
 });
 
+// req:A47
 test('the pitch budget is 0.32 deg with one segment in the slit and 0.084 deg with two', () => {
   const setpoint = new Float32Array(10);
   const measured = Float32Array.of(5, 0, 0, 0, 0, 0, 0.021, 0, -0.042, 0);

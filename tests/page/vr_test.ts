@@ -43,6 +43,7 @@ test('times of samples strictly increase, in microseconds', () => {
   assert.deepEqual(times, [1500, 1501, 1502, 20000]);
 });
 
+// req:A24
 test('below 50 samples a second there is an alarm, not at 90, and not before a second has passed', () => {
   const quick = new IntervalLog();
   for (let i = 0; i < 180; ++i) quick.sampled((1000 * i) / 90);

@@ -1,4 +1,7 @@
-"""Checks rooms.ini: which folder includes which, who knows which library, who reads a clock. Seconds, no compiler."""
+"""Checks rooms.ini: which folder includes which, who knows which library, who reads a clock. Seconds, no compiler.
+
+What people touch and what manages information are rooms apart (req:A14).
+"""
 
 import configparser
 import pathlib

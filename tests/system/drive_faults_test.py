@@ -1,4 +1,4 @@
-"""Drives that are missing, wrong, silent, in fault or without power: a named message and a safe arm (A28, C5)."""
+"""Drives that are missing, wrong, silent, in fault or without power: a named message and a safe arm."""
 import unittest
 
 from support import SystemTest
@@ -30,15 +30,22 @@ class DrivesThatDoNotBoot(SystemTest):
             self.assertEqual([(fault["number"], fault["index"]) for fault in state["faults"]], [(number, kDrive)])
             for word in words:
                 self.assertIn(word, state["faults"][0]["text"])
-            for command in ("enable", "home", "clear"):
+            for command in ("enable", "home"):
                 self.assert_refused(client.ask("state_command", command=command), "fault", *words)
             self.assert_refused(client.ask("move_jp", goal_deg=[0] * 10), "not_enabled")
+            client.call("state_command", command="clear")
+            client.until(lambda state: state["state"] == "BOOTING")
+            client.until(lambda state: state["state"] == "FAULT")
+            self.assertEqual(
+                [fault["number"] for fault in client.state["faults"]], [number], "asked again it is as wrong as before"
+            )
             client.go_on(0.5)
             self.assertEqual(system.shut_down(client), {"lianad": 0, "liana-bus": 0, "liana-bench": 0})
             truth = system.truth()
             self.assertEqual(max(truth.column("enabled")), 0)
             self.assert_still(truth, 0)
 
+    # req:C2
     def test_a_missing_drive_is_named_and_nothing_is_enabled(self):
         self.refused_boot("missing", 3001, "node 4 on can0", "no boot-up")
 
@@ -172,7 +179,7 @@ class DrivesWithoutTargets(SystemTest):
             client.enable()
             client.start_moving()
             state = client.until(lambda state: state["state"] == "FAULT")
-            self.assert_fault(state, 3004, 8)
+            self.assert_fault(state, 3002, 8)  # pre-operational (1029), so silent
             client.go_on(1.0)
             system.shut_down(client)
             self.assertEqual(

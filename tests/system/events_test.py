@@ -50,7 +50,7 @@ class EventsOfARun(SystemTest):
         client.call("move_path", points_deg=[here_deg, [angle + 0.1 for angle in here_deg]])
         client.until(lambda state: any("path" in event["text"] for event in state["events"]) and not state["is_busy"])
         for _ in range(100):
-            client.request("tool", command="again and again")
+            client.request("mission_control", command="resume")
         client.go_on(0.1)
         client.start_moving()
         client.told.append(client.until(lambda state: state["faults"]))
@@ -137,8 +137,8 @@ class EventsOfARun(SystemTest):
 
     def test_who_floods_is_counted(self):
         (left_out,) = self.told("left_out")
-        self.assertEqual(left_out.subject, "tool")
-        self.assertEqual(len(self.told("tool")) + left_out.number, 101)
+        self.assertEqual(left_out.subject, "operator")
+        self.assertEqual(len(self.told("operator")) + left_out.number, 101)
 
     def test_a_state_shows_tick_and_text_of_the_newest_ten_without_what_it_tells_elsewhere(self):
         elsewhere = {("owner", 1), ("homing", 1)}
@@ -180,7 +180,7 @@ class EventsOfRunsThatFail(SystemTest):
             (folder / kind).write_text(table(kind, name))
             tables += [f"--{kind}", folder / kind]
         done = run("lianad", *tables, "--api", folder / "api", "--events", "/nonexistent/events.txt")
-        self.assertEqual(done.returncode, 1)
+        self.assertEqual(done.returncode, 2)
         self.assertIn("--events: '/nonexistent/events.txt'", done.stderr)
 
     def test_a_full_disk_is_trouble_of_the_host_and_the_arm_goes_on(self):

@@ -73,6 +73,7 @@ class GatewayTest(SystemTest):
 
 
 class WhatAClientSees(GatewayTest):
+    # req:A21
     def test_records_and_facts_say_what_lianads_state_says(self):
         console = self.console().until(lambda me: len(me.sequences) > 5 and me.facts.get("is_homed"))
         self.assertEqual(console.welcome["protocol"], 1)
@@ -166,6 +167,7 @@ class WhatAClientMayDo(GatewayTest):
         self.assertEqual(self.console("anna").until(lambda me: me.welcome).welcome["name"], "anna")
         self.assertEqual(self.console("anna").until(lambda me: me.welcome).welcome["name"], "anna-2")
 
+    # req:A21
     def test_device_samples_reach_lianad_beside_motion_requests(self):
         console = self.console("pilot")
         console.enable()

@@ -38,6 +38,7 @@ kGood = Tick(
     tick=0,
     lost_ticks=0,
     lost_buses=0,
+    twice=0,
     request="none",
     sequence=7,
     first_tick=0,
@@ -203,6 +204,7 @@ class Rules(unittest.TestCase):
             every = tuple(fault(known) for known in (3001, 3002, 3003, 3004, 3006, 3007, 5001, 5002, 5003))
             self.assertEqual(rules.faults_not_latched(changed(5, 60, **wrong, faults=every), kLimits), [])
         self.broken(rules.faults_not_latched(changed(5, lost_buses=2), kLimits), "(4001, 1)")
+        self.broken(rules.faults_not_latched(changed(5, twice=2), kLimits), "(3009, 1)")
         self.broken(rules.faults_not_latched(changed(5, lost_ticks=3), kLimits), "(2001, -1)")
 
     def test_a_serial_arms_encoder_that_jumps_and_a_joint_out_of_its_range_have_to_be_latched(self):

@@ -1,4 +1,4 @@
-"""Targets no arm can reach and packets nobody can read: one clear answer each, and the arm stays where it is (A34)."""
+"""Targets no arm can reach and packets nobody can read: one clear answer each, and the arm stays where it is."""
 import json
 import math
 import unittest
@@ -297,7 +297,8 @@ class TargetsTheArmCannotFollow(SystemTest):
 
 
 class Shapes(SystemTest):
-    def test_A43_a_search_finds_the_shape_that_brings_a_node_to_its_target_while_the_tip_stays(self):
+    # req:A43
+    def test_a_search_finds_the_shape_that_brings_a_node_to_its_target_while_the_tip_stays(self):
         with System() as system:
             client = system.client()
             client.enable()

@@ -1,6 +1,4 @@
-"""`liana run` with input that cannot work: one message, exit code 2 before anything moves or 1 after, and a safe arm
-(A35).
-"""
+"""`liana run` with bad input: one message, exit code 2 before anything moves or 1 after, and a safe arm."""
 import json
 import os
 import pathlib

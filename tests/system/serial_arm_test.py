@@ -1,4 +1,4 @@
-"""A mission of the serial arm as users run it: repeatable, replayable, readable; and what a serial arm refuses (A36)."""
+"""A mission of the serial arm as users run it: repeatable, replayable, readable; and what a serial arm refuses."""
 import json
 import pathlib
 import tempfile
@@ -44,7 +44,10 @@ class AShortMission(SerialRuns):
         cls.first, cls.second, cls.other = (keeper.record(SHORT, seed) for seed in (3, 3, 4))
 
     def test_two_runs_with_one_seed_are_identical_file_by_file(self):
-        names, others = (sorted(file.name for file in folder.iterdir()) for folder in (self.first, self.second))
+        names, others = (
+            sorted(str(file.relative_to(folder)) for file in folder.rglob("*") if file.is_file())
+            for folder in (self.first, self.second)
+        )
         self.assertEqual(names, others)
         self.assertLessEqual(set(FILES), set(names))
         for name in names:

@@ -1,4 +1,4 @@
-// Cable map: joint angles to cable path lengths and back (mission figure A3).
+// Cable map: joint angles to cable path lengths and back (mission, A3).
 //
 // Cable c of segment m is anchored at the last disc of segment m and passes every disc of segments 1..m. Odd (Rz Ry)
 // and even (Ry Rz) joints give the same hole-to-hole distance d, so the path is sum over segments j <= m of modules_j

@@ -58,6 +58,7 @@ LinkLimits make_link_limits(const RobotTable& table) noexcept {
   LinkLimits limits{};
   limits.drive_count = table.drive_count();
   limits.heartbeat_age_ticks = heartbeat_age_ticks(table.tick_s);
+  limits.patience = patience(table.tick_s);
   const double delay_s = table.servo_time_constant_s + kFollowingDeadTicks * table.tick_s;
   const double window_m = kFollowingWindow_m + kTargetSpeedMargin * table.limits.cable_speed_m_s * delay_s;
   for (std::int32_t i = 0; i < limits.drive_count; ++i) {

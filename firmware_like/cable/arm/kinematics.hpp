@@ -1,4 +1,4 @@
-// Forward kinematics and reduced Jacobian of the equal-angle arm, in closed form (mission figures A1, A2).
+// Forward kinematics and reduced Jacobian of the equal-angle arm, in closed form (mission, A1 and A2).
 //
 // A segment of n modules bent by (pitch a, yaw b) is planar: with w = cos a cos b = cos psi, y = sin b, z = sin a cos
 // b, link k points along T_k(w) e_x + U_(k-1)(w) (0, z, -y) (Chebyshev polynomials), in the frame of the segment's

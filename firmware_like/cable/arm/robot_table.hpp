@@ -30,7 +30,7 @@ struct SegmentTable {
   std::array<double, kMaxSegmentCables> cable_phase_rad{};  // angle of the hole from the pitch axis' y, see cables.hpp
 };
 
-// Tension limits of the robot, newtons (mission figure A9).
+// Tension limits of the robot, newtons (mission, A9).
 struct TensionLimits {
   double plan_N = 0.0;            // what the plan aims at
   double floor_motor_N = 0.0;     // least at the motor

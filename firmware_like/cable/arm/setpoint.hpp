@@ -13,7 +13,7 @@ namespace liana::cable {
 constexpr std::int32_t kMaxNodeTargets = 4;
 constexpr std::int32_t kMaxKeepClear = 4;
 
-// Where a node (the end of a segment) should go in the null space of the tip (mission figure A6).
+// Where a node (the end of a segment) should go in the null space of the tip (mission, A6).
 struct NodeTarget {
   std::int32_t node = 0;     // 1 = end of segment 1; 0 = unused
   Vec3 position_m{};         // in the base frame
@@ -31,7 +31,7 @@ struct KeepClear {
 };
 using KeepClearTargets = std::array<KeepClear, kMaxKeepClear>;
 
-// Weight of a target that names none: the arm's middle node comes first (A45: d_3 of five segments).
+// Weight of a target that names none: the arm's middle node comes first (requirement A45: d_3 of five segments).
 constexpr double default_node_weight(const RobotTable& table, std::int32_t node) {
   return node == (table.segment_count + 1) / 2 ? 1.0 : 0.25;
 }

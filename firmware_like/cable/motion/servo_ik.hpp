@@ -1,5 +1,5 @@
-// Servo IK: joint angles that follow a moving tip pose, a constant number of iterations per tick (mission figures A2,
-// A5, A6).
+// Servo IK: joint angles that follow a moving tip pose, a constant number of iterations per tick (mission, A2,
+// A5 and A6).
 //
 // Damped least squares on the free thetas: dtheta = J^T (J J^T + mu I)^-1 e. Held thetas are removed from the iteration
 // and moved only by their own profile. A free theta that would pass its limit is set onto it and removed, and the rest

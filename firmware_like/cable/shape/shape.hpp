@@ -1,4 +1,4 @@
-// Shape: what the arm does with the freedom that the tip leaves (mission figure A6, requirements A42-A45). Method and
+// Shape: what the arm does with the freedom that the tip leaves (requirements A42 to A45). Method and
 // figures: docs/shape.md.
 //
 // Each tick takes the step that would bring the nodes to their targets at once, or as near as a quadratic model says

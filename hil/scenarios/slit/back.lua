@@ -10,5 +10,4 @@ return liana.mission "back" {
     time_limit_s = 6,
     on_fail = "retract",
   },
-  finish = liana.tool "none",
 }

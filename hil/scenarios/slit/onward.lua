@@ -32,5 +32,4 @@ return liana.mission "onward" {
     on_fail = "retract",
   },
 
-  finish = liana.tool "none",
 }

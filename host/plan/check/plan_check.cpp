@@ -34,7 +34,7 @@ Rotation times(const Rotation& A, const Rotation& B) {
 
 double distance(const Vector& a, const Vector& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
 
-// One universal joint: pitch about z and yaw about y, pitch first in odd modules (the DH rows of mission figure A1).
+// One universal joint: pitch about z and yaw about y, pitch first in odd modules (the DH rows: mission, A1).
 Rotation joint_rotation(double pitch_rad, double yaw_rad, bool pitch_first) {
   const double cp = std::cos(pitch_rad), sp = std::sin(pitch_rad), cy = std::cos(yaw_rad), sy = std::sin(yaw_rad);
   const Rotation pitch{Vector{cp, -sp, 0}, Vector{sp, cp, 0}, Vector{0, 0, 1}};

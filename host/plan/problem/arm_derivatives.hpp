@@ -75,7 +75,7 @@ class ArmDerivatives {
   std::vector<Vec3> origin_m_;    // of each segment's root, and of the tip
 };
 
-// Lengths of all cables (the path from first disc to anchor, mission figure A3) with derivatives. A length is a sum
+// Lengths of all cables (the path from first disc to anchor: mission, A3) with derivatives. A length is a sum
 // over segments, so its second derivatives couple the two angles of one segment only.
 struct CableDerivatives {
   std::vector<double> length_m;  // per cable

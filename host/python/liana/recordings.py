@@ -23,6 +23,7 @@ INPUTS: Wanted = {
     "tick": ("Q", 1),
     "lost_ticks": ("I", 1),
     "lost_bus_mask": ("I", 1),
+    "twice_mask": ("I", 1),
     "request": ("B", 1),
     "telecommand.sequence": ("Q", 1),
     "telecommand.first_tick": ("Q", 1),
@@ -100,6 +101,7 @@ class Tick(NamedTuple):
     tick: int
     lost_ticks: int
     lost_buses: int  # bit mask
+    twice: int  # bit mask: drives under whose identifiers somebody else speaks
     request: str  # of REQUESTS
     sequence: int  # of the telecommand that is offered
     first_tick: int  # in which it may act
@@ -219,7 +221,7 @@ def tick_of(inputs: list[Any], outputs: list[Any]) -> Tick:
     """One tick of the fields of INPUTS and outputs_of(), in their order."""
     state, category, at_rest, active, numbers, indices, details, ticks, count, dropped, *commands = outputs
     faults = tuple(itertools.starmap(Fault, zip(numbers[:count], indices, details, ticks)))
-    asked = (*inputs[:3], REQUESTS[inputs[3]], *inputs[4:])
+    asked = (*inputs[:4], REQUESTS[inputs[4]], *inputs[5:])
     return Tick._make((*asked, STATES[state], category, at_rest, active, faults, dropped, *commands))
 
 

@@ -2,6 +2,7 @@
 #include "host/api/server.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -382,6 +383,106 @@ TEST_F(Api, AStopIsHandledWhileALockstepClientIsAwaited) {
   watcher.send({{"op", "stop"}});
   server_.wait_done(5, 0.05);
   EXPECT_EQ(recorder_.log, (std::vector<std::string>{"w:stop"}));
+}
+
+TEST_F(Api, ARoleThatOneHasIsRefusedToOthersByNameUntilItLeaves) {
+  for (const std::string role : {"mission", "operator", "camera", "archive"}) {
+    auto first = std::make_unique<ApiClient>(join("first", role));
+    ApiClient second = ApiClient::connect(path_);
+    const Json hello{{"op", "hello"}, {"name", "second"}, {"role", role}};
+    second.send(hello);
+    const Json refused = answer(second);
+    EXPECT_EQ(refused.value("code", ""), "busy");
+    EXPECT_NE(refused.value("message", "").find("'first' has it (process " + std::to_string(::getpid())),
+              std::string::npos)
+        << refused;
+    EXPECT_FALSE(second.receive(0.0));
+    first.reset();
+    second.send(hello);
+    EXPECT_EQ(answer(second).value("op", ""), "welcome") << role;
+  }
+  join("a", "client"), join("b", "client"), join("c", "observer"), join("d", "observer");
+}
+
+TEST_F(Api, ARoleIsFreeAsSoonAsItsClientHasLeftAlsoWhereThatIsReadLater) {
+  auto first = std::make_unique<ApiClient>(join("first", "mission", true));
+  first->send({{"op", "done"}, {"tick", 5}});
+  server_.wait_done(5, 10.0);
+  first.reset();  // in lockstep time its end belongs to the next interval
+  join("second", "mission");
+}
+
+TEST_F(Api, TickRecordsAreForTheArchive) {
+  ApiClient curious = ApiClient::connect(path_);
+  curious.send({{"op", "hello"}, {"name", "c"}, {"role", "client"}, {"subscribe", {"state", "tick"}}});
+  EXPECT_EQ(answer(curious).value("code", ""), "bad_request");
+  join("a", "archive", false, {"tick"});
+}
+
+TEST_F(Api, WhoReadsNothingIsClosedBeforeMuchIsKeptForHim) {
+  ApiClient client = join("c", "client");
+  const std::string request = R"({"op":"refuse","id":9})";
+  std::size_t asked = 0;
+  const auto is_gone = [&] { return !recorder_.log.empty() && recorder_.log.back() == "c gone"; };
+  for (; asked < 100000 && !is_gone(); ++asked) {
+    send_packet(client.fd(), request);
+    server_.pump(0.0);
+    server_.dispatch();
+  }
+  EXPECT_TRUE(is_gone()) << "its answers are over 512 KiB by then";
+  EXPECT_GT(asked, 3000u);
+}
+
+TEST_F(Api, LargeRequestsWaitInTheirOwnSocketWhenAQuarterOfAMegabyteWaitsForTheInterval) {
+  ApiClient client = join("c", "client", true);
+  const std::string large = R"({"op":"move","x":")" + std::string(100000, 'x') + R"("})";
+  int sent = 0;
+  for (int i = 0; i < 200; ++i) {
+    sent += send_packet(client.fd(), large) == SocketResult::kDone ? 1 : 0;
+    server_.pump(0.0);
+  }
+  EXPECT_GE(sent, 3);
+  EXPECT_LT(sent, 8);
+  server_.dispatch();
+  EXPECT_EQ(std::count(recorder_.log.begin(), recorder_.log.end(), "c:move"), 3);
+}
+
+TEST_F(Api, AnErrorAboutALongTextIsShort) {
+  ApiClient client = join("c", "client");
+  for (const std::string& bytes : {'"' + std::string(100000, 'x'), R"({"op":")" + std::string(100000, 'x') + R"("})",
+                                   R"({"op":"x",")" + std::string(100000, '\x01') + R"(":1})"}) {
+    EXPECT_LT(raw(client, bytes).dump(-1, Json::BadUtf8::kReplace).size(), 500u);
+  }
+}
+
+TEST_F(Api, ALockstepClientThatIsAlwaysLateIsDroppedThoughItAnswersEveryTime) {
+  ApiClient client = join("m", "mission", true);
+  std::thread answering([&] {
+    for (int tick = 1; tick <= 3; ++tick) {
+      ::usleep(900000);
+      client.send({{"op", "done"}, {"tick", tick}});
+    }
+  });
+  for (std::uint64_t tick = 1; tick <= 3; ++tick) server_.wait_done(tick, 1.5);
+  answering.join();
+  server_.dispatch();
+  EXPECT_EQ(recorder_.log, (std::vector<std::string>{"m gone"})) << "0.4 s each beyond what is free";
+}
+
+TEST_F(Api, OnlyItsUserMayConnectWhateverTheUmask) {
+  const mode_t before = ::umask(0);
+  const std::string path = path_ + "_open";
+  {
+    ApiServer server(path, recorder_);
+    EXPECT_EQ(std::filesystem::status(path).permissions(),
+              std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  }
+  {
+    ApiServer server(path + "_group", recorder_, ::getgid());
+    EXPECT_EQ(static_cast<unsigned>(std::filesystem::status(path + "_group").permissions()), 0660u);
+  }
+  ::umask(before);
+  for (const std::string& made : {path, path + "_group"}) ::unlink(made.c_str());
 }
 
 TEST_F(Api, ASecondServerOnTheSamePathIsRefused) {

@@ -113,6 +113,7 @@ TEST_F(Arbitration, ALineEndsAtItsGoalAndStaysThere) {
   EXPECT_EQ(setpoint->tip_in_base.position_m, goal.position_m);
 }
 
+// req:A9 req:A42
 TEST_F(Arbitration, HeldVariablesAndShapeTravelWithTheTipGoal) {
   ThetaVector held{};
   arbiter_.hold_theta(now_, 1u << 8, held);
@@ -212,6 +213,7 @@ TEST_F(Arbitration, ASearchAndAPlannedMoveExcludeEachOther) {
   EXPECT_EQ(code_of([&] { arbiter_.move_joints(now_, goal, 0.03); }), "accepted");
 }
 
+// req:A13
 TEST_F(Arbitration, TheOperatorSteersFromWhereTheTipIsWithTheSpeedOfTheDevice) {
   use_hand();
   const auto first = steered(0.2);
@@ -286,6 +288,7 @@ class AtTheSlit : public Arbitration {
   config::SceneSlit slit_;
 };
 
+// req:A33
 TEST_F(AtTheSlit, VrIsRefusedInsideUnlessItIsToSteerAnywhereAndTheHandControllerIsNot) {
   slit_.mouth_u_m -= 0.02;
   CableArbiter arbiter(table_, SpeedZone(slit_, 0.03));
@@ -296,6 +299,7 @@ TEST_F(AtTheSlit, VrIsRefusedInsideUnlessItIsToSteerAnywhereAndTheHandController
   EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(DeviceKind::kNone)); }), "accepted");
 }
 
+// req:A33
 TEST_F(AtTheSlit, VrThatSteersIntoItIsLetGoAtTheMouth) {
   CableArbiter arbiter(table_, SpeedZone(slit_, 0.03));
   arbiter.use_device(now_, use(DeviceKind::kVr));

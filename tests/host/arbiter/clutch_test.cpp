@@ -1,4 +1,4 @@
-// Clutch: P_r = a P_m from the anchors, and never a jump on engaging (A27).
+// Clutch: P_r = a P_m from the anchors, and never a jump on engaging.
 #include "host/arbiter/clutch.hpp"
 
 #include <gtest/gtest.h>
@@ -14,6 +14,7 @@ const Pose kHand{{0.02, 0.03, -0.01}, normalize({0.8, -0.2, 0.5, 0.1})};
 
 double turn_between(const Quat& a, const Quat& b) { return norm(rotation_vector(multiply(a, conjugate(b)))); }
 
+// req:A27
 TEST(Clutch, EngagingNeverMovesTheGoal) {
   for (const double scale : {0.2, 1.0, 4.0}) {
     const Pose goal = clutch_goal({scale, 0.7}, {kHand, kTip}, kHand);
@@ -22,6 +23,7 @@ TEST(Clutch, EngagingNeverMovesTheGoal) {
   }
 }
 
+// req:A28 req:C4
 TEST(Clutch, TranslationIsScaledAndParallel) {
   Pose hand = kHand;
   hand.position_m = add(hand.position_m, {0.01, -0.02, 0.03});
@@ -31,6 +33,7 @@ TEST(Clutch, TranslationIsScaledAndParallel) {
   EXPECT_NEAR(goal.position_m[2] - kTip.position_m[2], 0.12, 1e-15);
 }
 
+// req:A28 req:C4
 TEST(Clutch, RotationIsScaledAboutTheSameAxis) {
   Pose hand = kHand;
   hand.quaternion = multiply(quaternion_of({0.0, 0.2, 0.0}), kHand.quaternion);
@@ -43,6 +46,7 @@ TEST(Clutch, RotationIsScaledAboutTheSameAxis) {
       << "scale 0 locks attitude";
 }
 
+// req:A27
 TEST(Clutch, ReindexingAddsUpWhatTheHandDidWhileEngaged) {
   Pose tip = kTip;
   for (int stroke = 0; stroke < 3; ++stroke) {

@@ -46,15 +46,17 @@ TEST_F(Steering, MovesAreCountedFromTheAnchor) {
   EXPECT_NEAR(interval(0.31)->tip_in_base.position_m[0], 1.02, 1e-12);
 }
 
+// req:A27
 TEST_F(Steering, AnOpenDeadmanMovesNothingAndReindexes) {
   interval(0.3);
   EXPECT_FALSE(interval(0.32, false));
   EXPECT_FALSE(steer_.engaged());
   const auto goal = interval(0.36);
   ASSERT_TRUE(goal);
-  EXPECT_EQ(goal->tip_in_base.position_m, now_.tip_command.position_m) << "A27: no jump on engaging again";
+  EXPECT_EQ(goal->tip_in_base.position_m, now_.tip_command.position_m) << "no jump on engaging again";
 }
 
+// req:A32
 TEST_F(Steering, AfterALossTheOperatorHasToLetGoFirst) {
   interval(0.3);
   for (int i = 0; i < 20; ++i) interval(0.3, true, false);
@@ -75,6 +77,7 @@ TEST_F(Steering, AShortDropoutKeepsTheGoal) {
   }
 }
 
+// req:A12
 TEST_F(Steering, ASilentDeviceDisengages) {
   interval(0.3);
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(steer_.finish_interval(now_, kInterval_s)) << i;
@@ -98,6 +101,7 @@ TEST_F(Steering, AHoldByOthersNeedsAFreshGrip) {
   EXPECT_TRUE(interval(0.3));
 }
 
+// req:A31
 TEST_F(Steering, TheLeftHandMovesTheNodeAndLeavesItThere) {
   const auto left = [&](double x, bool pressed) {
     steer_.add_node_sample({t_us_ + 1, true, pressed, Pose{{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}});

@@ -11,6 +11,7 @@ HandSample sample(std::int64_t t_us, double x, bool valid = true, bool pressed =
   return {t_us, valid, pressed, Pose{{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}};
 }
 
+// req:A24
 TEST(HandTrack, TheReadingIsTheMeanOfEverySample) {
   HandTrack track;
   for (int i = 0; i < 20; ++i) track.add_sample(sample(1000 * i, 0.001 * i));
@@ -40,6 +41,7 @@ TEST(HandTrack, EachIntervalStartsEmptyAndKeepsTheLastPose) {
   EXPECT_FALSE(reading.has_mean);
 }
 
+// req:A32
 TEST(HandTrack, AJumpOfOneSampleIsRejectedAndCounted) {
   HandTrack track;
   for (int i = 0; i < 9; ++i) track.add_sample(sample(11000 * i, i == 5 ? 0.3 : 0.0));
@@ -56,6 +58,7 @@ TEST(HandTrack, FastButHumanMotionPasses) {
   EXPECT_EQ(track.finish_interval().jumps, 0u);
 }
 
+// req:A32
 TEST(HandTrack, AShortDropoutIsBridgedAndALongOneIsALoss) {
   HandTrack track;
   track.add_sample(sample(0, 0.0));

@@ -131,6 +131,7 @@ TEST(PathLaw, DoesNotStopAtPointsThatLieOnOneLine) {
   EXPECT_LT(static_cast<double>(many.joint_rad.size()), 1.02 * static_cast<double>(two.joint_rad.size()));
 }
 
+// req:A9
 TEST(PathLaw, SlowsTheTipDownWhereTheSceneWantsIt) {
   config::SceneSlit everywhere;
   everywhere.u_axis = {1.0, 0.0, 0.0};

@@ -38,6 +38,7 @@ TEST(StartRamp, RisesWhileTheCommandMovesAndBeginsAnewWhenItHasStood) {
   EXPECT_LT(ramp.speed_m_s(), 0.006);
 }
 
+// req:A9
 TEST(SpeedZone, AsksForATenthLessThanItAllows) {
   config::SceneSlit slit;
   slit.normal = {0, 1, 0};

@@ -1,4 +1,4 @@
-// Whether an archive is whole: files that are missing are named, those that were dropped are not (req:A36).
+// Whether an archive is whole: files that are missing are named, those that were dropped are not (req:A25).
 #include "host/archive/check.hpp"
 
 #include <filesystem>

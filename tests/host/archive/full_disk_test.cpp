@@ -69,6 +69,7 @@ class FullDisk : public ArchiveFolder {
   std::vector<std::string> alarms_;
 };
 
+// req:A25
 TEST_F(FullDisk, DropsTheOldestTelemetryAndKeepsTheNewest) {
   expect_zero("6m", [this] {
     Recorder recorder = this->recorder();
@@ -96,6 +97,7 @@ TEST_F(FullDisk, TakesTheRingBeforeTelemetry) {
   });
 }
 
+// req:A25
 TEST_F(FullDisk, ThatOthersFillMakesCommandsWaitUntilThereIsRoomAgain) {
   expect_zero("6m", [this] {
     Recorder recorder = this->recorder();

@@ -1,4 +1,4 @@
-// What lianad says, into the archive and out again (req:A36).
+// What lianad says, into the archive and out again (req:A25).
 #include "host/archive/recorder.hpp"
 
 #include "host/archive/reader.hpp"

@@ -1,5 +1,5 @@
 // Any window that is cut out of the ring is a recording that replays bit by bit, also where its Outputs are gone
-// (req:A36).
+// (req:A25).
 #include <filesystem>
 
 #include "host/archive/export.hpp"

@@ -1,5 +1,5 @@
 // The control-rate ring holds every tick as it came, stays within its limits, and keeps what surrounds a fault
-// (req:A36).
+// (req:A25).
 #include "host/archive/ring.hpp"
 
 #include <signal.h>

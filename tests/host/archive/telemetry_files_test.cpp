@@ -46,6 +46,7 @@ TEST_F(Telemetry, ANewFileBeginsWhenTheOldOneIsLongEnough) {
   EXPECT_EQ(files_, (std::vector<std::uint64_t>{0, 2500, 5000, 7500}));
 }
 
+// req:A25
 TEST_F(Telemetry, BeyondItsLimitTheOldestFilesGoAndThatIsSaid) {
   TelemetryFiles telemetry = files({.file_s = 10.0, .bytes = 700000});  // a file takes 220 kB
   fill(telemetry, 0, 60);

@@ -1,4 +1,4 @@
-// Worst-case load, and the tables that are refused because of it (A9 of the mission; 15 drives over 1 to 4 buses).
+// Worst-case load, and the tables that are refused because of it (mission, A9: 15 drives over 1 to 4 buses).
 #include "host/bus/bus_load.hpp"
 
 #include <gtest/gtest.h>

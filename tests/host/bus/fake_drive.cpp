@@ -102,6 +102,9 @@ std::vector<bus::CanFrame> FakeDrive::answer_sdo(const bus::CanFrame& request) {
   if (abort != aborts.end() || found == objects.end()) {
     answer.data[0] = 0x80;
     put(answer, 4, abort != aborts.end() ? abort->second : 0x06020000);
+  } else if (write && read_only.contains(object_key)) {
+    answer.data[0] = 0x80;
+    put(answer, 4, 0x06010002);
   } else if (write) {
     if (restarts > 0 && object_key == key(0x6060, 0)) {
       --restarts;

@@ -30,6 +30,7 @@ class FakeDrive {
   std::map<std::uint32_t, Object> objects;
   std::map<std::uint32_t, std::uint32_t> aborts;  // objects that answer with this code
   std::set<std::uint32_t> stubborn;               // objects that accept writes and ignore them
+  std::set<std::uint32_t> read_only;              // objects that refuse writes
   std::vector<std::uint32_t> writes;              // in order
   std::uint8_t node;
   bool dead = false;            // says nothing at all
@@ -38,6 +39,8 @@ class FakeDrive {
   bool never_operational = false;
   int restarts = 0;  // boots again at so many writes of 0x6060
   std::uint8_t state = 0x7F;
+  int reset_ticks = 0;   // from a reset to the boot-up message; deaf meanwhile
+  int answer_ticks = 0;  // from an SDO request to its answer
 
  private:
   bus::CanFrame boot_up() const;

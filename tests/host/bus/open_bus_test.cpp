@@ -1,4 +1,4 @@
-// Everything that can be wrong when buses are opened has a message that says what to do (A36).
+// Everything that can be wrong when buses are opened has a message that says what to do.
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>

@@ -96,7 +96,6 @@ int lines_with(const std::string& text, const std::string& part) {
   return count;
 }
 
-// A36, and "tshark decodes a recorded bus log as CANopen with no malformed frame".
 TEST(CandumpLog, TsharkDecodesARecordedBootAsCanopenWithoutAMalformedFrame) {
   ASSERT_NE(output_of("command -v tshark"), "") << "tshark is missing: apt-get install tshark";
   const std::string directory = test::fresh_directory("tshark");

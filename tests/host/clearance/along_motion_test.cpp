@@ -49,6 +49,7 @@ AlongMotion<ArmClearance> along(const StraightMotion& motion, const config::Scen
                      [&](std::int32_t i) { return arm_clearance(motion.pose(i), kRadius_m, scene); });
 }
 
+// req:C9
 TEST(AlongMotion, IsNeverAboveWhatDenseLooksFindAndCloseBelowIt) {
   Draw draw(21);
   int free = 0;
@@ -70,6 +71,7 @@ TEST(AlongMotion, IsNeverAboveWhatDenseLooksFindAndCloseBelowIt) {
 }
 
 // The arm jumps across a plate of 0.1 mm between two poses, both far from it.
+// req:C9
 TEST(AlongMotion, SeesAThinPlateBetweenTwoPoses) {
   config::SceneConfig scene;
   scene.boxes.push_back({"plate", {2.0, 0.0, 0.0}, {0.5, 0.00005, 0.5}, kUpright});

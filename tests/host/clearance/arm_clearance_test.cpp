@@ -80,7 +80,7 @@ TEST(ArmClearance, NamesTheLinkAndTheObstacle) {
   ThetaVector theta{};
   for (std::size_t i = 0; i < zhu2022::kThetas; ++i) theta[i] = zhu2022::kPressRod_deg[i] * kDegree;
   const ArmClearance found = arm_clearance(link_points(zhu2022::table(), theta).axis(), kRadius_m, scene);
-  EXPECT_NEAR(found.nearest.distance_m, 0.0090, 2e-4);  // mission figure A8, at the mouth's edge near joint centre 22
+  EXPECT_NEAR(found.nearest.distance_m, 0.0090, 2e-4);  // mission, A8: at the mouth's edge near joint centre 22
   EXPECT_TRUE(obstacle_name(scene, found.obstacle) == "panel" || obstacle_name(scene, found.obstacle) == "wall");
   EXPECT_NEAR(found.link, 22, 2);
 }

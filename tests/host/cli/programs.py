@@ -42,6 +42,11 @@ def liana_json(*arguments, expected=(0,), timeout_s=120):
     return json.loads(out)
 
 
+def json_of_refusal(code, error):
+    """What standard output has with --json where a command is refused with this message."""
+    return {"error": {"exit_code": code, "text": error.removeprefix("liana: ").removesuffix("\n")}}
+
+
 def interrupt(process):
     """Sends SIGINT as soon as the program has a handler of it: before that the system's loader is at work, not
     `liana`.

@@ -8,7 +8,7 @@ import sys
 import tempfile
 import unittest
 
-from programs import BIN, ROOT, liana, liana_json, liana_to_full_disk
+from programs import BIN, ROOT, json_of_refusal, liana, liana_json, liana_to_full_disk
 
 GOLDEN = json.loads((ROOT / "tests/golden/arm.json").read_text())["cases"]
 MICRO = json.loads((ROOT / "tests/golden/micro.json").read_text())["cases"]
@@ -54,6 +54,7 @@ def tip_of(theta_deg):
 
 
 class Pose(unittest.TestCase):
+    # req:A35 req:A51
     def test_every_golden_case_agrees_to_1e_9(self):
         for case in GOLDEN:
             pose = liana_json("pose", "--robot", "zhu2022", f"--theta-deg={joined(case['theta_deg'])}")
@@ -131,6 +132,7 @@ class InverseKinematics(unittest.TestCase):
         self.assertAlmostEqual(answer["theta_deg"][6], 0.5, delta=1e-12)
         self.assertEqual(answer["theta_deg"][8], 0.0)
 
+    # req:A43
     def test_a_control_point_comes_nearer_while_the_tip_stays(self):
         goal = GOLDEN[1]["theta_deg"]
         start = f"--from-deg={joined(goal)}"
@@ -161,10 +163,12 @@ class InverseKinematics(unittest.TestCase):
             ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--control-point=3:1,0,0:1e308"], "up to 1000"),
             ([f"--from-deg={ZERO}", f"--tip={REACHABLE}", "--hold="], "--hold="),
         ]:
-            code, out, error = liana("ik", *options, "--json")
+            code, out, error = liana("ik", *options)
             self.assertEqual((code, out), (2, ""), options)
             self.assertIn(named, error)
             self.assertEqual(error.count("\n"), 1, error)
+            code, out, error = liana("ik", *options, "--json")
+            self.assertEqual((code, json.loads(out)), (2, json_of_refusal(2, error)), options)
 
 
 PREPARE = [-8.5, 0, -12, 0, 8, -2, 13, 0, 12, -2]
@@ -177,7 +181,7 @@ def changed(pose, theta, by_deg):
 
 
 class Verify(unittest.TestCase):
-    KEYS = {"accepted", "error", "margins", "first", "remedy"}
+    KEYS = {"accepted", "error", "margins", "first", "remedy", "slowly", "inside"}
 
     def verdict(self, start, end, duration_s, *more):
         verdict = liana_json(
@@ -200,6 +204,11 @@ class Verify(unittest.TestCase):
         self.assertTrue(verdict["accepted"], verdict)
         self.assertTrue(all(margin > 0 for margin in verdict["margins"].values()), verdict)
         self.assertAlmostEqual(verdict["margins"]["joint_deg"], 20 - 13, delta=1e-6)
+
+    def test_where_nothing_is_around_no_clearance_is_told(self):
+        motion = f"--from-deg={joined(PREPARE)}", f"--to-deg={joined(PREPARE)}", "--duration=5"
+        self.assertIn("left: angle", liana("verify", "--scene=none", *motion)[1])
+        self.assertIn("left: clearance", liana("verify", *motion)[1])
 
     def test_angles_beyond_their_limits_are_a_refusal_and_no_bad_input(self):
         verdict = self.refused(201, "joint_angle", changed(PREPARE, 1, -11.4), changed(PREPARE, 1, -11.6), 10)
@@ -435,11 +444,56 @@ class Help(unittest.TestCase):
             self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
             self.assertIn(said, error)
 
-    def test_bad_options_of_gateway_recorder_and_controller_end_with_2(self):
-        for name in ("liana-gateway", "liana-archive", "lianad"):
-            done = subprocess.run([str(BIN / name), "--nosuch"], capture_output=True, text=True, check=False)
-            self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
-            self.assertNotEqual(done.stderr, "")
+    def test_a_refusal_is_json_too_where_an_answer_would_be(self):
+        for words in (
+            ["pose", "--json"],
+            ["pose", "--theta-deg=1", "--nosuch", "--json"],
+            ["reach", "--node=99", "--json"],
+            ["plan", "--from-deg=0", "--to-deg=0", "--json"],
+            ["verify", "--from-deg", "--json"],
+            ["run", "nosuch", "--json", "-"],
+            ["check", "nosuch", "--json=-"],
+            ["status", "--json"],
+            ["estop", "--json"],
+            ["clear", "--api", "/no/such", "--json"],
+            ["log", "show", "/no/such", "--json"],
+            ["replay", "/no/such", "--json"],
+            ["latency", "--seconds=0", "--json"],
+            ["calibrate", "--robot", "nosuch", "--json"],
+            ["robot", "check", "nosuch", "--json"],
+            ["mission", "fly", "--json"],
+            ["nosuch", "--json"],
+        ):
+            code, out, error = liana(*words)
+            self.assertEqual((code, json.loads(out), error.count("\n")), (2, json_of_refusal(2, error), 1), words)
+        for words in (["pose"], ["run", "nosuch", "--json", "report.json"]):
+            self.assertEqual(liana(*words)[:2], (2, ""), words)
+
+    def test_bad_input_of_every_other_program_ends_with_2_and_one_message_with_its_name(self):
+        tables = ["--robot", "/no/such/robot", "--scene", "/no/such/scene", "--buses", "/no/such/buses"]
+        for name, words, said in (
+            ("lianad", ["--nosuch"], "--nosuch: no such option"),
+            ("lianad", [], "--robot is required"),
+            ("lianad", [*tables, "--api", "a"], "/no/such/buses: cannot be read"),
+            ("lianad", [*tables, "--api", "a", "--time", "never"], "--time never: allowed fast, paced, real"),
+            ("liana-bus", ["--nosuch"], "--nosuch: no such option"),
+            ("liana-bus", ["--socket", "s", "--buses", "/dev/null"], "/dev/null: is no JSON object"),
+            ("liana-bus", ["--socket", "s", "--buses", "b", "--log", "/no/such"], "/no/such"),
+            ("liana-bench", ["--nosuch"], "--robot is required"),
+            ("liana-bench", [*tables, "--bus-socket", "s", "--seed", "-1"], "--seed: '-1': allowed: a whole"),
+            ("liana-bench", [*tables, "--bus-socket", "s", "--free-step", "5"], "--free-step"),
+            ("liana-bench", [*tables, "--bus-socket", "s"], "/no/such/robot: cannot be opened"),
+            ("liana-mission", ["--nosuch"], "--nosuch: no such option"),
+            ("liana-mission", ["eval", "robot", "nosuch"], "nosuch: allowed"),
+            ("liana-operator", ["--nosuch"], "--nosuch: no such option"),
+            ("liana-operator", ["--api", "a", "--recordings", ".", "--seed", "x"], "'x': allowed: a whole number"),
+            ("liana-gateway", ["--nosuch"], "--nosuch: no such option"),
+            ("liana-archive", ["--nosuch"], "--nosuch: no such option"),
+        ):
+            done = subprocess.run([str(BIN / name), *words], capture_output=True, text=True, check=False, timeout=60)
+            self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1), (name, done.stderr))
+            self.assertTrue(done.stderr.startswith(name + ": "), done.stderr)
+            self.assertIn(said, done.stderr)
 
     def test_bad_input_of_check_is_named_before_anything_starts(self):
         for words, said in [

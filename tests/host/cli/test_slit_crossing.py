@@ -49,6 +49,7 @@ class WholeRun(unittest.TestCase):
     def tearDownClass(cls):
         shutil.rmtree(cls.directory)
 
+    # req:A50 req:A53
     def test_the_run_succeeds_within_the_arm_time_of_the_experiment(self):
         self.assertEqual((self.code, self.report["outcome"]), (0, "success"), self.error)
         self.assertLessEqual(self.report["duration_s"], 216.4)
@@ -69,6 +70,7 @@ class WholeRun(unittest.TestCase):
         self.assertGreaterEqual(tension["min_motor"], 15.0)
         self.assertLessEqual(tension["max"], 400.0)
 
+    # req:A41
     def test_the_held_pitches_stand_at_zero_at_the_end(self):
         self.assertLessEqual(abs(self.report["final_theta_deg"][6]), 0.05)
         self.assertLessEqual(abs(self.report["final_theta_deg"][8]), 0.05)

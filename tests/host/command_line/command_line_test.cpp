@@ -57,5 +57,18 @@ TEST(CommandLine, WhatBreaksARuleIsRefused) {
   for (std::size_t i = 0; i < wrong.size(); ++i) EXPECT_GT(Program().parse(wrong[i]).value_or(0), 0) << i;
 }
 
+TEST(CommandLine, TheProgramSaysItsNameTheProblemAndWhereMoreStands) {
+  const auto said = [](const std::vector<const char*>& words) {
+    testing::internal::CaptureStderr();
+    EXPECT_EQ(Program().parse(words), 2);
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(said({"run", "--other"}), "program: --other: no such option; see program --help\n")
+      << "--api is missing, too";
+  EXPECT_EQ(said({"run"}), "program: --api is required; see program --help\n");
+  EXPECT_EQ(said({"run", "--api", "a", "--seed", "-1"}),
+            "program: --seed: '-1': allowed: a whole number, 0 or more; see program --help\n");
+}
+
 }  // namespace
 }  // namespace liana::command_line

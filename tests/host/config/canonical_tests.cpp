@@ -28,6 +28,7 @@ TEST(CanonicalJson, NumbersReadBackExactly) {
   }
 }
 
+// req:A19
 TEST(ConfigHash, IsTheSameForTheSameTablesAndChangesWithAnyOfThem) {
   const auto hash = [](const std::string& buses_name, const std::string& radius) {
     const BusesConfig buses = parse_buses(good_table("buses", buses_name).dump(), "b");

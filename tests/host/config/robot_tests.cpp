@@ -10,7 +10,8 @@ constexpr double kDeg = 3.14159265358979323846 / 180.0;
 
 BusesConfig buses() { return parse_buses(good_table("buses", "embedded").dump(), "b"); }
 
-// A1, A9 of the mission page.
+// Mission, A1 and A9.
+// req:A2 req:A5
 TEST(Robot, BecomesTheTableTheCoreReads) {
   const RobotConfig robot = parse_robot(good_table("robot", "zhu2022").dump(), "r", "nominal", buses());
   EXPECT_EQ(robot.table.theta_count(), 10);

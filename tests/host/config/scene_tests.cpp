@@ -9,7 +9,8 @@ namespace {
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-// A8 of the mission page.
+// Mission, A8.
+// req:A48
 TEST(Scene, PanelSlitHasThePlaneOfThePressRodPose) {
   const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
   EXPECT_NEAR(scene.slit->normal[0], 0.0036, 1e-4);
@@ -20,6 +21,7 @@ TEST(Scene, PanelSlitHasThePlaneOfThePressRodPose) {
   EXPECT_NEAR(dot(scene.rod->pose.position_m, scene.slit->normal), scene.slit->offset_m, 1e-12);
 }
 
+// req:A47 req:A48
 TEST(Scene, PlatesLeaveAGapOf100MillimetresAroundThePlane) {
   const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
   for (const SceneBox& box : scene.boxes) {
@@ -34,6 +36,7 @@ TEST(Scene, PlatesLeaveAGapOf100MillimetresAroundThePlane) {
   EXPECT_GT(dot(scene.boxes[0].center_m, scene.slit->normal), scene.slit->offset_m);
 }
 
+// req:A47
 TEST(Scene, TheSlitLeavesLinkAxesTheGapLessTheArm) {
   const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
   const solve::SlitMouth mouth = slit_mouth(*scene.slit, 0.03);

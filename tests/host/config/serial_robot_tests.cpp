@@ -13,6 +13,7 @@ BusesConfig micro_buses() { return parse_buses(good_table("buses", "embedded_mic
 
 SerialRobotConfig micro() { return parse_serial_robot(good_table("robot", "micro").dump(), "r", micro_buses()); }
 
+// req:B1
 TEST(SerialRobot, BecomesTheTableTheCoreReads) {
   const SerialRobotConfig robot = micro();
   EXPECT_EQ(robot.name, "micro");

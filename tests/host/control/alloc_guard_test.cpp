@@ -59,6 +59,7 @@ TEST(AllocGuard, OutsideATickEverythingIsAllowed) {
 }
 
 // A thousand ticks with enabling, motion requests, a silent drive, a fault and its clearing.
+// req:A10
 TEST(AllocGuard, TicksAllocateNothingAlsoWhenThingsGoWrong) {
   auto arm = std::make_unique<verify::SimArm>();
   const auto run = [&](int ticks) {

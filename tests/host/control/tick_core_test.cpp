@@ -31,6 +31,21 @@ TEST(TickCore, AStopActsInTheNextTickThoughTheQueueOfRequestsIsFull) {
   EXPECT_EQ(arm->now().state, OperatingState::kStopping);
 }
 
+TEST(TickCore, ARequestThatWaitsKeepsItsPlaceAndAStopOvertakesItAllTheSame) {
+  const auto arm = std::make_unique<verify::SimArm>();
+  const auto link = std::make_unique<ArmLink<cable::CableArm>>(arm->table());
+  const auto core = std::make_unique<TickCore<cable::CableArm>>(arm->table(), *link);
+  const auto inputs = std::make_unique<Inputs<cable::CableArm>>();
+  link->requests.push(Request::kClear);
+  core->step(*inputs, true);
+  EXPECT_EQ(inputs->request, Request::kNone);
+  EXPECT_EQ(core->next_request(), Request::kClear);
+  link->stop.press();
+  core->step(*inputs, true);
+  EXPECT_EQ(inputs->request, Request::kStop);
+  EXPECT_EQ(core->next_request(), Request::kNone) << "a clear from before it is void";
+}
+
 TEST(TickCore, WhatWasAskedForBeforeAStopDoesNotFollowIt) {
   const auto arm = std::make_unique<verify::SimArm>();
   for (int i = 0; i < 10; ++i) arm->interval();

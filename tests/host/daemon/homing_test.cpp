@@ -42,6 +42,7 @@ class HomingOfAnArm : public ::testing::Test {
   cable::EstimatorState estimator_;
 };
 
+// req:C2
 TEST_F(HomingOfAnArm, NeedsEveryDriveToHaveBeenHeard) {
   Homing homing(robot_, "");
   report_.inputs.drive[7].feedback_age_ticks = 0xFFFF;

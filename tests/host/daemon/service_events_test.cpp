@@ -84,6 +84,7 @@ TEST(HostTroubles, EachChangeSaysWhichBusAndHowMuch) {
   EXPECT_EQ(over[0].values, (std::vector<event::EventValue>{{"count", 6.0}}));
 }
 
+// req:C12
 TEST(Events, AVerdictSaysWhichEndRefusedAndHowNearTheLimitIs) {
   verify::Verdict verdict;
   verdict.code = verify::Refusal::kTipSpeed;
@@ -172,6 +173,7 @@ class ServiceTellsEvents : public testing::Test {
   std::vector<event::Event> heard_;
 };
 
+// req:C12
 TEST_F(ServiceTellsEvents, ARefusedVerdictIsAnEventAndAReleasedOneIsNone) {
   move();
   ASSERT_GT(arm_.now().active_sequence, 0u) << "commands were released";

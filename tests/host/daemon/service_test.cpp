@@ -114,6 +114,7 @@ class ServiceOverSocket : public testing::Test {
   int id_ = 0;
 };
 
+// req:A20
 TEST_F(ServiceOverSocket, AMoveGoesThroughVerificationToTheArm) {
   api::ApiClient mission = join("mission");
   enable(mission);
@@ -150,6 +151,7 @@ TEST_F(ServiceOverSocket, APathIsOneMotionThroughItsPointsAndNamesItself) {
   EXPECT_NE(events.find("has arrived"), std::string::npos) << events;
 }
 
+// req:C9 req:C12
 TEST_F(ServiceOverSocket, APathThatLeadsTheArmIntoItselfIsRefusedBeforeAnythingMoves) {
   api::ApiClient mission = join("mission");
   enable(mission);
@@ -409,6 +411,7 @@ TEST_F(ServiceOverSocket, AGoalOfAStreamThatJumpsIsRefusedAndAMoveIsNot) {
   EXPECT_EQ(ask(mission, {{"op", "move_cp"}, {"goal", goal}}), "ok");
 }
 
+// req:A13 req:A28
 TEST_F(ServiceOverSocket, TheOperatorSteersAndLettingGoIsAHold) {
   api::ApiClient mission = join("mission"), person = join("operator");
   enable(mission);
@@ -442,7 +445,14 @@ TEST_F(ServiceOverSocket, WhatMissionAndOperatorTellEachOtherIsRepeated) {
   const Json heard = state(mission);
   EXPECT_EQ(heard["step"]["name"], "around");
   EXPECT_EQ(heard["operator_says"]["what"], "arrived");
-  EXPECT_EQ(ask(mission, {{"op", "announce"}, {"step", nullptr}}), "ok");
+  const Json again{{"index", 2}, {"name", "around"}, {"device", "vr"}, {"task", "my_hand"}, {"entry", 3}};
+  EXPECT_EQ(ask(mission, {{"op", "announce"}, {"step", again}, {"after", "arm at rest"}}), "ok");
+  const Json told = state(mission);
+  EXPECT_EQ(told["step"]["task"], "my_hand");
+  EXPECT_EQ(told["step"]["entry"], 3);
+  EXPECT_EQ(told["events"][told["events"].size() - 1]["text"],
+            "step 2: around; what ended the step before: arm at rest");
+  EXPECT_EQ(ask(mission, {{"op", "announce"}, {"step", nullptr}, {"after", "device released"}}), "ok");
   EXPECT_TRUE(state(mission)["step"].is_null());
 }
 
@@ -460,6 +470,7 @@ TEST_F(ServiceOverSocket, AFullDiskOfTheFlightRecorderIsAnEventAndNobodyElseCanS
   EXPECT_EQ(std::count_if(events.begin(), events.end(), is_said), 1);
 }
 
+// req:A7
 TEST_F(ServiceOverSocket, ACameraFrameIsForwardedWhenEveryRunHasReceivedIt) {
   api::ApiClient camera = join("camera", Json::array()), person = join("operator", {"camera"});
   camera.send({{"op", "camera"}, {"capture_time_s", 0.0}, {"slit", nullptr}, {"rod", nullptr}});
@@ -471,10 +482,10 @@ TEST_F(ServiceOverSocket, ACameraFrameIsForwardedWhenEveryRunHasReceivedIt) {
 }
 
 TEST_F(ServiceOverSocket, ShutdownEndsWhenTheDrivesAreOff) {
-  api::ApiClient mission = join("mission");
+  api::ApiClient mission = join("mission"), person = join("client");
   enable(mission);
   EXPECT_FALSE(service_.finished());
-  ASSERT_EQ(ask(mission, {{"op", "shutdown"}}), "ok");
+  ASSERT_EQ(ask(person, {{"op", "shutdown"}}), "ok");
   int count = 0;
   while (!service_.finished() && ++count < 600) intervals(1);
   EXPECT_TRUE(service_.finished());

@@ -52,6 +52,7 @@ TEST_F(Stream, ARefusedSetpointUsesNoNumberUp) {
   EXPECT_EQ(servo(1, 0, {{"sequence", 1}}), "");
 }
 
+// req:A12 req:A13
 TEST_F(Stream, ASetpointThatWaitedOnItsWayLongerThanItLivesIsRefused) {
   const auto at = [&](double clock_s, double now_s) { return servo(1, now_s, {{"time_s", clock_s}, {"ttl_s", 0.2}}); };
   EXPECT_EQ(at(1000.0, 5.0), "") << "whatever the two clocks show";

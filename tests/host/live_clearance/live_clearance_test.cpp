@@ -41,6 +41,7 @@ Course course(TrueWorld& world, Spoil spoil, const config::SceneConfig& scene = 
   return out;
 }
 
+// req:A47
 TEST(LiveClearance, IsALowerBoundOfTheTruthInSeededWorlds) {
   Course all;
   for (std::uint64_t seed = 100; seed < 108; ++seed) {
@@ -221,6 +222,7 @@ TEST(LiveClearance, NamesLinkBodyAndPlace) {
   EXPECT_NEAR(claim.clearance.distance_m + claim.clearance.bound_m, 0.009, 1e-3);
 }
 
+// req:A47
 TEST(LiveClearance, LevelsFollowTheScenesMargins) {
   config::SceneConfig scene = panel_slit();
   LiveClearance plain(zhu2022_config(), scene);

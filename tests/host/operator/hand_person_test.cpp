@@ -1,4 +1,4 @@
-// The simulated person at the hand controller in a closed loop with a kinematic tip (requirements A7, A27, A49).
+// The simulated person at the hand controller in a closed loop with a kinematic tip (req:A49).
 #include "host/operator/hand_person.hpp"
 
 #include <gtest/gtest.h>
@@ -171,7 +171,8 @@ TEST(HandPerson, DoesNotStirUpAnArmThatSwings) {
   EXPECT_LT(rod.position_error_m, 0.0007);
 }
 
-TEST(HandPerson, StaysInTheWorkspaceOfTheDeviceByReindexing) {  // A27
+// req:A27 req:A30
+TEST(HandPerson, StaysInTheWorkspaceOfTheDeviceByReindexing) {
   const TaskRun run = run_task(operator_side::HandTask::kEnterSlit, kPanelEdge, switch_pose({}), {1.5, 1.0}, {});
   report("enter, scale 1.5", run);
   EXPECT_TRUE(run.arrived);

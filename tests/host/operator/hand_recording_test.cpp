@@ -28,6 +28,7 @@ std::string error_of(const std::string& text) {
 
 constexpr const char* kPose = " 0 0 0 1 0 0 0";
 
+// req:A24 req:A32
 TEST(HandRecording, ShippedVrRecordingHasOneDropoutOneJumpAndNinetyHertz) {
   const VrRecording recording = read_vr_recording(kRecordings + "/panel_edge_vr.hand");
   const double rate_hz =
@@ -43,7 +44,8 @@ TEST(HandRecording, ShippedVrRecordingHasOneDropoutOneJumpAndNinetyHertz) {
   EXPECT_EQ(jumps, 2);  // away and back
 }
 
-TEST(HandRecording, ShippedVrRecordingLeadsTipAndNodeFromPrepareToPanelEdge) {  // A31
+// req:A31
+TEST(HandRecording, ShippedVrRecordingLeadsTipAndNodeFromPrepareToPanelEdge) {
   const VrRecording recording = read_vr_recording(kRecordings + "/panel_edge_vr.hand");
   const auto way = [&](auto pick) {
     return scale(subtract(pick(recording.back()).pose.position_m, pick(recording.front()).pose.position_m), 4.0);
@@ -54,6 +56,7 @@ TEST(HandRecording, ShippedVrRecordingLeadsTipAndNodeFromPrepareToPanelEdge) {  
   EXPECT_LT(norm(subtract(node, {-0.947447 + 0.242596, -0.395663 + 1.662394, 1.151544 - 0.111163})), 0.012);
 }
 
+// req:A30
 TEST(HandRecording, ShippedHandControllerRecordingIsReadAtOneKilohertz) {
   const HandRecording recording = read_hand_controller_recording(kRecordings + "/approach_hand.hand");
   EXPECT_EQ(recording.size(), 10001u);
@@ -105,6 +108,7 @@ std::vector<VrSample> play(std::uint64_t seed, double lost_from_s = 1e9) {
   return all;
 }
 
+// req:A32
 TEST(RecordedVr, PlaysEverySampleInOrderWithTwoJumpsAndTwoShortDropouts) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const auto samples = play(seed);

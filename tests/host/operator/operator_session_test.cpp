@@ -1,4 +1,4 @@
-// The operator's side of the API, message by message (requirement A49).
+// The operator's side of the API, message by message (req:A49).
 #include "host/operator/operator_session.hpp"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ Json state(double time_s, int step, const std::string& device, const std::string
 }
 
 operator_side::OperatorSession session() {
-  return operator_side::OperatorSession(LIANA_RECORDINGS_DIR, panel_slit(), {}, 1);
+  return operator_side::OperatorSession({LIANA_RECORDINGS_DIR}, panel_slit(), {}, 1);
 }
 
 TEST(OperatorSession, SendsNothingWhileNoDeviceIsItsToMove) {
@@ -54,6 +54,7 @@ TEST(OperatorSession, PlaysTheRecordingInAVrStepThenSaysArrivedOnceWithTriggersR
   EXPECT_GT(samples, 3400u);
 }
 
+// req:A24
 TEST(OperatorSession, DeliversTwentyHandSamplesAnInterval) {
   operator_side::OperatorSession operator_session = session();
   operator_session.on_state(state(1.00, 4, "hand", "hand"));
@@ -104,7 +105,7 @@ TEST(OperatorSession, RefusesMalformedPictures) {
 }
 
 TEST(OperatorSession, AMissingRecordingIsNamed) {
-  operator_side::OperatorSession operator_session("/nonexistent", panel_slit(), {}, 1);
+  operator_side::OperatorSession operator_session({"/nonexistent"}, panel_slit(), {}, 1);
   try {
     operator_session.on_state(state(0.02, 2, "vr", "vr"));
     FAIL() << "no error";

@@ -30,6 +30,7 @@ void expect_solved(const PlanRequest& request, const PlanResult& result) {
   EXPECT_TRUE(result.settled);
 }
 
+// req:A47
 TEST(Plan, GoesThroughTheSlitToThePressRod) {
   const PlanRequest request = request_between(zhu2022::kPanelEdge_deg, zhu2022::kPressRod_deg, panel_slit());
   const PlanResult result = plan(request, {});
@@ -84,6 +85,7 @@ TEST(Plan, GoesRoundConvexBodiesAsTheCheckWithLibccdConfirms) {
   }
 }
 
+// req:A42 req:A44
 TEST(Plan, BringsAControlPointNearerForItsWeight) {
   PlanRequest request = request_past_a_ball();
   request.waypoints = 12;
@@ -103,6 +105,7 @@ TEST(Plan, BringsAControlPointNearerForItsWeight) {
   EXPECT_LT(mean_distance_m(with), 0.7 * mean_distance_m(without));
 }
 
+// req:A43
 TEST(Plan, OfASinglePoseKeepsTheTipAndComesNearerToTheControlPoint) {
   PlanRequest request = request_between(zhu2022::kPrepare_deg, zhu2022::kPanelEdge_deg, config::SceneConfig{});
   aim_at_tip(request);

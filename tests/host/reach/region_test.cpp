@@ -45,6 +45,7 @@ TEST(Bins, CoverTheSphereAndFindTheirOwnMiddle) {
   EXPECT_NEAR(solid_angle, 4.0 * std::numbers::pi, 1e-9);
 }
 
+// req:A6
 TEST(Region, OfTheStraightArmEndsAtItsLengthAlongX) {
   const Region region = explore_region(zhu2022::table(), request(5));
   EXPECT_NEAR(region.extent_m[1][0], 4.0, 1e-12);

@@ -141,7 +141,7 @@ class Interrupt(unittest.TestCase):
 
 class BadInput(unittest.TestCase):
     def expect_refusal(self, options, named):
-        code, out, error = liana("reach", *options, "--json")
+        code, out, error = liana("reach", *options)
         self.assertEqual((code, out), (2, ""), (options, error))
         self.assertIn(named, error, options)
         self.assertEqual(error.count("\n"), 1, error)

@@ -88,6 +88,7 @@ class RunReport : public testing::Test {
     sources.bus_stats_file = file("stats.json");
     sources.states = {{0, {}}, {5, {{0.49, 0.0, 0.0}, {1, 0, 0, 0}}}, {9, {{0.9, 0.0, 0.0}, {1, 0, 0, 0}}}};
     sources.rod = {{0.5, 0.003, 0.0}, {std::cos(0.001), std::sin(0.001), 0.0, 0.0}};
+    sources.has_slit = true;
     return sources;
   }
 
@@ -99,6 +100,7 @@ constexpr const char* kMission = R"({"outcome":"success","repair_tick":5,"steps"
   {"name":"prepare","device":"none","held_theta":[],"duration_s":0.008,"outcome":"done","start_tick":2,"end_tick":4},
   {"name":"go","device":"hand","held_theta":[9],"duration_s":0.004,"outcome":"done","start_tick":4,"end_tick":5}]})";
 
+// req:A53
 TEST_F(RunReport, TruthIsTakenFromStepOneToTheRepairCommand) {
   write_truth();
   write("mission.json", kMission);
@@ -126,6 +128,27 @@ TEST_F(RunReport, ErrorsCompareTheTrueTipWithTheRodAndWithWhatWasCommanded) {
   EXPECT_NEAR(report["tip_error_m"], 0.003, 1e-12);
   EXPECT_NEAR(report["tip_attitude_error_rad"], 0.002, 1e-12);
   EXPECT_NEAR(report["open_loop_tip_error_m"], 0.01, 1e-12);
+}
+
+TEST_F(RunReport, ABodyThatWasTouchedIsNamedAndBoxesAreNoSlitWhereThereIsNone) {
+  write_truth();
+  write("mission.json", kMission);
+  const Json welcome = {{"period_s", 0.004}};
+  ReportSources all = sources();
+  all.welcome = &welcome;
+  all.has_slit = false;
+  all.body_at = [](const std::vector<double>& theta_deg) {
+    return Json{{"body", "crate at " + std::to_string(static_cast<int>(theta_deg.front()))}, {"link", 7}};
+  };
+  const Json report = make_report(all);
+  EXPECT_EQ(report["contact"]["body"], "crate at 6") << "where the contact is hardest";
+  EXPECT_EQ(report["contact"]["link"], 7);
+  EXPECT_DOUBLE_EQ(report["contact"]["force_N"], 5.0);
+  EXPECT_FALSE(report.contains("min_slit_clearance_m"));
+  EXPECT_DOUBLE_EQ(report["min_box_clearance_m"], 0.025);
+  const std::string text = report_text(report);
+  EXPECT_NE(text.find("touched: link 7 the body crate at 6, 5.00 N"), std::string::npos) << text;
+  EXPECT_NE(text.find("clearance: boxes 25.0 mm"), std::string::npos) << text;
 }
 
 TEST_F(RunReport, SpeedInTheSlitIsThatOfTheTrueTipBetweenThePlates) {

@@ -21,6 +21,7 @@ const std::vector<RobotTable>& tables() {
   return both;
 }
 
+// req:A35
 TEST(Chain, LinksAreWhereTheCoresClosedFormHasThem) {
   Random random(1);
   for (const RobotTable& table : tables()) {
@@ -36,6 +37,7 @@ TEST(Chain, LinksAreWhereTheCoresClosedFormHasThem) {
   }
 }
 
+// req:A4
 TEST(Chain, TheReducedMassMatrixIsThatOfEightyHinges) {
   const auto robot = bench::load_robot(CLOSED_LOOP_DATA "/robot.json");
   bench::Chain hinges(robot, bench::load_scene(CLOSED_LOOP_DATA "/scene.json"));

@@ -86,6 +86,7 @@ class BenchArm {
   std::array<double, 15> start_length_m_{}, start_tension_N_{};
 };
 
+// req:C1
 TEST(Simulation, MovesAsTheBenchsFullDynamicsDoes) {
   ArmModel model = zhu2022_model();
   model.table.friction_mu = 0.0;
@@ -178,6 +179,7 @@ TEST(Simulation, TheDrumsLagBehindARampByTheirTimeConstant) {
 }
 
 // Straight lines between rows: no step leaves what two rows keep.
+// req:C7
 TEST(Simulation, StepsBetweenTwoRowsStayBetweenThem) {
   ArmModel stiff = zhu2022_model();
   stiff.table.cable_EA_N *= 1e3;

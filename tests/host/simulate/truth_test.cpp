@@ -76,7 +76,7 @@ Off after_a_second(const std::vector<Seen>& seen, std::size_t begin, Simulation&
   return off;
 }
 
-// req:C7
+// req:A18 req:C7
 TEST(SimulationAgainstTruth, EveryLinkIsWithinMillimetresASecondLater) {
   Simulation simulation(model_of(closed_loop::robot_table()), {});
   double worst_mm = 0.0, worst_told_mm = 0.0, worst_deg = -1e9;

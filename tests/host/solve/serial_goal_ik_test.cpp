@@ -35,6 +35,7 @@ TEST(SerialGoalIk, ReachesAtLeast999Of1000PosesFromAnywhere) {
 }
 
 // The arm is where it should be, or nearly: no other elbow is worth the way.
+// req:C5
 TEST(SerialGoalIk, AGoalNearbyIsReachedWithASmallMove) {
   const RobotTable robot = micro::table();
   Random random(2);
@@ -48,6 +49,7 @@ TEST(SerialGoalIk, AGoalNearbyIsReachedWithASmallMove) {
 }
 
 // A joint that may turn one and a half times round meets most angles twice: the nearer one is taken.
+// req:C5
 TEST(SerialGoalIk, NoJointOfASolutionIsNearerByAWholeTurn) {
   const RobotTable robot = micro::table();
   Random random(4);

@@ -12,6 +12,7 @@
 #include "host/api/socket.hpp"
 #include "host/json/json.hpp"
 #include "host/system/run_session.hpp"
+#include "host/system/silence.hpp"
 
 namespace liana::system {
 namespace {
@@ -171,6 +172,49 @@ TEST_F(Session, CtrlCBecomesAStopOfTheArm) {
   EXPECT_EQ(end.outcome, "aborted");
   EXPECT_TRUE(daemon.saw("stop"));
   EXPECT_EQ(end.message, "interrupted: the arm was stopped and is DISABLED");
+}
+
+// A lianad that stands still, and what people see of it.
+TEST_F(Session, AProgramThatStandsStillIsNamedAndCtrlCEndsTheRunWithinSeconds) {
+  const FakeDaemon daemon(plan_.api_socket(), true);
+  add("liana-bench", "kill -STOP $$; exec sleep 60");
+  add("lianad", "exec sleep 60");
+  add("liana-mission", "sleep 1; kill -INT $PPID; exec sleep 60");
+  RunSession session(plan_);
+  const auto begin = std::chrono::steady_clock::now();
+  const RunEnd end = session.run();
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_EQ(end.outcome, "aborted");
+  EXPECT_LT(took.count(), 8.0) << "of which it waited 26 before";
+}
+
+TEST_F(Session, SilenceIsSaidWithWhoStandsStill) {
+  const api::UniqueFd mute = api::listen_at("--api", plan_.api_socket());
+  add("lianad", "kill -STOP $$");
+  add("liana-mission", "sleep 5; kill -INT $PPID; exec sleep 60");
+  RunSession session(plan_);
+  testing::internal::CaptureStderr();
+  session.run();
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("no state of the arm for 3 s: lianad (process "), std::string::npos) << said;
+  EXPECT_NE(said.find(") stopped; Ctrl-C ends the run"), std::string::npos) << said;
+}
+
+TEST(Capture, AProgramThatPrintsWithoutEndIsKilled) {
+  EXPECT_THROW(run_and_capture({"/bin/sh", "-c", "exec cat /dev/zero"}), std::runtime_error);
+  EXPECT_EQ(run_and_capture({"/bin/sh", "-c", "echo little"}).out, "little\n");
+}
+
+TEST(Silence, IsBrokenOrSaidAgainAndAgain) {
+  std::atomic<int> said = 0;
+  {
+    Silence silence(0.02, [&](double) { ++said; });
+    while (said < 3) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    silence.broken();
+  }
+  const int at_end = said;
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  EXPECT_EQ(said, at_end) << "nothing is said afterwards";
 }
 
 }  // namespace

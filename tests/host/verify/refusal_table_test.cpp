@@ -11,6 +11,7 @@
 namespace liana::verify {
 namespace {
 
+// req:C8
 TEST(RefusalTable, EveryCodeHasARowInTheOrderOfTheNumbers) {
   std::vector<int> codes;
   for (const RefusalRow& row : refusal_table()) codes.push_back(static_cast<int>(row.code));
@@ -31,6 +32,7 @@ TEST(RefusalTable, NamesAreWordsAndNoTwoAreTheSame) {
 }
 
 // Beside a body of the scene the drives keep their power: an arm that is switched off shifts, and its way back with it.
+// req:C12
 TEST(RefusalTable, OnlyAnArmThatWouldTouchItselfIsStopped) {
   std::set<std::string> stops;
   for (const RefusalRow& row : refusal_table()) {

@@ -37,6 +37,7 @@ cable::Setpoint hold() {
   return setpoint;
 }
 
+// req:A20 req:C6 req:C10
 TEST(ReleaseStep, BothVerdictsReleaseWhatWasJudged) {
   ReleaseStep<cable::CableArm> release;
   const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
@@ -49,6 +50,7 @@ TEST(ReleaseStep, BothVerdictsReleaseWhatWasJudged) {
   EXPECT_EQ(telecommand->setpoint().kind, CommandKind::kHold);
 }
 
+// req:A20 req:C12
 TEST(ReleaseStep, OneRefusalIsEnough) {
   ReleaseStep<cable::CableArm> release;
   const Candidate<cable::CableArm> candidate = release.candidate(hold(), 7, 100, 5);
@@ -56,6 +58,7 @@ TEST(ReleaseStep, OneRefusalIsEnough) {
   EXPECT_FALSE(release.release(candidate, execution(1), simulation(1, Refusal::kTipSpeed)));
 }
 
+// req:A20 req:C6
 TEST(ReleaseStep, VerdictsOnOtherCandidatesDoNotCount) {
   ReleaseStep<cable::CableArm> release;
   const Candidate<cable::CableArm> old = release.candidate(hold(), 7, 100, 5);

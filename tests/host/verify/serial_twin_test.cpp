@@ -93,6 +93,7 @@ class ArmAndTwin {
   Prediction<SerialArm> prediction_;
 };
 
+// req:C1
 TEST(TwinOfASerialArm, PredictsEveryNumberOfEveryTickOfWhatIsReleased) {
   int moved = 0;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {

@@ -85,6 +85,7 @@ const Row kRows[] = {
      [](serial::Outputs& o) { o.ik_attitude_error_rad = 0.0099; }, Refusal::kUnreachable, "angle of the tip"},
 };
 
+// req:C8
 TEST(VerifyASerialArm, EveryLimitRefusesWhatIsJustOutsideAndPassesWhatIsJustInside) {
   for (const Row& row : kRows) {
     const Judged out = judge(row.refused, 2), in = judge(row.passed, 2);

@@ -55,6 +55,7 @@ class TwinOfAnArm : public testing::Test {
   std::vector<cable::Telecommand> released_;
 };
 
+// req:C1
 TEST_F(TwinOfAnArm, PredictsTheNextTicksExactlyWhenTheDrivesAreIdeal) {
   const Candidate<cable::CableArm> wanted = candidate(shifted_tip(0.01));
   const Prediction<cable::CableArm> prediction = predict(wanted);
@@ -103,7 +104,7 @@ TEST_F(TwinOfAnArm, TheSameCommandHasTheSameVerdictToTheBit) {
   EXPECT_EQ(first.margin, second.margin);
 }
 
-// req:C7
+// req:C9
 TEST_F(TwinOfAnArm, TheSimulationHoldsTheArmAsItIsBelievedToBeAgainstTheSceneWhereItIsSeen) {
   const cable::RobotTable& table = arm_->table();
   MotionRules rules{table, {}, {}, {}};

@@ -40,11 +40,13 @@ Judged judge(const std::function<void(cable::Outputs&)>& change, std::size_t at 
   return {execution.code, execution.text};
 }
 
+// req:C10
 TEST(Verify, AQuietMotionPasses) {
   const Judged judged = judge([](cable::Outputs&) {});
   EXPECT_EQ(judged.execution, Refusal::kNone);
 }
 
+// req:C8
 TEST(Verify, ASpeedJustOverTheLimitIsRefusedAndJustUnderPasses) {
   const double rate = kTable.limits.theta_rate_rad_s;
   EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_rate_rad_s[4] = rate * 1.00001; }).execution, Refusal::kJointRate);
@@ -63,12 +65,14 @@ TEST(Verify, TheStopAfterTheCommandIsJudgedToo) {
   EXPECT_EQ(judge([](cable::Outputs&) {}, 2, false).execution, Refusal::kNoRest);
 }
 
+// req:C8
 TEST(Verify, JointAnglesAreBounded) {
   const double limit = kTable.segment[4].theta_limit_rad;
   EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_command_rad[9] = limit + 1e-4; }).execution, Refusal::kJointAngle);
   EXPECT_EQ(judge([&](cable::Outputs& o) { o.theta_command_rad[9] = -limit; }).execution, Refusal::kNone);
 }
 
+// req:C11
 TEST(Verify, WhatTheControllerWouldNotDoIsRefused) {
   EXPECT_EQ(judge([](cable::Outputs& o) { o.faults.count = 1; }).execution, Refusal::kTwinFault);
   EXPECT_EQ(judge([](cable::Outputs& o) { o.faults.dropped = 1; }).execution, Refusal::kTwinFault);
@@ -80,6 +84,7 @@ TEST(Verify, WhatTheControllerWouldNotDoIsRefused) {
       << "limits that act are no refusal";
 }
 
+// req:C11
 TEST(Verify, TensionAndCableSpeedStayWithinTheirLimits) {
   EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[7] = kTable.tension.ceiling_free_N + 0.1; }).execution,
             Refusal::kTension);
@@ -106,6 +111,7 @@ TEST(Verify, ARefusalNamesWhatWhereAndTheLimit) {
   EXPECT_NE(text.find("allowed 0.349066"), std::string::npos) << text;
 }
 
+// req:C11
 TEST(Verify, AVerdictAfterTheIntervalBeganIsTooSlow) {
   ReleaseStep<cable::CableArm> release;
   const Candidate<cable::CableArm> candidate = release.candidate(cable::Setpoint{}, 1, 100, 5);

@@ -26,6 +26,7 @@ TEST(TimeGrid, HasTwentyFiveRowsASecondFromFirstToLastRecord) {
   EXPECT_EQ(records_at(grid, records)[50], &records[100]);
 }
 
+// req:A25
 TEST(TimeGrid, HasFewerRowsForADay) {
   const TimeGrid grid = grid_of({record_at(0), record_at(21600000)}, 0.004);
   EXPECT_LE(grid.rows, 30001u);

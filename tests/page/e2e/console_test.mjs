@@ -86,6 +86,7 @@ test('goals go out more than 50 times a second while a key is held, and the time
   assert.ok(measured.sent - from.sent > 20 && measured.latency_ms > 0);
 });
 
+// req:A15 req:A26
 test('the mouse drags the ball at the tip, and dropping it brings the arm to rest', async () => {
   const from = await is_at_rest('before');
   await page.waitForFunction(() => window.liana.handle.ball.visible);
@@ -157,6 +158,7 @@ test('recorded runs are listed, each with its page', async () => {
   assert.doesNotMatch(await text('#panel-Runs'), /No list of runs/);
 });
 
+// req:A22
 test('a click on an event takes the scene to its moment, and "now" back', async () => {
   await page.click('#tab-Events');
   await page.click('.events li:first-child button');

@@ -31,6 +31,7 @@ function yardstick_ms() {
   return rank(times, 0.5);
 }
 
+// req:A23
 test('a presented frame costs little CPU while a paced mission runs and everything is shown', async () => {
   const yardstick = yardstick_ms();
   const run = start(liana, ['run', 'slit_crossing', '--seed', '3', '--time', 'paced', '--console']);

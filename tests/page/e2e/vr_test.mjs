@@ -103,6 +103,7 @@ test('the tip follows the right handle while its trigger is held, and rests when
   assert.ok(distance((await state(page)).setpoint_cp, rested.setpoint_cp) < 1e-4, 'an open trigger moves nothing');
 });
 
+// req:A26 req:A31 req:A43
 test('the left handle moves a node while the tip stays', async () => {
   const from = await state(page);
   const node = (now) => now.node_m.slice(6, 9); // node 3
@@ -123,6 +124,7 @@ test('the left handle moves a node while the tip stays', async () => {
   assert.ok(distance(to.setpoint_cp, from.setpoint_cp) < 0.01, `${distance(to.setpoint_cp, from.setpoint_cp)} m`);
 });
 
+// req:A32
 test('a handle that is lost holds the arm, and steers again only after it was let go', async () => {
   await grip('right');
   await page.evaluate(() => (window.is_seen = false));
@@ -155,6 +157,7 @@ function recording() {
   return lines.filter((line) => line && !line.startsWith('#')).map((line) => line.trim().split(/\s+/).map(Number));
 }
 
+// req:A31
 test('two handles steer the arm past the obstacle to the edge of the panel', async () => {
   await page.evaluate(() => window.liana.connection.request({ op: 'move_jp', goal_deg: window.liana.live.welcome.robot.named_poses_deg.prepare }));
   await page.waitForTimeout(1000);
@@ -186,6 +189,7 @@ test('two handles steer the arm past the obstacle to the edge of the panel', asy
   assert.ok(distance(at_edge.measured_cp, [0.2446, -0.2711, 0.5819]) < 0.15, `${at_edge.measured_cp}`);
 });
 
+// req:A40 req:A41
 test('with segment 5 held planar the handles steer the tip through the mouth of the slit', async () => {
   const scene = await page.evaluate(() => window.liana.live.welcome.scene);
   const ask = (request) => page.evaluate((r) => window.liana.connection.request(r), request);

@@ -12,5 +12,4 @@ return liana.mission "back_out" {
     time_limit_s = 6,
     on_fail = "retract",
   },
-  finish = liana.tool "none",
 }

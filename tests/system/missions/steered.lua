@@ -11,5 +11,4 @@ return liana.mission "steered" {
     time_limit_s = 12,
     on_fail = "hold",
   },
-  finish = liana.tool "none",
 }

@@ -1,0 +1,12 @@
+// What scripts say, on its way to a terminal.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace liana::script {
+
+// The text with a ? for every control character but tab and the end of a line: terminals act on them.
+std::string printable(std::string_view text);
+
+}  // namespace liana::script

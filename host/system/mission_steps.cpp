@@ -1,0 +1,106 @@
+#include "host/system/mission_steps.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "host/config/field.hpp"
+#include "host/config/sha256.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/output.hpp"
+#include "host/system/plan_file.hpp"
+#include "host/system/tables.hpp"
+
+namespace liana::system {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kAtStart_deg = 1.0;  // as lua/liana/plan_step.lua
+
+std::string where_of(const Json& mission, std::size_t i) {
+  const Json& step = mission.at("steps")[i];
+  return step.value("at", "") + "mission " + mission.value("name", "") + ": step " + std::to_string(i + 1) + " \"" +
+         step.value("name", "") + "\"";
+}
+
+std::vector<double> angles(const Json& list) { return list.get<std::vector<double>>(); }
+
+// The angles that a step goes to, as far as they are known; empty where they are not.
+std::vector<double> goal_of(const Json& step, const config::RobotConfig& robot) {
+  if (step.contains("goal_deg")) return angles(step.at("goal_deg"));
+  const auto pose = robot.named_poses_deg.find(step.value("goal_pose", ""));
+  return pose == robot.named_poses_deg.end() ? std::vector<double>() : pose->second;
+}
+
+void check_goal(const Json& mission, std::size_t i, const config::RobotConfig& robot,
+                const config::SceneConfig& scene) {
+  const Json& step = mission.at("steps")[i];
+  const std::vector<double> goal_deg = goal_of(step, robot);
+  const std::string inside = goal_deg.empty() ? "" : inside_body(robot, scene, goal_deg);
+  if (inside.empty()) return;
+  const std::string pose = step.value("goal_pose", "");
+  throw BadInput(where_of(mission, i) + ": " + (pose.empty() ? "at the end of its plan" : "at pose " + pose) + " " +
+                 inside + " (scene " + scene.name + "): go to another pose, or run in another --scene");
+}
+
+// Where the file of a step's plan lies.
+std::string plan_path(const Json& mission, const std::string& name) {
+  for (const Json& file : mission.at("files")) {
+    if (file.value("file", "") == name) return file.value("path", "");
+  }
+  return name;
+}
+
+void check_plan(const Json& mission, std::size_t i, const config::RobotConfig& robot,
+                const config::SceneConfig& scene) {
+  const std::string name = mission.at("steps")[i].value("plan", "");
+  if (name.empty()) return;
+  try {
+    check_plan_file(plan_path(mission, name), robot, scene);
+  } catch (const BadInput& problem) {
+    throw BadInput(where_of(mission, i) + ": plan: " + problem.what());
+  }
+}
+
+void check_start(const Json& mission, const StartPose& start) {
+  const Json& first = mission.at("steps")[0];
+  if (!first.contains("start_deg")) return;
+  const std::vector<double> begin_deg = angles(first.at("start_deg"));
+  std::string given;
+  for (const double angle_deg : begin_deg) given += (given.empty() ? "" : ",") + Json(angle_deg).dump();
+  for (std::size_t k = 0; k < begin_deg.size() && k < start.angles_deg.size(); ++k) {
+    if (std::fabs(begin_deg[k] - start.angles_deg[k]) <= kAtStart_deg) continue;
+    char text[120];
+    std::snprintf(text, sizeof text, ": the plan begins with theta %zu at %g deg, the arm at start pose ", k + 1,
+                  begin_deg[k]);
+    throw BadInput(where_of(mission, 0) + text + start.text + " with " + Json(start.angles_deg[k]).dump() +
+                   ": allowed within 1 deg: begin there (--start-pose=" + given + "), or go there in a step before");
+  }
+}
+
+}  // namespace
+
+void check_steps(const Json& mission, const config::RobotConfig& robot, const config::SceneConfig& scene,
+                 const StartPose* start) {
+  for (std::size_t i = 0; i < mission.at("steps").size(); ++i) {
+    check_plan(mission, i, robot, scene);
+    check_goal(mission, i, robot, scene);
+  }
+  if (start != nullptr) check_start(mission, *start);
+}
+
+void keep_mission_files(const Json& mission, const std::string& directory) {
+  for (const Json& file : mission.at("files")) {
+    const std::string path = file.value("path", ""), text = checked([&] { return config::read_text_file(path); });
+    if (config::sha256_hex(text) != file.value("sha256", ""))
+      throw BadInput(path + ": has changed since it was checked; run again");
+    const fs::path kept = fs::path(directory) / "mission_files" / file.value("file", "");
+    std::error_code error;
+    fs::create_directories(kept.parent_path(), error);
+    write_output(kept.string(), text);
+  }
+}
+
+}  // namespace liana::system
