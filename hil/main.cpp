@@ -8,6 +8,7 @@
 
 #include "hil/arm/arm_physics.hpp"
 #include "hil/bench/bench.hpp"
+#include "hil/bench/data_sheet_file.hpp"
 #include "hil/bus/embedded_bus.hpp"
 #include "hil/bus/socketcan_bus.hpp"
 
@@ -25,6 +26,7 @@ struct Paths {
   std::string can;
   std::string cross_wired;
   std::string scene_offset;
+  std::string data_sheet;
 };
 
 std::string whole_number_problem(const std::string& text) {
@@ -33,9 +35,9 @@ std::string whole_number_problem(const std::string& text) {
 }
 
 void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, bool& no_spread) {
-  app.add_option("--robot", paths.robot, "robot JSON")->required();
-  app.add_option("--scene", paths.scene, "scene JSON")->required();
-  app.add_option("--buses", paths.buses, "bus table JSON")->required();
+  app.add_option("--robot", paths.robot, "robot JSON");
+  app.add_option("--scene", paths.scene, "scene JSON");
+  app.add_option("--buses", paths.buses, "bus table JSON");
   auto* socket = app.add_option("--bus-socket", paths.bus_socket, "socket of liana-bus");
   auto* can = app.add_option("--can", paths.can, "SocketCAN interfaces, e.g. vcan0,vcan1; alone: the bus table's names")
                   ->expected(0, 1);
@@ -76,6 +78,27 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
   app.add_flag("--fixture", options.fixture, "the arm starts exactly in its start pose");
   app.add_option("--cross-wired", paths.cross_wired, "two drives, e.g. 3,4, that have each other's cable");
   app.add_flag("--no-spread", no_spread, "the arm is exactly as the table says (for tests)");
+  app.add_option("--eds", paths.data_sheet,
+                 "write the data sheet of its drives (EDS, CiA 306) here, - is standard output, and end");
+}
+
+// What is missing among the options; empty: nothing.
+std::string missing_option(const CLI::App& app, const Paths& paths) {
+  for (const char* table : {"--robot", "--scene", "--buses"})
+    if (app.count(table) == 0) return std::string(table) + " is required";
+  if (paths.bus_socket.empty() && app.count("--can") == 0)
+    return "say where the bus is: --bus-socket PATH or --can [IF,IF]";
+  return "";
+}
+
+int write_data_sheet(const std::string& path) {
+  try {
+    liana::bench::write_data_sheet(path);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "liana-bench: --eds: " << error.what() << '\n';
+    return kBadInput;
+  }
 }
 
 std::vector<std::string> split(const std::string& list) {
@@ -175,8 +198,9 @@ int main(int argc, char** argv) {
     std::cerr << "liana-bench: " << error.what() << "; see liana-bench --help\n";
     return kBadInput;
   }
-  if (paths.bus_socket.empty() && app.count("--can") == 0) {
-    std::cerr << "liana-bench: say where the bus is: --bus-socket PATH or --can [IF,IF]\n";
+  if (!paths.data_sheet.empty()) return write_data_sheet(paths.data_sheet);
+  if (const std::string missing = missing_option(app, paths); !missing.empty()) {
+    std::cerr << "liana-bench: " << missing << "; see liana-bench --help\n";
     return kBadInput;
   }
   liana::bench::end_on_signals();

@@ -251,6 +251,7 @@ void Drive::sample() {
     objects_.set(0x6064, 0, std::llround(motor_.position_counts() + encoder_offset_counts_ + position_error_counts_));
     objects_.set(0x606C, 0, std::llround(motor_.velocity_counts_per_s()));
     objects_.set(0x6077, 0, std::clamp<std::int64_t>(std::llround(measured_permille_), -32768, 32767));
+    objects_.set(0x6078, 0, objects_.get(0x6077));  // torque goes with current
   }
   objects_.set(0x6062, 0, objects_.get(0x607A));
   objects_.set(0x60F4, 0, objects_.get(0x607A) - objects_.get(0x6064));

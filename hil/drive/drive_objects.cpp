@@ -47,6 +47,7 @@ constexpr Object kCommon[] = {
     {0x606C, 0, kI32, kReadOnly, true, 0, kI32Min, kI32Max},   // velocity [counts/s]
     {0x6072, 0, kU16, kReadWrite, true, 1000, 0, 3000},        // max torque [permille]
     {0x6077, 0, kI16, kReadOnly, true, 0, -32768, 32767},      // torque [permille of rated]
+    {0x6078, 0, kI16, kReadOnly, true, 0, -32768, 32767},      // current [permille of rated]
     {0x607A, 0, kI32, kReadWrite, true, 0, kI32Min, kI32Max},  // target position
     {0x608F, 0, kU8, kReadOnly, false, 2, 0, 255},
     {0x608F, 2, kU32, kReadOnly, false, 1, 0, kU32Max},  // motor revolutions

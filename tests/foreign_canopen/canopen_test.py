@@ -14,6 +14,7 @@ from liana.system import System
 
 HERE = pathlib.Path(__file__).resolve().parent
 SCRIPTS = ("package.json", "package-lock.json", "node_end.mjs", "master.mjs", "slave.mjs")
+DATA_SHEET = HERE.parents[1] / "hil" / "drive" / "liana_bench_drive.eds"
 MOST_WAKES = 20000
 
 
@@ -76,8 +77,8 @@ class OnlyDrives(System):
 
 @unittest.skipUnless(shutil.which("npm") and shutil.which("node"), "needs npm and node")
 class AnotherMaster(unittest.TestCase):
-    def test_it_boots_a_drive_of_the_bench_reads_and_writes_it_enables_it_and_moves_it_by_pdo(self):
-        with OnlyDrives() as drives, Stack("master.mjs") as master:
+    def test_it_loads_the_data_sheet_of_a_drive_of_the_bench_boots_it_enables_it_and_moves_it_by_pdo(self):
+        with OnlyDrives() as drives, Stack("master.mjs", DATA_SHEET) as master:
             bus = EmbeddedBus(drives.bus_socket, embedded_bus.CONTROLLER, "canopen")
             half_us = bus.period_us // 2
             for _ in range(MOST_WAKES):
@@ -92,6 +93,8 @@ class AnotherMaster(unittest.TestCase):
             bus.socket.close()
             found = master.found
         self.assertIsNotNone(found, "its story did not end")
+        self.assertEqual(found["differ"], [], "the data sheet says otherwise than the drive")
+        self.assertGreater(found["compared"], 120)
         self.assertEqual(found["profile"], 0x20192)
         self.assertEqual(found["name"].rstrip("\0"), "Liana bench drive")
         self.assertEqual(found["serial"], 1003)

@@ -3,7 +3,7 @@
 import readline from 'node:readline';
 import canopen from 'canopen';
 
-export const { AccessType, DataType, Device, NmtState, ObjectType } = canopen;
+export const { AccessType, DataType, Device, Eds, NmtState, ObjectType } = canopen;
 
 let now_ms = 0;
 const timers = new Set();
