@@ -2,13 +2,13 @@
 each), with nothing but a robot table.
 """
 import json
-import math
 import pathlib
 import random
 import sys
 import tempfile
 import unittest
 
+from made_up_arms import TOUR, angles_of, table_of, tip_of
 from programs import liana, liana_json
 
 SHIPPED = {
@@ -16,113 +16,10 @@ SHIPPED = {
     "tdcr_benchmark": ("tdcr_tour", "none", "2,5,-1,4"),
 }
 MADE_UP = 4
-MOST_DRIVES = 32
-
-TOUR = """
-local liana = require "liana"
-local function pose(name)
-  return liana.step(name) {
-    device = "none", run = liana.move_to(name), exit = liana.all { liana.at_pose(name, 0.5), liana.at_rest() },
-    time_limit_s = 200, on_fail = "hold",
-  }
-end
-return liana.mission "tour" { pose "first", pose "second" }
-"""
 
 
 def joined(numbers):
     return ",".join(repr(float(x)) for x in numbers)
-
-
-def table_of(seed):
-    """A robot as a lab might build it: everything is drawn, within what the loader allows."""
-    draw = random.Random(seed)
-    count = draw.randint(2, 8)
-    cables = [draw.choice((3, 4)) for _ in range(count)]
-    while sum(cables) > MOST_DRIVES:
-        cables[cables.index(4)] = 3
-    step = 360.0 / (12 * count)
-    limit = draw.uniform(8, 15)
-    segments = [
-        {"modules": draw.randint(4, 8), "module_length_m": round(draw.uniform(0.05, 0.12), 3), "theta_limit_deg": limit}
-        for _ in range(count)
-    ]
-    radius = draw.uniform(0.02, 0.04)
-
-    def pose(share):
-        return [round(draw.uniform(-share, share) * limit, 2) for _ in range(2 * count)]
-
-    return {
-        "format": 1,
-        "kind": "robot",
-        "name": f"made_up_{seed}",
-        "segments": segments,
-        "module": {"mass_kg": round(draw.uniform(0.1, 0.3), 3), "radius_m": radius},
-        "joint": {"viscous_Nms_per_rad": 0.4},
-        "cables": {
-            "hole_radius_m": 0.8 * radius,
-            "face_offset_m": 0.008,
-            "phase_deg": [[360.0 / n * c + step * j for c in range(n)] for j, n in enumerate(cables)],
-            "EA_N": 200000,
-            "lead_m": 0.4,
-            "friction_mu": {"nominal": 0.04, "ideal": 0, "worn": 0.08},
-        },
-        "tension": {
-            "plan_N": 40,
-            "floor_motor_N": 15,
-            "floor_anywhere_N": 1,
-            "ceiling_free_N": 180,
-            "alarm_N": 400,
-            "hard_limit_N": 600,
-        },
-        "drives": {
-            "drum_radius_m": 0.015,
-            "counts_per_turn": 65536,
-            "gear": 1,
-            "servo_time_constant_s": 0.03,
-            "rated_torque_Nm": 9,
-            "identity": {"vendor": 19529, "product": 1, "revision": 1},
-            "direction": [draw.choice((-1, 1)) for _ in range(sum(cables))],
-            "zero_counts": [1000000] * sum(cables),
-        },
-        "limits": {
-            "theta_rate_deg_s": 2,
-            "theta_accel_deg_s2": 4,
-            "tip_speed_m_s": 0.1,
-            "tip_speed_slit_m_s": 0.03,
-            "tip_accel_m_s2": 0.14,
-            "tip_jerk_m_s3": 1,
-            "tip_rate_deg_s": 20,
-            "tip_angular_accel_deg_s2": 40,
-            "tip_angular_jerk_deg_s3": 400,
-            "cable_speed_m_s": 0.01,
-        },
-        "named_poses_deg": {"zero": [0] * (2 * count), "first": pose(0.3), "second": pose(0.3)},
-        "start_pose": "first",
-    }
-
-
-def product(a, b):
-    return [[sum(a[i][k] * b[k][j] for k in range(4)) for j in range(4)] for i in range(4)]
-
-
-def turn(axis, angle_deg):
-    c, s = math.cos(math.radians(angle_deg)), math.sin(math.radians(angle_deg))
-    if axis == "y":
-        return [[c, 0, s, 0], [0, 1, 0, 0], [-s, 0, c, 0], [0, 0, 0, 1]]
-    return [[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
-
-
-def tip_of(table, theta_deg):
-    """The tip, one universal joint after the other (docs/formats.md): the least that an arm is, written once more."""
-    pose = [[float(i == j) for j in range(4)] for i in range(4)]
-    for j, segment in enumerate(table["segments"]):
-        pitch, yaw = turn("z", theta_deg[2 * j]), turn("y", theta_deg[2 * j + 1])
-        along = [[1, 0, 0, segment["module_length_m"]], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]]
-        for k in range(segment["modules"]):
-            pose = product(pose, product(pitch, yaw) if k % 2 == 0 else product(yaw, pitch))
-            pose = product(pose, along)
-    return pose
 
 
 class EveryRobot(unittest.TestCase):
@@ -261,8 +158,7 @@ class EveryRobot(unittest.TestCase):
             file = self.folder / "robot.json"
             file.write_text(json.dumps(table))
             draw = random.Random(f"angles {seed}")
-            limit = table["segments"][0]["theta_limit_deg"]
-            theta_deg = [draw.uniform(-limit, limit) for _ in range(2 * len(table["segments"]))]
+            theta_deg = angles_of(table, draw)
             told = liana_json("pose", "--robot", file, f"--theta-deg={joined(theta_deg)}")["tip_pose"]
             expected = tip_of(table, theta_deg)
             worst = max(abs(told[i][j] - expected[i][j]) for i in range(4) for j in range(4))

@@ -201,9 +201,12 @@ class PlanCommand(unittest.TestCase):
             )
             written = json.loads(path.read_text(encoding="utf-8"))
 
-            def edit(change):
+            def edit(change, without_digest=True):
+                """What a plan is refused with; without its digest, as one from elsewhere, it is held to what it says."""
                 plan = json.loads(json.dumps(written))
                 change(plan)
+                if without_digest:
+                    plan.pop("digest")
                 path.write_text(json.dumps(plan), encoding="utf-8")
                 done = subprocess.run(
                     [BIN / "liana", "run", path], capture_output=True, text=True, check=False, timeout=60
@@ -212,6 +215,7 @@ class PlanCommand(unittest.TestCase):
                 return done.stderr
 
             into_the_panel = [-2.641, -2.064, -1.81, -4.64, 4.777, 5.87, 4.0, 4.764, 5.0, -0.543]
+            self.assertIn("digest: ", edit(lambda plan: plan["waypoints_deg"][1].__setitem__(0, -8.4), False))
             self.assertIn(
                 "waypoints_deg: on the path found link",
                 edit(lambda plan: plan["waypoints_deg"].__setitem__(1, into_the_panel)),
