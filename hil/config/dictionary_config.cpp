@@ -1,5 +1,7 @@
 #include "hil/config/dictionary_config.hpp"
 
+#include <cmath>
+
 #include "hil/config/json_file.hpp"
 
 namespace liana::bench {
@@ -48,6 +50,11 @@ std::optional<std::uint32_t> read_identity(const JsonFile& file, const std::stri
   return static_cast<std::uint32_t>(file.number(field, 0.0, kMaxU32));
 }
 
+std::uint64_t read_us(const JsonFile& file, const std::string& field) {
+  constexpr double kMost_s = 120.0, kPerSecond = 1e6;
+  return file.has(field) ? static_cast<std::uint64_t>(std::llround(kPerSecond * file.number(field, 0.0, kMost_s))) : 0;
+}
+
 bool says(const JsonFile& file, const std::string& field, const std::string& word) {
   return file.has(field) && file.text(field) == word;
 }
@@ -63,6 +70,8 @@ DictionaryConfig read_dictionary(const JsonFile& file, const std::string& type) 
           static_cast<std::int64_t>(file.number(own + "/values/" + key, kMinI32, kMaxU32));
   for (std::size_t i = 0; file.has(own + "/added") && i < file.size(own + "/added"); ++i)
     out.added.push_back(read_added(file, at(own + "/added", i)));
+  out.sdo_us = read_us(file, own + "/times/sdo_answer_s");
+  out.reset_us = read_us(file, own + "/times/reset_s");
   out.vendor = read_identity(file, type + "/identity/vendor");
   out.product = read_identity(file, type + "/identity/product");
   out.revision = read_identity(file, type + "/identity/revision");

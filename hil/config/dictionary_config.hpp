@@ -38,6 +38,8 @@ struct DictionaryConfig {
   std::optional<std::uint32_t> revision;
   double rated_torque_per_mNm = 1.0;  // how 6076 counts: 1000 for uNm
   bool speeds_in_rpm = false;         // how 6085 counts: rpm/s of the motor, else increments/s^2
+  std::uint64_t sdo_us = 0;           // from an SDO request to its answer
+  std::uint64_t reset_us = 0;         // from power-on or an NMT reset to the boot-up message; deaf meanwhile
 };
 
 // The dictionaries that a bus table gives its drives, by node: of each entry of `drives` that of the type `bench`, or

@@ -39,7 +39,7 @@ void Drive::receive(const CanFrame& frame, FrameList& out) {
     sample();
     const bool listens = nmt_ == NmtState::kPreOperational || nmt_ == NmtState::kOperational;
     if (!listens || !sdo_.answer(frame, response)) return;
-    answers_.push_back({now_us_ + defects_.sdo_us, response});
+    answers_.push_back({now_us_ + std::max(defects_.sdo_us, settings_.dictionary.sdo_us), response});
     return send_late(out);
   }
   if (frame.id > 0x700 && frame.id < 0x780) return handle_heartbeat(frame, out);
@@ -107,9 +107,10 @@ void Drive::enter_nmt(NmtState state) {
 void Drive::begin_reset(bool of_node, FrameList& out) {
   if (of_node) reset_node();
   answers_.clear();
-  if (defects_.reset_us == 0) return reset_communication(out);
+  const std::uint64_t takes_us = std::max(defects_.reset_us, settings_.dictionary.reset_us);
+  if (takes_us == 0) return reset_communication(out);
   enter_nmt(NmtState::kInitialising);
-  reset_at_us_ = now_us_ + defects_.reset_us;  // tick() ends it
+  reset_at_us_ = now_us_ + takes_us;  // tick() ends it
 }
 
 // Application objects get their power-on values, too, and a fault is forgotten (CiA 301, 7.3.2.2).

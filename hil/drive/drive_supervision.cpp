@@ -159,6 +159,8 @@ void Drive::supervise_following(std::uint64_t now_us) {
 void Drive::tick(std::uint64_t now_us, FrameList& out) {
   if (dead_) return;
   now_us_ = std::max(now_us_, now_us);
+  const bool has_power_now = nmt_ == NmtState::kInitialising && !reset_at_us_;
+  if (has_power_now) reset_at_us_ = now_us_ + settings_.dictionary.reset_us;
   if (reset_at_us_ && now_us_ < *reset_at_us_) return;
   reset_at_us_.reset();
   if (nmt_ == NmtState::kInitialising) reset_communication(out);

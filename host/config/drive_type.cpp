@@ -149,7 +149,7 @@ void check_added(const Field& field) {
 
 // What the bench's drives of the type have; the bench reads it itself.
 void check_dictionary(const Field& table) {
-  table.only({"absent", "read_only", "values", "added"});
+  table.only({"absent", "read_only", "values", "added", "times"});
   check_objects(table, "absent");
   check_objects(table, "read_only");
   if (table.json().contains("values")) {
@@ -160,6 +160,12 @@ void check_dictionary(const Field& table) {
       parse_object(field, key);
       field.integer(-0x80000000LL, kMaxU32);
     }
+  }
+  if (table.json().contains("times")) {
+    const Field times = table.at("times");
+    times.only({"sdo_answer_s", "reset_s"});
+    for (const char* key : {"sdo_answer_s", "reset_s"})
+      if (times.json().contains(key)) times.at(key).number({0.0, 120.0});
   }
   if (!table.json().contains("added")) return;
   const Field added = table.at("added");

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <deque>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,9 +41,9 @@ class BootedDrive {
   BootedDrive(const canopen::DriveExpectation& expected, const bench::DriveSettings& settings)
       : drive(settings, 1000.0), boot({expected}, kRate_hz) {}
 
-  // Until the boot has ended, 400 s at most.
+  // Until the boot has ended, 1200 s at most.
   void run_boot() {
-    for (int tick = 0; tick < 100000 && boot.state() == canopen::BootState::kRunning; ++tick) {
+    for (int tick = 0; tick < 300000 && boot.state() == canopen::BootState::kRunning; ++tick) {
       boot.step(queue);
       pass_on();
     }
@@ -73,8 +72,7 @@ class BootedDrive {
   canopen::BootSequence boot;
   FrameQueue queue;
   std::vector<std::uint16_t> emergencies;
-  std::size_t answer_ticks = 0;   // what the drive says arrives so much later
-  std::uint64_t power_ticks = 0;  // before this one it has no power
+  std::uint64_t power_us = 0;  // before this it has no power
 
  private:
   static constexpr double kRate_hz = 250.0;
@@ -82,7 +80,7 @@ class BootedDrive {
 
   void pass_on() {
     now_us_ += kPeriod_us;
-    if (now_us_ / kPeriod_us < power_ticks) return queue.frames.clear();
+    if (now_us_ < power_us) return queue.frames.clear();
     bench::FrameList out;
     for (const bus::CanFrame& frame : queue.frames) {
       bench::CanFrame there;
@@ -94,11 +92,7 @@ class BootedDrive {
     }
     queue.frames.clear();
     drive.tick(now_us_, out);
-    on_the_way_.push_back(std::move(out));
-    if (on_the_way_.size() <= answer_ticks) return;
-    const bench::FrameList arrived = std::move(on_the_way_.front());
-    on_the_way_.pop_front();
-    for (const bench::CanFrame& frame : arrived) {
+    for (const bench::CanFrame& frame : out) {
       bus::CanFrame here{frame.id, frame.length, {}, 0};
       std::copy(frame.data.begin(), frame.data.begin() + frame.length, here.data.begin());
       if (here.id == 0x080U + static_cast<std::uint32_t>(drive.node()))
@@ -107,7 +101,6 @@ class BootedDrive {
     }
   }
 
-  std::deque<bench::FrameList> on_the_way_;
   std::uint64_t now_us_ = 0;
 };
 

@@ -101,6 +101,23 @@ TEST(DriveTypesOnTheBench, ANanotecThatCountsTenthsOfADegreeIsToldToCountIncreme
   EXPECT_EQ(stuck.boot.mismatches(0)[0].index, 0x60A8);
 }
 
+// What a table says of the drive's times is what the bench's drive takes, and what a type allows is what it is given.
+TEST(DriveTypesOnTheBench, ADriveThatTakesItsTimeIsWaitedForAsLongAsItsTypeAllows) {
+  Json buses = Json::parse(bus_table("cia402_csp", "cia402_csp"));
+  buses["drive_types"]["cia402_csp"]["dictionary"]["times"] = {{"sdo_answer_s", 4.0}, {"reset_s", 14.0}};
+  test::BootedDrive impatient(expectation_of(buses.dump()), settings_of(buses.dump()));
+  impatient.run_boot();
+  ASSERT_EQ(impatient.boot.state(), canopen::BootState::kFailed);
+  EXPECT_EQ(impatient.boot.mismatches(0)[0].failure, canopen::BootFailure::kNoBootUp) << impatient.refusals();
+  buses["drive_types"]["cia402_csp"]["times"] = {{"sdo_answer_s", 1.4}, {"boot_up_s", 15.0}};
+  test::BootedDrive patient(expectation_of(buses.dump()), settings_of(buses.dump()));
+  patient.run_boot();
+  EXPECT_EQ(patient.boot.state(), canopen::BootState::kOperational) << patient.refusals();
+  buses["drive_types"]["cia402_csp"]["dictionary"]["times"]["reset_s"] = 121;
+  EXPECT_THROW(expectation_of(buses.dump()), std::runtime_error);
+  EXPECT_THROW(settings_of(buses.dump()), std::runtime_error);
+}
+
 // A drive that the table calls by another maker's name: nothing is written, and the reasons name both.
 TEST(DriveTypesOnTheBench, ADriveOfAnotherMakerIsRefused) {
   const std::string buses = bus_table("maxon_epos4", "elmo_gold");

@@ -1,8 +1,11 @@
-// Dictionaries drawn by seed: objects missing, read-only, with other values, slow or silent. Each drive boots, or is
-// refused with exactly the objects that are in the way, as counted here from CiA 301 and 402, not by the boot's own
-// plan.
+// Dictionaries drawn by seed: objects missing, read-only, with other values; slow to answer, slow to start, late to get
+// power. Each drive boots, or is refused with exactly the objects that are in the way, as counted here from CiA 301 and
+// 402, not by the boot's own plan.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <cstdio>
 #include <map>
 #include <random>
 #include <set>
@@ -52,17 +55,36 @@ bench::AddedObject added(std::uint16_t index, const char* type, std::int64_t val
   return {{index, {}}, type, false, value, {}, {}};
 }
 
-// One made-up drive, and which objects are in its way.
+// One made-up drive, what its type allows it, and which objects are in its way.
 struct MadeUp {
   bench::DriveSettings settings;
-  std::size_t answer_ticks = 0;
-  std::uint64_t power_ticks = 0;
+  config::DriveTimes allowed;
+  double power_s = 0.0;  // before this it has no power
   std::set<Place> in_the_way;
 };
 
-constexpr std::size_t kSlow = 50, kTooSlow = 1000;    // an answer may take 250 ticks, and is asked for three times
-constexpr std::uint64_t kLate = 1000, kNever = 2600;  // the boot-up may take 2500
+// An answer may take 1 s, three times over since it is asked for three times, and the boot-up message 10 s, unless a
+// type says more: among these some are slower than that.
+constexpr int kAsked = 3;
+constexpr std::array<double, 3> kAnswers_s{0.02, 0.3, 1.3}, kResets_s{0.6, 2.5, 6.5};
+constexpr double kSlowAnswer_s = 3.5, kSlowReset_s = 11.5, kLatePower_s = 4.0;
 constexpr Place kSilent{0xFFFF, 0}, kNoObject{0, 0};
+
+std::uint64_t as_us(double seconds) { return static_cast<std::uint64_t>(std::llround(1e6 * seconds)); }
+
+// How long the drive takes, and whether its type knows: what is too slow is all that is named.
+template <typename OneIn>
+void draw_times(std::mt19937& random, const OneIn& one_in, MadeUp& drive) {
+  double answer_s = one_in(3) ? kAnswers_s[random() % 3] : 0.0, reset_s = one_in(3) ? kResets_s[random() % 3] : 0.0;
+  if (one_in(5)) drive.power_s = kLatePower_s;
+  if (one_in(8)) answer_s = kSlowAnswer_s;
+  if (one_in(10)) reset_s = kSlowReset_s;
+  if (one_in(3)) drive.allowed = {1.5, 20.0, 2.0};
+  drive.settings.dictionary.sdo_us = as_us(answer_s);
+  drive.settings.dictionary.reset_us = as_us(reset_s);
+  if (answer_s > kAsked * drive.allowed.sdo_answer_s) drive.in_the_way = {kSilent};
+  if (drive.power_s + reset_s > drive.allowed.boot_up_s) drive.in_the_way = {kNoObject};
+}
 
 MadeUp make_up(std::uint32_t seed) {
   std::mt19937 random(seed);
@@ -74,8 +96,13 @@ MadeUp make_up(std::uint32_t seed) {
   bench::DictionaryConfig& dictionary = drive.settings.dictionary;
   dictionary.added = {added(0x60A8, "u32", 0x00B50000), added(0x607E, "u8", 0), added(0x607F, "u32", 20000),
                       added(0x6080, "u32", 3000), added(0x60C5, "u32", 900000)};
+  const bool is_by_the_book = one_in(3);  // then only its times are odd
   for (const auto& [place, want] : wanted()) {
     const bench::ObjectPlace there{place.first, place.second};
+    if (is_by_the_book) {
+      dictionary.values[there] = want.value;
+      continue;
+    }
     if (one_in(6)) {
       dictionary.absent.push_back(there);
       if (want.must_exist) drive.in_the_way.insert(place);
@@ -91,16 +118,7 @@ MadeUp make_up(std::uint32_t seed) {
     const bool stays_wrong = is_other && (!want.is_told || is_fixed);
     if (stays_wrong) drive.in_the_way.insert(place);
   }
-  if (one_in(5)) drive.answer_ticks = kSlow;
-  if (one_in(5)) drive.power_ticks = kLate;
-  if (one_in(15)) {
-    drive.answer_ticks = kTooSlow;
-    drive.in_the_way = {kSilent};
-  }
-  if (one_in(15)) {
-    drive.power_ticks = kNever;
-    drive.in_the_way = {kNoObject};
-  }
+  draw_times(random, one_in, drive);
   return drive;
 }
 
@@ -128,21 +146,31 @@ std::set<Place> named(const test::BootedDrive& bench) {
 }
 
 TEST(MadeUpDictionaries, EachBootsOrIsRefusedWithEveryReasonNamed) {
-  int booted = 0;
+  int booted = 0, slow = 0;
+  std::set<Place> too_slow;
   for (std::uint32_t seed = 1; seed <= 50; ++seed) {
     const MadeUp drive = make_up(seed);
-    test::BootedDrive bench(expectation(), drive.settings);
-    bench.answer_ticks = drive.answer_ticks;
-    bench.power_ticks = drive.power_ticks;
+    canopen::DriveExpectation expected = expectation();
+    expected.type.times = drive.allowed;
+    test::BootedDrive bench(expected, drive.settings);
+    bench.power_us = as_us(drive.power_s);
     bench.run_boot();
     EXPECT_EQ(named(bench), drive.in_the_way) << "seed " << seed << ": " << bench.refusals();
     EXPECT_EQ(bench.boot.state(),
               drive.in_the_way.empty() ? canopen::BootState::kOperational : canopen::BootState::kFailed)
         << "seed " << seed;
     booted += drive.in_the_way.empty() ? 1 : 0;
+    for (const Place& place : {kSilent, kNoObject})
+      if (drive.in_the_way.contains(place)) too_slow.insert(place);
+    const bool is_slow = drive.power_s + 1e-6 * static_cast<double>(drive.settings.dictionary.reset_us) > 2.0 ||
+                         drive.settings.dictionary.sdo_us > as_us(0.2);
+    slow += drive.in_the_way.empty() && is_slow ? 1 : 0;
   }
-  EXPECT_GT(booted, 2) << "the draw has to leave some that boot";
+  EXPECT_GT(slow, 5) << "the draw has to leave some that boot slowly";
+  EXPECT_GT(booted, 10) << "the draw has to leave some that boot";
   EXPECT_LT(booted, 48) << "and some that do not";
+  std::printf("%d of 50 booted, %d of them slow or late\n", booted, slow);
+  EXPECT_EQ(too_slow.size(), 2U) << "among them some that never answer, and some that never start";
 }
 
 }  // namespace
