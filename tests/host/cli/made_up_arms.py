@@ -5,13 +5,16 @@ import math
 import random
 
 MOST_DRIVES = 32
+MOST_BEND_DEG = 170.0  # of a segment in one plane
+LEAST_RADIUS_M = 0.016  # the holes of 32 cables have to fit side by side
+DENSITY_KG_M3 = 1000.0  # a hollow aluminium module, filled up to its bounding cylinder
 
 TOUR = """
 local liana = require "liana"
 local function pose(name)
   return liana.step(name) {
     device = "none", run = liana.move_to(name), exit = liana.all { liana.at_pose(name, 0.5), liana.at_rest() },
-    time_limit_s = 200, on_fail = "hold",
+    time_limit_s = 600, on_fail = "hold",
   }
 end
 return liana.mission "tour" { pose "first", pose "second" }
@@ -31,18 +34,21 @@ def table_of(seed):
     while sum(cables) > MOST_DRIVES:
         cables[cables.index(4)] = 3
     step = 360.0 / (12 * count)
-    limit = draw.uniform(8, 15)
-    limit = draw.uniform(8, 15)
-    length_m = draw.uniform(0.05, 0.12)
-    segments = [
-        {
-            "modules": draw.randint(4, 8),
-            "module_length_m": round(length_m * draw.uniform(0.8, 1.2), 3),
-            "theta_limit_deg": round(limit * draw.uniform(0.8, 1.2), 1),
-        }
-        for _ in range(count)
-    ]
-    radius = draw.uniform(0.02, 0.04)
+    limit = draw.uniform(5, 25)
+    length_m = math.exp(draw.uniform(math.log(0.03), math.log(0.2)))
+    segments = []
+    for _ in range(count):
+        modules = draw.randint(2, 10)
+        limit_deg = min(limit * draw.uniform(0.8, 1.2), MOST_BEND_DEG / modules)
+        segments.append(
+            {
+                "modules": modules,
+                "module_length_m": round(length_m * draw.uniform(0.8, 1.2), 4),
+                "theta_limit_deg": round(limit_deg, 1),
+            }
+        )
+    radius = max(length_m * draw.uniform(0.25, 0.45), LEAST_RADIUS_M)
+    mass_kg = DENSITY_KG_M3 * length_m * radius**2 * draw.uniform(0.5, 1.5)
 
     def pose():
         return [round(0.3 * angle, 2) for angle in angles_of({"segments": segments}, draw)]
@@ -52,11 +58,11 @@ def table_of(seed):
         "kind": "robot",
         "name": f"made_up_{seed}",
         "segments": segments,
-        "module": {"mass_kg": round(draw.uniform(0.1, 0.3), 3), "radius_m": radius},
+        "module": {"mass_kg": mass_kg, "radius_m": radius},
         "joint": {"viscous_Nms_per_rad": 0.4},
         "cables": {
             "hole_radius_m": 0.8 * radius,
-            "face_offset_m": 0.008,
+            "face_offset_m": length_m * draw.uniform(0.05, 0.12),
             "phase_deg": [[360.0 / n * c + step * j for c in range(n)] for j, n in enumerate(cables)],
             "EA_N": 200000,
             "lead_m": 0.4,
