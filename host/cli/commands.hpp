@@ -206,6 +206,20 @@ struct ExportOptions {
 // A robot table as canonical JSON.
 int export_command(const ExportOptions& options);
 
+// How far a motor on a desk is turned.
+struct JogOptions {
+  std::string by;  // the way, signed, in `unit`
+  std::string speed = "0.05";
+  std::string unit = "turns";       // of the motor; or deg, mm
+  std::string mm_per_turn;          // for mm
+  std::string counts_per_turn;      // empty: the drive's 608F
+  std::string most = "0.25";        // turns
+  std::string most_speed = "0.25";  // turns/s
+  std::string torque = "300";       // permille of rated
+  bool yes = false;                 // without a typed word
+  bool clear = false;               // a fault from before
+};
+
 struct DriveOptions {
   std::string can;                  // a SocketCAN interface; else
   std::string bus;                  // a bus table
@@ -218,6 +232,7 @@ struct DriveOptions {
   std::string first = "1", last = "126";  // node ids
   std::string rate_hz = "5", seconds = "10";
   std::string type = "cia402_csp";
+  JogOptions jog;
   bool json = false;
 };
 // One motor on a desk. All end with 3 when nobody answers, and with 1 when the drive refuses.
@@ -230,6 +245,8 @@ int drive_watch_command(const DriveOptions& options);
 // Resets communication and goes through the boot of a drive type, reading only: everything it would refuse, what is
 // missing, and what would be written.
 int drive_check_command(const DriveOptions& options);
+// Boots a drive, enables it, turns its motor a short way, and disables it; only when somebody has said so.
+int drive_jog_command(const DriveOptions& options);
 
 struct RobotCheckOptions {
   std::string robot = "zhu2022";

@@ -1,98 +1,24 @@
 // `liana drive`: one motor on a desk, before there is a robot table.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdio>
 
 #include "host/canopen/boot_mismatch.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/drive_session.hpp"
 #include "host/config/drive_type.hpp"
 #include "host/config/field.hpp"
-#include "host/desk/desk.hpp"
 #include "host/json/json.hpp"
 #include "host/system/errors.hpp"
-#include "host/system/interrupt.hpp"
 #include "host/system/tables.hpp"
 
 namespace liana::cli {
 namespace {
 
-using canopen::SdoStatus;
-
-constexpr int kNobodyAnswers = 3;  // exit code
-constexpr double kRate_hz = 100.0;
-constexpr std::int64_t kMostNode = 126;
-
-// The table that --bus names, or one bus of the interface that --can names.
-config::BusesConfig buses_of(const DriveOptions& options) {
-  if (options.can.empty() == options.bus.empty())
-    throw system::BadInput("drive: say which bus: --can INTERFACE, or --bus TABLE (allowed is one of them)");
-  if (!options.bus.empty()) {
-    const std::string table = system::evaluate_table("buses", options.bus);
-    return system::checked([&] { return config::parse_buses(table, options.bus); });
-  }
-  config::BusesConfig buses;
-  buses.name = "desk";
-  buses.backend = "socketcan";
-  buses.rate_hz = kRate_hz;
-  buses.command_interval_s = 1.0 / kRate_hz;
-  const auto bitrate = static_cast<std::int32_t>(parse_whole("--bitrate", options.bitrate, 10000, 1000000, "bit/s"));
-  buses.buses = {{options.can, bitrate, {1}}};
-  buses.heartbeat_ms = 100;
-  buses.max_load = 1.0;
-  return buses;
-}
-
-// Open buses and the places on them.
-struct Session {
-  explicit Session(const DriveOptions& options)
-      : buses(buses_of(options)), desk(buses, time_of(options), options.bus_socket, guard.any()) {}
-
-  static timing::TimeMode time_of(const DriveOptions& options) {
-    const auto mode = timing::time_mode_from(options.time);
-    if (!mode) throw system::BadInput("--time: " + options.time + ": allowed are fast, paced and real");
-    return *mode;
-  }
-  // The node of --node, on the bus that the table has it on, else on the first.
-  desk::Place place(const DriveOptions& options) const {
-    const auto node = static_cast<std::uint8_t>(parse_whole("--node", options.node, 1, kMostNode));
-    return {std::max(0, buses.bus_of_node(node)), node};
-  }
-  std::string where(desk::Place at) const {
-    return "node " + std::to_string(at.node) + " on " + buses.buses[static_cast<std::size_t>(at.bus)].name;
-  }
-
-  system::InterruptGuard guard;
-  config::BusesConfig buses;
-  desk::Desk desk;
-};
-
 config::ObjectId object_of(const std::string& text) {
   const Json json = text;
   return system::checked([&] { return config::parse_object(config::Field(json, "drive", "OBJECT"), text); });
-}
-
-std::string hex(std::uint32_t value, int digits) {
-  char text[16];
-  std::snprintf(text, sizeof text, "0x%0*X", digits, value);
-  return text;
-}
-
-// One exit code for what came of a transfer, told with `what` where it failed.
-int tell_failure(const Session& session, desk::Place at, const std::string& what, const desk::Answer& answer,
-                 bool json) {
-  const bool silent = answer.status == SdoStatus::kTimeout;
-  const std::string why =
-      silent ? "no answer within 1 s: the node is missing, stopped, or has another id or bit rate"
-             : "refused with abort code " + hex(answer.abort_code, 8) + ", " + canopen::abort_text(answer.abort_code);
-  if (json) {
-    Json said = {{"node", at.node}, {"ok", false}, {"why", why}};
-    if (!silent) said["abort_code"] = answer.abort_code;
-    std::printf("%s\n", said.dump().c_str());
-  }
-  std::fprintf(stderr, "liana: %s: %s: %s\n", session.where(at).c_str(), what.c_str(), why.c_str());
-  return silent ? kNobodyAnswers : system::ExitCode::kExitFailure;
 }
 
 std::int64_t as_signed(const desk::Answer& answer) {
@@ -119,12 +45,7 @@ std::string value_text(const desk::Answer& answer) {
   return text + "  (" + std::to_string(8 * answer.bytes.size()) + " bits)";
 }
 
-void refuse_beside_a_master(Session& session) {
-  if (session.desk.hears_master())
-    throw std::runtime_error("drive: another master (node 127) is on this bus: end lianad first");
-}
-
-Json found_json(Session& session, desk::Place at) {
+Json found_json(DriveSession& session, desk::Place at) {
   Json out = {{"bus", session.buses.buses[static_cast<std::size_t>(at.bus)].name}, {"node", at.node}};
   const auto add = [&](const char* key, std::uint16_t index, std::uint8_t sub) {
     const desk::Answer answer = session.desk.read(at, index, sub);
@@ -154,35 +75,6 @@ std::string described(const Json& found) {
          ", product " + number("product") + ", revision " + number("revision") + ", serial " + number("serial") +
          (found.contains("name") && found["name"].is_string() ? ", \"" + found["name"].text() + "\"" : "") +
          (found.contains("modes") ? (has_csp ? ", has csp" : ", has no csp") : ", is no CiA 402 drive");
-}
-
-config::DriveType type_of(const DriveOptions& options) {
-  const std::string table = system::evaluate_table("drive", options.type);
-  return system::checked(
-      [&] { return config::parse_drive_type(config::parse_json(table, options.type), options.type); });
-}
-
-// What the drive says of itself stands for a robot table that there is not yet: identity, encoder, gear, torque.
-canopen::DriveExpectation expectation(Session& session, desk::Place at, const DriveOptions& options) {
-  const auto said = [&](std::uint16_t index, std::uint8_t sub, std::uint32_t otherwise) {
-    const desk::Answer answer = session.desk.read(at, index, sub);
-    return answer.is_done() ? answer.value() : otherwise;
-  };
-  canopen::DriveExpectation drive;
-  drive.bus = at.bus;
-  drive.node = at.node;
-  drive.type = type_of(options);
-  drive.vendor = said(0x1018, 1, 0);
-  drive.product = said(0x1018, 2, 0);
-  drive.revision = said(0x1018, 3, 0);
-  drive.counts_per_turn = std::max(1U, said(0x608F, 1, 65536));
-  drive.gear_motor_turns = std::max(1U, said(0x6091, 1, 1));
-  drive.gear_drum_turns = std::max(1U, said(0x6091, 2, 1));
-  drive.rated_torque_mNm =
-      static_cast<std::uint32_t>(std::lround(1000.0 * said(0x6076, 0, 0) / drive.type.units.rated_torque_per_Nm));
-  drive.period = config::interpolation_period(session.buses.period_us());
-  drive.rpdo_deadline_ms = static_cast<std::uint16_t>((3 * session.buses.period_us() + 999) / 1000);
-  return drive;
 }
 
 std::string name_of(const canopen::BootObject& object) {
@@ -216,7 +108,7 @@ void print_outlook(const Json& said) {
 int drive_scan_command(const DriveOptions& options) {
   const auto first = static_cast<std::uint8_t>(parse_whole("--first", options.first, 1, kMostNode));
   const auto last = static_cast<std::uint8_t>(parse_whole("--last", options.last, first, kMostNode));
-  Session session(options);
+  DriveSession session(options);
   Json all = Json::array();
   for (const desk::Place at : session.desk.scan(first, last)) all.push_back(found_json(session, at));
   if (options.json) {
@@ -230,7 +122,7 @@ int drive_scan_command(const DriveOptions& options) {
 
 int drive_read_command(const DriveOptions& options) {
   const config::ObjectId object = object_of(options.object);
-  Session session(options);
+  DriveSession session(options);
   const desk::Place at = session.place(options);
   const desk::Answer answer = session.desk.read(at, object.index, object.sub);
   if (!answer.is_done())
@@ -257,7 +149,7 @@ int drive_write_command(const DriveOptions& options) {
     throw system::BadInput("OBJECT: " + options.object + ": this switches torque: allowed is any other object");
   std::array<std::uint8_t, 4> bytes{};
   for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(value >> (8 * i));
-  Session session(options);
+  DriveSession session(options);
   refuse_beside_a_master(session);
   const desk::Place at = session.place(options);
   const std::string what = "writing " + options.value + " to " + config::object_name(object);
@@ -283,7 +175,7 @@ int drive_watch_command(const DriveOptions& options) {
   const config::ObjectId object = object_of(options.object);
   const double period_s = 1.0 / parse_number_in("--rate", options.rate_hz, 0.1, 20.0, "Hz");
   const double seconds = parse_number_in("--seconds", options.seconds, 0.1, 86400.0, "s");
-  Session session(options);
+  DriveSession session(options);
   const desk::Place at = session.place(options);
   for (double at_s = 0.0; at_s < seconds; at_s += period_s) {
     const desk::Answer answer = session.desk.read(at, object.index, object.sub);
@@ -303,13 +195,13 @@ int drive_watch_command(const DriveOptions& options) {
 }
 
 int drive_check_command(const DriveOptions& options) {
-  type_of(options);  // bad input before anything is asked
-  Session session(options);
+  drive_type_of(options);  // bad input before anything is asked
+  DriveSession session(options);
   refuse_beside_a_master(session);
   const desk::Place at = session.place(options);
   if (const desk::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
     return tell_failure(session, at, "reading 1000", there, options.json);
-  const std::unique_ptr<canopen::BootNode> node = session.desk.look_at_boot(expectation(session, at, options));
+  const std::unique_ptr<canopen::BootNode> node = session.desk.look_at_boot(expected_drive(session, at, options));
   const std::string bus = session.buses.buses[static_cast<std::size_t>(at.bus)].name;
   Json said = outlook(*node);
   said["node"] = at.node;

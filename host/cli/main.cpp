@@ -7,6 +7,7 @@
 
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
+#include "host/desk/desk.hpp"
 #include "host/json/json.hpp"
 #include "host/places/places.hpp"
 #include "host/system/errors.hpp"
@@ -388,6 +389,20 @@ void add_global(CLI::App& app) {
       "before the command: a folder of tables and missions that is searched first (docs/installing.md)");
 }
 
+void add_jog(CLI::App& sub, JogOptions& jog) {
+  sub.add_option("--by", jog.by, "how far, in --unit, of either sign; at most --most")->required();
+  sub.add_option("--speed", jog.speed, "how fast, in --unit a second; at most --most-speed")->capture_default_str();
+  sub.add_option("--unit", jog.unit, "turns (of the motor), deg, or mm")->capture_default_str();
+  sub.add_option("--mm-per-turn", jog.mm_per_turn, "for mm: the way of one turn of the motor");
+  sub.add_option("--counts-per-turn", jog.counts_per_turn, "of the encoder, for drives without 608F");
+  sub.add_option("--most", jog.most, "longest way, turns of the motor; to 100")->capture_default_str();
+  sub.add_option("--most-speed", jog.most_speed, "fastest, turns/s; to 100")->capture_default_str();
+  sub.add_option("--torque", jog.torque, "at most, permille of the rated torque (6072); 10 to 1000")
+      ->capture_default_str();
+  sub.add_flag("--yes", jog.yes, "move without asking for the word at the terminal");
+  sub.add_flag("--clear", jog.clear, "let the drive forget a fault from before");
+}
+
 void add_drive(CLI::App& app, Action& action, DriveOptions& drive) {
   CLI::App* all = app.add_subcommand("drive", "one motor on a desk, before there is a robot table (docs/drives.md)");
   all->require_subcommand(1);
@@ -397,7 +412,9 @@ void add_drive(CLI::App& app, Action& action, DriveOptions& drive) {
   CLI::App* watch = add(*all, action, "watch", "an object, again and again", drive, drive_watch_command);
   CLI::App* check =
       add(*all, action, "check", "everything that a boot would refuse; reads only", drive, drive_check_command);
-  for (CLI::App* sub : {scan, read, write, watch, check}) {
+  CLI::App* jog =
+      add(*all, action, "jog", "turn a motor a short way: enable, move, stop, disable", drive, drive_jog_command);
+  for (CLI::App* sub : {scan, read, write, watch, check, jog}) {
     sub->add_option("--can", drive.can, "SocketCAN interface, e.g. can0");
     sub->add_option("--bitrate", drive.bitrate, "of --can, bit/s; 10000 to 1000000")->capture_default_str();
     sub->add_option("--bus", drive.bus, "bus table in place of --can: a name under lua/buses or a file");
@@ -407,7 +424,7 @@ void add_drive(CLI::App& app, Action& action, DriveOptions& drive) {
   }
   scan->add_option("--first", drive.first, "least node id, 1 to 126")->capture_default_str();
   scan->add_option("--last", drive.last, "largest node id, to 126")->capture_default_str();
-  for (CLI::App* sub : {read, write, watch, check})
+  for (CLI::App* sub : {read, write, watch, check, jog})
     sub->add_option("--node", drive.node, "node id, 1 to 126")->capture_default_str();
   for (CLI::App* sub : {read, write, watch})
     sub->add_option("object", drive.object, "index, or index:sub-index, e.g. 6064 or 1018:1")->required();
@@ -415,7 +432,9 @@ void add_drive(CLI::App& app, Action& action, DriveOptions& drive) {
   write->add_option("--bits", drive.bits, "size of the object: 8, 16 or 32")->capture_default_str();
   watch->add_option("--rate", drive.rate_hz, "how often, Hz; 0.1 to 20")->capture_default_str();
   watch->add_option("--seconds", drive.seconds, "how long; 0.1 to 86400")->capture_default_str();
-  check->add_option("--type", drive.type, "drive type: a name under lua/drives or a file")->capture_default_str();
+  for (CLI::App* sub : {check, jog})
+    sub->add_option("--type", drive.type, "drive type: a name under lua/drives or a file")->capture_default_str();
+  add_jog(*jog, drive.jog);
 }
 
 void add_robot(CLI::App& app, Action& action, ExportOptions& exported, RobotCheckOptions& checked,
@@ -594,6 +613,9 @@ int perform(const Action& action, const Refusal& refuse) {
   } catch (const liana::system::BadInput& error) {
     return refuse(ExitCode::kExitBadInput, error.what());
   } catch (const liana::system::Interrupted& error) {
+    std::fprintf(stderr, "liana: %s\n", error.what());
+    return ExitCode::kExitInterrupted;
+  } catch (const liana::desk::DeskInterrupted& error) {
     std::fprintf(stderr, "liana: %s\n", error.what());
     return ExitCode::kExitInterrupted;
   } catch (const std::exception& error) {

@@ -31,10 +31,21 @@ std::uint64_t Desk::ticks(double seconds) const {
   return static_cast<std::uint64_t>(std::max(1.0, std::ceil(seconds * rate_hz_)));
 }
 
-void Desk::tick(const OnFrame& take, const std::function<void()>& send) {
+void Desk::refuse_when_interrupted() const {
   if (interrupt_) throw DeskInterrupted("interrupted; nothing more is asked or told");
-  if (bus_->begin_tick(tick_++).ended) throw std::runtime_error("the bus has ended: is liana-bus still running?");
-  bus_->wait_feedback(0);
+}
+
+void Desk::tick(const OnFrame& take, const std::function<void()>& send) {
+  refuse_when_interrupted();
+  exchange(Tick::kQuiet, take, send);
+}
+
+void Desk::exchange(Tick kind, const OnFrame& take, const std::function<void()>& send) {
+  const timing::TickStart start = bus_->begin_tick(tick_);
+  if (start.ended) throw std::runtime_error("the bus has ended: is liana-bus still running?");
+  tick_ = start.tick + 1;  // what was missed is not caught up with
+  if (kind == Tick::kCyclic) bus_->write_sync();
+  bus_->wait_feedback(kind == Tick::kCyclic ? 1 : 0);
   bus::ReceivedFrame received;
   while (bus_->receive(received)) take(received);
   send();

@@ -1,5 +1,5 @@
-// A CANopen master for one drive on a desk: it asks and tells objects and looks at a boot, and moves nothing. It ticks
-// at the rate of the bus table; every call returns after the answer or its time-out.
+// A CANopen master for one drive on a desk: it asks and tells objects and looks at a boot; what moves a motor is in
+// jog_run.hpp. It ticks at the rate of the bus table; every call returns after the answer or its time-out.
 #pragma once
 
 #include <atomic>
@@ -55,12 +55,21 @@ class Desk {
   // Lets `seconds` pass.
   void wait(double seconds);
 
- private:
   using OnFrame = std::function<void(const bus::ReceivedFrame&)>;
-  // One tick: what has come in goes to `take`; what `send` makes goes out.
+  enum class Tick : std::uint8_t { kQuiet, kCyclic };  // kCyclic: begins with SYNC, and waits for one report
+  // One tick, also when interrupted, for who has to bring a motor to rest first: what has come in goes to `take`; what
+  // `send` makes goes out. Throws std::runtime_error when the bus has ended.
+  void exchange(Tick kind, const OnFrame& take, const std::function<void()>& send);
+  // Throws DeskInterrupted when the user wants to end.
+  void refuse_when_interrupted() const;
+  bool is_interrupted() const { return interrupt_; }
+  bus::DriveBus& bus() { return *bus_; }
+  double rate_hz() const { return rate_hz_; }
+  std::uint64_t ticks(double seconds) const;
+
+ private:
   void tick(const OnFrame& take, const std::function<void()>& send);
   Answer finish(Place place, canopen::SdoClient& client);
-  std::uint64_t ticks(double seconds) const;
 
   double rate_hz_;
   const std::atomic<bool>& interrupt_;

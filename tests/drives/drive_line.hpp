@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,7 +73,8 @@ class BootedDrive {
   canopen::BootSequence boot;
   FrameQueue queue;
   std::vector<std::uint16_t> emergencies;
-  std::uint64_t power_us = 0;  // before this it has no power
+  std::optional<bus::CanFrame> report;  // the last TPDO1; whoever takes it resets it
+  std::uint64_t power_us = 0;           // before this it has no power
 
  private:
   static constexpr double kRate_hz = 250.0;
@@ -97,6 +99,7 @@ class BootedDrive {
       std::copy(frame.data.begin(), frame.data.begin() + frame.length, here.data.begin());
       if (here.id == 0x080U + static_cast<std::uint32_t>(drive.node()))
         emergencies.push_back(static_cast<std::uint16_t>(here.data[0] | here.data[1] << 8));
+      if (here.id == 0x180U + static_cast<std::uint32_t>(drive.node())) report = here;
       boot.on_frame(0, here);
     }
   }

@@ -2,30 +2,54 @@
 import json
 import pathlib
 import shutil
+import signal
+import subprocess
 import tempfile
+import time
 import unittest
 
 from support import SystemTest
-from liana.system import System, run
+from liana.client import wait_until
+from liana.system import System, program, run
+
+SWITCH_ON_DISABLED, FAULT, STATE = 0x40, 0x08, 0x4F  # statusword
 
 
 class Desk(System):
     """Bus and bench alone: the command is the only master."""
 
-    def __init__(self, bus="embedded_micro"):
-        super().__init__(bus=bus, robot="micro", scene="none")
+    def __init__(self, bus="embedded_micro", robot="micro", time="fast", faults=None):
+        super().__init__(bus=bus, robot=robot, scene="none", faults=faults)
+        self.time = time
 
     def start_programs(self):
         self.start_bus()
-        self.start("liana-bench", *self.tables(), "--bus-socket", self.bus_socket, "--no-spread")
+        faults = self.optional("--faults", "faults")
+        reports = self.reports_of_bench()
+        self.start("liana-bench", *self.tables(), "--bus-socket", self.bus_socket, "--no-spread", *faults, *reports)
+
+    def start_bus(self):
+        if self.time == "fast":
+            return super().start_bus()
+        self.start(
+            "liana-bus", "--socket", self.bus_socket, "--buses", self.directory / "buses.json", "--time", self.time
+        )
+        wait_until(self.bus_socket.exists, "liana-bus to listen", self.check_running)
+
+    def where(self):
+        return ["--bus", self.directory / "buses.json", "--bus-socket", self.bus_socket, "--time", self.time]
+
+    def statusword_at_the_end(self, drive):
+        """As the bench itself has it; it goes on for half a second after the bus has ended."""
+        self.children["liana-bench"].wait(timeout=60)
+        return json.loads((self.directory / "bench_summary.json").read_text())["drives"][drive]["statusword"]
 
 
 class DriveCommand(SystemTest):
     def drive(self, *words, bus="embedded_micro"):
         """One command, on a bus of its own: the bus ends with its master."""
         with Desk(bus) as desk:
-            where = ("--bus", desk.directory / "buses.json", "--bus-socket", desk.bus_socket, "--time", "fast")
-            return run("liana", "drive", *words, *where)
+            return run("liana", "drive", *words, *desk.where())
 
     def bus_of(self, drives):
         folder = pathlib.Path(tempfile.mkdtemp(prefix="liana-drives-"))
@@ -95,10 +119,115 @@ class DriveCommand(SystemTest):
             (("scan", "--first", "0", "--bus", "embedded"), "--first"),
             (("check", "--type", "nobodys", "--bus", "embedded"), "nobodys"),
             (("watch", "6064", "--rate", "1000", "--bus", "embedded"), "--rate"),
+            (("jog", "--by", "0.3", "--yes", "--bus", "embedded"), "--by: 0.3 turns: allowed 0.001 to 0.25 turns"),
+            (("jog", "--by", "-91", "--unit", "deg", "--yes", "--bus", "embedded"), "allowed 0.36 to 90 deg"),
+            (("jog", "--by", "0", "--yes", "--bus", "embedded"), "--by: 0 turns: allowed 0.001"),
+            (("jog", "--by", "0.1", "--speed", "0.3", "--yes", "--bus", "embedded"), "--speed: 0.3 turns: allowed"),
+            (("jog", "--by", "0.1", "--speed", "-0.1", "--yes", "--bus", "embedded"), "--speed: -0.1 turns: allowed"),
+            (("jog", "--by", "5", "--most", "101", "--yes", "--bus", "embedded"), "--most: '101': allowed"),
+            (("jog", "--by", "5", "--unit", "mm", "--yes", "--bus", "embedded"), "--mm-per-turn"),
+            (("jog", "--by", "5", "--unit", "inch", "--yes", "--bus", "embedded"), "allowed are turns, deg and mm"),
+            (("jog", "--by", "0.1", "--torque", "1001", "--yes", "--bus", "embedded"), "--torque: '1001': allowed"),
+            (("jog", "--by", "0.1", "--bus", "embedded"), "nothing moves unasked"),
         ):
             done = run("liana", "drive", *words)
             self.assertEqual(done.returncode, 2, (words, done.stderr))
             self.assertIn(said, done.stderr)
+
+    def jog(self, *words, **options):
+        """Node 3 of zhu2022: exit code, what it said as JSON, on standard error, and its statusword in the end."""
+        with Desk("embedded", "zhu2022", **options) as desk:
+            done = run("liana", "drive", "jog", "--node", "3", "--yes", "--json", *words, *desk.where())
+            said = json.loads(done.stdout)
+            return done.returncode, said, done.stderr, desk.statusword_at_the_end(2)
+
+    def test_jog_moves_by_what_was_asked_and_disables(self):
+        for words, turns in (
+            (("--by", "0.02"), 0.02),
+            (("--by", "9", "--unit", "deg", "--speed", "36"), 0.025),
+            (("--by", "-1", "--unit", "mm", "--mm-per-turn", "94.25", "--speed", "5"), -0.01061),
+        ):
+            code, said, error, statusword = self.jog(*words)
+            self.assertEqual((code, error), (0, ""), said)
+            self.assertAlmostEqual(said["moved_turns"], turns, delta=0.0005)
+            self.assertEqual(said["counts_per_turn"], 65536)
+            samples = said["samples"]
+            self.assertEqual(samples[0]["status"], "switch_on_disabled")
+            self.assertIn("operation_enabled", [each["status"] for each in samples])
+            places = [each["moved_turns"] for each in samples]
+            self.assertTrue(all(min(0, turns) - 0.0005 <= place <= max(0, turns) + 0.0005 for place in places), places)
+            self.assertTrue(all("current_permille" in each for each in samples[2:]), samples)
+            self.assertLessEqual(said["most_torque_permille"], 375)
+            self.assertEqual((said["is_off"], said["status"]), (True, "switch_on_disabled"))
+            self.assertEqual(statusword & STATE, SWITCH_ON_DISABLED)
+
+    def test_jog_ends_with_1_and_names_the_emergency_code_when_the_drive_fails(self):
+        fault = {"drive": 2, "kind": "fault", "code": 0x7305, "at_slot": 500}
+        code, said, error, statusword = self.jog("--by", "0.02", "--speed", "0.01", faults=[fault])
+        self.assertEqual(code, 1, said)
+        self.assertIn("emergency 0x7305, additional modules", error)
+        self.assertEqual((said["emergency_code"], said["ok"], said["is_off"]), (0x7305, False, True))
+        self.assertLess(said["moved_turns"], 0.015)
+        self.assertEqual(statusword & STATE, FAULT)
+
+    def test_jog_ends_with_1_when_the_drive_is_not_heard_any_more_and_says_that_nobody_knows(self):
+        silence = {"drive": 2, "kind": "silent", "at_slot": 500}
+        code, said, error, statusword = self.jog("--by", "0.02", "--speed", "0.01", faults=[silence])
+        self.assertEqual((code, said["is_off"]), (1, False), said)
+        self.assertIn("its reports stopped coming", error)
+        self.assertIn("does not say that it is disabled", error)
+        self.assertEqual(statusword & STATE, SWITCH_ON_DISABLED, "it has heard all the same")
+
+    def test_jog_refuses_what_the_drive_could_not_stop(self):
+        with Desk() as desk:
+            words = ("--node", "3", "--yes", "--by", "0.1", "--speed", "0.2")
+            done = run("liana", "drive", "jog", *words, *desk.where())
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("0x6085:0 (quick stop deceleration): the arm needs at least", done.stderr)
+
+    def test_jog_of_a_motor_without_encoder_counts_wants_to_be_told_them(self):
+        bus = self.bus_of("{ type = 'maxon_epos4', nodes = { 7 } }")
+        words = ("jog", "--node", "7", "--type", "maxon_epos4", "--by", "0.005", "--speed", "0.01", "--yes", "--json")
+        done = self.drive(*words, bus=bus)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertIn("--counts-per-turn: not given", done.stderr)
+        done = self.drive(*words, "--counts-per-turn", "1048576", bus=bus)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertAlmostEqual(json.loads(done.stdout)["moved_counts"], 5243, delta=530)
+
+    def signalled(self, number, awaited, *words):
+        """A subcommand that is sent a signal when it has said `awaited`: exit code, what it said on standard error, and
+        the statusword of drive 2 in the end.
+        """
+        with Desk("embedded", "zhu2022", "paced") as desk:
+            call = [program("liana"), "drive", *words, "--node", "3", *map(str, desk.where())]
+            with subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
+                line = child.stdout.readline()
+                while line and awaited not in line:
+                    line = child.stdout.readline()
+                self.assertTrue(line, child.poll())
+                child.send_signal(number)
+                begun = time.monotonic()
+                _, error = child.communicate(timeout=30)
+            self.assertLess(time.monotonic() - begun, 5)
+            return child.returncode, error, desk.statusword_at_the_end(2)
+
+    def test_jog_that_is_interrupted_stops_and_disables(self):
+        way = ("jog", "--yes", "--by", "0.1", "--speed", "0.01", "--torque", "1000")
+        code, error, statusword = self.signalled(signal.SIGINT, "operation_enabled", *way)
+        self.assertEqual(code, 130, error)
+        self.assertIn("interrupted; it has moved", error)
+        self.assertIn("disabled: switch_on_disabled", error)
+        self.assertEqual(statusword & STATE, SWITCH_ON_DISABLED)
+
+    def test_a_drive_whose_jog_is_killed_stops_by_itself(self):
+        way = ("jog", "--yes", "--by", "0.1", "--speed", "0.01", "--torque", "1000")
+        code, _, statusword = self.signalled(signal.SIGKILL, "operation_enabled", *way)
+        self.assertEqual((code, statusword & STATE), (-signal.SIGKILL, SWITCH_ON_DISABLED))
+
+    def test_watch_that_is_interrupted_ends_with_130(self):
+        code, error, _ = self.signalled(signal.SIGINT, "bits", "watch", "6064")
+        self.assertEqual((code, error), (130, "liana: interrupted; nothing more is asked or told\n"))
 
 
 if __name__ == "__main__":

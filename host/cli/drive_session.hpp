@@ -1,0 +1,42 @@
+// What the subcommands of `liana drive` have in common: buses, places, and what a drive without a robot table is.
+#pragma once
+
+#include <string>
+
+#include "host/canopen/drive_expectation.hpp"
+#include "host/cli/commands.hpp"
+#include "host/config/config.hpp"
+#include "host/desk/desk.hpp"
+#include "host/system/interrupt.hpp"
+
+namespace liana::cli {
+
+constexpr int kNobodyAnswers = 3;  // exit code
+constexpr std::int64_t kMostNode = 126;
+
+// Open buses and the places on them.
+struct DriveSession {
+  explicit DriveSession(const DriveOptions& options);
+  // The node of --node, on the bus that the table has it on, else on the first.
+  desk::Place place(const DriveOptions& options) const;
+  std::string bus_of(desk::Place at) const { return buses.buses[static_cast<std::size_t>(at.bus)].name; }
+  std::string where(desk::Place at) const { return "node " + std::to_string(at.node) + " on " + bus_of(at); }
+
+  system::InterruptGuard guard;
+  config::BusesConfig buses;
+  desk::Desk desk;
+};
+
+// "0x1A", at least so many digits.
+std::string hex(std::uint32_t value, int digits);
+// One exit code for what came of a transfer, told with `what` where it failed.
+int tell_failure(const DriveSession& session, desk::Place at, const std::string& what, const desk::Answer& answer,
+                 bool json);
+// Throws when somebody else is the master here.
+void refuse_beside_a_master(DriveSession& session);
+// The table that --type names.
+config::DriveType drive_type_of(const DriveOptions& options);
+// What the drive says of itself stands for a robot table that there is not yet: identity, encoder, gear, torque.
+canopen::DriveExpectation expected_drive(DriveSession& session, desk::Place at, const DriveOptions& options);
+
+}  // namespace liana::cli
