@@ -35,7 +35,13 @@ end
 
 return {
   format = 1, kind = "scene", name = "panel_slit",
-  boxes = { plate("panel", 1), plate("wall", -1) },
+  boxes = {
+    plate("panel", 1), plate("wall", -1),
+    { -- source: motors and drums; as far behind the root as cables run free to their drums (cables.lead_m)
+      name = "drive_box", center_m = { -0.7, 0, 0 }, half_extent_m = { 0.2, 0.2, 0.2 },
+      rotation = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } },
+    },
+  },
   spheres = {
     { name = "obstacle", center_m = { -0.15, 0.28, 1.10 }, radius_m = 0.25 }, -- in the way of a tip-only motion to the panel edge
   },

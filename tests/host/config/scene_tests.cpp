@@ -24,7 +24,7 @@ TEST(Scene, PanelSlitHasThePlaneOfThePressRodPose) {
 // req:A47 req:A48
 TEST(Scene, PlatesLeaveAGapOf100MillimetresAroundThePlane) {
   const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
-  for (const SceneBox& box : scene.boxes) {
+  for (const SceneBox& box : {scene.boxes[0], scene.boxes[1]}) {
     const double distance_m =
         std::fabs(dot(box.center_m, scene.slit->normal) - scene.slit->offset_m) - box.half_extent_m[1];
     EXPECT_NEAR(distance_m, 0.05, 1e-12) << box.name;
@@ -33,7 +33,16 @@ TEST(Scene, PlatesLeaveAGapOf100MillimetresAroundThePlane) {
     EXPECT_NEAR(along_m + box.half_extent_m[0], 3.70, 1e-12) << box.name;
   }
   EXPECT_EQ(scene.boxes[0].name, "panel");
+  EXPECT_EQ(scene.boxes[1].name, "wall");
   EXPECT_GT(dot(scene.boxes[0].center_m, scene.slit->normal), scene.slit->offset_m);
+}
+
+// req:A48
+TEST(Scene, TheDriveBoxStandsBehindTheRoot) {
+  const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
+  ASSERT_EQ(scene.boxes.size(), 3u);
+  EXPECT_EQ(scene.boxes[2].name, "drive_box");
+  EXPECT_LT(scene.boxes[2].center_m[0] + scene.boxes[2].half_extent_m[0], -0.4);
 }
 
 // req:A47

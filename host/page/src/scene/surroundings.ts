@@ -26,7 +26,8 @@ class Surroundings {
     const geometry = new THREE.BoxGeometry(2 * hx, 2 * hy, 2 * hz);
     const [u, n, w] = box.rotation.map(vector);
     const place = new THREE.Matrix4().makeBasis(u, n, w).setPosition(vector(box.center_m));
-    this.glass.add(geometry, place, box.name === 'wall' ? this.colours.wall : this.colours.glass, false);
+    if (box.name === 'drive_box') this.solid.add(geometry, place, this.colours.base, true);
+    else this.glass.add(geometry, place, box.name === 'wall' ? this.colours.wall : this.colours.glass, false);
     this.lines.add(new THREE.EdgesGeometry(geometry), place, this.colours.edge, false);
   }
 
@@ -79,7 +80,7 @@ class Surroundings {
 export function surroundings(scene: Scene, robot: Robot, colours: SceneColours): THREE.Group {
   const all = new Surroundings(colours);
   all.floor();
-  all.bar([-0.155, 0, 0], [-0.005, 0, 0], 4 * module_radius_m(robot), colours.base); // the drive box
+  all.bar([-0.155, 0, 0], [-0.005, 0, 0], 4 * module_radius_m(robot), colours.base); // what the root stands on
   for (const box of scene.boxes ?? []) all.plate(box);
   for (const body of scene.spheres ?? []) all.ball(body.center_m, body.radius_m, colours.obstacle);
   for (const body of scene.convex ?? []) all.convex(body);
