@@ -43,8 +43,13 @@ std::optional<ToolReport> TipTool::act(double now_s, const Vec3& tip_m, const Ve
 
 std::optional<ToolCommand> tool_command(const std::string& message) {
   const nlohmann::json json = nlohmann::json::parse(message, nullptr, false);
-  if (!json.is_object() || json.value("op", "") != "tool") return std::nullopt;
-  return ToolCommand{json.value("number", 0), json.value("command", ""), json.value("begin_s", 0.0)};
+  const auto is = [&](const char* name, auto type) { return json.contains(name) && (json[name].*type)(); };
+  using Value = nlohmann::json;
+  if (!json.is_object() || !is("op", &Value::is_string) || json["op"] != "tool") return std::nullopt;
+  if (!is("number", &Value::is_number_integer) || !is("command", &Value::is_string) ||
+      !is("begin_s", &Value::is_number))
+    return std::nullopt;
+  return ToolCommand{json["number"], json["command"], json["begin_s"]};
 }
 
 std::string tool_message(const ToolReport& report) {

@@ -32,7 +32,7 @@ JsonFile::JsonFile(std::string path, const std::string& kind)
   if (!stream) throw std::runtime_error(path_ + ": cannot be opened; check the path");
   try {
     document_->root = json::parse(stream);
-  } catch (const json::parse_error& error) {
+  } catch (const json::exception& error) {  // numbers beyond the largest are no parse_error
     throw std::runtime_error(path_ + ": is not JSON: " + error.what() + "; write it with `liana-mission eval`");
   }
   if (kind.empty()) return;

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "host/api/address.hpp"
 
@@ -69,7 +70,10 @@ wire::Welcome expected_welcome(const config::BusesConfig& config) {
 }  // namespace
 
 EmbeddedLink::EmbeddedLink(const std::string& path, const config::BusesConfig& config)
-    : socket_(connect_to(path)), welcome_(greet(socket_.get(), path)) {
+    : EmbeddedLink(connect_to(path), path, config) {}
+
+EmbeddedLink::EmbeddedLink(api::UniqueFd socket, const std::string& path, const config::BusesConfig& config)
+    : socket_(std::move(socket)), welcome_(greet(socket_.get(), path)) {
   const std::string runs = describe(welcome_);
   const std::string expected = describe(expected_welcome(config));
   if (runs != expected) {

@@ -14,6 +14,8 @@ class EmbeddedLink {
   // Connects to `path` and exchanges HELLO and WELCOME, as liana-bus answers at once. Throws std::runtime_error when
   // nobody listens there, the bus refuses, or it runs other buses than `config`.
   EmbeddedLink(const std::string& path, const config::BusesConfig& config);
+  // The same over a socket that is connected already; `path` is how messages call it.
+  EmbeddedLink(api::UniqueFd socket, const std::string& path, const config::BusesConfig& config);
 
   int descriptor() const noexcept { return socket_.get(); }
   const wire::Welcome& welcome() const noexcept { return welcome_; }

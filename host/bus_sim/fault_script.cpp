@@ -168,7 +168,11 @@ std::uint64_t FaultScript::awake_from(std::uint64_t slot) const {
 FaultScript load_fault_script(const std::string& path, int bus_count) {
   std::ifstream file(path);
   if (!file) throw std::runtime_error(path + ": cannot be read; give the fault script of --script");
-  const Json script = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
+  return parse_fault_script(std::string{std::istreambuf_iterator<char>(file), {}}, path, bus_count);
+}
+
+FaultScript parse_fault_script(const std::string& text, const std::string& path, int bus_count) {
+  const Json script = Json::parse_or_null(text);
   if (!script.is_array()) throw std::runtime_error(path + ": is not a JSON array of faults (docs/bus-protocol.md)");
   std::vector<BusFault> faults;
   for (std::size_t i = 0; i < script.size(); ++i)

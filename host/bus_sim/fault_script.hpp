@@ -62,4 +62,7 @@ class FaultScript {
 // Reads a script; throws std::runtime_error naming file, entry, field and what is allowed. Buses are 0..bus_count-1.
 FaultScript load_fault_script(const std::string& path, int bus_count);
 
+// The same from the text of a script, which messages call `path`.
+FaultScript parse_fault_script(const std::string& text, const std::string& path, int bus_count);
+
 }  // namespace liana::bus_sim

@@ -34,16 +34,17 @@ std::vector<Vec3> points_of(const config::Field& curve) {
 
 }  // namespace
 
+std::vector<Vec3> parse_curve(const std::string& text, const std::string& name) {
+  const Json json = config::parse_json(text, name, "write {\"points_m\": [[x, y, z], ...]}, metres in the base frame");
+  return points_of(config::Field(json, name, ""));
+}
+
 std::vector<Vec3> read_curve(const std::string& path) {
   const std::string name = "--follow: " + path;
   std::error_code unreadable;
   if (!std::filesystem::is_regular_file(path, unreadable))
     throw system::BadInput(name + ": no such file; give a JSON file with points_m, or slit");
-  return system::checked([&] {
-    const Json json = config::parse_json(config::read_text_file(path), name,
-                                         "write {\"points_m\": [[x, y, z], ...]}, metres in the base frame");
-    return points_of(config::Field(json, name, ""));
-  });
+  return system::checked([&] { return parse_curve(config::read_text_file(path), name); });
 }
 
 }  // namespace liana::cli

@@ -12,4 +12,7 @@ namespace liana::cli {
 // BadInput, which names the point, counted from 1.
 std::vector<Vec3> read_curve(const std::string& path);
 
+// The same from the text of such a file, which messages call `name`. Throws std::runtime_error.
+std::vector<Vec3> parse_curve(const std::string& text, const std::string& name);
+
 }  // namespace liana::cli

@@ -12,7 +12,7 @@
 #include "host/system/errors.hpp"
 #include "host/system/interrupt.hpp"
 #include "host/system/output.hpp"
-#include "host/system/plan_file.hpp"
+#include "host/system/plan_way.hpp"
 #include "host/system/silence.hpp"
 #include "host/system/tables.hpp"
 

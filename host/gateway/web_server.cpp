@@ -243,4 +243,9 @@ std::string WebServer::address() const {
 
 void WebServer::run() { inside_->run(); }
 
+void WebServer::serve_waiting() {
+  constexpr int kAtOnce = -1;  // without waiting for anything to happen
+  lws_service(inside_->context, kAtOnce);
+}
+
 }  // namespace liana::gateway

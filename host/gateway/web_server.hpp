@@ -31,6 +31,8 @@ class WebServer {
   std::string address() const;
   // Serves until SIGTERM or SIGINT.
   void run();
+  // Serves what is there and returns at once: one turn of run().
+  void serve_waiting();
 
  private:
   std::unique_ptr<WebServerInside> inside_;

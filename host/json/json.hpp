@@ -281,7 +281,10 @@ class JsonItem {
 
   const Json& look() const { return referred_ != nullptr ? *referred_ : owned_; }
   // Moves the value out, or copies what it refers to; once.
-  Json take() const { return referred_ != nullptr ? *referred_ : std::move(owned_); }
+  Json take() const {
+    if (referred_ != nullptr) return *referred_;
+    return std::move(owned_);  // in one expression with the copy, clang copies here, too
+  }
 
  private:
   mutable Json owned_;

@@ -129,6 +129,10 @@ std::vector<Sample> read_samples(std::istream& stream, const std::string& path, 
 std::variant<VrRecording, HandRecording> read_hand_recording(const std::string& path) {
   std::ifstream stream(path);
   if (!stream) throw std::runtime_error(path + ": cannot be read; give an existing .hand file");
+  return parse_hand_recording(stream, path);
+}
+
+std::variant<VrRecording, HandRecording> parse_hand_recording(std::istream& stream, const std::string& path) {
   std::string text;
   std::getline(stream, text);
   const Line header{path, 1, split(text)};

@@ -14,10 +14,6 @@ Json tables_of_plan(const std::string& file);
 // Where its way begins, as --start-pose takes it; empty where it has no way.
 std::string start_of_plan(const std::string& file);
 
-// SHA-256 over outcome, way and inputs of a plan as its file has them: the file's `digest`, by which it is seen that
-// the file has been edited.
-std::string digest_of_plan(const Json& plan);
-
 // The plan's way, put to the independent check again (docs/planning.md): its clearance is still inputs.margin_m, its
 // steps are within inputs.max_step_deg. `robot`: as for planning. Throws BadInput naming file, field and what is wrong:
 // also when the plan was made for another scene, or the file was edited. Cost: about 0.1 s for 20 waypoints past a

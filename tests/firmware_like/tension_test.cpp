@@ -56,7 +56,8 @@ TEST(Tension, TwoThousandPosesAreInBalanceAndOverTheFloorWhateverTheFriction) {
     const RobotTable robot = zhu2022::table(mu);
     Random random(1);
     for (std::int32_t i = 0; i < 2000; ++i) {
-      const Planned at = plan_at(robot, random.theta(robot, 20.0), random_slip(random));
+      const SlipState slip = random_slip(random);  // compilers would take two arguments in either order
+      const Planned at = plan_at(robot, random.theta(robot, 20.0), slip);
       ASSERT_TRUE(at.plan.balanced);
       ASSERT_LE(zhu2022::length(torque_of(robot, at, at.plan.motor_N)), 1e-9);
       ASSERT_GE(least(robot, at.plan.motor_N), robot.tension.floor_motor_N);

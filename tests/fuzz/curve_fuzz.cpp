@@ -3,6 +3,6 @@
 #include "tests/fuzz/fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static liana::fuzz::MemoryFile file;
-  return liana::fuzz::refusing([&] { liana::cli::read_curve(file.with(liana::fuzz::text_of(data, size))); });
+  return liana::fuzz::refusing(
+      [&] { liana::cli::parse_curve(std::string(liana::fuzz::text_of(data, size)), "curve"); });
 }

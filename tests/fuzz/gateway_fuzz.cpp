@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   gateway::Session& session = house.open("fuzz", [] {});
   std::string_view rest = fuzz::text_of(data, size);
   if (fuzz::choice(rest) % 2 == 0) session.take_text(R"({"op":"hello","name":"f"})", 0.0);
-  while (!rest.empty()) {
+  for (int messages = 0; messages < 8 && !rest.empty(); ++messages) {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const std::string_view message = rest.substr(0, end);
     if (message.starts_with("#")) {

@@ -1,4 +1,6 @@
-// Lua tables: a script in its sandbox, then its result as JSON and as a table.
+// Lua tables: a script in its sandbox, then its result as JSON, as a table of its kind, and in Lua again.
+#include <memory>
+
 #include "host/config/config.hpp"
 #include "host/json/json.hpp"
 #include "host/lua/json_bridge.hpp"
@@ -7,14 +9,52 @@
 
 using namespace liana;
 
+namespace {
+
+constexpr script::ScriptLimits kLimits{4u << 20, 20000, 0};
+constexpr int kScriptsOfOneState = 200;
+
+// Every script has an environment of its own, as scripts that one evaluation runs have; so one state serves many. What
+// ran out of its budget takes the state along.
+class State {
+ public:
+  script::Script& next() {
+    if (!script_ || ++scripts_ > kScriptsOfOneState) {
+      script_.reset();
+      script_ = std::make_unique<script::Script>(kLimits, script::LuaFolders{}, activity_);
+      scripts_ = 0;
+    }
+    lua_settop(script_->state(), 0);
+    return *script_;
+  }
+  bool has_run_out() const {
+    const script::Script::Budget& budget = script::script_budget(script_->state());
+    return budget.instructions_used > kLimits.instructions || budget.memory_used > kLimits.memory_bytes / 2;
+  }
+  void give_up() { script_.reset(); }
+
+ private:
+  script::Activity activity_;
+  std::unique_ptr<script::Script> script_;
+  int scripts_ = 0;
+};
+
+}  // namespace
+
+// The state that is kept would be searched for after every script.
+extern "C" int __lsan_is_turned_off() { return 1; }
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static script::Activity activity;
-  constexpr script::ScriptLimits kLimits{4u << 20, 20000, 0};
-  return fuzz::refusing([&] {
-    script::Script script(kLimits, {}, activity);
-    script.run({.display = "fuzz.lua", .folder = "", .text = std::string(fuzz::text_of(data, size))});
+  static State states;
+  std::string_view text = fuzz::text_of(data, size);
+  const char* kind = fuzz::choice(text) % 2 == 0 ? "scene" : "drive";
+  script::Script& script = states.next();
+  fuzz::refusing([&] {
+    script.run({.display = "fuzz.lua", .text = std::string(text), .folder = ""});
     const Json result = script::to_json(script.state(), -1, "fuzz.lua");
     script::push_in_protection(script, result);
-    config::check_table("scene", result, "fuzz.lua");
+    config::check_table(kind, result, "fuzz.lua");
   });
+  if (states.has_run_out()) states.give_up();
+  return 0;
 }

@@ -4,4 +4,6 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BENCH = ROOT / "tests" / "bench"
-sys.path[:0] = [str(ROOT / folder) for folder in ("host/python", "hil/scenarios", "tests/bench", "tests/mutation")]
+sys.path[:0] = [
+    str(ROOT / folder) for folder in ("host/python", "hil/scenarios", "tests/bench", "tests/mutation", "tests/fuzz")
+]

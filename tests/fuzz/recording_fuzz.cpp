@@ -1,0 +1,37 @@
+// Recordings of ticks: packets of lianad to its archive, and messages of a recording that a replay takes.
+#include "host/record/recording.hpp"
+#include "host/record/serialise.hpp"
+#include "host/record/tick_packet.hpp"
+#include "host/record/visit_serial.hpp"
+#include "tests/firmware_like/micro_arm.hpp"
+#include "tests/firmware_like/zhu2022.hpp"
+#include "tests/fuzz/fuzz.hpp"
+
+using namespace liana;
+
+namespace {
+
+template <class Arm>
+void read_message(unsigned which, std::string_view bytes, const record::RecordedCounts& counts) {
+  if (which == 0) record::parse_image<Arm>(bytes);
+  if (which == 1) record::RecordingDecoder::recorded_inputs<Arm>(bytes, counts);
+  if (which == 2) record::outputs_from<Arm>(bytes, counts);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const record::RecordedCounts kCable = record::counts_of(cable::zhu2022::table());
+  static const record::RecordedCounts kSerial = record::counts_of(serial::micro::table());
+  std::string_view bytes = fuzz::text_of(data, size);
+  const unsigned which = fuzz::choice(bytes) % 7;
+  return fuzz::refusing([&] {
+    if (which < 3) {
+      read_message<cable::CableArm>(which, bytes, kCable);
+    } else if (which < 6) {
+      read_message<serial::SerialArm>(which - 3, bytes, kSerial);
+    } else if (record::tick_packet_kind(bytes) == record::TickPacket::kTick) {
+      record::split_tick_packet(bytes);
+    }
+  });
+}
