@@ -1,4 +1,6 @@
-"""The commands of pages of the documentation, as they stand there: by hand, and for an arm of one's own."""
+"""The commands of pages of the documentation, as they stand there: by hand, for an arm of one's own, and from the crate
+to the first motion.
+"""
 import contextlib
 import json
 import os
@@ -67,6 +69,18 @@ class Pages(unittest.TestCase):
         self.assertEqual(out.count("clearance: nothing in the scene"), 3, "of the dry run and two runs\n" + out)
         self.assertRegex(out, r"\d+ ticks, 0 differ")
         self.assertTrue((self.folder / "routing.svg").exists() and (self.folder / "reach.svg").exists())
+
+    def test_from_the_crate_to_the_first_motion_one_motor_one_segment_the_arm(self):
+        out = self.carry_out("from-crate-to-first-motion.md")
+        self.assertRegex(out, r"node 1 on can0 moved \+0\.0(2|1999|2000) turns")
+        self.assertIn("emergency 0x7305, additional modules", out)
+        self.assertIn("does not say that it is disabled", out)
+        self.assertIn("--by: 3 turns: allowed 0.001 to 0.25 turns", out)
+        self.assertEqual(re.findall("exit code (.)", out), ["1", "1", "2"], out)
+        self.assertEqual(out.count("answers as a cia402_csp has to"), 1 + 3 + 9, out)
+        self.assertEqual(out.count("disabled: switch_on_disabled"), 2 + 6, out)
+        self.assertEqual(out.count("outcome success, arm time"), 4, "two dry runs and two runs\n" + out)
+        self.assertEqual(len(re.findall(r"\d+ ticks, 0 differ", out)), 2, out)
 
 
 if __name__ == "__main__":
