@@ -140,6 +140,13 @@ std::string ended_by(const Json& step) {
   return (condition.empty() ? "" : ": " + condition) + (next.empty() ? "" : " -> " + next);
 }
 
+// Which body was touched, by which link, how hard and when first.
+std::string contact_text(const Json& contact) {
+  return "touched: link " + contact["link"].dump() + " the body " + contact["body"].text() +
+         line(", %.2f N", contact["force_N"].get<double>()) +
+         line(", first after %.2f s", contact["first_s"].get<double>());
+}
+
 }  // namespace
 
 // Of announced steps all but the last one made way for the next.
@@ -195,6 +202,8 @@ Json make_report(const ReportSources& sources) {
   if (!std::filesystem::exists(sources.truth_file)) return report;
   const std::string not_kept = add_truth(report, sources, window, welcome.value("period_s", 0.0));
   if (report["outcome"] == "success" && !not_kept.empty()) fail(not_kept);
+  if (report["outcome"] != "success" && report.contains("contact"))
+    report["reason"] = report.value("reason", "") + "; " + contact_text(report["contact"]);
   return report;
 }
 
@@ -222,10 +231,7 @@ std::string report_text(const Json& report) {
             line(", at the motors %.1f at least\n", report["cable_tension_N"]["min_motor"].get<double>());
   }
   if (report.contains("contact")) {
-    const Json& contact = report["contact"];
-    text += "touched: link " + contact["link"].dump() + " the body " + contact["body"].text() +
-            line(", %.2f N", contact["force_N"].get<double>()) +
-            line(", first after %.2f s\n", contact["first_s"].get<double>());
+    text += contact_text(report["contact"]) + "\n";
   }
   if (report.contains("verified_clearance_m")) {
     const Json& claimed = report["verified_clearance_m"];

@@ -26,6 +26,12 @@ class Judge {
   void require(bool good, Refusal code, const char* what, int index = -1) {
     if (!good) refuse(code, describe({what, index, 0.0}));
   }
+  // The first refusal stands.
+  void refuse(Refusal code, const std::string& text) {
+    if (!verdict_.passed()) return;
+    verdict_.code = code;
+    verdict_.text = text;
+  }
   // To be called once, at the end: writes down where the motion came nearest to a limit.
   void conclude() {
     if (tightest_.what == nullptr) return;
@@ -55,11 +61,6 @@ class Judge {
     tightest_ = pass;
     if (std::fabs(value) > limit * kRounding)
       refuse(code, describe(pass) + " = " + number(value) + ", allowed " + number(limit));
-  }
-  void refuse(Refusal code, const std::string& text) {
-    if (!verdict_.passed()) return;
-    verdict_.code = code;
-    verdict_.text = text;
   }
 
   Verdict& verdict_;

@@ -30,6 +30,15 @@ void judge_tip(const typename Arm::Table& table, const Outputs<Arm>& outputs, co
               kIkAngle_rad);
 }
 
+// Which fault would be latched: the newest one of the list, unless the list was full before.
+std::string fault_text(const FaultList& faults) {
+  if (faults.count == 0 || faults.dropped > 0) return "the controller would latch one more fault";
+  const Fault& newest = faults.fault[static_cast<std::size_t>(faults.count - 1)];
+  const std::string text = "the controller would latch fault " + std::to_string(static_cast<int>(newest.number)) + " " +
+                           fault_info(newest.number).name;
+  return newest.index < 0 ? text : text + ", drive or bus " + std::to_string(newest.index + 1);
+}
+
 constexpr const char* kNoRestText = "the arm would not come to rest within 3 s after the command";
 
 }  // namespace
@@ -46,7 +55,7 @@ ExecutionVerdict judge_execution(const typename Arm::Table& table, const Candida
     const Outputs<Arm>& outputs = prediction.ticks[i];
     const auto faults = static_cast<std::uint64_t>(outputs.faults.count) + outputs.faults.dropped;
     const bool accepted = i >= prediction.command_ticks || outputs.active_sequence == candidate.sequence();
-    judge.require(faults <= prediction.faults_before, Refusal::kTwinFault, "the controller would latch a fault");
+    if (faults > prediction.faults_before) judge.refuse(Refusal::kTwinFault, fault_text(outputs.faults));
     judge.require((outputs.limits & kLimitGate) == 0, Refusal::kGate, "the gate would refuse an output");
     judge.require(accepted, Refusal::kNotAccepted, "the controller would not take the command");
     judge_targets(table, i > 0 ? &prediction.ticks[i - 1] : nullptr, outputs, judge);

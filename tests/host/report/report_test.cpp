@@ -149,6 +149,12 @@ TEST_F(RunReport, ABodyThatWasTouchedIsNamedAndBoxesAreNoSlitWhereThereIsNone) {
   const std::string text = report_text(report);
   EXPECT_NE(text.find("touched: link 7 the body crate at 6, 5.00 N"), std::string::npos) << text;
   EXPECT_NE(text.find("clearance: boxes 25.0 mm"), std::string::npos) << text;
+  Json failed = Json::parse(kMission);
+  failed["outcome"] = "failed", failed["reason"] = "too slow";
+  write("mission.json", failed.dump());
+  const std::string reason = make_report(all)["reason"];
+  EXPECT_TRUE(reason.starts_with("too slow; touched: link 7 the body crate at 10, 9.00 N"))
+      << reason << ", of the whole run";
 }
 
 TEST_F(RunReport, SpeedInTheSlitIsThatOfTheTrueTipBetweenThePlates) {

@@ -85,6 +85,15 @@ TEST(Verify, WhatTheControllerWouldNotDoIsRefused) {
 }
 
 // req:C11
+TEST(Verify, AFaultThatWouldBeLatchedIsNamedWithItsDrive) {
+  const Judged judged = judge([](cable::Outputs& o) {
+    o.faults.count = 1;
+    o.faults.fault[0] = {.number = FaultNumber::kTensionScatters, .index = 3};
+  });
+  EXPECT_EQ(judged.text, "the controller would latch fault 5007 tension_scatters, drive or bus 4");
+}
+
+// req:C11
 TEST(Verify, TensionAndCableSpeedStayWithinTheirLimits) {
   EXPECT_EQ(judge([](cable::Outputs& o) { o.tension_plan_N[7] = kTable.tension.ceiling_free_N + 0.1; }).execution,
             Refusal::kTension);
