@@ -2,6 +2,7 @@
 -- boot -> (enter -> confirm -> run) for each step -> finish -> over; which step is next, lua/liana/ways.lua says. Any fault
 -- leads through the step's on_fail to over, with on_fail = "pause" to stuck, and from there on people's word through boot to
 -- the step again; a failure that `next` has a way for leads through recover to that step. People may pause it.
+local people = require "liana.people"
 local view = require "liana.view"
 
 local engine = {}
@@ -11,13 +12,13 @@ local kSettle_s = 0.1 -- commands need a few intervals before the state shows th
 local kFinishLimit_s = 5
 local kToolLimit_s = 30 -- the tool says in this time how its last command ended
 local kRetractStall_s = 60 -- the way back comes on by a point of its path in this time or the mission ends
-local kPatience_s = 3600 -- of this time a mission waits for people at most
 local kMostSteps = 1000 -- begin in one run
 local kRecoverLimit_s = 30 -- the arm is at rest in this time after a failed step that another one follows
 local kRetry_s = 2 -- between attempts that lianad answers with busy or refused
 
 local Runner = {}
 Runner.__index = Runner
+for name, method in pairs(people.methods) do Runner[name] = method end
 
 -- The bindings, remembering in `pending` what lianad has not answered yet.
 local function tracked(commands, pending)
@@ -128,7 +129,8 @@ local function printable(text, length) return (text:sub(1, length):gsub("[^\32-\
 -- Tells everybody which step runs, what it waits for, and what ended the one before.
 function Runner:announce_step(waits, after)
   local step = self:step()
-  local told = { index = self.index, name = step.name, device = step.device, task = step.task, waits = waits, entry = #self.report.steps }
+  local told = { index = self.index, name = step.name, device = step.device, task = step.task, entry = #self.report.steps }
+  told.waits = waits and printable(waits, kLongestText)
   self:request("announce", { step = told, after = after })
 end
 
@@ -185,89 +187,6 @@ local function enter(runner)
     runner:request("use_device", fields)
   end
   if runner:call("run", step.run) then runner:enter_phase("run") end
-end
-
--- ---- people ---------------------------------------------------------------------------------------------------------
-
-function Runner:wait_for_people(phase, why)
-  self:announce_step(printable(why, kLongestText))
-  self.native.progress {
-    event = "wait", index = self.index, count = #self.mission.steps, name = self:step().name, reason = why,
-    time_s = self.arm.state.time_s,
-  }
-  self:enter_phase(phase)
-end
-
-function Runner:stand_still()
-  self:request("hold")
-  if self:step().device ~= "none" and self.phase == "run" then self:request("use_device", { device = "none" }) end
-  self.current_hold = { paused = true } -- holds of its own: what was under way has to be asked for again
-end
-
--- The arm holds; nothing goes on until somebody says so. The step's time stands still.
-function Runner:pause(why)
-  self:stand_still()
-  self:wait_for_people("paused", "paused: " .. why)
-end
-
-function Runner:go_on()
-  if self.phase == "stuck" then -- from the beginning of the step, as the owner of an arm that is enabled
-    self.index_to_begin, self.not_before, self.failed_outcome, self.failed_reason = self.index, 0, nil, nil
-    return self:enter_phase("boot")
-  end
-  self.waited_s = self.waited_s + self:phase_s()
-  self.refusals_before = self.arm.state.refusals
-  self:announce_step()
-  self:enter_phase("enter")
-end
-
-local kUnderWay = { enter = true, confirm = true, run = true }
-local kAsked = {}
-
-function kAsked.pause(runner, by)
-  if kUnderWay[runner.phase] then runner:pause("asked for by " .. by) end
-end
-
-function kAsked.resume(runner)
-  runner.single_step = false
-  if runner.phase == "paused" or runner.phase == "stuck" then runner:go_on() end
-end
-
--- The step under way, or the next one, and then a pause.
-function kAsked.step(runner)
-  runner.single_step = true
-  if runner.phase == "paused" or runner.phase == "stuck" then runner:go_on() end
-end
-
-function kAsked.confirm(runner)
-  if runner.phase ~= "confirm" then return end
-  runner.is_confirmed, runner.waited_s = true, runner.waited_s + runner:phase_s()
-  runner:announce_step()
-  runner:enter_phase("enter")
-end
-
-function kAsked.abort(runner, by)
-  local reason = "ended by " .. by
-  if runner.phase == "stuck" then return runner:over(runner.failed_outcome, runner.failed_reason .. "; " .. reason) end
-  if kUnderWay[runner.phase] or runner.phase == "recover" or runner.phase == "paused" then runner:fail("aborted", reason, true) end
-end
-
--- What somebody has asked for since the last look (docs/api.md, mission_control).
-function Runner:heed()
-  local asked = self.arm.state.mission_control
-  local number = asked and asked.number or 0
-  if self.heard ~= nil and number > self.heard then kAsked[asked.command](self, asked.by) end
-  self.heard = number
-end
-
--- Waiting for people has an end, too.
-local function wait(runner)
-  if runner:phase_s() > kPatience_s then runner:fail("failed", ("nobody said how to go on within %g s"):format(kPatience_s), true) end
-end
-
-local function wait_stuck(runner)
-  if runner:phase_s() <= kPatience_s then return end
-  runner:over(runner.failed_outcome, ("%s; nobody said how to go on within %g s"):format(runner.failed_reason, kPatience_s))
 end
 
 -- ---- steps, again ---------------------------------------------------------------------------------------------------
@@ -483,7 +402,7 @@ end
 
 -- A fault that only holds the arm leaves it enabled and at rest, as if it had arrived.
 local function held_by_fault(runner)
-  local under_way = kUnderWay[runner.phase] or runner.phase == "recover" or runner.phase == "finish"
+  local under_way = people.kUnderWay[runner.phase] or runner.phase == "recover" or runner.phase == "finish"
   if not under_way or #runner.arm.state.faults == 0 then return false end
   runner:fail("failed", "fault " .. runner:fault_names())
   return true
@@ -498,7 +417,7 @@ end
 local kBootRetry = { busy = true, refused = true }
 
 local kPhases = {
-  boot = boot, enter = enter, confirm = wait, paused = wait, stuck = wait_stuck, run = run, recover = recover, finish = finish,
+  boot = boot, enter = enter, confirm = people.wait, paused = people.wait, stuck = people.wait_stuck, run = run, recover = recover, finish = finish,
   retract = retract, give_up = give_up,
 }
 
@@ -536,7 +455,7 @@ function Runner:on_answer(message)
     self.failed_reason = self.failed_reason .. "; " .. reason
     return self:enter_phase("give_up")
   end
-  if kUnderWay[self.phase] then return self:fall_short("refused", reason) end
+  if people.kUnderWay[self.phase] then return self:fall_short("refused", reason) end
   self:fail("refused", reason)
 end
 
