@@ -232,6 +232,7 @@ struct DriveOptions {
   std::string first = "1", last = "126";  // node ids
   std::string rate_hz = "5", seconds = "10";
   std::string type = "cia402_csp";
+  std::string robot;  // check: all drives of it; empty: the node
   JogOptions jog;
   bool json = false;
 };
@@ -242,8 +243,8 @@ int drive_scan_command(const DriveOptions& options);
 int drive_read_command(const DriveOptions& options);
 int drive_write_command(const DriveOptions& options);
 int drive_watch_command(const DriveOptions& options);
-// Resets communication and goes through the boot of a drive type, reading only: everything it would refuse, what is
-// missing, and what would be written.
+// Resets communication and goes through the boot of a drive type, or of all drives of a robot, reading only: everything
+// it would refuse, what is missing, and what would be written.
 int drive_check_command(const DriveOptions& options);
 // Boots a drive, enables it, turns its motor a short way, and disables it; only when somebody has said so.
 int drive_jog_command(const DriveOptions& options);

@@ -3,7 +3,6 @@
 #include <array>
 #include <cstdio>
 
-#include "host/canopen/boot_mismatch.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/drive_session.hpp"
@@ -75,32 +74,6 @@ std::string described(const Json& found) {
          ", product " + number("product") + ", revision " + number("revision") + ", serial " + number("serial") +
          (found.contains("name") && found["name"].is_string() ? ", \"" + found["name"].text() + "\"" : "") +
          (found.contains("modes") ? (has_csp ? ", has csp" : ", has no csp") : ", is no CiA 402 drive");
-}
-
-std::string name_of(const canopen::BootObject& object) {
-  return config::object_name({object.index, object.sub}) + " (" + object.name + ")";
-}
-
-// What the boot would find missing, and what it would write over something else.
-Json outlook(const canopen::BootNode& node) {
-  Json missing = Json::array(), written = Json::array();
-  const std::span<const canopen::BootObject> objects = node.plan().objects();
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    const canopen::BootOutcome& outcome = node.outcomes()[i];
-    const bool spare_pdo = objects[i].keep != 0 && objects[i].may_be_missing;
-    if (!outcome.found && !outcome.is_refused && !spare_pdo) missing.push_back(name_of(objects[i]));
-    const bool differs = outcome.found && ((*outcome.found ^ objects[i].value) & objects[i].mask) != 0;
-    if (objects[i].write && differs && (objects[i].index & 0xFD00) != 0x1400 && (objects[i].index & 0xFC00) != 0x1800)
-      written.push_back({{"object", name_of(objects[i])}, {"found", *outcome.found}, {"to", objects[i].value}});
-  }
-  return {{"not_there", missing}, {"would_be_written", written}};
-}
-
-void print_outlook(const Json& said) {
-  for (const Json& each : said["not_there"]) std::printf("  not there, so not checked: %s\n", each.text().c_str());
-  for (const Json& each : said["would_be_written"])
-    std::printf("  would be written: %s: %u, now %u\n", each["object"].text().c_str(), each["to"].get<std::uint32_t>(),
-                each["found"].get<std::uint32_t>());
 }
 
 }  // namespace
@@ -192,33 +165,6 @@ int drive_watch_command(const DriveOptions& options) {
     session.desk.wait(period_s);
   }
   return system::ExitCode::kExitOk;
-}
-
-int drive_check_command(const DriveOptions& options) {
-  drive_type_of(options);  // bad input before anything is asked
-  DriveSession session(options);
-  refuse_beside_a_master(session);
-  const desk::Place at = session.place(options);
-  if (const desk::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
-    return tell_failure(session, at, "reading 1000", there, options.json);
-  const std::unique_ptr<canopen::BootNode> node = session.desk.look_at_boot(expected_drive(session, at, options));
-  const std::string bus = session.buses.buses[static_cast<std::size_t>(at.bus)].name;
-  Json said = outlook(*node);
-  said["node"] = at.node;
-  said["type"] = options.type;
-  said["ok"] = node->mismatches().empty();
-  said["refusals"] = Json::array();
-  for (const canopen::BootMismatch& mismatch : node->mismatches())
-    said["refusals"].push_back(canopen::describe({&mismatch, 1}, 0, bus));
-  if (options.json) {
-    std::printf("%s\n", said.dump().c_str());
-  } else {
-    for (const Json& each : said["refusals"]) std::printf("refused: %s\n", each.text().c_str());
-    if (node->mismatches().empty())
-      std::printf("%s answers as a %s has to; nothing was written\n", session.where(at).c_str(), options.type.c_str());
-    print_outlook(said);
-  }
-  return node->mismatches().empty() ? system::ExitCode::kExitOk : system::ExitCode::kExitFailure;
 }
 
 }  // namespace liana::cli

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include "host/cli/arguments.hpp"
+#include "host/config/bench_buses.hpp"
 #include "host/config/field.hpp"
 #include "host/json/json.hpp"
 #include "host/system/errors.hpp"
@@ -15,8 +17,25 @@ namespace {
 
 constexpr double kRate_hz = 100.0;
 
-// The table that --bus names, or one bus of the interface that --can names.
-config::BusesConfig buses_of(const DriveOptions& options) {
+timing::TimeMode time_of(const DriveOptions& options) {
+  const auto mode = timing::time_mode_from(options.time);
+  if (!mode) throw system::BadInput("--time: " + options.time + ": allowed are fast, paced and real");
+  return *mode;
+}
+
+// On a desk node 1, of a robot all.
+std::vector<std::int32_t> nodes_of(const DriveOptions& options) {
+  if (options.robot.empty()) return {1};
+  const std::string robot = system::evaluate_table("robot", options.robot);
+  std::vector<std::int32_t> nodes(
+      static_cast<std::size_t>(system::checked([&] { return config::drive_count(robot, options.robot); })));
+  std::iota(nodes.begin(), nodes.end(), 1);
+  return nodes;
+}
+
+}  // namespace
+
+config::BusesConfig drive_buses(const DriveOptions& options) {
   if (options.can.empty() == options.bus.empty())
     throw system::BadInput("drive: say which bus: --can INTERFACE, or --bus TABLE (allowed is one of them)");
   if (!options.bus.empty()) {
@@ -29,22 +48,14 @@ config::BusesConfig buses_of(const DriveOptions& options) {
   buses.rate_hz = kRate_hz;
   buses.command_interval_s = 1.0 / kRate_hz;
   const auto bitrate = static_cast<std::int32_t>(parse_whole("--bitrate", options.bitrate, 10000, 1000000, "bit/s"));
-  buses.buses = {{options.can, bitrate, {1}}};
+  buses.buses = {{options.can, bitrate, nodes_of(options)}};
   buses.heartbeat_ms = 100;
   buses.max_load = 1.0;
   return buses;
 }
 
-timing::TimeMode time_of(const DriveOptions& options) {
-  const auto mode = timing::time_mode_from(options.time);
-  if (!mode) throw system::BadInput("--time: " + options.time + ": allowed are fast, paced and real");
-  return *mode;
-}
-
-}  // namespace
-
 DriveSession::DriveSession(const DriveOptions& options)
-    : buses(buses_of(options)), desk(buses, time_of(options), options.bus_socket, guard.any()) {}
+    : buses(drive_buses(options)), desk(buses, time_of(options), options.bus_socket, guard.any()) {}
 
 desk::Place DriveSession::place(const DriveOptions& options) const {
   const auto node = static_cast<std::uint8_t>(parse_whole("--node", options.node, 1, kMostNode));

@@ -14,6 +14,9 @@ namespace liana::cli {
 constexpr int kNobodyAnswers = 3;  // exit code
 constexpr std::int64_t kMostNode = 126;
 
+// The table that --bus names, or one bus of the interface that --can names, with all drives of --robot.
+config::BusesConfig drive_buses(const DriveOptions& options);
+
 // Open buses and the places on them.
 struct DriveSession {
   explicit DriveSession(const DriveOptions& options);

@@ -432,8 +432,12 @@ void add_drive(CLI::App& app, Action& action, DriveOptions& drive) {
   write->add_option("--bits", drive.bits, "size of the object: 8, 16 or 32")->capture_default_str();
   watch->add_option("--rate", drive.rate_hz, "how often, Hz; 0.1 to 20")->capture_default_str();
   watch->add_option("--seconds", drive.seconds, "how long; 0.1 to 86400")->capture_default_str();
+  CLI::Option* robot =
+      check->add_option("--robot", drive.robot, "all drives of a robot table, of the types that the bus table says");
+  robot->excludes(check->get_option("--node"));
   for (CLI::App* sub : {check, jog})
     sub->add_option("--type", drive.type, "drive type: a name under lua/drives or a file")->capture_default_str();
+  robot->excludes(check->get_option("--type"));
   add_jog(*jog, drive.jog);
 }
 

@@ -102,12 +102,39 @@ class DriveCommand(SystemTest):
         self.assertEqual(good.returncode, 0, good.stdout + good.stderr)
         said = json.loads(good.stdout)
         self.assertEqual(said["refusals"], [])
-        self.assertTrue(any(each["object"].startswith("6065") for each in said["would_be_written"]), said)
+        written = [each["object"][:4] for each in said["would_be_written"]]
+        self.assertIn("6060", written)
+        self.assertNotIn("6065", written, "the window follows from a robot, and there is none")
         bad = self.drive("check", "--node", "2", "--type", "nanotec_cl4e", "--json", bus=bus)
         self.assertEqual(bad.returncode, 1, bad.stdout)
         self.assertIn("0x1018:1", " ".join(json.loads(bad.stdout)["refusals"]))
         generic = self.drive("check", "--node", "2", "--json", bus=bus)
         self.assertIn("608F:1 (encoder counts)", json.loads(generic.stdout)["not_there"])
+
+    def test_check_of_a_robot_names_what_every_drive_of_it_would_be_refused_for(self):
+        good = self.drive("check", "--robot", "micro")
+        self.assertEqual(good.returncode, 0, good.stdout + good.stderr)
+        self.assertIn("micro: 7 of 7 drives answer as they have to; nothing was written", good.stdout)
+        bus = self.bus_of("{ type = 'maxon_epos4', bench = 'elmo_gold', nodes = { 2 } }")
+        missing = {"drive": 4, "kind": "missing", "at_slot": 1}
+        with Desk(bus, faults=[missing]) as desk:
+            done = run("liana", "drive", "check", "--robot", "micro", "--json", *desk.where())
+        self.assertEqual(done.returncode, 1, done.stderr)
+        said = json.loads(done.stdout)
+        self.assertEqual([each["ok"] for each in said["drives"]], [True, False, True, True, False, True, True])
+        self.assertEqual([each["type"] for each in said["drives"][:3]], ["cia402_csp", "maxon_epos4", "cia402_csp"])
+        self.assertIn("0x1018:1 (vendor id): expected 251 (0xFB), found 154", said["drives"][1]["refusals"][0])
+        self.assertIn("node 5 on can1: no answer within 1 s", said["drives"][4]["refusals"][0])
+
+    def test_check_compares_with_the_robot_table(self):
+        with Desk("embedded_micro", "micro") as desk:
+            table = json.loads((desk.directory / "robot.json").read_text())
+            table["drives"]["counts_per_turn"] = 65536
+            other = desk.directory / "other.json"
+            other.write_text(json.dumps(table))
+            done = run("liana", "drive", "check", "--robot", other, *desk.where())
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertEqual(done.stdout.count("608F"), 7, done.stdout)
 
     def test_bad_input_is_refused_before_anything_is_asked(self):
         for words, said in (
@@ -118,6 +145,9 @@ class DriveCommand(SystemTest):
             (("write", "6040", "15", "--bits", "16", "--bus", "embedded"), "switches torque"),
             (("scan", "--first", "0", "--bus", "embedded"), "--first"),
             (("check", "--type", "nobodys", "--bus", "embedded"), "nobodys"),
+            (("check", "--robot", "nobodys", "--bus", "embedded"), "nobodys"),
+            (("check", "--robot", "zhu2022", "--bus", "embedded_micro"), "node 8 is on no bus"),
+            (("check", "--robot", "zhu2022", "--node", "3", "--bus", "embedded"), "--node excludes --robot"),
             (("watch", "6064", "--rate", "1000", "--bus", "embedded"), "--rate"),
             (("jog", "--by", "0.3", "--yes", "--bus", "embedded"), "--by: 0.3 turns: allowed 0.001 to 0.25 turns"),
             (("jog", "--by", "-91", "--unit", "deg", "--yes", "--bus", "embedded"), "allowed 0.36 to 90 deg"),
