@@ -1,7 +1,8 @@
--- Elmo Gold line. Read in its maker's public dictionary, object by object; not tried on hardware.
+-- Elmo Gold line. Written from what is publicly known of its maker's dictionary. The document named below was not at hand
+-- to compare it with, and it was not tried on hardware: begin with `liana drive check`, and correct the table.
 return {
   format = 1, kind = "drive", name = "elmo_gold",
-  source = "Elmo Motion Control, Gold Line: CANopen DS-301 and DS-402 implementation guides (editions not checked)",
+  source = "Elmo Motion Control, Gold Line: CANopen DS-301 and DS-402 implementation guides (not compared)",
   identity = { vendor = 0x9A }, -- product and revision: the robot table says them
   objects = {
     absent = { "1400:5" }, -- no deadline of an RPDO: a lost master is noticed by its heartbeat

@@ -1,7 +1,8 @@
--- Nanotec CL4-E. Read in its maker's public dictionary, object by object; not tried on hardware.
+-- Nanotec CL4-E. Written from what is publicly known of its maker's dictionary. The document named below was not at hand
+-- to compare it with, and it was not tried on hardware: begin with `liana drive check`, and correct the table.
 return {
   format = 1, kind = "drive", name = "nanotec_cl4e",
-  source = "Nanotec CL4-E Technical Manual CANopen, description of the object dictionary (edition not checked)",
+  source = "Nanotec CL4-E Technical Manual CANopen, description of the object dictionary (not compared)",
   identity = { vendor = 0x26C }, -- product and revision: the robot table says them
   objects = {
     -- No deadline of an RPDO: a lost master is noticed by its heartbeat. No rated torque: permille of 6077 are of the
