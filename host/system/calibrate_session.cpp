@@ -1,5 +1,6 @@
 #include "host/system/calibrate_session.hpp"
 
+#include <cstdio>
 #include <stdexcept>
 
 #include "host/json/json.hpp"
@@ -53,8 +54,10 @@ Json CalibrateSession::next_state() {
     for (int waited_s = 0; !message && waited_s < kSilence_s; ++waited_s) {
       message = system_.receive(1.0);
       if (!message && (!system_.is_connected() || system_.any_has_ended())) give_up("lianad has left", kAftermath_s);
+      if (const auto silence = watch_.silence(system_)) std::fprintf(stderr, "liana: %s\n", silence->c_str());
     }
-    if (!message) give_up("lianad says nothing");
+    if (!message) give_up("lianad has said nothing for " + std::to_string(kSilence_s) + " s");
+    watch_.heard();
     if (message->value("op", "") == "state") return *message;
     if (message->value("op", "") == "error") give_up("lianad: " + message->value("message", ""));
   }

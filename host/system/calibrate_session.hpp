@@ -6,6 +6,7 @@
 
 #include "host/calibration/calibrate.hpp"
 #include "host/system/interrupt.hpp"
+#include "host/system/state_watch.hpp"
 #include "host/system/system.hpp"
 
 namespace liana::system {
@@ -40,6 +41,7 @@ class CalibrateSession {
 
   const InterruptGuard& interrupts_;
   System system_;
+  StateWatch watch_;
 };
 
 }  // namespace liana::system

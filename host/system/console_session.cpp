@@ -34,10 +34,15 @@ void ConsoleSession::start() {
 bool ConsoleSession::go_on() {
   auto message = system_.receive(kLook_s);
   while (message) {
-    has_begun_ = has_begun_ || message->value("op", "") == "state";
+    if (message->value("op", "") == "state") {
+      has_begun_ = true;
+      watch_.heard();
+    }
     message = system_.receive(0.0);
   }
   if (interrupts_.count() > 0) return false;
+  if (const auto silence = watch_.silence(system_))
+    std::fprintf(stderr, "liana: %s; Ctrl-C ends it\n", silence->c_str());
   if (system_.any_has_ended([this](const ChildProcess& child) { return !has_begun_ || child.name() != kRecorder; }))
     require_alive();
   if (system_.any_has_ended()) revive_recorder();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "host/system/interrupt.hpp"
+#include "host/system/state_watch.hpp"
 #include "host/system/system.hpp"
 
 namespace liana::system {
@@ -26,6 +27,7 @@ class ConsoleSession {
 
   InterruptGuard interrupts_;
   System system_;
+  StateWatch watch_;
   bool has_begun_ = false;  // before the first state lianad waits for the recorder
   int recorders_ = 1;
 };

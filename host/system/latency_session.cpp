@@ -117,7 +117,9 @@ void LatencySession::look(double timeout_s) {
     require_alive(kAftermath_s);
     throw std::runtime_error("lianad has left");
   }
+  if (const auto silence = watch_.silence(system_)) std::fprintf(stderr, "liana: %s\n", silence->c_str());
   if (!message) return;
+  watch_.heard();
   const std::string op = message->value("op", "");
   if (op == "state") state_ = *message;
   if (op == "ok" || op == "error") answer_ = *message;

@@ -6,6 +6,7 @@
 #include "host/json/json.hpp"
 #include "host/report/latency_measurement.hpp"
 #include "host/system/interrupt.hpp"
+#include "host/system/state_watch.hpp"
 #include "host/system/system.hpp"
 
 namespace liana::system {
@@ -44,6 +45,7 @@ class LatencySession {
 
   InterruptGuard interrupts_;
   System system_;
+  StateWatch watch_;
   Json state_ = Json::object(), answer_ = Json::object();  // the last ones
   int last_id_ = 0;
   Json ends_ = Json::array();  // tip poses, of which the tip goes to the first next

@@ -23,12 +23,11 @@ constexpr double kStopTimeout_s = 15.0;
 constexpr double kEndGrace_s = 10.0;    // for lianad to stop the arm
 constexpr double kFinishGrace_s = 3.0;  // for the mission runner, when another program has ended
 constexpr double kLook_s = 0.02;
-constexpr double kSilenceSaid_s = 3.0;  // without a state: people are told, and again every so often
-constexpr double kSilentStop_s = 2.0;   // without a state after a stop: nothing more will come
-constexpr double kSilent_s = 10.0;      // without a state: lianad does not go on
-constexpr double kRested_s = 5.0;       // at rest after a failure: it is over
-constexpr double kMostAfter_s = 60.0;   // after a failure, at rest or not
-constexpr double kAftermath_s = 0.5;    // between the end of one program and the ends of those that need it
+constexpr double kSilentStop_s = 2.0;  // without a state after a stop: nothing more will come
+constexpr double kSilent_s = 10.0;     // without a state: lianad does not go on
+constexpr double kRested_s = 5.0;      // at rest after a failure: it is over
+constexpr double kMostAfter_s = 60.0;  // after a failure, at rest or not
+constexpr double kAftermath_s = 0.5;   // between the end of one program and the ends of those that need it
 
 Clock::duration seconds(double count) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(count));
@@ -160,9 +159,9 @@ RunEnd RunSession::interrupted() {
   progress_.say("stopping (again Ctrl-C ends at once)");
   system_.send({{"op", "stop"}, {"reason", "interrupted"}});
   const auto deadline = after(kStopTimeout_s);
-  const auto is_silent = [this] { return Clock::now() > heard_ + seconds(kSilentStop_s); };
-  heard_ = Clock::now();
-  while (system_.is_connected() && interrupts_.count() < 2 && Clock::now() < deadline && !is_stopped() && !is_silent())
+  watch_.heard();
+  while (system_.is_connected() && interrupts_.count() < 2 && Clock::now() < deadline && !is_stopped() &&
+         !watch_.silent_for(kSilentStop_s))
     look(kLook_s);
   return {"aborted", "interrupted: " + how_the_arm_was_left(), false};
 }
@@ -200,15 +199,7 @@ void RunSession::look(double timeout_s) {
 
 // Nothing moves any more, and nobody would know why.
 void RunSession::say_silence() {
-  const auto last = std::max(heard_, silence_said_);
-  if (Clock::now() < last + seconds(kSilenceSaid_s)) return;
-  silence_said_ = Clock::now();
-  const std::string still = system_.standing_still();
-  char since[48];
-  std::snprintf(since, sizeof since,
-                "no state of the arm for %.0f s: ", std::chrono::duration<double>(silence_said_ - heard_).count());
-  progress_.say(since + (still.empty() ? "lianad does not go on; the machine may be too busy" : still + " stopped") +
-                "; Ctrl-C ends the run");
+  if (const auto silence = watch_.silence(system_)) progress_.say(*silence + "; Ctrl-C ends the run");
 }
 
 void RunSession::look_until(double timeout_s, const std::function<bool()>& is_over) {
@@ -227,7 +218,7 @@ void RunSession::take(const Json& message) {
 }
 
 void RunSession::keep(const Json& state) {
-  heard_ = Clock::now();
+  watch_.heard();
   progress_.show(state);
   states_.push_back({state.value("tick", std::uint64_t{0}), pose_of(state.value("setpoint_cp", Json()))});
   const Json clearance = state.value("clearance", Json());

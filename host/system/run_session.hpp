@@ -1,7 +1,6 @@
 // The processes of one run: started in order, watched, ended together.
 #pragma once
 
-#include <chrono>
 #include <functional>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 #include "host/report/run_report.hpp"
 #include "host/system/interrupt.hpp"
 #include "host/system/progress.hpp"
+#include "host/system/state_watch.hpp"
 #include "host/system/system.hpp"
 
 namespace liana::system {
@@ -64,9 +64,8 @@ class RunSession {
   InterruptGuard interrupts_;
   Progress progress_;
   System system_;
-  int recorders_ = 1;                                                               // that were started
-  std::chrono::steady_clock::time_point heard_ = std::chrono::steady_clock::now();  // when the last state came
-  std::chrono::steady_clock::time_point silence_said_ = heard_;
+  StateWatch watch_;
+  int recorders_ = 1;  // that were started
   Json welcome_;
   Json last_state_;
   std::vector<report::StateSample> states_;

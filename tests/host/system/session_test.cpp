@@ -11,6 +11,7 @@
 
 #include "host/api/socket.hpp"
 #include "host/json/json.hpp"
+#include "host/system/console_session.hpp"
 #include "host/system/run_session.hpp"
 #include "host/system/silence.hpp"
 
@@ -198,6 +199,20 @@ TEST_F(Session, SilenceIsSaidWithWhoStandsStill) {
   const std::string said = testing::internal::GetCapturedStderr();
   EXPECT_NE(said.find("no state of the arm for 3 s: lianad (process "), std::string::npos) << said;
   EXPECT_NE(said.find(") stopped; Ctrl-C ends the run"), std::string::npos) << said;
+}
+
+TEST_F(Session, TheConsoleSaysSilenceToo) {
+  const api::UniqueFd mute = api::listen_at("--api", plan_.api_socket());
+  add("lianad", "kill -STOP $$");
+  ConsoleSession session(plan_);
+  session.start();
+  testing::internal::CaptureStderr();
+  for (const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(4);
+       std::chrono::steady_clock::now() < end;) {
+    ASSERT_TRUE(session.go_on());
+  }
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("no state of the arm for 3 s: lianad (process "), std::string::npos) << said;
 }
 
 TEST(Capture, AProgramThatPrintsWithoutEndIsKilled) {
