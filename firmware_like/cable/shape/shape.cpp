@@ -50,9 +50,10 @@ double largest_entry(const ThetaVector& v, Index n) noexcept {
 // Least room of any theta to its limit; negative when one is beyond it.
 double least_room_rad(const RobotTable& table, const ThetaVector& theta) noexcept {
   double least = 1e300;
-  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m)
+  for (Index m = 0; m < static_cast<Index>(table.segment_count); ++m) {
     least =
         smaller(least, table.segment[m].theta_limit_rad - larger(std::fabs(theta[2 * m]), std::fabs(theta[2 * m + 1])));
+  }
   return least;
 }
 
@@ -166,9 +167,10 @@ void follow(const Stand& stand, bool braking, const ShapePace& pace, ShapeState&
   for (Index k = 0; k < n; ++k) change[k] += state.rate_rad_s[k];
   rate.z = coordinates(stand.space, change);
   rate.theta_rad = combine(stand.space, rate.z);
-  if (may_pass_limit(stand, kLastMoment_s, largest_entry(rate.theta_rad, n)))
+  if (may_pass_limit(stand, kLastMoment_s, largest_entry(rate.theta_rad, n))) {
     restrict_to(stand.space, room_to_limits(stand.table, stand.theta_rad, 1.0 / kLastMoment_s), kBoundPasses,
                 state.rate_held, rate);
+  }
   for (Index k = 0; k < n; ++k) state.change_rad_s[k] = (rate.theta_rad[k] - state.rate_rad_s[k]) / kShapeTicks;
 }
 
