@@ -105,9 +105,10 @@ std::string described_index(const std::vector<const Object*>& entries) {
   std::string out = section(key.c_str()) + line("ParameterName", name_of_index(index)) +
                     line("ObjectType", hex(static_cast<std::uint64_t>(code))) +
                     line("SubNumber", std::to_string(entries.size()));
-  for (const Object* entry : entries)
-    out += section((key + "sub" + hex(entry->sub).substr(2)).c_str()) +
-           described(*entry, name_of_entry(index, entry->sub));
+  for (const Object* entry : entries) {
+    out += section((key + "sub" + hex(entry->sub).substr(2)).c_str());
+    out += described(*entry, name_of_entry(index, entry->sub));
+  }
   return out;
 }
 

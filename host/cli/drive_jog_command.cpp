@@ -112,9 +112,10 @@ Prepared prepare(DriveSession& session, desk::Place at, const DriveOptions& opti
   const double window = counts * (kWindowTurns + kWindow_s * way.turns_per_s);
   const double here = static_cast<std::int32_t>(session.desk.read(at, 0x6064, 0).value());
   const double there = here + counts * way.by_turns;
-  if (std::fabs(there) > 2147483647.0)
+  if (std::fabs(there) > 2147483647.0) {
     throw std::runtime_error("drive jog: from " + std::to_string(std::lround(here)) +
                              " the way leads beyond what 607A can say: set the encoder's zero with the maker's tool");
+  }
   out.counts_per_turn = out.drive.counts_per_turn = counts;
   out.drive.type.max_torque_permille =
       static_cast<std::uint16_t>(parse_whole("--torque", options.jog.torque, 10, 1000, "permille of rated torque"));
@@ -136,7 +137,7 @@ std::string emergency_said(std::uint16_t code) {
 }
 
 std::string why(const desk::JogOutcome& outcome) {
-  const std::string code = emergency_said(outcome.emergency_code);
+  std::string code = emergency_said(outcome.emergency_code);
   switch (outcome.end) {
     case JogEnd::kFaultBefore:
       return "it has a fault: " + code + "; when its cause is gone, --clear makes it forget it";
@@ -221,18 +222,19 @@ int tell_outcome(const DriveSession& session, desk::Place at, const desk::JogOut
     std::printf("%s\n", said.dump().c_str());
   }
   const std::string moved = way.said(outcome.moved_counts / static_cast<double>(prepared.counts_per_turn));
-  if (outcome.end == JogEnd::kArrived && json == nullptr)
-    std::printf("%s moved %s (%d counts), at most %.1f %% of its rated torque\n", session.where(at).c_str(),
-                moved.c_str(), outcome.moved_counts, 0.1 * outcome.most_torque_permille);
-  if (outcome.end != JogEnd::kArrived)
-    std::fprintf(stderr, "liana: %s: %s; it has moved %s\n", session.where(at).c_str(), why(outcome).c_str(),
-                 moved.c_str());
-  const std::string state = state_of(outcome.statusword);
-  if (!outcome.is_off)
-    std::fprintf(stderr, "liana: %s does not say that it is disabled (%s): switch off its supply\n",
-                 session.where(at).c_str(), state.c_str());
-  if (outcome.is_off && json == nullptr)
+  const std::string state = state_of(outcome.statusword), where = session.where(at);
+  if (outcome.end != JogEnd::kArrived) {
+    std::fprintf(stderr, "liana: %s: %s; it has moved %s\n", where.c_str(), why(outcome).c_str(), moved.c_str());
+  } else if (json == nullptr) {
+    std::printf("%s moved %s (%d counts), at most %.1f %% of its rated torque\n", where.c_str(), moved.c_str(),
+                outcome.moved_counts, 0.1 * outcome.most_torque_permille);
+  }
+  if (!outcome.is_off) {
+    std::fprintf(stderr, "liana: %s does not say that it is disabled (%s): switch off its supply\n", where.c_str(),
+                 state.c_str());
+  } else if (json == nullptr) {
     std::fprintf(outcome.end == JogEnd::kArrived ? stdout : stderr, "disabled: %s\n", state.c_str());
+  }
   return exit_code(outcome);
 }
 
@@ -240,9 +242,8 @@ int tell_refusals(const DriveSession& session, desk::Place at, const canopen::Bo
   Json refusals = Json::array();
   for (const canopen::BootMismatch& mismatch : node.mismatches())
     refusals.push_back(canopen::describe({&mismatch, 1}, 0, session.bus_of(at)));
-  if (json)
-    std::printf("%s\n",
-                Json{{"ok", false}, {"node", at.node}, {"is_off", true}, {"refusals", refusals}}.dump().c_str());
+  const Json said = {{"ok", false}, {"node", at.node}, {"is_off", true}, {"refusals", refusals}};
+  if (json) std::printf("%s\n", said.dump().c_str());
   for (const Json& each : refusals) std::fprintf(stderr, "liana: refused: %s\n", each.text().c_str());
   std::fprintf(stderr, "liana: %s was not enabled: liana drive check says more\n", session.where(at).c_str());
   return system::ExitCode::kExitFailure;

@@ -1,5 +1,5 @@
--- Elmo Gold line. Written from what is publicly known of its maker's dictionary. The document named below was not at hand
--- to compare it with, and it was not tried on hardware: begin with `liana drive check`, and correct the table.
+-- Elmo Gold line. Written from what is publicly known of its maker's dictionary. The document named below was not at
+-- hand to compare it with, and it was not tried on hardware: begin with `liana drive check`, and correct the table.
 return {
   format = 1, kind = "drive", name = "elmo_gold",
   source = "Elmo Motion Control, Gold Line: CANopen DS-301 and DS-402 implementation guides (not compared)",

@@ -1,5 +1,5 @@
--- Nanotec CL4-E. Written from what is publicly known of its maker's dictionary. The document named below was not at hand
--- to compare it with, and it was not tried on hardware: begin with `liana drive check`, and correct the table.
+-- Nanotec CL4-E. Written from what is publicly known of its maker's dictionary. The document named below was not at
+-- hand to compare it with, and it was not tried on hardware: begin with `liana drive check`, and correct the table.
 return {
   format = 1, kind = "drive", name = "nanotec_cl4e",
   source = "Nanotec CL4-E Technical Manual CANopen, description of the object dictionary (not compared)",
