@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <numeric>
+#include <utility>
 
 #include "host/cli/arguments.hpp"
 #include "host/config/bench_buses.hpp"
@@ -16,6 +18,7 @@ namespace liana::cli {
 namespace {
 
 constexpr double kRate_hz = 100.0;
+constexpr double kSilence_s = 3.0;
 
 timing::TimeMode time_of(const DriveOptions& options) {
   const auto mode = timing::time_mode_from(options.time);
@@ -55,7 +58,17 @@ config::BusesConfig drive_buses(const DriveOptions& options) {
 }
 
 DriveSession::DriveSession(const DriveOptions& options)
-    : buses(drive_buses(options)), desk(buses, time_of(options), options.bus_socket, guard.any()) {}
+    : buses(drive_buses(options)),
+      desk(buses, time_of(options), options.bus_socket, guard.any()),
+      silence(kSilence_s, [this, seen = desk.tick_count()](double since_s) mutable {
+        const std::uint64_t now = desk.tick_count();
+        if (now != std::exchange(seen, now)) return;
+        std::fprintf(stderr, "liana: the bus does not go on, %.0f s since the beginning: is its liana-bench there?\n",
+                     since_s);
+        if (!guard.any()) return;
+        std::fprintf(stderr, "liana: interrupted; where the time of the bus stands still, no drive moves\n");
+        std::_Exit(system::ExitCode::kExitInterrupted);  // this command waits for the bus, which does not come back
+      }) {}
 
 desk::Place DriveSession::place(const DriveOptions& options) const {
   const auto node = static_cast<std::uint8_t>(parse_whole("--node", options.node, 1, kMostNode));

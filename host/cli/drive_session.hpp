@@ -8,6 +8,7 @@
 #include "host/config/config.hpp"
 #include "host/desk/desk.hpp"
 #include "host/system/interrupt.hpp"
+#include "host/system/silence.hpp"
 
 namespace liana::cli {
 
@@ -28,6 +29,7 @@ struct DriveSession {
   system::InterruptGuard guard;
   config::BusesConfig buses;
   desk::Desk desk;
+  system::Silence silence;  // said while the bus does not go on
 };
 
 // "0x1A", at least so many digits.

@@ -66,6 +66,8 @@ class Desk {
   bus::DriveBus& bus() { return *bus_; }
   double rate_hz() const { return rate_hz_; }
   std::uint64_t ticks(double seconds) const;
+  // Of the bus so far; may be asked from another thread, which sees so whether anything goes on.
+  std::uint64_t tick_count() const { return tick_; }
 
  private:
   void tick(const OnFrame& take, const std::function<void()>& send);
@@ -74,7 +76,7 @@ class Desk {
   double rate_hz_;
   const std::atomic<bool>& interrupt_;
   std::unique_ptr<bus::DriveBus> bus_;
-  std::uint64_t tick_ = 0;
+  std::atomic<std::uint64_t> tick_ = 0;
 };
 
 }  // namespace liana::desk

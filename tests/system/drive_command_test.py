@@ -259,6 +259,19 @@ class DriveCommand(SystemTest):
         code, error, _ = self.signalled(signal.SIGINT, "bits", "watch", "6064")
         self.assertEqual((code, error), (130, "liana: interrupted; nothing more is asked or told\n"))
 
+    def test_a_bus_whose_time_stands_still_is_said_and_left_by_ctrl_c(self):
+        with Desk() as desk:
+            bench = desk.children["liana-bench"]
+            bench.send_signal(signal.SIGSTOP)
+            call = [program("liana"), "drive", "scan", *map(str, desk.where())]
+            with subprocess.Popen(call, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as child:
+                self.assertIn("liana: the bus does not go on, 3 s since the beginning", child.stderr.readline())
+                child.send_signal(signal.SIGINT)
+                _, error = child.communicate(timeout=30)
+            bench.send_signal(signal.SIGCONT)
+        self.assertEqual(child.returncode, 130, error)
+        self.assertIn("interrupted", error)
+
 
 if __name__ == "__main__":
     unittest.main()
