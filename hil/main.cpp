@@ -56,7 +56,7 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
   app.add_option("--start-pose", options.start_pose, "named pose to start from, or all angles in degrees, t1,t2,...")
       ->capture_default_str();
   app.add_option("--free-step", options.free_step_s,
-                 "longest step of the full arm's physics while it can touch nothing, s: 0.004 for a dry run")
+                 "longest step of the full arm's physics while it can touch nothing, s: 0.002 for a dry run")
       ->check(CLI::Range(liana::bench::ArmPhysics::kStep_s, liana::bench::ArmPhysics::kLongestStep_s))
       ->capture_default_str();
   app.add_option("--run-on", options.run_on_s,

@@ -19,7 +19,8 @@
 namespace liana::cli {
 namespace {
 
-constexpr double kSilent_s = 5.0;  // nothing is said for no longer
+constexpr double kBeyondPrediction_m = 0.003;  // what is left then
+constexpr double kSilent_s = 5.0;              // nothing is said for no longer
 constexpr double kTransitionShare =
     1.0 / 3.0;  // of the way, in which a held angle with another value than the start's gets there
 
@@ -243,6 +244,19 @@ void print_text(const Json& answer) {
       1000.0 * follow["body_off_m"].get<double>(), 1000.0 * follow["mean_body_off_m"].get<double>());
 }
 
+// What is planned nearer than the arm may be predicted wrongly is refused when the arm gets there.
+void warn_of_refusal(const plan::PlanRequest& request, const plan::PlanResult& result) {
+  const double prediction_m = request.scene.margins.prediction_m;
+  if (result.outcome != plan::PlanOutcome::solved || !result.checked || result.checked->nearest.empty()) return;
+  if (result.checked->min_clearance_m >= prediction_m) return;
+  std::fprintf(
+      stderr,
+      "plan: clearance %.1f mm, but the arm may be %.1f mm nearer than predicted (margins.prediction_m of scene "
+      "%s): verification may refuse the motion there; give --margin=%.3f for a plan that it lets pass\n",
+      1000.0 * result.checked->min_clearance_m, 1000.0 * prediction_m, request.scene.name.c_str(),
+      prediction_m + kBeyondPrediction_m);
+}
+
 int exit_code(plan::PlanOutcome outcome) {
   if (outcome == plan::PlanOutcome::solved) return system::kExitOk;
   return outcome == plan::PlanOutcome::cancelled ? system::kExitInterrupted : system::kExitNotConverged;
@@ -274,6 +288,7 @@ int plan_command(const PlanOptions& options) {
   } else {
     print_text(answer);
   }
+  warn_of_refusal(request, result);
   if (!options.out_file.empty() &&
       result.outcome != plan::PlanOutcome::solved) {  // an earlier plan in the file is worth more
     std::fprintf(stderr, "plan: --out: nothing was written to %s: the outcome is %s\n", options.out_file.c_str(),

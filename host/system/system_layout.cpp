@@ -34,7 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kFreeStep_s = "0.004";  // of a dry run's physics: a run takes a quarter
+constexpr const char* kFreeStep_s = "0.002";  // of a dry run's physics: a run takes half
 constexpr const char* kRestWithin_s = "10";   // an arm whose cable broke may swing for longer; the report says so
 
 std::string record_directory(const std::string& path) {

@@ -45,6 +45,14 @@ class PlanCommand(unittest.TestCase):
         self.assertLess(answer["checked"]["max_step_deg"], 80 / 14)
         self.assertLess(answer["checked"]["tip_error_m"], 1e-6)
 
+    def test_a_way_nearer_than_the_prediction_is_sure_is_said(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = pathlib.Path(folder) / "near.lua"
+            scene.write_text("local s = require 'scenes.panel_slit'\ns.margins = { prediction_m = 1 }\nreturn s\n")
+            ends = (f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}")
+            self.assertIn("margins.prediction_m of scene panel_slit", call(*ends, f"--scene={scene}").stderr)
+            self.assertNotIn("prediction", call(*ends).stderr)
+
     def test_progress_goes_to_standard_error(self):
         done = call(f"--from-deg={PREPARE}", f"--to-deg={PANEL_EDGE}")
         self.assertIn("plan: round 1", done.stderr)
