@@ -13,8 +13,9 @@ constexpr double kMinI32 = -2147483648.0;
 
 std::string at(const std::string& list, std::size_t i) { return list + "/" + std::to_string(i); }
 
-// "6065", "1400:5": hexadecimal index, decimal sub-index.
-ObjectPlace place_of(const JsonFile& file, const std::string& field, const std::string& text) {
+// "6065", "0x6065", "1400:5": hexadecimal index, decimal sub-index.
+ObjectPlace place_of(const JsonFile& file, const std::string& field, const std::string& given) {
+  const std::string text = given.starts_with("0x") || given.starts_with("0X") ? given.substr(2) : given;
   const std::size_t colon = text.find(':');
   const std::string index = text.substr(0, colon);
   const std::string sub = colon == std::string::npos ? "" : text.substr(colon + 1);

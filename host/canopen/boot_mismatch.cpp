@@ -19,25 +19,41 @@ std::string object_text(const BootMismatch& m) {
   return "object " + hex("0x%04X", m.index) + ":" + std::to_string(m.sub) + " (" + m.object_name + "): ";
 }
 
-std::string advice(const BootMismatch& m) {
-  if (m.index == 0x1000 || m.index == 0x1018)
-    return "another drive is connected under this node id, or the robot table is wrong";
+// What is said otherwise where there is no robot table.
+struct Words {
+  const char* needs;
+  const char* other_drive;
+  const char* too_fast;
+  const char* other_set_up;
+  const char* which_drive;
+};
+
+constexpr Words kRobotWords{"the arm needs",
+                            "another drive is connected under this node id, or the robot table is wrong",
+                            "set it with the maker's tool, or slow the arm down in the robot table",
+                            "the drive is set up for another motor or drum, or the robot table is wrong",
+                            "is it the drive of the robot table?"};
+constexpr Words kDeskWords{"this way needs", "this drive is not of the type that --type names: name its own",
+                           "set it with the maker's tool, or ask for less (--speed, --by)",
+                           "set it with the maker's tool, or correct the drive type (docs/drives.md)",
+                           "is it of the type that --type names?"};
+
+std::string advice(const BootMismatch& m, const Words& words) {
+  if (m.index == 0x1000 || m.index == 0x1018) return words.other_drive;
   if (m.written) return "the drive does not keep what it is told; it may be the wrong type or have other firmware";
-  if (m.rule == BootRule::kAtLeast || m.rule == BootRule::kRange)
-    return "set it with the maker's tool, or slow the arm down in the robot table";
-  return "the drive is set up for another motor or drum, or the robot table is wrong";
+  return m.rule == BootRule::kAtLeast || m.rule == BootRule::kRange ? words.too_fast : words.other_set_up;
 }
 
 std::string range(std::uint32_t low, std::uint32_t high) {
   return std::to_string(static_cast<std::int32_t>(low)) + " to " + std::to_string(static_cast<std::int32_t>(high));
 }
 
-std::string difference(const BootMismatch& m) {
+std::string difference(const BootMismatch& m, const Words& words) {
   switch (m.rule) {
     case BootRule::kAtLeast:
-      return "the arm needs at least " + number(m.expected) + ", found " + number(m.found);
+      return words.needs + std::string(" at least ") + number(m.expected) + ", found " + number(m.found);
     case BootRule::kRange:
-      return "the arm needs " + range(m.expected_before, m.expected) + ", found " + range(m.found_before, m.found);
+      return words.needs + (" " + range(m.expected_before, m.expected)) + ", found " + range(m.found_before, m.found);
     case BootRule::kPair:
       return "expected " + number(m.expected_before) + " to " + number(m.expected) + ", found " +
              number(m.found_before) + " to " + number(m.found);
@@ -55,7 +71,7 @@ std::string refusal(const BootMismatch& m) {
   return "writing " + number(m.expected) + code + (m.has_found ? ", and found " + number(m.found) : "");
 }
 
-std::string text_of(const BootMismatch& m) {
+std::string text_of(const BootMismatch& m, const Words& words) {
   switch (m.failure) {
     case BootFailure::kNone:
       return "ok";
@@ -65,10 +81,10 @@ std::string text_of(const BootMismatch& m) {
     case BootFailure::kNoAnswer:
       return object_text(m) + "no answer: the drive fell silent; check its power and the cable";
     case BootFailure::kAborted:
-      return object_text(m) + refusal(m) +
-             ": is it the drive of the robot table? If it is, say in its drive type what it has (docs/drives.md)";
+      return object_text(m) + refusal(m) + ": " + words.which_drive +
+             " If it is, say in its drive type what it has (docs/drives.md)";
     case BootFailure::kValue:
-      return object_text(m) + difference(m) + ": " + advice(m);
+      return object_text(m) + difference(m, words) + ": " + advice(m, words);
     case BootFailure::kRestarts:
       return "it keeps restarting while it is configured: check its supply";
     case BootFailure::kNotOperational:
@@ -80,11 +96,13 @@ std::string text_of(const BootMismatch& m) {
 
 }  // namespace
 
-std::string describe(std::span<const BootMismatch> mismatches, std::uint32_t more, const std::string& bus_name) {
+std::string describe(std::span<const BootMismatch> mismatches, std::uint32_t more, const std::string& bus_name,
+                     BootReference reference) {
+  const Words& words = reference == BootReference::kDesk ? kDeskWords : kRobotWords;
   std::string text;
   for (const BootMismatch& mismatch : mismatches) {
     const std::string who = "node " + std::to_string(mismatch.node) + " on " + bus_name + ": ";
-    text += (text.empty() ? who : "; ") + text_of(mismatch);
+    text += (text.empty() ? who : "; ") + text_of(mismatch, words);
   }
   return more == 0 ? text : text + "; and " + std::to_string(more) + " more";
 }

@@ -208,8 +208,8 @@ int export_command(const ExportOptions& options);
 
 // How far a motor on a desk is turned.
 struct JogOptions {
-  std::string by;  // the way, signed, in `unit`
-  std::string speed = "0.05";
+  std::string by;                   // the way, signed, in `unit`
+  std::string speed;                // in `unit` a second; empty: 0.05 turns/s
   std::string unit = "turns";       // of the motor; or deg, mm
   std::string mm_per_turn;          // for mm
   std::string counts_per_turn;      // empty: the drive's 608F
@@ -226,8 +226,8 @@ struct DriveOptions {
   std::string bitrate = "1000000";  // of `can`
   std::string bus_socket;           // of liana-bus, where the table's backend is embedded
   std::string time = "real";        // of liana-bus
-  std::string node = "1";
-  std::string object;  // "6064", "1018:1"
+  std::string node;                 // nobody is taken for named
+  std::string object;               // "6064", "1018:1"
   std::string value, bits = "32";
   std::string first = "1", last = "126";  // node ids
   std::string rate_hz = "5", seconds = "10";

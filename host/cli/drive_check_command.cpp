@@ -47,15 +47,18 @@ void print_outlook(const Json& said) {
 }
 
 // What a look at the boot of this drive has found.
-Json looked_at(DriveSession& session, desk::Place at, const canopen::DriveExpectation& drive) {
+Json looked_at(DriveSession& session, desk::Place at, const canopen::DriveExpectation& drive,
+               canopen::BootReference reference) {
   const std::unique_ptr<canopen::BootNode> node = session.desk.look_at_boot(drive);
   Json said = outlook(*node);
   said["node"] = at.node;
   said["type"] = drive.type.name;
   said["ok"] = node->mismatches().empty();
+  said["stops_by_itself"] = drive.type.stops_by_itself();
+  if (const std::string warning = nothing_stops(drive.type); !warning.empty()) said["warning"] = warning;
   said["refusals"] = Json::array();
   for (const canopen::BootMismatch& mismatch : node->mismatches())
-    said["refusals"].push_back(canopen::describe({&mismatch, 1}, 0, session.bus_of(at)));
+    said["refusals"].push_back(canopen::describe({&mismatch, 1}, 0, session.bus_of(at), reference));
   return said;
 }
 
@@ -63,11 +66,11 @@ void print_refusals(const Json& said) {
   for (const Json& each : said["refusals"]) std::printf("refused: %s\n", each.text().c_str());
 }
 
-int check_one(DriveSession& session, const DriveOptions& options) {
-  const desk::Place at = session.place(options);
+int check_one(DriveSession& session, const DriveOptions& options, std::uint8_t node) {
+  const desk::Place at = session.place(node);
   if (const desk::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
     return tell_failure(session, at, "reading 1000", there, options.json);
-  const Json said = looked_at(session, at, expected_drive(session, at, options));
+  const Json said = looked_at(session, at, expected_drive(session, at, options), canopen::BootReference::kDesk);
   const bool is_good = said["ok"].get<bool>();
   if (options.json) {
     std::printf("%s\n", said.dump().c_str());
@@ -76,6 +79,7 @@ int check_one(DriveSession& session, const DriveOptions& options) {
     if (is_good)
       std::printf("%s answers as a %s has to; nothing was written\n", session.where(at).c_str(), options.type.c_str());
     print_outlook(said);
+    if (said.contains("warning")) std::printf("warning: %s\n", said["warning"].text().c_str());
   }
   return is_good ? system::ExitCode::kExitOk : system::ExitCode::kExitFailure;
 }
@@ -100,6 +104,7 @@ Json silent(const DriveSession& session, desk::Place at, const canopen::DriveExp
 void print_robot(const DriveSession& session, const std::string& robot, const Json& all, int good) {
   for (const Json& said : all) {
     print_refusals(said);
+    if (said.contains("warning")) std::printf("warning: %s\n", said["warning"].text().c_str());
     if (!said["ok"].get<bool>()) continue;
     const auto node = static_cast<std::uint8_t>(said["node"].get<int>());
     std::printf("%s answers as a %s has to; %zu objects are not there, so not checked\n",
@@ -116,7 +121,8 @@ int check_robot(DriveSession& session, const DriveOptions& options,
   for (const canopen::DriveExpectation& drive : drives) {
     const desk::Place at{drive.bus, drive.node};
     const bool answers = session.desk.read(at, 0x1000, 0).is_done();
-    all.push_back(answers ? looked_at(session, at, drive) : silent(session, at, drive));
+    all.push_back(answers ? looked_at(session, at, drive, canopen::BootReference::kRobotTable)
+                          : silent(session, at, drive));
     answering += answers ? 1 : 0;
     good += all.back()["ok"].get<bool>() ? 1 : 0;
   }
@@ -135,9 +141,10 @@ int check_robot(DriveSession& session, const DriveOptions& options,
 int drive_check_command(const DriveOptions& options) {
   if (options.robot.empty()) {
     drive_type_of(options);  // bad input before anything is asked
+    const std::uint8_t node = node_of(options);
     DriveSession session(options);
     refuse_beside_a_master(session);
-    return check_one(session, options);
+    return check_one(session, options, node);
   }
   const config::BusesConfig buses = drive_buses(options);
   const std::vector<canopen::DriveExpectation> drives = drives_of_robot(options.robot, buses);

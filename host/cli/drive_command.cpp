@@ -95,8 +95,9 @@ int drive_scan_command(const DriveOptions& options) {
 
 int drive_read_command(const DriveOptions& options) {
   const config::ObjectId object = object_of(options.object);
+  const std::uint8_t node = node_of(options);
   DriveSession session(options);
-  const desk::Place at = session.place(options);
+  const desk::Place at = session.place(node);
   const desk::Answer answer = session.desk.read(at, object.index, object.sub);
   if (!answer.is_done())
     return tell_failure(session, at, "reading " + config::object_name(object), answer, options.json);
@@ -114,17 +115,19 @@ int drive_read_command(const DriveOptions& options) {
 
 int drive_write_command(const DriveOptions& options) {
   const config::ObjectId object = object_of(options.object);
-  const std::int64_t bits = parse_whole("--bits", options.bits, 8, 32, "8, 16 or 32");
-  if (bits != 8 && bits != 16 && bits != 32) throw system::BadInput("--bits: " + options.bits + ": allowed 8, 16, 32");
+  const std::int64_t bits = parse_whole("--bits", options.bits, 8, 32, ": 8, 16 or 32");
+  if (bits != 8 && bits != 16 && bits != 32)
+    throw system::BadInput("--bits: '" + options.bits + "': allowed 8, 16 or 32, the size of the object");
   const std::int64_t most = (std::int64_t{1} << bits) - 1;
   const std::int64_t value = parse_whole("VALUE", options.value, -(most / 2) - 1, most);
   if (object.index == 0x6040 || object.index == 0x6060)
     throw system::BadInput("OBJECT: " + options.object + ": this switches torque: allowed is any other object");
+  const std::uint8_t node = node_of(options);
   std::array<std::uint8_t, 4> bytes{};
   for (std::size_t i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(value >> (8 * i));
   DriveSession session(options);
   refuse_beside_a_master(session);
-  const desk::Place at = session.place(options);
+  const desk::Place at = session.place(node);
   const std::string what = "writing " + options.value + " to " + config::object_name(object);
   const desk::Answer written =
       session.desk.write(at, object.index, object.sub, {bytes.data(), static_cast<std::size_t>(bits / 8)});
@@ -148,8 +151,9 @@ int drive_watch_command(const DriveOptions& options) {
   const config::ObjectId object = object_of(options.object);
   const double period_s = 1.0 / parse_number_in("--rate", options.rate_hz, 0.1, 20.0, "Hz");
   const double seconds = parse_number_in("--seconds", options.seconds, 0.1, 86400.0, "s");
+  const std::uint8_t node = node_of(options);
   DriveSession session(options);
-  const desk::Place at = session.place(options);
+  const desk::Place at = session.place(node);
   for (double at_s = 0.0; at_s < seconds; at_s += period_s) {
     const desk::Answer answer = session.desk.read(at, object.index, object.sub);
     if (!answer.is_done())

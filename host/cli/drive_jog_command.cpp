@@ -21,6 +21,7 @@ namespace {
 using desk::JogEnd;
 
 constexpr double kLeastTurns = 0.001, kMostTurns = 100.0;  // of a way, and of a way in a second
+constexpr double kUsualTurns_per_s = 0.05;                 // where no speed is asked for
 constexpr double kWindowTurns = 0.02, kWindow_s = 0.1;     // behind its target a motor may be so far, and so long
 constexpr double kSettledTurns = 0.0005;
 constexpr std::uint16_t kDeadline_ms = 100;  // of targets: a desk has no real-time kernel
@@ -47,17 +48,33 @@ double units_in_turn(const JogOptions& jog) {
   return parse_number_in("--mm-per-turn", jog.mm_per_turn, 0.001, 10000.0, "mm");
 }
 
-// Between kLeastTurns and `most`, of either sign where `is_signed`.
-double parse_turns(const char* option, const std::string& text, double most, const char* raise, bool is_signed,
-                   const Way& way) {
-  const double turns = parse_number(option, text) / way.per_turn;
-  const double size = is_signed ? std::fabs(turns) : turns;
-  if (size >= kLeastTurns && size <= most * (1.0 + 1e-9)) return turns;
+// An amount that is asked for in the unit of the way: its least is kLeastTurns.
+struct Amount {
+  const char* option;
+  const char* most_option;  // raises its most
+  double most_turns;
+  bool is_signed;
+  const char* per;  // behind the unit
+};
+
+[[noreturn]] void refuse_turns(const Amount& amount, const std::string& text, bool is_too_much, const Way& way) {
   char range[96];
-  std::snprintf(range, sizeof range, "%g to %g %s", kLeastTurns * way.per_turn, most * way.per_turn, way.unit.c_str());
-  throw system::BadInput(std::string(option) + ": " + text + " " + way.unit + ": allowed " + range +
-                         (is_signed ? " either way" : " a second") + "; raise " + raise +
-                         " when nothing can be in the way");
+  std::snprintf(range, sizeof range, "%g to %g ", kLeastTurns * way.per_turn, amount.most_turns * way.per_turn);
+  const std::string unit = way.unit + amount.per;
+  const std::string raise = is_too_much && amount.most_turns < kMostTurns
+                                ? std::string(", or raise ") + amount.most_option + " when nothing can be in the way"
+                                : "";
+  throw system::BadInput(std::string(amount.option) + ": " + text + " " + unit + ": allowed " + range + unit +
+                         (amount.is_signed ? " either way" : ", the sign of --by says which way") + ": ask for " +
+                         (is_too_much ? "less" : "an amount within it") + raise);
+}
+
+double parse_turns(const Amount& amount, const std::string& text, const Way& way) {
+  const double turns = parse_number(amount.option, text) / way.per_turn;
+  const double size = amount.is_signed ? std::fabs(turns) : turns;
+  const bool is_too_much = size > amount.most_turns * (1.0 + 1e-9);
+  if (is_too_much || size < kLeastTurns * (1.0 - 1e-9)) refuse_turns(amount, text, is_too_much, way);
+  return turns;
 }
 
 Way way_of(const JogOptions& jog) {
@@ -66,8 +83,9 @@ Way way_of(const JogOptions& jog) {
   way.per_turn = units_in_turn(jog);
   const double most = parse_number_in("--most", jog.most, kLeastTurns, kMostTurns, "turns of the motor");
   const double fastest = parse_number_in("--most-speed", jog.most_speed, kLeastTurns, kMostTurns, "turns/s");
-  way.by_turns = parse_turns("--by", jog.by, most, "--most", true, way);
-  way.turns_per_s = parse_turns("--speed", jog.speed, fastest, "--most-speed", false, way);
+  way.by_turns = parse_turns({"--by", "--most", most, true, ""}, jog.by, way);
+  way.turns_per_s = jog.speed.empty() ? std::min(kUsualTurns_per_s, fastest)
+                                      : parse_turns({"--speed", "--most-speed", fastest, false, "/s"}, jog.speed, way);
   return way;
 }
 
@@ -118,7 +136,7 @@ Prepared prepare(DriveSession& session, desk::Place at, const DriveOptions& opti
   }
   out.counts_per_turn = out.drive.counts_per_turn = counts;
   out.drive.type.max_torque_permille =
-      static_cast<std::uint16_t>(parse_whole("--torque", options.jog.torque, 10, 1000, "permille of rated torque"));
+      static_cast<std::uint16_t>(parse_whole("--torque", options.jog.torque, 10, 1000, " permille of rated torque"));
   out.drive.demand = {std::min(here, there), std::max(here, there), counts * way.turns_per_s};
   out.drive.following_window_counts = static_cast<std::uint32_t>(std::ceil(window));
   out.drive.rpdo_deadline_ms = std::max(out.drive.rpdo_deadline_ms, kDeadline_ms);
@@ -241,7 +259,7 @@ int tell_outcome(const DriveSession& session, desk::Place at, const desk::JogOut
 int tell_refusals(const DriveSession& session, desk::Place at, const canopen::BootNode& node, bool json) {
   Json refusals = Json::array();
   for (const canopen::BootMismatch& mismatch : node.mismatches())
-    refusals.push_back(canopen::describe({&mismatch, 1}, 0, session.bus_of(at)));
+    refusals.push_back(canopen::describe({&mismatch, 1}, 0, session.bus_of(at), canopen::BootReference::kDesk));
   const Json said = {{"ok", false}, {"node", at.node}, {"is_off", true}, {"refusals", refusals}};
   if (json) std::printf("%s\n", said.dump().c_str());
   for (const Json& each : refusals) std::fprintf(stderr, "liana: refused: %s\n", each.text().c_str());
@@ -253,12 +271,15 @@ int tell_refusals(const DriveSession& session, desk::Place at, const canopen::Bo
 
 int drive_jog_command(const DriveOptions& options) {
   const Way way = way_of(options.jog);
-  drive_type_of(options);  // bad input before anything is asked
-  parse_whole("--torque", options.jog.torque, 10, 1000, "permille of rated torque");
+  const config::DriveType type = drive_type_of(options);  // bad input before anything is asked
+  parse_whole("--torque", options.jog.torque, 10, 1000, " permille of rated torque");
+  const std::uint8_t node = node_of(options);
+  if (const std::string warning = nothing_stops(type); !warning.empty())
+    std::fprintf(stderr, "liana: warning: %s\n", warning.c_str());
   ask_for_the_word(options, way);
   DriveSession session(options);
   refuse_beside_a_master(session);
-  const desk::Place at = session.place(options);
+  const desk::Place at = session.place(node);
   if (const desk::Answer there = session.desk.read(at, 0x1000, 0); !there.is_done())
     return tell_failure(session, at, "reading 1000", there, options.json);
   const Prepared prepared = prepare(session, at, options, way);

@@ -50,7 +50,7 @@ config::BusesConfig drive_buses(const DriveOptions& options) {
   buses.backend = "socketcan";
   buses.rate_hz = kRate_hz;
   buses.command_interval_s = 1.0 / kRate_hz;
-  const auto bitrate = static_cast<std::int32_t>(parse_whole("--bitrate", options.bitrate, 10000, 1000000, "bit/s"));
+  const auto bitrate = static_cast<std::int32_t>(parse_whole("--bitrate", options.bitrate, 10000, 1000000, " bit/s"));
   buses.buses = {{options.can, bitrate, nodes_of(options)}};
   buses.heartbeat_ms = 100;
   buses.max_load = 1.0;
@@ -59,7 +59,8 @@ config::BusesConfig drive_buses(const DriveOptions& options) {
 
 DriveSession::DriveSession(const DriveOptions& options)
     : buses(drive_buses(options)),
-      desk(buses, time_of(options), options.bus_socket, guard.any()),
+      desk(system::checked(  // no bus where there should be one is bad input
+          [&] { return desk::Desk(buses, time_of(options), options.bus_socket, guard.any()); })),
       silence(kSilence_s, [this, seen = desk.tick_count()](double since_s) mutable {
         const std::uint64_t now = desk.tick_count();
         if (now != std::exchange(seen, now)) return;
@@ -70,9 +71,11 @@ DriveSession::DriveSession(const DriveOptions& options)
         std::_Exit(system::ExitCode::kExitInterrupted);  // this command waits for the bus, which does not come back
       }) {}
 
-desk::Place DriveSession::place(const DriveOptions& options) const {
-  const auto node = static_cast<std::uint8_t>(parse_whole("--node", options.node, 1, kMostNode));
-  return {std::max(0, buses.bus_of_node(node)), node};
+std::uint8_t node_of(const DriveOptions& options) {
+  if (options.node.empty())
+    throw system::BadInput("--node: not given: allowed 1 to " + std::to_string(kMostNode) +
+                           ": say which drive is meant; liana drive scan shows who answers");
+  return static_cast<std::uint8_t>(parse_whole("--node", options.node, 1, kMostNode));
 }
 
 std::string hex(std::uint32_t value, int digits) {
@@ -94,6 +97,12 @@ int tell_failure(const DriveSession& session, desk::Place at, const std::string&
   }
   std::fprintf(stderr, "liana: %s: %s: %s\n", session.where(at).c_str(), what.c_str(), why.c_str());
   return silent ? kNobodyAnswers : system::ExitCode::kExitFailure;
+}
+
+std::string nothing_stops(const config::DriveType& type) {
+  if (type.stops_by_itself()) return "";
+  return "a drive of type " + type.name + " stops by itself on nothing when its master is lost: its type has neither " +
+         "1016:1 nor 1400:5 as required, or 6007 as no action; keep the emergency stop in reach";
 }
 
 void refuse_beside_a_master(DriveSession& session) {
@@ -122,8 +131,7 @@ canopen::DriveExpectation expected_drive(DriveSession& session, desk::Place at, 
   drive.counts_per_turn = std::max(1U, said(0x608F, 1, 65536));
   drive.gear_motor_turns = std::max(1U, said(0x6091, 1, 1));
   drive.gear_drum_turns = std::max(1U, said(0x6091, 2, 1));
-  drive.rated_torque_mNm =
-      static_cast<std::uint32_t>(std::lround(1000.0 * said(0x6076, 0, 0) / drive.type.units.rated_torque_per_Nm));
+  drive.rated_torque_mNm = 1000.0 * said(0x6076, 0, 0) / drive.type.units.rated_torque_per_Nm;
   drive.period = config::interpolation_period(session.buses.period_us());
   drive.rpdo_deadline_ms = static_cast<std::uint16_t>((3 * session.buses.period_us() + 999) / 1000);
   return drive;

@@ -391,7 +391,7 @@ void add_global(CLI::App& app) {
 
 void add_jog(CLI::App& sub, JogOptions& jog) {
   sub.add_option("--by", jog.by, "how far, in --unit, of either sign; at most --most")->required();
-  sub.add_option("--speed", jog.speed, "how fast, in --unit a second; at most --most-speed")->capture_default_str();
+  sub.add_option("--speed", jog.speed, "how fast, in --unit a second; at most --most-speed; not given: 0.05 turns/s");
   sub.add_option("--unit", jog.unit, "turns (of the motor), deg, or mm")->capture_default_str();
   sub.add_option("--mm-per-turn", jog.mm_per_turn, "for mm: the way of one turn of the motor");
   sub.add_option("--counts-per-turn", jog.counts_per_turn, "of the encoder, for drives without 608F");
@@ -425,15 +425,15 @@ void add_drive(CLI::App& app, Action& action, DriveOptions& drive) {
   scan->add_option("--first", drive.first, "least node id, 1 to 126")->capture_default_str();
   scan->add_option("--last", drive.last, "largest node id, to 126")->capture_default_str();
   for (CLI::App* sub : {read, write, watch, check, jog})
-    sub->add_option("--node", drive.node, "node id, 1 to 126")->capture_default_str();
+    sub->add_option("--node", drive.node, "node id of the drive, 1 to 126; has to be said");
   for (CLI::App* sub : {read, write, watch})
     sub->add_option("object", drive.object, "index, or index:sub-index, e.g. 6064 or 1018:1")->required();
   write->add_option("value", drive.value, "whole number that fits in --bits")->required();
   write->add_option("--bits", drive.bits, "size of the object: 8, 16 or 32")->capture_default_str();
   watch->add_option("--rate", drive.rate_hz, "how often, Hz; 0.1 to 20")->capture_default_str();
   watch->add_option("--seconds", drive.seconds, "how long; 0.1 to 86400")->capture_default_str();
-  CLI::Option* robot =
-      check->add_option("--robot", drive.robot, "all drives of a robot table, of the types that the bus table says");
+  CLI::Option* robot = check->add_option(
+      "--robot", drive.robot, "in place of --node: all drives of a robot table, of the types that the bus table says");
   robot->excludes(check->get_option("--node"));
   for (CLI::App* sub : {check, jog})
     sub->add_option("--type", drive.type, "drive type: a name under lua/drives or a file")->capture_default_str();

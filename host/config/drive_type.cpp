@@ -1,7 +1,10 @@
 #include "host/config/drive_type.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <stdexcept>
 
 #include "host/config/field.hpp"
 
@@ -35,6 +38,12 @@ std::optional<Factor> read_factor(const Field& field) {
   return Factor{part(0), part(1)};
 }
 
+// What csp is made of: its targets and reports, its mode, and that the drive says it has it.
+bool makes_csp(ObjectId object) {
+  constexpr std::array<std::uint16_t, 6> kMade{0x6040, 0x6041, 0x6060, 0x6064, 0x607A, 0x6502};
+  return object.sub == 0 && std::find(kMade.begin(), kMade.end(), object.index) != kMade.end();
+}
+
 // An object of the boot's; objects that it never touches have no rule.
 ObjectId read_ruled(const Field& field, const std::string& text) {
   const ObjectId object = parse_object(field, text);
@@ -45,7 +54,22 @@ ObjectId read_ruled(const Field& field, const std::string& text) {
 }
 
 // Without these there is nothing to boot.
-bool can_be_absent(ObjectId object) { return object != ObjectId{0x1400, 1} && object != ObjectId{0x1800, 1}; }
+void refuse_what_is_needed(const Field& field, Presence presence) {
+  if (presence == Presence::kRequired) return;
+  const ObjectId object = parse_object(field, field.json().text());
+  if (makes_csp(object))
+    field.refuse("any object but 6040, 6041, 6060, 6064, 607A and 6502, which make csp",
+                 "take it off the list: a drive without it cannot be driven (docs/drives.md)");
+  if (presence == Presence::kAbsent && (object == ObjectId{0x1400, 1} || object == ObjectId{0x1800, 1}))
+    field.refuse("any object but 1400:1 and 1800:1", "without process data a drive cannot be driven");
+}
+
+// A fixed mode has to be csp.
+void refuse_another_mode(const Field& field, ObjectId object, std::uint32_t value) {
+  if (object.index == 0x6060 && value != 8) field.refuse("8, which is csp", "no other mode is driven");
+  if (object.index == 0x6502 && (value & 0x80) == 0)
+    field.refuse("numbers with bit 7 (128), which is csp", "a drive without csp cannot be driven");
+}
 
 void read_list(const Field& lists, const char* key, Presence presence, DriveType& out) {
   if (!lists.json().contains(key)) return;
@@ -54,9 +78,8 @@ void read_list(const Field& lists, const char* key, Presence presence, DriveType
   for (std::size_t i = 0; i < count; ++i) {
     const Field field = list.element(i);
     if (!field.json().is_string()) field.refuse("an object as text, e.g. \"6065\" or \"1400:5\"", "put it in quotes");
+    refuse_what_is_needed(field, presence);
     const ObjectId object = read_ruled(field, field.json().text());
-    if (presence == Presence::kAbsent && !can_be_absent(object))
-      field.refuse("any object but 1400:1 and 1800:1", "without process data a drive cannot be driven");
     if (!out.objects.emplace(object, ObjectRule{presence, {}}).second)
       field.refuse("each object once", "decide what it is");
   }
@@ -73,8 +96,9 @@ void read_objects(const Field& table, DriveType& out) {
   for (const auto& [key, value] : fixed.json().items()) {
     const Field field(value, fixed.file(), "objects.fixed." + key);
     const ObjectRule rule{Presence::kFixed, read_u32(field)};
-    if (!out.objects.emplace(read_ruled(field, key), rule).second)
-      field.refuse("each object once", "decide what it is");
+    const ObjectId object = read_ruled(field, key);
+    refuse_another_mode(field, object, *rule.value);
+    if (!out.objects.emplace(object, rule).second) field.refuse("each object once", "decide what it is");
   }
 }
 
@@ -110,6 +134,8 @@ StartUpWrite read_write(const Field& field) {
   out.object = parse_object(object, object.json().text());
   if (generic_rules().contains(out.object))
     object.refuse("objects that the boot does not write itself", "use the fields that docs/drives.md has for it");
+  if (out.object.index == 0x6040)
+    object.refuse("any object but 6040", "it switches torque, and only the controller does that");
   out.name = read_text(field.at("name"), 60);
   const std::int64_t bits = field.at("bits").integer(8, 32);
   if (bits != 8 && bits != 16 && bits != 32) field.at("bits").refuse("8, 16 or 32", "take the object's own size");
@@ -204,8 +230,19 @@ ObjectRule DriveType::rule_of(ObjectId object) const {
   return {generic == generic_rules().end() ? Presence::kRequired : generic->second, {}};
 }
 
-ObjectId parse_object(const Field& field, const std::string& text) {
+bool DriveType::stops_by_itself() const {
+  const auto is_sure = [&](ObjectId object) {
+    const ObjectRule rule = rule_of(object);
+    return rule.presence == Presence::kRequired || rule.value.value_or(0) != 0;
+  };
+  const std::uint32_t reaction =
+      rule_of({0x6007, 0}).value.value_or(static_cast<std::uint32_t>(abort_connection_option));
+  return (is_sure({0x1016, 1}) || is_sure({0x1400, 5})) && reaction != 0;
+}
+
+ObjectId parse_object(const Field& field, const std::string& given) {
   const std::string allowed = "an object as index, or index:sub-index, e.g. \"6065\" or \"1400:5\"";
+  const std::string text = given.starts_with("0x") || given.starts_with("0X") ? given.substr(2) : given;
   const std::size_t colon = text.find(':');
   const std::string index = text.substr(0, colon);
   const std::string sub = colon == text.npos ? "0" : text.substr(colon + 1);
@@ -221,7 +258,16 @@ std::string object_name(ObjectId object) {
   return object.sub == 0 ? index : index + (":" + std::to_string(object.sub));
 }
 
-DriveType parse_drive_type(const Json& json, const std::string& file) {
+namespace {
+
+// The page that has the fields of drive types, in place of the one that has those of other tables, or behind the rest.
+std::string with_guide(std::string text) {
+  const std::string page = "docs/drives.md", other = "docs/formats.md";
+  if (const std::size_t at = text.find(other); at != text.npos) return text.replace(at, other.size(), page);
+  return text.find(page) != text.npos ? text : text + "; see " + page;
+}
+
+DriveType read_drive_type(const Json& json, const std::string& file) {
   const Field table(json, file, "");
   check_kind(table, "drive");
   table.only({"format", "kind", "name", "source", "identity", "objects", "units", "polarity", "max_torque_permille",
@@ -251,6 +297,16 @@ DriveType parse_drive_type(const Json& json, const std::string& file) {
   const std::size_t count = writes.size(0, 16, "a type has at most 16 start-up writes");
   for (std::size_t i = 0; i < count; ++i) out.writes.push_back(read_write(writes.element(i)));
   return out;
+}
+
+}  // namespace
+
+DriveType parse_drive_type(const Json& json, const std::string& file) {
+  try {
+    return read_drive_type(json, file);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(with_guide(error.what()));
+  }
 }
 
 }  // namespace liana::config

@@ -94,13 +94,16 @@ struct DriveType {
 
   // What holds for an object: the type's own rule, else the generic one.
   ObjectRule rule_of(ObjectId object) const;
+  // False where nothing is sure to stop a drive whose master is lost: 1016:1 and 1400:5 are both left out, optional or
+  // fixed to 0, or 6007 is no action.
+  bool stops_by_itself() const;
   friend bool operator==(const DriveType&, const DriveType&) = default;
 };
 
 // The objects that a boot may ask for or tell, with what the generic type says of each.
 const std::map<ObjectId, Presence>& generic_rules();
 
-// "6065" or "1400:5"; refuses what is no object. Sub-index 0 is left out.
+// "6065", "0x6065" or "1400:5"; refuses what is no object. Sub-index 0 is left out.
 ObjectId parse_object(const Field& field, const std::string& text);
 std::string object_name(ObjectId object);
 

@@ -15,7 +15,12 @@ ScriptFile file_of(const LuaFolders& lua_folders, const config::Field& name) {
   try {
     return find_script(lua_folders, "drive", type);
   } catch (const std::runtime_error& error) {
-    throw std::runtime_error(name.file() + ": " + error.what());
+    // Its words for a type that is not there offer a file, which a bus table cannot name.
+    std::string text = error.what();
+    if (const std::size_t file = text.rfind(" or a file"); file != text.npos)
+      text.replace(file, std::string::npos,
+                   ", or put your own into drives/" + type + ".lua below a folder of --lua-dir");
+    throw std::runtime_error(name.file() + ": " + text);
   }
 }
 

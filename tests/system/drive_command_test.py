@@ -111,6 +111,29 @@ class DriveCommand(SystemTest):
         generic = self.drive("check", "--node", "2", "--json", bus=bus)
         self.assertIn("608F:1 (encoder counts)", json.loads(generic.stdout)["not_there"])
 
+    def test_a_type_that_nothing_stops_is_said_by_check_and_jog(self):
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="liana-drives-"))
+        self.addCleanup(shutil.rmtree, folder)
+        file = folder / "loose.lua"
+        file.write_text(
+            "return { format = 1, kind = 'drive', name = 'loose', source = 'a manual', "
+            "objects = { absent = { '1016:1', '1400:5', '6007' } } }\n"
+        )
+        checked = self.drive("check", "--node", "3", "--type", str(file))
+        self.assertIn("type loose stops by itself on nothing", checked.stdout, checked.stderr)
+        said = json.loads(self.drive("check", "--node", "3", "--type", str(file), "--json").stdout)
+        self.assertFalse(said["stops_by_itself"])
+        done = run("liana", "drive", "jog", "--node", "3", "--by", "0.1", "--type", file, "--bus", "embedded")
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("stops by itself on nothing", done.stderr)
+        self.assertNotIn("warning", self.drive("check", "--node", "3").stdout)
+
+    def test_a_type_that_a_bus_table_cannot_find_is_to_go_below_lua_dir(self):
+        done = run("liana", "drive", "scan", "--bus", self.bus_of("{ type = 'own_one', nodes = { 2 } }"))
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("put your own into drives/own_one.lua below a folder of --lua-dir", done.stderr)
+        self.assertNotIn("or a file", done.stderr)
+
     def test_check_of_a_robot_names_what_every_drive_of_it_would_be_refused_for(self):
         good = self.drive("check", "--robot", "micro")
         self.assertEqual(good.returncode, 0, good.stdout + good.stderr)
@@ -139,8 +162,8 @@ class DriveCommand(SystemTest):
     def test_bad_input_is_refused_before_anything_is_asked(self):
         for words, said in (
             (("read", "60G4", "--bus", "embedded"), "60G4"),
-            (("read", "6064"), "--can"),
-            (("read", "6064", "--bus", "embedded", "--can", "can0"), "one of them"),
+            (("read", "6064", "--node", "1"), "--can"),
+            (("read", "6064", "--node", "1", "--bus", "embedded", "--can", "can0"), "one of them"),
             (("write", "6065", "70000", "--bits", "16", "--bus", "embedded"), "VALUE"),
             (("write", "6040", "15", "--bits", "16", "--bus", "embedded"), "switches torque"),
             (("scan", "--first", "0", "--bus", "embedded"), "--first"),
@@ -151,16 +174,63 @@ class DriveCommand(SystemTest):
             (("watch", "6064", "--rate", "1000", "--bus", "embedded"), "--rate"),
             (("jog", "--by", "0.3", "--yes", "--bus", "embedded"), "--by: 0.3 turns: allowed 0.001 to 0.25 turns"),
             (("jog", "--by", "-91", "--unit", "deg", "--yes", "--bus", "embedded"), "allowed 0.36 to 90 deg"),
-            (("jog", "--by", "0", "--yes", "--bus", "embedded"), "--by: 0 turns: allowed 0.001"),
-            (("jog", "--by", "0.1", "--speed", "0.3", "--yes", "--bus", "embedded"), "--speed: 0.3 turns: allowed"),
-            (("jog", "--by", "0.1", "--speed", "-0.1", "--yes", "--bus", "embedded"), "--speed: -0.1 turns: allowed"),
+            (
+                ("jog", "--by", "0", "--yes", "--bus", "embedded"),
+                "--by: 0 turns: allowed 0.001 to 0.25 turns either way: ask for an amount",
+            ),
+            (
+                ("jog", "--by", "0.1", "--speed", "0.3", "--yes", "--bus", "embedded"),
+                "--speed: 0.3 turns/s: allowed 0.001 to 0.25 turns/s",
+            ),
+            (
+                ("jog", "--by", "0.1", "--speed", "-0.1", "--yes", "--bus", "embedded"),
+                "--speed: -0.1 turns/s: allowed 0.001 to 0.25 turns/s",
+            ),
             (("jog", "--by", "5", "--most", "101", "--yes", "--bus", "embedded"), "--most: '101': allowed"),
             (("jog", "--by", "5", "--unit", "mm", "--yes", "--bus", "embedded"), "--mm-per-turn"),
             (("jog", "--by", "5", "--unit", "inch", "--yes", "--bus", "embedded"), "allowed are turns, deg and mm"),
             (("jog", "--by", "0.1", "--torque", "1001", "--yes", "--bus", "embedded"), "--torque: '1001': allowed"),
-            (("jog", "--by", "0.1", "--bus", "embedded"), "nothing moves unasked"),
+            (
+                ("jog", "--by", "0.1", "--torque", "5", "--yes", "--bus", "embedded"),
+                "from 10 to 1000 permille of rated",
+            ),
+            (("jog", "--by", "0.1", "--bus", "embedded", "--node", "1"), "nothing moves unasked"),
+            (("write", "6065", "1", "--bits", "7", "--bus", "embedded"), "from 8 to 32: 8, 16 or 32"),
+            (("write", "6065", "1", "--bits", "24", "--bus", "embedded"), "--bits: '24': allowed 8, 16 or 32"),
         ):
             done = run("liana", "drive", *words)
+            self.assertEqual(done.returncode, 2, (words, done.stderr))
+            self.assertIn(said, done.stderr)
+
+    def test_a_drive_that_nobody_names_is_neither_moved_nor_told_anything(self):
+        for words in (
+            ("jog", "--by", "0.1", "--yes"),
+            ("write", "6065", "5000"),
+            ("read", "6064"),
+            ("watch", "6064"),
+            ("check",),
+        ):
+            done = run("liana", "drive", *words, "--bus", "embedded")
+            self.assertEqual(done.returncode, 2, (words, done.stderr))
+            self.assertIn("--node: not given: allowed 1 to 126: say which drive is meant", done.stderr)
+
+    def test_a_way_that_is_too_small_is_not_told_to_raise_the_most(self):
+        for words, raises in (
+            (("--by", "0"), False),
+            (("--by", "0.5"), True),
+            (("--by", "101", "--most", "100"), False),
+        ):
+            done = run("liana", "drive", "jog", "--node", "1", "--yes", "--bus", "embedded", *words)
+            self.assertEqual((done.returncode, "raise --most" in done.stderr), (2, raises), done.stderr)
+
+    def test_a_bus_that_is_not_there_is_bad_input(self):
+        nobody = "/nonexistent/bus.sock"
+        for words, said in (
+            (("--bus", "embedded"), "--bus-socket"),
+            (("--bus", "embedded", "--bus-socket", nobody), nobody),
+            (("--can", "nosuchcan"), "nosuchcan"),
+        ):
+            done = run("liana", "drive", "scan", *words)
             self.assertEqual(done.returncode, 2, (words, done.stderr))
             self.assertIn(said, done.stderr)
 
@@ -174,7 +244,7 @@ class DriveCommand(SystemTest):
     def test_jog_moves_by_what_was_asked_and_disables(self):
         for words, turns in (
             (("--by", "0.02"), 0.02),
-            (("--by", "9", "--unit", "deg", "--speed", "36"), 0.025),
+            (("--by", "9", "--unit", "deg"), 0.025),
             (("--by", "-1", "--unit", "mm", "--mm-per-turn", "94.25", "--speed", "5"), -0.01061),
         ):
             code, said, error, statusword = self.jog(*words)
@@ -213,7 +283,9 @@ class DriveCommand(SystemTest):
             words = ("--node", "3", "--yes", "--by", "0.1", "--speed", "0.2")
             done = run("liana", "drive", "jog", *words, *desk.where())
         self.assertEqual(done.returncode, 1)
-        self.assertIn("0x6085:0 (quick stop deceleration): the arm needs at least", done.stderr)
+        self.assertIn("0x6085:0 (quick stop deceleration): this way needs at least", done.stderr)
+        self.assertIn("or ask for less (--speed, --by)", done.stderr)
+        self.assertNotIn("robot table", done.stderr)
 
     def test_jog_of_a_motor_without_encoder_counts_wants_to_be_told_them(self):
         bus = self.bus_of("{ type = 'maxon_epos4', nodes = { 7 } }")

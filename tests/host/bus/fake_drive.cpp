@@ -60,7 +60,7 @@ FakeDrive::FakeDrive(const canopen::DriveExpectation& is) : node(is.node) {
   add(0x6065, 0, 4, 0);
   add(0x6066, 0, 2, 0);
   add(0x6072, 0, 2, 0);
-  add(0x6076, 0, 4, is.rated_torque_mNm);
+  add(0x6076, 0, 4, static_cast<std::uint32_t>(is.rated_torque_mNm));
   add(0x608F, 1, 4, is.counts_per_turn);
   add(0x608F, 2, 4, 1);
   add(0x6091, 1, 4, is.gear_motor_turns);

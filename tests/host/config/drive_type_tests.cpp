@@ -37,9 +37,9 @@ TEST(DriveTypes, AreRefusedWithFileFieldValueRangeAndAdvice) {
   };
   const std::vector<Spoiled> cases = {
       {"/kind", "drives", "kind", "allowed drive"},
-      {"/source", nullptr, "source", "missing"},
+      {"/source", nullptr, "source", "docs/drives.md"},
       {"/source", "", "source", "1 to 400 bytes"},
-      {"/colour", 1, "colour", "no such field"},
+      {"/colour", 1, "colour", "docs/drives.md"},
       {"/units/position", -1, "units.position", "0 to 4294967295"},
       {"/units/speeds", "m/s", "units.speeds", "increments, rpm"},
       {"/units/rated_torque", "Nm", "units.rated_torque", "mNm, uNm"},
@@ -49,7 +49,16 @@ TEST(DriveTypes, AreRefusedWithFileFieldValueRangeAndAdvice) {
       {"/stop/within_s", 0, "stop.within_s", "0.001 to 10"},
       {"/objects", {{"absent", {"1234"}}}, "objects.absent[1]", "the objects of the boot"},
       {"/objects", {{"absent", {"1400:1"}}}, "objects.absent[1]", "any object but 1400:1"},
-      {"/objects", {{"optional", {"0x6065"}}}, "objects.optional[1]", "hexadecimal"},
+      {"/objects", {{"optional", {"0x606"}}}, "objects.optional[1]", "hexadecimal"},
+      {"/objects", {{"absent", {"6060"}}}, "objects.absent[1]", "which make csp"},
+      {"/objects", {{"absent", {"6502"}}}, "objects.absent[1]", "which make csp"},
+      {"/objects", {{"absent", {"6040"}}}, "objects.absent[1]", "which make csp"},
+      {"/objects", {{"absent", {"6041"}}}, "objects.absent[1]", "which make csp"},
+      {"/objects", {{"absent", {"607A"}}}, "objects.absent[1]", "which make csp"},
+      {"/objects", {{"optional", {"6064"}}}, "objects.optional[1]", "which make csp"},
+      {"/objects", {{"fixed", {{"6060", 1}}}}, "objects.fixed.6060", "8, which is csp"},
+      {"/objects", {{"fixed", {{"6502", 1}}}}, "objects.fixed.6502", "bit 7"},
+      {"/writes", write("6040", 16), "writes[1].object", "switches torque"},
       {"/objects", {{"optional", {"6065"}}, {"absent", {"6065"}}}, "objects.absent[1]", "each object once"},
       {"/objects", {{"fixed", {{"6066", "no"}}}}, "objects.fixed.6066", "0 to 4294967295"},
       {"/dictionary", {{"absent", {"60G5"}}}, "dictionary.absent[1]", "hexadecimal"},
@@ -61,6 +70,27 @@ TEST(DriveTypes, AreRefusedWithFileFieldValueRangeAndAdvice) {
       {"/writes", write("2000:1", 24), "writes[1].bits", "8, 16 or 32"}};
   for (const Spoiled& spoiled : cases)
     expect_refused(good, spoiled, [](const std::string& text) { parse_drive_type(Json::parse(text), "given.json"); });
+}
+
+TEST(DriveTypes, AnIndexMayBeWrittenWith0x) {
+  Json table = good_table("drive", "cia402_csp");
+  table["objects"] = {{"required", {"0x6065"}}};
+  EXPECT_EQ(parse_drive_type(table, "t").rule_of({0x6065, 0}).presence, Presence::kRequired);
+}
+
+TEST(DriveTypes, SayWhetherADriveThatLosesItsMasterIsSureToStop) {
+  const auto stops = [](const Json& objects) {
+    Json table = good_table("drive", "cia402_csp");
+    table["objects"] = objects;
+    return parse_drive_type(table, "t").stops_by_itself();
+  };
+  EXPECT_TRUE(DriveType{}.stops_by_itself());
+  EXPECT_TRUE(stops({{"absent", {"1400:5"}}}));
+  EXPECT_TRUE(stops({{"absent", {"1016:1", "6007"}}, {"required", {"1400:5"}}}));
+  EXPECT_FALSE(stops({{"absent", {"1016:1", "1400:5"}}}));
+  EXPECT_FALSE(stops({{"absent", {"1016:1"}}})) << "1400:5 may be missing";
+  EXPECT_FALSE(stops({{"fixed", {{"1016:1", 0}}}}));
+  EXPECT_FALSE(stops({{"fixed", {{"6007", 0}}}}));
 }
 
 TEST(DriveTypes, ABusTableThatNamesThemWronglyIsRefused) {
