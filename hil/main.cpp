@@ -1,5 +1,6 @@
 // liana-bench: simulated drives and arm on the other end of the bus.
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <exception>
 #include <iostream>
 #include <memory>
@@ -34,6 +35,18 @@ std::string whole_number_problem(const std::string& text) {
   return is_whole ? "" : "'" + text + "': allowed: a whole number, 0 or more";
 }
 
+// A number from `low` to `high`; CLI::Range lets NaN through.
+CLI::Validator within(double low, double high) {
+  const auto problem = [low, high](const std::string& text) -> std::string {
+    double value = 0.0;
+    if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return "";
+    char allowed[64];
+    std::snprintf(allowed, sizeof allowed, "%g to %g", low, high);
+    return "'" + text + "': allowed: " + allowed;
+  };
+  return {problem, ""};
+}
+
 void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, bool& no_spread) {
   app.add_option("--robot", paths.robot, "robot JSON");
   app.add_option("--scene", paths.scene, "scene JSON");
@@ -57,24 +70,24 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
       ->capture_default_str();
   app.add_option("--free-step", options.free_step_s,
                  "longest step of the full arm's physics while it can touch nothing, s: 0.002 for a dry run")
-      ->check(CLI::Range(liana::bench::ArmPhysics::kStep_s, liana::bench::ArmPhysics::kLongestStep_s))
+      ->check(within(liana::bench::ArmPhysics::kStep_s, liana::bench::ArmPhysics::kLongestStep_s))
       ->capture_default_str();
   app.add_option("--run-on", options.run_on_s,
                  "seconds that drives and arm go on after the bus has ended, in truth and summary")
-      ->check(CLI::Range(0.0, 60.0))
+      ->check(within(0.0, 60.0))
       ->capture_default_str();
   app.add_option("--rest-within", options.rest_within_s,
                  "seconds that they go on after that at most, until the arm is at rest")
-      ->check(CLI::Range(0.0, 600.0))
+      ->check(within(0.0, 600.0))
       ->capture_default_str();
   app.add_option("--scene-offset", paths.scene_offset,
                  "MM,DEG: the scene really is so far from where its table has it, in a direction drawn from the seed");
   app.add_option("--gravity", options.gravity_share,
                  "share of the arm's weight that counterweights leave, from 0 to 1; down is -z of the base frame")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(within(0.0, 1.0));
   app.add_option("--linkage-error", options.linkage_error,
                  "share by which the joints of a segment bend unevenly at most, from 0 to 0.5, drawn from the seed")
-      ->check(CLI::Range(0.0, 0.5));
+      ->check(within(0.0, 0.5));
   app.add_flag("--fixture", options.fixture, "the arm starts exactly in its start pose");
   app.add_option("--cross-wired", paths.cross_wired, "two drives, e.g. 3,4, that have each other's cable");
   app.add_flag("--no-spread", no_spread, "the arm is exactly as the table says (for tests)");

@@ -49,7 +49,7 @@ void read_drives(const JsonFile& file, RobotConfig& robot) {
   robot.counts_per_turn = static_cast<std::uint32_t>(file.integer("/drives/counts_per_turn", 256, 1 << 24));
   robot.gear = file.number("/drives/gear", 0.01, 1000.0);
   robot.servo_time_constant_s = file.number("/drives/servo_time_constant_s", 0.001, 1.0);
-  robot.rated_torque_Nm = file.number("/drives/rated_torque_Nm", 0.01, 1000.0);
+  robot.rated_torque_Nm = file.number("/drives/rated_torque_Nm", 0.01, 4000.0);
   robot.vendor = static_cast<std::uint32_t>(file.number("/drives/identity/vendor", 0.0, 4294967295.0));
   robot.product = static_cast<std::uint32_t>(file.number("/drives/identity/product", 0.0, 4294967295.0));
   robot.revision = static_cast<std::uint32_t>(file.number("/drives/identity/revision", 0.0, 4294967295.0));

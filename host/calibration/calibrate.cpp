@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "firmware_like/cable/arm/cables.hpp"
 #include "firmware_like/drive/pdo.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "host/calibration/fixture.hpp"
@@ -149,6 +150,27 @@ CableCalibration cable_of(const config::RobotConfig& robot, const Lengths& lengt
   return out;
 }
 
+// Whether two cables of one segment end in holes opposite each other: what one gains the other loses, in every pose.
+bool are_opposite(const RobotTable& robot, Index a, Index b) {
+  constexpr double kOpposite = -0.9998;  // cosine of 179 deg
+  const CableLayout layout = cable_layout(robot);
+  if (layout.segment[a] != layout.segment[b]) return false;
+  const double along = layout.hole_y_m[a] * layout.hole_y_m[b] + layout.hole_z_m[a] * layout.hole_z_m[b];
+  return along < kOpposite * robot.hole_radius_m * robot.hole_radius_m;
+}
+
+[[noreturn]] void refuse_alike(const RobotTable& robot, Index a, Index b) {
+  const std::string who = text("cables %d and %d", static_cast<int>(a), static_cast<int>(b));
+  if (are_opposite(robot, a, b))
+    throw std::runtime_error(who +
+                             " (cables are counted from 0) sit opposite each other in one segment and change alike in "
+                             "every pose: no pose tells them apart: turn one of their holes, cables.phase_deg, by 15 "
+                             "deg or more");
+  throw std::runtime_error(who +
+                           " (cables are counted from 0) change alike between these poses: add one that bends the arm "
+                           "another way");
+}
+
 }  // namespace
 
 void check_poses(const config::RobotConfig& robot, std::span<const ThetaVector> poses_rad) {
@@ -166,9 +188,7 @@ void check_poses(const config::RobotConfig& robot, std::span<const ThetaVector> 
     for (Index b = 0; b < Index(cables.cols()); ++b) {
       const Fit alike = fit(cables.col(a), cables.col(b));
       if (a != b && alike.misfit_m < kApart_m && std::fabs(std::fabs(alike.scale) - 1.0) <= 2.0 * kDrumShare)
-        throw std::runtime_error(
-            text("cables %d and %d change alike between these poses: add one that bends the arm another way",
-                 static_cast<int>(a), static_cast<int>(b)));
+        refuse_alike(robot.table, a, b);
     }
   }
 }

@@ -39,6 +39,7 @@ std::string list_of(const std::vector<std::string>& names) {
 // What runs in any case.
 system::RunOptions run_options(const CalibrateOptions& options, bool simulated) {
   system::RunOptions run;
+  run.scene = "none";  // fixtures stand where nothing else does
   run.robot = options.robot;
   run.bus = options.bus;
   run.physics = options.physics;
@@ -184,7 +185,7 @@ int calibrate_command(const CalibrateOptions& options) {
     calibration::check_poses(robot, thetas_rad);
   } catch (const std::runtime_error& error) {
     throw system::BadInput("--poses: '" + list_of(poses) + "': " + error.what() +
-                           "; or name them in the table, fixture_poses");
+                           (options.poses.empty() ? "; or name poses in the table, fixture_poses" : ""));
   }
   const calibration::CalibrationResult result =
       calibration::calibrate(robot, read_all(options, simulated, poses, thetas_rad), calibration::today_utc());

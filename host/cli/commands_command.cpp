@@ -90,6 +90,9 @@ int commands_command(const CommandsOptions& options) {
   std::ifstream in(path);
   std::size_t unread = 0;
   std::vector<CommandLife> lives = report::command_lives(in, unread);
+  if (unread > 0 && lives.empty())
+    throw system::BadInput("commands: '" + path.string() + "': none of its " + std::to_string(unread) +
+                           " lines is a stage of a command; give a run (liana log list), or its " + kCommandsFile);
   if (unread > 0) std::fprintf(stderr, "liana: %s: %zu lines are no stages of commands\n", path.c_str(), unread);
   if (options.margins) {
     print_margins(lives, options.json);

@@ -1,6 +1,9 @@
 #include <cstdio>
 
 #include "host/cli/commands.hpp"
+#include "host/config/config.hpp"
+#include "host/config/field.hpp"
+#include "host/json/json.hpp"
 #include "host/system/output.hpp"
 #include "host/system/tables.hpp"
 
@@ -8,7 +11,11 @@ namespace liana::cli {
 
 int export_command(const ExportOptions& options) {
   if (!options.file.empty()) system::check_output("--out", options.file);
-  const std::string table = system::evaluate_table("robot", options.robot);
+  const std::string text = system::evaluate_table("robot", options.robot);
+  const std::string table =
+      system::checked(
+          [&] { return config::check_table("robot", config::parse_json(text, options.robot), options.robot); }) +
+      "\n";
   if (options.file.empty()) {
     std::fputs(table.c_str(), stdout);
   } else {

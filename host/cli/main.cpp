@@ -37,6 +37,18 @@ CLI::App* add(CLI::App& app, Action& action, const char* name, const char* text,
   return sub;
 }
 
+// A number from `low` to `high`; CLI::Range lets NaN through.
+CLI::Validator within(double low, double high) {
+  const auto problem = [low, high](const std::string& text) -> std::string {
+    double value = 0.0;
+    if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return "";
+    char allowed[64];
+    std::snprintf(allowed, sizeof allowed, "%g to %g", low, high);
+    return "'" + text + "': allowed: " + allowed;
+  };
+  return {problem, ""};
+}
+
 void add_seed(CLI::App& sub, std::uint64_t& seed, const std::string& what) {
   sub.add_option_function<std::string>(
          "--seed", [&seed](const std::string& text) { seed = parse_seed("--seed", text); },
@@ -166,11 +178,11 @@ void add_mission_options(CLI::App& sub, liana::system::RunOptions& run) {
   sub.add_option("--gravity", run.gravity_share,
                  "to try it out: share of the simulated arm's weight that its counterweights leave; down is -z of the "
                  "base frame")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(within(0.0, 1.0));
   sub.add_option("--linkage-error", run.linkage_error,
                  "to try it out: share by which the simulated joints of a segment bend unevenly at most, 0.01 is 1 %, "
                  "drawn from the seed")
-      ->check(CLI::Range(0.0, 0.5));
+      ->check(within(0.0, 0.5));
   sub.add_option("--json", run.report_file, "write the report as JSON to this file (- = standard output)");
   add_seed(sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
 }

@@ -2,13 +2,12 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "firmware_like/math/trig.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
+#include "host/config/field.hpp"
 #include "host/config/theta_numbers.hpp"
 #include "host/json/json.hpp"
 #include "host/reach/path.hpp"
@@ -33,11 +32,10 @@ std::string number_list(const std::vector<double>& numbers) {
 // degrees).
 std::vector<cable::ThetaVector> read_waypoints(const std::string& path, const cable::RobotTable& robot) {
   std::error_code unreadable;
-  std::ifstream file;
-  if (std::filesystem::is_regular_file(path, unreadable)) file.open(path, std::ios::binary);
-  if (!file.is_open())
+  if (!std::filesystem::is_regular_file(path, unreadable))
     throw system::BadInput("--path: " + path + ": cannot be read; give an existing JSON file with waypoints_deg");
-  const Json document = Json::parse_or_null(std::string{std::istreambuf_iterator<char>(file), {}});
+  const std::string text = system::checked([&] { return config::read_text_file(path); });
+  const Json document = Json::parse_or_null(text);
   const Json rows = document.is_object() ? document.value("waypoints_deg", Json()) : Json();
   if (!rows.is_array() || rows.empty() || rows.size() > reach::kMaxWaypoints) {
     throw system::BadInput("--path: " + path + ": waypoints_deg: allowed: a JSON object with 1 to " +

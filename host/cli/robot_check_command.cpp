@@ -107,16 +107,6 @@ void look_at_fixtures(const config::RobotConfig& robot, Json& problems) {
   }
 }
 
-// What the bench takes (hil/config/robot_config.cpp), and no winch is smaller or larger.
-constexpr config::Range kDrum_m{0.001, 0.5};
-
-void look_at_drum(const Json& table, Json& problems) {
-  const double drum_m = table.at("drives").at("drum_radius_m").get<double>();
-  if (kDrum_m.contains(drum_m)) return;
-  problems.push_back(text("drives.drum_radius_m: %g: allowed %s m: give the radius of the drum that winds the cable",
-                          drum_m, kDrum_m.text().c_str()));
-}
-
 void look_at_zero(const config::RobotConfig& robot, Json& problems) {
   const std::vector<double>& zero_deg = robot.named_poses_deg.at("zero");
   for (std::size_t k = 0; k < zero_deg.size(); ++k) {
@@ -180,7 +170,6 @@ Json checked_cable_robot(const config::RobotConfig& robot) {
   look_at_holes(table, problems);
   look_at_fixtures(robot, problems);
   const Json written = Json::parse(robot.canonical_json);
-  look_at_drum(written, problems);
   look_at_zero(robot, problems);
   look_at_mass(robot, written, problems);
   checked["problems"] = problems;

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -54,11 +55,11 @@ Answers ask(const RobotNewOptions& options) {
   answers.modules =
       asking.whole("--modules", options.modules, "universal joints in each segment?", 6, 1, cable::kMaxModules);
   answers.length_m =
-      asking.number("--module-length", options.module_length_m, "from one joint to the next?", 0.08, 0.005, 1.0, "m");
-  answers.radius_m = asking.number("--radius", options.radius_m, "radius of the discs?", 0.025, 0.002, 0.5, "m");
+      asking.number("--module-length", options.module_length_m, "from one joint to the next?", 0.08, 0.01, 1.0, "m");
+  answers.radius_m = asking.number("--radius", options.radius_m, "radius of the discs?", 0.025, 0.002, 0.15, "m");
   answers.cables = asking.whole("--cables", options.cables, "cables that end in each segment?", 3, 3, 4);
   answers.theta_limit_deg = asking.number("--theta-limit", options.theta_limit_deg,
-                                          "most that a joint turns about each axis?", 15.0, 1.0, 60.0, "deg");
+                                          "most that a joint turns about each axis?", 15.0, 1.0, 45.0, "deg");
   const int cables = answers.segments * answers.cables;
   if (cables > cable::kMaxCables)
     throw system::BadInput("--cables: " + std::to_string(answers.cables) + " in each of " +
@@ -73,6 +74,17 @@ std::string filled(const char* format, auto... values) {
   return text;
 }
 
+// Where the cables of a segment end, and by how much each segment's set is turned.
+std::string holes(const Answers& a) {
+  const std::string apart = "-- Each segment's set is turned so that no two cables share a hole.\n";
+  if (a.cables == 4)
+    return "-- No two holes of a segment are opposite each other: `liana calibrate` could not tell their cables "
+           "apart.\n" +
+           apart + "local hole_deg, turn_deg = { 0, 75, 150, 270 }, 75 / kSegments\n";
+  return "-- The holes of a segment's cables are evenly spread.\n" + apart +
+         "local hole_deg, turn_deg = { 0, 120, 240 }, 120 / kSegments\n";
+}
+
 std::string head(const std::string& name, const Answers& a) {
   return "-- " + name +
          ": written by `liana robot new`. What it asked for is marked; everything else is assumed from it, and yours "
@@ -82,13 +94,12 @@ std::string head(const std::string& name, const Answers& a) {
                 a.cables) +
          filled("local segment = { modules = %d, module_length_m = %g, theta_limit_deg = %g } -- asked\n\n", a.modules,
                 a.length_m, a.theta_limit_deg) +
-         "-- The holes of a segment's cables are evenly spread; each segment's set is turned so that no two cables "
-         "share a hole.\n"
+         holes(a) +
          "local segments, phase_deg, direction, zero_counts = {}, {}, {}, {}\n"
          "for m = 1, kSegments do\n"
          "  segments[m], phase_deg[m] = segment, {}\n"
          "  for c = 1, kCables do\n"
-         "    phase_deg[m][c] = 360 / kCables * (c - 1) + 360 / (kCables * kSegments) * (m - 1)\n"
+         "    phase_deg[m][c] = hole_deg[c] + turn_deg * (m - 1)\n"
          "    direction[#direction + 1] = 1 -- counts grow while cable is paid out; -1 where a drum is mirrored\n"
          "    zero_counts[#zero_counts + 1] = 500000 -- what the drive reads with the arm straight; `liana calibrate` "
          "finds it\n"
@@ -105,7 +116,7 @@ std::string head(const std::string& name, const Answers& a) {
 std::string body(const std::string& name, const Answers& a) {
   const double arm_m = a.segments * a.modules * a.length_m, size = a.radius_m / 0.025;
   const double plan_N = 30.0 * size * size, drum_m = 0.012 * std::sqrt(size), hard_N = 15.0 * plan_N;
-  const double mass_kg = 0.2 * size * size * (a.length_m / 0.08), reach = std::min(1.0, arm_m / 1.44);
+  const double mass_kg = std::max(0.001, 0.2 * size * size * (a.length_m / 0.08)), reach = std::min(1.0, arm_m / 1.44);
   return filled("return {\n  format = 1, kind = \"robot\", name = \"%s\",\n  segments = segments,\n", name.c_str()) +
          filled("  module = { mass_kg = %.4g, radius_m = %g }, -- radius asked; weigh one\n", mass_kg, a.radius_m) +
          filled("  joint = { viscous_Nms_per_rad = %.3g },\n", 0.3 * size * size) + "  cables = {\n" +
@@ -113,7 +124,7 @@ std::string body(const std::string& name, const Answers& a) {
                 0.8 * a.radius_m, 0.1 * a.length_m) +
          filled("    phase_deg = phase_deg,\n    EA_N = %.4g, -- stiffness of the rope: modulus times area\n",
                 std::max(1500.0, 150000.0 * size * size)) +
-         filled("    lead_m = %.3g, -- free cable between drum and first disc\n", 0.2 * arm_m) +
+         filled("    lead_m = %.3g, -- free cable between drum and first disc\n", std::clamp(0.2 * arm_m, 0.01, 10.0)) +
          "    friction_mu = { nominal = 0.05, ideal = 0, worn = 0.10 }, -- of a cable in its holes; `liana calibrate "
          "--friction`\n"
          "  },\n" +

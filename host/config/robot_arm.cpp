@@ -10,8 +10,8 @@ namespace {
 void read_segment(const Field& field, double mass_kg, cable::SegmentTable& segment) {
   field.only({"modules", "module_length_m", "theta_limit_deg"});
   segment.modules = static_cast<std::int32_t>(field.at("modules").integer(1, cable::kMaxModules));
-  segment.module_length_m = field.at("module_length_m").number({0, 2, true});
-  segment.theta_limit_rad = field.at("theta_limit_deg").number({0, 60, true}) * kRadPerDeg;
+  segment.module_length_m = field.at("module_length_m").number({0.01, 1});
+  segment.theta_limit_rad = field.at("theta_limit_deg").number({0.1, 45}) * kRadPerDeg;
   segment.module_mass_kg = mass_kg;
 }
 
@@ -28,7 +28,7 @@ void read_phases(const Field& field, cable::SegmentTable& segment) {
   const std::size_t count = field.size(3, cable::kMaxSegmentCables, "a segment needs 3 or 4 cables");
   std::vector<double> phases_deg;
   for (std::size_t c = 0; c < count; ++c) {
-    phases_deg.push_back(field.element(c).number({-360, 720}));
+    phases_deg.push_back(field.element(c).number({-360, 360}));
     segment.cable_phase_rad[c] = phases_deg.back() * kRadPerDeg;
   }
   if (!surround(phases_deg))
@@ -43,17 +43,17 @@ void read_arm(const Field& table, RobotConfig& out) {
   cable::RobotTable& robot = out.table;
   const Field module = table.at("module");
   module.only({"mass_kg", "radius_m"});
-  const double mass_kg = module.at("mass_kg").number({0, 100, true});
-  out.module_radius_m = module.at("radius_m").number({0, 1, true});
+  const double mass_kg = module.at("mass_kg").number({0.001, 100});
+  out.module_radius_m = module.at("radius_m").number({0.001, 0.5});
   table.at("joint").only({"viscous_Nms_per_rad"});
-  out.joint_viscous_Nms_per_rad = table.at("joint").at("viscous_Nms_per_rad").number({0, 1000});
+  out.joint_viscous_Nms_per_rad = table.at("joint").at("viscous_Nms_per_rad").number({0, 100});
 
   const Field segments = table.at("segments");
   const std::size_t count = segments.size(1, cable::kMaxSegments, "this build holds at most 8 segments (kMaxSegments)");
   robot.segment_count = static_cast<std::int32_t>(count);
   const Field phases = table.at("cables").at("phase_deg");
   phases.size(count, count, "give one list of phases per segment");
-  double shortest_m = 2.0;
+  double shortest_m = 1.0;
   for (std::size_t m = 0; m < count; ++m) {
     read_segment(segments.element(m), mass_kg, robot.segment[m]);
     read_phases(phases.element(m), robot.segment[m]);
@@ -61,24 +61,24 @@ void read_arm(const Field& table, RobotConfig& out) {
   }
   if (robot.cable_count() > cable::kMaxCables)
     phases.refuse("at most 32 cables", "this build holds at most 32 drives (kMaxCables)");
-  robot.hole_radius_m = table.at("cables").at("hole_radius_m").number({0, out.module_radius_m, true});
-  robot.face_offset_m = table.at("cables").at("face_offset_m").number({0, 0.49 * shortest_m, true});
+  robot.hole_radius_m = table.at("cables").at("hole_radius_m").number({0.001, out.module_radius_m});
+  robot.face_offset_m = table.at("cables").at("face_offset_m").number({0.0001, 0.49 * shortest_m});
 }
 
 void read_limits(const Field& field, cable::MotionLimits& limits) {
   field.only({"theta_rate_deg_s", "theta_accel_deg_s2", "tip_speed_m_s", "tip_speed_slit_m_s", "tip_accel_m_s2",
               "tip_jerk_m_s3", "tip_rate_deg_s", "tip_angular_accel_deg_s2", "tip_angular_jerk_deg_s3",
               "cable_speed_m_s"});
-  limits.theta_rate_rad_s = field.at("theta_rate_deg_s").number({0, 90, true}) * kRadPerDeg;
-  limits.theta_accel_rad_s2 = field.at("theta_accel_deg_s2").number({0, 1000, true}) * kRadPerDeg;
-  limits.tip_speed_m_s = field.at("tip_speed_m_s").number({0, 2, true});
-  limits.tip_speed_slit_m_s = field.at("tip_speed_slit_m_s").number({0, limits.tip_speed_m_s, true});
-  limits.tip_accel_m_s2 = field.at("tip_accel_m_s2").number({0, 50, true});
-  limits.tip_jerk_m_s3 = field.at("tip_jerk_m_s3").number({0, 1000, true});
-  limits.tip_rate_rad_s = field.at("tip_rate_deg_s").number({0, 360, true}) * kRadPerDeg;
-  limits.tip_angular_accel_rad_s2 = field.at("tip_angular_accel_deg_s2").number({0, 10000, true}) * kRadPerDeg;
-  limits.tip_angular_jerk_rad_s3 = field.at("tip_angular_jerk_deg_s3").number({0, 100000, true}) * kRadPerDeg;
-  limits.cable_speed_m_s = field.at("cable_speed_m_s").number({0, 1, true});
+  limits.theta_rate_rad_s = field.at("theta_rate_deg_s").number({0.001, 90}) * kRadPerDeg;
+  limits.theta_accel_rad_s2 = field.at("theta_accel_deg_s2").number({0.001, 1000}) * kRadPerDeg;
+  limits.tip_speed_m_s = field.at("tip_speed_m_s").number({0.0001, 2});
+  limits.tip_speed_slit_m_s = field.at("tip_speed_slit_m_s").number({0.0001, limits.tip_speed_m_s});
+  limits.tip_accel_m_s2 = field.at("tip_accel_m_s2").number({0.0001, 50});
+  limits.tip_jerk_m_s3 = field.at("tip_jerk_m_s3").number({0.001, 1000});
+  limits.tip_rate_rad_s = field.at("tip_rate_deg_s").number({0.001, 360}) * kRadPerDeg;
+  limits.tip_angular_accel_rad_s2 = field.at("tip_angular_accel_deg_s2").number({0.001, 10000}) * kRadPerDeg;
+  limits.tip_angular_jerk_rad_s3 = field.at("tip_angular_jerk_deg_s3").number({0.001, 100000}) * kRadPerDeg;
+  limits.cable_speed_m_s = field.at("cable_speed_m_s").number({0.0001, 1});
 }
 
 void read_named_poses(const Field& field, RobotConfig& out) {

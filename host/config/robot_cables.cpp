@@ -23,7 +23,7 @@ double read_friction(const Field& field, const std::string& physics) {
 
 void read_tension(const Field& field, cable::TensionLimits& tension) {
   field.only({"plan_N", "floor_motor_N", "floor_anywhere_N", "ceiling_free_N", "alarm_N", "hard_limit_N"});
-  tension.floor_anywhere_N = field.at("floor_anywhere_N").number({0, kMaxTension_N, true});
+  tension.floor_anywhere_N = field.at("floor_anywhere_N").number({0.001, kMaxTension_N});
   tension.floor_motor_N = field.at("floor_motor_N").number({tension.floor_anywhere_N, kMaxTension_N});
   tension.plan_N = field.at("plan_N").number({tension.floor_motor_N, kMaxTension_N, true});
   tension.ceiling_free_N = field.at("ceiling_free_N").number({tension.plan_N, kMaxTension_N, true});
@@ -36,9 +36,8 @@ void read_watch(const Field& cables, cable::CableWatchTable& watch) {
   if (!cables.json().contains("watch")) return;
   const Field field = cables.at("watch");
   field.only({"jump_N", "contradiction_m"});
-  if (field.json().contains("jump_N")) watch.jump_N = field.at("jump_N").number({0, 1000, true});
-  if (field.json().contains("contradiction_m"))
-    watch.contradiction_m = field.at("contradiction_m").number({0, 0.1, true});
+  if (field.json().contains("jump_N")) watch.jump_N = field.at("jump_N").number({0.001, 1000});
+  if (field.json().contains("contradiction_m")) watch.contradiction_m = field.at("contradiction_m").number({1e-6, 0.1});
 }
 
 void read_drive_lists(const Field& drives, RobotConfig& out) {
@@ -64,7 +63,7 @@ void read_cables(const Field& table, const std::string& physics, RobotConfig& ou
   cables.only(
       {"hole_radius_m", "face_offset_m", "phase_deg", "EA_N", "lead_m", "friction_mu", "friction_band", "watch"});
   out.table.cable_EA_N = cables.at("EA_N").number({1000, 1e8});
-  out.table.lead_m = cables.at("lead_m").number({0, 20});
+  out.table.lead_m = cables.at("lead_m").number({0.01, 10});
   out.table.friction_mu = read_friction(cables.at("friction_mu"), physics);
   if (cables.json().contains("friction_band")) out.friction_band = cables.at("friction_band").number({0, 1});
   read_tension(table.at("tension"), out.table.tension);
@@ -75,11 +74,11 @@ void read_drives(const Field& table, RobotConfig& out) {
   const Field drives = table.at("drives");
   drives.only({"drum_radius_m", "counts_per_turn", "gear", "servo_time_constant_s", "rated_torque_Nm", "identity",
                "direction", "zero_counts", "serials", "calibration_days"});
-  out.drum_radius_m = drives.at("drum_radius_m").number({0, 1, true});
-  out.counts_per_turn = static_cast<std::uint32_t>(drives.at("counts_per_turn").integer(16, 16777216));
-  out.gear = drives.at("gear").number({0, 10000, true});
-  out.table.servo_time_constant_s = drives.at("servo_time_constant_s").number({0, 1});
-  out.rated_torque_Nm = drives.at("rated_torque_Nm").number({0, 4000, true});
+  out.drum_radius_m = drives.at("drum_radius_m").number({0.001, 0.5});
+  out.counts_per_turn = static_cast<std::uint32_t>(drives.at("counts_per_turn").integer(256, 16777216));
+  out.gear = drives.at("gear").number({0.01, 1000});
+  out.table.servo_time_constant_s = drives.at("servo_time_constant_s").number({0.001, 1});
+  out.rated_torque_Nm = drives.at("rated_torque_Nm").number({0.01, 4000});
   const double needed_Nm = out.table.tension.hard_limit_N * out.drum_radius_m;
   if (out.rated_torque_Nm < needed_Nm * (1 - 1e-9)) {
     drives.at("rated_torque_Nm")

@@ -26,8 +26,8 @@ JointTable read_joint(const Field& field) {
   const double low_deg = field.at("low_deg").number({-kMostAngle_deg, kMostAngle_deg - 1});
   joint.low_rad = low_deg * kRadPerDeg;
   joint.high_rad = field.at("high_deg").number({low_deg + 1, kMostAngle_deg}) * kRadPerDeg;
-  joint.rate_rad_s = field.at("rate_deg_s").number({0, 360, true}) * kRadPerDeg;
-  joint.accel_rad_s2 = field.at("accel_deg_s2").number({0, 10000, true}) * kRadPerDeg;
+  joint.rate_rad_s = field.at("rate_deg_s").number({0.001, 360}) * kRadPerDeg;
+  joint.accel_rad_s2 = field.at("accel_deg_s2").number({0.001, 10000}) * kRadPerDeg;
   return joint;
 }
 
@@ -43,8 +43,8 @@ void read_joints(const Field& joints, SerialRobotConfig& out) {
 void check_physics(const Field& table) {
   const Field mass = table.at("mass");
   mass.only({"module_kg", "module_radius_m", "boom_kg", "end_effector_kg"});
-  for (const char* name : {"module_kg", "boom_kg", "end_effector_kg"}) mass.at(name).number({0, 1e5, true});
-  mass.at("module_radius_m").number({0, 5, true});
+  for (const char* name : {"module_kg", "boom_kg", "end_effector_kg"}) mass.at(name).number({0.01, 1e5});
+  mass.at("module_radius_m").number({0.01, 5});
   const Field friction = table.at("friction");
   friction.only({"coulomb_Nm", "viscous_Nms_per_rad", "rotor_inertia_kgm2"});
   for (const char* name : {"coulomb_Nm", "viscous_Nms_per_rad", "rotor_inertia_kgm2"})
@@ -81,10 +81,10 @@ void read_drive_lists(const Field& drives, SerialRobotConfig& out) {
 void read_joint_drives(const Field& drives, SerialRobotConfig& out) {
   drives.only({"counts_per_turn", "gear", "servo_time_constant_s", "rated_torque_Nm", "identity", "direction",
                "zero_counts", "serials", "calibration_days"});
-  out.counts_per_turn = static_cast<std::uint32_t>(drives.at("counts_per_turn").integer(16, 16777216));
-  out.gear = drives.at("gear").number({0, 10000, true});
-  out.table.servo_time_constant_s = drives.at("servo_time_constant_s").number({0, 1});
-  out.rated_torque_Nm = drives.at("rated_torque_Nm").number({0, 4000, true});
+  out.counts_per_turn = static_cast<std::uint32_t>(drives.at("counts_per_turn").integer(256, 16777216));
+  out.gear = drives.at("gear").number({0.01, 1000});
+  out.table.servo_time_constant_s = drives.at("servo_time_constant_s").number({0.001, 1});
+  out.rated_torque_Nm = drives.at("rated_torque_Nm").number({0.01, 4000});
   out.identity = read_identity(drives.at("identity"));
   out.calibration_days = read_calibration_days(drives);
   read_drive_lists(drives, out);
@@ -94,12 +94,12 @@ void read_joint_drives(const Field& drives, SerialRobotConfig& out) {
 void read_tip_limits(const Field& field, serial::TipLimits& tip) {
   field.only({"tip_speed_m_s", "tip_accel_m_s2", "tip_jerk_m_s3", "tip_rate_deg_s", "tip_angular_accel_deg_s2",
               "tip_angular_jerk_deg_s3"});
-  tip.speed_m_s = field.at("tip_speed_m_s").number({0, 2, true});
-  tip.accel_m_s2 = field.at("tip_accel_m_s2").number({0, 50, true});
-  tip.jerk_m_s3 = field.at("tip_jerk_m_s3").number({0, 1000, true});
-  tip.rate_rad_s = field.at("tip_rate_deg_s").number({0, 360, true}) * kRadPerDeg;
-  tip.angular_accel_rad_s2 = field.at("tip_angular_accel_deg_s2").number({0, 10000, true}) * kRadPerDeg;
-  tip.angular_jerk_rad_s3 = field.at("tip_angular_jerk_deg_s3").number({0, 100000, true}) * kRadPerDeg;
+  tip.speed_m_s = field.at("tip_speed_m_s").number({0.0001, 2});
+  tip.accel_m_s2 = field.at("tip_accel_m_s2").number({0.0001, 50});
+  tip.jerk_m_s3 = field.at("tip_jerk_m_s3").number({0.001, 1000});
+  tip.rate_rad_s = field.at("tip_rate_deg_s").number({0.001, 360}) * kRadPerDeg;
+  tip.angular_accel_rad_s2 = field.at("tip_angular_accel_deg_s2").number({0.001, 10000}) * kRadPerDeg;
+  tip.angular_jerk_rad_s3 = field.at("tip_angular_jerk_deg_s3").number({0.001, 100000}) * kRadPerDeg;
 }
 
 void read_poses(const Field& field, SerialRobotConfig& out) {

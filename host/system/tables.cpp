@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "host/config/bench_buses.hpp"
+#include "host/config/field.hpp"
 #include "host/places/places.hpp"
 #include "host/system/process.hpp"
 
@@ -33,9 +32,7 @@ std::string evaluate(std::vector<std::string> words) {
 }
 
 std::string read_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw BadInput(path + ": cannot be read; give a table's name or an existing file");
-  return {std::istreambuf_iterator<char>(file), {}};
+  return checked([&] { return config::read_text_file(path); });
 }
 
 // Whether a Lua folder has a table of this name.

@@ -1,4 +1,6 @@
 -- Refuses a mission: where, field, value, what is allowed, what to do.
+local shown = require "liana.shown"
+
 return function(where, field, value, allowed, advice)
-  error(where .. ": " .. field .. ": " .. tostring(value) .. ": allowed " .. allowed .. ": " .. advice, 0)
+  error(where .. ": " .. field .. ": " .. shown(value) .. ": allowed " .. allowed .. ": " .. advice, 0)
 end

@@ -47,10 +47,22 @@ local function index_by_name(steps)
   return index
 end
 
-local function names(steps)
+-- What a way can lead to: a name that two steps have leads nowhere.
+local function names(steps, index)
   local out = {}
-  for i, step in ipairs(steps) do out[i] = "\"" .. step.name .. "\"" end
-  return table.concat(out, ", ") .. ", \"finish\""
+  for _, step in ipairs(steps) do
+    if index[step.name] then out[#out + 1] = "\"" .. step.name .. "\"" end
+  end
+  out[#out + 1] = "\"finish\""
+  return table.concat(out, ", ")
+end
+
+local function numbers_of(name, steps)
+  local out = {}
+  for i, step in ipairs(steps) do
+    if step.name == name then out[#out + 1] = tostring(i) end
+  end
+  return table.concat(out, " and ")
 end
 
 -- The number of the step that a way leads to, one more than there are for the end.
@@ -61,8 +73,8 @@ local function target_of(where, way, steps, index)
     return #steps + 1
   end
   if target then return target end
-  local problem = target == false and " (several steps have this name)" or ""
-  refuse(where, "step", way.step .. problem, names(steps), "name one step of this mission")
+  if target == nil then refuse(where, "step", way.step, names(steps, index), "name one step of this mission") end
+  refuse(where, "step", way.step, "a name that one step has; steps " .. numbers_of(way.step, steps) .. " have it", "rename all but one of them")
 end
 
 -- A way that is always taken: what is written behind it never is.

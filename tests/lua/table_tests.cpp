@@ -45,7 +45,7 @@ TEST(Eval, RefusesMalformedLuaTablesByField) {
       {"robot", "robots.zhu2022", "t.segments[2].modules = 99",
        "given.lua: segments[1].modules: 99: allowed 1 to 16: choose a value"},
       {"robot", "robots.zhu2022", "t.module.mass_kg = 'heavy'",
-       "given.lua: module.mass_kg: \"heavy\": allowed a number over 0"},
+       "given.lua: module.mass_kg: \"heavy\": allowed a number 0.001 to 100"},
       {"robot", "robots.zhu2022", "t.format = 3", "given.lua: format: 3: allowed 1 to 1"},
       {"robot", "robots.zhu2022", "t.limits.tip_speed = 1", "given.lua: limits.tip_speed: 1: allowed no such field"},
       {"robot", "robots.zhu2022", "t.limits.tip_sped_m_s, t.limits.tip_speed_m_s = t.limits.tip_speed_m_s, nil",
@@ -176,6 +176,8 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "step 1 \"a\": exit: function: allowed a condition"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 0, on_fail = 'hold' }",
        "time_limit_s: 0: allowed seconds over 0"},
+      {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 0/0, on_fail = 'hold' }",
+       "time_limit_s: nan: allowed seconds over 0"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'pray' }",
        "on_fail: pray: allowed \"retract\", \"hold\", \"stop\" or \"pause\""},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1 }", "on_fail: missing"},
@@ -298,6 +300,9 @@ TEST(Eval, RefusesWaysThatLeadNowhereOrForEverByStepAndLine) {
   };
   for (const Bad& bad : std::vector<Bad>{
            {"", "next = 'd'", "", "4: mission m: step 2 \"b\": next: step: d: allowed \"a\", \"b\", \"c\", \"finish\""},
+           {"", "next = 'a'",
+            "}, liana.step 'a' { device = 'none', exit = liana.at_rest(), time_limit_s = 1, on_fail = 'hold'",
+            "step: a: allowed a name that one step has; steps 1 and 4 have it: rename all but one of them"},
            {"", "next = 'a'", "",
             "4: mission m: step 2 \"b\": next: at_most: missing: allowed a whole number from 1 to 1000"},
            {"", "next = { { step = 'b' } }", "", "4: mission m: step 2 \"b\": next[1]: at_most: missing"},

@@ -285,6 +285,9 @@ class Tables(unittest.TestCase):
                 code, out, error = liana("pose", f"--theta-deg={ZERO}", *options)
                 self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
                 self.assertIn(named, error)
+            code, out, error = liana("robot", "export", empty)
+            self.assertEqual((code, out), (2, ""), error)
+            self.assertIn("kind: missing", error)
 
 
 class Output(unittest.TestCase):
@@ -439,6 +442,8 @@ class Help(unittest.TestCase):
             (["console", "--listen"], "--listen: no value given; allowed: "),
             (["log", "verify", "nosuch"], "log: 'nosuch': no such folder, and no run in"),
             (["log", "verify", "/tmp"], "log: '/tmp': holds no archive.db"),
+            (["commands", __file__], "lines is a stage of a command; give a run"),
+            (["reach", "--path", "/proc/self/mem"], "/proc/self/mem: cannot be read: allowed a readable file"),
         ]:
             code, out, error = liana(*words)
             self.assertEqual((code, out, error.count("\n")), (2, "", 1), error)
@@ -484,6 +489,8 @@ class Help(unittest.TestCase):
             ("liana-bench", ["--eds", "/no/such/folder/drive.eds"], "/no/such/folder/drive.eds: cannot be written"),
             ("liana-bench", [*tables, "--bus-socket", "s", "--seed", "-1"], "--seed: '-1': allowed: a whole"),
             ("liana-bench", [*tables, "--bus-socket", "s", "--free-step", "5"], "--free-step"),
+            ("liana-bench", [*tables, "--bus-socket", "s", "--gravity=nan"], "--gravity: 'nan': allowed: 0 to 1"),
+            ("liana-bench", [*tables, "--bus-socket", "s", "--linkage-error=nan"], "'nan': allowed: 0 to 0.5"),
             ("liana-bench", [*tables, "--bus-socket", "s"], "/no/such/robot: cannot be opened"),
             ("liana-mission", ["--nosuch"], "--nosuch: no such option"),
             ("liana-mission", ["eval", "robot", "nosuch"], "nosuch: allowed"),
@@ -506,6 +513,9 @@ class Help(unittest.TestCase):
             (["slit_crossing", "--scene", "nosuch"], "nosuch"),
             (["slit_crossing", "--faults", "/no/such/file"], "--faults"),
             (["slit_crossing", "--physics", "magic"], "--physics"),
+            (["slit_crossing", "--gravity=nan"], "--gravity: 'nan': allowed: 0 to 1"),
+            (["slit_crossing", "--gravity=1.1"], "--gravity: '1.1': allowed: 0 to 1"),
+            (["slit_crossing", "--linkage-error=nan"], "--linkage-error: 'nan': allowed: 0 to 0.5"),
             (["slit_crossing", "--json", "/no/such/folder/file"], "--json: '/no/such/folder/file'"),
             (["slit_crossing", "--record", "/tmp/x"], "--record: liana check has no such option"),
             (["slit_crossing", "--time", "real"], "--time: liana check has no such option"),

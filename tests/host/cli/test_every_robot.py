@@ -113,6 +113,20 @@ class EveryRobot(unittest.TestCase):
                 checked = liana_json("robot", "check", file)
                 self.assertEqual((checked["problems"], checked["cables"]), ([], segments * cables))
 
+    def test_a_new_arm_of_four_cables_a_segment_can_be_calibrated(self):
+        for segments in (1, 2, 5, 8):
+            file = self.new(f"four_{segments}", "--segments", segments, "--cables", 4)
+            with self.subTest(segments=segments):
+                code, out, error = liana("calibrate", "--robot", file, "--poses", "zero,bent,back", "--json")
+                self.assertEqual(code, 0, out + error)
+
+    def test_four_cables_in_opposite_pairs_are_named_as_what_no_pose_tells_apart(self):
+        file = self.new("pairs", "--segments", 2, "--cables", 4)
+        file.write_text(file.read_text().replace("{ 0, 75, 150, 270 }", "{ 0, 90, 180, 270 }"))
+        code, out, error = liana("calibrate", "--robot", file, "--poses", "zero,bent,back")
+        self.assertEqual((code, out), (2, ""), error)
+        self.assertIn("cables 0 and 2 (cables are counted from 0) sit opposite each other", error)
+
     def test_a_new_arm_moves_at_once(self):
         mission = self.folder / "tour.lua"
         mission.write_text(TOUR.replace('"first"', '"bent"').replace('"second"', '"back"'))

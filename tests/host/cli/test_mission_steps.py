@@ -103,7 +103,6 @@ class MissionSteps(unittest.TestCase):
     def test_robot_check_names_what_no_winch_and_no_rope_can_do(self):
         table = (LUA / "robots" / "three_segment_lab.lua").read_text()
         for old, new, problem in (
-            ("drum_radius_m = 0.012", "drum_radius_m = 1e-9", "drives.drum_radius_m: 1e-09: allowed 0.001 to 0.5 m"),
             ("mass_kg = 0.2", "mass_kg = 60", "module.mass_kg: 60: a cable would pull"),
             ("zero = { 0, 0, 0,", "zero = { 0, 2, 0,", "named_poses_deg.zero: angle 2 is 2 deg: allowed 0"),
         ):
@@ -112,6 +111,24 @@ class MissionSteps(unittest.TestCase):
             code, out, error = liana("robot", "check", robot)
             self.assertEqual(code, 1, out + error)
             self.assertIn(problem, out + error)
+
+    def test_what_the_bench_would_refuse_is_refused_by_check_too(self):
+        table = (LUA / "robots" / "three_segment_lab.lua").read_text()
+        for old, new, problem in (
+            ("drum_radius_m = 0.012", "drum_radius_m = 1e-9", "drives.drum_radius_m: 1e-09: allowed 0.001 to 0.5"),
+            ("gear = 1", "gear = 1e-9", "drives.gear: 1e-09: allowed 0.01 to 1000"),
+            ("mass_kg = 0.2", "mass_kg = 1e-300", "module.mass_kg: 1e-300: allowed 0.001 to 100"),
+            (
+                "theta_accel_deg_s2 = 6",
+                "theta_accel_deg_s2 = 1e-12",
+                "theta_accel_deg_s2: 1e-12: allowed 0.001 to 1000",
+            ),
+        ):
+            robot = self.folder / "robot.lua"
+            robot.write_text(table.replace(old, new))
+            code, out, error = liana("robot", "check", robot)
+            self.assertEqual((code, out), (2, ""), error)
+            self.assertIn(problem, error)
 
     def test_verification_says_that_the_arm_is_inside_a_body(self):
         tip = liana_json("pose", "--robot", "three_segment_lab", "--theta-deg=-6,3,5,-5,8,4")["tip_pose"]

@@ -52,16 +52,16 @@ TEST(SerialRobot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/joints/2/a_m", "long", "joints[3].a_m", "a number"},
       {"/joints/2/d_m", nullptr, "joints[3].d_m", "add the field"},
       {"/joints/2/high_deg", -270, "joints[3].high_deg", "-269 to 720"},
-      {"/joints/6/rate_deg_s", 0, "joints[7].rate_deg_s", "over 0"},
+      {"/joints/6/rate_deg_s", 0, "joints[7].rate_deg_s", "0.001 to 360"},
       {"/joints/6/wobble", 1, "joints[7].wobble", "no such field"},
-      {"/mass/boom_kg", -1, "mass.boom_kg", "over 0"},
+      {"/mass/boom_kg", -1, "mass.boom_kg", "0.01 to 100000"},
       {"/friction/coulomb_Nm", -1, "friction.coulomb_Nm", "0 to"},
       {"/drives/direction/3", 0, "drives.direction[4]", "1 or -1"},
       {"/drives/zero_counts", {1, 2, 3}, "drives.zero_counts", "one entry per joint"},
-      {"/drives/gear", 3000, "drives.zero_counts[1]", "fewer counts per turn"},
+      {"/drives/gear", 1e-9, "drives.gear", "0.01 to 1000"},
       {"/drives/serials", {1, 2, 3, 4, 5, 6, 2}, "drives.serials[7]", "no other drive"},
       {"/drives/identity/vendor", -1, "drives.identity.vendor", "0 to 4294967295"},
-      {"/limits/tip_speed_m_s", 3, "limits.tip_speed_m_s", "up to 2"},
+      {"/limits/tip_speed_m_s", 3, "limits.tip_speed_m_s", "1e-04 to 2"},
       {"/limits/cable_speed_m_s", 3, "limits.cable_speed_m_s", "no such field"},
       {"/named_poses_deg/prepare/3", 270.5, "named_poses_deg.prepare[4]", "-270 to 270"},
       {"/named_poses_deg/prepare", {0, 0}, "named_poses_deg.prepare", "7 entries"}};
@@ -69,6 +69,13 @@ TEST(SerialRobot, IsRefusedWithFileFieldValueRangeAndAdvice) {
     expect_refused(good, spoiled,
                    [](const std::string& text) { parse_serial_robot(text, "given.json", micro_buses()); });
   }
+}
+
+TEST(SerialRobot, CountsThatNoDriveCanHoldAreRefused) {
+  Json table = good_table("robot", "micro");
+  table["drives"]["counts_per_turn"] = 16777216;
+  expect_refused(table, {"/drives/gear", 1000, "drives.zero_counts[1]", "fewer counts per turn"},
+                 [](const std::string& text) { parse_serial_robot(text, "given.json", micro_buses()); });
 }
 
 TEST(SerialRobot, NeedsEveryDriveOnABusAndNoOther) {
