@@ -39,7 +39,7 @@ std::string list_of(const std::vector<std::string>& names) {
 // What runs in any case.
 system::RunOptions run_options(const CalibrateOptions& options, bool simulated) {
   system::RunOptions run;
-  run.scene = "none";  // fixtures stand where nothing else does
+  if (options.robot != CalibrateOptions{}.robot) run.scene = "none";  // the slit's scene is that of its own arm
   run.robot = options.robot;
   run.bus = options.bus;
   run.physics = options.physics;
