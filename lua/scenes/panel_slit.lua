@@ -38,7 +38,7 @@ return {
   boxes = {
     plate("panel", 1), plate("wall", -1),
     { -- source: motors and drums; as far behind the root as cables run free to their drums (cables.lead_m)
-      name = "drive_box", center_m = { -0.7, 0, 0 }, half_extent_m = { 0.2, 0.2, 0.2 },
+      name = "drive_box", center_m = { -0.7, 0, 0 }, half_extent_m = { 0.2, 0.08, 0.08 },
       rotation = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } },
     },
   },
