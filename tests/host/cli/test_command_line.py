@@ -211,7 +211,8 @@ class Verify(unittest.TestCase):
         self.assertIn("left: clearance", liana("verify", *motion)[1])
 
     def test_angles_beyond_their_limits_are_a_refusal_and_no_bad_input(self):
-        verdict = self.refused(201, "joint_angle", changed(PREPARE, 1, -11.4), changed(PREPARE, 1, -11.6), 10)
+        ends = (changed(PREPARE, 1, -11.4), changed(PREPARE, 1, -11.6))
+        verdict = self.refused(201, "joint_angle", *ends, 10, "--scene", "none")
         self.assertEqual(verdict["first"]["body"], "theta 1")
         self.assertLess(verdict["margins"]["joint_deg"], 0)
 

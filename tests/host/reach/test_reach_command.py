@@ -181,7 +181,7 @@ class BadInput(unittest.TestCase):
         with tempfile.TemporaryDirectory() as directory:
             file = pathlib.Path(directory) / "path.json"
             for content, named in [
-                ("", "waypoints_deg"),
+                ("", "cannot be read: allowed a readable file that is not empty"),
                 ("[]", "waypoints_deg"),
                 ("{}", "waypoints_deg"),
                 ('{"waypoints_deg": []}', "1 to 2000"),
