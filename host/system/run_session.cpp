@@ -60,7 +60,8 @@ RunEnd RunSession::run() {
   } else {
     end = watch();
   }
-  system_.end(interrupts_.count() < 2 ? kEndGrace_s : 0.0, [this](const Json& message) { take(message); });
+  const bool is_over = end.bad_input || interrupts_.count() >= 2;  // nothing has moved yet, or nobody wants to wait
+  system_.end(is_over ? 0.0 : kEndGrace_s, [this](const Json& message) { take(message); });
   say_how_the_recorder_ended();
   return end;
 }

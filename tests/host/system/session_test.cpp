@@ -154,6 +154,18 @@ TEST_F(Session, AProgramThatRefusesItsInputAtTheStartIsBadInput) {
   EXPECT_NE(end.message.find("rate_hz"), std::string::npos) << end.message;
 }
 
+TEST_F(Session, ABenchThatRefusesItsInputEndsTheRunAtOnce) {
+  const api::UniqueFd mute = api::listen_at("--api", plan_.api_socket());
+  add_living("lianad");
+  add("liana-bench", "echo faults.json: drive: 99 >&2; exit 2");
+  add_living("liana-mission");
+  const auto begin = std::chrono::steady_clock::now();
+  const RunEnd end = RunSession(plan_).run();
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_TRUE(end.bad_input) << end.message;
+  EXPECT_LT(took.count(), 10.0) << "of which it waited 14 before";
+}
+
 TEST_F(Session, AnInterruptedRunSaysOnlyWhatIsKnownOfTheArm) {
   const FakeDaemon daemon(plan_.api_socket(), true);
   add("lianad", "exec sleep 0.5");
