@@ -1,7 +1,7 @@
 """Arms that nobody has looked at, made up by seed (tests/host/cli/made_up_arms.py): kinematics against one written once
 more, goals that are surely reachable, a mission on the bench with its replay, and the bits of its ticks elsewhere.
 
-Alone: arms.py [--bin DIR] [--count ARMS] [--first SEED] [--json].
+Alone: made_up.py [--bin DIR] [--count ARMS] [--first SEED] [--json].
 """
 import argparse
 import concurrent.futures
