@@ -4,6 +4,7 @@
 -- the step again; a failure that `next` has a way for leads through recover to that step. People may pause it.
 local people = require "liana.people"
 local view = require "liana.view"
+local ways = require "liana.ways"
 
 local engine = {}
 
@@ -140,14 +141,8 @@ function Runner:after()
   return printable(self.ended_by, kLongestText)
 end
 
-local function same_hold(a, b)
-  for theta, target_deg in pairs(a) do if b[theta] ~= target_deg then return false end end
-  for theta in pairs(b) do if a[theta] == nil then return false end end
-  return true
-end
-
 function Runner:send_hold(hold)
-  if same_hold(hold, self.current_hold) then return end
+  if ways.same_hold(hold, self.current_hold) then return end
   local held = {}
   for theta, target_deg in pairs(hold) do held[#held + 1] = { theta = theta, target_deg = target_deg } end
   self:request("hold_theta", { held = held })

@@ -128,7 +128,8 @@ function ways.followers(steps, i)
   return out
 end
 
-local function same_hold(a, b)
+-- Whether two holds are of the same angles at the same targets.
+function ways.same_hold(a, b)
   for theta, target_deg in pairs(a) do if b[theta] ~= target_deg then return false end end
   for theta in pairs(b) do if a[theta] == nil then return false end end
   return true
@@ -153,7 +154,7 @@ function ways.settle_holds(steps, where_of)
       if step and from[target] == nil then
         from[target], open[#open + 1] = "\"" .. steps[i].name .. "\"", target
         step.hold = step.hold or steps[i].hold
-      elseif step and not given[target] and not same_hold(step.hold, steps[i].hold) then
+      elseif step and not given[target] and not ways.same_hold(step.hold, steps[i].hold) then
         refuse(where_of(target), "hold", "missing",
           ("after %s the arm holds %s, after \"%s\" %s"):format(from[target], hold_text(step.hold), steps[i].name, hold_text(steps[i].hold)),
           "say what this step holds")

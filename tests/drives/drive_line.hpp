@@ -36,6 +36,20 @@ class FrameQueue final : public bus::DriveBus {
   bus::DriveBusStats stats_;
 };
 
+// What a master at 250 Hz expects of a drive of the bench, whatever its type and serial number.
+inline canopen::DriveExpectation expectation() {
+  canopen::DriveExpectation drive;
+  drive.vendor = 0x4C49;
+  drive.product = drive.revision = 1;
+  drive.counts_per_turn = 65536;
+  drive.rated_torque_mNm = 9000;
+  drive.demand = {-100000, 100000, 7000};
+  drive.period = {4, -3};
+  drive.rpdo_deadline_ms = 12;
+  drive.following_window_counts = 3476;
+  return drive;
+}
+
 // One drive, booted as `expected` says, at 250 Hz.
 class BootedDrive {
  public:

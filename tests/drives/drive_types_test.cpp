@@ -54,16 +54,8 @@ bench::DriveSettings settings_of(const std::string& buses_json) {
 }
 
 canopen::DriveExpectation expectation_of(const std::string& buses_json) {
-  canopen::DriveExpectation drive;
+  canopen::DriveExpectation drive = test::expectation();
   drive.type = config::drive_types(config::parse_buses(buses_json, "b")).at(1);
-  drive.vendor = 0x4C49;
-  drive.product = drive.revision = 1;
-  drive.counts_per_turn = 65536;
-  drive.rated_torque_mNm = 9000;
-  drive.demand = {-100000, 100000, 7000};
-  drive.period = {4, -3};
-  drive.rpdo_deadline_ms = 12;
-  drive.following_window_counts = 3476;
   return drive;
 }
 

@@ -123,16 +123,8 @@ MadeUp make_up(std::uint32_t seed) {
 }
 
 canopen::DriveExpectation expectation() {
-  canopen::DriveExpectation drive;
-  drive.vendor = 0x4C49;
-  drive.product = drive.revision = 1;
+  canopen::DriveExpectation drive = test::expectation();
   drive.serial = 1001;
-  drive.counts_per_turn = kCounts;
-  drive.rated_torque_mNm = 9000;
-  drive.demand = {-100000, 100000, 7000};
-  drive.period = {4, -3};
-  drive.rpdo_deadline_ms = 12;
-  drive.following_window_counts = 3476;
   return drive;
 }
 

@@ -420,16 +420,19 @@ TEST(Eval, APlanAsAStepIsCheckedAgainstItsRobotAndTheStepsBefore) {
   refused("plan = 'way.json'", "step 2 \"b\": plan: way.json");
 }
 
+// What is said of a mission of one step, which has these fields besides those that every step has.
+std::string error_of_step(const TemporaryFolder& folder, const std::string& options, const std::string& fields) {
+  const std::string mission =
+      folder.write("given.lua",
+                   "local liana = require 'liana'\nreturn liana.mission 'm' { liana.step 'a' {\n"
+                   "exit = liana.at_rest(), time_limit_s = 1, on_fail = 'hold', " +
+                       fields + " } }\n");
+  return run_program("eval mission " + options + mission).error;
+}
+
 TEST(Eval, ATaskIsARecordingBesideTheMissionOrIsRefused) {
   const TemporaryFolder folder;
-  const auto eval = [&](const std::string& fields) {
-    return run_program("eval mission " +
-                       folder.write("given.lua",
-                                    "local liana = require 'liana'\nreturn liana.mission 'm' { liana.step 'a' {\n"
-                                    "exit = liana.at_rest(), time_limit_s = 1, on_fail = 'hold', " +
-                                        fields + " } }\n"))
-        .error;
-  };
+  const auto eval = [&](const std::string& fields) { return error_of_step(folder, "", fields); };
   EXPECT_EQ(eval("device = 'vr', task = 'panel_edge_vr'"), "") << "one of Liana's own";
   EXPECT_EQ(eval("device = 'hand', task = 'rod'"), "");
   const std::string missing = eval("device = 'vr', task = 'my_hand'");
@@ -493,14 +496,7 @@ TEST(Eval, AMissionIsCheckedAgainstTheRobotThatIsNamed) {
 
 TEST(Eval, WhatIsForCableArmsOnlyIsRefusedForOthersByName) {
   const TemporaryFolder folder;
-  const auto eval = [&](const std::string& fields) {
-    return run_program("eval mission --robot micro " +
-                       folder.write("given.lua",
-                                    "local liana = require 'liana'\nreturn liana.mission 'm' { liana.step "
-                                    "'a' { exit = liana.at_rest(), time_limit_s = 1, on_fail = 'hold', " +
-                                        fields + " } }\n"))
-        .error;
-  };
+  const auto eval = [&](const std::string& fields) { return error_of_step(folder, "--robot micro ", fields); };
   EXPECT_EQ(eval("device = 'none', run = liana.move_to 'prepare'"), "");
   for (const auto& [fields, op] :
        std::vector<std::pair<std::string, std::string>>{{"device = 'vr'", "use_device"},

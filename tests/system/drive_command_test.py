@@ -51,13 +51,6 @@ class DriveCommand(SystemTest):
         with Desk(bus) as desk:
             return run("liana", "drive", *words, *desk.where())
 
-    def bus_of(self, drives):
-        folder = pathlib.Path(tempfile.mkdtemp(prefix="liana-drives-"))
-        self.addCleanup(shutil.rmtree, folder)
-        file = folder / "own.lua"
-        file.write_text(f"local t = require 'buses.embedded_micro'\nt.drives = {{ {drives} }}\nreturn t\n")
-        return str(file)
-
     def test_scan_names_every_node_and_what_it_is(self):
         done = self.drive("scan", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)

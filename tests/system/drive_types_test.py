@@ -1,8 +1,5 @@
 """Drives of several makers on one arm, each type as the bench has its dictionary: boot, home, move, fault, recovery."""
 import json
-import pathlib
-import shutil
-import tempfile
 import unittest
 
 from support import SOURCE, SystemTest
@@ -18,14 +15,6 @@ def shipped():
 
 
 class DriveTypes(SystemTest):
-    def bus_of(self, drives):
-        """A bus table like embedded_micro with these entries of `drives` (Lua)."""
-        folder = pathlib.Path(tempfile.mkdtemp(prefix="liana-drives-"))
-        self.addCleanup(shutil.rmtree, folder)
-        file = folder / "own.lua"
-        file.write_text(f"local t = require 'buses.embedded_micro'\nt.drives = {{ {drives} }}\nreturn t\n")
-        return str(file)
-
     def test_every_shipped_type_runs_one_joint_of_an_arm_and_recovers_from_its_fault(self):
         types = shipped()
         self.assertGreaterEqual(len(types), 5)

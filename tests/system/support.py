@@ -41,7 +41,15 @@ def start_run(test, *words):
 
 
 class SystemTest(unittest.TestCase):
-    """Assertions about a safe arm."""
+    """Assertions about a safe arm, and tables of a test's own."""
+
+    def bus_of(self, drives):
+        """A bus table like embedded_micro with these entries of `drives` (Lua)."""
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="liana-drives-"))
+        self.addCleanup(shutil.rmtree, folder)
+        file = folder / "own.lua"
+        file.write_text(f"local t = require 'buses.embedded_micro'\nt.drives = {{ {drives} }}\nreturn t\n")
+        return str(file)
 
     def assert_refused(self, answer, code, *words):
         self.assertEqual(answer["op"], "error", answer)
