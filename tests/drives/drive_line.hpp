@@ -11,29 +11,20 @@
 
 #include "hil/drive/drive.hpp"
 #include "host/canopen/boot_sequence.hpp"
+#include "tests/host/bus/quiet_bus.hpp"
 
 namespace liana::test {
 
 // Frames wait here until the drives get them.
-class FrameQueue final : public bus::DriveBus {
+class FrameQueue final : public test::QuietBus {
  public:
-  int bus_count() const noexcept override { return 1; }
-  timing::TimeMode time_mode() const noexcept override { return timing::TimeMode::kFast; }
-  timing::TickStart begin_tick(std::uint64_t tick) noexcept override { return {tick, 0, 0, false}; }
+  FrameQueue() : QuietBus(1) {}
   bus::SendResult send(int, const bus::CanFrame& frame) noexcept override {
     frames.push_back(frame);
     return bus::SendResult::kOk;
   }
-  void wait_feedback(int) noexcept override {}
-  bool receive(bus::ReceivedFrame&) noexcept override { return false; }
-  void end_tick() noexcept override {}
-  const bus::DriveBusStats& stats(int) const noexcept override { return stats_; }
-  std::uint64_t now_us() const noexcept override { return 0; }
 
   std::vector<bus::CanFrame> frames;
-
- private:
-  bus::DriveBusStats stats_;
 };
 
 // What a master at 250 Hz expects of a drive of the bench, whatever its type and serial number.

@@ -4,26 +4,11 @@
 #include "host/canopen/master.hpp"
 #include "tests/fuzz/fuzz.hpp"
 #include "tests/host/bus/fake_drive.hpp"
+#include "tests/host/bus/quiet_bus.hpp"
 
 using namespace liana;
 
 namespace {
-
-class SilentBus final : public bus::DriveBus {
- public:
-  int bus_count() const noexcept override { return 2; }
-  timing::TimeMode time_mode() const noexcept override { return timing::TimeMode::kFast; }
-  timing::TickStart begin_tick(std::uint64_t tick) noexcept override { return {tick, 0, 0, false}; }
-  bus::SendResult send(int, const bus::CanFrame&) noexcept override { return bus::SendResult::kOk; }
-  void wait_feedback(int) noexcept override {}
-  bool receive(bus::ReceivedFrame&) noexcept override { return false; }
-  void end_tick() noexcept override {}
-  const bus::DriveBusStats& stats(int) const noexcept override { return stats_; }
-  std::uint64_t now_us() const noexcept override { return 0; }
-
- private:
-  bus::DriveBusStats stats_;
-};
 
 config::BusesConfig two_buses() {
   config::BusesConfig buses;
@@ -37,7 +22,7 @@ config::BusesConfig two_buses() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const canopen::Master kFresh({test::expectation(0, 1), test::expectation(1, 9)}, two_buses());
   canopen::Master master = kFresh;  // its plan of the boot is the same every time
-  SilentBus bus;
+  test::QuietBus bus(2);
   std::uint64_t tick = 0;
   for (std::string_view rest = fuzz::text_of(data, size); rest.size() >= 12; rest.remove_prefix(12)) {
     bus::CanFrame frame;

@@ -14,6 +14,7 @@
 #include "host/canopen/messages.hpp"
 #include "tests/host/bus/allocation_count.hpp"
 #include "tests/host/bus/fake_drive.hpp"
+#include "tests/host/bus/quiet_bus.hpp"
 
 namespace liana::canopen {
 namespace {
@@ -23,28 +24,18 @@ using test::expectation;
 using test::FakeDrive;
 
 // Two buses in memory: frames sent in one tick are answered before the next.
-class MemoryBus final : public bus::DriveBus {
+class MemoryBus final : public test::QuietBus {
  public:
-  int bus_count() const noexcept override { return 2; }
-  timing::TimeMode time_mode() const noexcept override { return timing::TimeMode::kFast; }
-  timing::TickStart begin_tick(std::uint64_t tick) noexcept override { return {tick, 0, 0, false}; }
+  MemoryBus() : QuietBus(2) {}
   bus::SendResult send(int bus, const bus::CanFrame& frame) noexcept override {
     if (refuse_next > 0 && refuse_next-- > 0) return bus::SendResult::kQueueFull;
     sent[count++] = {bus, frame};
     return bus::SendResult::kOk;
   }
-  void wait_feedback(int) noexcept override {}
-  bool receive(bus::ReceivedFrame&) noexcept override { return false; }
-  void end_tick() noexcept override {}
-  const bus::DriveBusStats& stats(int) const noexcept override { return stats_; }
-  std::uint64_t now_us() const noexcept override { return 0; }
 
   std::array<bus::ReceivedFrame, 256> sent{};
   std::size_t count = 0;
   int refuse_next = 0;
-
- private:
-  bus::DriveBusStats stats_;
 };
 
 constexpr BootTiming kTiming{20, 40, 100, 5, 30, 80};

@@ -5,29 +5,20 @@
 #include "host/canopen/emergency.hpp"
 #include "host/canopen/heartbeat.hpp"
 #include "host/canopen/master.hpp"
+#include "tests/host/bus/quiet_bus.hpp"
 
 namespace liana::canopen {
 namespace {
 
 // Keeps what is sent.
-class RecordingBus final : public bus::DriveBus {
+class RecordingBus final : public test::QuietBus {
  public:
-  int bus_count() const noexcept override { return 2; }
-  timing::TimeMode time_mode() const noexcept override { return timing::TimeMode::kFast; }
-  timing::TickStart begin_tick(std::uint64_t tick) noexcept override { return {tick, 0, 0, false}; }
+  RecordingBus() : QuietBus(2) {}
   bus::SendResult send(int bus, const bus::CanFrame& frame) noexcept override {
     sent.push_back({bus, frame});
     return bus::SendResult::kOk;
   }
-  void wait_feedback(int) noexcept override {}
-  bool receive(bus::ReceivedFrame&) noexcept override { return false; }
-  void end_tick() noexcept override {}
-  const bus::DriveBusStats& stats(int) const noexcept override { return stats_; }
-  std::uint64_t now_us() const noexcept override { return 0; }
   std::vector<bus::ReceivedFrame> sent;
-
- private:
-  bus::DriveBusStats stats_;
 };
 
 TEST(Heartbeat, TheMasterSendsOnEveryBusEvery100Milliseconds) {

@@ -6,32 +6,23 @@
 #include <vector>
 
 #include "firmware_like/safety/link_watch.hpp"
+#include "tests/host/bus/quiet_bus.hpp"
 
 namespace liana::control {
 namespace {
 
 // Gives the frames that a test lays into it; what is sent is lost.
-class FrameSource final : public bus::DriveBus {
+class FrameSource final : public test::QuietBus {
  public:
-  int bus_count() const noexcept override { return 1; }
-  timing::TimeMode time_mode() const noexcept override { return timing::TimeMode::kFast; }
-  timing::TickStart begin_tick(std::uint64_t tick) noexcept override { return {tick, 0, 0, false}; }
-  bus::SendResult send(int, const bus::CanFrame&) noexcept override { return bus::SendResult::kOk; }
-  void wait_feedback(int) noexcept override {}
+  FrameSource() : QuietBus(1) {}
   bool receive(bus::ReceivedFrame& received) noexcept override {
     if (at >= frames.size()) return false;
     received = {0, frames[at++]};
     return true;
   }
-  void end_tick() noexcept override {}
-  const bus::DriveBusStats& stats(int) const noexcept override { return stats_; }
-  std::uint64_t now_us() const noexcept override { return 0; }
 
   std::vector<bus::CanFrame> frames;
   std::size_t at = 0;
-
- private:
-  bus::DriveBusStats stats_;
 };
 
 bus::CanFrame report(std::uint8_t position) { return {0x182, 8, {0x27, 0, position, 0, 0, 0, 0, 0}, 0}; }
