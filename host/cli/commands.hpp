@@ -268,8 +268,11 @@ struct RobotNewOptions {
 // Writes a commented robot table from a few answers and prints its path.
 int robot_new_command(const RobotNewOptions& options);
 
+struct DoctorOptions {
+  bool json = false;
+};
 // What this host can and cannot do, and what to do about it; exit code 0 always, it only tells.
-int doctor_command(bool json);
+int doctor_command(const DoctorOptions& options);
 
 // What --help tells of one command, for completion.
 struct CommandHelp {

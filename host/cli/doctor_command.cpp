@@ -18,9 +18,9 @@ void print_text(const std::vector<report::Finding>& findings) {
 
 }  // namespace
 
-int doctor_command(bool json) {
+int doctor_command(const DoctorOptions& options) {
   const auto findings = report::examine_host();
-  if (json) {
+  if (options.json) {
     std::puts(Json{{"findings", report::findings_json(findings)}}.dump().c_str());
   } else {
     print_text(findings);

@@ -1,0 +1,48 @@
+// The options of all commands, a file for each group of them.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace liana::cli {
+
+// What the chosen command does; returns the exit code.
+using Action = std::function<int()>;
+
+// A command and what its options are written to; both live as long as the line they belong to.
+template <class Options>
+struct Declared {
+  CLI::App& sub;
+  Options& options;
+};
+
+// Adds a command whose options have their defaults; when it is chosen, `command` with them becomes the action.
+template <class Options>
+Declared<Options> add(CLI::App& app, Action& action, const char* name, const char* text,
+                      int (*command)(const Options&)) {
+  const auto options = std::make_shared<Options>();
+  CLI::App* sub = app.add_subcommand(name, text);
+  sub->callback([&action, options, command] { action = [options, command] { return command(*options); }; });
+  return {*sub, *options};
+}
+
+// A word before commands: `robot` of `robot export`.
+CLI::App& add_group(CLI::App& app, const char* name, const char* text);
+
+// A number from `low` to `high`, both allowed; CLI::Range lets NaN through.
+CLI::Validator within(double low, double high);
+
+// --seed, refused with its range.
+void add_seed(CLI::App& sub, std::uint64_t& seed, const std::string& what);
+
+void declare_geometry(CLI::App& app, Action& action);  // pose, ik, reach, plan, verify
+void declare_missions(CLI::App& app, Action& action);  // run, check, mission
+void declare_seeing(CLI::App& app, Action& action);    // console, view, commands, log, replay
+void declare_arm(CLI::App& app, Action& action);       // status, estop, clear, calibrate, latency, faults
+void declare_drive(CLI::App& app, Action& action);     // drive scan, read, write, watch, check, jog
+void declare_robot(CLI::App& app, Action& action);     // robot export, check, new
+
+}  // namespace liana::cli

@@ -1,0 +1,49 @@
+// Options of the commands for robot tables: robot export, check, new.
+#include "host/cli/commands.hpp"
+#include "host/cli/options/options.hpp"
+
+namespace liana::cli {
+namespace {
+
+void add_robot_export(CLI::App& group, Action& action) {
+  auto [sub, exported] = add<ExportOptions>(group, action, "export", "a robot table as canonical JSON", export_command);
+  sub.add_option("robot", exported.robot, "a name under lua/robots or a file")->capture_default_str();
+  sub.add_option("--robot", exported.robot, "the same as an option");
+  sub.add_option("--out", exported.file, "file to write; standard output where not given");
+  sub.add_flag("--json")->description("the output is JSON with or without it");
+}
+
+void add_robot_check(CLI::App& group, Action& action) {
+  auto [sub, checked] = add<RobotCheckOptions>(
+      group, action, "check", "what of a robot fits: capacity, bus load, workspace, tensions, holes, fixtures",
+      robot_check_command);
+  sub.add_option("robot", checked.robot, "a name under lua/robots or a file")->capture_default_str();
+  sub.add_option("--robot", checked.robot, "the same as an option");
+  sub.add_option("--bus", checked.bus, "bus table; where not given as for liana run");
+  sub.add_option("--svg", checked.svg_file, "draw the discs' holes and the cables' routing to this file");
+  sub.add_flag("--json", checked.json, "print JSON");
+}
+
+void add_robot_new(CLI::App& group, Action& action) {
+  auto [sub, made] =
+      add<RobotNewOptions>(group, action, "new", "write a commented robot table from a few answers", robot_new_command);
+  sub.add_option("name", made.name, "name of the robot: small letters, digits, _")->required();
+  sub.add_option("--out", made.file, "file to write; NAME.lua where not given");
+  sub.add_option("--segments", made.segments, "segments that bend by themselves, 1 to 8");
+  sub.add_option("--modules", made.modules, "universal joints in each, 1 to 16");
+  sub.add_option("--module-length", made.module_length_m, "from one joint to the next, 0.005 to 1 m");
+  sub.add_option("--radius", made.radius_m, "of the discs, 0.002 to 0.5 m");
+  sub.add_option("--cables", made.cables, "that end in each segment, 3 or 4");
+  sub.add_option("--theta-limit", made.theta_limit_deg, "most that a joint turns about each axis, 1 to 60 deg");
+}
+
+}  // namespace
+
+void declare_robot(CLI::App& app, Action& action) {
+  CLI::App& group = add_group(app, "robot", "robot tables");
+  add_robot_export(group, action);
+  add_robot_check(group, action);
+  add_robot_new(group, action);
+}
+
+}  // namespace liana::cli
