@@ -104,13 +104,12 @@ void ask_for_the_word(const DriveOptions& options, const Way& way) {
 }
 
 // Encoder counts of one turn of the motor: as given, else as the drive says, or its type.
-std::uint32_t counts_per_turn(DriveSession& session, desk::Place at, const DriveOptions& options,
-                              const config::DriveType& type) {
+std::uint32_t counts_per_turn(DriveSession& session, desk::Place at, const DriveOptions& options) {
   constexpr std::int64_t kMost = 1 << 30;
   if (!options.jog.counts_per_turn.empty())
     return static_cast<std::uint32_t>(parse_whole("--counts-per-turn", options.jog.counts_per_turn, 1, kMost));
   const desk::Answer counts = session.desk.read(at, 0x608F, 1), turns = session.desk.read(at, 0x608F, 2);
-  const bool is_known = counts.is_done() && counts.value() > 0 && !type.units.encoder;
+  const bool is_known = counts.is_done() && counts.value() > 0 && !drive_type_of(options).units.encoder;
   if (is_known) return counts.value() / std::max(1U, turns.is_done() ? turns.value() : 1U);
   throw system::BadInput("--counts-per-turn: not given, and the drive has no 608F that says it: allowed 1 to " +
                          std::to_string(kMost) + ", from the motor's data sheet");
@@ -126,7 +125,7 @@ struct Prepared {
 Prepared prepare(DriveSession& session, desk::Place at, const DriveOptions& options, const Way& way) {
   Prepared out;
   out.drive = expected_drive(session, at, options);
-  const std::uint32_t counts = counts_per_turn(session, at, options, out.drive.type);
+  const std::uint32_t counts = counts_per_turn(session, at, options);
   const double window = counts * (kWindowTurns + kWindow_s * way.turns_per_s);
   const double here = static_cast<std::int32_t>(session.desk.read(at, 0x6064, 0).value());
   const double there = here + counts * way.by_turns;

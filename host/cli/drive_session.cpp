@@ -128,7 +128,9 @@ canopen::DriveExpectation expected_drive(DriveSession& session, desk::Place at, 
   drive.vendor = said(0x1018, 1, 0);
   drive.product = said(0x1018, 2, 0);
   drive.revision = said(0x1018, 3, 0);
-  drive.counts_per_turn = std::max(1U, said(0x608F, 1, 65536));
+  const config::Factor encoder{std::max(1U, said(0x608F, 1, 65536)), std::max(1U, said(0x608F, 2, 1))};
+  drive.counts_per_turn = encoder.first / encoder.second;
+  if (!drive.type.units.encoder && encoder.second != 1) drive.type.units.encoder = encoder;  // no table says otherwise
   drive.gear_motor_turns = std::max(1U, said(0x6091, 1, 1));
   drive.gear_drum_turns = std::max(1U, said(0x6091, 2, 1));
   drive.rated_torque_mNm = 1000.0 * said(0x6076, 0, 0) / drive.type.units.rated_torque_per_Nm;

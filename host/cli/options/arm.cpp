@@ -27,16 +27,13 @@ void add_calibrate(CLI::App& app, Action& action) {
   auto [sub, calibrate] = add<CalibrateOptions>(
       app, action, "calibrate", "zeros, drums, directions and wiring of all drives, with the arm in fixtures",
       calibrate_command);
-  sub.add_option("--robot", calibrate.robot, "robot table")->capture_default_str();
+  add_robot(sub, calibrate.robot);
   sub.add_option("--bus", calibrate.bus, "bus table; where not given as for liana run");
   sub.add_option("--poses", calibrate.poses,
                  "named poses of the robot for which there are fixtures, two or more; where not given the table's "
                  "fixture_poses, else zero,fixture,prepare");
-  sub.add_option("--physics", calibrate.physics, "nominal, ideal or worn")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
-  sub.add_option("--cross-wired", calibrate.cross_wired,
-                 "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
+  add_physics(sub, calibrate.physics);
+  add_cross_wired(sub, calibrate.cross_wired);
   sub.add_option("--out", calibrate.out_file,
                  "write the calibration to this file, for lianad --calibration and liana run --calibration");
   sub.add_flag(
@@ -45,7 +42,7 @@ void add_calibrate(CLI::App& app, Action& action) {
       "about three minutes; needs 0.5 m of room around it");
   sub.add_option("--calibration", calibrate.calibration, "with --friction: the calibration that it is added to");
   add_seed(sub, calibrate.seed, "of the simulated arm");
-  sub.add_flag("--json", calibrate.json, "print JSON");
+  add_json(sub, calibrate.json);
 }
 
 void add_latency(CLI::App& app, Action& action) {
@@ -68,7 +65,7 @@ void add_latency(CLI::App& app, Action& action) {
                  "the bench's arm model: full, or light (no inertia, contact or cable friction) for slow machines")
       ->capture_default_str()
       ->check(CLI::IsMember({"full", "light"}));
-  sub.add_flag("--json", latency.json, "print JSON");
+  add_json(sub, latency.json);
 }
 
 void add_faults(CLI::App& app, Action& action) {
@@ -77,7 +74,7 @@ void add_faults(CLI::App& app, Action& action) {
   sub.add_option("--robot", faults.robot, "robot table whose tick counts")->capture_default_str();
   sub.add_flag("--refusals", faults.refusals, "error codes M_e of verification in place of faults");
   sub.add_flag("--markdown", faults.markdown, "print the table of docs/faults.md, or of docs/refusals.md");
-  sub.add_flag("--json", faults.json, "print JSON");
+  add_json(sub, faults.json);
 }
 
 }  // namespace

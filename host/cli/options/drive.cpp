@@ -14,7 +14,7 @@ Declared<DriveOptions> add_on_bus(CLI::App& group, Action& action, const char* n
   sub.add_option("--bus", drive.bus, "bus table in place of --can: a name under lua/buses or a file");
   sub.add_option("--bus-socket", drive.bus_socket, "socket of liana-bus, for a table with the embedded backend");
   sub.add_option("--time", drive.time, "of that liana-bus: fast, paced or real")->capture_default_str();
-  sub.add_flag("--json", drive.json, "print JSON");
+  add_json(sub, drive.json);
   return {sub, drive};
 }
 

@@ -8,32 +8,28 @@ namespace {
 void add_pose(CLI::App& app, Action& action) {
   auto [sub, pose] = add<PoseOptions>(
       app, action, "pose", "tip pose, segment ends, Jacobian and cable lengths of joint angles", pose_command);
-  sub.add_option("--robot", pose.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  add_robot(sub, pose.robot);
   sub.add_option("--theta-deg", pose.theta_deg, "joint angles t1,t2,... (pitch, yaw per segment)")->required();
   sub.add_option("--scene", pose.scene,
                  "scene: which segments its slit wants planar, where they begin, what their yaws may be");
-  sub.add_flag("--json", pose.json, "print JSON");
+  add_json(sub, pose.json);
 }
 
 void add_ik(CLI::App& app, Action& action) {
   auto [sub, ik] = add<IkOptions>(app, action, "ik", "joint angles of a tip pose (goal solver)", ik_command);
-  sub.add_option("--robot", ik.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  add_robot(sub, ik.robot);
   sub.add_option("--from-deg", ik.from_deg, "joint angles to start from")->required();
   sub.add_option("--tip", ik.tip, "goal x,y,z,qw,qx,qy,qz")->required();
   sub.add_option("--hold", ik.hold,
                  "joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg where no value is given)");
-  sub.add_option("--control-point", ik.control_points,
-                 "node target NODE:x,y,z[:WEIGHT]; may be repeated; WEIGHT is 1 for the arm's middle node and 0.25 "
-                 "for others where not given")
-      ->take_all()
-      ->allow_extra_args(false);
-  sub.add_flag("--json", ik.json, "print JSON");
+  add_control_points(sub, ik.control_points);
+  add_json(sub, ik.json);
 }
 
 void add_reach(CLI::App& app, Action& action) {
   auto [sub, reach] = add<ReachOptions>(
       app, action, "reach", "where tip or node can go; conditioning and limits along a path", reach_command);
-  sub.add_option("--robot", reach.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  add_robot(sub, reach.robot);
   sub.add_option("--scene", reach.scene, "scene table drawn to scale; takes nothing away from the region");
   sub.add_option("--hold", reach.hold,
                  "joint angles held still, e.g. 7,9 or 7=0.5,9 (deg; at --from-deg or 0 where no value is given)");
@@ -45,13 +41,13 @@ void add_reach(CLI::App& app, Action& action) {
   sub.add_option("--samples", reach.samples, "poses drawn")->capture_default_str();
   add_seed(sub, reach.seed, "of the poses drawn");
   sub.add_option("--svg", reach.svg_file, "write the picture to this file");
-  sub.add_flag("--json", reach.json, "print JSON");
+  add_json(sub, reach.json);
 }
 
 void add_plan(CLI::App& app, Action& action) {
   auto [sub, plan] = add<PlanOptions>(
       app, action, "plan", "joint angles or a tip pose reached past the scene (offline planner)", plan_command);
-  sub.add_option("--robot", plan.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  add_robot(sub, plan.robot);
   sub.add_option("--scene", plan.scene, "scene table: a name under lua/scenes, a file, or none")->capture_default_str();
   sub.add_option("--from-deg", plan.from_deg, "joint angles to start from")->required();
   sub.add_option("--to-deg", plan.to_deg, "goal as joint angles");
@@ -66,11 +62,7 @@ void add_plan(CLI::App& app, Action& action) {
   sub.add_option(
       "--planar", plan.planar,
       "segments whose pitch is 0 from a share of the way on, e.g. 5@0.4,4@0.7; all the way where no share is given");
-  sub.add_option("--control-point", plan.control_points,
-                 "node target NODE:x,y,z[:WEIGHT]; may be repeated; WEIGHT is 1 for the arm's middle node and 0.25 "
-                 "for others where not given")
-      ->take_all()
-      ->allow_extra_args(false);
+  add_control_points(sub, plan.control_points);
   sub.add_option("--waypoints", plan.waypoints, "waypoints with both ends, 20 where not given; 1: only the end pose");
   sub.add_option("--margin", plan.margin_m, "least clearance of every link from every obstacle, m")
       ->capture_default_str();
@@ -79,19 +71,19 @@ void add_plan(CLI::App& app, Action& action) {
   sub.add_option("--iterations", plan.max_iterations,
                  "of the solver in each round, 300 where not given; not with --follow");
   sub.add_option("--out", plan.out_file, "keep the plan with its inputs in this file, JSON");
-  sub.add_flag("--json", plan.json, "print JSON");
+  add_json(sub, plan.json);
 }
 
 void add_verify(CLI::App& app, Action& action) {
   auto [sub, verify] = add<VerifyOptions>(
       app, action, "verify", "whether a straight motion of the joints would be released, and what it leaves",
       verify_command);
-  sub.add_option("--robot", verify.robot, "robot table: a name under lua/robots or a file")->capture_default_str();
+  add_robot(sub, verify.robot);
   sub.add_option("--scene", verify.scene, "scene table: a name under lua/scenes or a file")->capture_default_str();
   sub.add_option("--from-deg", verify.from_deg, "joint angles where the arm stands")->required();
   sub.add_option("--to-deg", verify.to_deg, "joint angles where it is told to stop")->required();
   sub.add_option("--duration", verify.duration_s, "how long that takes, s; T_c to 600")->required();
-  sub.add_flag("--json", verify.json, "print JSON");
+  add_json(sub, verify.json);
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ void declare_global(CLI::App& app) {
 void declare_help(CLI::App& app, Action& action) {
   auto [doctor, options] = add<DoctorOptions>(
       app, action, "doctor", "what this host can and cannot do, and what to do about it", doctor_command);
-  doctor.add_flag("--json", options.json, "print JSON");
+  add_json(doctor, options.json);
 
   CLI::App* completion = app.add_subcommand("completion", "tab completion: source <(liana completion bash)");
   const auto shell = std::make_shared<std::string>("bash");

@@ -20,9 +20,7 @@ void add_mission_options(CLI::App& sub, system::RunOptions& run) {
   sub.add_option("--start-pose", run.start_pose,
                  "where the simulated arm begins: a named pose of the robot, or all its angles, t1,t2,... deg; where "
                  "not given the table's start_pose, else prepare or zero");
-  sub.add_option("--physics", run.physics, "nominal, ideal or worn")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
+  add_physics(sub, run.physics);
   sub.add_option("--calibration", run.calibration,
                  "what liana calibrate wrote; the robot table's values where not given");
   sub.add_option("--faults", run.faults,
@@ -55,8 +53,7 @@ void add_run(CLI::App& app, Action& action) {
       ->check(CLI::IsMember({"fast", "paced", "real"}));
   sub.add_option("--in-pose", run.in_pose,
                  "named pose in which the arm lies in its fixture: unless every cable says so, it is not enabled");
-  sub.add_option("--cross-wired", run.cross_wired,
-                 "to try it out: two drives of the simulated arm, e.g. 3,4, have each other's cable");
+  add_cross_wired(sub, run.cross_wired);
   sub.add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
   sub.add_flag("--console", run.has_console, "show it in a browser while it runs; the address goes to standard error");
 }
@@ -76,7 +73,7 @@ void add_mission(CLI::App& app, Action& action) {
       ->required()
       ->check(CLI::IsMember({"pause", "resume", "step", "confirm", "abort"}));
   sub.add_option("--api", mission.api, "API socket of the lianad; where not given, that of the one running system");
-  sub.add_flag("--json", mission.json, "print JSON");
+  add_json(sub, mission.json);
 }
 
 }  // namespace

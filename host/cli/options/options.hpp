@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace liana::cli {
 
@@ -35,8 +36,13 @@ CLI::App& add_group(CLI::App& app, const char* name, const char* text);
 // A number from `low` to `high`, both allowed; CLI::Range lets NaN through.
 CLI::Validator within(double low, double high);
 
-// --seed, refused with its range.
-void add_seed(CLI::App& sub, std::uint64_t& seed, const std::string& what);
+// Options that several commands have.
+void add_robot(CLI::App& sub, std::string& robot);  // a table with a default
+void add_json(CLI::App& sub, bool& json);
+void add_seed(CLI::App& sub, std::uint64_t& seed, const std::string& what);  // `what` it is of
+void add_physics(CLI::App& sub, std::string& physics, const std::string& of_what = "");
+void add_cross_wired(CLI::App& sub, std::string& drives);
+void add_control_points(CLI::App& sub, std::vector<std::string>& targets);
 
 void declare_geometry(CLI::App& app, Action& action);  // pose, ik, reach, plan, verify
 void declare_missions(CLI::App& app, Action& action);  // run, check, mission

@@ -21,7 +21,7 @@ void add_robot_check(CLI::App& group, Action& action) {
   sub.add_option("--robot", checked.robot, "the same as an option");
   sub.add_option("--bus", checked.bus, "bus table; where not given as for liana run");
   sub.add_option("--svg", checked.svg_file, "draw the discs' holes and the cables' routing to this file");
-  sub.add_flag("--json", checked.json, "print JSON");
+  add_json(sub, checked.json);
 }
 
 void add_robot_new(CLI::App& group, Action& action) {

@@ -31,13 +31,11 @@ void add_console(CLI::App& app, Action& action) {
   sub.add_option("--bus", console.run.bus, "of the simulated arm: an embedded bus table");
   sub.add_option("--start-pose", console.run.start_pose,
                  "of the simulated arm: a named pose of the robot, or all its angles, t1,t2,... deg");
-  sub.add_option("--physics", console.run.physics, "of the simulated arm: nominal, ideal or worn")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"nominal", "ideal", "worn"}));
+  add_physics(sub, console.run.physics, "of the simulated arm: ");
   sub.add_option("--calibration", console.run.calibration, "of the simulated arm: what liana calibrate wrote");
   add_seed(sub, console.run.seed, "of the simulated arm");
   add_gateway_options(sub, console.gateway);
-  sub.add_flag("--json", console.json, "print JSON");
+  add_json(sub, console.json);
 }
 
 void add_view(CLI::App& app, Action& action) {
@@ -48,7 +46,7 @@ void add_view(CLI::App& app, Action& action) {
   CLI::Option* out = sub.add_option("--out", view.out_file, "write the page here, not as page.html beside the run");
   sub.add_flag("--live", view.live, "the console of a running system instead")->excludes(run)->excludes(out);
   sub.add_option("--api", view.api, "with --live: API socket of a lianad")->needs("--live");
-  sub.add_flag("--json", view.json, "print JSON");
+  add_json(sub, view.json);
 }
 
 void add_commands(CLI::App& app, Action& action) {
@@ -82,7 +80,7 @@ Declared<LogOptions> add_log_of_run(CLI::App& log, Action& action, const char* n
                                     int (*command)(const LogOptions&)) {
   auto [sub, options] = add<LogOptions>(log, action, name, text, command);
   sub.add_option("run", options.run, "a folder, or the name of one of the newest runs; the newest where not given");
-  sub.add_flag("--json", options.json, "print JSON");
+  add_json(sub, options.json);
   return {sub, options};
 }
 
@@ -105,7 +103,7 @@ void add_log(CLI::App& app, Action& action) {
   CLI::App& log = add_group(app, "log", "what the archives of runs hold (docs/archive.md)");
   auto [list, listed] =
       add<LogOptions>(log, action, "list", "the newest runs: begin, outcome, length, size", log_list_command);
-  list.add_flag("--json", listed.json, "print JSON");
+  add_json(list, listed.json);
   auto [show, shown] =
       add_log_of_run(log, action, "show", "events, refusals, faults, steps of a run", log_show_command);
   add_arm_times(show, shown);
@@ -119,7 +117,7 @@ void add_replay(CLI::App& app, Action& action) {
   sub.add_option("directory", replay.directory,
                  "what `liana run --record` wrote: a folder, or the name of one of the newest runs")
       ->required();
-  sub.add_flag("--json", replay.json, "print JSON");
+  add_json(sub, replay.json);
 }
 
 }  // namespace
