@@ -1,5 +1,6 @@
 """`liana drive`: one motor on a desk, with a bus and the bench's drives and nothing else."""
 import json
+import os
 import pathlib
 import shutil
 import signal
@@ -7,11 +8,13 @@ import subprocess
 import tempfile
 import time
 import unittest
+import unittest.mock
 
 from support import SystemTest
 from liana.client import wait_until
 from liana.system import System, program, run
 
+COUNTS_OF_MICRO = 1048576  # of one turn of a motor
 SWITCH_ON_DISABLED, FAULT, STATE = 0x40, 0x08, 0x4F  # statusword
 
 
@@ -103,6 +106,18 @@ class DriveCommand(SystemTest):
         self.assertIn("0x1018:1", " ".join(json.loads(bad.stdout)["refusals"]))
         generic = self.drive("check", "--node", "2", "--json", bus=bus)
         self.assertIn("608F:1 (encoder counts)", json.loads(generic.stdout)["not_there"])
+
+    def test_a_drive_that_counts_over_several_turns_of_its_motor_is_as_good(self):
+        folder = pathlib.Path(tempfile.mkdtemp(prefix="liana-drives-"))
+        self.addCleanup(shutil.rmtree, folder)
+        (folder / "drives").mkdir()
+        (folder / "drives" / "five_turns.lua").write_text(
+            "return { format = 1, kind = 'drive', name = 'five_turns', source = 'a manual', "
+            f"dictionary = {{ values = {{ ['608F:1'] = 5 * {COUNTS_OF_MICRO}, ['608F:2'] = 5 }} }} }}\n"
+        )
+        with unittest.mock.patch.dict(os.environ, LIANA_LUA_PATH=str(folder)):
+            done = self.drive("check", "--node", "2", bus=self.bus_of("{ type = 'five_turns', nodes = { 2 } }"))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_a_type_that_nothing_stops_is_said_by_check_and_jog(self):
         folder = pathlib.Path(tempfile.mkdtemp(prefix="liana-drives-"))
