@@ -12,28 +12,27 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
-PROGRAMS = ROOT / "build/checked/bin"
+CHECKED = ROOT / "build/checked/bin"  # with sanitizers
+FAST = ROOT / "build/fuzz-fast/bin"  # without, for many executions
 FOUND = ROOT / "build/fuzz"
+MOST_BYTES = 256  # of an input in a run of many executions: longer ones find little more, and take as much longer
 # What is freed is kept apart for a while, and of an allocation some of the way to it: more than this costs half the speed.
 ASAN = "quarantine_size_mb=4:malloc_context_size=5"
 FLAGS = ["-max_len=1024", "-entropic=0", "-timeout=20", "-rss_limit_mb=2048", "-print_final_stats=1", "-verbosity=0"]
 
 
 def targets():
-    return sorted(path.name.removesuffix("_fuzz") for path in PROGRAMS.glob("*_fuzz"))
+    return sorted(path.name.removesuffix("_fuzz") for path in CHECKED.glob("*_fuzz"))
 
 
-def run_target(name, bound):
-    """`bound`: -max_total_time=S or -runs=N. Returns executions, seconds, and what was found (None: nothing)."""
-    program = PROGRAMS / (f"{name}_fuzz" if name != "planted" else name)
-    own = FOUND / name
-    own.mkdir(parents=True, exist_ok=True)
-    start = time.monotonic()
+def run_program(program, name, arguments):
+    """One run of a target's program, its log in build/fuzz/NAME.log. Returns executions, and what was found (None:
+    nothing).
+    """
     log = FOUND / f"{name}.log"
     with log.open("w") as out:
         code = subprocess.run(
-            [program, *FLAGS, bound, f"-artifact_prefix={FOUND}/{name}-", own]
-            + [folder for folder in [HERE / "corpus" / name] if folder.is_dir()],
+            [program, *FLAGS, f"-artifact_prefix={FOUND}/{name}-", *arguments],
             stdout=out,
             stderr=subprocess.STDOUT,
             env={**os.environ, "ASAN_OPTIONS": ASAN},
@@ -41,22 +40,40 @@ def run_target(name, bound):
         ).returncode
     text = log.read_text(errors="replace")
     done = re.search(r"number_of_executed_units:\s*(\d+)", text)
-    found = None
-    if code != 0:
-        said = re.findall(r"^SUMMARY: (.*)|(?:==\d+== )?(ERROR: .*)", text, re.M)
-        found = " ".join(said[-1]).strip() if said else f"exit code {code}"
-    return {
-        "name": name,
-        "executions": int(done.group(1)) if done else 0,
-        "seconds": time.monotonic() - start,
-        "found": found,
-    }
+    executions = int(done.group(1)) if done else 0
+    if code == 0:
+        return executions, None
+    said = re.findall(r"^SUMMARY: (.*)|(?:==\d+== )?(ERROR: .*)", text, re.M)
+    return executions, " ".join(said[-1]).strip() if said else f"exit code {code}"
 
 
-def run_all(names, bound, jobs):
-    """The results of `names` as they end."""
+def inputs_of(name):
+    """Folders of inputs: what runs found grows in the first, the second is the corpus in the tree."""
+    own = FOUND / name
+    own.mkdir(parents=True, exist_ok=True)
+    return [folder for folder in (own, HERE / "corpus" / name) if folder.is_dir()]
+
+
+def run_target(name, bounds, programs=CHECKED):
+    """`bounds`: -max_total_time=S or -runs=N, and what else differs from FLAGS."""
+    program = programs / (f"{name}_fuzz" if name != "planted" else name)
+    start = time.monotonic()
+    executions, found = run_program(program, name, [*bounds, *inputs_of(name)])
+    return {"name": name, "executions": executions, "seconds": time.monotonic() - start, "found": found}
+
+
+def run_many(name, executions):
+    """So many executions without sanitizers, then every input that reached something new once more with them."""
+    result = run_target(name, [f"-runs={executions}", f"-max_len={MOST_BYTES}"], FAST)
+    if result["found"] is None:
+        result["again"], result["found"] = run_program(CHECKED / f"{name}_fuzz", name, ["-runs=0", *inputs_of(name)])
+    return result
+
+
+def run_all(names, jobs, run):
+    """The results of `run(name)` as they end, so many jobs at a time."""
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        for done in concurrent.futures.as_completed([pool.submit(run_target, name, bound) for name in names]):
+        for done in concurrent.futures.as_completed([pool.submit(run, name) for name in names]):
             yield done.result()
 
 
@@ -78,9 +95,9 @@ def main():
     options = parser.parse_args()
     names = options.targets or targets()
     if not names:
-        sys.exit(f"{PROGRAMS}: no targets are built")
+        sys.exit(f"{CHECKED}: no targets are built")
     results = []
-    for result in run_all(names, f"-max_total_time={options.seconds}", options.jobs):
+    for result in run_all(names, options.jobs, lambda name: run_target(name, [f"-max_total_time={options.seconds}"])):
         print(line(result), flush=True)
         results.append(result)
     if any(result["executions"] == 0 for result in results):
