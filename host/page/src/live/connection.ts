@@ -15,6 +15,7 @@ const kFirstRetry_ms = 500;
 const kLastRetry_ms = 5000;
 const kAnswer_ms = 5000;
 const kPolicyViolated = 1008;
+const kAnsweredTogether = 2; // records: each answer wakes the gateway
 
 type Waiting = { answered: (answer: Answer) => void; timer: number };
 
@@ -22,6 +23,7 @@ export class Connection {
   private socket: WebSocket | null = null;
   private retry_ms = kFirstRetry_ms;
   private next_id = 1;
+  private unanswered = 0; // records
   private readonly waiting = new Map<number, Waiting>();
   private is_welcome = false;
   private asked_for_token = false;
@@ -118,7 +120,9 @@ export class Connection {
 
   private take_record(bytes: ArrayBuffer): void {
     const sequence = this.listener.record(bytes);
-    if (sequence !== null) this.socket?.send(credit_of(sequence));
+    if (sequence === null || ++this.unanswered < kAnsweredTogether) return;
+    this.unanswered = 0;
+    this.socket?.send(credit_of(sequence));
   }
 
   private closed(event: CloseEvent): void {
