@@ -34,8 +34,7 @@ void DriveBank::begin_behind(const FaultConfig& fault, std::size_t i) {
 void DriveBank::end_behind(const FaultConfig& fault, std::size_t i) {
   switch (fault.kind) {
     case FaultKind::kSlack:
-      loose_m_[i] -= kSlackPerSlot_m * (kSlackSlots - creep_[i].slots_left);
-      creep_[i].slots_left = 0;
+      creep_[i] = {-kSlackPerSlot_m, kSlackSlots - creep_[i].slots_left};  // taken up as slowly: nothing jerks
       return;
     case FaultKind::kMotorSaturation:
       at(i).defects().most_torque_permille = DriveDefects{}.most_torque_permille;

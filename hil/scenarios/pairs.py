@@ -46,7 +46,7 @@ kMembers = (
     Member("slack", bench(4, "slack"), None, 5004, 3, 20, 150, 13.0, (5001, 4)),
     Member("cable_break", bench(9, "cable_break"), None, 5006, 9, 2, 4, 16.0),
     Member("bus_lost", None, drop(1), 4001, 1, 2, 2),
-    Member("no_master", None, drop(0, id="0x77F"), 3004, 0, 45, 80),
+    Member("no_master", None, drop(0, id="0x77F"), 4001, 0, 45, 80),
     Member("no_targets", None, drop(1, id="0x20C"), 3004, 11, 4, 4),
     Member("operator_stop", None, None, None, None, 0, 0),
 )
