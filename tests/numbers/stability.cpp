@@ -37,12 +37,13 @@ void print(const Judged& judged, bool last) {
   const auto word = [](bool yes) { return yes ? "true" : "false"; };
   std::printf(
       "{\"law\": \"%s\", \"layer\": \"%s\", \"hand_kg\": %g, \"hand_N_m\": %g, \"wall_N_m\": %g, \"delay_s\": %g, "
-      "\"moving\": %s, \"active\": %s, \"speed_m_s\": %.5f, \"least_J\": %.5f, \"drift_m\": %.5f, \"held_N\": %.3f, "
+      "\"moving\": %s, \"active\": %s, \"speed_m_s\": %.5f, \"least_J\": %.5f, \"drift_m\": %.5f, \"drag_N\": %.3f, "
+      "\"held_N\": %.3f, "
       "\"taken_pressing_N\": %.3f, \"taken_withdrawing_N\": %.3f}%s\n",
       std::string(haptic::name_of(judged.law)).c_str(),
       std::string(kLayerNames[static_cast<std::size_t>(judged.layer)]).c_str(), cell.hand_kg, cell.hand_N_m,
-      cell.wall_N_m, cell.delay_s, word(v.moving()), word(v.active()), v.speed_m_s, v.least_J, v.drift_m, v.held_N,
-      v.taken_pressing_N, v.taken_withdrawing_N, last ? "" : ",");
+      cell.wall_N_m, cell.delay_s, word(v.moving()), word(v.active()), v.speed_m_s, v.least_J, v.drift_m, v.drag_N,
+      v.held_N, v.taken_pressing_N, v.taken_withdrawing_N, last ? "" : ",");
 }
 
 // Takes `--svg FILE` out of the words; empty: not there.

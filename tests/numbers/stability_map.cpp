@@ -13,7 +13,7 @@ namespace {
 using namespace haptic;
 
 constexpr double kJitter = 0.2;
-constexpr double kPress_s = 2.0, kWithdraw_s = 7.0, kOut_s = 9.0;
+constexpr double kThere_s = 4.0, kPress_s = 2.0, kWithdraw_s = 7.0, kOut_s = 9.0;
 constexpr double kFirst_s = rig::kReachEnd_s + 2.0, kLast_s = kFirst_s + 15.0, kEnd_s = kLast_s + 15.0;
 
 rig::RigTable table_of(Law law, Layer layer, const Cell& cell, std::uint64_t seed) {
@@ -34,6 +34,7 @@ rig::RigTable table_of(Law law, Layer layer, const Cell& cell, std::uint64_t see
 void feel(double t_s, const HandForce& force, Verdict& verdict) {
   const double asked_N = force.passed > 0.0 ? norm(force.force_N) / force.passed : norm(force.law_N);
   const double taken2 = (1.0 - force.passed) * (1.0 - force.passed) * asked_N * asked_N * kTick_s;
+  if (t_s < kThere_s) verdict.drag_N += norm(force.law_N) * kTick_s / kThere_s;
   if (t_s >= kPress_s && t_s < kWithdraw_s) verdict.taken_pressing_N += taken2 / (kWithdraw_s - kPress_s);
   if (t_s >= kWithdraw_s && t_s < kOut_s) verdict.taken_withdrawing_N += taken2 / (kOut_s - kWithdraw_s);
   if (t_s >= kWithdraw_s - 1.0 && t_s < kWithdraw_s) verdict.held_N -= force.force_N[1] * kTick_s;

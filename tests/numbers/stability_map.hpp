@@ -35,6 +35,7 @@ struct Verdict {
   double before_m_s = 0.0;           // peak in the 15 s before
   double least_J = 0.0;              // energy at the port, least of all times
   double drift_m = 0.0;              // from the beginning to the end of the last 15 s
+  double drag_N = 0.0;               // felt of the arm on the way out (4 s), mean; without a wall it should be nothing
   double held_N = 0.0;               // felt at the end of pressing, mean of 1 s
   double taken_pressing_N = 0.0;     // RMS of what the tank took from the force in 5 s of pressing
   double taken_withdrawing_N = 0.0;  // and in the 2 s after
