@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstring>
 #include <stdexcept>
+#include <vector>
 
 #include "host/record/compression.hpp"
 
@@ -78,24 +79,25 @@ std::string packed(std::string_view records, std::size_t record_bytes) {
 }
 
 // A blob as long as what was packed is not compressed.
-std::vector<std::string> unpacked(std::string_view blob, std::size_t count, std::size_t record_bytes) {
+std::string unpacked(std::string_view blob, std::size_t count, std::size_t record_bytes) {
   const std::size_t places = record_bytes / kWord, size = places + count * record_bytes;
   const std::string all = record::decompress(blob, blob.size() == size ? "" : "zstd", size);
   const std::string_view orders = std::string_view(all).substr(0, places),
                          planes = std::string_view(all).substr(places);
-  std::vector<std::string> records(count, std::string(record_bytes, '\0'));
+  std::string records(count * record_bytes, '\0');
+  Words words(count);
   for (std::size_t place = 0; place < places; ++place) {
-    Words words(count);
-    for (std::size_t byte = 0; byte < kWord; ++byte) {
-      for (std::size_t row = 0; row < count; ++row)
-        words[row] |= std::uint32_t{static_cast<unsigned char>(planes[(place * kWord + byte) * count + row])}
-                      << (8 * byte);
-    }
-    for (std::uint32_t& word : words) word = unfolded(word);
+    const char* const plane = planes.data() + place * kWord * count;
+    const auto byte = [&](std::size_t n, std::size_t row) {
+      return std::uint32_t{static_cast<unsigned char>(plane[n * count + row])} << (8 * n);
+    };
+    for (std::size_t row = 0; row < count; ++row)
+      words[row] = unfolded(byte(0, row) | byte(1, row) | byte(2, row) | byte(3, row));
     const auto order = static_cast<std::uint8_t>(orders[place]);
     if (order > kMostOrder) throw std::runtime_error("a second of telemetry is damaged; take a good copy of the file");
     for (std::uint8_t i = 0; i < order; ++i) sum_up(words);
-    for (std::size_t row = 0; row < count; ++row) std::memcpy(records[row].data() + place * kWord, &words[row], kWord);
+    for (std::size_t row = 0; row < count; ++row)
+      std::memcpy(records.data() + row * record_bytes + place * kWord, &words[row], kWord);
   }
   return records;
 }

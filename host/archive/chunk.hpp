@@ -6,14 +6,14 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace liana::archive {
 
 // `records`: one after the other, each of `record_bytes`, which 4 divides.
 std::string packed(std::string_view records, std::size_t record_bytes);
 
-// The `count` records again. Throws std::runtime_error when the blob is damaged or this build cannot read it.
-std::vector<std::string> unpacked(std::string_view blob, std::size_t count, std::size_t record_bytes);
+// The `count` records again, one after the other. Throws std::runtime_error when the blob is damaged or this build
+// cannot read it.
+std::string unpacked(std::string_view blob, std::size_t count, std::size_t record_bytes);
 
 }  // namespace liana::archive

@@ -2,11 +2,28 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 namespace liana::archive {
 namespace {
 
 constexpr std::size_t kWord = 4;
+
+// Calls copy(bytes) for fields that are whole words, as many as stand together, and narrow(bytes) for one that is not.
+template <class Copy, class Narrow>
+void for_each_run(std::string_view widths, const Copy& copy, const Narrow& narrow) {
+  std::size_t run = 0;
+  for (const char digit : widths) {
+    const auto width = static_cast<std::size_t>(digit - '0');
+    if (width >= kWord) {
+      run += width;
+      continue;
+    }
+    copy(std::exchange(run, 0));
+    narrow(width);
+  }
+  copy(run);
+}
 
 std::size_t width_of(char digit) { return static_cast<std::size_t>(digit - '0'); }
 std::size_t padded(std::size_t width) { return std::max(width, kWord); }
@@ -31,22 +48,27 @@ void append_words(std::string& out, std::string_view fields, std::string_view wi
                              std::to_string(bytes_of_fields(widths)) +
                              ": lianad and archive are of different versions");
   }
-  std::size_t at = 0;
-  for (const char digit : widths) {
-    const std::size_t width = width_of(digit);
-    out += fields.substr(at, width);
-    out.append(padded(width) - width, '\0');
-    at += width;
-  }
+  const auto take = [&](std::size_t bytes) {
+    out += fields.substr(0, bytes);
+    fields.remove_prefix(bytes);
+  };
+  for_each_run(widths, take, [&](std::size_t width) {
+    take(width);
+    out.append(kWord - width, '\0');
+  });
 }
 
 std::string fields_of(std::string_view words, std::string_view widths) {
   std::string fields;
-  std::size_t at = 0;
-  for (const char digit : widths) {
-    fields += words.substr(at, width_of(digit));
-    at += padded(width_of(digit));
-  }
+  fields.reserve(words.size());
+  const auto take = [&](std::size_t bytes) {
+    fields += words.substr(0, bytes);
+    words.remove_prefix(bytes);
+  };
+  for_each_run(widths, take, [&](std::size_t width) {
+    take(width);
+    words.remove_prefix(kWord - width);
+  });
   return fields;
 }
 

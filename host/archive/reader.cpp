@@ -47,7 +47,9 @@ event::Event event_of(const Statement& row) {
 }
 
 void add_records(const Statement& row, Span span, std::size_t bytes, std::vector<std::string>& out) {
-  for (std::string& record : unpacked(row.text(1), row.count(0), bytes)) {
+  const std::string records = unpacked(row.text(1), row.count(0), bytes);
+  for (std::size_t at = 0; at < records.size(); at += bytes) {
+    std::string record = records.substr(at, bytes);
     const auto tick = static_cast<std::uint64_t>(telemetry::header_of(record).tick);
     if (tick >= span.first && tick <= span.last) out.push_back(std::move(record));
   }

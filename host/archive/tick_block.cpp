@@ -1,5 +1,7 @@
 #include "host/archive/tick_block.hpp"
 
+#include <optional>
+
 #include "host/archive/chunk.hpp"
 #include "host/archive/field_words.hpp"
 #include "host/record/codec.hpp"
@@ -31,6 +33,23 @@ Head head_of(record::Reader& reader) {
   if (head.count > kMostTicks) throw std::runtime_error("a second of ticks is damaged; take a good copy of the file");
   return head;
 }
+
+// What packed() took, a row after the other.
+class Rows {
+ public:
+  Rows(std::string_view packed_rows, std::size_t count, std::string_view widths)
+      : bytes_(bytes_of_words(widths)), all_(count == 0 ? "" : unpacked(packed_rows, count, bytes_)) {}
+  std::optional<std::string_view> next() {
+    if (at_ == all_.size()) return std::nullopt;
+    at_ += bytes_;
+    return std::string_view(all_).substr(at_ - bytes_, bytes_);
+  }
+
+ private:
+  std::size_t bytes_;
+  std::string all_;
+  std::size_t at_ = 0;
+};
 
 }  // namespace
 
@@ -99,19 +118,19 @@ std::vector<RingTick> ticks_of(std::string_view inputs_message, const record::Fi
   const std::string_view rest = inputs_message.substr(reader.position());
   if (telecommand_count > head.count || inputs_bytes > rest.size())
     throw std::runtime_error("a second of ticks is damaged; take a good copy of the file");
-  const auto words = unpacked(rest.substr(0, inputs_bytes), head.count, bytes_of_words(widths.inputs + kCrcWidth));
-  std::vector<std::string> telecommands;
-  if (telecommand_count > 0)
-    telecommands = unpacked(rest.substr(inputs_bytes), telecommand_count, bytes_of_words(widths.telecommand));
+  Rows inputs(rest.substr(0, inputs_bytes), head.count, widths.inputs + kCrcWidth);
+  Rows telecommands(rest.substr(inputs_bytes), telecommand_count, widths.telecommand);
+  const std::size_t crc_at = bytes_of_words(widths.inputs);
   std::vector<RingTick> ticks;
-  std::size_t used = 0;
-  for (const std::string& each : words) {
-    RingTick tick{.inputs = fields_of(each, widths.inputs)};
+  ticks.reserve(head.count);
+  while (const auto words = inputs.next()) {
+    RingTick tick{.inputs = fields_of(*words, widths.inputs)};
     tick.tick = tick_of(tick.inputs);
-    record::Reader crc(std::string_view(each).substr(bytes_of_words(widths.inputs)));
+    record::Reader crc(words->substr(crc_at));
     crc("outputs_crc", tick.outputs_crc);
-    if (tick.inputs.back() != '\0' && used < telecommands.size())
-      tick.inputs += fields_of(telecommands[used++], widths.telecommand);
+    if (tick.inputs.back() != '\0') {
+      if (const auto telecommand = telecommands.next()) tick.inputs += fields_of(*telecommand, widths.telecommand);
+    }
     ticks.push_back(std::move(tick));
   }
   return ticks;
@@ -120,10 +139,10 @@ std::vector<RingTick> ticks_of(std::string_view inputs_message, const record::Fi
 std::vector<std::string> outputs_of(std::string_view outputs_message, const record::FieldWidths& widths) {
   record::Reader reader(outputs_message);
   const Head head = head_of(reader);
+  Rows rows(outputs_message.substr(reader.position()), head.count, widths.outputs);
   std::vector<std::string> outputs;
-  for (const std::string& words :
-       unpacked(outputs_message.substr(reader.position()), head.count, bytes_of_words(widths.outputs)))
-    outputs.push_back(fields_of(words, widths.outputs));
+  outputs.reserve(head.count);
+  while (const auto words = rows.next()) outputs.push_back(fields_of(*words, widths.outputs));
   return outputs;
 }
 

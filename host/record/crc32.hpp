@@ -11,10 +11,10 @@ class Crc32 {
  public:
   void add(std::string_view bytes) noexcept;
   // Of everything added so far; 0 when that is nothing.
-  std::uint32_t value() const noexcept { return ~state_; }
+  std::uint32_t value() const noexcept { return value_; }
 
  private:
-  std::uint32_t state_ = 0xFFFFFFFFu;
+  std::uint32_t value_ = 0;
 };
 
 }  // namespace liana::record
