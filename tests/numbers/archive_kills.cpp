@@ -1,6 +1,7 @@
 // Kills the writer of an archive (SIGKILL) `--count` times at random moments. It tells of each event and refused
-// command as soon as it counts as durable; afterwards every one of them has to be there, and every file whole. Each
-// writer goes on in the folder of the one before, as a life of its own. Ends with exit code 1 when anything is lost.
+// command as soon as it counts as durable; a reader looks right before the kill. Afterwards all that was told or seen
+// has to be there, and every file whole. Each writer goes on in the folder of the one before, as a life of its own.
+// Ends with exit code 1 when anything is lost.
 #include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -56,31 +57,43 @@ Json event(std::uint64_t sequence, std::uint64_t tick) {
   }
 }
 
-// The last number that a writer told before it was killed.
-std::uint64_t kill_one(const std::string& folder, int after_ms) {
+// What was known of a writer when it was killed.
+struct Known {
+  std::uint64_t told = 0;  // the last number that it told
+  std::uint64_t seen = 0;  // the last event that another process read
+};
+
+std::uint64_t newest_event(const std::string& folder) {
+  const std::vector<event::Event> events = archive::Reader(folder).events();
+  return events.empty() ? 0 : events.back().sequence;
+}
+
+Known kill_one(const std::string& folder, int after_ms) {
   int ends[2];
   if (pipe(ends) != 0) std::abort();
   const pid_t child = fork();
   if (child == 0) write_for_ever(folder, ends[1]);
   close(ends[1]);
-  std::uint64_t told = 0, read_in = 0;
-  if (read(ends[0], &read_in, sizeof read_in) == sizeof read_in) told = read_in;  // it has begun
+  Known known;
+  std::uint64_t read_in = 0;
+  if (read(ends[0], &read_in, sizeof read_in) == sizeof read_in) known.told = read_in;  // it has begun
   usleep(static_cast<useconds_t>(after_ms) * 1000);
+  known.seen = newest_event(folder);
   kill(child, SIGKILL);
-  while (read(ends[0], &read_in, sizeof read_in) == sizeof read_in) told = read_in;
+  while (read(ends[0], &read_in, sizeof read_in) == sizeof read_in) known.told = read_in;
   close(ends[0]);
   waitpid(child, nullptr, 0);
-  return told;
+  return known;
 }
 
-std::uint64_t missing_in(const std::string& folder, std::uint64_t told) {
+std::uint64_t missing_in(const std::string& folder, const Known& known) {
   const archive::Reader reader(folder);
   std::set<std::uint64_t> events, commands;
   for (const event::Event& each : reader.events()) events.insert(each.sequence);
   for (const archive::Command& each : reader.commands(archive::kAll, true)) commands.insert(each.sequence);
-  std::uint64_t missing = told == 0 ? 1 : 0;  // a writer that never began is no test
-  for (std::uint64_t n = 1; n <= told; ++n)
-    missing += (events.contains(n) ? 0u : 1u) + (commands.contains(n) ? 0u : 1u);
+  std::uint64_t missing = known.told == 0 || known.seen == 0 ? 1 : 0;  // a writer that never began is no test
+  for (std::uint64_t n = 1; n <= std::max(known.told, known.seen); ++n) missing += events.contains(n) ? 0u : 1u;
+  for (std::uint64_t n = 1; n <= known.told; ++n) missing += commands.contains(n) ? 0u : 1u;
   return missing;
 }
 
@@ -90,9 +103,9 @@ int run(const Options& options) {
   std::mt19937_64 generator(1);
   std::uint64_t rows = 0, missing = 0;
   for (int i = 0; i < options.count; ++i) {
-    const std::uint64_t told = kill_one(folder, static_cast<int>(generator() % kLongest_ms));
-    missing += missing_in(folder, told);
-    rows += 2 * told;
+    const Known known = kill_one(folder, static_cast<int>(generator() % kLongest_ms));
+    missing += missing_in(folder, known);
+    rows += 2 * known.told;
   }
   const archive::Check check = archive::check(folder);
   const bool good = missing == 0 && check.problems.empty();
