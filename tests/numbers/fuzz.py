@@ -13,6 +13,7 @@ def text_of(results):
     rows = [
         [
             result["name"],
+            result["bytes"],
             result["executions"],
             f"{result['seconds']:.0f}",
             f"{result['executions'] / max(result['seconds'], 1e-3):.0f}",
@@ -23,10 +24,12 @@ def text_of(results):
     ]
     how = (
         "The build is hardened as what is installed, with the standard library's assertions; every input that reached"
-        " something new then ran again with AddressSanitizer and UndefinedBehaviorSanitizer. New inputs of at most"
-        f" {targets.MOST_BYTES} bytes, from the corpus in tests/fuzz/corpus."
+        " something new then ran again with AddressSanitizer and UndefinedBehaviorSanitizer. Inputs have at most so many"
+        " bytes as the table says, from the corpus in tests/fuzz/corpus, of which none is cut."
     )
-    return how + "\n\n" + table(["target", "executions", "s", "executions/s", "again", "crashes"], rows)
+    return (
+        how + "\n\n" + table(["target", "bytes at most", "executions", "s", "executions/s", "again", "crashes"], rows)
+    )
 
 
 def measure(_binaries):
