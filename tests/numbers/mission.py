@@ -104,4 +104,10 @@ def measure(binaries):
         f"{successes} of {len(reports)} runs succeeded. Clearances, forces, tensions and errors are the physics'"
         " truth.\n\n"
     )
-    return reports, text + table(HEAD, [row(report) for report in reports])
+    whys = [
+        f"\n- {report['physics']} {report['seed']}: {report.get('reason', 'no report')}"
+        for report in reports
+        if report["outcome"] != "success"
+    ]
+    text += table(HEAD, [row(report) for report in reports])
+    return reports, text + ("\n" + "".join(whys) if whys else "")
