@@ -23,8 +23,8 @@ std::vector<Judged> whole_map(std::size_t count) {
   for (const auto law : {haptic::Law::kClaim, haptic::Law::kAbstract, haptic::Law::kAligned}) {
     for (const auto layer : {Layer::kNone, Layer::kTank, Layer::kTankAndDamping}) {
       for (std::size_t i = 0; i < count; ++i) {
-        const Cell& cell = all[i * all.size() / count];
-        map.push_back({law, layer, cell, judge(law, layer, cell, kFirstSeed + i)});
+        const std::size_t place = i * all.size() / count;
+        map.push_back({law, layer, all[place], judge(law, layer, all[place], kFirstSeed + place)});
       }
     }
   }
