@@ -9,11 +9,9 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <ctime>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "host/api/socket.hpp"
@@ -28,7 +26,6 @@ constexpr unsigned int kMostSockets = 192;                     // clients, stran
 constexpr std::uint16_t kPingAfter_s = 10, kGoneAfter_s = 20;  // of silence
 constexpr int kLastWord_s = 1;
 constexpr long kTick_ns = 100'000'000;
-constexpr timespec kRest{0, 2'000'000};  // after records: their answers then come together, and do not each wake us
 
 // What libwebsockets keeps for every connection.
 struct Connection {
@@ -53,7 +50,6 @@ struct WebServerInside {
   WebDoor door;
   api::UniqueFd timer, signals;
   bool over = false;
-  bool has_sent_records = false;  // in this turn
   lws_context* context = nullptr;
   lws_vhost* vhost = nullptr;
   std::vector<unsigned char> buffer;  // of what is being written
@@ -113,7 +109,6 @@ int WebServerInside::write(lws* wsi, Connection& connection) {
   std::memcpy(buffer.data() + LWS_PRE, next->bytes.data(), next->bytes.size());
   const lws_write_protocol kind = next->is_binary ? LWS_WRITE_BINARY : LWS_WRITE_TEXT;
   if (lws_write(wsi, buffer.data() + LWS_PRE, next->bytes.size(), kind) < 0) return -1;
-  has_sent_records = has_sent_records || next->is_binary;
   if (session.has_more()) lws_callback_on_writable(wsi);
   return 0;
 }
@@ -230,7 +225,6 @@ void WebServerInside::watch_time_and_signals() {
 
 void WebServerInside::run() {
   while (!over && lws_service(context, 0) >= 0) {
-    if (std::exchange(has_sent_records, false)) nanosleep(&kRest, nullptr);
   }
 }
 
