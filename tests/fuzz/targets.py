@@ -62,19 +62,19 @@ def inputs_of(name):
     return [folder for folder in (own, HERE / "corpus" / name) if folder.is_dir()]
 
 
-def run_target(name, bound, least=MOST_BYTES, programs=CHECKED):
-    """`bound`: -max_total_time=S or -runs=N."""
+def run_target(name, *bounds, least=MOST_BYTES, programs=CHECKED):
+    """`bounds`: -max_total_time=S, -runs=N, -seed=S."""
     program = programs / (f"{name}_fuzz" if name != "planted" else name)
     start = time.monotonic()
     size = most_bytes(name, least)
-    executions, found = run_program(program, name, [bound, f"-max_len={size}", *inputs_of(name)])
+    executions, found = run_program(program, name, [*bounds, f"-max_len={size}", *inputs_of(name)])
     seconds = time.monotonic() - start
     return {"name": name, "bytes": size, "executions": executions, "seconds": seconds, "found": found}
 
 
 def run_many(name, executions):
     """So many executions without sanitizers, then every input that reached something new once more with them."""
-    result = run_target(name, f"-runs={executions}", FEW_BYTES, FAST)
+    result = run_target(name, f"-runs={executions}", least=FEW_BYTES, programs=FAST)
     if result["found"] is None:
         again = run_target(name, "-runs=0")
         result["again"], result["found"] = again["executions"], again["found"]
@@ -102,13 +102,15 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("targets", nargs="*", help="without any: all")
     parser.add_argument("--seconds", type=int, default=10)
+    parser.add_argument("--seed", type=int, default=0, help="of the mutations; 0: another one each time")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     options = parser.parse_args()
     names = options.targets or targets()
     if not names:
         sys.exit(f"{CHECKED}: no targets are built")
     results = []
-    for result in run_all(names, options.jobs, lambda name: run_target(name, f"-max_total_time={options.seconds}")):
+    bounds = [f"-max_total_time={options.seconds}", f"-seed={options.seed}"]
+    for result in run_all(names, options.jobs, lambda name: run_target(name, *bounds)):
         print(line(result), flush=True)
         results.append(result)
     if any(result["executions"] == 0 for result in results):
