@@ -34,7 +34,8 @@ class EmbeddedStand(Stand):
     def judge(self, run, system, client):
         judge_run(run, system)
         judge_wire(run, system)
-        recorded = trial.Trial(run.scenario.faults or [], run.scenario.bus_script or [])
+        scenario = run.scenario
+        recorded = trial.Trial(scenario.faults or [], scenario.bus_script or [], cause_tick=scenario.cause_tick)
         recorded.judge(system, client.faults_told)
         run.violations += recorded.complaints
 
@@ -48,6 +49,8 @@ def start_move(client, joint=kJoint):
 
 def begun(scenario, system):
     """The slot in which the first fault began; 0 without one."""
+    if scenario.cause_tick is not None:
+        return scenario.cause_tick
     courses = system.json("bench_summary.json")["faults"]
     missing = [course["kind"] for course in courses if course["begun_slot"] is None]
     expect_that(not missing, f"never began: {', '.join(missing)}")

@@ -11,6 +11,7 @@ kFields = {
     "during": str,
     "faults": list,
     "bus_script": list,
+    "cause_tick": int,  # of what neither bench nor bus does: a bug that is planted into the controller
     "expect": dict,
     "reduced": bool,
     "host": dict,
@@ -65,6 +66,7 @@ class Scenario:
         self.during, self.expect = content["during"], expect
         self.numbers = [expect["fault"]] if expect.get("fault") is not None else []
         self.faults, self.bus_script = content.get("faults"), content.get("bus_script")
+        self.cause_tick = content.get("cause_tick")
         self.about, self.reduced = content["about"], content.get("reduced", False)
 
     def check_fault(self, expect, during):

@@ -38,6 +38,7 @@ kRanges = {
     "travel_deg": (0.0, 360.0),
     "time_limit_s": (0.1, 86400),
     "stop_after_s": (0.0, 60.0),
+    "cause_tick": (0, 1e6),
     "index": (-1, 31),
     "fault": (1001, 6999),
     "overruns": (0, 1e6),

@@ -32,8 +32,9 @@ def self_reporting(faults, count):
 class Trial:
     """`complaints` says which rules were broken, `recording` what happened."""
 
-    def __init__(self, faults=(), bus_script=(), seed=1):
+    def __init__(self, faults=(), bus_script=(), seed=1, cause_tick=None):
         self.faults, self.bus_script, self.seed = list(faults), list(bus_script), seed
+        self.cause_tick = cause_tick  # of what neither bench nor bus does
         self.complaints, self.recording, self.truth, self.courses = [], None, None, []
 
     def go(self, act, replay=False):
@@ -78,6 +79,8 @@ class Trial:
 
     def first_cause(self):
         """The slot in which bench or bus first did something to drives, arm or wires; where nothing ever did, none."""
+        if self.cause_tick is not None:
+            return self.cause_tick
         begun = [course["begun_slot"] for course in self.courses if course["begun_slot"] is not None]
         return min(begun + [rule["from_slot"] for rule in self.bus_script], default=kNever)
 
