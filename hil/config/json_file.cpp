@@ -101,7 +101,11 @@ std::vector<std::string> JsonFile::keys(const std::string& field) const {
   const json* value = document_->find(field);
   if (value == nullptr || !value->is_object()) fail(field, "must be a table; add it");
   std::vector<std::string> names;
-  for (const auto& item : value->items()) names.push_back(item.key());
+  for (const auto& item : value->items()) {
+    if (item.key().find_first_of("/~") != std::string::npos)  // it could not be found again by its path
+      fail(field, "holds the name '" + item.key() + "': a name has neither / nor ~; correct it");
+    names.push_back(item.key());
+  }
   return names;
 }
 

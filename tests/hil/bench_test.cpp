@@ -219,5 +219,21 @@ TEST(BenchConfig, ComplainsWithFileFieldValueAndRange) {
   EXPECT_THROW(load_robot("nowhere.json"), std::runtime_error);
 }
 
+TEST(BenchConfig, ANameThatNoPathCanHoldIsRefused) {
+  auto robot = nlohmann::json::parse(content(HIL_DATA "/robot.json"));
+  for (const char* name : {"i~eal", "no/minal"}) {
+    const std::string path = temporary("names.json");
+    robot["cables"]["friction_mu"] = {{name, 0.05}};
+    std::ofstream(path) << robot.dump();
+    try {
+      load_robot(path);
+      FAIL() << name << " was accepted";
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string("holds the name '") + name), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 }  // namespace
 }  // namespace liana::bench
