@@ -25,9 +25,9 @@ struct HandGains {
 
   // Moving
   double free_speed_m_s = 0.075;
-  double slit_speed_m_s = 0.027;
+  double slit_speed_m_s = 0.0262;
   double turn_rate_rad_s = 0.09;  // 5 deg/s
-  double accel_m_s2 = 0.06;       // of the intended motion
+  double accel_m_s2 = 0.02;       // of the intended motion: braked harder, a soft arm swings for long
 
   // Hand
   double workspace_m = 0.070;      // radius the device can reach
@@ -35,6 +35,8 @@ struct HandGains {
   double reach_rad = 0.80;         // and from this turn of the wrist on
   double return_speed_m_s = 0.25;  // peak, with the button released
   double settle_s = 0.5;           // keeps still before letting go, so that nothing is lost on re-indexing
+  double settled_m = 0.012;        // as long as the arm is further behind than this it is waited for before letting go,
+  double settle_most_s = 3.0;      // but not for longer: letting go stops it wherever it is
   double grip_s = 0.20;            // keeps still after gripping
   double arm_stops_s = 0.45;       // after letting go, before what is seen counts as the arm at rest
   double patience_s = 0.6;         // button held, arm not following: let go and grip again

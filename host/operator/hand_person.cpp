@@ -141,6 +141,8 @@ double HandPerson::eagerness(double now_s) const {
   return std::clamp((gains_.wait_full_m - aim_.surprise_m()) / (gains_.wait_full_m - gains_.wait_from_m), 0.0, 1.0);
 }
 
+bool HandPerson::is_behind() const { return aim_.surprise_m() > gains_.settled_m; }
+
 void HandPerson::look_around(double now_s) {
   if (now_s - phase_since_s_ < gains_.look_s || looks_ == 0) return;
   plan(rest_tip_);
@@ -191,7 +193,8 @@ void HandPerson::act(double now_s) {
       return watch_goal(now_s);
     case Phase::kSettling:
       steer(now_s);
-      if (!leg_.standing()) phase_since_s_ = now_s;
+      if (!leg_.standing()) settling_since_s_ = now_s;
+      if (!leg_.standing() || (is_behind() && now_s - settling_since_s_ < gains_.settle_most_s)) phase_since_s_ = now_s;
       if (here_s > gains_.settle_s) enter(Phase::kReturning, now_s);
       return;
     case Phase::kLettingGo:

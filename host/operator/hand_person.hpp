@@ -68,6 +68,7 @@ class HandPerson {
   void steer(double now_s);
   void watch_goal(double now_s);
   void enter(Phase phase, double now_s);
+  bool is_behind() const;
 
   HandGains gains_;
   SlitDrawing drawing_;
@@ -76,6 +77,7 @@ class HandPerson {
   double allowed_speed_m_s_ = 0.0;  // 0: not said
   Phase phase_ = Phase::kIdle;
   double phase_since_s_ = 0.0;
+  double settling_since_s_ = 0.0;  // the hand stands
   std::vector<Goal> goals_;
   std::size_t goal_index_ = 0;
   Leg leg_{};
