@@ -3,9 +3,10 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
-#include <csignal>
+#include <unistd.h>
 
 #include <array>
+#include <csignal>
 
 #include "host/api/socket.hpp"
 #include "host/gateway/web_server.hpp"
@@ -15,6 +16,7 @@ using namespace liana;
 
 namespace {
 
+constexpr int kMostTries = 100;
 constexpr int kMostTurns = 12;  // of the server, until it has answered or waits for more
 
 struct Served {
@@ -46,7 +48,10 @@ api::UniqueFd connected(std::uint16_t port) {
   there.sin_family = AF_INET;
   there.sin_port = htons(port);
   there.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (::connect(fd.get(), reinterpret_cast<const sockaddr*>(&there), sizeof there) != 0) std::abort();
+  for (int tries = 0; ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&there), sizeof there) != 0; ++tries) {
+    if (tries == kMostTries) std::abort();
+    ::usleep(100'000);  // this machine may be out of ports for a while
+  }
   return fd;
 }
 
