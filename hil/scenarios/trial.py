@@ -46,7 +46,7 @@ class Trial:
             codes = system.shut_down(client)
             self.complaints += [f"{name} ended with {code}" for name, code in codes.items() if code != 0]
             self.judge(system, client.faults_told)
-            if replay:
+            if replay and self.recording.ticks:  # without a boot there are none
                 self.complaints += replay_complaints(system.directory)
         return self
 
