@@ -293,7 +293,7 @@ class Watch:
     """Which faults the reports of one tick after the other must lead to."""
 
     def __init__(self, limits, always=False):
-        """`always`: what is watched in an enabled arm only is watched in every state."""
+        """`always`: everything for which there is a reason, in every state and of drives that were never heard well."""
         self.limits, self.always, self.seen, self.wrong_for = limits, always, set(), collections.Counter()
         self.ticks = 0
 
@@ -323,7 +323,7 @@ class Watch:
         silent, missing = now.age[drive] > kSilentTicks, now.heartbeat_age[drive] > self.limits.heartbeat_ticks
         if not silent and not missing and now.operational[drive]:
             self.seen.add(drive)
-        elif drive in self.seen or self.ticks >= self.limits.heartbeat_ticks - 1:  # booted before the first tick
+        elif self.always or drive in self.seen or self.ticks >= self.limits.heartbeat_ticks - 1:  # booted before
             if silent:
                 yield 3002
             if missing:
