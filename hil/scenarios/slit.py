@@ -158,10 +158,11 @@ class SlitRun(LimitedRun):
         """Until lianad ends by itself, the arm at rest after its mission; what nothing has stopped is ended here."""
         with contextlib.suppress(ConnectionClosed):
             client.until(lambda state: state["tick"] > self.scenario.fault_slot, 200)
-            client.go_on(kGoesOn_s)
+            with contextlib.suppress(NotReached):
+                client.until(lambda state: client.is_ending, kGoesOn_s)
             if client.state["faults"] or not client.state["owner"] or self.scenario.moment.mission == "back.lua":
                 with contextlib.suppress(NotReached):
-                    client.until(lambda state: False, kLedBack_s)
+                    client.until(lambda state: client.is_ending, kLedBack_s)
             system.end_lianad(client)
 
     def judge(self, system, client):

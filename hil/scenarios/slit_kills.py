@@ -107,7 +107,7 @@ class KillRun(LimitedRun):
         """Whoever is left goes on for a while, and is ended."""
         with contextlib.suppress(ConnectionClosed, ConnectionError):
             with contextlib.suppress(NotReached):
-                client.until(lambda state: not self.heard(state), kUnled_s)
+                client.until(lambda state: self.heard(state) and client.is_ending, kUnled_s)
             system.end_lianad(client)
         for name in ("lianad", "liana-bus", "liana-bench"):
             system.ended(name)

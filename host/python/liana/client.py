@@ -188,6 +188,11 @@ class Client(Connection):
         self.state = state
         self.faults_told.update((fault["number"], fault["index"], fault["tick"]) for fault in state["faults"])
 
+    @property
+    def is_ending(self) -> bool:
+        """lianad has said that it ends: after its last state it waits 30 s for a `shutdown`, and nothing else comes."""
+        return any(event["kind"] == "shutdown" for event in self.events)
+
     def step(self) -> Message:
         """The next state; in lockstep the present one is answered first, which lets time go on."""
         if self.lockstep and self.state:
