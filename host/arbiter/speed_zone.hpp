@@ -29,7 +29,7 @@ class SpeedZone {
   bool slows_at(const Vec3& tip_m) const { return is_inside(tip_m, kBrakingWay_m); }
 
  private:
-  static constexpr double kAskedShare = 0.9;
+  static constexpr double kAskedShare = 0.87;
   static constexpr double kBrakingWay_m = 0.10;  // 0.10 m/s to 0.03 m/s with 0.14 m/s2 and 1 m/s3 takes 0.06 m
 
   bool is_inside(const Vec3& point_m, double before_m) const {

@@ -73,7 +73,7 @@ class WayBack {
  private:
   static constexpr std::int32_t kRestIntervals = 3;        // a command released before the stop may still be on its way
   static constexpr std::int32_t kMostRestIntervals = 100;  // at rest the arm may still swing, and be refused for that
-  static constexpr double kPaceGain = 0.008;               // per command interval: full pace after 2 s
+  static constexpr double kPaceGain = 0.005;               // per command interval: full pace after 3 s
   static constexpr double kRiseShare = 0.1;                // of a joint's fastest rate, each second
   static constexpr int kMostStarts = 10;
   static constexpr std::size_t kProgressPoints = 10;  // further back than the refusal before: another place
