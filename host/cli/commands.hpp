@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "host/cli/system_choice.hpp"
 #include "host/system/gateway_process.hpp"
 #include "host/system/run_options.hpp"
 
@@ -85,14 +86,15 @@ int run_command(const system::RunOptions& options);
 int check_command(const system::RunOptions& given);
 
 struct ConsoleOptions {
-  std::string api;                 // empty: the one running system; where there is none, a simulated arm is started
-  bool simulate = false;           // a simulated arm is started whatever runs
-  system::RunOptions run;          // how it is to be, of a simulated arm
+  SystemWish wish;
   system::GatewayOptions gateway;  // where it listens, who may
   bool json = false;
 };
 // The console of a running system, or of a simulated arm without a mission; tells the address, ends with Ctrl-C.
 int console_command(const ConsoleOptions& options);
+
+// Drives the arm from this terminal, of a running system or a simulated one, until x or Ctrl-C (docs/teleop.md).
+int teleop_command(const SystemWish& wish);
 
 struct ViewOptions {
   std::string run;       // its folder, or its name among the newest; empty: the one that ended last

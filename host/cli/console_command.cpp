@@ -4,15 +4,12 @@
 #include <filesystem>
 #include <string>
 #include <thread>
-#include <vector>
 
-#include "host/api/registry.hpp"
 #include "host/cli/commands.hpp"
 #include "host/json/json.hpp"
 #include "host/system/console_session.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/interrupt.hpp"
-#include "host/system/observer.hpp"
 #include "host/system/system_layout.hpp"
 
 namespace liana::cli {
@@ -50,26 +47,8 @@ class Folder {
   std::string path_;
 };
 
-// What says how the simulated arm is to be means nothing to a system that runs.
-void require_no_wishes(const ConsoleOptions& options, const std::string& api) {
-  const system::RunOptions &run = options.run, none;
-  const auto refuse = [&](const char* option, bool given) {
-    if (given)
-      throw system::BadInput(std::string(option) + ": a system runs already, at " + api +
-                             "; leave it out, or add --simulate for another, simulated arm");
-  };
-  refuse("--robot", run.robot != none.robot);
-  refuse("--scene", run.scene != none.scene);
-  refuse("--bus", run.bus != none.bus);
-  refuse("--start-pose", run.start_pose != none.start_pose);
-  refuse("--physics", run.physics != none.physics);
-  refuse("--calibration", run.calibration != none.calibration);
-  refuse("--seed", run.seed != none.seed);
-}
-
 // Nothing of the system belongs to us: it goes on when the console ends.
 int attach(const ConsoleOptions& options, const std::string& api) {
-  require_no_wishes(options, api);
   const system::InterruptGuard interrupts;
   const Folder folder;
   system::GatewayProcess gateway(api, options.gateway, folder.file("liana-gateway.log"));
@@ -90,7 +69,7 @@ void simulate_and_show(const ConsoleOptions& options, const system::SystemLayout
 }
 
 int simulate(const ConsoleOptions& options) {
-  system::RunOptions run = options.run;
+  system::RunOptions run = options.wish.run;
   run.time = "paced";
   run.has_console = true;
   const system::SystemLayout plan = system::make_layout(run);
@@ -111,12 +90,8 @@ int simulate(const ConsoleOptions& options) {
 }  // namespace
 
 int console_command(const ConsoleOptions& options) {
-  if (!options.api.empty()) return attach(options, system::systems_to_ask(options.api).front());
-  const std::vector<std::string> systems = options.simulate ? std::vector<std::string>() : api::running_systems();
-  if (systems.size() > 1)
-    throw system::BadInput("console: " + std::to_string(systems.size()) +
-                           " systems run; name one with --api (liana status lists them), or --simulate another arm");
-  return systems.empty() ? simulate(options) : attach(options, systems.front());
+  const std::string api = system_to_join("console", options.wish);
+  return api.empty() ? simulate(options) : attach(options, api);
 }
 
 }  // namespace liana::cli

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 int show_live(const ViewOptions& options) {
   ConsoleOptions console;
-  console.api = options.api;
+  console.wish.api = options.api;
   console.json = options.json;
   return console_command(console);
 }

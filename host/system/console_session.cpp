@@ -12,7 +12,6 @@ namespace {
 
 constexpr const char* kRecorder = "liana-archive";
 constexpr int kMostRecorders = 5;
-constexpr double kLook_s = 0.05;
 constexpr double kEndGrace_s = 10.0;  // for lianad to stop the arm, then for the others to end
 constexpr double kAftermath_s = 0.5;  // between the end of one program and the ends of those that need it
 
@@ -31,8 +30,8 @@ void ConsoleSession::start() {
   throw std::runtime_error(problem);
 }
 
-bool ConsoleSession::go_on() {
-  auto message = system_.receive(kLook_s);
+bool ConsoleSession::go_on(double look_s) {
+  auto message = system_.receive(look_s);
   while (message) {
     if (message->value("op", "") == "state") {
       has_begun_ = true;

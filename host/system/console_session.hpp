@@ -18,8 +18,8 @@ class ConsoleSession {
 
   // Starts everything. Throws Interrupted, and std::runtime_error with what did not start.
   void start();
-  // Goes on for a moment; false after Ctrl-C. Throws std::runtime_error with the program that has ended.
-  bool go_on();
+  // Goes on for `look_s` at most; false after Ctrl-C. Throws std::runtime_error with the program that has ended.
+  bool go_on(double look_s = 0.05);
 
  private:
   void require_alive();

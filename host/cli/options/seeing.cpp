@@ -1,4 +1,4 @@
-// Options of the commands that show what is and what was: console, view, commands, log, replay.
+// Options of the commands that show what is and what was: console, teleop, view, commands, log, replay.
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
 #include "host/cli/options/options.hpp"
@@ -17,25 +17,36 @@ void add_gateway_options(CLI::App& sub, system::GatewayOptions& gateway) {
   sub.add_option("--key", gateway.key, "its key, PEM");
 }
 
+void add_system(CLI::App& sub, SystemWish& wish) {
+  sub.add_option("--api", wish.api,
+                 "API socket of a lianad; where not given, that of the one running system, or a simulated arm");
+  sub.add_flag("--simulate", wish.simulate, "start a simulated arm, also where a system runs");
+  sub.add_option("--robot", wish.run.robot,
+                 "of the simulated arm: a name under lua/robots or a file; zhu2022 where not given");
+  sub.add_option("--scene", wish.run.scene,
+                 "of the simulated arm: a name under lua/scenes or a file; panel_slit where not given, for a serial "
+                 "arm none");
+  sub.add_option("--bus", wish.run.bus, "of the simulated arm: an embedded bus table");
+  sub.add_option("--start-pose", wish.run.start_pose,
+                 "of the simulated arm: a named pose of the robot, or all its angles, t1,t2,... deg");
+  add_physics(sub, wish.run.physics, "of the simulated arm: ");
+  sub.add_option("--calibration", wish.run.calibration, "of the simulated arm: what liana calibrate wrote");
+  add_seed(sub, wish.run.seed, "of the simulated arm");
+}
+
 void add_console(CLI::App& app, Action& action) {
   auto [sub, console] = add<ConsoleOptions>(
       app, action, "console", "the arm in a browser: of a running system, or a simulated one", console_command);
-  sub.add_option("--api", console.api,
-                 "API socket of a lianad; where not given, that of the one running system, or a simulated arm");
-  sub.add_flag("--simulate", console.simulate, "start a simulated arm, also where a system runs");
-  sub.add_option("--robot", console.run.robot,
-                 "of the simulated arm: a name under lua/robots or a file; zhu2022 where not given");
-  sub.add_option("--scene", console.run.scene,
-                 "of the simulated arm: a name under lua/scenes or a file; panel_slit where not given, for a serial "
-                 "arm none");
-  sub.add_option("--bus", console.run.bus, "of the simulated arm: an embedded bus table");
-  sub.add_option("--start-pose", console.run.start_pose,
-                 "of the simulated arm: a named pose of the robot, or all its angles, t1,t2,... deg");
-  add_physics(sub, console.run.physics, "of the simulated arm: ");
-  sub.add_option("--calibration", console.run.calibration, "of the simulated arm: what liana calibrate wrote");
-  add_seed(sub, console.run.seed, "of the simulated arm");
+  add_system(sub, console.wish);
   add_gateway_options(sub, console.gateway);
   add_json(sub, console.json);
+}
+
+void add_teleop(CLI::App& app, Action& action) {
+  auto [sub, wish] =
+      add<SystemWish>(app, action, "teleop",
+                      "drive the arm from this terminal: of a running system, or a simulated one", teleop_command);
+  add_system(sub, wish);
 }
 
 void add_view(CLI::App& app, Action& action) {
@@ -124,6 +135,7 @@ void add_replay(CLI::App& app, Action& action) {
 
 void declare_seeing(CLI::App& app, Action& action) {
   add_console(app, action);
+  add_teleop(app, action);
   add_view(app, action);
   add_commands(app, action);
   add_log(app, action);

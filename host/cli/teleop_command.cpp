@@ -1,0 +1,106 @@
+// The arm driven from this terminal: of a running system, or of a simulated arm that it starts.
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "host/api/client.hpp"
+#include "host/cli/commands.hpp"
+#include "host/json/json.hpp"
+#include "host/system/console_session.hpp"
+#include "host/system/errors.hpp"
+#include "host/system/interrupt.hpp"
+#include "host/system/observer.hpp"
+#include "host/system/system_layout.hpp"
+#include "host/teleop/session.hpp"
+#include "host/teleop/terminal.hpp"
+
+namespace liana::cli {
+namespace {
+
+constexpr double kDraw_s = 0.1;
+constexpr double kWelcome_s = 30.0;  // a simulated arm is starting
+
+double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+// True once in `period_s`.
+class Beat {
+ public:
+  explicit Beat(double period_s) : period_s_(period_s) {}
+  bool is_due(double now_s) {
+    if (now_s < due_s_) return false;
+    due_s_ = now_s + period_s_;
+    return true;
+  }
+
+ private:
+  double period_s_, due_s_ = 0.0;
+};
+
+void send_all(api::ApiClient& client, const std::vector<Json>& requests) {
+  for (const Json& request : requests) client.send(request);
+}
+
+// Until the person or lianad ends it, or `goes_on` says false; whoever leaves gives motion back, and the arm holds.
+void drive(const std::string& api, const std::function<bool()>& goes_on) {
+  const std::string name = "teleop-" + std::to_string(getpid());
+  api::ApiClient client = api::ApiClient::connect(api, kWelcome_s);
+  client.send(system::hello(name, system::Observer::kClient));
+  const auto welcome = system::wait_for(client, "welcome", kWelcome_s);
+  if (!welcome) throw std::runtime_error("lianad at " + api + " did not answer within 30 s");
+  teleop::Session session(name, *welcome);
+  teleop::Terminal terminal;
+  Beat goal(teleop::Session::kPeriod_s), picture(kDraw_s);
+  while (goes_on() && !session.wants_end() && !session.is_over() && !terminal.is_gone()) {
+    for (const teleop::Key& key : teleop::keys_in(terminal.read(client.fd(), teleop::Session::kPeriod_s)))
+      send_all(client, session.press(key, now_s()));
+    while (const auto message = client.receive(0.0)) session.hear(*message);
+    if (goal.is_due(now_s())) send_all(client, session.pass(now_s()));
+    if (picture.is_due(now_s())) terminal.draw(session.lines(terminal.columns()));
+  }
+}
+
+int attach(const std::string& api) {
+  const system::InterruptGuard interrupts;
+  drive(api, [&] { return interrupts.count() == 0; });
+  return system::kExitOk;
+}
+
+void simulate_and_drive(const system::SystemLayout& plan) {
+  system::ConsoleSession session(plan);
+  session.start();
+  drive(plan.api_socket(), [&] { return session.go_on(0.0); });
+}
+
+int simulate(const SystemWish& wish) {
+  system::RunOptions run = wish.run;
+  run.time = "paced";
+  const system::SystemLayout plan = system::make_layout(run);
+  std::fprintf(stderr, "a simulated arm is starting\n");
+  try {
+    simulate_and_drive(plan);
+  } catch (const system::BadInput&) {
+    system::discard(plan);
+    throw;
+  } catch (...) {
+    std::fprintf(stderr, "liana: logs are kept in %s\n", plan.directory.c_str());
+    throw;
+  }
+  system::clean_up(plan, true);
+  std::fprintf(stderr, "recorded in %s; liana view makes a page of it\n", plan.directory.c_str());
+  return system::kExitOk;
+}
+
+}  // namespace
+
+int teleop_command(const SystemWish& wish) {
+  if (isatty(STDIN_FILENO) == 0 || isatty(STDOUT_FILENO) == 0)
+    throw system::BadInput("teleop: standard input and output have to be a terminal: keys are read one by one");
+  const std::string api = system_to_join("teleop", wish);
+  return api.empty() ? simulate(wish) : attach(api);
+}
+
+}  // namespace liana::cli

@@ -1,0 +1,32 @@
+// A terminal that gives every key at once and is drawn anew from its top.
+#pragma once
+
+#include <termios.h>
+
+#include <string>
+#include <vector>
+
+namespace liana::teleop {
+
+class Terminal {
+ public:
+  // Standard input and output; throws std::runtime_error where one of them is no terminal.
+  Terminal();
+  // As it was before.
+  ~Terminal();
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  // Keys that came within `timeout_s`, or a packet at `other_fd`; empty when neither.
+  std::string read(int other_fd, double timeout_s);
+  // The terminal was closed.
+  bool is_gone() const { return is_gone_; }
+  void draw(const std::vector<std::string>& lines);
+  std::size_t columns() const;
+
+ private:
+  termios before_{};
+  bool is_gone_ = false;
+};
+
+}  // namespace liana::teleop

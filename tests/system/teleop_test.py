@@ -1,0 +1,125 @@
+"""`liana teleop` in a terminal of its own: keys in, the picture out (docs/teleop.md)."""
+import contextlib
+import fcntl
+import os
+import pty
+import re
+import select
+import struct
+import subprocess
+import tempfile
+import termios
+import time
+import unittest
+
+from support import SystemTest
+from liana.client import wait_until
+from liana.system import System, program
+
+kControl = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
+kRepeat_s = 0.03  # of a key that is held
+
+
+class Driver:
+    """`liana teleop` with these words, 120 columns wide."""
+
+    def __init__(self, test, *words):
+        home = test.enterContext(tempfile.TemporaryDirectory(prefix="liana-home-", ignore_cleanup_errors=True))
+        here, there = pty.openpty()
+        fcntl.ioctl(there, termios.TIOCSWINSZ, struct.pack("HHHH", 40, 120, 0, 0))
+        homes = {"XDG_RUNTIME_DIR": home, "XDG_STATE_HOME": home, "TMPDIR": home}
+        call = [program("liana"), "teleop", *map(str, words)]
+        self.process = subprocess.Popen(
+            call, stdin=there, stdout=there, stderr=subprocess.PIPE, text=True, env={**os.environ, **homes}
+        )
+        os.close(there)
+        self.terminal, self.seen = here, ""
+        test.addCleanup(os.close, here)
+        test.addCleanup(self.process.stderr.close)
+        test.addCleanup(self.process.wait)
+        test.addCleanup(self.process.kill)
+
+    def press(self, keys):
+        os.write(self.terminal, keys.encode())
+
+    def look(self):
+        """Takes in what was drawn since."""
+        with contextlib.suppress(OSError):  # the other side has gone
+            while select.select([self.terminal], [], [], 0)[0]:
+                self.seen += os.read(self.terminal, 65536).decode(errors="replace")
+
+    def picture(self):
+        """The newest whole picture, as text."""
+        self.look()
+        pictures = self.seen.split("\x1b[H")
+        return kControl.sub("", pictures[-2]) if len(pictures) > 2 else ""
+
+    def until(self, *words):
+        wait_until(lambda: all(word in self.picture() for word in words), f"{words} in {self.picture()!r}")
+
+    def number(self, pattern):
+        found = re.search(pattern, self.picture())
+        return float(found.group(1)) if found else None
+
+    def hold_down(self, key, wanted):
+        """As a terminal sends a key that is held."""
+
+        def pressed():
+            self.press(key)
+            time.sleep(kRepeat_s)
+            return wanted()
+
+        wait_until(pressed, f"what {key} does: {self.picture()!r}")
+
+    def end(self, key="x"):
+        self.press(key)
+        wait_until(lambda: (self.look(), self.process.poll() is not None)[1], "its end")
+        return self.process.returncode
+
+
+class Teleop(SystemTest):
+    # req:A16
+    def test_without_a_system_it_moves_a_simulated_arm_while_a_key_is_held_and_holds_when_it_is_let_go(self):
+        driver = Driver(self)
+        driver.until("DISABLED", "nobody owns motion")
+        driver.press("w")
+        driver.until("keys move nothing before you take motion")
+        driver.press("t")
+        driver.until("motion is yours")
+        wait_until(lambda: (driver.press("n"), time.sleep(0.5), "DISABLED" not in driver.picture())[2], "homing")
+        driver.until("ENABLED", "at rest")
+        begin_m = driver.number(r"x +(-?[0-9.]+)")
+        driver.hold_down("s", lambda: driver.number(r"x +(-?[0-9.]+)") < begin_m - 0.02)
+        driver.until("at rest")
+        rest_m = driver.number(r"x +(-?[0-9.]+)")
+        self.assertLess(rest_m, begin_m - 0.02)
+        driver.press(" ")
+        driver.until("STOPPED", "key in the terminal", "DISABLED")
+        self.assertEqual(driver.end(), 0)
+        self.assertIn("recorded in", driver.process.stderr.read())
+        self.assertTrue(driver.seen.rstrip().endswith("\x1b[?25h\x1b[?1049l"), "the terminal is as it was")
+
+    def test_a_driver_that_dies_gives_motion_back_and_the_arm_holds(self):
+        with System() as system:
+            keeper = system.client("keeper")
+            keeper.go_on(2.0)
+            driver = Driver(self, "--api", system.api)
+            wait_until(lambda: (keeper.step(), "nobody owns" in driver.picture())[1], "its picture")
+            driver.press("t")
+            wait_until(lambda: keeper.step()["owner"].startswith("teleop-"), "its motion")
+            driver.press("n")
+            wait_until(lambda: keeper.step()["state"] == "ENABLED", "the enabled arm")
+            wait_until(lambda: (driver.press("s"), keeper.step()["is_busy"])[1], "motion")
+            driver.process.kill()
+            wait_until(lambda: keeper.step()["owner"] == "", "the end of its motion")
+            wait_until(lambda: keeper.step()["at_rest"], "the hold")
+            self.assert_holds(keeper.state)
+
+    def test_without_a_terminal_it_says_so_and_ends_with_2(self):
+        done = subprocess.run([program("liana"), "teleop"], stdin=subprocess.DEVNULL, capture_output=True, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn(b"have to be a terminal", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
