@@ -1,12 +1,12 @@
 #include "host/teleop/terminal.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 namespace liana::teleop {
@@ -22,19 +22,23 @@ constexpr std::size_t kUsualColumns = 80;
 }  // namespace
 
 Terminal::Terminal() {
-  if (isatty(STDIN_FILENO) == 0 || isatty(STDOUT_FILENO) == 0 || tcgetattr(STDIN_FILENO, &before_) != 0)
+  const char* name = ttyname(STDOUT_FILENO);
+  if (name == nullptr || tcgetattr(STDIN_FILENO, &before_) != 0)
     throw std::runtime_error("standard input and output have to be a terminal: keys are read one by one");
+  out_ = open(name, O_WRONLY | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+  if (out_ < 0) throw std::runtime_error(std::string("the terminal ") + name + " cannot be opened");
   termios raw = before_;
+  raw.c_iflag &= ~static_cast<tcflag_t>(IXON);                  // Ctrl-S would stop the picture
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | ISIG);  // Ctrl-C is a key: the arm holds before we end
   raw.c_cc[VMIN] = 0;
   raw.c_cc[VTIME] = 0;
   tcsetattr(STDIN_FILENO, TCSANOW, &raw);
-  std::fputs(kOtherScreen, stdout);
+  put(kOtherScreen);
 }
 
 Terminal::~Terminal() {
-  std::fputs(kFormerScreen, stdout);
-  std::fflush(stdout);
+  put(kFormerScreen);
+  close(out_);
   tcsetattr(STDIN_FILENO, TCSANOW, &before_);
 }
 
@@ -52,8 +56,11 @@ void Terminal::draw(const std::vector<std::string>& lines) {
   std::string text = kToTop;
   for (const std::string& line : lines) text += line + kRestOfLine;
   text += kRestOfScreen;
-  std::fputs(text.c_str(), stdout);
-  std::fflush(stdout);
+  put(text);
+}
+
+void Terminal::put(const std::string& text) const {
+  [[maybe_unused]] const ssize_t count = write(out_, text.data(), text.size());
 }
 
 std::size_t Terminal::columns() const {

@@ -21,11 +21,15 @@ class Terminal {
   std::string read(int other_fd, double timeout_s);
   // The terminal was closed.
   bool is_gone() const { return is_gone_; }
+  // Never waits: what a terminal that has stopped reading does not take is left out, so that keys still stop the arm.
   void draw(const std::vector<std::string>& lines);
   std::size_t columns() const;
 
  private:
+  void put(const std::string& text) const;
+
   termios before_{};
+  int out_ = -1;  // standard output, opened once more: not to wait is a property of an opened file
   bool is_gone_ = false;
 };
 

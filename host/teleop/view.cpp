@@ -98,7 +98,7 @@ std::vector<std::string> trouble_lines(const Json& state) {
                               fault.value("index", -1)) +
                       fault.value("remedy", ""));
   }
-  if (const Json& verdict = object(state, "verdict"); !verdict.value("released", true))
+  if (const Json& verdict = object(state, "verdict"); verdict.value("code", 0) != 0)
     lines.push_back("REFUSED     " + verdict.value("text", "") + ": " + verdict.value("remedy", ""));
   return lines;
 }

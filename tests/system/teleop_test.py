@@ -18,6 +18,7 @@ from liana.system import System, program
 
 kControl = re.compile(r"\x1b\[[0-9;?]*[A-Za-z]")
 kRepeat_s = 0.03  # of a key that is held
+kUnread_s = 2.0  # twenty pictures: a terminal keeps 4 to 64 kB
 
 
 class Driver:
@@ -114,6 +115,19 @@ class Teleop(SystemTest):
             wait_until(lambda: keeper.step()["owner"] == "", "the end of its motion")
             wait_until(lambda: keeper.step()["at_rest"], "the hold")
             self.assert_holds(keeper.state)
+
+    def test_a_terminal_that_nobody_reads_still_stops_the_arm(self):
+        with System() as system:
+            keeper = system.client("keeper")
+            keeper.go_on(2.0)
+            driver = Driver(self, "--api", system.api)
+            wait_until(lambda: (keeper.step(), "nobody owns" in driver.picture())[1], "its picture")
+            begin = time.monotonic()
+            while time.monotonic() < begin + kUnread_s:  # its picture does not fit into the terminal any more
+                keeper.step()
+            driver.press("\x13 ")  # Ctrl-S is no key, space is
+            wait_until(lambda: keeper.step()["stop"], "the stop")
+            self.assertEqual(keeper.state["stop"]["reason"], "key in the terminal")
 
     def test_without_a_terminal_it_says_so_and_ends_with_2(self):
         done = subprocess.run([program("liana"), "teleop"], stdin=subprocess.DEVNULL, capture_output=True, check=False)

@@ -25,7 +25,7 @@ Json state(const std::string& owner = "me", const std::string& phase = "ENABLED"
           {"faults", Json::array()},
           {"limits", {"theta_rate"}},
           {"ik", {{"outcome", "converged"}}},
-          {"verdict", {{"released", true}}},
+          {"verdict", {{"released", false}, {"code", 0}, {"text", ""}}},
           {"contact", {{"segment", 3}, {"tip_push_N", {0.0, 3.0, 4.0}}}},
           {"clearance", {{"distance_m", 0.0142}, {"bound_m", 0.0034}, {"body", "wall"}, {"level", "free"}}}};
 }
@@ -100,10 +100,11 @@ TEST(TeleopSession, LinesSayStateOwnerClearanceForceAndWhatIsWrong) {
   for (const char* word : {"zhu2022", "ENABLED", "motion is yours", "14.2 mm to wall", "30 to 120 N", "5.0 N",
                            "touches segment 3", "theta_rate", "converged", "1.0 mm from where it is asked to be"})
     EXPECT_NE(fine.find(word), std::string::npos) << word << " in\n" << fine;
+  EXPECT_EQ(fine.find("REFUSED"), std::string::npos) << "nothing was asked yet";
   Json bad = state("pilot", "FAULT");
   bad["faults"] = {{{"number", 3002}, {"name", "drive_silent"}, {"index", 3}, {"remedy", "Check the supply."}}};
   bad["stop"] = {{"by", "anna"}, {"reason", "smoke\x1b[2J"}};
-  bad["verdict"] = {{"released", false}, {"text", "angle limit"}, {"remedy", "go back"}};
+  bad["verdict"] = {{"released", false}, {"code", 104}, {"text", "angle limit"}, {"remedy", "go back"}};
   const std::string wrong = text_of(session_at(bad));
   for (const char* word : {"motion belongs to pilot", "3002 drive_silent of 3", "Check the supply.", "by anna: smoke",
                            "angle limit: go back"})
