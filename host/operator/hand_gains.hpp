@@ -25,7 +25,7 @@ struct HandGains {
 
   // Moving
   double free_speed_m_s = 0.075;
-  double slit_speed_m_s = 0.0260;
+  double slit_speed_m_s = 0.0252;
   double turn_rate_rad_s = 0.09;  // 5 deg/s
   double accel_m_s2 = 0.02;       // of the intended motion: braked harder, a soft arm swings for long
 
