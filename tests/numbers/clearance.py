@@ -2,6 +2,7 @@
 
 Alone: clearance.py [--bin DIR] [--count CASES] [--json]; a fourth of the cases is worn, a fourth misregistered.
 """
+import concurrent.futures
 import json
 import os
 import pathlib
@@ -12,7 +13,7 @@ import tempfile
 import folders  # noqa: F401
 from page import table
 
-FIRST_SEED = 20001
+FIRST_SEED = 30001
 KINDS = {
     "nominal": [],
     "worn, undeclared": ["--true-physics", "worn"],
@@ -86,16 +87,22 @@ HEAD = [
 ]
 
 
-def measure(binaries, count=16):
+def measure(binaries, count=200):
     cases = [(SHARES[i % len(SHARES)], FIRST_SEED + i) for i in range(count)]
     with tempfile.TemporaryDirectory(prefix="liana-numbers-") as directory:
-        reports = [run_once(binaries, directory, kind, seed) for kind, seed in cases]
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            reports = list(pool.map(lambda case: run_once(binaries, directory, *case), cases))
     rows = [row(kind, [report for report in reports if report["kind"] == kind]) for kind in KINDS]
     text = (
         f"Seeds {FIRST_SEED} to {FIRST_SEED + count - 1}, the kinds in turn. A claim is held against the truth of every"
         " tick until the next one.\n\n"
     )
-    return reports, text + table(HEAD, rows)
+    whys = [
+        f"- {report['kind']} {report['seed']}: {report.get('reason', '')}\n"
+        for report in reports
+        if report["outcome"] != "success"
+    ]
+    return reports, text + table(HEAD, rows) + ("\n" + "".join(whys) if whys else "")
 
 
 if __name__ == "__main__":
