@@ -5,7 +5,9 @@ namespace liana::arbiter {
 using namespace cable;
 
 void DeviceSteer::use(const DeviceUse& use) {
+  if (rate_.count() > 0) ended_use_ = UseRecord{use_.kind, rate_};
   use_ = use;
+  rate_ = SampleRate{};
   tip_ = HandTrack{};
   node_ = HandTrack{};
   engaged_ = node_engaged_ = must_let_go_ = false;
@@ -43,6 +45,7 @@ std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now,
   const HandReading left = node_.finish_interval();
   if (use_.kind == DeviceKind::kNone) return std::nullopt;
   samples_ += tip.samples;
+  rate_.finish_interval(interval_s);
   silent_s_ = tip.samples > 0 ? 0.0 : silent_s_ + interval_s;
 
   if (tip.let_go) {

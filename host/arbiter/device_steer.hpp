@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "firmware_like/cable_controller.hpp"
 #include "host/arbiter/clutch.hpp"
 #include "host/arbiter/hand_track.hpp"
+#include "host/arbiter/sample_rate.hpp"
 
 namespace liana::arbiter {
 
@@ -25,6 +27,12 @@ struct DeviceUse {
 constexpr double kDeviceSilent_s = 0.1;    // no sample for longer: disengage
 constexpr double kNodeThreshold_m = 0.01;  // a node target acts beyond this distance
 
+// How regularly the samples of a device came, from the first of its use to the last.
+struct UseRecord {
+  DeviceKind kind = DeviceKind::kNone;
+  SampleRate rate{};
+};
+
 // One interval's wish of the operator.
 struct SteerGoal {
   Pose tip_in_base{};
@@ -41,10 +49,17 @@ class DeviceSteer {
   const char* reason() const { return reason_; }
   // Samples counted since the start.
   std::uint64_t samples() const { return samples_; }
+  // Of the device in use, since it is.
+  const SampleRate& rate() const { return rate_; }
+  // The use that ended since the last call, if samples came in it.
+  std::optional<UseRecord> take_ended_use() { return std::exchange(ended_use_, std::nullopt); }
 
   // Samples of the tip hand (vr right hand, hand controller) and of the vr left hand. Others than the device in use are
   // ignored.
-  void add_tip_sample(const HandSample& sample) { tip_.add_sample(sample); }
+  void add_tip_sample(const HandSample& sample) {
+    tip_.add_sample(sample);
+    rate_.add(sample.t_us);
+  }
   void add_node_sample(const HandSample& sample) { node_.add_sample(sample); }
 
   // Ends the interval; a goal while engaged. `now` gives the anchors on engaging, `interval_s` the time since the last
@@ -68,6 +83,8 @@ class DeviceSteer {
   const char* reason_ = "";
   double silent_s_ = 0.0;
   std::uint64_t samples_ = 0;
+  SampleRate rate_{};
+  std::optional<UseRecord> ended_use_;
   ClutchAnchor anchor_{};
   Pose hand_{};  // newest averaged pose
   Vec3 node_hand_anchor_m_{}, node_anchor_m_{};

@@ -96,9 +96,11 @@ Json link(double time_s, std::size_t number, double length_m, double radius_m) {
   return out;
 }
 
-int level_of(event::EventKind kind) {
+int level_of(const event::Event& event) {
   using enum event::EventKind;
   constexpr int kInfo = 2, kWarning = 3, kError = 4;
+  const event::EventKind kind = event.kind;
+  if (kind == kDevice && event.number == event::number_of(event::DeviceEvent::kSlow)) return kWarning;
   if (kind == kFault || kind == kEmergency || kind == kStop || kind == kBootProblem) return kError;
   return kind == kVerdict || kind == kRefusal || kind == kHostTrouble ? kWarning : kInfo;
 }
@@ -144,7 +146,7 @@ Json joint_states(double time_s, const std::vector<double>& angle_rad) {
 
 Json log(double time_s, const event::Event& event) {
   return {{"timestamp", time(time_s)},
-          {"level", level_of(event.kind)},
+          {"level", level_of(event)},
           {"message", event.text},
           {"name", event::event_kind_name(event.kind)},
           {"file", ""},

@@ -40,6 +40,32 @@ arbiter::PathCheck<cable::CableArm> path_check(const config::RobotConfig& robot,
   };
 }
 
+// `what`, with how regularly the samples of `kind` came.
+event::Event device_event(event::DeviceEvent what, arbiter::DeviceKind kind, const arbiter::SampleRate& rate,
+                          double rate_hz) {
+  const std::string name = device_name(kind);
+  char text[200];
+  const double least_ms = 1e3 * rate.least_s(), most_ms = 1e3 * rate.most_s();
+  if (what == event::DeviceEvent::kLeft) {
+    std::snprintf(text, sizeof text, "device %s is left: %llu samples at %.1f Hz, intervals %.1f to %.1f ms",
+                  name.c_str(), static_cast<unsigned long long>(rate.count()), rate_hz, least_ms, most_ms);
+  } else if (what == event::DeviceEvent::kSlow) {
+    std::snprintf(text, sizeof text,
+                  "device %s gives %.1f samples a second, least are %.0f: its driver or the way here is too slow",
+                  name.c_str(), rate_hz, arbiter::kLeastRate_hz);
+  } else {
+    std::snprintf(text, sizeof text, "device %s gives %.1f samples a second again", name.c_str(), rate_hz);
+  }
+  return {.kind = event::EventKind::kDevice,
+          .number = event::number_of(what),
+          .subject = name,
+          .values = {{"rate_hz", rate_hz},
+                     {"least_s", rate.least_s()},
+                     {"most_s", rate.most_s()},
+                     {"samples", static_cast<double>(rate.count())}},
+          .text = text};
+}
+
 // Friction that turned out to be another one than declared, or is as declared again.
 event::Event friction_event(const cable::FrictionReport& friction, double declared_mu) {
   const bool off = friction.not_as_declared != 0;
@@ -117,10 +143,26 @@ void CableDesk::drop_motion() {
 }
 
 std::vector<event::Event> CableDesk::take_events() {
+  std::vector<event::Event> events;
+  tell_device(events);
   const cable::FrictionReport& friction = outputs().friction;
-  if ((friction.not_as_declared != 0) == friction_is_off_) return {};
+  if ((friction.not_as_declared != 0) == friction_is_off_) return events;
   friction_is_off_ = friction.not_as_declared != 0;
-  return {friction_event(friction, table_.friction_mu)};
+  events.push_back(friction_event(friction, table_.friction_mu));
+  return events;
+}
+
+void CableDesk::tell_device(std::vector<event::Event>& events) {
+  using enum event::DeviceEvent;
+  if (const auto ended = arbiter_.device().take_ended_use()) {
+    device_is_slow_ = false;
+    events.push_back(device_event(kLeft, ended->kind, ended->rate, ended->rate.mean_hz()));
+  }
+  const arbiter::SampleRate& rate = arbiter_.device().rate();
+  if (rate.is_slow() == device_is_slow_) return;
+  device_is_slow_ = rate.is_slow();
+  events.push_back(device_event(device_is_slow_ ? kSlow : kFastAgain, arbiter_.device().in_use().kind, rate,
+                                rate.now_hz().value_or(0.0)));
 }
 
 std::vector<double> CableDesk::joints_deg(const cable::Outputs& outputs) const {

@@ -37,6 +37,7 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   void hold_theta(const std::vector<api::Arguments>& held);
   void shape(const api::Arguments& fields);
   void use_device(const MotionRequest& request);
+  void tell_device(std::vector<event::Event>& events);
 
   config::RobotConfig robot_;
   config::SceneConfig scene_;
@@ -45,6 +46,7 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   std::optional<live_clearance::LiveClearance> clearance_;  // while the lengths of its cables tell where the arm is
   live_clearance::Outlook outlook_;                         // what the simulation was told last
   bool friction_is_off_ = false;                            // as told last
+  bool device_is_slow_ = false;                             // as told last
   std::int32_t planar_segments_ = 0;                        // how many the slit asks for now (host/solve/dof_split.hpp)
 };
 

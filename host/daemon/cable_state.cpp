@@ -1,8 +1,7 @@
 // What a cable arm adds to the state message.
-#include <array>
-
 #include "host/config/theta_numbers.hpp"
 #include "host/daemon/cable_desk.hpp"
+#include "host/daemon/device_messages.hpp"
 #include "host/daemon/state_parts.hpp"
 
 namespace liana::daemon {
@@ -20,9 +19,11 @@ Json nodes_json(const cable::RobotTable& table, const cable::Outputs& outputs) {
   return nodes;
 }
 
-const char* device_name(arbiter::DeviceKind kind) {
-  static constexpr std::array<const char*, 3> kNames{"none", "vr", "hand"};
-  return kNames[static_cast<std::size_t>(kind)];
+// Null before the first sample of a device in use; `hz` null before its first second is over.
+Json rate_json(const arbiter::SampleRate& rate) {
+  if (rate.count() == 0) return nullptr;
+  const std::optional<double> now_hz = rate.now_hz();
+  return {{"hz", now_hz ? Json(*now_hz) : Json()}, {"least_s", rate.least_s()}, {"most_s", rate.most_s()}};
 }
 
 }  // namespace
@@ -64,6 +65,7 @@ void CableDesk::add_state(Json& state) const {
   state["device_engaged"] = arbiter_.device().engaged();
   state["device_reason"] = arbiter_.device().reason();
   state["device_samples"] = arbiter_.device().samples();
+  state["device_rate"] = rate_json(arbiter_.device().rate());
   state["mapping"] = {{"scale", device.mapping.scale}, {"rotation_scale", device.mapping.rotation_scale}};
   state["shape"] = {{"missing_m", shape_progress_.missing_m()},
                     {"settled", shape_progress_.is_settled() && !arbiter_.is_searching()},

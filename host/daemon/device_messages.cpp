@@ -22,6 +22,11 @@ arbiter::DeviceKind device_kind(const std::string& name) {
   return name == "hand" ? arbiter::DeviceKind::kHand : arbiter::DeviceKind::kNone;
 }
 
+const char* device_name(arbiter::DeviceKind kind) {
+  if (kind == arbiter::DeviceKind::kVr) return "vr";
+  return kind == arbiter::DeviceKind::kHand ? "hand" : "none";
+}
+
 void add_samples(const api::Arguments& message, arbiter::DeviceSteer& steer) {
   const arbiter::DeviceKind kind = device_kind(message.text("device"));
   if (kind != steer.in_use().kind) return;

@@ -10,6 +10,7 @@ namespace liana::daemon {
 
 // Of "vr", "hand" or "none".
 arbiter::DeviceKind device_kind(const std::string& name);
+const char* device_name(arbiter::DeviceKind kind);
 
 // Hands the samples of a `device` message to the steering; those of a device that is not in use are left out.
 void add_samples(const api::Arguments& message, arbiter::DeviceSteer& steer);

@@ -8,10 +8,10 @@
 namespace liana::event {
 namespace {
 
-constexpr std::array<const char*, kEventKinds> kNames{"boot",     "boot_problem", "homing",  "fault",    "emergency",
-                                                      "clear",    "host_trouble", "client",  "owner",    "step",
-                                                      "operator", "tool",         "refusal", "verdict",  "path",
-                                                      "way_back", "friction",     "stop",    "shutdown", "left_out"};
+constexpr std::array<const char*, kEventKinds> kNames{
+    "boot",    "boot_problem", "homing",   "fault",    "emergency", "clear",    "host_trouble",
+    "client",  "owner",        "step",     "operator", "device",    "tool",     "refusal",
+    "verdict", "path",         "way_back", "friction", "stop",      "shutdown", "left_out"};
 static_assert(static_cast<std::size_t>(EventKind::kLeftOut) + 1 == kEventKinds);
 
 constexpr std::array<std::string_view, 9> kCodes{"",     "bad_request",  "not_owner", "not_enabled", "fault",

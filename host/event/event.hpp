@@ -23,6 +23,7 @@ enum class EventKind : std::uint8_t {
   kOwner,        // number: OwnerEvent; subject the client's name; `ttl_s` of one that stands still
   kStep,         // number of the step that begins, 0 when the last is over; subject its name
   kOperator,     // subject the operator's name; what he says
+  kDevice,       // number: DeviceEvent; subject the device's name; `rate_hz`, `least_s`, `most_s`, `samples`
   kTool,         // subject the client's name; the command for the repair tool
   kRefusal,      // a request was answered with an error; number: RefusalEvent; subject the client's name
   kVerdict,      // verification refused a command: number M_e; subject which of the two ends; `command`, `share`
@@ -33,7 +34,7 @@ enum class EventKind : std::uint8_t {
   kShutdown,     // subject who asked for it, or nothing
   kLeftOut,      // subject: a kind of which too many came within one interval; `count` of those without a number
 };
-constexpr std::size_t kEventKinds = 20;
+constexpr std::size_t kEventKinds = 21;
 
 enum class BootEvent : std::uint8_t { kFailed = 0, kDone = 1, kGoesOn = 2 };
 enum class HomingEvent : std::uint8_t { kContradicted = 0, kHomed = 1 };
@@ -49,6 +50,11 @@ enum class HostTroubleEvent : std::uint8_t {
   kEventFileGood = 8,  // it takes events again; `count` are missing in it
   kWayFile = 9,        // the file that keeps the way back takes no more
   kArchive = 10,       // the flight recorder loses something; `count` of it, 0: it makes room on a full disk
+};
+enum class DeviceEvent : std::uint8_t {
+  kFastAgain = 0,  // as many samples a second again as there have to be
+  kSlow = 1,       // fewer than 50 in a second
+  kLeft = 2,       // no longer in use: how regularly its samples came
 };
 enum class PathEvent : std::uint8_t { kRefused = 0, kBegins = 1, kArrives = 2, kStops = 3 };
 enum class WayEvent : std::uint8_t {

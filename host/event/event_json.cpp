@@ -14,7 +14,7 @@ const char* const kEventSchema = R"({"$schema":"https://json-schema.org/draft/20
 "sequence":{"type":"integer","minimum":1,"description":"without gaps"},
 "tick":{"type":"integer","minimum":0},
 "kind":{"type":"string","enum":["boot","boot_problem","homing","fault","emergency","clear","host_trouble","client",
-"owner","step","operator","tool","refusal","verdict","path","way_back","friction","stop","shutdown","left_out"]},
+"owner","step","operator","device","tool","refusal","verdict","path","way_back","friction","stop","shutdown","left_out"]},
 "number":{"type":"integer","description":"fault, M_e, emergency code, stop category or what else the kind numbers"},
 "subject":{"type":"string","description":"drive, bus, client, step or what else it is about"},
 "values":{"type":"object","additionalProperties":{"type":["number","null"]}},

@@ -1,5 +1,6 @@
 #include "host/operator/recorded_vr.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -11,6 +12,7 @@ namespace {
 constexpr std::uint64_t kRightPurpose = 11;
 constexpr std::uint64_t kLeftPurpose = 12;
 constexpr std::uint64_t kGlitchPurpose = 13;
+constexpr double kStillStep_s = 1.0 / 90.0;
 
 std::int64_t microseconds(double time_s) { return std::llround(time_s * 1e6); }
 }  // namespace
@@ -48,14 +50,8 @@ VrSample RecordedVr::disturbed(const VrSample& recorded, double now_s) {
 }
 
 std::vector<VrSample> RecordedVr::advance(double now_s, double duration_s) {
+  if (finished() || now_s < release_until_s_) return rest(now_s, duration_s);
   std::vector<VrSample> samples;
-  const bool paused = finished() || now_s < release_until_s_;
-  if (paused) {
-    VrSample still = disturbed(recording_[std::min(next_, recording_.size() - 1)], now_s);
-    still.right.trigger = still.left.trigger = 0.0;
-    gripping_ = false;
-    return {still};
-  }
   const double start_s = played_s_;
   while (!finished() && static_cast<double>(recording_[next_].t_us) * 1e-6 < start_s + duration_s) {
     played_s_ = static_cast<double>(recording_[next_].t_us) * 1e-6;
@@ -64,6 +60,17 @@ std::vector<VrSample> RecordedVr::advance(double now_s, double duration_s) {
     ++next_;
   }
   played_s_ = start_s + duration_s;
+  return samples;
+}
+
+// Handles that are let go are sampled all the same.
+std::vector<VrSample> RecordedVr::rest(double now_s, double duration_s) {
+  gripping_ = false;
+  std::vector<VrSample> samples;
+  for (still_s_ = std::max(still_s_, now_s); still_s_ < now_s + duration_s; still_s_ += kStillStep_s) {
+    samples.push_back(disturbed(recording_[std::min(next_, recording_.size() - 1)], still_s_));
+    samples.back().right.trigger = samples.back().left.trigger = 0.0;
+  }
   return samples;
 }
 

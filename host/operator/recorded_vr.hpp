@@ -34,6 +34,7 @@ class RecordedVr {
   bool finished() const { return next_ >= recording_.size(); }
 
  private:
+  std::vector<VrSample> rest(double now_s, double duration_s);
   VrSample disturbed(const VrSample& recorded, double now_s);
   void disturb_handle(VrHandle& handle, const Tremor& tremor, double now_s) const;
 
@@ -48,6 +49,7 @@ class RecordedVr {
   double dropout_to_s_ = 0.0;
   Pose last_right_{};
   double followed_s_ = 0.0;        // when the arm last followed, or nothing was asked of it
+  double still_s_ = 0.0;           // when the next sample of handles that are let go is due
   double release_until_s_ = -1.0;  // re-gripping until then
   bool gripping_ = false;
 };

@@ -199,6 +199,7 @@ Json make_report(const ReportSources& sources) {
     report["reason"] = sources.reason.empty() ? mission.value("reason", "") : sources.reason;
   }
   if (state.contains("friction")) report["friction"] = state["friction"];
+  if (sources.operator_rate_hz) report["operator_rate_hz"] = *sources.operator_rate_hz;
   if (!std::filesystem::exists(sources.truth_file)) return report;
   const std::string not_kept = add_truth(report, sources, window, welcome.value("period_s", 0.0));
   if (report["outcome"] == "success" && !not_kept.empty()) fail(not_kept);
@@ -254,6 +255,8 @@ std::string report_text(const Json& report) {
             line(", %.3f declared", friction.value("declared_mu", 0.0)) +
             line(", planned with %.3f\n", friction.value("planned_mu", 0.0));
   }
+  if (report.contains("operator_rate_hz"))
+    text += line("operator's samples %.0f a second at least\n", report["operator_rate_hz"].get<double>());
   for (const Json& bus : report.value("buses", Json::array())) {
     text += "bus " + bus.value("name", "") + line(": %.0f frames", bus.value("frames", 0.0)) +
             line(", load %.1f %%", 100.0 * bus.value("measured_load", 0.0)) +

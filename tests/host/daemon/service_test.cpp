@@ -437,6 +437,34 @@ TEST_F(ServiceOverSocket, TheOperatorSteersAndLettingGoIsAHold) {
   EXPECT_EQ(steer(0.01, 0)["refusals"], 0);
 }
 
+// req:A24
+TEST_F(ServiceOverSocket, ADeviceUnderFiftyHertzIsAnAlarmUntilItIsFastAgainAndItsIntervalsAreLogged) {
+  api::ApiClient mission = join("mission"), person = join("operator");
+  enable(mission);
+  std::int64_t t_us = 0;
+  const auto sample_for = [&](int intervals, int step_us) {
+    Json last;
+    for (const std::int64_t end_us = t_us + 20000LL * intervals; t_us < end_us; last = state(mission)) {
+      Json samples = Json::array();
+      for (const std::int64_t until_us = t_us + 20000; t_us < until_us; t_us += step_us)
+        samples.push_back({{"t_us", t_us}, {"valid", true}, {"button", 0}, {"pose", {0, 0, 0, 1, 0, 0, 0}}});
+      person.send({{"op", "device"}, {"device", "hand"}, {"samples", samples}});
+    }
+    return last;
+  };
+  ASSERT_EQ(ask(mission, {{"op", "use_device"}, {"device", "hand"}}), "ok");
+  EXPECT_EQ(state(mission)["device_rate"], Json());
+  const Json fast = sample_for(150, 10000)["device_rate"];
+  EXPECT_NEAR(fast["hz"].get<double>(), 100.0, 0.1);
+  EXPECT_NEAR(fast["least_s"].get<double>(), 0.01, 1e-9);
+  sample_for(300, 25000);
+  ASSERT_EQ(ask(mission, {{"op", "use_device"}, {"device", "none"}}), "ok");
+  const std::string events = state(mission)["events"].dump();
+  EXPECT_NE(events.find("samples a second, least are 50"), std::string::npos) << events;
+  EXPECT_NE(events.find("device hand is left"), std::string::npos) << events;
+  EXPECT_NE(events.find("intervals 10.0 to 25.0 ms"), std::string::npos) << events;
+}
+
 TEST_F(ServiceOverSocket, WhatMissionAndOperatorTellEachOtherIsRepeated) {
   api::ApiClient mission = join("mission"), person = join("operator");
   EXPECT_EQ(ask(mission, {{"op", "announce"}, {"step", {{"index", 2}, {"name", "around"}, {"device", "vr"}}}}), "ok");

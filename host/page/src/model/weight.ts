@@ -11,6 +11,7 @@ export function weight_of(event: LianaEvent): Weight {
   if (kWarning.has(event.kind)) return 'warning';
   if (event.kind === 'path' && event.number === 0) return 'warning';
   if (event.kind === 'friction' && event.number !== 0) return 'warning';
+  if (event.kind === 'device' && event.number === 1) return 'warning';
   if (event.kind === 'boot' && event.number === 0) return 'bad';
   if (event.kind === 'homing' && event.number === 0) return 'bad';
   if (event.kind === 'owner' && event.number > 2) return 'warning';
