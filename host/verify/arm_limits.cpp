@@ -9,7 +9,7 @@ namespace {
 void judge_tension(const cable::RobotTable& table, const cable::Outputs& outputs, Judge& judge) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
     const double tension_N = outputs.tension_plan_N[i];
-    judge.check(Refusal::kTension, "planned tension [N] of cable", static_cast<int>(i), tension_N,
+    judge.check(Refusal::kTension, "planned tension of cable", kNewtons, static_cast<int>(i), tension_N,
                 table.tension.ceiling_free_N);
     judge.require(tension_N * kRounding >= table.tension.floor_motor_N, Refusal::kTension,
                   "planned tension under the floor at cable", static_cast<int>(i));
@@ -24,7 +24,7 @@ void judge_targets(const cable::RobotTable& table, const cable::Outputs* before,
   if (before == nullptr) return;
   const double way_m = kTargetSpeedMargin * table.limits.cable_speed_m_s * table.tick_s;
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
-    judge.check(Refusal::kCableSpeed, "travel per tick [m] of cable", static_cast<int>(i),
+    judge.check(Refusal::kCableSpeed, "travel per tick of cable", kMillimetres, static_cast<int>(i),
                 after.payout_command_m[i] - before->payout_command_m[i], way_m);
   }
 }
@@ -34,17 +34,17 @@ void judge_targets(const serial::RobotTable& table, const serial::Outputs* befor
   if (before == nullptr) return;
   for (std::size_t i = 0; i < table.joints(); ++i) {
     const double way_rad = kTargetSpeedMargin * table.joint[i].rate_rad_s * table.tick_s;
-    judge.check(Refusal::kJointTravel, "travel per tick [rad] of joint", static_cast<int>(i),
+    judge.check(Refusal::kJointTravel, "travel per tick of joint", kDegrees, static_cast<int>(i),
                 after.joint_command_rad[i] - before->joint_command_rad[i], way_rad);
   }
 }
 
 void judge_joints(const cable::RobotTable& table, const cable::Outputs& outputs, Judge& judge) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.theta_count()); ++i) {
-    judge.check(Refusal::kJointAngle, "theta [rad]", static_cast<int>(i), outputs.theta_command_rad[i],
+    judge.check(Refusal::kJointAngle, "theta", kDegrees, static_cast<int>(i), outputs.theta_command_rad[i],
                 table.segment[i / 2].theta_limit_rad);
-    judge.check(Refusal::kJointRate, "rate of theta [rad/s]", static_cast<int>(i), outputs.theta_rate_rad_s[i],
-                table.limits.theta_rate_rad_s);
+    judge.check(Refusal::kJointRate, "rate of theta", kDegreesPerSecond, static_cast<int>(i),
+                outputs.theta_rate_rad_s[i], table.limits.theta_rate_rad_s);
   }
 }
 
@@ -52,11 +52,11 @@ void judge_joints(const cable::RobotTable& table, const cable::Outputs& outputs,
 void judge_joints(const serial::RobotTable& table, const serial::Outputs& outputs, Judge& judge) {
   for (std::size_t i = 0; i < table.joints(); ++i) {
     const serial::JointTable& joint = table.joint[i];
-    judge.check(Refusal::kJointAngle, "angle from the middle of its range [rad] of joint", static_cast<int>(i),
+    judge.check(Refusal::kJointAngle, "angle from the middle of its range of joint", kDegrees, static_cast<int>(i),
                 outputs.joint_command_rad[i] - 0.5 * (joint.low_rad + joint.high_rad),
                 0.5 * (joint.high_rad - joint.low_rad));
-    judge.check(Refusal::kJointRate, "rate [rad/s] of joint", static_cast<int>(i), outputs.joint_rate_rad_s[i],
-                joint.rate_rad_s);
+    judge.check(Refusal::kJointRate, "rate of joint", kDegreesPerSecond, static_cast<int>(i),
+                outputs.joint_rate_rad_s[i], joint.rate_rad_s);
   }
 }
 

@@ -5,11 +5,20 @@
 #include <cstdio>
 #include <string>
 
+#include "firmware_like/math/trig.hpp"
 #include "host/verify/verdict.hpp"
 
 namespace liana::verify {
 
 constexpr double kRounding = 1.0 + 1e-6;  // limits that the limiter reaches exactly
+
+// In which unit people are told of a quantity: those of missions and tables.
+struct Unit {
+  const char* name = "";
+  double in_si = 1.0;
+};
+constexpr Unit kNewtons{"N", 1.0}, kMillimetres{"mm", 1e-3}, kMetresPerSecond{"m/s", 1.0}, kDegrees{"deg", kDegree},
+    kDegreesPerSecond{"deg/s", kDegree};
 
 // Remembers the first failure and the tightest pass in its verdict. Texts are made where something is refused and, of
 // the tightest pass, by `conclude`: hundreds of ticks are looked at, of which one says something.
@@ -17,11 +26,11 @@ class Judge {
  public:
   explicit Judge(Verdict& verdict) : verdict_(verdict) {}
 
-  // Whatever is refused comes nearer to its limit than all that passed before it, and what is no number to neither
-  // side.
-  void check(Refusal code, const char* what, int index, double value, double limit) {
+  // `value` and `limit` are in SI units, `unit` is that of the text. Whatever is refused comes nearer to its limit than
+  // all that passed before it, and what is no number to neither side.
+  void check(Refusal code, const char* what, const Unit& unit, int index, double value, double limit) {
     const double share = std::fabs(value) / limit;
-    if (!(share <= verdict_.share)) tighten(code, {what, index, share}, value, limit);
+    if (!(share <= verdict_.share)) tighten(code, {what, index, share}, unit, value, limit);
   }
   void require(bool good, Refusal code, const char* what, int index = -1) {
     if (!good) refuse(code, describe({what, index, 0.0}));
@@ -47,20 +56,20 @@ class Judge {
     double share = 0.0;
   };
 
-  static std::string number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.6g", value);
+  static std::string in(const Unit& unit, double value) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%.6g %s", value / unit.in_si, unit.name);
     return text;
   }
   static std::string describe(const Pass& pass) {
     return pass.index < 0 ? pass.what : pass.what + std::string(" ") + std::to_string(pass.index + 1);
   }
-  void tighten(Refusal code, const Pass& pass, double value, double limit) {
+  void tighten(Refusal code, const Pass& pass, const Unit& unit, double value, double limit) {
     if (!std::isfinite(value)) return refuse(Refusal::kNotFinite, describe(pass) + " is not a finite number");
     verdict_.share = pass.share;
     tightest_ = pass;
     if (std::fabs(value) > limit * kRounding)
-      refuse(code, describe(pass) + " = " + number(value) + ", allowed " + number(limit));
+      refuse(code, describe(pass) + " = " + in(unit, value) + ", allowed " + in(unit, limit));
   }
 
   Verdict& verdict_;

@@ -34,8 +34,8 @@ class MomentJudge {
       for (Index k = 0; k < thetas(); ++k) {
         const double limit_rad = table_.segment[k / 2].theta_limit_rad;
         const double rate_rad_s = (now[k] - before[k]) / sequence.interval_s;
-        judge_.check(Refusal::kJointAngle, "theta [rad]", static_cast<int>(k), now[k], limit_rad);
-        judge_.check(Refusal::kJointRate, "rate of theta [rad/s]", static_cast<int>(k), rate_rad_s,
+        judge_.check(Refusal::kJointAngle, "theta", kDegrees, static_cast<int>(k), now[k], limit_rad);
+        judge_.check(Refusal::kJointRate, "rate of theta", kDegreesPerSecond, static_cast<int>(k), rate_rad_s,
                      kEvenRate * table_.limits.theta_rate_rad_s);
         least(verdict_.margins.joint_deg, (limit_rad - std::fabs(now[k])) / kDegree);
         least(verdict_.margins.rate_deg_s, (table_.limits.theta_rate_rad_s - std::fabs(rate_rad_s)) / kDegree);
@@ -47,7 +47,8 @@ class MomentJudge {
   void told_tip(const simulate::Motion& motion, double interval_s) {
     const std::vector<Vec3>& tip_m = motion.told_tip_in_base_m;
     for (Index row = 1; row < tip_m.size(); ++row) {
-      judge_.check(Refusal::kTipSpeed, "tip speed [m/s]", -1, norm(subtract(tip_m[row], tip_m[row - 1])) / interval_s,
+      judge_.check(Refusal::kTipSpeed, "tip speed", kMetresPerSecond, -1,
+                   norm(subtract(tip_m[row], tip_m[row - 1])) / interval_s,
                    kTipLead * zone_.limit_at(tip_m[row], table_.limits.tip_speed_m_s));
       note("tip", kNoIndex, static_cast<double>(row) * interval_s);
     }
@@ -70,11 +71,11 @@ class MomentJudge {
 
   void joints(const Moment& moment, const cable::ThetaVector& band_rad) {
     for (Index k = 0; k < thetas(); ++k) {
-      judge_.check(Refusal::kJointAngle, "simulated theta [rad]", static_cast<int>(k),
+      judge_.check(Refusal::kJointAngle, "simulated theta", kDegrees, static_cast<int>(k),
                    std::fabs(moment.theta_rad[k]) + band_rad[k],
                    table_.segment[k / 2].theta_limit_rad + kSwingAngle_rad);
-      judge_.check(Refusal::kJointRate, "simulated rate of theta [rad/s]", static_cast<int>(k), moment.rate_rad_s[k],
-                   kSwingRate * table_.limits.theta_rate_rad_s);
+      judge_.check(Refusal::kJointRate, "simulated rate of theta", kDegreesPerSecond, static_cast<int>(k),
+                   moment.rate_rad_s[k], kSwingRate * table_.limits.theta_rate_rad_s);
       note("theta", k, moment.time_s);
     }
   }
@@ -83,12 +84,13 @@ class MomentJudge {
     const auto tip = static_cast<Index>(table_.segment_count) - 1;
     const double tip_m_s = zone_.limit_at(moment.node_in_base_m[tip], table_.limits.tip_speed_m_s);
     for (Index m = 0; m < tip; ++m) {
-      judge_.check(Refusal::kNodeSpeed, "speed [m/s] of node", static_cast<int>(m), moment.node_speed_m_s[m],
-                   kNodeShare * table_.limits.tip_speed_m_s);
+      judge_.check(Refusal::kNodeSpeed, "speed of node", kMetresPerSecond, static_cast<int>(m),
+                   moment.node_speed_m_s[m], kNodeShare * table_.limits.tip_speed_m_s);
       note("node", m, moment.time_s);
     }
-    judge_.check(Refusal::kTipSpeed, "simulated tip speed [m/s]", -1, moment.node_speed_m_s[tip], kSwingTip * tip_m_s);
-    judge_.check(Refusal::kTipSpeed, "simulated tip turn rate [rad/s]", -1, moment.tip_rate_rad_s,
+    judge_.check(Refusal::kTipSpeed, "simulated tip speed", kMetresPerSecond, -1, moment.node_speed_m_s[tip],
+                 kSwingTip * tip_m_s);
+    judge_.check(Refusal::kTipSpeed, "simulated tip turn rate", kDegreesPerSecond, -1, moment.tip_rate_rad_s,
                  kSwingTip * table_.limits.tip_rate_rad_s);
     note("tip", kNoIndex, moment.time_s);
   }
@@ -98,7 +100,7 @@ class MomentJudge {
     for (Index c = 0; c < static_cast<Index>(table_.cable_count()); ++c) {
       const double tension_N = moment.tension_N[c];
       const double left_N = (tension_N + kSwingTension_N) * passed_share[c] - limits.floor_anywhere_N;
-      judge_.check(Refusal::kSwingTension, "tension [N] with inertia of cable", static_cast<int>(c), tension_N,
+      judge_.check(Refusal::kSwingTension, "tension with inertia of cable", kNewtons, static_cast<int>(c), tension_N,
                    limits.alarm_N);
       judge_.require(left_N >= 0.0, Refusal::kSwingTension, "slack with inertia: cable", static_cast<int>(c));
       least(verdict_.margins.tension_N, std::fmin(limits.alarm_N - tension_N, left_N));

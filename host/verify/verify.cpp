@@ -21,12 +21,13 @@ void judge_tip(const typename Arm::Table& table, const Outputs<Arm>& outputs, co
                Judge& judge) {
   const TipRates most = tip_rates(table);
   const double speed_m_s = zone.limit_at(outputs.tip_command.position_m, most.speed_m_s);
-  judge.check(Refusal::kTipSpeed, "tip speed [m/s]", -1, outputs.tip_speed_m_s, kTipSpeedMargin * speed_m_s);
-  judge.check(Refusal::kTipSpeed, "tip turn rate [rad/s]", -1, outputs.tip_rate_rad_s,
+  judge.check(Refusal::kTipSpeed, "tip speed", kMetresPerSecond, -1, outputs.tip_speed_m_s,
+              kTipSpeedMargin * speed_m_s);
+  judge.check(Refusal::kTipSpeed, "tip turn rate", kDegreesPerSecond, -1, outputs.tip_rate_rad_s,
               kTipSpeedMargin * most.rate_rad_s);
-  judge.check(Refusal::kUnreachable, "distance of the tip from its target [m]", -1, outputs.ik_position_error_m,
-              kIkDistance_m);
-  judge.check(Refusal::kUnreachable, "angle of the tip from its target [rad]", -1, outputs.ik_attitude_error_rad,
+  judge.check(Refusal::kUnreachable, "distance of the tip from its target", kMillimetres, -1,
+              outputs.ik_position_error_m, kIkDistance_m);
+  judge.check(Refusal::kUnreachable, "angle of the tip from its target", kDegrees, -1, outputs.ik_attitude_error_rad,
               kIkAngle_rad);
 }
 
