@@ -262,6 +262,17 @@ class Rules(unittest.TestCase):
         self.broken(rules.commands_while_latched(both, {5001}), "tick 5")
         self.broken(rules.commands_while_latched([tick._replace(dropped=1) for tick in held], {5001}), "tick 5")
 
+    def test_an_arm_on_its_way_back_has_as_long_to_stop_as_any_other(self):
+        both = (fault(5001), fault(3002)._replace(tick=300))
+        moving = [
+            kGood._replace(tick=tick, faults=both if tick >= 300 else both[:1], theta_rate=(0.1, 0.0))
+            for tick in range(200, 310)
+        ]
+        self.assertEqual(rules.commands_while_latched(moving, {5001}), [])
+        late = [tick._replace(tick=tick.tick + rules.kPathStopTicks) for tick in moving]
+        late = [tick._replace(faults=both if tick.tick >= 300 else both[:1]) for tick in late]
+        self.broken(rules.commands_while_latched(late, {5001}), f"tick {301 + rules.kPathStopTicks}", "3002")
+
     def test_a_full_list_of_faults_hides_nothing(self):
         weak = changed(5, **{**kStopped, "stop_category": 0, "dropped": 3})
         self.broken(rules.weak_reactions(weak, kReactions), "the stop category is 0")
