@@ -106,6 +106,9 @@ class Slit:
         if drive is not None:
             self.fault["drive"] = drive
         self.target = TARGETS["camera" if kind.startswith("camera") else kind]
+        if second:  # what either may do
+            worse = max(self.target["contact_N"], TARGETS[second]["contact_N"])
+            self.target = {**self.target, "contact_N": worse}
         self.expect = {}
 
     def bench_faults(self):
