@@ -188,7 +188,9 @@ def commands_while_latched(ticks, retreats=frozenset()):
     complaints = []
     for now in ticks:
         held = [] if may_retreat(now, retreats) else acting(now)
-        held = [fault for fault in held if fault.number not in retreats] or held  # until the first of them it might move
+        held = [
+            fault for fault in held if fault.number not in retreats
+        ] or held  # until the first of them it might move
         if held and now.active_sequence != 0:
             complaints.append(
                 f"tick {now.tick}: telecommand {now.active_sequence} is in force while {held[0].number} is latched"

@@ -93,8 +93,12 @@ struct ConsoleOptions {
 // The console of a running system, or of a simulated arm without a mission; tells the address, ends with Ctrl-C.
 int console_command(const ConsoleOptions& options);
 
+struct TeleopOptions {
+  SystemWish wish;
+  std::string gamepad;  // its device; empty: keys alone
+};
 // Drives the arm from this terminal, of a running system or a simulated one, until x or Ctrl-C (docs/teleop.md).
-int teleop_command(const SystemWish& wish);
+int teleop_command(const TeleopOptions& options);
 
 struct ViewOptions {
   std::string run;       // its folder, or its name among the newest; empty: the one that ended last

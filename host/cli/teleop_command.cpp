@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -15,6 +16,7 @@
 #include "host/system/interrupt.hpp"
 #include "host/system/observer.hpp"
 #include "host/system/system_layout.hpp"
+#include "host/teleop/gamepad.hpp"
 #include "host/teleop/session.hpp"
 #include "host/teleop/terminal.hpp"
 
@@ -44,8 +46,20 @@ void send_all(api::ApiClient& client, const std::vector<Json>& requests) {
   for (const Json& request : requests) client.send(request);
 }
 
+// Keys of the terminal and of the gamepad, and where its sticks lean.
+void feel(const std::string& typed, std::optional<teleop::Gamepad>& gamepad, teleop::Session& session,
+          api::ApiClient& client) {
+  for (const teleop::Key& key : teleop::keys_in(typed)) send_all(client, session.press(key, now_s()));
+  if (!gamepad) return;
+  for (const teleop::Key& key : gamepad->read()) send_all(client, session.press(key, now_s()));
+  session.lean(gamepad->is_held() ? std::optional(gamepad->direction()) : std::nullopt);
+  if (!gamepad->is_gone()) return;
+  session.say("the gamepad is gone: the arm holds; go on with keys, or plug it in and start anew");
+  gamepad.reset();
+}
+
 // Until the person or lianad ends it, or `goes_on` says false; whoever leaves gives motion back, and the arm holds.
-void drive(const std::string& api, const std::function<bool()>& goes_on) {
+void drive(const std::string& api, std::optional<teleop::Gamepad>& gamepad, const std::function<bool()>& goes_on) {
   const std::string name = "teleop-" + std::to_string(getpid());
   api::ApiClient client = api::ApiClient::connect(api, kWelcome_s);
   client.send(system::hello(name, system::Observer::kClient));
@@ -55,33 +69,32 @@ void drive(const std::string& api, const std::function<bool()>& goes_on) {
   teleop::Terminal terminal;
   Beat goal(teleop::Session::kPeriod_s), picture(kDraw_s);
   while (goes_on() && !session.wants_end() && !session.is_over() && !terminal.is_gone()) {
-    for (const teleop::Key& key : teleop::keys_in(terminal.read(client.fd(), teleop::Session::kPeriod_s)))
-      send_all(client, session.press(key, now_s()));
+    feel(terminal.read(client.fd(), teleop::Session::kPeriod_s), gamepad, session, client);
     while (const auto message = client.receive(0.0)) session.hear(*message);
     if (goal.is_due(now_s())) send_all(client, session.pass(now_s()));
     if (picture.is_due(now_s())) terminal.draw(session.lines(terminal.columns()));
   }
 }
 
-int attach(const std::string& api) {
+int attach(const std::string& api, std::optional<teleop::Gamepad>& gamepad) {
   const system::InterruptGuard interrupts;
-  drive(api, [&] { return interrupts.count() == 0; });
+  drive(api, gamepad, [&] { return interrupts.count() == 0; });
   return system::kExitOk;
 }
 
-void simulate_and_drive(const system::SystemLayout& plan) {
+void simulate_and_drive(const system::SystemLayout& plan, std::optional<teleop::Gamepad>& gamepad) {
   system::ConsoleSession session(plan);
   session.start();
-  drive(plan.api_socket(), [&] { return session.go_on(0.0); });
+  drive(plan.api_socket(), gamepad, [&] { return session.go_on(0.0); });
 }
 
-int simulate(const SystemWish& wish) {
+int simulate(const SystemWish& wish, std::optional<teleop::Gamepad>& gamepad) {
   system::RunOptions run = wish.run;
   run.time = "paced";
   const system::SystemLayout plan = system::make_layout(run);
   std::fprintf(stderr, "a simulated arm is starting\n");
   try {
-    simulate_and_drive(plan);
+    simulate_and_drive(plan, gamepad);
   } catch (const system::BadInput&) {
     system::discard(plan);
     throw;
@@ -94,13 +107,21 @@ int simulate(const SystemWish& wish) {
   return system::kExitOk;
 }
 
+void open_gamepad(const std::string& file, std::optional<teleop::Gamepad>& gamepad) try {
+  if (!file.empty()) gamepad.emplace(file);
+} catch (const std::runtime_error& error) {
+  throw system::BadInput(error.what());
+}
+
 }  // namespace
 
-int teleop_command(const SystemWish& wish) {
+int teleop_command(const TeleopOptions& options) {
   if (isatty(STDIN_FILENO) == 0 || isatty(STDOUT_FILENO) == 0)
     throw system::BadInput("teleop: standard input and output have to be a terminal: keys are read one by one");
-  const std::string api = system_to_join("teleop", wish);
-  return api.empty() ? simulate(wish) : attach(api);
+  std::optional<teleop::Gamepad> gamepad;
+  open_gamepad(options.gamepad, gamepad);
+  const std::string api = system_to_join("teleop", options.wish);
+  return api.empty() ? simulate(options.wish, gamepad) : attach(api, gamepad);
 }
 
 }  // namespace liana::cli

@@ -41,15 +41,15 @@ struct ReportSources {
   std::string mission_report_file;  // of liana-mission
   std::string bus_stats_file;       // of liana-bus
   std::vector<StateSample> states;
-  std::vector<ClearanceClaim> claims;    // of lianad, as its states told them
-  std::vector<ReportedStep> announced;   // stands in for the steps of a mission runner that left no report
+  std::vector<ClearanceClaim> claims;      // of lianad, as its states told them
+  std::vector<ReportedStep> announced;     // stands in for the steps of a mission runner that left no report
   std::optional<double> operator_rate_hz;  // samples of the operator's device in the slowest second
-  const Json* welcome = nullptr;         // of lianad
-  const Json* last_state = nullptr;      // of lianad
-  std::optional<config::ScenePose> rod;  // as the scene has it; none: it has none
-  bool has_slit = false;                 // the scene has one; else its boxes are called boxes
-  BodyAt body_at;                        // empty: no body is named
-  Criteria criteria;                     // that a success has to keep, too
+  const Json* welcome = nullptr;           // of lianad
+  const Json* last_state = nullptr;        // of lianad
+  std::optional<config::ScenePose> rod;    // as the scene has it; none: it has none
+  bool has_slit = false;                   // the scene has one; else its boxes are called boxes
+  BodyAt body_at;                          // empty: no body is named
+  Criteria criteria;                       // that a success has to keep, too
 };
 
 // The steps as the mission reported them, with start_tick and end_tick; or else as it announced them.

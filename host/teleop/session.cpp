@@ -57,12 +57,11 @@ Session::Session(std::string name, const Json& welcome)
 
 std::vector<Json> Session::press(const Key& key, double now_s) {
   if (key.deed == Deed::kJog) {
-    if (!owns_motion()) {
-      said_ = "keys move nothing before you take motion: t";
-    } else if (state_.value("state", "") != "ENABLED") {
-      said_ = "keys move nothing before the arm is enabled: n";
-    } else {
+    const std::string why = why_still();
+    if (why.empty()) {
       held_.press(key, now_s);
+    } else {
+      said_ = why;
     }
     return {};
   }
@@ -73,19 +72,22 @@ std::vector<Json> Session::press(const Key& key, double now_s) {
   Json request = request_of(key.deed);
   if (request.is_null()) return {};
   held_.let_go();
+  leant_.reset();
   goal_.reset();
   return {asked(std::move(request))};
 }
 
 std::vector<Json> Session::pass(double now_s) {
-  if (!held_.any(now_s)) {
+  const std::string why = leant_ ? why_still() : "";
+  if (!why.empty()) said_ = why;
+  if (!held_.any(now_s) && (!leant_ || !why.empty())) {
     if (!std::exchange(goal_, std::nullopt) || !owns_motion()) return {};
     return {asked({{"op", "hold"}})};
   }
   const auto now = commanded();
   if (!now) return {};
   if (!goal_) goal_s_ = now_s;
-  goal_ = next_goal(goal_.value_or(*now), *now, held_.direction(now_s), speed_, now_s - goal_s_, limits_);
+  goal_ = next_goal(goal_.value_or(*now), *now, wanted(now_s), speed_, now_s - goal_s_, limits_);
   goal_s_ = now_s;
   return {asked({{"op", "servo_cp"}, {"goal", pose_json(*goal_)}, {"ttl_s", kTimeToLive_s}})};
 }
@@ -101,6 +103,21 @@ void Session::hear(const Json& message) {
 
 std::vector<std::string> Session::lines(std::size_t columns) const {
   return view_of(state_, {name_, robot_, speed_, goal_.has_value(), said_}, columns);
+}
+
+std::string Session::why_still() const {
+  if (!owns_motion()) return "nothing moves before you take motion: t";
+  return state_.value("state", "") == "ENABLED" ? "" : "nothing moves before the arm is enabled: n";
+}
+
+Direction Session::wanted(double now_s) const {
+  const Direction keys = held_.direction(now_s), stick = leant_.value_or(Direction{});
+  Direction sum;
+  for (std::size_t i = 0; i < 3; ++i) {
+    sum.way[i] = std::clamp(keys.way[i] + stick.way[i], -1.0, 1.0);
+    sum.turn[i] = std::clamp(keys.turn[i] + stick.turn[i], -1.0, 1.0);
+  }
+  return sum;
 }
 
 std::optional<Pose> Session::commanded() const {

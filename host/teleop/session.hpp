@@ -21,7 +21,11 @@ class Session {
 
   // What a key asks lianad for; empty for keys that change only what is here.
   std::vector<Json> press(const Key& key, double now_s);
-  // Every kPeriod_s: the next goal while keys that jog are held, and one hold when they are let go.
+  // A gamepad is held and leans this way; nothing: it is let go, or there is none.
+  void lean(const std::optional<Direction>& direction) { leant_ = direction; }
+  // A line for the person, until another one comes.
+  void say(const std::string& text) { said_ = text; }
+  // Every kPeriod_s: the next goal while a key that jogs or a gamepad is held, and one hold when it is let go.
   std::vector<Json> pass(double now_s);
   // A packet of lianad.
   void hear(const Json& message);
@@ -34,6 +38,9 @@ class Session {
 
  private:
   bool owns_motion() const { return state_.value("owner", "") == name_; }
+  // Why nothing would move now; empty: it would.
+  std::string why_still() const;
+  Direction wanted(double now_s) const;
   std::optional<Pose> commanded() const;
   Json asked(Json request);
   void change_speed(double factor);
@@ -42,6 +49,7 @@ class Session {
   JogLimits limits_;
   JogSpeed speed_;
   HeldKeys held_;
+  std::optional<Direction> leant_;
   Json state_ = Json::object();
   std::optional<Pose> goal_;  // while jogging
   double goal_s_ = 0.0;       // when it was asked for

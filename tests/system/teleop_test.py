@@ -78,13 +78,31 @@ class Driver:
         return self.process.returncode
 
 
+class Pad:
+    """Events of a joystick (linux/joystick.h): time, value, type, number."""
+
+    def __init__(self, file):
+        self.fd = os.open(file, os.O_RDWR)  # so that the pipe has somebody at its other end from the beginning
+
+    def button(self, number, values=(1, 0)):
+        for value in values:
+            os.write(self.fd, struct.pack("<IhBB", 0, value, 1, number))
+
+    def axis(self, number, share):
+        os.write(self.fd, struct.pack("<IhBB", 0, round(share * 32767), 2, number))
+
+    def close(self):
+        with contextlib.suppress(OSError):
+            os.close(self.fd)
+
+
 class Teleop(SystemTest):
     # req:A16
     def test_without_a_system_it_moves_a_simulated_arm_while_a_key_is_held_and_holds_when_it_is_let_go(self):
         driver = Driver(self)
         driver.until("DISABLED", "nobody owns motion")
         driver.press("w")
-        driver.until("keys move nothing before you take motion")
+        driver.until("nothing moves before you take motion")
         driver.press("t")
         driver.until("motion is yours")
         wait_until(lambda: (driver.press("n"), time.sleep(0.5), "DISABLED" not in driver.picture())[2], "homing")
@@ -115,6 +133,42 @@ class Teleop(SystemTest):
             wait_until(lambda: keeper.step()["owner"] == "", "the end of its motion")
             wait_until(lambda: keeper.step()["at_rest"], "the hold")
             self.assert_holds(keeper.state)
+
+    # req:A16
+    def test_a_gamepad_moves_the_arm_while_its_shoulder_button_is_held_and_stops_it_by_a_button(self):
+        with System() as system:
+            keeper = system.client("keeper")
+            keeper.go_on(2.0)
+            device, pad = self.gamepad()
+            driver = Driver(self, "--api", system.api, "--gamepad", device)
+            wait_until(lambda: (keeper.step(), "nobody owns" in driver.picture())[1], "its picture")
+            pad.button(4)
+            wait_until(lambda: keeper.step()["owner"].startswith("teleop-"), "its motion")
+            pad.button(7)
+            wait_until(lambda: keeper.step()["state"] == "ENABLED", "the enabled arm")
+            begin_m = keeper.state["setpoint_cp"][0]
+            pad.axis(1, 1.0)  # back
+            keeper.go_on(1.0)
+            self.assertAlmostEqual(keeper.state["setpoint_cp"][0], begin_m, 6, "nothing before the shoulder is held")
+            pad.button(5, (1,))
+            wait_until(lambda: keeper.step()["setpoint_cp"][0] < begin_m - 0.02, "the way back")
+            pad.button(5, (0,))
+            wait_until(lambda: keeper.step()["at_rest"], "the hold")
+            pad.button(5, (1,))
+            wait_until(lambda: keeper.step()["is_busy"], "motion again")
+            pad.close()
+            wait_until(lambda: (keeper.step(), "gamepad is gone" in driver.picture())[1], "the line")
+            wait_until(lambda: keeper.step()["at_rest"], "the hold of a gamepad that is gone")
+            self.assert_holds(keeper.state)
+
+    def gamepad(self):
+        """A named pipe in a joystick device's place; its file, and who writes into it."""
+        folder = self.enterContext(tempfile.TemporaryDirectory(prefix="liana-pad-"))
+        file = os.path.join(folder, "js0")
+        os.mkfifo(file)
+        pad = Pad(file)
+        self.addCleanup(pad.close)
+        return file, pad
 
     def test_a_terminal_that_nobody_reads_still_stops_the_arm(self):
         with System() as system:

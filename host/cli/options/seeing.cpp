@@ -43,10 +43,12 @@ void add_console(CLI::App& app, Action& action) {
 }
 
 void add_teleop(CLI::App& app, Action& action) {
-  auto [sub, wish] =
-      add<SystemWish>(app, action, "teleop",
-                      "drive the arm from this terminal: of a running system, or a simulated one", teleop_command);
-  add_system(sub, wish);
+  auto [sub, teleop] =
+      add<TeleopOptions>(app, action, "teleop",
+                         "drive the arm from this terminal: of a running system, or a simulated one", teleop_command);
+  add_system(sub, teleop.wish);
+  sub.add_option("--gamepad", teleop.gamepad,
+                 "a joystick device like /dev/input/js0, beside the keys (docs/teleop.md)");
 }
 
 void add_view(CLI::App& app, Action& action) {

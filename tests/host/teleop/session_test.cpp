@@ -43,6 +43,32 @@ std::string text_of(const Session& session, std::size_t columns = 200) {
 }
 
 // req:A16
+TEST(TeleopSession, AGamepadThatLeansIsAStreamOfGoalsAndLettingItGoIsOneHold) {
+  Session session = session_at(state());
+  session.lean(Direction{{0.0, 0.5, 0.0}, {}});
+  double last_m = 0.2;
+  for (double now_s = 1.0; now_s < 2.0; now_s += Session::kPeriod_s) {
+    const auto requests = session.pass(now_s);
+    ASSERT_EQ(requests.size(), 1U);
+    ASSERT_EQ(requests[0].at("op"), "servo_cp");
+    last_m = requests[0].at("goal")[1].get<double>();
+  }
+  EXPECT_NEAR(last_m, 0.2 + 0.5 * 0.03, 1e-3);
+  session.lean(std::nullopt);
+  const auto after = session.pass(2.1);
+  ASSERT_EQ(after.size(), 1U);
+  EXPECT_EQ(after[0].at("op"), "hold");
+  EXPECT_TRUE(session.pass(2.2).empty());
+}
+
+TEST(TeleopSession, AGamepadThatLeansWithoutMotionSaysWhyNothingMoves) {
+  Session session = session_at(state("somebody"));
+  session.lean(Direction{{1.0, 0.0, 0.0}, {}});
+  EXPECT_TRUE(session.pass(1.0).empty());
+  EXPECT_NE(text_of(session).find("nothing moves before you take motion"), std::string::npos);
+}
+
+// req:A16
 TEST(TeleopSession, AHeldKeyIsAStreamOfGoalsAndLettingItGoIsOneHold) {
   Session session = session_at(state());
   EXPECT_TRUE(session.press(*key_of('w'), 1.0).empty());
@@ -68,7 +94,7 @@ TEST(TeleopSession, KeysMoveNothingWithoutMotionOrBeforeTheArmIsEnabled) {
     Session session = session_at(said);
     session.press(*key_of('w'), 1.0);
     EXPECT_TRUE(session.pass(1.0).empty());
-    EXPECT_NE(text_of(session).find("keys move nothing"), std::string::npos);
+    EXPECT_NE(text_of(session).find("nothing moves before"), std::string::npos);
   }
 }
 
