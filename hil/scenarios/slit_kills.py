@@ -6,7 +6,6 @@ what came of each as a table.
 import argparse
 import collections
 import contextlib
-import math
 import random
 import sys
 
@@ -16,7 +15,7 @@ from liana.system import System
 from run_scenario import LimitedRun
 from scenario_file import expect_that
 from slit import FOLDER, MOMENTS, TARGETS, kRobot, print_rows
-from slit_truth import Aftermath, joint_centres_m
+from slit_truth import Aftermath, beside_way_m
 
 VICTIMS = ("liana-operator", "liana-mission", "client", "liana-archive", "liana-bench", "liana-bus", "lianad", "stall")
 kStalls = (1, 2, 3, 10, 125, 1000)  # slots
@@ -121,7 +120,7 @@ class KillRun(LimitedRun):
         depth_m = truth.column("slit_depth_m")[one.slot]
         expect_that(depth_m > 0, f"the tip is {-depth_m:.2f} m before the slit")
         self.aftermath = Aftermath(truth, robot, one.slot, period_s)
-        self.aftermath.tube_mm = 1e3 * self.beside_way_m(robot, truth)
+        self.aftermath.tube_mm = 1e3 * beside_way_m(robot, truth, self.way)
         self.notes.append(f"{self.aftermath.note()}, {self.aftermath.tube_mm:.1f} mm beside its way")
         self.violations += self.aftermath.complaints(target)
         if self.aftermath.tube_mm > target["tube_mm"]:
@@ -132,12 +131,6 @@ class KillRun(LimitedRun):
         if resting > target["rest_deg_s"]:
             self.violations.append(f"still moves by {resting:.2f} deg/s at the end")
         self.violations += predicates.numbers_that_are_none(truth.rows)
-
-    def beside_way_m(self, robot, truth):
-        """How far the joint centre that is farthest rests from where the nearest pose it was told has it."""
-        rest = joint_centres_m(robot, truth.theta_deg(len(truth.rows) - 1))
-        told = (joint_centres_m(robot, theta_deg) for theta_deg in self.way)
-        return min(max(math.dist(a, b) for a, b in zip(pose, rest)) for pose in told)
 
 
 kFigures = ("contact_N", "clearance_mm", "link_mm", "tube_mm", "rest_s")

@@ -38,6 +38,13 @@ def link_travel_m(truth, robot, begin, period_s):
     )
 
 
+def beside_way_m(robot, truth, way):
+    """How far the joint centre that is farthest rests from where the nearest pose of a way, in degrees, has it."""
+    rest = joint_centres_m(robot, truth.theta_deg(len(truth.rows) - 1))
+    told = (joint_centres_m(robot, theta_deg) for theta_deg in way)
+    return min(max(math.dist(a, b) for a, b in zip(pose, rest)) for pose in told)
+
+
 class Aftermath:
     """From the slot `begin` to the end of the truth."""
 

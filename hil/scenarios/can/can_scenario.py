@@ -1,5 +1,5 @@
 """Scenarios on CAN interfaces: their files (README.md), and what runs each."""
-from can import calibrate_run
+from can import calibrate_run, real_kills
 from can.stand import CanStand
 from can.system import BenchOnCan, kInterfaces
 from run_scenario import Run, outcome
@@ -57,10 +57,13 @@ class CanScenario:
     def fault_count(self):
         return 1 if self.do or (self.calibrate and "cross_wired" in self.calibrate) else 0
 
+    def run(self, stand):
+        return calibrate_run.CalibrateRun(self, stand) if self.calibrate else Run(self, stand)
+
 
 def all_scenarios(folder=SCENARIOS / "can"):
-    """In bring-up order."""
-    return [CanScenario(path) for path in sorted(folder.glob("[0-9]*/*.json"))]
+    """In bring-up order; those drawn by seed last."""
+    return [CanScenario(path) for path in sorted(folder.glob("[0-9]*/*.json"))] + real_kills.all_real_kills()
 
 
 class BenchStand(CanStand):
@@ -76,8 +79,7 @@ class BenchStand(CanStand):
 
 def row(scenario, kind, stand):
     """Runs it on a stand: name, kind, outcome, seconds, why, notes."""
-    run = calibrate_run.CalibrateRun(scenario, stand) if scenario.calibrate else Run(scenario, stand)
-    return {"name": scenario.name, "on": kind, **outcome(run)}
+    return {"name": scenario.name, "on": kind, **outcome(scenario.run(stand))}
 
 
 def rows(words):

@@ -32,7 +32,16 @@ kPrograms = {
     "choom": "util-linux",
     "unshare": "util-linux",
 }
-kLiana = ("liana", "lianad", "liana-bus", "liana-bench", "liana-mission", "liana-archive", "liana-gateway")
+kLiana = (
+    "liana",
+    "lianad",
+    "liana-bus",
+    "liana-bench",
+    "liana-mission",
+    "liana-operator",
+    "liana-archive",
+    "liana-gateway",
+)
 kHere = ("vcan", "gateway")  # kinds of bus that a machine's own kernel makes in a network of its own
 kOwnNetwork = (
     "unshare",
@@ -152,7 +161,14 @@ def guest_files():
     encodings = [
         os.path.dirname(path) for path in modules if path.endswith("/encodings/__init__.py")
     ]  # each is read when it is first used
-    files = [HERE, SOURCE / "lua", "/etc/ld.so.cache", *encodings, *[path for path in modules if os.path.exists(path)]]
+    files = [
+        HERE,
+        SCENARIOS / "slit",
+        SOURCE / "lua",
+        "/etc/ld.so.cache",
+        *encodings,
+        *[path for path in modules if os.path.exists(path)],
+    ]
     programs = [str(binaries() / name) for name in kLiana]
     words = ["--sealed", *[word for path in files for word in ("--preload", str(path))]]
     return words + [word for name in [kPython, *kTools, *kPrograms, *programs] for word in ("--preload-program", name)]

@@ -1,9 +1,11 @@
 """lianad and the bench on CAN interfaces of the kernel, in real time, with the light arm."""
 import json
 import os
+import signal
 import socket
 import subprocess
 import sys
+import time
 
 from liana.client import wait_until
 from liana.system import System, binaries, table
@@ -63,6 +65,12 @@ class CanSystem(System):
         self.start("lianad", *self.tables(), *words)
         wait_until(lambda: self.api.exists() or self.children["lianad"].poll() is not None, "lianad to listen")
 
+    def stand_still(self, name, seconds):
+        """As `kill -STOP` does."""
+        self.children[name].send_signal(signal.SIGSTOP)
+        time.sleep(seconds)
+        self.children[name].send_signal(signal.SIGCONT)
+
     def client(self, **options):
         return super().client(lockstep=False, **options)
 
@@ -89,8 +97,8 @@ class CanSystem(System):
 class BenchOnCan(CanSystem):
     """With the bench at the other end."""
 
-    def __init__(self, kind):
-        super().__init__()
+    def __init__(self, kind, **options):
+        super().__init__(**options)
         self.ours, self.theirs, self.line = *kInterfaces[kind], None
         if kind == "serial":
             self.start_line()

@@ -157,11 +157,11 @@ class System:
         """Records into `directory`; with "archive" in `expect` the whole run."""
         self.start("liana-archive", "--api", self.api, "--record", self.directory)
 
-    def start_operator(self) -> None:
+    def start_operator(self, lockstep: bool = True) -> None:
         """The simulated person at the hand controllers."""
         recordings, scene = LUA / "recordings", self.directory / "scene.json"
-        words = ["--api", self.api, "--recordings", recordings, "--scene", scene, "--seed", self.seed, "--lockstep"]
-        self.start("liana-operator", *words)
+        words = ["--api", self.api, "--recordings", recordings, "--scene", scene, "--seed", self.seed]
+        self.start("liana-operator", *words, *(["--lockstep"] if lockstep else []))
 
     def start_mission(self, mission: Any, lockstep: bool = True) -> None:
         """A mission script; its report is mission.json."""
