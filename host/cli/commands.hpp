@@ -47,6 +47,16 @@ struct ReachOptions {
 // Where the tip or a node can go, or how well the arm is conditioned along a path.
 int reach_command(const ReachOptions& options);
 
+struct BudgetOptions {
+  std::string budget = "payload_install";  // a name under lua/budgets, or a file
+  std::string draws = "100000";
+  std::uint64_t seed = 1;
+  std::string svg_file;  // empty: no picture
+  bool json = false;
+};
+// How far beside its goal a chain of arms puts what it carries, by formula and by chance (docs/budget.md).
+int budget_command(const BudgetOptions& options);
+
 struct VerifyOptions {
   std::string robot = "zhu2022";
   std::string scene = "panel_slit";

@@ -201,7 +201,7 @@ RobotConfig parse_robot(const std::string& text, const std::string& file, const 
                         const BusesConfig& buses);
 SceneConfig parse_scene(const std::string& text, const std::string& file);
 
-// Checks one table of kind "robot", "scene" or "buses" by itself and returns its canonical JSON.
+// Checks one table of kind "robot", "scene", "buses", "drive" or "budget" by itself and returns its canonical JSON.
 std::string check_table(const std::string& kind, const Json& table, const std::string& file);
 
 // SHA-256 (64 hex digits) over the canonical robot, scene and buses JSON, one line each.

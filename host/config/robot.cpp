@@ -1,6 +1,7 @@
 // Robots: the table put together, alone and with the buses that carry its drives.
 #include "host/config/canonical.hpp"
 #include "host/config/drive_type.hpp"
+#include "host/config/error_budget.hpp"
 #include "host/config/robot_parts.hpp"
 #include "host/config/serial_robot.hpp"
 
@@ -56,7 +57,11 @@ std::string check_table(const std::string& kind, const Json& table, const std::s
     parse_drive_type(table, file);
     return canonical_json(table);
   }
-  throw std::runtime_error("kind: " + kind + ": allowed robot, scene, buses, drive: use one of these words");
+  if (kind == "budget") {
+    parse_error_budget(table, file);
+    return canonical_json(table);
+  }
+  throw std::runtime_error("kind: " + kind + ": allowed robot, scene, buses, drive, budget: use one of these words");
 }
 
 }  // namespace liana::config

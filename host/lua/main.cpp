@@ -111,7 +111,7 @@ int main(int argc, char** argv) {
   std::string lua_dir;
   EvalOptions evaluated;
   liana::command_line::Command eval = line.command("eval", "check a table and print it as canonical JSON");
-  eval.option("kind", evaluated.kind, "robot, scene, buses, drive or mission").required();
+  eval.option("kind", evaluated.kind, "robot, scene, buses, drive, budget or mission").required();
   eval.option("name", evaluated.name, "a name in the Lua folder or a file").required();
   eval.option("--robot", evaluated.robot, "robot a mission is checked against: a name or exported JSON")
       .with_default_shown();

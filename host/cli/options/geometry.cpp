@@ -1,4 +1,4 @@
-// Options of the commands that compute: pose, ik, reach, plan, verify.
+// Options of the commands that compute: pose, ik, reach, plan, budget, verify.
 #include "host/cli/commands.hpp"
 #include "host/cli/options/options.hpp"
 
@@ -74,6 +74,16 @@ void add_plan(CLI::App& app, Action& action) {
   add_json(sub, plan.json);
 }
 
+void add_budget(CLI::App& app, Action& action) {
+  auto [sub, budget] = add<BudgetOptions>(
+      app, action, "budget", "how far beside its goal a chain of arms ends: by formula and by chance", budget_command);
+  sub.add_option("budget", budget.budget, "error chain: a name under lua/budgets or a file")->capture_default_str();
+  sub.add_option("--draws", budget.draws, "tries of chance")->capture_default_str();
+  add_seed(sub, budget.seed, "of chance");
+  sub.add_option("--svg", budget.svg_file, "write the contributions as a picture to this file");
+  add_json(sub, budget.json);
+}
+
 void add_verify(CLI::App& app, Action& action) {
   auto [sub, verify] = add<VerifyOptions>(
       app, action, "verify", "whether a straight motion of the joints would be released, and what it leaves",
@@ -93,6 +103,7 @@ void declare_geometry(CLI::App& app, Action& action) {
   add_ik(app, action);
   add_reach(app, action);
   add_plan(app, action);
+  add_budget(app, action);
   add_verify(app, action);
 }
 

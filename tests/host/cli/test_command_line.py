@@ -363,6 +363,7 @@ class Help(unittest.TestCase):
             "ik",
             "reach",
             "plan",
+            "budget",
             "verify",
             "status",
             "estop",
