@@ -57,6 +57,16 @@ struct BudgetOptions {
 // How far beside its goal a chain of arms puts what it carries, by formula and by chance (docs/budget.md).
 int budget_command(const BudgetOptions& options);
 
+struct SweepOptions {
+  std::string robot = "macro";
+  std::string from_deg;  // angles or the name of a pose; empty: the robot's start pose
+  std::string svg_file;  // empty: no picture
+  bool json = false;
+};
+// All configurations of a 7-joint arm with the tip still, and how far each gives way; exit code 1 when they form no
+// closed motion (docs/self-motion.md).
+int sweep_command(const SweepOptions& options);
+
 struct VerifyOptions {
   std::string robot = "zhu2022";
   std::string scene = "panel_slit";

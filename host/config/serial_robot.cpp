@@ -16,7 +16,8 @@ constexpr double kMostAngle_deg = 720.0;
 constexpr double kMostCounts = 2e9;  // what fits into the 32 bits of a drive's position, with room for a target beyond
 
 JointTable read_joint(const Field& field) {
-  field.only({"alpha_deg", "a_m", "d_m", "offset_deg", "low_deg", "high_deg", "rate_deg_s", "accel_deg_s2"});
+  field.only({"alpha_deg", "a_m", "d_m", "offset_deg", "low_deg", "high_deg", "rate_deg_s", "accel_deg_s2",
+              "stiffness_Nm_per_rad"});
   JointTable joint;
   joint.dh.alpha_rad = field.at("alpha_deg").number({-180, 180}) * kRadPerDeg;
   joint.dh.a_m = field.at("a_m").number({-20, 20});
@@ -31,12 +32,25 @@ JointTable read_joint(const Field& field) {
   return joint;
 }
 
+// Of every joint or of none: a compliance of some joints is none of the arm.
+void read_stiffness(const Field& joints, std::size_t count, SerialRobotConfig& out) {
+  const char* const key = "stiffness_Nm_per_rad";
+  for (std::size_t i = 0; i < count; ++i) {
+    if (joints.element(i).json().contains(key) != joints.element(0).json().contains(key))
+      joints.element(i).refuse("stiffness_Nm_per_rad at every joint or at none",
+                               "add it here, or leave it out elsewhere");
+    if (joints.element(i).json().contains(key))
+      out.stiffness_Nm_rad.push_back(joints.element(i).at(key).number({1, 1e9}));
+  }
+}
+
 void read_joints(const Field& joints, SerialRobotConfig& out) {
   const std::size_t count = joints.size(6, serial::kMaxJoints,
                                         "6 joints reach any pose; this build holds at most 8 "
                                         "(kMaxJoints)");
   out.table.joint_count = static_cast<std::int32_t>(count);
   for (std::size_t i = 0; i < count; ++i) out.table.joint[i] = read_joint(joints.element(i));
+  read_stiffness(joints, count, out);
 }
 
 // Numbers that only the bench needs: the core knows nothing of masses yet.

@@ -17,7 +17,8 @@ struct SerialRobotConfig {
   std::string name;
   serial::RobotTable table{};  // tick and T_c included
   DriveIdentity identity{};
-  double rated_torque_Nm = 0.0;  // 6076, at the joint
+  double rated_torque_Nm = 0.0;          // 6076, at the joint
+  std::vector<double> stiffness_Nm_rad;  // of every joint, about its axis; empty: the table does not say
   std::uint32_t counts_per_turn = 0;
   double gear = 1.0;                                           // encoder turns per joint turn
   std::vector<std::uint32_t> drive_serials;                    // what 0x1018:4 must say; empty: anything

@@ -8,6 +8,7 @@ local function joint(alpha_deg, a_m, d_m)
     alpha_deg = alpha_deg, a_m = a_m, d_m = d_m,
     low_deg = -270, high_deg = 270, -- assumed: cables inside the joint, one and a half turns
     rate_deg_s = 4, accel_deg_s2 = 4, -- assumed: as arms of this class, unloaded; at rest within a second
+    stiffness_Nm_per_rad = 8e4, -- assumed: of the gear
   }
 end
 

@@ -1,4 +1,4 @@
-// Options of the commands that compute: pose, ik, reach, plan, budget, verify.
+// Options of the commands that compute: pose, ik, reach, plan, budget, sweep, verify.
 #include "host/cli/commands.hpp"
 #include "host/cli/options/options.hpp"
 
@@ -84,6 +84,15 @@ void add_budget(CLI::App& app, Action& action) {
   add_json(sub, budget.json);
 }
 
+void add_sweep(CLI::App& app, Action& action) {
+  auto [sub, sweep] = add<SweepOptions>(
+      app, action, "sweep", "self-motion of a 7-joint arm with the tip still, and how far it gives way", sweep_command);
+  sub.add_option("--robot", sweep.robot, "serial arm: a name under lua/robots or a file")->capture_default_str();
+  sub.add_option("--from-deg", sweep.from_deg, "joint angles, or a named pose, that the tip stays at");
+  sub.add_option("--svg", sweep.svg_file, "write the deflections as a picture to this file");
+  add_json(sub, sweep.json);
+}
+
 void add_verify(CLI::App& app, Action& action) {
   auto [sub, verify] = add<VerifyOptions>(
       app, action, "verify", "whether a straight motion of the joints would be released, and what it leaves",
@@ -104,6 +113,7 @@ void declare_geometry(CLI::App& app, Action& action) {
   add_reach(app, action);
   add_plan(app, action);
   add_budget(app, action);
+  add_sweep(app, action);
   add_verify(app, action);
 }
 

@@ -44,7 +44,7 @@ void add_physics(CLI::App& sub, std::string& physics, const std::string& of_what
 void add_cross_wired(CLI::App& sub, std::string& drives);
 void add_control_points(CLI::App& sub, std::vector<std::string>& targets);
 
-void declare_geometry(CLI::App& app, Action& action);  // pose, ik, reach, plan, budget, verify
+void declare_geometry(CLI::App& app, Action& action);  // pose, ik, reach, plan, budget, sweep, verify
 void declare_missions(CLI::App& app, Action& action);  // run, check, mission
 void declare_seeing(CLI::App& app, Action& action);    // console, view, commands, log, replay
 void declare_arm(CLI::App& app, Action& action);       // status, estop, clear, calibrate, latency, faults

@@ -10,7 +10,8 @@ from programs import liana, liana_json  # noqa: E402
 
 OWN = """return { format = 1, kind = "budget", name = "own",
   open_loop = { errors = { { name = "arm", position_m = 0.003 } }, terms = { { name = "it", positions = { "arm" } } } },
-  closed_loop = { errors = { { name = "eye", position_m = 0.001 } }, terms = { { name = "it", positions = { "eye" } } } } }
+  closed_loop = { errors = { { name = "eye", position_m = 0.001 } },
+                  terms = { { name = "it", positions = { "eye" } } } } }
 """
 SVG = "{http://www.w3.org/2000/svg}"
 

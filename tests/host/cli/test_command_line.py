@@ -364,6 +364,7 @@ class Help(unittest.TestCase):
             "reach",
             "plan",
             "budget",
+            "sweep",
             "verify",
             "status",
             "estop",
