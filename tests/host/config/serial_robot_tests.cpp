@@ -54,6 +54,8 @@ TEST(SerialRobot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/joints/2/high_deg", -270, "joints[3].high_deg", "-269 to 720"},
       {"/joints/6/rate_deg_s", 0, "joints[7].rate_deg_s", "0.001 to 360"},
       {"/joints/6/wobble", 1, "joints[7].wobble", "no such field"},
+      {"/joints/3/stiffness_Nm_per_rad", 0, "joints[4].stiffness_Nm_per_rad", "1 to"},
+      {"/joints/3/stiffness_Nm_per_rad", nullptr, "joints[4]", "at every joint or at none"},
       {"/mass/boom_kg", -1, "mass.boom_kg", "0.01 to 100000"},
       {"/friction/coulomb_Nm", -1, "friction.coulomb_Nm", "0 to"},
       {"/drives/direction/3", 0, "drives.direction[4]", "1 or -1"},
