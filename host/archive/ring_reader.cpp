@@ -75,12 +75,12 @@ class OutputsFiles {
     if (file != loaded_) load(*file);
     const auto found = blocks_.find(ticks.front().tick);
     if (found == blocks_.end()) return;
-    const std::vector<std::string> outputs = outputs_of(found->second, about_.widths);
+    std::vector<std::string> outputs = outputs_of(found->second, about_.widths);
     for (std::size_t i = 0; i < ticks.size(); ++i) {
       if (i >= outputs.size() || crc_of(outputs[i]) != ticks[i].outputs_crc)
         throw std::runtime_error(file->path + ": tick " + std::to_string(ticks[i].tick) +
                                  ": its Outputs do not match their checksum");
-      ticks[i].outputs = outputs[i];
+      ticks[i].outputs = std::move(outputs[i]);
     }
   }
 

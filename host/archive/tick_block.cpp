@@ -3,14 +3,13 @@
 #include <optional>
 
 #include "host/archive/chunk.hpp"
-#include "host/archive/field_words.hpp"
 #include "host/record/codec.hpp"
 #include "host/record/crc32.hpp"
 
 namespace liana::archive {
 namespace {
 
-constexpr const char* kCrcWidth = "4";
+constexpr std::size_t kCrcBytes = 4;
 constexpr std::uint32_t kMostTicks = 100000;  // of a message: no robot ticks so often in a second
 
 std::uint32_t crc_of(std::string_view bytes) {
@@ -34,11 +33,11 @@ Head head_of(record::Reader& reader) {
   return head;
 }
 
-// What packed() took, a row after the other.
+// What packed() took, a row of so many bytes after the other.
 class Rows {
  public:
-  Rows(std::string_view packed_rows, std::size_t count, std::string_view widths)
-      : bytes_(bytes_of_words(widths)), all_(count == 0 ? "" : unpacked(packed_rows, count, bytes_)) {}
+  Rows(std::string_view packed_rows, std::size_t count, std::size_t bytes)
+      : bytes_(bytes), all_(count == 0 ? "" : unpacked(packed_rows, count, bytes_)) {}
   std::optional<std::string_view> next() {
     if (at_ == all_.size()) return std::nullopt;
     at_ += bytes_;
@@ -60,22 +59,25 @@ std::uint64_t tick_of(std::string_view fields) {
   return tick;
 }
 
+TickBlock::TickBlock(const record::FieldWidths& widths)
+    : inputs_words_(widths.inputs), telecommand_words_(widths.telecommand), outputs_words_(widths.outputs) {}
+
 void TickBlock::add(std::string_view inputs, std::string_view outputs) {
-  const std::size_t fixed = bytes_of_fields(widths_.inputs);
-  append_words(inputs_, inputs.substr(0, fixed), widths_.inputs);
+  const std::size_t fixed = inputs_words_.bytes_of_fields();
+  inputs_words_.append_words(inputs_, inputs.substr(0, fixed));
   record::Writer writer(inputs_);
   writer("outputs_crc", crc_of(outputs));
   if (inputs.size() > fixed) {
-    append_words(telecommands_, inputs.substr(fixed), widths_.telecommand);
+    telecommand_words_.append_words(telecommands_, inputs.substr(fixed));
     ++telecommand_count_;
   }
-  append_words(outputs_, outputs, widths_.outputs);
+  outputs_words_.append_words(outputs_, outputs);
   last_tick_ = tick_of(inputs);
   if (count_++ == 0) first_tick_ = last_tick_;
 }
 
 std::string TickBlock::inputs_message() const {
-  const std::string inputs = packed(inputs_, bytes_of_words(widths_.inputs + kCrcWidth));
+  const std::string inputs = packed(inputs_, inputs_words_.bytes_of_words() + kCrcBytes);
   std::string out;
   record::Writer writer(out);
   writer("first_tick", first_tick_);
@@ -84,7 +86,7 @@ std::string TickBlock::inputs_message() const {
   writer("telecommands", telecommand_count_);
   writer("inputs_bytes", static_cast<std::uint32_t>(inputs.size()));
   out += inputs;
-  if (telecommand_count_ > 0) out += packed(telecommands_, bytes_of_words(widths_.telecommand));
+  if (telecommand_count_ > 0) out += packed(telecommands_, telecommand_words_.bytes_of_words());
   return out;
 }
 
@@ -94,7 +96,7 @@ std::string TickBlock::outputs_message() const {
   writer("first_tick", first_tick_);
   writer("last_tick", last_tick_);
   writer("count", count_);
-  return out + packed(outputs_, bytes_of_words(widths_.outputs));
+  return out + packed(outputs_, outputs_words_.bytes_of_words());
 }
 
 void TickBlock::clear() {
@@ -118,18 +120,19 @@ std::vector<RingTick> ticks_of(std::string_view inputs_message, const record::Fi
   const std::string_view rest = inputs_message.substr(reader.position());
   if (telecommand_count > head.count || inputs_bytes > rest.size())
     throw std::runtime_error("a second of ticks is damaged; take a good copy of the file");
-  Rows inputs(rest.substr(0, inputs_bytes), head.count, widths.inputs + kCrcWidth);
-  Rows telecommands(rest.substr(inputs_bytes), telecommand_count, widths.telecommand);
-  const std::size_t crc_at = bytes_of_words(widths.inputs);
+  const FieldWords inputs_words(widths.inputs), telecommand_words(widths.telecommand);
+  const std::size_t crc_at = inputs_words.bytes_of_words();
+  Rows inputs(rest.substr(0, inputs_bytes), head.count, crc_at + kCrcBytes);
+  Rows telecommands(rest.substr(inputs_bytes), telecommand_count, telecommand_words.bytes_of_words());
   std::vector<RingTick> ticks;
   ticks.reserve(head.count);
   while (const auto words = inputs.next()) {
-    RingTick tick{.inputs = fields_of(*words, widths.inputs)};
+    RingTick tick{.inputs = inputs_words.fields_of(*words)};
     tick.tick = tick_of(tick.inputs);
     record::Reader crc(words->substr(crc_at));
     crc("outputs_crc", tick.outputs_crc);
     if (tick.inputs.back() != '\0') {
-      if (const auto telecommand = telecommands.next()) tick.inputs += fields_of(*telecommand, widths.telecommand);
+      if (const auto telecommand = telecommands.next()) tick.inputs += telecommand_words.fields_of(*telecommand);
     }
     ticks.push_back(std::move(tick));
   }
@@ -139,10 +142,11 @@ std::vector<RingTick> ticks_of(std::string_view inputs_message, const record::Fi
 std::vector<std::string> outputs_of(std::string_view outputs_message, const record::FieldWidths& widths) {
   record::Reader reader(outputs_message);
   const Head head = head_of(reader);
-  Rows rows(outputs_message.substr(reader.position()), head.count, widths.outputs);
+  const FieldWords outputs_words(widths.outputs);
+  Rows rows(outputs_message.substr(reader.position()), head.count, outputs_words.bytes_of_words());
   std::vector<std::string> outputs;
   outputs.reserve(head.count);
-  while (const auto words = rows.next()) outputs.push_back(fields_of(*words, widths.outputs));
+  while (const auto words = rows.next()) outputs.push_back(outputs_words.fields_of(*words));
   return outputs;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "host/archive/field_words.hpp"
 #include "host/archive/rows.hpp"
 #include "host/record/field_widths.hpp"
 
@@ -24,7 +25,7 @@ std::uint64_t tick_of(std::string_view fields);
 
 class TickBlock {
  public:
-  explicit TickBlock(record::FieldWidths widths) : widths_(std::move(widths)) {}
+  explicit TickBlock(const record::FieldWidths& widths);
   // Throws std::runtime_error when the bytes are not as many as the widths say.
   void add(std::string_view inputs, std::string_view outputs);
   bool is_empty() const { return count_ == 0; }
@@ -39,7 +40,7 @@ class TickBlock {
   void clear();
 
  private:
-  record::FieldWidths widths_;
+  FieldWords inputs_words_, telecommand_words_, outputs_words_;
   std::string inputs_, telecommands_, outputs_;  // as words
   std::uint64_t first_tick_ = 0, last_tick_ = 0;
   std::uint32_t count_ = 0, telecommand_count_ = 0;
