@@ -24,7 +24,8 @@ const std::map<std::string, std::string> kFolders = {{"robot", "robots"},   {"sc
 ScriptFile read_script(const fs::path& path, const std::string& display) {
   std::error_code error;
   if (!fs::is_regular_file(path, error))
-    throw std::runtime_error(display + ": no such file: allowed a Lua file: check the path");
+    throw std::runtime_error(display + (fs::exists(path, error) ? ": no ordinary file" : ": no such file") +
+                             ": allowed a Lua file: check the path");
   if (fs::file_size(path, error) > kLargestScript)
     throw std::runtime_error(display + ": too large: allowed 1 MiB: split it into modules");
   std::ifstream in(path, std::ios::binary);

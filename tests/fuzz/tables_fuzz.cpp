@@ -1,4 +1,7 @@
-// JSON files: robot, buses, scene and drive type tables, and what their canonical form is read as again.
+// JSON files: robot, buses, scene, drive type and budget tables, and what their canonical form is read as again.
+#include <array>
+#include <string_view>
+
 #include "host/config/config.hpp"
 #include "host/json/json.hpp"
 #include "tests/fuzz/fuzz.hpp"
@@ -7,10 +10,10 @@ using namespace liana;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string_view text = fuzz::text_of(data, size);
-  const unsigned which = fuzz::choice(text) % 4;
+  constexpr std::array kKinds{"robot", "buses", "scene", "drive", "budget"};
+  const char* const kind = kKinds[fuzz::choice(text) % kKinds.size()];
   return fuzz::refusing([&] {
-    const char* kind = which == 0 ? "robot" : which == 1 ? "buses" : which == 2 ? "scene" : "drive";
     const std::string canonical = config::check_table(kind, Json::parse(text), kind);
-    if (which == 2) config::parse_scene(canonical, "scene");
+    if (std::string_view(kind) == "scene") config::parse_scene(canonical, "scene");
   });
 }

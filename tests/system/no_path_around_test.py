@@ -106,12 +106,20 @@ def led_back(client):
 STATES = {"disabled": disabled, "enabled": enabled, "moving": moving, "braking": braking, "led back": led_back}
 
 
+class Crowded(System):
+    """With a client of every role, there before the bench is: it would be the one camera and the one tool."""
+
+    def start_bench(self):
+        self.others = {role: self.client(role, role, lockstep=False, subscribe=()) for role in kRoles}
+        super().start_bench()
+
+
 class EveryRequest(SystemTest):
     def setUp(self):
-        self.system = self.enterContext(System(expect="client,archive", faults=self.faults()))
+        self.system = self.enterContext(Crowded(expect="client,archive", faults=self.faults()))
+        self.others = self.system.others
         self.system.start_archive()
         self.client = self.system.client()
-        self.others = {role: self.system.client(role, role, lockstep=False, subscribe=()) for role in kRoles}
 
     def faults(self):
         slot = kFaultSlot if "fault" in self._testMethodName else None
