@@ -1,0 +1,27 @@
+// What only liana-operator can tell of a run: how far the tip is behind the hand, and what the hand felt. A file that
+// the report of `liana run` takes in (docs/operator.md).
+#pragma once
+
+#include <optional>
+
+#include "host/hand_side/human_session.hpp"
+#include "host/hand_side/lag_meter.hpp"
+#include "host/json/json_fwd.hpp"
+
+namespace liana::hand_side {
+
+class RunFigures {
+ public:
+  // A message is sent to the arm: of device samples the newest counts.
+  void sent(const Json& message);
+  // A state of the arm, as it is now.
+  void arm(const Json& state);
+  // `hand`: nothing where no hand had a force.
+  Json json(const std::optional<HandFigures>& hand) const;
+
+ private:
+  LagMeter lag_;
+  double scale_ = 1.0;
+};
+
+}  // namespace liana::hand_side
