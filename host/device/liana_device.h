@@ -21,13 +21,14 @@
 #define LIANA_MOST_HANDS 2
 #define LIANA_MOST_PLANES 6
 
-enum liana_packet {                    /* header.packet */
-                    LIANA_HELLO = 1,   /* up, first: what the device is */
-                    LIANA_SAMPLE = 2,  /* up: a hand */
-                    LIANA_BYE = 3,     /* up, last: only the header; leaving without it is the same to the arm */
-                    LIANA_WELCOME = 4, /* down: answers hello */
-                    LIANA_REFUSED = 5, /* down: why, then the connection ends */
-                    LIANA_STATE = 6    /* down, every command interval */
+/* header.packet */
+enum liana_packet {
+  LIANA_HELLO = 1,   /* up, first: what the device is */
+  LIANA_SAMPLE = 2,  /* up: a hand */
+  LIANA_BYE = 3,     /* up, last: only the header; leaving without it is the same to the arm */
+  LIANA_WELCOME = 4, /* down: answers hello */
+  LIANA_REFUSED = 5, /* down: why, then the connection ends */
+  LIANA_STATE = 6    /* down, every command interval */
 };
 
 struct liana_header {
@@ -56,10 +57,11 @@ struct liana_wrench {
 
 /* ---- up ---- */
 
-enum liana_device_kind {                            /* hello.kind: what `use_device` calls it */
-                         LIANA_HAND_CONTROLLER = 1, /* "hand": a desktop device, with or without force */
-                         LIANA_HANDLES = 2,         /* "vr": one or two tracked handles in free space */
-                         LIANA_POINTER = 3          /* "pointer": SpaceMouse, gamepad; its driver integrates a pose */
+/* hello.kind: what `use_device` calls it */
+enum liana_device_kind {
+  LIANA_HAND_CONTROLLER = 1, /* "hand": a desktop device, with or without force */
+  LIANA_HANDLES = 2,         /* "vr": one or two tracked handles in free space */
+  LIANA_POINTER = 3          /* "pointer": SpaceMouse, gamepad; its driver integrates a pose */
 };
 
 /* sets of axes in liana_hand, of position, of attitude, and whether the twist is told */
