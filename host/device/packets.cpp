@@ -32,14 +32,6 @@ bool are_sound(const double (&values)[N], double most) {
 
 bool is_time(std::int64_t t_us) { return t_us >= 0 && t_us <= kMostTime_us; }
 
-bool is_sound_sample(const liana_sample& p) {
-  constexpr std::uint32_t kFlags = LIANA_VALID | LIANA_DEADMAN;
-  return is_time(p.t_us) && is_time(p.echo_us) && (p.flags & ~kFlags) == 0 && is_sound(p.trigger, 1.0) &&
-         p.trigger >= 0.0 && are_sound(p.measured_cp.position_m, kRoom_m) &&
-         are_sound(p.measured_cp.quaternion_wxyz, 2.0) && is_valid(pose_of(p.measured_cp)) &&
-         are_sound(p.measured_cv.linear_m_s, kMostSpeed) && are_sound(p.measured_cv.angular_rad_s, kMostSpeed);
-}
-
 // 0: no such packet.
 std::size_t bytes_of_packet(std::uint16_t packet) {
   static constexpr std::array<std::size_t, 7> kBytes{0,
@@ -114,8 +106,22 @@ liana_sample packet_of(const Sample& sample, std::uint32_t sequence, const Echo&
   return out;
 }
 
-std::optional<Sample> sample_of(const liana_sample& packet, std::uint32_t hands) {
-  if (packet.hand >= hands || !is_sound_sample(packet)) return std::nullopt;
+const char* problem_of(const liana_sample& p, std::uint32_t hands) {
+  constexpr std::uint32_t kFlags = LIANA_VALID | LIANA_DEADMAN;
+  if (!is_time(p.t_us)) return "t_us: allowed 0 to 2^53";
+  if (!is_time(p.echo_us)) return "echo_us: allowed 0 to 2^53";
+  if (p.hand >= hands) return "hand: allowed 0, and 1 where hello says two hands";
+  if ((p.flags & ~kFlags) != 0) return "flags: allowed 0 to 3";
+  if (!is_sound(p.trigger, 1.0) || p.trigger < 0.0) return "trigger: allowed 0 to 1, not denormal";
+  if (!are_sound(p.measured_cp.position_m, kRoom_m)) return "measured_cp: position allowed within 10 m, not denormal";
+  if (!are_sound(p.measured_cp.quaternion_wxyz, 2.0) || !is_valid(pose_of(p.measured_cp)))
+    return "measured_cp: quaternion allowed of length 1 within 1e-6, not denormal";
+  if (!are_sound(p.measured_cv.linear_m_s, kMostSpeed) || !are_sound(p.measured_cv.angular_rad_s, kMostSpeed))
+    return "measured_cv: allowed within 1000 m/s and rad/s, not denormal";
+  return nullptr;
+}
+
+Sample sample_of(const liana_sample& packet) {
   Sample out;
   out.t_us = packet.t_us;
   out.hand = packet.hand;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstring>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -53,8 +52,10 @@ struct Echo {
 };
 
 liana_sample packet_of(const Sample& sample, std::uint32_t sequence, const Echo& echo);
-// Nothing when a number is not one that liana_device.h allows, or the device has no such hand.
-std::optional<Sample> sample_of(const liana_sample& packet, std::uint32_t hands);
+// What is wrong with a sample of a device with so many hands: the field, and what it may be; nullptr when nothing is.
+const char* problem_of(const liana_sample& packet, std::uint32_t hands);
+// Of a packet in which nothing is wrong.
+Sample sample_of(const liana_sample& packet);
 
 liana_refused refused_of(std::string_view why);
 

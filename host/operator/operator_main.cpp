@@ -1,4 +1,5 @@
 // liana-operator: the recorded and simulated person at the input devices, over the interface that live devices use.
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
@@ -8,6 +9,7 @@
 #include "host/config/config.hpp"
 #include "host/json/json.hpp"
 #include "host/operator/operator_session.hpp"
+#include "host/operator/own_devices.hpp"
 
 namespace liana::operator_side {
 namespace {
@@ -18,6 +20,7 @@ constexpr double kPoll_s = 1.0;
 // Command line of liana-operator.
 struct OperatorOptions {
   std::string api;
+  std::string devices;     // empty: beside the API socket
   std::string recordings;  // folders, separated by ':'
   std::string scene;       // empty: the scene lianad runs with
   std::uint64_t seed = 1;
@@ -64,19 +67,32 @@ void look(OperatorSession& session, const Json& message) {
   }
 }
 
+// The devices' clock is the arm's.
+std::int64_t time_us(const Json& state) { return std::llround(state.at("time_s").get<double>() * 1e6); }
+
+// Samples first: with `done` lianad takes them into the interval.
+void act(api::ApiClient& client, OwnDevices& devices, OperatorSession& session, const Json& state) {
+  devices.receive(time_us(state));
+  const OperatorAnswer answer = session.on_state(state);
+  devices.send(answer.kind, answer.samples);
+  for (const Json& out : answer.messages) client.send(out);
+}
+
 // One message in, the answers out; false when lianad stops.
-bool answer(api::ApiClient& client, OperatorSession& session, const Json& message, bool lockstep) {
+bool answer(api::ApiClient& client, OwnDevices& devices, OperatorSession& session, const Json& message, bool lockstep) {
   const std::string op = message.value("op", "");
   if (op == "camera") look(session, message);
   if (op == "error") std::fprintf(stderr, "liana-operator: refused: %s\n", message.value("message", "").c_str());
   if (op != "state") return true;
-  for (const Json& out : session.on_state(message)) client.send(out);
+  act(client, devices, session, message);
   if (lockstep) client.send({{"op", "done"}, {"tick", message.at("tick")}});
   return !message.value("stopping", false);
 }
 
 int operate(const OperatorOptions& options) {
   api::ApiClient client = api::ApiClient::connect(options.api, kWelcomeTimeout_s);
+  // Known before the role is taken: missions begin as soon as lianad has its operator.
+  OwnDevices devices(options.devices.empty() ? device::devices_path(options.api) : options.devices, kWelcomeTimeout_s);
   const Json welcome = greet(client, options);
   const config::SceneConfig scene = options.scene.empty()
                                         ? config::parse_scene(welcome.at("scene").dump(), "scene of " + options.api)
@@ -84,7 +100,7 @@ int operate(const OperatorOptions& options) {
   OperatorSession session(folders_in(options.recordings), drawing_of(scene), HandGains{}, options.seed);
   for (bool running = true; running;) {
     const auto message = client.receive(kPoll_s);
-    if (message) running = answer(client, session, *message, options.lockstep);
+    if (message) running = answer(client, devices, session, *message, options.lockstep);
   }
   return 0;
 }
@@ -97,6 +113,7 @@ int main(int argc, char** argv) {
   liana::command_line::CommandLine line(
       "The operator as data and as a model that looks: recorded VR handles, simulated hand controller");
   line.option("--api", options.api, "API socket of lianad").required();
+  line.option("--devices", options.devices, "socket of lianad for devices; .devices behind that of --api without");
   line.option("--recordings", options.recordings, "folders of the .hand files, separated by ':', searched in turn")
       .required();
   line.option("--scene", options.scene, "scene JSON the person has as a drawing; default: the one lianad runs with");
