@@ -1,21 +1,14 @@
 #include "host/api/client.hpp"
 
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <chrono>
-#include <cstring>
 #include <stdexcept>
 
-#include "host/api/address.hpp"
+#include "host/api/connect.hpp"
 #include "host/json/json.hpp"
 
 namespace liana::api {
 
 namespace {
 constexpr double kSendTimeout_s = 10.0;
-constexpr useconds_t kRetry_us = 20000;
 
 [[noreturn]] void throw_gone() {
   throw std::runtime_error("lianad is gone: the API socket was closed by the other end");
@@ -23,19 +16,7 @@ constexpr useconds_t kRetry_us = 20000;
 }  // namespace
 
 ApiClient ApiClient::connect(const std::string& path, double timeout_s) {
-  const sockaddr_un address = unix_address(path);
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
-  for (;;) {
-    UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
-    if (fd.get() >= 0 && ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
-      return ApiClient(std::move(fd));
-    }
-    if (std::chrono::steady_clock::now() >= deadline) {
-      throw std::runtime_error("cannot reach lianad at " + path + ": " + std::strerror(errno) +
-                               "; is it running with --api " + path + "?");
-    }
-    ::usleep(kRetry_us);
-  }
+  return ApiClient(connect_to("--api", path, timeout_s));
 }
 
 void ApiClient::send(const Json& request) {

@@ -29,11 +29,6 @@ std::string brief(const Json& value) { return value.dump(-1, Json::BadUtf8::kRep
                                     one_arm + ": leave it out");
 }
 
-bool applies(const RequestField& field, const Json& request) {
-  const Json& device = request.member_or_null("device");
-  return *field.device == '\0' || (device.is_string() && device.text() == field.device);
-}
-
 // What is refused inside an entry or an object says where.
 template <class Body>
 void inside(const std::string& where, const Body& body) {
@@ -57,7 +52,7 @@ class Check {
       if (value != nullptr && value->is_null() && field.need == Need::kOrNull) continue;
       if (value != nullptr) {
         given(field, *value, object);
-      } else if (field.need == Need::kRequired && applies(field, request_)) {
+      } else if (field.need == Need::kRequired) {
         refuse("bad_request", std::string(field.name) + " is missing",
                field.most > 0 ? allowed_entries(field) : type_text(field), "add it");
       }
@@ -67,15 +62,13 @@ class Check {
  private:
   void only_known(const Json& object, std::span<const RequestField> fields) const {
     std::string names;
-    for (const RequestField& field : fields) {
-      if (applies(field, request_)) names += (names.empty() ? "" : ", ") + std::string(field.name);
-    }
+    for (const RequestField& field : fields) names += (names.empty() ? "" : ", ") + std::string(field.name);
     for (const auto& member : object.items()) {
       const std::string& key = member.first;
       if (&object == &request_ && (key == "op" || key == "id")) continue;
       const auto found =
           std::find_if(fields.begin(), fields.end(), [&](const RequestField& field) { return key == field.name; });
-      if (found == fields.end() || !applies(*found, request_))
+      if (found == fields.end())
         refuse("bad_request", "unknown field " + key.substr(0, 60) + " = " + brief(member.second),
                names.empty() ? "none" : names, "correct its spelling or remove it");
       if (bounds_ != nullptr && (found->arms & bounds_->arm) == 0) wrong_arm(key, found->arms, *bounds_);

@@ -32,7 +32,6 @@ constexpr RequestField object(const char* name, std::span<const RequestField> fi
 
 constexpr std::array kCommands{"enable", "disable", "clear", "home"};
 constexpr std::array kMissionCommands{"pause", "resume", "step", "confirm", "abort"};
-constexpr std::array kDevices{"vr", "hand", "none"};
 
 constexpr std::array kHello{
     text("name", 64, "what lianad calls the client: as owner, in events, as who stopped the arm"),
@@ -124,7 +123,7 @@ constexpr std::array kShape{
     flag("search", "the best of all shapes is looked for first (arm at rest)").otherwise(0.0),
 };
 constexpr std::array kUseDevice{
-    word("device", kDevices, "who steers; `none`: nobody"),
+    text("device", 31, "who steers: `vr`, `hand`, `pointer`, or a connected device by its name; `none`: nobody"),
     number("scale", 0.01, 100.0, "way of the tip for a way of the hand").otherwise(1.0),
     number("rotation_scale", 0.0, 10.0, "turn of the tip for a turn of the hand").otherwise(1.0),
     integer("node", 0.0, Figure::kNodes, "node that the left hand of `vr` moves; 0: none").otherwise(0.0),
@@ -161,25 +160,6 @@ constexpr std::array kOperatorSays{
     number("time_s", 0.0, 1e9, "arm time at which it is said").optional(),
 };
 
-constexpr double kDeviceRoom_m = 10.0;  // a device frame's size
-constexpr std::array kHandle{
-    flag("valid", "the device is tracked"),
-    number("trigger", 0.0, 1.0, "deadman; held from 0.5 on"),
-    pose("pose", kDeviceRoom_m, "of the handle in the device frame"),
-};
-constexpr std::array kSample{
-    integer("t_us", 0.0, kBiggestWhole, "when it was taken, by the device's clock"),
-    object("right", kHandle, "the hand that moves the tip").with_device("vr"),
-    object("left", kHandle, "the hand that moves a node").with_device("vr"),
-    flag("valid", "the device is tracked").with_device("hand"),
-    number("button", 0.0, 1.0, "deadman; held from 0.5 on").with_device("hand"),
-    pose("pose", kDeviceRoom_m, "of the hand in the device frame").with_device("hand"),
-};
-constexpr std::array kSources{"vr", "hand"};
-constexpr std::array kDevice{
-    word("device", kSources, "where the samples come from"),
-    object("samples", kSample, "since the last message, oldest first").list(256),
-};
 constexpr std::array kToolPhases{"acting", "done", "failed"};
 constexpr std::array kToolReport{
     integer("number", 1.0, kBiggestWhole, "of the command, as the tool was told"),

@@ -62,7 +62,6 @@ std::string range_text(const RequestField& field) {
 std::string what_it_is(const RequestField& field) {
   const std::string one = type_text(field) + range_text(field);
   std::string out = field.most == 0 ? one : "up to " + std::to_string(field.most) + ", each " + one;
-  if (*field.device != '\0') out += "; with device `" + std::string(field.device) + "`";
   return field.arms == kEveryArm ? out : out + "; " + arms_text(field.arms) + " only";
 }
 

@@ -40,9 +40,8 @@ struct RequestField {
   Words words{};
   std::span<const RequestField> fields{};
   Need need = Need::kRequired;
-  Bound fallback{};         // what it is when left out
-  std::uint16_t most = 0;   // a list of so many; 0: a single value
-  const char* device = "";  // given only where the request's field "device" is this word
+  Bound fallback{};        // what it is when left out
+  std::uint16_t most = 0;  // a list of so many; 0: a single value
   Arms arms = kEveryArm;
 
   // May be left out; without a value then, or an empty list.
@@ -68,11 +67,6 @@ struct RequestField {
   constexpr RequestField list(std::uint16_t entries) const {
     RequestField out = *this;
     out.most = entries;
-    return out;
-  }
-  constexpr RequestField with_device(const char* name_of_device) const {
-    RequestField out = *this;
-    out.device = name_of_device;
     return out;
   }
   constexpr RequestField only_for(Arms kinds) const {

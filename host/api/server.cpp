@@ -125,7 +125,7 @@ ApiServer::ApiServer(const std::string& path, ApiHandler& handler, std::optional
     : group_(group), listener_(listen_at("--api", path, group)), handler_(handler) {}
 ApiServer::~ApiServer() = default;
 
-void ApiServer::pump(double timeout_s) {
+void ApiServer::pump(double timeout_s, int others) {
   std::vector<pollfd> polled{{listener_.get(), POLLIN, 0}};
   for (const auto& client : clients_) {
     const int in = client->readable(lockstep_tick_) ? POLLIN : 0;
@@ -133,6 +133,7 @@ void ApiServer::pump(double timeout_s) {
     const bool watched = client->why_closed.empty() && (in | out) != 0;  // a hang-up would wake us again and again
     polled.push_back({watched ? client->fd.get() : -1, static_cast<short>(in | out), 0});
   }
+  polled.push_back({others, POLLIN, 0});
   if (::poll(polled.data(), polled.size(), timeout_s > 0.0 ? static_cast<int>(timeout_s * 1e3) + 1 : 0) <= 0) {
     drop_strangers();
     return;

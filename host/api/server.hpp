@@ -47,7 +47,8 @@ class ApiServer {
 
   // Moves packets between sockets and queues, waiting up to `timeout_s` for something to do. A stop of a client outside
   // lockstep is handed to the handler at once. Clients outside lockstep that send much are read for 2 ms in all.
-  void pump(double timeout_s);
+  // Also wakes when `others`, a descriptor of somebody else, is readable.
+  void pump(double timeout_s, int others = -1);
   // Hands every queued request to the handler: stops of all clients first, then the others by role and name of the
   // client, each in its own order. Clients outside lockstep share 2 ms; what is left waits for the next call.
   void dispatch();

@@ -77,13 +77,13 @@ void CableArbiter::shape(const cable::Outputs& now, const cable::NodeTargets& no
 }
 
 bool CableArbiter::is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use) const {
-  return use.kind == DeviceKind::kVr && !use.anywhere && zone_.holds(now.tip_command.position_m);
+  return use.kind == device::Kind::kHandles && !use.anywhere && zone_.holds(now.tip_command.position_m);
 }
 
 void CableArbiter::use_device(const cable::Outputs& now, const DeviceUse& use) {
   if (is_vr_in_slit(now, use))
-    throw api::RequestError("refused",
-                            "device = vr: the tip is inside the slit: use hand there, or say anywhere = true");
+    throw api::RequestError(
+        "refused", "device = " + use.name + ": the tip is inside the slit: use hand there, or say anywhere = true");
   if (is_busy()) throw api::RequestError("busy", "a planned move is under way: wait for it or send hold");
   take_device_away();
   device_.use(use);

@@ -1,19 +1,37 @@
 #include "host/arbiter/device_steer.hpp"
 
+#include <algorithm>
+
 namespace liana::arbiter {
 
 using namespace cable;
 
 void DeviceSteer::use(const DeviceUse& use) {
-  if (rate_.count() > 0) ended_use_ = UseRecord{use_.kind, rate_};
+  if (rate_.count() > 0) ended_use_ = UseRecord{use_.name, rate_};
   use_ = use;
-  rate_ = SampleRate{};
+  rate_ = device::SampleRate{};
   tip_ = HandTrack{};
   node_ = HandTrack{};
   engaged_ = node_engaged_ = must_let_go_ = false;
   silent_s_ = 0.0;
+  newest_us_ = made_of_us_ = -1;
   node_target_ = NodeTarget{};
   reason_ = "";
+}
+
+void DeviceSteer::add(const device::Sample& sample) {
+  if (sample.hand != 0) return node_.add_sample(sample);
+  tip_.add_sample(sample);
+  rate_.add(sample.t_us);
+  newest_us_ = std::max(newest_us_, sample.t_us);
+}
+
+void DeviceSteer::lose_device() {
+  disengage("device gone");
+  tip_ = HandTrack{};
+  node_ = HandTrack{};
+  node_engaged_ = false;
+  newest_us_ = made_of_us_ = -1;
 }
 
 void DeviceSteer::disengage(const char* reason) {
@@ -43,7 +61,7 @@ void DeviceSteer::steer_node(const HandReading& left, const cable::Outputs& now)
 std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now, double interval_s) {
   const HandReading tip = tip_.finish_interval();
   const HandReading left = node_.finish_interval();
-  if (use_.kind == DeviceKind::kNone) return std::nullopt;
+  if (use_.kind == device::Kind::kNone) return std::nullopt;
   samples_ += tip.samples;
   rate_.finish_interval(interval_s);
   silent_s_ = tip.samples > 0 ? 0.0 : silent_s_ + interval_s;
@@ -62,6 +80,7 @@ std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now,
     engaged_ = true;
   }
   if (!engaged_) return std::nullopt;
+  made_of_us_ = newest_us_;
   return SteerGoal{clutch_goal(use_.mapping, anchor_, hand_), node_target_};
 }
 

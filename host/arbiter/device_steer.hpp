@@ -4,24 +4,25 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "firmware_like/cable_controller.hpp"
 #include "host/arbiter/clutch.hpp"
 #include "host/arbiter/hand_track.hpp"
-#include "host/arbiter/sample_rate.hpp"
+#include "host/device/capability.hpp"
+#include "host/device/sample_rate.hpp"
 
 namespace liana::arbiter {
 
-enum class DeviceKind : std::uint8_t { kNone = 0, kVr = 1, kHand = 2 };
-
 // What use_device sets.
 struct DeviceUse {
-  DeviceKind kind = DeviceKind::kNone;
+  std::string name = "none";  // as it was asked for: of a kind, or of one device
+  device::Kind kind = device::Kind::kNone;
   ClutchMapping mapping{};
-  std::int32_t node = 0;   // vr: node that the left hand moves; 0 = none
+  std::int32_t node = 0;   // handles: node that the left hand moves; 0 = none
   double speed_m_s = 0.0;  // tip speed limit while steering
-  bool anywhere = false;   // vr: inside the slit, too
+  bool anywhere = false;   // handles: inside the slit, too
 };
 
 constexpr double kDeviceSilent_s = 0.1;    // no sample for longer: disengage
@@ -29,8 +30,8 @@ constexpr double kNodeThreshold_m = 0.01;  // a node target acts beyond this dis
 
 // How regularly the samples of a device came, from the first of its use to the last.
 struct UseRecord {
-  DeviceKind kind = DeviceKind::kNone;
-  SampleRate rate{};
+  std::string name;
+  device::SampleRate rate{};
 };
 
 // One interval's wish of the operator.
@@ -47,28 +48,26 @@ class DeviceSteer {
   bool engaged() const { return engaged_; }
   // Why the operator was disengaged last, empty when by letting go.
   const char* reason() const { return reason_; }
+  // Device time of the newest tip sample that the last goal was made of; < 0 before the first goal of a use.
+  std::int64_t made_of_us() const { return made_of_us_; }
   // Samples counted since the start.
   std::uint64_t samples() const { return samples_; }
   // Of the device in use, since it is.
-  const SampleRate& rate() const { return rate_; }
+  const device::SampleRate& rate() const { return rate_; }
   // The use that ended since the last call, if samples came in it.
   std::optional<UseRecord> take_ended_use() { return std::exchange(ended_use_, std::nullopt); }
 
-  // Samples of the tip hand (vr right hand, hand controller) and of the vr left hand. Others than the device in use are
-  // ignored.
-  void add_tip_sample(const HandSample& sample) {
-    tip_.add_sample(sample);
-    rate_.add(sample.t_us);
-  }
-  void add_node_sample(const HandSample& sample) { node_.add_sample(sample); }
-
+  // A sample of the device in use: hand 0 steers the tip, hand 1 the node.
+  void add(const device::Sample& sample);
   // Ends the interval; a goal while engaged. `now` gives the anchors on engaging, `interval_s` the time since the last
   // call.
   std::optional<SteerGoal> finish_interval(const cable::Outputs& now, double interval_s);
   // A refused command: engages again at once, with new anchors.
   void drop_anchor() { engaged_ = false; }
-  // Vr handles are for free space: in the slit they are let go.
+  // Handles are for free space: in the slit they are let go.
   void leave_slit() { disengage("in_slit"); }
+  // The device is gone: another one that takes its place begins anew, with its own clock.
+  void lose_device();
   // A hold asked for by others: engages again after the deadman was open.
   void let_go() { disengage("held"); }
 
@@ -83,10 +82,11 @@ class DeviceSteer {
   const char* reason_ = "";
   double silent_s_ = 0.0;
   std::uint64_t samples_ = 0;
-  SampleRate rate_{};
+  device::SampleRate rate_{};
   std::optional<UseRecord> ended_use_;
   ClutchAnchor anchor_{};
   Pose hand_{};  // newest averaged pose
+  std::int64_t newest_us_ = -1, made_of_us_ = -1;
   Vec3 node_hand_anchor_m_{}, node_anchor_m_{};
   cable::NodeTarget node_target_{};
 };

@@ -8,7 +8,7 @@ namespace {
 double seconds(std::int64_t us) { return static_cast<double>(us) * 1e-6; }
 }  // namespace
 
-bool HandTrack::is_jump(const HandSample& sample) const {
+bool HandTrack::is_jump(const device::Sample& sample) const {
   if (!any_good_) return false;
   const double dt_s = std::min(seconds(sample.t_us - last_good_t_us_), kJumpWindow_s);
   const double way_m = norm(subtract(sample.pose.position_m, last_good_.position_m));
@@ -24,13 +24,13 @@ void HandTrack::average_in(const Pose& pose) {
   ++reading_.used;
 }
 
-void HandTrack::add_sample(const HandSample& sample) {
+void HandTrack::add_sample(const device::Sample& sample) {
   ++reading_.samples;
   if (any_ && sample.t_us <= last_t_us_) return;
   any_ = true;
   last_t_us_ = sample.t_us;
-  reading_.pressed = sample.pressed;
-  if (!sample.pressed) {
+  reading_.pressed = sample.deadman;
+  if (!sample.deadman) {
     reading_.let_go = true;
     reading_.used = 0;  // what was averaged before belongs to the old grip
     position_sum_m_ = turn_sum_rad_ = Vec3{};
@@ -38,7 +38,7 @@ void HandTrack::add_sample(const HandSample& sample) {
   if (!sample.valid || !is_valid(sample.pose)) return;
   if (is_jump(sample)) {
     // A tracker that stays where it jumped to is believed again once the operator has let go.
-    if (!sample.pressed) {
+    if (!sample.deadman) {
       last_good_ = sample.pose;
       last_good_t_us_ = sample.t_us;
     }

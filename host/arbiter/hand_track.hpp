@@ -3,17 +3,9 @@
 
 #include <cstdint>
 
-#include "firmware_like/math/pose.hpp"
+#include "host/device/sample.hpp"
 
 namespace liana::arbiter {
-
-// One sample of a device.
-struct HandSample {
-  std::int64_t t_us = 0;  // device time
-  bool valid = false;     // the tracker sees the hand
-  bool pressed = false;   // deadman: trigger or button
-  Pose pose{};            // in the device frame
-};
 
 // What one command interval of samples says.
 struct HandReading {
@@ -35,12 +27,12 @@ constexpr double kTrackingLost_s = 0.25;
 class HandTrack {
  public:
   // Takes one sample; times must not go back (such samples are counted and ignored).
-  void add_sample(const HandSample& sample);
+  void add_sample(const device::Sample& sample);
   // The reading of the interval that ends now; the next interval starts empty.
   HandReading finish_interval();
 
  private:
-  bool is_jump(const HandSample& sample) const;
+  bool is_jump(const device::Sample& sample) const;
   void average_in(const Pose& pose);
 
   HandReading reading_{};

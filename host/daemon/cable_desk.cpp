@@ -6,7 +6,6 @@
 
 #include "firmware_like/math/trig.hpp"
 #include "host/config/slit_mouth.hpp"
-#include "host/daemon/device_messages.hpp"
 #include "host/plan/check/way_check.hpp"
 
 namespace liana::daemon {
@@ -40,10 +39,9 @@ arbiter::PathCheck<cable::CableArm> path_check(const config::RobotConfig& robot,
   };
 }
 
-// `what`, with how regularly the samples of `kind` came.
-event::Event device_event(event::DeviceEvent what, arbiter::DeviceKind kind, const arbiter::SampleRate& rate,
+// `what`, with how regularly the samples of `name` came.
+event::Event device_event(event::DeviceEvent what, const std::string& name, const device::SampleRate& rate,
                           double rate_hz) {
-  const std::string name = device_name(kind);
   char text[200];
   const double least_ms = 1e3 * rate.least_s(), most_ms = 1e3 * rate.most_s();
   if (what == event::DeviceEvent::kLeft) {
@@ -52,7 +50,7 @@ event::Event device_event(event::DeviceEvent what, arbiter::DeviceKind kind, con
   } else if (what == event::DeviceEvent::kSlow) {
     std::snprintf(text, sizeof text,
                   "device %s gives %.1f samples a second, least are %.0f: its driver or the way here is too slow",
-                  name.c_str(), rate_hz, arbiter::kLeastRate_hz);
+                  name.c_str(), rate_hz, device::kLeastRate_hz);
   } else {
     std::snprintf(text, sizeof text, "device %s gives %.1f samples a second again", name.c_str(), rate_hz);
   }
@@ -85,17 +83,21 @@ event::Event friction_event(const cable::FrictionReport& friction, double declar
 }  // namespace
 
 CableDesk::CableDesk(const config::RobotConfig& robot, const config::SceneConfig& scene, const std::string& in_pose,
-                     timing::TimeMode time_mode, control::ArmLink<cable::CableArm>& link)
+                     timing::TimeMode time_mode, control::ArmLink<cable::CableArm>& link,
+                     const device::DoorPlace& devices)
     : ArmDesk(robot.table, zone_of(robot, scene), time_mode, link, simulation_end(robot, scene), taken(time_mode),
               path_check(robot, scene)),
       robot_(robot),
       scene_(scene),
       homing_(robot_, in_pose),
-      shape_progress_(robot.table) {
+      shape_progress_(robot.table),
+      devices_(devices, robot.table.interval_ticks * robot.table.tick_s, robot.table.limits.tip_speed_m_s),
+      device_state_(robot.table.interval_ticks * robot.table.tick_s) {
   handlers_["move_cp"] = [this](const MotionRequest& r) { move_line(r.fields); };
   handlers_["hold_theta"] = [this](const MotionRequest& r) { hold_theta(r.fields.entries("held")); };
   handlers_["shape"] = [this](const MotionRequest& r) { shape(r.fields); };
-  handlers_["use_device"] = [this](const MotionRequest& r) { use_device(r); };
+  handlers_["use_device"] = [this](const MotionRequest& r) { use_device(r.fields); };
+  handlers_["devices"] = [](const MotionRequest&) {};  // only looks
 }
 
 // The slit is looked at by the commanded angles: they have no noise.
@@ -135,7 +137,37 @@ void CableDesk::take_picture(const TipPicture& picture) {
   clearance_->see({capture_tick, picture.slit_in_tip, picture.rod_in_tip}, tick() - 1);
 }
 
-void CableDesk::take_samples(const api::Arguments& message) { add_samples(message, arbiter_.device()); }
+void CableDesk::take_samples() { devices_.take_samples(arbiter_.device(), table_.interval_ticks * table_.tick_s); }
+
+void CableDesk::tell_devices(std::int64_t now_us) {
+  const cable::Outputs& o = outputs();
+  ArmForDevices arm{.tick = tick(),
+                    .arm_time_us = now_us,
+                    .is_enabled = o.state == OperatingState::kEnabled,
+                    .measured_tip = tip_pose(table_, arm_trig(table_, o.theta_measured_rad)),
+                    .commanded_tip = o.tip_command,
+                    .predicted_tip = predicted_tip_};
+  if (clearance_ && clearance_->claim().clearance.link >= 0) arm.clearance_m = clearance_->claim().clearance.distance_m;
+  device_state_.look(arm, table_.tick_s);
+  devices_.tell(device_state_, arbiter_.device(), now_us);
+}
+
+Json CableDesk::ask(const MotionRequest& request) {
+  ArmDesk::ask(request);
+  return std::string_view(request.op) == "devices" ? devices_.details() : Json::object();
+}
+
+// What a released command was made of, and where the twin ends with it, is told to the devices.
+std::optional<LastVerdict> CableDesk::release_next(bool may_release, std::uint32_t owner) {
+  const std::optional<LastVerdict> verdict = ArmDesk::release_next(may_release, owner);
+  if (!verdict || !verdict->released) return verdict;
+  const arbiter::DeviceSteer& steer = arbiter_.device();
+  device_state_.note_release(verdict->first_tick, steer.engaged() ? steer.made_of_us() : -1);
+  cable::ThetaVector theta_rad{};
+  for (std::size_t i = 0; i < verdict->twin_js_deg.size(); ++i) theta_rad[i] = verdict->twin_js_deg[i] * kDegree;
+  predicted_tip_ = tip_pose(table_, arm_trig(table_, theta_rad));
+  return verdict;
+}
 
 void CableDesk::drop_motion() {
   arbiter_.hold();
@@ -143,7 +175,7 @@ void CableDesk::drop_motion() {
 }
 
 std::vector<event::Event> CableDesk::take_events() {
-  std::vector<event::Event> events;
+  std::vector<event::Event> events = devices_.take_events();
   tell_device(events);
   const cable::FrictionReport& friction = outputs().friction;
   if ((friction.not_as_declared != 0) == friction_is_off_) return events;
@@ -156,12 +188,12 @@ void CableDesk::tell_device(std::vector<event::Event>& events) {
   using enum event::DeviceEvent;
   if (const auto ended = arbiter_.device().take_ended_use()) {
     device_is_slow_ = false;
-    events.push_back(device_event(kLeft, ended->kind, ended->rate, ended->rate.mean_hz()));
+    events.push_back(device_event(kLeft, ended->name, ended->rate, ended->rate.mean_hz()));
   }
-  const arbiter::SampleRate& rate = arbiter_.device().rate();
+  const device::SampleRate& rate = arbiter_.device().rate();
   if (rate.is_slow() == device_is_slow_) return;
   device_is_slow_ = rate.is_slow();
-  events.push_back(device_event(device_is_slow_ ? kSlow : kFastAgain, arbiter_.device().in_use().kind, rate,
+  events.push_back(device_event(device_is_slow_ ? kSlow : kFastAgain, arbiter_.device().in_use().name, rate,
                                 rate.now_hz().value_or(0.0)));
 }
 
@@ -203,17 +235,15 @@ void CableDesk::shape(const api::Arguments& fields) {
   shape_progress_.restart();
 }
 
-void CableDesk::use_device(const MotionRequest& request) {
-  const api::Arguments& fields = request.fields;
+void CableDesk::use_device(const api::Arguments& fields) {
   arbiter::DeviceUse use;
-  use.kind = device_kind(fields.text("device"));
+  use.name = fields.text("device");
+  use.kind = devices_.kind_of(use.name);
   use.mapping.scale = fields.number("scale");
   use.mapping.rotation_scale = fields.number("rotation_scale");
   use.node = static_cast<std::int32_t>(fields.integer("node"));
   use.speed_m_s = fields.number("speed_m_s");
   use.anywhere = fields.flag("anywhere");
-  if (use.kind != arbiter::DeviceKind::kNone && !request.operator_is_here)
-    throw api::RequestError("no_device", "no operator is connected");
   arbiter_.use_device(outputs(), use);
 }
 

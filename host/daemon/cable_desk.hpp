@@ -5,6 +5,7 @@
 #include "host/arbiter/shape_progress.hpp"
 #include "host/config/config.hpp"
 #include "host/daemon/arm_desk.hpp"
+#include "host/daemon/device_desk.hpp"
 #include "host/daemon/homing.hpp"
 #include "host/live_clearance/live_clearance.hpp"
 
@@ -15,13 +16,19 @@ std::vector<double> theta_deg(const cable::RobotTable& table, const cable::Theta
 
 class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
  public:
-  // `in_pose`: the named pose in which the arm lies at the start; empty: nobody knows (homing.hpp, which throws).
+  // `devices`: where it listens for them. `in_pose`: the named pose in which the arm lies at the start; empty: nobody
+  // knows (homing.hpp, which throws).
   CableDesk(const config::RobotConfig& robot, const config::SceneConfig& scene, const std::string& in_pose,
-            timing::TimeMode time_mode, control::ArmLink<cable::CableArm>& link);
+            timing::TimeMode time_mode, control::ArmLink<cable::CableArm>& link, const device::DoorPlace& devices);
 
   void watch(bool booted) override;
   const std::string& why_not_homed() const override { return homing_.why_not(); }
-  void take_samples(const api::Arguments& message) override;
+  int devices_fd() const override { return devices_.fd(); }
+  void hear_devices(std::int64_t now_us) override { devices_.hear(now_us); }
+  void take_samples() override;
+  void tell_devices(std::int64_t now_us) override;
+  Json ask(const MotionRequest& request) override;
+  std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) override;
   void take_picture(const TipPicture& picture) override;
   void drop_motion() override;
   std::vector<event::Event> take_events() override;
@@ -36,7 +43,7 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   void move_line(const api::Arguments& fields);
   void hold_theta(const std::vector<api::Arguments>& held);
   void shape(const api::Arguments& fields);
-  void use_device(const MotionRequest& request);
+  void use_device(const api::Arguments& fields);
   void tell_device(std::vector<event::Event>& events);
 
   config::RobotConfig robot_;
@@ -45,9 +52,12 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   arbiter::ShapeProgress shape_progress_;
   std::optional<live_clearance::LiveClearance> clearance_;  // while the lengths of its cables tell where the arm is
   live_clearance::Outlook outlook_;                         // what the simulation was told last
-  bool friction_is_off_ = false;                            // as told last
-  bool device_is_slow_ = false;                             // as told last
-  std::int32_t planar_segments_ = 0;                        // how many the slit asks for now (host/solve/dof_split.hpp)
+  DeviceDesk devices_;
+  DeviceState device_state_;
+  std::optional<Pose> predicted_tip_;  // at the end of the command released last
+  bool friction_is_off_ = false;       // as told last
+  bool device_is_slow_ = false;        // as told last
+  std::int32_t planar_segments_ = 0;   // how many the slit asks for now (host/solve/dof_split.hpp)
 };
 
 }  // namespace liana::daemon

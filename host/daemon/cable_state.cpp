@@ -1,7 +1,6 @@
 // What a cable arm adds to the state message.
 #include "host/config/theta_numbers.hpp"
 #include "host/daemon/cable_desk.hpp"
-#include "host/daemon/device_messages.hpp"
 #include "host/daemon/state_parts.hpp"
 
 namespace liana::daemon {
@@ -20,7 +19,7 @@ Json nodes_json(const cable::RobotTable& table, const cable::Outputs& outputs) {
 }
 
 // Null before the first sample of a device in use; `hz` null before its first second is over.
-Json rate_json(const arbiter::SampleRate& rate) {
+Json rate_json(const device::SampleRate& rate) {
   if (rate.count() == 0) return nullptr;
   const std::optional<double> now_hz = rate.now_hz();
   return {{"hz", now_hz ? Json(*now_hz) : Json()}, {"least_s", rate.least_s()}, {"most_s", rate.most_s()}};
@@ -61,11 +60,12 @@ void CableDesk::add_state(Json& state) const {
   state["is_busy"] = arbiter_.is_busy() || (o.state == OperatingState::kEnabled && (o.at_rest == 0 || awaits_held));
   add_retract(state, arbiter_.retract_state());
   state["path"] = path_json(arbiter_.path());
-  state["device"] = device_name(device.kind);
+  state["device"] = device.name;
   state["device_engaged"] = arbiter_.device().engaged();
   state["device_reason"] = arbiter_.device().reason();
   state["device_samples"] = arbiter_.device().samples();
   state["device_rate"] = rate_json(arbiter_.device().rate());
+  state["devices"] = devices_.summary();
   state["mapping"] = {{"scale", device.mapping.scale}, {"rotation_scale", device.mapping.rotation_scale}};
   state["shape"] = {{"missing_m", shape_progress_.missing_m()},
                     {"settled", shape_progress_.is_settled() && !arbiter_.is_searching()},

@@ -37,7 +37,6 @@ struct LastVerdict {
 struct MotionRequest {
   const char* op;
   const api::Arguments& fields;
-  bool operator_is_here = false;  // a client with role operator is connected
 };
 
 // What the tip camera has seen: frames in the tip frame at capture; nothing where out of sight.
@@ -76,8 +75,13 @@ class Desk {
   // Requests about motion that this arm knows; ask() throws RequestError.
   virtual bool knows(const std::string& op) const = 0;
   virtual Json ask(const MotionRequest& request) = 0;
-  // Samples of an operator's device; throws RequestError.
-  virtual void take_samples(const api::Arguments& message) = 0;
+  // Devices of operators (docs/devices.md), which only some arms have. hear_devices() reads what their drivers have
+  // sent, at any time, with arm time; devices_fd() is readable when it has something to do, -1: never.
+  virtual int devices_fd() const { return -1; }
+  virtual void hear_devices(std::int64_t) {}
+  // Once per interval: their samples go to the steering; each of them is told the arm's state.
+  virtual void take_samples() {}
+  virtual void tell_devices(std::int64_t) {}
   // A picture of the tip camera, when every run has it. An arm that has no use for it leaves it out.
   virtual void take_picture(const TipPicture&) {}
   // Nothing is asked for any more: stop along the path.

@@ -20,6 +20,7 @@
 #include "host/daemon/cable_desk.hpp"
 #include "host/daemon/serial_desk.hpp"
 #include "host/daemon/turns.hpp"
+#include "host/device/driver.hpp"
 
 namespace {
 
@@ -42,7 +43,7 @@ void handle_signals() {
 
 struct Options {
   std::string robot, scene, buses, api, time = "fast", physics = "nominal", bus_socket, expect, calibration, in_pose,
-                                        events, commands, way_out, verify_times, group;
+                                        events, commands, way_out, verify_times, group, devices;
 };
 
 std::vector<liana::api::Role> roles_in(const std::string& list) {
@@ -88,10 +89,15 @@ struct Setup {
   std::vector<liana::api::Role> expected;
 };
 
+std::optional<gid_t> group_of(const Options& options) {
+  if (options.group.empty()) return std::nullopt;
+  return api::group_named("--group", options.group);
+}
+
 liana::daemon::ServiceConfig service_config(const Setup& setup, const std::string& robot_json) {
   liana::daemon::ServiceConfig config;
   config.api_path = setup.options.api;
-  if (!setup.options.group.empty()) config.api_group = api::group_named("--group", setup.options.group);
+  config.api_group = group_of(setup.options);
   config.time_mode = setup.mode;
   config.robot_json = robot_json;
   config.scene_json = setup.scene.canonical_json;
@@ -135,6 +141,10 @@ int serve(const Setup& setup, const Robot& robot, liana::control::ArmLink<Arm>& 
   });
 }
 
+device::DoorPlace devices_of(const Options& options) {
+  return {options.devices.empty() ? device::devices_path(options.api) : options.devices, group_of(options)};
+}
+
 int serve_cable_arm(const Setup& setup) {
   const Options& options = setup.options;
   liana::config::RobotConfig robot = liana::config::load_robot(options.robot, options.physics, setup.buses);
@@ -142,18 +152,19 @@ int serve_cable_arm(const Setup& setup) {
     liana::calibration::apply(
         liana::calibration::load_calibration(options.calibration, robot, liana::calibration::today_utc()), robot);
   const auto link = std::make_unique<liana::control::ArmLink<cable::CableArm>>(robot.table);
-  liana::daemon::CableDesk desk(robot, setup.scene, options.in_pose, setup.mode, *link);
+  liana::daemon::CableDesk desk(robot, setup.scene, options.in_pose, setup.mode, *link, devices_of(options));
   return serve(setup, robot, *link, desk);
 }
 
 int serve_serial_arm(const Setup& setup) {
   const Options& options = setup.options;
-  for (const auto& [name, value] : {std::pair{"--calibration", options.calibration}, {"--in-pose", options.in_pose}}) {
+  const auto refuse = [](const char* name, const std::string& value, const char* why) {
     if (!value.empty())
-      throw std::runtime_error(std::string(name) +
-                               ": allowed with cable arms only: the encoders of a serial arm are "
-                               "absolute; leave it out");
-  }
+      throw std::runtime_error(std::string(name) + ": allowed with cable arms only: " + why + "; leave it out");
+  };
+  refuse("--calibration", options.calibration, "the encoders of a serial arm are absolute");
+  refuse("--in-pose", options.in_pose, "the encoders of a serial arm are absolute");
+  refuse("--devices", options.devices, "no device steers a serial arm yet");
   const liana::config::SerialRobotConfig robot = liana::config::load_serial_robot(options.robot, setup.buses);
   const auto link = std::make_unique<liana::control::ArmLink<serial::SerialArm>>(robot.table);
   liana::daemon::SerialDesk desk(robot, setup.mode, *link);
@@ -185,7 +196,10 @@ int main(int argc, char** argv) {
   line.option("--scene", options.scene, "scene JSON").required();
   line.option("--buses", options.buses, "buses JSON").required();
   line.option("--api", options.api, "path of the API socket to listen at").required();
-  line.option("--group", options.group, "group whose members may use the API, beside its own user and root");
+  line.option(
+      "--devices", options.devices,
+      "path of the socket to listen at for input devices (docs/devices.md); .devices behind that of --api without");
+  line.option("--group", options.group, "group whose members may use API and devices, beside its own user and root");
   line.option("--time", options.time, "fast, paced or real").with_default_shown();
   line.option("--physics", options.physics, "friction the core is told: nominal, ideal or worn").with_default_shown();
   line.option("--bus-socket", options.bus_socket, "socket of liana-bus (embedded back end)");

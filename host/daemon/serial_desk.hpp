@@ -15,8 +15,6 @@ class SerialDesk final : public ArmDesk<serial::SerialArm, arbiter::Arbiter<seri
 
   void watch(bool booted) override;
   const std::string& why_not_homed() const override { return why_not_homed_; }
-  // No device steers this arm yet: the samples are left out.
-  void take_samples(const api::Arguments&) override {}
   void drop_motion() override { arbiter_.hold(); }
   void add_state(Json& state) const override;
   void add_drive_state(std::size_t drive, Json& state) const override;

@@ -44,6 +44,17 @@ Service::Service(const ServiceConfig& config, Desk& desk)
   desk.restore_way(way_file_->kept());
 }
 
+// In real time finer than ticks: both ways of a device's packets are measured with it.
+std::int64_t Service::arm_time_us() {
+  const std::int64_t tick_us = std::llround(time_s() * 1e6);
+  if (config_.time_mode != timing::TimeMode::kReal) return tick_us;
+  using std::chrono::microseconds;
+  const auto since = std::chrono::steady_clock::now().time_since_epoch();
+  const std::int64_t clock_us = std::chrono::duration_cast<microseconds>(since).count();
+  if (!clock_ahead_us_) clock_ahead_us_ = clock_us - tick_us;
+  return clock_us - *clock_ahead_us_;
+}
+
 std::uint64_t Service::ticks_in(double time_s) const {
   return static_cast<std::uint64_t>(std::lround(time_s / config_.buses.tick_s()));
 }
@@ -72,15 +83,19 @@ void Service::cycle() {
   idle(0.0);  // what came from clients outside lockstep
   forward_camera();
   watch_tool();
+  desk_.tell_devices(arm_time_us());  // first: who has the state has had what its device was told
   publish_state();
   if (config_.time_mode != timing::TimeMode::kReal) server_.wait_done(tick(), kLockstepPatience_s);
+  desk_.hear_devices(arm_time_us());
   server_.dispatch();
+  desk_.take_samples();
   watch_stream();
   release_next();
 }
 
 void Service::idle(double timeout_s) {
-  server_.pump(timeout_s);
+  server_.pump(timeout_s, desk_.devices_fd());
+  desk_.hear_devices(arm_time_us());  // before requests, which may name a device that has just come
   server_.dispatch();
 }
 

@@ -92,7 +92,6 @@ class Service : private api::ApiHandler {
   Json on_mission_control(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_archive_alarm(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_operator_says(const api::ClientInfo& client, const api::Arguments& fields);
-  Json on_device(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_camera(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_tool_report(const api::ClientInfo& client, const api::Arguments& fields);
   Json on_timing(const api::ClientInfo& client, const api::Arguments& fields);
@@ -101,6 +100,7 @@ class Service : private api::ApiHandler {
   const CycleOutputs& now() const { return desk_.outputs(); }
   std::uint64_t tick() const { return desk_.report().next_tick; }
   double time_s() const { return static_cast<double>(tick()) * config_.buses.tick_s(); }
+  std::int64_t arm_time_us();
   std::uint64_t ticks_in(double time_s) const;
   void note(event::Event event);
   void note(std::vector<event::Event> events);
@@ -152,7 +152,8 @@ class Service : private api::ApiHandler {
   std::deque<CameraFrame> camera_;
   std::uint64_t clear_seen_tick_ = 0;
   TickWatch tick_watch_;
-  control::Overruns overruns_before_;  // at the last reset of the timing
+  std::optional<std::int64_t> clock_ahead_us_;  // of arm time, real time only
+  control::Overruns overruns_before_;           // at the last reset of the timing
   std::optional<std::uint64_t> mission_end_tick_, shutdown_tick_;
   std::uint64_t moved_tick_ = 0;            // the last after the mission's end in which the arm was led on
   std::optional<std::uint64_t> stop_tick_;  // of the last stop, whoever asked for it

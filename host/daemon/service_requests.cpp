@@ -24,7 +24,6 @@ const std::map<std::string, Service::Handler>& Service::handlers() {
                                                         {"mission_control", &Service::on_mission_control},
                                                         {"operator_says", &Service::on_operator_says},
                                                         {"archive_alarm", &Service::on_archive_alarm},
-                                                        {"device", &Service::on_device},
                                                         {"camera", &Service::on_camera},
                                                         {"tool_report", &Service::on_tool_report},
                                                         {"timing", &Service::on_timing}};
@@ -56,7 +55,7 @@ Json Service::act_on(const api::ClientInfo& client, const Json& request) {
 }
 
 Json Service::answer_to(const api::RequestRow& row, const api::ClientInfo& client, const api::Arguments& fields) {
-  if (desk_.knows(row.op)) return desk_.ask({row.op, fields, server_.has_role(api::Role::kOperator)});
+  if (desk_.knows(row.op)) return desk_.ask({row.op, fields});
   const auto found = handlers().find(row.op);
   if (found == handlers().end())
     throw api::RequestError("refused", std::string(row.op) + " is not served here: leave it out");
@@ -199,11 +198,6 @@ Json Service::on_archive_alarm(const api::ClientInfo& client, const api::Argumen
         .subject = printable(client.name),
         .values = {{"count", static_cast<double>(fields.integer("count"))}},
         .text = "archive: " + printable(fields.text("text"))});
-  return Json::object();
-}
-
-Json Service::on_device(const api::ClientInfo&, const api::Arguments& fields) {
-  desk_.take_samples(fields);
   return Json::object();
 }
 

@@ -55,6 +55,9 @@ enum class DeviceEvent : std::uint8_t {
   kFastAgain = 0,  // as many samples a second again as there have to be
   kSlow = 1,       // fewer than 50 in a second
   kLeft = 2,       // no longer in use: how regularly its samples came
+  kConnected = 3,  // its driver has said hello
+  kGone = 4,       // its driver has left
+  kRefused = 5,    // its driver sent what is not allowed, and was let go
 };
 enum class PathEvent : std::uint8_t { kRefused = 0, kBegins = 1, kArrives = 2, kStops = 3 };
 enum class WayEvent : std::uint8_t {

@@ -1,31 +1,41 @@
-// A delayed link between the hand's side and the arm's, in arm time: what is sent into it comes out later, perhaps in
-// another order. Of device samples and states only the newest counts; what is said arrives however late.
+// One direction of a delayed link between the hand's side and the arm's, in arm time: what is sent into it comes out
+// later, perhaps in another order.
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <vector>
+#include <optional>
+#include <utility>
 
 #include "host/haptic/link.hpp"
 #include "host/haptic/packets.hpp"
-#include "host/json/json_fwd.hpp"
 
 namespace liana::hand_side {
 
-// One direction.
+template <class Load>
 class DelayLine {
  public:
+  struct Arrival {
+    std::shared_ptr<const Load> load;
+    bool is_newest = true;  // nothing that was sent later has come before
+  };
+
   DelayLine(const haptic::LinkTable& table, std::uint64_t seed, std::uint64_t purpose) : link_(table, seed, purpose) {}
 
-  // Messages of one moment travel together.
-  void send(std::vector<Json> messages, double now_s);
-  // Those that have come by now. Of a parcel that a later one has overtaken, nothing but what a person said.
-  std::vector<Json> receive(double now_s);
+  void send(Load load, std::int64_t now_us) {
+    link_.send({sequence_++, std::make_shared<const Load>(std::move(load))}, now_us);
+  }
+  // The next that has come by now.
+  std::optional<Arrival> receive(std::int64_t now_us) {
+    const auto parcel = link_.receive(now_us);
+    if (!parcel) return std::nullopt;
+    return Arrival{parcel->load, newest_.accept(parcel->sequence)};
+  }
 
  private:
   struct Parcel {
     std::uint32_t sequence = 0;
-    std::shared_ptr<const std::vector<Json>> messages;
+    std::shared_ptr<const Load> load;
   };
 
   haptic::Link<Parcel> link_;

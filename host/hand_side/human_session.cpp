@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
 
-#include "host/json/json.hpp"
+#include "host/operator/camera_message.hpp"
 #include "host/operator/delayed_gains.hpp"
-#include "host/operator/device_messages.hpp"
 
 namespace liana::hand_side {
 namespace {
-
-using operator_side::ControllerSample;
-using operator_side::VrSample;
 
 constexpr double kMillisecond_s = 0.001;
 constexpr double kLongestGap_s = 0.1;  // after a pause the hands go on, they do not catch up
@@ -59,9 +56,20 @@ Pose pose_in(const Json& state, const char* key) {
   return pose;
 }
 
+Vec3 place(const double (&p)[3]) { return {p[0], p[1], p[2]}; }
+
 std::int64_t microseconds(double time_s) { return std::llround(time_s * 1e6); }
 
 }  // namespace
+
+std::optional<operator_side::TipSighting> sighting_in(const Json& picture) {
+  try {
+    return operator_side::sighting_of(picture);
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "liana-operator: %s\n", error.what());
+    return std::nullopt;
+  }
+}
 
 HumanSession::HumanSession(const HumanTable& table, const config::RobotConfig& robot, const config::SceneConfig& scene)
     : table_(table),
@@ -80,11 +88,13 @@ void HumanSession::begin_step(const Json& state, double now_s) {
   if (step_.device == "vr") return vr_person_.begin(mapping, now_s);
   hand_person_.begin(operator_side::hand_task(step_), mapping, now_s);
   held_.loop().scale_by(mapping.scale);
-  prediction_.begin({arbiter::DeviceKind::kHand, {mapping.scale, mapping.rotation_scale}, 0, mapping.speed_m_s, false},
-                    pose_in(state, "setpoint_cp"));
+  prediction_.begin(
+      {"hand", device::Kind::kHandController, {mapping.scale, mapping.rotation_scale}, 0, mapping.speed_m_s, false},
+      pose_in(state, "setpoint_cp"));
 }
 
-void HumanSession::hear(const Json& state, double now_s) {
+void HumanSession::hear(const News& news, double now_s) {
+  const Json& state = news.state;
   const operator_side::AnnouncedStep step = operator_side::announced_step(state);
   if (step.index != step_.index || step.entry != step_.entry || step.device != step_.device) steering_ = false;
   step_ = step;
@@ -92,60 +102,55 @@ void HumanSession::hear(const Json& state, double now_s) {
   if (ours && !steering_) begin_step(state, now_s);
   if (!steering_) return;
   const bool engaged = state.value("device_engaged", false);
-  if (step_.device == "hand") return hear_of_hand(state, engaged), hand_person_.feel(engaged, now_s);
+  if (step_.device == "hand") return hear_of_hand(news, engaged, now_s);
   vr_person_.feel(engaged, now_s);
   vr_person_.look(display_.picture(state.at("measured_js_deg").get<std::vector<double>>(), node_), now_s);
 }
 
 // Where the measured tip and the commanded one differ at rest is no contact: the prediction counts from there.
-void HumanSession::hear_of_hand(const Json& state, bool engaged) {
-  const Vec3 tip_m = pose_in(state, "measured_cp").position_m;
-  const double time_s = state.at("time_s").get<double>();
-  const Vec3 way_m = measured_ ? subtract(tip_m, measured_->position_m) : Vec3{};
-  const double since_s = std::max(time_s - measured_s_, kMillisecond_s);
-  measured_ = haptic::Motion{tip_m, scale(way_m, 1.0 / since_s)};
-  measured_s_ = time_s;
-  if (!engaged && !prediction_.engaged()) {
-    const Pose commanded = pose_in(state, "setpoint_cp");
-    prediction_.stand_at(commanded);
-    beside_m_ = subtract(tip_m, commanded.position_m);
+void HumanSession::hear_of_hand(const News& news, bool engaged, double now_s) {
+  hand_person_.feel(engaged, now_s);
+  for (const Json& picture : news.pictures) {
+    if (const auto seen = sighting_in(picture)) hand_person_.look(*seen, now_s);
   }
-  const std::int64_t answers_us = microseconds(time_s - kArmDelay_s);
-  const auto then = predicted_.at(answers_us);
-  if (engaged && then) errors_m_.push_back(norm(subtract(tip_m, then->position_m)));
-  if (!table_.law) return;
-  held_.loop().take({static_cast<std::uint32_t>(state.at("tick").get<std::uint64_t>()), answers_us, 0, *measured_});
+  if (!engaged && !prediction_.engaged()) {
+    const Pose commanded = pose_in(news.state, "setpoint_cp");
+    prediction_.stand_at(commanded);
+    beside_m_ = subtract(pose_in(news.state, "measured_cp").position_m, commanded.position_m);
+  }
+  if (news.for_device) feel(*news.for_device);
 }
 
-void HumanSession::see(const Json& camera, double now_s) {
-  hand_person_.look(operator_side::sighting_of(camera), now_s);
+void HumanSession::feel(const liana_state& told) {
+  const haptic::Motion tip{place(told.measured_cp.position_m), place(told.measured_cv.linear_m_s)};
+  const auto then = told.answers_us < 0 ? std::nullopt : predicted_.at(told.answers_us + told.held_us);
+  if ((told.flags & LIANA_ENGAGED) != 0 && then) errors_m_.push_back(norm(subtract(tip.position_m, then->position_m)));
+  if (table_.law) held_.loop().take({told.header.sequence, told.answers_us, told.held_us, tip});
 }
 
-std::vector<Json> HumanSession::act(double now_s) {
-  if (!steering_) return {};
+operator_side::OperatorAnswer HumanSession::act(double now_s) {
+  operator_side::OperatorAnswer answer;
+  if (!steering_) return answer;
   const double from_s = std::max(acted_s_, now_s - kLongestGap_s);
   acted_s_ = now_s;
-  std::vector<Json> messages;
-  if (step_.device == "vr") {
-    const auto samples = lead(now_s);
-    if (!samples.empty()) messages.push_back(operator_side::device_message(samples));
-  } else {
-    const auto samples = steer(from_s, now_s);
-    if (!samples.empty()) messages.push_back(operator_side::device_message(samples));
-  }
-  if (has_arrived() && !reported_) {
-    reported_ = true;
-    messages.push_back({{"op", "operator_says"}, {"what", "arrived"}, {"step", step_.index}, {"time_s", now_s}});
-  }
-  return messages;
+  const bool handles = step_.device == "vr";
+  answer.kind = handles ? device::Kind::kHandles : device::Kind::kHandController;
+  answer.samples = handles ? lead(now_s) : steer(from_s, now_s);
+  if (!has_arrived() || reported_) return answer;
+  reported_ = true;
+  answer.messages.push_back({{"op", "operator_says"}, {"what", "arrived"}, {"step", step_.index}, {"time_s", now_s}});
+  return answer;
 }
 
 bool HumanSession::has_arrived() const { return step_.device == "vr" ? vr_person_.arrived() : hand_person_.arrived(); }
 
-std::vector<VrSample> HumanSession::lead(double now_s) {
-  std::vector<VrSample> samples;
-  for (; handles_s_ + operator_side::VrPerson::kSample_s <= now_s; handles_s_ += operator_side::VrPerson::kSample_s)
-    samples.push_back(vr_person_.sample(handles_s_ + operator_side::VrPerson::kSample_s));
+std::vector<device::Sample> HumanSession::lead(double now_s) {
+  std::vector<device::Sample> samples;
+  for (; handles_s_ + operator_side::VrPerson::kSample_s <= now_s; handles_s_ += operator_side::VrPerson::kSample_s) {
+    const operator_side::BothHands hands = vr_person_.sample(handles_s_ + operator_side::VrPerson::kSample_s);
+    samples.push_back(hands.right);
+    samples.push_back(hands.left);
+  }
   return samples;
 }
 
@@ -153,11 +158,11 @@ haptic::Motion HumanSession::felt(const haptic::Motion& predicted) const {
   return {add(predicted.position_m, beside_m_), predicted.velocity_m_s};
 }
 
-std::vector<ControllerSample> HumanSession::steer(double from_s, double now_s) {
-  std::vector<ControllerSample> samples;
+std::vector<device::Sample> HumanSession::steer(double from_s, double now_s) {
+  std::vector<device::Sample> samples;
   const auto count = std::lround((now_s - from_s) / kMillisecond_s);
   for (long i = 1; i <= count; ++i) {
-    const ControllerSample wish = hand_person_.sample(from_s + static_cast<double>(i) * kMillisecond_s);
+    const device::Sample wish = hand_person_.sample(from_s + static_cast<double>(i) * kMillisecond_s);
     samples.push_back(held_.step(wish, add(prediction_.goal().position_m, beside_m_)));
     prediction_.add(samples.back());
   }

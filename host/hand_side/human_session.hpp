@@ -7,10 +7,11 @@
 #include <vector>
 
 #include "host/config/config.hpp"
+#include "host/device/liana_device.h"
 #include "host/hand_side/tip_prediction.hpp"
 #include "host/haptic/held_hand.hpp"
 #include "host/haptic/prediction_track.hpp"
-#include "host/json/json_fwd.hpp"
+#include "host/json/json.hpp"
 #include "host/operator/arm_display.hpp"
 #include "host/operator/operator_session.hpp"
 #include "host/operator/vr_person.hpp"
@@ -31,25 +32,34 @@ struct HandFigures {
   std::vector<double> errors_m{};  // prediction of the tip against what was measured then, while steered by hand
 };
 
+// What comes from the arm in one command interval.
+struct News {
+  Json state;                               // of lianad's API
+  std::vector<Json> pictures;               // of the tip camera, since the interval before
+  std::optional<liana_state> for_device{};  // what the hand controller was told
+};
+
+// What a picture shows; nothing, and a line on standard error, for one that cannot be a picture.
+std::optional<operator_side::TipSighting> sighting_in(const Json& picture);
+
 // Deterministic: the same calls give the same messages. Times are by the hand's clock [s] and rise.
 class HumanSession {
  public:
   HumanSession(const HumanTable& table, const config::RobotConfig& robot, const config::SceneConfig& scene);
 
-  // A state has come. Throws std::runtime_error when it is not one of this robot.
-  void hear(const Json& state, double now_s);
-  // A picture of the tip camera has come. Throws std::runtime_error when it is malformed.
-  void see(const Json& camera, double now_s);
+  // News has come. Throws std::runtime_error when the state is not one of this robot.
+  void hear(const News& news, double now_s);
   // A command interval is over: what the devices sensed in it, and what the person says.
-  std::vector<Json> act(double now_s);
+  operator_side::OperatorAnswer act(double now_s);
 
   HandFigures figures() const;
 
  private:
   void begin_step(const Json& state, double now_s);
-  void hear_of_hand(const Json& state, bool engaged);
-  std::vector<operator_side::VrSample> lead(double now_s);
-  std::vector<operator_side::ControllerSample> steer(double from_s, double now_s);
+  void hear_of_hand(const News& news, bool engaged, double now_s);
+  void feel(const liana_state& told);
+  std::vector<device::Sample> lead(double now_s);
+  std::vector<device::Sample> steer(double from_s, double now_s);
   bool has_arrived() const;
   haptic::Motion felt(const haptic::Motion& predicted) const;
 
@@ -67,8 +77,6 @@ class HumanSession {
   double acted_s_ = 0.0;
   double handles_s_ = 0.0;  // when the handles were sampled last
   Vec3 beside_m_{};         // measured less commanded, at rest before the grip: no contact, so it is not felt
-  std::optional<haptic::Motion> measured_;
-  double measured_s_ = 0.0;
   std::vector<double> errors_m_;
 };
 

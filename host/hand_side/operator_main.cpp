@@ -1,9 +1,10 @@
 // liana-operator: people at the input devices, over the interface that live devices use.
-#include <array>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <optional>
+#include <memory>
 #include <sstream>
+#include <utility>
 
 #include "host/api/client.hpp"
 #include "host/command_line/command_line.hpp"
@@ -11,6 +12,7 @@
 #include "host/hand_side/run_figures.hpp"
 #include "host/hand_side/steering.hpp"
 #include "host/json/json.hpp"
+#include "host/operator/own_devices.hpp"
 
 namespace liana::hand_side {
 namespace {
@@ -21,6 +23,7 @@ constexpr double kPoll_s = 1.0;
 // Command line of liana-operator.
 struct OperatorOptions {
   std::string api;
+  std::string devices;     // empty: beside the API socket
   std::string recordings;  // folders, separated by ':'
   std::string scene;       // empty: the scene lianad runs with
   std::string who = "recorded";
@@ -87,27 +90,39 @@ std::unique_ptr<Steering> steering_of(const OperatorOptions& options, const Json
                                                                            operator_side::HandGains{}, options.seed));
 }
 
-// A picture that cannot be one is not looked at.
-void look(Steering& steering, const Json& message) {
-  try {
-    steering.on_camera(message);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "liana-operator: %s\n", error.what());
+// The devices' clock is the arm's.
+std::int64_t time_us(const Json& state) { return std::llround(state.at("time_s").get<double>() * 1e6); }
+
+// One run of the people at their devices.
+struct Run {
+  api::ApiClient& client;
+  operator_side::OwnDevices& devices;
+  Steering& steering;
+  RunFigures figures{};
+  std::vector<Json> pictures{};  // since the last state
+};
+
+// Samples first: with `done` lianad takes them into the interval.
+void act(Run& run, const Json& state) {
+  run.devices.receive(time_us(state));
+  News news{state, std::exchange(run.pictures, {}), std::nullopt};
+  if (const liana_state* told = run.devices.controller_state(time_us(state))) news.for_device = *told;
+  run.figures.arm(state);
+  for (const operator_side::OperatorAnswer& answer : run.steering.on_news(news)) {
+    run.figures.sent(answer);
+    run.devices.send(answer.kind, answer.samples);
+    for (const Json& out : answer.messages) run.client.send(out);
   }
 }
 
 // One message in, the answers out; false when lianad stops.
-bool answer(api::ApiClient& client, Steering& steering, RunFigures& figures, const Json& message, bool lockstep) {
+bool answer(Run& run, const Json& message, bool lockstep) {
   const std::string op = message.value("op", "");
-  if (op == "camera") look(steering, message);
+  if (op == "camera") run.pictures.push_back(message);
   if (op == "error") std::fprintf(stderr, "liana-operator: refused: %s\n", message.value("message", "").c_str());
   if (op != "state") return true;
-  figures.arm(message);
-  for (const Json& out : steering.on_state(message)) {
-    figures.sent(out);
-    client.send(out);
-  }
-  if (lockstep) client.send({{"op", "done"}, {"tick", message.at("tick")}});
+  act(run, message);
+  if (lockstep) run.client.send({{"op", "done"}, {"tick", message.at("tick")}});
   return !message.value("stopping", false);
 }
 
@@ -119,14 +134,17 @@ void write_figures(const std::string& path, const Json& figures) {
 
 int operate(const OperatorOptions& options) {
   api::ApiClient client = api::ApiClient::connect(options.api, kWelcomeTimeout_s);
+  // Known before the role is taken: missions begin as soon as lianad has its operator.
+  operator_side::OwnDevices devices(options.devices.empty() ? device::devices_path(options.api) : options.devices,
+                                    kWelcomeTimeout_s);
   const Json welcome = greet(client, options);
   const std::unique_ptr<Steering> steering = steering_of(options, welcome);
-  RunFigures figures;
+  Run run{client, devices, *steering};
   for (bool running = true; running;) {
     const auto message = client.receive(kPoll_s);
-    if (message) running = answer(client, *steering, figures, *message, options.lockstep);
+    if (message) running = answer(run, *message, options.lockstep);
   }
-  if (!options.figures.empty()) write_figures(options.figures, figures.json(steering->figures()));
+  if (!options.figures.empty()) write_figures(options.figures, run.figures.json(steering->figures()));
   return 0;
 }
 
@@ -138,6 +156,7 @@ int main(int argc, char** argv) {
   liana::command_line::CommandLine line(
       "The operator as data and as a model that looks: recorded VR handles, simulated handles and hand controller");
   line.option("--api", options.api, "API socket of lianad").required();
+  line.option("--devices", options.devices, "socket of lianad for devices; .devices behind that of --api without");
   line.option("--recordings", options.recordings, "folders of the .hand files, separated by ':', searched in turn")
       .required();
   line.option("--scene", options.scene, "scene JSON the person has as a drawing; default: the one lianad runs with");

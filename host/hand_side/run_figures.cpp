@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "host/json/json.hpp"
-#include "host/operator/operator_session.hpp"
 
 namespace liana::hand_side {
 namespace {
@@ -23,15 +22,11 @@ Json errors_json(std::vector<double> errors_m) {
 
 }  // namespace
 
-void RunFigures::sent(const Json& message) {
-  if (message.value("op", "") != "device") return;
-  const Json& sample = message.at("samples").back();
-  const bool handles = message.value("device", "") == "vr";
-  const Json& hand = handles ? sample.at("right") : sample;
-  if (!hand.value("valid", false)) return;
-  const bool held = handles ? hand.value("trigger", 0.0) > 0.5 : hand.value("button", 0) != 0;
-  lag_.hand(1e-6 * static_cast<double>(sample.at("t_us").get<std::int64_t>()), held, position_in(hand.at("pose")),
-            scale_);
+void RunFigures::sent(const operator_side::OperatorAnswer& answer) {
+  const auto moves_tip = [](const device::Sample& sample) { return sample.hand == 0 && sample.valid; };
+  const auto newest = std::find_if(answer.samples.rbegin(), answer.samples.rend(), moves_tip);
+  if (newest == answer.samples.rend()) return;
+  lag_.hand(1e-6 * static_cast<double>(newest->t_us), newest->deadman, newest->pose.position_m, scale_);
 }
 
 void RunFigures::arm(const Json& state) {

@@ -7,13 +7,14 @@
 #include "host/hand_side/human_session.hpp"
 #include "host/hand_side/lag_meter.hpp"
 #include "host/json/json_fwd.hpp"
+#include "host/operator/operator_session.hpp"
 
 namespace liana::hand_side {
 
 class RunFigures {
  public:
-  // A message is sent to the arm: of device samples the newest counts.
-  void sent(const Json& message);
+  // These are sent to the arm: of samples the newest of the hand that moves the tip counts.
+  void sent(const operator_side::OperatorAnswer& answer);
   // A state of the arm, as it is now.
   void arm(const Json& state);
   // `hand`: nothing where no hand had a force.

@@ -1,9 +1,6 @@
 #include "host/hand_side/steering.hpp"
 
-#include <cstdio>
-#include <utility>
-
-#include "host/json/json.hpp"
+#include <cmath>
 
 namespace liana::hand_side {
 namespace {
@@ -16,28 +13,33 @@ haptic::LinkTable link(double delay_s) { return {delay_s, kJitter, 0.0}; }
 
 }  // namespace
 
+std::vector<operator_side::OperatorAnswer> RecordedSteering::on_news(const News& news) {
+  for (const Json& picture : news.pictures) {
+    if (const auto seen = sighting_in(picture)) session_.on_camera(picture);
+  }
+  return {session_.on_state(news.state)};
+}
+
 HumanSteering::HumanSteering(HumanSession session, const haptic::Delays& delays, std::uint64_t seed)
     : session_(std::move(session)),
       to_arm_(link(delays.forward_s), seed, kForwardPurpose),
       from_arm_(link(delays.back_s), seed, kBackPurpose) {}
 
-// A picture that cannot be one is not looked at.
-void HumanSteering::take(const Json& message, double now_s) {
-  if (message.value("op", "") == "state") return session_.hear(message, now_s);
-  try {
-    session_.see(message, now_s);
-  } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "liana-operator: %s\n", error.what());
+// Of a state that a later one has overtaken nothing counts; of samples neither, but what was said is heard.
+std::vector<operator_side::OperatorAnswer> HumanSteering::on_news(const News& news) {
+  const double now_s = news.state.at("time_s").get<double>();
+  const std::int64_t now_us = std::llround(1e6 * now_s);
+  from_arm_.send(news, now_us);
+  while (const auto come = from_arm_.receive(now_us)) {
+    if (come->is_newest) session_.hear(*come->load, now_s);
   }
-}
-
-std::vector<Json> HumanSteering::on_state(const Json& state) {
-  const double now_s = state.at("time_s").get<double>();
-  news_.push_back(state);
-  from_arm_.send(std::exchange(news_, {}), now_s);
-  for (const Json& message : from_arm_.receive(now_s)) take(message, now_s);
-  to_arm_.send(session_.act(now_s), now_s);
-  return to_arm_.receive(now_s);
+  to_arm_.send(session_.act(now_s), now_us);
+  std::vector<operator_side::OperatorAnswer> come;
+  while (const auto answer = to_arm_.receive(now_us)) {
+    come.push_back(*answer->load);
+    if (!answer->is_newest) come.back().samples.clear();
+  }
+  return come;
 }
 
 }  // namespace liana::hand_side

@@ -2,13 +2,11 @@
 // person at everything, perhaps behind a delayed link.
 #pragma once
 
-#include <memory>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "host/hand_side/delay_line.hpp"
 #include "host/hand_side/human_session.hpp"
-#include "host/json/json_fwd.hpp"
 #include "host/operator/operator_session.hpp"
 
 namespace liana::hand_side {
@@ -16,10 +14,9 @@ namespace liana::hand_side {
 class Steering {
  public:
   virtual ~Steering() = default;
-  // What is sent in answer to one state, without or with a picture of the camera before it. Throws std::runtime_error
-  // when a message, or a recording, cannot be used.
-  virtual std::vector<Json> on_state(const Json& state) = 0;
-  virtual void on_camera(const Json& picture) = 0;
+  // What is sent in answer to the news of one command interval, oldest first. Throws std::runtime_error when a state,
+  // or a recording, cannot be used.
+  virtual std::vector<operator_side::OperatorAnswer> on_news(const News& news) = 0;
   // Of a hand with force; nothing where there is none.
   virtual std::optional<HandFigures> figures() const { return std::nullopt; }
 };
@@ -28,8 +25,7 @@ class Steering {
 class RecordedSteering final : public Steering {
  public:
   explicit RecordedSteering(operator_side::OperatorSession session) : session_(std::move(session)) {}
-  std::vector<Json> on_state(const Json& state) override { return session_.on_state(state); }
-  void on_camera(const Json& picture) override { session_.on_camera(picture); }
+  std::vector<operator_side::OperatorAnswer> on_news(const News& news) override;
 
  private:
   operator_side::OperatorSession session_;
@@ -38,17 +34,13 @@ class RecordedSteering final : public Steering {
 class HumanSteering final : public Steering {
  public:
   HumanSteering(HumanSession session, const haptic::Delays& delays, std::uint64_t seed);
-  std::vector<Json> on_state(const Json& state) override;
-  void on_camera(const Json& picture) override { news_.push_back(picture); }
+  std::vector<operator_side::OperatorAnswer> on_news(const News& news) override;
   std::optional<HandFigures> figures() const override { return session_.figures(); }
 
  private:
-  void take(const Json& message, double now_s);
-
   HumanSession session_;
-  DelayLine to_arm_;
-  DelayLine from_arm_;
-  std::vector<Json> news_;  // since the last state
+  DelayLine<operator_side::OperatorAnswer> to_arm_;
+  DelayLine<News> from_arm_;
 };
 
 }  // namespace liana::hand_side

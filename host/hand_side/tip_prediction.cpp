@@ -18,9 +18,7 @@ void TipPrediction::stand_at(const Pose& tip_in_base) {
   filter_.pose = goal_ = tip_in_base;
 }
 
-void TipPrediction::add(const operator_side::ControllerSample& sample) {
-  steer_.add_tip_sample({sample.t_us, sample.valid, sample.button, sample.pose});
-}
+void TipPrediction::add(const device::Sample& sample) { steer_.add(sample); }
 
 void TipPrediction::finish_interval() {
   cable::Outputs now{};

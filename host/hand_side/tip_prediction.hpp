@@ -5,8 +5,8 @@
 #include "firmware_like/cable/motion/motion.hpp"
 #include "host/arbiter/device_steer.hpp"
 #include "host/arbiter/speed_zone.hpp"
+#include "host/device/sample.hpp"
 #include "host/haptic/tick.hpp"
-#include "host/operator/samples.hpp"
 
 namespace liana::hand_side {
 
@@ -17,7 +17,7 @@ class TipPrediction {
   // Another device or mapping; the tip stands.
   void begin(const arbiter::DeviceUse& use, const Pose& tip_in_base);
   // A sample is sent.
-  void add(const operator_side::ControllerSample& sample);
+  void add(const device::Sample& sample);
   // A command interval is over: its samples become a goal, towards which the tip goes for the next one.
   void finish_interval();
   // The arm, which follows no hand, was told to be elsewhere.

@@ -59,11 +59,11 @@ Vec3 HandLoop::wanted_of_arm(const Vec3& commanded_m) const noexcept {
   return law_force(table_.law, table_.gains, {heard_->tip, commanded, now, heard_->predicted_then});
 }
 
-const HandForce& HandLoop::step(const operator_side::ControllerSample& sample, const Vec3& commanded_m) noexcept {
+const HandForce& HandLoop::step(const device::Sample& sample, const Vec3& commanded_m) noexcept {
   if (sample.valid) feel_hand(sample.pose.position_m);
   if (heard_) heard_->since_us += kTick_us;
   wall_.advance();
-  out_.fresh = freshness(sample.valid && sample.button);
+  out_.fresh = freshness(sample.valid && sample.deadman);
   const Vec3 wanted = no_longer(scale(wanted_of_arm(commanded_m), out_.fresh), table_.force_N);
   out_.law_N = add(out_.law_N, no_longer(subtract(wanted, out_.law_N), table_.law_N_s * kTick_s));
   out_.wall_N = wall_.force(hand_);

@@ -7,12 +7,12 @@
 #include <cstdint>
 #include <optional>
 
+#include "host/device/sample.hpp"
 #include "host/haptic/energy_tank.hpp"
 #include "host/haptic/feedback_law.hpp"
 #include "host/haptic/fixture.hpp"
 #include "host/haptic/packets.hpp"
 #include "host/haptic/prediction_track.hpp"
-#include "host/operator/samples.hpp"
 
 namespace liana::haptic {
 
@@ -58,7 +58,7 @@ class HandLoop {
 
   // One millisecond after the last: the device's sample, and where the hand asks the tip to be with it (after clutch
   // and scale). A sample that is not valid gives no force.
-  const HandForce& step(const operator_side::ControllerSample& sample, const Vec3& commanded_m) noexcept;
+  const HandForce& step(const device::Sample& sample, const Vec3& commanded_m) noexcept;
 
   // States that came too late or twice.
   std::int64_t dropped() const { return newest_.dropped(); }

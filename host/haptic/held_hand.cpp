@@ -18,8 +18,8 @@ Vec3 wrist_of(const Quat& q) {
   return {std::atan2(-z[1], z[2]), std::asin(std::clamp(z[0], -1.0, 1.0)), std::atan2(-y[0], x[0])};
 }
 
-Intent intent_of(const operator_side::ControllerSample& wish) {
-  return {rotate(conjugate(kMounted), wish.pose.position_m), wrist_of(in_own_axes(wish.pose.quaternion)), wish.button};
+Intent intent_of(const device::Sample& wish) {
+  return {rotate(conjugate(kMounted), wish.pose.position_m), wrist_of(in_own_axes(wish.pose.quaternion)), wish.deadman};
 }
 
 }  // namespace
@@ -27,9 +27,8 @@ Intent intent_of(const operator_side::ControllerSample& wish) {
 HeldHand::HeldHand(const HandLoopTable& loop, const HandTable& hand, std::uint64_t seed)
     : omega_(OmegaTable{}, hand, {}, seed), loop_(loop) {}
 
-operator_side::ControllerSample HeldHand::step(const operator_side::ControllerSample& wish,
-                                               const Vec3& commanded_m) noexcept {
-  operator_side::ControllerSample sensed = omega_.sample();
+device::Sample HeldHand::step(const device::Sample& wish, const Vec3& commanded_m) noexcept {
+  device::Sample sensed = omega_.sample();
   sensed.t_us = wish.t_us;
   sensed.pose = {rotate(kMounted, sensed.pose.position_m), in_base_axes(sensed.pose.quaternion)};
   force_ = loop_.step(sensed, commanded_m);

@@ -18,7 +18,7 @@ class HeldHand {
 
   // One millisecond: where the person wants the hand to be (device frame parallel to the arm's base), and where the
   // hand asks the tip to be. What the device senses, with the time of the wish.
-  operator_side::ControllerSample step(const operator_side::ControllerSample& wish, const Vec3& commanded_m) noexcept;
+  device::Sample step(const device::Sample& wish, const Vec3& commanded_m) noexcept;
 
   HandLoop& loop() { return loop_; }
   const HandForce& force() const { return force_; }

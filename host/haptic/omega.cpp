@@ -53,14 +53,17 @@ void HeldOmega::step(const Vec3& force_N, const Intent& intent) noexcept {
   torques_Nm_ = jacobian ? delta_torques(*jacobian, motors_N) : std::array<double, 3>{};
 }
 
-operator_side::ControllerSample HeldOmega::sample() noexcept {
+device::Sample HeldOmega::sample() noexcept {
   auto angles = delta_angles(table_.delta, add(truth_.position_m, {table_.centre_m, 0.0, 0.0}));
   if (angles) {
     for (double& angle : *angles) angle = table_.encoder_rad * std::round(angle / table_.encoder_rad);
   }
   const auto position = angles ? delta_position(table_.delta, *angles) : std::nullopt;
   if (position) sensed_m_ = subtract(*position, {table_.centre_m, 0.0, 0.0});
-  return {t_us_, position.has_value(), hand_.acted().button, {sensed_m_, attitude(wrist_rad_)}};
+  return {.t_us = t_us_,
+          .valid = position.has_value(),
+          .deadman = hand_.acted().button,
+          .pose = {sensed_m_, attitude(wrist_rad_)}};
 }
 
 }  // namespace liana::haptic

@@ -5,10 +5,10 @@
 #include <cstdint>
 
 #include "firmware_like/math/trig.hpp"
+#include "host/device/sample.hpp"
 #include "host/haptic/delta.hpp"
 #include "host/haptic/hand.hpp"
 #include "host/haptic/tick.hpp"
-#include "host/operator/samples.hpp"
 
 namespace liana::haptic {
 
@@ -36,7 +36,7 @@ class HeldOmega {
   // One millisecond: the motors hold a force, at most what they can; the hand goes after its intent.
   void step(const Vec3& force_N, const Intent& intent) noexcept;
   // What the device tells now: position by its encoders, attitude by its wrist, the button.
-  operator_side::ControllerSample sample() noexcept;
+  device::Sample sample() noexcept;
 
   // What nobody but a test can know.
   const Motion& truth() const { return truth_; }

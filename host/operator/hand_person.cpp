@@ -206,10 +206,10 @@ void HandPerson::act(double now_s) {
   }
 }
 
-ControllerSample HandPerson::sample(double now_s) {
+device::Sample HandPerson::sample(double now_s) {
   perceive(now_s);
   act(now_s);
-  return {std::llround(now_s * 1e6), true, button(), tremor_.apply(grip_.pose(), now_s)};
+  return {.t_us = std::llround(now_s * 1e6), .deadman = button(), .pose = tremor_.apply(grip_.pose(), now_s)};
 }
 
 }  // namespace liana::operator_side

@@ -5,10 +5,10 @@
 #include <deque>
 #include <vector>
 
+#include "host/device/sample.hpp"
 #include "host/operator/aim.hpp"
 #include "host/operator/hand_grip.hpp"
 #include "host/operator/leg.hpp"
-#include "host/operator/samples.hpp"
 #include "host/operator/tremor.hpp"
 
 namespace liana::operator_side {
@@ -31,7 +31,7 @@ class HandPerson {
   // Whether the arm follows the hand, as the console shows it.
   void feel(bool engaged, double now_s);
   // The hand one millisecond on; call once per millisecond of `now_s`.
-  ControllerSample sample(double now_s);
+  device::Sample sample(double now_s);
 
   // True when the task is done and the button released.
   bool arrived() const { return phase_ == Phase::kDone; }

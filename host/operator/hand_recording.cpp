@@ -80,19 +80,31 @@ struct Line {
   }
 };
 
-VrSample vr_sample(const Line& line) {
+BothHands vr_sample(const Line& line) {
   line.need(kVrColumns);
-  VrSample sample;
-  sample.t_us = line.time_us();
-  sample.right = {line.flag(1, "right_valid"), line.trigger(2, "right_trigger"), line.pose(3, "right pose")};
-  sample.left = {line.flag(10, "left_valid"), line.trigger(11, "left_trigger"), line.pose(12, "left pose")};
-  return sample;
+  BothHands hands;
+  hands.right.t_us = hands.left.t_us = line.time_us();
+  hands.right.valid = line.flag(1, "right_valid");
+  hands.right.trigger = line.trigger(2, "right_trigger");
+  hands.right.pose = line.pose(3, "right pose");
+  hands.left.valid = line.flag(10, "left_valid");
+  hands.left.trigger = line.trigger(11, "left_trigger");
+  hands.left.pose = line.pose(12, "left pose");
+  hands.right.deadman = hands.right.trigger >= kGripped;
+  hands.left.deadman = hands.left.trigger >= kGripped;
+  return hands;
 }
 
-ControllerSample hand_sample(const Line& line) {
+device::Sample hand_sample(const Line& line) {
   line.need(kHandColumns);
-  return {line.time_us(), line.flag(1, "valid"), line.flag(2, "button"), line.pose(3, "pose")};
+  return {.t_us = line.time_us(),
+          .valid = line.flag(1, "valid"),
+          .deadman = line.flag(2, "button"),
+          .pose = line.pose(3, "pose")};
 }
+
+std::int64_t time_us(const BothHands& hands) { return hands.right.t_us; }
+std::int64_t time_us(const device::Sample& sample) { return sample.t_us; }
 
 std::vector<std::string> split(const std::string& text) {
   std::istringstream stream(text.substr(0, text.find('#')));
@@ -103,10 +115,10 @@ std::vector<std::string> split(const std::string& text) {
 
 template <class Sample>
 void append(std::vector<Sample>& samples, const Sample& sample, const Line& line) {
-  if (samples.empty() && sample.t_us != 0)
+  if (samples.empty() && time_us(sample) != 0)
     line.fail("t_us: " + line.words[0] + ": allowed 0 for the first sample; shift the times");
-  if (!samples.empty() && sample.t_us <= samples.back().t_us) {
-    line.fail("t_us: " + line.words[0] + ": allowed more than " + std::to_string(samples.back().t_us) +
+  if (!samples.empty() && time_us(sample) <= time_us(samples.back())) {
+    line.fail("t_us: " + line.words[0] + ": allowed more than " + std::to_string(time_us(samples.back())) +
               " of the line before; sort the file");
   }
   samples.push_back(sample);
@@ -137,8 +149,8 @@ std::variant<VrRecording, HandRecording> parse_hand_recording(std::istream& stre
   std::getline(stream, text);
   const Line header{path, 1, split(text)};
   const bool known = header.words.size() == 3 && header.words[0] == "liana-hand" && header.words[1] == "1";
-  if (known && header.words[2] == "vr") return read_samples<VrSample>(stream, path, 1, vr_sample);
-  if (known && header.words[2] == "hand") return read_samples<ControllerSample>(stream, path, 1, hand_sample);
+  if (known && header.words[2] == "vr") return read_samples<BothHands>(stream, path, 1, vr_sample);
+  if (known && header.words[2] == "hand") return read_samples<device::Sample>(stream, path, 1, hand_sample);
   header.fail("\"" + text.substr(0, 40) +
               "\": allowed \"liana-hand 1 vr\" or \"liana-hand 1 hand\"; this is not a hand recording of format 1");
 }

@@ -10,8 +10,8 @@
 
 namespace liana::operator_side {
 
-using VrRecording = std::vector<VrSample>;
-using HandRecording = std::vector<ControllerSample>;
+using VrRecording = std::vector<BothHands>;
+using HandRecording = std::vector<device::Sample>;
 
 // Reads a `.hand` file of either kind; at least one sample, times from 0 and strictly increasing, unit quaternions.
 // Throws std::runtime_error naming file, line, column, value, what is allowed and what to do.

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "host/device/sample.hpp"
 #include "host/operator/random.hpp"
-#include "host/operator/samples.hpp"
 #include "host/operator/tremor.hpp"
 
 namespace liana::operator_side {
@@ -24,8 +24,8 @@ class HandleTracker {
   // `purpose` separates the handles of one seed; it takes two numbers, this one and the next.
   HandleTracker(const TrackingTable& table, std::uint64_t seed, std::uint64_t purpose);
 
-  // What the tracker tells of a handle that is held at `pose` at `now_s`.
-  VrHandle track(const Pose& pose, double trigger, double now_s);
+  // What the tracker tells of a handle at `pose` at `now_s`, its trigger closed when `held`; as hand 0.
+  device::Sample track(const Pose& pose, bool held, double now_s);
 
  private:
   double next_after(double now_s);

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "host/json/json.hpp"
-#include "host/operator/device_messages.hpp"
+#include "host/operator/camera_message.hpp"
 
 namespace liana::operator_side {
 namespace {
@@ -74,7 +73,7 @@ void OperatorSession::begin_step(const AnnouncedStep& step, const Json& state) {
   }
 }
 
-std::vector<Json> OperatorSession::on_state(const Json& state) {
+OperatorAnswer OperatorSession::on_state(const Json& state) {
   const double to_s = state.at("time_s").get<double>();
   const double from_s = now_s_ < 0.0 ? to_s : std::max(now_s_, to_s - kLongestGap_s);
   now_s_ = to_s;
@@ -89,26 +88,24 @@ std::vector<Json> OperatorSession::on_state(const Json& state) {
   return step.device == "vr" ? steer_vr(from_s, to_s, engaged) : steer_hand(from_s, to_s, engaged);
 }
 
-std::vector<Json> OperatorSession::steer_vr(double from_s, double to_s, bool engaged) {
+OperatorAnswer OperatorSession::steer_vr(double from_s, double to_s, bool engaged) {
   vr_->feel(engaged, to_s);
-  const auto samples = vr_->advance(from_s, to_s - from_s);
-  std::vector<Json> messages;
-  if (!samples.empty()) messages.push_back(device_message(samples));
+  OperatorAnswer answer{.kind = device::Kind::kHandles};
+  for (const BothHands& hands : vr_->advance(from_s, to_s - from_s))
+    answer.samples.insert(answer.samples.end(), {hands.right, hands.left});
   if (vr_->finished() && finished_s_ < 0.0) finished_s_ = to_s;
-  report_arrival(messages, finished_s_ >= 0.0 && to_s - finished_s_ > kSettleAfterVr_s, to_s);
-  return messages;
+  report_arrival(answer.messages, finished_s_ >= 0.0 && to_s - finished_s_ > kSettleAfterVr_s, to_s);
+  return answer;
 }
 
-std::vector<Json> OperatorSession::steer_hand(double from_s, double to_s, bool engaged) {
+OperatorAnswer OperatorSession::steer_hand(double from_s, double to_s, bool engaged) {
   person_.feel(engaged, to_s);
-  std::vector<ControllerSample> samples;
+  OperatorAnswer answer{.kind = device::Kind::kHandController};
   const auto count = std::lround((to_s - from_s) / kSamplePeriod_s);
   for (long i = 1; i <= count; ++i)
-    samples.push_back(person_.sample(from_s + static_cast<double>(i) * kSamplePeriod_s));
-  std::vector<Json> messages;
-  if (!samples.empty()) messages.push_back(device_message(samples));
-  report_arrival(messages, person_.arrived(), to_s);
-  return messages;
+    answer.samples.push_back(person_.sample(from_s + static_cast<double>(i) * kSamplePeriod_s));
+  report_arrival(answer.messages, person_.arrived(), to_s);
+  return answer;
 }
 
 void OperatorSession::report_arrival(std::vector<Json>& messages, bool arrived, double now_s) {

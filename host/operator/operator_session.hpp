@@ -1,4 +1,4 @@
-// The operator's side of the API: what arrives from lianad, and what the person's devices send back.
+// What the person hears of lianad, and does: samples of the devices, and what is said aloud.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "host/json/json_fwd.hpp"
+#include "host/device/capability.hpp"
+#include "host/json/json.hpp"
 #include "host/operator/hand_person.hpp"
 #include "host/operator/recorded_vr.hpp"
 
@@ -22,6 +23,13 @@ struct AnnouncedStep {
   std::int64_t entry = 0;  // grows from step to step, also when a step comes again
 };
 
+// What the person does in one interval.
+struct OperatorAnswer {
+  device::Kind kind = device::Kind::kNone;  // of the device that is moved
+  std::vector<device::Sample> samples{};    // of it, oldest first
+  std::vector<Json> messages{};             // to lianad's API
+};
+
 // Turns state and camera messages into device samples. Reads of the state only the step, the device, its mapping,
 // whether it is engaged, and the time.
 class OperatorSession {
@@ -30,15 +38,15 @@ class OperatorSession {
   OperatorSession(std::vector<std::string> recordings, const SlitDrawing& drawing, const HandGains& gains,
                   std::uint64_t seed);
 
-  // Messages to send in answer to one state. Throws std::runtime_error when a recording cannot be read.
-  std::vector<Json> on_state(const Json& state);
+  // What to send in answer to one state. Throws std::runtime_error when a recording cannot be read.
+  OperatorAnswer on_state(const Json& state);
   // One forwarded camera message. Throws std::runtime_error when it is malformed.
   void on_camera(const Json& message);
 
  private:
   void begin_step(const AnnouncedStep& step, const Json& state);
-  std::vector<Json> steer_vr(double from_s, double to_s, bool engaged);
-  std::vector<Json> steer_hand(double from_s, double to_s, bool engaged);
+  OperatorAnswer steer_vr(double from_s, double to_s, bool engaged);
+  OperatorAnswer steer_hand(double from_s, double to_s, bool engaged);
   void report_arrival(std::vector<Json>& messages, bool arrived, double now_s);
 
   std::string recording_called(const std::string& name) const;

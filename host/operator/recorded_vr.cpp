@@ -25,19 +25,19 @@ RecordedVr::RecordedVr(VrRecording recording, const VrDisturbance& disturbance, 
   if (recording_.empty())
     throw std::runtime_error("VR recording: no samples: allowed at least one; give another recording");
   RandomStream random(seed, kGlitchPurpose);
-  const double end_s = static_cast<double>(recording_.back().t_us) * 1e-6;
+  const double end_s = static_cast<double>(recording_.back().right.t_us) * 1e-6;
   jump_index_ = static_cast<std::size_t>(random.uniform(0.1, 0.45) * static_cast<double>(recording_.size()));
   dropout_from_s_ = random.uniform(0.5, 0.9) * end_s;
   dropout_to_s_ = dropout_from_s_ + random.uniform(disturbance.dropout_least_s, disturbance.dropout_most_s);
 }
 
-void RecordedVr::disturb_handle(VrHandle& handle, const Tremor& tremor, double now_s) const {
+void RecordedVr::disturb_handle(device::Sample& handle, const Tremor& tremor, double now_s) const {
   if (handle.valid) handle.pose = tremor.apply(handle.pose, now_s);
 }
 
-VrSample RecordedVr::disturbed(const VrSample& recorded, double now_s) {
-  VrSample sample = recorded;
-  sample.t_us = microseconds(now_s);
+BothHands RecordedVr::disturbed(const BothHands& recorded, double now_s) {
+  BothHands sample = recorded;
+  sample.right.t_us = sample.left.t_us = microseconds(now_s);
   disturb_handle(sample.right, right_tremor_, now_s);
   disturb_handle(sample.left, left_tremor_, now_s);
   if (next_ == jump_index_) sample.right.pose.position_m[1] += disturbance_.jump_m;
@@ -49,14 +49,14 @@ VrSample RecordedVr::disturbed(const VrSample& recorded, double now_s) {
   return sample;
 }
 
-std::vector<VrSample> RecordedVr::advance(double now_s, double duration_s) {
+std::vector<BothHands> RecordedVr::advance(double now_s, double duration_s) {
   if (finished() || now_s < release_until_s_) return rest(now_s, duration_s);
-  std::vector<VrSample> samples;
+  std::vector<BothHands> samples;
   const double start_s = played_s_;
-  while (!finished() && static_cast<double>(recording_[next_].t_us) * 1e-6 < start_s + duration_s) {
-    played_s_ = static_cast<double>(recording_[next_].t_us) * 1e-6;
+  while (!finished() && static_cast<double>(recording_[next_].right.t_us) * 1e-6 < start_s + duration_s) {
+    played_s_ = static_cast<double>(recording_[next_].right.t_us) * 1e-6;
     samples.push_back(disturbed(recording_[next_], now_s + (played_s_ - start_s)));
-    gripping_ = samples.back().right.trigger > 0.5;
+    gripping_ = samples.back().right.deadman;
     ++next_;
   }
   played_s_ = start_s + duration_s;
@@ -64,12 +64,15 @@ std::vector<VrSample> RecordedVr::advance(double now_s, double duration_s) {
 }
 
 // Handles that are let go are sampled all the same.
-std::vector<VrSample> RecordedVr::rest(double now_s, double duration_s) {
+std::vector<BothHands> RecordedVr::rest(double now_s, double duration_s) {
   gripping_ = false;
-  std::vector<VrSample> samples;
+  std::vector<BothHands> samples;
   for (still_s_ = std::max(still_s_, now_s); still_s_ < now_s + duration_s; still_s_ += kStillStep_s) {
     samples.push_back(disturbed(recording_[std::min(next_, recording_.size() - 1)], still_s_));
-    samples.back().right.trigger = samples.back().left.trigger = 0.0;
+    for (device::Sample* hand : {&samples.back().right, &samples.back().left}) {
+      hand->trigger = 0.0;
+      hand->deadman = false;
+    }
   }
   return samples;
 }

@@ -27,16 +27,16 @@ class RecordedVr {
   RecordedVr(VrRecording recording, const VrDisturbance& disturbance, std::uint64_t seed);
 
   // Samples of the next `duration_s`, stamped from `now_s` on.
-  std::vector<VrSample> advance(double now_s, double duration_s);
+  std::vector<BothHands> advance(double now_s, double duration_s);
   // Whether the arm follows, as the person sees it.
   void feel(bool engaged, double now_s);
   // True when the last sample has been played; the triggers are released from then on.
   bool finished() const { return next_ >= recording_.size(); }
 
  private:
-  std::vector<VrSample> rest(double now_s, double duration_s);
-  VrSample disturbed(const VrSample& recorded, double now_s);
-  void disturb_handle(VrHandle& handle, const Tremor& tremor, double now_s) const;
+  std::vector<BothHands> rest(double now_s, double duration_s);
+  BothHands disturbed(const BothHands& recorded, double now_s);
+  void disturb_handle(device::Sample& handle, const Tremor& tremor, double now_s) const;
 
   VrRecording recording_;
   VrDisturbance disturbance_;

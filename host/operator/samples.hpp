@@ -1,33 +1,16 @@
-// What input devices deliver: one sample of a hand controller or of a pair of VR handles (docs/api.md,
-// docs/formats.md).
+// Both hands of a person at one moment, as a pair of VR handles tells them, about 90 Hz.
 #pragma once
 
-#include <cstdint>
-
-#include "firmware_like/math/pose.hpp"
+#include "host/device/sample.hpp"
 
 namespace liana::operator_side {
 
-// Hand controller, about 1 kHz; pose in the device frame (parallel to the arm's base frame), metres.
-struct ControllerSample {
-  std::int64_t t_us = 0;
-  bool valid = true;    // false: the pose is the last one known
-  bool button = false;  // deadman: held = engaged
-  Pose pose{};
-};
+constexpr double kGripped = 0.5;  // of a trigger: from here on the deadman is held
 
-// One VR handle.
-struct VrHandle {
-  bool valid = true;     // false: tracking lost, the pose is the last one known
-  double trigger = 0.0;  // 0..1; over 0.5 = engaged
-  Pose pose{};
-};
-
-// Both VR handles, about 90 Hz: right steers the tip, left a node.
-struct VrSample {
-  std::int64_t t_us = 0;
-  VrHandle right{};
-  VrHandle left{};
+// Both samples bear the same time.
+struct BothHands {
+  device::Sample right{};          // steers the tip
+  device::Sample left{.hand = 1};  // steers a node
 };
 
 }  // namespace liana::operator_side

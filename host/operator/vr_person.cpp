@@ -222,12 +222,13 @@ void VrPerson::act(double now_s) {
   }
 }
 
-VrSample VrPerson::sample(double now_s) {
+BothHands VrPerson::sample(double now_s) {
   perceive(now_s);
   act(now_s);
-  const double trigger = holds() ? 1.0 : 0.0;
-  return {std::llround(now_s * 1e6), right_tracker_.track(right_.pose(), trigger, now_s),
-          left_tracker_.track(left_.pose(), trigger, now_s)};
+  BothHands hands{right_tracker_.track(right_.pose(), holds(), now_s),
+                  left_tracker_.track(left_.pose(), holds(), now_s)};
+  hands.left.hand = 1;
+  return hands;
 }
 
 }  // namespace liana::operator_side

@@ -35,7 +35,7 @@ class VrPerson {
   // Whether the arm follows the hands, as the display shows it.
   void feel(bool engaged, double now_s);
   // The hands one sample on; call every kSample_s.
-  VrSample sample(double now_s);
+  BothHands sample(double now_s);
 
   // True when the tip is seen to be there and the triggers are released.
   bool arrived() const { return phase_ == Phase::kDone; }

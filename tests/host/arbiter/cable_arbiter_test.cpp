@@ -34,13 +34,13 @@ class Arbitration : public testing::Test {
   }
   std::optional<Setpoint> next() { return arbiter_.next_setpoint(tick_ += 5, now_); }
   std::optional<Setpoint> steered(double x, bool pressed = true) {
-    arbiter_.device().add_tip_sample(
-        {static_cast<std::int64_t>(tick_ * 4000 + 1), true, pressed, Pose{{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}});
+    arbiter_.device().add(
+        {.t_us = static_cast<std::int64_t>(tick_ * 4000 + 1), .deadman = pressed, .pose = {{x, 0.0, 0.0}}});
     return next();
   }
   void use_hand() {
     DeviceUse use;
-    use.kind = DeviceKind::kHand;
+    use.kind = device::Kind::kHandController;
     use.speed_m_s = 0.03;
     arbiter_.use_device(now_, use);
   }
@@ -274,7 +274,7 @@ class AtTheSlit : public Arbitration {
     slit_.end_u_m = 10.0;
     slit_.mouth_u_m = now_.tip_command.position_m[0] + 0.01;
   }
-  static DeviceUse use(DeviceKind kind, bool anywhere = false) {
+  static DeviceUse use(device::Kind kind, bool anywhere = false) {
     DeviceUse use;
     use.kind = kind;
     use.speed_m_s = 0.03;
@@ -282,8 +282,8 @@ class AtTheSlit : public Arbitration {
     return use;
   }
   void right_hand(CableArbiter& arbiter, double x) {
-    arbiter.device().add_tip_sample(
-        {static_cast<std::int64_t>(tick_ * 4000 + 1), true, true, Pose{{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}});
+    arbiter.device().add(
+        {.t_us = static_cast<std::int64_t>(tick_ * 4000 + 1), .deadman = true, .pose = {{x, 0.0, 0.0}}});
   }
   config::SceneSlit slit_;
 };
@@ -292,17 +292,17 @@ class AtTheSlit : public Arbitration {
 TEST_F(AtTheSlit, VrIsRefusedInsideUnlessItIsToSteerAnywhereAndTheHandControllerIsNot) {
   slit_.mouth_u_m -= 0.02;
   CableArbiter arbiter(table_, SpeedZone(slit_, 0.03));
-  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(DeviceKind::kVr)); }), "refused");
-  EXPECT_EQ(arbiter.device().in_use().kind, DeviceKind::kNone);
-  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(DeviceKind::kVr, true)); }), "accepted");
-  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(DeviceKind::kHand)); }), "accepted");
-  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(DeviceKind::kNone)); }), "accepted");
+  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(device::Kind::kHandles)); }), "refused");
+  EXPECT_EQ(arbiter.device().in_use().kind, device::Kind::kNone);
+  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(device::Kind::kHandles, true)); }), "accepted");
+  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(device::Kind::kHandController)); }), "accepted");
+  EXPECT_EQ(code_of([&] { arbiter.use_device(now_, use(device::Kind::kNone)); }), "accepted");
 }
 
 // req:A33
 TEST_F(AtTheSlit, VrThatSteersIntoItIsLetGoAtTheMouth) {
   CableArbiter arbiter(table_, SpeedZone(slit_, 0.03));
-  arbiter.use_device(now_, use(DeviceKind::kVr));
+  arbiter.use_device(now_, use(device::Kind::kHandles));
   for (int i = 0; i < 3; ++i) {
     right_hand(arbiter, 0.1 * i);
     EXPECT_TRUE(arbiter.next_setpoint(tick_ += 5, now_)) << "in front of it";
@@ -637,7 +637,7 @@ TEST_F(WayOut, TakesTheDeviceAwayFromTheOperator) {
   EXPECT_FALSE(steered(0.3, false));
   EXPECT_FALSE(steered(0.3, true));
   EXPECT_FALSE(steered(0.4, true));
-  EXPECT_EQ(arbiter_.device().in_use().kind, DeviceKind::kNone);
+  EXPECT_EQ(arbiter_.device().in_use().kind, device::Kind::kNone);
 }
 
 // Paths, with a check that says what it is told to.

@@ -17,7 +17,7 @@ class Steering : public testing::Test {
   Steering() {
     now_.tip_command = {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
     now_.node_command_m[2] = {0.5, 0.5, 0.0};
-    use_.kind = DeviceKind::kVr;
+    use_.kind = device::Kind::kHandles;
     use_.mapping.scale = 2.0;
     use_.node = 3;
     steer_.use(use_);
@@ -25,7 +25,7 @@ class Steering : public testing::Test {
   std::optional<SteerGoal> interval(double x, bool pressed = true, bool valid = true) {
     for (int i = 0; i < 2; ++i) {
       t_us_ += 10000;
-      steer_.add_tip_sample({t_us_, valid, pressed, Pose{{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}});
+      steer_.add({.t_us = t_us_, .valid = valid, .deadman = pressed, .pose = {{x, 0.0, 0.0}}});
     }
     return steer_.finish_interval(now_, kInterval_s);
   }
@@ -104,7 +104,7 @@ TEST_F(Steering, AHoldByOthersNeedsAFreshGrip) {
 // req:A31
 TEST_F(Steering, TheLeftHandMovesTheNodeAndLeavesItThere) {
   const auto left = [&](double x, bool pressed) {
-    steer_.add_node_sample({t_us_ + 1, true, pressed, Pose{{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}});
+    steer_.add({.t_us = t_us_ + 1, .hand = 1, .deadman = pressed, .pose = {{x, 0.0, 0.0}}});
     return interval(0.3)->node;
   };
   EXPECT_EQ(left(0.0, false).node, 0) << "no node target before the left hand engages";

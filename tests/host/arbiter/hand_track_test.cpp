@@ -7,8 +7,8 @@ namespace liana::arbiter {
 
 namespace {
 
-HandSample sample(std::int64_t t_us, double x, bool valid = true, bool pressed = true) {
-  return {t_us, valid, pressed, Pose{{x, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}};
+device::Sample sample(std::int64_t t_us, double x, bool valid = true, bool pressed = true) {
+  return {.t_us = t_us, .valid = valid, .deadman = pressed, .pose = {{x, 0.0, 0.0}}};
 }
 
 // req:A24
@@ -25,7 +25,7 @@ TEST(HandTrack, TheReadingIsTheMeanOfEverySample) {
 TEST(HandTrack, RotationsAreAveragedAsTurns) {
   HandTrack track;
   for (const double angle : {0.0, 0.01, 0.02, 0.03}) {
-    HandSample s = sample(static_cast<std::int64_t>(angle * 1e6), 0.0);
+    device::Sample s = sample(static_cast<std::int64_t>(angle * 1e6), 0.0);
     s.pose.quaternion = quaternion_of({0.0, 0.0, angle});
     track.add_sample(s);
   }
@@ -73,7 +73,7 @@ TEST(HandTrack, SamplesOfAnInvalidPoseOrAnOldTimeAreCountedOnly) {
   HandTrack track;
   track.add_sample(sample(1000, 0.1));
   track.add_sample(sample(1000, 0.2));
-  HandSample broken = sample(2000, 0.2);
+  device::Sample broken = sample(2000, 0.2);
   broken.pose.quaternion = {0.0, 0.0, 0.0, 0.0};
   track.add_sample(broken);
   const HandReading reading = track.finish_interval();

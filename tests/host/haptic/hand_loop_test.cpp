@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::array kLaws{Law::kClaim, Law::kAbstract, Law::kAligned};
 
-operator_side::ControllerSample held_at(double y_m, bool button = true, bool valid = true) {
-  return {0, valid, button, {{0.0, y_m, 0.0}}};
+device::Sample held_at(double y_m, bool button = true, bool valid = true) {
+  return {.valid = valid, .deadman = button, .pose = {{0.0, y_m, 0.0}}};
 }
 
 Motion tip(double y_m) { return {{0.0, y_m, 0.0}, {}}; }

@@ -54,7 +54,7 @@ TEST(Omega, TheWristIsSensedInItsRangeAndNothingTurnsIt) {
   EXPECT_NEAR(rotation_vector(omega.sample().pose.quaternion)[0], 0.5, 1e-9);
   for (int i = 0; i < 300; ++i) omega.step({}, {{}, {0.0, 3.0, 0.0}, true});
   EXPECT_NEAR(rotation_vector(omega.sample().pose.quaternion)[1], 70.0 * kDegree, 1e-9);
-  EXPECT_TRUE(omega.sample().button);
+  EXPECT_TRUE(omega.sample().deadman);
 }
 
 TEST(Omega, ItsWorkspaceEndsAtStops) {

@@ -27,7 +27,7 @@ struct TaskRun {
   int grips = 0;
   bool arrived = false;
   Pose end_in_base{};
-  std::vector<operator_side::ControllerSample> samples;
+  std::vector<device::Sample> samples;
 };
 
 TaskRun run_task(operator_side::HandTask task, const Pose& start, const Pose& goal_in_slit,
@@ -42,10 +42,10 @@ TaskRun run_task(operator_side::HandTask task, const Pose& start, const Pose& go
   bool button = false;
   for (std::int64_t k = 1; static_cast<double>(k) * kStep_s < kMostTime_s && !person.arrived(); ++k) {
     const double now_s = static_cast<double>(k) * kStep_s;
-    const operator_side::ControllerSample sample = person.sample(now_s);
+    const device::Sample sample = person.sample(now_s);
     run.samples.push_back(sample);
-    run.grips += sample.button && !button ? 1 : 0;
-    button = sample.button;
+    run.grips += sample.deadman && !button ? 1 : 0;
+    button = sample.deadman;
     run.farthest_hand_m = std::max(run.farthest_hand_m, norm(sample.pose.position_m));
     tip.step(sample, kStep_s);
     if (k % 20 == 0) person.feel(tip.engaged(), now_s);
@@ -188,8 +188,8 @@ TEST(HandPerson, GivesTheSameHandForTheSameSeedAndAnotherForAnother) {
   };
   const auto a = samples(7), b = samples(7), c = samples(8);
   ASSERT_EQ(a.size(), b.size());
-  const auto same = [](const operator_side::ControllerSample& x, const operator_side::ControllerSample& y) {
-    return x.pose.position_m == y.pose.position_m && x.pose.quaternion == y.pose.quaternion && x.button == y.button;
+  const auto same = [](const device::Sample& x, const device::Sample& y) {
+    return x.pose.position_m == y.pose.position_m && x.pose.quaternion == y.pose.quaternion && x.deadman == y.deadman;
   };
   EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), same));
   EXPECT_FALSE(std::equal(a.begin(), a.begin() + 100, c.begin(), same));
@@ -198,7 +198,7 @@ TEST(HandPerson, GivesTheSameHandForTheSameSeedAndAnotherForAnother) {
 TEST(HandPerson, DoesNotGripBeforeItHasSeenAnything) {
   operator_side::HandPerson person({}, panel_slit(), 1);
   person.begin(operator_side::HandTask::kReachRod, {2.0, 1.0}, 0.0);
-  for (int k = 1; k < 5000; ++k) EXPECT_FALSE(person.sample(k * kStep_s).button);
+  for (int k = 1; k < 5000; ++k) EXPECT_FALSE(person.sample(k * kStep_s).deadman);
 }
 
 TEST(HandPerson, ForgetsPicturesFromBeforeTheTask) {
@@ -209,7 +209,7 @@ TEST(HandPerson, ForgetsPicturesFromBeforeTheTask) {
     for (int i = 0; i < pictures_before; ++i)
       person.look({Pose{{1.0, 2.0, 0.5}, {1.0, 0.0, 0.0, 0.0}}, std::nullopt}, 0.04 * i);
     person.begin(operator_side::HandTask::kReachRod, {2.0, 1.0}, 10.0);
-    operator_side::ControllerSample last;
+    device::Sample last;
     for (std::int64_t k = 10001; k <= 13000; ++k) {
       const double now_s = static_cast<double>(k) * kStep_s;
       last = person.sample(now_s);
@@ -231,7 +231,7 @@ TEST(HandPerson, KeepsTheHandStillWhenThePictureIsGone) {
   Pose at_six{}, at_nine{};
   for (std::int64_t k = 1; k <= 9000; ++k) {
     const double now_s = static_cast<double>(k) * kStep_s;
-    const operator_side::ControllerSample sample = person.sample(now_s);
+    const device::Sample sample = person.sample(now_s);
     tip.step(sample, kStep_s);
     person.feel(tip.engaged(), now_s);
     const auto picture = k % 40 == 0 ? tip.picture(now_s) : std::nullopt;
@@ -252,9 +252,9 @@ TEST(HandPerson, LetsGoAndGripsAgainWhenTheArmDoesNotFollow) {
   bool button = false;
   for (std::int64_t k = 1; k <= 8000; ++k) {
     const double now_s = static_cast<double>(k) * kStep_s;
-    const operator_side::ControllerSample sample = person.sample(now_s);
-    releases += button && !sample.button ? 1 : 0;
-    button = sample.button;
+    const device::Sample sample = person.sample(now_s);
+    releases += button && !sample.deadman ? 1 : 0;
+    button = sample.deadman;
     const auto picture = k % 40 == 0 ? tip.picture(now_s) : std::nullopt;
     if (picture) person.look(*picture, now_s);
     person.feel(false, now_s);

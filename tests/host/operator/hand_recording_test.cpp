@@ -32,11 +32,11 @@ constexpr const char* kPose = " 0 0 0 1 0 0 0";
 TEST(HandRecording, ShippedVrRecordingHasOneDropoutOneJumpAndNinetyHertz) {
   const VrRecording recording = read_vr_recording(kRecordings + "/panel_edge_vr.hand");
   const double rate_hz =
-      static_cast<double>(recording.size() - 1) / (static_cast<double>(recording.back().t_us) * 1e-6);
+      static_cast<double>(recording.size() - 1) / (static_cast<double>(recording.back().right.t_us) * 1e-6);
   EXPECT_NEAR(rate_hz, 90.0, 0.1);
   int dropouts = 0, jumps = 0;
   for (std::size_t i = 1; i < recording.size(); ++i) {
-    const VrHandle &before = recording[i - 1].right, &now = recording[i].right;
+    const device::Sample &before = recording[i - 1].right, &now = recording[i].right;
     dropouts += before.valid && !now.valid ? 1 : 0;
     jumps += norm(subtract(now.pose.position_m, before.pose.position_m)) > 0.2 ? 1 : 0;
   }
@@ -50,8 +50,8 @@ TEST(HandRecording, ShippedVrRecordingLeadsTipAndNodeFromPrepareToPanelEdge) {
   const auto way = [&](auto pick) {
     return scale(subtract(pick(recording.back()).pose.position_m, pick(recording.front()).pose.position_m), 4.0);
   };
-  const Vec3 tip = way([](const VrSample& s) { return s.right; });
-  const Vec3 node = way([](const VrSample& s) { return s.left; });
+  const Vec3 tip = way([](const BothHands& s) { return s.right; });
+  const Vec3 node = way([](const BothHands& s) { return s.left; });
   EXPECT_LT(norm(subtract(tip, {0.244568 - 0.646615, -0.271144 + 1.519711, 0.581923 - 0.020182})), 0.012);
   EXPECT_LT(norm(subtract(node, {-0.947447 + 0.242596, -0.395663 + 1.662394, 1.151544 - 0.111163})), 0.012);
 }
@@ -61,7 +61,7 @@ TEST(HandRecording, ShippedHandControllerRecordingIsReadAtOneKilohertz) {
   const HandRecording recording = read_hand_controller_recording(kRecordings + "/approach_hand.hand");
   EXPECT_EQ(recording.size(), 10001u);
   EXPECT_EQ(recording.back().t_us, 10000000);
-  EXPECT_TRUE(std::any_of(recording.begin(), recording.end(), [](const ControllerSample& s) { return s.button; }));
+  EXPECT_TRUE(std::any_of(recording.begin(), recording.end(), [](const device::Sample& s) { return s.deadman; }));
 }
 
 TEST(HandRecording, BadFilesAreRefusedWithLineValueAndWhatIsAllowed) {
@@ -97,13 +97,13 @@ TEST(HandRecording, AFileOfTheOtherKindIsRefusedByName) {
 }
 
 // Everything a playback of the shipped recording delivers, in intervals of 20 ms.
-std::vector<VrSample> play(std::uint64_t seed, double lost_from_s = 1e9) {
+std::vector<BothHands> play(std::uint64_t seed, double lost_from_s = 1e9) {
   RecordedVr player(read_vr_recording(kRecordings + "/panel_edge_vr.hand"), {}, seed);
-  std::vector<VrSample> all;
+  std::vector<BothHands> all;
   for (int k = 0; k < 3000 && !player.finished(); ++k) {
     const double now_s = 0.02 * k;
     player.feel(now_s < lost_from_s || now_s > lost_from_s + 1.0, now_s);
-    for (const VrSample& sample : player.advance(now_s, 0.02)) all.push_back(sample);
+    for (const BothHands& sample : player.advance(now_s, 0.02)) all.push_back(sample);
   }
   return all;
 }
@@ -116,7 +116,7 @@ TEST(RecordedVr, PlaysEverySampleInOrderWithTwoJumpsAndTwoShortDropouts) {
     int jumps = 0;
     double lost_s = 0.0, longest_s = 0.0;
     for (std::size_t i = 1; i < samples.size(); ++i) {
-      EXPECT_GT(samples[i].t_us, samples[i - 1].t_us);
+      EXPECT_GT(samples[i].right.t_us, samples[i - 1].right.t_us);
       jumps += norm(subtract(samples[i].right.pose.position_m, samples[i - 1].right.pose.position_m)) > 0.15 ? 1 : 0;
       lost_s = samples[i].right.valid ? 0.0 : lost_s + 1.0 / 90.0;
       longest_s = std::max(longest_s, lost_s);

@@ -19,10 +19,10 @@ class LedArm {
   }
 
   // One command interval with the samples that came in it.
-  void interval(const std::vector<operator_side::VrSample>& samples) {
-    for (const operator_side::VrSample& sample : samples) {
-      steer_.add_tip_sample(hand(sample.t_us, sample.right));
-      steer_.add_node_sample(hand(sample.t_us, sample.left));
+  void interval(const std::vector<operator_side::BothHands>& samples) {
+    for (const operator_side::BothHands& both : samples) {
+      steer_.add(both.right);
+      steer_.add(both.left);
     }
     const double interval_s = table_.tick_s * table_.interval_ticks;
     const auto goal = steer_.finish_interval(outputs(), interval_s);
@@ -49,9 +49,6 @@ class LedArm {
   std::uint32_t limits() const { return limits_; }
 
  private:
-  static arbiter::HandSample hand(std::int64_t t_us, const operator_side::VrHandle& handle) {
-    return {t_us, handle.valid, handle.trigger > 0.5, handle.pose};
-  }
   cable::Outputs outputs() const {
     cable::Outputs now{};
     now.tip_command = motion_.arm.tip_in_base;

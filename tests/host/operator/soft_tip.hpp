@@ -5,9 +5,9 @@
 #include <deque>
 #include <optional>
 
+#include "host/device/sample.hpp"
 #include "host/operator/hand_grip.hpp"
 #include "host/operator/random.hpp"
-#include "host/operator/samples.hpp"
 #include "host/operator/slit_view.hpp"
 
 namespace liana::test {
@@ -37,13 +37,13 @@ class SoftTip {
         before_m_(tip_in_base.position_m) {}
 
   // One millisecond with this hand sample.
-  void step(const operator_side::ControllerSample& hand, double dt_s) {
-    if (hand.button && !engaged_) {
+  void step(const device::Sample& hand, double dt_s) {
+    if (hand.deadman && !engaged_) {
       hand_anchor_ = hand.pose;
       tip_anchor_ = sent_;
     }
-    if (!hand.button && engaged_) goal_ = sent_;
-    engaged_ = hand.button;
+    if (!hand.deadman && engaged_) goal_ = sent_;
+    engaged_ = hand.deadman;
     if (engaged_) {
       const operator_side::PoseStep step = operator_side::step_between(hand_anchor_, hand.pose);
       goal_ = operator_side::moved(

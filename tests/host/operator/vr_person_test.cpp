@@ -17,14 +17,14 @@ namespace {
 namespace zhu2022 = cable::zhu2022;
 using operator_side::ArmDisplay;
 using operator_side::ArmSight;
+using operator_side::BothHands;
 using operator_side::VrGains;
 using operator_side::VrPerson;
-using operator_side::VrSample;
 
 constexpr double kInterval_s = 0.02;
 constexpr double kRadius_m = 0.03;
 constexpr operator_side::HandMapping kMapping{4.0, 2.0, 0.1};
-constexpr arbiter::DeviceUse kUse{arbiter::DeviceKind::kVr, {4.0, 2.0}, 3, 0.1, false};
+const arbiter::DeviceUse kUse{"vr", device::Kind::kHandles, {4.0, 2.0}, 3, 0.1, false};
 
 std::vector<double> degrees_of(const cable::ThetaVector& theta_rad) {
   std::vector<double> degrees;
@@ -69,7 +69,7 @@ class Led {
 
   const VrPerson& person() const { return person_; }
   const LedArm& arm() const { return arm_; }
-  const std::vector<VrSample>& samples() const { return samples_; }
+  const std::vector<BothHands>& samples() const { return samples_; }
   double now_s() const { return now_s_; }
   double least_room_m() const { return least_room_m_; }
 
@@ -78,7 +78,7 @@ class Led {
   LedArm arm_;
   VrPerson person_;
   ArmDisplay display_{zhu2022::table(), kRadius_m};
-  std::vector<VrSample> samples_;
+  std::vector<BothHands> samples_;
   std::int64_t taken_ = 0;
   double now_s_ = 0.0;
   double least_room_m_ = 1e9;
@@ -146,7 +146,7 @@ TEST(VrPerson, ReindexesWithinTheReachOfItsArms) {
   bool held = false;
   while (led.now_s() < 100.0 && !led.person().arrived()) {
     led.interval();
-    for (const VrSample& sample : led.samples()) {
+    for (const BothHands& sample : led.samples()) {
       grips += sample.right.trigger > 0.5 && !held ? 1 : 0;
       held = sample.right.trigger > 0.5;
       far += norm(sample.right.pose.position_m) > 0.11 ? 1 : 0;
@@ -161,7 +161,7 @@ TEST(VrPerson, DoesNotGripBeforeItHasSeenTheArm) {
   Led led(panel_scene(), 1);
   for (int k = 0; k < 200; ++k) {
     led.interval(false);
-    for (const VrSample& sample : led.samples()) EXPECT_EQ(sample.right.trigger, 0.0);
+    for (const BothHands& sample : led.samples()) EXPECT_EQ(sample.right.trigger, 0.0);
   }
 }
 
@@ -171,7 +171,7 @@ TEST(VrPerson, KeepsTheHandsStillWhenTheDisplayFreezes) {
   Led led(panel_scene(), 1, gains);
   while (led.now_s() < 12.0) led.interval();
   while (led.now_s() < 16.0) led.interval(false);
-  const VrSample before = led.samples().back();
+  const BothHands before = led.samples().back();
   while (led.now_s() < 18.0) led.interval(false);
   EXPECT_EQ(before.left.pose.position_m, led.samples().back().left.pose.position_m);
   EXPECT_FALSE(led.person().arrived());
@@ -183,7 +183,7 @@ TEST(VrPerson, LetsGoAndGripsAgainWhenTheArmDoesNotFollow) {
   bool held = false;
   while (led.now_s() < 12.0) {
     led.interval(true, false);
-    for (const VrSample& sample : led.samples()) {
+    for (const BothHands& sample : led.samples()) {
       releases += held && sample.right.trigger < 0.5 ? 1 : 0;
       held = sample.right.trigger > 0.5;
     }

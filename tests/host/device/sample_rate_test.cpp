@@ -1,11 +1,11 @@
 // How regularly a device's samples come, and the alarm below 50 a second.
-#include "host/arbiter/sample_rate.hpp"
+#include "host/device/sample_rate.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-namespace liana::arbiter {
+namespace liana::device {
 
 namespace {
 
@@ -103,4 +103,4 @@ TEST(SampleRate, ASampleThatIsNotNewerCountsButHasNoInterval) {
   EXPECT_NEAR(rate.mean_hz(), 100.0, 1e-9);
 }
 
-}  // namespace liana::arbiter
+}  // namespace liana::device

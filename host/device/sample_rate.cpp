@@ -1,8 +1,8 @@
-#include "host/arbiter/sample_rate.hpp"
+#include "host/device/sample_rate.hpp"
 
 #include <algorithm>
 
-namespace liana::arbiter {
+namespace liana::device {
 
 namespace {
 
@@ -41,4 +41,4 @@ void SampleRate::finish_interval(double interval_s) {
   second_from_us_ = last_us_;
 }
 
-}  // namespace liana::arbiter
+}  // namespace liana::device

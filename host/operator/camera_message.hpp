@@ -1,17 +1,10 @@
-// Device samples and camera pictures as API messages (docs/api.md).
+// Camera pictures as API messages (docs/api.md).
 #pragma once
 
-#include <vector>
-
 #include "host/json/json_fwd.hpp"
-#include "host/operator/samples.hpp"
 #include "host/operator/slit_view.hpp"
 
 namespace liana::operator_side {
-
-// `device` messages of one packet each.
-Json device_message(const std::vector<VrSample>& samples);
-Json device_message(const std::vector<ControllerSample>& samples);
 
 // Picture in a `camera` message; throws std::runtime_error when a pose is neither null nor seven numbers with a unit
 // quaternion.

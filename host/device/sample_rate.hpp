@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace liana::arbiter {
+namespace liana::device {
 
 // Least rate at which an operator's input is sampled [Hz]; a clock that is half a hertz off is not an alarm (A24).
 constexpr double kLeastRate_hz = 50.0;
@@ -41,4 +41,4 @@ class SampleRate {
   bool is_slow_ = false;
 };
 
-}  // namespace liana::arbiter
+}  // namespace liana::device

@@ -1,0 +1,34 @@
+#include "host/api/connect.hpp"
+
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+
+#include "host/api/address.hpp"
+
+namespace liana::api {
+
+namespace {
+constexpr useconds_t kRetry_us = 20000;
+}  // namespace
+
+UniqueFd connect_to(const std::string& option, const std::string& path, double timeout_s) {
+  const sockaddr_un address = unix_address(path);
+  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(timeout_s);
+  for (;;) {
+    UniqueFd fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+    if (fd.get() >= 0 && ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
+      return fd;
+    if (std::chrono::steady_clock::now() >= deadline) {
+      throw std::runtime_error("cannot reach lianad at " + path + ": " + std::strerror(errno) +
+                               "; is it running with " + option + " " + path + "?");
+    }
+    ::usleep(kRetry_us);
+  }
+}
+
+}  // namespace liana::api
