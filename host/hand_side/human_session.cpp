@@ -117,14 +117,19 @@ void HumanSession::hear_of_hand(const News& news, bool engaged, double now_s) {
     const Pose commanded = pose_in(news.state, "setpoint_cp");
     prediction_.stand_at(commanded);
     beside_m_ = subtract(pose_in(news.state, "measured_cp").position_m, commanded.position_m);
+    slowed_m_ = {};
   }
   if (news.for_device) feel(*news.for_device);
 }
 
 void HumanSession::feel(const liana_state& told) {
   const haptic::Motion tip{place(told.measured_cp.position_m), place(told.measured_cv.linear_m_s)};
-  const auto then = told.answers_us < 0 ? std::nullopt : predicted_.at(told.answers_us + told.held_us);
-  if ((told.flags & LIANA_ENGAGED) != 0 && then) errors_m_.push_back(norm(subtract(tip.position_m, then->position_m)));
+  const bool answers = told.answers_us >= 0 && (told.flags & LIANA_ENGAGED) != 0;
+  const std::int64_t of_us = told.answers_us + told.held_us;
+  if (const auto then = predicted_.at(of_us); answers && then)
+    errors_m_.push_back(norm(subtract(tip.position_m, then->position_m)));
+  if (const auto then = unmended_.at(of_us); answers && then)
+    slowed_m_ = subtract(place(told.setpoint_cp.position_m), then->position_m);
   if (table_.law) held_.loop().take({told.header.sequence, told.answers_us, told.held_us, tip});
 }
 
@@ -154,8 +159,14 @@ std::vector<device::Sample> HumanSession::lead(double now_s) {
   return samples;
 }
 
-haptic::Motion HumanSession::felt(const haptic::Motion& predicted) const {
-  return {add(predicted.position_m, beside_m_), predicted.velocity_m_s};
+// The arm does what the filter says, unless a limit of its joints slows it down: how far, the newest state tells.
+void HumanSession::predict(double now_s) {
+  const haptic::Motion tip = prediction_.motion();
+  const haptic::Motion mended{add(add(tip.position_m, slowed_m_), beside_m_), tip.velocity_m_s};
+  unmended_.put(microseconds(now_s), tip);
+  predicted_.put(microseconds(now_s), mended);
+  held_.loop().predict(microseconds(now_s), mended);
+  prediction_.finish_interval();
 }
 
 std::vector<device::Sample> HumanSession::steer(double from_s, double now_s) {
@@ -166,9 +177,7 @@ std::vector<device::Sample> HumanSession::steer(double from_s, double now_s) {
     samples.push_back(held_.step(wish, add(prediction_.goal().position_m, beside_m_)));
     prediction_.add(samples.back());
   }
-  predicted_.put(microseconds(now_s), felt(prediction_.motion()));
-  held_.loop().predict(microseconds(now_s), felt(prediction_.motion()));
-  prediction_.finish_interval();
+  predict(now_s);
   return samples;
 }
 

@@ -61,7 +61,7 @@ class HumanSession {
   std::vector<device::Sample> lead(double now_s);
   std::vector<device::Sample> steer(double from_s, double now_s);
   bool has_arrived() const;
-  haptic::Motion felt(const haptic::Motion& predicted) const;
+  void predict(double now_s);
 
   HumanTable table_;
   std::size_t node_;
@@ -70,12 +70,14 @@ class HumanSession {
   operator_side::HandPerson hand_person_;
   haptic::HeldHand held_;
   TipPrediction prediction_;
-  haptic::PredictionTrack predicted_;
+  haptic::PredictionTrack unmended_;   // by the filter alone
+  haptic::PredictionTrack predicted_;  // the same, mended by what was heard
   operator_side::AnnouncedStep step_{};
   bool steering_ = false;
   bool reported_ = false;
   double acted_s_ = 0.0;
   double handles_s_ = 0.0;  // when the handles were sampled last
+  Vec3 slowed_m_{};         // commanded less predicted, as last heard: the arm's limits slow it down
   Vec3 beside_m_{};         // measured less commanded, at rest before the grip: no contact, so it is not felt
   std::vector<double> errors_m_;
 };

@@ -144,7 +144,7 @@ std::string ended_by(const Json& step) {
 // What liana-operator told, in words; empty where it told nothing.
 std::string operator_text(const Json& report) {
   std::string text;
-  const Json lag = report.value("hand_to_tip_lag_s", Json()).member_or_null("commanded");
+  const Json lag = report.member_or_null("hand_to_tip_lag_s").member_or_null("commanded");
   if (lag.is_object())
     text += line("tip behind the hand by %.2f s in the median", lag["median"].get<double>()) +
             line(", %.2f s at worst\n", lag["worst"].get<double>());
@@ -214,7 +214,8 @@ Json make_report(const ReportSources& sources) {
   }
   if (state.contains("friction")) report["friction"] = state["friction"];
   if (sources.operator_rate_hz) report["operator_rate_hz"] = *sources.operator_rate_hz;
-  for (const auto& [name, figure] : read_json(sources.operator_file).items()) report[name] = figure;
+  const Json of_operator = read_json(sources.operator_file);
+  for (const auto& [name, figure] : of_operator.items()) report[name] = figure;
   if (!std::filesystem::exists(sources.truth_file)) return report;
   const std::string not_kept = add_truth(report, sources, window, welcome.value("period_s", 0.0));
   if (report["outcome"] == "success" && !not_kept.empty()) fail(not_kept);

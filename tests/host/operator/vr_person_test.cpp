@@ -40,11 +40,18 @@ cable::ThetaVector near_prepare(std::uint64_t seed) {
   return theta_rad;
 }
 
+std::vector<device::Sample> of_both(const std::vector<BothHands>& hands) {
+  std::vector<device::Sample> samples;
+  for (const BothHands& both : hands) samples.insert(samples.end(), {both.right, both.left});
+  return samples;
+}
+
 // The person leads the arm; what they see is the arm as it is commanded.
 class Led {
  public:
   Led(const config::SceneConfig& scene, std::uint64_t seed, const VrGains& gains = {})
-      : scene_(scene), arm_(zhu2022::table(), near_prepare(seed), kUse), person_(gains, scene, seed) {
+      : scene_(scene), arm_(zhu2022::table(), near_prepare(seed)), person_(gains, scene, seed) {
+    arm_.use(kUse);
     person_.begin(kMapping, 0.0);
   }
 
@@ -54,7 +61,7 @@ class Led {
     samples_.clear();
     for (; (static_cast<double>(taken_) + 1.0) * VrPerson::kSample_s <= to_s; ++taken_)
       samples_.push_back(person_.sample((static_cast<double>(taken_) + 1.0) * VrPerson::kSample_s));
-    if (follows) arm_.interval(samples_);
+    if (follows) arm_.interval(of_both(samples_));
     now_s_ = to_s;
     const ArmSight sight = display_.picture(degrees_of(arm_.theta_rad()), 3);
     if (sees) person_.look(sight, now_s_);
@@ -122,13 +129,14 @@ TEST(VrPerson, FindsAWayRoundASphereWhereverItIs) {
 TEST(VrPerson, WouldHitTheSphereByTheRootWithClosedEyesForIt) {
   config::SceneConfig unseen = panel_scene({"elsewhere", {5.0, 5.0, 5.0}, 0.1});
   const config::SceneConfig scene = panel_scene({"by the root", {-0.40, 0.10, 0.70}, 0.20});
-  LedArm arm(zhu2022::table(), near_prepare(1), kUse);
+  LedArm arm(zhu2022::table(), near_prepare(1));
+  arm.use(kUse);
   VrPerson person({}, unseen, 1);
   const ArmDisplay display(zhu2022::table(), kRadius_m);
   person.begin(kMapping, 0.0);
   double least_room_m = 1e9;
   for (int k = 1; k < 2500; ++k) {
-    arm.interval({person.sample((2 * k - 1) * 0.01), person.sample(2 * k * 0.01)});
+    arm.interval(of_both({person.sample((2 * k - 1) * 0.01), person.sample(2 * k * 0.01)}));
     const ArmSight sight = display.picture(degrees_of(arm.theta_rad()), 3);
     person.look(sight, k * kInterval_s);
     person.feel(arm.engaged(), k * kInterval_s);
