@@ -71,7 +71,7 @@ std::optional<double> LagMeter::lag_of(const Way& tip, double from_s) const {
     if (sum >= least) continue;
     least = sum, best_s = lag_s, moved = way;
   }
-  const bool explained = least <= kExplained * kExplained * moved;
+  const bool explained = moved > 0.0 && least <= kExplained * kExplained * moved;
   return explained ? std::optional(best_s) : std::nullopt;
 }
 

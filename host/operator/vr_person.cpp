@@ -123,7 +123,8 @@ void VrPerson::decide() {
 void VrPerson::look_around(double now_s) {
   const auto edge = panel_edge(gains_, drawing_);
   if (now_s - phase_since_s_ < gains_.look_s || seen_.axis_m.empty() || !edge) return;
-  edge_ = *edge;
+  const Vec3 turn = step_between(seen_.tip, *edge).turn_rad;
+  edge_ = moved({edge->position_m, seen_.tip.quaternion}, {{}, scale(turn, gains_.turn_share)});
   decide();
   start_leg(seen_.tip);
   enter(Phase::kReturning, now_s);

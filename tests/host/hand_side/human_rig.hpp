@@ -1,5 +1,5 @@
-// The human's whole session at an arm that is led (led_arm.hpp): what lianad would tell, the tip camera, and the steps of the
-// slit crossing, without physics. The true tip is a little beside the commanded one.
+// The human's whole session at an arm that is led (led_arm.hpp): what lianad would tell, the tip camera, and the steps
+// of the slit crossing, without physics. The true tip is a little beside the commanded one.
 #pragma once
 
 #include <deque>
@@ -61,8 +61,8 @@ class HumanRig {
   Pose rod() const { return {scene_.rod->pose.position_m, scene_.rod->pose.quaternion_wxyz}; }
 
   Pose measured_tip() const {
-    return operator_side::moved(arm_.tip(), {scale(table_.beside_m, table_.measured_share),
-                                             scale(table_.turned_rad, table_.measured_share)});
+    return operator_side::moved(
+        arm_.tip(), {scale(table_.beside_m, table_.measured_share), scale(table_.turned_rad, table_.measured_share)});
   }
   static Json numbers(const Pose& pose) {
     Json list = Json::array();
@@ -84,11 +84,16 @@ class HumanRig {
     Json angles = Json::array();
     for (std::int32_t i = 0; i < robot_.theta_count(); ++i)
       angles.push_back(arm_.theta_rad()[static_cast<std::size_t>(i)] / kDegree);
-    return {{"op", "state"},          {"time_s", now_s_},
-            {"tick", intervals_},     {"step", step_},
-            {"device", device_},      {"device_engaged", arm_.engaged()},
-            {"mapping", mapping_},    {"setpoint_cp", numbers(arm_.tip())},
-            {"measured_cp", numbers(measured_tip())}, {"measured_js_deg", angles}};
+    return {{"op", "state"},
+            {"time_s", now_s_},
+            {"tick", intervals_},
+            {"step", step_},
+            {"device", device_},
+            {"device_engaged", arm_.engaged()},
+            {"mapping", mapping_},
+            {"setpoint_cp", numbers(arm_.tip())},
+            {"measured_cp", numbers(measured_tip())},
+            {"measured_js_deg", angles}};
   }
   liana_state told() {
     liana_state out = device::make<liana_state>(LIANA_STATE, static_cast<std::uint32_t>(intervals_));

@@ -59,8 +59,9 @@ Crossing cross(HumanTable table, const haptic::Delays& delays = {}) {
     done = run();
     duration_s = rig.now_s() - from_s;
   };
-  clocked(out.edge, out.edge_s,
-          [&] { return rig.step("vr", "edge", {"vr", device::Kind::kHandles, {4.0, 2.0}, 3, 0.1, false}, 120.0); });
+  clocked(out.edge, out.edge_s, [&] {
+    return rig.step("vr", "edge", {"vr", device::Kind::kHandles, {4.0, 2.0}, 3, 0.1, false}, 120.0);
+  });
   rig.hold_at_zero(1u << 8);
   const arbiter::DeviceUse entry{"hand", device::Kind::kHandController, {4.0, 1.0}, 0, 0.1, false};
   clocked(out.slit, out.slit_s, [&] { return out.edge && rig.step("hand", "slit", entry, 200.0); });
@@ -78,11 +79,12 @@ Crossing cross(HumanTable table, const haptic::Delays& delays = {}) {
 void report(const char* name, const Crossing& c) {
   std::vector<double> errors = c.hand.errors_m;
   std::sort(errors.begin(), errors.end());
-  std::printf("%s: %d %d %d in %.0f + %.0f + %.0f s, error %.2f mm %.3f deg, off plane %.1f mm, hand %.2f N, %.4f J, "
-              "prediction %.2f mm median, %.1f mm worst\n",
-              name, c.edge, c.slit, c.rod, c.edge_s, c.slit_s, c.rod_s, 1e3 * c.error_m, c.error_rad / kDegree,
-              1e3 * c.widest_m, c.hand.peak_force_N, c.hand.least_energy_J,
-              errors.empty() ? 0.0 : 1e3 * errors[errors.size() / 2], errors.empty() ? 0.0 : 1e3 * errors.back());
+  std::printf(
+      "%s: %d %d %d in %.0f + %.0f + %.0f s, error %.2f mm %.3f deg, off plane %.1f mm, hand %.2f N, %.4f J, "
+      "prediction %.2f mm median, %.1f mm worst\n",
+      name, c.edge, c.slit, c.rod, c.edge_s, c.slit_s, c.rod_s, 1e3 * c.error_m, c.error_rad / kDegree,
+      1e3 * c.widest_m, c.hand.peak_force_N, c.hand.least_energy_J,
+      errors.empty() ? 0.0 : 1e3 * errors[errors.size() / 2], errors.empty() ? 0.0 : 1e3 * errors.back());
 }
 
 TEST(HumanSession, CrossesTheSlitWithForceAndWithout) {
