@@ -25,7 +25,7 @@ bool Driver::send(const Sample& sample) {
   return false;  // that lianad has left is found by reading: why it refused is still there
 }
 
-bool Driver::receive(std::int64_t now_us) {
+bool Driver::receive(std::optional<std::int64_t> now_us) {
   bool has_news = false;
   std::string packet;
   while (is_open()) {
@@ -40,7 +40,7 @@ bool Driver::receive(std::int64_t now_us) {
   return has_news;
 }
 
-bool Driver::take(std::string_view bytes, std::int64_t now_us) {
+bool Driver::take(std::string_view bytes, std::optional<std::int64_t> now_us) {
   const Incoming in = look_at(bytes);
   if (!in.problem.empty()) {
     close("lianad speaks another protocol: " + in.problem);
@@ -58,7 +58,7 @@ bool Driver::take(std::string_view bytes, std::int64_t now_us) {
     }
     case LIANA_STATE:
       state_ = read<liana_state>(bytes);
-      echo_ = {in.header.sequence, now_us};
+      if (now_us) echo_ = {in.header.sequence, *now_us};
       return true;
     default:
       return false;  // nothing that comes down
@@ -77,14 +77,14 @@ void Driver::close(const std::string& why) {
 }
 
 const liana_state* Driver::state(std::int64_t now_us) const {
-  if (!state_ || !is_open()) return nullptr;
+  if (!state_ || echo_.sequence == 0 || !is_open()) return nullptr;
   const double most_s = std::min(watchdog_s_, state_->watchdog_s);
   return static_cast<double>(now_us - echo_.came_us) * 1e-6 <= most_s ? &*state_ : nullptr;
 }
 
 std::optional<std::int64_t> Driver::arm_ahead_us() const {
-  if (!welcome_) return std::nullopt;
-  return welcome_->arm_time_us - welcome_us_;
+  if (!welcome_us_) return std::nullopt;
+  return welcome_->arm_time_us - *welcome_us_;
 }
 
 }  // namespace liana::device

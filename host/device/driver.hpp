@@ -24,8 +24,9 @@ class Driver {
   // Sends one sample, with the echo of the newest state; never waits. False when it is lost: lianad does not read
   // quickly enough, or is gone (problem()).
   bool send(const Sample& sample);
-  // Reads all that has come; true when a newer state was among it. Never waits.
-  bool receive(std::int64_t now_us);
+  // Reads all that has come; true when a newer state was among it. Never waits. Without `now_us`, for a driver to which
+  // the device's clock is not known, states are not echoed, and none is fresh.
+  bool receive(std::optional<std::int64_t> now_us);
   // Says that the device leaves; the same to the arm as being gone.
   void leave();
 
@@ -47,14 +48,14 @@ class Driver {
 
  private:
   Driver(api::UniqueFd fd, double watchdog_s) : fd_(std::move(fd)), watchdog_s_(watchdog_s) {}
-  bool take(std::string_view bytes, std::int64_t now_us);
+  bool take(std::string_view bytes, std::optional<std::int64_t> now_us);
   void close(const std::string& why);
 
   api::UniqueFd fd_;
   double watchdog_s_;
   std::string problem_;
   std::optional<liana_welcome> welcome_;
-  std::int64_t welcome_us_ = 0;
+  std::optional<std::int64_t> welcome_us_;
   std::optional<liana_state> state_;
   Echo echo_{};
   std::uint32_t sequence_ = 0;

@@ -11,12 +11,14 @@ namespace {
 constexpr std::uint16_t kTryAgainLater = 1013;  // of the IANA registry of WebSocket close codes
 }  // namespace
 
-Gateway::Gateway(const std::string& api, const Tokens* tokens, bool is_loopback, std::function<double()> now_s)
+Gateway::Gateway(const std::string& api, const std::string& devices, const Tokens* tokens, bool is_loopback,
+                 std::function<double()> now_s)
     : now_s_(std::move(now_s)),
       feed_(poller_, api, [this] { wake_all(); }),
       house_{poller_,
              feed_,
              api,
+             devices,
              tokens,
              is_loopback,
              [this](const std::string& wanted) { return free_name(wanted); },

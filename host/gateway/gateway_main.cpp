@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "host/command_line/command_line.hpp"
+#include "host/device/driver.hpp"
 #include "host/gateway/gateway.hpp"
 #include "host/gateway/web_server.hpp"
 #include "host/places/places.hpp"
@@ -19,7 +20,7 @@ using namespace liana::gateway;
 constexpr int kNice = 5;  // whatever clients do here, lianad has its turn first
 
 struct Options {
-  std::string api, listen = "127.0.0.1:8765", token_file, certificate, key, runs, page;
+  std::string api, devices, listen = "127.0.0.1:8765", token_file, certificate, key, runs, page;
 };
 
 double now_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -52,7 +53,8 @@ int run(const Options& options) {
   if (!options.token_file.empty()) tokens = read_tokens(options.token_file);
   std::signal(SIGPIPE, SIG_IGN);
   ::setpriority(PRIO_PROCESS, 0, kNice);
-  Gateway gateway(options.api, tokens ? &*tokens : nullptr, listen.is_loopback(), now_s);
+  const std::string devices = options.devices.empty() ? liana::device::devices_path(options.api) : options.devices;
+  Gateway gateway(options.api, devices, tokens ? &*tokens : nullptr, listen.is_loopback(), now_s);
   const std::string page = options.page.empty() ? liana::places::page_file("console.html") : options.page;
   WebServer server({listen, options.certificate, options.key, page, options.runs}, gateway);
   std::puts(server.address().c_str());
@@ -66,6 +68,7 @@ int main(int argc, char** argv) {
   Options options;
   liana::command_line::CommandLine line("liana-gateway: shows a running lianad to browsers");
   line.option("--api", options.api, "API socket of lianad; it need not be there yet").required();
+  line.option("--devices", options.devices, "its socket for devices; .devices behind that of --api without");
   line.option("--listen", options.listen, "ADDR:PORT, port 0: a free one").with_default_shown();
   line.option("--token-file", options.token_file, "lines NAME ROLE TOKEN, mode 0600; needed beyond loopback");
   line.option("--cert", options.certificate, "certificate for TLS, PEM; needed beyond loopback");

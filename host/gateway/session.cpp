@@ -4,6 +4,7 @@
 #include <cstring>
 #include <utility>
 
+#include "host/api/request_error.hpp"
 #include "host/api/stop_packet.hpp"
 #include "host/gateway/proof.hpp"
 
@@ -101,6 +102,8 @@ void Session::hello(const Json& message) {
   stop_.emplace(house_.poller, house_.api, name_, reply);
   client_.emplace(house_.poller, house_.api, name_, "client", reply);
   operator_.emplace(house_.poller, house_.api, name_, "operator", reply);
+  handles_.emplace(house_.poller, house_.devices, name_,
+                   [this](const std::string& why) { answer(refusal(std::nullopt, "refused", why)); });
   something_to_send_();
 }
 
@@ -123,10 +126,33 @@ void Session::request(const Json& message, std::optional<std::int64_t> id) {
     house_.refused("wrong_role", address_, name_ + " (" + access_name(access_) + ") asked for " + op);
     return answer(refusal(id, "not_allowed", "'" + op + "' is not for the role " + access_name(access_)));
   }
-  if (op == "use_device") operator_->connect();  // lianad asks for an operator before it lets one steer
-  const bool of_operator = op == "device" || op == "operator_says";
-  (of_operator ? operator_ : client_)->ask(wanted, id);
-  if (op == "release") operator_->leave();  // one operator at a time: whoever takes motion next may steer
+  if (op == "device") return device(wanted, id);
+  if (op == "use_device") choose(wanted);
+  (op == "operator_says" ? operator_ : client_)->ask(wanted, id);
+  if (op != "release") return;
+  operator_->leave();  // one operator at a time: whoever takes motion next may steer
+  handles_->leave();
+}
+
+// Samples of the page's own handles.
+void Session::device(const Json& wanted, std::optional<std::int64_t> id) {
+  try {
+    handles_->take(wanted);
+    if (id) answer({{"op", "answer"}, {"id", *id}, {"ok", true}, {"answer", Json::object()}});
+  } catch (const api::RequestError& error) {
+    answer(refusal(id, error.code(), error.what()));
+  }
+}
+
+// lianad looks for a device before it lets one steer: the page's handles are there before they are asked for. Where
+// lianad is away the request is answered with that.
+void Session::choose(const Json& wanted) {
+  if (text_of(wanted, "device") != "vr") return handles_->leave();
+  try {
+    handles_->connect();
+  } catch (const api::RequestError& error) {
+    answer(refusal(std::nullopt, error.code(), error.what()));
+  }
 }
 
 void Session::stop(const Json& message, std::optional<std::int64_t> id, double now_s) {

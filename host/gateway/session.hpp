@@ -13,6 +13,7 @@
 
 #include "host/gateway/access.hpp"
 #include "host/gateway/feed.hpp"
+#include "host/gateway/handles.hpp"
 #include "host/gateway/requester.hpp"
 #include "host/gateway/stop_call.hpp"
 
@@ -22,7 +23,7 @@ namespace liana::gateway {
 struct House {
   Poller& poller;
   Feed& feed;
-  std::string api;                                                  // socket of lianad
+  std::string api, devices;                                         // sockets of lianad
   const Tokens* tokens;                                             // nullptr: no proof is asked for
   bool is_loopback = false;                                         // the gateway listens there
   std::function<std::string(const std::string& wanted)> free_name;  // one that no other client has
@@ -78,6 +79,8 @@ class Session {
   void hello(const class Json& message);
   bool is_proven(const Json& message);
   void request(const Json& message, std::optional<std::int64_t> id);
+  void device(const Json& wanted, std::optional<std::int64_t> id);
+  void choose(const Json& wanted);
   void stop(const Json& message, std::optional<std::int64_t> id, double now_s);
   void pace(const Json& message);
   void malformed(double now_s, std::optional<std::int64_t> id, const std::string& why);
@@ -95,6 +98,7 @@ class Session {
   Access access_ = Access::kWatch;
   std::optional<StopCall> stop_;
   std::optional<Requester> client_, operator_;
+  std::optional<Handles> handles_;
   End end_;
 
   std::deque<std::string> answers_;

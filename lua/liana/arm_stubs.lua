@@ -186,8 +186,8 @@ function arm.hold_theta(fields) end
 function arm.shape(fields) end
 
 ---@class arm.use_device
----who steers; `none`: nobody
----@field device "vr"|"hand"|"none"
+---who steers: `vr`, `hand`, `pointer`, or a connected device by its name; `none`: nobody
+---@field device string
 ---way of the tip for a way of the hand (else 1)
 ---@field scale? number
 ---turn of the tip for a turn of the hand (else 1)

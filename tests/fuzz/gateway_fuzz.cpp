@@ -7,7 +7,7 @@
 using namespace liana;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static gateway::Gateway house("/nonexistent/api", nullptr, true, [] { return 0.0; });
+  static gateway::Gateway house("/nonexistent/api", "/nonexistent/devices", nullptr, true, [] { return 0.0; });
   gateway::Session& session = house.open("fuzz", [] {});
   std::string_view rest = fuzz::text_of(data, size);
   if (fuzz::choice(rest) % 2 == 0) session.take_text(R"({"op":"hello","name":"f"})", 0.0);

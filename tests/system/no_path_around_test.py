@@ -9,12 +9,13 @@ import unittest
 from support import SOURCE, SystemTest
 import trial
 from liana.client import ConnectionClosed
+from liana.devices import Device
 from liana.system import System
 
 # Not archive: the recorder that the run is judged by has its only place.
 kRoles = ("mission", "operator", "camera", "client", "observer", "tool")
 kTip = [3.9, 0.1, 0.1, 1.0, 0.0, 0.0, 0.0]
-kHand = {"t_us": 1, "valid": True, "button": True, "pose": [0.1, 0, 0, 1, 0, 0, 0]}
+kHand = [0.1, 0, 0, 1, 0, 0, 0]
 kSmall_deg = 4.0
 kFaultSlot = 1500
 kPatience_s = 120
@@ -52,7 +53,7 @@ REQUESTS = {
     "mission_control": lambda state: {"command": "resume"},
     "operator_says": lambda state: {"what": "arrived"},
     "archive_alarm": lambda state: {"text": "the disk is full", "count": 1},
-    "device": lambda state: {"device": "hand", "samples": [kHand]},
+    "devices": lambda state: {},
     "tool_report": lambda state: {"number": 1, "phase": "done", "time_s": state["time_s"]},
     "camera": lambda state: {"capture_time_s": state["time_s"], "slit": kTip, "rod": kTip},
 }
@@ -111,6 +112,7 @@ class Crowded(System):
 
     def start_bench(self):
         self.others = {role: self.client(role, role, lockstep=False, subscribe=()) for role in kRoles}
+        self.hand = Device(f"{self.api}.devices", "omega")
         super().start_bench()
 
 
@@ -137,10 +139,17 @@ class EveryRequest(SystemTest):
         self.assertEqual(judged.complaints, [])
         return judged
 
+    def steer(self):
+        """The device's deadman is held all the time, and its hand moves on."""
+        hand, now_us = self.system.hand, round(1e6 * self.client.state["time_s"])
+        hand.receive(now_us)
+        hand.send(now_us, [now_us * 1e-8, *kHand[1:]], deadman=True)
+
     def everyone_asks(self, op, reach):
         """The owner, and then every other kind of client, each with the arm in the state again."""
         reach(self.client)
         self.client.ask(op, **REQUESTS[op](self.client.state))
+        self.steer()
         self.client.go_on(0.1)
         for other in self.others.values():
             other.request(op, **REQUESTS[op](self.client.state))

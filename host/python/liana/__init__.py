@@ -1,12 +1,15 @@
 """Python client of Liana (docs/python.md): lianad's API, systems of processes, recordings. Standard library only."""
 from liana.client import Client, ConnectionClosed, LianaError, NotReached, RequestRefused, TimedOut
+from liana.devices import ArmState, Device
 from liana.recordings import BadRecording, Event, Recording, Truth, read_events
 from liana.system import ProgramRefused, System
 
 __all__ = [
+    "ArmState",
     "BadRecording",
     "Client",
     "ConnectionClosed",
+    "Device",
     "Event",
     "LianaError",
     "NotReached",

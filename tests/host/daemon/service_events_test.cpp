@@ -109,7 +109,9 @@ TEST(Events, AnOwnerThatStandsStillIsNamedWithItsTimeToLive) {
 class ServiceTellsEvents : public testing::Test {
  protected:
   ServiceTellsEvents()
-      : desk_(robot(), config::SceneConfig{}, "", timing::TimeMode::kReal, arm_.link), service_(config(), desk_) {
+      : desk_(robot(), config::SceneConfig{}, "", timing::TimeMode::kReal, arm_.link,
+              {path() + ".devices", std::nullopt}),
+        service_(config(), desk_) {
     client_.send({{"op", "hello"}, {"name", "c"}, {"role", "client"}, {"subscribe", {"event"}}, {"events_from", 1}});
   }
   ~ServiceTellsEvents() override { ::unlink(path().c_str()); }

@@ -12,6 +12,7 @@
 #include "host/api/request_table.hpp"
 #include "host/api/request_text.hpp"
 #include "host/daemon/cable_desk.hpp"
+#include "host/device/driver.hpp"
 #include "tests/host/api/robots.hpp"
 #include "tests/host/verify/sim_arm.hpp"
 
@@ -46,8 +47,9 @@ class ServiceOverSocket : public testing::Test {
  protected:
   explicit ServiceOverSocket(timing::TimeMode mode = timing::TimeMode::kFast)
       : arm_(std::make_unique<verify::SimArm>()),
-        desk_(robot_of(*arm_), config::SceneConfig{}, "", mode, arm_->link),
         config_(config_for(*arm_, mode)),
+        desk_(robot_of(*arm_), config::SceneConfig{}, "", mode, arm_->link,
+              {device::devices_path(config_.api_path), std::nullopt}),
         service_(config_, desk_) {}
   ~ServiceOverSocket() override { ::unlink(config_.api_path.c_str()); }
 
@@ -101,6 +103,12 @@ class ServiceOverSocket : public testing::Test {
     state(mission);
     ASSERT_EQ(state(mission)["state"], "ENABLED");
   }
+  // A device that has said hello, and is heard.
+  device::Driver plug_in(const device::Capability& capability) {
+    device::Driver driver = device::Driver::connect(device::devices_path(config_.api_path), capability, 0, 0.0);
+    service_.idle(0.0);
+    return driver;
+  }
   Json move_request(double change_deg) const {
     Json goal = theta_deg(arm_->table(), arm_->now().theta_command_rad);
     goal[0] = goal[0].get<double>() + change_deg;
@@ -108,8 +116,8 @@ class ServiceOverSocket : public testing::Test {
   }
 
   std::unique_ptr<verify::SimArm> arm_;
-  CableDesk desk_;
   ServiceConfig config_;
+  CableDesk desk_;
   Service service_;
   int id_ = 0;
 };
@@ -341,11 +349,10 @@ TEST_F(ServiceOverSocket, BadMotionRequestsAreRefusedWithTheirReason) {
       {{{"op", "hold_theta"}, {"held", 9}}, "bad_request"},
       {{{"op", "hold_theta"}, {"held", {9}}}, "bad_request"},
       {{{"op", "shape"}, {"nodes", {{{"node", 9}, {"position_m", {0, 0, 0}}}}}}, "out_of_range"},
-      {{{"op", "use_device"}, {"device", "mouse"}}, "bad_request"},
+      {{{"op", "use_device"}, {"device", "mouse"}}, "no_device"},
       {{{"op", "use_device"}, {"device", "vr"}}, "no_device"},
       {{{"op", "use_device"}, {"device", "none"}, {"scale", -1}}, "out_of_range"},
       {{{"op", "state_command"}, {"command", "fly"}}, "bad_request"},
-      {{{"op", "device"}, {"device", "vr"}, {"samples", Json::array()}}, "bad_request"},
       {{{"op", "camera"}, {"capture_time_s", 0}}, "bad_request"},
       {{{"op", 7}}, "bad_request"},
       {{{"op", "hold"}, {"now", true}}, "bad_request"},
@@ -413,42 +420,134 @@ TEST_F(ServiceOverSocket, AGoalOfAStreamThatJumpsIsRefusedAndAMoveIsNot) {
 
 // req:A13 req:A28
 TEST_F(ServiceOverSocket, TheOperatorSteersAndLettingGoIsAHold) {
-  api::ApiClient mission = join("mission"), person = join("operator");
+  api::ApiClient mission = join("mission");
+  device::Driver hand = plug_in({.name = "omega"});
   enable(mission);
   ASSERT_EQ(ask(mission, {{"op", "use_device"}, {"device", "hand"}, {"scale", 1.0}, {"speed_m_s", 0.03}}), "ok");
   const Vec3 start = arm_->now().tip_command.position_m;
   std::int64_t t_us = 0;
-  const auto steer = [&](double x, int button) {
-    Json samples = Json::array();
-    for (int i = 0; i < 20; ++i) {
-      samples.push_back({{"t_us", t_us += 1000}, {"valid", true}, {"button", button}, {"pose", {x, 0, 0, 1, 0, 0, 0}}});
-    }
-    person.send({{"op", "device"}, {"device", "hand"}, {"samples", samples}});
+  const auto steer = [&](double x, bool deadman) {
+    for (int i = 0; i < 20; ++i) hand.send({.t_us = t_us += 1000, .deadman = deadman, .pose = {{x, 0.0, 0.0}}});
+    hand.receive(t_us);
     return state(mission);
   };
-  for (int i = 0; i <= 100; ++i) steer(1e-4 * i, 1);
-  const Json moving = steer(0.01, 1);
+  for (int i = 0; i <= 100; ++i) steer(1e-4 * i, true);
+  const Json moving = steer(0.01, true);
   EXPECT_TRUE(moving["device_engaged"]);
+  EXPECT_EQ(moving["devices"][0]["name"], "omega");
+  EXPECT_TRUE(moving["devices"][0]["in_use"]);
   EXPECT_EQ(moving["mapping"]["scale"], 1.0);
   EXPECT_GT(norm(subtract(arm_->now().tip_command.position_m, start)), 2e-3);
-  for (int i = 0; i < 100; ++i) steer(0.01, 0);
-  EXPECT_FALSE(steer(0.01, 0)["device_engaged"]);
+  for (int i = 0; i < 100; ++i) steer(0.01, false);
+  EXPECT_FALSE(steer(0.01, false)["device_engaged"]);
   EXPECT_TRUE(arm_->now().at_rest);
-  EXPECT_EQ(steer(0.01, 0)["refusals"], 0);
+  EXPECT_EQ(steer(0.01, false)["refusals"], 0);
+}
+
+// In virtual time a sample that comes with its interval is of the command that is in force in the next one.
+TEST_F(ServiceOverSocket, ADeviceIsToldEveryIntervalWhereTheTipIsAndWhatItsSamplesLedTo) {
+  api::ApiClient mission = join("mission");
+  device::Driver hand = plug_in({.name = "omega"}), other = plug_in({.name = "falcon"});
+  enable(mission);
+  ASSERT_EQ(ask(mission, {{"op", "use_device"}, {"device", "omega"}, {"scale", 0.5}}), "ok");
+  std::int64_t t_us = 0;
+  for (int i = 0; i < 50; ++i) {
+    hand.send({.t_us = t_us += 20000, .deadman = true, .pose = {{1e-4 * i, 0.0, 0.0}}});
+    state(mission);
+    hand.receive(t_us);
+    other.receive(t_us);
+  }
+  const liana_state* told = hand.state(t_us);
+  ASSERT_NE(told, nullptr);
+  EXPECT_EQ(told->flags, static_cast<std::uint32_t>(LIANA_ENABLED | LIANA_IN_USE | LIANA_ENGAGED));
+  EXPECT_EQ(told->answers_us, t_us - 20000) << "the newest was not yet heard, the one before is in force since now";
+  EXPECT_EQ(told->held_us, 0);
+  EXPECT_EQ(told->scale, 0.5);
+  EXPECT_EQ(told->planes, 0u);
+  const Vec3 setpoint_m = device::pose_of(told->setpoint_cp).position_m;
+  EXPECT_LT(norm(subtract(setpoint_m, arm_->now().tip_command.position_m)), 0.001) << "one interval ago";
+  EXPECT_LT(norm(subtract(setpoint_m, device::pose_of(told->measured_cp).position_m)), 0.02);
+  EXPECT_NE(told->present & LIANA_HAS_PREDICTED, 0u);
+  EXPECT_LT(norm(subtract(device::pose_of(told->predicted_cp).position_m, setpoint_m)), 0.005);
+  const liana_state* to_other = other.state(t_us);
+  ASSERT_NE(to_other, nullptr);
+  EXPECT_EQ(to_other->flags, static_cast<std::uint32_t>(LIANA_ENABLED));
+  EXPECT_EQ(to_other->answers_us, -1) << "its samples move nothing";
+}
+
+// req:A12
+TEST_F(ServiceOverSocket, ADeviceThatIsGoneIsAHoldAndAnotherTakesItsPlaceOnlyAfterLettingGo) {
+  api::ApiClient mission = join("mission");
+  enable(mission);
+  std::int64_t t_us = 0;
+  const auto steer = [&](device::Driver& hand, bool deadman, int intervals = 1) {
+    Json last;
+    for (int i = 0; i < intervals; ++i) {
+      hand.send({.t_us = t_us += 20000, .deadman = deadman, .pose = {{0.1, 0.0, 0.0}}});
+      last = state(mission);
+    }
+    return last;
+  };
+  {
+    device::Driver hand = plug_in({.name = "omega"});
+    ASSERT_EQ(ask(mission, {{"op", "use_device"}, {"device", "hand"}}), "ok");
+    EXPECT_TRUE(steer(hand, true, 3)["device_engaged"]);
+  }
+  state(mission);
+  const Json alone = state(mission);
+  EXPECT_FALSE(alone["device_engaged"]);
+  EXPECT_EQ(alone["device_reason"], "device gone");
+  EXPECT_EQ(alone["device"], "hand");
+  EXPECT_EQ(alone["devices"], Json::array());
+  device::Driver again = plug_in({.name = "omega"});
+  t_us = 0;  // with a clock of its own
+  EXPECT_FALSE(steer(again, true, 5)["device_engaged"]);
+  steer(again, false, 2);
+  EXPECT_TRUE(steer(again, true, 3)["device_engaged"]);
+}
+
+TEST_F(ServiceOverSocket, ADeviceIsChosenByKindOrNameAndWhatIsConnectedIsSaidOtherwise) {
+  api::ApiClient mission = join("mission");
+  enable(mission);
+  device::Driver first = plug_in({.name = "omega"});
+  const auto message = [&](const char* name) {
+    return full_answer(mission, {{"op", "use_device"}, {"device", name}}).value("message", "");
+  };
+  EXPECT_EQ(message("vr"),
+            "device = vr: no such device is connected; connected: omega (hand): start its driver, or name one of them");
+  EXPECT_EQ(ask(mission, {{"op", "use_device"}, {"device", "hand"}}), "ok");
+  EXPECT_EQ(ask(mission, {{"op", "use_device"}, {"device", "omega"}}), "ok");
+  device::Driver second = plug_in({.name = "falcon"}), puck = plug_in({.name = "puck", .kind = device::Kind::kPointer});
+  EXPECT_EQ(message("hand"), "device = hand: more than one fits: falcon (hand), omega (hand): give the name of one");
+  EXPECT_EQ(ask(mission, {{"op", "use_device"}, {"device", "pointer"}}), "ok");
+  EXPECT_EQ(ask(mission, {{"op", "use_device"}, {"device", "falcon"}}), "ok");
+  EXPECT_EQ(ask(mission, {{"op", "use_device"}, {"device", "none"}}), "ok");
+}
+
+TEST_F(ServiceOverSocket, WhatDevicesCanAndDoIsAskedForByAnybody) {
+  api::ApiClient observer = join("observer");
+  device::Capability capability{.name = "omega"};
+  capability.hand[0].most_force_N = 12.0;
+  device::Driver hand = plug_in(capability);
+  hand.send({.t_us = 7, .deadman = true, .pose = {{0.25, 0.0, 0.0}}});
+  const Json told = full_answer(observer, {{"op", "devices"}})["devices"][0];
+  EXPECT_EQ(told["kind"], "hand");
+  EXPECT_EQ(told["hands"][0]["most_force_N"], 12.0);
+  EXPECT_EQ(told["hands"][0]["sample"]["measured_cp"][0], 0.25);
+  EXPECT_EQ(told["rate_hz"], Json()) << "a second is not over";
 }
 
 // req:A24
 TEST_F(ServiceOverSocket, ADeviceUnderFiftyHertzIsAnAlarmUntilItIsFastAgainAndItsIntervalsAreLogged) {
-  api::ApiClient mission = join("mission"), person = join("operator");
+  api::ApiClient mission = join("mission");
+  device::Driver hand = plug_in({.name = "omega"});
   enable(mission);
   std::int64_t t_us = 0;
   const auto sample_for = [&](int intervals, int step_us) {
     Json last;
     for (const std::int64_t end_us = t_us + 20000LL * intervals; t_us < end_us; last = state(mission)) {
-      Json samples = Json::array();
-      for (const std::int64_t until_us = t_us + 20000; t_us < until_us; t_us += step_us)
-        samples.push_back({{"t_us", t_us}, {"valid", true}, {"button", 0}, {"pose", {0, 0, 0, 1, 0, 0, 0}}});
-      person.send({{"op", "device"}, {"device", "hand"}, {"samples", samples}});
+      for (const std::int64_t until_us = t_us + 20000; t_us < until_us; t_us += step_us) hand.send({.t_us = t_us});
+      hand.receive(t_us);
     }
     return last;
   };

@@ -29,6 +29,7 @@ class ASession : public testing::Test {
   House house_{poller_,
                feed_,
                "/nowhere",
+               "/nowhere",
                nullptr,
                true,
                [](const std::string& wanted) { return wanted; },

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "host/json/json.hpp"
 #include "tests/host/operator/scene.hpp"
 
@@ -25,9 +27,11 @@ operator_side::OperatorSession session() {
 
 TEST(OperatorSession, SendsNothingWhileNoDeviceIsItsToMove) {
   operator_side::OperatorSession operator_session = session();
-  EXPECT_TRUE(operator_session.on_state({{"time_s", 0.0}, {"step", nullptr}}).empty());
-  EXPECT_TRUE(operator_session.on_state(state(0.02, 1, "none", "none")).empty());
-  EXPECT_TRUE(operator_session.on_state(state(0.04, 2, "vr", "none")).empty());
+  for (const Json& seen :
+       {Json{{"time_s", 0.0}, {"step", nullptr}}, state(0.02, 1, "none", "none"), state(0.04, 2, "vr", "none")}) {
+    const operator_side::OperatorAnswer answer = operator_session.on_state(seen);
+    EXPECT_TRUE(answer.samples.empty() && answer.messages.empty()) << seen;
+  }
 }
 
 TEST(OperatorSession, PlaysTheRecordingInAVrStepThenSaysArrivedOnceWithTriggersReleased) {
@@ -36,17 +40,19 @@ TEST(OperatorSession, PlaysTheRecordingInAVrStepThenSaysArrivedOnceWithTriggersR
   std::size_t samples = 0;
   double trigger = 0.0, highest_trigger = 0.0;
   for (int k = 1; k < 2200; ++k) {
-    for (const Json& message : operator_session.on_state(state(0.02 * k, 2, "vr", "vr"))) {
-      if (message["op"] == "operator_says") {
-        ++says;
-        EXPECT_EQ(message["what"], "arrived");
-        EXPECT_EQ(trigger, 0.0);
-        continue;
-      }
-      EXPECT_EQ(message["device"], "vr");
-      samples += message["samples"].size();
-      trigger = message["samples"].back()["right"]["trigger"];
+    const operator_side::OperatorAnswer answer = operator_session.on_state(state(0.02 * k, 2, "vr", "vr"));
+    EXPECT_EQ(answer.kind, device::Kind::kHandles);
+    for (const device::Sample& sample : answer.samples) {
+      samples += sample.hand == 0 ? 1 : 0;
+      trigger = sample.trigger;
+      EXPECT_EQ(sample.deadman, trigger >= operator_side::kGripped);
       highest_trigger = std::max(highest_trigger, trigger);
+    }
+    for (const Json& message : answer.messages) {
+      ++says;
+      EXPECT_EQ(message["op"], "operator_says");
+      EXPECT_EQ(message["what"], "arrived");
+      EXPECT_EQ(trigger, 0.0);
     }
   }
   EXPECT_EQ(says, 1);
@@ -58,11 +64,11 @@ TEST(OperatorSession, PlaysTheRecordingInAVrStepThenSaysArrivedOnceWithTriggersR
 TEST(OperatorSession, DeliversTwentyHandSamplesAnInterval) {
   operator_side::OperatorSession operator_session = session();
   operator_session.on_state(state(1.00, 4, "hand", "hand"));
-  const auto messages = operator_session.on_state(state(1.02, 4, "hand", "hand"));
-  ASSERT_EQ(messages.size(), 1u);
-  EXPECT_EQ(messages[0]["samples"].size(), 20u);
-  EXPECT_EQ(messages[0]["samples"][0]["t_us"], 1001000);
-  EXPECT_EQ(messages[0]["samples"][19]["t_us"], 1020000);
+  const operator_side::OperatorAnswer answer = operator_session.on_state(state(1.02, 4, "hand", "hand"));
+  EXPECT_EQ(answer.kind, device::Kind::kHandController);
+  ASSERT_EQ(answer.samples.size(), 20u);
+  EXPECT_EQ(answer.samples.front().t_us, 1001000);
+  EXPECT_EQ(answer.samples.back().t_us, 1020000);
 }
 
 TEST(OperatorSession, GripsOnlyAfterPicturesHaveArrived) {
@@ -73,11 +79,8 @@ TEST(OperatorSession, GripsOnlyAfterPicturesHaveArrived) {
       operator_session.on_camera(
           {{"op", "camera"}, {"capture_time_s", 0.0}, {"slit", {1.6, -0.3, -0.5, 1, 0, 0, 0}}, {"rod", nullptr}});
     }
-    for (const Json& message : operator_session.on_state(state(0.02 * k, 4, "hand", "hand"))) {
-      if (message["op"] != "device") continue;
-      const bool button = message["samples"].back()["button"] == 1;
-      (k <= 200 ? gripped_blind : gripped) |= button;
-    }
+    for (const device::Sample& sample : operator_session.on_state(state(0.02 * k, 4, "hand", "hand")).samples)
+      (k <= 200 ? gripped_blind : gripped) |= sample.deadman;
   }
   EXPECT_FALSE(gripped_blind);
   EXPECT_TRUE(gripped);
@@ -93,7 +96,11 @@ TEST(OperatorSession, IgnoresThePoseInTheState) {  // it must see the arm throug
     Json rich = state(0.02 * k, 4, "hand", "hand");
     rich["measured_cp"] = {k, k, k, 1, 0, 0, 0};
     rich["measured_js_deg"] = {k, k, k, k, k, k, k, k, k, k};
-    EXPECT_EQ(with.on_state(rich), without.on_state(state(0.02 * k, 4, "hand", "hand")));
+    const auto seen = with.on_state(rich).samples,
+               unseen = without.on_state(state(0.02 * k, 4, "hand", "hand")).samples;
+    EXPECT_TRUE(std::equal(seen.begin(), seen.end(), unseen.begin(), unseen.end(), [](const auto& a, const auto& b) {
+      return a.pose.position_m == b.pose.position_m && a.pose.quaternion == b.pose.quaternion && a.deadman == b.deadman;
+    }));
   }
 }
 
