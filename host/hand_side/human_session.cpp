@@ -15,6 +15,7 @@ namespace {
 constexpr double kMillisecond_s = 0.001;
 constexpr double kLongestGap_s = 0.1;  // after a pause the hands go on, they do not catch up
 constexpr double kArmDelay_s = 0.04;   // from a sample sent to its command in force: two command intervals
+constexpr double kUnsure_m = 0.015;    // the measured tip beside the commanded one, in free motion (docs/operator.md)
 constexpr double kFirm_N_m = 500.0;    // a grip for fine work
 
 operator_side::HandGains hand_gains(const HumanTable& table) {
@@ -34,6 +35,7 @@ haptic::HandTable hand_on_device() {
 haptic::HandLoopTable loop_of(const HumanTable& table) {
   haptic::HandLoopTable loop;
   loop.law = table.law.value_or(haptic::Law::kAligned);
+  loop.gains.unsure_m = kUnsure_m;
   if (table.passivity) return loop;
   loop.tank.start_J = loop.tank.most_J = std::numeric_limits<double>::infinity();
   loop.damping_N_s_m = 0.0;
