@@ -170,8 +170,8 @@ struct BadMission {
 TEST(Eval, RefusesMalformedMissionsByStepAndField) {
   const std::vector<BadMission> missions = {
       {"", "mission m: steps: none"},
-      {"step 'a' { device = 'joystick', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "step 1 \"a\": device: joystick: allowed \"vr\""},
+      {"step 'a' { device = 'joy stick', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "step 1 \"a\": device: joy stick: allowed \"vr\""},
       {"step 'a' { device = 'none', exit = at_rest, time_limit_s = 1, on_fail = 'hold' }",
        "step 1 \"a\": exit: function: allowed a condition"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 0, on_fail = 'hold' }",
