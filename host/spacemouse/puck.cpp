@@ -17,10 +17,10 @@ double share(const PuckTable& table, int counts) {
 
 }  // namespace
 
-// spacenavd's axes are left-handed (right, up, away), so turns have the other sense.
+// As libspnav moves an object: x right, y up, z away from the person, turns right-handed about each.
 device::Twist twist_of(const PuckTable& table, const Deflection& d) {
   const auto at = [&](std::size_t axis) { return share(table, d[axis]); };
-  return {scale({at(2), -at(0), at(1)}, table.speed_m_s), scale({-at(5), at(3), -at(4)}, table.turn_rad_s)};
+  return {scale({at(2), -at(0), at(1)}, table.speed_m_s), scale({at(5), -at(3), at(4)}, table.turn_rad_s)};
 }
 
 void Puck::press(int number, bool is_pressed) {
