@@ -33,6 +33,7 @@ constexpr RequestField object(const char* name, std::span<const RequestField> fi
 constexpr std::array kCommands{"enable", "disable", "clear", "home"};
 constexpr std::array kMissionCommands{"pause", "resume", "step", "confirm", "abort"};
 constexpr std::array kDevices{"vr", "hand", "none"};
+constexpr std::array kFrames{"base", "tip", "camera"};
 
 constexpr std::array kHello{
     text("name", 64, "what lianad calls the client: as owner, in events, as who stopped the arm"),
@@ -127,6 +128,11 @@ constexpr std::array kUseDevice{
     word("device", kDevices, "who steers; `none`: nobody"),
     number("scale", 0.01, 100.0, "way of the tip for a way of the hand").otherwise(1.0),
     number("rotation_scale", 0.0, 10.0, "turn of the tip for a turn of the hand").otherwise(1.0),
+    word(
+        "frame", kFrames,
+        "whose axes the hand's are, tip hand only: the base's (when left out), the tip's as it stands on engaging, the "
+        "tip camera's, which turn along")
+        .optional(),
     integer("node", 0.0, Figure::kNodes, "node that the left hand of `vr` moves; 0: none").otherwise(0.0),
     number("speed_m_s", 1e-4, Figure::kTipSpeed, "fastest that the tip follows").otherwise(Figure::kTipSpeed),
     flag("anywhere", "`vr` steers inside the slit, too; else it is refused there, and let go at the mouth")

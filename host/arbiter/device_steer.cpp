@@ -62,7 +62,9 @@ std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now,
     engaged_ = true;
   }
   if (!engaged_) return std::nullopt;
-  return SteerGoal{clutch_goal(use_.mapping, anchor_, hand_), node_target_};
+  const Pose goal = clutch_goal(use_.mapping, anchor_, hand_);
+  move_anchor(use_.mapping, hand_, goal, anchor_);
+  return SteerGoal{goal, node_target_};
 }
 
 }  // namespace liana::arbiter

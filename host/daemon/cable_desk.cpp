@@ -209,6 +209,7 @@ void CableDesk::use_device(const MotionRequest& request) {
   use.kind = device_kind(fields.text("device"));
   use.mapping.scale = fields.number("scale");
   use.mapping.rotation_scale = fields.number("rotation_scale");
+  if (fields.has("frame")) use.mapping.frame = steer_frame(fields.text("frame"));
   use.node = static_cast<std::int32_t>(fields.integer("node"));
   use.speed_m_s = fields.number("speed_m_s");
   use.anywhere = fields.flag("anywhere");

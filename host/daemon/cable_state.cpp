@@ -66,7 +66,9 @@ void CableDesk::add_state(Json& state) const {
   state["device_reason"] = arbiter_.device().reason();
   state["device_samples"] = arbiter_.device().samples();
   state["device_rate"] = rate_json(arbiter_.device().rate());
-  state["mapping"] = {{"scale", device.mapping.scale}, {"rotation_scale", device.mapping.rotation_scale}};
+  state["mapping"] = {{"scale", device.mapping.scale},
+                      {"rotation_scale", device.mapping.rotation_scale},
+                      {"frame", frame_name(device.mapping.frame)}};
   state["shape"] = {{"missing_m", shape_progress_.missing_m()},
                     {"settled", shape_progress_.is_settled() && !arbiter_.is_searching()},
                     {"searching", arbiter_.is_searching()}};

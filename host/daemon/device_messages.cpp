@@ -27,6 +27,16 @@ const char* device_name(arbiter::DeviceKind kind) {
   return kind == arbiter::DeviceKind::kHand ? "hand" : "none";
 }
 
+arbiter::SteerFrame steer_frame(const std::string& name) {
+  if (name == "tip") return arbiter::SteerFrame::kTip;
+  return name == "camera" ? arbiter::SteerFrame::kCamera : arbiter::SteerFrame::kBase;
+}
+
+const char* frame_name(arbiter::SteerFrame frame) {
+  if (frame == arbiter::SteerFrame::kTip) return "tip";
+  return frame == arbiter::SteerFrame::kCamera ? "camera" : "base";
+}
+
 void add_samples(const api::Arguments& message, arbiter::DeviceSteer& steer) {
   const arbiter::DeviceKind kind = device_kind(message.text("device"));
   if (kind != steer.in_use().kind) return;
