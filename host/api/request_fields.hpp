@@ -128,15 +128,14 @@ constexpr std::array kUseDevice{
     word("device", kDevices, "who steers; `none`: nobody"),
     number("scale", 0.01, 100.0, "way of the tip for a way of the hand").otherwise(1.0),
     number("rotation_scale", 0.0, 10.0, "turn of the tip for a turn of the hand").otherwise(1.0),
-    word(
-        "frame", kFrames,
-        "whose axes the hand's are, tip hand only: the base's (when left out), the tip's as it stands on engaging, the "
-        "tip camera's, which turn along")
-        .optional(),
     integer("node", 0.0, Figure::kNodes, "node that the left hand of `vr` moves; 0: none").otherwise(0.0),
     number("speed_m_s", 1e-4, Figure::kTipSpeed, "fastest that the tip follows").otherwise(Figure::kTipSpeed),
     flag("anywhere", "`vr` steers inside the slit, too; else it is refused there, and let go at the mouth")
         .otherwise(0.0),
+    word("frame", kFrames,
+         "axes of the hand (not of `vr`'s left one): the base's (else), the tip's on engaging, the tip camera's, which "
+         "turn")
+        .optional(),
 };
 constexpr std::array kMissionControl{word("command", kMissionCommands, "what the mission should do")};
 constexpr std::array kRetract{
