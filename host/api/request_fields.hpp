@@ -32,6 +32,7 @@ constexpr RequestField object(const char* name, std::span<const RequestField> fi
 
 constexpr std::array kCommands{"enable", "disable", "clear", "home"};
 constexpr std::array kMissionCommands{"pause", "resume", "step", "confirm", "abort"};
+constexpr std::array kFrames{"base", "tip", "camera"};
 
 constexpr std::array kHello{
     text("name", 64, "what lianad calls the client: as owner, in events, as who stopped the arm"),
@@ -130,6 +131,10 @@ constexpr std::array kUseDevice{
     number("speed_m_s", 1e-4, Figure::kTipSpeed, "fastest that the tip follows").otherwise(Figure::kTipSpeed),
     flag("anywhere", "`vr` steers inside the slit, too; else it is refused there, and let go at the mouth")
         .otherwise(0.0),
+    word("frame", kFrames,
+         "axes of the hand (not of `vr`'s left one): the base's (else), the tip's on engaging, the tip camera's, which "
+         "turn")
+        .optional(),
 };
 constexpr std::array kMissionControl{word("command", kMissionCommands, "what the mission should do")};
 constexpr std::array kRetract{

@@ -80,11 +80,21 @@ bool CableArbiter::is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use
   return use.kind == device::Kind::kHandles && !use.anywhere && zone_.holds(now.tip_command.position_m);
 }
 
+// A hand that leads the tip would find it going another way under it.
+void CableArbiter::require_open_clutch(const DeviceUse& use) const {
+  const DeviceUse& in_use = device_.in_use();
+  if (!device_.engaged() || use.kind != in_use.kind || use.mapping == in_use.mapping) return;
+  throw api::RequestError("busy",
+                          "the operator steers: scale, rotation_scale and frame of the device in use change while the "
+                          "deadman is open: wait for that, or say device = none first");
+}
+
 void CableArbiter::use_device(const cable::Outputs& now, const DeviceUse& use) {
   if (is_vr_in_slit(now, use))
     throw api::RequestError(
         "refused", "device = " + use.name + ": the tip is inside the slit: use hand there, or say anywhere = true");
   if (is_busy()) throw api::RequestError("busy", "a planned move is under way: wait for it or send hold");
+  require_open_clutch(use);
   take_device_away();
   device_.use(use);
   asked_speed_m_s_ = use.speed_m_s > 0.0 ? use.speed_m_s : robot_speed_m_s_;

@@ -36,7 +36,8 @@ class CableArbiter {
   void shape(const cable::Outputs& now, const cable::NodeTargets& nodes, const cable::KeepClearTargets& clear,
              bool search);
   // Vr handles are for free space and the hand controller for the slit: `vr` is refused where the tip is inside, unless
-  // `use` says anywhere, and let go where it comes to.
+  // `use` says anywhere, and let go where it comes to. The mapping of the device in use changes only while nobody
+  // steers by it.
   void use_device(const cable::Outputs& now, const DeviceUse& use);
   // Besides what device and robot allow: the tip is asked to go no faster than this, from the next setpoint on; planned
   // lines from the next one on.
@@ -81,6 +82,7 @@ class CableArbiter {
   void require_free(const cable::Outputs& now) const;
   void ask_anew(const cable::Outputs& now);
   void take_device_away();
+  void require_open_clutch(const DeviceUse& use) const;
   bool is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use) const;
   void wish_nodes();
   std::optional<cable::Setpoint> steered_setpoint(const cable::Outputs& now, const SteerGoal& goal);

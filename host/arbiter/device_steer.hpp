@@ -42,7 +42,7 @@ struct SteerGoal {
 
 class DeviceSteer {
  public:
-  // Another device or mapping; disengages, and the operator has to close the deadman again if it was closed.
+  // Another device or mapping; disengages. A deadman that is closed engages anew, from where hand and tip are then.
   void use(const DeviceUse& use);
   const DeviceUse& in_use() const { return use_; }
   bool engaged() const { return engaged_; }

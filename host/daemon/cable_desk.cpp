@@ -241,6 +241,7 @@ void CableDesk::use_device(const api::Arguments& fields) {
   use.kind = devices_.kind_of(use.name);
   use.mapping.scale = fields.number("scale");
   use.mapping.rotation_scale = fields.number("rotation_scale");
+  if (fields.has("frame")) use.mapping.frame = arbiter::frame_of(fields.text("frame"));
   use.node = static_cast<std::int32_t>(fields.integer("node"));
   use.speed_m_s = fields.number("speed_m_s");
   use.anywhere = fields.flag("anywhere");

@@ -66,7 +66,9 @@ void CableDesk::add_state(Json& state) const {
   state["device_samples"] = arbiter_.device().samples();
   state["device_rate"] = rate_json(arbiter_.device().rate());
   state["devices"] = devices_.summary();
-  state["mapping"] = {{"scale", device.mapping.scale}, {"rotation_scale", device.mapping.rotation_scale}};
+  state["mapping"] = {{"scale", device.mapping.scale},
+                      {"rotation_scale", device.mapping.rotation_scale},
+                      {"frame", arbiter::name_of(device.mapping.frame)}};
   state["shape"] = {{"missing_m", shape_progress_.missing_m()},
                     {"settled", shape_progress_.is_settled() && !arbiter_.is_searching()},
                     {"searching", arbiter_.is_searching()}};

@@ -230,6 +230,7 @@ void visit(A& a, T& m) {
   a("tip_angular_accel_rad_s2", m.tip_angular_accel_rad_s2);
   a("tip_angular_jerk_rad_s3", m.tip_angular_jerk_rad_s3);
   a("cable_speed_m_s", m.cable_speed_m_s);
+  a("tip_lag_s", m.tip_lag_s);
 }
 
 template <class A, Like<cable::DriveTable> T>

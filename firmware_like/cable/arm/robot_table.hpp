@@ -63,6 +63,7 @@ struct MotionLimits {
   double tip_angular_accel_rad_s2 = 0.0;
   double tip_angular_jerk_rad_s3 = 0.0;
   double cable_speed_m_s = 0.0;
+  double tip_lag_s = 0.0;  // of the tip filter behind a steady target; 0: speed limit in force / acceleration
 };
 
 // One cable drive; see docs/drives.md for the length convention.

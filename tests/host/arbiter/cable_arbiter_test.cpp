@@ -264,6 +264,37 @@ TEST_F(Arbitration, ARefusalGivesTheOperatorNewAnchors) {
 }
 
 // Table 2 of the source: vr handles for free space, the hand controller for the slit.
+// Live, but not under a hand that steers: 0.05 m of it would mean another place of the tip at once.
+// req:A28
+TEST_F(Arbitration, TheMappingOfTheDeviceInUseChangesOnlyWhileTheDeadmanIsOpen) {
+  use_hand();
+  ASSERT_TRUE(steered(0.0));
+  const Pose before = steered(0.05)->tip_in_base;
+  DeviceUse other = arbiter_.device().in_use();
+  for (const ClutchMapping mapping :
+       {ClutchMapping{2.0, 1.0}, ClutchMapping{1.0, 0.5}, ClutchMapping{1.0, 1.0, SteerFrame::kCamera}}) {
+    other.mapping = mapping;
+    EXPECT_EQ(code_of([&] { arbiter_.use_device(now_, other); }), "busy");
+  }
+  EXPECT_EQ(arbiter_.device().in_use().mapping, ClutchMapping{});
+  EXPECT_EQ(steered(0.05)->tip_in_base.position_m, before.position_m) << "nothing has come of it";
+  steered(0.05, false);
+  EXPECT_EQ(code_of([&] { arbiter_.use_device(now_, other); }), "accepted");
+  EXPECT_EQ(steered(0.05)->tip_in_base.position_m, now_.tip_command.position_m) << "from where the tip is";
+}
+
+TEST_F(Arbitration, AnotherDeviceOrNoneTakesOverFromAHandThatSteers) {
+  for (const DeviceKind kind : {DeviceKind::kVr, DeviceKind::kNone}) {
+    use_hand();
+    ASSERT_TRUE(steered(0.0));
+    DeviceUse other;
+    other.kind = kind;
+    other.mapping.scale = 2.0;
+    EXPECT_EQ(code_of([&] { arbiter_.use_device(now_, other); }), "accepted");
+    EXPECT_FALSE(arbiter_.device().engaged());
+  }
+}
+
 class AtTheSlit : public Arbitration {
  protected:
   AtTheSlit() {
