@@ -63,6 +63,7 @@ void visit(A& a, T& s) {
   a("torque_Nm", s.torque_Nm);
   a("variance_Nm2", s.variance_Nm2);
   a("pull_Nm", s.pull_Nm);
+  a("own", s.own);
   a("shared", s.shared);
   a("rate_rad_s", s.rate_rad_s);
   a("stir", s.stir);

@@ -2,7 +2,7 @@
 
 namespace liana::telemetry {
 
-const std::array<Field, 40> kFields{{
+const std::array<Field, 41> kFields{{
     {"measured_js_deg", "deg", Shape::kJoints},
     {"setpoint_js_deg", "deg", Shape::kJoints},
     {"verdict.twin_js_deg", "deg", Shape::kJoints},

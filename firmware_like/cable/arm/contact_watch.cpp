@@ -19,8 +19,8 @@ struct SureLaw {
 };
 constexpr SureLaw kSure[] = {{0.75, 0.06}, {0.75, 0.03}, {0.75, 0.03}};  // stuck, moving, dithered
 
-// Lower factor of the variances, in place of them. A pivot is never less than the floor of a torque's variance, which
-// is in each: rows that come from different moments need not fit.
+// Lower factor of the variances, its diagonal inverted. No pivot is less than the floor that is in each variance, but
+// for rounding.
 void factorise(Index n, const TorqueMatrix& variance_Nm2, TorqueMatrix& root) noexcept {
   constexpr double kLeast = 0.25 * kTorqueFloor_Nm * kTorqueFloor_Nm;
   for (Index k = 0; k < n; ++k) {

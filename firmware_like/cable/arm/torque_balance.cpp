@@ -17,24 +17,29 @@ double round_s(const RobotTable& table) noexcept { return kFrictionTicks * table
 
 double square(double x) noexcept { return x * x; }
 
-// What one cable does about the axis of segment `own`, and how sure friction is until there.
-struct Slide {
-  double exponent = 0.0;  // of friction, to the middle of the segment
-  double variance = 0.0;  // of the exponent there
-  double shared = 0.0;    // of it with every segment beyond
-};
-
-Slide slide_until(const BalanceReadings& now, const SegmentVector& sigma, std::uint32_t turning, Index own) noexcept {
-  Slide out;
-  for (Index j = 0; j <= own; ++j) {
-    const double bend = now.mu * now.wrap_rad[j] * (j < own ? 1.0 : 0.5);
-    const double resting = turning >> j != 0 ? 1.0 - std::fabs(sigma[j]) : 1.0;
-    const double part = square(bend * (now.dithered ? kFrictionDithered : kFrictionKnown + kFrictionResting * resting));
-    out.exponent += bend * sigma[j];
-    out.variance += part;
-    out.shared += j < own ? part : 2.0 * part;  // half of the segment's bend, with all of it
+// How sure the exponent of each cable's friction is, for a whole round: rows of different moments would be no
+// covariance.
+void weigh_friction(const CableLayout& layout, const BalanceReadings& now, std::uint32_t turning,
+                    TorqueBalance& state) noexcept {
+  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
+    double before = 0.0;
+    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) {
+      // A cable slides in a segment when that or one between it and the cable's end turns.
+      const bool slides = (turning & ((2u << layout.segment[c]) - 1u)) >> j != 0;
+      const double resting = slides ? 1.0 - std::fabs(state.slip.sigma[c][j]) : 1.0;
+      const double unsure = now.dithered ? kFrictionDithered : kFrictionKnown + kFrictionResting * resting;
+      const double part = square(now.mu * now.wrap_rad[j] * unsure);
+      state.own[c][j] = before + 0.25 * part;  // half of the segment's bend
+      state.shared[c][j] = before + 0.5 * part;
+      before += part;
+    }
   }
-  return out;
+}
+
+double exponent_until(const BalanceReadings& now, const SegmentVector& sigma, Index own) noexcept {
+  double slid_rad = 0.5 * sigma[own] * now.wrap_rad[own];
+  for (Index j = 0; j < own; ++j) slid_rad += sigma[j] * now.wrap_rad[j];
+  return now.mu * slid_rad;
 }
 
 }  // namespace
@@ -77,22 +82,20 @@ void follow_slides(const CableLayout& layout, const CableGeometry& geometry, con
 void balance_axis(const RobotTable& table, const CableLayout& layout, const BalanceReadings& now, Index axis,
                   TorqueBalance& state) noexcept {
   const Index own = axis / 2;
-  const std::uint32_t turning = turning_segments(table, now.rate_rad_s);
+  if (axis == 0) weigh_friction(layout, now, turning_segments(table, now.rate_rad_s), state);
   double torque_Nm = now.inertia_Nm;
   ThetaVector variance_Nm2{};
   Index c = 0;
   while (static_cast<Index>(layout.segment[c]) < own) ++c;
   for (; c < static_cast<Index>(layout.cable_count); ++c) {
-    const std::uint32_t until_end = turning & ((2u << layout.segment[c]) - 1u);
-    const Slide slide = slide_until(now, state.slip.sigma[c], until_end, own);
     const double tension_N = larger(now.tension_N[c], table.tension.floor_anywhere_N);
-    const double pull_Nm = now.geometry.jacobian_m_rad[c][axis] * exponential(-slide.exponent) * tension_N;
+    const double pull_Nm =
+        now.geometry.jacobian_m_rad[c][axis] * exponential(-exponent_until(now, state.slip.sigma[c], own)) * tension_N;
     const double reading = square(kTorqueGain) + square(now.bias_N / tension_N);
     torque_Nm += pull_Nm;
     state.pull_Nm[axis][c] = pull_Nm;
-    state.shared[c][own] = slide.shared;
     for (Index l = 0; l <= axis; ++l) {
-      const double friction = l / 2 == own ? slide.variance : state.shared[c][l / 2];
+      const double friction = l / 2 == own ? state.own[c][own] : state.shared[c][l / 2];
       variance_Nm2[l] += pull_Nm * state.pull_Nm[l][c] * (reading + friction);
     }
   }

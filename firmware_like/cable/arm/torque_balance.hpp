@@ -43,7 +43,8 @@ struct TorqueBalance {
   ThetaVector torque_Nm{};                         // that nothing explains, low-passed
   TorqueMatrix variance_Nm2{};                     // of it
   std::array<CableVector, kMaxTheta> pull_Nm{};    // of every cable about each angle
-  std::array<SegmentVector, kMaxCables> shared{};  // variance of friction's exponent that later segments share
+  std::array<SegmentVector, kMaxCables> own{};     // variance of friction's exponent in the middle of each segment
+  std::array<SegmentVector, kMaxCables> shared{};  // of it, what later segments share
   ThetaVector rate_rad_s{};                        // commanded, when the last round ended
   double stir = 0.0;                               // acceleration of all segments, each times its `inertia`; fades
 };
