@@ -167,6 +167,8 @@ FaultParameters read_parameters(const JsonFile& file, const std::string& field, 
     file.fail(field + "/length_m", "is 0; allowed is -0.1 to 0.1 but 0");
   if (kind.kind == FaultKind::kCameraJump && values.length_m == 0.0)
     file.fail(field + "/length_m", "is 0; allowed is -1 to 1 but 0");
+  if (kind.kind == FaultKind::kPush && values.x_N == 0.0 && values.y_N == 0.0 && values.z_N == 0.0)
+    file.fail(field, "is pushed by nothing; add x_N, y_N or z_N other than 0");
   return values;
 }
 

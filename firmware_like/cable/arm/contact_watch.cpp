@@ -151,7 +151,7 @@ void watch_contact(const RobotTable& table, const ArmKinematics& kinematics, con
     const double left_Nm = balance.torque_Nm[k] - dot(kinematics.tip_jacobian.linear[k], explained_N);
     contact.torque_Nm = larger(contact.torque_Nm, std::fabs(left_Nm));
   }
-  name_segment(misfit(n, columns, contact.torque, explained_N) > kContactMisfit * static_cast<double>(n - 3), contact);
+  name_segment(misfit(n, columns, contact.torque, explained_N) > kContactMisfit * static_cast<double>(n), contact);
   contact.best_place = -1;
 }
 
