@@ -10,6 +10,7 @@
 #include "hil/arm/arm_physics.hpp"
 #include "hil/bench/bench.hpp"
 #include "hil/bench/data_sheet_file.hpp"
+#include "hil/bench/pushes.hpp"
 #include "hil/bus/embedded_bus.hpp"
 #include "hil/bus/socketcan_bus.hpp"
 
@@ -223,6 +224,7 @@ int main(int argc, char** argv) {
     options.buses = liana::bench::load_buses(paths.buses);
     if (!paths.faults.empty())
       options.faults = liana::bench::load_faults(paths.faults, drives_of(options), angles_of(options));
+    if (!options.serial_robot) liana::bench::check_pushes(options.faults, options.robot.link_count(), options.arm);
     options.spread = !no_spread;
     if (!paths.scene_offset.empty()) options.scene_offset = scene_offset(paths.scene_offset);
     if (!paths.cross_wired.empty()) options.cross_wired = two_drives(paths.cross_wired, drives_of(options));

@@ -66,7 +66,7 @@ void ArmPhysics::stop_at_limits(Theta& force, ThetaMatrix& damping, double step_
 
 void ArmPhysics::touch(double step_s, ContactLoad& load) {
   add_rod(scene_.rod, chain_, thetas_, load);
-  if (norm(push_.force_N) > 0.0) add_push(push_, chain_, thetas_, load);
+  for (const Push& push : pushes_) add_push(push, chain_, thetas_, load);
   if (near_contact_)
     for (const Contact& contact : chain_.contacts())
       add_contact(scene_.contact, chain_, contact, rate_, thetas_, step_s, load);

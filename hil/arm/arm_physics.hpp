@@ -36,6 +36,7 @@ class ArmPhysics final : public Arm {
   double least_tension_N(std::size_t cable) const { return lines_[cable].least_tension_N(); }
   Pose tip() const override { return chain_.tip(); }
   void remove_rod() override;
+  void set_pushes(const std::vector<Push>& pushes) override { pushes_ = pushes; }
   Clearance clearance() const override { return clearance_of(chain_, scene_, robot_.module_radius_m); }
   // Extremes since the last take_record().
   LoadRecord take_record() override;
@@ -45,8 +46,6 @@ class ArmPhysics final : public Arm {
   // For checks: the mechanical state set from outside, joint damping switched off.
   void set_state(const Theta& theta_rad, const Theta& rate_rad_s);
   void set_joint_damping(double viscous_Nms_per_rad) { viscous_ = viscous_Nms_per_rad; }
-  // For checks: pushes the start of a link's axis from now on, base frame; nothing of it is in the record.
-  void push(std::size_t link, const Vec3& force_N) { push_ = {link, force_N}; }
 
   Chain& chain() { return chain_; }
   const CablePaths& paths() const { return paths_; }
@@ -69,7 +68,7 @@ class ArmPhysics final : public Arm {
   Theta theta_{};
   Theta rate_{};
   LoadRecord record_;
-  Push push_;
+  std::vector<Push> pushes_;
   bool near_contact_ = true;
   double free_step_s_ = kStep_s;
   std::uint64_t contact_slots_ = 0;

@@ -123,6 +123,10 @@ constexpr std::array kShape{
         .list(4),
     flag("search", "the best of all shapes is looked for first (arm at rest)").otherwise(0.0),
 };
+constexpr std::array kDither{
+    number("share", 0.01, 0.3, "of every planned tension, up and down").otherwise(0.3),
+    number("duration_s", 1.0, 20.0, "in which the share decays evenly to nothing").otherwise(4.0),
+};
 constexpr std::array kUseDevice{
     text("device", 31, "who steers: `vr`, `hand`, `pointer`, or a connected device by its name; `none`: nobody"),
     number("scale", 0.01, 100.0, "way of the tip for a way of the hand").otherwise(1.0),

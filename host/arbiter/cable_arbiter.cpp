@@ -1,6 +1,7 @@
 #include "host/arbiter/cable_arbiter.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "host/api/request_error.hpp"
@@ -9,7 +10,8 @@ namespace liana::arbiter {
 
 CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone, SearchResult taken,
                            PathCheck<cable::CableArm> check)
-    : asked_speed_m_s_(table.limits.tip_speed_m_s),
+    : table_(table),
+      asked_speed_m_s_(table.limits.tip_speed_m_s),
       robot_speed_m_s_(table.limits.tip_speed_m_s),
       cap_m_s_(table.limits.tip_speed_m_s),
       zone_(zone),
@@ -23,6 +25,8 @@ void CableArbiter::require_free(const cable::Outputs& now) const {
     throw api::RequestError("busy",
                             "the shape that a search has found is gone to: wait until it has settled or send hold");
   moves_.require_free(now);
+  if (dither_.is_under_way())
+    throw api::RequestError("busy", "tensions are dithered: wait until it is over or send hold");
   if (device_.engaged()) throw api::RequestError("busy", "the operator steers: wait for the deadman to open");
 }
 
@@ -101,6 +105,27 @@ void CableArbiter::use_device(const cable::Outputs& now, const DeviceUse& use) {
   cap_tip_speed(cap_m_s_);
 }
 
+void CableArbiter::dither(const cable::Outputs& now, double share, double duration_s) {
+  require_free(now);
+  if (now.at_rest == 0) throw api::RequestError("busy", "dither needs an arm at rest: wait for it or send hold");
+  const cable::TensionLimits& limits = table_.tension;
+  double fits = share;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(table_.cable_count()); ++c) {
+    const double planned_N = now.tension_plan_N[c];
+    fits = std::min({fits, 1.0 - limits.floor_motor_N / planned_N, limits.ceiling_free_N / planned_N - 1.0});
+  }
+  if (fits < share) {
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "share = %.3g: tensions stay between %.0f and %.0f N up to %.3g here: ask for less, or in another pose", share,
+        limits.floor_motor_N, limits.ceiling_free_N, std::max(0.0, fits));
+    throw api::RequestError("refused", text);
+  }
+  dither_ = DitherOrder(share, duration_s);
+  dithered_at_rad_ = now.theta_command_rad;
+}
+
 void CableArbiter::cap_tip_speed(double speed_m_s) {
   cap_m_s_ = speed_m_s;
   moves_.limit_tip_speed(std::min(asked_speed_m_s_, cap_m_s_));
@@ -116,6 +141,7 @@ void CableArbiter::take_device_away() {
 // ends.
 void CableArbiter::retract(const cable::Outputs& now, std::uint64_t until_tick) {
   moves_.retract(now, until_tick);
+  dither_ = {};
   nodes_ = {};
   lead_.forget();
   take_device_away();
@@ -123,12 +149,14 @@ void CableArbiter::retract(const cable::Outputs& now, std::uint64_t until_tick) 
 
 void CableArbiter::hold() {
   moves_.hold();
+  dither_ = {};
   lead_.forget();
   device_.let_go();
 }
 
 void CableArbiter::refused(const std::string& why) {
   moves_.refused(why);
+  dither_ = {};
   device_.drop_anchor();
 }
 
@@ -145,6 +173,7 @@ std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, c
   }
   if (is_busy()) {
     device_.drop_anchor();  // a hand that closes the deadman now starts from where the move ends
+    if (dither_.is_under_way()) return dithering_setpoint();
     wish_nodes();
     return moves_.ask(now);
   }
@@ -157,6 +186,15 @@ std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, c
   if (lead_.ends(now)) moves_.ask_anew();
   wish_nodes();
   return moves_.ask(now);
+}
+
+cable::Setpoint CableArbiter::dithering_setpoint() {
+  cable::Setpoint setpoint;
+  setpoint.kind = CommandKind::kJoint;
+  setpoint.joint_rad = dithered_at_rad_;
+  setpoint.tip_speed_m_s = robot_speed_m_s_;
+  setpoint.dither_share = dither_.next(interval_s_);
+  return setpoint;
 }
 
 std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outputs& now, const SteerGoal& goal) {

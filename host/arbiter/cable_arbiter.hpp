@@ -9,6 +9,7 @@
 #include "host/arbiter/arbiter.hpp"
 #include "host/arbiter/cable_kind.hpp"
 #include "host/arbiter/device_steer.hpp"
+#include "host/arbiter/dither_order.hpp"
 #include "host/arbiter/shape_lead.hpp"
 #include "host/arbiter/speed_zone.hpp"
 
@@ -39,6 +40,9 @@ class CableArbiter {
   // `use` says anywhere, and let go where it comes to. The mapping of the device in use changes only while nobody
   // steers by it.
   void use_device(const cable::Outputs& now, const DeviceUse& use);
+  // An arm at rest is dithered (firmware_like/cable/arm/dither.hpp): refused where a tension would leave floor or
+  // ceiling.
+  void dither(const cable::Outputs& now, double share, double duration_s);
   // Besides what device and robot allow: the tip is asked to go no faster than this, from the next setpoint on; planned
   // lines from the next one on.
   void cap_tip_speed(double speed_m_s);
@@ -54,8 +58,8 @@ class CableArbiter {
   // again, some times.
   void refused(const std::string& why = "");
 
-  // A planned move is under way.
-  bool is_busy() const { return moves_.is_busy(); }
+  // A planned move or a dither is under way.
+  bool is_busy() const { return moves_.is_busy() || dither_.is_under_way(); }
   // A tip goal, or what is asked for besides, has not come to be yet.
   bool is_asking() const { return moves_.is_asking(); }
   bool is_going_back() const { return moves_.is_going_back(); }
@@ -85,8 +89,10 @@ class CableArbiter {
   void require_open_clutch(const DeviceUse& use) const;
   bool is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use) const;
   void wish_nodes();
+  cable::Setpoint dithering_setpoint();
   std::optional<cable::Setpoint> steered_setpoint(const cable::Outputs& now, const SteerGoal& goal);
 
+  cable::RobotTable table_;
   double asked_speed_m_s_;  // limit of the device in use, or of the robot's tip
   double robot_speed_m_s_;
   double cap_m_s_;
@@ -95,6 +101,8 @@ class CableArbiter {
   Arbiter<cable::CableArm> moves_;
   ShapeLead lead_;
   cable::NodeTargets nodes_{};
+  DitherOrder dither_;
+  cable::ThetaVector dithered_at_rad_{};
   DeviceSteer device_;
   cable::NodeTarget device_node_{};
   bool was_engaged_ = false;

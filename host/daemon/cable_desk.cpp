@@ -96,6 +96,9 @@ CableDesk::CableDesk(const config::RobotConfig& robot, const config::SceneConfig
   handlers_["move_cp"] = [this](const MotionRequest& r) { move_line(r.fields); };
   handlers_["hold_theta"] = [this](const MotionRequest& r) { hold_theta(r.fields.entries("held")); };
   handlers_["shape"] = [this](const MotionRequest& r) { shape(r.fields); };
+  handlers_["dither"] = [this](const MotionRequest& r) {
+    arbiter_.dither(outputs(), r.fields.number("share"), r.fields.number("duration_s"));
+  };
   handlers_["use_device"] = [this](const MotionRequest& r) { use_device(r.fields); };
   handlers_["devices"] = [](const MotionRequest&) {};  // only looks
 }

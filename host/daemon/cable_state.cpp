@@ -18,6 +18,31 @@ Json nodes_json(const cable::RobotTable& table, const cable::Outputs& outputs) {
   return nodes;
 }
 
+const char* contact_state_name(cable::ContactState state) {
+  switch (state) {
+    case cable::ContactState::kMoving:
+      return "moving";
+    case cable::ContactState::kDithered:
+      return "dithered";
+    case cable::ContactState::kStuck:
+      break;
+  }
+  return "stuck";
+}
+
+// Along an axis on which the force is not known it is null.
+Json contact_json(const cable::ContactReport& contact) {
+  Json force_N = Json::array();
+  for (std::size_t i = 0; i < contact.force_N.size(); ++i)
+    force_N.push_back((contact.seen & 1u << i) != 0 ? Json(contact.force_N[i]) : Json());
+  return {{"force_N", force_N},
+          {"sd_N", contact.sd_N},
+          {"state", contact_state_name(contact.state)},
+          {"on_body", contact.on_body != 0},
+          {"segment", contact.segment},
+          {"torque_Nm", contact.torque_Nm}};
+}
+
 // Null before the first sample of a device in use; `hz` null before its first second is over.
 Json rate_json(const device::SampleRate& rate) {
   if (rate.count() == 0) return nullptr;
@@ -86,8 +111,7 @@ void CableDesk::add_state(Json& state) const {
                        {"planned_mu", o.friction.planned_mu},
                        {"declared_mu", table_.friction_mu},
                        {"not_as_declared", o.friction.not_as_declared != 0}};
-  state["contact"] = {
-      {"segment", o.contact.segment}, {"torque_Nm", o.contact.torque_Nm}, {"tip_push_N", o.contact.tip_push_N}};
+  state["contact"] = contact_json(o.contact);
   add_tip(state, o);
 }
 

@@ -117,6 +117,25 @@ function conditions.tip_near_rod(distance_m)
   end)
 end
 
+-- Something pushes the tip with at least least_N, which is known to sd_N (default 0.6) along every axis.
+function conditions.tip_force(least_N, sd_N)
+  need("tip_force", "least_N", least_N, "number over 0")
+  sd_N = sd_N or 0.6
+  need("tip_force", "sd_N", sd_N, "number over 0")
+  if sd_N >= 1 then
+    error(("tip_force: sd_N: %g: allowed over 0 and under 1, where forces are told: correct the call"):format(sd_N), 2)
+  end
+  return condition(("tip pushed with %g N"):format(least_N), function(arm)
+    local contact, square = arm.state.contact, 0
+    if not contact then error("tip_force: this arm does not feel forces: use it with a cable arm", 0) end
+    for i = 1, 3 do
+      if contact.sd_N[i] > sd_N then return false end
+      square = square + contact.force_N[i] ^ 2
+    end
+    return square >= least_N ^ 2
+  end)
+end
+
 -- The tip at least u_m along the slit, from the base (the mouth is at slit.mouth_u_m).
 function conditions.tip_past(u_m)
   need("tip_past", "u_m", u_m, "number")

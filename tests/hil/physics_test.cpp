@@ -323,6 +323,21 @@ TEST(BenchPhysics, CylindersAndCapsulesAreTouchedAsDeepAsTheBenchSays) {
   }
 }
 
+TEST(BenchPhysics, APushOnTheTipOrOnALinkMovesTheArmThereAndLetsItGoAgain) {
+  for (const std::size_t link : {std::size_t{40}, std::size_t{20}}) {
+    ArmPhysics arm = table_arm("ideal", "prepare");
+    const CableValues payout = arm.payouts_m();
+    const double before_m = arm.chain().joint_center_m(link).y;
+    arm.set_joint_damping(50.0);
+    arm.set_pushes({{link, {0.0, 1.0, 0.0}}});
+    run(arm, payout, 6.0);
+    EXPECT_GT(arm.chain().joint_center_m(link).y - before_m, 1e-3) << link;
+    arm.set_pushes({});
+    run(arm, payout, 12.0);
+    EXPECT_NEAR(arm.chain().joint_center_m(link).y, before_m, 5e-4) << link;
+  }
+}
+
 TEST(BenchPhysics, TheRodPushesTheTipBackAndNothingElseOfTheLastLink) {
   ArmPhysics arm = table_arm("nominal", "press_rod");
   const RodConfig rod = fixture_scene().rod;

@@ -201,6 +201,10 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "all: entry 1: function: "},
       {"step 'a' { device = 'none', exit = liana.tip_past 'x', time_limit_s = 1, on_fail = 'hold' }",
        "tip_past: u_m: x: allowed a number"},
+      {"step 'a' { device = 'none', exit = liana.tip_force(0), time_limit_s = 1, on_fail = 'hold' }",
+       "tip_force: least_N: 0: allowed a number over 0"},
+      {"step 'a' { device = 'none', exit = liana.tip_force(1, 1), time_limit_s = 1, on_fail = 'hold' }",
+       "tip_force: sd_N: 1: allowed over 0 and under 1"},
       {"step 'a' { device = 'none', exit = liana.needs_planar(nil), time_limit_s = 1, on_fail = 'hold' }",
        "needs_planar: count: nil: allowed a number"},
       // What only the robot (zhu2022: 5 segments, 20 deg) forbids.
