@@ -32,6 +32,7 @@ constexpr RequestField object(const char* name, std::span<const RequestField> fi
 
 constexpr std::array kCommands{"enable", "disable", "clear", "home"};
 constexpr std::array kMissionCommands{"pause", "resume", "step", "confirm", "abort"};
+constexpr std::array kFeedbacks{"aligned", "claim", "abstract", "off"};
 
 constexpr std::array kHello{
     text("name", 64, "what lianad calls the client: as owner, in events, as who stopped the arm"),
@@ -130,6 +131,10 @@ constexpr std::array kUseDevice{
     number("speed_m_s", 1e-4, Figure::kTipSpeed, "fastest that the tip follows").otherwise(Figure::kTipSpeed),
     flag("anywhere", "`vr` steers inside the slit, too; else it is refused there, and let go at the mouth")
         .otherwise(0.0),
+    text("fixtures", 40, "names of the scene's fixtures that guide the hand and are felt; left out: all of them")
+        .optional()
+        .list(16),
+    word("feedback", kFeedbacks, "law by which the hand feels the arm; `aligned` when left out").optional(),
 };
 constexpr std::array kMissionControl{word("command", kMissionCommands, "what the mission should do")};
 constexpr std::array kRetract{
