@@ -246,8 +246,9 @@ void CableDesk::use_device(const api::Arguments& fields) {
   use.node = static_cast<std::int32_t>(fields.integer("node"));
   use.speed_m_s = fields.number("speed_m_s");
   use.anywhere = fields.flag("anywhere");
+  const fixture::Choice fixtures = chosen_fixtures(fields);
   arbiter_.use_device(outputs(), use);
-  choose_fixtures(fields);
+  arbiter_.choose_fixtures(fixtures);
   feedback_ = fields.has("feedback") ? fields.text("feedback") : "aligned";
 }
 

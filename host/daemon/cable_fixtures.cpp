@@ -43,7 +43,7 @@ std::vector<fixture::FeltPlane> CableDesk::felt_fixtures() const {
                              robot_.module_radius_m, map);
 }
 
-void CableDesk::choose_fixtures(const api::Arguments& fields) {
+fixture::Choice CableDesk::chosen_fixtures(const api::Arguments& fields) const {
   const std::vector<std::string> names = fields.texts("fixtures");
   for (const std::string& name : names) {
     if (arbiter_.guidance().knows(name)) continue;
@@ -53,7 +53,7 @@ void CableDesk::choose_fixtures(const api::Arguments& fields) {
                                                 (known.empty() ? "none, the scene has no fixtures" : known) +
                                                 ": name one of the scene's, or leave it out for all");
   }
-  arbiter_.choose_fixtures(fields.has("fixtures") ? fixture::Choice(names) : std::nullopt);
+  return fields.has("fixtures") ? fixture::Choice(names) : std::nullopt;
 }
 
 }  // namespace liana::daemon
