@@ -150,6 +150,7 @@ void CableDesk::tell_devices(std::int64_t now_us) {
                     .commanded_tip = o.tip_command,
                     .predicted_tip = predicted_tip_};
   if (clearance_ && clearance_->claim().clearance.link >= 0) arm.clearance_m = clearance_->claim().clearance.distance_m;
+  arm.planes = felt_planes();
   device_state_.look(arm, table_.tick_s);
   devices_.tell(device_state_, arbiter_.device(), now_us);
 }

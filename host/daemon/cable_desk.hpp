@@ -36,8 +36,6 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   std::vector<event::Event> take_events() override;
   void add_state(Json& state) const override;
   void add_drive_state(std::size_t drive, Json& state) const override;
-  // What the hand that steers the tip feels of the scene's fixtures, for its device; nothing while none does.
-  std::vector<fixture::FeltPlane> felt_fixtures() const;
 
  private:
   std::vector<double> joints_deg(const cable::Outputs& outputs) const override;
@@ -53,6 +51,7 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   void hold_theta(const std::vector<api::Arguments>& held);
   void shape(const api::Arguments& fields);
   void use_device(const api::Arguments& fields);
+  fixture::PlaneSlots::Told felt_planes();
   fixture::Choice chosen_fixtures(const api::Arguments& fields) const;
   void tell_device(std::vector<event::Event>& events);
 
@@ -64,6 +63,7 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   live_clearance::Outlook outlook_;                         // what the simulation was told last
   DeviceDesk devices_;
   DeviceState device_state_;
+  fixture::PlaneSlots plane_slots_;
   std::optional<Pose> predicted_tip_;  // at the end of the command released last
   bool friction_is_off_ = false;       // as told last
   bool device_is_slow_ = false;        // as told last

@@ -1,9 +1,18 @@
 // What a cable arm's desk makes of the scene's fixtures: where scene and tip are believed to be for them, and the
 // figures by which they are felt.
+#include <algorithm>
+
 #include "host/api/request_error.hpp"
 #include "host/daemon/cable_desk.hpp"
 
 namespace liana::daemon {
+
+namespace {
+
+constexpr std::uint32_t kPushes = LIANA_X | LIANA_Y | LIANA_Z;
+constexpr double kBeforeStops_m = 0.005;  // the workspace's ends are felt so far before the device's own stops
+
+}  // namespace
 
 cable::ThetaVector CableDesk::believed_rad() const {
   cable::ThetaVector theta_rad = outputs().theta_measured_rad;
@@ -34,13 +43,26 @@ double CableDesk::tip_room_m() const {
   return std::min(clearance_->claim().clearance.distance_m, budget->left_m(fixture::pitch_lever_m(table_, planar)));
 }
 
-std::vector<fixture::FeltPlane> CableDesk::felt_fixtures() const {
-  const arbiter::DeviceSteer& device = arbiter_.device();
-  if (!device.engaged()) return {};
-  const fixture::HandMap map{device.anchor().hand_in_device.position_m, device.anchor().tip_in_base.position_m,
-                             device.in_use().mapping.scale};
-  return fixture::feel_scene(arbiter_.guidance(), outputs().tip_command.position_m, tip_room_m(),
-                             robot_.module_radius_m, map);
+// What the hand of the device in use is to feel: the ends of a workspace in which the device can push, and, while it
+// steers, the scene's fixtures.
+fixture::PlaneSlots::Told CableDesk::felt_planes() {
+  const device::Device* device = devices_.in_use();
+  if (device == nullptr || !device->newest(0)) return plane_slots_.next({}, {});
+  std::vector<fixture::FeltPlane> planes;
+  const liana_hand& can = device->capability().hand[0];
+  if ((can.actuated & kPushes) == kPushes) {
+    planes = fixture::feel_workspace({can.low_m[0], can.low_m[1], can.low_m[2]},
+                                     {can.high_m[0], can.high_m[1], can.high_m[2]}, kBeforeStops_m);
+  }
+  const arbiter::DeviceSteer& steer = arbiter_.device();
+  if (steer.engaged()) {
+    const arbiter::ClutchAnchor& anchor = steer.anchor();
+    const auto felt = fixture::feel_scene(
+        arbiter_.guidance(), outputs().tip_command.position_m, tip_room_m(), robot_.module_radius_m,
+        {anchor.hand_in_device.position_m, anchor.tip_in_base.position_m, steer.in_use().mapping.scale});
+    planes.insert(planes.end(), felt.begin(), felt.end());
+  }
+  return plane_slots_.next(planes, device->newest(0)->pose.position_m);
 }
 
 fixture::Choice CableDesk::chosen_fixtures(const api::Arguments& fields) const {

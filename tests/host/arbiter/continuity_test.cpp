@@ -24,20 +24,21 @@ constexpr std::uint32_t kX4 = 1u << 6, kX5 = 1u << 8;
 // A way of being led, as steps of missions choose it.
 struct Mode {
   const char* name;
-  DeviceKind device;
+  device::Kind device;
   std::uint32_t held_mask;
   bool fixtures;
   double scale;
   bool line;  // a planned line begins
 };
-constexpr std::array kModes{Mode{"nobody", DeviceKind::kNone, 0, true, 1.0, false},
-                            Mode{"a line", DeviceKind::kNone, kX4 | kX5, true, 1.0, true},
-                            Mode{"vr, 10+0", DeviceKind::kVr, 0, true, 4.0, false},
-                            Mode{"hand, 10+0", DeviceKind::kHand, 0, true, 1.0, false},
-                            Mode{"hand, 9+1", DeviceKind::kHand, kX5, true, 1.0, false},
-                            Mode{"hand, 8+2", DeviceKind::kHand, kX4 | kX5, true, 0.5, false},
-                            Mode{"hand, 8+2, coarse", DeviceKind::kHand, kX4 | kX5, true, 4.0, false},
-                            Mode{"hand, 8+2, no fixtures", DeviceKind::kHand, kX4 | kX5, false, 1.0, false}};
+constexpr std::array kModes{
+    Mode{"nobody", device::Kind::kNone, 0, true, 1.0, false},
+    Mode{"a line", device::Kind::kNone, kX4 | kX5, true, 1.0, true},
+    Mode{"vr, 10+0", device::Kind::kHandles, 0, true, 4.0, false},
+    Mode{"hand, 10+0", device::Kind::kHandController, 0, true, 1.0, false},
+    Mode{"hand, 9+1", device::Kind::kHandController, kX5, true, 1.0, false},
+    Mode{"hand, 8+2", device::Kind::kHandController, kX4 | kX5, true, 0.5, false},
+    Mode{"hand, 8+2, coarse", device::Kind::kHandController, kX4 | kX5, true, 4.0, false},
+    Mode{"hand, 8+2, no fixtures", device::Kind::kHandController, kX4 | kX5, false, 1.0, false}};
 
 std::vector<config::SceneFixture> slit_plane() {
   const solve::SlitMouth mouth = panel_slit();
@@ -72,6 +73,7 @@ class LedArm {
   void switch_to(const Mode& mode) {
     if (arbiter_.is_busy()) arbiter_.hold();
     DeviceUse use;
+    use.name = device::kind_name(mode.device);
     use.kind = mode.device;
     use.mapping.scale = mode.scale;
     use.speed_m_s = 0.03;
@@ -126,7 +128,7 @@ class LedArm {
     if (silent_intervals_ > 0 && silent_intervals_-- > 0) return void(t_us_ += 20000);
     for (int i = 0; i < 10; ++i) {
       move_hand();
-      arbiter_.device().add_tip_sample({t_us_ += 2000, !is_lost, pressed_ && !is_open, hand_});
+      arbiter_.device().add({.t_us = t_us_ += 2000, .valid = !is_lost, .deadman = pressed_ && !is_open, .pose = hand_});
     }
   }
 

@@ -75,7 +75,7 @@ class SwitchedHand {
   void step() {
     if (t_us_ % 20000 == 0) tell();
     auto sample = omega_.sample();
-    sample.button = button_;
+    sample.deadman = button_;
     sensed_m_ = sample.pose.position_m[1];
     const HandForce& now = loop_.step(sample, {0.0, asked_m(), 0.0});
     const double step_N = norm(subtract(now.force_N, before_.force_N));
