@@ -33,6 +33,7 @@ constexpr RequestField object(const char* name, std::span<const RequestField> fi
 constexpr std::array kCommands{"enable", "disable", "clear", "home"};
 constexpr std::array kMissionCommands{"pause", "resume", "step", "confirm", "abort"};
 constexpr std::array kFrames{"base", "tip", "camera"};
+constexpr std::array kFeedbacks{"aligned", "claim", "abstract", "off"};
 
 constexpr std::array kHello{
     text("name", 64, "what lianad calls the client: as owner, in events, as who stopped the arm"),
@@ -139,6 +140,10 @@ constexpr std::array kUseDevice{
          "axes of the hand (not of `vr`'s left one): the base's (else), the tip's on engaging, the tip camera's, which "
          "turn")
         .optional(),
+    text("fixtures", 40, "names of the scene's fixtures that guide the hand and are felt; left out: all of them")
+        .optional()
+        .list(16),
+    word("feedback", kFeedbacks, "law by which the hand feels the arm; `aligned` when left out").optional(),
 };
 constexpr std::array kMissionControl{word("command", kMissionCommands, "what the mission should do")};
 constexpr std::array kRetract{

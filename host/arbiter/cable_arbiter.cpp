@@ -9,7 +9,7 @@
 namespace liana::arbiter {
 
 CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone, SearchResult taken,
-                           PathCheck<cable::CableArm> check)
+                           PathCheck<cable::CableArm> check, const fixture::Guidance& guidance)
     : table_(table),
       asked_speed_m_s_(table.limits.tip_speed_m_s),
       robot_speed_m_s_(table.limits.tip_speed_m_s),
@@ -17,7 +17,8 @@ CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone
       zone_(zone),
       interval_s_(interval_s(table)),
       moves_(table, zone, taken, std::move(check)),
-      lead_(table, taken) {}
+      lead_(table, taken),
+      guidance_(guidance) {}
 
 void CableArbiter::require_free(const cable::Outputs& now) const {
   moves_.require_ready(now);
@@ -128,7 +129,15 @@ void CableArbiter::dither(const cable::Outputs& now, double share, double durati
 
 void CableArbiter::cap_tip_speed(double speed_m_s) {
   cap_m_s_ = speed_m_s;
-  moves_.limit_tip_speed(std::min(asked_speed_m_s_, cap_m_s_));
+  ask_speed();
+}
+
+void CableArbiter::ask_speed() { moves_.limit_tip_speed(ease_.share * std::min(asked_speed_m_s_, cap_m_s_)); }
+
+void CableArbiter::lead_nobody() {
+  guidance_.stop();
+  ease_ = {};
+  ask_speed();
 }
 
 void CableArbiter::take_device_away() {
@@ -166,6 +175,7 @@ std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, c
     device_.leave_slit();
     steer.reset();
   }
+  if (!steer || is_busy()) lead_nobody();
   if (!moves_.begin_interval(tick, now)) {
     hold();
     nodes_ = {};
@@ -202,7 +212,11 @@ std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outpu
   lead_.ask_anew();
   device_node_ = goal.node;
   wish_nodes();
-  return moves_.steer(now, goal.tip_in_base);
+  const std::uint32_t held = moves_.wishes().held_mask;
+  const Pose led = guidance_.guide(goal.tip_in_base, {now.tip_command, now.theta_command_rad, held}, interval_s_);
+  ease_ = fixture::ease(table_, now.theta_command_rad, held, led);
+  ask_speed();
+  return moves_.steer(now, led);
 }
 
 // The operator's node takes the place of its own target, or one that is free.

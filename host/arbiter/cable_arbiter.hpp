@@ -12,6 +12,8 @@
 #include "host/arbiter/dither_order.hpp"
 #include "host/arbiter/shape_lead.hpp"
 #include "host/arbiter/speed_zone.hpp"
+#include "host/fixture/ease.hpp"
+#include "host/fixture/guidance.hpp"
 
 namespace liana::arbiter {
 
@@ -19,9 +21,11 @@ extern template class Arbiter<cable::CableArm>;
 
 class CableArbiter {
  public:
-  // In `zone` the tip is asked to go no faster than the zone says. `check` looks at the straight pieces of a path.
+  // In `zone` the tip is asked to go no faster than the zone says. `check` looks at the straight pieces of a path,
+  // `guidance` has the fixtures that guide a hand.
   explicit CableArbiter(const cable::RobotTable& table, const SpeedZone& zone = {},
-                        SearchResult taken = SearchResult::kInItsInterval, PathCheck<cable::CableArm> check = {});
+                        SearchResult taken = SearchResult::kInItsInterval, PathCheck<cable::CableArm> check = {},
+                        const fixture::Guidance& guidance = {});
 
   // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused). `now` is the newest tick of the
   // arm.
@@ -46,6 +50,10 @@ class CableArbiter {
   // Besides what device and robot allow: the tip is asked to go no faster than this, from the next setpoint on; planned
   // lines from the next one on.
   void cap_tip_speed(double speed_m_s);
+  // Which fixtures act on the hand from the next interval on.
+  void choose_fixtures(const fixture::Choice& names) { guidance_.choose(names); }
+  // Once per interval, before next_setpoint: what is known of scene and tip beside drawing and command.
+  void see(const fixture::Sight& sight) { guidance_.see(sight, interval_s_); }
   // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until
   // use_device is asked for.
   void retract(const cable::Outputs& now, std::uint64_t until_tick);
@@ -79,6 +87,9 @@ class CableArbiter {
   const cable::NodeTargets& nodes() const { return nodes_; }
   const cable::KeepClearTargets& keep_clear() const { return moves_.wishes().clear; }
   std::uint32_t held_mask() const { return moves_.wishes().held_mask; }
+  const fixture::Guidance& guidance() const { return guidance_; }
+  // Why the hand is followed more slowly than it asks, and how much; nothing while nobody steers.
+  const fixture::Ease& ease() const { return ease_; }
   DeviceSteer& device() { return device_; }
   const DeviceSteer& device() const { return device_; }
 
@@ -91,6 +102,8 @@ class CableArbiter {
   void wish_nodes();
   cable::Setpoint dithering_setpoint();
   std::optional<cable::Setpoint> steered_setpoint(const cable::Outputs& now, const SteerGoal& goal);
+  void lead_nobody();
+  void ask_speed();
 
   cable::RobotTable table_;
   double asked_speed_m_s_;  // limit of the device in use, or of the robot's tip
@@ -106,6 +119,8 @@ class CableArbiter {
   DeviceSteer device_;
   cable::NodeTarget device_node_{};
   bool was_engaged_ = false;
+  fixture::Guidance guidance_;
+  fixture::Ease ease_;
 };
 
 }  // namespace liana::arbiter

@@ -46,6 +46,8 @@ class DeviceSteer {
   void use(const DeviceUse& use);
   const DeviceUse& in_use() const { return use_; }
   bool engaged() const { return engaged_; }
+  // Where hand and tip stood when the operator engaged last.
+  const ClutchAnchor& anchor() const { return anchor_; }
   // Why the operator was disengaged last, empty when by letting go.
   const char* reason() const { return reason_; }
   // Device time of the newest tip sample that the last goal was made of; < 0 before the first goal of a use.

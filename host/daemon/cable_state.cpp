@@ -50,6 +50,18 @@ Json rate_json(const device::SampleRate& rate) {
   return {{"hz", now_hz ? Json(*now_hz) : Json()}, {"least_s", rate.least_s()}, {"most_s", rate.most_s()}};
 }
 
+std::string ease_name(const fixture::Ease& ease) {
+  switch (ease.cause) {
+    case fixture::EaseCause::kNone:
+      return "";
+    case fixture::EaseCause::kSingular:
+      return "near singular";
+    case fixture::EaseCause::kJointLimit:
+      break;
+  }
+  return "theta " + std::to_string(ease.theta) + " near its limit";
+}
+
 }  // namespace
 
 std::vector<double> theta_deg(const cable::RobotTable& table, const cable::ThetaVector& theta_rad) {
@@ -78,6 +90,27 @@ Json CableDesk::clearance_json() const {
           {"turn_deg", {in_degrees(turn_rad[0]), in_degrees(turn_rad[1]), in_degrees(turn_rad[2])}}};
 }
 
+// What fixtures make of the hand, and the two figures that they are felt by.
+Json CableDesk::guidance_json() const {
+  const fixture::Guidance& guidance = arbiter_.guidance();
+  Json out{{"fixtures", Json::array()},
+           {"plane", guidance.plane_name()},
+           {"taken_away_m", guidance.taken_away_m()},
+           {"yaw_limited", guidance.is_yaw_limited()},
+           {"speed_share", arbiter_.ease().share},
+           {"slowed_by", ease_name(arbiter_.ease())},
+           {"pitch_allowed_deg", nullptr},
+           {"pitch_used_deg", nullptr}};
+  for (const config::SceneFixture& one : guidance.fixtures()) {
+    if (guidance.is_chosen(one.name)) out["fixtures"].push_back(one.name);
+  }
+  const std::optional<fixture::PitchBudget> budget = pitch_budget();
+  if (!budget) return out;
+  out["pitch_allowed_deg"] = in_degrees(budget->allowed_rad);
+  out["pitch_used_deg"] = in_degrees(budget->used_rad);
+  return out;
+}
+
 void CableDesk::add_state(Json& state) const {
   const cable::Outputs& o = outputs();
   const arbiter::DeviceUse& device = arbiter_.device().in_use();
@@ -93,7 +126,11 @@ void CableDesk::add_state(Json& state) const {
   state["devices"] = devices_.summary();
   state["mapping"] = {{"scale", device.mapping.scale},
                       {"rotation_scale", device.mapping.rotation_scale},
-                      {"frame", arbiter::name_of(device.mapping.frame)}};
+                      {"frame", arbiter::name_of(device.mapping.frame)},
+                      {"feedback", feedback_}};
+  state["guidance"] = guidance_json();
+  if (arbiter_.ease().cause == fixture::EaseCause::kJointLimit) state["limits"].push_back("near_theta");
+  if (arbiter_.ease().cause == fixture::EaseCause::kSingular) state["limits"].push_back("near_singular");
   state["shape"] = {{"missing_m", shape_progress_.missing_m()},
                     {"settled", shape_progress_.is_settled() && !arbiter_.is_searching()},
                     {"searching", arbiter_.is_searching()}};
