@@ -40,6 +40,7 @@ report::ReportSources report_sources(const system::RunOptions& options, const sy
   sources.truth_file = plan.file("truth.bin");
   sources.bench_summary_file = plan.file("bench_summary.json");
   sources.mission_report_file = plan.file("mission.json");
+  sources.operator_file = plan.operator_file();
   sources.bus_stats_file = plan.file("bus_stats.json");
   sources.states = session.states();
   sources.claims = session.claims();

@@ -4,7 +4,8 @@ namespace liana::haptic {
 namespace {
 
 Vec3 spring_damper(const LawGains& gains, double damping_N_s_m, const Motion& robot, const Motion& other) {
-  const Vec3 spring = scale(subtract(robot.position_m, other.position_m), gains.stiffness_N_m);
+  const Vec3 apart_m = subtract(robot.position_m, other.position_m);
+  const Vec3 spring = scale(subtract(apart_m, no_longer(apart_m, gains.unsure_m)), gains.stiffness_N_m);
   const Vec3 damper = scale(subtract(robot.velocity_m_s, other.velocity_m_s), damping_N_s_m);
   return scale(add(spring, damper), 1.0 / gains.scale);
 }

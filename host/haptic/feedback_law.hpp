@@ -23,11 +23,12 @@ constexpr std::string_view name_of(Law law) { return kLawNames[static_cast<std::
 // The law of a name; nothing for any other word.
 std::optional<Law> law_of(std::string_view name);
 
-// F = (K (p_arm - p_other) + B (v_arm - v_other)) / a.
+// F = (K (p_arm - p_other) + B (v_arm - v_other)) / a, the difference of places shortened by what is not sure.
 struct LawGains {
   double stiffness_N_m = 200.0;  // K, at the hand; 0 .. 1000
   double damping_N_s_m = 5.0;    // B of claim and abstract; 0 .. 20
-  double scale = 1.0;            // a: the tip's way for one of the hand (P_r = a P_m); > 0
+  double unsure_m = 0.0;  // of that difference, what the arm's own measurement may be wrong by: not felt; 0 .. 0.1
+  double scale = 1.0;     // a: the tip's way for one of the hand (P_r = a P_m); > 0
 };
 
 // What the laws choose from.

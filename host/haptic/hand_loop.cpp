@@ -14,6 +14,7 @@ void check(const HandLoopTable& table) {
   };
   within("gains.stiffness_N_m", table.gains.stiffness_N_m, 0.0, 1000.0);
   within("gains.damping_N_s_m", table.gains.damping_N_s_m, 0.0, 20.0);
+  within("gains.unsure_m", table.gains.unsure_m, 0.0, 0.1);
   within("gains.scale", table.gains.scale, 0.01, 100.0);
   within("tank.start_J", table.tank.start_J, 0.0, std::numeric_limits<double>::infinity());  // without end: no tank
   within("tank.most_J", table.tank.most_J, table.tank.start_J, std::numeric_limits<double>::infinity());

@@ -53,6 +53,8 @@ class HandLoop {
   bool take(const Plane& plane) noexcept { return wall_.take(plane); }
   // Another law, from the next step on; the rate limit makes the switch smooth.
   void choose(Law law) noexcept { table_.law = law; }
+  // Another mapping: the tip's way for one of the hand, over 0. From the next step on; smooth, too.
+  void scale_by(double scale) noexcept { table_.gains.scale = scale; }
 
   // One millisecond after the last: the device's sample, and where the hand asks the tip to be with it (after clutch
   // and scale). A sample that is not valid gives no force.

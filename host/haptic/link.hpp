@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "host/operator/random.hpp"
 
@@ -20,6 +21,15 @@ struct LinkTable {
 
 // Throws std::invalid_argument that names the field, its value and the range.
 void check(const LinkTable& table);
+
+// Delays of both directions [s]: commands to the arm, news from it.
+struct Delays {
+  double forward_s = 0.0;
+  double back_s = 0.0;
+};
+
+// "FORWARD_S,RETURN_S", e.g. 0.5,0.5; each 0 to 2. Throws std::invalid_argument that says so, and what was given.
+Delays delays_of(const std::string& text);
 
 template <class Packet>
 class Link {

@@ -37,8 +37,7 @@ void Leg::walk(double dt_s, double eagerness) {
 }
 
 Pose Leg::pose() const {
-  const double share = length_m_ > 0.0 ? walked_m_ / length_m_ : 1.0;
-  return moved(start_, {scale(whole_.shift_m, share), scale(whole_.turn_rad, share)});
+  return moved(start_, {scale(whole_.shift_m, share()), scale(whole_.turn_rad, share())});
 }
 
 PoseStep Leg::remaining() const { return step_between(pose(), goal_); }

@@ -28,6 +28,8 @@ class Leg {
   const Pose& goal() const { return goal_; }
   // What is left to go.
   PoseStep remaining() const;
+  // Part of it that is walked, 0..1.
+  double share() const { return length_m_ > 0.0 ? walked_m_ / length_m_ : 1.0; }
   // Intended speed along the leg as a share of its length per second.
   double share_per_s() const { return length_m_ > 0.0 ? speed_m_s_ / length_m_ : 0.0; }
   // Whole leg.

@@ -14,12 +14,6 @@ constexpr double kLongestGap_s = 0.1;     // after a pause the hand goes on, it 
 constexpr double kSettleAfterVr_s = 1.0;  // the person watches the arm come to rest before saying so
 constexpr const char* kDefaultRecording = "panel_edge_vr";
 
-HandTask hand_task(const AnnouncedStep& step) {
-  if (step.task == "rod") return HandTask::kReachRod;
-  if (step.task == "slit") return HandTask::kEnterSlit;
-  return step.name.find("rod") != std::string::npos ? HandTask::kReachRod : HandTask::kEnterSlit;
-}
-
 std::string text(const Json& object, const char* key) {
   const auto found = object.find(key);
   return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
@@ -33,6 +27,12 @@ double positive(const Json& object, const char* key, double otherwise) {
 }
 
 }  // namespace
+
+HandTask hand_task(const AnnouncedStep& step) {
+  if (step.task == "rod") return HandTask::kReachRod;
+  if (step.task == "slit") return HandTask::kEnterSlit;
+  return step.name.find("rod") != std::string::npos ? HandTask::kReachRod : HandTask::kEnterSlit;
+}
 
 AnnouncedStep announced_step(const Json& state) {
   const auto found = state.find("step");

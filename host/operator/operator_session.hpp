@@ -64,6 +64,8 @@ class OperatorSession {
 
 // The step in a state message; index -1 when there is none.
 AnnouncedStep announced_step(const Json& state);
+// What the hand is asked for in a step: its task, or what its name tells.
+HandTask hand_task(const AnnouncedStep& step);
 // Mapping of the device in use; 1:1 where the state does not say.
 HandMapping announced_mapping(const Json& state);
 

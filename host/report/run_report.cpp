@@ -90,6 +90,7 @@ std::string add_truth(Json& report, const ReportSources& sources, const Window& 
   const StateSample* state = sample_at(sources.states, success ? window.last_tick : UINT64_MAX);
   add_figures(report, truth, rows, true_rod(sources),
               state != nullptr ? std::optional(state->commanded_tip) : std::nullopt, sources.has_slit);
+  if (truth.has("contact_force_N")) report["contacts"] = contact_count(truth, rows, period_s);
   if (sources.body_at && report.value("max_contact_force_N", 0.0) > 0.0)
     report["contact"] = contact_in(truth, rows, sources.body_at, window.first_tick, period_s);
   add_claims(report, truth, rows, sources.claims, period_s);
@@ -138,6 +139,19 @@ std::string clearance_text(const Json& report) {
 std::string ended_by(const Json& step) {
   const std::string condition = step.value("ended_by", ""), next = step.value("next", "");
   return (condition.empty() ? "" : ": " + condition) + (next.empty() ? "" : " -> " + next);
+}
+
+// What liana-operator told, in words; empty where it told nothing.
+std::string operator_text(const Json& report) {
+  std::string text;
+  const Json lag = report.member_or_null("hand_to_tip_lag_s").member_or_null("commanded");
+  if (lag.is_object())
+    text += line("tip behind the hand by %.2f s in the median", lag["median"].get<double>()) +
+            line(", %.2f s at worst\n", lag["worst"].get<double>());
+  if (report.contains("min_port_energy_J"))
+    text += line("hand felt %.1f N at most", report["peak_hand_force_N"].get<double>()) +
+            line(", energy at its port %.3f J at least\n", report["min_port_energy_J"].get<double>());
+  return text;
 }
 
 // Which body was touched, by which link, how hard and when first.
@@ -200,6 +214,8 @@ Json make_report(const ReportSources& sources) {
   }
   if (state.contains("friction")) report["friction"] = state["friction"];
   if (sources.operator_rate_hz) report["operator_rate_hz"] = *sources.operator_rate_hz;
+  const Json of_operator = read_json(sources.operator_file);
+  for (const auto& [name, figure] : of_operator.items()) report[name] = figure;
   if (!std::filesystem::exists(sources.truth_file)) return report;
   const std::string not_kept = add_truth(report, sources, window, welcome.value("period_s", 0.0));
   if (report["outcome"] == "success" && !not_kept.empty()) fail(not_kept);
@@ -257,6 +273,7 @@ std::string report_text(const Json& report) {
   }
   if (report.contains("operator_rate_hz"))
     text += line("operator's samples %.0f a second at least\n", report["operator_rate_hz"].get<double>());
+  text += operator_text(report);
   for (const Json& bus : report.value("buses", Json::array())) {
     text += "bus " + bus.value("name", "") + line(": %.0f frames", bus.value("frames", 0.0)) +
             line(", load %.1f %%", 100.0 * bus.value("measured_load", 0.0)) +

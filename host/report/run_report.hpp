@@ -40,6 +40,7 @@ struct ReportSources {
   std::string bench_summary_file;
   std::string mission_report_file;  // of liana-mission
   std::string bus_stats_file;       // of liana-bus
+  std::string operator_file;        // of liana-operator
   std::vector<StateSample> states;
   std::vector<ClearanceClaim> claims;      // of lianad, as its states told them
   std::vector<ReportedStep> announced;     // stands in for the steps of a mission runner that left no report

@@ -39,7 +39,7 @@ void add_cable_figures(Json& report, const TruthLog& truth, const Rows& rows, bo
   add_clearance(report, has_slit ? "min_slit_clearance_m" : "min_box_clearance_m",
                 truth.smallest("slit_clearance_m", first, last));
   add_clearance(report, "min_sphere_clearance_m", truth.smallest("sphere_clearance_m", first, last));
-  report["max_contact_force_N"] = truth.largest("contact_force_N", first, last);
+  report["max_contact_force_N"] = report["peak_force_N"] = truth.largest("contact_force_N", first, last);
   report["rod_force_N"] = truth.at(last, "rod_force_N");
   report["cable_tension_N"] = {{"min", truth.smallest("tension_min_N", first, last)},
                                {"min_motor", truth.smallest("tension_motor_min_N", first, last)},
@@ -103,6 +103,19 @@ Json contact_in(const TruthLog& truth, const Rows& rows, const BodyAt& body_at, 
   contact["force_N"] = truth.at(hardest, "contact_force_N");
   contact["first_s"] = (truth.at(first, "slot") - static_cast<double>(begin_slot)) * period_s;
   return contact;
+}
+
+int contact_count(const TruthLog& truth, const Rows& rows, double period_s) {
+  constexpr double kApart_s = 0.1;
+  int contacts = 0;
+  double touched_s = -1e9;
+  for (std::size_t row = rows.first; row <= rows.last; ++row) {
+    if (truth.at(row, "contact_force_N") <= 0.0) continue;
+    const double now_s = truth.at(row, "slot") * period_s;
+    contacts += now_s - touched_s > kApart_s ? 1 : 0;
+    touched_s = now_s;
+  }
+  return contacts;
 }
 
 std::string judge(Json& report, const Criteria& criteria) {

@@ -43,6 +43,10 @@ using BodyAt = std::function<Json(const std::vector<double>& theta_deg)>;
 Json contact_in(const TruthLog& truth, const Rows& rows, const BodyAt& body_at, std::uint64_t begin_slot,
                 double period_s);
 
+// How often the arm touched a body in these rows of a cable arm's truth; less than a tenth of a second apart is one
+// touch.
+int contact_count(const TruthLog& truth, const Rows& rows, double period_s);
+
 // Adds `criteria` (name, value, limit, met) for what the report has figures of; the first that is not met in words,
 // empty when all are.
 std::string judge(Json& report, const Criteria& criteria);

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string>
 
+#include "host/system/operator_choice.hpp"
+
 namespace liana::system {
 
 struct RunOptions {
@@ -30,6 +32,7 @@ struct RunOptions {
   std::string report_file;     // empty: a summary on standard output; "-": JSON on standard output
   bool has_console = false;    // liana-gateway runs beside it and its address is told
   bool is_dry_run = false;     // liana check: no logs of the buses, quicker physics, what verification took
+  OperatorChoice people;       // who steers a mission
   std::uint64_t seed = 1;
 };
 

@@ -167,9 +167,12 @@ ProgramCall operator_call(const SystemLayout& plan, const RunOptions& options) {
   std::string recordings;
   for (const Json& folder : plan.mission.at("recordings"))
     recordings += (recordings.empty() ? "" : ":") + folder.text();
-  return {"liana-operator",
-          {sibling_program("liana-operator"), "--api", plan.api_socket(), "--recordings", recordings, "--scene",
-           plan.file("scene.json"), "--seed", std::to_string(options.seed), "--lockstep"}};
+  ProgramCall call{"liana-operator",
+                   {sibling_program("liana-operator"), "--api", plan.api_socket(), "--recordings", recordings,
+                    "--scene", plan.file("scene.json"), "--figures", plan.operator_file(), "--seed",
+                    std::to_string(options.seed), "--lockstep"}};
+  append(call.argv, operator_words(options.people));
+  return call;
 }
 
 ProgramCall mission_call(const SystemLayout& plan, const RunOptions& options) {
@@ -271,6 +274,7 @@ std::string directory_of(const SystemLayout& plan, const RunOptions& options) {
 SystemLayout make_layout(const RunOptions& given) {
   RunOptions options = given;
   SystemLayout plan;
+  operator_words(options.people);  // refused before anything is made
   const TableText robot = robot_of(options);
   options.robot = robot.name;
   plan.robot = robot.name;

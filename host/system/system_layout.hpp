@@ -37,6 +37,7 @@ struct SystemLayout {
   std::string api_socket() const { return socket_dir + "/api"; }
   std::string events_file() const { return file("events.txt"); }
   std::string commands_file() const { return file("commands.txt"); }
+  std::string operator_file() const { return file("operator.json"); }
   std::string verify_times_file() const { return file("verify_times.txt"); }
   std::string bus_socket() const { return socket_dir + "/bus"; }
 };

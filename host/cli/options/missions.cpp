@@ -45,6 +45,22 @@ void add_mission_options(CLI::App& sub, system::RunOptions& run) {
   add_seed(sub, run.seed, "seed of everything random: hand, start pose, bench parameters, camera");
 }
 
+// Who steers, and over what.
+void add_people(CLI::App& sub, system::OperatorChoice& people) {
+  sub.add_option("--operator", people.who,
+                 "recorded: VR handles from a file, a simulated person at the hand controller; human: a simulated "
+                 "person at simulated devices in every step (docs/operator.md); recorded where nothing is said")
+      ->check(CLI::IsMember({"recorded", "human"}));
+  sub.add_option("--delay", people.delay,
+                 "of the human: FORWARD_S,RETURN_S, e.g. 0.5,0.5; delays of the link between hand and arm, 0 to 2 s");
+  sub.add_option("--feedback", people.feedback,
+                 "of the human: the law of the force on the hand, aligned where nothing is said, or off")
+      ->check(CLI::IsMember({"aligned", "claim", "abstract", "off"}));
+  sub.add_option("--passivity", people.passivity,
+                 "of the human: energy tank and damping at the hand controller; on where nothing is said")
+      ->check(CLI::IsMember({"on", "off"}));
+}
+
 void add_run(CLI::App& app, Action& action) {
   auto [sub, run] =
       add<system::RunOptions>(app, action, "run", "start the whole system and run a mission", run_command);
@@ -54,6 +70,7 @@ void add_run(CLI::App& app, Action& action) {
   sub.add_option("--in-pose", run.in_pose,
                  "named pose in which the arm lies in its fixture: unless every cable says so, it is not enabled");
   add_cross_wired(sub, run.cross_wired);
+  add_people(sub, run.people);
   sub.add_option("--record", run.record_dir, "keep recording, logs, bus traffic and report in this directory");
   sub.add_flag("--console", run.has_console, "show it in a browser while it runs; the address goes to standard error");
 }

@@ -51,5 +51,19 @@ TEST(FeedbackLaw, IsDividedByTheOperatingCoefficient) {
   EXPECT_NEAR(law_force(Law::kClaim, gains, {tip(0.0), tip(0.04), {}, {}})[0], -2.0, 1e-12);
 }
 
+TEST(FeedbackLaw, WhatIsNotSureIsNotFeltAndTheRestWithoutAStep) {
+  LawGains gains;
+  gains.unsure_m = 0.01;
+  const auto felt_N = [&](double apart_m) {
+    LawInputs inputs;
+    inputs.robot.position_m = {0.6 * apart_m, 0.8 * apart_m, 0.0};
+    return law_force(Law::kAligned, gains, inputs);
+  };
+  EXPECT_EQ(felt_N(0.009), (Vec3{}));
+  EXPECT_LT(norm(felt_N(0.010001)), 1e-3);
+  EXPECT_NEAR(norm(felt_N(0.030)), gains.stiffness_N_m * 0.020, 1e-9);
+  EXPECT_NEAR(felt_N(0.030)[1] / felt_N(0.030)[0], 4.0 / 3.0, 1e-9);
+}
+
 }  // namespace
 }  // namespace liana::haptic

@@ -1,0 +1,85 @@
+// A simulated person who steers every step: VR handles by the display, the hand controller by the tip camera and with
+// the force of a simulated Omega.6. What comes from the arm may be late; nothing else of the arm is known here.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "host/config/config.hpp"
+#include "host/device/liana_device.h"
+#include "host/hand_side/tip_prediction.hpp"
+#include "host/haptic/held_hand.hpp"
+#include "host/haptic/prediction_track.hpp"
+#include "host/json/json.hpp"
+#include "host/operator/arm_display.hpp"
+#include "host/operator/operator_session.hpp"
+#include "host/operator/vr_person.hpp"
+
+namespace liana::hand_side {
+
+struct HumanTable {
+  std::optional<haptic::Law> law = haptic::Law::kAligned;  // nothing: no force of the arm is felt
+  bool passivity = true;                                   // energy tank and damping at the device
+  double there_and_back_s = 0.0;                           // delay of the link, known to the person
+  std::uint64_t seed = 1;
+};
+
+// What only the hand's side knows of a run.
+struct HandFigures {
+  double peak_force_N = 0.0;       // of the device's motors
+  double least_energy_J = 0.0;     // at its port; negative: given to the hand
+  std::vector<double> errors_m{};  // prediction of the tip against what was measured then, while steered by hand
+};
+
+// What comes from the arm in one command interval.
+struct News {
+  Json state;                               // of lianad's API
+  std::vector<Json> pictures;               // of the tip camera, since the interval before
+  std::optional<liana_state> for_device{};  // what the hand controller was told
+};
+
+// What a picture shows; nothing, and a line on standard error, for one that cannot be a picture.
+std::optional<operator_side::TipSighting> sighting_in(const Json& picture);
+
+// Deterministic: the same calls give the same messages. Times are by the hand's clock [s] and rise.
+class HumanSession {
+ public:
+  HumanSession(const HumanTable& table, const config::RobotConfig& robot, const config::SceneConfig& scene);
+
+  // News has come. Throws std::runtime_error when the state is not one of this robot.
+  void hear(const News& news, double now_s);
+  // A command interval is over: what the devices sensed in it, and what the person says.
+  operator_side::OperatorAnswer act(double now_s);
+
+  HandFigures figures() const;
+
+ private:
+  void begin_step(const Json& state, double now_s);
+  void hear_of_hand(const News& news, bool engaged, double now_s);
+  void feel(const liana_state& told);
+  std::vector<device::Sample> lead(double now_s);
+  std::vector<device::Sample> steer(double from_s, double now_s);
+  bool has_arrived() const;
+  void predict(double now_s);
+
+  HumanTable table_;
+  std::size_t node_;
+  operator_side::ArmDisplay display_;
+  operator_side::VrPerson vr_person_;
+  operator_side::HandPerson hand_person_;
+  haptic::HeldHand held_;
+  TipPrediction prediction_;
+  haptic::PredictionTrack unmended_;   // by the filter alone
+  haptic::PredictionTrack predicted_;  // the same, mended by what was heard
+  operator_side::AnnouncedStep step_{};
+  bool steering_ = false;
+  bool reported_ = false;
+  double acted_s_ = 0.0;
+  double handles_s_ = 0.0;  // when the handles were sampled last
+  Vec3 slowed_m_{};         // commanded less predicted, as last heard: the arm's limits slow it down
+  Vec3 beside_m_{};         // measured less commanded, at rest before the grip: no contact, so it is not felt
+  std::vector<double> errors_m_;
+};
+
+}  // namespace liana::hand_side
