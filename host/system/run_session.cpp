@@ -133,7 +133,10 @@ RunEnd RunSession::conclusion() {
     look_until(kAftermath_s, [this] { return system_.all_have_ended(); });
     if (const auto failed = dead_child(true)) return *failed;
   }
-  return end ? end_of_mission(*end) : *dead_child(false);
+  if (end) return end_of_mission(*end);
+  if (const std::string still = system_.standing_still(); !still.empty())
+    return {"failed", still + " stopped, and the others did not wait for it any longer", false};
+  return *dead_child(false);
 }
 
 // A mission runner that ended by itself has written its report; one that was killed has not.
