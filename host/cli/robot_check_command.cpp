@@ -19,9 +19,9 @@ namespace liana::cli {
 namespace {
 
 constexpr double kLeastHoleDistance_m = 0.001;
-constexpr double kZeroError_m = 0.05e-3;  // of a calibrated cable
-constexpr std::int32_t kSamples = 5000;   // of the workspace, whose boundary is then climbed to
-constexpr std::int32_t kTipValues = 6;    // place and attitude
+constexpr double kUnknown_m = 0.01e-3;   // of a length, after homing: arms of the bench stay above their floor by it
+constexpr std::int32_t kSamples = 5000;  // of the workspace, whose boundary is then climbed to
+constexpr std::int32_t kTipValues = 6;   // place and attitude
 
 std::string text(const char* format, auto... values) {
   char line[300];
@@ -139,17 +139,17 @@ void look_at_mass(const config::RobotConfig& robot, const Json& table, Json& pro
            mass_kg, needed_N, robot.table.tension.hard_limit_N));
 }
 
-// A length error that nobody knows of may not change a tension by all that is planned: the cable would go slack, or
-// pull its neighbours until the drives stop. The shortest cable, of segment 1, is the stiffest.
+// What nobody knows of a cable's length, times its stiffness, may not take the tension from what is planned to the
+// floor at the motor. The shortest cable, of segment 1, is the stiffest.
 void look_at_stiffness(const cable::RobotTable& table, Json& problems) {
   const double shortest_m = table.segment[0].modules * table.segment[0].module_length_m + table.lead_m;
-  const double change_N = kZeroError_m * table.cable_EA_N / shortest_m, plan_N = table.tension.plan_N;
-  if (change_N <= plan_N) return;
+  const double change_N = kUnknown_m * table.cable_EA_N / shortest_m;
+  const double allowed_N = table.tension.plan_N - table.tension.floor_motor_N;
+  if (change_N <= allowed_N) return;
   problems.push_back(
-      text("cables.EA_N: %g: the shortest cable, %.3g m, gains or loses %.3g N by a length error of %g mm, "
-           "as calibrated zeros have: allowed up to tension.plan_N, %g N: give a longer cables.lead_m, a softer "
-           "rope (EA_N up to %.4g), or more plan_N",
-           table.cable_EA_N, shortest_m, change_N, 1e3 * kZeroError_m, plan_N, plan_N * shortest_m / kZeroError_m));
+      text("cables.EA_N: %g: the shortest cable, %.3g m, loses %.3g N by a length error of %g mm: allowed up to "
+           "tension.plan_N less floor_motor_N, %g N: more plan_N, a longer cables.lead_m, or EA_N up to %.4g",
+           table.cable_EA_N, shortest_m, change_N, 1e3 * kUnknown_m, allowed_N, allowed_N * shortest_m / kUnknown_m));
 }
 
 // Cables that move too little between any two poses do not tell their drives' directions.

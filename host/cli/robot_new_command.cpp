@@ -19,7 +19,7 @@ constexpr double kHoleShare = 0.8;          // of the radius, where the cables' 
 constexpr double kHoleApart_m = 0.0015;     // between neighbours among them
 constexpr double kLeastPlan_N = 3.0;        // less is lost in a drive's friction and the steps of its torque
 constexpr double kShortestLead_m = 0.1;     // drives are not smaller with the arm
-constexpr double kPlanStretch_m = 0.15e-3;  // of the shortest cable at plan_N: three times what zeros are known to
+constexpr double kPlanStretch_m = 0.15e-3;  // of the shortest cable at plan_N, as of the usual arm
 
 struct Answers {
   int segments = 0, modules = 0, cables = 0;

@@ -91,6 +91,8 @@ RunEnd RunSession::watch() {
     revive_recorder();
   }
   const RunEnd end = conclusion();
+  if (!system_.last().poll())  // without the others it has no purpose; the arm holds when it ends
+    system_.send({{"op", "mission_control"}, {"command", "abort"}});
   if (!end.bad_input && (waits_for_us_ || has_failed(end))) follow();
   return end;
 }
