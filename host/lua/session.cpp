@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "host/api/request_error.hpp"
+
 namespace liana::script {
 namespace {
 
