@@ -139,7 +139,9 @@ end
 -- The slit asks for at least `count` planar segments: the point to go from 10+0 to 9+1 to 8+2 variables, found from the slit's mouth.
 function conditions.needs_planar(count)
   need("needs_planar", "count", count, "number")
-  return condition_in("slit", position(1), ("slit asks for %d planar segments"):format(count), function(arm) return arm.state.planar_segments >= count end)
+  return condition_in("slit", position(1), ("slit asks for %d planar segments"):format(count), function(arm)
+    return arm.state.planar_segments >= count
+  end)
 end
 
 -- The tip at most distance_m off the middle plane of the slit.
