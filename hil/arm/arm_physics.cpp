@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "hil/arm/stable_step.hpp"
 #include "hil/arm/start_tension.hpp"
 
 namespace liana::bench {
@@ -27,6 +28,15 @@ ArmPhysics::ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const
                                                 kStartFloorOfPlan * robot.plan_tension_N);
   for (std::size_t c = 0; c < paths_.cable_count(); ++c)
     lines_.emplace_back(paths_, c, robot.lead_m, truth.EA_N, truth.mu, tension[c]);
+  ThetaMatrix mass;
+  chain_.inertia(mass);
+  stable_step_s_ = stable_step_s(mass, stiffness(), viscous_, thetas_, kLongestStep_s);
+}
+
+ThetaMatrix ArmPhysics::stiffness() const {
+  ThetaMatrix stiffness{};
+  for (const CableLine& line : lines_) line.add_stiffness(paths_, stiffness);
+  return stiffness;
 }
 
 CableValues ArmPhysics::payouts_m() const {

@@ -1,6 +1,7 @@
 // The arm: reduced angles moved by cables and by contact, with or without weight, semi-implicit steps.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "hil/arm/arm.hpp"
@@ -16,14 +17,15 @@ namespace liana::bench {
 class ArmPhysics final : public Arm {
  public:
   // Arm at rest at `start_rad`, tensions balanced around 30 N with none below 15 N, nothing held by friction. Throws
-  // std::runtime_error.
+  // std::runtime_error, also of an arm whose cables are too stiff for its links (stable_step.hpp).
   ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const TrueParameters& truth, const Theta& start_rad);
 
   // Unstretched cable between drum and anchor, as the drums now hold it [m].
   CableValues payouts_m() const override;
-  // One step of `step_s` (kStep_s; stable up to kLongestStep_s without contact) with the drums at `payout_m`.
+  // One step of `step_s` (kStep_s, or what this arm's stiffness bears, stable_step.hpp; without contact up to
+  // kLongestStep_s) with the drums at `payout_m`.
   void step(double step_s, const CableValues& payout_m) override;
-  double longest_step_s() const override { return near_contact_ ? kStep_s : free_step_s_; }
+  double longest_step_s() const override { return std::min(stable_step_s_, near_contact_ ? kStep_s : free_step_s_); }
   // Longer steps, at most kLongestStep_s, in runs in which nothing can touch: four times as fast, and nearly the same.
   void set_free_step(double step_s) { free_step_s_ = step_s; }
   static constexpr double kStep_s = 0.001, kLongestStep_s = 0.004;
@@ -57,6 +59,7 @@ class ArmPhysics final : public Arm {
   void stop_at_limits(Theta& force, ThetaMatrix& damping, double step_s) const;
   void touch(double step_s, ContactLoad& load);
   double fastest_joint_m_s() const;
+  ThetaMatrix stiffness() const;
 
   RobotConfig robot_;
   SceneConfig scene_;
@@ -71,6 +74,7 @@ class ArmPhysics final : public Arm {
   std::vector<Push> pushes_;
   bool near_contact_ = true;
   double free_step_s_ = kStep_s;
+  double stable_step_s_ = kLongestStep_s;
   std::uint64_t contact_slots_ = 0;
   int most_sweeps_ = 0;
 };

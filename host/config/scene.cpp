@@ -1,5 +1,6 @@
 // Scenes: checks of the table.
 #include <cmath>
+#include <set>
 
 #include "host/config/canonical.hpp"
 #include "host/config/config.hpp"
@@ -162,6 +163,20 @@ SceneMargins read_margins(const Field& field) {
   return margins;
 }
 
+// Messages and reports name a body: no two may share a name. The pieces of a chain are one body.
+void check_names(const Field& table) {
+  std::set<std::string> names;
+  for (const char* kind : {"boxes", "spheres", "convex"}) {
+    if (!table.json().contains(kind)) continue;
+    const Field bodies = table.at(kind);
+    for (std::size_t i = 0; i < bodies.json().size(); ++i) {
+      const Field name = bodies.element(i).at("name");
+      if (!names.insert(name.name(40)).second)
+        name.refuse("a name that no other body of the scene has", "rename one of them");
+    }
+  }
+}
+
 }  // namespace
 
 ScenePose read_pose(const Field& field) {
@@ -194,6 +209,7 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
     const std::size_t convex_count = convex.size(0, kMostConvex, "at most 64 convex bodies");
     for (std::size_t i = 0; i < convex_count; ++i) read_convex(convex.element(i), out.convex);
   }
+  check_names(table);
   if (json.contains("slit")) check_slit(table.at("slit"), out.slit.emplace(read_slit(table.at("slit"))));
   if (json.contains("rod")) out.rod = read_rod(table.at("rod"));
   if (json.contains("camera")) out.camera = read_camera(table.at("camera"));

@@ -209,6 +209,31 @@ local function described_ways(step)
   return out
 end
 
+-- What the conditions of a step look at in the scene: { part, field, at }.
+local function described_parts(step)
+  local out = {}
+  local function add(field, condition)
+    for _, part in ipairs(condition and condition.parts or {}) do out[#out + 1] = { part = part.name, field = field, at = part.at } end
+  end
+  for _, field in ipairs { "enter", "fail_when", "exit" } do add(field, step[field]) end
+  for _, way in ipairs(step.ways) do add("next", way.when) end
+  return out
+end
+
+-- What is allowed, and may yet not be what was meant.
+local function notes_of(mission)
+  local notes, first = {}, {}
+  for i, step in ipairs(mission.steps) do
+    local where, earlier = check.step_where(mission, i), first[step.name]
+    if step.name == ways.kFinish then notes[#notes + 1] = where .. ": in next, that name is the end of the mission" end
+    if earlier then
+      notes[#notes + 1] = ("%s: step %d has that name, too: no next can lead to either of them"):format(where, earlier)
+    end
+    first[step.name] = earlier or i
+  end
+  return notes
+end
+
 -- Plain data about a mission, for `liana-mission eval mission`.
 function check.describe(mission)
   check.require_mission(mission)
@@ -218,10 +243,10 @@ function check.describe(mission)
       name = step.name, device = step.device, held_theta = sorted_held(step.hold), time_limit_s = step.time_limit_s,
       on_fail = step.on_fail, confirm = step.confirm, task = step.task, at = step.at, enter = step.enter.text, exit = step.exit.text,
       fail_when = step.fail_when.text, next = described_ways(step), plan = step.plan, start_deg = step.start_deg,
-      goal_deg = step.goal_deg, goal_pose = uses.of(step.run).pose,
+      goal_deg = step.goal_deg, goal_pose = uses.of(step.run).pose, parts = described_parts(step),
     }
   end
-  return { format = 1, kind = "mission", name = mission.name, steps = steps }
+  return { format = 1, kind = "mission", name = mission.name, steps = steps, notes = notes_of(mission) }
 end
 
 return check

@@ -91,6 +91,26 @@ TEST(BenchPhysics, StepsAreShortWhereTheArmCouldTouchSomething) {
   EXPECT_EQ(arm.longest_step_s(), ArmPhysics::kStep_s);
 }
 
+// The same arm with links of two grams: its cables swing it a hundred times as fast.
+TEST(BenchPhysics, StiffCablesOnLightLinksGetStepsThatKeepThemStill) {
+  RobotConfig robot = fixture_robot();
+  robot.module_mass_kg *= 1e-4;
+  robot.viscous_Nms_per_rad = 1e-4;
+  ArmPhysics arm(robot, fixture_scene(), table_parameters(robot, "nominal"), start_pose(robot, "prepare", 0.0, 1));
+  arm.begin_slot(0.004);
+  const double step_s = arm.longest_step_s();
+  EXPECT_LT(step_s, ArmPhysics::kStep_s);
+  const Theta start = arm.theta_rad();
+  const CableValues payout = arm.payouts_m();
+  for (int i = 0; i < 2000; ++i) arm.step(step_s, payout);
+  EXPECT_LT(largest_change_deg(arm.theta_rad(), start), 1e-3);
+  robot.module_mass_kg *= 1e-6;
+  robot.viscous_Nms_per_rad = 0.0;
+  EXPECT_THROW(
+      ArmPhysics(robot, fixture_scene(), table_parameters(robot, "nominal"), start_pose(robot, "prepare", 0.0, 1)),
+      std::runtime_error);
+}
+
 TEST(BenchPhysics, EnergyDoesNotGrowWithoutDampingAndWithMotorsFixed) {
   ArmPhysics arm = table_arm("ideal", "prepare");
   arm.set_joint_damping(0.0);

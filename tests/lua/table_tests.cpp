@@ -162,6 +162,26 @@ TEST(Eval, DescribesTheSlitCrossing) {
   EXPECT_EQ(mission["steps"][3]["held_theta"], Json({9}));
 }
 
+// What only the scene can tell, and what may not be meant, goes to who starts the mission.
+TEST(Eval, DescribesWhatConditionsLookAtAndNamesThatTwoStepsHave) {
+  const TemporaryFolder folder;
+  const std::string rest = " device = 'none', time_limit_s = 1, on_fail = 'hold', exit = liana.";
+  const Ended ended = run_program(
+      "eval mission " +
+      folder.write("given.lua", "local liana = require 'liana'\nreturn liana.mission 'm' {\nliana.step 'a' {" + rest +
+                                    "all { liana.at_rest(), liana.tip_near_rod(0.1) } },\nliana.step 'a' {" + rest +
+                                    "tip_past(1) },\nliana.step 'finish' {" + rest + "at_rest() } }\n"));
+  ASSERT_EQ(ended.code, 0) << ended.error;
+  const auto mission = Json::parse(ended.out);
+  EXPECT_EQ(mission["steps"][0]["parts"][0]["part"], "rod");
+  EXPECT_EQ(mission["steps"][1]["parts"][0]["part"], "slit");
+  EXPECT_EQ(mission["steps"][1]["parts"][0]["field"], "exit");
+  EXPECT_EQ(mission["steps"][2]["parts"].size(), 0u);
+  ASSERT_EQ(mission["notes"].size(), 2u);
+  EXPECT_NE(mission["notes"][0].text().find("step 1 has that name, too"), std::string::npos);
+  EXPECT_NE(mission["notes"][1].text().find("in next, that name is the end"), std::string::npos);
+}
+
 struct BadMission {
   const char* steps;
   const char* message;

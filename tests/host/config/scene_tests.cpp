@@ -138,6 +138,20 @@ TEST(Scene, HasConvexBodiesOfPointsCylindersAndChains) {
   EXPECT_EQ(scene.convex[3].points_m[1], (Vec3{1, 1, 0}));
 }
 
+TEST(Scene, TwoBodiesOfOneNameAreRefusedAndThePiecesOfAChainAreOne) {
+  Json table = Json::parse(kConvex);
+  EXPECT_NO_THROW(parse_scene(table.dump(), "s"));
+  table["spheres"] = {{{"name", "tank"}, {"center_m", {0, 0, 0}}, {"radius_m", 1}}};
+  try {
+    parse_scene(table.dump(), "s");
+    FAIL() << "was taken";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("convex[2].name: \"tank\": allowed a name that no other body"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Scene, ConvexBodiesAreRefusedWithFieldValueRangeAndAdvice) {
   const Json flat = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
   const std::vector<Spoiled> cases = {
