@@ -164,6 +164,17 @@ struct ClientOptions {
 };
 // The state of every running system, each named by its socket; exit code 1 when one does not answer.
 int status_command(const ClientOptions& options);
+
+struct DeviceOptions {
+  std::string api;   // empty: every running system
+  std::string name;  // watch: of the device
+  std::string rate_hz = "10", seconds = "86400";
+  bool json = false;
+};
+// What input devices are connected, what they can, and how their packets travel.
+int device_list_command(const DeviceOptions& options);
+// One device's newest samples, until it is over or interrupted; 1 when it is not connected.
+int device_watch_command(const DeviceOptions& options);
 // Emergency stop of every running system (stop, brakes, disable), each named by its socket; exit code 1 when one does
 // not confirm.
 int estop_command(const ClientOptions& options);

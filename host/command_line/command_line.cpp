@@ -69,6 +69,10 @@ Option Command::option(const std::string& name, std::uint64_t& value, const std:
   return Option(*app_->add_option(name, value, about)->check(whole_number_problem));  // -1 would wrap
 }
 
+Option Command::option(const std::string& name, double& value, const std::string& about) {
+  return Option(*app_->add_option(name, value, about));
+}
+
 void Command::flag(const std::string& name, bool& value, const std::string& about) {
   app_->add_flag(name, value, about);
 }

@@ -39,6 +39,7 @@ class Command {
   // An option with a value ("--api"), or a word at its place ("directory"). `value` is set by parse() when it is given.
   Option option(const std::string& name, std::string& value, const std::string& about);
   Option option(const std::string& name, std::uint64_t& value, const std::string& about);
+  Option option(const std::string& name, double& value, const std::string& about);
   // An option without a value.
   void flag(const std::string& name, bool& value, const std::string& about);
   // A command below this one; exactly one of them must be given.

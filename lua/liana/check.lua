@@ -7,7 +7,6 @@ local ways = require "liana.ways"
 
 local check = {}
 
-local kDevices = { vr = true, hand = true, none = true }
 local kFeedbacks = { aligned = true, claim = true, abstract = true, off = true }
 local kOnFail = { retract = true, hold = true, stop = true, pause = true }
 local kDefaultEnterLimit_s = 10
@@ -26,6 +25,9 @@ end
 local function one_of(words, text)
   return { allowed = text, ok = function(v) return words[v] == true end }
 end
+
+-- A kind of device, `none`, or what a device may be called.
+local function is_device(v) return type(v) == "string" and #v <= 31 and v:find("^[%w_.-]+$") ~= nil end
 
 local condition_rule = { allowed = "a condition, such as at_rest() or all { ... }", ok = is_condition }
 local action_rule = { allowed = "an action such as move_to \"prepare\", or a function of arm", ok = function(v) return type(v) == "function" end }
@@ -46,7 +48,7 @@ end
 local kStep = {
   at = { allowed = "nothing", ok = function(v) return type(v) == "string" end }, -- where it stands, noted by liana.step
   name = { allowed = "a text of 1 to 60 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 60 end, required = true },
-  device = { allowed = "\"vr\", \"hand\" or \"none\"", ok = one_of(kDevices).ok, required = true },
+  device = { allowed = "\"vr\", \"hand\", \"pointer\", \"none\" or the name of a device", ok = is_device, required = true },
   exit = condition_rule,
   time_limit_s = { allowed = "seconds over 0, up to 3600", ok = seconds_up_to(3600).ok, required = true },
   on_fail = { allowed = "\"retract\", \"hold\", \"stop\" or \"pause\"", ok = one_of(kOnFail).ok, required = true },
@@ -75,7 +77,9 @@ local kHandTasks = { slit = true, rod = true }
 
 local function check_task(where, fields)
   if fields.task == nil then return end
-  if fields.device == "none" then refuse(where, "task", fields.task, "only with device vr or hand", "name the device or remove task") end
+  if fields.device ~= "vr" and fields.device ~= "hand" then
+    refuse(where, "task", fields.task, "only with device vr or hand", "name the device or remove task")
+  end
   if fields.device == "hand" and not kHandTasks[fields.task] then
     refuse(where, "task", fields.task, "\"slit\" or \"rod\" for device hand", "name one of them or remove task")
   end
@@ -115,7 +119,7 @@ local function check_step(where, fields)
   end
   for _, field in ipairs { "steer", "fixtures", "feedback" } do
     if fields[field] ~= nil and fields.device == "none" then
-      refuse(where, field, "given", "only with device vr or hand", "name the device or remove " .. field)
+      refuse(where, field, "given", "only with a device", "name the device or remove " .. field)
     end
   end
   for _, field in ipairs { "device", "fixtures", "feedback" } do

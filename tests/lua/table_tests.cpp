@@ -190,8 +190,8 @@ struct BadMission {
 TEST(Eval, RefusesMalformedMissionsByStepAndField) {
   const std::vector<BadMission> missions = {
       {"", "mission m: steps: none"},
-      {"step 'a' { device = 'joystick', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "step 1 \"a\": device: joystick: allowed \"vr\""},
+      {"step 'a' { device = 'joy stick', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "step 1 \"a\": device: joy stick: allowed \"vr\""},
       {"step 'a' { device = 'none', exit = at_rest, time_limit_s = 1, on_fail = 'hold' }",
        "step 1 \"a\": exit: function: allowed a condition"},
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 0, on_fail = 'hold' }",
@@ -206,7 +206,7 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
       {"step 'a' { device = 'none', exit = at_rest(), time_limit_s = 1, on_fail = 'hold', untill = 1 }",
        "untill: 1: allowed no such field"},
       {"step 'a' { device = 'none', steer = {}, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
-       "steer: given: allowed only with device"},
+       "steer: given: allowed only with a device"},
       {"step 'a' { device = 'vr', steer = { node = 9 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        "steer: node = 9: allowed 0 to 4: choose another value (robot zhu2022)"},
       {"step 'a' { device = 'vr', steer = { sclae = 1 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",

@@ -92,6 +92,7 @@ int run(int argc, char** argv) {
   declare_missions(app, action);
   declare_seeing(app, action);
   declare_arm(app, action);
+  declare_device(app, action);
   declare_drive(app, action);
   declare_robot(app, action);
   declare_help(app, action);

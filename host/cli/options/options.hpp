@@ -49,6 +49,7 @@ void declare_missions(CLI::App& app, Action& action);  // run, check, mission
 void declare_seeing(CLI::App& app, Action& action);    // console, view, commands, log, replay
 void declare_arm(CLI::App& app, Action& action);       // status, estop, clear, calibrate, latency, faults
 void declare_drive(CLI::App& app, Action& action);     // drive scan, read, write, watch, check, jog
+void declare_device(CLI::App& app, Action& action);    // device list, watch
 void declare_robot(CLI::App& app, Action& action);     // robot export, check, new
 
 }  // namespace liana::cli
