@@ -83,7 +83,7 @@ void CableArm::balance_next_axis(std::uint64_t tick) noexcept {
   follow_acceleration(table_, estimator_.theta_rad, estimator_.tension_N, kFrictionTicks * table_.tick_s, inertia_);
   ThetaVector off_rad{};
   for (Index k = 0; k < as_index(table_.theta_count()); ++k) off_rad[k] = estimator_.theta_rad[k] - model_.theta_rad[k];
-  follow_slides(layout_, model_.geometry, off_rad, balance_);
+  follow_slides(layout_, model_.geometry, off_rad, friction_.mu + friction_sd(friction_), balance_);
   if (dither_.share > 0.0)
     fade_slip(layout_, kFrictionTicks * kDitherFade_1_s * dither_.share * table_.tick_s, balance_.slip);
   const double inertia_Nm = inertia_torque_Nm(table_, motion_.arm, inertia_, axis);
@@ -97,6 +97,7 @@ void CableArm::balance_next_axis(std::uint64_t tick) noexcept {
                              inertia_.tension_N,
                              motion_.limiter.rate_rad_s,
                              friction_.mu,
+                             friction_sd(friction_),
                              inertia_Nm,
                              table_.torque_zero.bias_N + table_.torque_zero.drift_N_h * hours,
                              contact_.state == ContactState::kDithered};

@@ -60,6 +60,7 @@ template <class A, Like<cable::TorqueBalance> T>
 void visit(A& a, T& s) {
   a("whole", s.whole);
   a("slip", s.slip);
+  a("per_mu_Nm", s.per_mu_Nm);
   a("torque_Nm", s.torque_Nm);
   a("variance_Nm2", s.variance_Nm2);
   a("pull_Nm", s.pull_Nm);

@@ -69,8 +69,9 @@ class Swaying {
                                told_.friction_mu, rate_rad_s, 0.0,   moving};
     const size_t axis = state_.axis;
     const bool is_round = watch_friction(told_, layout_, declared_mu_, now, state_);
-    follow_slides(layout_, geometry_, ThetaVector{}, balance_);
-    balance_axis(told_, layout_, {geometry_, wrap_rad, tension_N, rate_rad_s, state_.mu, 0.0, 0.0, false}, axis,
+    follow_slides(layout_, geometry_, ThetaVector{}, state_.mu + friction_sd(state_), balance_);
+    balance_axis(told_, layout_,
+                 {geometry_, wrap_rad, tension_N, rate_rad_s, state_.mu, friction_sd(state_), 0.0, 0.0, false}, axis,
                  balance_);
     if (!is_round) return;
     end_round(told_, limits_, ThetaVector{}, balance_);

@@ -14,7 +14,7 @@ namespace liana::cable {
 
 constexpr std::uint8_t kContactSweeps = 2;  // looks at all angles in a row: 0.64 s
 constexpr double kContactTip_N = 3.0;       // a push at the tip is explained up to this
-constexpr double kContactMisfit = 2.0;      // of the rest, per angle that is left over: more is a contact of the body
+constexpr double kContactMisfit = 2.0;      // of the rest, per angle: more is a contact of the body
 constexpr double kContactMost_N = 30.0;     // deviation of a force that nothing shows
 constexpr double kContactSeen_N = 1.0;      // a direction is told when it is surer than this
 constexpr double kContactMoved_N = 0.5;     // the force has changed by so much: friction has found new places

@@ -28,7 +28,7 @@ void weigh_friction(const CableLayout& layout, const BalanceReadings& now, std::
       const bool slides = (turning & ((2u << layout.segment[c]) - 1u)) >> j != 0;
       const double resting = slides ? 1.0 - std::fabs(state.slip.sigma[c][j]) : 1.0;
       const double unsure = now.dithered ? kFrictionDithered : kFrictionKnown + kFrictionResting * resting;
-      const double part = square(now.mu * now.wrap_rad[j] * unsure);
+      const double part = square((now.mu + now.mu_sd) * now.wrap_rad[j] * unsure);
       state.own[c][j] = before + 0.25 * part;  // half of the segment's bend
       state.shared[c][j] = before + 0.5 * part;
       before += part;
@@ -36,10 +36,10 @@ void weigh_friction(const CableLayout& layout, const BalanceReadings& now, std::
   }
 }
 
-double exponent_until(const BalanceReadings& now, const SegmentVector& sigma, Index own) noexcept {
+double slid_until(const BalanceReadings& now, const SegmentVector& sigma, Index own) noexcept {
   double slid_rad = 0.5 * sigma[own] * now.wrap_rad[own];
   for (Index j = 0; j < own; ++j) slid_rad += sigma[j] * now.wrap_rad[j];
-  return now.mu * slid_rad;
+  return slid_rad;
 }
 
 }  // namespace
@@ -69,36 +69,40 @@ void reset_balance(const CableGeometry& geometry, const SlipState& planned, Torq
   state.slip.part_m = geometry.part_m;
 }
 
-void follow_slides(const CableLayout& layout, const CableGeometry& geometry, const ThetaVector& off_rad,
+void follow_slides(const CableLayout& layout, const CableGeometry& geometry, const ThetaVector& off_rad, double most_mu,
                    TorqueBalance& state) noexcept {
+  constexpr double kLeast_mu = 0.02;  // a cable without friction slides at once
   CableParts part_m = geometry.part_m;
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j)
       part_m[c][j] += dot_pairs(&geometry.jacobian_m_rad[c][2 * j], &off_rad[2 * j], 1);
   }
-  advance_slip(layout, part_m, kFeltPresliding_m, state.slip);
+  advance_slip(layout, part_m, kFeltPresliding_m * larger(kLeast_mu, most_mu), state.slip);
 }
 
 void balance_axis(const RobotTable& table, const CableLayout& layout, const BalanceReadings& now, Index axis,
                   TorqueBalance& state) noexcept {
   const Index own = axis / 2;
   if (axis == 0) weigh_friction(layout, now, turning_segments(table, now.rate_rad_s), state);
-  double torque_Nm = now.inertia_Nm;
+  double torque_Nm = now.inertia_Nm, per_mu_Nm = 0.0;
   ThetaVector variance_Nm2{};
   Index c = 0;
   while (static_cast<Index>(layout.segment[c]) < own) ++c;
   for (; c < static_cast<Index>(layout.cable_count); ++c) {
     const double tension_N = larger(now.tension_N[c], table.tension.floor_anywhere_N);
-    const double pull_Nm =
-        now.geometry.jacobian_m_rad[c][axis] * exponential(-exponent_until(now, state.slip.sigma[c], own)) * tension_N;
+    const double slid_rad = slid_until(now, state.slip.sigma[c], own);
+    const double pull_Nm = now.geometry.jacobian_m_rad[c][axis] * exponential(-now.mu * slid_rad) * tension_N;
     const double reading = square(kTorqueGain) + square(now.bias_N / tension_N);
     torque_Nm += pull_Nm;
+    per_mu_Nm -= slid_rad * pull_Nm;
     state.pull_Nm[axis][c] = pull_Nm;
     for (Index l = 0; l <= axis; ++l) {
       const double friction = l / 2 == own ? state.own[c][own] : state.shared[c][l / 2];
       variance_Nm2[l] += pull_Nm * state.pull_Nm[l][c] * (reading + friction);
     }
   }
+  state.per_mu_Nm[axis] = per_mu_Nm;
+  for (Index l = 0; l <= axis; ++l) variance_Nm2[l] += square(now.mu_sd) * per_mu_Nm * state.per_mu_Nm[l];
   const double share = round_s(table) / (kFeltFilter_s + round_s(table));
   state.torque_Nm[axis] += share * (torque_Nm - state.torque_Nm[axis]);
   state.variance_Nm2[axis] = variance_Nm2;

@@ -14,7 +14,7 @@
 
 namespace liana::cable {
 
-constexpr double kFeltPresliding_m = 1e-4;  // of slides that are measured: they begin sooner than planned ones
+constexpr double kFeltPresliding_m = 2e-3;  // of slides that are measured, times the most that mu may be
 constexpr double kFeltFilter_s = 0.6;       // of the torques, one look at all angles after the other
 
 // Deviations of what the balance takes for given.
@@ -40,6 +40,7 @@ TorqueLimits make_torque_limits(const RobotTable& table) noexcept;
 struct TorqueBalance {
   bool whole = false;                              // every axis has been balanced
   SlipState slip{};                                // felt
+  ThetaVector per_mu_Nm{};                         // change of the torques with mu
   ThetaVector torque_Nm{};                         // that nothing explains, low-passed
   TorqueMatrix variance_Nm2{};                     // of it
   std::array<CableVector, kMaxTheta> pull_Nm{};    // of every cable about each angle
@@ -56,6 +57,7 @@ struct BalanceReadings {
   const CableVector& tension_N;   // measured, low-passed
   const ThetaVector& rate_rad_s;  // commanded
   double mu;                      // as found
+  double mu_sd;                   // its standard deviation
   double inertia_Nm;              // what the arm's mass takes about the axis
   double bias_N;                  // deviation of each drive's zero of torque, drift in it
   bool dithered;                  // nothing has moved since a dither
@@ -64,9 +66,9 @@ struct BalanceReadings {
 // The arm stands here; which way its cables have slid last is as planned.
 void reset_balance(const CableGeometry& geometry, const SlipState& planned, TorqueBalance& state) noexcept;
 
-// Follows the slides of all cables; `off_rad` is measured less commanded. Cost: eight operations per cable and segment
-// passed.
-void follow_slides(const CableLayout& layout, const CableGeometry& geometry, const ThetaVector& off_rad,
+// Follows the slides of all cables; `off_rad` is measured less commanded, `most_mu` the most that friction may be.
+// Cost: eight operations per cable and segment passed.
+void follow_slides(const CableLayout& layout, const CableGeometry& geometry, const ThetaVector& off_rad, double most_mu,
                    TorqueBalance& state) noexcept;
 
 // One axis anew; axes come in order, from 0. Cost: one exponential per cable, four operations per cable and earlier
