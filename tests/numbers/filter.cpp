@@ -12,9 +12,11 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "firmware_like/cable/motion/motion.hpp"
+#include "firmware_like/math/trig.hpp"
 #include "tests/closed_loop/fixture.hpp"
 #include "tests/closed_loop/hand_to_tip.hpp"
 #include "tests/numbers/filter_rivals.hpp"
