@@ -67,7 +67,7 @@ bool brake_channel(const FilterBounds& bounds, double tick_s, ChannelState& stat
 // Lag [s] behind a target that moves with constant velocity below the limits, without the tremor stage's kTremorLag_s.
 double lag_s(const FilterBounds& bounds) noexcept;
 
-// The shortest lag [s] with which a target that stops dead is not overshot.
+// The shortest lag [s] with which a target that stops dead is not overshot by more than 5 ms of the speed limit.
 double least_lag_s(const FilterBounds& bounds) noexcept;
 
 // The same bounds with a lag of `lag_s`, and a speed limit that may be lowered to `speed` without changing it: pull and

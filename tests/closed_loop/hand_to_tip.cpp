@@ -26,8 +26,8 @@ Setpoint goal_at(const Pose& tip, const Led& led) {
   return setpoint;
 }
 
-RobotTable table_with(const MotionLimits& limits) {
-  RobotTable table = robot_table();
+RobotTable table_with(const std::string& physics, const MotionLimits& limits) {
+  RobotTable table = robot_table(physics);
   table.limits = limits;
   return table;
 }
@@ -61,8 +61,8 @@ Following lead(ArmUnderControl& arm, const Led& led, const Hand& hand, double se
 
 }  // namespace
 
-ArmToLead::ArmToLead(const Led& led, const MotionLimits& limits, std::uint64_t seed)
-    : ArmUnderControl({"nominal", seed, true, led.pose}, table_with(limits)) {}
+ArmToLead::ArmToLead(const PlantSetup& setup, const MotionLimits& limits)
+    : ArmUnderControl(setup, table_with(setup.physics, limits)) {}
 
 void ArmToLead::settle(const Led& led) {
   boot();

@@ -22,7 +22,8 @@ struct Led {
 };
 
 struct Following {
-  double lag_s = 0.0;  // of the true tip behind the hand at constant speed, mean over a whole swing
+  double lag_s = 0.0;  // of the true tip behind the hand at constant speed, mean over a whole swing: what it stands off
+                       // counts as lag, so of the exact arm only
   double swing_mm =
       0.0;  // largest way of the true tip away from where it is commanded, beside what it stood off before
   double overshoot_mm = 0.0;  // of the true tip past the end of the way
@@ -30,9 +31,13 @@ struct Following {
   std::int32_t faults = 0;
 };
 
-// The nominal arm with the table's figures but for these limits, near the pose.
+// As the table says, without friction; and one with friction that differs from the table by `seed`.
+inline PlantSetup exact_arm(const Led& led) { return {"ideal", 1, false, led.pose}; }
+inline PlantSetup real_arm(const Led& led, std::uint64_t seed) { return {"nominal", seed, true, led.pose}; }
+
+// An arm whose controller has the table's figures but for these limits.
 struct ArmToLead : ArmUnderControl {
-  ArmToLead(const Led& led, const cable::MotionLimits& limits, std::uint64_t seed);
+  ArmToLead(const PlantSetup& setup, const cable::MotionLimits& limits);
   // Boots, goes to the pose and comes to rest there, held variables where they belong.
   void settle(const Led& led);
 };

@@ -53,7 +53,9 @@ TEST(TremorNotch, AmplifiesNothingAndLeavesWhatIsSlow) {
     const Gain gain = gain_at(hz, kTick_s);
     ASSERT_LT(gain.position_dB, 0.01) << hz;
     ASSERT_LT(gain.attitude_dB, 0.01) << hz;
-    if (hz <= 2.0) ASSERT_GT(gain.position_dB, -0.5) << hz;
+    if (hz <= 2.0) {
+      ASSERT_GT(gain.position_dB, -0.5) << hz;
+    }
   }
 }
 
@@ -72,7 +74,7 @@ TEST(TremorNotch, IsLateByTheStatedTimeAndTellsTheVelocity) {
 
 // Once round about changing axes, which leaves nothing behind.
 TEST(TremorNotch, ATargetThatRestsIsReachedToTheLastBitWhateverWentBefore) {
-  zhu2022::Random random(3);
+  cable::zhu2022::Random random(3);
   TremorState state;
   Pose target;
   for (int i = 0; i < 5000; ++i) {

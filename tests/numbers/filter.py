@@ -45,7 +45,7 @@ def measure(binaries, count=3):
         " 0.5 mm RMS: 8 to 12 Hz, sampled at 90 Hz and averaged over command intervals as a device's samples are.\n\n"
     )
     text += table(HEAD, [row(found) for found in values["filters"]])
-    text += "\n\nThe true tip after a hand, its samples 50 ms on their way to a goal in force (worst of the seeds; physics nominal, spread); swing: away from where it is commanded:\n\n"
+    text += "\n\nThe true tip after a hand, its samples 50 ms on their way to a goal in force (lag of an arm as the table says, without friction; the rest with friction, the worst of the seeds); swing: away from where it is commanded:\n\n"
     text += table(LED, [led_row(found) for found in values["led"]])
     return values, text
 
