@@ -120,6 +120,17 @@ struct TeleopOptions {
 // Drives the arm from this terminal, of a running system or a simulated one, until x or Ctrl-C (docs/teleop.md).
 int teleop_command(const TeleopOptions& options);
 
+struct LinkOptions {
+  std::string listen;         // where devices come
+  std::string devices;        // lianad's own socket of devices
+  std::string delay = "0,0";  // FORWARD_S,RETURN_S
+  double jitter = 0.05;       // share of a delay, 0 .. 1
+  double loss = 0.0;          // share of samples and states, 0 .. 1
+  std::uint64_t seed = 1;
+};
+// Carries the packets of devices to lianad and back, late, until Ctrl-C (docs/operator.md).
+int link_command(const LinkOptions& options);
+
 struct ViewOptions {
   std::string run;       // its folder, or its name among the newest; empty: the one that ended last
   bool live = false;     // the console of what runs, in place of a run's page

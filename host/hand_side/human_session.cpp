@@ -122,6 +122,7 @@ void HumanSession::hear_of_hand(const News& news, bool engaged, double now_s) {
     slowed_m_ = {};
   }
   if (news.for_device) feel(*news.for_device);
+  feel_walls(news.for_device ? &*news.for_device : nullptr);
 }
 
 void HumanSession::feel(const liana_state& told) {
@@ -133,6 +134,17 @@ void HumanSession::feel(const liana_state& told) {
   if (const auto then = unmended_.at(of_us); answers && then)
     slowed_m_ = subtract(place(told.setpoint_cp.position_m), then->position_m);
   if (table_.law) held_.loop().take({told.header.sequence, told.answers_us, told.held_us, tip});
+}
+
+// A wall that is not told any more has no stiffness.
+void HumanSession::feel_walls(const liana_state* told) {
+  static_assert(haptic::kMostWalls == LIANA_MOST_PLANES);
+  const std::uint32_t count = table_.walls && told != nullptr ? told->planes : 0;
+  for (std::size_t slot = 0; slot < haptic::kMostWalls; ++slot) {
+    const liana_plane none{{1.0, 0.0, 0.0}, 0.0, 0.0, 0.0};
+    const liana_plane& plane = slot < count ? told->plane[slot] : none;
+    held_.loop().take({place(plane.normal), plane.offset_m, plane.stiffness_N_m, plane.damping_N_s_m}, slot);
+  }
 }
 
 operator_side::OperatorAnswer HumanSession::act(double now_s) {

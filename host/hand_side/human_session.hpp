@@ -21,6 +21,7 @@ namespace liana::hand_side {
 struct HumanTable {
   std::optional<haptic::Law> law = haptic::Law::kAligned;  // nothing: no force of the arm is felt
   bool passivity = true;                                   // energy tank and damping at the device
+  bool walls = true;                                       // those that the device is told are felt
   double there_and_back_s = 0.0;                           // delay of the link, known to the person
   std::uint64_t seed = 1;
 };
@@ -58,6 +59,7 @@ class HumanSession {
   void begin_step(const Json& state, double now_s);
   void hear_of_hand(const News& news, bool engaged, double now_s);
   void feel(const liana_state& told);
+  void feel_walls(const liana_state* told);
   std::vector<device::Sample> lead(double now_s);
   std::vector<device::Sample> steer(double from_s, double now_s);
   bool has_arrived() const;

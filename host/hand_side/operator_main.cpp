@@ -29,6 +29,7 @@ struct OperatorOptions {
   std::string who = "recorded";
   std::string feedback = "aligned";
   std::string passivity = "on";
+  std::string fixtures = "on";
   std::string delay = "0,0";
   std::string figures;  // empty: nobody asks
   std::uint64_t seed = 1;
@@ -78,6 +79,7 @@ std::unique_ptr<Steering> human(const OperatorOptions& options, const Json& welc
   HumanTable table;
   table.law = haptic::law_of(options.feedback);
   table.passivity = options.passivity == "on";
+  table.walls = options.fixtures == "on";
   table.there_and_back_s = delays.forward_s + delays.back_s;
   table.seed = options.seed;
   return std::make_unique<HumanSteering>(HumanSession(table, robot, scene_of(options, welcome)), delays, options.seed);
@@ -166,6 +168,8 @@ int main(int argc, char** argv) {
   line.option("--feedback", options.feedback, "of the human: a law (docs/force-feedback.md), or off")
       .one_of({"aligned", "claim", "abstract", "off"});
   line.option("--passivity", options.passivity, "of the human: energy tank and damping").one_of({"on", "off"});
+  line.option("--fixtures", options.fixtures, "of the human: the walls that lianad tells are felt")
+      .one_of({"on", "off"});
   line.option("--delay", options.delay, "of the human: FORWARD_S,RETURN_S of the link to the arm, each 0 to 2");
   line.option("--figures", options.figures, "file for what only the operator knows: lag, force at the hand, energy");
   line.option("--seed", options.seed, "seed of tremor, glitches and dropouts");

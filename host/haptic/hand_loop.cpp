@@ -46,6 +46,15 @@ void HandLoop::feel_hand(const Vec3& position_m) noexcept {
   begun_ = true;
 }
 
+Vec3 HandLoop::force_of_walls() noexcept {
+  Vec3 sum{};
+  for (MovingPlane& wall : walls_) {
+    wall.advance();
+    sum = add(sum, wall.force(hand_));
+  }
+  return sum;
+}
+
 double HandLoop::freshness(bool engaged) const noexcept {
   if (!engaged || !heard_) return 0.0;
   const double age_s = 1e-6 * static_cast<double>(heard_->since_us);
@@ -63,11 +72,10 @@ Vec3 HandLoop::wanted_of_arm(const Vec3& commanded_m) const noexcept {
 const HandForce& HandLoop::step(const device::Sample& sample, const Vec3& commanded_m) noexcept {
   if (sample.valid) feel_hand(sample.pose.position_m);
   if (heard_) heard_->since_us += kTick_us;
-  wall_.advance();
   out_.fresh = freshness(sample.valid && sample.deadman);
   const Vec3 wanted = no_longer(scale(wanted_of_arm(commanded_m), out_.fresh), table_.force_N);
   out_.law_N = add(out_.law_N, no_longer(subtract(wanted, out_.law_N), table_.law_N_s * kTick_s));
-  out_.wall_N = wall_.force(hand_);
+  out_.wall_N = force_of_walls();
   const Vec3 drag = scale(hand_.velocity_m_s, -table_.damping_N_s_m);
   const Vec3 sum = sample.valid ? add(add(out_.law_N, out_.wall_N), drag) : Vec3{};
   const Vec3 bounded = no_longer(sum, table_.force_N);

@@ -4,6 +4,7 @@
 //   law  ->  fade out of what is old  ->  rate limit  ->  + wall and damping  ->  clamp  ->  energy tank  ->  motors
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -39,6 +40,8 @@ struct HandForce {
   bool clamped = false;
 };
 
+constexpr std::size_t kMostWalls = 6;
+
 // Deterministic: the same calls give the same forces. No heap, no clock.
 class HandLoop {
  public:
@@ -49,8 +52,8 @@ class HandLoop {
   bool take(const StatePacket& packet) noexcept;
   // Where the arm is predicted to be at `t_us` of the hand's clock: had every command acted when it was sent.
   void predict(std::int64_t t_us, const Motion& tip) noexcept { predictions_.put(t_us, tip); }
-  // The wall, every 20 ms; false and no effect when it is not valid.
-  bool take(const Plane& plane) noexcept { return wall_.take(plane); }
+  // A wall in one of kMostWalls slots, every 20 ms; false and no effect when it is not valid, or there is no such slot.
+  bool take(const Plane& plane, std::size_t slot = 0) noexcept { return slot < kMostWalls && walls_[slot].take(plane); }
   // Another law, from the next step on; the rate limit makes the switch smooth.
   void choose(Law law) noexcept { table_.law = law; }
   // Another mapping: the tip's way for one of the hand, over 0. From the next step on; smooth, too.
@@ -70,13 +73,14 @@ class HandLoop {
     std::int64_t since_us = 0;
   };
   void feel_hand(const Vec3& position_m) noexcept;
+  Vec3 force_of_walls() noexcept;
   double freshness(bool engaged) const noexcept;
   Vec3 wanted_of_arm(const Vec3& commanded_m) const noexcept;
 
   HandLoopTable table_;
   Newest newest_;
   PredictionTrack predictions_;
-  MovingPlane wall_;
+  std::array<MovingPlane, kMostWalls> walls_{};
   EnergyTank tank_;
   std::optional<Heard> heard_;
   Motion hand_{};

@@ -31,7 +31,8 @@ struct Delays {
 // "FORWARD_S,RETURN_S", e.g. 0.5,0.5; each 0 to 2. Throws std::invalid_argument that says so, and what was given.
 Delays delays_of(const std::string& text);
 
-template <class Packet>
+// `kMost`: packets that can be under way; more are lost.
+template <class Packet, std::size_t kMost = 1024>
 class Link {
  public:
   // `purpose` separates links of one seed.
@@ -67,11 +68,10 @@ class Link {
     return packet;
   }
 
-  // Packets that never come: lost, or more than 1024 under way.
+  // Packets that never come: lost, or more than kMost under way.
   std::int64_t lost() const { return lost_; }
 
  private:
-  static constexpr std::size_t kMost = 1024;
   struct Flight {
     std::int64_t due_us = 0;
     Packet packet{};

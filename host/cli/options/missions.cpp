@@ -56,6 +56,9 @@ void add_people(CLI::App& sub, system::OperatorChoice& people) {
   sub.add_option("--feedback", people.feedback,
                  "of the human: the law of the force on the hand, aligned where nothing is said, or off")
       ->check(CLI::IsMember({"aligned", "claim", "abstract", "off"}));
+  sub.add_option("--fixtures", people.fixtures,
+                 "of the human: the hand feels the walls of fixtures that lianad tells; on where nothing is said")
+      ->check(CLI::IsMember({"on", "off"}));
   sub.add_option("--passivity", people.passivity,
                  "of the human: energy tank and damping at the hand controller; on where nothing is said")
       ->check(CLI::IsMember({"on", "off"}));

@@ -51,6 +51,18 @@ void add_teleop(CLI::App& app, Action& action) {
                  "a joystick device like /dev/input/js0, beside the keys (docs/teleop.md)");
 }
 
+void add_link(CLI::App& app, Action& action) {
+  auto [sub, link] = add<LinkOptions>(
+      app, action, "link", "a delayed link between devices and lianad, to try it out; ends with Ctrl-C", link_command);
+  sub.add_option("--listen", link.listen, "socket at which devices come")->required();
+  sub.add_option("--devices", link.devices, "lianad's socket of devices, to which they go on")->required();
+  sub.add_option("--delay", link.delay, "FORWARD_S,RETURN_S, e.g. 0.5,0.5, each 0 to 2 s");
+  sub.add_option("--jitter", link.jitter, "share by which every delay varies; packets overtake each other")
+      ->check(within(0.0, 1.0));
+  sub.add_option("--loss", link.loss, "share of samples and states that never come")->check(within(0.0, 1.0));
+  add_seed(sub, link.seed, "seed of jitter and loss");
+}
+
 void add_view(CLI::App& app, Action& action) {
   auto [sub, view] = add<ViewOptions>(app, action, "view",
                                       "the page of a run: what happened, in one file for a browser", view_command);
@@ -138,6 +150,7 @@ void add_replay(CLI::App& app, Action& action) {
 void declare_seeing(CLI::App& app, Action& action) {
   add_console(app, action);
   add_teleop(app, action);
+  add_link(app, action);
   add_view(app, action);
   add_commands(app, action);
   add_log(app, action);

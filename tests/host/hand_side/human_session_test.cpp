@@ -109,5 +109,37 @@ TEST(HumanSession, CrossesTheSlitBehindASecondOfDelay) {
   EXPECT_GT(c.hand.least_energy_J, -0.1);
 }
 
+TEST(HumanSession, RepeatsByTheSameSeedToTheLastSample) {
+  const auto first_minute = [](std::uint64_t seed) {
+    HumanTable table;
+    table.seed = seed;
+    HumanSteering person = human(table, {0.1, 0.1});
+    HumanRig rig({}, zhu2022::table(), zhu2022::radians(zhu2022::kPrepare_deg), scene(), person);
+    rig.step("vr", "edge", {"vr", device::Kind::kHandles, {4.0, 2.0}, 3, 0.1, false}, 20.0);
+    return rig.arm().theta_rad();
+  };
+  EXPECT_EQ(first_minute(3), first_minute(3));
+  EXPECT_NE(first_minute(3), first_minute(4));
+}
+
+TEST(HumanSession, StatesOfAnotherRobotAndOnesWithoutAPoseAreRefusedByName) {
+  HumanSession session({}, robot(), scene());
+  const Json step{{"index", 1}, {"name", "a"}, {"device", "hand"}, {"task", "slit"}, {"entry", 1}};
+  const Json no_pose{{"time_s", 1.0}, {"step", step}, {"device", "hand"}};
+  try {
+    session.hear({no_pose, {}, std::nullopt}, 1.0);
+    FAIL() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("setpoint_cp"), std::string::npos);
+  }
+}
+
+TEST(HumanSession, DoesNothingInStepsThatAreNotForItsDevices) {
+  HumanSession session({}, robot(), scene());
+  const Json step{{"index", 1}, {"name", "a"}, {"device", "none"}, {"task", ""}, {"entry", 1}};
+  session.hear({{{"time_s", 1.0}, {"step", step}, {"device", "none"}}, {}, std::nullopt}, 1.0);
+  EXPECT_TRUE(session.act(1.02).samples.empty());
+}
+
 }  // namespace
 }  // namespace liana::test

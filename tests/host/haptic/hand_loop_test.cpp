@@ -105,6 +105,19 @@ TEST(HandLoop, WhatIsNoLongerHeardFadesAndComesBackWithoutAJump) {
   EXPECT_LE(largest_N, 0.2 + 1e-9);
 }
 
+TEST(HandLoop, WallsInSeveralSlotsAddUpAndOneThatIsNotThereIsRefused) {
+  HandLoop loop{HandLoopTable{}};
+  const Plane floor{{0.0, 0.0, 1.0}, 0.0, 1000.0, 0.0}, side{{1.0, 0.0, 0.0}, 0.0, 500.0, 0.0};
+  EXPECT_TRUE(loop.take(floor, 0));
+  EXPECT_TRUE(loop.take(side, kMostWalls - 1));
+  EXPECT_FALSE(loop.take(side, kMostWalls));
+  HandForce felt;
+  for (int k = 0; k < 100; ++k)
+    felt = loop.step({.t_us = 1000 * k, .deadman = true, .pose = {{-0.002, 0.0, -0.001}, {1.0, 0.0, 0.0, 0.0}}}, {});
+  EXPECT_NEAR(felt.wall_N[0], 1.0, 1e-9);
+  EXPECT_NEAR(felt.wall_N[2], 1.0, 1e-9);
+}
+
 TEST(HandLoop, ForceIsClampedToWhatTheDeviceCan) {
   HandLoopTable table;
   table.law = Law::kClaim;

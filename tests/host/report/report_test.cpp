@@ -100,6 +100,20 @@ constexpr const char* kMission = R"({"outcome":"success","repair_tick":5,"steps"
   {"name":"prepare","device":"none","held_theta":[],"duration_s":0.008,"outcome":"done","start_tick":2,"end_tick":4},
   {"name":"go","device":"hand","held_theta":[9],"duration_s":0.004,"outcome":"done","start_tick":4,"end_tick":5}]})";
 
+TEST_F(RunReport, WhatTheOperatorToldIsTakenInAndToldInWords) {
+  write("mission.json", kMission);
+  write("operator.json", R"({"hand_to_tip_lag_s":{"commanded":{"median":0.5,"worst":0.75},"measured":null},
+    "peak_hand_force_N":1.5,"min_port_energy_J":-0.01})");
+  ReportSources all = sources();
+  all.operator_file = file("operator.json");
+  const Json report = make_report(all);
+  EXPECT_DOUBLE_EQ(report["hand_to_tip_lag_s"]["commanded"]["worst"], 0.75);
+  EXPECT_DOUBLE_EQ(report["min_port_energy_J"], -0.01);
+  const std::string text = report_text(report);
+  EXPECT_NE(text.find("0.50 s in the median, 0.75 s at worst"), std::string::npos) << text;
+  EXPECT_NE(text.find("energy at its port -0.010 J at least"), std::string::npos) << text;
+}
+
 // req:A53
 TEST_F(RunReport, TruthIsTakenFromStepOneToTheRepairCommand) {
   write_truth();
@@ -114,6 +128,8 @@ TEST_F(RunReport, TruthIsTakenFromStepOneToTheRepairCommand) {
   EXPECT_DOUBLE_EQ(report["min_clearance_m"], 0.015);
   EXPECT_DOUBLE_EQ(report["min_slit_clearance_m"], 0.025);
   EXPECT_DOUBLE_EQ(report["max_contact_force_N"], 5.0);
+  EXPECT_DOUBLE_EQ(report["peak_force_N"], 5.0);
+  EXPECT_EQ(report["contacts"], 1);
   EXPECT_DOUBLE_EQ(report["cable_tension_N"]["min"], 15.0);
   EXPECT_DOUBLE_EQ(report["cable_tension_N"]["min_motor"], 25.0);
   EXPECT_DOUBLE_EQ(report["cable_tension_N"]["max"], 45.0);
