@@ -10,6 +10,7 @@
 #include "hil/arm/arm_physics.hpp"
 #include "hil/bench/bench.hpp"
 #include "hil/bench/data_sheet_file.hpp"
+#include "hil/bench/pushes.hpp"
 #include "hil/bus/embedded_bus.hpp"
 #include "hil/bus/socketcan_bus.hpp"
 
@@ -47,7 +48,7 @@ CLI::Validator within(double low, double high) {
   return {problem, ""};
 }
 
-void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, bool& no_spread) {
+void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, bool& no_spread, bool& is_check) {
   app.add_option("--robot", paths.robot, "robot JSON");
   app.add_option("--scene", paths.scene, "scene JSON");
   app.add_option("--buses", paths.buses, "bus table JSON");
@@ -91,6 +92,7 @@ void declare(CLI::App& app, Paths& paths, liana::bench::BenchOptions& options, b
   app.add_flag("--fixture", options.fixture, "the arm starts exactly in its start pose");
   app.add_option("--cross-wired", paths.cross_wired, "two drives, e.g. 3,4, that have each other's cable");
   app.add_flag("--no-spread", no_spread, "the arm is exactly as the table says (for tests)");
+  app.add_flag("--check", is_check, "look at all that is given, and end");
   app.add_option("--eds", paths.data_sheet,
                  "write the data sheet of its drives (EDS, CiA 306) here, - is standard output, and end");
 }
@@ -201,9 +203,9 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "liana-bench " LIANA_VERSION, "say which version");
   Paths paths;
   liana::bench::BenchOptions options;
-  bool no_spread = false;
+  bool no_spread = false, is_check = false;
   options.run_on_s = kRunOn_s;
-  declare(app, paths, options, no_spread);
+  declare(app, paths, options, no_spread, is_check);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -223,10 +225,12 @@ int main(int argc, char** argv) {
     options.buses = liana::bench::load_buses(paths.buses);
     if (!paths.faults.empty())
       options.faults = liana::bench::load_faults(paths.faults, drives_of(options), angles_of(options));
+    if (!options.serial_robot) liana::bench::check_pushes(options.faults, options.robot.link_count(), options.arm);
     options.spread = !no_spread;
     if (!paths.scene_offset.empty()) options.scene_offset = scene_offset(paths.scene_offset);
     if (!paths.cross_wired.empty()) options.cross_wired = two_drives(paths.cross_wired, drives_of(options));
     liana::bench::Bench bench(options);
+    if (is_check) return 0;
     const auto bus = open_bus(paths, options.buses);
     return run(bench, *bus);
   } catch (const std::exception& error) {

@@ -14,6 +14,21 @@ namespace {
 
 double smooth_step(double x) noexcept { return x * x * (3.0 - 2.0 * x); }
 
+ContactReport contact_report(const ContactWatchState& contact) noexcept {
+  ContactReport out;
+  out.sd_N = contact.sd_N;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!is_seen(contact, i)) continue;
+    out.force_N[i] = contact.force_N[i];
+    out.seen = narrow<std::uint8_t>(out.seen | 1u << i);
+  }
+  out.state = contact.state;
+  out.on_body = is_in_contact(contact) ? 1 : 0;
+  out.segment = contact.segment + 1;
+  out.torque_Nm = contact.torque_Nm;
+  return out;
+}
+
 }  // namespace
 
 CableArm::CableArm(const RobotTable& table) noexcept
@@ -23,7 +38,7 @@ CableArm::CableArm(const RobotTable& table) noexcept
       tension_watch_limits_(make_tension_watch_limits(table)) {
   for (Index c = 0; c < cables(); ++c) zero_payout_m_[c] = layout_.zero_length_m[c] + table.lead_m;
   cable_watch_limits_ = make_cable_watch_limits(table, zero_payout_m_);
-  contact_watch_limits_ = make_contact_watch_limits(table);
+  torque_limits_ = make_torque_limits(table);
   reset_friction_watch(declared_mu_, friction_);
   reset_motion(table_, ThetaVector{}, motion_);
   take_geometry();
@@ -96,6 +111,7 @@ void CableArm::stop_planning() noexcept {
   ramp_ = 0.0;
   damping_ = DampingState{};
   lift_N_ = SegmentVector{};
+  dither_ = DitherState{};
   let_go_ = LetGoState{};
   lets_out_ = false;
   payout_command_m_ = payout_measured_m_;
@@ -162,8 +178,9 @@ std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent,
 
   const bool is_sound = no_fault && !is_let_go(let_go_);
   std::uint32_t limits = plan_tensions(plans, is_sound);
+  dither(is_sound);
   if (!live_) start_ramp(sent);
-  CableVector wanted_m = payout_for(table_, layout_, model_.geometry.part_m, ratio_, tension_.motor_N);
+  CableVector wanted_m = payout_for(table_, layout_, model_.geometry.part_m, ratio_, pull_N_);
   if (ramp_ < 1.0) {
     ramp_payouts(wanted_m);
   } else {
@@ -175,6 +192,15 @@ std::uint32_t CableArm::propose(const Orders& orders, const DriveCommands& sent,
   propose_payouts(out);
   lets_out_ = count_let_go(limited == 0, let_go_);
   return limits | limited;
+}
+
+// Only an arm at rest is dithered, and one whose tensions are in doubt no more. What friction held is freed by it.
+void CableArm::dither(bool is_sound) noexcept {
+  const bool may = is_sound && !motion_.braking && at_rest(table_, motion_);
+  const double change = advance_dither(may ? motion_.to.dither_share : 0.0, table_.tick_s, dither_);
+  for (Index c = 0; c < cables(); ++c)
+    pull_N_[c] = smaller(table_.tension.ceiling_free_N, (1.0 + change) * tension_.motor_N[c]);
+  if (dither_.share > 0.0) fade_slip(layout_, kDitherFade_1_s * dither_.share * table_.tick_s, slip_);
 }
 
 void CableArm::let_out(CableVector& wanted_m) const noexcept {
@@ -211,7 +237,7 @@ void CableArm::damp_payouts(bool is_sound, CableVector& wanted_m) noexcept {
     // unstretched length.
     CableVector stretch_m;
     for (Index c = 0; c < cables(); ++c) {
-      const double planned_N = larger(tension_.motor_N[c], table_.tension.floor_anywhere_N);
+      const double planned_N = larger(pull_N_[c], table_.tension.floor_anywhere_N);
       const double planned_m = model_.geometry.length_m[c] + table_.lead_m - wanted_m[c];
       stretch_m[c] = (estimator_.tension_N[c] / planned_N - 1.0) * planned_m;
     }
@@ -227,7 +253,7 @@ void CableArm::damp_payouts(bool is_sound, CableVector& wanted_m) noexcept {
 void CableArm::propose_payouts(DriveProposals& out) const noexcept {
   for (Index c = 0; c < cables(); ++c) {
     out[c].target_counts = counts_at_payout(table_.drive[c], zero_payout_m_[c], payout_command_m_[c]);
-    out[c].torque_permille = tension_.motor_N[c] / table_.drive[c].newtons_per_permille;
+    out[c].torque_permille = pull_N_[c] / table_.drive[c].newtons_per_permille;
     out[c].lets_go = jumps_out(let_go_) || jumps_back(let_go_);
   }
 }
@@ -245,11 +271,11 @@ void CableArm::report(Report& out) const noexcept {
   out.tip_rate_rad_s = norm(tip.angular_rad_s);
   for (Index m = 0; m < as_index(table_.segment_count); ++m)
     out.node_command_m[m] = motion_.arm.node_in_base[m + 1].position_m;
-  out.tension_plan_N = tension_.motor_N;
+  out.tension_plan_N = pull_N_;
   out.tension_measured_N = tension_measured_N_;
   out.payout_command_m = payout_command_m_;
   out.friction = {friction_.mu, friction_sd(friction_), table_.friction_mu, std::uint8_t{friction_.flagged}};
-  out.contact = {contact_.tip_push_N, contact_.torque_Nm, is_in_contact(contact_) ? contact_.segment + 1 : 0};
+  out.contact = contact_report(contact_);
   out.ik_position_error_m = motion_.ik.position_error_m;
   out.ik_attitude_error_rad = motion_.ik.attitude_error_rad;
   out.ik_outcome = motion_.ik.outcome;

@@ -8,7 +8,9 @@
 #include "firmware_like/cable/arm/body_inertia.hpp"
 #include "firmware_like/cable/arm/cable_watch.hpp"
 #include "firmware_like/cable/arm/contact_watch.hpp"
+#include "firmware_like/cable/arm/dither.hpp"
 #include "firmware_like/cable/arm/estimator.hpp"
+#include "firmware_like/cable/arm/friction_watch.hpp"
 #include "firmware_like/cable/arm/let_go.hpp"
 #include "firmware_like/cable/arm/setpoint.hpp"
 #include "firmware_like/cable/arm/tension.hpp"
@@ -57,7 +59,10 @@ class CableArm {
   bool lets_go(std::int32_t) const noexcept { return is_behind(let_go_); }
   void watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept;
   ArmStatus status() const noexcept;
-  bool accepts(const Setpoint& setpoint) const noexcept { return is_usable(table_, setpoint); }
+  bool accepts(const Setpoint& setpoint) const noexcept {
+    return is_usable(table_, setpoint) &&
+           (setpoint.dither_share == 0.0 || dither_fits(table_, tension_.motor_N, setpoint.dither_share));
+  }
   void take(const Setpoint& setpoint) noexcept { accept_setpoint(table_, setpoint, motion_); }
   void brake() noexcept { motion_.braking = true; }
   bool is_braking() const noexcept { return motion_.braking; }
@@ -96,6 +101,7 @@ class CableArm {
     v("cable_watch", self.cable_watch_);
     v("friction", self.friction_);
     v("inertia", self.inertia_);
+    v("balance", self.balance_);
     v("contact", self.contact_);
     v("planned_mu", self.table_.friction_mu);
     v("motion", self.motion_);
@@ -110,6 +116,8 @@ class CableArm {
     v("tension", self.tension_);
     v("tension_change_N", self.tension_change_N_);
     v("planned_N", self.planned_N_);
+    v("dither", self.dither_);
+    v("pull_N", self.pull_N_);
     v("payout_command_m", self.payout_command_m_);
     v("ramp_start_m", self.ramp_start_m_);
     v("ramp", self.ramp_);
@@ -122,6 +130,7 @@ class CableArm {
   bool is_moving() const noexcept;
   void forget_balance() noexcept;
   void watch_balance(std::uint64_t tick, const FaultList& faults) noexcept;
+  void balance_next_axis(std::uint64_t tick) noexcept;
   void watch_body(WatchScope scope, Watch& out) const noexcept;
   bool is_homed() const noexcept { return homing_ticks_ >= kHomingTicks; }
   bool are_cables_taut() const noexcept;
@@ -136,6 +145,7 @@ class CableArm {
   bool plans_now() const noexcept { return !live_ || motion_.shape.tick % kPlanTicks == kPlanTick; }
   void aim_tensions(const TensionPlan& plan) noexcept;
   std::uint32_t plan_tensions(bool plans_now, bool is_sound) noexcept;
+  void dither(bool is_sound) noexcept;
   void ramp_payouts(CableVector& wanted_m) const noexcept;
   void damp_payouts(bool is_sound, CableVector& wanted_m) noexcept;
   void let_out(CableVector& wanted_m) const noexcept;
@@ -148,7 +158,7 @@ class CableArm {
   CableLayout layout_{};
   TensionWatchLimits tension_watch_limits_{};
   CableWatchLimits cable_watch_limits_{};
-  ContactWatchLimits contact_watch_limits_{};
+  TorqueLimits torque_limits_{};
   CableVector zero_payout_m_{};
 
   // What the drives say.
@@ -161,6 +171,7 @@ class CableArm {
   CableWatchState cable_watch_{};
   FrictionWatchState friction_{};
   BodyInertiaState inertia_{};
+  TorqueBalance balance_{};
   ContactWatchState contact_{};
 
   // Where the arm is told to go.
@@ -179,6 +190,8 @@ class CableArm {
   TensionPlan tension_{};           // in force
   CableVector tension_change_N_{};  // of it in each tick until the next plan
   CableVector planned_N_{};         // of the last plan
+  DitherState dither_{};
+  CableVector pull_N_{};  // planned, with the dither in it
   CableVector payout_command_m_{};
   CableVector ramp_start_m_{};
   double ramp_ = 0.0;  // 0..1 share of the planned pretension

@@ -45,7 +45,8 @@ void CableArm::watch(WatchScope scope, std::uint64_t tick, FaultList& faults) no
 
 // What was found of friction stays.
 void CableArm::forget_balance() noexcept {
-  friction_ = FrictionWatchState{friction_.mu, friction_.variance, 0, friction_.flagged, {}, {}};
+  friction_ = FrictionWatchState{friction_.mu, friction_.variance, 0, friction_.flagged};
+  reset_balance(model_.geometry, slip_, balance_);
   contact_ = ContactWatchState{};
   inertia_ = BodyInertiaState{};
 }
@@ -57,32 +58,58 @@ void CableArm::watch_balance(std::uint64_t tick, const FaultList& faults) noexce
       return;
     }
   }
-  // One axis in a tick; when all have been looked at, what they say together half a period later.
-  if (tick % kFrictionTicks == kFrictionTicks - 1) {
+  // One axis in a tick; when all have been looked at, what they say together half a period later; between them the
+  // places of a contact, one in a tick.
+  const auto phase = static_cast<std::uint32_t>(tick % kFrictionTicks);
+  if (phase == 0) {
+    balance_next_axis(tick);
+  } else if (phase == kFrictionTicks / 2) {
+    if (friction_.axis != 0 || !balance_.whole) return;
+    end_round(table_, torque_limits_, motion_.limiter.rate_rad_s, balance_);
+    watch_contact(table_, motion_.arm, balance_, {is_moving(), is_dithering(dither_)}, contact_);
+  } else if (phase == kFrictionTicks - 1) {
     if (friction_.axis == 0) feel_inertia(table_, motion_.arm, inertia_);
-  } else if (tick % kFrictionTicks == kFrictionTicks / 2) {
-    if (friction_.axis != 0) return;
-    watch_contact(table_, contact_watch_limits_, motion_.arm, motion_.limiter.rate_rad_s, friction_, contact_);
-  } else if (tick % kFrictionTicks == 0) {
-    follow_acceleration(table_, estimator_.theta_rad, estimator_.tension_N, kFrictionTicks * table_.tick_s, inertia_);
-    const FrictionReadings balance{model_.geometry,
-                                   ratio_,
-                                   slip_,
-                                   motion_.trig,
-                                   inertia_.tension_N,
-                                   table_.friction_mu,
-                                   motion_.limiter.rate_rad_s,
-                                   inertia_torque_Nm(table_, motion_.arm, inertia_, friction_.axis),
-                                   is_moving()};
-    watch_friction(table_, layout_, declared_mu_, balance, friction_);
+  } else {
+    const std::uint32_t slots = (kFrictionTicks - 3) * narrow<std::uint32_t>(table_.theta_count());
+    const std::uint32_t slot = friction_.axis * (kFrictionTicks - 3) + phase - (phase > kFrictionTicks / 2 ? 2 : 1);
+    const std::uint32_t place = (slot + slots - (kFrictionTicks / 2 - 1)) % slots;  // 0 after the look itself
+    if (balance_.whole && place < kPlaces * narrow<std::uint32_t>(table_.segment_count))
+      try_place(table_, motion_.arm, place, contact_);
   }
 }
 
-// What the balance of torques says, as faults: 5008 of the first drive of the segment, in 0.01 N m; 5009 in 0.0001.
+void CableArm::balance_next_axis(std::uint64_t tick) noexcept {
+  const std::uint32_t axis = friction_.axis;
+  follow_acceleration(table_, estimator_.theta_rad, estimator_.tension_N, kFrictionTicks * table_.tick_s, inertia_);
+  ThetaVector off_rad{};
+  for (Index k = 0; k < as_index(table_.theta_count()); ++k) off_rad[k] = estimator_.theta_rad[k] - model_.theta_rad[k];
+  follow_slides(layout_, model_.geometry, off_rad, friction_.mu + friction_sd(friction_), balance_);
+  if (dither_.share > 0.0)
+    fade_slip(layout_, kFrictionTicks * kDitherFade_1_s * dither_.share * table_.tick_s, balance_.slip);
+  const double inertia_Nm = inertia_torque_Nm(table_, motion_.arm, inertia_, axis);
+  const FrictionReadings planned{
+      model_.geometry, ratio_,     slip_, wrap_rad_, inertia_.tension_N, table_.friction_mu, motion_.limiter.rate_rad_s,
+      inertia_Nm,      is_moving()};
+  watch_friction(table_, layout_, declared_mu_, planned, friction_);
+  const double hours = static_cast<double>(tick) * table_.tick_s / 3600.0;
+  const BalanceReadings felt{model_.geometry,
+                             wrap_rad_,
+                             inertia_.tension_N,
+                             motion_.limiter.rate_rad_s,
+                             friction_.mu,
+                             friction_sd(friction_),
+                             inertia_Nm,
+                             table_.torque_zero.bias_N + table_.torque_zero.drift_N_h * hours,
+                             contact_.state == ContactState::kDithered};
+  balance_axis(table_, layout_, felt, axis, balance_);
+}
+
+// What the balance of torques says, as faults: 5008 of the first drive of the segment, where that can be named, in
+// 0.01 N m; 5009 in 0.0001.
 void CableArm::watch_body(WatchScope scope, Watch& out) const noexcept {
   if (!scope.prepared) return;
   if (is_in_contact(contact_)) {
-    std::int32_t first = 0;
+    std::int32_t first = contact_.segment < 0 ? -1 : 0;
     for (std::int32_t j = 0; j < contact_.segment; ++j) first += table_.segment[as_index(j)].cables;
     out.wrong(FaultNumber::kBodyContact, first, detail_of(100.0 * contact_.torque_Nm));
   }

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
+#include "firmware_like/cable/arm/contact_watch.hpp"
 #include "firmware_like/cable/motion/servo_ik.hpp"
 #include "firmware_like/math/pose.hpp"
 
@@ -20,9 +20,13 @@ struct FrictionReport {
 
 // What touches the arm (arm/contact_watch.hpp).
 struct ContactReport {
-  Vec3 tip_push_N{};         // at the tip, base frame
+  Vec3 force_N{};         // on the tip, base frame; 0 along axes that are not seen
+  Vec3 sd_N{};            // its standard deviation along each axis
+  std::uint8_t seen = 0;  // bit i: the force along axis i is known to better than kContactSeen_N
+  ContactState state = ContactState::kStuck;
+  std::uint8_t on_body = 0;  // 1: something other than a push on the tip touches the arm
+  std::int32_t segment = 0;  // 1-based, where; 0: nowhere, or it cannot be named
   double torque_Nm = 0.0;    // about the angle that feels most of what nothing explains
-  std::int32_t segment = 0;  // 1-based, the last one that feels a contact of the body; 0: none
 };
 
 struct Report {

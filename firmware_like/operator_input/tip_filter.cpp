@@ -35,6 +35,15 @@ bool follow_velocity(const FilterBounds& bounds, double tick_s, const Vec3& want
   return a.acted;
 }
 
+double pull_1_s(const FilterBounds& bounds) noexcept {
+  return bounds.pull_1_s > 0.0 ? bounds.pull_1_s : bounds.accel / bounds.speed;
+}
+
+// How far the target comes in the lead: it is not believed to go on faster than the tip may follow.
+Vec3 ahead(const FilterBounds& bounds, const Vec3& target_velocity) noexcept {
+  return scale(saturate(target_velocity, bounds.speed).value, bounds.lead_s);
+}
+
 // Integrates both channels into the pose.
 void move_pose(double tick_s, TipFilterState& state) noexcept {
   state.pose.position_m = add(state.pose.position_m, scale(state.linear.velocity, tick_s));
@@ -46,7 +55,7 @@ void move_pose(double tick_s, TipFilterState& state) noexcept {
 
 ChannelLimits follow_channel(const FilterBounds& bounds, double tick_s, const Vec3& error,
                              ChannelState& state) noexcept {
-  const Saturated wanted = saturate(scale(error, bounds.accel / bounds.speed), bounds.speed);
+  const Saturated wanted = saturate(scale(error, pull_1_s(bounds)), bounds.speed);
   return {wanted.acted, follow_velocity(bounds, tick_s, wanted.value, state)};
 }
 
@@ -65,15 +74,32 @@ bool brake_channel(const FilterBounds& bounds, double tick_s, ChannelState& stat
   return limited;
 }
 
-double lag_s(const FilterBounds& bounds) noexcept { return bounds.speed / bounds.accel; }
+double lag_s(const FilterBounds& bounds) noexcept { return 1.0 / pull_1_s(bounds) - bounds.lead_s; }
+
+double least_lag_s(const FilterBounds& bounds) noexcept {
+  return 0.5 * bounds.speed / bounds.accel + 0.25 * bounds.accel / bounds.jerk;
+}
+
+FilterBounds with_lag(const FilterBounds& bounds, double lag_s, double speed) noexcept {
+  FilterBounds out = bounds;
+  out.speed = speed;
+  if (lag_s <= 0.0) return out;
+  const double slowest_s = bounds.speed / bounds.accel;
+  out.pull_1_s = 1.0 / larger(lag_s, slowest_s);
+  out.lead_s = larger(0.0, slowest_s - lag_s);
+  return out;
+}
 
 void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterState& state) noexcept {
   if (!is_valid(target)) {
     brake_tip(config, state);
     return;
   }
-  const Vec3 position_error = subtract(target.position_m, state.pose.position_m);
-  const Vec3 attitude_error = rotation_vector(multiply(target.quaternion, conjugate(state.pose.quaternion)));
+  const SteadyTarget aim = without_tremor(target, config.tick_s, state.tremor);
+  const Vec3 behind_m = subtract(aim.pose.position_m, state.pose.position_m);
+  const Vec3 behind_rad = rotation_vector(multiply(aim.pose.quaternion, conjugate(state.pose.quaternion)));
+  const Vec3 position_error = add(behind_m, ahead(config.linear, aim.velocity_m_s));
+  const Vec3 attitude_error = add(behind_rad, ahead(config.angular, aim.rate_rad_s));
   const ChannelLimits linear = follow_channel(config.linear, config.tick_s, position_error, state.linear);
   const ChannelLimits angular = follow_channel(config.angular, config.tick_s, attitude_error, state.angular);
   state.speed_limited = linear.speed || angular.speed;
@@ -83,6 +109,7 @@ void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterStat
 
 void brake_tip(const TipFilterConfig& config, TipFilterState& state) noexcept {
   state.speed_limited = false;
+  state.tremor = TremorState{};
   const bool linear = brake_channel(config.linear, config.tick_s, state.linear);
   const bool angular = brake_channel(config.angular, config.tick_s, state.angular);
   state.accel_limited = linear || angular;

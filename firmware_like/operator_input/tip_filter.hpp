@@ -1,23 +1,30 @@
-// Operator filter: a tip pose that follows its target with bounded velocity, acceleration and jerk.
+// Operator filter: a tip pose that follows its target with bounded velocity, acceleration and jerk, without the tremor
+// of the hand that led it.
 //
-// Nested saturation, position and attitude alike (e = target - state):
+// The target passes the tremor stage (tremor_notch.hpp). Then nested saturation, position and attitude alike, towards
+// where the target will be lead seconds on if it keeps its velocity u (e = target + lead u - state, |u| <= v_max):
 //   v* = sat(k1 e, v_max),  a* = sat(k2 (v* - v), a_max),  j = sat(k3 (a* - a), j_max)
-// with k1 = a_max / v_max, k2 = j_max / a_max, k3 = 4 k2, so that each stage can brake what the stage before asks.
-// Below the limits it is a linear third-order filter without overshoot; its lag behind a target at constant velocity is
-// 1/k1 (lag_s()): the inner stages follow a constant velocity without error.
+// with k1 = a_max / v_max (FilterBounds::pull_1_s), k2 = j_max / a_max, k3 = 4 k2, so that each stage can brake what
+// the stage before asks. Below the limits it is a linear third-order filter without overshoot; its lag behind a target
+// at constant velocity is 1/k1 - lead (lag_s()): the inner stages follow a constant velocity without error. A target
+// that stops dead is not overshot as long as there is room to brake: lag >= v_max / (2 a_max) + a_max / (4 j_max)
+// (least_lag_s()).
 #pragma once
 
 #include <cstdint>
 
 #include "firmware_like/math/pose.hpp"
+#include "firmware_like/operator_input/tremor_notch.hpp"
 
 namespace liana {
 
 // Bounds of one channel; metres or radians.
 struct FilterBounds {
-  double speed = 0.0;  // > 0
-  double accel = 0.0;  // > 0
-  double jerk = 0.0;   // > 0
+  double speed = 0.0;     // > 0
+  double accel = 0.0;     // > 0
+  double jerk = 0.0;      // > 0
+  double pull_1_s = 0.0;  // k1; 0: accel / speed
+  double lead_s = 0.0;    // >= 0
 };
 
 // Three coordinates following a target; vectors are limited by length, so direction is kept.
@@ -32,6 +39,7 @@ struct TipFilterState {
   ChannelState angular{};  // rad/s, rad/s2 in the base frame
   bool speed_limited = false;
   bool accel_limited = false;
+  TremorState tremor{};  // of the target; a filter that brakes forgets it
 };
 
 struct TipFilterConfig {
@@ -56,8 +64,15 @@ ChannelLimits follow_channel(const FilterBounds& bounds, double tick_s, const Ve
 // what the acceleration allows in a tick. True while the acceleration limit acts.
 bool brake_channel(const FilterBounds& bounds, double tick_s, ChannelState& state) noexcept;
 
-// Lag [s] behind a target that moves with constant velocity below the limits.
+// Lag [s] behind a target that moves with constant velocity below the limits, without the tremor stage's kTremorLag_s.
 double lag_s(const FilterBounds& bounds) noexcept;
+
+// The shortest lag [s] with which a target that stops dead is not overshot by more than 5 ms of the speed limit.
+double least_lag_s(const FilterBounds& bounds) noexcept;
+
+// The same bounds with a lag of `lag_s`, and a speed limit that may be lowered to `speed` without changing it: pull and
+// lead are those of the bounds as they are. A lag of 0 is left to the speed limit in force, accel and nothing else.
+FilterBounds with_lag(const FilterBounds& bounds, double lag_s, double speed) noexcept;
 
 // One tick towards `target`. A target that is not a valid pose is ignored: the filter brakes instead.
 void filter_tip(const TipFilterConfig& config, const Pose& target, TipFilterState& state) noexcept;

@@ -136,7 +136,7 @@ constexpr std::array<FaultInfo, 25> kFaultTable{{
      "Retract and disable; check the drive's torque and position measurement and its cable, then clear."},
     {kBodyContact, "body_contact", kHold, false, true,
      "Something pushes the body of the arm: the torques of its cables do not balance; the drive is the first of the "
-     "last segment that feels it, the detail is in 0.01 N m.",
+     "segment that is touched, where that can be named, the detail is in 0.01 N m.",
      "Look where the arm touches; retract, or take away what it touches, then clear."},
     {kFrictionNotAsDeclared, "friction_not_as_declared", kHold, false, true,
      "Friction of the cables is higher than declared, and than tensions can be planned for; the detail is mu in "

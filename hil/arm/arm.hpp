@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "hil/arm/clearance.hpp"
+#include "hil/arm/push.hpp"
 #include "hil/math/reduced.hpp"
 #include "hil/math/vec3.hpp"
 
@@ -51,6 +53,8 @@ class Arm {
   virtual Pose tip() const = 0;
   // The press rod is gone from now on.
   virtual void remove_rod() = 0;
+  // What pushes the arm from now on; nothing of it is in the record.
+  virtual void set_pushes(const std::vector<Push>& pushes) = 0;
   // 1000 m where the model knows no scene.
   virtual Clearance clearance() const = 0;
   virtual LoadRecord take_record() = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "hil/arm/stable_step.hpp"
 #include "hil/arm/start_tension.hpp"
 
 namespace liana::bench {
@@ -27,6 +28,15 @@ ArmPhysics::ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const
                                                 kStartFloorOfPlan * robot.plan_tension_N);
   for (std::size_t c = 0; c < paths_.cable_count(); ++c)
     lines_.emplace_back(paths_, c, robot.lead_m, truth.EA_N, truth.mu, tension[c]);
+  ThetaMatrix mass;
+  chain_.inertia(mass);
+  stable_step_s_ = stable_step_s(mass, stiffness(), viscous_, thetas_, kLongestStep_s);
+}
+
+ThetaMatrix ArmPhysics::stiffness() const {
+  ThetaMatrix stiffness{};
+  for (const CableLine& line : lines_) line.add_stiffness(paths_, stiffness);
+  return stiffness;
 }
 
 CableValues ArmPhysics::payouts_m() const {
@@ -66,7 +76,7 @@ void ArmPhysics::stop_at_limits(Theta& force, ThetaMatrix& damping, double step_
 
 void ArmPhysics::touch(double step_s, ContactLoad& load) {
   add_rod(scene_.rod, chain_, thetas_, load);
-  if (norm(push_.force_N) > 0.0) add_push(push_, chain_, thetas_, load);
+  for (const Push& push : pushes_) add_push(push, chain_, thetas_, load);
   if (near_contact_)
     for (const Contact& contact : chain_.contacts())
       add_contact(scene_.contact, chain_, contact, rate_, thetas_, step_s, load);

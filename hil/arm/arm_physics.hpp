@@ -1,6 +1,7 @@
 // The arm: reduced angles moved by cables and by contact, with or without weight, semi-implicit steps.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "hil/arm/arm.hpp"
@@ -16,14 +17,15 @@ namespace liana::bench {
 class ArmPhysics final : public Arm {
  public:
   // Arm at rest at `start_rad`, tensions balanced around 30 N with none below 15 N, nothing held by friction. Throws
-  // std::runtime_error.
+  // std::runtime_error, also of an arm whose cables are too stiff for its links (stable_step.hpp).
   ArmPhysics(const RobotConfig& robot, const SceneConfig& scene, const TrueParameters& truth, const Theta& start_rad);
 
   // Unstretched cable between drum and anchor, as the drums now hold it [m].
   CableValues payouts_m() const override;
-  // One step of `step_s` (kStep_s; stable up to kLongestStep_s without contact) with the drums at `payout_m`.
+  // One step of `step_s` (kStep_s, or what this arm's stiffness bears, stable_step.hpp; without contact up to
+  // kLongestStep_s) with the drums at `payout_m`.
   void step(double step_s, const CableValues& payout_m) override;
-  double longest_step_s() const override { return near_contact_ ? kStep_s : free_step_s_; }
+  double longest_step_s() const override { return std::min(stable_step_s_, near_contact_ ? kStep_s : free_step_s_); }
   // Longer steps, at most kLongestStep_s, in runs in which nothing can touch: four times as fast, and nearly the same.
   void set_free_step(double step_s) { free_step_s_ = step_s; }
   static constexpr double kStep_s = 0.001, kLongestStep_s = 0.004;
@@ -36,6 +38,7 @@ class ArmPhysics final : public Arm {
   double least_tension_N(std::size_t cable) const { return lines_[cable].least_tension_N(); }
   Pose tip() const override { return chain_.tip(); }
   void remove_rod() override;
+  void set_pushes(const std::vector<Push>& pushes) override { pushes_ = pushes; }
   Clearance clearance() const override { return clearance_of(chain_, scene_, robot_.module_radius_m); }
   // Extremes since the last take_record().
   LoadRecord take_record() override;
@@ -45,8 +48,6 @@ class ArmPhysics final : public Arm {
   // For checks: the mechanical state set from outside, joint damping switched off.
   void set_state(const Theta& theta_rad, const Theta& rate_rad_s);
   void set_joint_damping(double viscous_Nms_per_rad) { viscous_ = viscous_Nms_per_rad; }
-  // For checks: pushes the start of a link's axis from now on, base frame; nothing of it is in the record.
-  void push(std::size_t link, const Vec3& force_N) { push_ = {link, force_N}; }
 
   Chain& chain() { return chain_; }
   const CablePaths& paths() const { return paths_; }
@@ -58,6 +59,7 @@ class ArmPhysics final : public Arm {
   void stop_at_limits(Theta& force, ThetaMatrix& damping, double step_s) const;
   void touch(double step_s, ContactLoad& load);
   double fastest_joint_m_s() const;
+  ThetaMatrix stiffness() const;
 
   RobotConfig robot_;
   SceneConfig scene_;
@@ -69,9 +71,10 @@ class ArmPhysics final : public Arm {
   Theta theta_{};
   Theta rate_{};
   LoadRecord record_;
-  Push push_;
+  std::vector<Push> pushes_;
   bool near_contact_ = true;
   double free_step_s_ = kStep_s;
+  double stable_step_s_ = kLongestStep_s;
   std::uint64_t contact_slots_ = 0;
   int most_sweeps_ = 0;
 };

@@ -93,6 +93,19 @@ double CableLine::least_tension_N() const {
   return *std::min_element(tension_N_.begin(), tension_N_.begin() + static_cast<std::ptrdiff_t>(lumps_ + 1));
 }
 
+void CableLine::add_stiffness(const CablePaths& paths, ThetaMatrix& stiffness) const {
+  for (std::size_t i = 0; i <= lumps_; ++i) {
+    Theta row{};  // d length / d theta of span i: half of the segment before it, half of its own
+    for (const std::size_t j : {i, i + 1}) {
+      if (j == 0 || j > lumps_) continue;
+      row[2 * (j - 1)] = 0.5 * paths.path(cable_, j - 1).d_pitch_m;
+      row[2 * (j - 1) + 1] = 0.5 * paths.path(cable_, j - 1).d_yaw_m;
+    }
+    for (std::size_t a = 0; a < row.size(); ++a)
+      for (std::size_t b = 0; b < row.size(); ++b) stiffness[a][b] += EA_N_ / material_m_[i] * row[a] * row[b];
+  }
+}
+
 double CableLine::energy_J() const {
   double energy = 0.0;
   for (std::size_t i = 0; i <= lumps_; ++i) energy += 0.5 * tension_N_[i] * tension_N_[i] * material_m_[i] / EA_N_;

@@ -27,6 +27,9 @@ class CableLine {
   double motor_tension_N() const { return tension_N_[0]; }
   double least_tension_N() const;
   double segment_tension_N(std::size_t segment) const { return 0.5 * (tension_N_[segment] + tension_N_[segment + 1]); }
+  // Adds what the cable resists turns of the angles with while friction holds all its material, which is when it is
+  // stiffest [N.m/rad].
+  void add_stiffness(const CablePaths& paths, ThetaMatrix& stiffness) const;
   // Elastic energy stored [J].
   double energy_J() const;
 

@@ -31,7 +31,7 @@ Vec3 velocity_of(const PointJacobian& jacobian, const Theta& rate, std::size_t t
 
 void add_push(const Push& push, const Chain& chain, std::size_t thetas, ContactLoad& load) {
   PointJacobian jacobian;
-  chain.point_jacobian(push.link, chain.joint_center_m(push.link), jacobian);
+  chain.point_jacobian(std::min(push.link, chain.link_count() - 1), chain.joint_center_m(push.link), jacobian);
   const Theta torque = along(jacobian, push.force_N, thetas);
   for (std::size_t i = 0; i < thetas; ++i) load.force[i] += torque[i];
 }

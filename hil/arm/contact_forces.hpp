@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hil/arm/chain.hpp"
+#include "hil/arm/push.hpp"
 #include "hil/config/scene_config.hpp"
 #include "hil/math/reduced.hpp"
 
@@ -15,11 +16,6 @@ struct ContactLoad {
   double rod_N = 0.0;      // rod on tip
 };
 
-// A force at the start of a link's axis, base frame.
-struct Push {
-  std::size_t link = 0;
-  Vec3 force_N;
-};
 void add_push(const Push& push, const Chain& chain, std::size_t thetas, ContactLoad& load);
 
 // Adds spring, damper and regularised Coulomb friction of one contact of a link.

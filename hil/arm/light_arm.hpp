@@ -27,6 +27,7 @@ class LightArm final : public Arm {
   double motor_tension_N(std::size_t cable) const override { return tension_N_[cable]; }
   Pose tip() const override { return tip_; }
   void remove_rod() override {}
+  void set_pushes(const std::vector<Push>&) override {}  // main.cpp refuses them
   Clearance clearance() const override;
   LoadRecord take_record() override;
   ArmCounts counts() const override { return {}; }

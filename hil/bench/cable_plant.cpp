@@ -7,6 +7,7 @@
 
 #include "hil/arm/arm_physics.hpp"
 #include "hil/arm/light_arm.hpp"
+#include "hil/bench/pushes.hpp"
 
 namespace liana::bench {
 
@@ -42,6 +43,7 @@ std::unique_ptr<Arm> make_arm(const RobotConfig& robot, const SceneConfig& scene
 CablePlant::CablePlant(const RobotConfig& robot, const SceneConfig& scene, const BusesConfig& buses,
                        const ModelOptions& options, std::uint64_t seed)
     : thetas_(robot.theta_count()),
+      links_(robot.link_count()),
       scene_(scene),
       options_(options),
       truth_(parameters_of(robot, options, seed)),
@@ -59,6 +61,7 @@ CableValues CablePlant::motor_tensions_N() const {
 
 void CablePlant::inject(std::uint32_t slot, FaultInjector& injector) {
   injector.step(slot, {arm_->theta_rad(), arm_->rate_rad_s(), depth_m()}, drives_);
+  arm_->set_pushes(pushes_at(slot, injector, links_));
 }
 
 double CablePlant::fastest_rad_s() const {

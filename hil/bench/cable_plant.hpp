@@ -32,6 +32,7 @@ class CablePlant final : public Plant {
   double depth_m() const { return depth_in_slit_m(scene_, arm_->tip().position_m); }
 
   std::size_t thetas_;
+  std::size_t links_;
   SceneConfig scene_;
   ModelOptions options_;
   TrueParameters truth_;

@@ -64,7 +64,15 @@ const std::vector<Kind>& kinds() {
       {"camera_mirrored", FaultKind::kCameraMirrored, true, {}},
       {"camera_dropped", FaultKind::kCameraDropped, true, {}},
       {"tool_jams", FaultKind::kToolJams, true, {}},
-      {"tool_silent", FaultKind::kToolSilent, true, {}}};
+      {"tool_silent", FaultKind::kToolSilent, true, {}},
+      {"push",
+       FaultKind::kPush,
+       true,
+       {{"link", &P::link, 0, 128, true, false},
+        {"x_N", &P::x_N, -100, 100, false, false},
+        {"y_N", &P::y_N, -100, 100, false, false},
+        {"z_N", &P::z_N, -100, 100, false, false},
+        {"slots", &P::slots, 1, 100000, true, false}}}};
   return all;
 }
 
@@ -159,6 +167,8 @@ FaultParameters read_parameters(const JsonFile& file, const std::string& field, 
     file.fail(field + "/length_m", "is 0; allowed is -0.1 to 0.1 but 0");
   if (kind.kind == FaultKind::kCameraJump && values.length_m == 0.0)
     file.fail(field + "/length_m", "is 0; allowed is -1 to 1 but 0");
+  if (kind.kind == FaultKind::kPush && values.x_N == 0.0 && values.y_N == 0.0 && values.z_N == 0.0)
+    file.fail(field, "is pushed by nothing; add x_N, y_N or z_N other than 0");
   return values;
 }
 
@@ -166,13 +176,13 @@ FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size
                        std::size_t theta_count) {
   const Kind& kind = read_kind(file, field + "/kind");
   std::vector<std::string> allowed{"kind", "at_slot", "when"};
-  if (!is_at_the_tip(kind.kind)) allowed.emplace_back("drive");
+  if (!has_no_drive(kind.kind)) allowed.emplace_back("drive");
   if (kind.can_end) allowed.emplace_back("for_slots");
   for (const Parameter& parameter : kind.parameters) allowed.emplace_back(parameter.name);
   refuse_others(file, field, allowed);
 
   FaultConfig fault;
-  if (!is_at_the_tip(kind.kind)) fault.drives = read_drives(file, field + "/drive", drive_count);
+  if (!has_no_drive(kind.kind)) fault.drives = read_drives(file, field + "/drive", drive_count);
   fault.kind = kind.kind;
   fault.name = kind.name;
   if (file.has(field + "/at_slot") == file.has(field + "/when"))
@@ -186,10 +196,10 @@ FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size
 
 }  // namespace
 
-bool is_at_the_tip(FaultKind kind) {
+bool has_no_drive(FaultKind kind) {
   return kind == FaultKind::kCameraFrozen || kind == FaultKind::kCameraLate || kind == FaultKind::kCameraJump ||
          kind == FaultKind::kCameraMirrored || kind == FaultKind::kCameraDropped || kind == FaultKind::kToolJams ||
-         kind == FaultKind::kToolSilent;
+         kind == FaultKind::kToolSilent || kind == FaultKind::kPush;
 }
 
 std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count, std::size_t theta_count) {

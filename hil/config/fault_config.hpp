@@ -38,11 +38,12 @@ enum class FaultKind {
   kCameraMirrored,
   kCameraDropped,
   kToolJams,
-  kToolSilent
+  kToolSilent,
+  kPush
 };
 
-// These happen to the tip camera; they have no drive.
-bool is_at_the_tip(FaultKind kind);
+// These happen to the tip's camera or tool, or to the arm's body; they have no drive.
+bool has_no_drive(FaultKind kind);
 
 // What a kind can be told; the kinds that have no use for a value ignore it.
 struct FaultParameters {
@@ -55,6 +56,8 @@ struct FaultParameters {
   double slots = 1.0;      // SYNC periods that it takes
   double tension_N = 0.0;  // at the drum
   double seconds = 0.4;
+  double link = 0.0;  // 1 at the base; 0: the tip
+  double x_N = 0.0, y_N = 0.0, z_N = 0.0;
 };
 
 // All that is named has to hold for `for_slots` slots in a row.
@@ -70,7 +73,7 @@ struct FaultCondition {
 };
 
 struct FaultConfig {
-  std::vector<std::size_t> drives;  // 0-based, at least one; none for faults of the camera
+  std::vector<std::size_t> drives;  // 0-based, at least one; none where kinds have none
   FaultKind kind = FaultKind::kFault;
   std::string name;                      // of the kind
   std::optional<std::uint32_t> at_slot;  // without it `when` decides

@@ -1,6 +1,7 @@
 #include "hil/config/json_file.hpp"
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -21,7 +22,9 @@ struct JsonFile::Document {
 namespace {
 
 std::string range_text(double low, double high) {
-  return "allowed is " + json(low).dump() + " to " + json(high).dump();
+  char text[80];
+  std::snprintf(text, sizeof text, "allowed is %.15g to %.15g", low, high);
+  return text;
 }
 
 }  // namespace
@@ -44,7 +47,7 @@ JsonFile::JsonFile(std::string path, const std::string& kind)
 JsonFile::~JsonFile() = default;
 
 void JsonFile::fail(const std::string& field, const std::string& why) const {
-  throw std::runtime_error(path_ + ": " + field + ": " + why);
+  throw std::runtime_error(path_ + ": " + (field.empty() ? "" : field + ": ") + why);
 }
 
 double JsonFile::number(const std::string& field, double low, double high) const {
@@ -93,7 +96,7 @@ Pose JsonFile::pose(const std::string& field) const {
 
 std::size_t JsonFile::size(const std::string& field) const {
   const json* value = document_->find(field);
-  if (value == nullptr || !value->is_array()) fail(field, "must be a list; add it");
+  if (value == nullptr || !value->is_array()) fail(field, field.empty() ? "must be a list" : "must be a list; add it");
   return value->size();
 }
 

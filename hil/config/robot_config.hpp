@@ -47,6 +47,11 @@ struct RobotConfig {
   std::map<std::string, std::vector<double>> named_poses_rad;
 
   std::size_t theta_count() const { return 2 * segments.size(); }
+  std::size_t link_count() const {
+    std::size_t count = 0;
+    for (const SegmentConfig& segment : segments) count += static_cast<std::size_t>(segment.modules);
+    return count;
+  }
   std::size_t cable_count() const { return drives.size(); }
   // Cable paid out per encoder count [m].
   double metres_per_count() const;

@@ -13,13 +13,14 @@ constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
 constexpr double kLongestStep_s = 0.001;  // of the position servos; their time constant is some tens of it
 constexpr double kStribeck_rad_s = 1e-3;  // below this rate Coulomb friction fades
 constexpr FaultKind kCableFaults[] = {FaultKind::kSlack, FaultKind::kCableSlip, FaultKind::kCableBreak,
-                                      FaultKind::kMotorSaturation};
+                                      FaultKind::kMotorSaturation, FaultKind::kPush};
 
 void refuse_cable_faults(const std::vector<FaultConfig>& faults) {
   for (const FaultConfig& fault : faults) {
     if (std::find(std::begin(kCableFaults), std::end(kCableFaults), fault.kind) != std::end(kCableFaults))
       throw std::runtime_error("--faults: kind \"" + fault.name +
-                               "\" happens to a cable, and a serial arm has none; allowed are the drives' own faults");
+                               "\" happens to cables or the body of a cable arm, and this is a serial one; allowed are "
+                               "the drives' own faults");
   }
 }
 

@@ -32,6 +32,8 @@ constexpr RequestField object(const char* name, std::span<const RequestField> fi
 
 constexpr std::array kCommands{"enable", "disable", "clear", "home"};
 constexpr std::array kMissionCommands{"pause", "resume", "step", "confirm", "abort"};
+constexpr std::array kFrames{"base", "tip", "camera"};
+constexpr std::array kFeedbacks{"aligned", "claim", "abstract", "off"};
 
 constexpr std::array kHello{
     text("name", 64, "what lianad calls the client: as owner, in events, as who stopped the arm"),
@@ -122,6 +124,10 @@ constexpr std::array kShape{
         .list(4),
     flag("search", "the best of all shapes is looked for first (arm at rest)").otherwise(0.0),
 };
+constexpr std::array kDither{
+    number("share", 0.01, 0.3, "of every planned tension, up and down").otherwise(0.3),
+    number("duration_s", 1.0, 20.0, "in which the share decays evenly to nothing").otherwise(4.0),
+};
 constexpr std::array kUseDevice{
     text("device", 31, "who steers: `vr`, `hand`, `pointer`, or a connected device by its name; `none`: nobody"),
     number("scale", 0.01, 100.0, "way of the tip for a way of the hand").otherwise(1.0),
@@ -130,6 +136,14 @@ constexpr std::array kUseDevice{
     number("speed_m_s", 1e-4, Figure::kTipSpeed, "fastest that the tip follows").otherwise(Figure::kTipSpeed),
     flag("anywhere", "`vr` steers inside the slit, too; else it is refused there, and let go at the mouth")
         .otherwise(0.0),
+    word("frame", kFrames,
+         "axes of the hand (not of `vr`'s left one): the base's (else), the tip's on engaging, the tip camera's, which "
+         "turn")
+        .optional(),
+    text("fixtures", 40, "names of the scene's fixtures that guide the hand and are felt; left out: all of them")
+        .optional()
+        .list(16),
+    word("feedback", kFeedbacks, "law by which the hand feels the arm; `aligned` when left out").optional(),
 };
 constexpr std::array kMissionControl{word("command", kMissionCommands, "what the mission should do")};
 constexpr std::array kRetract{

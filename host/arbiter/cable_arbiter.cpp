@@ -1,6 +1,7 @@
 #include "host/arbiter/cable_arbiter.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <utility>
 
 #include "host/api/request_error.hpp"
@@ -8,14 +9,16 @@
 namespace liana::arbiter {
 
 CableArbiter::CableArbiter(const cable::RobotTable& table, const SpeedZone& zone, SearchResult taken,
-                           PathCheck<cable::CableArm> check)
-    : asked_speed_m_s_(table.limits.tip_speed_m_s),
+                           PathCheck<cable::CableArm> check, const fixture::Guidance& guidance)
+    : table_(table),
+      asked_speed_m_s_(table.limits.tip_speed_m_s),
       robot_speed_m_s_(table.limits.tip_speed_m_s),
       cap_m_s_(table.limits.tip_speed_m_s),
       zone_(zone),
       interval_s_(interval_s(table)),
       moves_(table, zone, taken, std::move(check)),
-      lead_(table, taken) {}
+      lead_(table, taken),
+      guidance_(guidance) {}
 
 void CableArbiter::require_free(const cable::Outputs& now) const {
   moves_.require_ready(now);
@@ -23,6 +26,8 @@ void CableArbiter::require_free(const cable::Outputs& now) const {
     throw api::RequestError("busy",
                             "the shape that a search has found is gone to: wait until it has settled or send hold");
   moves_.require_free(now);
+  if (dither_.is_under_way())
+    throw api::RequestError("busy", "tensions are dithered: wait until it is over or send hold");
   if (device_.engaged()) throw api::RequestError("busy", "the operator steers: wait for the deadman to open");
 }
 
@@ -80,20 +85,59 @@ bool CableArbiter::is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use
   return use.kind == device::Kind::kHandles && !use.anywhere && zone_.holds(now.tip_command.position_m);
 }
 
+// A hand that leads the tip would find it going another way under it.
+void CableArbiter::require_open_clutch(const DeviceUse& use) const {
+  const DeviceUse& in_use = device_.in_use();
+  if (!device_.engaged() || use.kind != in_use.kind || use.mapping == in_use.mapping) return;
+  throw api::RequestError("busy",
+                          "the operator steers: scale, rotation_scale and frame of the device in use change while the "
+                          "deadman is open: wait for that, or say device = none first");
+}
+
 void CableArbiter::use_device(const cable::Outputs& now, const DeviceUse& use) {
   if (is_vr_in_slit(now, use))
     throw api::RequestError(
         "refused", "device = " + use.name + ": the tip is inside the slit: use hand there, or say anywhere = true");
   if (is_busy()) throw api::RequestError("busy", "a planned move is under way: wait for it or send hold");
+  require_open_clutch(use);
   take_device_away();
   device_.use(use);
   asked_speed_m_s_ = use.speed_m_s > 0.0 ? use.speed_m_s : robot_speed_m_s_;
   cap_tip_speed(cap_m_s_);
 }
 
+void CableArbiter::dither(const cable::Outputs& now, double share, double duration_s) {
+  require_free(now);
+  if (now.at_rest == 0) throw api::RequestError("busy", "dither needs an arm at rest: wait for it or send hold");
+  const cable::TensionLimits& limits = table_.tension;
+  double fits = share;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(table_.cable_count()); ++c) {
+    const double planned_N = now.tension_plan_N[c];
+    fits = std::min({fits, 1.0 - limits.floor_motor_N / planned_N, limits.ceiling_free_N / planned_N - 1.0});
+  }
+  if (fits < share) {
+    char text[160];
+    std::snprintf(
+        text, sizeof text,
+        "share = %.3g: tensions stay between %.0f and %.0f N up to %.3g here: ask for less, or in another pose", share,
+        limits.floor_motor_N, limits.ceiling_free_N, std::max(0.0, fits));
+    throw api::RequestError("refused", text);
+  }
+  dither_ = DitherOrder(share, duration_s);
+  dithered_at_rad_ = now.theta_command_rad;
+}
+
 void CableArbiter::cap_tip_speed(double speed_m_s) {
   cap_m_s_ = speed_m_s;
-  moves_.limit_tip_speed(std::min(asked_speed_m_s_, cap_m_s_));
+  ask_speed();
+}
+
+void CableArbiter::ask_speed() { moves_.limit_tip_speed(ease_.share * std::min(asked_speed_m_s_, cap_m_s_)); }
+
+void CableArbiter::lead_nobody() {
+  guidance_.stop();
+  ease_ = {};
+  ask_speed();
 }
 
 void CableArbiter::take_device_away() {
@@ -106,6 +150,7 @@ void CableArbiter::take_device_away() {
 // ends.
 void CableArbiter::retract(const cable::Outputs& now, std::uint64_t until_tick) {
   moves_.retract(now, until_tick);
+  dither_ = {};
   nodes_ = {};
   lead_.forget();
   take_device_away();
@@ -113,12 +158,14 @@ void CableArbiter::retract(const cable::Outputs& now, std::uint64_t until_tick) 
 
 void CableArbiter::hold() {
   moves_.hold();
+  dither_ = {};
   lead_.forget();
   device_.let_go();
 }
 
 void CableArbiter::refused(const std::string& why) {
   moves_.refused(why);
+  dither_ = {};
   device_.drop_anchor();
 }
 
@@ -128,6 +175,7 @@ std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, c
     device_.leave_slit();
     steer.reset();
   }
+  if (!steer || is_busy()) lead_nobody();
   if (!moves_.begin_interval(tick, now)) {
     hold();
     nodes_ = {};
@@ -135,6 +183,7 @@ std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, c
   }
   if (is_busy()) {
     device_.drop_anchor();  // a hand that closes the deadman now starts from where the move ends
+    if (dither_.is_under_way()) return dithering_setpoint();
     wish_nodes();
     return moves_.ask(now);
   }
@@ -149,12 +198,25 @@ std::optional<cable::Setpoint> CableArbiter::next_setpoint(std::uint64_t tick, c
   return moves_.ask(now);
 }
 
+cable::Setpoint CableArbiter::dithering_setpoint() {
+  cable::Setpoint setpoint;
+  setpoint.kind = CommandKind::kJoint;
+  setpoint.joint_rad = dithered_at_rad_;
+  setpoint.tip_speed_m_s = robot_speed_m_s_;
+  setpoint.dither_share = dither_.next(interval_s_);
+  return setpoint;
+}
+
 std::optional<cable::Setpoint> CableArbiter::steered_setpoint(const cable::Outputs& now, const SteerGoal& goal) {
   was_engaged_ = true;
   lead_.ask_anew();
   device_node_ = goal.node;
   wish_nodes();
-  return moves_.steer(now, goal.tip_in_base);
+  const std::uint32_t held = moves_.wishes().held_mask;
+  const Pose led = guidance_.guide(goal.tip_in_base, {now.tip_command, now.theta_command_rad, held}, interval_s_);
+  ease_ = fixture::ease(table_, now.theta_command_rad, held, led);
+  ask_speed();
+  return moves_.steer(now, led);
 }
 
 // The operator's node takes the place of its own target, or one that is free.

@@ -9,8 +9,11 @@
 #include "host/arbiter/arbiter.hpp"
 #include "host/arbiter/cable_kind.hpp"
 #include "host/arbiter/device_steer.hpp"
+#include "host/arbiter/dither_order.hpp"
 #include "host/arbiter/shape_lead.hpp"
 #include "host/arbiter/speed_zone.hpp"
+#include "host/fixture/ease.hpp"
+#include "host/fixture/guidance.hpp"
 
 namespace liana::arbiter {
 
@@ -18,9 +21,11 @@ extern template class Arbiter<cable::CableArm>;
 
 class CableArbiter {
  public:
-  // In `zone` the tip is asked to go no faster than the zone says. `check` looks at the straight pieces of a path.
+  // In `zone` the tip is asked to go no faster than the zone says. `check` looks at the straight pieces of a path,
+  // `guidance` has the fixtures that guide a hand.
   explicit CableArbiter(const cable::RobotTable& table, const SpeedZone& zone = {},
-                        SearchResult taken = SearchResult::kInItsInterval, PathCheck<cable::CableArm> check = {});
+                        SearchResult taken = SearchResult::kInItsInterval, PathCheck<cable::CableArm> check = {},
+                        const fixture::Guidance& guidance = {});
 
   // Requests of the owner; they throw RequestError (not_enabled, fault, busy, refused). `now` is the newest tick of the
   // arm.
@@ -36,11 +41,19 @@ class CableArbiter {
   void shape(const cable::Outputs& now, const cable::NodeTargets& nodes, const cable::KeepClearTargets& clear,
              bool search);
   // Vr handles are for free space and the hand controller for the slit: `vr` is refused where the tip is inside, unless
-  // `use` says anywhere, and let go where it comes to.
+  // `use` says anywhere, and let go where it comes to. The mapping of the device in use changes only while nobody
+  // steers by it.
   void use_device(const cable::Outputs& now, const DeviceUse& use);
+  // An arm at rest is dithered (firmware_like/cable/arm/dither.hpp): refused where a tension would leave floor or
+  // ceiling.
+  void dither(const cable::Outputs& now, double share, double duration_s);
   // Besides what device and robot allow: the tip is asked to go no faster than this, from the next setpoint on; planned
   // lines from the next one on.
   void cap_tip_speed(double speed_m_s);
+  // Which fixtures act on the hand from the next interval on.
+  void choose_fixtures(const fixture::Choice& names) { guidance_.choose(names); }
+  // Once per interval, before next_setpoint: what is known of scene and tip beside drawing and command.
+  void see(const fixture::Sight& sight) { guidance_.see(sight, interval_s_); }
   // Back along the verified path, not beyond `until_tick`: stops, then goes back. Nobody steers any more until
   // use_device is asked for.
   void retract(const cable::Outputs& now, std::uint64_t until_tick);
@@ -53,8 +66,8 @@ class CableArbiter {
   // again, some times.
   void refused(const std::string& why = "");
 
-  // A planned move is under way.
-  bool is_busy() const { return moves_.is_busy(); }
+  // A planned move or a dither is under way.
+  bool is_busy() const { return moves_.is_busy() || dither_.is_under_way(); }
   // A tip goal, or what is asked for besides, has not come to be yet.
   bool is_asking() const { return moves_.is_asking(); }
   bool is_going_back() const { return moves_.is_going_back(); }
@@ -74,6 +87,9 @@ class CableArbiter {
   const cable::NodeTargets& nodes() const { return nodes_; }
   const cable::KeepClearTargets& keep_clear() const { return moves_.wishes().clear; }
   std::uint32_t held_mask() const { return moves_.wishes().held_mask; }
+  const fixture::Guidance& guidance() const { return guidance_; }
+  // Why the hand is followed more slowly than it asks, and how much; nothing while nobody steers.
+  const fixture::Ease& ease() const { return ease_; }
   DeviceSteer& device() { return device_; }
   const DeviceSteer& device() const { return device_; }
 
@@ -81,10 +97,15 @@ class CableArbiter {
   void require_free(const cable::Outputs& now) const;
   void ask_anew(const cable::Outputs& now);
   void take_device_away();
+  void require_open_clutch(const DeviceUse& use) const;
   bool is_vr_in_slit(const cable::Outputs& now, const DeviceUse& use) const;
   void wish_nodes();
+  cable::Setpoint dithering_setpoint();
   std::optional<cable::Setpoint> steered_setpoint(const cable::Outputs& now, const SteerGoal& goal);
+  void lead_nobody();
+  void ask_speed();
 
+  cable::RobotTable table_;
   double asked_speed_m_s_;  // limit of the device in use, or of the robot's tip
   double robot_speed_m_s_;
   double cap_m_s_;
@@ -93,9 +114,13 @@ class CableArbiter {
   Arbiter<cable::CableArm> moves_;
   ShapeLead lead_;
   cable::NodeTargets nodes_{};
+  DitherOrder dither_;
+  cable::ThetaVector dithered_at_rad_{};
   DeviceSteer device_;
   cable::NodeTarget device_node_{};
   bool was_engaged_ = false;
+  fixture::Guidance guidance_;
+  fixture::Ease ease_;
 };
 
 }  // namespace liana::arbiter

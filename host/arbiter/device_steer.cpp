@@ -80,8 +80,10 @@ std::optional<SteerGoal> DeviceSteer::finish_interval(const cable::Outputs& now,
     engaged_ = true;
   }
   if (!engaged_) return std::nullopt;
+  const Pose goal = clutch_goal(use_.mapping, anchor_, hand_);
+  move_anchor(use_.mapping, hand_, goal, anchor_);
   made_of_us_ = newest_us_;
-  return SteerGoal{clutch_goal(use_.mapping, anchor_, hand_), node_target_};
+  return SteerGoal{goal, node_target_};
 }
 
 }  // namespace liana::arbiter

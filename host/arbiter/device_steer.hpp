@@ -42,10 +42,12 @@ struct SteerGoal {
 
 class DeviceSteer {
  public:
-  // Another device or mapping; disengages, and the operator has to close the deadman again if it was closed.
+  // Another device or mapping; disengages. A deadman that is closed engages anew, from where hand and tip are then.
   void use(const DeviceUse& use);
   const DeviceUse& in_use() const { return use_; }
   bool engaged() const { return engaged_; }
+  // Where hand and tip stood when the operator engaged last.
+  const ClutchAnchor& anchor() const { return anchor_; }
   // Why the operator was disengaged last, empty when by letting go.
   const char* reason() const { return reason_; }
   // Device time of the newest tip sample that the last goal was made of; < 0 before the first goal of a use.

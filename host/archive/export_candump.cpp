@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "host/archive/export.hpp"
-#include "host/archive/out_file.hpp"
+#include "host/file/out_file.hpp"
 #include "host/json/json.hpp"
 
 namespace liana::archive {
@@ -43,14 +43,14 @@ BusLog* earliest(const std::vector<std::unique_ptr<BusLog>>& logs) {
 
 }  // namespace
 
-std::uint64_t write_candump(const Reader& reader, Span span, const std::string& file) {
+std::uint64_t write_candump(const Reader& reader, Span span, const std::string& path) {
   const auto logs = logs_of(reader);
   if (logs.empty())
     throw std::runtime_error(reader.folder() +
                              ": holds no bus traffic; runs with --record have it, and those that failed");
   const double from_s = static_cast<double>(span.first) * reader.life().period_s;
   const double to_s = static_cast<double>(span.last) * reader.life().period_s;
-  OutFile out(file);
+  file::OutFile out(path);
   std::uint64_t frames = 0;
   for (BusLog* log = earliest(logs); log != nullptr && log->time_s() <= to_s; log = earliest(logs)) {
     if (log->time_s() >= from_s) {

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "host/archive/export.hpp"
-#include "host/archive/out_file.hpp"
 #include "host/archive/stretches.hpp"
+#include "host/file/out_file.hpp"
 #include "host/telemetry/record.hpp"
 
 namespace liana::archive {
@@ -43,9 +43,9 @@ std::string line_of(const std::string& record, const telemetry::Layout& layout, 
 
 }  // namespace
 
-std::uint64_t write_csv(const Reader& reader, Span span, const std::string& file) {
+std::uint64_t write_csv(const Reader& reader, Span span, const std::string& path) {
   Stretches stretches(reader, span);
-  OutFile out(file);
+  file::OutFile out(path);
   out.write(heading(*reader.layout()));
   const std::uint64_t rows = stretches.visit(
       [&](const std::string& record, const Json& facts) { out.write(line_of(record, *reader.layout(), facts)); });

@@ -7,6 +7,7 @@
 #include "host/archive/foxglove.hpp"
 #include "host/archive/stretches.hpp"
 #include "host/config/config.hpp"
+#include "host/file/out_file.hpp"
 #include "host/record/mcap.hpp"
 #include "host/telemetry/record.hpp"
 
@@ -109,12 +110,15 @@ class Export {
 
 }  // namespace
 
-std::uint64_t write_mcap(const Reader& reader, Span span, const std::string& file) {
+std::uint64_t write_mcap(const Reader& reader, Span span, const std::string& path) {
   const Stretches stretches(reader, span);
-  Export out(reader, file);
+  file::OutFile file(path);
+  Export out(reader, file.unfinished_path());
   for (const event::Event& event : reader.events(span)) out.take(event);
   stretches.visit([&](const std::string& record, const Json& facts) { out.take(record, facts); });
-  return out.finish();
+  const std::uint64_t messages = out.finish();
+  file.finish();
+  return messages;
 }
 
 }  // namespace liana::archive

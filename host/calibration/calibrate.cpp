@@ -19,9 +19,9 @@ using namespace cable;
 namespace {
 
 using Index = std::size_t;
+constexpr Eigen::Index column(Index i) { return static_cast<Eigen::Index>(i); }
 using Changes = Eigen::Ref<const Eigen::VectorXd>;  // of one length, pose by pose, about their mean [m]
 
-constexpr double kLeastChange_m = 5e-3;  // between poses, to see a direction
 constexpr double kApart_m = 1e-3;        // between two cables, to tell them apart
 constexpr double kMisfit_m = 0.5e-3;     // of a fitted drum; elongation and hole radius bring a tenth of it
 constexpr double kDrumShare = 0.02;
@@ -79,7 +79,7 @@ std::optional<Index> followed_by(const Lengths& lengths, Index drive) {
   std::optional<Index> best;
   double least_m = std::numeric_limits<double>::infinity();
   for (Index cable = 0; cable < Index(lengths.expected.cols()); ++cable) {
-    const Fit found = fit(lengths.reported.col(drive), lengths.expected.col(cable));
+    const Fit found = fit(lengths.reported.col(column(drive)), lengths.expected.col(column(cable)));
     if (!is_drum(found) || found.misfit_m >= least_m) continue;
     best = cable;
     least_m = found.misfit_m;
@@ -139,7 +139,7 @@ CableCalibration cable_of(const config::RobotConfig& robot, const Lengths& lengt
                           const CalibrationReading& first) {
   const DriveTable& table = robot.table.drive[c];
   // expected = scale reported + zero; reported is what the table's drum and direction make of the counts.
-  const double zero_m = lengths.expected_mean_m[c] - scale * lengths.reported_mean_m[c];
+  const double zero_m = lengths.expected_mean_m[column(c)] - scale * lengths.reported_mean_m[column(c)];
   CableCalibration out;
   out.serial = first.serial[c];
   out.direction = scale > 0.0 ? table.direction : -table.direction;
@@ -181,12 +181,12 @@ void check_poses(const config::RobotConfig& robot, std::span<const ThetaVector> 
   for (const ThetaVector& theta_rad : poses_rad) readings.push_back({theta_rad, {}, tension_N});
   const Eigen::MatrixXd cables = lengths_of(robot, readings).expected;
   for (Index a = 0; a < Index(cables.cols()); ++a) {
-    if (cables.col(a).lpNorm<Eigen::Infinity>() < kLeastChange_m)
+    if (cables.col(column(a)).lpNorm<Eigen::Infinity>() < kLeastChange_m)
       throw std::runtime_error(
           text("cable %d changes by less than %.0f mm between these poses: add one that bends its segment more",
                static_cast<int>(a), 1e3 * kLeastChange_m));
     for (Index b = 0; b < Index(cables.cols()); ++b) {
-      const Fit alike = fit(cables.col(a), cables.col(b));
+      const Fit alike = fit(cables.col(column(a)), cables.col(column(b)));
       if (a != b && alike.misfit_m < kApart_m && std::fabs(std::fabs(alike.scale) - 1.0) <= 2.0 * kDrumShare)
         refuse_alike(robot.table, a, b);
     }
@@ -199,7 +199,7 @@ CalibrationResult calibrate(const config::RobotConfig& robot, std::span<const Ca
   CalibrationResult out;
   out.calibration = {robot.name, config::sha256_hex(robot.canonical_json), date, {}};
   for (Index c = 0; c < as_index(robot.table.cable_count()); ++c) {
-    const Fit own = fit(lengths.reported.col(c), lengths.expected.col(c));
+    const Fit own = fit(lengths.reported.col(column(c)), lengths.expected.col(column(c)));
     const std::string serial_problem = serial_problem_of(robot, readings, c);
     if (!serial_problem.empty()) out.problems.push_back(serial_problem);
     if (!is_drum(own)) {

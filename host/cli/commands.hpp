@@ -194,6 +194,18 @@ int estop_command(const ClientOptions& options);
 // Exit code 1 when somebody else owns motion, the arm is not at rest yet, or a fault is still there.
 int clear_command(const ClientOptions& options);
 
+struct ForceOptions {
+  bool self_test = false;
+  std::string robot = "zhu2022";
+  std::string physics = "nominal";
+  std::string configurations = "2";
+  std::string pushes = "3";  // in each
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+// How well the force at the tip is estimated: pushes of the bench beside what the arm tells (docs/force.md).
+int force_command(const ForceOptions& options);
+
 struct FaultsOptions {
   std::string robot = "zhu2022";
   bool markdown = false;  // the table of docs/faults.md, or of docs/refusals.md

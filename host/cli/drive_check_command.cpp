@@ -77,7 +77,8 @@ int check_one(DriveSession& session, const DriveOptions& options, std::uint8_t n
   } else {
     print_refusals(said);
     if (is_good)
-      std::printf("%s answers as a %s has to; nothing was written\n", session.where(at).c_str(), options.type.c_str());
+      std::printf("%s answers as type %s has to; nothing was written\n", session.where(at).c_str(),
+                  options.type.c_str());
     print_outlook(said);
     if (said.contains("warning")) std::printf("warning: %s\n", said["warning"].text().c_str());
   }
@@ -107,7 +108,7 @@ void print_robot(const DriveSession& session, const std::string& robot, const Js
     if (said.contains("warning")) std::printf("warning: %s\n", said["warning"].text().c_str());
     if (!said["ok"].get<bool>()) continue;
     const auto node = static_cast<std::uint8_t>(said["node"].get<int>());
-    std::printf("%s answers as a %s has to; %zu objects are not there, so not checked\n",
+    std::printf("%s answers as type %s has to; %zu objects are not there, so not checked\n",
                 session.where({session.buses.bus_of_node(node), node}).c_str(), said["type"].text().c_str(),
                 said["not_there"].size());
   }

@@ -40,6 +40,9 @@ struct Way {
 };
 
 double units_in_turn(const JogOptions& jog) {
+  if (jog.unit != "mm" && !jog.mm_per_turn.empty())
+    throw system::BadInput("--mm-per-turn: given, but --by is in " + jog.unit +
+                           ": allowed only with --unit mm; add it, or leave this out");
   if (jog.unit == "turns") return 1.0;
   if (jog.unit == "deg") return 360.0;
   if (jog.unit != "mm") throw system::BadInput("--unit: " + jog.unit + ": allowed are turns, deg and mm");

@@ -13,6 +13,17 @@ namespace {
 constexpr double kConnectTimeout_s = 1.0;
 constexpr double kAnswerTimeout_s = 5.0;
 
+// What is confirmed is what the step asks for: where none does, nobody may believe that something was.
+void check_waits(api::ApiClient& client) {
+  const auto state = system::wait_for(client, "state", kAnswerTimeout_s);
+  if (!state) throw std::runtime_error("lianad did not say within 5 s what the mission waits for");
+  const Json& step = state->member_or_null("step");
+  const std::string waits = step.is_object() && step.member_or_null("waits").is_string() ? step.at("waits").text() : "";
+  if (waits.starts_with("confirm: ")) return;
+  throw std::runtime_error("mission confirm: nothing waits to be confirmed" +
+                           (waits.empty() ? "" : " (it waits: " + waits + ")") + "; liana status says what goes on");
+}
+
 }  // namespace
 
 int mission_command(const MissionOptions& options) {
@@ -20,6 +31,7 @@ int mission_command(const MissionOptions& options) {
   if (systems.size() != 1) throw system::BadInput("mission: several systems run: name one with --api");
   api::ApiClient client = api::ApiClient::connect(systems.front(), kConnectTimeout_s);
   system::say_hello(client, "liana mission", system::Observer::kClient);
+  if (options.command == "confirm") check_waits(client);
   client.send({{"op", "mission_control"}, {"command", options.command}, {"id", 1}});
   const auto answer = system::wait_for(client, "ok", kAnswerTimeout_s);
   if (!answer) throw std::runtime_error("lianad did not answer within 5 s");

@@ -19,6 +19,7 @@ namespace liana::cli {
 namespace {
 
 constexpr double kLeastHoleDistance_m = 0.001;
+constexpr double kUnknown_m = 0.01e-3;   // of a length, after homing: arms of the bench stay above their floor by it
 constexpr std::int32_t kSamples = 5000;  // of the workspace, whose boundary is then climbed to
 constexpr std::int32_t kTipValues = 6;   // place and attitude
 
@@ -138,6 +139,32 @@ void look_at_mass(const config::RobotConfig& robot, const Json& table, Json& pro
            mass_kg, needed_N, robot.table.tension.hard_limit_N));
 }
 
+// What nobody knows of a cable's length, times its stiffness, may not take the tension from what is planned to the
+// floor at the motor. The shortest cable, of segment 1, is the stiffest.
+void look_at_stiffness(const cable::RobotTable& table, Json& problems) {
+  const double shortest_m = table.segment[0].modules * table.segment[0].module_length_m + table.lead_m;
+  const double change_N = kUnknown_m * table.cable_EA_N / shortest_m;
+  const double allowed_N = table.tension.plan_N - table.tension.floor_motor_N;
+  if (change_N <= allowed_N) return;
+  problems.push_back(
+      text("cables.EA_N: %g: the shortest cable, %.3g m, loses %.3g N by a length error of %g mm: allowed up to "
+           "tension.plan_N less floor_motor_N, %g N: more plan_N, a longer cables.lead_m, or EA_N up to %.4g",
+           table.cable_EA_N, shortest_m, change_N, 1e3 * kUnknown_m, allowed_N, allowed_N * shortest_m / kUnknown_m));
+}
+
+// Cables that move too little between any two poses do not tell their drives' directions.
+void look_at_travel(const cable::RobotTable& table, Json& notes) {
+  for (std::size_t j = 0; j < static_cast<std::size_t>(table.segment_count); ++j) {
+    const cable::SegmentTable& segment = table.segment[j];
+    const double most_m = table.hole_radius_m * segment.modules * segment.theta_limit_rad;
+    if (most_m >= calibration::kLeastChange_m) continue;
+    notes.push_back(
+        text("segment %zu moves its cables by %.1f mm at most: liana calibrate needs %g mm: set drives.zero_counts "
+             "and .direction by hand (docs/calibration.md)",
+             j + 1, 1e3 * most_m, 1e3 * calibration::kLeastChange_m));
+  }
+}
+
 Json workspace_of(const cable::RobotTable& table) {
   reach::RegionRequest request;
   request.point.node = table.segment_count;
@@ -172,7 +199,11 @@ Json checked_cable_robot(const config::RobotConfig& robot) {
   const Json written = Json::parse(robot.canonical_json);
   look_at_zero(robot, problems);
   look_at_mass(robot, written, problems);
+  look_at_stiffness(table, problems);
+  Json notes = Json::array();
+  look_at_travel(table, notes);
   checked["problems"] = problems;
+  checked["notes"] = notes;
   return checked;
 }
 
@@ -210,12 +241,17 @@ void print_text(const Json& checked) {
                 bus["drives"].get<int>(), buses["rate_hz"].get<double>(), 100.0 * bus["worst_case_load"].get<double>(),
                 100.0 * buses["max_load"].get<double>());
   }
+  for (const Json& note : checked["notes"]) std::printf("note: %s\n", note.get<std::string>().c_str());
   for (const Json& problem : checked["problems"]) std::printf("problem: %s\n", problem.get<std::string>().c_str());
   std::printf(checked["problems"].empty() ? "fits\n" : "does NOT fit as it is\n");
 }
 
 Json checked_serial_robot(const config::SerialRobotConfig& robot) {
-  return {{"robot", robot.name}, {"kind", "serial"}, {"joints", robot.table.joint_count}, {"problems", Json::array()}};
+  return {{"robot", robot.name},
+          {"kind", "serial"},
+          {"joints", robot.table.joint_count},
+          {"problems", Json::array()},
+          {"notes", Json::array()}};
 }
 
 }  // namespace

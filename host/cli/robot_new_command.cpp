@@ -4,15 +4,22 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <numbers>
 
-#include "firmware_like/cable/arm/robot_table.hpp"
 #include "host/cli/arguments.hpp"
 #include "host/cli/commands.hpp"
+#include "host/cli/robot_new_questions.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/output.hpp"
 
 namespace liana::cli {
 namespace {
+
+constexpr double kHoleShare = 0.8;          // of the radius, where the cables' holes are
+constexpr double kHoleApart_m = 0.0015;     // between neighbours among them
+constexpr double kLeastPlan_N = 3.0;        // less is lost in a drive's friction and the steps of its torque
+constexpr double kShortestLead_m = 0.1;     // drives are not smaller with the arm
+constexpr double kPlanStretch_m = 0.15e-3;  // of the shortest cable at plan_N, as of the usual arm
 
 struct Answers {
   int segments = 0, modules = 0, cables = 0;
@@ -24,22 +31,20 @@ class Asking {
  public:
   Asking() : is_person_(isatty(STDIN_FILENO) != 0) {}
 
-  double number(const char* option, const std::string& given, const char* question, double otherwise, double least,
-                double most, const char* unit) const {
-    const std::string text = given.empty() ? typed(question, otherwise, unit) : given;
-    return text.empty() ? otherwise : parse_number_in(option, text, least, most, unit);
+  double number(const NumberQuestion& asked, const std::string& given, double usual) const {
+    const std::string text = given.empty() ? typed(asked.question, usual, asked.unit) : given;
+    return text.empty() ? usual : parse_number_in(asked.option, text, asked.least, asked.most, asked.unit);
   }
-  int whole(const char* option, const std::string& given, const char* question, int otherwise, int least,
-            int most) const {
-    const std::string text = given.empty() ? typed(question, otherwise, "") : given;
-    return text.empty() ? otherwise : static_cast<int>(parse_whole(option, text, least, most));
+  int whole(const WholeQuestion& asked, const std::string& given) const {
+    const std::string text = given.empty() ? typed(asked.question, asked.usual, "") : given;
+    return text.empty() ? asked.usual : static_cast<int>(parse_whole(asked.option, text, asked.least, asked.most));
   }
 
  private:
   std::string typed(const char* question, double otherwise, const char* unit) const {
     std::string line;
     if (!is_person_) return line;
-    std::fprintf(stderr, "%s [%g%s%s] ", question, otherwise, *unit == '\0' ? "" : " ", unit);
+    std::fprintf(stderr, "%s? [%g%s%s] ", question, otherwise, *unit == '\0' ? "" : " ", unit);
     std::getline(std::cin, line);
     return line;
   }
@@ -47,19 +52,22 @@ class Asking {
   bool is_person_;
 };
 
+// Discs as wide as their links are long, in the proportion of the usual arm; wide enough for the holes of all cables.
+double usual_radius_m(const Answers& answers) {
+  const double holes_m = kHoleApart_m * answers.segments * answers.cables / (2.0 * std::numbers::pi * kHoleShare);
+  const double proportionate_m = kAskRadius.usual * answers.length_m / kAskLength.usual;
+  return std::clamp(std::round(1e4 * std::max(holes_m, proportionate_m)) / 1e4, kAskRadius.least, kAskRadius.most);
+}
+
 Answers ask(const RobotNewOptions& options) {
   const Asking asking;
   Answers answers;
-  answers.segments =
-      asking.whole("--segments", options.segments, "segments that bend by themselves?", 3, 1, cable::kMaxSegments);
-  answers.modules =
-      asking.whole("--modules", options.modules, "universal joints in each segment?", 6, 1, cable::kMaxModules);
-  answers.length_m =
-      asking.number("--module-length", options.module_length_m, "from one joint to the next?", 0.08, 0.01, 1.0, "m");
-  answers.radius_m = asking.number("--radius", options.radius_m, "radius of the discs?", 0.025, 0.002, 0.15, "m");
-  answers.cables = asking.whole("--cables", options.cables, "cables that end in each segment?", 3, 3, 4);
-  answers.theta_limit_deg = asking.number("--theta-limit", options.theta_limit_deg,
-                                          "most that a joint turns about each axis?", 15.0, 1.0, 45.0, "deg");
+  answers.segments = asking.whole(kAskSegments, options.segments);
+  answers.modules = asking.whole(kAskModules, options.modules);
+  answers.length_m = asking.number(kAskLength, options.module_length_m, kAskLength.usual);
+  answers.cables = asking.whole(kAskCables, options.cables);
+  answers.radius_m = asking.number(kAskRadius, options.radius_m, usual_radius_m(answers));
+  answers.theta_limit_deg = asking.number(kAskLimit, options.theta_limit_deg, kAskLimit.usual);
   const int cables = answers.segments * answers.cables;
   if (cables > cable::kMaxCables)
     throw system::BadInput("--cables: " + std::to_string(answers.cables) + " in each of " +
@@ -115,16 +123,19 @@ std::string head(const std::string& name, const Answers& a) {
 // Sizes in proportion to an arm of 1.44 m with discs of 25 mm radius.
 std::string body(const std::string& name, const Answers& a) {
   const double arm_m = a.segments * a.modules * a.length_m, size = a.radius_m / 0.025;
-  const double plan_N = 30.0 * size * size, drum_m = 0.012 * std::sqrt(size), hard_N = 15.0 * plan_N;
+  const double plan_N = std::max(kLeastPlan_N, 30.0 * size * size), drum_m = 0.012 * std::sqrt(size),
+               hard_N = 15.0 * plan_N;
   const double mass_kg = std::max(0.001, 0.2 * size * size * (a.length_m / 0.08)), reach = std::min(1.0, arm_m / 1.44);
+  const double lead_m = std::clamp(0.2 * arm_m, kShortestLead_m, 10.0), shortest_m = a.modules * a.length_m + lead_m;
+  const double EA_N =
+      std::clamp(150000.0 * size * size, 1500.0, std::max(1500.0, plan_N * shortest_m / kPlanStretch_m));
   return filled("return {\n  format = 1, kind = \"robot\", name = \"%s\",\n  segments = segments,\n", name.c_str()) +
          filled("  module = { mass_kg = %.4g, radius_m = %g }, -- radius asked; weigh one\n", mass_kg, a.radius_m) +
          filled("  joint = { viscous_Nms_per_rad = %.3g },\n", 0.3 * size * size) + "  cables = {\n" +
          filled("    hole_radius_m = %.4g,\n    face_offset_m = %.4g, -- disc faces before and after a joint centre\n",
-                0.8 * a.radius_m, 0.1 * a.length_m) +
-         filled("    phase_deg = phase_deg,\n    EA_N = %.4g, -- stiffness of the rope: modulus times area\n",
-                std::max(1500.0, 150000.0 * size * size)) +
-         filled("    lead_m = %.3g, -- free cable between drum and first disc\n", std::clamp(0.2 * arm_m, 0.01, 10.0)) +
+                kHoleShare * a.radius_m, 0.1 * a.length_m) +
+         filled("    phase_deg = phase_deg,\n    EA_N = %.4g, -- stiffness of the rope: modulus times area\n", EA_N) +
+         filled("    lead_m = %.3g, -- free cable between drum and first disc\n", lead_m) +
          "    friction_mu = { nominal = 0.05, ideal = 0, worn = 0.10 }, -- of a cable in its holes; `liana calibrate "
          "--friction`\n"
          "  },\n" +
@@ -153,6 +164,14 @@ std::string body(const std::string& name, const Answers& a) {
 }
 
 }  // namespace
+
+std::string about(const NumberQuestion& asked) {
+  return filled("%s, %g to %g %s", asked.question, asked.least, asked.most, asked.unit);
+}
+
+std::string about(const WholeQuestion& asked) {
+  return filled("%s, %d to %d", asked.question, asked.least, asked.most);
+}
 
 int robot_new_command(const RobotNewOptions& options) {
   const bool is_name = !options.name.empty() && options.name.size() <= 40 &&

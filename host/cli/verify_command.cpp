@@ -34,7 +34,7 @@ verify::Verdict verdict_of(const config::RobotConfig& robot, const config::Scene
   start.theta_rad = way.theta_rad.front();
   simulate::Simulation simulation(simulate::arm_model(robot), scene);
   const verify::MotionRules rules{
-      robot.table, scene, {scene.slit, robot.table.limits.tip_speed_slit_m_s}, robot.machine};
+      robot.table, scene, {scene.slit, robot.table.limits.tip_speed_slit_m_s}, robot.machine, robot.module_radius_m};
   verify::TooNear too_near;
   return verify::judge_simulated(rules, way, true, simulation.run(start, way), too_near);
 }

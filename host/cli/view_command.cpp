@@ -5,6 +5,7 @@
 #include "host/cli/commands.hpp"
 #include "host/cli/run_choice.hpp"
 #include "host/json/json.hpp"
+#include "host/places/places.hpp"
 #include "host/system/errors.hpp"
 #include "host/system/output.hpp"
 #include "host/view/run_folder.hpp"
@@ -28,8 +29,10 @@ int view_command(const ViewOptions& options) {
   if (!options.out_file.empty()) system::check_output("--out", options.out_file);
   const std::string folder = options.run.empty() ? last_ended_run("view") : archive_folder("view", options.run);
   if (!view::is_page_built())
-    throw system::BadInput("view: the page is not built (" + view::built_page() +
-                           " is missing): ./dev view builds it, which takes npm");
+    throw system::BadInput("view: the page is not built (" + view::built_page() + " is missing): " +
+                           (places::is_installed()
+                                ? "it was not there when Liana was installed: build it, then install again"
+                                : "./dev view builds it, which takes npm"));
   const std::string file = options.out_file.empty() ? folder + "/page.html" : options.out_file;
   const std::size_t bytes = view::write_page(folder, file);
   if (options.json) {

@@ -1,7 +1,6 @@
 #include "host/command_line/command_line.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cctype>
 #include <cstdio>
 
 namespace liana::command_line {
@@ -10,8 +9,8 @@ namespace {
 constexpr int kBadInput = 2;  // of every program
 
 std::string whole_number_problem(const std::string& text) {
-  for (const unsigned char letter : text) {
-    if (std::isdigit(letter) == 0) return "'" + text + "': allowed: a whole number, 0 or more";
+  for (const char letter : text) {
+    if (letter < '0' || letter > '9') return "'" + text + "': allowed: a whole number, 0 or more";
   }
   return "";
 }

@@ -170,6 +170,28 @@ struct SceneMargins {
   double turn_deg = 0.0;        // and turned by so much about the slit frame's origin
 };
 
+// What a virtual fixture does about the tip (docs/fixtures.md).
+enum class FixtureKind : std::uint8_t {
+  kPlane,  // guides a hand: what it asks for is brought into the plane y = 0 of the frame; felt as that plane
+  kWalls,  // forbids: the tip stays between two planes y = +-room; felt as these
+  kAxis,   // is felt only: a funnel about the frame's x, as the way in
+};
+
+// A virtual fixture: of a tip in the box 0 <= x <= depth_m, |z| <= half_width_m, |y| <= half_gap_m of its frame.
+struct SceneFixture {
+  std::string name;
+  FixtureKind kind = FixtureKind::kPlane;
+  ScenePose frame;             // x the way in, y normal, z across
+  double depth_m = 0.0;        // > 0
+  double half_width_m = 0.0;   // > 0
+  double half_gap_m = 0.0;     // > 0: to the real walls, the arm's radius included
+  double yaw_low_deg = -90.0;  // plane: of the tip's x about y, from the frame's x; low <= high
+  double yaw_high_deg = 90.0;
+  double radius_m = 0.0;      // axis: half width of the funnel at its end, x = depth_m, > 0
+  double opening_deg = 30.0;  // axis: how much it widens towards x = 0, to either side
+};
+constexpr std::size_t kMostFixtures = 16;
+
 // Everything around the arm.
 struct SceneConfig {
   std::string name;
@@ -181,6 +203,7 @@ struct SceneConfig {
   std::optional<SceneCamera> camera;  // with contact what a bench needs to simulate the scene
   std::optional<SceneContact> contact;
   SceneMargins margins;
+  std::vector<SceneFixture> fixtures;  // a scene that names none has those of its slit (scene_parts.hpp)
   std::string canonical_json;
 };
 

@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware_like/operator_input/tip_filter.hpp"
 #include "host/config/robot_parts.hpp"
 
 namespace liana::config {
 namespace {
+
+constexpr double kLongestTipLag_s = 5.0;
 
 void read_segment(const Field& field, double mass_kg, cable::SegmentTable& segment) {
   field.only({"modules", "module_length_m", "theta_limit_deg"});
@@ -65,10 +68,24 @@ void read_arm(const Field& table, RobotConfig& out) {
   robot.face_offset_m = table.at("cables").at("face_offset_m").number({0.0001, 0.49 * shortest_m});
 }
 
+// A shorter lag than it takes to brake would have the tip pass a target that stops.
+double read_tip_lag_s(const Field& field, const cable::MotionLimits& limits) {
+  const double linear_s = least_lag_s({limits.tip_speed_m_s, limits.tip_accel_m_s2, limits.tip_jerk_m_s3});
+  const double angular_s =
+      least_lag_s({limits.tip_rate_rad_s, limits.tip_angular_accel_rad_s2, limits.tip_angular_jerk_rad_s3});
+  const Range range{std::ceil(1000.0 * std::max(linear_s, angular_s)) / 1000.0, kLongestTipLag_s};
+  const double lag_s = field.number({0, kLongestTipLag_s, true});
+  if (!range.contains(lag_s))
+    field.refuse(range.text(), linear_s >= angular_s ? "raise tip_accel_m_s2 and tip_jerk_m_s3 for a shorter lag"
+                                                     : "raise tip_angular_accel_deg_s2 and tip_angular_jerk_deg_s3 for "
+                                                       "a shorter lag");
+  return lag_s;
+}
+
 void read_limits(const Field& field, cable::MotionLimits& limits) {
   field.only({"theta_rate_deg_s", "theta_accel_deg_s2", "tip_speed_m_s", "tip_speed_slit_m_s", "tip_accel_m_s2",
               "tip_jerk_m_s3", "tip_rate_deg_s", "tip_angular_accel_deg_s2", "tip_angular_jerk_deg_s3",
-              "cable_speed_m_s"});
+              "cable_speed_m_s", "tip_lag_s"});
   limits.theta_rate_rad_s = field.at("theta_rate_deg_s").number({0.001, 90}) * kRadPerDeg;
   limits.theta_accel_rad_s2 = field.at("theta_accel_deg_s2").number({0.001, 1000}) * kRadPerDeg;
   limits.tip_speed_m_s = field.at("tip_speed_m_s").number({0.0001, 2});
@@ -79,6 +96,7 @@ void read_limits(const Field& field, cable::MotionLimits& limits) {
   limits.tip_angular_accel_rad_s2 = field.at("tip_angular_accel_deg_s2").number({0.001, 10000}) * kRadPerDeg;
   limits.tip_angular_jerk_rad_s3 = field.at("tip_angular_jerk_deg_s3").number({0.001, 100000}) * kRadPerDeg;
   limits.cable_speed_m_s = field.at("cable_speed_m_s").number({0.0001, 1});
+  if (field.json().contains("tip_lag_s")) limits.tip_lag_s = read_tip_lag_s(field.at("tip_lag_s"), limits);
 }
 
 void read_named_poses(const Field& field, RobotConfig& out) {

@@ -70,10 +70,18 @@ void read_cables(const Field& table, const std::string& physics, RobotConfig& ou
   read_watch(cables, out.table.cable_watch);
 }
 
+void read_torque_zero(const Field& drives, cable::TorqueZeroTable& zero) {
+  if (!drives.json().contains("torque_zero")) return;
+  const Field field = drives.at("torque_zero");
+  field.only({"bias_N", "drift_N_h"});
+  if (field.json().contains("bias_N")) zero.bias_N = field.at("bias_N").number({0, 100});
+  if (field.json().contains("drift_N_h")) zero.drift_N_h = field.at("drift_N_h").number({0, 100});
+}
+
 void read_drives(const Field& table, RobotConfig& out) {
   const Field drives = table.at("drives");
   drives.only({"drum_radius_m", "counts_per_turn", "gear", "servo_time_constant_s", "rated_torque_Nm", "identity",
-               "direction", "zero_counts", "serials", "calibration_days"});
+               "direction", "zero_counts", "serials", "calibration_days", "torque_zero"});
   out.drum_radius_m = drives.at("drum_radius_m").number({0.001, 0.5});
   out.counts_per_turn = static_cast<std::uint32_t>(drives.at("counts_per_turn").integer(256, 16777216));
   out.gear = drives.at("gear").number({0.01, 1000});
@@ -87,6 +95,7 @@ void read_drives(const Field& table, RobotConfig& out) {
   }
   out.identity = read_identity(drives.at("identity"));
   out.calibration_days = read_calibration_days(drives);
+  read_torque_zero(drives, out.table.torque_zero);
   read_drive_lists(drives, out);
   out.drive_serials = read_serials(drives, static_cast<std::size_t>(out.table.cable_count()));
 }

@@ -1,18 +1,14 @@
 // Scenes: checks of the table.
 #include <cmath>
+#include <set>
 
 #include "host/config/canonical.hpp"
 #include "host/config/config.hpp"
 #include "host/config/convex_shape.hpp"
-#include "host/config/field.hpp"
+#include "host/config/scene_parts.hpp"
 
 namespace liana::config {
 namespace {
-
-constexpr double kUnitTolerance = 1e-9;
-constexpr Range kPlace{-100, 100};      // metres from the base
-constexpr Range kLength{0, 100, true};  // metres
-constexpr Range kDirection{-1 - kUnitTolerance, 1 + kUnitTolerance};
 
 double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
@@ -37,17 +33,6 @@ std::array<Vec3, 3> axes_of(const std::array<double, 4>& q) {
   return {Vec3{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
           Vec3{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
           Vec3{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
-}
-
-ScenePose read_pose(const Field& field) {
-  ScenePose pose;
-  pose.position_m = field.at("position_m").numbers<3>(kPlace);
-  pose.quaternion_wxyz = field.at("quaternion_wxyz").numbers<4>(kDirection);
-  double square = 0.0;
-  for (const double q : pose.quaternion_wxyz) square += q * q;
-  if (std::fabs(square - 1) > kUnitTolerance)
-    field.at("quaternion_wxyz").refuse("unit length to 1e-9", "divide it by its length");
-  return pose;
 }
 
 SceneBox read_box(const Field& field) {
@@ -178,13 +163,39 @@ SceneMargins read_margins(const Field& field) {
   return margins;
 }
 
+// Messages and reports name a body: no two may share a name. The pieces of a chain are one body.
+void check_names(const Field& table) {
+  std::set<std::string> names;
+  for (const char* kind : {"boxes", "spheres", "convex"}) {
+    if (!table.json().contains(kind)) continue;
+    const Field bodies = table.at(kind);
+    for (std::size_t i = 0; i < bodies.json().size(); ++i) {
+      const Field name = bodies.element(i).at("name");
+      if (!names.insert(name.name(40)).second)
+        name.refuse("a name that no other body of the scene has", "rename one of them");
+    }
+  }
+}
+
 }  // namespace
+
+ScenePose read_pose(const Field& field) {
+  ScenePose pose;
+  pose.position_m = field.at("position_m").numbers<3>(kPlace);
+  pose.quaternion_wxyz = field.at("quaternion_wxyz").numbers<4>(kDirection);
+  double square = 0.0;
+  for (const double q : pose.quaternion_wxyz) square += q * q;
+  if (std::fabs(square - 1) > kUnitTolerance)
+    field.at("quaternion_wxyz").refuse("unit length to 1e-9", "divide it by its length");
+  return pose;
+}
 
 SceneConfig parse_scene(const std::string& text, const std::string& file) {
   const Json json = parse_json(text, file);
   const Field table(json, file, "");
   check_kind(table, "scene");
-  table.only({"format", "kind", "name", "boxes", "spheres", "convex", "slit", "rod", "camera", "contact", "margins"});
+  table.only({"format", "kind", "name", "boxes", "spheres", "convex", "slit", "rod", "camera", "contact", "margins",
+              "fixtures"});
   SceneConfig out;
   out.name = table.at("name").name(40);
   const Field boxes = table.at("boxes");
@@ -198,11 +209,13 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
     const std::size_t convex_count = convex.size(0, kMostConvex, "at most 64 convex bodies");
     for (std::size_t i = 0; i < convex_count; ++i) read_convex(convex.element(i), out.convex);
   }
+  check_names(table);
   if (json.contains("slit")) check_slit(table.at("slit"), out.slit.emplace(read_slit(table.at("slit"))));
   if (json.contains("rod")) out.rod = read_rod(table.at("rod"));
   if (json.contains("camera")) out.camera = read_camera(table.at("camera"));
   if (json.contains("contact")) out.contact = read_contact(table.at("contact"));
   if (json.contains("margins")) out.margins = read_margins(table.at("margins"));
+  out.fixtures = json.contains("fixtures") ? read_fixtures(table.at("fixtures")) : slit_fixtures(out.slit, out.rod);
   out.canonical_json = canonical_json(json);
   return out;
 }

@@ -29,7 +29,8 @@ arbiter::SpeedZone zone_of(const config::RobotConfig& robot, const config::Scene
 std::unique_ptr<verify::SimulationEnd<cable::CableArm>> simulation_end(const config::RobotConfig& robot,
                                                                        const config::SceneConfig& scene) {
   return std::make_unique<verify::SimulationEnd<cable::CableArm>>(
-      simulate::arm_model(robot), verify::MotionRules{robot.table, scene, zone_of(robot, scene), robot.machine});
+      simulate::arm_model(robot),
+      verify::MotionRules{robot.table, scene, zone_of(robot, scene), robot.machine, robot.module_radius_m});
 }
 
 // Called in another thread: it has all it needs with it.
@@ -86,7 +87,7 @@ CableDesk::CableDesk(const config::RobotConfig& robot, const config::SceneConfig
                      timing::TimeMode time_mode, control::ArmLink<cable::CableArm>& link,
                      const device::DoorPlace& devices)
     : ArmDesk(robot.table, zone_of(robot, scene), time_mode, link, simulation_end(robot, scene), taken(time_mode),
-              path_check(robot, scene)),
+              path_check(robot, scene), fixture::Guidance(robot.table, scene.fixtures, robot.module_radius_m)),
       robot_(robot),
       scene_(scene),
       homing_(robot_, in_pose),
@@ -96,6 +97,9 @@ CableDesk::CableDesk(const config::RobotConfig& robot, const config::SceneConfig
   handlers_["move_cp"] = [this](const MotionRequest& r) { move_line(r.fields); };
   handlers_["hold_theta"] = [this](const MotionRequest& r) { hold_theta(r.fields.entries("held")); };
   handlers_["shape"] = [this](const MotionRequest& r) { shape(r.fields); };
+  handlers_["dither"] = [this](const MotionRequest& r) {
+    arbiter_.dither(outputs(), r.fields.number("share"), r.fields.number("duration_s"));
+  };
   handlers_["use_device"] = [this](const MotionRequest& r) { use_device(r.fields); };
   handlers_["devices"] = [](const MotionRequest&) {};  // only looks
 }
@@ -105,6 +109,7 @@ void CableDesk::watch(bool booted) {
   shape_progress_.note(outputs(), arbiter_.nodes(), arbiter_.keep_clear());
   if (booted) homing_.look(report(), link_.image.value().controller.arm().estimator());
   watch_clearance();
+  arbiter_.see(sight());
   if (!scene_.slit) return;
   const cable::LinkPoints links = link_points(table_, outputs().theta_command_rad);
   const solve::SlitMouth mouth = config::slit_mouth(*scene_.slit, robot_.module_radius_m);
@@ -148,6 +153,7 @@ void CableDesk::tell_devices(std::int64_t now_us) {
                     .commanded_tip = o.tip_command,
                     .predicted_tip = predicted_tip_};
   if (clearance_ && clearance_->claim().clearance.link >= 0) arm.clearance_m = clearance_->claim().clearance.distance_m;
+  arm.planes = felt_planes();
   device_state_.look(arm, table_.tick_s);
   devices_.tell(device_state_, arbiter_.device(), now_us);
 }
@@ -241,10 +247,14 @@ void CableDesk::use_device(const api::Arguments& fields) {
   use.kind = devices_.kind_of(use.name);
   use.mapping.scale = fields.number("scale");
   use.mapping.rotation_scale = fields.number("rotation_scale");
+  if (fields.has("frame")) use.mapping.frame = arbiter::frame_of(fields.text("frame"));
   use.node = static_cast<std::int32_t>(fields.integer("node"));
   use.speed_m_s = fields.number("speed_m_s");
   use.anywhere = fields.flag("anywhere");
+  const fixture::Choice fixtures = chosen_fixtures(fields);
   arbiter_.use_device(outputs(), use);
+  arbiter_.choose_fixtures(fixtures);
+  feedback_ = fields.has("feedback") ? fields.text("feedback") : "aligned";
 }
 
 }  // namespace liana::daemon

@@ -7,6 +7,8 @@
 #include "host/daemon/arm_desk.hpp"
 #include "host/daemon/device_desk.hpp"
 #include "host/daemon/homing.hpp"
+#include "host/fixture/felt_scene.hpp"
+#include "host/fixture/pitch_budget.hpp"
 #include "host/live_clearance/live_clearance.hpp"
 
 namespace liana::daemon {
@@ -38,12 +40,19 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
  private:
   std::vector<double> joints_deg(const cable::Outputs& outputs) const override;
   void watch_clearance();
+  cable::ThetaVector believed_rad() const;
+  fixture::Sight sight() const;
+  std::optional<fixture::PitchBudget> pitch_budget() const;
+  double tip_room_m() const;
+  Json guidance_json() const;
   void foresee(const live_clearance::Outlook& outlook);
   Json clearance_json() const;
   void move_line(const api::Arguments& fields);
   void hold_theta(const std::vector<api::Arguments>& held);
   void shape(const api::Arguments& fields);
   void use_device(const api::Arguments& fields);
+  fixture::PlaneSlots::Told felt_planes();
+  fixture::Choice chosen_fixtures(const api::Arguments& fields) const;
   void tell_device(std::vector<event::Event>& events);
 
   config::RobotConfig robot_;
@@ -54,9 +63,11 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   live_clearance::Outlook outlook_;                         // what the simulation was told last
   DeviceDesk devices_;
   DeviceState device_state_;
+  fixture::PlaneSlots plane_slots_;
   std::optional<Pose> predicted_tip_;  // at the end of the command released last
   bool friction_is_off_ = false;       // as told last
   bool device_is_slow_ = false;        // as told last
+  std::string feedback_ = "aligned";   // law of use_device
   std::int32_t planar_segments_ = 0;   // how many the slit asks for now (host/solve/dof_split.hpp)
 };
 

@@ -18,11 +18,48 @@ Json nodes_json(const cable::RobotTable& table, const cable::Outputs& outputs) {
   return nodes;
 }
 
+const char* contact_state_name(cable::ContactState state) {
+  switch (state) {
+    case cable::ContactState::kMoving:
+      return "moving";
+    case cable::ContactState::kDithered:
+      return "dithered";
+    case cable::ContactState::kStuck:
+      break;
+  }
+  return "stuck";
+}
+
+// Along an axis on which the force is not known it is null.
+Json contact_json(const cable::ContactReport& contact) {
+  Json force_N = Json::array();
+  for (std::size_t i = 0; i < contact.force_N.size(); ++i)
+    force_N.push_back((contact.seen & 1u << i) != 0 ? Json(contact.force_N[i]) : Json());
+  return {{"force_N", force_N},
+          {"sd_N", contact.sd_N},
+          {"state", contact_state_name(contact.state)},
+          {"on_body", contact.on_body != 0},
+          {"segment", contact.segment},
+          {"torque_Nm", contact.torque_Nm}};
+}
+
 // Null before the first sample of a device in use; `hz` null before its first second is over.
 Json rate_json(const device::SampleRate& rate) {
   if (rate.count() == 0) return nullptr;
   const std::optional<double> now_hz = rate.now_hz();
   return {{"hz", now_hz ? Json(*now_hz) : Json()}, {"least_s", rate.least_s()}, {"most_s", rate.most_s()}};
+}
+
+std::string ease_name(const fixture::Ease& ease) {
+  switch (ease.cause) {
+    case fixture::EaseCause::kNone:
+      return "";
+    case fixture::EaseCause::kSingular:
+      return "near singular";
+    case fixture::EaseCause::kJointLimit:
+      break;
+  }
+  return "theta " + std::to_string(ease.theta) + " near its limit";
 }
 
 }  // namespace
@@ -53,6 +90,27 @@ Json CableDesk::clearance_json() const {
           {"turn_deg", {in_degrees(turn_rad[0]), in_degrees(turn_rad[1]), in_degrees(turn_rad[2])}}};
 }
 
+// What fixtures make of the hand, and the two figures that they are felt by.
+Json CableDesk::guidance_json() const {
+  const fixture::Guidance& guidance = arbiter_.guidance();
+  Json out{{"fixtures", Json::array()},
+           {"plane", guidance.plane_name()},
+           {"taken_away_m", guidance.taken_away_m()},
+           {"yaw_limited", guidance.is_yaw_limited()},
+           {"speed_share", arbiter_.ease().share},
+           {"slowed_by", ease_name(arbiter_.ease())},
+           {"pitch_allowed_deg", nullptr},
+           {"pitch_used_deg", nullptr}};
+  for (const config::SceneFixture& one : guidance.fixtures()) {
+    if (guidance.is_chosen(one.name)) out["fixtures"].push_back(one.name);
+  }
+  const std::optional<fixture::PitchBudget> budget = pitch_budget();
+  if (!budget) return out;
+  out["pitch_allowed_deg"] = in_degrees(budget->allowed_rad);
+  out["pitch_used_deg"] = in_degrees(budget->used_rad);
+  return out;
+}
+
 void CableDesk::add_state(Json& state) const {
   const cable::Outputs& o = outputs();
   const arbiter::DeviceUse& device = arbiter_.device().in_use();
@@ -66,7 +124,13 @@ void CableDesk::add_state(Json& state) const {
   state["device_samples"] = arbiter_.device().samples();
   state["device_rate"] = rate_json(arbiter_.device().rate());
   state["devices"] = devices_.summary();
-  state["mapping"] = {{"scale", device.mapping.scale}, {"rotation_scale", device.mapping.rotation_scale}};
+  state["mapping"] = {{"scale", device.mapping.scale},
+                      {"rotation_scale", device.mapping.rotation_scale},
+                      {"frame", arbiter::name_of(device.mapping.frame)},
+                      {"feedback", feedback_}};
+  state["guidance"] = guidance_json();
+  if (arbiter_.ease().cause == fixture::EaseCause::kJointLimit) state["limits"].push_back("near_theta");
+  if (arbiter_.ease().cause == fixture::EaseCause::kSingular) state["limits"].push_back("near_singular");
   state["shape"] = {{"missing_m", shape_progress_.missing_m()},
                     {"settled", shape_progress_.is_settled() && !arbiter_.is_searching()},
                     {"searching", arbiter_.is_searching()}};
@@ -84,8 +148,7 @@ void CableDesk::add_state(Json& state) const {
                        {"planned_mu", o.friction.planned_mu},
                        {"declared_mu", table_.friction_mu},
                        {"not_as_declared", o.friction.not_as_declared != 0}};
-  state["contact"] = {
-      {"segment", o.contact.segment}, {"torque_Nm", o.contact.torque_Nm}, {"tip_push_N", o.contact.tip_push_N}};
+  state["contact"] = contact_json(o.contact);
   add_tip(state, o);
 }
 

@@ -30,6 +30,9 @@ class DeviceDesk {
   // Sends every device its state.
   void tell(const DeviceState& state, const arbiter::DeviceSteer& steer, std::int64_t now_us);
 
+  // The device that steers; nullptr while none does.
+  const device::Device* in_use() const { return door_.find(followed_); }
+
   std::vector<event::Event> take_events();
   // `devices` of the state message.
   Json summary() const;

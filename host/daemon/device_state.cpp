@@ -12,6 +12,15 @@ constexpr double kWatchdogIntervals = 5.0;
 
 void fill(const Vec3& from, double (&to)[3]) { std::copy(from.begin(), from.end(), to); }
 
+liana_plane plane_of(const haptic::Plane& plane) {
+  liana_plane out{};
+  fill(plane.normal, out.normal);
+  out.offset_m = plane.offset_m;
+  out.stiffness_N_m = plane.stiffness_N_m;
+  out.damping_N_s_m = plane.damping_N_s_m;
+  return out;
+}
+
 liana_twist twist(const Pose& from, const Pose& to, double time_s) {
   liana_twist out{};
   fill(scale(subtract(to.position_m, from.position_m), 1.0 / time_s), out.linear_m_s);
@@ -44,6 +53,7 @@ void DeviceState::look(const ArmForDevices& arm, double tick_s) {
     out.present |= LIANA_HAS_CLEARANCE;
     out.clearance_m = *arm.clearance_m;
   }
+  planes_ = arm.planes;
   out.answers_us = -1;
   if (in_force_.of_us >= 0)
     out.held_us = std::llround(static_cast<double>(arm.tick - in_force_.first_tick) * tick_s * 1e6);
@@ -60,6 +70,9 @@ liana_state DeviceState::state_for(const arbiter::DeviceSteer* steer) const {
   std::string_view(steer->reason()).copy(out.reason, sizeof out.reason - 1);
   out.scale = steer->in_use().mapping.scale;
   out.rotation_scale = steer->in_use().mapping.rotation_scale;
+  static_assert(fixture::kMostPlanes == LIANA_MOST_PLANES);
+  out.planes = LIANA_MOST_PLANES;
+  std::transform(planes_.begin(), planes_.end(), out.plane, plane_of);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "firmware_like/math/pose.hpp"
 #include "host/arbiter/device_steer.hpp"
 #include "host/device/packets.hpp"
+#include "host/fixture/felt_planes.hpp"
 
 namespace liana::daemon {
 
@@ -18,6 +19,7 @@ struct ArmForDevices {
   Pose measured_tip{}, commanded_tip{};
   std::optional<Pose> predicted_tip{};  // at the end of the command released last
   std::optional<double> clearance_m{};
+  fixture::PlaneSlots::Told planes{};  // for the device in use
 };
 
 class DeviceState {
@@ -42,6 +44,7 @@ class DeviceState {
   double interval_s_;
   Made in_force_, next_;
   std::optional<Pose> before_;  // the tip, one interval ago
+  fixture::PlaneSlots::Told planes_{};
   liana_state common_{};
 };
 

@@ -3,11 +3,15 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "host/api/request_error.hpp"
+
 namespace liana::script {
 namespace {
 
 constexpr double kWelcome_s = 30.0;
 constexpr double kWait_s = 0.5;
+constexpr int kMostAtOnce = 400;  // of the 512 that lianad takes of a client in an interval
+constexpr int kReserve = 32;      // for what a step does when it has failed by that
 
 std::string progress_line(const Json& event) {
   char line[300];
@@ -52,6 +56,8 @@ MissionSession::MissionSession(const MissionOptions& options, Activity& activity
 }
 
 Json MissionSession::next() {
+  made_at_once_ = 0;
+  most_at_once_ = kMostAtOnce;
   activity_.beat();
   auto message = client_.receive(kWait_s);
   activity_.beat();
@@ -74,6 +80,13 @@ void MissionSession::hold_quietly() {
 }
 
 std::int64_t MissionSession::request(const api::RequestRow& row, Json fields) {
+  if (made_at_once_ >= most_at_once_) {
+    most_at_once_ = kMostAtOnce + kReserve;
+    throw api::RequestError("busy", std::to_string(kMostAtOnce) +
+                                        " requests at once: allowed no more before the next " +
+                                        "state: make them one after the other, as the arm carries them out");
+  }
+  ++made_at_once_;
   fields["op"] = row.op;
   fields["id"] = ++last_id_;
   client_.send(fields);

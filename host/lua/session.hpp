@@ -26,6 +26,7 @@ class MissionSession : public RequestSink {
   // Asks for a hold; says nothing when lianad is gone.
   void hold_quietly();
 
+  // Throws api::RequestError when too many have been made since the last message: lianad would throw this client out.
   std::int64_t request(const api::RequestRow& row, Json fields) override;
   void progress(const Json& event) override;
   void report(const Json& report) override;
@@ -37,6 +38,7 @@ class MissionSession : public RequestSink {
   Json welcome_;
   Json report_;
   std::int64_t last_id_ = 0;
+  int made_at_once_ = 0, most_at_once_ = 0;  // requests since the last message
 };
 
 }  // namespace liana::script

@@ -8,7 +8,7 @@ struct HandGains {
   // Seeing
   double reaction_s = 0.15;        // from a picture to the hand
   double camera_latency_s = 0.10;  // age of a picture, known from practice
-  double expected_lag_s = 0.65;    // first-order lag of the arm behind the hand, known from practice
+  double expected_lag_s = 0.36;    // first-order lag of the arm behind the hand, known from practice
   double look_s = 0.6;             // looks this long before gripping
   double blind_s = 1.0;            // without a picture for this long, the hand stops
   double judge_tau_s = 0.8;        // low pass of the error that decides "there"

@@ -14,9 +14,7 @@ fs::path installed_folder() { return fs::path(program_folder()).parent_path() / 
 
 // A build folder has no share/liana: its programs use the tree that they were built of.
 fs::path file_of(const char* installed, const char* in_source) {
-  const fs::path folder = installed_folder();
-  std::error_code unreadable;
-  return fs::is_directory(folder, unreadable) ? folder / installed : fs::path(in_source);
+  return is_installed() ? installed_folder() / installed : fs::path(in_source);
 }
 
 std::string checked_folder(const std::string& source, const std::string& folder) {
@@ -33,6 +31,11 @@ std::string environment(const char* name) {
 }  // namespace
 
 std::string program_folder() { return fs::read_symlink("/proc/self/exe").parent_path().string(); }
+
+bool is_installed() {
+  std::error_code unreadable;
+  return fs::is_directory(installed_folder(), unreadable);
+}
 
 std::string shipped_lua_folder() {
   const fs::path folder = file_of("lua", LIANA_SOURCE_LUA_DIR);

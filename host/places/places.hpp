@@ -13,6 +13,10 @@ inline constexpr const char* kLuaPath = "LIANA_LUA_PATH";
 // Folder of the running program; the other programs lie there, too. Throws std::runtime_error without /proc.
 std::string program_folder();
 
+// This program was installed; one of a build folder lies in a source tree, which has ./dev. Throws std::runtime_error
+// without /proc.
+bool is_installed();
+
 // Liana's own Lua folder: robots, scenes, buses, missions, recordings and the modules of missions. Throws
 // std::runtime_error when it is not there.
 std::string shipped_lua_folder();

@@ -70,6 +70,7 @@ void check(const ImageReader& in, const cable::FrictionWatchState& state) {
 
 void check(const ImageReader& in, const cable::ContactWatchState& state) {
   in.require("segment", state.segment, -1, in.bounds().segments - 1);
+  in.require("best_place", state.best_place, -1, static_cast<std::int64_t>(cable::kPlaces) * in.bounds().segments - 1);
 }
 
 // Of tables far wider than any: the core counts seconds and minutes in ticks.

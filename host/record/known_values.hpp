@@ -19,6 +19,7 @@ constexpr bool is_up_to(E value, E last) {
 constexpr bool is_known(CommandKind kind) { return is_up_to(kind, CommandKind::kRetreat); }
 constexpr bool is_known(StopCategory category) { return is_up_to(category, StopCategory::kOff); }
 constexpr bool is_known(cable::LetGoStage stage) { return is_up_to(stage, cable::LetGoStage::kUndone); }
+constexpr bool is_known(cable::ContactState state) { return is_up_to(state, cable::ContactState::kDithered); }
 constexpr bool is_known(Phase phase) { return is_up_to(phase, Phase::kResetting); }
 constexpr bool is_known(IkOutcome outcome) { return is_up_to(outcome, IkOutcome::kUnreachable); }
 constexpr bool is_known(Request request) { return is_up_to(request, Request::kStop); }

@@ -79,6 +79,7 @@ void visit(A& a, T& s) {
   a("clear", s.clear);
   visit_first(a, "joint_rad", s.joint_rad, counts_of_visitor(a).thetas);
   a("tip_speed_m_s", s.tip_speed_m_s);
+  a("dither_share", s.dither_share);
 }
 
 template <class A, class Fields>
@@ -155,9 +156,13 @@ void visit(A& a, T& f) {
 
 template <class A, Like<cable::ContactReport> T>
 void visit(A& a, T& c) {
-  a("tip_push_N", c.tip_push_N);
-  a("torque_Nm", c.torque_Nm);
+  a("force_N", c.force_N);
+  a("sd_N", c.sd_N);
+  a("seen", c.seen);
+  a("state", c.state);
+  a("on_body", c.on_body);
   a("segment", c.segment);
+  a("torque_Nm", c.torque_Nm);
 }
 
 template <class A, Like<cable::Outputs> T>
@@ -218,6 +223,12 @@ void visit(A& a, T& w) {
   a("contradiction_m", w.contradiction_m);
 }
 
+template <class A, Like<cable::TorqueZeroTable> T>
+void visit(A& a, T& t) {
+  a("bias_N", t.bias_N);
+  a("drift_N_h", t.drift_N_h);
+}
+
 template <class A, Like<cable::MotionLimits> T>
 void visit(A& a, T& m) {
   a("theta_rate_rad_s", m.theta_rate_rad_s);
@@ -230,6 +241,7 @@ void visit(A& a, T& m) {
   a("tip_angular_accel_rad_s2", m.tip_angular_accel_rad_s2);
   a("tip_angular_jerk_rad_s3", m.tip_angular_jerk_rad_s3);
   a("cable_speed_m_s", m.cable_speed_m_s);
+  a("tip_lag_s", m.tip_lag_s);
 }
 
 template <class A, Like<cable::DriveTable> T>
@@ -254,6 +266,7 @@ void visit(A& a, T& r) {
   a("interval_ticks", r.interval_ticks);
   a("tension", r.tension);
   a("cable_watch", r.cable_watch);
+  a("torque_zero", r.torque_zero);
   a("limits", r.limits);
   a("drive", r.drive);
 }

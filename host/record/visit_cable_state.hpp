@@ -43,8 +43,6 @@ void visit(A& a, T& s) {
   a("variance", s.variance);
   a("axis", s.axis);
   a("flagged", s.flagged);
-  a("unexplained_Nm", s.unexplained_Nm);
-  a("friction_Nm", s.friction_Nm);
 }
 
 template <class A, Like<cable::BodyInertiaState> T>
@@ -58,14 +56,34 @@ void visit(A& a, T& s) {
   a("force_N", s.force_N);
 }
 
-template <class A, Like<cable::ContactWatchState> T>
+template <class A, Like<cable::TorqueBalance> T>
 void visit(A& a, T& s) {
-  a("sweeps", s.sweeps);
-  a("segment", s.segment);
+  a("whole", s.whole);
+  a("slip", s.slip);
+  a("per_mu_Nm", s.per_mu_Nm);
   a("torque_Nm", s.torque_Nm);
-  a("tip_push_N", s.tip_push_N);
+  a("variance_Nm2", s.variance_Nm2);
+  a("pull_Nm", s.pull_Nm);
+  a("own", s.own);
+  a("shared", s.shared);
   a("rate_rad_s", s.rate_rad_s);
   a("stir", s.stir);
+}
+
+template <class A, Like<cable::ContactWatchState> T>
+void visit(A& a, T& s) {
+  a("state", s.state);
+  a("force_N", s.force_N);
+  a("sd_N", s.sd_N);
+  a("dithered_N", s.dithered_N);
+  a("dithering", s.dithering);
+  a("torque_Nm", s.torque_Nm);
+  a("sweeps", s.sweeps);
+  a("segment", s.segment);
+  a("root_Nm", s.root_Nm);
+  a("torque", s.torque);
+  a("least_misfit", s.least_misfit);
+  a("best_place", s.best_place);
 }
 
 template <class A, Like<cable::HeldProfile> T>
@@ -207,6 +225,13 @@ void visit(A& a, T& s) {
   a("standing_rad", s.standing_rad);
   a("shift_rad", s.shift_rad);
   a("output_rad", s.output_rad);
+}
+
+template <class A, Like<cable::DitherState> T>
+void visit(A& a, T& s) {
+  a("share", s.share);
+  a("turn", s.turn);
+  a("settle_s", s.settle_s);
 }
 
 template <class A, Like<cable::TensionPlan> T>

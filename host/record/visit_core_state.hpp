@@ -71,6 +71,21 @@ void visit(A& a, T& s) {
   a("acceleration", s.acceleration);
 }
 
+template <class A, Like<NotchState> T>
+void visit(A& a, T& s) {
+  a("step", s.step);
+  a("offset", s.offset);
+  a("earlier", s.earlier);
+}
+
+template <class A, Like<TremorState> T>
+void visit(A& a, T& s) {
+  a("begun", s.begun);
+  a("target", s.target);
+  a("linear", s.linear);
+  a("angular", s.angular);
+}
+
 template <class A, Like<TipFilterState> T>
 void visit(A& a, T& s) {
   a("pose", s.pose);
@@ -78,6 +93,7 @@ void visit(A& a, T& s) {
   a("angular", s.angular);
   a("speed_limited", s.speed_limited);
   a("accel_limited", s.accel_limited);
+  a("tremor", s.tremor);
 }
 
 }  // namespace liana::record

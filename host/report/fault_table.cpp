@@ -80,8 +80,8 @@ Detection detection_of(FaultNumber number, const FaultTimes& times) {
               of_cables(times, cable::kScatterReversals + 1)};
     case FaultNumber::kBodyContact:
       return {
-          "contact watch: torque about a segment's angles that cables, friction, inertia and a push at the tip do not "
-          "explain, low-passed over 0.6 s, in a row",
+          "contact watch: torques that cables, friction, inertia and a push of up to 3 N at the tip do not explain, "
+          "low-passed over 0.6 s and in their own deviations, in a row",
           of_cables(times, static_cast<int>(cable::kFrictionTicks) * 2 * times.segments * (cable::kContactSweeps + 1))};
     case FaultNumber::kFrictionNotAsDeclared:
       return {

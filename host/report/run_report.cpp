@@ -91,6 +91,7 @@ std::string add_truth(Json& report, const ReportSources& sources, const Window& 
   add_figures(report, truth, rows, true_rod(sources),
               state != nullptr ? std::optional(state->commanded_tip) : std::nullopt, sources.has_slit);
   if (truth.has("contact_force_N")) report["contacts"] = contact_count(truth, rows, period_s);
+  if (sources.body_at) add_nearest(report, truth, rows, sources.body_at);
   if (sources.body_at && report.value("max_contact_force_N", 0.0) > 0.0)
     report["contact"] = contact_in(truth, rows, sources.body_at, window.first_tick, period_s);
   add_claims(report, truth, rows, sources.claims, period_s);
@@ -131,7 +132,12 @@ std::string clearance_text(const Json& report) {
   add("min_slit_clearance_m", ", slit %.1f mm");
   add("min_box_clearance_m", ", boxes %.1f mm");
   add("min_sphere_clearance_m", ", sphere %.0f mm");
-  if (text.empty()) add("min_clearance_m", ", bodies %.1f mm");
+  if (report.contains("nearest")) {
+    const Json& nearest = report["nearest"];
+    text += line(", least %.1f mm", 1e3 * nearest["clearance_m"].get<double>()) + " to " + nearest["body"].text();
+  } else if (text.empty()) {
+    add("min_clearance_m", ", bodies %.1f mm");
+  }
   return "clearance: " + (text.empty() ? "nothing in the scene" : text.substr(2)) + "\n";
 }
 

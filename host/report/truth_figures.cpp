@@ -91,6 +91,16 @@ void add_figures(Json& report, const TruthLog& truth, const Rows& rows, const st
   }
 }
 
+void add_nearest(Json& report, const TruthLog& truth, const Rows& rows, const BodyAt& body_at) {
+  if (!report.contains("min_clearance_m")) return;
+  std::size_t nearest = rows.first;
+  for (std::size_t row = rows.first; row <= rows.last; ++row) {
+    if (truth.at(row, "clearance_m") < truth.at(nearest, "clearance_m")) nearest = row;
+  }
+  report["nearest"] = body_at(truth.angles_deg("theta_deg_", nearest));
+  report["nearest"]["clearance_m"] = report["min_clearance_m"];
+}
+
 Json contact_in(const TruthLog& truth, const Rows& rows, const BodyAt& body_at, std::uint64_t begin_slot,
                 double period_s) {
   std::size_t first = rows.last, hardest = rows.first;

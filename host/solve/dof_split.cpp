@@ -149,6 +149,20 @@ YawInterval feasible_yaw(const RobotTable& table, const PlanarPart& part, const 
   return {};
 }
 
+bool some_yaw_fits(const RobotTable& table, const PlanarPart& part, const SlitMouth& mouth) noexcept {
+  constexpr std::int32_t kSteps = 8;
+  YawTrial trial{table, mouth, part, static_cast<Index>(2 * table.segment_count - 1)};
+  const double limit = table.segment[static_cast<Index>(table.segment_count - 1)].theta_limit_rad;
+  const double given = part.theta_rad[trial.yaw];
+  if (trial.fits_at(given)) return true;
+  for (std::int32_t i = 1; i <= 2 * kSteps; ++i) {  // nearest first, to both sides in turn
+    const double away = limit / kSteps * ((i + 1) / 2);
+    const double yaw = i % 2 == 1 ? given + away : given - away;
+    if (std::fabs(yaw) <= limit && trial.fits_at(yaw)) return true;
+  }
+  return false;
+}
+
 std::int32_t planar_segments(const RobotTable& table, const LinkPoints& links, const SlitMouth& mouth,
                              const PlanarSwitch& when, std::int32_t before) noexcept {
   const std::int32_t at_least = segments_near(table, links, mouth, when.look_ahead_m);

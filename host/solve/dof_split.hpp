@@ -59,6 +59,10 @@ struct YawInterval {
 YawInterval feasible_yaw(const RobotTable& table, const PlanarPart& part, const SlitMouth& mouth,
                          std::int32_t segment) noexcept;
 
+// Whether any yaw of the last segment lets S2 fit with this tip, all other angles as they are: looked for in steps of
+// 1/8 of the joint limit, the one given first. One call of fits() where that one does, at most 17.
+bool some_yaw_fits(const RobotTable& table, const PlanarPart& part, const SlitMouth& mouth) noexcept;
+
 // When a segment has to be planar.
 struct PlanarSwitch {
   // How far before the mouth a segment comes into the plane; negative: how deep its end may be before. The default is

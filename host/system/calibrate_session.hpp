@@ -1,13 +1,8 @@
 // lianad, and with a simulated arm bus and bench, with the drives off, read while the arm lies in a fixture.
 #pragma once
 
-#include <functional>
-#include <string>
-
 #include "host/calibration/calibrate.hpp"
-#include "host/system/interrupt.hpp"
-#include "host/system/state_watch.hpp"
-#include "host/system/system.hpp"
+#include "host/system/lockstep_session.hpp"
 
 namespace liana::system {
 
@@ -18,10 +13,6 @@ class CalibrateSession {
  public:
   // `plan`: without a mission. Both must outlive this.
   CalibrateSession(const SystemLayout& plan, const InterruptGuard& interrupts);
-  // Ends the programs.
-  ~CalibrateSession();
-  CalibrateSession(const CalibrateSession&) = delete;
-  CalibrateSession& operator=(const CalibrateSession&) = delete;
 
   // Boots the drives and averages what they report for a second; the pose of the result is left empty. Throws
   // std::runtime_error when a drive does not boot or a program ends; Interrupted at Ctrl-C; BadInput when a program
@@ -33,15 +24,7 @@ class CalibrateSession {
   calibration::Friction measure_friction(const config::RobotConfig& robot);
 
  private:
-  void start();
-  Json ask_and_wait(const Json& request, const std::function<bool(const Json&)>& is_done,
-                    const std::function<void(const Json&)>& look);
-  Json next_state();
-  [[noreturn]] void give_up(const std::string& why, double settle_s = 0.0);
-
-  const InterruptGuard& interrupts_;
-  System system_;
-  StateWatch watch_;
+  LockstepSession session_;
 };
 
 }  // namespace liana::system

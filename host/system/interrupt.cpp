@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "host/file/out_file.hpp"
 #include "host/system/errors.hpp"
 
 namespace liana::system {
@@ -20,6 +21,7 @@ void count_interrupt(int) {
 
 void end(int) {
   constexpr std::string_view kText = "liana: interrupted\n";
+  file::remove_unfinished();
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText.data(), kText.size());
   _exit(kExitInterrupted);
 }

@@ -91,6 +91,17 @@ void check_steps(const Json& mission, const config::RobotConfig& robot, const co
   if (start != nullptr) check_start(mission, *start);
 }
 
+void check_scene_parts(const Json& mission, const config::SceneConfig& scene) {
+  for (std::size_t i = 0; i < mission.at("steps").size(); ++i) {
+    for (const Json& part : mission.at("steps")[i].at("parts")) {
+      const std::string name = part.value("part", "");
+      if (name == "rod" ? scene.rod.has_value() : scene.slit.has_value()) continue;
+      throw BadInput(where_of(mission, i) + ": " + part.value("field", "") + ": looks at a " + name + ": scene " +
+                     scene.name + " has none: run in another --scene, or correct the condition");
+    }
+  }
+}
+
 void keep_mission_files(const Json& mission, const std::string& directory) {
   for (const Json& file : mission.at("files")) {
     const std::string path = file.value("path", ""), text = checked([&] { return config::read_text_file(path); });

@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <stdexcept>
 
+#include "host/file/out_file.hpp"
 #include "host/system/errors.hpp"
 
 namespace liana::system {
@@ -37,12 +37,9 @@ void check_output(const std::string& option, const std::string& path) {
 }
 
 void write_output(const std::string& path, const std::string& text) {
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  bool good =
-      file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size() && std::fflush(file) == 0;
-  const int reason = errno;
-  if (file != nullptr) std::fclose(file);
-  if (!good) throw std::runtime_error(path + ": cannot be written: " + std::strerror(reason));
+  file::OutFile out(path);
+  out.write(text);
+  out.finish();
 }
 
 int after_standard_output(int code) {

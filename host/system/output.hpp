@@ -10,7 +10,7 @@ namespace liana::system {
 // Only the permissions of what is no ordinary file (a device, a pipe) are looked at.
 void check_output(const std::string& option, const std::string& path);
 
-// Replaces the file by `text`; throws std::runtime_error with the reason.
+// Replaces the file by `text`, or leaves it as it was; throws std::runtime_error with the reason.
 void write_output(const std::string& path, const std::string& text);
 
 // The exit code of a program that ends with `code`: kExitFailure, with a message, when standard output did not take

@@ -20,8 +20,16 @@ void check_scene(const std::string& file, const Json& plan, const config::SceneC
                  "; run it in that one, or plan again");
 }
 
+// Of plans written before their hash was under the digest.
+std::string digest_without_hash(Json plan) {
+  plan.erase("hash");
+  return digest_of_plan(plan);
+}
+
 void check_digest(const std::string& file, const Json& plan) {
-  if (!plan.contains("digest") || plan.value("digest", "") == digest_of_plan(plan)) return;
+  if (!plan.contains("digest")) return;
+  const std::string digest = plan.value("digest", "");
+  if (digest == digest_of_plan(plan) || digest == digest_without_hash(plan)) return;
   throw BadInput(file +
                  ": digest: the file is not what liana plan wrote, somebody has edited it: allowed a plan as it " +
                  "was checked: plan again");
@@ -56,9 +64,10 @@ std::string start_of_plan(const Json& plan) {
 }
 
 std::string digest_of_plan(const Json& plan) {
-  const Json content{{"outcome", plan.member_or_null("outcome")},
-                     {"waypoints_deg", plan.member_or_null("waypoints_deg")},
-                     {"inputs", plan.member_or_null("inputs")}};
+  Json content{{"outcome", plan.member_or_null("outcome")},
+               {"waypoints_deg", plan.member_or_null("waypoints_deg")},
+               {"inputs", plan.member_or_null("inputs")}};
+  if (plan.contains("hash")) content["hash"] = plan.at("hash");
   return config::sha256_hex(config::canonical_json(content));
 }
 
@@ -66,7 +75,10 @@ PlanWay way_of_plan(const Json& plan, const std::string& file, const config::Rob
                     const config::SceneConfig& scene) {
   check_scene(file, plan, scene);
   check_digest(file, plan);
-  const config::Field whole(plan, file, ""), inputs = whole.at("inputs");
+  const config::Field whole(plan, file, "");
+  whole.only({"outcome", "waypoints_deg", "objective", "iterations", "rounds", "settled", "time_s", "start", "checked",
+              "hash", "follow", "constraint", "reason", "inputs", "digest"});
+  const config::Field inputs = whole.at("inputs");
   PlanWay way;
   way.margin_m = inputs.at("margin_m").number({0, 0.5}) - kRounding_m;
   way.max_step_rad = kDegree * inputs.at("max_step_deg").number({0, 180, true});

@@ -18,6 +18,7 @@
 #include <fstream>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
 #include <utility>
 
 #include "host/places/places.hpp"
@@ -89,6 +90,16 @@ bool drain(int out_fd, int error_fd, Captured& captured) {
   return true;
 }
 
+// The letter behind the name, which may itself hold brackets: T is stopped, t held by a debugger.
+bool stands_still(pid_t process) {
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string stat;
+  std::getline(file, stat);
+  const std::size_t name_end = stat.rfind(')');
+  return name_end != std::string::npos && name_end + 2 < stat.size() &&
+         (stat[name_end + 2] == 'T' || stat[name_end + 2] == 't');
+}
+
 }  // namespace
 
 std::string how(const ChildEnd& end) {
@@ -120,15 +131,21 @@ std::optional<ChildEnd> ChildProcess::wait(double timeout_s) {
   return poll();
 }
 
-// The letter behind the name, which may itself hold brackets: T is stopped, t held by a debugger.
-bool ChildProcess::is_stopped() const {
-  if (end_) return false;
-  std::ifstream file("/proc/" + std::to_string(pid_) + "/stat");
-  std::string stat;
-  std::getline(file, stat);
-  const std::size_t name_end = stat.rfind(')');
-  return name_end != std::string::npos && name_end + 2 < stat.size() &&
-         (stat[name_end + 2] == 'T' || stat[name_end + 2] == 't');
+// A program may have made another one, which does its work: liana-mission its script's.
+std::vector<pid_t> ChildProcess::processes() const {
+  const std::string pid = std::to_string(pid_);
+  std::ifstream file("/proc/" + pid + "/task/" + pid + "/children");
+  std::vector<pid_t> all{pid_};
+  for (pid_t made = 0; file >> made;) all.push_back(made);
+  return all;
+}
+
+std::optional<pid_t> ChildProcess::stopped() const {
+  if (end_) return std::nullopt;
+  for (const pid_t each : processes()) {
+    if (stands_still(each)) return each;
+  }
+  return std::nullopt;
 }
 
 void ChildProcess::ask_to_end() {
@@ -156,19 +173,44 @@ std::string ChildProcess::last_lines(int count) const {
   return text;
 }
 
+namespace {
+
+// Bus and bench fail by themselves; lianad, whose bus has ended then, and the others follow them.
+int comes_first(const ChildProcess& child) { return child.name() == "liana-bench" || child.name() == "liana-bus"; }
+
+bool is_full(const std::string& log_path) {
+  std::error_code unknown;
+  return std::filesystem::space(std::filesystem::path(log_path).parent_path(), unknown).available == 0 && !unknown;
+}
+
+}  // namespace
+
+std::string ChildProcess::last_words() const {
+  std::ifstream log(log_path_);
+  std::string words;
+  for (std::string line; std::getline(log, line);) {
+    if (line.starts_with(name_ + ": ")) words = line.substr(name_.size());
+  }
+  if (is_full(log_path_))  // what it said last may not be there
+    words += ": no space is left on the disk of " + std::filesystem::path(log_path_).parent_path().string();
+  return words;
+}
+
 std::optional<NamedEnd> worst_end(const std::vector<std::unique_ptr<ChildProcess>>& children,
                                   const std::function<bool(const ChildProcess&, const ChildEnd&)>& counts) {
   const ChildProcess* cause = nullptr;
-  ChildEnd worst;
+  std::tuple<int, int, int> worst;
   for (const auto& child : children) {
     const auto end = child->poll();
     if (!end || !counts(*child, *end)) continue;
-    if (cause != nullptr && std::pair(end->signal, end->code) <= std::pair(worst.signal, worst.code)) continue;
+    const std::tuple badness(end->signal, end->code, comes_first(*child));
+    if (cause != nullptr && badness <= worst) continue;
     cause = child.get();
-    worst = *end;
+    worst = badness;
   }
   if (cause == nullptr) return std::nullopt;
-  return NamedEnd{worst, cause->name() + " " + how(worst) + "\n" + cause->last_lines(kShownLines)};
+  const ChildEnd end{std::get<1>(worst), std::get<0>(worst)};
+  return NamedEnd{end, cause->name() + " " + how(end) + cause->last_words() + "\n" + cause->last_lines(kShownLines)};
 }
 
 bool wait_for_socket(const std::string& path, ChildProcess& maker, const std::atomic<bool>& stop) {

@@ -39,18 +39,20 @@ class ChildProcess {
   std::optional<ChildEnd> poll();
   // Waits at most `timeout_s` for its end.
   std::optional<ChildEnd> wait(double timeout_s);
-  // Stands still because somebody stopped it (SIGSTOP, a debugger).
-  bool is_stopped() const;
-  // Its process, for people.
-  pid_t process() const { return pid_; }
+  // Which of its processes (its own, those it made) stands still because somebody stopped it (SIGSTOP, a debugger).
+  std::optional<pid_t> stopped() const;
   // SIGTERM, unless it has ended.
   void ask_to_end();
   // The same, and SIGKILL when it is still there after `grace_s`.
   void end(double grace_s);
   // The last `count` lines of its log.
   std::string last_lines(int count) const;
+  // What it said last in its own name, after ": ", or that the disk of its log is full; empty where neither is known.
+  std::string last_words() const;
 
  private:
+  std::vector<pid_t> processes() const;
+
   std::string name_;
   std::string log_path_;
   pid_t pid_ = -1;
@@ -60,14 +62,15 @@ class ChildProcess {
 // Waits until `path` is there; false when `maker` has ended without it, `stop` became true, or after 30 s.
 bool wait_for_socket(const std::string& path, ChildProcess& maker, const std::atomic<bool>& stop);
 
-// How one of several programs ended, and in words: its name, its end, the last lines of its log.
+// How one of several programs ended, and in words: its name, its end and what it said last; below it the last lines of
+// its log.
 struct NamedEnd {
   ChildEnd end;
   std::string text;
 };
 
-// Of the programs that have ended and whose end `counts`, the one that ended worst: killed, failed, then in order.
-// Nothing without any.
+// Of the programs that have ended and whose end `counts`, the one that ended worst: killed, failed, then in order;
+// of equals bench and bus, whose end brings that of the others. Nothing without any.
 std::optional<NamedEnd> worst_end(const std::vector<std::unique_ptr<ChildProcess>>& children,
                                   const std::function<bool(const ChildProcess&, const ChildEnd&)>& counts);
 

@@ -91,6 +91,8 @@ RunEnd RunSession::watch() {
     revive_recorder();
   }
   const RunEnd end = conclusion();
+  if (!system_.last().poll())  // without the others it has no purpose; the arm holds when it ends
+    system_.send({{"op", "mission_control"}, {"command", "abort"}});
   if (!end.bad_input && (waits_for_us_ || has_failed(end))) follow();
   return end;
 }
@@ -133,7 +135,10 @@ RunEnd RunSession::conclusion() {
     look_until(kAftermath_s, [this] { return system_.all_have_ended(); });
     if (const auto failed = dead_child(true)) return *failed;
   }
-  return end ? end_of_mission(*end) : *dead_child(false);
+  if (end) return end_of_mission(*end);
+  if (const std::string still = system_.standing_still(); !still.empty())
+    return {"failed", still + " stopped, and the others did not wait for it any longer", false};
+  return *dead_child(false);
 }
 
 // A mission runner that ended by itself has written its report; one that was killed has not.

@@ -97,8 +97,8 @@ bool System::is_running(std::string_view name) const {
 std::string System::standing_still() const {
   std::string names;
   for (const auto& child : children_) {
-    if (child->is_stopped())
-      names += (names.empty() ? "" : ", ") + child->name() + " (process " + std::to_string(child->process()) + ")";
+    if (const auto process = child->stopped())
+      names += (names.empty() ? "" : ", ") + child->name() + " (process " + std::to_string(*process) + ")";
   }
   return names;
 }

@@ -163,6 +163,19 @@ ProgramCall bench_call(const SystemLayout& plan, const RunOptions& options, bool
   return call;
 }
 
+// What only the bench can read is looked at by it before anything starts.
+void ask_bench(const SystemLayout& plan) {
+  std::vector<std::string> argv = plan.programs.back().argv;
+  argv.emplace_back("--check");
+  const Captured said = run_and_capture(argv);
+  if (said.code == 0) return;
+  discard(plan);
+  const std::string prefix = "liana-bench: ";
+  std::string problem = said.error.substr(said.error.starts_with(prefix) ? prefix.size() : 0);
+  while (problem.ends_with('\n')) problem.pop_back();
+  throw BadInput(problem);
+}
+
 ProgramCall operator_call(const SystemLayout& plan, const RunOptions& options) {
   std::string recordings;
   for (const Json& folder : plan.mission.at("recordings"))
@@ -216,6 +229,12 @@ Json mission_checked_with(const std::string& robot, const std::string& mission) 
   }
 }
 
+void look_at_mission(const Json& mission, const config::SceneConfig& scene) {
+  check_scene_parts(mission, scene);
+  for (const Json& note : mission.value("notes", Json::array()))
+    std::fprintf(stderr, "note: %s\n", note.text().c_str());
+}
+
 // The start pose, too, is looked at: a robot that begins inside a body fails much later, and for no visible reason.
 std::string check_options_of_cable_robot(const RunOptions& options, const std::string& text, const SystemLayout& plan) {
   const config::RobotConfig robot =
@@ -264,7 +283,11 @@ std::string directory_of(const SystemLayout& plan, const RunOptions& options) {
   try {
     return make_run_folder(runs_folder());
   } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "liana: nothing of this run will be kept: %s\n", error.what());
+    std::fprintf(
+        stderr,
+        "liana: this run will not be kept (%s): it goes to %s, which stays only if it fails; give --record DIR, "
+        "or an XDG_STATE_HOME that can be written\n",
+        error.what(), plan.socket_dir.c_str());
     return plan.socket_dir;
   }
 }
@@ -292,6 +315,7 @@ SystemLayout make_layout(const RunOptions& given) {
   options.start_pose = plan.is_serial ? check_options_of_serial_robot(options, robot.json, plan.buses)
                                       : check_options_of_cable_robot(options, robot.json, plan);
   if (has_mission && plan.is_serial) plan.mission = mission_checked_with(robot.json, options.mission);
+  if (plan.mission.is_object()) look_at_mission(plan.mission, plan.scene);
   if (options.is_dry_run) check_virtual(plan.buses);
   check_interfaces(plan.buses);
   plan.time_mode = time_mode_of(options, plan.buses);
@@ -308,7 +332,10 @@ SystemLayout make_layout(const RunOptions& given) {
   if (embedded) plan.programs.push_back(bus_call(plan));
   plan.programs.push_back(daemon_call(plan, options, embedded));
   if (plan.has_recorder) plan.programs.push_back(archive_call(plan));
-  if (options.simulated_arm) plan.programs.push_back(bench_call(plan, options, embedded));
+  if (options.simulated_arm) {
+    plan.programs.push_back(bench_call(plan, options, embedded));
+    if (!options.faults.empty() || !options.scene_offset.empty()) ask_bench(plan);
+  }
   if (!has_mission) return plan;
   if (!plan.is_serial) plan.programs.push_back(operator_call(plan, options));  // no device steers a serial arm yet
   plan.programs.push_back(mission_call(plan, options));

@@ -2,7 +2,7 @@
 
 namespace liana::telemetry {
 
-const std::array<Field, 40> kFields{{
+const std::array<Field, 41> kFields{{
     {"measured_js_deg", "deg", Shape::kJoints},
     {"setpoint_js_deg", "deg", Shape::kJoints},
     {"verdict.twin_js_deg", "deg", Shape::kJoints},
@@ -32,7 +32,8 @@ const std::array<Field, 40> kFields{{
     {"friction.mu", "1", Shape::kOne},
     {"friction.sd", "1", Shape::kOne},
     {"contact.torque_Nm", "Nm", Shape::kOne},
-    {"contact.tip_push_N", "N", Shape::kThree},
+    {"contact.force_N", "N", Shape::kThree},
+    {"contact.sd_N", "N", Shape::kThree},
     {"verdict.sequence", "1", Shape::kOne},
     {"verdict.code", "1", Shape::kOne},
     {"verdict.share", "1", Shape::kOne},

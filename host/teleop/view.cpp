@@ -81,9 +81,10 @@ std::string force_line(const Json& state) {
     text = text_of("cables      %.0f to %.0f N", *least, *most);
   }
   const Json& contact = object(state, "contact");
-  if (const std::vector<double> push_N = numbers(contact, "tip_push_N"); push_N.size() == 3)
+  if (const std::vector<double> push_N = numbers(contact, "force_N"); push_N.size() == 3)
     text += text_of("   push at the tip %.1f N", std::hypot(push_N[0], push_N[1], push_N[2]));
-  if (const int segment = contact.value("segment", 0); segment > 0) text += text_of("   touches segment %d", segment);
+  if (contact.value("on_body", false)) text += "   touches the body";
+  if (const int segment = contact.value("segment", 0); segment > 0) text += text_of(" at segment %d", segment);
   return text;
 }
 

@@ -5,6 +5,7 @@
 
 #include "firmware_like/math/trig.hpp"
 #include "host/clearance/clearance.hpp"
+#include "host/fixture/forbidden.hpp"
 #include "host/verify/judge.hpp"
 #include "host/verify/tick_time.hpp"
 
@@ -177,6 +178,23 @@ void judge_distances(const MotionRules& rules, const simulate::Motion& motion, T
   }
 }
 
+// A tip that is beyond a wall already may go back, and by what the noise of a measured pose gives away no farther.
+void judge_walls(const MotionRules& rules, const simulate::Motion& motion, SimulationVerdict& verdict) {
+  const auto tip = static_cast<Index>(rules.table.segment_count - 1);
+  double allowed_m = 0.0;
+  for (const Moment& moment : motion.moments) {
+    const auto beyond = fixture::beyond_walls(rules.scene.fixtures, rules.arm_radius_m, rules.drawing_in_base,
+                                              moment.node_in_base_m[tip]);
+    if (!beyond) continue;
+    if (&moment == &motion.moments.front() && beyond->depth_m > 0.0) allowed_m = beyond->depth_m + kGivenAway_m;
+    if (beyond->depth_m <= allowed_m) continue;
+    return refuse(verdict, Refusal::kFixture,
+                  "the tip would pass the walls of fixture " + *beyond->fixture + " by " +
+                      millimetres(beyond->depth_m) + ", allowed " + millimetres(allowed_m),
+                  {*beyond->fixture, moment.time_s});
+  }
+}
+
 }  // namespace
 
 SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::JointSequence& sequence, bool comes_to_rest,
@@ -189,6 +207,7 @@ SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::Join
   verdict.margins = {0.0, 1e3, 1e3, 1e6, 0.0};
   judge_distances(rules, motion, too_near, verdict);
   const First nearest = verdict.first;
+  if (verdict.passed()) judge_walls(rules, motion, verdict);
   if (verdict.passed()) verdict.first = {};
   MomentJudge moments(rules, verdict);
   moments.told(sequence);

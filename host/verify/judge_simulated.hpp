@@ -23,7 +23,9 @@ struct MotionRules {
   cable::RobotTable table{};
   config::SceneConfig scene;
   arbiter::SpeedZone zone;
-  config::Machine machine;  // that the controller runs on
+  config::Machine machine;    // that the controller runs on
+  double arm_radius_m = 0.0;  // virtual walls are for the arm's surface
+  Pose drawing_in_base{};     // where the scene stands
 };
 
 // How far off the scene an arm stands that is nearer than commands may leave it. Motions may lead it away, and else to

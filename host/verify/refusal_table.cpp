@@ -55,6 +55,8 @@ constexpr std::size_t index_of(Refusal code) {
       return 20;
     case kNoVerdict:
       return 21;
+    case kFixture:
+      return 22;
   }
   return 0;
 }
@@ -62,7 +64,7 @@ constexpr std::size_t index_of(Refusal code) {
 constexpr RefusalAction kHold = RefusalAction::kHold;
 constexpr RefusalAction kStop = RefusalAction::kStop;
 
-constexpr std::array<RefusalRow, 22> kRows{{
+constexpr std::array<RefusalRow, 23> kRows{{
     {},
     {kTwinFault, "twin_fault", "The controller would latch a fault.", "", kHold,
      "Retract, which needs no clear where the fault allows it; else remove what the fault names, then clear."},
@@ -106,6 +108,8 @@ constexpr std::array<RefusalRow, 22> kRows{{
      "Ask for the same way with a lower rate_deg_s, from rest."},
     {kNoVerdict, "no_verdict", "The simulation had no verdict in time.", "us", kHold,
      "Ask again, from rest; if it comes back, take load off the machine (liana doctor, liana latency)."},
+    {kFixture, "fixture", "The tip would pass a virtual wall of the scene.", "", kHold,
+     "Lead the tip back between the walls of the fixture named, or ask for a way that keeps between them."},
 }};
 
 constexpr bool is_complete() {

@@ -63,7 +63,7 @@ void SimulationEnd<CableArm>::watch(const TwinImage<CableArm>& image) {
 void SimulationEnd<CableArm>::believe(const cable::ThetaVector& theta_off_rad, const Pose& drawing_in_base,
                                       double prediction_m) {
   theta_off_rad_ = theta_off_rad;
-  start_.drawing_in_base = drawing_in_base;
+  start_.drawing_in_base = rules_.drawing_in_base = drawing_in_base;
   rules_.scene.margins.prediction_m = prediction_m;
 }
 

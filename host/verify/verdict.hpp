@@ -31,6 +31,7 @@ enum class Refusal : std::uint16_t {
   kNodeSpeed = 210,     // the arm's body would move too fast
   kSwingTension = 211,  // with what inertia adds a cable would go slack or be overloaded
   kNoVerdict = 212,     // the simulation had no verdict in time
+  kFixture = 213,       // the tip would pass a virtual wall of the scene
 };
 
 // What a motion leaves of its limits, at its tightest; negative: by so much it is outside.

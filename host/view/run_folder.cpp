@@ -5,9 +5,9 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "host/archive/out_file.hpp"
 #include "host/archive/reader.hpp"
 #include "host/event/event_json.hpp"
+#include "host/file/out_file.hpp"
 #include "host/places/places.hpp"
 
 namespace liana::view {
@@ -63,9 +63,9 @@ std::string built_page() { return places::page_file("view.html"); }
 
 bool is_page_built() { return fs::exists(built_page()); }
 
-std::size_t write_page(const std::string& folder, const std::string& file) {
+std::size_t write_page(const std::string& folder, const std::string& path) {
   const std::string page = page_of(run_in(folder), text_of(built_page()));
-  archive::OutFile out(file);
+  file::OutFile out(path);
   out.write(page);
   out.finish();
   return page.size();

@@ -58,9 +58,7 @@ local function step_suits(where, step, robot, refusal_of)
   end
   holds_fit(where, step.hold, robot)
   if step.device ~= "none" then
-    local fields = { device = step.device }
-    for field, value in pairs(step.steer) do fields[field] = value end
-    accepted(where .. ": steer", robot, refusal_of, "use_device", fields)
+    accepted(where .. ": steer", robot, refusal_of, "use_device", check.use_of(step))
   end
   action_suits(where, "run", step.run, step.at, robot, refusal_of)
   for _, field in ipairs { "enter", "fail_when", "exit" } do condition_suits(where, field, step[field], step.at, robot) end

@@ -7,6 +7,7 @@ local ways = require "liana.ways"
 
 local check = {}
 
+local kFeedbacks = { aligned = true, claim = true, abstract = true, off = true }
 local kOnFail = { retract = true, hold = true, stop = true, pause = true }
 local kDefaultEnterLimit_s = 10
 
@@ -34,6 +35,16 @@ local action_rule = { allowed = "an action such as move_to \"prepare\", or a fun
 -- What the entries may be depends on the robot: check.against asks lianad's own table of requests.
 local function is_table(value) return type(value) == "table" end
 
+local function is_choice(value)
+  if type(value) ~= "table" then return type(value) == "boolean" end
+  local count = 0
+  for _ in pairs(value) do count = count + 1 end
+  for i = 1, count do
+    if type(value[i]) ~= "string" then return false end
+  end
+  return true
+end
+
 local kStep = {
   at = { allowed = "nothing", ok = function(v) return type(v) == "string" end }, -- where it stands, noted by liana.step
   name = { allowed = "a text of 1 to 60 bytes", ok = function(v) return type(v) == "string" and #v >= 1 and #v <= 60 end, required = true },
@@ -46,6 +57,8 @@ local kStep = {
   fail_when = condition_rule,
   hold = { allowed = "{ [theta] = degrees }, such as { [9] = 0 }", ok = is_table },
   steer = { allowed = "a table with fields of use_device, such as { scale = 4 }", ok = is_table },
+  fixtures = { allowed = "true, false or a list of names of the scene's fixtures", ok = is_choice },
+  feedback = { allowed = "\"aligned\", \"claim\", \"abstract\" or \"off\"", ok = one_of(kFeedbacks).ok },
   run = action_rule,
   plan = text_up_to(200),
   next = { allowed = "ways, such as \"name\" or { step = \"name\", when = condition }", ok = function(v) return v ~= nil end },
@@ -104,11 +117,14 @@ local function check_step(where, fields)
   for field, rule in pairs(kStep) do
     if rule.required and fields[field] == nil then refuse(where, field, "missing", rule.allowed, "add the field") end
   end
-  if fields.steer and fields.device == "none" then
-    refuse(where, "steer", "given", "only with a device", "name the device or remove steer")
+  for _, field in ipairs { "steer", "fixtures", "feedback" } do
+    if fields[field] ~= nil and fields.device == "none" then
+      refuse(where, field, "given", "only with a device", "name the device or remove " .. field)
+    end
   end
-  if fields.steer and fields.steer.device then
-    refuse(where, "steer.device", fields.steer.device, "nothing", "name the device in the step's own field")
+  for _, field in ipairs { "device", "fixtures", "feedback" } do
+    local value = fields.steer and fields.steer[field]
+    if value ~= nil then refuse(where, "steer." .. field, value, "nothing", "name the " .. field .. " in the step's own field") end
   end
   check_task(where, fields)
   check_plan(where, fields)
@@ -141,6 +157,15 @@ local function settle(mission)
       refuse(where_of(i), "hold", "something held", "{} beside plan, which turns every angle", "write hold = {}")
     end
   end
+end
+
+-- The fields with which a checked step's device is used.
+function check.use_of(step)
+  local fields = { device = step.device, feedback = step.feedback }
+  for field, value in pairs(step.steer) do fields[field] = value end
+  if step.fixtures == false then fields.fixtures = {} end
+  if type(step.fixtures) == "table" then fields.fixtures = step.fixtures end
+  return fields
 end
 
 -- A checked mission { name, steps, finish, at }; raises a message on the first fault. `at`: where it stands in the script.
@@ -188,6 +213,31 @@ local function described_ways(step)
   return out
 end
 
+-- What the conditions of a step look at in the scene: { part, field, at }.
+local function described_parts(step)
+  local out = {}
+  local function add(field, condition)
+    for _, part in ipairs(condition and condition.parts or {}) do out[#out + 1] = { part = part.name, field = field, at = part.at } end
+  end
+  for _, field in ipairs { "enter", "fail_when", "exit" } do add(field, step[field]) end
+  for _, way in ipairs(step.ways) do add("next", way.when) end
+  return out
+end
+
+-- What is allowed, and may yet not be what was meant.
+local function notes_of(mission)
+  local notes, first = {}, {}
+  for i, step in ipairs(mission.steps) do
+    local where, earlier = check.step_where(mission, i), first[step.name]
+    if step.name == ways.kFinish then notes[#notes + 1] = where .. ": in next, that name is the end of the mission" end
+    if earlier then
+      notes[#notes + 1] = ("%s: step %d has that name, too: no next can lead to either of them"):format(where, earlier)
+    end
+    first[step.name] = earlier or i
+  end
+  return notes
+end
+
 -- Plain data about a mission, for `liana-mission eval mission`.
 function check.describe(mission)
   check.require_mission(mission)
@@ -197,10 +247,10 @@ function check.describe(mission)
       name = step.name, device = step.device, held_theta = sorted_held(step.hold), time_limit_s = step.time_limit_s,
       on_fail = step.on_fail, confirm = step.confirm, task = step.task, at = step.at, enter = step.enter.text, exit = step.exit.text,
       fail_when = step.fail_when.text, next = described_ways(step), plan = step.plan, start_deg = step.start_deg,
-      goal_deg = step.goal_deg, goal_pose = uses.of(step.run).pose,
+      goal_deg = step.goal_deg, goal_pose = uses.of(step.run).pose, parts = described_parts(step),
     }
   end
-  return { format = 1, kind = "mission", name = mission.name, steps = steps }
+  return { format = 1, kind = "mission", name = mission.name, steps = steps, notes = notes_of(mission) }
 end
 
 return check

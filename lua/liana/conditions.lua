@@ -4,15 +4,20 @@
 local geometry = require "liana.geometry"
 local need = require "liana.need"
 local position = require "liana.position"
+local shown = require "liana.shown"
 
 local conditions = {}
 
--- A condition of your own: what it says, and a function of arm that returns true when it is met.
+-- A condition of your own: what it says, and a function of arm that returns true when it is met, else false or nothing.
 function conditions.condition(text, met)
   need("condition", "text", text, "string")
   need("condition", "met", met, "function")
   return { text = text, met = function(arm)
-    if met(arm) then return true, text end
+    local is_met = met(arm)
+    if is_met ~= nil and type(is_met) ~= "boolean" then
+      error(("condition \"%s\": its function returned %s: allowed true, false or nothing: compare it with something"):format(text, shown(is_met)), 0)
+    end
+    if is_met then return true, text end
     return false
   end }
 end
@@ -26,6 +31,13 @@ local function condition_on(name, at, text, met)
   return made
 end
 
+-- The same, remembering which part of the scene it looks at ("rod", "slit").
+local function condition_in(part, at, text, met)
+  local made = condition(text, met)
+  made.parts = { { name = part, at = at } }
+  return made
+end
+
 local function need_conditions(what, list)
   need(what, "list", list, "table")
   if #list == 0 then error(what .. ": list: empty: allowed one condition or more, such as at_rest(): correct the call", 3) end
@@ -36,12 +48,13 @@ local function need_conditions(what, list)
   end
 end
 
-local function poses_of(list)
-  local poses = {}
+-- What the conditions of a list remember under `key`.
+local function remembered(list, key)
+  local out = {}
   for _, each in ipairs(list) do
-    for _, pose in ipairs(each.poses or {}) do poses[#poses + 1] = pose end
+    for _, one in ipairs(each[key] or {}) do out[#out + 1] = one end
   end
-  return poses
+  return out
 end
 
 local function texts(list, word)
@@ -53,7 +66,7 @@ end
 -- Met when all of the list are.
 function conditions.all(list)
   need_conditions("all", list)
-  return { text = texts(list, " and "), poses = poses_of(list), met = function(arm)
+  return { text = texts(list, " and "), poses = remembered(list, "poses"), parts = remembered(list, "parts"), met = function(arm)
     local met = {}
     for i, each in ipairs(list) do
       local is_met, what = each.met(arm)
@@ -67,7 +80,7 @@ end
 -- Met when one of the list is: the first that is met is named.
 function conditions.any(list)
   need_conditions("any", list)
-  return { text = texts(list, " or "), poses = poses_of(list), met = function(arm)
+  return { text = texts(list, " or "), poses = remembered(list, "poses"), parts = remembered(list, "parts"), met = function(arm)
     for _, each in ipairs(list) do
       local is_met, what = each.met(arm)
       if is_met then return true, what or each.text end
@@ -112,27 +125,48 @@ end
 -- The tip within distance_m of the press rod.
 function conditions.tip_near_rod(distance_m)
   need("tip_near_rod", "distance_m", distance_m, "number over 0")
-  return condition(("tip within %g m of the rod"):format(distance_m), function(arm)
+  return condition_in("rod", position(1), ("tip within %g m of the rod"):format(distance_m), function(arm)
     return geometry.distance(arm.tip_in_drawing(), arm.part_of_scene("rod").position_m) <= distance_m
+  end)
+end
+
+-- Something pushes the tip with at least least_N, which is known to sd_N (default 0.6) along every axis.
+function conditions.tip_force(least_N, sd_N)
+  need("tip_force", "least_N", least_N, "number over 0")
+  sd_N = sd_N or 0.6
+  need("tip_force", "sd_N", sd_N, "number over 0")
+  if sd_N >= 1 then
+    error(("tip_force: sd_N: %g: allowed over 0 and under 1, where forces are told: correct the call"):format(sd_N), 2)
+  end
+  return condition(("tip pushed with %g N"):format(least_N), function(arm)
+    local contact, square = arm.state.contact, 0
+    if not contact then error("tip_force: this arm does not feel forces: use it with a cable arm", 0) end
+    for i = 1, 3 do
+      if contact.sd_N[i] > sd_N then return false end
+      square = square + contact.force_N[i] ^ 2
+    end
+    return square >= least_N ^ 2
   end)
 end
 
 -- The tip at least u_m along the slit, from the base (the mouth is at slit.mouth_u_m).
 function conditions.tip_past(u_m)
   need("tip_past", "u_m", u_m, "number")
-  return condition(("tip past u = %g m"):format(u_m), function(arm) return arm.slit_u() >= u_m end)
+  return condition_in("slit", position(1), ("tip past u = %g m"):format(u_m), function(arm) return arm.slit_u() >= u_m end)
 end
 
 -- The slit asks for at least `count` planar segments: the point to go from 10+0 to 9+1 to 8+2 variables, found from the slit's mouth.
 function conditions.needs_planar(count)
   need("needs_planar", "count", count, "number")
-  return condition(("slit asks for %d planar segments"):format(count), function(arm) return arm.state.planar_segments >= count end)
+  return condition_in("slit", position(1), ("slit asks for %d planar segments"):format(count), function(arm)
+    return arm.state.planar_segments >= count
+  end)
 end
 
 -- The tip at most distance_m off the middle plane of the slit.
 function conditions.tip_in_plane(distance_m)
   need("tip_in_plane", "distance_m", distance_m, "number over 0")
-  return condition(("tip within %g m of the slit plane"):format(distance_m), function(arm)
+  return condition_in("slit", position(1), ("tip within %g m of the slit plane"):format(distance_m), function(arm)
     return math.abs(arm.slit_offset()) <= distance_m
   end)
 end

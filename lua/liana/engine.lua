@@ -2,6 +2,7 @@
 -- boot -> (enter -> confirm -> run) for each step -> finish -> over; which step is next, lua/liana/ways.lua says. Any fault
 -- leads through the step's on_fail to over, with on_fail = "pause" to stuck, and from there on people's word through boot to
 -- the step again; a failure that `next` has a way for leads through recover to that step. People may pause it.
+local check = require "liana.check"
 local people = require "liana.people"
 local view = require "liana.view"
 local ways = require "liana.ways"
@@ -176,11 +177,7 @@ local function enter(runner)
   runner.has_entered = true
   if not runner.is_confirmed then return runner:wait_for_people("confirm", "confirm: " .. step.confirm) end
   runner:send_hold(step.hold)
-  if step.device ~= "none" then
-    local fields = { device = step.device }
-    for field, value in pairs(step.steer) do fields[field] = value end
-    runner:request("use_device", fields)
-  end
+  if step.device ~= "none" then runner:request("use_device", check.use_of(step)) end
   if runner:call("run", step.run) then runner:enter_phase("run") end
 end
 

@@ -66,11 +66,12 @@ return {
     theta_accel_deg_s2 = 4,
     tip_speed_m_s = 0.10,
     tip_speed_slit_m_s = 0.03,
-    tip_accel_m_s2 = 0.14, -- 0.7 s to full speed; at 0.2 the inertia of the outstretched arm took 20 N off a cable
-    tip_jerk_m_s3 = 1,
+    tip_accel_m_s2 = 0.22, -- what a lag of 0.25 s asks for: room to brake from full speed
+    tip_jerk_m_s3 = 2.5,
     tip_rate_deg_s = 20,
-    tip_angular_accel_deg_s2 = 40,
-    tip_angular_jerk_deg_s3 = 400,
+    tip_angular_accel_deg_s2 = 44,
+    tip_angular_jerk_deg_s3 = 500,
+    tip_lag_s = 0.25, -- of the filter behind a steady hand
     cable_speed_m_s = 0.010,
   },
   named_poses_deg = { -- source, except zero; theta = pitch, yaw of segment 1, of segment 2, ...

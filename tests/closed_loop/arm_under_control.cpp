@@ -34,7 +34,10 @@ std::uint16_t status_after(std::uint16_t controlword) {
 }  // namespace
 
 ArmUnderControl::ArmUnderControl(const PlantSetup& setup, const std::string& told)
-    : table_(robot_table(told.empty() ? setup.physics : told)), plant_(setup), controller_(table_) {
+    : ArmUnderControl(setup, robot_table(told.empty() ? setup.physics : told)) {}
+
+ArmUnderControl::ArmUnderControl(const PlantSetup& setup, const cable::RobotTable& table)
+    : table_(table), plant_(setup), controller_(table_) {
   const cable::CableLayout layout = cable_layout(table_);
   for (std::size_t c = 0; c < as_index(table_.cable_count()); ++c) {
     zero_payout_m_[c] = layout.zero_length_m[c] + table_.lead_m;

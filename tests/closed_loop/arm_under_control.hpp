@@ -26,6 +26,8 @@ class ArmUnderControl {
 
   // Plant and core with drives off; `told` names the friction that the core believes (empty: the plant's physics).
   explicit ArmUnderControl(const PlantSetup& setup, const std::string& told = "");
+  // The same with a table that need not be the shipped one.
+  ArmUnderControl(const PlantSetup& setup, const cable::RobotTable& table);
 
   // Homing, enable, pretension ramp; throws std::runtime_error with the first fault when the arm is not enabled in 10
   // s.

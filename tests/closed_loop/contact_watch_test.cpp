@@ -12,7 +12,7 @@
 namespace liana::closed_loop {
 namespace {
 
-bool felt(const ArmUnderControl& arm) { return arm.outputs().contact.segment != 0; }
+bool felt(const ArmUnderControl& arm) { return arm.outputs().contact.on_body != 0; }
 
 // req:A55
 TEST(ContactWatch, AFreeArmFeelsNothingHoweverItIsMoved) {

@@ -116,7 +116,7 @@ void Plant::find_reading(std::size_t cable) { parts_->lost[cable] = false; }
 
 void Plant::kick(const cable::ThetaVector& rate_rad_s) { parts_->arm.set_state(parts_->arm.theta_rad(), rate_rad_s); }
 void Plant::push(std::size_t link, const Vec3& force_N) {
-  parts_->arm.push(link, {force_N[0], force_N[1], force_N[2]});
+  parts_->arm.set_pushes({{link, {force_N[0], force_N[1], force_N[2]}}});
 }
 void Plant::set_joint_damping(double viscous_Nms_per_rad) { parts_->arm.set_joint_damping(viscous_Nms_per_rad); }
 

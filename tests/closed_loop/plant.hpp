@@ -62,7 +62,7 @@ class Plant {
   void lose_reading(std::size_t cable);
   void find_reading(std::size_t cable);  // again what it is
 
-  // Something pushes the start of a link's axis from now on, base frame.
+  // Something pushes the start of a link's axis from now on, base frame; the link after the last is the tip.
   void push(std::size_t link, const Vec3& force_N);
 
   // Rates set from outside, angles and cables as they are: a kick.

@@ -6,6 +6,8 @@
 
 #include <limits>
 
+#include "firmware_like/math/scalar.hpp"
+#include "firmware_like/math/trig.hpp"
 #include "tests/firmware_like/zhu2022.hpp"
 
 namespace liana::cable {
@@ -17,7 +19,8 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1.0 + 1e-9;
 
-TipFilterConfig config() { return tip_filter_config(zhu2022::table(), 0.0); }
+TipFilterConfig config_of(const RobotTable& robot) { return tip_filter_config(robot, 0.0); }
+TipFilterConfig config() { return config_of(zhu2022::table()); }
 
 // Checks one channel of one tick against its bounds; says which one broke.
 void expect_bounded(const FilterBounds& bounds, double tick_s, const ChannelState& before, const ChannelState& now) {
@@ -114,17 +117,87 @@ TEST(TipFilter, ATurnIsReachedWithoutOvershoot) {
   }
 }
 
+// A robot whose table says how late its tip is; room to brake is there from 0.2275 s on.
+RobotTable with_tip_lag(double lag_s) {
+  RobotTable robot = zhu2022::table();
+  robot.limits.tip_accel_m_s2 = 0.25;
+  robot.limits.tip_jerk_m_s3 = 2.5;
+  robot.limits.tip_angular_accel_rad_s2 = 50.0 * kDegree;
+  robot.limits.tip_angular_jerk_rad_s3 = 500.0 * kDegree;
+  robot.limits.tip_lag_s = lag_s;
+  return robot;
+}
+
+// How far behind a steady target tip and attitude are [s]; `speed` is a share of the speed limits.
+struct Lags {
+  double linear_s, angular_s;
+};
+Lags lags_behind_a_ramp(const TipFilterConfig& with, double speed) {
+  const double speed_m_s = speed * with.linear.speed, rate_rad_s = speed * with.angular.speed;
+  TipFilterState state;
+  double t_s = 0.0;
+  while (t_s < 5.0) {
+    t_s += with.tick_s;
+    filter_tip(with, {{speed_m_s * t_s, 0.0, 0.0}, quaternion_of({0.0, rate_rad_s * t_s, 0.0})}, state);
+  }
+  return {t_s - state.pose.position_m[0] / speed_m_s, t_s - rotation_vector(state.pose.quaternion)[1] / rate_rad_s};
+}
+
 TEST(TipFilter, LagBehindARampIsTheStatedOne) {
   const TipFilterConfig with = config();
-  const double speed_m_s = 0.5 * with.linear.speed;
-  TipFilterState state;
-  double target_m = 0.0;
-  for (std::int32_t i = 0; i < 10000; ++i) {
-    target_m += speed_m_s * with.tick_s;
-    filter_tip(with, {{target_m, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, state);
-  }
-  EXPECT_NEAR((target_m - state.pose.position_m[0]) / speed_m_s, lag_s(with.linear), 1.01 * with.tick_s);
+  const Lags lags = lags_behind_a_ramp(with, 0.5);
+  EXPECT_NEAR(lags.linear_s, lag_s(with.linear) + kTremorLag_s, 1.5 * with.tick_s);
   EXPECT_NEAR(lag_s(with.linear), 0.5, 1e-12);
+}
+
+TEST(TipFilter, ALagInTheTableIsThatOfTipAndAttitudeAtEverySpeedAndSpeedLimit) {
+  for (const double lag_in_table_s : {0.23, 0.25, 0.6}) {
+    const RobotTable robot = with_tip_lag(lag_in_table_s);
+    for (const double limit_m_s : {0.1, 0.03}) {
+      const TipFilterConfig with = tip_filter_config(robot, limit_m_s);
+      EXPECT_NEAR(lag_s(with.linear), lag_in_table_s, 1e-12);
+      for (const double speed : {0.2, 0.9}) {
+        const Lags lags = lags_behind_a_ramp(with, speed);
+        EXPECT_NEAR(lags.linear_s, lag_in_table_s + kTremorLag_s, 1.5 * with.tick_s) << limit_m_s << " " << speed;
+        EXPECT_NEAR(lags.angular_s, lag_in_table_s + kTremorLag_s, 1.5 * with.tick_s) << limit_m_s << " " << speed;
+      }
+    }
+  }
+}
+
+// The shortest lag that a table may have leaves room to brake; three quarters of it do not.
+TEST(TipFilter, ATargetThatStopsDeadIsNotPassedFromTheShortestLagOn) {
+  const FilterBounds bounds = config_of(with_tip_lag(0.0)).linear;
+  for (const double share : {1.0, 0.75}) {
+    const TipFilterConfig with = config_of(with_tip_lag(share * least_lag_s(bounds)));
+    TipFilterState state;
+    double target_m = 0.0, farthest_m = 0.0;
+    for (std::int32_t i = 0; i < 3000; ++i) {
+      if (i < 1500) target_m += bounds.speed * smaller(1.0, i / 500.0) * with.tick_s;
+      filter_tip(with, {{target_m, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, state);
+      farthest_m = larger(farthest_m, state.pose.position_m[0]);
+    }
+    if (share == 1.0) {
+      EXPECT_LT(farthest_m, target_m + 0.005 * bounds.speed);
+    } else {
+      EXPECT_GT(farthest_m, target_m + 0.02 * bounds.speed);
+    }
+  }
+}
+
+// What a hand does when it starts, stops and starts again: the target is where the filter stands, and nothing jumps.
+TEST(TipFilter, AfterBrakingItGoesOnFromWhereItIsWithoutAKick) {
+  const TipFilterConfig with = config_of(with_tip_lag(0.25));
+  TipFilterState state;
+  for (std::int32_t i = 0; i < 300; ++i) filter_tip(with, {{0.0003 * i, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, state);
+  ASSERT_GT(norm(state.linear.velocity), 0.05);
+  for (std::int32_t i = 0; i < 400; ++i) brake_tip(with, state);
+  ASSERT_TRUE(at_rest(state));
+  const Pose stood = state.pose;
+  for (std::int32_t i = 0; i < 400; ++i) {
+    filter_tip(with, stood, state);
+    ASSERT_EQ(state.pose.position_m, stood.position_m) << i;
+  }
 }
 
 TEST(TipFilter, BrakingComesToRestWithinABoundedNumberOfTicks) {

@@ -96,6 +96,10 @@ TEST(FaultList, RefusesWhatItDoesNotUnderstandWithFieldAndWhatIsAllowed) {
       {R"({"drive":3,"kind":"camera_frozen","at_slot":1})", {"/0/drive", "not known"}},
       {R"({"kind":"camera_jump","at_slot":1})", {"/0/length_m", "missing"}},
       {R"({"kind":"camera_jump","at_slot":1,"length_m":0})", {"/0/length_m", "0"}},
+      {R"({"drive":3,"kind":"push","at_slot":1,"x_N":1})", {"/0/drive", "not known"}},
+      {R"({"kind":"push","at_slot":1})", {"x_N, y_N or z_N"}},
+      {R"({"kind":"push","at_slot":1,"x_N":101})", {"/0/x_N", "101"}},
+      {R"({"kind":"push","at_slot":1,"x_N":1,"link":-1})", {"/0/link", "-1"}},
       {R"({"kind":"camera_late","at_slot":1,"seconds":0})", {"/0/seconds", "0"}},
       {R"({"drive":3,"kind":"sto","when":{"depth_above_m":11}})", {"/0/when/depth_above_m", "11"}},
       {R"(5)", {"/0"}}};

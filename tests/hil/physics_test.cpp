@@ -91,6 +91,26 @@ TEST(BenchPhysics, StepsAreShortWhereTheArmCouldTouchSomething) {
   EXPECT_EQ(arm.longest_step_s(), ArmPhysics::kStep_s);
 }
 
+// The same arm with links of two grams: its cables swing it a hundred times as fast.
+TEST(BenchPhysics, StiffCablesOnLightLinksGetStepsThatKeepThemStill) {
+  RobotConfig robot = fixture_robot();
+  robot.module_mass_kg *= 1e-4;
+  robot.viscous_Nms_per_rad = 1e-4;
+  ArmPhysics arm(robot, fixture_scene(), table_parameters(robot, "nominal"), start_pose(robot, "prepare", 0.0, 1));
+  arm.begin_slot(0.004);
+  const double step_s = arm.longest_step_s();
+  EXPECT_LT(step_s, ArmPhysics::kStep_s);
+  const Theta start = arm.theta_rad();
+  const CableValues payout = arm.payouts_m();
+  for (int i = 0; i < 2000; ++i) arm.step(step_s, payout);
+  EXPECT_LT(largest_change_deg(arm.theta_rad(), start), 1e-3);
+  robot.module_mass_kg *= 1e-6;
+  robot.viscous_Nms_per_rad = 0.0;
+  EXPECT_THROW(
+      ArmPhysics(robot, fixture_scene(), table_parameters(robot, "nominal"), start_pose(robot, "prepare", 0.0, 1)),
+      std::runtime_error);
+}
+
 TEST(BenchPhysics, EnergyDoesNotGrowWithoutDampingAndWithMotorsFixed) {
   ArmPhysics arm = table_arm("ideal", "prepare");
   arm.set_joint_damping(0.0);
@@ -320,6 +340,21 @@ TEST(BenchPhysics, CylindersAndCapsulesAreTouchedAsDeepAsTheBenchSays) {
     double deepest = 0.0;
     for (const Contact& contact : arm.chain().contacts()) deepest = std::max(deepest, contact.depth_m);
     EXPECT_NEAR(deepest, 0.001, 1e-5);
+  }
+}
+
+TEST(BenchPhysics, APushOnTheTipOrOnALinkMovesTheArmThereAndLetsItGoAgain) {
+  for (const std::size_t link : {std::size_t{40}, std::size_t{20}}) {
+    ArmPhysics arm = table_arm("ideal", "prepare");
+    const CableValues payout = arm.payouts_m();
+    const double before_m = arm.chain().joint_center_m(link).y;
+    arm.set_joint_damping(50.0);
+    arm.set_pushes({{link, {0.0, 1.0, 0.0}}});
+    run(arm, payout, 6.0);
+    EXPECT_GT(arm.chain().joint_center_m(link).y - before_m, 1e-3) << link;
+    arm.set_pushes({});
+    run(arm, payout, 12.0);
+    EXPECT_NEAR(arm.chain().joint_center_m(link).y, before_m, 5e-4) << link;
   }
 }
 

@@ -162,6 +162,26 @@ TEST(Eval, DescribesTheSlitCrossing) {
   EXPECT_EQ(mission["steps"][3]["held_theta"], Json({9}));
 }
 
+// What only the scene can tell, and what may not be meant, goes to who starts the mission.
+TEST(Eval, DescribesWhatConditionsLookAtAndNamesThatTwoStepsHave) {
+  const TemporaryFolder folder;
+  const std::string rest = " device = 'none', time_limit_s = 1, on_fail = 'hold', exit = liana.";
+  const Ended ended = run_program(
+      "eval mission " +
+      folder.write("given.lua", "local liana = require 'liana'\nreturn liana.mission 'm' {\nliana.step 'a' {" + rest +
+                                    "all { liana.at_rest(), liana.tip_near_rod(0.1) } },\nliana.step 'a' {" + rest +
+                                    "tip_past(1) },\nliana.step 'finish' {" + rest + "at_rest() } }\n"));
+  ASSERT_EQ(ended.code, 0) << ended.error;
+  const auto mission = Json::parse(ended.out);
+  EXPECT_EQ(mission["steps"][0]["parts"][0]["part"], "rod");
+  EXPECT_EQ(mission["steps"][1]["parts"][0]["part"], "slit");
+  EXPECT_EQ(mission["steps"][1]["parts"][0]["field"], "exit");
+  EXPECT_EQ(mission["steps"][2]["parts"].size(), 0u);
+  ASSERT_EQ(mission["notes"].size(), 2u);
+  EXPECT_NE(mission["notes"][0].text().find("step 1 has that name, too"), std::string::npos);
+  EXPECT_NE(mission["notes"][1].text().find("in next, that name is the end"), std::string::npos);
+}
+
 struct BadMission {
   const char* steps;
   const char* message;
@@ -193,6 +213,16 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "steer: unknown field sclae = 1: allowed device, scale, rotation_scale, node, speed_m_s"},
       {"step 'a' { device = 'vr', steer = { device = 'hand' }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        "steer.device: hand: allowed nothing: name the device in the step's own field"},
+      {"step 'a' { device = 'vr', steer = { fixtures = {} }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "steer.fixtures: table: allowed nothing: name the fixtures in the step's own field"},
+      {"step 'a' { device = 'none', fixtures = false, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "fixtures: given: allowed only with device"},
+      {"step 'a' { device = 'hand', fixtures = { 1 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "fixtures: table: allowed true, false or a list of names"},
+      {"step 'a' { device = 'hand', feedback = 'loud', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "feedback: loud: allowed \"aligned\", \"claim\", \"abstract\" or \"off\""},
+      {"step 'a' { device = 'none', feedback = 'off', exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
+       "feedback: given: allowed only with device"},
       {"step 'a' { device = 'vr', steer = { scale = 0 }, exit = at_rest(), time_limit_s = 1, on_fail = 'hold' }",
        "steer: scale = 0: allowed 0.01 to 100"},
       {"step 'a' { device = 'none', exit = liana.at_pose(nil), time_limit_s = 1, on_fail = 'hold' }",
@@ -201,6 +231,10 @@ TEST(Eval, RefusesMalformedMissionsByStepAndField) {
        "all: entry 1: function: "},
       {"step 'a' { device = 'none', exit = liana.tip_past 'x', time_limit_s = 1, on_fail = 'hold' }",
        "tip_past: u_m: x: allowed a number"},
+      {"step 'a' { device = 'none', exit = liana.tip_force(0), time_limit_s = 1, on_fail = 'hold' }",
+       "tip_force: least_N: 0: allowed a number over 0"},
+      {"step 'a' { device = 'none', exit = liana.tip_force(1, 1), time_limit_s = 1, on_fail = 'hold' }",
+       "tip_force: sd_N: 1: allowed over 0 and under 1"},
       {"step 'a' { device = 'none', exit = liana.needs_planar(nil), time_limit_s = 1, on_fail = 'hold' }",
        "needs_planar: count: nil: allowed a number"},
       // What only the robot (zhu2022: 5 segments, 20 deg) forbids.

@@ -1,5 +1,5 @@
 """Measures at full size and writes docs/numbers.md: `./dev numbers [NAME]`. A section is replaced by the newest
-measurement of its name.
+measurement of its name; of the section fuzz single rows can be.
 """
 import argparse
 import importlib
@@ -15,6 +15,7 @@ from page import Page, commit_of
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="+")
+    parser.add_argument("--targets", nargs="+", default=[], help="of fuzz, these alone; the other rows stay")
     parser.add_argument("--json", action="store_true", help="also print what was measured as JSON")
     parser.add_argument("--bin", default=str(ROOT / "build/bin"), help="where the programs are")
     return parser.parse_args()
@@ -27,7 +28,8 @@ def main():
     for name in options.names:
         print(f"== numbers: {name}", file=sys.stderr, flush=True)
         start = time.monotonic()
-        values, text = importlib.import_module(name).measure(pathlib.Path(options.bin))
+        parts = {"only": options.targets} if name == "fuzz" else {}
+        values, text = importlib.import_module(name).measure(pathlib.Path(options.bin), **parts)
         measured[name] = values
         page.put(name, text, commit_of(ROOT), time.monotonic() - start)
         page.write()

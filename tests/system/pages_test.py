@@ -77,7 +77,7 @@ class Pages(unittest.TestCase):
         self.assertIn("does not say that it is disabled", out)
         self.assertIn("--by: 3 turns: allowed 0.001 to 0.25 turns", out)
         self.assertEqual(re.findall("exit code (.)", out), ["1", "1", "2"], out)
-        self.assertEqual(out.count("answers as a cia402_csp has to"), 1 + 3 + 9, out)
+        self.assertEqual(out.count("answers as type cia402_csp has to"), 1 + 3 + 9, out)
         self.assertEqual(out.count("disabled: switch_on_disabled"), 2 + 6, out)
         self.assertEqual(out.count("outcome success, arm time"), 4, "two dry runs and two runs\n" + out)
         self.assertEqual(len(re.findall(r"\d+ ticks, 0 differ", out)), 2, out)

@@ -1,48 +1,68 @@
-// Something that touches the body: torque along the arm that neither cables nor friction nor a push at the tip explain.
+// What touches the arm: the force at its tip with how sure that is, and where something else touches the body.
 //
-// What friction_watch.hpp leaves unexplained about each angle is first freed from the push at the tip that fits it best
-// (the tip is meant to press), then held against what friction, swing and torque gains can feign there. Measured
-// sensitivity: docs/friction.md.
+// The torques that nothing explains (torque_balance.hpp) are measured in their own deviations; least squares makes the
+// force at the tip of them, up to 3 N of which is what the tip is for. What it leaves over is a contact of the body.
+// All places along the arm are then tried, one in a tick, and the one that explains most names the segment. Laws,
+// limits and measured errors: docs/force.md.
 #pragma once
 
 #include <cstdint>
 
-#include "firmware_like/cable/arm/friction_watch.hpp"
+#include "firmware_like/cable/arm/torque_balance.hpp"
 
 namespace liana::cable {
 
-constexpr std::uint8_t kContactSweeps = 2;      // of all angles in a row: 0.64 s
-constexpr double kContactTip_N = 3.0;           // a push at the tip is explained up to this
-constexpr double kContactTorque_Nm = 2.5;       // hidden at every angle: torque gains
-constexpr double kContactSwing_rad_s2 = 0.003;  // hidden: the body beyond an angle swings with so much, unmeasured
-constexpr double kContactFriction = 0.6;        // hidden: share of what friction can do
+constexpr std::uint8_t kContactSweeps = 2;  // looks at all angles in a row: 0.64 s
+constexpr double kContactTip_N = 3.0;       // a push at the tip is explained up to this
+constexpr double kContactMisfit = 2.0;      // of the rest, per angle: more is a contact of the body
+constexpr double kContactMost_N = 30.0;     // deviation of a force that nothing shows
+constexpr double kContactSeen_N = 1.0;      // a direction is told when it is surer than this
+constexpr double kContactMoved_N = 0.5;     // the force has changed by so much: friction has found new places
+constexpr std::uint32_t kPlaces = 4;        // tried along each segment
+constexpr std::int32_t kFirstNamed = 1;     // 0-based segment: those before it cannot be told from motors
 
-constexpr double kContactInertia = 0.2;  // hidden: share of the most that commanded acceleration can ask for
-constexpr double kContactCalm_s = 2.0;   // swing after an acceleration is forgotten in
-
-// Limits derived once from the robot table.
-struct ContactWatchLimits {
-  SegmentVector hidden_Nm{};  // at a segment's angles, at rest and without friction
-  SegmentVector inertia{};    // modules times the root of the inertia beyond, kg^0.5 m: the product of two segments' is
-                              // the most that one's acceleration asks of the other
+// What is known of friction: how sure a force is depends on it most.
+enum class ContactState : std::uint8_t {
+  kStuck,    // at rest: friction hides part of every push
+  kMoving,   // cables slide as planned
+  kDithered  // at rest, after a dither, and nothing has changed since
 };
-ContactWatchLimits make_contact_watch_limits(const RobotTable& table) noexcept;
 
 struct ContactWatchState {
-  std::uint8_t sweeps = 0;    // in a row that felt something, up to kContactSweeps
-  std::int32_t segment = -1;  // 0-based, the last one that felt it; -1: none
-  double torque_Nm = 0.0;     // largest about any angle that nothing explains
-  Vec3 tip_push_N{};          // explains the rest, base frame
-  ThetaVector rate_rad_s{};   // commanded, when the last round ended
-  double stir = 0.0;          // acceleration of all segments, each times its `inertia`; fades
+  ContactState state = ContactState::kStuck;
+  Vec3 force_N{};                                             // at the tip, base frame
+  Vec3 sd_N{kContactMost_N, kContactMost_N, kContactMost_N};  // its deviation along each axis
+  Vec3 dithered_N{};                                          // the force after the last dither
+  bool dithering = false;                                     // when it was looked at last
+  double torque_Nm = 0.0;                                     // largest about any angle that it does not explain
+  std::uint8_t sweeps = 0;                                    // in a row that felt the body, up to kContactSweeps
+  std::int32_t segment = -1;  // 0-based, where the body is touched; -1: nowhere, or unknown
+
+  TorqueMatrix root_Nm{};     // Cholesky factor of the torques' variances, the diagonal inverted
+  ThetaVector torque{};       // what is to be explained, in its own deviations
+  double least_misfit = 0.0;  // of all places tried in this round
+  std::int32_t best_place = -1;
 };
 
-// One look at all angles, after the friction watch has gone round. `kinematics` and `rate_rad_s` as commanded.
-void watch_contact(const RobotTable& table, const ContactWatchLimits& limits, const ArmKinematics& kinematics,
-                   const ThetaVector& rate_rad_s, const FrictionWatchState& friction,
-                   ContactWatchState& state) noexcept;
+struct ContactConditions {
+  bool moving;     // commanded faster than kMovingRate_rad_s
+  bool dithering;  // a dither is under way, or has only just ended
+};
+
+// One look at all angles, after their round. `kinematics` as commanded.
+void watch_contact(const RobotTable& table, const ArmKinematics& kinematics, const TorqueBalance& balance,
+                   const ContactConditions& now, ContactWatchState& contact) noexcept;
+
+// Tries whether a contact at this place explains the last look; 0 to kPlaces times the segments, less one. Cost: three
+// substitutions.
+void try_place(const RobotTable& table, const ArmKinematics& kinematics, std::uint32_t place,
+               ContactWatchState& contact) noexcept;
 
 // True while something has touched the body for kContactSweeps.
-inline bool is_in_contact(const ContactWatchState& state) noexcept { return state.sweeps >= kContactSweeps; }
+inline bool is_in_contact(const ContactWatchState& contact) noexcept { return contact.sweeps >= kContactSweeps; }
+// The force along this axis of the base is known.
+inline bool is_seen(const ContactWatchState& contact, std::size_t axis) noexcept {
+  return contact.sd_N[axis] < kContactSeen_N;
+}
 
 }  // namespace liana::cable

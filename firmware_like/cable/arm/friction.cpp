@@ -26,20 +26,25 @@ void reset_slip(const CableGeometry& geometry, SlipState& slip) noexcept {
   slip.part_m = geometry.part_m;
 }
 
-void advance_slip(const CableLayout& layout, const CableGeometry& geometry, SlipState& slip) noexcept {
-  constexpr double kPerMetre = 1.0 / kPreslidingDistance_m;
+void advance_slip(const CableLayout& layout, const CableParts& part_m, double presliding_m, SlipState& slip) noexcept {
+  const double per_metre = 1.0 / presliding_m;
   for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c) {
     double beyond_m = 0.0;  // change of path from the middle of segment j to the anchor
     for (Index j = static_cast<Index>(layout.segment[c]) + 1; j-- > 0;) {
-      const double change_m = geometry.part_m[c][j] - slip.part_m[c][j];
+      const double change_m = part_m[c][j] - slip.part_m[c][j];
       const double slide =
-          -(beyond_m + 0.5 * change_m) * kPerMetre;  // a shrinking path pulls the cable towards the motor
+          -(beyond_m + 0.5 * change_m) * per_metre;  // a shrinking path pulls the cable towards the motor
       beyond_m += change_m;
-      slip.part_m[c][j] = geometry.part_m[c][j];
+      slip.part_m[c][j] = part_m[c][j];
       const double sigma = slip.sigma[c][j];
       slip.sigma[c][j] = clamp(sigma + slide - std::fabs(slide) * sigma, -1.0, 1.0);
     }
   }
+}
+
+void fade_slip(const CableLayout& layout, double share, SlipState& slip) noexcept {
+  for (Index c = 0; c < static_cast<Index>(layout.cable_count); ++c)
+    for (Index j = 0; j <= static_cast<Index>(layout.segment[c]); ++j) slip.sigma[c][j] -= share * slip.sigma[c][j];
 }
 
 void update_tension_ratio(const RobotTable& table, const CableLayout& layout, const SegmentVector& wrap_rad,

@@ -22,8 +22,14 @@ constexpr double kPreslidingDistance_m = 2.0e-4;
 // Nothing has slipped yet at this geometry.
 void reset_slip(const CableGeometry& geometry, SlipState& slip) noexcept;
 
-// Advances sigma by the planned change of geometry since the last call.
-void advance_slip(const CableLayout& layout, const CableGeometry& geometry, SlipState& slip) noexcept;
+// Advances sigma by the change of cable paths since the last call.
+void advance_slip(const CableLayout& layout, const CableParts& part_m, double presliding_m, SlipState& slip) noexcept;
+// The same with the planned paths.
+inline void advance_slip(const CableLayout& layout, const CableGeometry& geometry, SlipState& slip) noexcept {
+  advance_slip(layout, geometry.part_m, kPreslidingDistance_m, slip);
+}
+// A dither leaves friction nowhere to stay: so much of what is left of every sigma goes, `share` 0 to 1.
+void fade_slip(const CableLayout& layout, double share, SlipState& slip) noexcept;
 
 // Tension in the middle of each segment divided by tension at the motor: exp(-mu sum sigma wrap). Row c, segment j;
 // entries beyond a cable's own segment are not written. Cost: one exponential per cable and segment passed.

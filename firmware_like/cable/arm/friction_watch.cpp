@@ -11,21 +11,20 @@ using Index = std::size_t;
 
 // The torques about one axis.
 struct AxisBalance {
-  double torque_Nm = 0.0;     // left over with friction as found
-  double per_mu_Nm = 0.0;     // how it changes with mu
-  double unsure_Nm2 = 0.0;    // variance: cables that have not slid far enough to know which way friction acts
-  double friction_Nm2 = 0.0;  // sum of squares of what friction of every cable can do
+  double torque_Nm = 0.0;   // left over with friction as found
+  double per_mu_Nm = 0.0;   // how it changes with mu
+  double unsure_Nm2 = 0.0;  // variance: cables that have not slid far enough to know which way friction acts
 };
 
-AxisBalance balance_about(const CableLayout& layout, const SegmentVector& wrap_rad, const FrictionReadings& now,
-                          std::uint32_t turning, double mu, Index axis) noexcept {
+AxisBalance balance_about(const CableLayout& layout, const FrictionReadings& now, std::uint32_t turning, double mu,
+                          Index axis) noexcept {
   AxisBalance out;
   const Index own = axis / 2;
   const double more_mu = mu - now.planned_mu;
   SegmentVector part_rad;  // bend until the middle of the axis' segment
   double bend_rad = 0.0;
   for (Index j = 0; j <= own; ++j) {
-    part_rad[j] = j < own ? wrap_rad[j] : 0.5 * wrap_rad[j];
+    part_rad[j] = j < own ? now.wrap_rad[j] : 0.5 * now.wrap_rad[j];
     bend_rad += part_rad[j];
   }
   Index c = 0;
@@ -51,10 +50,8 @@ AxisBalance balance_about(const CableLayout& layout, const SegmentVector& wrap_r
     out.torque_Nm += torque_Nm;
     out.per_mu_Nm -= sliding_rad * torque_Nm;
     out.unsure_Nm2 += unsure * unsure;
-    out.friction_Nm2 += torque_Nm * torque_Nm;
   }
   out.unsure_Nm2 *= kResting * kResting * mu * mu;
-  out.friction_Nm2 *= mu * mu * bend_rad * bend_rad;
   return out;
 }
 
@@ -104,12 +101,8 @@ bool watch_friction(const RobotTable& table, const CableLayout& layout, double d
                     FrictionWatchState& state) noexcept {
   const Index k = state.axis;
   const double period_s = kFrictionTicks * table.tick_s;
-  const std::uint32_t turning = turning_segments(table, now.rate_rad_s);
-  AxisBalance axis = balance_about(layout, cable_wraps(table, now.trig), now, turning, state.mu, k);
+  AxisBalance axis = balance_about(layout, now, turning_segments(table, now.rate_rad_s), state.mu, k);
   axis.torque_Nm += now.inertia_Nm;
-  const double sweep_s = period_s * table.theta_count();
-  state.unexplained_Nm[k] += sweep_s / (kUnexplainedFilter_s + sweep_s) * (axis.torque_Nm - state.unexplained_Nm[k]);
-  state.friction_Nm[k] = std::sqrt(axis.friction_Nm2) + std::sqrt(axis.unsure_Nm2);
   if (now.moving) learn(axis, period_s, state);
   state.axis = k + 1 < static_cast<Index>(table.theta_count()) ? state.axis + 1 : 0;
   if (state.axis == 0) state.flagged = is_off(declared_mu, state);

@@ -1,10 +1,9 @@
-// What friction between cables and holes really is, found while the arm moves, and which torque nothing explains.
+// What friction between cables and holes really is, found while the arm moves.
 //
 // Nothing pushes the arm from outside, so that at each of its axes the torques of the cables balance: sum_c J_ck
 // exp(-mu slid_cj) t_c = 0, where slid_cj is the bend that cable c slides over until the middle of the axis' segment,
 // signed as planned (friction.hpp). One axis after another gives one equation for mu; a Kalman filter of that one
-// number weighs them. What an axis is left with is the torque that friction does not explain. Derivation, what was
-// left out and measured errors: docs/friction.md.
+// number weighs them. Derivation, what was left out and measured errors: docs/friction.md.
 #pragma once
 
 #include <cstdint>
@@ -40,15 +39,11 @@ constexpr double kFrictionPlanSd = 0.006;
 constexpr double kFrictionPlanRate_1_s = 0.005;
 constexpr double kFrictionPlanMost = 0.10;  // or what was declared: more than that spreads tensions beyond the ceiling
 
-constexpr double kUnexplainedFilter_s = 0.6;
-
 struct FrictionWatchState {
-  double mu = 0.0;               // found; what was declared before the arm has moved
-  double variance = 0.0;         // of it, without the model's own error
-  std::uint32_t axis = 0;        // looked at next
-  bool flagged = false;          // not as declared
-  ThetaVector unexplained_Nm{};  // torque about each angle that the cables do not balance, low-passed
-  ThetaVector friction_Nm{};     // what friction of the size found can do about it, either way
+  double mu = 0.0;         // found; what was declared before the arm has moved
+  double variance = 0.0;   // of it, without the model's own error
+  std::uint32_t axis = 0;  // looked at next
+  bool flagged = false;    // not as declared
 };
 
 // What one tick knows of the arm.
@@ -56,7 +51,7 @@ struct FrictionReadings {
   const CableGeometry& geometry;
   const TensionRatio& ratio;  // with `planned_mu`
   const SlipState& slip;
-  const ArmTrig& trig;
+  const SegmentVector& wrap_rad;
   const CableVector& tension_N;   // measured, low-passed
   double planned_mu;              // what the arm plans with
   const ThetaVector& rate_rad_s;  // commanded
@@ -71,8 +66,7 @@ std::uint32_t turning_segments(const RobotTable& table, const ThetaVector& rate_
 void reset_friction_watch(double declared_mu, FrictionWatchState& state) noexcept;
 
 // Looks at the next axis; to be called every kFrictionTicks ticks while the arm is prepared and tensions are trusted.
-// True when it was the last one: every axis has been looked at. Cost: the bend of every segment, and seven operations
-// per cable and segment passed.
+// True when it was the last one: every axis has been looked at. Cost: seven operations per cable and segment passed.
 bool watch_friction(const RobotTable& table, const CableLayout& layout, double declared_mu, const FrictionReadings& now,
                     FrictionWatchState& state) noexcept;
 

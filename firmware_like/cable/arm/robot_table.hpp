@@ -51,6 +51,13 @@ struct CableWatchTable {
   double contradiction_m = 100e-6;  // most that a segment's lengths may come to contradict each other, without friction
 };
 
+// How well drives know where torque is zero: deviations of each drive's reading, as tension. They count in how sure a
+// force is (docs/force.md); the defaults say that nobody has measured them.
+struct TorqueZeroTable {
+  double bias_N = 0.0;
+  double drift_N_h = 0.0;  // for every hour since the controller was started
+};
+
 // Motion limits; the gate and verification enforce them, the filter and limiter plan with them.
 struct MotionLimits {
   double theta_rate_rad_s = 0.0;
@@ -63,6 +70,7 @@ struct MotionLimits {
   double tip_angular_accel_rad_s2 = 0.0;
   double tip_angular_jerk_rad_s3 = 0.0;
   double cable_speed_m_s = 0.0;
+  double tip_lag_s = 0.0;  // of the tip filter behind a steady target; 0: speed limit in force / acceleration
 };
 
 // One cable drive; see docs/drives.md for the length convention.
@@ -87,6 +95,7 @@ struct RobotTable {
   std::int32_t interval_ticks = 0;  // T_c in ticks
   TensionLimits tension{};
   CableWatchTable cable_watch{};
+  TorqueZeroTable torque_zero{};
   MotionLimits limits{};
   std::array<DriveTable, kMaxCables> drive{};
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "firmware_like/cable/arm/dither.hpp"
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/scalar.hpp"
 
@@ -33,6 +34,7 @@ bool is_usable(const KeepClear& target) noexcept {
 bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept {
   if (!is_motion(setpoint.kind)) return true;
   if (!angles_in_limits(table, setpoint)) return false;
+  if (!(setpoint.dither_share >= 0.0 && setpoint.dither_share <= kDitherMost)) return false;
   if (is_joint(setpoint.kind)) return true;
   for (const NodeTarget& target : setpoint.node) {
     if (!is_usable(table, target)) return false;

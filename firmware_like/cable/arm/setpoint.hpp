@@ -45,6 +45,7 @@ struct Setpoint {
   KeepClearTargets clear{};     // kTip
   ThetaVector joint_rad{};      // kJoint, kRetreat
   double tip_speed_m_s = 0.0;   // kTip: limit for this motion, > 0, at most the robot's
+  double dither_share = 0.0;    // while the arm is at rest: share by which all tensions go up and down (dither.hpp)
 };
 
 // A setpoint the arm can use: finite, poses valid, angles inside the limits (the release step has checked the same;

@@ -184,9 +184,10 @@ void take_kinematics(const RobotTable& table, MotionState& state) noexcept {
 TipFilterConfig tip_filter_config(const RobotTable& table, double tip_speed_m_s) noexcept {
   const MotionLimits& limits = table.limits;
   const bool lowered = tip_speed_m_s > 0.0 && tip_speed_m_s < limits.tip_speed_m_s;
-  return {{lowered ? tip_speed_m_s : limits.tip_speed_m_s, limits.tip_accel_m_s2, limits.tip_jerk_m_s3},
-          {limits.tip_rate_rad_s, limits.tip_angular_accel_rad_s2, limits.tip_angular_jerk_rad_s3},
-          table.tick_s};
+  const FilterBounds linear{limits.tip_speed_m_s, limits.tip_accel_m_s2, limits.tip_jerk_m_s3};
+  const FilterBounds angular{limits.tip_rate_rad_s, limits.tip_angular_accel_rad_s2, limits.tip_angular_jerk_rad_s3};
+  return {with_lag(linear, limits.tip_lag_s, lowered ? tip_speed_m_s : limits.tip_speed_m_s),
+          with_lag(angular, limits.tip_lag_s, limits.tip_rate_rad_s), table.tick_s};
 }
 
 Twist tip_twist(const RobotTable& table, const MotionState& state) noexcept {

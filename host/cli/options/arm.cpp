@@ -77,6 +77,20 @@ void add_faults(CLI::App& app, Action& action) {
   add_json(sub, faults.json);
 }
 
+void add_force(CLI::App& app, Action& action) {
+  auto [sub, force] =
+      add<ForceOptions>(app, action, "force", "how well contact forces are estimated, on the bench", force_command);
+  sub.add_flag("--self-test", force.self_test, "push a simulated arm and compare what it tells with the truth");
+  sub.add_option("--robot", force.robot, "a cable arm's table")->capture_default_str();
+  add_physics(sub, force.physics);
+  sub.add_option("--configurations", force.configurations, "places about which the arm is pushed, 1 to 1000")
+      ->capture_default_str();
+  sub.add_option("--pushes", force.pushes, "in each, 1 to 100: at rest, dithered and on the move")
+      ->capture_default_str();
+  add_seed(sub, force.seed, "of pushes, places and of the bench");
+  add_json(sub, force.json);
+}
+
 }  // namespace
 
 void declare_arm(CLI::App& app, Action& action) {
@@ -85,6 +99,7 @@ void declare_arm(CLI::App& app, Action& action) {
   add_clear(app, action);
   add_calibrate(app, action);
   add_latency(app, action);
+  add_force(app, action);
   add_faults(app, action);
 }
 

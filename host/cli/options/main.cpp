@@ -106,7 +106,7 @@ int run(int argc, char** argv) {
     return refuse(ExitCode::kExitBadInput, missing_value_text(app, error.what()));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    return refuse(ExitCode::kExitBadInput, std::string(error.what()) + "; see liana help");
+    return refuse(ExitCode::kExitBadInput, problem_text(app, error.what()));
   } catch (const std::runtime_error& error) {  // of our own checks
     return refuse(ExitCode::kExitBadInput, error.what());
   }

@@ -1,6 +1,7 @@
 // Options of the commands for robot tables: robot export, check, new.
 #include "host/cli/commands.hpp"
 #include "host/cli/options/options.hpp"
+#include "host/cli/robot_new_questions.hpp"
 
 namespace liana::cli {
 namespace {
@@ -29,12 +30,12 @@ void add_robot_new(CLI::App& group, Action& action) {
       add<RobotNewOptions>(group, action, "new", "write a commented robot table from a few answers", robot_new_command);
   sub.add_option("name", made.name, "name of the robot: small letters, digits, _")->required();
   sub.add_option("--out", made.file, "file to write; NAME.lua where not given");
-  sub.add_option("--segments", made.segments, "segments that bend by themselves, 1 to 8");
-  sub.add_option("--modules", made.modules, "universal joints in each, 1 to 16");
-  sub.add_option("--module-length", made.module_length_m, "from one joint to the next, 0.005 to 1 m");
-  sub.add_option("--radius", made.radius_m, "of the discs, 0.002 to 0.5 m");
-  sub.add_option("--cables", made.cables, "that end in each segment, 3 or 4");
-  sub.add_option("--theta-limit", made.theta_limit_deg, "most that a joint turns about each axis, 1 to 60 deg");
+  sub.add_option("--segments", made.segments, about(kAskSegments));
+  sub.add_option("--modules", made.modules, about(kAskModules));
+  sub.add_option("--module-length", made.module_length_m, about(kAskLength));
+  sub.add_option("--radius", made.radius_m, about(kAskRadius) + "; where not given, as the module length has it");
+  sub.add_option("--cables", made.cables, about(kAskCables));
+  sub.add_option("--theta-limit", made.theta_limit_deg, about(kAskLimit));
 }
 
 }  // namespace

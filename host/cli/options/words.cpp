@@ -41,6 +41,17 @@ void check_command(const CLI::App& app, const std::string& before, std::span<con
   throw system::BadInput(problem + "; liana " + before + "knows: " + names + "; see liana help");
 }
 
+// `help` is followed by a command's words and nothing else.
+void check_help(const CLI::App& app, std::span<const std::string> words) {
+  const CLI::App* command = &app;
+  for (const std::string& word : words) {
+    const auto below = command->get_subcommands([&word](const CLI::App* sub) { return sub->get_name() == word; });
+    if (below.empty())
+      throw system::BadInput("help: '" + word + "': no such command; allowed: liana help, or liana help COMMAND");
+    command = below.front();
+  }
+}
+
 // The words from the command on: only --lua-dir may stand before it.
 std::span<const std::string> after_global_options(std::span<const std::string> words) {
   while (!words.empty()) {
@@ -75,6 +86,7 @@ Chosen chosen(const CLI::App& app) {
 std::vector<std::string> arguments_of(const CLI::App& app, std::vector<std::string> words) {
   const auto command = words.end() - std::ssize(after_global_options(words));
   if (command != words.end() && *command == "help") {
+    check_help(app, {std::next(command), words.end()});
     words.erase(command);
     words.push_back("--help");
   }
@@ -89,7 +101,14 @@ std::string missing_value_text(const CLI::App& app, const std::string& error) {
   const std::string name = error.substr(0, error.find(':'));
   const CLI::Option* option = name.starts_with("--") ? command->get_option_no_throw(name) : nullptr;
   const std::string see = "; see liana" + words + " --help";
+  if (option != nullptr && option->count() > 1)
+    return name + ": stands " + std::to_string(option->count()) + " times; give it once" + see;
   return option == nullptr ? error + see : name + ": no value given; allowed: " + option->get_description() + see;
+}
+
+std::string problem_text(const CLI::App& app, const std::string& error) {
+  const std::string words = chosen(app).words;
+  return error + "; see liana" + (words.empty() ? " help" : words + " --help");
 }
 
 std::string extra_word_text(const CLI::App& app) {

@@ -18,9 +18,13 @@ constexpr const char* kLuaDir = "--lua-dir";  // the only option with a value th
 // BadInput: an empty word, an option without its value, a command or an option that does not exist.
 std::vector<std::string> arguments_of(const CLI::App& app, std::vector<std::string> words);
 
-// An option at the end of the line, or before another one, whose value was forgotten: what its value may be is said.
+// An option at the end of the line, or before another one, whose value was forgotten: what its value may be is said;
+// or one that stands more than once.
 // `error`: CLI11's text.
 std::string missing_value_text(const CLI::App& app, const std::string& error);
+
+// What else is wrong, and where the command that was read is explained.
+std::string problem_text(const CLI::App& app, const std::string& error);
 
 // A word that the command has no place for.
 std::string extra_word_text(const CLI::App& app);

@@ -114,6 +114,39 @@ TEST_F(Arbitration, ALineEndsAtItsGoalAndStaysThere) {
 }
 
 // req:A9 req:A42
+TEST_F(Arbitration, ADitherHoldsTheArmAndDecaysToNothingAndIsBusyMeanwhile) {
+  now_.tension_plan_N.fill(60.0);
+  arbiter_.dither(now_, 0.3, 4.0);
+  EXPECT_EQ(code_of([&] { arbiter_.move_line(now_, now_.tip_command); }), "busy");
+  double before = 0.31;
+  int intervals = 0;
+  for (; arbiter_.is_busy(); ++intervals) {
+    const std::optional<Setpoint> setpoint = next();
+    ASSERT_TRUE(setpoint);
+    EXPECT_EQ(setpoint->joint_rad, now_.theta_command_rad);
+    EXPECT_LT(setpoint->dither_share, before);
+    EXPECT_GT(setpoint->dither_share, 0.0);
+    before = setpoint->dither_share;
+  }
+  EXPECT_EQ(intervals, 200) << "4 s";
+  EXPECT_FALSE(next());
+  arbiter_.dither(now_, 0.3, 4.0);
+  arbiter_.hold();
+  EXPECT_FALSE(next()) << "a hold ends it";
+}
+
+TEST_F(Arbitration, ADitherIsRefusedWhereATensionWouldLeaveItsLimitsOrTheArmMoves) {
+  now_.tension_plan_N.fill(60.0);
+  now_.tension_plan_N[7] = 20.0;  // 30 % less is under the floor of 15 N
+  EXPECT_EQ(code_of([&] { arbiter_.dither(now_, 0.3, 4.0); }), "refused");
+  EXPECT_EQ(code_of([&] { arbiter_.dither(now_, 0.2, 4.0); }), "accepted");
+  arbiter_.hold();
+  now_.tension_plan_N[7] = 120.0;  // 30 % more is over the ceiling of 150 N
+  EXPECT_EQ(code_of([&] { arbiter_.dither(now_, 0.3, 4.0); }), "refused");
+  now_.at_rest = 0;
+  EXPECT_EQ(code_of([&] { arbiter_.dither(now_, 0.1, 4.0); }), "busy");
+}
+
 TEST_F(Arbitration, HeldVariablesAndShapeTravelWithTheTipGoal) {
   ThetaVector held{};
   arbiter_.hold_theta(now_, 1u << 8, held);
@@ -264,6 +297,37 @@ TEST_F(Arbitration, ARefusalGivesTheOperatorNewAnchors) {
 }
 
 // Table 2 of the source: vr handles for free space, the hand controller for the slit.
+// Live, but not under a hand that steers: 0.05 m of it would mean another place of the tip at once.
+// req:A28
+TEST_F(Arbitration, TheMappingOfTheDeviceInUseChangesOnlyWhileTheDeadmanIsOpen) {
+  use_hand();
+  ASSERT_TRUE(steered(0.0));
+  const Pose before = steered(0.05)->tip_in_base;
+  DeviceUse other = arbiter_.device().in_use();
+  for (const ClutchMapping mapping :
+       {ClutchMapping{2.0, 1.0}, ClutchMapping{1.0, 0.5}, ClutchMapping{1.0, 1.0, SteerFrame::kCamera}}) {
+    other.mapping = mapping;
+    EXPECT_EQ(code_of([&] { arbiter_.use_device(now_, other); }), "busy");
+  }
+  EXPECT_EQ(arbiter_.device().in_use().mapping, ClutchMapping{});
+  EXPECT_EQ(steered(0.05)->tip_in_base.position_m, before.position_m) << "nothing has come of it";
+  steered(0.05, false);
+  EXPECT_EQ(code_of([&] { arbiter_.use_device(now_, other); }), "accepted");
+  EXPECT_EQ(steered(0.05)->tip_in_base.position_m, now_.tip_command.position_m) << "from where the tip is";
+}
+
+TEST_F(Arbitration, AnotherDeviceOrNoneTakesOverFromAHandThatSteers) {
+  for (const DeviceKind kind : {DeviceKind::kVr, DeviceKind::kNone}) {
+    use_hand();
+    ASSERT_TRUE(steered(0.0));
+    DeviceUse other;
+    other.kind = kind;
+    other.mapping.scale = 2.0;
+    EXPECT_EQ(code_of([&] { arbiter_.use_device(now_, other); }), "accepted");
+    EXPECT_FALSE(arbiter_.device().engaged());
+  }
+}
+
 class AtTheSlit : public Arbitration {
  protected:
   AtTheSlit() {

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
+
+#include "firmware_like/math/trig.hpp"
 
 namespace liana::arbiter {
 
@@ -44,6 +47,34 @@ TEST(Clutch, RotationIsScaledAboutTheSameAxis) {
   EXPECT_NEAR(turn[2], 0.0, 1e-12);
   EXPECT_NEAR(turn_between(clutch_goal({1.0, 0.0}, {kHand, kTip}, hand).quaternion, kTip.quaternion), 0.0, 1e-12)
       << "scale 0 locks attitude";
+}
+
+// The tip looks along the base's y: what the hand does along its x the tip does along y, and turns follow.
+TEST(Clutch, InTheTipsFrameTheHandsAxesAreThoseOfTheTipOnEngaging) {
+  const Pose tip{{1.0, 0.0, 0.0}, quaternion_of({0.0, 0.0, 0.5 * kPi})};
+  const Pose hand{add(kHand.position_m, {0.01, 0.0, 0.0}), multiply(quaternion_of({0.2, 0.0, 0.0}), kHand.quaternion)};
+  const Pose goal = clutch_goal({4.0, 0.5, SteerFrame::kTip}, {kHand, tip}, hand);
+  EXPECT_NEAR(norm(subtract(goal.position_m, {1.0, 0.04, 0.0})), 0.0, 1e-15);
+  const Vec3 turn = rotation_vector(multiply(goal.quaternion, conjugate(tip.quaternion)));
+  EXPECT_NEAR(norm(subtract(turn, {0.0, 0.1, 0.0})), 0.0, 1e-12);
+}
+
+// The tip is turned by a quarter about z, half of what the hand does, and then led along the hand's x.
+TEST(Clutch, InTheCamerasFrameTheAxesTurnAlongWithTheTip) {
+  for (const auto& [frame, way] :
+       {std::pair{SteerFrame::kTip, Vec3{0.02, 0.0, 0.0}}, std::pair{SteerFrame::kCamera, Vec3{0.0, 0.02, 0.0}}}) {
+    const ClutchMapping mapping{2.0, 0.5, frame};
+    ClutchAnchor anchor{Pose{}, Pose{}};
+    Pose hand, goal;
+    for (int i = 1; i <= 100; ++i) {
+      hand.quaternion = quaternion_of({0.0, 0.0, 0.01 * i * kPi});
+      goal = clutch_goal(mapping, anchor, hand);
+      move_anchor(mapping, hand, goal, anchor);
+    }
+    hand.position_m = {0.01, 0.0, 0.0};
+    goal = clutch_goal(mapping, anchor, hand);
+    EXPECT_NEAR(norm(subtract(goal.position_m, way)), 0.0, 1e-12);
+  }
 }
 
 // req:A27

@@ -113,6 +113,17 @@ class EveryRobot(unittest.TestCase):
                 checked = liana_json("robot", "check", file)
                 self.assertEqual((checked["problems"], checked["cables"]), ([], segments * cables))
 
+    def test_a_new_small_arm_is_small_in_all_and_carries_out_a_mission(self):
+        file = self.new("small", "--segments", 2, "--modules", 3, "--module-length", 0.02)
+        table = json.loads(liana("robot", "export", file)[1])
+        self.assertEqual(table["module"]["radius_m"], 0.0063)
+        checked = liana_json("robot", "check", file)
+        self.assertEqual(checked["problems"], [])
+        self.assertIn("segment 1 moves its cables by 4.0 mm at most: liana calibrate needs 5 mm", checked["notes"][0])
+        mission = self.folder / "tour.lua"
+        mission.write_text(TOUR.replace('"first"', '"bent"').replace('"second"', '"back"'))
+        self.crosses(file, mission, "none")
+
     def test_a_new_arm_of_four_cables_a_segment_can_be_calibrated(self):
         for segments in (1, 2, 5, 8):
             file = self.new(f"four_{segments}", "--segments", segments, "--cables", 4)

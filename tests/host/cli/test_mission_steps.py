@@ -93,17 +93,25 @@ class MissionSteps(unittest.TestCase):
         code, _, error = liana("run", plan, "--robot", "zhu2022")
         self.assertEqual(code, 2, error)
         self.assertIn("made for robot three_segment_lab, not for zhu2022", error)
+        written = json.loads(plan.read_text())
         content = json.loads(plan.read_text())
         content["waypoints_deg"][1][0] += 0.01
         plan.write_text(json.dumps(content))
         code, _, error = liana("run", plan)
         self.assertEqual(code, 2, error)
         self.assertIn("digest: the file is not what liana plan wrote, somebody has edited it", error)
+        for key, value, said in (("hash", "0" * 64, "digest: "), ("comment", "mine", "comment: ")):
+            content = {**written, key: value}
+            plan.write_text(json.dumps(content))
+            code, _, error = liana("run", plan)
+            self.assertEqual(code, 2, error)
+            self.assertIn(said, error)
 
     def test_robot_check_names_what_no_winch_and_no_rope_can_do(self):
         table = (LUA / "robots" / "three_segment_lab.lua").read_text()
         for old, new, problem in (
             ("mass_kg = 0.2", "mass_kg = 60", "module.mass_kg: 60: a cable would pull"),
+            ("EA_N = 150000", "EA_N = 5e6", "cables.EA_N: 5e+06: the shortest cable, 0.78 m, loses 64.1 N"),
             ("zero = { 0, 0, 0,", "zero = { 0, 2, 0,", "named_poses_deg.zero: angle 2 is 2 deg: allowed 0"),
         ):
             robot = self.folder / "robot.lua"

@@ -56,6 +56,63 @@ TEST(Scene, TheSlitLeavesLinkAxesTheGapLessTheArm) {
   EXPECT_NEAR(dot(mouth.frame_in_base.position_m, scene.slit->u_axis), scene.slit->mouth_u_m, 1e-9);
 }
 
+TEST(Scene, ASlitHasItsOwnFixturesUnlessTheSceneNamesOthers) {
+  const SceneConfig scene = parse_scene(good_table("scene", "panel_slit").dump(), "s");
+  ASSERT_EQ(scene.fixtures.size(), 3u);
+  EXPECT_EQ(scene.fixtures[0].name, "slit_plane");
+  EXPECT_EQ(scene.fixtures[1].name, "slit_walls");
+  EXPECT_NEAR(scene.fixtures[1].depth_m, 1.95, 1e-12);
+  EXPECT_EQ(scene.fixtures[1].half_gap_m, 0.05);
+  const SceneFixture& approach = scene.fixtures[2];
+  EXPECT_EQ(approach.name, "slit_approach");
+  const Vec3 way = subtract(scene.rod->pose.position_m, approach.frame.position_m);
+  EXPECT_NEAR(norm(way), 0.3, 1e-12);
+  EXPECT_NEAR(dot(way, scene.slit->normal), 0.0, 1e-9) << "in the slit's plane";
+  Json without = good_table("scene", "panel_slit");
+  without["fixtures"] = Json::array();
+  EXPECT_TRUE(parse_scene(without.dump(), "s").fixtures.empty());
+  EXPECT_TRUE(parse_scene(good_table("scene", "none").dump(), "s").fixtures.empty());
+}
+
+constexpr const char* kFixtures = R"({"format":1,"kind":"scene","name":"own","boxes":[],"spheres":[],"fixtures":[
+  {"name":"middle","kind":"plane","frame":{"position_m":[1,0,0],"quaternion_wxyz":[1,0,0,0]},
+   "depth_m":1,"half_width_m":2,"half_gap_m":0.05,"yaw_deg":[-10,20]},
+  {"name":"sides","kind":"walls","frame":{"position_m":[1,0,0],"quaternion_wxyz":[1,0,0,0]},
+   "depth_m":1,"half_width_m":2,"half_gap_m":0.06},
+  {"name":"way_in","kind":"axis","frame":{"position_m":[1,0,0],"quaternion_wxyz":[1,0,0,0]},
+   "depth_m":1,"half_width_m":2,"half_gap_m":0.05,"radius_m":0.02}]})";
+
+TEST(Scene, HasFixturesOfThreeKinds) {
+  const SceneConfig scene = parse_scene(kFixtures, "s");
+  ASSERT_EQ(scene.fixtures.size(), 3u);
+  EXPECT_EQ(scene.fixtures[0].kind, FixtureKind::kPlane);
+  EXPECT_EQ(scene.fixtures[0].yaw_low_deg, -10.0);
+  EXPECT_EQ(scene.fixtures[0].yaw_high_deg, 20.0);
+  EXPECT_EQ(scene.fixtures[1].kind, FixtureKind::kWalls);
+  EXPECT_EQ(scene.fixtures[1].half_gap_m, 0.06);
+  EXPECT_EQ(scene.fixtures[2].kind, FixtureKind::kAxis);
+  EXPECT_EQ(scene.fixtures[2].radius_m, 0.02);
+  EXPECT_EQ(scene.fixtures[2].opening_deg, 30.0);
+}
+
+TEST(Scene, RefusesFixturesByFileFieldValueAndRange) {
+  const Json good = Json::parse(kFixtures);
+  for (const Spoiled& spoiled :
+       {Spoiled{"/fixtures/0/kind", "wall", "fixtures[1].kind", ""},
+        Spoiled{"/fixtures/0/depth_m", 0, "fixtures[1].depth_m", "over 0, up to 100"},
+        Spoiled{"/fixtures/1/half_gap_m", -1, "fixtures[2].half_gap_m", "over 0, up to 10"},
+        Spoiled{"/fixtures/1/half_gap_m", nullptr, "fixtures[2].half_gap_m", ""},
+        Spoiled{"/fixtures/0/yaw_deg", Json::parse("[5,-5]"), "fixtures[1].yaw_deg", "the lower angle first"},
+        Spoiled{"/fixtures/1/yaw_deg", Json::parse("[-5,5]"), "fixtures[2].yaw_deg", ""},
+        Spoiled{"/fixtures/2/radius_m", nullptr, "fixtures[3].radius_m", ""},
+        Spoiled{"/fixtures/2/opening_deg", 81, "fixtures[3].opening_deg", "0 to 80"},
+        Spoiled{"/fixtures/2/name", "middle", "fixtures[3].name", "rename one of the two"},
+        Spoiled{"/fixtures/0/frame/quaternion_wxyz", Json::parse("[1,1,0,0]"), "fixtures[1].frame.quaternion_wxyz",
+                "unit length"}}) {
+    expect_refused(good, spoiled, [](const std::string& text) { parse_scene(text, "given.json"); });
+  }
+}
+
 TEST(Scene, MayBeWithoutAnythingButItsBodies) {
   const SceneConfig scene = parse_scene(R"({"format":1,"kind":"scene","name":"own","boxes":[],"spheres":[]})", "s");
   EXPECT_FALSE(scene.slit || scene.rod || scene.camera || scene.contact);
@@ -79,6 +136,20 @@ TEST(Scene, HasConvexBodiesOfPointsCylindersAndChains) {
   EXPECT_EQ(scene.convex[3].name, "hose");
   EXPECT_EQ(scene.convex[3].round_m, 0.02);
   EXPECT_EQ(scene.convex[3].points_m[1], (Vec3{1, 1, 0}));
+}
+
+TEST(Scene, TwoBodiesOfOneNameAreRefusedAndThePiecesOfAChainAreOne) {
+  Json table = Json::parse(kConvex);
+  EXPECT_NO_THROW(parse_scene(table.dump(), "s"));
+  table["spheres"] = {{{"name", "tank"}, {"center_m", {0, 0, 0}}, {"radius_m", 1}}};
+  try {
+    parse_scene(table.dump(), "s");
+    FAIL() << "was taken";
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("convex[2].name: \"tank\": allowed a name that no other body"),
+              std::string::npos)
+        << error.what();
+  }
 }
 
 TEST(Scene, ConvexBodiesAreRefusedWithFieldValueRangeAndAdvice) {

@@ -352,6 +352,8 @@ TEST_F(ServiceOverSocket, BadMotionRequestsAreRefusedWithTheirReason) {
       {{{"op", "use_device"}, {"device", "mouse"}}, "no_device"},
       {{{"op", "use_device"}, {"device", "vr"}}, "no_device"},
       {{{"op", "use_device"}, {"device", "none"}, {"scale", -1}}, "out_of_range"},
+      {{{"op", "use_device"}, {"device", "none"}, {"fixtures", {"nowhere"}}}, "out_of_range"},
+      {{{"op", "use_device"}, {"device", "none"}, {"feedback", "loud"}}, "bad_request"},
       {{{"op", "state_command"}, {"command", "fly"}}, "bad_request"},
       {{{"op", "camera"}, {"capture_time_s", 0}}, "bad_request"},
       {{{"op", 7}}, "bad_request"},

@@ -45,6 +45,7 @@ std::string refusal_of(const Action& action) {
 }
 
 TEST_F(Places, AProgramOfABuildFolderUsesTheSourceTree) {
+  EXPECT_FALSE(is_installed());
   EXPECT_EQ(lua_folders(), std::vector<std::string>{kShipped});
   EXPECT_EQ(page_file("view.html"), LIANA_SOURCE_DIR "/build/page/view.html");
 }

@@ -137,6 +137,16 @@ TEST_F(RunReport, TruthIsTakenFromStepOneToTheRepairCommand) {
   EXPECT_EQ(report["steps"][1]["held_theta"], Json({9}));
 }
 
+TEST_F(RunReport, TheNearestBodyIsNamedWhateverItsKind) {
+  write_truth();
+  write("mission.json", kMission);
+  ReportSources all = sources();
+  all.body_at = [](const std::vector<double>&) { return Json{{"body", "drum"}, {"link", 3}}; };
+  const Json report = make_report(all);
+  EXPECT_EQ(report["nearest"], (Json{{"body", "drum"}, {"link", 3}, {"clearance_m", 0.015}}));
+  EXPECT_NE(report_text(report).find(", least 15.0 mm to drum\n"), std::string::npos) << report_text(report);
+}
+
 TEST_F(RunReport, ErrorsCompareTheTrueTipWithTheRodAndWithWhatWasCommanded) {
   write_truth();
   write("mission.json", kMission);

@@ -33,7 +33,7 @@ class FakeDaemon {
   }
   // Whether it has heard that, or hears it soon: what was sent last may still lie in its socket.
   bool saw(const std::string& op) const {
-    const std::atomic<bool>& heard = op == "stop" ? stopped_ : shut_down_;
+    const std::atomic<bool>& heard = op == "stop" ? stopped_ : op == "mission_control" ? told_ : shut_down_;
     for (int i = 0; i < 300 && !heard; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return heard;
   }
@@ -60,6 +60,7 @@ class FakeDaemon {
       const std::string op = Json::parse(packet)["op"];
       if (op == "hello") api::send_packet(client.get(), R"({"op":"welcome","config_hash":"abc","period_s":0.004})");
       if (op == "stop") stopped_ = true;
+      if (op == "mission_control") told_ = true;
       if (op == "shutdown") shut_down_ = true;
     }
     say_farewell(client);
@@ -81,7 +82,7 @@ class FakeDaemon {
   bool deaf_;
   std::string farewell_;
   api::UniqueFd listener_;
-  std::atomic<bool> quit_ = false, stopped_ = false, shut_down_ = false;
+  std::atomic<bool> quit_ = false, stopped_ = false, shut_down_ = false, told_ = false;
   std::thread thread_;
 };
 
@@ -136,6 +137,37 @@ TEST_F(Session, ADyingBenchEndsTheRunWithItsNameAndLastLines) {
   EXPECT_EQ(end.outcome, "failed");
   EXPECT_NE(end.message.find("liana-bench ended with code 3"), std::string::npos) << end.message;
   EXPECT_NE(end.message.find("cable 7 tore"), std::string::npos) << end.message;
+}
+
+TEST_F(Session, OfABenchAndALianadThatFailAlikeTheBenchIsTheReasonWithItsOwnWords) {
+  const FakeDaemon daemon(plan_.api_socket());
+  add("lianad", "sleep 0.3; echo 'lianad: the bus has ended' >&2; exit 1");
+  add("liana-bench", "sleep 0.2; echo 'liana-bench: cable 7 tore' >&2; echo goodbye; exit 1");
+  add_living("liana-mission");
+  const RunEnd end = RunSession(plan_).run();
+  EXPECT_EQ(end.message.substr(0, end.message.find('\n')), "liana-bench ended with code 1: cable 7 tore");
+}
+
+TEST_F(Session, AProgramThatIsKilledEndsTheMissionToo) {
+  const FakeDaemon daemon(plan_.api_socket());
+  add("lianad", "exec sleep 0.5");
+  add("liana-operator", "sleep 0.1; kill -9 $$");
+  add_living("liana-mission");
+  const RunEnd end = RunSession(plan_).run();
+  EXPECT_EQ(end.outcome, "failed");
+  EXPECT_TRUE(end.message.starts_with("liana-operator was killed by signal 9")) << end.message;
+  EXPECT_TRUE(daemon.saw("mission_control"));
+}
+
+TEST_F(Session, AScriptsProcessThatStandsStillIsNamedAsItsRunner) {
+  const api::UniqueFd mute = api::listen_at("--api", plan_.api_socket());
+  add_living("lianad");
+  add("liana-mission", "sleep 60 & kill -STOP $!; sleep 5; kill -9 $!; kill -INT $PPID; exec sleep 60");
+  RunSession session(plan_);
+  testing::internal::CaptureStderr();
+  session.run();
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_NE(said.find("no state of the arm for 3 s: liana-mission (process "), std::string::npos) << said;
 }
 
 TEST_F(Session, AKilledMissionRunnerFailsTheRun) {

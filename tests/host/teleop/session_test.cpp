@@ -26,7 +26,7 @@ Json state(const std::string& owner = "me", const std::string& phase = "ENABLED"
           {"limits", {"theta_rate"}},
           {"ik", {{"outcome", "converged"}}},
           {"verdict", {{"released", false}, {"code", 0}, {"text", ""}}},
-          {"contact", {{"segment", 3}, {"tip_push_N", {0.0, 3.0, 4.0}}}},
+          {"contact", {{"segment", 3}, {"on_body", true}, {"force_N", {0.0, 3.0, 4.0}}}},
           {"clearance", {{"distance_m", 0.0142}, {"bound_m", 0.0034}, {"body", "wall"}, {"level", "free"}}}};
 }
 
@@ -124,7 +124,7 @@ TEST(TeleopSession, WhatLianadRefusesIsSaidAndTheNextGoalBeginsAtTheCommandedTip
 TEST(TeleopSession, LinesSayStateOwnerClearanceForceAndWhatIsWrong) {
   const std::string fine = text_of(session_at(state()));
   for (const char* word : {"zhu2022", "ENABLED", "motion is yours", "14.2 mm to wall", "30 to 120 N", "5.0 N",
-                           "touches segment 3", "theta_rate", "converged", "1.0 mm from where it is asked to be"})
+                           "touches the body at segment 3", "theta_rate", "converged", "1.0 mm from where it is asked to be"})
     EXPECT_NE(fine.find(word), std::string::npos) << word << " in\n" << fine;
   EXPECT_EQ(fine.find("REFUSED"), std::string::npos) << "nothing was asked yet";
   Json bad = state("pilot", "FAULT");

@@ -1,0 +1,24 @@
+// What the parser of scenes (scene.cpp) has in files of their own.
+#pragma once
+
+#include "host/config/config.hpp"
+#include "host/config/field.hpp"
+
+namespace liana::config {
+
+constexpr double kUnitTolerance = 1e-9;
+constexpr Range kPlace{-100, 100};      // metres from the base
+constexpr Range kLength{0, 100, true};  // metres
+constexpr Range kDirection{-1 - kUnitTolerance, 1 + kUnitTolerance};
+
+// `position_m` and `quaternion_wxyz`; other members are the caller's affair.
+ScenePose read_pose(const Field& field);
+
+// The list `fixtures`; no two have one name.
+std::vector<SceneFixture> read_fixtures(const Field& list);
+
+// What a slit has without being told: `slit_plane` and `slit_walls`, as long and wide as it is, and with a rod
+// `slit_approach`, the last 0.3 m of the way to it.
+std::vector<SceneFixture> slit_fixtures(const std::optional<SceneSlit>& slit, const std::optional<SceneRod>& rod);
+
+}  // namespace liana::config

@@ -1,0 +1,27 @@
+"""Every program of unit tests is run by ./dev test: with sanitizers, or by its name in UNSANITIZED of ./dev. What only
+calls gtest_discover_tests would be built by neither, and nobody would notice."""
+import pathlib
+import re
+import subprocess
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def called(function):
+    """What the lists of tests give that function first."""
+    lists = (ROOT / "tests").rglob("CMakeLists.txt")
+    return {name for path in lists for name in re.findall(rf"^\s*{function}\((\w+)", path.read_text(), re.M)}
+
+
+class UnitTests(unittest.TestCase):
+    def test_no_program_of_unit_tests_is_left_out(self):
+        said = ["bash", "-c", "source <(head -n -1 dev) && echo ${UNSANITIZED[*]}"]
+        by_name = set(subprocess.run(said, cwd=ROOT, capture_output=True, text=True, check=True).stdout.split())
+        self.assertGreater(len(called("add_unit_tests")), 30)
+        self.assertEqual(called("gtest_discover_tests") - by_name, set())
+        self.assertEqual(by_name - called("add_executable"), set())
+
+
+if __name__ == "__main__":
+    unittest.main()
