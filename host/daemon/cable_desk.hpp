@@ -23,6 +23,9 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   CableDesk(const config::RobotConfig& robot, const config::SceneConfig& scene, const std::string& in_pose,
             timing::TimeMode time_mode, control::ArmLink<cable::CableArm>& link, const device::DoorPlace& devices);
 
+  // From now on no fixture guides a hand or is felt, whatever is asked for; walls forbid in any case.
+  void leave_out_fixtures() { has_fixtures_ = false; }
+
   void watch(bool booted) override;
   const std::string& why_not_homed() const override { return homing_.why_not(); }
   int devices_fd() const override { return devices_.fd(); }
@@ -67,8 +70,9 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   std::optional<Pose> predicted_tip_;  // at the end of the command released last
   bool friction_is_off_ = false;       // as told last
   bool device_is_slow_ = false;        // as told last
-  std::string feedback_ = "aligned";   // law of use_device
-  std::int32_t planar_segments_ = 0;   // how many the slit asks for now (host/solve/dof_split.hpp)
+  bool has_fixtures_ = true;
+  std::string feedback_ = "aligned";  // law of use_device
+  std::int32_t planar_segments_ = 0;  // how many the slit asks for now (host/solve/dof_split.hpp)
 };
 
 }  // namespace liana::daemon

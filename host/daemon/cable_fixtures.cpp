@@ -75,6 +75,7 @@ fixture::Choice CableDesk::chosen_fixtures(const api::Arguments& fields) const {
                                                 (known.empty() ? "none, the scene has no fixtures" : known) +
                                                 ": name one of the scene's, or leave it out for all");
   }
+  if (!has_fixtures_) return fixture::Choice(std::vector<std::string>{});
   return fields.has("fixtures") ? fixture::Choice(names) : std::nullopt;
 }
 

@@ -43,7 +43,7 @@ void handle_signals() {
 
 struct Options {
   std::string robot, scene, buses, api, time = "fast", physics = "nominal", bus_socket, expect, calibration, in_pose,
-                                        events, commands, way_out, verify_times, group, devices;
+                                        events, commands, way_out, verify_times, group, devices, fixtures;
 };
 
 std::vector<liana::api::Role> roles_in(const std::string& list) {
@@ -153,6 +153,7 @@ int serve_cable_arm(const Setup& setup) {
         liana::calibration::load_calibration(options.calibration, robot, liana::calibration::today_utc()), robot);
   const auto link = std::make_unique<liana::control::ArmLink<cable::CableArm>>(robot.table);
   liana::daemon::CableDesk desk(robot, setup.scene, options.in_pose, setup.mode, *link, devices_of(options));
+  if (options.fixtures == "off") desk.leave_out_fixtures();
   return serve(setup, robot, *link, desk);
 }
 
@@ -165,6 +166,7 @@ int serve_serial_arm(const Setup& setup) {
   refuse("--calibration", options.calibration, "the encoders of a serial arm are absolute");
   refuse("--in-pose", options.in_pose, "the encoders of a serial arm are absolute");
   refuse("--devices", options.devices, "no device steers a serial arm yet");
+  refuse("--fixtures", options.fixtures, "no hand steers a serial arm yet");
   const liana::config::SerialRobotConfig robot = liana::config::load_serial_robot(options.robot, setup.buses);
   const auto link = std::make_unique<liana::control::ArmLink<serial::SerialArm>>(robot.table);
   liana::daemon::SerialDesk desk(robot, setup.mode, *link);
@@ -207,6 +209,9 @@ int main(int argc, char** argv) {
               "what liana calibrate measured of this arm's drives; the robot table's values without");
   line.option("--in-pose", options.in_pose,
               "named pose in which the arm lies in its fixture: unless every cable says so, the arm is not enabled");
+  line.option("--fixtures", options.fixtures,
+              "off: no fixture of the scene guides a hand or is felt, whatever is asked")
+      .one_of({"on", "off"});
   line.option("--events", options.events, "file for what happened and why, a line for each event");
   line.option("--commands", options.commands, "file for what becomes of every command, a line for each stage");
   line.option(

@@ -34,7 +34,6 @@ haptic::HandTable hand_on_device() {
 
 haptic::HandLoopTable loop_of(const HumanTable& table) {
   haptic::HandLoopTable loop;
-  loop.law = table.law.value_or(haptic::Law::kAligned);
   loop.gains.unsure_m = kUnsure_m;
   if (table.passivity) return loop;
   loop.tank.start_J = loop.tank.most_J = std::numeric_limits<double>::infinity();
@@ -90,9 +89,18 @@ void HumanSession::begin_step(const Json& state, double now_s) {
   if (step_.device == "vr") return vr_person_.begin(mapping, now_s);
   hand_person_.begin(operator_side::hand_task(step_), mapping, now_s);
   held_.loop().scale_by(mapping.scale);
+  choose_law(state);
   prediction_.begin(
       {"hand", device::Kind::kHandController, {mapping.scale, mapping.rotation_scale}, 0, mapping.speed_m_s, false},
       pose_in(state, "setpoint_cp"));
+}
+
+void HumanSession::choose_law(const Json& state) {
+  const Json& told = state.member_or_null("mapping").member_or_null("feedback");
+  const std::string of_step = told.is_string() ? told.get<std::string>() : "aligned";
+  const auto law = haptic::law_of(table_.feedback.empty() ? of_step : table_.feedback);
+  feels_arm_ = law.has_value();
+  if (law) held_.loop().choose(*law);
 }
 
 void HumanSession::hear(const News& news, double now_s) {
@@ -133,7 +141,7 @@ void HumanSession::feel(const liana_state& told) {
     errors_m_.push_back(norm(subtract(tip.position_m, then->position_m)));
   if (const auto then = unmended_.at(of_us); answers && then)
     slowed_m_ = subtract(place(told.setpoint_cp.position_m), then->position_m);
-  if (table_.law) held_.loop().take({told.header.sequence, told.answers_us, told.held_us, tip});
+  if (feels_arm_) held_.loop().take({told.header.sequence, told.answers_us, told.held_us, tip});
 }
 
 // A wall that is not told any more has no stiffness.

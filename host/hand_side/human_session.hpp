@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "host/config/config.hpp"
@@ -19,10 +20,10 @@
 namespace liana::hand_side {
 
 struct HumanTable {
-  std::optional<haptic::Law> law = haptic::Law::kAligned;  // nothing: no force of the arm is felt
-  bool passivity = true;                                   // energy tank and damping at the device
-  bool walls = true;                                       // those that the device is told are felt
-  double there_and_back_s = 0.0;                           // delay of the link, known to the person
+  std::string feedback;           // a law's name, or off; empty: as every step of the mission says
+  bool passivity = true;          // energy tank and damping at the device
+  bool walls = true;              // those that the device is told are felt
+  double there_and_back_s = 0.0;  // delay of the link, known to the person
   std::uint64_t seed = 1;
 };
 
@@ -57,6 +58,7 @@ class HumanSession {
 
  private:
   void begin_step(const Json& state, double now_s);
+  void choose_law(const Json& state);
   void hear_of_hand(const News& news, bool engaged, double now_s);
   void feel(const liana_state& told);
   void feel_walls(const liana_state* told);
@@ -75,6 +77,7 @@ class HumanSession {
   haptic::PredictionTrack unmended_;   // by the filter alone
   haptic::PredictionTrack predicted_;  // the same, mended by what was heard
   operator_side::AnnouncedStep step_{};
+  bool feels_arm_ = true;
   bool steering_ = false;
   bool reported_ = false;
   double acted_s_ = 0.0;

@@ -27,7 +27,7 @@ struct OperatorOptions {
   std::string recordings;  // folders, separated by ':'
   std::string scene;       // empty: the scene lianad runs with
   std::string who = "recorded";
-  std::string feedback = "aligned";
+  std::string feedback;  // empty: as every step of the mission says
   std::string passivity = "on";
   std::string fixtures = "on";
   std::string delay = "0,0";
@@ -77,7 +77,7 @@ std::unique_ptr<Steering> human(const OperatorOptions& options, const Json& welc
   const auto robot = config::parse_robot(welcome.at("robot").dump(), "robot of " + options.api, "nominal", buses);
   const haptic::Delays delays = haptic::delays_of(options.delay);
   HumanTable table;
-  table.law = haptic::law_of(options.feedback);
+  table.feedback = options.feedback;
   table.passivity = options.passivity == "on";
   table.walls = options.fixtures == "on";
   table.there_and_back_s = delays.forward_s + delays.back_s;
@@ -165,7 +165,8 @@ int main(int argc, char** argv) {
   line.option("--operator", options.who,
               "recorded: VR handles from a file, a simulated person at the hand controller; human: the person at both")
       .one_of({"recorded", "human"});
-  line.option("--feedback", options.feedback, "of the human: a law (docs/force-feedback.md), or off")
+  line.option("--feedback", options.feedback,
+              "of the human: a law (docs/force-feedback.md), or off; as the mission's steps say where not given")
       .one_of({"aligned", "claim", "abstract", "off"});
   line.option("--passivity", options.passivity, "of the human: energy tank and damping").one_of({"on", "off"});
   line.option("--fixtures", options.fixtures, "of the human: the walls that lianad tells are felt")

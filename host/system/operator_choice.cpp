@@ -19,7 +19,7 @@ std::vector<std::string> operator_words(const OperatorChoice& choice) {
   add("--delay", choice.delay);
   add("--feedback", choice.feedback);
   add("--passivity", choice.passivity);
-  add("--fixtures", choice.fixtures);
+  if (choice.who == "human") add("--fixtures", choice.fixtures);
   try {
     if (!choice.delay.empty()) haptic::delays_of(choice.delay);
   } catch (const std::invalid_argument& error) {

@@ -12,7 +12,7 @@ struct OperatorChoice {
   std::string delay;      // FORWARD_S,RETURN_S of the link between hand and arm
   std::string feedback;   // a law's name, or off
   std::string passivity;  // on or off
-  std::string fixtures;   // on or off
+  std::string fixtures;   // on or off; lianad's, too
 };
 
 // Words for liana-operator's command line. Throws BadInput for a delay that is none, and for what only a human has.

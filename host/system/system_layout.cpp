@@ -127,6 +127,7 @@ ProgramCall daemon_call(const SystemLayout& plan, const RunOptions& options, boo
   if (plan.is_dry_run) append(call.argv, {"--verify-times", plan.verify_times_file()});
   if (!options.calibration.empty()) append(call.argv, {"--calibration", options.calibration});
   if (!options.in_pose.empty()) append(call.argv, {"--in-pose", options.in_pose});
+  if (!options.people.fixtures.empty()) append(call.argv, {"--fixtures", options.people.fixtures});
   if (embedded) append(call.argv, {"--bus-socket", plan.bus_socket()});
   return call;
 }
@@ -263,6 +264,7 @@ std::string check_options_of_serial_robot(const RunOptions& options, const std::
   refuse("--in-pose", !options.in_pose.empty(), "its encoders are absolute; leave it out");
   refuse("--cross-wired", !options.cross_wired.empty(), "it has no cables to swap; leave it out");
   refuse("--gravity", options.gravity_share != 0.0, "its bench has no weight; leave it out");
+  refuse("--fixtures", !options.people.fixtures.empty(), "no hand steers it yet; leave it out");
   refuse("--linkage-error", options.linkage_error != 0.0, "it has no linkage; leave it out");
   refuse("--physics", options.physics != "nominal", "its bench knows nominal only; leave it out");
   refuse("mission", options.mission.ends_with(".json"), "plans are for cable arms; give a mission");

@@ -54,10 +54,11 @@ void add_people(CLI::App& sub, system::OperatorChoice& people) {
   sub.add_option("--delay", people.delay,
                  "of the human: FORWARD_S,RETURN_S, e.g. 0.5,0.5; delays of the link between hand and arm, 0 to 2 s");
   sub.add_option("--feedback", people.feedback,
-                 "of the human: the law of the force on the hand, aligned where nothing is said, or off")
+                 "of the human: the law of the force on the hand, or off; as the mission's steps say where not given")
       ->check(CLI::IsMember({"aligned", "claim", "abstract", "off"}));
-  sub.add_option("--fixtures", people.fixtures,
-                 "of the human: the hand feels the walls of fixtures that lianad tells; on where nothing is said")
+  sub.add_option(
+         "--fixtures", people.fixtures,
+         "off: no fixture of the scene guides the hand or is felt, whatever the mission says (docs/fixtures.md)")
       ->check(CLI::IsMember({"on", "off"}));
   sub.add_option("--passivity", people.passivity,
                  "of the human: energy tank and damping at the hand controller; on where nothing is said")

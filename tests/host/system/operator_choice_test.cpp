@@ -24,10 +24,8 @@ TEST(OperatorChoice, SaysNothingOfWhatWasNotAskedFor) {
 }
 
 TEST(OperatorChoice, WhatOnlyAHumanHasIsRefusedOfRecordedHandsByName) {
-  for (const OperatorChoice& choice : {OperatorChoice{"", "0.5,0.5", "", "", ""},
-                                       {"recorded", "", "claim", "", ""},
-                                       {"", "", "", "off", ""},
-                                       {"", "", "", "", "off"}}) {
+  for (const OperatorChoice& choice :
+       {OperatorChoice{"", "0.5,0.5", "", "", ""}, {"recorded", "", "claim", "", ""}, {"", "", "", "off", ""}}) {
     EXPECT_NE(refusal_of(choice).find("--operator human"), std::string::npos) << refusal_of(choice);
   }
 }
