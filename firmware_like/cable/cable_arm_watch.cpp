@@ -84,8 +84,9 @@ void CableArm::balance_next_axis(std::uint64_t tick) noexcept {
   ThetaVector off_rad{};
   for (Index k = 0; k < as_index(table_.theta_count()); ++k) off_rad[k] = estimator_.theta_rad[k] - model_.theta_rad[k];
   follow_slides(layout_, model_.geometry, off_rad, friction_.mu + friction_sd(friction_), balance_);
-  if (dither_.share > 0.0)
-    fade_slip(layout_, kFrictionTicks * kDitherFade_1_s * dither_.share * table_.tick_s, balance_.slip);
+  // After a dither friction is nowhere, and what angles creep by says nothing of it.
+  if (is_dithering(dither_) || contact_.state == ContactState::kDithered)
+    fade_slip(layout_, kFrictionTicks * kDitherFade_1_s * kDitherMost * table_.tick_s, balance_.slip);
   const double inertia_Nm = inertia_torque_Nm(table_, motion_.arm, inertia_, axis);
   const FrictionReadings planned{
       model_.geometry, ratio_,     slip_, wrap_rad_, inertia_.tension_N, table_.friction_mu, motion_.limiter.rate_rad_s,

@@ -120,6 +120,7 @@ class EveryRequest(SystemTest):
     def setUp(self):
         self.system = self.enterContext(Crowded(expect="client,archive", faults=self.faults()))
         self.others = self.system.others
+        self.addCleanup(self.system.hand.close)
         self.system.start_archive()
         self.client = self.system.client()
 
