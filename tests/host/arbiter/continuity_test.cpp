@@ -139,7 +139,7 @@ class LedArm {
     for (int i = 1; i < 5; ++i) look(rig_.tick());
   }
 
-  void look(const Outputs& out) {
+  void look(const cable::Outputs& out) {
     const double h = rig_.robot.tick_s;
     for (std::size_t k = 0; k < zhu2022::kThetas; ++k) {
       const double rate = (out.theta_command_rad[k] - before_.theta_command_rad[k]) / h;
@@ -170,7 +170,7 @@ class LedArm {
   bool pressed_ = true;
   int lost_intervals_ = 0, silent_intervals_ = 0, reindex_intervals_ = 0;
   std::int64_t t_us_ = 0;
-  Outputs before_{};
+  cable::Outputs before_{};
   ThetaVector rate_rad_s_{};
   Vec3 speed_m_s_{}, accel_m_s2_{};
   Steps steps_;
