@@ -52,7 +52,7 @@ class SwitchedHand {
     const auto what = random_() % 5;
     if (what == 0) loop_.choose(kLaws[random_() % kLaws.size()]);
     if (what == 1) has_wall_ = !has_wall_;
-    if (what == 2) next_wall_m_ = sensed_m_ + 0.010 * one();
+    if (what == 1 || what == 2) next_wall_m_ = sensed_m_ + 0.010 * one();
     if (what == 3) rescale();
     if (what == 4) button_ = !button_;
   }
