@@ -198,6 +198,9 @@ function arm.shape(fields) end
 ---@field speed_m_s? number
 ---`vr` steers inside the slit, too; else it is refused there, and let go at the mouth (else false)
 ---@field anywhere? boolean
+---axes of the hand (not of `vr`'s left one): the base's (else), the tip's on engaging, the tip camera's,
+---which turn
+---@field frame? "base"|"tip"|"camera"
 
 ---Who steers, and how hand motion maps to the tip. For cable arms only.
 ---@param fields arm.use_device
