@@ -17,6 +17,11 @@ namespace {
 constexpr double kSendTimeout_s = 10.0;
 constexpr useconds_t kRetry_us = 20000;
 
+[[noreturn]] void throw_unreachable(const std::string& path) {
+  throw std::runtime_error("cannot reach lianad at " + path + ": " + std::strerror(errno) +
+                           "; is it running with --api " + path + "?");
+}
+
 [[noreturn]] void throw_gone() {
   throw std::runtime_error("lianad is gone: the API socket was closed by the other end");
 }
@@ -30,19 +35,17 @@ ApiClient ApiClient::connect(const std::string& path, double timeout_s) {
     if (fd.get() >= 0 && ::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
       return ApiClient(std::move(fd));
     }
-    if (std::chrono::steady_clock::now() >= deadline) {
-      throw std::runtime_error("cannot reach lianad at " + path + ": " + std::strerror(errno) +
-                               "; is it running with --api " + path + "?");
-    }
+    if (std::chrono::steady_clock::now() >= deadline) throw_unreachable(path);
     ::usleep(kRetry_us);
   }
 }
 
 void ApiClient::send(const Json& request) {
   const std::string packet = request.dump();
-  if (packet.size() > kMaxPacketBytes)
+  if (packet.size() > kMaxPacketBytes) {
     throw std::runtime_error("API request of " + std::to_string(packet.size()) + " bytes: at most " +
                              std::to_string(kMaxPacketBytes));
+  }
   SocketResult result = send_packet(fd_.get(), packet);
   if (result == SocketResult::kWouldBlock && wait_writable(fd_.get(), kSendTimeout_s))
     result = send_packet(fd_.get(), packet);
