@@ -4,6 +4,7 @@
 
 #include "firmware_like/cable/arm/cable_watch.hpp"
 #include "firmware_like/cable/arm/contact_watch.hpp"
+#include "firmware_like/cable/arm/friction_watch.hpp"
 #include "firmware_like/cable/arm/tension_watch.hpp"
 #include "firmware_like/safety/link_watch.hpp"
 #include "firmware_like/safety/supervisor.hpp"

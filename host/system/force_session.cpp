@@ -13,7 +13,7 @@ using report::ForceMoment;
 std::array<std::optional<double>, 3> told(const Json& contact) {
   std::array<std::optional<double>, 3> out;
   for (std::size_t i = 0; i < out.size(); ++i)
-    if (contact.at("force_N").at(i).is_number()) out[i] = contact.at("force_N").at(i).get<double>();
+    if (contact.at("force_N")[i].is_number()) out[i] = contact.at("force_N")[i].get<double>();
   return out;
 }
 
@@ -113,7 +113,7 @@ class Trial {
   void read_at(double when_s, double passed_s, ForceMoment moment, const Json& contact) {
     if (!(before_s_ < when_s && passed_s >= when_s)) return;
     report::ForceReading reading{moment, plan_.number, push_->force_N, told(contact), {}};
-    for (std::size_t i = 0; i < 3; ++i) reading.sd_N[i] = contact.at("sd_N").at(i).get<double>();
+    for (std::size_t i = 0; i < 3; ++i) reading.sd_N[i] = contact.at("sd_N")[i].get<double>();
     all_.readings.push_back(reading);
   }
 
