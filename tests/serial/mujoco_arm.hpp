@@ -1,9 +1,6 @@
 // The bench's model of a serial arm in MuJoCo, asked for inverse dynamics as MuJoCo has it.
 #pragma once
 
-#include <mujoco/mujoco.h>
-
-#include <cstring>
 #include <iomanip>
 #include <memory>
 #include <sstream>
@@ -12,7 +9,8 @@
 
 #include "firmware_like/serial/dynamics.hpp"
 #include "hil/math/principal.hpp"
-#include "hil/serial/joint_chain.hpp"
+#include "hil/serial/mujoco_model.hpp"
+#include "hil/serial/serial_mjcf.hpp"
 
 namespace liana::test {
 
@@ -33,22 +31,10 @@ class MujocoArm {
          << "' quat='" << q.w << ' ' << text({q.x, q.y, q.z}) << "' diaginertia='"
          << text({axes.moment[0], axes.moment[1], axes.moment[2]}) << "'/></body>";
     xml.insert(tip + 1, body.str());
-    const auto vfs = std::make_unique<mjVFS>();
-    mj_defaultVFS(vfs.get());
-    mj_makeEmptyFileVFS(vfs.get(), "arm.xml", static_cast<int>(xml.size()));
-    std::memcpy(vfs->filedata[0], xml.data(), xml.size());
-    char error[500] = "";
-    model_ = mj_loadXML("arm.xml", vfs.get(), error, sizeof error);
-    mj_deleteVFS(vfs.get());
-    if (model_ == nullptr) throw std::runtime_error(error);
-    data_ = mj_makeData(model_);
+    engine_ = std::make_unique<bench::MujocoModel>(xml);
+    model_ = engine_->model;
+    data_ = engine_->data;
   }
-  ~MujocoArm() {
-    mj_deleteData(data_);
-    mj_deleteModel(model_);
-  }
-  MujocoArm(const MujocoArm&) = delete;
-  MujocoArm& operator=(const MujocoArm&) = delete;
 
   // Less the wrench's share by the Jacobian of the tip.
   std::vector<double> torque_Nm(const serial::JointMotion& motion, const serial::Wrench& on_tip) {
@@ -93,6 +79,7 @@ class MujocoArm {
     xml.replace(xml.find(what), what.size(), by);
   }
 
+  std::unique_ptr<bench::MujocoModel> engine_;
   mjModel* model_ = nullptr;
   mjData* data_ = nullptr;
   std::vector<double> offset_rad_;
