@@ -29,7 +29,7 @@ Overlap overlap_of(const AdapterFigures& figures, const Vec3& at_m) {
   const double before_face = at_m.z + funnel_length_m(figures);
   const double radius = std::hypot(at_m.x, at_m.y);
   if (before_face <= 0.0 || radius == 0.0) return {};
-  const Clearance clearance = clearance_at(figures, at_m.z);
+  const PinClearance clearance = clearance_at(figures, at_m.z);
   const double into_wall = radius - clearance.radius_m;
   if (into_wall <= 0.0) return {};
   if (before_face < into_wall) return {before_face, {0.0, 0.0, 1.0}};  // beside the funnel
@@ -60,7 +60,7 @@ double stop_force_N(double stiffness_N_m, double damping_Ns_m, double stop_m, co
 
 }  // namespace
 
-Clearance clearance_at(const AdapterFigures& figures, double depth_m) {
+PinClearance clearance_at(const AdapterFigures& figures, double depth_m) {
   if (depth_m < 0.0) return {figures.entry_m - depth_m, -1.0};
   if (depth_m >= figures.depth_m) return {figures.full_m, 0.0};
   const double slope = (figures.full_m - figures.entry_m) / figures.depth_m;

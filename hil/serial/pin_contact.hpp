@@ -40,11 +40,11 @@ struct PinState {
 };
 
 // Radial clearance [m] at a depth [m], from the funnel's mouth on, and how it changes with depth.
-struct Clearance {
+struct PinClearance {
   double radius_m;
   double slope;
 };
-Clearance clearance_at(const AdapterFigures& figures, double depth_m);
+PinClearance clearance_at(const AdapterFigures& figures, double depth_m);
 
 // Wall, face beside the funnel, spring, stop and what lies in the hole, on the pin [N].
 Vec3 pin_force_N(const AdapterFigures& figures, const PinDefects& defects, const PinState& pin);
