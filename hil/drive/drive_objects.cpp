@@ -69,7 +69,7 @@ constexpr Object kTorque[] = {
     {0x3001, 4, kU32, kReadWrite, false, 10000, 0, 1000000},   // torque integral [0.001/s]
     {0x3001, 5, kU32, kReadWrite, false, 0, 0, 1000000},       // torque derivative [us]
     {0x3001, 6, kU32, kReadWrite, false, 100, 0, 10000},       // ramp of a stop [ms]
-    {0x3001, 7, kU32, kReadWrite, false, 200, 0, kI32Max},     // speed that counts as rest [counts/s]
+    {0x3001, 7, kU32, kReadWrite, false, 50, 0, kI32Max},      // speed that counts as rest [counts/s]
     {0x6071, 0, kI16, kReadWrite, true, 0, -32768, 32767},     // target torque [permille of rated]
     {0x60B1, 0, kI32, kReadWrite, true, 0, kI32Min, kI32Max},  // velocity offset [counts/s]
     {0x60B2, 0, kI16, kReadWrite, true, 0, -32768, 32767},     // torque offset [permille of rated]

@@ -17,7 +17,7 @@ struct Named {
   std::uint16_t index;
   ObjectCode code;
   const char* name;
-  std::array<const char*, 5> entries{};  // by sub-index; nothing: as all lists begin, or none
+  std::array<const char*, 8> entries{};  // by sub-index; nothing: as all lists begin, or none
 };
 
 constexpr const char* kHighest = "Highest sub-index supported";
@@ -34,6 +34,11 @@ constexpr Named kNamed[] = {
     {0x1018, kRecord, "Identity object", {kHighest, "Vendor-ID", "Product code", "Revision number", "Serial number"}},
     {0x1029, kArray, "Error behaviour object", {kHighest, "Communication error"}},
     {0x6007, kVariable, "Abort connection option code"},
+    {0x3001,
+     kRecord,
+     "Torque loop",
+     {kHighest, "Joint damping", "Drift integral", "Torque gain", "Torque integral", "Torque derivative",
+      "Ramp of a stop", "Speed of rest"}},
     {0x603F, kVariable, "Error code"},
     {0x6040, kVariable, "Controlword"},
     {0x6041, kVariable, "Statusword"},

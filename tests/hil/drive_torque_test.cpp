@@ -121,7 +121,7 @@ TEST_F(TorqueDrive, AgainstAWallTheGearGivesWhatIsAskedForAndReportsIt) {
   joint_.wall_Nm_rad = 2000.0;
   EXPECT_EQ(write(0x3001, 2, 4, 0), 0U);  // without the drift integral it is a force, and nothing else
   enable_torque();
-  run(1500, 200);
+  run(3000, 200);
   EXPECT_NEAR(joint_.gear_Nm(), 0.2 * kRated_Nm, 0.3);
   EXPECT_NEAR(static_cast<std::int16_t>(*read(0x6077, 0)), 200, 3);
 }
@@ -131,7 +131,7 @@ TEST_F(TorqueDrive, TheTorqueOffsetIsAddedToTheTarget) {
   EXPECT_EQ(write(0x3001, 2, 4, 0), 0U);
   EXPECT_EQ(write(0x60B2, 0, 2, 100), 0U);
   enable_torque();
-  run(1500, 100);
+  run(3000, 100);
   EXPECT_NEAR(joint_.gear_Nm(), 0.2 * kRated_Nm, 0.3);
 }
 
@@ -172,7 +172,7 @@ TEST_F(TorqueDrive, EveryWayToRestTakesTheForceOutBeforeTheBrakeCloses) {
     EXPECT_EQ(write(0x6060, 0, 1, 10), 0U) << ending.name;
     enable_torque();
     run(1500, 200);
-    ASSERT_GT(joint_.gear_Nm(), 20.0) << ending.name;
+    ASSERT_GT(joint_.gear_Nm(), 5.0) << ending.name;  // the drift integral holds the rest
     if (ending.faulty) drive_.raise_fault(0x8400);
     const int periods = until_braked(ending.controlword);
     EXPECT_GT(periods, 125) << ending.name << ": half a second of rest";
