@@ -17,10 +17,14 @@ constexpr double kLongestGap_s = 0.1;  // after a pause the hands go on, they do
 constexpr double kArmDelay_s = 0.04;   // from a sample sent to its command in force: two command intervals
 constexpr double kUnsure_m = 0.015;    // the measured tip beside the commanded one, in free motion (docs/operator.md)
 constexpr double kFirm_N_m = 500.0;    // a grip for fine work
+// In the slit, slower than the person whose hand nothing moves: what tremor and felt forces add swings the tip faster
+// than the table allows (0.0331 m/s at 0.0252).
+constexpr double kSlitSpeed_m_s = 0.0235;
 
 operator_side::HandGains hand_gains(const HumanTable& table) {
   operator_side::HandGains gains = under_delay(operator_side::HandGains{}, table.there_and_back_s);
   gains.tremor_m = 0.0;  // the muscles' own, in the hand on the device
+  gains.slit_speed_m_s = std::min(gains.slit_speed_m_s, kSlitSpeed_m_s);
   return gains;
 }
 
