@@ -198,6 +198,10 @@ function arm.shape(fields) end
 ---@field speed_m_s? number
 ---`vr` steers inside the slit, too; else it is refused there, and let go at the mouth (else false)
 ---@field anywhere? boolean
+---names of the scene's fixtures that guide the hand and are felt; left out: all of them
+---@field fixtures? string
+---law by which the hand feels the arm; `aligned` when left out
+---@field feedback? "aligned"|"claim"|"abstract"|"off"
 
 ---Who steers, and how hand motion maps to the tip. For cable arms only.
 ---@param fields arm.use_device
