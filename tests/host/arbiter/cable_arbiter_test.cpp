@@ -322,7 +322,7 @@ TEST_F(Arbitration, TheMappingOfTheDeviceInUseChangesOnlyWhileTheDeadmanIsOpen) 
 }
 
 TEST_F(Arbitration, AnotherDeviceOrNoneTakesOverFromAHandThatSteers) {
-  for (const DeviceKind kind : {DeviceKind::kVr, DeviceKind::kNone}) {
+  for (const device::Kind kind : {device::Kind::kHandles, device::Kind::kNone}) {
     use_hand();
     ASSERT_TRUE(steered(0.0));
     DeviceUse other;
