@@ -81,6 +81,7 @@ class LedArm {
     use.speed_m_s = 0.03;
     use.anywhere = true;
     scale_ = mode.scale;
+    if (mode.scale != arbiter_.device().in_use().mapping.scale) arbiter_.use_device(rig_.out, {});  // or it is refused
     arbiter_.use_device(rig_.out, use);
     arbiter_.choose_fixtures(mode.fixtures ? fixture::Choice{} : fixture::Choice{std::vector<std::string>{}});
     arbiter_.hold_theta(rig_.out, mode.held_mask, {});
