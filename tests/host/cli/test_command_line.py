@@ -398,7 +398,9 @@ class Help(unittest.TestCase):
             self.assertEqual((code, out), (2, ""), words)
             self.assertIn(named, error)
             self.assertIn(
-                "export" if words[:1] == ["robot"] else "run, check, mission, console, teleop, link, view, commands, log",
+                "export"
+                if words[:1] == ["robot"]
+                else "run, check, mission, console, teleop, link, view, commands, log",
                 error,
             )
             self.assertEqual(error.count("\n"), 1, error)
