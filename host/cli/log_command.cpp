@@ -225,6 +225,9 @@ int log_list_command(const LogOptions& options) {
     return system::kExitOk;
   }
   for (const Json& run : all) print_run(run);
+  if (all.empty())
+    std::fprintf(stderr, "liana: no run is kept in %s; runs that could not be kept there said where they went\n",
+                 system::runs_folder().empty() ? "a home folder: there is none" : system::runs_folder().c_str());
   return system::kExitOk;
 }
 

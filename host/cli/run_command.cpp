@@ -63,7 +63,8 @@ int run_command(const system::RunOptions& options) {
   if (!success) {
     std::fprintf(stderr, "liana: the run did not succeed; %s\n", where_to_look(plan).c_str());
   }
-  leave_page(plan.directory, options.report_file == "-" ? stderr : stdout);
+  const bool stays = plan.directory != plan.socket_dir || !success;
+  if (stays) leave_page(plan.directory, options.report_file == "-" ? stderr : stdout);
   system::clean_up(plan, success);
   return success && written ? system::kExitOk : system::kExitFailure;
 }
