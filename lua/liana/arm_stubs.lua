@@ -185,6 +185,17 @@ function arm.hold_theta(fields) end
 ---@return integer id
 function arm.shape(fields) end
 
+---@class arm.dither
+---of every planned tension, up and down (else 0.3)
+---@field share? number
+---in which the share decays evenly to nothing (else 4)
+---@field duration_s? number
+
+---All tensions of an arm at rest go slowly up and down, which frees what friction holds. For cable arms only.
+---@param fields arm.dither
+---@return integer id
+function arm.dither(fields) end
+
 ---@class arm.use_device
 ---who steers; `none`: nobody
 ---@field device "vr"|"hand"|"none"
