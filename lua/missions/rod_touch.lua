@@ -5,7 +5,7 @@ local move_to, at_pose, at_rest, tip_force = liana.move_to, liana.at_pose, liana
 
 -- Numbers to tune.
 local kTouch_N = 0.6
-local kSlow_deg_s = 0.25
+local kSlow_deg_s = 0.2
 local kDither = 0.1 -- little: the push has loosened some cables, and 15 N at the motor are least
 local kSure_N = 0.25 -- deviation along every axis, after the dither
 
