@@ -49,8 +49,9 @@ class Trial {
       const Json state = session_.next_state(false);  // a dither may be refused where a push has loosened a cable
       now_s_ = state.at("time_s").get<double>();
       look(state);
-      is_sound = state.at("faults").empty();
-      if (!is_sound) all_.faults.push_back({state.at("faults")[0].at("number").get<int>(), pushed_N()});
+      is_sound = state.at("faults").empty() && state.at("state") == "ENABLED";
+      if (!state.at("faults").empty())
+        all_.faults.push_back({state.at("faults")[0].at("number").get<int>(), pushed_N()});
       if (is_sound) act();
       session_.done(state);
     }
