@@ -11,7 +11,10 @@
 namespace liana::system {
 namespace {
 
-constexpr double kTurn_deg = 1.5;  // of every angle at most, about the named pose
+constexpr double kTurn_deg = 1.5;                // of every angle at most, about the configuration
+constexpr double kLeastBend = 0.7, kBend = 0.9;  // of a named pose: there is room to turn
+constexpr double kBody_N = 3.0;
+constexpr double kStraight_deg = 4.0;  // of every angle at most, where that pose is straight
 constexpr const char* kPoses[] = {"prepare", "panel_edge", "fixture", "zero"};
 
 class Draw {
@@ -30,6 +33,22 @@ Vec3 direction(Draw& draw) {
     const Vec3 v{draw.within(-1.0, 1.0), draw.within(-1.0, 1.0), draw.within(-1.0, 1.0)};
     if (norm(v) > 0.1 && norm(v) <= 1.0) return scale(v, 1.0 / norm(v));
   }
+}
+
+// Something between the straight arm and the named pose.
+std::vector<double> bent(const std::vector<double>& pose_deg, Draw& draw) {
+  const bool is_straight = std::all_of(pose_deg.begin(), pose_deg.end(), [](double angle) { return angle == 0.0; });
+  const double share = draw.within(kLeastBend, kBend);
+  std::vector<double> out;
+  for (const double angle_deg : pose_deg)
+    out.push_back(is_straight ? draw.within(-kStraight_deg, kStraight_deg) : share * angle_deg);
+  return out;
+}
+
+std::string listed(const std::vector<double>& angles_deg) {
+  std::string text;
+  for (const double angle : angles_deg) text += (text.empty() ? "" : ",") + std::to_string(angle);
+  return text;
 }
 
 std::vector<double> near(const std::vector<double>& pose_deg, const config::RobotConfig& robot, Draw& draw) {
@@ -56,11 +75,12 @@ ForcePlan force_plan(const config::RobotConfig& robot, std::size_t number, std::
   std::vector<std::string> poses;
   for (const char* pose : kPoses)
     if (robot.named_poses_deg.contains(pose)) poses.emplace_back(pose);
-  plan.start_pose = poses.empty() ? robot.named_poses_deg.begin()->first : poses[number % poses.size()];
-  const std::vector<double>& pose_deg = robot.named_poses_deg.at(plan.start_pose);
+  const std::string name = poses.empty() ? robot.named_poses_deg.begin()->first : poses[number % poses.size()];
+  const std::vector<double> pose_deg = bent(robot.named_poses_deg.at(name), draw);
+  plan.start_pose = listed(pose_deg);
   for (std::size_t i = 0; i < pushes; ++i) {
     const bool is_last = i + 1 == pushes;
-    const double size_N = is_last && number % 2 == 0 ? 5.0 : 1.0 + static_cast<double>((number / 2 + i) % 2);
+    const double size_N = is_last ? (number % 2 == 0 ? 5.0 : kBody_N) : 1.0 + static_cast<double>((number / 2 + i) % 2);
     PlannedPush push{0, scale(direction(draw), size_N), near(pose_deg, robot, draw), near(pose_deg, robot, draw)};
     if (is_last && number % 2 == 1) {
       const auto later = static_cast<std::int32_t>(draw.within(0.0, robot.table.segment_count - 1.001));

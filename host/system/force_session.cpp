@@ -46,12 +46,13 @@ class Trial {
     move_ = {ForceMoment::kMoving, norm(push.force_N), std::nullopt};
     bool is_sound = true;
     while (is_sound && now_s_ < begin_s_ + kBlock_s) {
-      const Json state = session_.next_state();
+      const Json state = session_.next_state(false);  // a dither may be refused where a push has loosened a cable
       now_s_ = state.at("time_s").get<double>();
       look(state);
-      is_sound = state.at("faults").empty();
-      if (!is_sound) all_.faults.push_back({state.at("faults")[0].at("number").get<int>(), pushed_N()});
-      act();
+      is_sound = state.at("faults").empty() && state.at("state") == "ENABLED";
+      if (!state.at("faults").empty())
+        all_.faults.push_back({state.at("faults")[0].at("number").get<int>(), pushed_N()});
+      if (is_sound) act();
       session_.done(state);
     }
     if (push.link != 0) {
@@ -112,6 +113,7 @@ class Trial {
 
   void read_at(double when_s, double passed_s, ForceMoment moment, const Json& contact) {
     if (!(before_s_ < when_s && passed_s >= when_s)) return;
+    if (moment == ForceMoment::kDithered && contact.at("state") != "dithered") return;
     report::ForceReading reading{moment, plan_.number, push_->force_N, told(contact), {}};
     for (std::size_t i = 0; i < 3; ++i) reading.sd_N[i] = contact.at("sd_N")[i].get<double>();
     all_.readings.push_back(reading);

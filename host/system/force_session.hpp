@@ -26,8 +26,8 @@ struct ForcePlan {
   std::vector<PlannedPush> pushes;  // the last one may be on the body
 };
 
-// Configuration `number` of a self-test: `pushes` drawn from `seed`, about a named pose of the robot. The last one is
-// on the body, or has 5 N, in turn.
+// Configuration `number` of a self-test: `pushes` drawn from `seed`, between the straight arm and a named pose. The
+// last one is on the body, or has 5 N, in turn.
 ForcePlan force_plan(const config::RobotConfig& robot, std::size_t number, std::size_t pushes, std::uint64_t seed);
 
 // The bench's fault list (docs/hil.md) with the pushes of a plan.

@@ -38,7 +38,7 @@ void LockstepSession::give_up(const std::string& why, double settle_s) {
   throw std::runtime_error(worst ? worst->text : why);
 }
 
-Json LockstepSession::next_state() {
+Json LockstepSession::next_state(bool refusals_count) {
   for (;;) {
     if (interrupts_.count() > 0) give_up("");
     std::optional<Json> message;
@@ -50,7 +50,7 @@ Json LockstepSession::next_state() {
     if (!message) give_up("lianad has said nothing for " + std::to_string(kSilence_s) + " s");
     watch_.heard();
     if (message->value("op", "") == "state") return *message;
-    if (message->value("op", "") == "error") give_up("lianad: " + message->value("message", ""));
+    if (refusals_count && message->value("op", "") == "error") give_up("lianad: " + message->value("message", ""));
   }
 }
 

@@ -24,7 +24,8 @@ class LockstepSession {
   // Starts the programs. All below throw std::runtime_error when a program ends or says nothing; Interrupted at Ctrl-C;
   // BadInput when a program refused what it was given.
   void start();
-  Json next_state();
+  // A request that was refused ends the session, where `refusals_count`.
+  Json next_state(bool refusals_count = true);
   // Ends the interval of this state.
   void done(const Json& state) { system_.send({{"op", "done"}, {"tick", state.at("tick")}}); }
   void send(const Json& request) { system_.send(request); }

@@ -4,8 +4,9 @@ local step, all = liana.step, liana.all
 local move_to, at_pose, at_rest, tip_force = liana.move_to, liana.at_pose, liana.at_rest, liana.tip_force
 
 -- Numbers to tune.
-local kTouch_N = 0.8
-local kSlow_deg_s = 0.25
+local kTouch_N = 0.6
+local kSlow_deg_s = 0.2
+local kDither = 0.1 -- little: the push has loosened some cables, and 15 N at the motor are least
 local kSure_N = 0.25 -- deviation along every axis, after the dither
 
 return liana.mission "rod_touch" {
@@ -35,7 +36,7 @@ return liana.mission "rod_touch" {
 
   step "feel it better" {
     device = "none",
-    run = function(arm) arm.dither { share = 0.2, duration_s = 4 } end,
+    run = function(arm) arm.dither { share = kDither, duration_s = 4 } end,
     exit = all { at_rest(), tip_force(0.5 * kTouch_N, kSure_N) },
     time_limit_s = 20,
     on_fail = "retract",

@@ -2,8 +2,8 @@
 local geometry = require "liana.geometry"
 local robot = require "robots.zhu2022"
 
-local kShare = 0.25 -- of the way, where the rod's middle is
-local kRadius_m = 0.06
+local kShare = 0.12 -- of the way, where the rod's middle is
+local kRadius_m = 0.08
 
 local function tip_at(share)
   local from, to, angles_deg = robot.named_poses_deg.prepare, robot.named_poses_deg.panel_edge, {}
@@ -25,7 +25,7 @@ return {
   rod = {
     position_m = middle, quaternion_wxyz = geometry.quaternion(columns),
     radius_m = kRadius_m,
-    stiffness_N_per_m = 40,
+    stiffness_N_per_m = 20,
   },
   camera = { rate_hz = 25, latency_s = 0.1, noise_m = 0.0003, noise_deg = 0.05, range_m = 3.0 },
   contact = { stiffness_N_per_m = 20000, damping_Ns_per_m = 50, friction = 0.2 },
