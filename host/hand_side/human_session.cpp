@@ -19,7 +19,7 @@ constexpr double kUnsure_m = 0.015;    // the measured tip beside the commanded 
 // A hand that gives way to walls stirs the arm a little: slower, and slow earlier, than one that is where it wants to
 // be.
 constexpr double kSlowBeforeMouth_m = 0.09;
-constexpr double kSlitSpeed_m_s = 0.0235;
+constexpr double kSlitSpeed_m_s = 0.0205;
 constexpr double kFirm_N_m = 500.0;  // a grip for fine work
 
 operator_side::HandGains hand_gains(const HumanTable& table) {
