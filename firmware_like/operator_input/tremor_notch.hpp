@@ -4,7 +4,7 @@
 // (kTremorLag_s). A notch is its input less a band pass of it. What is kept is that band pass, the offset of the output
 // from the input, and it is driven by the input's steps alone: it dies away where the target rests, wherever that is,
 // and attitudes, of which steps and offsets are small turns in the base frame, neither drift nor wrap. 540 bytes of
-// state; some 900 instructions a tick.
+// state; some 1100 instructions a tick.
 #pragma once
 
 #include <array>

@@ -115,6 +115,7 @@ void Drive::begin_reset(bool of_node, FrameList& out) {
 
 // Application objects get their power-on values, too, and a fault is forgotten (CiA 301, 7.3.2.2).
 void Drive::reset_node() {
+  if (gives_torque()) enter_power(PowerState::kSwitchOnDisabled);  // before its objects forget what it did
   objects_ = make_objects(settings_);
   controlword_ = 0;
   following_error_ = false;
@@ -168,16 +169,28 @@ std::uint32_t Drive::guard(const Object& object, std::int64_t value) const {
     if (nmt_ != NmtState::kPreOperational) return abort_code::kDeviceState;
     return check_pdo_write(objects_, object, value);
   }
-  if (object.index == 0x6060 && value != kCyclicSynchronousPosition) return abort_code::kValue;
-  return abort_code::kNone;
+  if (object.index != 0x6060 || value == kCyclicSynchronousPosition) return abort_code::kNone;
+  if (!settings_.gives_torque || value != kCyclicSynchronousTorque) return abort_code::kValue;
+  return power_ == PowerState::kOperationEnabled ? abort_code::kDeviceState : abort_code::kNone;  // without power only
 }
 
 void Drive::written(const Object& object) {
   if (is_pdo_object(object.index)) return rebuild_pdos();
   if (object.index == 0x1016) master_ = {};
   if (object.index == 0x1017) next_heartbeat_us_ = now_us_;
-  if (object.index == 0x6060) objects_.set(0x6061, 0, object.value);
+  if (object.index == 0x6060) change_mode();
   if (object.index == 0x6040) act_on_controlword(static_cast<std::uint16_t>(object.value));
+}
+
+// To position control also with power: it takes over where the joint is, and ends what torque was on.
+void Drive::change_mode() {
+  const std::int64_t mode = objects_.get(0x6060);
+  if (gives_torque() && mode == kCyclicSynchronousPosition) {
+    end_torque();
+    if (power_ == PowerState::kOperationEnabled) motor_.set_mode(MotorMode::kFollow);
+    motor_.set_target(static_cast<double>(objects_.get(0x607A)) - encoder_offset_counts_);
+  }
+  objects_.set(0x6061, 0, mode);
 }
 
 void Drive::rebuild_pdos() {
@@ -261,11 +274,10 @@ void Drive::sample() {
 
 std::uint16_t Drive::statusword() const {
   unsigned word = state_bits(power_);
-  if (!safe_torque_off_) word |= 0x0010;               // voltage enabled
-  if (nmt_ == NmtState::kOperational) word |= 0x0200;  // remote
-  if (motor_.at_torque_limit()) word |= 0x0800;        // internal limit
-  if (power_ == PowerState::kOperationEnabled && objects_.get(0x6061) == kCyclicSynchronousPosition)
-    word |= 0x1000;  // follows the target
+  if (!safe_torque_off_) word |= 0x0010;                                               // voltage enabled
+  if (nmt_ == NmtState::kOperational) word |= 0x0200;                                  // remote
+  if (motor_.at_torque_limit()) word |= 0x0800;                                        // internal limit
+  if (power_ == PowerState::kOperationEnabled && mode_allows_power()) word |= 0x1000;  // follows the target
   if (following_error_) word |= 0x2000;
   return static_cast<std::uint16_t>(word);
 }

@@ -13,10 +13,12 @@
 #include "hil/drive/pdo.hpp"
 #include "hil/drive/sdo_server.hpp"
 #include "hil/drive/servo_motor.hpp"
+#include "hil/drive/torque_loop.hpp"
 
 namespace liana::bench {
 
 constexpr int kCyclicSynchronousPosition = 8;  // 6060
+constexpr int kCyclicSynchronousTorque = 10;
 
 enum class NmtState : std::uint8_t { kInitialising = 0, kStopped = 4, kOperational = 5, kPreOperational = 0x7F };
 
@@ -43,6 +45,12 @@ class Drive {
   void tick(std::uint64_t now_us, FrameList& out);
   // Motor and brake, one physics step under the load.
   void move(double step_s, double load_permille);
+  // True while its motor gives torque: then the physics ask for it once a millisecond, tell where the motor is, and do
+  // not move it.
+  bool gives_torque() const;
+  // Motor torque at the joint [N.m] until the next call; `gear_Nm` is the joint torque sensor, the rest the motor's
+  // own.
+  double torque_Nm(double step_s, double gear_Nm, double position_counts, double velocity_counts_per_s);
   // What the torque sensor reads now [permille of rated], and by how much the reported position is wrong.
   void set_measured(double permille, double position_error_counts = 0.0);
 
@@ -84,6 +92,14 @@ class Drive {
   void act_on_controlword(std::uint16_t controlword);
   void enter_power(PowerState state);
   void stop_by_itself();
+  bool mode_allows_power() const;
+  double rad_per_count() const;
+  double Nm_per_permille() const;
+  TorqueGains torque_gains() const;
+  void change_mode();
+  void begin_torque_stop();
+  void end_torque();
+  bool is_at_rest() const;
   void connection_lost(std::uint16_t code, FrameList& out);
   void connection_back(FrameList& out);
   void supervise_following(std::uint64_t now_us);
@@ -103,6 +119,8 @@ class Drive {
   ObjectDictionary objects_;
   SdoServer sdo_;
   ServoMotor motor_;
+  TorqueLoop torque_loop_;
+  std::optional<TorqueStop> torque_stop_;
   std::vector<Pdo> receive_pdos_;
   std::vector<Pdo> transmit_pdos_;
   std::array<std::optional<CanFrame>, kPdoCount> pending_;

@@ -58,6 +58,29 @@ constexpr Object kCommon[] = {
     {0x6502, 0, kU32, kReadOnly, false, 0x80, 0, kU32Max},    // supported modes: csp
 };
 
+constexpr std::int64_t kBothModes = 0x80 | 0x200;  // 6502: csp and cst
+
+// What only a drive with a joint torque sensor has. Gains: docs/drives.md.
+constexpr Object kTorque[] = {
+    {0x3001, 0, kU8, kReadOnly, false, 7, 0, 255},
+    {0x3001, 1, kU32, kReadWrite, false, 3000, 0, 1000000},    // damping [N.m.s/rad]
+    {0x3001, 2, kU32, kReadWrite, false, 2000, 0, 100000},     // drift integral [0.001/s]
+    {0x3001, 3, kU32, kReadWrite, false, 3000, 0, 100000},     // torque gain [0.001]
+    {0x3001, 4, kU32, kReadWrite, false, 10000, 0, 1000000},   // torque integral [0.001/s]
+    {0x3001, 5, kU32, kReadWrite, false, 0, 0, 1000000},       // torque derivative [us]
+    {0x3001, 6, kU32, kReadWrite, false, 100, 0, 10000},       // ramp of a stop [ms]
+    {0x3001, 7, kU32, kReadWrite, false, 50, 0, kI32Max},      // speed that counts as rest [counts/s]
+    {0x6071, 0, kI16, kReadWrite, true, 0, -32768, 32767},     // target torque [permille of rated]
+    {0x60B1, 0, kI32, kReadWrite, true, 0, kI32Min, kI32Max},  // velocity offset [counts/s]
+    {0x60B2, 0, kI16, kReadWrite, true, 0, -32768, 32767},     // torque offset [permille of rated]
+};
+
+void add_torque(std::vector<Object>& objects) {
+  objects.insert(objects.end(), std::begin(kTorque), std::end(kTorque));
+  for (Object& object : objects)
+    if (object.index == 0x6502) object.value = kBothModes;
+}
+
 void add_pdo(std::vector<Object>& objects, std::uint16_t number, int node, bool receive) {
   const auto communication = static_cast<std::uint16_t>((receive ? 0x1400 : 0x1800) + number);
   const auto mapping = static_cast<std::uint16_t>((receive ? 0x1600 : 0x1A00) + number);
@@ -95,6 +118,7 @@ ObjectDictionary make_objects(const DriveSettings& settings) {
   objects.push_back({0x6085, 0, kU32, kReadWrite, false, quick_stop_deceleration(settings), 1, kU32Max});
   const double rated_torque = settings.rated_torque_mNm * settings.dictionary.rated_torque_per_mNm;
   objects.push_back({0x6076, 0, kU32, kReadOnly, false, std::llround(rated_torque), 0, kU32Max});
+  if (settings.gives_torque) add_torque(objects);
   for (std::uint16_t number = 0; number < 4; ++number) {
     add_pdo(objects, number, settings.node, true);
     add_pdo(objects, number, settings.node, false);

@@ -32,7 +32,7 @@ void Drive::act_on_controlword(std::uint16_t controlword) {
   }
   if (safe_torque_off_) return;
   const PowerState next = next_state(power_, decode_command(controlword));
-  const bool mode_missing = next == PowerState::kOperationEnabled && objects_.get(0x6061) != kCyclicSynchronousPosition;
+  const bool mode_missing = next == PowerState::kOperationEnabled && !mode_allows_power();
   if (mode_missing) return;
   lead_to(next);
 }
@@ -53,14 +53,18 @@ void Drive::enter_power(PowerState state) {
   following_since_us_ = now_us_;
   switch (state) {
     case PowerState::kOperationEnabled:
-      return motor_.set_mode(MotorMode::kFollow);
+      if (objects_.get(0x6061) != kCyclicSynchronousTorque) return motor_.set_mode(MotorMode::kFollow);
+      torque_loop_.reset();
+      return motor_.set_mode(MotorMode::kTorque);
     case PowerState::kQuickStopActive:
       ++counts_.quick_stops;
       [[fallthrough]];
     case PowerState::kFaultReactionActive:
+      if (gives_torque()) return begin_torque_stop();
       motor_.set_deceleration(static_cast<double>(objects_.get(0x6085)) * settings_.counts_per_speed_unit());
       return motor_.set_mode(MotorMode::kRamp);
     default:
+      if (gives_torque()) end_torque();
       return motor_.set_mode(MotorMode::kBraked);
   }
 }
@@ -146,7 +150,7 @@ void Drive::supervise_following(std::uint64_t now_us) {
   const double window = static_cast<double>(objects_.get(0x6065));
   const double error =
       std::fabs(static_cast<double>(objects_.get(0x607A)) - encoder_offset_counts_ - motor_.position_counts());
-  if (power_ != PowerState::kOperationEnabled || error <= window) {
+  if (power_ != PowerState::kOperationEnabled || gives_torque() || error <= window) {
     following_since_us_ = now_us;
     following_error_ = false;
     return;
@@ -190,7 +194,7 @@ void Drive::tick(std::uint64_t now_us, FrameList& out) {
   }
   supervise_following(now_us_);
 
-  const bool ramp_done = motor_.velocity_counts_per_s() == 0.0;
+  const bool ramp_done = is_at_rest();
   if (power_ == PowerState::kQuickStopActive && ramp_done) enter_power(PowerState::kSwitchOnDisabled);
   if (power_ == PowerState::kFaultReactionActive && ramp_done) enter_power(PowerState::kFault);
   for (const std::uint16_t code : emergencies_) send_emergency(code, out);

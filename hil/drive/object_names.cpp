@@ -17,7 +17,7 @@ struct Named {
   std::uint16_t index;
   ObjectCode code;
   const char* name;
-  std::array<const char*, 5> entries{};  // by sub-index; nothing: as all lists begin, or none
+  std::array<const char*, 8> entries{};  // by sub-index; nothing: as all lists begin, or none
 };
 
 constexpr const char* kHighest = "Highest sub-index supported";
@@ -34,6 +34,11 @@ constexpr Named kNamed[] = {
     {0x1018, kRecord, "Identity object", {kHighest, "Vendor-ID", "Product code", "Revision number", "Serial number"}},
     {0x1029, kArray, "Error behaviour object", {kHighest, "Communication error"}},
     {0x6007, kVariable, "Abort connection option code"},
+    {0x3001,
+     kRecord,
+     "Torque loop",
+     {kHighest, "Joint damping", "Drift integral", "Torque gain", "Torque integral", "Torque derivative",
+      "Ramp of a stop", "Speed of rest"}},
     {0x603F, kVariable, "Error code"},
     {0x6040, kVariable, "Controlword"},
     {0x6041, kVariable, "Statusword"},
@@ -46,6 +51,7 @@ constexpr Named kNamed[] = {
     {0x6065, kVariable, "Following error window"},
     {0x6066, kVariable, "Following error time out"},
     {0x606C, kVariable, "Velocity actual value"},
+    {0x6071, kVariable, "Target torque"},
     {0x6072, kVariable, "Max torque"},
     {0x6076, kVariable, "Motor rated torque"},
     {0x6077, kVariable, "Torque actual value"},
@@ -61,6 +67,8 @@ constexpr Named kNamed[] = {
     {0x6092, kArray, "Feed constant", {kHighest, "Feed", "Shaft revolutions"}},
     {0x60A8, kVariable, "SI unit position"},
     {0x60A9, kVariable, "SI unit velocity"},
+    {0x60B1, kVariable, "Velocity offset"},
+    {0x60B2, kVariable, "Torque offset"},
     {0x60C2, kRecord, "Interpolation time period", {kHighest, "Time period value", "Time index"}},
     {0x60C5, kVariable, "Max acceleration"},
     {0x60F4, kVariable, "Following error actual value"},

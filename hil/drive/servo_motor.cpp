@@ -24,6 +24,7 @@ double ServoMotor::next_velocity(double step_s) const {
       const double slower = std::max(0.0, std::fabs(velocity_) - deceleration_ * step_s);
       return std::copysign(slower, velocity_);
     }
+    case MotorMode::kTorque:
     case MotorMode::kBraked:
       break;
   }
@@ -31,6 +32,7 @@ double ServoMotor::next_velocity(double step_s) const {
 }
 
 void ServoMotor::step(double step_s, double torque_permille, double max_torque_permille) {
+  if (mode_ == MotorMode::kTorque) return;
   velocity_ = next_velocity(step_s);
   limited_ = torque_permille >= max_torque_permille && velocity_ * pull_direction_ > 0.0;
   if (limited_) velocity_ = 0.0;

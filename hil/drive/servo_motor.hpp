@@ -3,7 +3,7 @@
 
 namespace liana::bench {
 
-enum class MotorMode { kBraked, kFollow, kRamp };
+enum class MotorMode { kBraked, kFollow, kRamp, kTorque };
 
 class ServoMotor {
  public:
@@ -15,6 +15,11 @@ class ServoMotor {
 
   void set_mode(MotorMode mode);
   void set_target(double counts) { target_ = counts; }
+  // In mode kTorque the physics behind the motor say where it is.
+  void carry(double counts, double counts_per_s) {
+    position_ = counts;
+    velocity_ = counts_per_s;
+  }
   void set_deceleration(double counts_per_s2) { deceleration_ = counts_per_s2; }
 
   MotorMode mode() const { return mode_; }

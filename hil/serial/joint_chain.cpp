@@ -1,79 +1,13 @@
 #include "hil/serial/joint_chain.hpp"
 
-#include <mujoco/mujoco.h>
-
-#include <cmath>
-#include <cstring>
-#include <iomanip>
-#include <sstream>
-#include <stdexcept>
+#include "hil/serial/mujoco_model.hpp"
+#include "hil/serial/serial_mjcf.hpp"
 
 namespace liana::bench {
 
-namespace {
-
-constexpr double kRodRadius_m = 0.05;  // of the booms; their inertia about their own axis is small beside the modules'
-
-void write_sphere(std::ostream& out, const char* pos, double radius_m, double mass_kg) {
-  out << "<geom type='sphere' pos='" << pos << "' size='" << radius_m << "' mass='" << mass_kg << "'/>";
-}
-
-// Joint i turns a body about its z axis; the next body sits at the end of the link.
-void write_joint(std::ostream& out, const SerialRobotConfig& robot, const JointConfig& joint) {
-  out << "<joint type='hinge' axis='0 0 1' armature='" << robot.rotor_inertia_kgm2 << "'/>";
-  write_sphere(out, "0 0 0", robot.module_radius_m, robot.module_kg);
-  if (joint.a_m == 0.0) return;
-  out << "<geom type='cylinder' fromto='0 0 " << joint.d_m << ' ' << joint.a_m << " 0 " << joint.d_m << "' size='"
-      << kRodRadius_m << "' mass='" << robot.boom_kg << "'/>";
-}
-
-}  // namespace
-
-std::string make_serial_mjcf(const SerialRobotConfig& robot) {
-  std::ostringstream out;
-  out << std::setprecision(17);
-  out << "<mujoco><compiler angle='radian'/><option gravity='0 0 0'/><default><geom contype='0' conaffinity='0'/>"
-         "</default><worldbody>\n";
-  JointConfig before;  // the base
-  for (const JointConfig& joint : robot.joints) {
-    out << "<body pos='" << before.a_m << " 0 " << before.d_m << "' quat='" << std::cos(0.5 * before.alpha_rad) << ' '
-        << std::sin(0.5 * before.alpha_rad) << " 0 0'>";
-    write_joint(out, robot, joint);
-    out << '\n';
-    before = joint;
-  }
-  out << "<body name='tip' pos='" << before.a_m << " 0 " << before.d_m << "' quat='" << std::cos(0.5 * before.alpha_rad)
-      << ' ' << std::sin(0.5 * before.alpha_rad) << " 0 0'>";
-  write_sphere(out, "0 0 0", robot.module_radius_m, robot.end_effector_kg);
-  for (std::size_t i = 0; i <= robot.joints.size(); ++i) out << "</body>";
-  out << "\n</worldbody></mujoco>\n";
-  return out.str();
-}
-
-struct JointChain::Engine {
-  mjModel* model = nullptr;
-  mjData* data = nullptr;
-  int tip_body = 0;
-
-  explicit Engine(const std::string& xml) {
-    const auto vfs = std::make_unique<mjVFS>();
-    mj_defaultVFS(vfs.get());
-    mj_makeEmptyFileVFS(vfs.get(), "arm.xml", static_cast<int>(xml.size()));
-    std::memcpy(vfs->filedata[0], xml.data(), xml.size());
-    char error[500] = "";
-    model = mj_loadXML("arm.xml", vfs.get(), error, sizeof error);
-    mj_deleteVFS(vfs.get());
-    if (model == nullptr)
-      throw std::runtime_error(std::string("physics: MuJoCo refuses the model of the robot: ") + error);
-    data = mj_makeData(model);
-    tip_body = mj_name2id(model, mjOBJ_BODY, "tip");
-  }
-  ~Engine() {
-    mj_deleteData(data);
-    mj_deleteModel(model);
-  }
-  Engine(const Engine&) = delete;
-  Engine& operator=(const Engine&) = delete;
+struct JointChain::Engine : MujocoModel {
+  using MujocoModel::MujocoModel;
+  const int tip_body = mj_name2id(model, mjOBJ_BODY, "tip");
 };
 
 JointChain::JointChain(const SerialRobotConfig& robot) : engine_(std::make_unique<Engine>(make_serial_mjcf(robot))) {

@@ -2,16 +2,12 @@
 #pragma once
 
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "hil/config/serial_config.hpp"
 #include "hil/math/vec3.hpp"
 
 namespace liana::bench {
-
-// The arm as MuJoCo XML: a sphere at every joint, a rod along every link with a length along x, a sphere at the tip.
-std::string make_serial_mjcf(const SerialRobotConfig& robot);
 
 class JointChain {
  public:

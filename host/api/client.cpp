@@ -21,9 +21,10 @@ ApiClient ApiClient::connect(const std::string& path, double timeout_s) {
 
 void ApiClient::send(const Json& request) {
   const std::string packet = request.dump();
-  if (packet.size() > kMaxPacketBytes)
+  if (packet.size() > kMaxPacketBytes) {
     throw std::runtime_error("API request of " + std::to_string(packet.size()) + " bytes: at most " +
                              std::to_string(kMaxPacketBytes));
+  }
   SocketResult result = send_packet(fd_.get(), packet);
   if (result == SocketResult::kWouldBlock && wait_writable(fd_.get(), kSendTimeout_s))
     result = send_packet(fd_.get(), packet);

@@ -44,9 +44,10 @@ bool is_admitted(int fd, std::optional<gid_t> group) {
 
 gid_t group_named(const std::string& option, const std::string& name) {
   const ::group* found = ::getgrnam(name.c_str());
-  if (found == nullptr)
+  if (found == nullptr) {
     throw std::runtime_error(option + ": '" + name +
                              "': no such group; allowed is one of getent group, or leave it out");
+  }
   return found->gr_gid;
 }
 

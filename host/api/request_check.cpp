@@ -68,9 +68,10 @@ class Check {
       if (&object == &request_ && (key == "op" || key == "id")) continue;
       const auto found =
           std::find_if(fields.begin(), fields.end(), [&](const RequestField& field) { return key == field.name; });
-      if (found == fields.end())
+      if (found == fields.end()) {
         refuse("bad_request", "unknown field " + key.substr(0, 60) + " = " + brief(member.second),
                names.empty() ? "none" : names, "correct its spelling or remove it");
+      }
       if (bounds_ != nullptr && (found->arms & bounds_->arm) == 0) wrong_arm(key, found->arms, *bounds_);
     }
   }
@@ -83,9 +84,10 @@ class Check {
     if (field.most == 0) return single(field, field.name, value, beside);
     const std::string allowed = allowed_entries(field);
     if (!value.is_array()) wrong_type(field.name, value, allowed);
-    if (value.size() > field.most)
+    if (value.size() > field.most) {
       refuse("bad_request", std::string(field.name) + " = " + std::to_string(value.size()) + " entries", allowed,
              "leave some out");
+    }
     for (std::size_t i = 0; i < value.size(); ++i) {
       const std::string entry = "entry " + std::to_string(i + 1);
       inside(entry + " of " + field.name, [&] { single(field, entry, value[i], beside); });
@@ -127,9 +129,10 @@ class Check {
     const bool whole = field.type == FieldType::kInteger;
     if (!value.is_number() || (whole && !value.is_number_integer()))
       wrong_type(name, value, whole ? "a whole number" : "a number");
-    if (bounds_ != nullptr)
+    if (bounds_ != nullptr) {
       in_range(name, value.get<double>(), bounds_->value_of(field.low), bounds_->value_of(field.high),
                unit_of(field.name));
+    }
   }
 
   void in_range(const std::string& name, double value, double low, double high, const char* unit) const {
@@ -190,9 +193,10 @@ class Check {
     for (std::size_t i = 0; i < 7; ++i) coordinate(field, name, value, i);
     const Pose pose = pose_of(value);
     const double most_m = bounds_->value_of(field.high), far_m = norm(pose.position_m);
-    if (!is_valid(pose))
+    if (!is_valid(pose)) {
       refuse("out_of_range", name + ": the quaternion qw,qx,qy,qz = " + brief(value), "length 1 within 1e-6",
              "scale it");
+    }
     if (far_m <= most_m) return;
     const bool of_arm = field.high.figure == Figure::kReach;
     throw RequestError("out_of_range", name + " = " + roughly(far_m) + " m from the " +

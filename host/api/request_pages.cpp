@@ -151,10 +151,11 @@ std::string request_section() {
     if (row.fields.empty()) continue;
     out << "\n### Fields of `" << row.op << "`\n| field | what it is | left out | meaning |\n|---|---|---|---|\n";
     add_fields(row.fields, "", out);
-    if (row.motion == Motion::kStreams)
+    if (row.motion == Motion::kStreams) {
       out << "\nA `goal` that is farther than the tip comes in " << text_of(kJump_s)
           << " s at the robot's tip speed and tip rate, both from the `goal` before it and from where the tip is "
              "commanded, is refused: `move_cp` goes there.\n";
+    }
   }
   return out.str();
 }

@@ -110,17 +110,19 @@ void CableArbiter::dither(const cable::Outputs& now, double share, double durati
   require_free(now);
   if (now.at_rest == 0) throw api::RequestError("busy", "dither needs an arm at rest: wait for it or send hold");
   const cable::TensionLimits& limits = table_.tension;
+  // What is measured, and may be less where something pushes, has to stay taut; what is planned keeps its limits.
+  const double taut_N = cable::kSlackCheckShare * limits.floor_motor_N;
   double fits = share;
   for (std::size_t c = 0; c < static_cast<std::size_t>(table_.cable_count()); ++c) {
     const double planned_N = now.tension_plan_N[c];
-    fits = std::min({fits, 1.0 - limits.floor_motor_N / planned_N, limits.ceiling_free_N / planned_N - 1.0});
+    fits = std::min({fits, 1.0 - limits.floor_motor_N / planned_N, limits.ceiling_free_N / planned_N - 1.0,
+                     (now.tension_measured_N[c] - taut_N) / planned_N});
   }
   if (fits < share) {
     char text[160];
-    std::snprintf(
-        text, sizeof text,
-        "share = %.3g: tensions stay between %.0f and %.0f N up to %.3g here: ask for less, or in another pose", share,
-        limits.floor_motor_N, limits.ceiling_free_N, std::max(0.0, fits));
+    std::snprintf(text, sizeof text,
+                  "share = %.3g: tensions stay between %.0f and %.0f N, and cables taut, up to %.3g here: ask for less",
+                  share, limits.floor_motor_N, limits.ceiling_free_N, std::max(0.0, fits));
     throw api::RequestError("refused", text);
   }
   dither_ = DitherOrder(share, duration_s);

@@ -22,8 +22,8 @@ using Index = std::size_t;
 constexpr Eigen::Index column(Index i) { return static_cast<Eigen::Index>(i); }
 using Changes = Eigen::Ref<const Eigen::VectorXd>;  // of one length, pose by pose, about their mean [m]
 
-constexpr double kApart_m = 1e-3;        // between two cables, to tell them apart
-constexpr double kMisfit_m = 0.5e-3;     // of a fitted drum; elongation and hole radius bring a tenth of it
+constexpr double kApart_m = 1e-3;     // between two cables, to tell them apart
+constexpr double kMisfit_m = 0.5e-3;  // of a fitted drum; elongation and hole radius bring a tenth of it
 constexpr double kDrumShare = 0.02;
 
 std::string text(const char* format, auto... values) {

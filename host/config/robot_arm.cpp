@@ -73,7 +73,7 @@ double read_tip_lag_s(const Field& field, const cable::MotionLimits& limits) {
   const double linear_s = least_lag_s({limits.tip_speed_m_s, limits.tip_accel_m_s2, limits.tip_jerk_m_s3});
   const double angular_s =
       least_lag_s({limits.tip_rate_rad_s, limits.tip_angular_accel_rad_s2, limits.tip_angular_jerk_rad_s3});
-  const Range range{std::ceil(1000.0 * std::max(linear_s, angular_s)) / 1000.0, kLongestTipLag_s};
+  const Range range{std::ceil(1000.0 * std::max(linear_s, angular_s) - 1e-6) / 1000.0, kLongestTipLag_s};
   const double lag_s = field.number({0, kLongestTipLag_s, true});
   if (!range.contains(lag_s))
     field.refuse(range.text(), linear_s >= angular_s ? "raise tip_accel_m_s2 and tip_jerk_m_s3 for a shorter lag"

@@ -10,6 +10,7 @@ namespace {
 
 constexpr Range kAngle{-180, 180};   // degrees
 constexpr double kOpen_m = 100.0;    // a slit is open along its width
+constexpr double kBefore_m = 0.2;    // of the mouth: what guides begins here, while the tip is in the open
 constexpr double kApproach_m = 0.3;  // of the way to the rod
 constexpr double kApproachRadius_m = 0.01;
 
@@ -75,8 +76,11 @@ std::vector<SceneFixture> read_fixtures(const Field& list) {
 std::vector<SceneFixture> slit_fixtures(const std::optional<SceneSlit>& slit, const std::optional<SceneRod>& rod) {
   if (!slit) return {};
   const double depth_m = slit->end_u_m - slit->mouth_u_m;
-  std::vector<SceneFixture> out{{"slit_plane", FixtureKind::kPlane, slit->frame, depth_m, kOpen_m, slit->half_gap_m},
-                                {"slit_walls", FixtureKind::kWalls, slit->frame, depth_m, kOpen_m, slit->half_gap_m}};
+  ScenePose before = slit->frame;
+  before.position_m = add(before.position_m, scale(slit->u_axis, -kBefore_m));
+  std::vector<SceneFixture> out{
+      {"slit_plane", FixtureKind::kPlane, before, kBefore_m + depth_m, kOpen_m, slit->half_gap_m},
+      {"slit_walls", FixtureKind::kWalls, slit->frame, depth_m, kOpen_m, slit->half_gap_m}};
   if (rod) out.push_back(approach(*slit, *rod));
   return out;
 }

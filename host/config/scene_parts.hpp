@@ -17,8 +17,8 @@ ScenePose read_pose(const Field& field);
 // The list `fixtures`; no two have one name.
 std::vector<SceneFixture> read_fixtures(const Field& list);
 
-// What a slit has without being told: `slit_plane` and `slit_walls`, as long and wide as it is, and with a rod
-// `slit_approach`, the last 0.3 m of the way to it.
+// What a slit has without being told: `slit_walls`, as long and wide as it is, `slit_plane`, which begins 0.2 m before
+// the mouth, and with a rod `slit_approach`, the last 0.3 m of the way to it.
 std::vector<SceneFixture> slit_fixtures(const std::optional<SceneSlit>& slit, const std::optional<SceneRod>& rod);
 
 }  // namespace liana::config

@@ -3,8 +3,10 @@
 
 #include <cmath>
 
+#include "firmware_like/serial/kinematics.hpp"
 #include "host/config/canonical.hpp"
 #include "host/config/robot_parts.hpp"
+#include "host/config/serial_mass.hpp"
 
 namespace liana::config {
 namespace {
@@ -17,7 +19,7 @@ constexpr double kMostCounts = 2e9;  // what fits into the 32 bits of a drive's 
 
 JointTable read_joint(const Field& field) {
   field.only({"alpha_deg", "a_m", "d_m", "offset_deg", "low_deg", "high_deg", "rate_deg_s", "accel_deg_s2",
-              "stiffness_Nm_per_rad"});
+              "stiffness_Nm_per_rad", "link"});
   JointTable joint;
   joint.dh.alpha_rad = field.at("alpha_deg").number({-180, 180}) * kRadPerDeg;
   joint.dh.a_m = field.at("a_m").number({-20, 20});
@@ -53,16 +55,12 @@ void read_joints(const Field& joints, SerialRobotConfig& out) {
   read_stiffness(joints, count, out);
 }
 
-// Numbers that only the bench needs: the core knows nothing of masses yet.
-void check_physics(const Field& table) {
-  const Field mass = table.at("mass");
-  mass.only({"module_kg", "module_radius_m", "boom_kg", "end_effector_kg"});
-  for (const char* name : {"module_kg", "boom_kg", "end_effector_kg"}) mass.at(name).number({0.01, 1e5});
-  mass.at("module_radius_m").number({0.01, 5});
-  const Field friction = table.at("friction");
-  friction.only({"coulomb_Nm", "viscous_Nms_per_rad", "rotor_inertia_kgm2"});
+// Numbers that only the bench needs.
+void check_friction(const Field& friction) {
+  friction.only({"coulomb_Nm", "viscous_Nms_per_rad", "rotor_inertia_kgm2", "gear_damping_Nms_per_rad"});
   for (const char* name : {"coulomb_Nm", "viscous_Nms_per_rad", "rotor_inertia_kgm2"})
     friction.at(name).number({0, 1e5});
+  if (friction.json().contains("gear_damping_Nms_per_rad")) friction.at("gear_damping_Nms_per_rad").number({0, 1e6});
 }
 
 // Counts at both ends of every joint's range have to be numbers that a drive can hold.
@@ -93,12 +91,15 @@ void read_drive_lists(const Field& drives, SerialRobotConfig& out) {
 }
 
 void read_joint_drives(const Field& drives, SerialRobotConfig& out) {
-  drives.only({"counts_per_turn", "gear", "servo_time_constant_s", "rated_torque_Nm", "identity", "direction",
-               "zero_counts", "serials", "calibration_days"});
+  drives.only({"counts_per_turn", "gear", "servo_time_constant_s", "rated_torque_Nm", "peak_torque_Nm", "identity",
+               "direction", "zero_counts", "serials", "calibration_days"});
   out.counts_per_turn = static_cast<std::uint32_t>(drives.at("counts_per_turn").integer(256, 16777216));
   out.gear = drives.at("gear").number({0.01, 1000});
   out.table.servo_time_constant_s = drives.at("servo_time_constant_s").number({0.001, 1});
   out.rated_torque_Nm = drives.at("rated_torque_Nm").number({0.01, 4000});
+  const bool says_peak = drives.json().contains("peak_torque_Nm");
+  out.peak_torque_Nm = says_peak ? drives.at("peak_torque_Nm").number({out.rated_torque_Nm, 3.0 * out.rated_torque_Nm})
+                                 : out.rated_torque_Nm;
   out.identity = read_identity(drives.at("identity"));
   out.calibration_days = read_calibration_days(drives);
   read_drive_lists(drives, out);
@@ -131,20 +132,48 @@ void read_poses(const Field& field, SerialRobotConfig& out) {
   if (out.named_poses_deg.empty()) field.refuse("at least one pose", "name the pose that a run starts from");
 }
 
-// The robot without what the buses decide (tick, T_c).
-SerialRobotConfig read_serial_robot(const Json& json, const std::string& file) {
-  const Field table(json, file, "");
+// The robot without what the buses decide (tick, T_c), and without its base.
+SerialRobotConfig read_arm_alone(const Field& table) {
   check_kind(table, "serial");
-  table.only(
-      {"format", "kind", "name", "joints", "mass", "friction", "drives", "limits", "named_poses_deg", "start_pose"});
+  table.only({"format", "kind", "name", "joints", "mass", "friction", "drives", "limits", "named_poses_deg",
+              "start_pose", "base"});
   SerialRobotConfig out;
   out.name = table.at("name").name(40);
   read_joints(table.at("joints"), out);
-  check_physics(table);
+  out.masses = read_masses(table, out.table);
+  check_friction(table.at("friction"));
   read_joint_drives(table.at("drives"), out);
   read_tip_limits(table.at("limits"), out.table.tip);
   read_poses(table.at("named_poses_deg"), out);
   out.start_pose = read_start_pose(table, out.named_poses_deg);
+  return out;
+}
+
+LockedBase read_base(const Field& field) {
+  field.only({"robot", "pose", "damping_s"});
+  const Field robot = field.at("robot");
+  if (robot.json().contains("base"))
+    robot.at("base").refuse("no base of a base", "lock the joints of one arm, the one that carries");
+  const SerialRobotConfig carrier = read_arm_alone(robot);
+  if (carrier.stiffness_Nm_rad.empty())
+    robot.at("joints").refuse("stiffness_Nm_per_rad at every joint", "say how its locked joints give way");
+  LockedBase base{carrier.name, carrier.table, {}, {}, {}};
+  std::vector<std::string> names;
+  for (const auto& [name, joint_deg] : carrier.named_poses_deg) names.push_back(name);
+  const std::vector<double>& joint_deg = carrier.named_poses_deg.at(field.at("pose").choice(names));
+  for (std::size_t i = 0; i < joint_deg.size(); ++i) {
+    base.joint_rad[i] = joint_deg[i] * kRadPerDeg;
+    base.stiffness_Nm_rad[i] = carrier.stiffness_Nm_rad[i];
+  }
+  field.at("damping_s").number({0, 1});  // for the bench
+  base.base_in_root = serial::forward_kinematics(base.table, base.joint_rad).tip_in_base;
+  return base;
+}
+
+SerialRobotConfig read_serial_robot(const Json& json, const std::string& file) {
+  const Field table(json, file, "");
+  SerialRobotConfig out = read_arm_alone(table);
+  if (json.contains("base")) out.base = read_base(table.at("base"));
   out.canonical_json = canonical_json(json);
   return out;
 }

@@ -4,27 +4,42 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "firmware_like/math/pose.hpp"
+#include "firmware_like/serial/mass_table.hpp"
 #include "firmware_like/serial/robot_table.hpp"
 #include "host/config/config.hpp"
 
 namespace liana::config {
 
+// The arm whose tip carries this one, its joints locked: where the base of this one is, and how it gives way.
+struct LockedBase {
+  std::string name;                        // of the robot that carries
+  serial::RobotTable table{};              // without drives of its own: tick and T_c stay 0
+  serial::JointVector joint_rad{};         // at which its joints are locked
+  serial::JointVector stiffness_Nm_rad{};  // of each, about its axis
+  Pose base_in_root{};                     // base of this robot in that of the one that carries, without load
+};
+
 // What the core needs (table) and what only the host needs.
 struct SerialRobotConfig {
   std::string name;
   serial::RobotTable table{};  // tick and T_c included
+  serial::MassTable masses{};  // without a load at the tip
   DriveIdentity identity{};
   double rated_torque_Nm = 0.0;          // 6076, at the joint
+  double peak_torque_Nm = 0.0;           // that the drives can give for a while, at the joint
   std::vector<double> stiffness_Nm_rad;  // of every joint, about its axis; empty: the table does not say
   std::uint32_t counts_per_turn = 0;
   double gear = 1.0;                                           // encoder turns per joint turn
   std::vector<std::uint32_t> drive_serials;                    // what 0x1018:4 must say; empty: anything
   std::int32_t calibration_days = 0;                           // how old a calibration may be
   std::map<std::string, std::vector<double>> named_poses_deg;  // joint_count angles each
-  std::string start_pose;  // which of them a simulated arm begins with; empty: the table does not say
+  std::string start_pose;          // which of them a simulated arm begins with; empty: the table does not say
+  std::optional<LockedBase> base;  // the arm that this one stands on; none: it stands firm
   std::string canonical_json;
 };
 

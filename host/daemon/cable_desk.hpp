@@ -54,6 +54,7 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   void hold_theta(const std::vector<api::Arguments>& held);
   void shape(const api::Arguments& fields);
   void use_device(const api::Arguments& fields);
+  void note_grip();
   fixture::PlaneSlots::Told felt_planes();
   fixture::Choice chosen_fixtures(const api::Arguments& fields) const;
   void tell_device(std::vector<event::Event>& events);
@@ -67,6 +68,7 @@ class CableDesk final : public ArmDesk<cable::CableArm, arbiter::CableArbiter> {
   DeviceDesk devices_;
   DeviceState device_state_;
   fixture::PlaneSlots plane_slots_;
+  fixture::HandMap grip_;              // that the device was told the planes of last
   std::optional<Pose> predicted_tip_;  // at the end of the command released last
   bool friction_is_off_ = false;       // as told last
   bool device_is_slow_ = false;        // as told last

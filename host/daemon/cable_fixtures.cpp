@@ -43,6 +43,15 @@ double CableDesk::tip_room_m() const {
   return std::min(clearance_->claim().clearance.distance_m, budget->left_m(fixture::pitch_lever_m(table_, planar)));
 }
 
+// A refused command makes new anchors without the hand letting go.
+void CableDesk::note_grip() {
+  const arbiter::DeviceSteer& steer = arbiter_.device();
+  const fixture::HandMap now{steer.anchor().hand_in_device.position_m, steer.anchor().tip_in_base.position_m,
+                             steer.in_use().mapping.scale, grip_.grip + 1};
+  if (now.hand_anchor_m != grip_.hand_anchor_m || now.tip_anchor_m != grip_.tip_anchor_m || now.scale != grip_.scale)
+    grip_ = now;
+}
+
 // What the hand of the device in use is to feel: the ends of a workspace in which the device can push, and, while it
 // steers, the scene's fixtures.
 fixture::PlaneSlots::Told CableDesk::felt_planes() {
@@ -54,12 +63,10 @@ fixture::PlaneSlots::Told CableDesk::felt_planes() {
     planes = fixture::feel_workspace({can.low_m[0], can.low_m[1], can.low_m[2]},
                                      {can.high_m[0], can.high_m[1], can.high_m[2]}, kBeforeStops_m);
   }
-  const arbiter::DeviceSteer& steer = arbiter_.device();
-  if (steer.engaged()) {
-    const arbiter::ClutchAnchor& anchor = steer.anchor();
-    const auto felt = fixture::feel_scene(
-        arbiter_.guidance(), outputs().tip_command.position_m, tip_room_m(), robot_.module_radius_m,
-        {anchor.hand_in_device.position_m, anchor.tip_in_base.position_m, steer.in_use().mapping.scale});
+  if (arbiter_.device().engaged()) {
+    note_grip();
+    const auto felt = fixture::feel_scene(arbiter_.guidance(), outputs().tip_command.position_m, tip_room_m(),
+                                          robot_.module_radius_m, grip_);
     planes.insert(planes.end(), felt.begin(), felt.end());
   }
   return plane_slots_.next(planes, device->newest(0)->pose.position_m);

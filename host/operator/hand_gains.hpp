@@ -46,7 +46,7 @@ struct HandGains {
   // Where to go, in the slit frame (x into the slit from the mouth, y across, z along the mouth)
   double approach_before_mouth_m = 0.40;  // aligned here before going in
   double approach_z_m = 0.50;
-  double slow_before_mouth_m = 0.05;  // slit speed from here on
+  double slow_before_mouth_m = 0.10;  // slit speed from here on: the swing of slowing down dies away before the mouth
   double switch_depth_m = 1.37;       // a little past the depth at which segment 4 goes planar (u = 3.10 m)
   double switch_z_m = 0.36;
 

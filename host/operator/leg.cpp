@@ -36,9 +36,7 @@ void Leg::walk(double dt_s, double eagerness) {
   if (length_m_ - walked_m_ < kArrived_m) walked_m_ = length_m_;
 }
 
-Pose Leg::pose() const {
-  return moved(start_, {scale(whole_.shift_m, share()), scale(whole_.turn_rad, share())});
-}
+Pose Leg::pose() const { return moved(start_, {scale(whole_.shift_m, share()), scale(whole_.turn_rad, share())}); }
 
 PoseStep Leg::remaining() const { return step_between(pose(), goal_); }
 

@@ -26,7 +26,7 @@ struct VrGains {
   double before_mouth_m = 1.50;
   double off_plane_m = 0.45;
   double along_mouth_m = 0.54;
-  double turn_share = 0.75; // of the turn towards the slit; the rest is for the hand controller, which is finer
+  double turn_share = 0.75;  // of the turn towards the slit; the rest is for the hand controller, which is finer
 
   // Moving
   double speed_m_s = 0.060;       // of the tip

@@ -38,8 +38,8 @@ void add_figures(Json& report, const TruthLog& truth, const Rows& rows, const st
 // Which body of the scene the arm at these angles [deg] is nearest to, or in: {"body","link"}.
 using BodyAt = std::function<Json(const std::vector<double>& theta_deg)>;
 
-// Adds `nearest`: {"body","link","clearance_m"} of the row in which the arm was nearest to any body of the scene; nothing
-// where it has none.
+// Adds `nearest`: {"body","link","clearance_m"} of the row in which the arm was nearest to any body of the scene;
+// nothing where it has none.
 void add_nearest(Json& report, const TruthLog& truth, const Rows& rows, const BodyAt& body_at);
 
 // The hardest contact of the arm with a body in these rows, of which one has a contact: {"body","link","force_N",

@@ -2,7 +2,7 @@
 
 namespace liana::telemetry {
 
-const std::array<Field, 41> kFields{{
+const std::array<Field, 45> kFields{{
     {"measured_js_deg", "deg", Shape::kJoints},
     {"setpoint_js_deg", "deg", Shape::kJoints},
     {"verdict.twin_js_deg", "deg", Shape::kJoints},
@@ -34,6 +34,10 @@ const std::array<Field, 41> kFields{{
     {"contact.torque_Nm", "Nm", Shape::kOne},
     {"contact.force_N", "N", Shape::kThree},
     {"contact.sd_N", "N", Shape::kThree},
+    {"guidance.taken_away_m", "m", Shape::kOne},
+    {"guidance.speed_share", "1", Shape::kOne},
+    {"guidance.pitch_allowed_deg", "deg", Shape::kOne},
+    {"guidance.pitch_used_deg", "deg", Shape::kOne},
     {"verdict.sequence", "1", Shape::kOne},
     {"verdict.code", "1", Shape::kOne},
     {"verdict.share", "1", Shape::kOne},

@@ -25,6 +25,6 @@ struct Field {
 };
 
 // In the order in which records hold them. Not every arm's states have all.
-extern const std::array<Field, 41> kFields;
+extern const std::array<Field, 45> kFields;
 
 }  // namespace liana::telemetry

@@ -185,6 +185,17 @@ function arm.hold_theta(fields) end
 ---@return integer id
 function arm.shape(fields) end
 
+---@class arm.dither
+---of every planned tension, up and down (else 0.3)
+---@field share? number
+---in which the share decays evenly to nothing (else 4)
+---@field duration_s? number
+
+---All tensions of an arm at rest go slowly up and down, which frees what friction holds. For cable arms only.
+---@param fields arm.dither
+---@return integer id
+function arm.dither(fields) end
+
 ---@class arm.use_device
 ---who steers: `vr`, `hand`, `pointer`, or a connected device by its name; `none`: nobody
 ---@field device string
@@ -198,6 +209,13 @@ function arm.shape(fields) end
 ---@field speed_m_s? number
 ---`vr` steers inside the slit, too; else it is refused there, and let go at the mouth (else false)
 ---@field anywhere? boolean
+---axes of the hand (not of `vr`'s left one): the base's (else), the tip's on engaging, the tip camera's,
+---which turn
+---@field frame? "base"|"tip"|"camera"
+---names of the scene's fixtures that guide the hand and are felt; left out: all of them
+---@field fixtures? string
+---law by which the hand feels the arm; `aligned` when left out
+---@field feedback? "aligned"|"claim"|"abstract"|"off"
 
 ---Who steers, and how hand motion maps to the tip. For cable arms only.
 ---@param fields arm.use_device

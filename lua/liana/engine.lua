@@ -378,7 +378,8 @@ local function stopped(runner)
   local state = runner.arm.state
   if runner.phase == "boot" or runner.phase == "stuck" or state.state == "ENABLED" then return false end
   local outcome = #state.faults > 0 and "failed" or "aborted"
-  local reason = ("the arm is %s (stop category %s), faults: %s"):format(state.state, state.stop_category, runner:fault_names())
+  local faults = #state.faults > 0 and ", faults: " .. runner:fault_names() or ""
+  local reason = ("the arm is %s (stop category %s)%s"):format(state.state, state.stop_category, faults)
   local stop = state.stop and stop_text(state.stop)
   if stop and not (runner.failed_reason or ""):find(stop, 1, true) then reason = stop .. ": " .. reason end
   if runner.failed_reason then reason = runner.failed_reason .. "; " .. reason end

@@ -45,6 +45,7 @@ return {
     gear = 1, -- assumed: counts are taken at the joint
     servo_time_constant_s = 0.03, -- assumed: first-order position servo
     rated_torque_Nm = 1000, -- assumed, at the joint
+    peak_torque_Nm = 2000, -- assumed: twice the rated torque for a while
     identity = { vendor = 0x4C49, product = 2, revision = 1 }, -- what object 0x1018 of every drive must say
     direction = direction,
     zero_counts = zero_counts,

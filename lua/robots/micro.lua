@@ -40,12 +40,14 @@ return {
     coulomb_Nm = 8,
     viscous_Nms_per_rad = 40,
     rotor_inertia_kgm2 = 10, -- reflected: gear 160, rotor 3.9e-4 kg m2
+    gear_damping_Nms_per_rad = 60, -- across the gear's spring
   },
   drives = {
     counts_per_turn = 1048576, -- assumed: 20-bit absolute encoder
     gear = 1, -- assumed: counts are taken at the joint
     servo_time_constant_s = 0.03, -- assumed: first-order position servo
     rated_torque_Nm = 150, -- at the joint; source: joint torques stay below 150 N m
+    peak_torque_Nm = 300, -- assumed: twice the rated torque for a while
     identity = { vendor = 0x4C49, product = 2, revision = 1 }, -- what object 0x1018 of every drive must say
     direction = direction,
     zero_counts = zero_counts,

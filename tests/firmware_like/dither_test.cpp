@@ -15,7 +15,7 @@ constexpr double kTick_s = 0.004;
 TEST(Dither, GrowsAndEndsWithoutAJumpHoweverItIsAskedFor) {
   DitherState state;
   double before = 0.0, most = 0.0;
-  for (int tick = 0; tick < 2500; ++tick) {
+  for (int tick = 0; tick < 1600; ++tick) {
     const double wanted = tick < 1000 ? kDitherMost : (tick < 1500 ? 0.1 : 0.0);
     const double now = advance_dither(wanted, kTick_s, state);
     // The slope of the oscillation, and what the share may change by.

@@ -20,7 +20,8 @@ constexpr int kMostTries = 100;
 constexpr int kMostTurns = 12;  // of the server, until it has answered or waits for more
 
 struct Served {
-  Served() : house("/nonexistent/api", "/nonexistent/devices", nullptr, true, [] { return 0.0; }), server(options(), house) {
+  Served()
+      : house("/nonexistent/api", "/nonexistent/devices", nullptr, true, [] { return 0.0; }), server(options(), house) {
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, nullptr);  // the fuzzer wants its own

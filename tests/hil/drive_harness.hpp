@@ -27,7 +27,8 @@ class DriveHarness : public ::testing::Test {
     return settings;
   }
 
-  DriveHarness() : drive_(settings(), 1000.0) {}
+  DriveHarness() : DriveHarness(settings()) {}
+  explicit DriveHarness(const DriveSettings& settings) : drive_(settings, 1000.0) {}
 
   FrameList give(std::uint32_t id, std::vector<std::uint8_t> bytes) {
     CanFrame frame;
@@ -78,10 +79,11 @@ class DriveHarness : public ::testing::Test {
 
   void boot() { tick(); }
 
-  // RPDO1 and TPDO1 as docs/drives.md wants them, heartbeats both ways, mode csp, then NMT start.
-  void configure(std::uint32_t deadline_ms = 12) {
+  // RPDO1 and TPDO1 as docs/drives.md wants them, heartbeats both ways, mode csp, then NMT start; or what is given.
+  void configure(std::uint32_t deadline_ms = 12, const std::vector<std::uint32_t>& received = {0x60400010, 0x607A0020},
+                 std::uint32_t mode = 8) {
     for (const auto& [receive, mapped] :
-         {std::pair{true, std::vector<std::uint32_t>{0x60400010, 0x607A0020}},
+         {std::pair{true, received},
           std::pair{false, std::vector<std::uint32_t>{0x60410010, 0x60640020, 0x60770010}}}) {
       const auto communication = static_cast<std::uint16_t>(receive ? 0x1400 : 0x1800);
       const auto mapping = static_cast<std::uint16_t>(communication + 0x200);
@@ -95,7 +97,7 @@ class DriveHarness : public ::testing::Test {
       EXPECT_EQ(write(communication, 5, 2, receive ? deadline_ms : 0), 0U);
       EXPECT_EQ(write(communication, 1, 4, cob), 0U);
     }
-    EXPECT_EQ(write(0x6060, 0, 1, 8), 0U);
+    EXPECT_EQ(write(0x6060, 0, 1, mode), 0U);
     EXPECT_EQ(write(0x1016, 1, 4, (127U << 16U) | 300U), 0U);
     give(0x000, {0x01, kNode});
   }

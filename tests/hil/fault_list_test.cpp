@@ -62,7 +62,7 @@ TEST(FaultList, RefusesWhatItDoesNotUnderstandWithFieldAndWhatIsAllowed) {
     std::vector<const char*> words;
   };
   const Case cases[] = {
-      {R"({"drive":15,"kind":"fault","at_slot":1})", {"/0/drive", "15", "0.0 to 14.0"}},
+      {R"({"drive":15,"kind":"fault","at_slot":1})", {"/0/drive", "15", "0 to 14"}},
       {R"({"drive":"some","kind":"fault","at_slot":1})", {"/0/drive", "some", "all"}},
       {R"({"drive":[],"kind":"fault","at_slot":1})", {"/0/drive", "at least one"}},
       {R"({"drive":[2,2],"kind":"fault","at_slot":1})", {"/0/drive", "twice"}},

@@ -218,7 +218,9 @@ class CommandLine(DevicesTest):
     def told(self, *words):
         """`liana device` with these words, while time goes on."""
         results = []
-        asking = threading.Thread(target=lambda: results.append(run("liana", "device", *words, "--api", self.system.api)))
+        asking = threading.Thread(
+            target=lambda: results.append(run("liana", "device", *words, "--api", self.system.api))
+        )
         asking.start()
         while asking.is_alive():
             self.client.step()

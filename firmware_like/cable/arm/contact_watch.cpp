@@ -17,7 +17,7 @@ Index thetas(const RobotTable& table) noexcept { return static_cast<Index>(table
 struct SureLaw {
   double times, share;
 };
-constexpr SureLaw kSure[] = {{0.75, 0.06}, {0.75, 0.03}, {0.75, 0.03}};  // stuck, moving, dithered
+constexpr SureLaw kSure[] = {{0.75, 0.06}, {0.75, 0.03}, {1.2, 0.06}};  // stuck, moving, dithered
 
 // Lower factor of the variances, its diagonal inverted. No pivot is less than the floor that is in each variance, but
 // for rounding.

@@ -41,14 +41,18 @@ void check_command(const CLI::App& app, const std::string& before, std::span<con
   throw system::BadInput(problem + "; liana " + before + "knows: " + names + "; see liana help");
 }
 
-// `help` is followed by a command's words and nothing else.
+// `help` is followed by a command's words and nothing else; one that is no command gets check_command's list.
 void check_help(const CLI::App& app, std::span<const std::string> words) {
   const CLI::App* command = &app;
   for (const std::string& word : words) {
-    const auto below = command->get_subcommands([&word](const CLI::App* sub) { return sub->get_name() == word; });
-    if (below.empty())
-      throw system::BadInput("help: '" + word + "': no such command; allowed: liana help, or liana help COMMAND");
-    command = below.front();
+    const auto all = command->get_subcommands([](const CLI::App*) { return true; });
+    if (all.empty())
+      throw system::BadInput("help: '" + word + "': liana " + command->get_name() +
+                             " has no commands of its own; allowed: liana help, or liana help COMMAND");
+    const auto below =
+        std::find_if(all.begin(), all.end(), [&](const CLI::App* sub) { return sub->get_name() == word; });
+    if (below == all.end()) return;
+    command = *below;
   }
 }
 

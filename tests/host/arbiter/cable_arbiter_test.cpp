@@ -116,6 +116,7 @@ TEST_F(Arbitration, ALineEndsAtItsGoalAndStaysThere) {
 // req:A9 req:A42
 TEST_F(Arbitration, ADitherHoldsTheArmAndDecaysToNothingAndIsBusyMeanwhile) {
   now_.tension_plan_N.fill(60.0);
+  now_.tension_measured_N.fill(60.0);
   arbiter_.dither(now_, 0.3, 4.0);
   EXPECT_EQ(code_of([&] { arbiter_.move_line(now_, now_.tip_command); }), "busy");
   double before = 0.31;
@@ -137,11 +138,15 @@ TEST_F(Arbitration, ADitherHoldsTheArmAndDecaysToNothingAndIsBusyMeanwhile) {
 
 TEST_F(Arbitration, ADitherIsRefusedWhereATensionWouldLeaveItsLimitsOrTheArmMoves) {
   now_.tension_plan_N.fill(60.0);
+  now_.tension_measured_N.fill(60.0);
   now_.tension_plan_N[7] = 20.0;  // 30 % less is under the floor of 15 N
   EXPECT_EQ(code_of([&] { arbiter_.dither(now_, 0.3, 4.0); }), "refused");
   EXPECT_EQ(code_of([&] { arbiter_.dither(now_, 0.2, 4.0); }), "accepted");
   arbiter_.hold();
   now_.tension_plan_N[7] = 120.0;  // 30 % more is over the ceiling of 150 N
+  EXPECT_EQ(code_of([&] { arbiter_.dither(now_, 0.3, 4.0); }), "refused");
+  now_.tension_plan_N[7] = 60.0;
+  now_.tension_measured_N[7] = 24.0;  // something pushes: 18 N less would leave 6 N
   EXPECT_EQ(code_of([&] { arbiter_.dither(now_, 0.3, 4.0); }), "refused");
   now_.at_rest = 0;
   EXPECT_EQ(code_of([&] { arbiter_.dither(now_, 0.1, 4.0); }), "busy");
@@ -317,7 +322,7 @@ TEST_F(Arbitration, TheMappingOfTheDeviceInUseChangesOnlyWhileTheDeadmanIsOpen) 
 }
 
 TEST_F(Arbitration, AnotherDeviceOrNoneTakesOverFromAHandThatSteers) {
-  for (const DeviceKind kind : {DeviceKind::kVr, DeviceKind::kNone}) {
+  for (const device::Kind kind : {device::Kind::kHandles, device::Kind::kNone}) {
     use_hand();
     ASSERT_TRUE(steered(0.0));
     DeviceUse other;

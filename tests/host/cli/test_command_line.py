@@ -398,7 +398,9 @@ class Help(unittest.TestCase):
             self.assertEqual((code, out), (2, ""), words)
             self.assertIn(named, error)
             self.assertIn(
-                "export" if words[:1] == ["robot"] else "run, check, mission, console, teleop, view, commands, log",
+                "export"
+                if words[:1] == ["robot"]
+                else "run, check, mission, console, teleop, link, view, commands, log",
                 error,
             )
             self.assertEqual(error.count("\n"), 1, error)
@@ -445,7 +447,7 @@ class Help(unittest.TestCase):
             (["log", "show", "--from"], "--from: no value given; allowed: arm time, s; 0 to 1e9; see liana log show"),
             (["console", "--listen"], "--listen: no value given; allowed: "),
             (["log", "show", "--from", "1", "--from", "2"], "--from: stands 2 times; give it once; see liana log show"),
-            (["help", "pose", "extra"], "help: 'extra': no such command"),
+            (["help", "pose", "extra"], "help: 'extra': liana pose has no commands of its own"),
             (["robot", "new"], "name is required; see liana robot new --help"),
             (["log", "verify", "nosuch"], "log: 'nosuch': no such folder, and no run in"),
             (["log", "verify", "/tmp"], "log: '/tmp': holds no archive.db"),

@@ -67,6 +67,9 @@ TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/drives/serials", {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 0}, "drives.serials[15]", "1 to"},
       {"/drives/identity/vendor", -1, "drives.identity.vendor", "0 to 4294967295"},
       {"/limits/tip_speed_slit_m_s", 0.2, "limits.tip_speed_slit_m_s", "1e-04 to 0.1"},
+      {"/limits/tip_lag_s", 0.2, "limits.tip_lag_s", "0.25 to 5: raise tip_accel_m_s2 and tip_jerk_m_s3"},
+      {"/limits/tip_lag_s", -1, "limits.tip_lag_s", "over 0, up to 5"},
+      {"/limits/tip_angular_accel_deg_s2", 20, "limits.tip_lag_s", "0.51 to 5: raise tip_angular_accel_deg_s2"},
       {"/limits/theta_rate_deg_s", 0, "limits.theta_rate_deg_s", "0.001 to 90"},
       {"/limits/theta_accel_deg_s2", 1e-12, "limits.theta_accel_deg_s2", "0.001 to 1000"},
       {"/drives/gear", 1e-9, "drives.gear", "0.01 to 1000"},
@@ -77,6 +80,13 @@ TEST(Robot, IsRefusedWithFileFieldValueRangeAndAdvice) {
   for (const Spoiled& spoiled : cases) {
     expect_refused(good, spoiled, [](const std::string& text) { parse_robot(text, "given.json", "nominal", buses()); });
   }
+}
+
+TEST(Robot, ATableThatSaysNothingOfTheTipsLagHasThatOfSpeedAndAcceleration) {
+  Json table = good_table("robot", "zhu2022");
+  EXPECT_EQ(parse_robot(table.dump(), "r", "nominal", buses()).table.limits.tip_lag_s, 0.25);
+  table["limits"].erase("tip_lag_s");
+  EXPECT_EQ(parse_robot(table.dump(), "r", "nominal", buses()).table.limits.tip_lag_s, 0.0);
 }
 
 TEST(Robot, NeedsEveryDriveOnABusAndNoOther) {

@@ -56,7 +56,11 @@ TEST(SerialRobot, IsRefusedWithFileFieldValueRangeAndAdvice) {
       {"/joints/6/wobble", 1, "joints[7].wobble", "no such field"},
       {"/joints/3/stiffness_Nm_per_rad", 0, "joints[4].stiffness_Nm_per_rad", "1 to"},
       {"/joints/3/stiffness_Nm_per_rad", nullptr, "joints[4]", "at every joint or at none"},
+      {"/joints/3/link", Json{{"mass_kg", 1}}, "joints[4]", "link at every joint or at none"},
       {"/mass/boom_kg", -1, "mass.boom_kg", "0.01 to 100000"},
+      {"/mass/boom_radius_m", 0, "mass.boom_radius_m", "0.001 to 5"},
+      {"/friction/gear_damping_Nms_per_rad", -1, "friction.gear_damping_Nms_per_rad", "0 to"},
+      {"/drives/peak_torque_Nm", 149, "drives.peak_torque_Nm", "150 to 450"},
       {"/friction/coulomb_Nm", -1, "friction.coulomb_Nm", "0 to"},
       {"/drives/direction/3", 0, "drives.direction[4]", "1 or -1"},
       {"/drives/zero_counts", {1, 2, 3}, "drives.zero_counts", "one entry per joint"},
@@ -71,6 +75,51 @@ TEST(SerialRobot, IsRefusedWithFileFieldValueRangeAndAdvice) {
     expect_refused(good, spoiled,
                    [](const std::string& text) { parse_serial_robot(text, "given.json", micro_buses()); });
   }
+}
+
+// The table with a link of 10 kg at every joint instead of modules and booms.
+Json with_links(const std::vector<double>& inertia_kgm2) {
+  Json table = good_table("robot", "micro");
+  table.erase("mass");
+  for (std::size_t i = 0; i < 7; ++i)
+    table["joints"][i]["link"] = Json{{"mass_kg", 10}, {"center_m", {0.1, 0, 0}}, {"inertia_kgm2", inertia_kgm2}};
+  return table;
+}
+
+TEST(SerialRobot, LinksMayBeSaidOneByOne) {
+  const SerialRobotConfig robot = parse_serial_robot(with_links({1, 2, 2.5, 0.1, 0.2, 0.3}).dump(), "r");
+  EXPECT_EQ(robot.masses.link[6].mass_kg, 10.0);
+  EXPECT_EQ(robot.masses.link[6].center_m[0], 0.1);
+  EXPECT_EQ(robot.masses.link[6].inertia_kgm2[serial::kYz], 0.3);
+  EXPECT_NO_THROW(parse_serial_robot(with_links({1, 1, 2, 0, 0, 0}).dump(), "r")) << "a plate";
+}
+
+TEST(SerialRobot, LinksThatNoBodyCanBeAreRefused) {
+  const auto parse = [](const std::string& text) { parse_serial_robot(text, "given.json"); };
+  const std::vector<std::vector<double>> impossible{
+      {1, 1, 2.1, 0, 0, 0}, {1, 1, 1, 0.6, 0, 0}, {1, 1, 1, 0.4, 0.4, 0.4}};
+  EXPECT_NO_THROW(parse(with_links({1, 1, 1, 0.4, 0.4, -0.4}).dump())) << "long along (1, -1, -1)";
+  for (const std::vector<double>& inertia : impossible) {
+    expect_refused(with_links({1, 1, 1, 0, 0, 0}),
+                   {"/joints/2/link/inertia_kgm2", inertia, "joints[3].link.inertia_kgm2", "principal moments"}, parse);
+  }
+  Json both = with_links({1, 1, 1, 0, 0, 0});
+  expect_refused(both, {"/mass", Json{{"module_kg", 1}}, "mass", "leave one of them out"}, parse);
+}
+
+TEST(SerialRobot, ABaseIsALockedArmThatSaysHowItGivesWay) {
+  const Json good = good_table("robot", "macro_micro");
+  const auto parse = [](const std::string& text) { parse_serial_robot(text, "given.json"); };
+  const Json macro = good["base"]["robot"];
+  const std::vector<Spoiled> cases = {
+      {"/base/pose", "nowhere", "base.pose", "install"},
+      {"/base/damping_s", 1.5, "base.damping_s", "0 to 1"},
+      {"/base/robot/mass/boom_kg", 0, "base.robot.mass.boom_kg", "0.01 to"},
+      {"/base/robot/joints/2/stiffness_Nm_per_rad", nullptr, "base.robot.joints[3]", "at every joint or at none"},
+      {"/base/robot/kind", "robot", "base.robot.kind", "allowed serial"},
+      {"/base/robot/base", macro, "base.robot.base", "no base of a base"},
+      {"/base/wobble", 1, "base.wobble", "no such field"}};
+  for (const Spoiled& spoiled : cases) expect_refused(good, spoiled, parse);
 }
 
 TEST(SerialRobot, CountsThatNoDriveCanHoldAreRefused) {

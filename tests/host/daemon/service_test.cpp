@@ -465,7 +465,7 @@ TEST_F(ServiceOverSocket, ADeviceIsToldEveryIntervalWhereTheTipIsAndWhatItsSampl
   EXPECT_EQ(told->answers_us, t_us - 20000) << "the newest was not yet heard, the one before is in force since now";
   EXPECT_EQ(told->held_us, 0);
   EXPECT_EQ(told->scale, 0.5);
-  EXPECT_EQ(told->planes, 0u);
+  EXPECT_EQ(told->planes, 6u) << "the ends of its workspace";
   const Vec3 setpoint_m = device::pose_of(told->setpoint_cp).position_m;
   EXPECT_LT(norm(subtract(setpoint_m, arm_->now().tip_command.position_m)), 0.001) << "one interval ago";
   EXPECT_LT(norm(subtract(setpoint_m, device::pose_of(told->measured_cp).position_m)), 0.02);

@@ -14,8 +14,10 @@ namespace liana::haptic {
 namespace {
 
 constexpr std::array kLaws{Law::kClaim, Law::kAbstract, Law::kAligned};
-// In a millisecond: what the law's rate limit lets through (0.2 N), a wall of 1500 N/m that gets its stiffness in 20 ms
-// under a hand up to 10 mm inside (0.75 N), its damping and that of the air under a hand that accelerates (0.15 N).
+constexpr double kWallDamping_N_s_m = 10.0;
+// In a millisecond, besides what the damping of a wall is to a hand that comes into it at speed, which is no switch:
+// what the law's rate limit lets through (0.2 N), a wall of 1500 N/m that gets its stiffness in 20 ms under a hand up
+// to 10 mm inside (0.75 N), its damping and that of the air under a hand that accelerates (0.15 N).
 constexpr double kMostStep_N = 1.1;
 
 struct Felt {
@@ -50,8 +52,7 @@ class SwitchedHand {
     const auto what = random_() % 5;
     if (what == 0) loop_.choose(kLaws[random_() % kLaws.size()]);
     if (what == 1) has_wall_ = !has_wall_;
-    if (what == 2) wall_m_ = sensed_m_ + 0.010 * one();  // comes from none: as slots of planes do
-    if (what == 2) none_ = 1;
+    if (what == 1 || what == 2) next_wall_m_ = sensed_m_ + 0.010 * one();
     if (what == 3) rescale();
     if (what == 4) button_ = !button_;
   }
@@ -67,9 +68,9 @@ class SwitchedHand {
     tip_m_ += (asked_m() - tip_m_) * 0.02 / 0.3;
     loop_.predict(t_us_, {{0.0, asked_m(), 0.0}, {}});
     loop_.take(StatePacket{++sequence_, t_us_, 0, {{0.0, tip_m_, 0.0}, {}}});
-    const bool is_none = !has_wall_ || none_ > 0;
-    none_ = std::max(0, none_ - 1);
-    loop_.take(Plane{{0.0, -1.0, 0.0}, -wall_m_, is_none ? 0.0 : 1500.0, is_none ? 0.0 : 10.0});
+    const bool is_none = !has_wall_ || wall_m_ != next_wall_m_;  // a wall elsewhere comes after an interval of none
+    loop_.take(Plane{{0.0, -1.0, 0.0}, -wall_m_, is_none ? 0.0 : 1500.0, is_none ? 0.0 : kWallDamping_N_s_m});
+    wall_m_ = next_wall_m_;
   }
 
   void step() {
@@ -78,7 +79,9 @@ class SwitchedHand {
     sample.deadman = button_;
     sensed_m_ = sample.pose.position_m[1];
     const HandForce& now = loop_.step(sample, {0.0, asked_m(), 0.0});
-    const double step_N = norm(subtract(now.force_N, before_.force_N));
+    const bool enters = (norm(now.wall_N) > 0.0) != (norm(before_.wall_N) > 0.0);
+    const double entry_N = enters ? kWallDamping_N_s_m * norm(omega_.truth().velocity_m_s) : 0.0;
+    const double step_N = norm(subtract(now.force_N, before_.force_N)) - entry_N;
     if (now.passed == 1.0 && before_.passed == 1.0) felt_.step_N = std::max(felt_.step_N, step_N);
     felt_.most_N = std::max(felt_.most_N, norm(now.force_N));
     before_ = now;
@@ -92,9 +95,9 @@ class SwitchedHand {
   HandLoop loop_{HandLoopTable{}};
   HandForce before_{};
   Felt felt_;
-  double sensed_m_ = 0.0, tip_m_ = 0.0, wall_m_ = 0.01, scale_ = 1.0, anchor_tip_m_ = 0.0, anchor_hand_m_ = 0.0;
+  double sensed_m_ = 0.0, tip_m_ = 0.0, wall_m_ = 0.01, next_wall_m_ = 0.01, scale_ = 1.0, anchor_tip_m_ = 0.0,
+         anchor_hand_m_ = 0.0;
   bool has_wall_ = true, button_ = true;
-  int none_ = 0;
   std::uint32_t sequence_ = 0;
   std::int64_t t_us_ = 0;
 };

@@ -1,5 +1,5 @@
-// The cable arm as devices lead it: the clutch of the arbiter and the core's own motion, without drives, cables' give or
-// verification. What a person at the devices meets, at a thousandth of the price of a bench.
+// The cable arm as devices lead it: the clutch of the arbiter and the core's own motion, without drives, cables' give
+// or verification. What a person at the devices meets, at a thousandth of the price of a bench.
 #pragma once
 
 #include <vector>
@@ -52,7 +52,8 @@ class LedArm {
     if (goal) setpoint.node[0] = goal->node;
     setpoint.held_mask = asked_mask_ = held_mask_;
     const double asked_m_s = steer_.in_use().speed_m_s > 0.0 ? steer_.in_use().speed_m_s : table_.limits.tip_speed_m_s;
-    setpoint.tip_speed_m_s = zone_.advice_at(tip().position_m, zone_.advice_at(setpoint.tip_in_base.position_m, asked_m_s));
+    setpoint.tip_speed_m_s =
+        zone_.advice_at(tip().position_m, zone_.advice_at(setpoint.tip_in_base.position_m, asked_m_s));
     cable::accept_setpoint(table_, setpoint, motion_);
   }
   cable::Outputs outputs() const {

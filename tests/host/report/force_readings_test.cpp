@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace liana::report {
 namespace {
 
@@ -21,7 +23,7 @@ ForceReadings some() {
 
 TEST(ForceReadings, ErrorsCountOnlyAlongAxesThatAreSeen) {
   const Json table = force_json(some());
-  const Json& row = table.at("errors").at(0);
+  const Json& row = table.at("errors")[0];
   EXPECT_EQ(row.at("state").text(), "still");
   EXPECT_EQ(row.at("count").get<int>(), 2);
   EXPECT_NEAR(row.at("rms_N").get<double>(), std::sqrt((0.25 + 0.01) / 2.0), 1e-9);
@@ -32,7 +34,7 @@ TEST(ForceReadings, ErrorsCountOnlyAlongAxesThatAreSeen) {
 
 TEST(ForceReadings, WhatWasFoundAndWhatWasNotAreCounted) {
   const Json table = force_json(some());
-  EXPECT_NEAR(table.at("found").at(0).at("found").get<double>(), 0.5, 1e-9);
+  EXPECT_NEAR(table.at("found")[0].at("found").get<double>(), 0.5, 1e-9);
   EXPECT_EQ(table.at("free").at("moving").at("found").get<int>(), 1);
   EXPECT_EQ(table.at("body").at("right").get<int>(), 1);
   EXPECT_NE(force_text(table).find("fault 5001 at 3.5 N"), std::string::npos);

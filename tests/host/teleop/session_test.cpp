@@ -123,8 +123,9 @@ TEST(TeleopSession, WhatLianadRefusesIsSaidAndTheNextGoalBeginsAtTheCommandedTip
 // req:A24
 TEST(TeleopSession, LinesSayStateOwnerClearanceForceAndWhatIsWrong) {
   const std::string fine = text_of(session_at(state()));
-  for (const char* word : {"zhu2022", "ENABLED", "motion is yours", "14.2 mm to wall", "30 to 120 N", "5.0 N",
-                           "touches the body at segment 3", "theta_rate", "converged", "1.0 mm from where it is asked to be"})
+  for (const char* word :
+       {"zhu2022", "ENABLED", "motion is yours", "14.2 mm to wall", "30 to 120 N", "5.0 N",
+        "touches the body at segment 3", "theta_rate", "converged", "1.0 mm from where it is asked to be"})
     EXPECT_NE(fine.find(word), std::string::npos) << word << " in\n" << fine;
   EXPECT_EQ(fine.find("REFUSED"), std::string::npos) << "nothing was asked yet";
   Json bad = state("pilot", "FAULT");

@@ -1,0 +1,16 @@
+// MuJoCo behind a FlexibleChain.
+#pragma once
+
+#include "hil/serial/flexible_chain.hpp"
+#include "hil/serial/mujoco_model.hpp"
+
+namespace liana::bench {
+
+struct FlexibleChain::Engine : MujocoModel {
+  using MujocoModel::MujocoModel;
+  const int tip = mj_name2id(model, mjOBJ_BODY, "tip");
+  const int base = mj_name2id(model, mjOBJ_BODY, "base_tip");  // -1 where nothing carries
+  const int payload = mj_name2id(model, mjOBJ_BODY, "payload");
+};
+
+}  // namespace liana::bench

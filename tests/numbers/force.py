@@ -1,0 +1,69 @@
+"""How well the force at the tip is estimated (docs/force.md): 20 configurations of 10 pushes on the bench's own processes,
+nominal and worn, and what friction costs in the closed loop.
+
+Alone: force.py [--bin DIR] [--count PUSHES] [--json].
+"""
+from asking import ask, counted
+from page import table
+
+HEAD = ["state", "push N", "pushes", "bias N", "RMS N", "largest N", "within 95 %", "axes seen"]
+FRICTION_HEAD = ["friction taken off", "at rest N", "moving N", "after a dither N", "free, moving N"]
+CONFIGURATIONS = 20
+
+
+def figure(value, digits=2):
+    return "-" if value is None else f"{value:.{digits}f}"
+
+
+def error_row(row):
+    return [
+        row["state"],
+        "all" if row["size_N"] is None else f"{row['size_N']:.0f}",
+        row["count"],
+        figure(row["bias_N"]),
+        figure(row["rms_N"]),
+        figure(row["largest_N"]),
+        figure(row["within_95"], 3),
+        figure(row["seen"]),
+    ]
+
+
+def text_of(test):
+    lines = [f"{test['physics']}:\n", table(HEAD, [error_row(row) for row in test["errors"]]), ""]
+    for row in test["found"]:
+        lines.append(
+            f"- {row['size_N']:.0f} N, {row['state']}: found from {test['found_from_N']:.1f} N told in"
+            f" {100 * row['found']:.1f} % of {row['count']}, after {row['median_s']:.2f} s (latest"
+            f" {row['latest_s']:.2f} s)"
+        )
+    for how, row in test["free"].items():
+        lines.append(
+            f"- free, {how}: told {row['median_N']:.2f} N median, {row['p99_N']:.2f} N 99 %, {row['largest_N']:.2f} N at"
+            f" most; found in {row['found']} of {row['looks']} looks"
+        )
+    body = test["body"]
+    lines.append(f"- on the body: {body['felt']} felt and {body['right']} named right of {body['count']}")
+    faults = ", ".join(f"{fault['number']} at {fault['pushed_N']:.1f} N" for fault in test["watchdogs"]) or "none"
+    lines.append(f"- faults: {faults}")
+    return "\n".join(lines)
+
+
+def friction_row(row):
+    return [row["friction"]] + [figure(row[key]) for key in ("still_N", "moving_N", "dithered_N", "free_moving_N")]
+
+
+def measure(binaries, count=200):
+    pushes = max(1, count // CONFIGURATIONS)
+    words = ["force", "--self-test", "--configurations", CONFIGURATIONS, "--pushes", pushes, "--json"]
+    tests = [ask(binaries / "liana", *words, f"--physics={physics}") for physics in ("nominal", "worn")]
+    friction = counted(binaries / "force_friction", max(1, count // 3))
+    text = "\n\n".join(text_of(test) for test in tests)
+    text += "\n\nRMS of the error, closed loop of core and physics, nominal, other seeds:\n\n"
+    text += table(FRICTION_HEAD, [friction_row(row) for row in friction["rows"]])
+    return {"tests": tests, "friction": friction}, text
+
+
+if __name__ == "__main__":
+    import alone
+
+    alone.run(measure, __doc__)
