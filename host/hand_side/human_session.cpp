@@ -14,16 +14,18 @@ namespace {
 
 constexpr double kMillisecond_s = 0.001;
 constexpr double kLongestGap_s = 0.1;  // after a pause the hands go on, they do not catch up
-constexpr double kArmDelay_s = 0.04;   // from a sample sent to its command in force: two command intervals
 constexpr double kUnsure_m = 0.015;    // the measured tip beside the commanded one, in free motion (docs/operator.md)
 constexpr double kFirm_N_m = 500.0;    // a grip for fine work
-// In the slit, slower than the person whose hand nothing moves: what tremor and felt forces add swings the tip faster
-// than the table allows (0.0331 m/s at 0.0252).
-constexpr double kSlitSpeed_m_s = 0.0235;
+// In the slit, slower than the person whose hand nothing moves, and slow earlier: what tremor and felt forces add, and
+// guidance that begins at the mouth, swings the tip faster than the table allows (0.0331 m/s at 0.0252, 0.0318 at
+// 0.0235).
+constexpr double kSlowBeforeMouth_m = 0.09;
+constexpr double kSlitSpeed_m_s = 0.0205;
 
 operator_side::HandGains hand_gains(const HumanTable& table) {
   operator_side::HandGains gains = under_delay(operator_side::HandGains{}, table.there_and_back_s);
   gains.tremor_m = 0.0;  // the muscles' own, in the hand on the device
+  gains.slow_before_mouth_m = kSlowBeforeMouth_m;
   gains.slit_speed_m_s = std::min(gains.slit_speed_m_s, kSlitSpeed_m_s);
   return gains;
 }
