@@ -178,20 +178,26 @@ void judge_distances(const MotionRules& rules, const simulate::Motion& motion, T
   }
 }
 
-// A tip that is beyond a wall already may go back, and by what the noise of a measured pose gives away no farther.
-void judge_walls(const MotionRules& rules, const simulate::Motion& motion, SimulationVerdict& verdict) {
+// When the tip passes a wall of the fixture from between them, and by how much; nothing where it does not. A tip that is
+// beyond a wall already may go back, and by what the noise of a measured pose gives away no farther; one in the room
+// behind a wall, where it came past none, is no concern of theirs.
+void judge_walls(const MotionRules& rules, const config::SceneFixture& walls, const simulate::Motion& motion,
+                 SimulationVerdict& verdict) {
   const auto tip = static_cast<Index>(rules.table.segment_count - 1);
   double allowed_m = 0.0;
+  bool was_between = false;
   for (const Moment& moment : motion.moments) {
-    const auto beyond = fixture::beyond_walls(rules.scene.fixtures, rules.arm_radius_m, rules.drawing_in_base,
-                                              moment.node_in_base_m[tip]);
-    if (!beyond) continue;
+    const auto beyond =
+        fixture::beyond_walls(walls, rules.arm_radius_m, rules.drawing_in_base, moment.node_in_base_m[tip]);
+    const bool concerns = beyond && (was_between || beyond->is_between);
+    was_between = concerns;
+    if (!concerns) continue;
     if (&moment == &motion.moments.front() && beyond->depth_m > 0.0) allowed_m = beyond->depth_m + kGivenAway_m;
     if (beyond->depth_m <= allowed_m) continue;
     return refuse(verdict, Refusal::kFixture,
-                  "the tip would pass the walls of fixture " + *beyond->fixture + " by " +
-                      millimetres(beyond->depth_m) + ", allowed " + millimetres(allowed_m),
-                  {*beyond->fixture, moment.time_s});
+                  "the tip would pass the walls of fixture " + walls.name + " by " + millimetres(beyond->depth_m) +
+                      ", allowed " + millimetres(allowed_m),
+                  {walls.name, moment.time_s});
   }
 }
 
@@ -207,7 +213,8 @@ SimulationVerdict judge_simulated(const MotionRules& rules, const simulate::Join
   verdict.margins = {0.0, 1e3, 1e3, 1e6, 0.0};
   judge_distances(rules, motion, too_near, verdict);
   const First nearest = verdict.first;
-  if (verdict.passed()) judge_walls(rules, motion, verdict);
+  for (const config::SceneFixture& fixture : rules.scene.fixtures)
+    if (verdict.passed()) judge_walls(rules, fixture, motion, verdict);
   if (verdict.passed()) verdict.first = {};
   MomentJudge moments(rules, verdict);
   moments.told(sequence);

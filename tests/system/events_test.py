@@ -172,7 +172,7 @@ class EventsOfRunsThatFail(SystemTest):
         self.assertEqual([event.text for event in events if event.kind == "step"][0], "step 1: begin to move")
         self.assertIn("owner", {event.kind for event in events})
         kinds = [event.kind for event in events]
-        self.assertEqual(set(kinds[kinds.index("shutdown") :]), {"shutdown", "client"}, "only clients leave after it")
+        self.assertEqual(set(kinds[kinds.index("shutdown") :]), {"shutdown", "client", "device"}, "all leave after it")
 
     def test_a_folder_where_no_events_can_be_written_is_refused_before_anything_moves(self):
         folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))

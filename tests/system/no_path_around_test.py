@@ -42,6 +42,7 @@ REQUESTS = {
     "servo_cp": lambda state: {"goal": state["setpoint_cp"]},
     "hold_theta": lambda state: {"held": [{"theta": 9, "target_deg": 2.0}]},
     "shape": lambda state: {"nodes": [{"node": 2, "position_m": [1.5, 0.2, 0.0]}]},
+    "dither": lambda state: {"share": 0.1, "duration_s": 1},
     "use_device": lambda state: {"device": "hand"},
     "retract": lambda state: {},
     "hold": lambda state: {},
