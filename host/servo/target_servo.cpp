@@ -1,0 +1,129 @@
+#include "host/servo/target_servo.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+namespace liana::servo {
+
+namespace {
+
+constexpr double kPassed_s = 1e-9;  // times are sums of intervals
+
+const char* trouble_of(ImageUse use) {
+  switch (use) {
+    case ImageUse::kStale:
+      return "images are older than one before";
+    case ImageUse::kUnknown:
+      return "images are of a time of which the tip's place is not remembered";
+    case ImageUse::kFrozen:
+      return "images do not change while the tip moves";
+    case ImageUse::kOutlier:
+      return "images show it more than 30 mm or 3 deg from where it was";
+    case ImageUse::kUsed:
+      break;
+  }
+  return "";
+}
+
+std::string seconds(const char* before, double time_s) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%s %.3g s", before, time_s);
+  return text;
+}
+
+}  // namespace
+
+const char* servo_phase_name(ServoPhase phase) {
+  switch (phase) {
+    case ServoPhase::kApproaching:
+      return "approaching";
+    case ServoPhase::kDwelling:
+      return "dwelling";
+    case ServoPhase::kDone:
+      return "done";
+    case ServoPhase::kLost:
+      return "lost";
+    case ServoPhase::kTimedOut:
+      return "timed_out";
+    case ServoPhase::kStandby:
+      break;
+  }
+  return "standby";
+}
+
+void TargetServo::see(const std::string& target, double capture_s, const Pose& target_in_tip) {
+  if (!is_under_way() || target != request_.target) return;
+  const ImageUse use = track_.see(capture_s, target_in_tip, history_.at(capture_s));
+  if (use == ImageUse::kUsed) saw_ = true;
+  trouble_ = trouble_of(use);
+}
+
+void TargetServo::begin(const ServoRequest& request, double now_s, const Pose& tip_command) {
+  request_ = request;
+  track_ = TargetTrack(request.tau_s);
+  approach_ = Approach(request.limits);
+  approach_.begin(tip_command);
+  report_ = {};
+  report_.phase = ServoPhase::kApproaching;
+  report_.target = request.target;
+  begun_s_ = last_seen_s_ = now_s;
+  saw_ = false;
+  trouble_.clear();
+}
+
+std::optional<Pose> TargetServo::next(double now_s, const Pose& tip_measured, const Pose& tip_command) {
+  if (!is_under_way()) return std::nullopt;
+  look(now_s, tip_measured);
+  if (!is_under_way()) return std::nullopt;
+  if (!track_.is_settled()) return approach_.brake(interval_s_);
+  const Pose& target = track_.target_in_base();
+  return approach_.next(target, compose(target, request_.tip_in_target), tip_measured, tip_command, interval_s_);
+}
+
+// The phase, and what is reported.
+void TargetServo::look(double now_s, const Pose& tip_measured) {
+  if (saw_) last_seen_s_ = now_s;
+  saw_ = false;
+  report_.images_used = track_.used();
+  report_.images_rejected = track_.rejected();
+  report_.duration_s = now_s - begun_s_;
+  if (track_.is_settled()) {
+    const Pose& target = track_.target_in_base();
+    report_.error = error_between(target, compose(target, request_.tip_in_target), tip_measured);
+  }
+  if (now_s - last_seen_s_ > request_.lost_s + kPassed_s) {
+    const std::string why = trouble_.empty() ? "it is not seen" : trouble_;
+    return end_as(ServoPhase::kLost, seconds("no usable image of it for", request_.lost_s) + ": " + why);
+  }
+  const bool was_within = report_.phase == ServoPhase::kDwelling;
+  if (!is_within()) {
+    report_.phase = ServoPhase::kApproaching;
+  } else if (!was_within) {
+    report_.phase = ServoPhase::kDwelling;
+    within_since_s_ = now_s;
+  } else if (now_s - within_since_s_ >= request_.dwell_s - kPassed_s) {
+    return end_as(ServoPhase::kDone, "");
+  }
+  if (report_.duration_s > request_.timeout_s + kPassed_s)
+    end_as(ServoPhase::kTimedOut, seconds("not there after", request_.timeout_s));
+}
+
+bool TargetServo::is_within() const {
+  if (!report_.error) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (std::fabs(report_.error->m[i]) > request_.tolerance_m) return false;
+    if (std::fabs(report_.error->rad[i]) > request_.tolerance_rad) return false;
+  }
+  return true;
+}
+
+void TargetServo::end_as(ServoPhase phase, const std::string& reason) {
+  report_.phase = phase;
+  report_.reason = reason;
+}
+
+void TargetServo::end(const std::string& reason) {
+  if (is_under_way()) end_as(ServoPhase::kStandby, reason);
+}
+
+}  // namespace liana::servo
