@@ -67,6 +67,27 @@ constexpr RequestField kStreamTtl =
         "than the quickest is refused")
         .optional();
 
+// Which of what the camera sees: names that both sides use.
+constexpr double kTargetBytes = 31;
+constexpr std::array kServoTarget{
+    text("target", kTargetBytes, "which of what the camera sees: its `target_name`, or `slit` or `rod`"),
+    pose("offset", kReach, "where the tip should be, in the target's frame; x is the way in"),
+    number("tolerance_m", 1e-4, 0.1, "xi: so near along each of the target's axes").otherwise(0.0006),
+    number("tolerance_deg", 0.01, 10.0, "xi: so near about each of the target's axes").otherwise(0.4),
+    number("dwell_s", 0.0, 60.0, "so long within the tolerances, then it ends by itself").otherwise(1.0),
+    number("timeout_s", 1.0, 600.0, "not there after this time it ends").otherwise(120.0),
+    number("lost_s", 0.2, 10.0, "without a usable image for so long the target is lost").otherwise(1.0),
+    number("tau_s", 0.05, 20.0, "time constant of the low-pass on what the camera sees").otherwise(4.0),
+    number("gain_1_s", 0.05, 1.0, "k: speed for a way to go").otherwise(0.45),
+    number("speed_m_s", 1e-4, 1.0, "fastest along the target's x; the robot's own limit holds besides")
+        .otherwise(0.028),
+    number("lateral_speed_m_s", 1e-4, 1.0, "fastest across it; the robot's own limit holds besides")
+        .otherwise(0.008),
+    number("rate_deg_s", 0.01, 30.0, "fastest turn; the robot's own limit holds besides").otherwise(0.5),
+    number("accel_m_s2", 1e-4, 1.0, "acceleration of the goal that is led").otherwise(0.005),
+    number("accel_deg_s2", 0.01, 30.0, "the same of its turn").otherwise(0.25),
+};
+
 constexpr std::array kHeld{
     integer("theta", 1.0, Figure::kAngles, "number of the angle, 1 at the base"),
     RequestField{"target_deg", FieldType::kAngle, "angle at which it is held"},
@@ -185,6 +206,8 @@ constexpr std::array kCamera{
     number("capture_time_s", 0.0, 1e9, "arm time of the picture"),
     pose("slit", 1000.0, "the slit's frame in the tip frame; null: not seen").or_null(),
     pose("rod", 1000.0, "the rod's frame in the tip frame; null: not seen").or_null(),
+    pose("target", 1000.0, "the frame of what `servo_target` goes to, in the tip frame; null: not seen").or_null(),
+    text("target_name", kTargetBytes, "what that is, and so which lens looks; `target` when left out").optional(),
 };
 
 }  // namespace liana::api::request_fields

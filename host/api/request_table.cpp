@@ -55,6 +55,13 @@ constexpr std::array kTable{
                .owner_only = true,
                .in_missions = true,
                .motion = Motion::kStreams},
+    RequestRow{.op = "servo_target",
+               .doc = "The tip goes to a place beside a target that the tip camera sees, stays there for the dwell, and "
+                      "the servo ends by itself.",
+               .fields = kServoTarget,
+               .owner_only = true,
+               .in_missions = true,
+               .motion = Motion::kReplaces},
     RequestRow{.op = "hold_theta",
                .doc = "Held variables go to their targets at a bounded rate while the tip stays or follows.",
                .fields = kHoldTheta,

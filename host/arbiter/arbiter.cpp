@@ -77,6 +77,19 @@ void Arbiter<Arm>::move_path(const Now& now, const PathRequest<Arm>& request) {
 }
 
 template <class Arm>
+void Arbiter<Arm>::servo_target(const Now& now, const servo::ServoRequest& request) {
+  require_free(now);
+  const TipBounds bounds = Kind::tip_bounds(table_);
+  servo::ServoRequest admitted = request;
+  servo::ApproachLimits& limits = admitted.limits;
+  limits.speed_m_s = std::min(limits.speed_m_s, bounds.linear.speed);
+  limits.lateral_speed_m_s = std::min(limits.lateral_speed_m_s, bounds.linear.speed);
+  limits.rate_rad_s = std::min(limits.rate_rad_s, bounds.angular.speed);
+  servo_.begin(admitted, now.tip_command);
+  way_.template emplace<ServoMove<Arm>>(servo_);
+}
+
+template <class Arm>
 std::optional<PathProgress> Arbiter<Arm>::path() const {
   const auto* move = std::get_if<PathMove<Arm>>(&way_);
   return move != nullptr ? std::optional(move->progress()) : std::nullopt;
@@ -92,6 +105,7 @@ void Arbiter<Arm>::tell(event::PathEvent what, const PathMove<Arm>& move, const 
 template <class Arm>
 void Arbiter<Arm>::hold(const std::string& why) {
   if (std::holds_alternative<WayBack<Arm>>(way_)) way_out_.end(why, command_rad_);
+  servo_.end(why);
   const auto* move = std::get_if<PathMove<Arm>>(&way_);
   if (move != nullptr && !move->is_over()) {
     const int percent = static_cast<int>(100.0 * move->progress().share);
@@ -149,7 +163,8 @@ template <class Arm>
 void Arbiter<Arm>::refused(const std::string& why) {
   if (std::visit([](auto& way) { return way.refused(); }, way_)) return;
   const auto* back = std::get_if<WayBack<Arm>>(&way_);
-  hold(back != nullptr ? back->why_ended() + (why.empty() ? "" : ": " + why) : "refused");
+  const std::string detail = why.empty() ? "" : ": " + why;
+  hold((back != nullptr ? back->why_ended() : "refused") + detail);
 }
 
 template <class Arm>
@@ -160,6 +175,8 @@ std::optional<typename Arm::Setpoint> Arbiter<Arm>::next_setpoint(std::uint64_t 
 
 template <class Arm>
 bool Arbiter<Arm>::begin_interval(std::uint64_t tick, const Now& now) {
+  // The newest tick's drives were read at its beginning.
+  servo_.note_tip((static_cast<double>(tick) - 1.0) * table_.tick_s, Kind::tip_at(table_, Kind::measured_rad(now)));
   if (now.state != OperatingState::kEnabled) {
     hold("the arm is not enabled any more");
     way_out_.wait();

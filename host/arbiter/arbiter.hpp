@@ -13,6 +13,7 @@
 #include "host/arbiter/arm_kind.hpp"
 #include "host/arbiter/joint_move.hpp"
 #include "host/arbiter/path_move.hpp"
+#include "host/arbiter/servo_move.hpp"
 #include "host/arbiter/speed_rise.hpp"
 #include "host/arbiter/speed_zone.hpp"
 #include "host/arbiter/start_ramp.hpp"
@@ -43,6 +44,15 @@ class Arbiter {
   // From rest through all points without a stop, within kPathOff_m of the straight pieces between them; the first point
   // within kPathStart_deg of the command. Looked at as a whole first: until then the arm holds.
   void move_path(const Now& now, const PathRequest<Arm>& request);
+  // The tip goes to where it should be beside a target that the camera sees, and ends by itself (host/servo); no faster
+  // than the arm's own limits.
+  void servo_target(const Now& now, const servo::ServoRequest& request);
+  // An image of `target`, in the tip's frame at its exposure [s of arm time].
+  void see_target(const std::string& target, double capture_s, const Pose& target_in_tip) {
+    servo_.see(target, capture_s, target_in_tip);
+  }
+  // The servo under way, or how the last one went.
+  const servo::ServoReport& servo_report() const { return servo_.report(); }
   // Back along the verified path, not beyond `until_tick`: stops, then goes back, whatever is under way. Also while
   // faults are latched that hold the arm.
   void retract(const Now& now, std::uint64_t until_tick);
@@ -107,6 +117,7 @@ class Arbiter {
   Table table_;
   SpeedZone zone_;
   double tip_speed_m_s_;
+  servo::TargetServo servo_{interval_s(table_)};
   StartRamp start_ramp_;
   SpeedRise speed_rise_;
   typename Kind::Wishes wishes_{};
@@ -116,7 +127,7 @@ class Arbiter {
   PathCheck<Arm> path_check_;
   typename PathMove<Arm>::Work path_work_;
   std::vector<PathNews> path_news_;
-  std::variant<Idle, TipTarget<Arm>, LineMove<Arm>, JointMove<Arm>, PathMove<Arm>, WayBack<Arm>> way_;
+  std::variant<Idle, TipTarget<Arm>, LineMove<Arm>, JointMove<Arm>, PathMove<Arm>, ServoMove<Arm>, WayBack<Arm>> way_;
 };
 
 }  // namespace liana::arbiter

@@ -51,6 +51,8 @@ concept KnownArm = requires(const typename Arm::Table& table, const Joints<Arm>&
   { ArmKind<Arm>::tip_at(table, joint_rad) } -> std::same_as<Pose>;
   // Where the command stands.
   { ArmKind<Arm>::command_rad(now) } -> std::same_as<const Joints<Arm>&>;
+  // Where the joints were measured to be.
+  { ArmKind<Arm>::measured_rad(now) } -> std::same_as<const Joints<Arm>&>;
   { ArmKind<Arm>::add_wishes(wishes, setpoint) } -> std::same_as<void>;
   // Whether all that is wished has come to be (flag: the tip stands at its goal).
   { ArmKind<Arm>::has_arrived(wishes, now, bool{}) } -> std::same_as<bool>;

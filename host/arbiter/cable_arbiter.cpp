@@ -51,6 +51,11 @@ void CableArbiter::servo_tip(const cable::Outputs& now, const Pose& goal) {
   moves_.servo_tip(now, goal);
 }
 
+void CableArbiter::servo_target(const cable::Outputs& now, const servo::ServoRequest& request) {
+  require_free(now);
+  moves_.servo_target(now, request);
+}
+
 // The tip stays where it is, unless somebody moves it.
 void CableArbiter::ask_anew(const cable::Outputs& now) {
   moves_.ask_anew();

@@ -33,6 +33,12 @@ class CableArbiter {
   void move_line(const cable::Outputs& now, const Pose& goal);
   void servo_tip(const cable::Outputs& now, const Pose& goal);
   void move_path(const cable::Outputs& now, const PathRequest<cable::CableArm>& request);
+  void servo_target(const cable::Outputs& now, const servo::ServoRequest& request);
+  void see_target(const std::string& target, double capture_s, const Pose& target_in_tip) {
+    moves_.see_target(target, capture_s, target_in_tip);
+  }
+  // The servo under way, or how the last one went.
+  const servo::ServoReport& servo_report() const { return moves_.servo_report(); }
   // Held variables: bit i of mask holds theta i at held_rad[i]; mask 0 releases all.
   void hold_theta(const cable::Outputs& now, std::uint32_t mask, const cable::ThetaVector& held_rad);
   // Null-space targets; unused entries have node = 0. The core goes downhill from where it stands; with `search` (arm

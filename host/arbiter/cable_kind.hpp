@@ -52,6 +52,7 @@ struct ArmKind<cable::CableArm> {
     return cable::forward_kinematics(table, theta_rad).tip_in_base;
   }
   static const Joints& command_rad(const liana::Outputs<cable::CableArm>& now) { return now.theta_command_rad; }
+  static const Joints& measured_rad(const liana::Outputs<cable::CableArm>& now) { return now.theta_measured_rad; }
   static void add_wishes(const Wishes& wishes, cable::Setpoint& setpoint);
   // Where a shape is asked for, its null space has to come to rest, too.
   static bool has_arrived(const Wishes& wishes, const liana::Outputs<cable::CableArm>& now, bool tip_there);

@@ -44,6 +44,7 @@ struct ArmKind<serial::SerialArm> {
     return serial::forward_kinematics(table, joint_rad).tip_in_base;
   }
   static const Joints& command_rad(const liana::Outputs<serial::SerialArm>& now) { return now.joint_command_rad; }
+  static const Joints& measured_rad(const liana::Outputs<serial::SerialArm>& now) { return now.joint_measured_rad; }
   static void add_wishes(const Wishes&, serial::Setpoint&) {}
   static bool has_arrived(const Wishes&, const liana::Outputs<serial::SerialArm>&, bool tip_there) { return tip_there; }
 };

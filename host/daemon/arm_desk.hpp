@@ -10,6 +10,7 @@
 #include "host/api/request_error.hpp"
 #include "host/daemon/desk.hpp"
 #include "host/daemon/path_message.hpp"
+#include "host/daemon/servo_message.hpp"
 #include "host/json/json.hpp"
 #include "host/record/tick_packet.hpp"
 #include "host/record/visit_serial.hpp"
@@ -44,6 +45,7 @@ class ArmDesk : public Desk {
   bool knows(const std::string& op) const override { return handlers_.count(op) > 0; }
   Json ask(const MotionRequest& request) override;
   void hold() override { arbiter_.hold(); }
+  void take_picture(const TipPicture& picture) override;
   std::optional<LastVerdict> release_next(bool may_release, std::uint32_t owner) override;
   std::vector<arbiter::PathNews> take_path_news() override { return arbiter_.take_path_news(); }
   std::vector<arbiter::WayNews> take_way_news() override { return arbiter_.take_way_news(); }
@@ -70,6 +72,8 @@ class ArmDesk : public Desk {
                  {"move_path", [this](const auto& r) { arbiter_.move_path(outputs(), path_request<Arm>(r.fields)); }},
                  {"move_cp", [this](const auto& r) { arbiter_.move_line(outputs(), r.fields.pose("goal")); }},
                  {"servo_cp", [this](const auto& r) { arbiter_.servo_tip(outputs(), r.fields.pose("goal")); }},
+                 {"servo_target",
+                  [this](const auto& r) { arbiter_.servo_target(outputs(), servo_request(r.fields)); }},
                  {"retract", [this](const MotionRequest& r) { retract(r.fields); }},
                  {"hold", [this](const MotionRequest&) { hold(); }}};
   }
@@ -138,6 +142,16 @@ void ArmDesk<Arm, Steering>::move_joints(const api::Arguments& fields) {
 template <class Arm, class Steering>
 void ArmDesk<Arm, Steering>::retract(const api::Arguments& fields) {
   arbiter_.retract(outputs(), static_cast<std::uint64_t>(fields.integer("until_tick")));
+}
+
+template <class Arm, class Steering>
+void ArmDesk<Arm, Steering>::take_picture(const TipPicture& picture) {
+  const auto show = [&](const std::string& name, const std::optional<Pose>& in_tip) {
+    if (in_tip) arbiter_.see_target(name, picture.capture_time_s, *in_tip);
+  };
+  show("slit", picture.slit_in_tip);
+  show("rod", picture.rod_in_tip);
+  show(picture.target_name, picture.target_in_tip);
 }
 
 template <class Arm, class Steering>

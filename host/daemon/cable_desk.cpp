@@ -137,6 +137,7 @@ void CableDesk::foresee(const live_clearance::Outlook& outlook) {
 }
 
 void CableDesk::take_picture(const TipPicture& picture) {
+  ArmDesk::take_picture(picture);
   if (!clearance_) return;
   const auto capture_tick = static_cast<std::uint64_t>(std::llround(picture.capture_time_s / table_.tick_s));
   clearance_->see({capture_tick, picture.slit_in_tip, picture.rod_in_tip}, tick() - 1);

@@ -118,6 +118,7 @@ void CableDesk::add_state(Json& state) const {
   state["is_busy"] = arbiter_.is_busy() || (o.state == OperatingState::kEnabled && (o.at_rest == 0 || awaits_held));
   add_retract(state, arbiter_.retract_state());
   state["path"] = path_json(arbiter_.path());
+  state["servo"] = servo_json(arbiter_.servo_report());
   state["device"] = device.name;
   state["device_engaged"] = arbiter_.device().engaged();
   state["device_reason"] = arbiter_.device().reason();

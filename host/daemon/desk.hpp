@@ -42,7 +42,8 @@ struct MotionRequest {
 // What the tip camera has seen: frames in the tip frame at capture; nothing where out of sight.
 struct TipPicture {
   double capture_time_s = 0.0;  // arm time
-  std::optional<Pose> slit_in_tip, rod_in_tip;
+  std::optional<Pose> slit_in_tip, rod_in_tip, target_in_tip;
+  std::string target_name = "target";
 };
 
 class Desk {
@@ -82,8 +83,8 @@ class Desk {
   // Once per interval: their samples go to the steering; each of them is told the arm's state.
   virtual void take_samples() {}
   virtual void tell_devices(std::int64_t) {}
-  // A picture of the tip camera, when every run has it. An arm that has no use for it leaves it out.
-  virtual void take_picture(const TipPicture&) {}
+  // A picture of the tip camera, when every run has it.
+  virtual void take_picture(const TipPicture& picture) = 0;
   // Nothing is asked for any more: stop along the path.
   virtual void hold() = 0;
   // The same, and nobody steers any more.

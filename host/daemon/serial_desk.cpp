@@ -57,6 +57,7 @@ void SerialDesk::add_state(Json& state) const {
   state["is_busy"] = arbiter_.is_busy() || (o.state == OperatingState::kEnabled && o.at_rest == 0);
   add_retract(state, arbiter_.retract_state());
   state["path"] = path_json(arbiter_.path());
+  state["servo"] = servo_json(arbiter_.servo_report());
   state["measured_js_deg"] = deg(table_, o.joint_measured_rad);
   state["setpoint_js_deg"] = deg(table_, o.joint_command_rad);
   state["measured_cp"] = pose_json(serial::forward_kinematics(table_, o.joint_measured_rad).tip_in_base);

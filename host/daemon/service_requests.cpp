@@ -213,6 +213,13 @@ Json Service::on_camera(const api::ClientInfo&, const api::Arguments& fields) {
   frame.picture.capture_time_s = fields.number("capture_time_s");
   if (fields.has("slit")) frame.picture.slit_in_tip = fields.pose("slit");
   if (fields.has("rod")) frame.picture.rod_in_tip = fields.pose("rod");
+  if (fields.has("target")) frame.picture.target_in_tip = fields.pose("target");
+  if (fields.has("target_name")) frame.picture.target_name = fields.text("target_name");
+  if (frame.picture.target_name == "slit" || frame.picture.target_name == "rod") {
+    throw api::RequestError("bad_request", "target_name = " + frame.picture.target_name +
+                                               ": allowed any other name, slit and rod have fields of their own: "
+                                               "choose another name");
+  }
   require_past("capture_time_s", frame.picture.capture_time_s);
   frame.due_tick = certainly_heard_tick(frame.picture.capture_time_s + config_.camera_latency_s);
   if (camera_.size() >= 64)

@@ -51,6 +51,12 @@ const char* servo_phase_name(ServoPhase phase) {
   return "standby";
 }
 
+void TargetServo::note_tip(double now_s, const Pose& tip_measured) {
+  history_.note(now_s, tip_measured);
+  now_s_ = now_s;
+  tip_measured_ = tip_measured;
+}
+
 void TargetServo::see(const std::string& target, double capture_s, const Pose& target_in_tip) {
   if (!is_under_way() || target != request_.target) return;
   const ImageUse use = track_.see(capture_s, target_in_tip, history_.at(capture_s));
@@ -58,7 +64,7 @@ void TargetServo::see(const std::string& target, double capture_s, const Pose& t
   trouble_ = trouble_of(use);
 }
 
-void TargetServo::begin(const ServoRequest& request, double now_s, const Pose& tip_command) {
+void TargetServo::begin(const ServoRequest& request, const Pose& tip_command) {
   request_ = request;
   track_ = TargetTrack(request.tau_s);
   approach_ = Approach(request.limits);
@@ -66,32 +72,32 @@ void TargetServo::begin(const ServoRequest& request, double now_s, const Pose& t
   report_ = {};
   report_.phase = ServoPhase::kApproaching;
   report_.target = request.target;
-  begun_s_ = last_seen_s_ = now_s;
+  begun_s_ = last_seen_s_ = now_s_;
   saw_ = false;
   trouble_.clear();
 }
 
-std::optional<Pose> TargetServo::next(double now_s, const Pose& tip_measured, const Pose& tip_command) {
+std::optional<Pose> TargetServo::next(const Pose& tip_command) {
   if (!is_under_way()) return std::nullopt;
-  look(now_s, tip_measured);
+  look();
   if (!is_under_way()) return std::nullopt;
   if (!track_.is_settled()) return approach_.brake(interval_s_);
   const Pose& target = track_.target_in_base();
-  return approach_.next(target, compose(target, request_.tip_in_target), tip_measured, tip_command, interval_s_);
+  return approach_.next(target, compose(target, request_.tip_in_target), tip_measured_, tip_command, interval_s_);
 }
 
 // The phase, and what is reported.
-void TargetServo::look(double now_s, const Pose& tip_measured) {
-  if (saw_) last_seen_s_ = now_s;
+void TargetServo::look() {
+  if (saw_) last_seen_s_ = now_s_;
   saw_ = false;
   report_.images_used = track_.used();
   report_.images_rejected = track_.rejected();
-  report_.duration_s = now_s - begun_s_;
+  report_.duration_s = now_s_ - begun_s_;
   if (track_.is_settled()) {
     const Pose& target = track_.target_in_base();
-    report_.error = error_between(target, compose(target, request_.tip_in_target), tip_measured);
+    report_.error = error_between(target, compose(target, request_.tip_in_target), tip_measured_);
   }
-  if (now_s - last_seen_s_ > request_.lost_s + kPassed_s) {
+  if (now_s_ - last_seen_s_ > request_.lost_s + kPassed_s) {
     const std::string why = trouble_.empty() ? "it is not seen" : trouble_;
     return end_as(ServoPhase::kLost, seconds("no usable image of it for", request_.lost_s) + ": " + why);
   }
@@ -100,8 +106,8 @@ void TargetServo::look(double now_s, const Pose& tip_measured) {
     report_.phase = ServoPhase::kApproaching;
   } else if (!was_within) {
     report_.phase = ServoPhase::kDwelling;
-    within_since_s_ = now_s;
-  } else if (now_s - within_since_s_ >= request_.dwell_s - kPassed_s) {
+    within_since_s_ = now_s_;
+  } else if (now_s_ - within_since_s_ >= request_.dwell_s - kPassed_s) {
     return end_as(ServoPhase::kDone, "");
   }
   if (report_.duration_s > request_.timeout_s + kPassed_s)

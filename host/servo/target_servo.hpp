@@ -48,15 +48,15 @@ class TargetServo {
   // `interval_s`: between two goals.
   explicit TargetServo(double interval_s) : interval_s_(interval_s) {}
 
-  // Once per interval, whether it is under way or not: where the tip was measured to be.
-  void note_tip(double time_s, const Pose& tip_in_base) { history_.note(time_s, tip_in_base); }
+  // Once per interval, whether it is under way or not: the time, and where the tip was measured to be then.
+  void note_tip(double now_s, const Pose& tip_measured);
   // An image of something, in the tip's frame at its exposure. What is not looked for is left out.
   void see(const std::string& target, double capture_s, const Pose& target_in_tip);
 
-  // Begins at `now_s` with the tip commanded to be at `tip_command`.
-  void begin(const ServoRequest& request, double now_s, const Pose& tip_command);
-  // The tip goal of the next interval; nothing once it is over. `now_s`: of the newest tip_measured.
-  std::optional<Pose> next(double now_s, const Pose& tip_measured, const Pose& tip_command);
+  // Begins with the tip commanded to be at `tip_command`.
+  void begin(const ServoRequest& request, const Pose& tip_command);
+  // The tip goal of the next interval; nothing once it is over.
+  std::optional<Pose> next(const Pose& tip_command);
   // Ends it before its goal, for `reason`.
   void end(const std::string& reason);
 
@@ -66,12 +66,14 @@ class TargetServo {
   const ServoReport& report() const { return report_; }
 
  private:
-  void look(double now_s, const Pose& tip_measured);
+  void look();
   bool is_within() const;
   void end_as(ServoPhase phase, const std::string& reason);
 
   double interval_s_;
   TipHistory history_;
+  double now_s_ = 0.0;   // of the newest note
+  Pose tip_measured_{};  // the newest note
   ServoRequest request_;
   TargetTrack track_;
   Approach approach_;

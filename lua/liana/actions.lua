@@ -25,6 +25,14 @@ function actions.shape(nodes, keep_clear, search)
   return uses.noted(function(arm) arm.shape(fields) end, { action = "shape", command = "shape", fields = fields, at = position(1) })
 end
 
+-- The tip goes to `offset` beside a target that the tip camera sees and stays there for the dwell; fields of `servo_target` (docs/api.md):
+-- { target = "adapter", offset = { x, y, z, qw, qx, qy, qz }, ... }.
+function actions.servo_target(fields)
+  need("servo_target", "fields", fields, "table")
+  return uses.noted(function(arm) arm.servo_target(fields) end,
+    { action = "servo_target", command = "servo_target", fields = fields, at = position(1) })
+end
+
 -- A command to the tool at the tip.
 function actions.tool(command)
   need("tool", "command", command, "string")

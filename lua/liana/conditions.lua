@@ -130,6 +130,24 @@ function conditions.tip_near_rod(distance_m)
   end)
 end
 
+-- The visual servo has arrived, dwelt and ended by itself.
+function conditions.servo_done()
+  return condition("servo done", function(arm) return arm.state.servo.phase == "done" end)
+end
+
+local kServoFailures = { lost = "target lost", timed_out = "servo timed out" }
+
+-- The visual servo has lost its target, or was not there in time; what is told says why.
+function conditions.servo_failed()
+  local text = "target lost or servo timed out"
+  return { text = text, met = function(arm)
+    local servo = arm.state.servo
+    local failure = kServoFailures[servo.phase]
+    if not failure then return false end
+    return true, failure .. ": " .. servo.reason
+  end }
+end
+
 -- Something pushes the tip with at least least_N, which is known to sd_N (default 0.6) along every axis.
 function conditions.tip_force(least_N, sd_N)
   need("tip_force", "least_N", least_N, "number over 0")

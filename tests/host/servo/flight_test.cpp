@@ -72,7 +72,7 @@ class Flown {
 
   Flight fly() {
     TargetServo servo(kInterval_s);
-    servo.begin(request_, 0.0, filter_.pose);
+    servo.begin(request_, filter_.pose);
     Vec3 nearest{1.0, 1.0, 1.0};
     Flight out;
     for (int interval = 0; servo.is_under_way() && interval < 10000; ++interval) {
@@ -80,7 +80,7 @@ class Flown {
       servo.note_tip(now_s, arm_);
       photograph(now_s);
       deliver(now_s, servo);
-      const auto goal = servo.next(now_s, arm_, filter_.pose);
+      const auto goal = servo.next(filter_.pose);
       if (!goal) break;
       pass_interval(*goal);
       const Vec3 left = true_error().m;

@@ -36,7 +36,7 @@ struct Bench {
       now_s += kInterval_s;
       servo.note_tip(now_s, tip);
       if (i % 5 == 0) camera(now_s, servo, tip);
-      if (const auto goal = servo.next(now_s, tip, tip)) {
+      if (const auto goal = servo.next(tip)) {
         tip = *goal;
         ++goals;
       }
@@ -53,7 +53,7 @@ TEST(TargetServo, StandsByUntilItIsAskedFor) {
 
 TEST(TargetServo, ArrivesDwellsAndEndsByItself) {
   Bench bench;
-  bench.servo.begin(near_request(), 0.0, bench.tip);
+  bench.servo.begin(near_request(), bench.tip);
   bool dwelt = false;
   bench.run(
       [&](double now_s, TargetServo& servo, const Pose& tip) {
@@ -66,7 +66,7 @@ TEST(TargetServo, ArrivesDwellsAndEndsByItself) {
   EXPECT_EQ(bench.servo.report().reason, "");
   EXPECT_LT(norm(bench.servo.report().error->m), 0.0006 * 1.8);
   EXPECT_LT(bench.servo.report().duration_s, 30.0);
-  EXPECT_FALSE(bench.servo.next(bench.now_s, bench.tip, bench.tip));
+  EXPECT_FALSE(bench.servo.next(bench.tip));
 }
 
 TEST(TargetServo, ADwellThatIsInterruptedBeginsAnew) {
@@ -74,7 +74,7 @@ TEST(TargetServo, ADwellThatIsInterruptedBeginsAnew) {
   ServoRequest request = near_request();
   request.dwell_s = 5.0;
   request.tau_s = 0.2;
-  bench.servo.begin(request, 0.0, bench.tip);
+  bench.servo.begin(request, bench.tip);
   double first_s = 0.0;
   bench.run(
       [&](double now_s, TargetServo& servo, const Pose& tip) {
@@ -91,7 +91,7 @@ TEST(TargetServo, ADwellThatIsInterruptedBeginsAnew) {
 TEST(TargetServo, ATargetThatIsNeverSeenIsLostAndNothingMoves) {
   Bench bench;
   const Pose before = bench.tip;
-  bench.servo.begin(near_request(), 0.0, bench.tip);
+  bench.servo.begin(near_request(), bench.tip);
   bench.run([](double, TargetServo&, const Pose&) {}, 3.0);
   EXPECT_EQ(bench.servo.report().phase, ServoPhase::kLost);
   EXPECT_NE(bench.servo.report().reason.find("it is not seen"), std::string::npos);
@@ -125,7 +125,7 @@ TEST(TargetServo, ATargetThatIsLostOnTheWayIsSaidToBeForItsReason) {
   };
   for (const Loss& loss : losses) {
     Bench bench;
-    bench.servo.begin(near_request(), 0.0, bench.tip);
+    bench.servo.begin(near_request(), bench.tip);
     bench.run(Bench::sound, 3.0);
     ASSERT_EQ(bench.servo.report().phase, ServoPhase::kApproaching) << loss.reason;
     bench.run(loss.camera, 8.0);
@@ -136,7 +136,7 @@ TEST(TargetServo, ATargetThatIsLostOnTheWayIsSaidToBeForItsReason) {
 
 TEST(TargetServo, ImagesThatFailForLessThanItsPatienceAreBridged) {
   Bench bench;
-  bench.servo.begin(near_request(), 0.0, bench.tip);
+  bench.servo.begin(near_request(), bench.tip);
   bench.run(
       [](double now_s, TargetServo& servo, const Pose& tip) {
         if (now_s < 3.0 || now_s > 3.8) Bench::sound(now_s, servo, tip);
@@ -149,7 +149,7 @@ TEST(TargetServo, ATargetThatCannotBeReachedInTimeEndsIt) {
   Bench bench;
   ServoRequest request = near_request();
   request.timeout_s = 4.0;
-  bench.servo.begin(request, 0.0, bench.tip);
+  bench.servo.begin(request, bench.tip);
   bench.run(Bench::sound, 10.0);
   EXPECT_EQ(bench.servo.report().phase, ServoPhase::kTimedOut);
   EXPECT_NEAR(bench.servo.report().duration_s, 4.0, 0.05);
@@ -157,12 +157,12 @@ TEST(TargetServo, ATargetThatCannotBeReachedInTimeEndsIt) {
 
 TEST(TargetServo, WhoEndsItSaysWhy) {
   Bench bench;
-  bench.servo.begin(near_request(), 0.0, bench.tip);
+  bench.servo.begin(near_request(), bench.tip);
   bench.run(Bench::sound, 3.0);
   bench.servo.end("held");
   EXPECT_EQ(bench.servo.report().phase, ServoPhase::kStandby);
   EXPECT_EQ(bench.servo.report().reason, "held");
-  EXPECT_FALSE(bench.servo.next(bench.now_s, bench.tip, bench.tip));
+  EXPECT_FALSE(bench.servo.next(bench.tip));
 }
 
 }  // namespace

@@ -1,0 +1,16 @@
+// The visual servo in requests and in the state message, the same for every arm.
+#pragma once
+
+#include "host/api/arguments.hpp"
+#include "host/json/json_fwd.hpp"
+#include "host/servo/target_servo.hpp"
+
+namespace liana::daemon {
+
+// What `servo_target` asks for.
+servo::ServoRequest servo_request(const api::Arguments& fields);
+
+// `servo` of the state (docs/api.md).
+Json servo_json(const servo::ServoReport& report);
+
+}  // namespace liana::daemon
