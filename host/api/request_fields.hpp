@@ -67,11 +67,14 @@ constexpr RequestField kStreamTtl =
         "than the quickest is refused")
         .optional();
 
+constexpr std::array kAxes{"x", "y", "z"};
+
 // Which of what the camera sees: names that both sides use.
 constexpr double kTargetBytes = 31;
 constexpr std::array kServoTarget{
     text("target", kTargetBytes, "which of what the camera sees: its `target_name`, or `slit` or `rod`"),
-    pose("offset", kReach, "where the tip should be, in the target's frame; x is the way in"),
+    pose("offset", kReach, "where the tip should be, in the target's frame"),
+    word("axis", kAxes, "of the target: the way in, along which `speed_m_s` counts; x when left out").optional(),
     number("tolerance_m", 1e-4, 0.1, "xi: so near along each of the target's axes").otherwise(0.0006),
     number("tolerance_deg", 0.01, 10.0, "xi: so near about each of the target's axes").otherwise(0.4),
     number("dwell_s", 0.0, 60.0, "so long within the tolerances, then it ends by itself").otherwise(1.0),
@@ -79,7 +82,7 @@ constexpr std::array kServoTarget{
     number("lost_s", 0.2, 10.0, "without a usable image for so long the target is lost").otherwise(1.0),
     number("tau_s", 0.05, 20.0, "time constant of the low-pass on what the camera sees").otherwise(4.0),
     number("gain_1_s", 0.05, 1.0, "k: speed for a way to go").otherwise(0.45),
-    number("speed_m_s", 1e-4, 1.0, "fastest along the target's x; the robot's own limit holds besides")
+    number("speed_m_s", 1e-4, 1.0, "fastest along the way in; the robot's own limit holds besides")
         .otherwise(0.028),
     number("lateral_speed_m_s", 1e-4, 1.0, "fastest across it; the robot's own limit holds besides")
         .otherwise(0.008),

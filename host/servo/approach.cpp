@@ -42,8 +42,10 @@ Pose Approach::next(const Pose& target_in_base, const Pose& goal, const Pose& ti
   const PoseError on_its_way = error_between(target_in_base, asked_, tip_command);
   const Vec3 m = subtract(left.m, on_its_way.m), rad = subtract(left.rad, on_its_way.rad);
   const ApproachLimits& l = limits_;
-  const Vec3 axial = towards({m[0], 0.0, 0.0}, l.gain_1_s, l.accel_m_s2, l.speed_m_s);
-  const Vec3 lateral = towards({0.0, m[1], m[2]}, l.gain_1_s, l.accel_m_s2, l.lateral_speed_m_s);
+  Vec3 along{};
+  along[l.axis] = m[l.axis];
+  const Vec3 axial = towards(along, l.gain_1_s, l.accel_m_s2, l.speed_m_s);
+  const Vec3 lateral = towards(subtract(m, along), l.gain_1_s, l.accel_m_s2, l.lateral_speed_m_s);
   const Vec3 turn = towards(rad, l.gain_1_s, l.angular_accel_rad_s2, l.rate_rad_s);
   const Quat& to_base = target_in_base.quaternion;
   return move(rotate(to_base, add(axial, lateral)), rotate(to_base, turn), dt_s);

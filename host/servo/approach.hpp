@@ -1,6 +1,8 @@
 // From what is left to go to the next tip goal: v = -k e, within limits of speed and acceleration, slower in time where
-// it has to stop. Along the target's x axis, across it, and turning, each with limits of its own.
+// it has to stop. Along the target's axis that is the way in, across it, and turning, each with limits of its own.
 #pragma once
+
+#include <cstddef>
 
 #include "firmware_like/math/pose.hpp"
 
@@ -9,11 +11,12 @@ namespace liana::servo {
 // Figures of the payload's approach, found by simulation (docs/visual-servo.md).
 struct ApproachLimits {
   double gain_1_s = 0.45;             // of all three
-  double speed_m_s = 0.028;           // along the target's x axis
+  double speed_m_s = 0.028;           // along the way in
   double lateral_speed_m_s = 0.008;   // across it
   double rate_rad_s = 0.00873;        // 0.5 deg/s
   double accel_m_s2 = 0.005;
   double angular_accel_rad_s2 = 0.00436;  // 0.25 deg/s2
+  std::size_t axis = 0;                   // of the target, 0 to 2: the way in
 };
 
 // What is left to go, in the target's axes.

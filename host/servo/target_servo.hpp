@@ -17,7 +17,7 @@ namespace liana::servo {
 // What is asked for.
 struct ServoRequest {
   std::string target;           // which of what the camera sees
-  Pose tip_in_target{};         // where the tip should be: D, with the standing distance along the target's x
+  Pose tip_in_target{};         // where the tip should be: D, with the standing distance along the way in
   double tolerance_m = 0.0006;  // xi: of each of the target's axes
   double tolerance_rad = 0.00698;
   double dwell_s = 1.0;    // so long within it

@@ -124,4 +124,20 @@ function geometry.quaternion(r)
   return { q[1] / length, q[2] / length, q[3] / length, q[4] / length }
 end
 
+-- a turned by a unit quaternion {w, x, y, z}.
+function geometry.rotated(a, q)
+  local axis = { q[2], q[3], q[4] }
+  local t = geometry.scale(geometry.cross(axis, a), 2)
+  return geometry.add(geometry.add(a, t, q[1]), geometry.cross(axis, t))
+end
+
+-- The attitude of quaternion b as seen in the frame of quaternion a: a's inverse times b.
+function geometry.quaternion_between(a, b)
+  local w, x, y, z = a[1], -a[2], -a[3], -a[4]
+  return {
+    w * b[1] - x * b[2] - y * b[3] - z * b[4], w * b[2] + x * b[1] + y * b[4] - z * b[3],
+    w * b[3] - x * b[4] + y * b[1] + z * b[2], w * b[4] + x * b[3] - y * b[2] + z * b[1],
+  }
+end
+
 return geometry

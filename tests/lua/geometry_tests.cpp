@@ -30,6 +30,15 @@ TEST(LuaGeometry, TurnsAVectorAboutAnAxisByDegrees) {
   EXPECT_EQ(evaluate_lua(Json::array(), "geometry.turned({2, 1, 3}, {0, 0, 0})"), Json({2, 1, 3}));
 }
 
+TEST(LuaGeometry, AnAttitudeIsSeenInTheFrameOfAnother) {
+  const double half = std::sqrt(0.5);  // quarter turns about z, then about the turned x
+  const Json seen = evaluate_lua(Json::array(),
+                                 "(function(r) return geometry.quaternion_between({r, 0, 0, r}, {0.5, 0.5, 0.5, 0.5}) "
+                                 "end)(math.sqrt(0.5))");
+  const double expected[] = {half, half, 0.0, 0.0};
+  for (std::size_t k = 0; k < 4; ++k) EXPECT_NEAR(seen[k], expected[k], kTolerance);
+}
+
 // A scene that the camera sees 0.1 m aside and a quarter turn about its slit's frame, which is drawn at x = 1.
 TEST(LuaGeometry, TheTipInTheDrawingIsWhereTheSceneWouldHaveItHadItNotBeenShifted) {
   const std::string tip_in_drawing =

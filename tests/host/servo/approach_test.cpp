@@ -71,6 +71,22 @@ TEST(Approach, StaysWithinEveryLimitAndComesToTheGoalWithoutPassingIt) {
   EXPECT_LT(way.overshoot_m, 1e-6);
 }
 
+TEST(Approach, TheWayInIsTheAxisThatIsNamed) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    ApproachLimits limits;
+    limits.axis = axis;
+    Approach approach(limits);
+    approach.begin(kTarget);
+    Pose goal = kTarget, tip = kTarget;
+    goal.position_m = add(kTarget.position_m, rotate(kTarget.quaternion, {1.0, 1.0, 1.0}));
+    for (int i = 0; i < 1000; ++i) tip = approach.next(kTarget, goal, kTarget, tip, kStep_s);
+    const Pose next = approach.next(kTarget, goal, kTarget, tip, kStep_s);
+    const Vec3 now = rotate(conjugate(kTarget.quaternion), scale(subtract(next.position_m, tip.position_m), 1 / kStep_s));
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(now[i], i == axis ? limits.speed_m_s : limits.lateral_speed_m_s / std::sqrt(2.0), 1e-9);
+  }
+}
+
 TEST(Approach, ALagOfWhatFollowsIsNoOvershoot) {
   const ApproachLimits limits;
   Approach approach(limits);

@@ -1,0 +1,210 @@
+-- A payload is installed by the small arm on the locked large one (Liu et al., 2022): preparation, out of the airlock, the arms' operations,
+-- self-test and restoring. `liana run payload_install --robot macro_micro --scene payload_adapter --buses embedded_payload`.
+--
+-- What goes wrong has a way of its own: a target that is lost or not reached, a jam, no capture, a capture before any contact: back off and
+-- try again, so often; a sensor or a drive that fails latches a fault, and a lock that does not close is tried again: then the arm holds, and
+-- the ground decides. `source` marks what the paper states.
+local liana = require "liana"
+local geometry = require "liana.geometry"
+local station = require "payload_install.station"
+local step, all, any, condition = liana.step, liana.all, liana.any, liana.condition
+local at_rest, servo_done, servo_failed = liana.at_rest, liana.servo_done, liana.servo_failed
+
+-- Numbers to tune. The way in is the z of tip, payload and adapter.
+local kBeforeMechanism_m = 0.5 -- of the tip from the grapple, where the servo takes over
+local kRetreat_m = 0.5 -- out of the transfer mechanism
+local kBeforeAdapter_m = 0.003 -- of the pins' tips from the socket's face, where force control takes over: inside the funnels
+local kBackOff_m = 0.05
+local kForce_N = 30 -- source
+local kPushLimit_s = 40 -- a push that has not captured by then is jammed; source: 7 to 8 s
+local kTries = 2 -- more, after the first
+local kLight_N = 5 -- what the adapter may still feel 1 s after the capture
+local kLockLimit_s = 400 -- source: 298 s
+
+-- ---- places -------------------------------------------------------------------------------------------------------
+
+local function moved_along_z(pose, way_m)
+  local q = { pose[4], pose[5], pose[6], pose[7] }
+  local p = geometry.add({ pose[1], pose[2], pose[3] }, geometry.rotated({ 0, 0, way_m }, q))
+  return { p[1], p[2], p[3], q[1], q[2], q[3], q[4] }
+end
+
+local function part_pose(arm, name)
+  local part = arm.part_of_scene(name)
+  local p, q = part.position_m, part.quaternion_wxyz
+  return { p[1], p[2], p[3], q[1], q[2], q[3], q[4] }
+end
+
+-- The tip from where it is commanded to be, along its own z.
+local function along_z(way_m)
+  return function(arm) arm.move_cp { goal = moved_along_z(arm.state.setpoint_cp, way_m) } end
+end
+
+local function to_before_mechanism(arm) arm.move_cp { goal = moved_along_z(part_pose(arm, "payload"), -kBeforeMechanism_m) } end
+
+local function servo_to(target, offset_m)
+  return function(arm) arm.servo_target { target = target, axis = "z", offset = { 0, 0, offset_m(arm), 1, 0, 0, 0 } } end
+end
+
+-- ---- what the states say --------------------------------------------------------------------------------------------
+
+local begins_on_arm = condition("payload on the arm already", function(arm) return arm.part_of_scene("payload").start == "arm" end)
+
+local function push_ended(how)
+  return condition("push ended: " .. how, function(arm) return arm.state.push["end"] == how end)
+end
+
+local captured = all { push_ended "captured", condition("adapter says captured", function(arm) return arm.state.adapter.captured end) }
+
+local kFailures = { travel = true, aside = true, early_capture = true, adapter_silent = true, stopped = true }
+local push_failed = { text = "push ended without a capture", met = function(arm)
+  local ending = arm.state.push["end"]
+  if kFailures[ending] then return true, "push ended: " .. ending end
+  return false
+end }
+
+local light = condition(("less than %g N on the adapter"):format(kLight_N), function(arm)
+  return geometry.length(arm.state.push.given.force_N) < kLight_N
+end)
+
+local function lock_is(state)
+  return condition("lock " .. state, function(arm) return arm.state.adapter.lock == state end)
+end
+
+-- ---- steps ----------------------------------------------------------------------------------------------------------
+
+-- A step in which the station does something.
+local function of_station(name, next)
+  return {
+    device = "none", run = station.command(name), exit = station.done(name), time_limit_s = 60, on_fail = "hold", next = next,
+  }
+end
+
+return liana.mission "payload_install" {
+  -- 1 Preparation
+  step "1 power on" (of_station "power on"),
+  step "1 arms tested" (of_station "test arms"),
+  step "1 pressure equal" (of_station "equalise pressure"),
+
+  -- 2 Payload out of the airlock
+  step "2 hatch open" (of_station "open hatch"),
+  step "2 transfer mechanism out" (of_station("mechanism out", {
+    { step = "3 to the site", when = begins_on_arm },
+  })),
+
+  -- 3 Operations of the arms
+  step "3 before the transfer mechanism" {
+    device = "none",
+    enter = at_rest(),
+    run = to_before_mechanism,
+    exit = at_rest(),
+    time_limit_s = 400,
+    on_fail = "hold",
+  },
+  step "3 servo to the payload" {
+    device = "none",
+    run = servo_to("payload", function() return 0 end),
+    exit = all { servo_done(), at_rest() },
+    fail_when = servo_failed(),
+    time_limit_s = 130,
+    on_fail = "hold",
+    next = { { step = "3 before the transfer mechanism", on = "failure", at_most = kTries } },
+  },
+  step "3 grapple" {
+    device = "none",
+    run = liana.tool "grapple",
+    exit = liana.tool_done(),
+    time_limit_s = 30,
+    on_fail = "hold",
+  },
+  step "3 clamps open" (of_station "open clamps"),
+  step "3 retreat" {
+    device = "none",
+    enter = at_rest(),
+    run = along_z(-kRetreat_m),
+    exit = at_rest(),
+    time_limit_s = 100,
+    on_fail = "hold",
+  },
+  -- The large arm is locked throughout: this robot moves the joints of the small one.
+  step "3 to the site" {
+    device = "none",
+    enter = at_rest(),
+    run = liana.move_to "install",
+    exit = all { liana.at_pose("install", 0.1), at_rest() },
+    time_limit_s = 600,
+    on_fail = "hold",
+  },
+  step "3 servo to the adapter" {
+    device = "none",
+    enter = at_rest(),
+    run = servo_to("adapter", function(arm) return -arm.part_of_scene("payload").length_m - kBeforeAdapter_m end),
+    exit = all { servo_done(), at_rest() },
+    fail_when = servo_failed(), -- target lost, base moving, not there in time
+    time_limit_s = 130,
+    on_fail = "hold",
+    next = { { step = "3 away from the adapter", on = "failure", at_most = kTries }, { step = "3 mutual mode" } },
+  },
+  step "3 away from the adapter" {
+    device = "none",
+    run = along_z(-kBackOff_m),
+    exit = at_rest(),
+    time_limit_s = 60,
+    on_fail = "hold",
+    next = { step = "3 servo to the adapter", at_most = 2 * kTries + 1 },
+  },
+  step "3 mutual mode" {
+    device = "none",
+    run = function(arm) arm.hold() end,
+    exit = all { at_rest(), condition("adapter is heard", function(arm) return arm.state.adapter.age_s ~= nil end) },
+    time_limit_s = 30,
+    on_fail = "hold",
+  },
+  step "3 push" {
+    device = "none",
+    run = function(arm) arm.push { force_N = kForce_N } end,
+    exit = captured,
+    fail_when = push_failed,
+    time_limit_s = kPushLimit_s,
+    on_fail = "hold",
+    next = { { step = "3 away from the adapter", on = "failure", at_most = kTries } },
+  },
+  step "3 unloaded" {
+    device = "none",
+    exit = all { captured, light },
+    time_limit_s = 30,
+    on_fail = "hold",
+  },
+  step "3 ground confirms the unloading" {
+    device = "none",
+    exit = station.ground_confirms("unloading", all { captured, light }),
+    fail_when = condition("capture lost", function(arm) return not arm.state.adapter.captured end),
+    time_limit_s = 3600,
+    on_fail = "hold",
+  },
+  step "3 lock" {
+    device = "none",
+    run = function(arm)
+      arm.follow()
+      arm.adapter { command = "lock" }
+    end,
+    exit = lock_is "closed",
+    fail_when = any { lock_is "failed", condition("capture lost", function(arm) return not arm.state.adapter.captured end) },
+    time_limit_s = kLockLimit_s,
+    on_fail = "hold",
+    next = { { step = "3 lock", on = "failure", at_most = kTries } },
+  },
+  step "3 out of the mode" {
+    device = "none",
+    run = function(arm) arm.hold() end,
+    exit = at_rest(),
+    time_limit_s = 30,
+    on_fail = "hold",
+  },
+
+  -- 4 Self-test of the payload, restoring
+  step "4 payload tested" (of_station "test payload"),
+  step "4 transfer mechanism in" (of_station "mechanism in"),
+  step "4 hatch closed" (of_station "close hatch"),
+  step "4 power off" (of_station "power off"),
+}

@@ -1,0 +1,35 @@
+// Conditions of missions, asked about states that are written out.
+#include <gtest/gtest.h>
+
+#include "host/json/json.hpp"
+#include "host/lua/json_bridge.hpp"
+#include "host/lua/script.hpp"
+
+namespace liana::script {
+namespace {
+
+// What `condition` answers about an arm whose state is `state`: { is it met, what of it }.
+Json asked(const std::string& condition, const std::string& state) {
+  Activity activity;
+  Script script(ScriptLimits{}, LIANA_SOURCE_DIR "/lua", activity);
+  script.run({"condition_test.lua", "local liana = require 'liana'\nlocal met, what = " + condition +
+                                        ".met { state = " + state + " }\nreturn { met or false, what or '' }"});
+  return to_json(script.state(), -1, "condition_test.lua");
+}
+
+std::string servo(const std::string& phase) { return "{ servo = { phase = '" + phase + "', reason = 'not seen' } }"; }
+
+// req:B16
+TEST(Conditions, OfTheServoTellArrivalFromEveryOtherPhaseAndSayWhyItFailed) {
+  const char* const phases[] = {"standby", "approaching", "dwelling", "done", "lost", "timed_out"};
+  for (const std::string phase : phases) {
+    EXPECT_EQ(asked("liana.servo_done()", servo(phase))[0].get<bool>(), phase == "done") << phase;
+    EXPECT_EQ(asked("liana.servo_failed()", servo(phase))[0].get<bool>(), phase == "lost" || phase == "timed_out")
+        << phase;
+  }
+  EXPECT_EQ(asked("liana.servo_failed()", servo("lost"))[1].text(), "target lost: not seen");
+  EXPECT_EQ(asked("liana.servo_failed()", servo("timed_out"))[1].text(), "servo timed out: not seen");
+}
+
+}  // namespace
+}  // namespace liana::script
