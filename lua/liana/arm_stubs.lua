@@ -139,6 +139,44 @@ function arm.move_cp(fields) end
 ---@return integer id
 function arm.servo_cp(fields) end
 
+---@class arm.servo_target
+---which of what the camera sees: its `target_name`, or `slit` or `rod`
+---@field target string
+---where the tip should be, in the target's frame
+---@field offset number[]
+---of the target: the way in, along which `speed_m_s` counts; x when left out
+---@field axis? "x"|"y"|"z"
+---xi: so near along each of the target's axes (else 6e-04)
+---@field tolerance_m? number
+---xi: so near about each of the target's axes (else 0.4)
+---@field tolerance_deg? number
+---so long within the tolerances, then it ends by itself (else 1)
+---@field dwell_s? number
+---not there after this time it ends (else 120)
+---@field timeout_s? number
+---without a usable image for so long the target is lost (else 1)
+---@field lost_s? number
+---time constant of the low-pass on what the camera sees (else 4)
+---@field tau_s? number
+---k: speed for a way to go (else 0.45)
+---@field gain_1_s? number
+---fastest along the way in; the robot's own limit holds besides (else 0.028)
+---@field speed_m_s? number
+---fastest across it; the robot's own limit holds besides (else 0.008)
+---@field lateral_speed_m_s? number
+---fastest turn; the robot's own limit holds besides (else 0.5)
+---@field rate_deg_s? number
+---acceleration of the goal that is led (else 0.005)
+---@field accel_m_s2? number
+---the same of its turn (else 0.25)
+---@field accel_deg_s2? number
+
+---The tip goes to a place beside a target that the tip camera sees, stays there for the dwell, and the servo
+---ends by itself.
+---@param fields arm.servo_target
+---@return integer id
+function arm.servo_target(fields) end
+
 ---@class arm.hold_theta.held
 ---number of the angle, 1 at the base
 ---@field theta integer
