@@ -54,6 +54,7 @@ void TipCamera::spoil(CameraView& view) const {
     view.rod = last_sound_.rod;
   }
   for (std::optional<Pose>* seen : {&view.slit, &view.rod}) {
+    if (defects_.lost) seen->reset();
     if (!*seen) continue;
     Pose& pose = **seen;
     if (defects_.mirrored) {

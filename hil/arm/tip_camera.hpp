@@ -21,6 +21,7 @@ struct CameraView {
 struct CameraDefects {
   bool dropped = false;   // no picture is taken
   bool frozen = false;    // every picture shows what the last sound one did
+  bool lost = false;      // no picture shows anything
   bool mirrored = false;  // left and right are exchanged: y of what is seen
   double late_s = 0.0;    // so much later than the scene says
   double jump_m = 0.0;    // everything is seen so far beside where it is, along the tip's y

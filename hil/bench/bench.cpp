@@ -7,7 +7,9 @@
 #include <stdexcept>
 
 #include "hil/bench/cable_plant.hpp"
+#include "hil/bench/rod_equipment.hpp"
 #include "hil/bus/wall_clock.hpp"
+#include "hil/payload/torque_plant.hpp"
 #include "hil/serial/serial_plant.hpp"
 
 namespace liana::bench {
@@ -18,9 +20,20 @@ constexpr double kRest_rad_s = 0.1 * 3.14159265358979323846 / 180.0;
 constexpr double kRested_s = 0.5;  // in a row: at the ends of a swing the arm stands, too
 
 std::unique_ptr<Plant> make_plant(const BenchOptions& options, const SceneConfig& scene) {
+  if (options.serial_robot && options.serial_robot->gives_torque)
+    return std::make_unique<TorquePlant>(*options.serial_robot, scene, options.buses, options, options.faults,
+                                         options.seed);
+  if (scene.payload)
+    throw std::runtime_error("the scene has a payload: its robot needs torque drives (drives.mode = \"torque\")");
   if (options.serial_robot)
     return std::make_unique<SerialPlant>(*options.serial_robot, options.buses, options, options.faults, options.seed);
+  refuse_faults(options.faults, {FaultOf::kPayload}, "happens where a payload is installed, and this is a cable arm");
   return std::make_unique<CablePlant>(options.robot, scene, options.buses, options, options.seed);
+}
+
+std::unique_ptr<TipEquipment> make_equipment(const SceneConfig& scene, Plant& plant, std::uint64_t seed) {
+  if (auto own = plant.make_equipment(scene, seed)) return own;
+  return std::make_unique<RodEquipment>(scene, plant, seed);
 }
 
 std::vector<std::string> columns_of(const Plant& plant) {
@@ -36,7 +49,7 @@ Bench::Bench(const BenchOptions& options)
       scene_(displaced(options.scene, options.scene_offset, options.seed)),
       plant_(make_plant(options, scene_)),
       injector_(options.faults),
-      camera_(scene_.camera, scene_.slit_frame, scene_.rod.pose, options.seed),
+      equipment_(make_equipment(scene_, *plant_, options.seed)),
       camera_link_(options.api_socket, {"camera", ""}),
       tool_link_(options.api_socket, {"tool", "tool"}),
       log_(options.truth_path, columns_of(*plant_)),
@@ -48,9 +61,9 @@ Bench::Bench(const BenchOptions& options)
 void Bench::begin_slot(std::uint32_t slot, double now_s) {
   plant_->inject(slot, injector_);
   record(slot);
-  camera_.suffer(camera_defects());
-  camera_.look(now_s, plant_->tip());
-  while (const auto view = camera_.deliver(now_s)) camera_link_.send(camera_message(*view));
+  equipment_->suffer(camera_defects(), tool_defects());
+  equipment_->look(now_s);
+  while (const auto picture = equipment_->picture(now_s)) camera_link_.send(*picture);
   camera_link_.receive([](const std::string&) {});  // answers
   use_tool(now_s);
   begun_ = slot + 1;
@@ -67,16 +80,10 @@ ToolDefects Bench::tool_defects() const {
 }
 
 void Bench::use_tool(double now_s) {
-  tool_.suffer(tool_defects());
   tool_link_.receive([this](const std::string& message) {
-    if (auto command = tool_command(message)) tool_.ask(std::move(*command));
+    if (const auto command = tool_command(message)) equipment_->ask(*command);
   });
-  const auto report = tool_.act(now_s, plant_->tip().position_m, scene_.rod.pose.position_m);
-  if (!report) return;
-  tool_link_.send(tool_message(*report));
-  if (!tool_.has_rod()) return;
-  plant_->remove_rod();
-  camera_.lose_rod();
+  if (const auto report = equipment_->act(now_s)) tool_link_.send(tool_message(*report));
 }
 
 CameraDefects Bench::camera_defects() const {
@@ -86,6 +93,7 @@ CameraDefects Bench::camera_defects() const {
     const FaultConfig& fault = injector_.faults()[i];
     if (fault.kind == FaultKind::kCameraDropped) defects.dropped = true;
     if (fault.kind == FaultKind::kCameraFrozen) defects.frozen = true;
+    if (fault.kind == FaultKind::kTargetLost) defects.lost = true;
     if (fault.kind == FaultKind::kCameraMirrored) defects.mirrored = true;
     if (fault.kind == FaultKind::kCameraLate) defects.late_s += fault.parameters.seconds;
     if (fault.kind == FaultKind::kCameraJump) defects.jump_m += fault.parameters.length_m;
@@ -194,8 +202,6 @@ void Bench::write_summary(const Bus& bus) const {
                       {"sdo_aborts", c.sdo_aborts},
                       {"statusword", drive.statusword()}});
   }
-  const Vec3& rod = scene_.rod.pose.position_m;
-  const Quat& rod_attitude = scene_.rod.pose.attitude;
   nlohmann::json buses = nlohmann::json::array();
   for (std::size_t b = 0; b < received_.size(); ++b)
     buses.push_back({{"name", options_.buses.names[b]}, {"received", received_[b]}, {"sent", sent_[b]}});
@@ -215,15 +221,10 @@ void Bench::write_summary(const Bus& bus) const {
       {"faults", faults},
       {"buses", buses},
       {"frames_refused", bus.refused()},
-      {"rod", {rod.x, rod.y, rod.z, rod_attitude.w, rod_attitude.x, rod_attitude.y, rod_attitude.z}},
       {"camera_sent", camera_link_.sent()},
       {"camera_lost", camera_link_.lost()},
-      {"tool",
-       {{"number", tool_.last().number},
-        {"phase", tool_.last().phase},
-        {"reason", tool_.last().reason},
-        {"has_rod", tool_.has_rod()}}},
       {"measured", {{"physics_us_per_slot", integrated_ == 0 ? 0.0 : static_cast<double>(physics_us_) / integrated_}}}};
+  equipment_->summarise(summary);
   plant_->summarise(summary);
   std::ofstream file(options_.summary_path);
   file << summary.dump(1) << '\n';

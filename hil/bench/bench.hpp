@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "hil/arm/tip_camera.hpp"
-#include "hil/arm/tip_tool.hpp"
 #include "hil/bench/fault_injector.hpp"
 #include "hil/bench/plant.hpp"
+#include "hil/bench/tip_equipment.hpp"
 #include "hil/bench/truth_log.hpp"
 #include "hil/bus/api_link.hpp"
 #include "hil/bus/bus.hpp"
@@ -60,9 +59,8 @@ class Bench {
   SceneConfig scene_;  // where it really is
   std::unique_ptr<Plant> plant_;
   FaultInjector injector_;
-  TipCamera camera_;
+  std::unique_ptr<TipEquipment> equipment_;
   ApiLink camera_link_;
-  TipTool tool_;
   ApiLink tool_link_;
   TruthLog log_;
   std::vector<std::uint32_t> syncs_;  // per bus, real time

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "hil/bench/fault_injector.hpp"
+#include "hil/bench/tip_equipment.hpp"
+#include "hil/config/scene_config.hpp"
 #include "hil/math/vec3.hpp"
 
 namespace liana::bench {
@@ -39,6 +42,8 @@ class Plant {
   // The physics of one slot.
   virtual void integrate(double period_s) = 0;
   virtual Pose tip() const = 0;
+  // What this arm has at its tip instead of the slit's camera and tool; null: these. It does not outlive the plant.
+  virtual std::unique_ptr<TipEquipment> make_equipment(const SceneConfig&, std::uint64_t) { return nullptr; }
   // The press rod is gone from now on; nothing where there is none.
   virtual void remove_rod() = 0;
   // The fastest of its true angles now [rad/s].

@@ -1,7 +1,9 @@
 #include "hil/config/fault_config.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
+#include "hil/config/fault_kinds.hpp"
 #include "hil/config/json_file.hpp"
 
 namespace liana::bench {
@@ -10,71 +12,6 @@ namespace {
 
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;
 constexpr int kMostSlots = 2000000000;
-
-struct Parameter {
-  const char* name = nullptr;
-  double FaultParameters::*value = nullptr;
-  double low = 0.0;
-  double high = 0.0;
-  bool whole = false;
-  bool required = false;
-};
-
-struct Kind {
-  const char* name;
-  FaultKind kind;
-  bool can_end;  // the others leave something behind that no time takes back
-  std::vector<Parameter> parameters;
-};
-
-const std::vector<Kind>& kinds() {
-  using P = FaultParameters;
-  static const std::vector<Kind> all = {
-      {"missing", FaultKind::kMissing, true, {}},
-      {"wrong_identity", FaultKind::kWrongIdentity, false, {}},
-      {"silent", FaultKind::kSilent, true, {}},
-      {"fault", FaultKind::kFault, false, {{"code", &P::code, 1, 0xFFFF, true, false}}},
-      {"sto", FaultKind::kSto, false, {}},
-      {"slack", FaultKind::kSlack, true, {}},
-      {"late", FaultKind::kLate, true, {{"cycles", &P::cycles, 1, 100, true, false}}},
-      {"stuck", FaultKind::kStuck, true, {}},
-      {"noisy",
-       FaultKind::kNoisy,
-       true,
-       {{"counts", &P::counts, 0, 1e6, false, false}, {"permille", &P::permille, 0, 1e4, false, false}}},
-      {"wrong_pdo_length", FaultKind::kWrongPdoLength, true, {{"bytes", &P::bytes, 0, 8, true, false}}},
-      {"emcy", FaultKind::kEmcy, false, {{"code", &P::code, 1, 0xFFFF, true, true}}},
-      {"reboot", FaultKind::kReboot, false, {}},
-      {"wrong_identity_after_reboot", FaultKind::kWrongIdentityAfterReboot, false, {}},
-      {"encoder_jump", FaultKind::kEncoderJump, false, {{"counts", &P::counts, -1e6, 1e6, true, true}}},
-      {"cable_slip",
-       FaultKind::kCableSlip,
-       false,
-       {{"length_m", &P::length_m, -0.1, 0.1, false, true}, {"slots", &P::slots, 1, 100000, true, false}}},
-      {"cable_break", FaultKind::kCableBreak, false, {}},
-      {"motor_saturation", FaultKind::kMotorSaturation, true, {{"tension_N", &P::tension_N, 0, 1e4, false, true}}},
-      {"no_reports", FaultKind::kNoReports, true, {}},
-      {"node_twice", FaultKind::kNodeTwice, true, {}},
-      {"slow_reset", FaultKind::kSlowReset, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
-      {"slow_power", FaultKind::kSlowPower, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
-      {"slow_sdo", FaultKind::kSlowSdo, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
-      {"camera_frozen", FaultKind::kCameraFrozen, true, {}},
-      {"camera_late", FaultKind::kCameraLate, true, {{"seconds", &P::seconds, 0.001, 60, false, false}}},
-      {"camera_jump", FaultKind::kCameraJump, true, {{"length_m", &P::length_m, -1, 1, false, true}}},
-      {"camera_mirrored", FaultKind::kCameraMirrored, true, {}},
-      {"camera_dropped", FaultKind::kCameraDropped, true, {}},
-      {"tool_jams", FaultKind::kToolJams, true, {}},
-      {"tool_silent", FaultKind::kToolSilent, true, {}},
-      {"push",
-       FaultKind::kPush,
-       true,
-       {{"link", &P::link, 0, 128, true, false},
-        {"x_N", &P::x_N, -100, 100, false, false},
-        {"y_N", &P::y_N, -100, 100, false, false},
-        {"z_N", &P::z_N, -100, 100, false, false},
-        {"slots", &P::slots, 1, 100000, true, false}}}};
-  return all;
-}
 
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
@@ -88,10 +25,10 @@ void refuse_others(const JsonFile& file, const std::string& field, const std::ve
       file.fail(field + "/" + key, "is not known here; allowed are " + listed(allowed));
 }
 
-const Kind& read_kind(const JsonFile& file, const std::string& field) {
+const KindOfFault& read_kind(const JsonFile& file, const std::string& field) {
   const std::string name = file.text(field);
   std::vector<std::string> names;
-  for (const Kind& kind : kinds()) {
+  for (const KindOfFault& kind : kinds_of_faults()) {
     if (name == kind.name) return kind;
     names.emplace_back(kind.name);
   }
@@ -152,9 +89,9 @@ FaultCondition read_condition(const JsonFile& file, const std::string& field, st
   return when;
 }
 
-FaultParameters read_parameters(const JsonFile& file, const std::string& field, const Kind& kind) {
+FaultParameters read_parameters(const JsonFile& file, const std::string& field, const KindOfFault& kind) {
   FaultParameters values;
-  for (const Parameter& parameter : kind.parameters) {
+  for (const FaultValue& parameter : kind.values) {
     const std::string name = field + "/" + parameter.name;
     if (!parameter.required && !file.has(name)) continue;
     values.*parameter.value =
@@ -169,20 +106,24 @@ FaultParameters read_parameters(const JsonFile& file, const std::string& field, 
     file.fail(field + "/length_m", "is 0; allowed is -1 to 1 but 0");
   if (kind.kind == FaultKind::kPush && values.x_N == 0.0 && values.y_N == 0.0 && values.z_N == 0.0)
     file.fail(field, "is pushed by nothing; add x_N, y_N or z_N other than 0");
+  if (kind.kind == FaultKind::kBaseMoved && values.x_m == 0.0 && values.y_m == 0.0 && values.z_m == 0.0)
+    file.fail(field, "moves the base by nothing; add x_m, y_m or z_m other than 0");
   return values;
 }
 
+bool names_drives(const KindOfFault& kind) { return kind.of == FaultOf::kDrive || kind.of == FaultOf::kCable; }
+
 FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size_t drive_count,
                        std::size_t theta_count) {
-  const Kind& kind = read_kind(file, field + "/kind");
+  const KindOfFault& kind = read_kind(file, field + "/kind");
   std::vector<std::string> allowed{"kind", "at_slot", "when"};
-  if (!has_no_drive(kind.kind)) allowed.emplace_back("drive");
+  if (names_drives(kind)) allowed.emplace_back("drive");
   if (kind.can_end) allowed.emplace_back("for_slots");
-  for (const Parameter& parameter : kind.parameters) allowed.emplace_back(parameter.name);
+  for (const FaultValue& parameter : kind.values) allowed.emplace_back(parameter.name);
   refuse_others(file, field, allowed);
 
   FaultConfig fault;
-  if (!has_no_drive(kind.kind)) fault.drives = read_drives(file, field + "/drive", drive_count);
+  if (names_drives(kind)) fault.drives = read_drives(file, field + "/drive", drive_count);
   fault.kind = kind.kind;
   fault.name = kind.name;
   if (file.has(field + "/at_slot") == file.has(field + "/when"))
@@ -196,10 +137,10 @@ FaultConfig read_fault(const JsonFile& file, const std::string& field, std::size
 
 }  // namespace
 
-bool has_no_drive(FaultKind kind) {
-  return kind == FaultKind::kCameraFrozen || kind == FaultKind::kCameraLate || kind == FaultKind::kCameraJump ||
-         kind == FaultKind::kCameraMirrored || kind == FaultKind::kCameraDropped || kind == FaultKind::kToolJams ||
-         kind == FaultKind::kToolSilent || kind == FaultKind::kPush;
+void refuse_faults(const std::vector<FaultConfig>& faults, const std::vector<FaultOf>& of, const std::string& why) {
+  for (const FaultConfig& fault : faults)
+    if (std::find(of.begin(), of.end(), fault_of(fault.kind)) != of.end())
+      throw std::runtime_error("--faults: kind \"" + fault.name + "\" " + why);
 }
 
 std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count, std::size_t theta_count) {

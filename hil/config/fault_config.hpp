@@ -39,11 +39,33 @@ enum class FaultKind {
   kCameraDropped,
   kToolJams,
   kToolSilent,
-  kPush
+  kPush,
+  kTargetLost,
+  kSensorFailed,
+  kSensorStuck,
+  kSensorSaturated,
+  kSensorSilent,
+  kCaptureStale,
+  kCaptureEarly,
+  kCaptureTwice,
+  kCaptureLost,
+  kCaptureDenied,
+  kDepthLies,
+  kJam,
+  kLatchFails,
+  kLockFails,
+  kBaseMoved
 };
 
-// These happen to the tip's camera or tool, or to the arm's body; they have no drive.
-bool has_no_drive(FaultKind kind);
+// What a fault happens to. Of drives and cables it names drives, of the others none.
+enum class FaultOf {
+  kDrive,
+  kCable,    // what a drive of a cable arm moves
+  kTip,      // camera and tool
+  kBody,     // of a cable arm
+  kPayload,  // its target, wrist sensor, adapter and base: of an arm that installs a payload
+};
+FaultOf fault_of(FaultKind kind);
 
 // What a kind can be told; the kinds that have no use for a value ignore it.
 struct FaultParameters {
@@ -58,6 +80,9 @@ struct FaultParameters {
   double seconds = 0.4;
   double link = 0.0;  // 1 at the base; 0: the tip
   double x_N = 0.0, y_N = 0.0, z_N = 0.0;
+  double pin = 1.0;  // of the adapter, from 1
+  double depth_m = 0.0;
+  double x_m = 0.0, y_m = 0.0, z_m = 0.0;
 };
 
 // All that is named has to hold for `for_slots` slots in a row.
@@ -81,6 +106,9 @@ struct FaultConfig {
   std::optional<std::uint32_t> for_slots;  // then it ends; without it, it stays
   FaultParameters parameters;
 };
+
+// Throws std::runtime_error naming the first fault of such a kind; `why` says what the robot at hand has instead.
+void refuse_faults(const std::vector<FaultConfig>& faults, const std::vector<FaultOf>& of, const std::string& why);
 
 // Reads a JSON list of faults; throws std::runtime_error naming file, field, value and what is allowed.
 std::vector<FaultConfig> load_faults(const std::string& path, std::size_t drive_count, std::size_t theta_count);

@@ -59,9 +59,20 @@ void read_convex(const JsonFile& file, const std::string& field, std::vector<Con
 }
 
 CameraConfig read_camera(const JsonFile& file) {
-  return {file.number("/camera/rate_hz", 0.1, 1000.0), file.number("/camera/latency_s", 0.0, 10.0),
-          file.number("/camera/noise_m", 0.0, 1.0), kRadPerDeg * file.number("/camera/noise_deg", 0.0, 45.0),
-          file.number("/camera/range_m", 0.0, 1000.0)};
+  CameraConfig camera{file.number("/camera/rate_hz", 0.1, 1000.0), file.number("/camera/latency_s", 0.0, 10.0),
+                      file.number("/camera/noise_m", 0.0, 1.0),
+                      kRadPerDeg * file.number("/camera/noise_deg", 0.0, 45.0),
+                      file.number("/camera/range_m", 0.0, 1000.0)};
+  if (file.has("/camera/bias_m")) camera.bias_m = file.number("/camera/bias_m", 0.0, 1.0);
+  if (file.has("/camera/bias_deg")) camera.bias_rad = kRadPerDeg * file.number("/camera/bias_deg", 0.0, 45.0);
+  if (file.has("/camera/dropout")) camera.dropout = file.number("/camera/dropout", 0.0, 1.0);
+  return camera;
+}
+
+// What a displaced scene is turned about.
+Vec3 pivot_of(const SceneConfig& scene) {
+  if (scene.slit_frame) return scene.slit_frame->position_m;
+  return scene.adapter ? scene.adapter->pose.position_m : scene.rod.pose.position_m;
 }
 
 Vec3 random_direction(Random& random) {
@@ -76,7 +87,7 @@ SceneConfig displaced(const SceneConfig& scene, const SceneOffset& offset, std::
   Random random(seed, "scene offset");
   const Vec3 shift = offset.distance_m * random_direction(random);
   const Quat turn = from_rotation_vector(offset.angle_rad * random_direction(random));
-  const Vec3 pivot = scene.slit_frame ? scene.slit_frame->position_m : scene.rod.pose.position_m;
+  const Vec3 pivot = pivot_of(scene);
   const auto moved = [&](const Vec3& point) { return pivot + rotate(turn, point - pivot) + shift; };
   const auto moved_pose = [&](const Pose& pose) { return Pose{moved(pose.position_m), turn * pose.attitude}; };
   SceneConfig there = scene;
@@ -87,6 +98,8 @@ SceneConfig displaced(const SceneConfig& scene, const SceneOffset& offset, std::
   for (SphereConfig& sphere : there.spheres) sphere.center_m = moved(sphere.center_m);
   if (there.slit_frame) there.slit_frame = moved_pose(*there.slit_frame);
   there.rod.pose = moved_pose(there.rod.pose);
+  if (there.payload) there.payload->pose = moved_pose(there.payload->pose);
+  if (there.adapter) there.adapter->pose = moved_pose(there.adapter->pose);
   return there;
 }
 
@@ -115,6 +128,8 @@ SceneConfig load_scene(const std::string& path) {
   scene.camera = read_camera(file);
   scene.contact = {file.number("/contact/stiffness_N_per_m", 1.0, 1e5),
                    file.number("/contact/damping_Ns_per_m", 0.0, 1e4), file.number("/contact/friction", 0.0, 2.0)};
+  scene.payload = read_payload(file);
+  scene.adapter = read_adapter(file);
   return scene;
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hil/config/dictionary_config.hpp"
+#include "hil/config/payload_config.hpp"
 #include "hil/math/vec3.hpp"
 
 namespace liana::bench {
@@ -48,6 +49,9 @@ struct CameraConfig {
   double noise_m = 0.0;
   double noise_rad = 0.0;
   double range_m = 0.0;
+  double bias_m = 0.0;    // of every picture, in a direction that the seed draws
+  double bias_rad = 0.0;  // likewise, of the attitude
+  double dropout = 0.0;   // share of pictures that show nothing, drawn from the seed
 };
 
 struct ContactConfig {
@@ -64,6 +68,8 @@ struct SceneConfig {
   RodConfig rod;
   CameraConfig camera;
   ContactConfig contact;
+  std::optional<PayloadConfig> payload;  // with it there is an adapter
+  std::optional<AdapterConfig> adapter;
 };
 
 // How far the scene is from where its table has it.
@@ -72,8 +78,8 @@ struct SceneOffset {
   double angle_rad = 0.0;
 };
 
-// The same scene moved as one body by exactly this much, the direction and the axis (through the mouth of its slit, or
-// its rod) drawn from `seed`.
+// The same scene moved as one body by exactly this much, the direction and the axis (through the mouth of its slit, its
+// adapter, or its rod) drawn from `seed`.
 SceneConfig displaced(const SceneConfig& scene, const SceneOffset& offset, std::uint64_t seed);
 
 // How far a point in base coordinates is past the mouth of the slit, into it [m]; -1000 without a slit.

@@ -91,6 +91,14 @@ LockedBaseConfig read_base(const JsonFile& file) {
   return base;
 }
 
+// "position" or "torque".
+bool is_torque(const JsonFile& file, const std::string& field) {
+  const std::string mode = file.text(field);
+  if (mode != "position" && mode != "torque")
+    file.fail(field, "is \"" + mode + "\"; allowed are \"position\" and \"torque\"");
+  return mode == "torque";
+}
+
 void read_drives(const JsonFile& file, SerialRobotConfig& robot) {
   constexpr double kMaxU32 = 4294967295.0;
   robot.counts_per_turn = static_cast<std::uint32_t>(file.integer("/drives/counts_per_turn", 256, 1 << 24));
@@ -99,6 +107,7 @@ void read_drives(const JsonFile& file, SerialRobotConfig& robot) {
   robot.rated_torque_Nm = robot.peak_torque_Nm = file.number("/drives/rated_torque_Nm", 0.01, 4000.0);
   if (file.has("/drives/peak_torque_Nm"))
     robot.peak_torque_Nm = file.number("/drives/peak_torque_Nm", robot.rated_torque_Nm, 3.0 * robot.rated_torque_Nm);
+  if (file.has("/drives/mode")) robot.gives_torque = is_torque(file, "/drives/mode");
   robot.vendor = static_cast<std::uint32_t>(file.number("/drives/identity/vendor", 0.0, kMaxU32));
   robot.product = static_cast<std::uint32_t>(file.number("/drives/identity/product", 0.0, kMaxU32));
   robot.revision = static_cast<std::uint32_t>(file.number("/drives/identity/revision", 0.0, kMaxU32));

@@ -51,6 +51,7 @@ struct SerialRobotConfig {
   double servo_time_constant_s = 0.0;
   double rated_torque_Nm = 0.0;
   double peak_torque_Nm = 0.0;  // that the drives can give
+  bool gives_torque = false;    // its drives have joint torque sensors and cyclic synchronous torque
   std::uint32_t vendor = 0;
   std::uint32_t product = 0;
   std::uint32_t revision = 0;

@@ -61,4 +61,12 @@ inline Pose relative(const Pose& a, const Pose& b) {
   return {rotate(inverse, b.position_m - a.position_m), inverse * b.attitude};
 }
 
+// The other way round: pose of b in the common frame, when a is given in it and b in a.
+inline Pose compose(const Pose& a, const Pose& b_in_a) {
+  return {a.position_m + rotate(a.attitude, b_in_a.position_m), a.attitude * b_in_a.attitude};
+}
+
+// By how much a rotation turns [rad].
+inline double angle_of(const Quat& q) { return 2.0 * std::atan2(norm({q.x, q.y, q.z}), std::fabs(q.w)); }
+
 }  // namespace liana::bench

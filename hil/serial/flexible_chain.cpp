@@ -65,28 +65,37 @@ TipState FlexibleChain::tip() const { return state_of(engine_->tip); }
 
 TipState FlexibleChain::base() const { return engine_->base < 0 ? TipState{} : state_of(engine_->base); }
 
-// Without a payload the sensor feels what pushes; with one, what is left of it after the payload is moved.
-void FlexibleChain::feel_wrist(double step_s) {
-  const Quat into_tip = conjugate(tip().pose.attitude);
-  wrist_ = {rotate(into_tip, pushed_.force_N), rotate(into_tip, pushed_.torque_Nm)};
-  if (engine_->payload < 0) return;
+void FlexibleChain::carry(const BodyConfig& payload) {
+  engine_ = std::make_unique<Engine>(make_mjcf_with_base(robot_, payload));
+  place(angle_, rate_);
+  if (engine_->payload >= 0) payload_ = payload_momentum();
+}
+
+FlexibleChain::Momentum FlexibleChain::payload_momentum() const {
   const mjData* const data = engine_->data;
   const int body = engine_->payload;
   const mjtNum* c = data->xipos + 3 * body;
   const TipState frame = state_of(body);
   const Vec3 arm = Vec3{c[0], c[1], c[2]} - frame.pose.position_m;
-  const Vec3 velocity = frame.velocity_m_s + cross(frame.rate_rad_s, arm);
   mjtNum within[3];  // rates about the principal axes
   const mjtNum w[3] = {frame.rate_rad_s.x, frame.rate_rad_s.y, frame.rate_rad_s.z};
   mju_rotVecMatT(within, w, data->ximat + 9 * body);
   for (int k = 0; k < 3; ++k) within[k] *= engine_->model->body_inertia[3 * body + k];
   mjtNum spin[3];
   mju_rotVecMat(spin, within, data->ximat + 9 * body);
-  const Vec3 momentum{spin[0], spin[1], spin[2]};
-  const Vec3 force = (engine_->model->body_mass[body] / step_s) * (velocity - payload_velocity_m_s_);
-  const Vec3 torque = (1.0 / step_s) * (momentum - payload_spin_) + cross(arm, force);
-  payload_velocity_m_s_ = velocity;
-  payload_spin_ = momentum;
+  return {frame.velocity_m_s + cross(frame.rate_rad_s, arm), {spin[0], spin[1], spin[2]}, arm};
+}
+
+// Without a payload the sensor feels what pushes; with one, what is left of it after the payload is moved.
+void FlexibleChain::feel_wrist(double step_s) {
+  const Quat into_tip = conjugate(tip().pose.attitude);
+  wrist_ = {rotate(into_tip, pushed_.force_N), rotate(into_tip, pushed_.torque_Nm)};
+  if (engine_->payload < 0) return;
+  const Momentum now = payload_momentum();
+  const Vec3 force =
+      (engine_->model->body_mass[engine_->payload] / step_s) * (now.velocity_m_s - payload_.velocity_m_s);
+  const Vec3 torque = (1.0 / step_s) * (now.spin - payload_.spin) + cross(now.arm_m, force);
+  payload_ = now;
   wrist_.force_N = wrist_.force_N - rotate(into_tip, force);
   wrist_.torque_Nm = wrist_.torque_Nm - rotate(into_tip, torque);
 }

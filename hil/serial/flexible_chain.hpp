@@ -34,6 +34,10 @@ class FlexibleChain {
   FlexibleChain(const FlexibleChain&) = delete;
   FlexibleChain& operator=(const FlexibleChain&) = delete;
 
+  // From now on this is fixed to the tip instead, in its frame; without mass: nothing. The arm goes on as it moves, and
+  // the payload with it. Throws std::runtime_error when MuJoCo refuses the model.
+  void carry(const BodyConfig& payload);
+
   // One step, by the implicit midpoint rule for springs, their damping and friction: stable however stiff they are, and
   // without energy of its own. `contact` is asked once, in the middle of the step. Cost: about 6 us with a base.
   void step(double step_s, const std::vector<RotorDrive>& drives, const Contact& contact);
@@ -78,6 +82,13 @@ class FlexibleChain {
   void add_gear(std::size_t i, const RotorDrive& drive, double step_s, Equations& equations) const;
   void add_friction(std::size_t i, double step_s, Equations& equations) const;
   void turn_rotor(std::size_t i, const RotorDrive& drive, double step_s, double hinge_change_rad_s);
+  // Of the payload: velocity of its centre, spin about it, and where the centre is from the tip.
+  struct Momentum {
+    Vec3 velocity_m_s;
+    Vec3 spin;
+    Vec3 arm_m;
+  };
+  Momentum payload_momentum() const;
   void feel_wrist(double step_s);
   double wound_rad(std::size_t i) const { return rotors_[i].angle_rad - joint_rad(i); }
 
@@ -91,9 +102,8 @@ class FlexibleChain {
   Theta accel_{};  // of the last step
   std::vector<Rotor> rotors_;
   std::vector<CoulombFriction> friction_;
-  TipLoad pushed_;  // in the last step
-  Vec3 payload_velocity_m_s_;
-  Vec3 payload_spin_;  // its angular momentum about its centre
+  TipLoad pushed_;    // in the last step
+  Momentum payload_;  // after the last step
   TipLoad wrist_;
 };
 

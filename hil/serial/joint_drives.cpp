@@ -8,7 +8,9 @@ namespace {
 
 constexpr double kTorqueNoise_permille = 1.0;  // standard deviation of a reading
 
-DriveSettings settings_of(const SerialRobotConfig& robot, const BusesConfig& buses, std::size_t i) {
+}  // namespace
+
+DriveSettings joint_drive_settings(const SerialRobotConfig& robot, const BusesConfig& buses, std::size_t i) {
   DriveSettings settings;
   settings.node = static_cast<int>(i) + 1;
   settings.bus = static_cast<std::uint8_t>(buses.bus_of(settings.node));
@@ -22,17 +24,16 @@ DriveSettings settings_of(const SerialRobotConfig& robot, const BusesConfig& bus
   settings.gear = robot.gear;
   settings.fastest_counts_per_s = robot.fastest_counts_per_s;
   settings.servo_time_constant_s = robot.servo_time_constant_s;
+  settings.gives_torque = robot.gives_torque;
   return settings;
 }
-
-}  // namespace
 
 JointDrives::JointDrives(const TrueArm& arm, const BusesConfig& buses, bool noisy, std::uint64_t seed)
     : Drives(arm.robot.product, seed), arm_(arm), noisy_(noisy), torque_noise_(seed, "torque noise") {
   for (std::size_t i = 0; i < arm.robot.joints.size(); ++i) {
     const DriveConfig& drive = arm.robot.drives[i];
     const double turned = (arm.start_rad[i] - arm.zero_offset_rad[i]) / arm.robot.rad_per_count();
-    add(settings_of(arm.robot, buses, i), drive.zero_counts + drive.direction * turned);
+    add(joint_drive_settings(arm.robot, buses, i), drive.zero_counts + drive.direction * turned);
   }
 }
 

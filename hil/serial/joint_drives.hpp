@@ -10,6 +10,9 @@
 
 namespace liana::bench {
 
+// What the table says of the drive of joint i.
+DriveSettings joint_drive_settings(const SerialRobotConfig& robot, const BusesConfig& buses, std::size_t i);
+
 class JointDrives final : public Drives {
  public:
   // Joints stand at the true arm's start; brakes on.

@@ -22,8 +22,12 @@ struct AdapterFigures {
   double spring_friction_N = 4.0;
   double spring_damping_Ns_m = 100.0;
   double stop_m = 0.022;
-  double stop_N_m = 1e5;   // shared by the pins
-  double latch_N_m = 3e4;  // of each pin, once captured
+  double stop_N_m = 1e5;    // shared by the pins
+  double latch_N_m = 3e4;   // of each pin, once captured
+  double latch_s = 0.05;    // from the capture until the latch is closed
+  double lock_m = 0.003;    // by which the lock drive draws the latched pins in
+  double lock_m_s = 0.001;  // how fast
+  double give_up_s = 0.5;   // so long after it should have ended, a latch or lock that has not moved on has failed
 };
 
 // What is wrong with one pin: faults from outside.

@@ -12,19 +12,17 @@ namespace {
 constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
 constexpr double kLongestStep_s = 0.001;  // of the position servos; their time constant is some tens of it
 constexpr double kStribeck_rad_s = 1e-3;  // below this rate Coulomb friction fades
-constexpr FaultKind kCableFaults[] = {FaultKind::kSlack, FaultKind::kCableSlip, FaultKind::kCableBreak,
-                                      FaultKind::kMotorSaturation, FaultKind::kPush};
-
-void refuse_cable_faults(const std::vector<FaultConfig>& faults) {
-  for (const FaultConfig& fault : faults) {
-    if (std::find(std::begin(kCableFaults), std::end(kCableFaults), fault.kind) != std::end(kCableFaults))
-      throw std::runtime_error("--faults: kind \"" + fault.name +
-                               "\" happens to cables or the body of a cable arm, and this is a serial one; allowed are "
-                               "the drives' own faults");
-  }
-}
-
 }  // namespace
+
+void refuse_for_serial(const ModelOptions& options, const std::vector<FaultConfig>& faults) {
+  refuse_faults(faults, {FaultOf::kCable, FaultOf::kBody},
+                "happens to cables or the body of a cable arm, and this is a serial one; allowed are the drives' own "
+                "faults");
+  if (options.gravity_share != 0.0 || options.linkage_error != 0.0)
+    throw std::runtime_error("--gravity, --linkage-error: a serial arm's bench has neither; leave them out");
+  if (!options.cross_wired.empty())
+    throw std::runtime_error("--cross-wired: a serial arm has no cables to swap; leave it out");
+}
 
 SerialPlant::SerialPlant(const SerialRobotConfig& robot, const BusesConfig& buses, const ModelOptions& options,
                          const std::vector<FaultConfig>& faults, std::uint64_t seed)
@@ -32,11 +30,9 @@ SerialPlant::SerialPlant(const SerialRobotConfig& robot, const BusesConfig& buse
       chain_(arm_.robot),
       drives_(arm_, buses, options.spread, seed),
       torque_Nm_(robot.joints.size(), 0.0) {
-  refuse_cable_faults(faults);
-  if (options.gravity_share != 0.0 || options.linkage_error != 0.0)
-    throw std::runtime_error("--gravity, --linkage-error: a serial arm's bench has neither; leave them out");
-  if (!options.cross_wired.empty())
-    throw std::runtime_error("--cross-wired: a serial arm has no cables to swap; leave it out");
+  refuse_for_serial(options, faults);
+  refuse_faults(faults, {FaultOf::kPayload},
+                "happens where a payload is installed: it needs torque drives and a scene with payload and adapter");
   chain_.place(drives_.joint_rad());
   drives_.measure(torque_Nm_);
 }

@@ -10,6 +10,9 @@
 
 namespace liana::bench {
 
+// Throws std::runtime_error for options and faults that mean nothing to any serial arm.
+void refuse_for_serial(const ModelOptions& options, const std::vector<FaultConfig>& faults);
+
 class SerialPlant final : public Plant {
  public:
   // Throws std::runtime_error for anything that cannot work, faults of cables among it.

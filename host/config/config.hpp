@@ -151,6 +151,21 @@ struct SceneCamera {
   double noise_m = 0.0;
   double noise_deg = 0.0;
   double range_m = 0.0;
+  double bias_m = 0.0;    // of every picture
+  double bias_deg = 0.0;  // likewise
+  double dropout = 0.0;   // share of pictures that show nothing
+};
+
+// A payload that the arm installs.
+struct ScenePayload {
+  ScenePose pose;  // of its grapple, z towards its pins, where it begins
+  double mass_kg = 0.0;
+  Vec3 center_m{};                       // of mass, in its own frame: the grapple's
+  std::array<double, 6> inertia_kgm2{};  // xx, yy, zz, xy, xz, yz about the centre
+  double length_m = 0.0;                 // from the grapple to the tips of its pins
+  bool on_arm = false;                   // from the start; else the transfer mechanism holds it
+  double start_lateral_m = 0.0;          // with on_arm: so far beside the adapter's axis at most, in x and in y
+  double start_tilt_deg = 0.0;           // and so much turned
 };
 
 // What contacts are made of.
@@ -202,6 +217,8 @@ struct SceneConfig {
   std::optional<SceneRod> rod;        // none: nothing to press
   std::optional<SceneCamera> camera;  // with contact what a bench needs to simulate the scene
   std::optional<SceneContact> contact;
+  std::optional<ScenePayload> payload;  // with it there is an adapter
+  std::optional<ScenePose> adapter;     // the middle of the socket's face, z into it
   SceneMargins margins;
   std::vector<SceneFixture> fixtures;  // a scene that names none has those of its slit (scene_parts.hpp)
   std::string canonical_json;

@@ -134,10 +134,17 @@ SceneRod read_rod(const Field& field) {
 }
 
 SceneCamera read_camera(const Field& field) {
-  field.only({"rate_hz", "latency_s", "noise_m", "noise_deg", "range_m"});
-  return {field.at("rate_hz").number({1, 1000}), field.at("latency_s").number({0, 10}),
-          field.at("noise_m").number({0, 1}), field.at("noise_deg").number({0, 45}),
-          field.at("range_m").number(kLength)};
+  field.only({"rate_hz", "latency_s", "noise_m", "noise_deg", "range_m", "bias_m", "bias_deg", "dropout"});
+  SceneCamera camera{field.at("rate_hz").number({1, 1000}), field.at("latency_s").number({0, 10}),
+                     field.at("noise_m").number({0, 1}), field.at("noise_deg").number({0, 45}),
+                     field.at("range_m").number(kLength)};
+  const auto read = [&](const char* name, const Range& range, double& value) {
+    if (field.json().contains(name)) value = field.at(name).number(range);
+  };
+  read("bias_m", {0, 1}, camera.bias_m);
+  read("bias_deg", {0, 45}, camera.bias_deg);
+  read("dropout", {0, 1}, camera.dropout);
+  return camera;
 }
 
 SceneContact read_contact(const Field& field) {
@@ -195,7 +202,7 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
   const Field table(json, file, "");
   check_kind(table, "scene");
   table.only({"format", "kind", "name", "boxes", "spheres", "convex", "slit", "rod", "camera", "contact", "margins",
-              "fixtures"});
+              "fixtures", "payload", "adapter"});
   SceneConfig out;
   out.name = table.at("name").name(40);
   const Field boxes = table.at("boxes");
@@ -214,6 +221,10 @@ SceneConfig parse_scene(const std::string& text, const std::string& file) {
   if (json.contains("rod")) out.rod = read_rod(table.at("rod"));
   if (json.contains("camera")) out.camera = read_camera(table.at("camera"));
   if (json.contains("contact")) out.contact = read_contact(table.at("contact"));
+  if (json.contains("payload") || json.contains("adapter")) {
+    out.payload = read_payload(table.at("payload"));
+    out.adapter = read_adapter(table.at("adapter"));
+  }
   if (json.contains("margins")) out.margins = read_margins(table.at("margins"));
   out.fixtures = json.contains("fixtures") ? read_fixtures(table.at("fixtures")) : slit_fixtures(out.slit, out.rod);
   out.canonical_json = canonical_json(json);

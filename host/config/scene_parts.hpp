@@ -21,4 +21,8 @@ std::vector<SceneFixture> read_fixtures(const Field& list);
 // the mouth, and with a rod `slit_approach`, the last 0.3 m of the way to it.
 std::vector<SceneFixture> slit_fixtures(const std::optional<SceneSlit>& slit, const std::optional<SceneRod>& rod);
 
+// The members `payload` and `adapter` of a scene; each needs the other.
+ScenePayload read_payload(const Field& field);
+ScenePose read_adapter(const Field& field);
+
 }  // namespace liana::config

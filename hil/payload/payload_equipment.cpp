@@ -1,0 +1,46 @@
+#include "hil/payload/payload_equipment.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace liana::bench {
+
+PayloadEquipment::PayloadEquipment(const CameraConfig& camera, TorquePlant& plant, bool spread, std::uint64_t seed)
+    : plant_(plant), camera_(camera, lens(), spread, seed) {}
+
+Lens PayloadEquipment::lens() const {
+  return plant_.site()->holder() == Holder::kArm ? Lens::kAdapter : Lens::kGrapple;
+}
+
+void PayloadEquipment::suffer(const CameraDefects& camera, const ToolDefects& tool) {
+  camera_.suffer(camera);
+  grapple_.suffer(tool);
+}
+
+void PayloadEquipment::look(double now_s) {
+  camera_.use(lens(), now_s);
+  camera_.look(now_s, plant_.tip(), camera_.lens() == Lens::kAdapter ? plant_.socket() : plant_.grapple());
+}
+
+std::optional<std::string> PayloadEquipment::picture(double now_s) {
+  const auto view = camera_.deliver(now_s);
+  if (!view) return std::nullopt;
+  return target_message(*view);
+}
+
+std::optional<ToolReport> PayloadEquipment::act(double now_s) {
+  const PayloadSite& site = *plant_.site();
+  const auto report = grapple_.act(now_s, {.grapple_in_tip = relative(plant_.tip(), plant_.grapple()),
+                                           .has_payload = site.holder() == Holder::kArm,
+                                           .locked = site.adapter().lock() == Closure::kClosed});
+  if (!report || report->phase != "done") return report;
+  if (grapple_.command() == "grapple") plant_.take_payload();
+  if (grapple_.command() == "release") plant_.let_go_of_payload();
+  return report;
+}
+
+void PayloadEquipment::summarise(nlohmann::json& summary) const {
+  const ToolReport& last = grapple_.last();
+  summary["tool"] = {{"number", last.number}, {"phase", last.phase}, {"reason", last.reason}};
+}
+
+}  // namespace liana::bench
