@@ -13,6 +13,7 @@ struct DriveFeedback {
   std::uint16_t statusword = 0;      // 6041
   std::int16_t torque_permille = 0;  // 6077, of rated torque
   std::int32_t position_counts = 0;  // 6064
+  std::int32_t rate_counts_s = 0;    // 606C, of torque drives
   std::uint16_t feedback_age_ticks = 0xFFFF;
   std::uint16_t heartbeat_age_ticks = 0xFFFF;
   std::uint16_t emergency_code = 0;  // last EMCY error code of this tick, 0 = none

@@ -198,8 +198,9 @@ ForceMotion advance_force(const RobotTable& table, const PushInputs& in, WristSt
   if (state.phase == PushPhase::kTaring) return {{}, {}, true};
   state.velocity = velocity_of(table, now, state);
   const JointVector rate = rates_of_twist(table, now.arm.tip_jacobian, state.velocity);
-  const double share = table.tick_s / kForwardFilter_s;
+  const double share = smaller(1.0, table.tick_s / kForwardFilter_s);
   state.forward = sum_of(scaled(state.forward, 1.0 - share), scaled(now.given, share));
+  if (state.phase == PushPhase::kUnloading) state.forward = {};
   return {bounded_rates(table, in.measured_rad, rate), torque_of_wrench(table, now.arm.tip_jacobian, state.forward), false};
 }
 

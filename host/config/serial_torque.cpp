@@ -1,5 +1,9 @@
 #include "host/config/serial_torque.hpp"
 
+#include <stdexcept>
+#include <utility>
+
+#include "host/config/drive_types_of_buses.hpp"
 #include "host/config/robot_parts.hpp"
 
 namespace liana::config {
@@ -49,6 +53,21 @@ void read_torque(const Field& table, SerialRobotConfig& out) {
   torque.masses = out.masses;
   torque.position_gain_per_s = drives.at("position_gain_per_s").number({0.1, 20});
   read_force_control(table.at("force_control"), out);
+}
+
+void check_drive_modes(const SerialRobotConfig& robot, const std::string& file, const BusesConfig& buses) {
+  const std::map<std::int32_t, DriveType> types = drive_types(buses);
+  const bool torque = gives_torque(robot);
+  for (std::int32_t node = 1; node <= robot.table.drive_count(); ++node) {
+    const auto named = types.find(node);
+    if ((named != types.end() && named->second.is_cst) == torque) continue;
+    const std::string type = named != types.end() ? named->second.name : "cia402_csp";
+    throw std::runtime_error(file + ": drives.mode: \"" + (torque ? "torque" : "position") +
+                             "\": allowed is the mode of the drives' types, but node " + std::to_string(node) +
+                             " of bus table " + buses.name + " is a " + type + ": " +
+                             (torque ? "use buses whose drives follow torques, as embedded_payload"
+                                     : "use buses whose drives follow positions, as embedded_micro"));
+  }
 }
 
 }  // namespace liana::config

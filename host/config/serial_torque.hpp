@@ -27,4 +27,7 @@ inline constexpr std::array<const char*, serial::kPushGainCount> kPushGainNames{
 // positions must not have force_control, one whose drives follow torques must.
 void read_torque(const Field& table, SerialRobotConfig& out);
 
+// Refuses buses whose drives are of another mode than the robot's. Throws std::runtime_error.
+void check_drive_modes(const SerialRobotConfig& robot, const std::string& file, const BusesConfig& buses);
+
 }  // namespace liana::config
