@@ -38,7 +38,7 @@ void SerialArm::watch_drive(WatchScope scope, bool, std::int32_t drive, Watch& o
 
 // What ended a push, named in the tick after it: until then the arm gives way already.
 void SerialArm::watch(WatchScope, std::uint64_t tick, FaultList& faults) noexcept {
-  if (push_.phase != PushPhase::kYielding || push_.phase_ticks != 1) return;
+  if (push_.phase != PushPhase::kYielding || push_.phase_ticks != 0) return;
   if (push_.end == PushEnd::kSensorLost) {
     latch(faults, {FaultNumber::kWristSensorLost, -1, static_cast<std::uint16_t>(push_.lost), tick});
   }

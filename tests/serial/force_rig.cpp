@@ -228,7 +228,7 @@ serial::Setpoint ForceRig::push(double force_N, serial::PushLaw law) {
   setpoint.push.travel_m = 0.06;
   setpoint.push.aside_m = 0.02;
   setpoint.push.turn_rad = 0.05;
-  setpoint.push.depth_m = case_.before_m + 0.0222;
+  if (law == serial::PushLaw::kImpedance) setpoint.push.depth_m = case_.before_m + 0.0222;
   setpoint.push.gains = robot_.push_gains;
   return setpoint;
 }
