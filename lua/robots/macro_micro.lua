@@ -29,7 +29,7 @@ micro.force_control = { -- assumed, as tuned in a prototype of this arm on its b
     stiffness_N_per_m = { 3000, 100, 10000 }, -- K_P, impedance only
     turn_stiffness_Nm_per_rad = { 900, 10, 5000 },
     approach_m_s = { 0.0035, 0.0005, 0.01 },
-    unload_damping_Ns_per_m = { 500, 100, 8000 }, -- K_D along the axis from capture on
+    unload_damping_Ns_per_m = { 400, 100, 8000 }, -- K_D along the axis from capture on
   },
 }
 return micro
