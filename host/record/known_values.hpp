@@ -7,7 +7,7 @@
 #include "firmware_like/math/ik_outcome.hpp"
 #include "firmware_like/safety/faults.hpp"
 #include "firmware_like/safety/supervisor.hpp"
-#include "firmware_like/serial/push.hpp"
+#include "firmware_like/serial_controller.hpp"
 
 namespace liana::record {
 
