@@ -302,6 +302,29 @@ TEST(Force, FreeMotionWithAPayloadArrivesAndFollowsWithoutAFault) {
   for (std::size_t i = 0; i < 7; ++i) EXPECT_NEAR(rig.chain().rotor_rad(i), joints.joint_rad[i], 5e-4) << i;
 }
 
+// At the joints' limits, as no planned move asks for: what the payload weighs is in no feed-forward.
+TEST(Force, AtFullRateWithAPayloadTheJointsLagLessThanTheWindow) {
+  ForceCase settings;
+  settings.before_m = 1.0;
+  ForceRig rig(settings);
+  rig.enable();
+  serial::Setpoint joints;
+  joints.kind = CommandKind::kJoint;
+  joints.joint_rad = rig.out().joint_command_rad;
+  joints.joint_rad[0] -= 0.5;
+  rig.ask(joints);
+  double most_rad = 0.0, swings_rad = 0.0;  // in all, and in the last 10 s
+  for (int i = 0; i < 10000; ++i) {
+    rig.tick();
+    const double lag_rad = std::fabs(rig.out().joint_command_rad[0] - rig.chain().rotor_rad(0));
+    most_rad = std::max(most_rad, lag_rad);
+    if (i >= 7500) swings_rad = std::max(swings_rad, lag_rad);
+  }
+  EXPECT_LT(most_rad, 0.5 * serial::kTorqueFollowingWindow_rad);
+  EXPECT_LT(swings_rad, 1e-3);
+  EXPECT_EQ(rig.out().faults.count, 0);
+}
+
 TEST(Force, TheSameSeedGivesTheSameBits) {
   const auto bits = [] {
     ForceRig rig(drawn_case(7));
