@@ -23,8 +23,8 @@ using DriveFeedbacks = std::array<DriveFeedback, kMaxDrives>;
 
 // What goes to one drive.
 struct DriveCommand {
-  std::uint16_t controlword = 0;   // 6040
-  std::int32_t target_counts = 0;  // 607A; cst: where the joint should be, which is not sent
+  std::uint16_t controlword = 0;     // 6040
+  std::int32_t target_counts = 0;    // 607A; cst: where the joint should be, which is not sent
   std::int16_t torque_permille = 0;  // cst: 6071, feed-forward
   std::int32_t rate_counts_s = 0;    // cst: 60B1, the rate that the drive damps against
 };

@@ -21,7 +21,8 @@ constexpr std::array<const char*, 12> kCheckNames{
     "rate_step_too_large",
     "torque_step_too_large",
 };
-static_assert(static_cast<std::size_t>(GateCheck::kTorqueStepTooLarge) + 1 == kCheckNames.size(), "every check has a name");
+static_assert(static_cast<std::size_t>(GateCheck::kTorqueStepTooLarge) + 1 == kCheckNames.size(),
+              "every check has a name");
 
 // A drive holds its previous target only while it has torque and was told to; any other has no target worth holding.
 std::int32_t safe_target(DriveState state, const DriveCommand& previous, const DriveFeedback& feedback) noexcept {

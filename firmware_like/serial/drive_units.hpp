@@ -12,7 +12,7 @@ namespace liana::serial {
 constexpr double kRangeMargin_rad =
     0.0175;  // 1 deg: beyond its range by less, a joint is not out of it, for the gate as for homing
 constexpr double kFollowingWindow_rad =
-    0.00175;                               // 0.1 deg at rest: wind-up of the gear at rated torque, and loop error
+    0.00175;  // 0.1 deg at rest: wind-up of the gear at rated torque, and loop error
 constexpr double kTorqueFollowingWindow_rad =
     0.035;  // 2 deg, of torque drives: a joint with a payload that nobody has told it of lags when it speeds up
 constexpr double kRatedPermille = 1000.0;  // of torque

@@ -23,12 +23,12 @@ constexpr double kTurnDeadBand_Nm = 0.5;
 // All vectors in one frame.
 struct LawInputs {
   double tick_s = 0.0;
-  Vec3 axis{0.0, 0.0, 1.0};      // unit, the way in
-  Wrench set{};                  // F
-  Wrench given{};                // F_e
-  Vec3 away_m{};                 // x_d - x; impedance only
-  Vec3 away_rad{};               // the same of attitude, as a rotation vector
-  double axial_damping = 0.0;    // K_D along the axis [N.s/m]
+  Vec3 axis{0.0, 0.0, 1.0};    // unit, the way in
+  Wrench set{};                // F
+  Wrench given{};              // F_e
+  Vec3 away_m{};               // x_d - x; impedance only
+  Vec3 away_rad{};             // the same of attitude, as a rotation vector
+  double axial_damping = 0.0;  // K_D along the axis [N.s/m]
 };
 
 // What moves the tip: right-hand side of the law without damping. Dead bands are applied across the axis and in turning

@@ -201,7 +201,8 @@ ForceMotion advance_force(const RobotTable& table, const PushInputs& in, WristSt
   const double share = smaller(1.0, table.tick_s / kForwardFilter_s);
   state.forward = sum_of(scaled(state.forward, 1.0 - share), scaled(now.given, share));
   if (state.phase == PushPhase::kUnloading) state.forward = {};
-  return {bounded_rates(table, in.measured_rad, rate), torque_of_wrench(table, now.arm.tip_jacobian, state.forward), false};
+  return {bounded_rates(table, in.measured_rad, rate), torque_of_wrench(table, now.arm.tip_jacobian, state.forward),
+          false};
 }
 
 }  // namespace liana::serial

@@ -12,18 +12,18 @@
 
 namespace liana::serial {
 
-constexpr std::uint32_t kTareTicks = 25;          // what the sensor says over so long is taken for nothing
-constexpr double kMostTare_N = 15.0;              // more is no bias: something pushes already
+constexpr std::uint32_t kTareTicks = 25;  // what the sensor says over so long is taken for nothing
+constexpr double kMostTare_N = 15.0;      // more is no bias: something pushes already
 constexpr double kMostTare_Nm = 10.0;
-constexpr std::uint32_t kRelievedTicks = 25;      // the five other axes are free of load for so long ...
+constexpr std::uint32_t kRelievedTicks = 25;        // the five other axes are free of load for so long ...
 constexpr std::uint32_t kMostRelievingTicks = 500;  // ... or have had their time, before anything is pushed
 constexpr double kRelieved_N = 2.0;
 constexpr double kRelieved_Nm = 1.0;
-constexpr double kContactShare = 0.1;             // of the set force, along the axis: the payload has met the adapter
+constexpr double kContactShare = 0.1;  // of the set force, along the axis: the payload has met the adapter
 constexpr std::uint16_t kOverloadTicks = 3;
-constexpr double kForwardFilter_s = 0.3;          // of F_e in the feed-forward
-constexpr double kFollowFrom_Nm = 20.0;           // a joint gives way above this torque (requirement B29)
-constexpr double kFollow_Nm_per_rad_s = 2000.0;   // by one rad/s for so much more
+constexpr double kForwardFilter_s = 0.3;         // of F_e in the feed-forward
+constexpr double kFollowFrom_Nm = 20.0;          // a joint gives way above this torque (requirement B29)
+constexpr double kFollow_Nm_per_rad_s = 2000.0;  // by one rad/s for so much more
 
 enum class PushPhase : std::uint8_t {
   kNone = 0,       // no push, and nobody gives way
@@ -53,13 +53,13 @@ struct PushState {
   PushEnd end = PushEnd::kNot;
   std::uint32_t phase_ticks = 0;
   std::uint32_t relieved_ticks = 0;
-  Pose start{};             // of the tip, measured, when it began
-  Twist velocity{};         // v_d of the tip, base frame
+  Pose start{};      // of the tip, measured, when it began
+  Twist velocity{};  // v_d of the tip, base frame
   Wrench tare_sum{};
-  Wrench forward{};         // F_e as the torque feed-forward has it, base frame
-  double approach_m = 0.0;  // impedance: of the point that it pulls to, from the start
-  std::uint8_t touched = 0;         // force of contact was felt
-  std::uint8_t adapter_spoke = 0;   // when it began
+  Wrench forward{};                // F_e as the torque feed-forward has it, base frame
+  double approach_m = 0.0;         // impedance: of the point that it pulls to, from the start
+  std::uint8_t touched = 0;        // force of contact was felt
+  std::uint8_t adapter_spoke = 0;  // when it began
   std::uint16_t overload_ticks = 0;
   WristHealth lost = WristHealth::kGood;  // kSensorLost: what is wrong with it
   std::int16_t overload_joint = -1;       // kOverload: which; -1: the force at the tip
@@ -75,16 +75,16 @@ static_assert(std::is_trivially_copyable_v<PushState>);
 // What the joints should do in a tick.
 struct ForceMotion {
   JointVector rate_rad_s{};
-  JointVector torque_Nm{};    // feed-forward
-  bool holds_place = false;   // besides, each is drawn to its target
+  JointVector torque_Nm{};   // feed-forward
+  bool holds_place = false;  // besides, each is drawn to its target
 };
 
 struct PushInputs {
   const JointVector& measured_rad;
-  const JointVector& torque_Nm;  // of the joint sensors: what the gears give to the links
-  const JointVector& rate_rad_s; // told in the last tick
+  const JointVector& torque_Nm;   // of the joint sensors: what the gears give to the links
+  const JointVector& rate_rad_s;  // told in the last tick
   const AdapterState& adapter;
-  bool allowed;                  // false: it ends
+  bool allowed;  // false: it ends
 };
 
 // Takes a usable setpoint of kind kPush or kFollow into force; one with the number of the push under way goes on with

@@ -8,7 +8,9 @@ double read_i16(std::span<const std::uint8_t> data, std::size_t first) noexcept 
   return static_cast<double>(static_cast<std::int16_t>(bits));
 }
 
-CatchState catch_state(std::uint8_t byte) noexcept { return byte <= 3 ? static_cast<CatchState>(byte) : CatchState::kFailed; }
+CatchState catch_state(std::uint8_t byte) noexcept {
+  return byte <= 3 ? static_cast<CatchState>(byte) : CatchState::kFailed;
+}
 
 }  // namespace
 

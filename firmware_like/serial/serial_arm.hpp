@@ -36,7 +36,7 @@ class SerialArm {
   void read(const DriveFeedbacks& drives, const Sensors& sensors) noexcept;
   void watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept;
   void watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept;
-  bool lets_go(std::int32_t) const noexcept { return false; }    // a joint never gives in
+  bool lets_go(std::int32_t) const noexcept { return false; }  // a joint never gives in
   ArmStatus status() const noexcept;
   bool accepts(const Setpoint& setpoint) const noexcept { return is_usable(table_, setpoint); }
   void take(const Setpoint& setpoint) noexcept;

@@ -14,13 +14,13 @@ namespace liana::serial {
 struct Push {
   std::uint32_t number = 0;  // > 0: another number begins another push, the same goes on with the one under way
   PushLaw law = PushLaw::kForce;
-  std::uint8_t tares = 1;            // 1: what the sensor says at the beginning is taken for nothing
-  Vec3 axis_in_tip{0.0, 0.0, 1.0};   // unit, the way in
-  double force_N = 0.0;              // along it, >= 0
-  double travel_m = 0.0;             // the most along the axis, from where it began, forward or back
-  double aside_m = 0.0;              // the most across it
-  double turn_rad = 0.0;             // the most that the tip turns
-  double depth_m = 0.0;              // impedance: where the stop is expected
+  std::uint8_t tares = 1;           // 1: what the sensor says at the beginning is taken for nothing
+  Vec3 axis_in_tip{0.0, 0.0, 1.0};  // unit, the way in
+  double force_N = 0.0;             // along it, >= 0
+  double travel_m = 0.0;            // the most along the axis, from where it began, forward or back
+  double aside_m = 0.0;             // the most across it
+  double turn_rad = 0.0;            // the most that the tip turns
+  double depth_m = 0.0;             // impedance: where the stop is expected
   PushGains gains{};
 };
 

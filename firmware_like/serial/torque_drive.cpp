@@ -7,7 +7,7 @@ namespace {
 
 using Index = std::size_t;
 
-constexpr double kMostRateShare = 1.2;    // of a joint's rate, for what leads it back to its target
+constexpr double kMostRateShare = 1.2;     // of a joint's rate, for what leads it back to its target
 constexpr double kMostTorqueShare = 0.99;  // of rated torque: the gate refuses more than all of it
 
 }  // namespace

@@ -7,9 +7,9 @@
 
 namespace liana::serial {
 
-constexpr double kTorqueRamp_s = 0.1;      // from rated torque to none, and so for every change of the feed-forward
-constexpr double kRateChangeShare = 8.0;   // of a joint's acceleration: contact is quicker than planned motion
-constexpr double kFollowAlong = 0.1;       // of what a target is off the joint, in a tick in which forces move it
+constexpr double kTorqueRamp_s = 0.1;     // from rated torque to none, and so for every change of the feed-forward
+constexpr double kRateChangeShare = 8.0;  // of a joint's acceleration: contact is quicker than planned motion
+constexpr double kFollowAlong = 0.1;      // of what a target is off the joint, in a tick in which forces move it
 
 struct TorqueTold {
   JointVector rate_rad_s{};

@@ -12,16 +12,16 @@ namespace liana::serial {
 
 // What a push may choose (force_law.hpp): which number of PushGains is which.
 enum PushGain : std::size_t {
-  kPushMass,         // M_d along the axes [kg]
-  kPushInertia,      // M_d about them [kg.m2]
-  kAxialDamping,     // K_D along the insertion axis [N.s/m]
-  kLateralDamping,   // across it [N.s/m]
-  kTurnDamping,      // of turning [N.m.s/rad]
-  kForceGain,        // K_P C_F: force law, of what is missing of the set force [1]
-  kStiffness,        // K_P of impedance [N/m]
-  kTurnStiffness,    // [N.m/rad]
-  kApproachSpeed,    // of the point that impedance pulls to, along the axis [m/s]
-  kUnloadDamping,    // K_D along the axis from capture on [N.s/m]
+  kPushMass,        // M_d along the axes [kg]
+  kPushInertia,     // M_d about them [kg.m2]
+  kAxialDamping,    // K_D along the insertion axis [N.s/m]
+  kLateralDamping,  // across it [N.s/m]
+  kTurnDamping,     // of turning [N.m.s/rad]
+  kForceGain,       // K_P C_F: force law, of what is missing of the set force [1]
+  kStiffness,       // K_P of impedance [N/m]
+  kTurnStiffness,   // [N.m/rad]
+  kApproachSpeed,   // of the point that impedance pulls to, along the axis [m/s]
+  kUnloadDamping,   // K_D along the axis from capture on [N.s/m]
   kPushGainCount
 };
 using PushGains = std::array<double, kPushGainCount>;
@@ -36,7 +36,7 @@ struct TorqueTable {
   double most_travel_m = 0.0;        // along the axis, from where a push began
   double most_aside_m = 0.0;         // across it
   double most_turn_rad = 0.0;
-  PushGains gain_low{};              // range of each gain that a push may ask for
+  PushGains gain_low{};  // range of each gain that a push may ask for
   PushGains gain_high{};
 };
 static_assert(std::is_trivially_copyable_v<TorqueTable>);

@@ -13,12 +13,8 @@ struct Wrench {
 inline Wrench sum_of(const Wrench& a, const Wrench& b) noexcept {
   return {add(a.force_N, b.force_N), add(a.torque_Nm, b.torque_Nm)};
 }
-inline Wrench scaled(const Wrench& a, double s) noexcept {
-  return {scale(a.force_N, s), scale(a.torque_Nm, s)};
-}
+inline Wrench scaled(const Wrench& a, double s) noexcept { return {scale(a.force_N, s), scale(a.torque_Nm, s)}; }
 // The same in another frame about the same point; `q` turns from the frame it is in to the other.
-inline Wrench turned(const Quat& q, const Wrench& a) noexcept {
-  return {rotate(q, a.force_N), rotate(q, a.torque_Nm)};
-}
+inline Wrench turned(const Quat& q, const Wrench& a) noexcept { return {rotate(q, a.force_N), rotate(q, a.torque_Nm)}; }
 
 }  // namespace liana::serial

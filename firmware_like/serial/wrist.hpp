@@ -20,8 +20,8 @@ enum class WristHealth : std::uint8_t {
 };
 
 struct WristState {
-  Wrench felt{};  // newest good sample, on the arm, tip frame
-  Wrench tare{};  // what it says when nothing pushes
+  Wrench felt{};                            // newest good sample, on the arm, tip frame
+  Wrench tare{};                            // what it says when nothing pushes
   WristHealth said = WristHealth::kSilent;  // of the newest sample
   std::uint8_t sequence = 0;                // of the newest sample
   std::uint16_t age_ticks = kNeverHeard;    // since there was a new one

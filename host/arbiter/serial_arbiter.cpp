@@ -7,8 +7,9 @@ namespace liana::arbiter {
 void SerialArbiter::require_torque(const Now& now) const {
   require_free(now);
   if (!gives_torque_)
-    throw api::RequestError("refused", "the drives of this robot follow positions: force control needs a robot whose "
-                                       "drives follow torques (drives.mode = \"torque\", as macro_micro)");
+    throw api::RequestError("refused",
+                            "the drives of this robot follow positions: force control needs a robot whose "
+                            "drives follow torques (drives.mode = \"torque\", as macro_micro)");
   if (now.at_rest == 0) throw api::RequestError("busy", "it starts from rest: wait for it or send hold");
 }
 

@@ -208,8 +208,7 @@ void BootPlan::map_pdo(std::uint16_t communication, std::uint32_t cob_id, std::s
     object->needs_from = disabled_at;
     object->needs_to = disabled_at + 1;
   };
-  BootObject* type =
-      write(communication, 2, 1, kEverySync, (pdo + " transmission type").c_str());
+  BootObject* type = write(communication, 2, 1, kEverySync, (pdo + " transmission type").c_str());
   if (type != nullptr && type->write && receive) type->rule = BootRule::kAnyTarget;
   while_disabled(type);
   if (receive) while_disabled(write(communication, 5, 2, rpdo_deadline_ms_, (pdo + " deadline").c_str()));

@@ -140,9 +140,9 @@ double worst_case_load(const BusesConfig& buses, std::size_t bus) {
   const double tick_bits = worst_frame_bits(0) + nodes * (worst_frame_bits(6) + worst_frame_bits(8));
   const double heartbeat_bits = (nodes + others + 1.0) * worst_frame_bits(1);
   const double sdo_bits = 2.0 * worst_frame_bits(8);  // request and response
-  const double bits_per_second =
-      tick_bits * buses.rate_hz + heartbeat_bits * 1000.0 / buses.heartbeat_ms + sdo_bits * kSdoPairsPerSecond +
-      worst_extra_bits_per_s(own, buses.rate_hz, torque_drives(buses, bus));
+  const double bits_per_second = tick_bits * buses.rate_hz + heartbeat_bits * 1000.0 / buses.heartbeat_ms +
+                                 sdo_bits * kSdoPairsPerSecond +
+                                 worst_extra_bits_per_s(own, buses.rate_hz, torque_drives(buses, bus));
   return bits_per_second / buses.buses[bus].bitrate;
 }
 

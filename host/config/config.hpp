@@ -27,7 +27,6 @@ struct BusConfig {
 // Frames of a bus beside commands and TPDO1 of its drives, in bits a second with worst stuffing.
 double worst_extra_bits_per_s(const BusConfig& bus, double rate_hz, std::int32_t torque_drives);
 
-
 // The machine that the controller runs on.
 struct Machine {
   double mips = 500.0;       // million instructions a second of one processor

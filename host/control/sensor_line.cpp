@@ -70,7 +70,8 @@ void SensorLine::start(bus::DriveBus& bus, Node& node) noexcept {
   frame.length = 2;
   frame.data[0] = canopen::kNmtStart;
   frame.data[1] = node.id;
-  if (bus.send(node.bus, frame) == bus::SendResult::kOk) node.wants_start = false;  // until the next heartbeat that says so
+  if (bus.send(node.bus, frame) == bus::SendResult::kOk)
+    node.wants_start = false;  // until the next heartbeat that says so
 }
 
 void SensorLine::step(bus::DriveBus& bus, std::uint64_t tick, serial::AdapterCommand command,

@@ -12,7 +12,7 @@ namespace liana::daemon {
 namespace {
 
 constexpr std::array kPhases{"none", "taring", "relieving", "pressing", "unloading", "yielding"};
-constexpr std::array kEnds{"none",  "captured", "sensor_lost",   "overload",      "travel",
+constexpr std::array kEnds{"none",  "captured",      "sensor_lost",    "overload", "travel",
                            "aside", "early_capture", "adapter_silent", "stopped"};
 constexpr std::array kHealth{"good", "silent", "saturated", "failed", "no_number", "not_at_rest"};
 constexpr std::array kCatches{"open", "closing", "closed", "failed"};
@@ -37,7 +37,8 @@ Vec3 axis_of(const api::Arguments& fields) {
   if (!fields.has("axis")) return {0.0, 0.0, 1.0};
   const Vec3 axis = fields.point("axis");
   const double length = norm(axis);
-  if (length < 1e-3) throw api::RequestError("out_of_range", "axis: it has no length: give the direction of the way in");
+  if (length < 1e-3)
+    throw api::RequestError("out_of_range", "axis: it has no length: give the direction of the way in");
   return scale(axis, 1.0 / length);
 }
 
@@ -68,8 +69,8 @@ Json age_json(std::uint16_t age_ticks, double tick_s) {
 serial::Push push_of(const config::SerialRobotConfig& robot, const api::Arguments& fields) {
   const serial::TorqueTable& most = robot.table.torque;
   serial::Push push;
-  push.law = fields.has("law") && fields.text("law") == "impedance" ? serial::PushLaw::kImpedance
-                                                                    : serial::PushLaw::kForce;
+  push.law =
+      fields.has("law") && fields.text("law") == "impedance" ? serial::PushLaw::kImpedance : serial::PushLaw::kForce;
   push.tares = fields.flag("tare") ? 1 : 0;
   push.axis_in_tip = axis_of(fields);
   push.force_N = fields.number("force_N");

@@ -112,8 +112,9 @@ constexpr std::array<RefusalRow, 24> kRows{{
      "Ask again, from rest; if it comes back, take load off the machine (liana doctor, liana latency)."},
     {kFixture, "fixture", "The tip would pass a virtual wall of the scene.", "", kHold,
      "Lead the tip back between the walls of the fixture named, or ask for a way that keeps between them."},
-    {kPushTube, "push_tube", "A push would leave its tube: too far along its axis or beside it, or with too much force.",
-     "m, N", kHold, "Back off along the axis, stand better aligned before it, and push again."},
+    {kPushTube, "push_tube",
+     "A push would leave its tube: too far along its axis or beside it, or with too much force.", "m, N", kHold,
+     "Back off along the axis, stand better aligned before it, and push again."},
 }};
 
 constexpr bool is_complete() {

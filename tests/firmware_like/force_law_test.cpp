@@ -52,7 +52,11 @@ TEST(ForceLaw, DrivesTheTipAsWorkedOutByHand) {
       {"across the axis 1 N is nothing", PushLaw::kForce, {{0.6, 0.8, 30}, {}}, {}, {0, 0, 0}, {0, 0, 0}},
       {"and of more the rest counts", PushLaw::kForce, {{3, 4, 30}, {}}, {}, {-2.4, -3.2, 0}, {0, 0, 0}},
       {"turning has 0.5 N m", PushLaw::kForce, {{0, 0, 30}, {0, 1.5, 0}}, {}, {0, 0, 0}, {0, -1.0, 0}},
-      {"impedance: stiffness less what is given", PushLaw::kImpedance, {{0, 0, 6}, {}}, {0, 0, 0.01}, {0, 0, 24},
+      {"impedance: stiffness less what is given",
+       PushLaw::kImpedance,
+       {{0, 0, 6}, {}},
+       {0, 0, 0.01},
+       {0, 0, 24},
        {0, 0, 0}},
       {"impedance has no dead band", PushLaw::kImpedance, {{0.5, 0, 0}, {}}, {}, {-0.5, 0, 0}, {0, 0, 0}},
   };
@@ -128,8 +132,9 @@ TEST(Wrist, NamesWhatIsWrongAndKeepsTheLastGoodSample) {
   WristReading saturated = sample(2, 655.0), failed = sample(2), broken = sample(2, nan);
   saturated.status = WristStatus::kSaturated;
   failed.status = WristStatus::kFailed;
-  for (const auto& [reading, said] : {std::pair{saturated, WristHealth::kSaturated},
-                                      std::pair{failed, WristHealth::kFailed}, std::pair{broken, WristHealth::kNoNumber}}) {
+  for (const auto& [reading, said] :
+       {std::pair{saturated, WristHealth::kSaturated}, std::pair{failed, WristHealth::kFailed},
+        std::pair{broken, WristHealth::kNoNumber}}) {
     WristState state;
     read_wrist(sample(1, 3.0), state);
     read_wrist(reading, state);

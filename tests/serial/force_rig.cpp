@@ -86,9 +86,9 @@ ForceRig::ForceRig(const ForceCase& settings, const std::string& pose)
     for (std::size_t pin = 0; pin < bench::kPins; ++pin) adapter_.defects(pin).reads_m = 0.015;
   const bench::Pose plate = beyond(chain_->tip().pose, kPlateInTip_m);
   const bench::Quat turned = plate.attitude * bench::from_rotation_vector(settings.tilt_rad);
-  socket_in_root_ = {plate.position_m + bench::rotate(turned, Vec3{settings.aside_m.x, settings.aside_m.y,
-                                                                   settings.before_m}),
-                     turned};
+  socket_in_root_ = {
+      plate.position_m + bench::rotate(turned, Vec3{settings.aside_m.x, settings.aside_m.y, settings.before_m}),
+      turned};
   base_start_m_ = chain_->base().pose.position_m;
   for (std::size_t i = 0; i < 7; ++i) {
     inputs_.drive[i].statusword = 0x0250;
@@ -114,10 +114,10 @@ bench::TipState ForceRig::plate() const {
 bench::TipLoad ForceRig::load_on_tip(const bench::TipState& tip) const {
   const Vec3 arm = bench::rotate(tip.pose.attitude, kPlateInTip_m);
   const bench::Quat into = bench::conjugate(socket_in_root_.attitude);
-  const bench::TipState plate{bench::relative(socket_in_root_, beyond(tip.pose, kPlateInTip_m)),
-                              bench::rotate(into, tip.velocity_m_s + bench::cross(tip.rate_rad_s, arm)) -
-                                  Vec3{0.0, 0.0, socket_m_s_},
-                              bench::rotate(into, tip.rate_rad_s)};
+  const bench::TipState plate{
+      bench::relative(socket_in_root_, beyond(tip.pose, kPlateInTip_m)),
+      bench::rotate(into, tip.velocity_m_s + bench::cross(tip.rate_rad_s, arm)) - Vec3{0.0, 0.0, socket_m_s_},
+      bench::rotate(into, tip.rate_rad_s)};
   contact_ = adapter_.push(plate);
   const Vec3 force = bench::rotate(socket_in_root_.attitude, contact_.force_N);
   const Vec3 torque = bench::rotate(socket_in_root_.attitude, contact_.torque_Nm) + bench::cross(arm, force);
@@ -174,9 +174,8 @@ void ForceRig::move_plant() {
         loop_[i].reset();
       } else if (step % kStepsInLoop == 0) {
         const serial::DriveTable& drive = robot_.table.drive[i];
-        const bench::TorqueTarget target{
-            drive.direction * out_.drive[i].torque_permille * drive.torque_per_permille_Nm,
-            drive.direction * out_.drive[i].rate_counts_s * drive.rad_per_count};
+        const bench::TorqueTarget target{drive.direction * out_.drive[i].torque_permille * drive.torque_per_permille_Nm,
+                                         drive.direction * out_.drive[i].rate_counts_s * drive.rad_per_count};
         bench::TorqueGains gains;
         if (i >= 4) gains.damping_Nms_rad = 1500.0;  // the wrist
         drives[i].gives_torque = true;
@@ -184,7 +183,8 @@ void ForceRig::move_plant() {
                                             model_.peak_torque_Nm);
       }
     }
-    chain_->step(bench::FlexibleChain::kStep_s, drives, [this](const bench::TipState& tip) { return load_on_tip(tip); });
+    chain_->step(bench::FlexibleChain::kStep_s, drives,
+                 [this](const bench::TipState& tip) { return load_on_tip(tip); });
     socket_in_root_ = beyond(socket_in_root_, {0.0, 0.0, socket_m_s_ * bench::FlexibleChain::kStep_s});
     adapter_.step(bench::FlexibleChain::kStep_s, plate());
   }

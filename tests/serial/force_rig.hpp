@@ -22,13 +22,13 @@ namespace liana::test {
 // What differs from run to run.
 struct ForceCase {
   double payload_kg = 500.0;
-  double base_share = 1.0;     // of the base's stiffness
-  double gear_share = 1.0;     // of the gears'
+  double base_share = 1.0;  // of the base's stiffness
+  double gear_share = 1.0;  // of the gears'
   double coulomb_Nm = 8.0;
   bench::AdapterFigures adapter{};
   bench::Vec3 aside_m{0.0010, 0.0015, 0.0};  // of the plate from the socket's middle
   bench::Vec3 tilt_rad{0.004, -0.005, 0.0};
-  double before_m = 0.001;     // of the plate before the socket's face
+  double before_m = 0.001;  // of the plate before the socket's face
   double noise_N = 0.2;
   bench::Vec3 bias_N{};
   std::uint64_t seed = 1;
@@ -60,11 +60,11 @@ class ForceRig {
   const config::SerialRobotConfig& robot() const { return robot_; }
   bench::FlexibleChain& chain() { return *chain_; }
   bench::Adapter& adapter() { return adapter_; }
-  bench::TipState plate() const;            // in the socket's frame
+  bench::TipState plate() const;                       // in the socket's frame
   bench::TipLoad contact() const { return contact_; }  // of the adapter on the plate, in the socket's frame
   double axial_N() const { return -contact_.force_N.z; }
-  double most_gear_Nm() const;              // of all joints, now
-  double base_moved_m() const;              // the tip of the arm that carries, from where it began
+  double most_gear_Nm() const;  // of all joints, now
+  double base_moved_m() const;  // the tip of the arm that carries, from where it began
   void meddle(const Meddle& meddle) { meddle_ = meddle; }
   // What pushes the tip besides, in the root's frame.
   void push_tip(const bench::TipLoad& load) { outside_ = load; }

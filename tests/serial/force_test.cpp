@@ -280,8 +280,7 @@ TEST(Force, WhileTheAdapterLocksTheJointsGiveWayAboveTwentyNewtonMetres) {
   rig.move_socket(0.0);
   EXPECT_LT(most_Nm, 30.0);
   double moved = 0.0;
-  for (std::size_t i = 0; i < 7; ++i)
-    moved = std::max(moved, std::fabs(rig.out().joint_command_rad[i] - before[i]));
+  for (std::size_t i = 0; i < 7; ++i) moved = std::max(moved, std::fabs(rig.out().joint_command_rad[i] - before[i]));
   EXPECT_GT(moved, 0.003) << "40 mm are more than springs take";
   EXPECT_EQ(rig.out().faults.count, 0);
 }

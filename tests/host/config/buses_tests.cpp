@@ -24,8 +24,8 @@ TEST(Buses, WorstCaseLoadIsTheSumOfTheLongestFrames) {
   EXPECT_NEAR(worst_case_load(one, 0), ((55 + 15 * 250) * 100 + 16 * 65 * 10 + 5400) / 1e6, 1e-12);
 }
 
-// A torque drive has 135 bits of RPDO, 135 and 95 of TPDOs; the wrist sensor 2 x 135 a tick, the adapter 135 and 75 every
-// fourth.
+// A torque drive has 135 bits of RPDO, 135 and 95 of TPDOs; the wrist sensor 2 x 135 a tick, the adapter 135 and 75
+// every fourth.
 TEST(Buses, TorqueDrivesAndSensorsAreInTheWorstCaseLoad) {
   const BusesConfig buses = parse_buses(good_table("buses", "embedded_payload").dump(), "b");
   EXPECT_EQ(torque_drives(buses, 0), 4);

@@ -72,8 +72,9 @@ Change pushing(const std::function<void(serial::PushReport&)>& change) {
 
 const Row kRows[] = {
     {"214: a push farther along its axis than the table has it, and a millimetre to stop in",
-     pushing([](serial::PushReport& p) { p.travel_m = -0.2011; }), pushing([](serial::PushReport& p) { p.travel_m = 0.2009; }),
-     Refusal::kPushTube, "way of the push along its axis = "},
+     pushing([](serial::PushReport& p) { p.travel_m = -0.2011; }),
+     pushing([](serial::PushReport& p) { p.travel_m = 0.2009; }), Refusal::kPushTube,
+     "way of the push along its axis = "},
     {"214: beside it", pushing([](serial::PushReport& p) { p.aside_m = 0.0311; }),
      pushing([](serial::PushReport& p) { p.aside_m = 0.0309; }), Refusal::kPushTube, "beside its axis"},
     {"214: with more force", pushing([](serial::PushReport& p) { p.set_N = 60.0 * kOver; }),
