@@ -13,6 +13,8 @@ enum class CommandKind : std::uint8_t {
   kHold = 3,     // stop along the path, stay enabled
   kStop = 4,     // stop, then brakes, then disable
   kRetreat = 5,  // joint angles on the way out: slowly (kRetreatRateShare), also while faults are latched that allow it
+  kPush = 6,     // a set force along an axis of the tip; the rest follows from what is felt
+  kFollow = 7,   // joints give way to what pushes them, and stay where nothing does
 };
 
 // Share of the joints' rate limits at which a retreat moves at most.
@@ -23,8 +25,15 @@ constexpr bool is_joint(CommandKind kind) noexcept {
   return kind == CommandKind::kJoint || kind == CommandKind::kRetreat;
 }
 
+// True for the kinds in which forces say where the arm goes.
+constexpr bool is_force(CommandKind kind) noexcept {
+  return kind == CommandKind::kPush || kind == CommandKind::kFollow;
+}
+
 // True for the kinds that carry a goal, which the arm judges and follows.
-constexpr bool is_motion(CommandKind kind) noexcept { return kind == CommandKind::kTip || is_joint(kind); }
+constexpr bool is_motion(CommandKind kind) noexcept {
+  return kind == CommandKind::kTip || is_joint(kind) || is_force(kind);
+}
 
 // A verified setpoint with identity and life time. `Setpoint` is the arm's own type; it has a CommandKind `kind`. Only
 // Release makes one.

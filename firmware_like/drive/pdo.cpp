@@ -51,4 +51,31 @@ bool decode_tpdo1(std::span<const std::uint8_t> data, Tpdo1& report) noexcept {
   return true;
 }
 
+std::array<std::uint8_t, kTorqueRpdo1Bytes> encode_torque_rpdo1(const DriveCommand& command) noexcept {
+  const auto torque = static_cast<std::uint16_t>(command.torque_permille);
+  const auto rate = static_cast<std::uint32_t>(command.rate_counts_s);
+  return {byte_of(command.controlword, 0),
+          byte_of(command.controlword, 1),
+          byte_of(torque, 0),
+          byte_of(torque, 1),
+          byte_of(rate, 0),
+          byte_of(rate, 1),
+          byte_of(rate, 2),
+          byte_of(rate, 3)};
+}
+
+bool decode_torque_rpdo1(std::span<const std::uint8_t> data, DriveCommand& command) noexcept {
+  if (data.size() != static_cast<std::size_t>(kTorqueRpdo1Bytes)) return false;
+  command.controlword = read_u16(data, 0);
+  command.torque_permille = static_cast<std::int16_t>(read_u16(data, 2));
+  command.rate_counts_s = static_cast<std::int32_t>(read_u32(data, 4));
+  return true;
+}
+
+bool decode_tpdo2(std::span<const std::uint8_t> data, std::int32_t& rate_counts_s) noexcept {
+  if (data.size() != static_cast<std::size_t>(kTpdo2Bytes)) return false;
+  rate_counts_s = static_cast<std::int32_t>(read_u32(data, 0));
+  return true;
+}
+
 }  // namespace liana

@@ -22,46 +22,50 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
       return 3;
     case kJointJump:
       return 4;
-    case kDriveMissing:
+    case kWristSensorLost:
       return 5;
-    case kDriveSilent:
+    case kPushOverload:
       return 6;
-    case kDriveFault:
+    case kDriveMissing:
       return 7;
-    case kDriveLeftOperation:
+    case kDriveSilent:
       return 8;
-    case kDriveEnableTimeout:
+    case kDriveFault:
       return 9;
-    case kFollowingError:
+    case kDriveLeftOperation:
       return 10;
-    case kDriveNotOperational:
+    case kDriveEnableTimeout:
       return 11;
-    case kDriveStopTimeout:
+    case kFollowingError:
       return 12;
-    case kNodeTwice:
+    case kDriveNotOperational:
       return 13;
-    case kBusLost:
+    case kDriveStopTimeout:
       return 14;
-    case kCableSlack:
+    case kNodeTwice:
       return 15;
-    case kCableOverload:
+    case kBusLost:
       return 16;
-    case kTensionAlarm:
+    case kCableSlack:
       return 17;
-    case kHomingImplausible:
+    case kCableOverload:
       return 18;
-    case kCableSlip:
+    case kTensionAlarm:
       return 19;
-    case kCableBreak:
+    case kHomingImplausible:
       return 20;
-    case kTensionScatters:
+    case kCableSlip:
       return 21;
-    case kBodyContact:
+    case kCableBreak:
       return 22;
-    case kFrictionNotAsDeclared:
+    case kTensionScatters:
       return 23;
-    case kGateRefused:
+    case kBodyContact:
       return 24;
+    case kFrictionNotAsDeclared:
+      return 25;
+    case kGateRefused:
+      return 26;
   }
   return 0;
 }
@@ -69,7 +73,7 @@ constexpr std::int32_t row_of(FaultNumber number) noexcept {
 constexpr StopCategory kHold = StopCategory::kHold;
 constexpr StopCategory kStop = StopCategory::kStop;
 
-constexpr std::array<FaultInfo, 25> kFaultTable{{
+constexpr std::array<FaultInfo, 27> kFaultTable{{
     {kNone, "none", StopCategory::kNone, false, true, "No fault.", "Nothing to do."},
     {kCommandInvalid, "command_invalid", kHold, false, true,
      "A released command held a value that is not finite or out of range.",
@@ -84,6 +88,14 @@ constexpr std::array<FaultInfo, 25> kFaultTable{{
      "procedure, then clear."},
     {kJointJump, "joint_jump", kStop, true, false, "A joint's encoder changed faster than the joint can turn.",
      "Check the encoder and its cable; compare the joint's angle with the arm by eye, then clear and enable again."},
+    {kWristSensorLost, "wrist_sensor_lost", kHold, false, true,
+     "In a push the wrist's force sensor was not to be trusted; the detail is 1 silent, 2 saturated, 3 failed, 4 no "
+     "number, 5 not at rest before the push.",
+     "The arm gives way where it is pushed; check sensor and cable, then clear, and back off before another push."},
+    {kPushOverload, "push_overload", kHold, false, true,
+     "A push met more force, or a joint more torque, than it may; the drive is the joint, where it was one, the detail "
+     "is in N or N m.",
+     "Look for what jams; clear, back off along the axis, and push again with less force or better aligned."},
     {kDriveMissing, "drive_missing", kStop, true, false, "A drive sent no heartbeat within the allowed time.",
      "Check the drive's supply and its bus connector, then clear, which boots what came back."},
     {kDriveSilent, "drive_silent", kStop, true, false, "A drive sent no feedback for more than two ticks.",

@@ -17,6 +17,8 @@ enum class FaultNumber : std::uint16_t {
   kTicksLost = 2001,            // more deadlines lost in a row than allowed
   kJointOutOfRange = 2002,      // a joint with power stands beyond the end of its range
   kJointJump = 2003,            // a joint's encoder changed faster than the joint can turn
+  kWristSensorLost = 2004,      // in a push the wrist's force sensor is not to be trusted
+  kPushOverload = 2005,         // a push met more force, or a joint more torque, than it may
   kDriveMissing = 3001,         // no heartbeat from a drive
   kDriveSilent = 3002,          // no TPDO for more than two ticks
   kDriveFault = 3003,           // drive reports fault (EMCY code beside it)

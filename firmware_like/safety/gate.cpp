@@ -7,7 +7,7 @@ namespace {
 
 using namespace gate_compare;
 
-constexpr std::array<const char*, 8> kCheckNames{
+constexpr std::array<const char*, 12> kCheckNames{
     "passed",
     "target_not_finite",
     "target_out_of_range",
@@ -16,8 +16,13 @@ constexpr std::array<const char*, 8> kCheckNames{
     "torque_out_of_range",
     "drive_not_enabled",
     "mode_not_allowed",
+    "rate_not_finite",
+    "rate_out_of_range",
+    "rate_step_too_large",
+    "torque_step_too_large",
 };
-static_assert(static_cast<std::size_t>(GateCheck::kModeNotAllowed) + 1 == kCheckNames.size(), "every check has a name");
+static_assert(static_cast<std::size_t>(GateCheck::kTorqueStepTooLarge) + 1 == kCheckNames.size(),
+              "every check has a name");
 
 // A drive holds its previous target only while it has torque and was told to; any other has no target worth holding.
 std::int32_t safe_target(DriveState state, const DriveCommand& previous, const DriveFeedback& feedback) noexcept {
@@ -33,9 +38,28 @@ bool is_step_allowed(const DriveLimits& limits, bool lets_go, std::int32_t previ
   return is_let_go(previous, next, limits.let_go_counts) || is_taken_back(previous, next, position, limits.step_counts);
 }
 
-// First check that the proposal for one drive fails; `target_counts` is its target when it passes.
+// cst: torque and rate are what moves the joint; its range is kept by where it stands. `judged` gets both, rounded.
+GateCheck judge_torque(const DriveLimits& limits, const DriveProposal& proposal, const DriveCommand& previous,
+                       std::int32_t position_counts, DriveCommand& judged) noexcept {
+  const double rate = proposal.rate_counts_s, torque = proposal.torque_permille;
+  if (is_not_finite(rate)) return GateCheck::kRateNotFinite;
+  if (is_outside(rate, -limits.most_rate_counts_s, limits.most_rate_counts_s)) return GateCheck::kRateOutOfRange;
+  if ((position_counts > limits.most_counts && rate > 0.0) || (position_counts < limits.least_counts && rate < 0.0)) {
+    return GateCheck::kRateOutOfRange;
+  }
+  const double rate_step = rate - previous.rate_counts_s, torque_step = torque - previous.torque_permille;
+  if (is_outside(rate_step, -limits.rate_step_counts_s, limits.rate_step_counts_s)) return GateCheck::kRateStepTooLarge;
+  if (is_outside(torque_step, -limits.torque_step_permille, limits.torque_step_permille)) {
+    return GateCheck::kTorqueStepTooLarge;
+  }
+  judged.rate_counts_s = to_counts(rate).value;
+  judged.torque_permille = narrow<std::int16_t>(to_counts(torque).value);
+  return GateCheck::kPassed;
+}
+
+// First check that the proposal for one drive fails; `judged` is what it is told when it passes.
 GateCheck judge(const DriveLimits& limits, const DriveProposal& proposal, const DriveCommand& previous,
-                DriveState state, std::int32_t position_counts, std::int32_t& target_counts) noexcept {
+                DriveState state, std::int32_t position_counts, DriveCommand& judged) noexcept {
   if (state != DriveState::kOperationEnabled) return GateCheck::kDriveNotEnabled;
   if (proposal.mode != limits.mode) return GateCheck::kModeNotAllowed;
   if (is_not_finite(proposal.target_counts)) return GateCheck::kTargetNotFinite;
@@ -49,8 +73,9 @@ GateCheck judge(const DriveLimits& limits, const DriveProposal& proposal, const 
   if (is_outside(proposal.torque_permille, limits.least_permille, limits.most_permille)) {
     return GateCheck::kTorqueOutOfRange;
   }
-  target_counts = target.value;
-  return GateCheck::kPassed;
+  judged.target_counts = target.value;
+  if (limits.mode != DriveMode::kCyclicTorque) return GateCheck::kPassed;
+  return judge_torque(limits, proposal, previous, position_counts, judged);
 }
 
 }  // namespace
@@ -58,21 +83,19 @@ GateCheck judge(const DriveLimits& limits, const DriveProposal& proposal, const 
 GateResult gate(const GateLimits& limits, DriveGoal goal, bool live_targets, const DriveProposals& proposal,
                 const DriveCommands& previous, const DriveFeedbacks& feedback) noexcept {
   GateResult result{};
-  std::array<std::int32_t, kMaxDrives> judged_counts{};
+  DriveCommands judged{};
   for (std::int32_t drive = 0; drive < limits.drive_count; ++drive) {
     const std::size_t i = as_index(drive);
     const DriveState state = decode(feedback[i].statusword);
     result.command[i].controlword = controlword_for(state, goal, previous[i].controlword);
     result.command[i].target_counts = safe_target(state, previous[i], feedback[i]);
     if (!live_targets || result.check != GateCheck::kPassed) continue;
-    result.check =
-        judge(limits.drive[i], proposal[i], previous[i], state, feedback[i].position_counts, judged_counts[i]);
+    judged[i].controlword = result.command[i].controlword;
+    result.check = judge(limits.drive[i], proposal[i], previous[i], state, feedback[i].position_counts, judged[i]);
     if (result.check != GateCheck::kPassed) result.drive = narrow<std::int16_t>(drive);
   }
   if (!live_targets || result.check != GateCheck::kPassed) return result;
-  for (std::int32_t drive = 0; drive < limits.drive_count; ++drive) {
-    result.command[as_index(drive)].target_counts = judged_counts[as_index(drive)];
-  }
+  result.command = judged;
   return result;
 }
 

@@ -21,6 +21,10 @@ enum class GateCheck : std::uint8_t {
   kTorqueOutOfRange = 5,
   kDriveNotEnabled = 6,  // motion was proposed while this drive is not in Operation enabled
   kModeNotAllowed = 7,   // a mode of operation that the drive was not configured for
+  kRateNotFinite = 8,
+  kRateOutOfRange = 9,  // cst: faster than the drive may turn, or out of its range where it stands
+  kRateStepTooLarge = 10,
+  kTorqueStepTooLarge = 11,
 };
 
 // What one drive may be told.
@@ -31,6 +35,10 @@ struct DriveLimits {
   std::int64_t step_counts = 0;  // largest target change in one tick
   double least_permille = 0.0;
   double most_permille = 0.0;
+  // cst: largest rate, and largest changes of rate and torque in one tick.
+  double most_rate_counts_s = 0.0;
+  double rate_step_counts_s = 0.0;
+  double torque_step_permille = 0.0;
   // How far a target may jump for a proposal that lets go, with the sign of the way that gives in; 0: never.
   std::int64_t let_go_counts = 0;
 };
@@ -51,7 +59,8 @@ struct GateResult {
 // Judges the proposals for a tick against what was sent in the previous tick and what the drives report. `goal` and
 // `live_targets` are the supervisor's orders; while targets are not live, proposals are not looked at. All drives pass,
 // or none: after a refusal every drive gets its safe target, as it does while targets are not live: the previous one
-// for a drive that has torque and was told to have it, and the actual position for every other drive.
+// for a drive that has torque and was told to have it, and the actual position for every other drive. A drive in torque
+// mode gets no torque and rate 0 with it, which it damps against.
 GateResult gate(const GateLimits& limits, DriveGoal goal, bool live_targets, const DriveProposals& proposal,
                 const DriveCommands& previous, const DriveFeedbacks& feedback) noexcept;
 

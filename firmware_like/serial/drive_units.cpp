@@ -2,6 +2,7 @@
 
 #include "firmware_like/math/convert.hpp"
 #include "firmware_like/math/scalar.hpp"
+#include "firmware_like/serial/torque_drive.hpp"
 
 namespace liana::serial {
 namespace {
@@ -19,6 +20,13 @@ DriveLimits limits_of(const RobotTable& table, std::size_t i) noexcept {
   limits.step_counts = to_counts(step_rad / table.drive[i].rad_per_count).value + kRoundingCounts;
   limits.least_permille = -kRatedPermille;
   limits.most_permille = kRatedPermille;
+  if (table.torque.gives_torque == 0) return limits;
+  limits.mode = DriveMode::kCyclicTorque;
+  const double per_count = 1.0 / table.drive[i].rad_per_count;
+  limits.most_rate_counts_s = kTargetSpeedMargin * joint.rate_rad_s * per_count;
+  limits.rate_step_counts_s =
+      kTargetSpeedMargin * kRateChangeShare * joint.accel_rad_s2 * table.tick_s * per_count + kRoundingCounts;
+  limits.torque_step_permille = kTargetSpeedMargin * kRatedPermille * table.tick_s / kTorqueRamp_s + kRoundingCounts;
   return limits;
 }
 
@@ -38,7 +46,8 @@ LinkLimits make_link_limits(const RobotTable& table) noexcept {
   limits.patience = patience(table.tick_s);
   const double delay_s = table.servo_time_constant_s + kFollowingDeadTicks * table.tick_s;
   for (std::size_t i = 0; i < table.joints(); ++i) {
-    const double window_rad = kFollowingWindow_rad + kTargetSpeedMargin * table.joint[i].rate_rad_s * delay_s;
+    const double loop_rad = table.torque.gives_torque != 0 ? kTorqueFollowingWindow_rad : kFollowingWindow_rad;
+    const double window_rad = loop_rad + kTargetSpeedMargin * table.joint[i].rate_rad_s * delay_s;
     limits.following_counts[i] = to_counts(window_rad / table.drive[i].rad_per_count).value;
   }
   return limits;

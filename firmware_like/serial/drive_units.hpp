@@ -12,7 +12,9 @@ namespace liana::serial {
 constexpr double kRangeMargin_rad =
     0.0175;  // 1 deg: beyond its range by less, a joint is not out of it, for the gate as for homing
 constexpr double kFollowingWindow_rad =
-    0.00175;                               // 0.1 deg at rest: wind-up of the gear at rated torque, and loop error
+    0.00175;  // 0.1 deg at rest: wind-up of the gear at rated torque, and loop error
+constexpr double kTorqueFollowingWindow_rad =
+    0.035;  // 2 deg, of torque drives: a joint with a payload that nobody has told it of lags when it speeds up
 constexpr double kRatedPermille = 1000.0;  // of torque
 
 // Joint angle [rad] at a drive position.
@@ -27,7 +29,8 @@ constexpr double counts_at_joint(const DriveTable& drive, double joint_rad) noex
          static_cast<double>(drive.direction) * (joint_rad / drive.rad_per_count);
 }
 
-// For the gate: the joints' ranges with kRangeMargin_rad, their rates with kTargetSpeedMargin, rated torque.
+// For the gate: the joints' ranges with kRangeMargin_rad, their rates with kTargetSpeedMargin, rated torque; for torque
+// drives also how fast rate (kRateChangeShare) and torque (kTorqueRamp_s) may change.
 GateLimits make_gate_limits(const RobotTable& table) noexcept;
 
 // For the watchdogs: drives lag by their time constant and the bus at full rate.

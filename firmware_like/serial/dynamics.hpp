@@ -8,14 +8,9 @@
 #include "firmware_like/math/pose.hpp"
 #include "firmware_like/serial/mass_table.hpp"
 #include "firmware_like/serial/robot_table.hpp"
+#include "firmware_like/serial/wrench.hpp"
 
 namespace liana::serial {
-
-// What pushes and turns the tip from outside, in the base frame, about the tip's origin.
-struct Wrench {
-  Vec3 force_N{};
-  Vec3 torque_Nm{};
-};
 
 // How the joints move; angles |.| <= 1000 rad.
 struct JointMotion {
@@ -34,6 +29,7 @@ class Dynamics {
   // A body fixed to the tip, in the tip's frame; replaces the one before. One without mass: none.
   void set_payload(const LinkMass& payload_at_tip) noexcept;
 
+  // `on_tip` is what pushes and turns the tip from outside, in the base frame, about the tip's origin.
   // Torques [N.m] that the links' sides of the gears have to give for this motion: M(q) qdd + h(q, qd) - J^T on_tip,
   // less what gravity [m/s^2, base frame] gives; rotors and friction are before the gears and not in it. Cost: always
   // the same, about 250 operations and one sine a joint.

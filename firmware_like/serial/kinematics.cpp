@@ -52,6 +52,14 @@ Twist tip_twist(const RobotTable& table, const Jacobian& jacobian, const JointVe
   return twist;
 }
 
+JointVector torque_of_wrench(const RobotTable& table, const Jacobian& jacobian, const Wrench& wrench) noexcept {
+  JointVector torque_Nm{};
+  for (std::size_t i = 0; i < table.joints(); ++i) {
+    torque_Nm[i] = dot(jacobian.linear[i], wrench.force_N) + dot(jacobian.angular[i], wrench.torque_Nm);
+  }
+  return torque_Nm;
+}
+
 double chain_length_m(const RobotTable& table) noexcept {
   double length_m = 0.0;
   for (Index i = 0; i < table.joints(); ++i) {

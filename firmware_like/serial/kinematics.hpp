@@ -5,6 +5,7 @@
 
 #include "firmware_like/math/pose.hpp"
 #include "firmware_like/serial/robot_table.hpp"
+#include "firmware_like/serial/wrench.hpp"
 
 namespace liana::serial {
 
@@ -30,6 +31,9 @@ struct Twist {
   Vec3 angular_rad_s{};
 };
 Twist tip_twist(const RobotTable& table, const Jacobian& jacobian, const JointVector& rate_rad_s) noexcept;
+
+// J^T F: joint torques [N.m] that give this wrench at the tip, about its origin, in the base frame.
+JointVector torque_of_wrench(const RobotTable& table, const Jacobian& jacobian, const Wrench& wrench) noexcept;
 
 // Distance from the base [m] that no tip of this arm is beyond: the links laid end to end.
 double chain_length_m(const RobotTable& table) noexcept;

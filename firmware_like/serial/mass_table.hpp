@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "firmware_like/math/pose.hpp"
-#include "firmware_like/serial/robot_table.hpp"
+#include "firmware_like/serial/joint_vector.hpp"
 
 namespace liana::serial {
 

@@ -5,11 +5,9 @@
 #include <cstdint>
 #include <type_traits>
 
+#include "firmware_like/serial/torque_table.hpp"
+
 namespace liana::serial {
-
-constexpr std::int32_t kMaxJoints = 8;  // compiled capacity; a robot within it needs a new table and no new code
-
-using JointVector = std::array<double, kMaxJoints>;  // from the base to the tip [rad], [rad/s] ...
 
 // One row of the standard Denavit-Hartenberg table: turn by theta + offset about z, shift d along z, shift a along the
 // new x, turn by alpha about the new x.
@@ -53,6 +51,7 @@ struct RobotTable {
   std::array<JointTable, kMaxJoints> joint{};
   std::array<DriveTable, kMaxJoints> drive{};
   TipLimits tip{};
+  TorqueTable torque{};                // of an arm whose drives follow torques
   double servo_time_constant_s = 0.0;  // of the drives' position servos
   double tick_s = 0.0;                 // control period
   std::int32_t interval_ticks = 0;     // T_c in ticks

@@ -4,7 +4,9 @@
 
 namespace liana::serial {
 
-SerialArm::SerialArm(const RobotTable& table) noexcept : table_(table) { stand(); }
+SerialArm::SerialArm(const RobotTable& table) noexcept : table_(table), dynamics_(table, table.torque.masses) {
+  stand();
+}
 
 JointVector SerialArm::measured_rad() const noexcept {
   JointVector joint{};
@@ -12,7 +14,7 @@ JointVector SerialArm::measured_rad() const noexcept {
   return joint;
 }
 
-void SerialArm::read(const DriveFeedbacks& drives, const NoSensors&) noexcept {
+void SerialArm::read(const DriveFeedbacks& drives, const Sensors& sensors) noexcept {
   bool all_fresh = true;
   for (std::int32_t drive = 0; drive < table_.drive_count(); ++drive) {
     const std::size_t i = as_index(drive);
@@ -26,26 +28,82 @@ void SerialArm::read(const DriveFeedbacks& drives, const NoSensors&) noexcept {
   } else if (homing_ticks_ < kHomingTicks) {
     ++homing_ticks_;
   }
+  read_wrist(sensors.wrist, wrist_);
+  read_adapter(sensors.adapter, adapter_);
 }
 
 void SerialArm::watch_drive(WatchScope scope, bool, std::int32_t drive, Watch& out) noexcept {
   watch_joint(table_, scope, drive, joints_, out);
 }
 
+// What ended a push, named in the tick after it: until then the arm gives way already.
+void SerialArm::watch(WatchScope, std::uint64_t tick, FaultList& faults) noexcept {
+  if (push_.phase != PushPhase::kYielding || push_.phase_ticks != 0) return;
+  if (push_.end == PushEnd::kSensorLost) {
+    latch(faults, {FaultNumber::kWristSensorLost, -1, static_cast<std::uint16_t>(push_.lost), tick});
+  }
+  if (push_.end == PushEnd::kOverload) {
+    const std::int32_t size = to_counts(push_.overload).value;
+    latch(faults, {FaultNumber::kPushOverload, push_.overload_joint, narrow<std::uint16_t>(size), tick});
+  }
+}
+
+void SerialArm::take(const Setpoint& setpoint) noexcept {
+  accept_setpoint(table_, setpoint, motion_);
+  if (is_force(setpoint.kind)) {
+    accept_force(setpoint, push_);
+  } else {
+    push_.phase = PushPhase::kNone;
+  }
+}
+
+void SerialArm::stand() noexcept {
+  reset_motion(table_, measured_rad(), motion_);
+  push_.phase = PushPhase::kNone;
+  told_ = TorqueTold{};
+}
+
 ArmStatus SerialArm::status() const noexcept {
   const bool homed = homing_ticks_ >= kHomingTicks;
-  return {homed, at_rest(table_, motion_), homed};  // nothing to prepare
+  const bool pushes = push_.phase != PushPhase::kNone && push_.phase != PushPhase::kYielding;
+  return {homed, !pushes && at_rest(table_, motion_), homed};  // nothing to prepare
+}
+
+// Forces say where the joints go; the target goes with them.
+ForceMotion SerialArm::give_way(bool allowed) noexcept {
+  const JointVector measured = measured_rad();
+  const PushInputs in{measured, torque_measured_Nm_, motion_.limiter.rate_rad_s, adapter_, allowed};
+  const ForceMotion wanted = advance_force(table_, in, wrist_, push_);
+  follow_along(table_, wanted, in.measured_rad, motion_.limiter);
+  motion_.ik_rad = motion_.limiter.joint_rad;
+  motion_.arm = forward_kinematics(table_, motion_.limiter.joint_rad);
+  motion_.filter.pose = motion_.arm.tip_in_base;
+  motion_.ik = report_ik(table_, motion_.filter.pose, motion_.arm.tip_in_base);
+  motion_.limits = 0;
+  return wanted;
 }
 
 std::uint32_t SerialArm::advance(bool allowed) noexcept {
-  advance_motion(table_, allowed, motion_);
+  ForceMotion wanted;
+  if (gives_torque() && is_force(motion_.to.kind)) {
+    wanted = give_way(allowed && !motion_.braking);
+  } else {
+    advance_motion(table_, allowed, motion_);
+    if (gives_torque()) wanted = planned_motion(table_, dynamics_, motion_.limiter, told_);
+  }
+  if (gives_torque()) tell_torque(table_, wanted, measured_rad(), motion_.limiter, told_);
   return motion_.limits;
 }
 
 std::uint32_t SerialArm::propose(const Orders& orders, const DriveCommands&, bool, DriveProposals& out) noexcept {
   if (!orders.live_targets) return 0;
   for (std::size_t i = 0; i < table_.joints(); ++i) {
-    out[i].target_counts = counts_at_joint(table_.drive[i], motion_.limiter.joint_rad[i]);
+    const DriveTable& drive = table_.drive[i];
+    out[i].target_counts = counts_at_joint(drive, motion_.limiter.joint_rad[i]);
+    if (!gives_torque()) continue;
+    out[i].mode = DriveMode::kCyclicTorque;
+    out[i].torque_permille = drive.direction * told_.torque_Nm[i] / drive.torque_per_permille_Nm;
+    out[i].rate_counts_s = drive.direction * told_.rate_rad_s[i] / drive.rad_per_count;
   }
   return 0;
 }
@@ -64,6 +122,8 @@ void SerialArm::report(Report& out) const noexcept {
   out.ik_attitude_error_rad = motion_.ik.attitude_error_rad;
   out.ik_outcome = motion_.ik.outcome;
   out.ik_residual = motion_.ik.residual;
+  out.torque_told_Nm = told_.torque_Nm;
+  out.push = push_report(push_, wrist_, adapter_);
 }
 
 }  // namespace liana::serial

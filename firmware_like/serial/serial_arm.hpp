@@ -1,5 +1,5 @@
 // A serial arm as the Controller sees it (arm.hpp): absolute encoders in, joint targets of position-controlled drives
-// out.
+// out; or, where the table says so, rates and torques of torque-controlled ones, and pushes by force control.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +12,7 @@
 #include "firmware_like/serial/motion.hpp"
 #include "firmware_like/serial/report.hpp"
 #include "firmware_like/serial/setpoint.hpp"
+#include "firmware_like/serial/torque_drive.hpp"
 
 namespace liana::serial {
 
@@ -22,7 +23,7 @@ class SerialArm {
   using Table = RobotTable;
   using Setpoint = serial::Setpoint;
   using Report = serial::Report;
-  using Sensors = NoSensors;
+  using Sensors = serial::Sensors;
 
   // The table must have passed the loader; no other checks are made here.
   explicit SerialArm(const RobotTable& table) noexcept;
@@ -32,22 +33,25 @@ class SerialArm {
   LinkLimits link_limits() const noexcept { return make_link_limits(table_); }
 
   // One tick, in the order of these functions; arm.hpp says what each has to do.
-  void read(const DriveFeedbacks& drives, const NoSensors&) noexcept;
+  void read(const DriveFeedbacks& drives, const Sensors& sensors) noexcept;
   void watch_drive(WatchScope scope, bool follows, std::int32_t drive, Watch& out) noexcept;
-  void watch(WatchScope, std::uint64_t, FaultList&) noexcept {}  // joints are watched one by one
-  bool lets_go(std::int32_t) const noexcept { return false; }    // a joint never gives in
+  void watch(WatchScope scope, std::uint64_t tick, FaultList& faults) noexcept;
+  bool lets_go(std::int32_t) const noexcept { return false; }  // a joint never gives in
   ArmStatus status() const noexcept;
   bool accepts(const Setpoint& setpoint) const noexcept { return is_usable(table_, setpoint); }
-  void take(const Setpoint& setpoint) noexcept { accept_setpoint(table_, setpoint, motion_); }
+  void take(const Setpoint& setpoint) noexcept;
   void brake() noexcept { motion_.braking = true; }
   bool is_braking() const noexcept { return motion_.braking; }
-  void stand() noexcept { reset_motion(table_, measured_rad(), motion_); }
+  void stand() noexcept;
   std::uint32_t advance(bool allowed) noexcept;
   std::uint32_t propose(const Orders& orders, const DriveCommands& sent, bool is_sound, DriveProposals& out) noexcept;
   void report(Report& out) const noexcept;
 
   // What the twin's drives show beside what they are told: nothing, in orbit and without a load.
   static std::int16_t planned_permille(const RobotTable&, const Report&, std::int32_t) noexcept { return 0; }
+
+  // The sensors that the twin imagines for the next tick.
+  static Sensors imagined(const Sensors& last) noexcept { return serial::imagined(last); }
 
   // Motion stage, for the verifier's predictions and for tests.
   const MotionState& motion() const noexcept { return motion_; }
@@ -69,15 +73,26 @@ class SerialArm {
     v("torque_measured_Nm", self.torque_measured_Nm_);
     v("homing_ticks", self.homing_ticks_);
     v("motion", self.motion_);
+    v("wrist", self.wrist_);
+    v("adapter", self.adapter_);
+    v("push", self.push_);
+    v("told", self.told_);
   }
 
   JointVector measured_rad() const noexcept;
+  bool gives_torque() const noexcept { return table_.torque.gives_torque != 0; }
+  ForceMotion give_way(bool allowed) noexcept;
 
   RobotTable table_{};
   JointWatchState joints_{};
   JointVector torque_measured_Nm_{};
   std::uint32_t homing_ticks_ = 0;
   MotionState motion_{};
+  Dynamics dynamics_;
+  WristState wrist_{};
+  AdapterState adapter_{};
+  PushState push_{};
+  TorqueTold told_{};
 };
 
 static_assert(std::is_trivially_copyable_v<SerialArm>);

@@ -137,6 +137,11 @@ double far_step(const RobotTable& table, const Pose& goal, JointVector& joint_ra
   return size(e);
 }
 
+JointVector rates_of_twist(const RobotTable& table, const Jacobian& jacobian, const Twist& twist) noexcept {
+  const Vec3 &v = twist.linear_m_s, &w = twist.angular_rad_s;
+  return damped_step(jacobian, table.joints(), 0, kIkDamping, {}, {v[0], v[1], v[2], w[0], w[1], w[2]});
+}
+
 IkReport report_ik(const RobotTable& table, const Pose& goal, const Pose& tip) noexcept {
   const double asked = 4.0 * size(pose_error(goal, tip));  // nothing was tried, so nothing is in its way
   return report_of(table, goal, tip, asked, 0);

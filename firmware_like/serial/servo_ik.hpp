@@ -41,6 +41,9 @@ IkReport servo_ik(const RobotTable& table, const Pose& tip_goal_in_base, const J
 // jumps are what helps there. Returns |e| (m and rad together) before the step.
 double far_step(const RobotTable& table, const Pose& tip_goal_in_base, JointVector& joint_rad) noexcept;
 
+// Joint rates [rad/s] of a twist of the tip, the smallest that there are: J^T (J J^T + kIkDamping I)^-1 v.
+JointVector rates_of_twist(const RobotTable& table, const Jacobian& jacobian, const Twist& twist) noexcept;
+
 // The report of joints that stand still.
 IkReport report_ik(const RobotTable& table, const Pose& tip_goal_in_base, const Pose& tip_in_base) noexcept;
 

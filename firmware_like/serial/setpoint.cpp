@@ -13,10 +13,25 @@ bool inside_ranges(const RobotTable& table, const JointVector& joint_rad) noexce
   return true;
 }
 
+bool is_within(double value, double low, double high) noexcept { return value >= low && value <= high; }
+
+bool is_usable(const TorqueTable& table, const Push& push) noexcept {
+  for (std::size_t i = 0; i < kPushGainCount; ++i) {
+    if (!is_within(push.gains[i], table.gain_low[i], table.gain_high[i])) return false;
+  }
+  const double axis = dot(push.axis_in_tip, push.axis_in_tip);
+  return push.number > 0 && is_within(axis, 1.0 - 2e-6, 1.0 + 2e-6) &&
+         is_within(push.force_N, 0.0, table.most_force_N) && is_within(push.travel_m, 0.0, table.most_travel_m) &&
+         is_within(push.aside_m, 0.0, table.most_aside_m) && is_within(push.turn_rad, 0.0, table.most_turn_rad) &&
+         is_within(push.depth_m, 0.0, push.travel_m);
+}
+
 }  // namespace
 
 bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept {
   if (is_joint(setpoint.kind)) return inside_ranges(table, setpoint.joint_rad);
+  if (is_force(setpoint.kind) && table.torque.gives_torque == 0) return false;
+  if (setpoint.kind == CommandKind::kPush) return is_usable(table.torque, setpoint.push);
   if (setpoint.kind != CommandKind::kTip) return true;
   return is_valid(setpoint.tip_in_base) && setpoint.tip_speed_m_s > 0.0 && is_finite(setpoint.tip_speed_m_s);
 }

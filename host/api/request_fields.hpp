@@ -169,6 +169,32 @@ constexpr std::array kUseDevice{
         .list(16),
     word("feedback", kFeedbacks, "law by which the hand feels the arm; `aligned` when left out").optional(),
 };
+constexpr std::array kPushLaws{"force", "impedance"};
+constexpr std::array kPushGainFields{
+    number("mass_kg", 1e-6, 1e6, "M_d along the axes").optional(),
+    number("inertia_kgm2", 1e-6, 1e6, "M_d about the axes").optional(),
+    number("axial_damping_Ns_per_m", 1e-6, 1e6, "K_D along the axis of the push").optional(),
+    number("lateral_damping_Ns_per_m", 1e-6, 1e6, "K_D across it").optional(),
+    number("turn_damping_Nms_per_rad", 1e-6, 1e6, "K_D of turning").optional(),
+    number("force_gain", 1e-6, 1e6, "K_P C_F: of what is missing of the set force").optional(),
+    number("stiffness_N_per_m", 1e-6, 1e6, "K_P of impedance").optional(),
+    number("turn_stiffness_Nm_per_rad", 1e-6, 1e6, "K_P of impedance in turning").optional(),
+    number("approach_m_s", 1e-6, 1e6, "impedance: of the point that it pulls to").optional(),
+    number("unload_damping_Ns_per_m", 1e-6, 1e6, "K_D along the axis from capture on").optional(),
+};
+constexpr std::array kPush{
+    point("axis", "way in, in the frame of the tip, of any length; left out: the tip's z").optional(),
+    number("force_N", 0.0, 1000.0, "set force along the axis; the other five are set to nothing").otherwise(30.0),
+    number("travel_m", 0.001, 1.0, "the most along the axis, from where it begins").otherwise(0.06),
+    number("aside_m", 0.001, 1.0, "the most across it").otherwise(0.02),
+    number("turn_deg", 0.1, 45.0, "the most that the tip turns").otherwise(3.0),
+    word("law", kPushLaws, "`force` when left out").optional(),
+    number("depth_m", 0.0, 1.0, "`impedance`: where the stop is expected, along the axis").otherwise(0.0222),
+    flag("tare", "what the wrist sensor says in the first 0.1 s is taken for nothing").otherwise(1.0),
+    object("gains", kPushGainFields, "other gains than the robot's, within its ranges").optional(),
+};
+constexpr std::array kAdapterCommands{"lock", "release"};
+constexpr std::array kAdapter{word("command", kAdapterCommands, "what the adapter should do")};
 constexpr std::array kMissionControl{word("command", kMissionCommands, "what the mission should do")};
 constexpr std::array kRetract{
     integer("until_tick", 0.0, kBiggestWhole, "not farther back than the arm was then").otherwise(0.0)};

@@ -35,7 +35,7 @@ const char* unit_of(std::string_view name) {
   if (name.ends_with("_deg")) return " deg";
   if (name.ends_with("_us")) return " us";
   if (name.ends_with("_s")) return " s";
-  return name.ends_with("_m") ? " m" : "";
+  return name.ends_with("_m") && !name.ends_with("_per_m") ? " m" : "";
 }
 
 std::string type_text(const RequestField& field) {

@@ -78,14 +78,17 @@ double worst_bits_per_second(const LoadTerms& terms) {
   const auto tpdo = worst_frame_bits(static_cast<std::uint32_t>(terms.tpdo_bytes));
   const double period_bits = worst_frame_bits(0) + static_cast<double>(terms.drives) * (rpdo + tpdo);
   return period_bits * terms.rate_hz + terms.heartbeats_per_s * worst_frame_bits(1) +
-         2.0 * terms.sdo_pairs_per_s * worst_frame_bits(8);
+         2.0 * terms.sdo_pairs_per_s * worst_frame_bits(8) + terms.other_bits_per_s;
 }
 
 LoadTerms load_terms(const config::BusesConfig& config, std::size_t bus) {
   LoadTerms terms;
   terms.rate_hz = config.rate_hz;
   terms.drives = static_cast<int>(config.buses[bus].nodes.size());
-  terms.heartbeats_per_s = (terms.drives + 1) * 1000.0 / config.heartbeat_ms;
+  const config::BusConfig& own = config.buses[bus];
+  const int others = (own.wrist_sensor != 0) + (own.adapter != 0);
+  terms.heartbeats_per_s = (terms.drives + others + 1) * 1000.0 / config.heartbeat_ms;
+  terms.other_bits_per_s = config::worst_extra_bits_per_s(own, config.rate_hz, config::torque_drives(config, bus));
   return terms;
 }
 

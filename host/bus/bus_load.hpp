@@ -15,6 +15,7 @@ struct LoadTerms {
   int tpdo_bytes = 8;
   double heartbeats_per_s = 0.0;  // of all nodes together
   double sdo_pairs_per_s = 20.0;  // request and response, 8 bytes each
+  double other_bits_per_s = 0.0;  // what torque drives, wrist sensor and adapter have besides
 };
 
 // Bits per second with worst-case stuffing: SYNC, one RPDO and one TPDO per drive each period, heartbeats, SDO.

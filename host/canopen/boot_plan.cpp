@@ -17,7 +17,9 @@ constexpr std::uint32_t kDeviceProfileMask = 0x0000FFFF;  // of 1000: the profil
 constexpr std::uint32_t kPolarityMask = 0xC0;             // of 607E: position and velocity
 constexpr std::uint32_t kProfile402 = 402;
 constexpr std::uint32_t kModeCsp = 8;
-constexpr std::uint32_t kSupportsCsp = 0x80;  // 6502: bit mode - 1
+constexpr std::uint32_t kModeCst = 10;
+constexpr std::uint32_t kSupportsCsp = 0x80;   // 6502: bit mode - 1
+constexpr std::uint32_t kSupportsCst = 0x200;  // the same
 constexpr std::uint32_t kEverySync = 1;
 constexpr std::uint16_t kMostPdos = 32;  // of each direction; drives have 4 to 16
 constexpr std::uint16_t kUsualPdos = 4;  // among these there may be gaps
@@ -33,6 +35,12 @@ std::uint32_t rounded_up(double value) {
 std::uint32_t signed_bits(double value) {
   return static_cast<std::uint32_t>(
       static_cast<std::int32_t>(std::lround(std::clamp(value, -2147483648.0, 2147483647.0))));
+}
+
+// "TPDO2" for 0x1801.
+std::string pdo_name(std::uint16_t communication) {
+  const bool receive = communication < 0x1800;
+  return (receive ? "RPDO" : "TPDO") + std::to_string(communication - (receive ? 0x1400 : 0x1800) + 1);
 }
 
 bool same_ratio(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
@@ -59,11 +67,18 @@ config::InterpolationPeriod period_of(config::InterpolationPeriod period, const 
 
 BootPlan::BootPlan(const DriveExpectation& drive) : type_(drive.type), rpdo_deadline_ms_(drive.rpdo_deadline_ms) {
   constexpr std::array<std::uint32_t, 2> kTargets{0x60400010, 0x607A0020};
+  constexpr std::array<std::uint32_t, 3> kTorqueTargets{0x60400010, 0x60710010, 0x60B10020};
   constexpr std::array<std::uint32_t, 3> kReports{0x60410010, 0x60640020, 0x60770010};
+  constexpr std::array<std::uint32_t, 1> kRates{0x606C0020};
   check_identity(drive);
   check_mechanics(drive);
-  map_pdo(0x1400, kRpdo1Base + drive.node, kTargets);
+  if (type_.is_cst) {
+    map_pdo(0x1400, kRpdo1Base + drive.node, kTorqueTargets);
+  } else {
+    map_pdo(0x1400, kRpdo1Base + drive.node, kTargets);
+  }
   map_pdo(0x1800, kTpdo1Base + drive.node, kReports);
+  if (type_.is_cst) map_pdo(0x1801, kTpdo2Base + drive.node, kRates);
   disable_other_pdos();
   start_up_writes();
   set_motion(drive);
@@ -152,7 +167,11 @@ void BootPlan::keep(std::size_t at, std::uint32_t found) noexcept {
 void BootPlan::check_mechanics(const DriveExpectation& drive) {
   const config::DriveUnits& units = type_.units;
   const config::Factor gear = units.gear.value_or(config::Factor{drive.gear_motor_turns, drive.gear_drum_turns});
-  expect(0x6502, 0, kSupportsCsp, "supported drive modes, csp", kSupportsCsp);
+  if (type_.is_cst) {
+    expect(0x6502, 0, kSupportsCst, "supported drive modes, cst", kSupportsCst);
+  } else {
+    expect(0x6502, 0, kSupportsCsp, "supported drive modes, csp", kSupportsCsp);
+  }
   write(0x60A8, 0, 4, units.position, "unit of positions");
   if (units.velocity) expect(0x60A9, 0, *units.velocity, "unit of speeds");
   expect_factor(0x608F, units.encoder.value_or(config::Factor{drive.counts_per_turn, 1}), "encoder counts",
@@ -173,9 +192,10 @@ void BootPlan::check_mechanics(const DriveExpectation& drive) {
 // The order is CiA 301's: a mapping can only be changed while its PDO is disabled and it has no entries.
 void BootPlan::map_pdo(std::uint16_t communication, std::uint32_t cob_id, std::span<const std::uint32_t> entries) {
   const bool receive = communication < 0x1800;
-  const char* const cob_name = receive ? "RPDO1 COB-ID" : "TPDO1 COB-ID";
+  const std::string pdo = pdo_name(communication);
+  const std::string cob_name = pdo + " COB-ID";
   const auto cob = [&](std::uint32_t value) {
-    BootObject* object = write(communication, 1, 4, value, cob_name);
+    BootObject* object = write(communication, 1, 4, value, cob_name.c_str());
     object->keep = kNoRemoteRequest;
     object->mask = ~kNoRemoteRequest;
     return object;
@@ -188,11 +208,10 @@ void BootPlan::map_pdo(std::uint16_t communication, std::uint32_t cob_id, std::s
     object->needs_from = disabled_at;
     object->needs_to = disabled_at + 1;
   };
-  BootObject* type =
-      write(communication, 2, 1, kEverySync, receive ? "RPDO1 transmission type" : "TPDO1 transmission type");
+  BootObject* type = write(communication, 2, 1, kEverySync, (pdo + " transmission type").c_str());
   if (type != nullptr && type->write && receive) type->rule = BootRule::kAnyTarget;
   while_disabled(type);
-  if (receive) while_disabled(write(communication, 5, 2, rpdo_deadline_ms_, "RPDO1 deadline"));
+  if (receive) while_disabled(write(communication, 5, 2, rpdo_deadline_ms_, (pdo + " deadline").c_str()));
   const std::size_t enabled_at = objects_.size();
   BootObject* enabled = cob(cob_id);
   enabled->needs_from = disabled_at;
@@ -200,8 +219,7 @@ void BootPlan::map_pdo(std::uint16_t communication, std::uint32_t cob_id, std::s
 }
 
 void BootPlan::write_mapping(std::uint16_t mapping, std::size_t disabled_at, std::span<const std::uint32_t> entries) {
-  const bool receive = mapping < 0x1A00;
-  const std::string pdo = receive ? "RPDO1 mapping " : "TPDO1 mapping ";
+  const std::string pdo = pdo_name(static_cast<std::uint16_t>(mapping - 0x0200)) + " mapping ";
   const std::size_t emptied_at = objects_.size();
   const auto put = [&](std::uint8_t sub, std::uint8_t bytes, std::uint32_t value, std::size_t needs_to) {
     BootObject* object = write(mapping, sub, bytes, value, (pdo + (sub == 0 ? "count" : std::to_string(sub))).c_str());
@@ -218,7 +236,7 @@ void BootPlan::write_mapping(std::uint16_t mapping, std::size_t disabled_at, std
 // Whatever COB-ID they have, and however many there are.
 void BootPlan::disable_other_pdos() {
   for (const int page : {0x1400, 0x1800}) {
-    for (std::uint16_t number = 1; number < kMostPdos; ++number) {
+    for (std::uint16_t number = page == 0x1800 && type_.is_cst ? 2 : 1; number < kMostPdos; ++number) {
       const char* const name =
           page == 0x1400 ? "COB-ID of an RPDO that is not used" : "COB-ID of a TPDO that is not used";
       BootObject* object = write(static_cast<std::uint16_t>(page + number), 1, 4, kDisabled, name);
@@ -239,7 +257,7 @@ void BootPlan::start_up_writes() {
 
 void BootPlan::set_motion(const DriveExpectation& drive) {
   const auto bits = [](std::int16_t value) { return static_cast<std::uint32_t>(static_cast<std::uint16_t>(value)); };
-  write(0x6060, 0, 1, kModeCsp, "mode of operation");
+  write(0x6060, 0, 1, type_.is_cst ? kModeCst : kModeCsp, "mode of operation");
   const config::InterpolationPeriod period = period_of(drive.period, type_.rule_of({0x60C2, 2}));
   write(0x60C2, 1, 1, period.value, "interpolation period value");
   write(0x60C2, 2, 1, static_cast<std::uint32_t>(period.exponent), "interpolation period exponent");

@@ -16,7 +16,7 @@ constexpr double kSdoPairsPerSecond = 20.0;  // as host/bus/bus_load.hpp has it
 constexpr std::int64_t kMasterNode = 127;    // docs/drives.md
 
 BusConfig read_bus(const Field& field, std::map<std::int32_t, std::string>& owner) {
-  field.only({"name", "bitrate", "nodes"});
+  field.only({"name", "bitrate", "nodes", "wrist_sensor", "adapter"});
   BusConfig bus;
   bus.name = field.at("name").name(11);  // 12 bytes with the final zero, docs/bus-protocol.md
   bus.bitrate = static_cast<std::int32_t>(field.at("bitrate").integer(10000, 1000000));
@@ -28,7 +28,24 @@ BusConfig read_bus(const Field& field, std::map<std::int32_t, std::string>& owne
       nodes.element(i).refuse("each node id once", "it is already on bus " + owner[node]);
     bus.nodes.push_back(node);
   }
+  for (const auto& [key, place] : {std::pair{"wrist_sensor", &bus.wrist_sensor}, std::pair{"adapter", &bus.adapter}}) {
+    if (!field.json().contains(key)) continue;
+    *place = static_cast<std::int32_t>(field.at(key).integer(1, kMasterNode - 1));
+    if (!owner.emplace(*place, bus.name).second)
+      field.at(key).refuse("a node id that nobody else has", "it is already on bus " + owner[*place]);
+  }
   return bus;
+}
+
+// A serial arm has one wrist, and pushes into one adapter.
+void check_sensors(const Field& table, const BusesConfig& buses) {
+  std::int32_t wrists = 0, adapters = 0;
+  for (const BusConfig& bus : buses.buses) {
+    wrists += bus.wrist_sensor != 0;
+    adapters += bus.adapter != 0;
+  }
+  if (wrists > 1 || adapters > 1)
+    table.at("buses").refuse("one wrist_sensor and one adapter in all", "leave the others out");
 }
 
 void check_timing(const Field& table, const BusesConfig& buses) {
@@ -97,13 +114,35 @@ InterpolationPeriod interpolation_period(std::int32_t period_us) {
   return period;
 }
 
+std::int32_t torque_drives(const BusesConfig& buses, std::size_t bus) {
+  std::int32_t count = 0;
+  const std::map<std::int32_t, DriveType> types = drive_types(buses);
+  for (const std::int32_t node : buses.buses[bus].nodes) {
+    const auto named = types.find(node);
+    if (named != types.end() && named->second.is_cst) ++count;
+  }
+  return count;
+}
+
+// A torque drive's command is two bytes longer, and it has a TPDO2. The sensor has two frames a tick, the adapter one
+// every fourth tick, and it is told as often.
+double worst_extra_bits_per_s(const BusConfig& bus, double rate_hz, std::int32_t torque_drives) {
+  double tick_bits = torque_drives * (worst_frame_bits(8) - worst_frame_bits(6) + worst_frame_bits(4));
+  if (bus.wrist_sensor != 0) tick_bits += 2.0 * worst_frame_bits(8);
+  if (bus.adapter != 0) tick_bits += (worst_frame_bits(8) + worst_frame_bits(2)) / 4.0;
+  return tick_bits * rate_hz;
+}
+
 double worst_case_load(const BusesConfig& buses, std::size_t bus) {
-  const auto nodes = static_cast<double>(buses.buses[bus].nodes.size());
+  const BusConfig& own = buses.buses[bus];
+  const auto nodes = static_cast<double>(own.nodes.size());
+  const double others = (own.wrist_sensor != 0) + (own.adapter != 0);
   const double tick_bits = worst_frame_bits(0) + nodes * (worst_frame_bits(6) + worst_frame_bits(8));
-  const double heartbeat_bits = (nodes + 1.0) * worst_frame_bits(1);
+  const double heartbeat_bits = (nodes + others + 1.0) * worst_frame_bits(1);
   const double sdo_bits = 2.0 * worst_frame_bits(8);  // request and response
-  const double bits_per_second =
-      tick_bits * buses.rate_hz + heartbeat_bits * 1000.0 / buses.heartbeat_ms + sdo_bits * kSdoPairsPerSecond;
+  const double bits_per_second = tick_bits * buses.rate_hz + heartbeat_bits * 1000.0 / buses.heartbeat_ms +
+                                 sdo_bits * kSdoPairsPerSecond +
+                                 worst_extra_bits_per_s(own, buses.rate_hz, torque_drives(buses, bus));
   return bits_per_second / buses.buses[bus].bitrate;
 }
 
@@ -126,9 +165,10 @@ BusesConfig parse_buses(const std::string& text, const std::string& file) {
   std::map<std::int32_t, std::string> owner;
   for (std::size_t i = 0; i < count; ++i) out.buses.push_back(read_bus(list.element(i), owner));
   check_drive_types(table, out);
+  check_sensors(table, out);
   check_timing(table, out);
-  check_load(table, out);
   out.canonical_json = canonical_json(json);
+  check_load(table, out);
   return out;
 }
 

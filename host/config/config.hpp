@@ -20,7 +20,12 @@ struct BusConfig {
   std::string name;                 // interface name for socketcan
   std::int32_t bitrate = 0;         // bit/s
   std::vector<std::int32_t> nodes;  // CANopen node ids, 1..126
+  std::int32_t wrist_sensor = 0;    // node of a serial arm's force sensor (docs/force-control.md); 0: none
+  std::int32_t adapter = 0;         // node of the adapter; 0: none
 };
+
+// Frames of a bus beside commands and TPDO1 of its drives, in bits a second with worst stuffing.
+double worst_extra_bits_per_s(const BusConfig& bus, double rate_hz, std::int32_t torque_drives);
 
 // The machine that the controller runs on.
 struct Machine {
@@ -59,8 +64,11 @@ struct InterpolationPeriod {
 // 60C2 for a period of `period_us`; value 0 when CiA 402 cannot express it exactly.
 InterpolationPeriod interpolation_period(std::int32_t period_us);
 
+// How many drives of a bus are of a type that is driven by torque.
+std::int32_t torque_drives(const BusesConfig& buses, std::size_t bus);
+
 // Worst-case share of the wire (0..) of one bus: SYNC, RPDO1 and TPDO1 of every node each tick with worst stuffing,
-// heartbeats of all and the master, SDO traffic.
+// TPDO2 of torque drives, wrist sensor and adapter, heartbeats of all and the master, SDO traffic.
 double worst_case_load(const BusesConfig& buses, std::size_t bus);
 
 // What object 0x1018 of every drive must say.

@@ -64,10 +64,14 @@ void refuse_what_is_needed(const Field& field, Presence presence) {
     field.refuse("any object but 1400:1 and 1800:1", "without process data a drive cannot be driven");
 }
 
-// A fixed mode has to be csp.
-void refuse_another_mode(const Field& field, ObjectId object, std::uint32_t value) {
-  if (object.index == 0x6060 && value != 8) field.refuse("8, which is csp", "no other mode is driven");
-  if (object.index == 0x6502 && (value & 0x80) == 0)
+// A fixed mode has to be the one that is driven.
+void refuse_another_mode(const Field& field, ObjectId object, std::uint32_t value, bool is_cst) {
+  if (object.index == 0x6060 && is_cst && value != 10)
+    field.refuse("10, which is cst", "take it off the list, or say mode = \"csp\"");
+  if (object.index == 0x6060 && !is_cst && value != 8) field.refuse("8, which is csp", "no other mode is driven");
+  if (object.index == 0x6502 && is_cst && (value & 0x200) == 0)
+    field.refuse("numbers with bit 9 (512), which is cst", "a drive without cst cannot be driven so");
+  if (object.index == 0x6502 && !is_cst && (value & 0x80) == 0)
     field.refuse("numbers with bit 7 (128), which is csp", "a drive without csp cannot be driven");
 }
 
@@ -97,7 +101,7 @@ void read_objects(const Field& table, DriveType& out) {
     const Field field(value, fixed.file(), "objects.fixed." + key);
     const ObjectRule rule{Presence::kFixed, read_u32(field)};
     const ObjectId object = read_ruled(field, key);
-    refuse_another_mode(field, object, *rule.value);
+    refuse_another_mode(field, object, *rule.value, out.is_cst);
     if (!out.objects.emplace(object, rule).second) field.refuse("each object once", "decide what it is");
   }
 }
@@ -271,11 +275,12 @@ DriveType read_drive_type(const Json& json, const std::string& file) {
   const Field table(json, file, "");
   check_kind(table, "drive");
   table.only({"format", "kind", "name", "source", "identity", "objects", "units", "polarity", "max_torque_permille",
-              "following_time_ms", "stop", "mapping", "times", "writes", "dictionary"});
+              "following_time_ms", "stop", "mapping", "times", "writes", "dictionary", "mode"});
   DriveType out;
   out.name = table.at("name").name(40);
   out.source = read_text(table.at("source"), 400);
   if (json.contains("identity")) read_identity_of(table.at("identity"), out);
+  read_if_there(table, "mode", out.is_cst, [](const Field& field) { return field.choice({"csp", "cst"}) == "cst"; });
   if (json.contains("objects")) read_objects(table.at("objects"), out);
   if (json.contains("units")) read_units(table.at("units"), out.units);
   read_if_there(table, "polarity", out.polarity, [](const Field& field) {

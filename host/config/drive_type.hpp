@@ -79,7 +79,8 @@ struct DriveType {
   std::optional<std::uint32_t> vendor;                  // 1018:1; not given: the robot's
   std::optional<std::uint32_t> product;                 // 1018:2
   std::optional<std::uint32_t> revision;                // 1018:3
-  std::map<ObjectId, ObjectRule> objects;               // on top of generic_rules()
+  bool is_cst = false;  // cyclic synchronous torque (6060 = 10) with its own process data (docs/drives.md); else csp
+  std::map<ObjectId, ObjectRule> objects;  // on top of generic_rules()
   DriveUnits units;
   std::uint32_t polarity = 0;                // 607E, bits 7 and 6
   std::uint16_t max_torque_permille = 1000;  // 6072

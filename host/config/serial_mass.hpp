@@ -2,6 +2,7 @@
 #pragma once
 
 #include "firmware_like/serial/mass_table.hpp"
+#include "firmware_like/serial/robot_table.hpp"
 #include "host/config/field.hpp"
 
 namespace liana::config {

@@ -7,6 +7,7 @@
 #include "host/config/canonical.hpp"
 #include "host/config/robot_parts.hpp"
 #include "host/config/serial_mass.hpp"
+#include "host/config/serial_torque.hpp"
 
 namespace liana::config {
 namespace {
@@ -92,7 +93,7 @@ void read_drive_lists(const Field& drives, SerialRobotConfig& out) {
 
 void read_joint_drives(const Field& drives, SerialRobotConfig& out) {
   drives.only({"counts_per_turn", "gear", "servo_time_constant_s", "rated_torque_Nm", "peak_torque_Nm", "identity",
-               "direction", "zero_counts", "serials", "calibration_days"});
+               "direction", "zero_counts", "serials", "calibration_days", "mode", "position_gain_per_s"});
   out.counts_per_turn = static_cast<std::uint32_t>(drives.at("counts_per_turn").integer(256, 16777216));
   out.gear = drives.at("gear").number({0.01, 1000});
   out.table.servo_time_constant_s = drives.at("servo_time_constant_s").number({0.001, 1});
@@ -136,13 +137,14 @@ void read_poses(const Field& field, SerialRobotConfig& out) {
 SerialRobotConfig read_arm_alone(const Field& table) {
   check_kind(table, "serial");
   table.only({"format", "kind", "name", "joints", "mass", "friction", "drives", "limits", "named_poses_deg",
-              "start_pose", "base"});
+              "start_pose", "base", "force_control"});
   SerialRobotConfig out;
   out.name = table.at("name").name(40);
   read_joints(table.at("joints"), out);
   out.masses = read_masses(table, out.table);
   check_friction(table.at("friction"));
   read_joint_drives(table.at("drives"), out);
+  read_torque(table, out);
   read_tip_limits(table.at("limits"), out.table.tip);
   read_poses(table.at("named_poses_deg"), out);
   out.start_pose = read_start_pose(table, out.named_poses_deg);
@@ -194,6 +196,7 @@ SerialRobotConfig parse_serial_robot(const std::string& text, const std::string&
 SerialRobotConfig parse_serial_robot(const std::string& text, const std::string& file, const BusesConfig& buses) {
   SerialRobotConfig out = parse_serial_robot(text, file);
   check_nodes(out.name, out.table.drive_count(), file, buses);
+  check_drive_modes(out, file, buses);
   out.table.tick_s = buses.tick_s();
   out.table.interval_ticks = buses.interval_ticks();
   return out;

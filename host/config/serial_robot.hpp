@@ -39,6 +39,7 @@ struct SerialRobotConfig {
   std::int32_t calibration_days = 0;                           // how old a calibration may be
   std::map<std::string, std::vector<double>> named_poses_deg;  // joint_count angles each
   std::string start_pose;          // which of them a simulated arm begins with; empty: the table does not say
+  serial::PushGains push_gains{};  // that a push has which says nothing of them; torque drives only
   std::optional<LockedBase> base;  // the arm that this one stands on; none: it stands firm
   std::string canonical_json;
 };
@@ -48,6 +49,9 @@ std::string kind_of(const Json& table);
 
 // The same of JSON text that was checked once; throws when it is no JSON.
 std::string robot_kind(const std::string& text, const std::string& file);
+
+// True when its drives follow torques (docs/force-control.md).
+inline bool gives_torque(const SerialRobotConfig& robot) { return robot.table.torque.gives_torque != 0; }
 
 // Whether the file describes a serial robot; throws when it cannot be read or is no JSON.
 bool is_serial_robot(const std::string& path);

@@ -31,6 +31,18 @@ std::uint16_t older(std::uint16_t age, const timing::TickStart& start) {
   return narrow<std::uint16_t>(static_cast<std::uint64_t>(age) + 1 + start.lost_ticks);
 }
 
+void fill_command(bool is_cst, const DriveCommand& command, bus::CanFrame& frame) {
+  const auto put = [&frame](const auto& bytes) {
+    frame.length = static_cast<std::uint8_t>(bytes.size());
+    std::copy(bytes.begin(), bytes.end(), frame.data.begin());
+  };
+  if (is_cst) {
+    put(encode_torque_rpdo1(command));
+  } else {
+    put(encode_rpdo1(command));
+  }
+}
+
 bool is_out(bus::BusState state) { return state == bus::BusState::kDown || state == bus::BusState::kBusOff; }
 
 }  // namespace
@@ -41,6 +53,7 @@ DriveLine::DriveLine(const std::vector<canopen::DriveExpectation>& drives, const
       drives_(drives),
       bus_names_(names_of(buses)),
       master_(drives_, buses),
+      sensor_line_(buses),
       most_bring_back_ticks_(static_cast<std::uint32_t>(std::lround(kBringBack_s * buses.rate_hz))) {
   for (auto& nodes : drive_of_node_) nodes.fill(-1);
   for (std::size_t i = 0; i < drives_.size(); ++i) {
@@ -57,9 +70,12 @@ void DriveLine::collect(const timing::TickStart& start, CycleInputs& inputs) noe
   for (std::size_t i = 0; i < drives_.size(); ++i)
     inputs.drive[i].feedback_age_ticks = older(inputs.drive[i].feedback_age_ticks, start);
   for (std::uint16_t& ticks : silent_ticks_) ticks = older(ticks, start);
+  sensor_line_.begin_tick(start.lost_ticks);
   bus::ReceivedFrame received;
   while (bus_.receive(received)) {
+    sensor_line_.on_frame(received.bus, received.frame);
     if (master_.on_frame(received.bus, received.frame, start.tick)) continue;
+    take_rate(received.bus, received.frame, inputs);
     const canopen::FrameRoute route = canopen::route(received.frame.id);
     const std::int8_t drive = drive_of_node_[static_cast<std::size_t>(received.bus)][route.node];
     if (drive < 0) continue;
@@ -74,6 +90,14 @@ void DriveLine::collect(const timing::TickStart& start, CycleInputs& inputs) noe
   take_emergencies(inputs);
   inputs.lost_bus_mask = lost_buses();
   inputs.twice_mask = drives_heard_twice(start);
+}
+
+// TPDO2, of torque drives only.
+void DriveLine::take_rate(int bus, const bus::CanFrame& frame, CycleInputs& inputs) noexcept {
+  if (frame.id <= kTpdo2Base || frame.id >= kTpdo2Base + 128) return;
+  const std::int8_t drive = drive_of_node_[static_cast<std::size_t>(bus)][frame.id - kTpdo2Base];
+  if (drive < 0 || !drives_[static_cast<std::size_t>(drive)].type.is_cst) return;
+  (void)decode_tpdo2({frame.data.data(), frame.length}, inputs.drive[static_cast<std::size_t>(drive)].rate_counts_s);
 }
 
 void DriveLine::take_report(int bus, std::size_t drive, const bus::CanFrame& frame, CycleInputs& inputs) noexcept {
@@ -131,9 +155,7 @@ void DriveLine::command(const DriveCommands& commands) noexcept {
     if (silent_ticks_[static_cast<std::size_t>(drives_[i].bus)] > kFarewellTicks) continue;
     bus::CanFrame frame;
     frame.id = rpdo1_cob_id(drives_[i].node);
-    frame.length = kRpdo1Bytes;
-    const std::array<std::uint8_t, kRpdo1Bytes> bytes = encode_rpdo1(commands[i]);
-    std::copy(bytes.begin(), bytes.end(), frame.data.begin());
+    fill_command(drives_[i].type.is_cst, commands[i], frame);
     bus_.send(drives_[i].bus, frame);
   }
 }

@@ -13,6 +13,7 @@
 #include "host/config/config.hpp"
 #include "host/control/boot_problem.hpp"
 #include "host/control/latest_value.hpp"
+#include "host/control/sensor_line.hpp"
 
 namespace liana::control {
 
@@ -35,6 +36,12 @@ class DriveLine {
 
   // Everything that came in since the last tick, into the inputs of this one; what did not come grows older.
   void collect(const timing::TickStart& start, CycleInputs& inputs) noexcept;
+  // What wrist sensor and adapter have said until now.
+  const serial::Sensors& sensors() const noexcept { return sensor_line_.sensors(); }
+  // Starts sensors that are not operational, and tells the adapter what it was asked for last.
+  void step_sensors(std::uint64_t tick, serial::AdapterCommand command, std::uint8_t sequence) noexcept {
+    sensor_line_.step(bus_, tick, command, sequence);
+  }
   // Heartbeat out; while booting, the next SDO requests.
   void step_master() noexcept;
   // Before faults are cleared, in every tick until it is true: drives that are silent, left operational or did not boot
@@ -52,6 +59,7 @@ class DriveLine {
   std::vector<std::uint32_t> serials() const;
 
  private:
+  void take_rate(int bus, const bus::CanFrame& frame, CycleInputs& inputs) noexcept;
   void take_report(int bus, std::size_t drive, const bus::CanFrame& frame, CycleInputs& inputs) noexcept;
   std::uint32_t drives_heard_twice(const timing::TickStart& start) noexcept;
   void take_emergencies(CycleInputs& inputs) noexcept;
@@ -62,6 +70,7 @@ class DriveLine {
   std::vector<canopen::DriveExpectation> drives_;  // bus and node of every drive, in the order of the table
   std::vector<std::string> bus_names_;
   canopen::Master master_;
+  SensorLine sensor_line_;
   LatestValue<BootRefusals> refusals_{BootRefusals{}};  // since booting failed last
   canopen::BootState boot_seen_ = canopen::BootState::kRunning;
   std::uint32_t most_bring_back_ticks_;

@@ -34,11 +34,19 @@ struct ArmReport : CycleReport {
 
 constexpr std::size_t kMostRequests = 16;  // room for requests between the threads, one more than can wait
 
+// What the adapter was asked for last; sequence 0: nothing yet.
+struct AdapterOrder {
+  serial::AdapterCommand command = serial::AdapterCommand::kNone;
+  std::uint8_t sequence = 0;
+};
+static_assert(std::atomic<AdapterOrder>::is_always_lock_free);
+
 // What crosses whatever the arm is.
 struct Link {
   // Service to real time.
   StopFlag stop;  // read before `requests`, and empties them: what was asked for before a stop is void
   SpscRing<Request, kMostRequests> requests;
+  std::atomic<AdapterOrder> adapter{AdapterOrder{}};  // serial arms only
   // Real time to service.
   TickTiming timing;
 };

@@ -11,6 +11,7 @@ RtCycle<Arm>::RtCycle(const typename Arm::Table& table, const std::vector<canope
       line_(drives, buses, bus),
       times_(buses.period_us(), link.timing),
       core_(table, link),
+      link_(link),
       interval_ticks_(static_cast<std::uint64_t>(table.interval_ticks)) {}
 
 template <class Arm>
@@ -23,12 +24,22 @@ bool RtCycle<Arm>::run_tick() noexcept {
   bus_.wait_feedback(line_.drive_count());
   times_.heard(bus_.now_us());
   line_.collect(start, report_.inputs);  // TPDOs, heartbeats, emergencies: the inputs of this tick
+  step_sensors(start);                   // wrist sensor and adapter, of an arm that has them
   line_.step_master();                   // heartbeat out; while booting, the next SDO requests
   step_core();
   bus_.end_tick();
   finish_tick(start);  // what the service side sees
   times_.end(start, bus_.now_us());
   return true;
+}
+
+template <class Arm>
+void RtCycle<Arm>::step_sensors(const timing::TickStart& start) noexcept {
+  if constexpr (std::is_same_v<typename Arm::Sensors, serial::Sensors>) {
+    report_.inputs.sensors = line_.sensors();
+    const AdapterOrder order = link_.adapter.load(std::memory_order_acquire);
+    line_.step_sensors(start.tick, order.command, order.sequence);
+  }
 }
 
 // A clear waits until the drives that were lost are booted again; without power nobody moves meanwhile. Drives that

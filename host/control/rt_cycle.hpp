@@ -25,6 +25,7 @@ class RtCycle {
   DriveLine& line() { return line_; }
 
  private:
+  void step_sensors(const timing::TickStart& start) noexcept;
   void step_core() noexcept;
   void finish_tick(const timing::TickStart& start) noexcept;
 
@@ -32,6 +33,7 @@ class RtCycle {
   DriveLine line_;
   TickTimes times_;
   TickCore<Arm> core_;
+  ArmLink<Arm>& link_;
   std::uint64_t interval_ticks_;
   ArmReport<Arm> report_{};
 };

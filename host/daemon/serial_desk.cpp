@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "firmware_like/serial/drive_units.hpp"
+#include "host/daemon/push_message.hpp"
 #include "host/daemon/state_parts.hpp"
 
 namespace liana::daemon {
@@ -38,7 +39,22 @@ std::string why_not(const serial::RobotTable& table, const serial::Inputs& input
 SerialDesk::SerialDesk(const config::SerialRobotConfig& robot, timing::TimeMode time_mode,
                        control::ArmLink<serial::SerialArm>& link)
     : ArmDesk(robot.table, arbiter::SpeedZone{}, time_mode, link,
-              std::make_unique<verify::SimulationEnd<serial::SerialArm>>(robot.table), taken(time_mode)) {}
+              std::make_unique<verify::SimulationEnd<serial::SerialArm>>(robot.table), taken(time_mode)),
+      robot_(robot) {
+  handlers_["push"] = [this](const MotionRequest& r) { arbiter_.push(outputs(), push_of(robot_, r.fields)); };
+  handlers_["follow"] = [this](const MotionRequest&) { arbiter_.follow(outputs()); };
+  handlers_["adapter"] = [this](const MotionRequest& r) { tell_adapter(r.fields); };
+}
+
+// A sequence of its own for every request, never 0, which is none.
+void SerialDesk::tell_adapter(const api::Arguments& fields) {
+  if (outputs().push.adapter_age_ticks >= serial::kAdapterSilentTicks)
+    throw api::RequestError("refused", "the adapter is not heard: look at its supply and at the bus that it is on");
+  if (++adapter_sequence_ == 0) adapter_sequence_ = 1;
+  const bool locks = fields.text("command") == "lock";
+  link_.adapter.store({locks ? serial::AdapterCommand::kLock : serial::AdapterCommand::kRelease, adapter_sequence_},
+                      std::memory_order_release);
+}
 
 void SerialDesk::watch(bool booted) {
   if (booted) why_not_homed_ = outputs().homed != 0 ? "" : why_not(table_, inputs());
@@ -66,6 +82,11 @@ void SerialDesk::add_state(Json& state) const {
   state["held_at_target"] = true;
   state["torque_Nm"] = torque_Nm;
   state["device"] = "none";
+  Json told_Nm = Json::array();
+  for (std::size_t i = 0; i < table_.joints(); ++i) told_Nm.push_back(o.torque_told_Nm[i]);
+  state["torque_told_Nm"] = told_Nm;
+  state["push"] = push_json(o.push, table_.tick_s);
+  state["adapter"] = adapter_json(o.push, table_.tick_s);
   add_tip(state, o);
 }
 

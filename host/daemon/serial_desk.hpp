@@ -1,14 +1,13 @@
-// The desk of a serial arm: plain motion of joints and tip; absolute encoders say where it is.
+// The desk of a serial arm: plain motion of joints and tip, pushes by force control; absolute encoders say where it is.
 #pragma once
 
-#include "host/arbiter/arbiter.hpp"
-#include "host/arbiter/serial_kind.hpp"
+#include "host/arbiter/serial_arbiter.hpp"
 #include "host/config/serial_robot.hpp"
 #include "host/daemon/arm_desk.hpp"
 
 namespace liana::daemon {
 
-class SerialDesk final : public ArmDesk<serial::SerialArm, arbiter::Arbiter<serial::SerialArm>> {
+class SerialDesk final : public ArmDesk<serial::SerialArm, arbiter::SerialArbiter> {
  public:
   SerialDesk(const config::SerialRobotConfig& robot, timing::TimeMode time_mode,
              control::ArmLink<serial::SerialArm>& link);
@@ -22,6 +21,10 @@ class SerialDesk final : public ArmDesk<serial::SerialArm, arbiter::Arbiter<seri
  private:
   std::vector<double> joints_deg(const serial::Outputs& outputs) const override;
 
+  void tell_adapter(const api::Arguments& fields);
+
+  config::SerialRobotConfig robot_;
+  std::uint8_t adapter_sequence_ = 0;
   std::string why_not_homed_ = "the drives have not been heard yet";
 };
 

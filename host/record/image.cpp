@@ -96,6 +96,10 @@ void check(const ImageReader& in, const serial::MotionState& motion) {
   in.require("interval_tick", motion.interval_tick, 0, in.bounds().interval_ticks);
 }
 
+void check(const ImageReader& in, const serial::PushState& push) {
+  in.require("overload_joint", push.overload_joint, -1, in.bounds().joints - 1);
+}
+
 void check(const ImageReader& in, const serial::RobotTable& table) {
   in.require("joint_count", table.joint_count, 6, serial::kMaxJoints);
   in.require("interval_ticks", table.interval_ticks, 1, 100000);

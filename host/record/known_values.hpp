@@ -7,6 +7,7 @@
 #include "firmware_like/math/ik_outcome.hpp"
 #include "firmware_like/safety/faults.hpp"
 #include "firmware_like/safety/supervisor.hpp"
+#include "firmware_like/serial_controller.hpp"
 
 namespace liana::record {
 
@@ -16,7 +17,7 @@ constexpr bool is_up_to(E value, E last) {
   return value >= E{} && value <= last;
 }
 
-constexpr bool is_known(CommandKind kind) { return is_up_to(kind, CommandKind::kRetreat); }
+constexpr bool is_known(CommandKind kind) { return is_up_to(kind, CommandKind::kFollow); }
 constexpr bool is_known(StopCategory category) { return is_up_to(category, StopCategory::kOff); }
 constexpr bool is_known(cable::LetGoStage stage) { return is_up_to(stage, cable::LetGoStage::kUndone); }
 constexpr bool is_known(cable::ContactState state) { return is_up_to(state, cable::ContactState::kDithered); }
@@ -24,6 +25,12 @@ constexpr bool is_known(Phase phase) { return is_up_to(phase, Phase::kResetting)
 constexpr bool is_known(IkOutcome outcome) { return is_up_to(outcome, IkOutcome::kUnreachable); }
 constexpr bool is_known(Request request) { return is_up_to(request, Request::kStop); }
 constexpr bool is_known(OperatingState state) { return is_up_to(state, OperatingState::kFault); }
+constexpr bool is_known(serial::WristStatus status) { return is_up_to(status, serial::WristStatus::kFailed); }
+constexpr bool is_known(serial::CatchState state) { return is_up_to(state, serial::CatchState::kFailed); }
+constexpr bool is_known(serial::WristHealth health) { return is_up_to(health, serial::WristHealth::kNotAtRest); }
+constexpr bool is_known(serial::PushLaw law) { return is_up_to(law, serial::PushLaw::kImpedance); }
+constexpr bool is_known(serial::PushPhase phase) { return is_up_to(phase, serial::PushPhase::kYielding); }
+constexpr bool is_known(serial::PushEnd end) { return is_up_to(end, serial::PushEnd::kStopped); }
 inline bool is_known(FaultNumber number) { return fault_info(number).number == number; }
 
 }  // namespace liana::record

@@ -105,13 +105,18 @@ void visit(A& a, T& d) {
   a("statusword", d.statusword);
   a("torque_permille", d.torque_permille);
   a("position_counts", d.position_counts);
+  a("rate_counts_s", d.rate_counts_s);
   a("feedback_age_ticks", d.feedback_age_ticks);
   a("heartbeat_age_ticks", d.heartbeat_age_ticks);
   a("emergency_code", d.emergency_code);
   a("operational", d.operational);
 }
 
-// All of Inputs but the telecommand, which follows as TelecommandFields. An arm with sensors of its own adds them here.
+// Sensors of an arm that has nothing but its drives.
+template <class A, Like<NoSensors> T>
+void visit(A&, T&) {}
+
+// All of Inputs but the telecommand, which follows as TelecommandFields; the arm's own sensors last.
 template <class A, class T>
 requires std::derived_from<T, CycleInputs>
 void visit(A& a, T& i) {
@@ -121,6 +126,7 @@ void visit(A& a, T& i) {
   a("twice_mask", i.twice_mask);
   a("request", i.request);
   visit_first(a, "drive", i.drive, counts_of_visitor(a).drives);
+  if constexpr (requires { i.sensors; }) a("sensors", i.sensors);
 }
 
 template <class A, Like<Fault> T>
@@ -144,6 +150,8 @@ template <class A, Like<DriveCommand> T>
 void visit(A& a, T& d) {
   a("controlword", d.controlword);
   a("target_counts", d.target_counts);
+  a("torque_permille", d.torque_permille);
+  a("rate_counts_s", d.rate_counts_s);
 }
 
 template <class A, Like<cable::FrictionReport> T>

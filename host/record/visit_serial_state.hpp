@@ -64,4 +64,58 @@ void visit(A& a, T& s) {
   a("limits", s.limits);
 }
 
+template <class A, Like<serial::WristState> T>
+void visit(A& a, T& s) {
+  a("felt", s.felt);
+  a("tare", s.tare);
+  a("said", s.said);
+  a("sequence", s.sequence);
+  a("age_ticks", s.age_ticks);
+}
+
+template <class A, Like<serial::AdapterState> T>
+void visit(A& a, T& s) {
+  a("last", s.last);
+  a("is_new", s.is_new);
+  a("repeated", s.repeated);
+  a("age_ticks", s.age_ticks);
+}
+
+template <class A, Like<serial::Twist> T>
+void visit(A& a, T& s) {
+  a("linear_m_s", s.linear_m_s);
+  a("angular_rad_s", s.angular_rad_s);
+}
+
+template <class A, Like<serial::PushState> T>
+void visit(A& a, T& s) {
+  a("order", s.order);
+  a("phase", s.phase);
+  a("end", s.end);
+  a("phase_ticks", s.phase_ticks);
+  a("relieved_ticks", s.relieved_ticks);
+  a("start", s.start);
+  a("velocity", s.velocity);
+  a("tare_sum", s.tare_sum);
+  a("forward", s.forward);
+  a("approach_m", s.approach_m);
+  a("touched", s.touched);
+  a("adapter_spoke", s.adapter_spoke);
+  a("overload_ticks", s.overload_ticks);
+  a("lost", s.lost);
+  a("overload_joint", s.overload_joint);
+  a("overload", s.overload);
+  a("given", s.given);
+  a("set_N", s.set_N);
+  a("travel_m", s.travel_m);
+  a("aside_m", s.aside_m);
+}
+
+template <class A, Like<serial::TorqueTold> T>
+void visit(A& a, T& s) {
+  a("rate_rad_s", s.rate_rad_s);
+  a("torque_Nm", s.torque_Nm);
+  a("planned_rad_s", s.planned_rad_s);
+}
+
 }  // namespace liana::record

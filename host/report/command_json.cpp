@@ -52,6 +52,10 @@ const char* command_kind_name(const CommandLife& life) {
       return "joints";
     case CommandKind::kRetreat:
       return "retreat";
+    case CommandKind::kPush:
+      return "push";
+    case CommandKind::kFollow:
+      return "follow";
     default:
       return "other";
   }

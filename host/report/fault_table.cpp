@@ -9,6 +9,7 @@
 #include "firmware_like/safety/link_watch.hpp"
 #include "firmware_like/safety/supervisor.hpp"
 #include "firmware_like/serial/joint_watch.hpp"
+#include "firmware_like/serial/push.hpp"
 
 namespace liana::report {
 namespace {
@@ -36,6 +37,12 @@ Detection detection_of(FaultNumber number, const FaultTimes& times) {
       return {"serial arm: encoder more than 1 deg beyond the joint's range, in a row", serial::kRangeDebounceTicks};
     case FaultNumber::kJointJump:
       return {"serial arm: encoder against the tick before, over three times the joint's rate", 1};
+    case FaultNumber::kWristSensorLost:
+      return {"push: no new sample of the wrist sensor, or one that is saturated, failed or no number (at once)",
+              serial::kWristSilentTicks + 1};
+    case FaultNumber::kPushOverload:
+      return {"push: force felt at the wrist or torque of a joint over the most that a push may, in a row",
+              serial::kOverloadTicks + 1};
     case FaultNumber::kDriveMissing:
       return {"watchdog: age of the drive's heartbeat, more than 0.3 s",
               heartbeat_age_ticks(times.tick_s) + heartbeat_period};

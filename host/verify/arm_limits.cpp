@@ -6,6 +6,8 @@ namespace liana::verify {
 
 namespace {
 
+constexpr double kPushBeyond_m = 0.001;  // a push that ends at its bound has stopped within this
+
 void judge_tension(const cable::RobotTable& table, const cable::Outputs& outputs, Judge& judge) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(table.cable_count()); ++i) {
     const double tension_N = outputs.tension_plan_N[i];
@@ -14,6 +16,15 @@ void judge_tension(const cable::RobotTable& table, const cable::Outputs& outputs
     judge.require(tension_N * kRounding >= table.tension.floor_motor_N, Refusal::kTension,
                   "planned tension under the floor at cable", static_cast<int>(i));
   }
+}
+
+void judge_push(const serial::TorqueTable& most, const serial::PushReport& push, Judge& judge) {
+  if (push.phase == serial::PushPhase::kNone || push.phase == serial::PushPhase::kYielding) return;
+  judge.check(Refusal::kPushTube, "way of the push along its axis", kMillimetres, -1, push.travel_m,
+              most.most_travel_m + kPushBeyond_m);
+  judge.check(Refusal::kPushTube, "way of the push beside its axis", kMillimetres, -1, push.aside_m,
+              most.most_aside_m + kPushBeyond_m);
+  judge.check(Refusal::kPushTube, "set force of the push", kNewtons, -1, push.set_N, most.most_force_N);
 }
 
 }  // namespace
@@ -58,6 +69,7 @@ void judge_joints(const serial::RobotTable& table, const serial::Outputs& output
     judge.check(Refusal::kJointRate, "rate of joint", kDegreesPerSecond, static_cast<int>(i),
                 outputs.joint_rate_rad_s[i], joint.rate_rad_s);
   }
+  judge_push(table.torque, outputs.push, judge);
 }
 
 }  // namespace liana::verify

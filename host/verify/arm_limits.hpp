@@ -13,7 +13,9 @@ void judge_targets(const cable::RobotTable& table, const cable::Outputs* before,
 void judge_targets(const serial::RobotTable& table, const serial::Outputs* before, const serial::Outputs& after,
                    Judge& judge);
 
-// Motion: angles in their ranges, rates within the limits.
+// Motion: angles in their ranges, rates within the limits; of a serial arm that pushes, the tube of the robot's table:
+// how far along the axis and beside it, and the set force. (The push's own, narrower tube is the core's: it ends the
+// push by name.)
 void judge_joints(const cable::RobotTable& table, const cable::Outputs& outputs, Judge& judge);
 void judge_joints(const serial::RobotTable& table, const serial::Outputs& outputs, Judge& judge);
 

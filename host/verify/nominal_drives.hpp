@@ -12,8 +12,9 @@ namespace liana::verify {
 template <class Arm>
 class NominalDrives {
  public:
-  // Starts from what the real drives reported last. `table` must outlive this.
-  NominalDrives(const typename Arm::Table& table, const DriveFeedbacks& last) : table_(table), last_(last) {}
+  // Starts from what the real drives and sensors reported last. `table` must outlive this.
+  NominalDrives(const typename Arm::Table& table, const liana::Inputs<Arm>& last)
+      : table_(table), last_(last.drive), sensors_(last.sensors) {}
 
   // The inputs of the next tick: the state, position and torque that the last commands, `told`, asked for.
   liana::Inputs<Arm> next_inputs(std::uint64_t tick, const liana::Outputs<Arm>& told) {
@@ -24,12 +25,14 @@ class NominalDrives {
     liana::Inputs<Arm> inputs;
     inputs.tick = tick;
     inputs.drive = last_;
+    inputs.sensors = sensors_ = Arm::imagined(sensors_);
     return inputs;
   }
 
  private:
   const typename Arm::Table& table_;
   DriveFeedbacks last_;
+  [[no_unique_address]] typename Arm::Sensors sensors_;
 };
 
 }  // namespace liana::verify

@@ -57,6 +57,8 @@ constexpr std::size_t index_of(Refusal code) {
       return 21;
     case kFixture:
       return 22;
+    case kPushTube:
+      return 23;
   }
   return 0;
 }
@@ -64,7 +66,7 @@ constexpr std::size_t index_of(Refusal code) {
 constexpr RefusalAction kHold = RefusalAction::kHold;
 constexpr RefusalAction kStop = RefusalAction::kStop;
 
-constexpr std::array<RefusalRow, 23> kRows{{
+constexpr std::array<RefusalRow, 24> kRows{{
     {},
     {kTwinFault, "twin_fault", "The controller would latch a fault.", "", kHold,
      "Retract, which needs no clear where the fault allows it; else remove what the fault names, then clear."},
@@ -110,6 +112,9 @@ constexpr std::array<RefusalRow, 23> kRows{{
      "Ask again, from rest; if it comes back, take load off the machine (liana doctor, liana latency)."},
     {kFixture, "fixture", "The tip would pass a virtual wall of the scene.", "", kHold,
      "Lead the tip back between the walls of the fixture named, or ask for a way that keeps between them."},
+    {kPushTube, "push_tube",
+     "A push would leave its tube: too far along its axis or beside it, or with too much force.", "m, N", kHold,
+     "Back off along the axis, stand better aligned before it, and push again."},
 }};
 
 constexpr bool is_complete() {

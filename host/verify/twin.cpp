@@ -12,7 +12,7 @@ struct Copy {
   using Command = Telecommand<typename Arm::Setpoint>;
 
   explicit Copy(const TwinImage<Arm>& start)
-      : controller(start.controller), drives(controller.table(), start.last_inputs.drive), tick(start.next_tick) {}
+      : controller(start.controller), drives(controller.table(), start.last_inputs), tick(start.next_tick) {}
 
   Outputs<Arm> step(const Outputs<Arm>& told, const Command& command) {
     Inputs<Arm> inputs = drives.next_inputs(tick++, told);

@@ -32,6 +32,7 @@ enum class Refusal : std::uint16_t {
   kSwingTension = 211,  // with what inertia adds a cable would go slack or be overloaded
   kNoVerdict = 212,     // the simulation had no verdict in time
   kFixture = 213,       // the tip would pass a virtual wall of the scene
+  kPushTube = 214,      // a push would leave its tube: too far along its axis or beside it, or with too much force
 };
 
 // What a motion leaves of its limits, at its tightest; negative: by so much it is outside.

@@ -260,6 +260,69 @@ function arm.dither(fields) end
 ---@return integer id
 function arm.use_device(fields) end
 
+---@class arm.push.gains
+---M_d along the axes
+---@field mass_kg? number
+---M_d about the axes
+---@field inertia_kgm2? number
+---K_D along the axis of the push
+---@field axial_damping_Ns_per_m? number
+---K_D across it
+---@field lateral_damping_Ns_per_m? number
+---K_D of turning
+---@field turn_damping_Nms_per_rad? number
+---K_P C_F: of what is missing of the set force
+---@field force_gain? number
+---K_P of impedance
+---@field stiffness_N_per_m? number
+---K_P of impedance in turning
+---@field turn_stiffness_Nm_per_rad? number
+---impedance: of the point that it pulls to
+---@field approach_m_s? number
+---K_D along the axis from capture on
+---@field unload_damping_Ns_per_m? number
+
+---@class arm.push
+---way in, in the frame of the tip, of any length; left out: the tip's z
+---@field axis? number[]
+---set force along the axis; the other five are set to nothing (else 30)
+---@field force_N? number
+---the most along the axis, from where it begins (else 0.06)
+---@field travel_m? number
+---the most across it (else 0.02)
+---@field aside_m? number
+---the most that the tip turns (else 3)
+---@field turn_deg? number
+---`force` when left out
+---@field law? "force"|"impedance"
+---`impedance`: where the stop is expected, along the axis (else 0.0222)
+---@field depth_m? number
+---what the wrist sensor says in the first 0.1 s is taken for nothing (else true)
+---@field tare? boolean
+---other gains than the robot's, within its ranges
+---@field gains? arm.push.gains
+
+---Pushes along an axis of the tip by force control, from rest, until something else is asked for; how it goes
+---is `push` of the state. For serial arms only.
+---@param fields arm.push
+---@return integer id
+function arm.push(fields) end
+
+---From rest, joints give way to what pushes them with more than 20 N m, until something else is asked for.
+---For serial arms only.
+---@return integer id
+function arm.follow() end
+
+---@class arm.adapter
+---what the adapter should do
+---@field command "lock"|"release"
+
+---Tells the adapter to lock or to release the payload; how it goes is `adapter` of the state. For serial arms
+---only.
+---@param fields arm.adapter
+---@return integer id
+function arm.adapter(fields) end
+
 ---@class arm.retract
 ---not farther back than the arm was then (else 0)
 ---@field until_tick? integer

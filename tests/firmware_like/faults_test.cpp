@@ -21,6 +21,8 @@ const std::vector<Published> kPublished{
     {FaultNumber::kTicksLost, 2001, "ticks_lost"},
     {FaultNumber::kJointOutOfRange, 2002, "joint_out_of_range"},
     {FaultNumber::kJointJump, 2003, "joint_jump"},
+    {FaultNumber::kWristSensorLost, 2004, "wrist_sensor_lost"},
+    {FaultNumber::kPushOverload, 2005, "push_overload"},
     {FaultNumber::kDriveMissing, 3001, "drive_missing"},
     {FaultNumber::kDriveSilent, 3002, "drive_silent"},
     {FaultNumber::kDriveFault, 3003, "drive_fault"},

@@ -219,6 +219,7 @@ TEST_F(Gate, AModeThatTheDriveWasNotConfiguredForIsRefused) {
   proposal_[3].mode = DriveMode::kCyclicTorque;
   expect_refused(GateCheck::kModeNotAllowed, 3, "torque to a drive in cyclic position");
   limits_.drive[3].mode = DriveMode::kCyclicTorque;
+  limits_.drive[3].torque_step_permille = kMost_permille;
   expect_passed("torque to a drive in cyclic torque");
 }
 
@@ -302,7 +303,7 @@ TEST_F(Gate, ARefusalBecomesAFaultThatNamesDriveAndCheck) {
   EXPECT_EQ(fault.detail, static_cast<std::uint16_t>(GateCheck::kTargetNotFinite));
   EXPECT_EQ(fault.tick, 9U);
   EXPECT_STREQ(gate_check_name(GateCheck::kTargetNotFinite), "target_not_finite");
-  EXPECT_STREQ(gate_check_name(static_cast<GateCheck>(8)), "unknown");
+  EXPECT_STREQ(gate_check_name(static_cast<GateCheck>(12)), "unknown");
 }
 
 TEST_F(Gate, TheGateIsPure) {

@@ -94,7 +94,7 @@ TEST_F(WatchdogsOfAnArm, ADriveThatLeavesNmtOperationalIsReported) {
 TEST_F(WatchdogsOfAnArm, FaultsOfOneTickAreLatchedBusesFirstThenDriveByDriveAsThePageOfPrioritiesSays) {
   inputs_.lost_bus_mask = 2;
   inputs_.lost_ticks = kToleratedLostTicks + 1;
-  inputs_.drive[1] = {kStatusFault, 0, 1000000, kFeedbackAgeTicks + 1, 0xFFFF, 0, 0};
+  inputs_.drive[1] = {kStatusFault, 0, 1000000, 0, kFeedbackAgeTicks + 1, 0xFFFF, 0, 0};
   inputs_.drive[2].statusword = kStatusDisabled;
   inputs_.drive[2].position_counts += 1000000;
   tension_N_[2] = 0.0;

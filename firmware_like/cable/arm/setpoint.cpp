@@ -33,6 +33,7 @@ bool is_usable(const KeepClear& target) noexcept {
 
 bool is_usable(const RobotTable& table, const Setpoint& setpoint) noexcept {
   if (!is_motion(setpoint.kind)) return true;
+  if (is_force(setpoint.kind)) return false;  // cables have no force control
   if (!angles_in_limits(table, setpoint)) return false;
   if (!(setpoint.dither_share >= 0.0 && setpoint.dither_share <= kDitherMost)) return false;
   if (is_joint(setpoint.kind)) return true;

@@ -24,6 +24,28 @@ TEST(Buses, WorstCaseLoadIsTheSumOfTheLongestFrames) {
   EXPECT_NEAR(worst_case_load(one, 0), ((55 + 15 * 250) * 100 + 16 * 65 * 10 + 5400) / 1e6, 1e-12);
 }
 
+// A torque drive has 135 bits of RPDO, 135 and 95 of TPDOs; the wrist sensor 2 x 135 a tick, the adapter 135 and 75
+// every fourth.
+TEST(Buses, TorqueDrivesAndSensorsAreInTheWorstCaseLoad) {
+  const BusesConfig buses = parse_buses(good_table("buses", "embedded_payload").dump(), "b");
+  EXPECT_EQ(torque_drives(buses, 0), 4);
+  EXPECT_EQ(torque_drives(buses, 1), 3);
+  EXPECT_EQ(buses.buses[1].wrist_sensor, 0x20);
+  EXPECT_EQ(buses.buses[1].adapter, 0x30);
+  EXPECT_NEAR(worst_case_load(buses, 0), ((55 + 4 * 365) * 250 + 5 * 65 * 10 + 5400) / 1e6, 1e-12);  // 38.7 %
+  EXPECT_NEAR(worst_case_load(buses, 1), ((55 + 3 * 365 + 270 + 52.5) * 250 + 6 * 65 * 10 + 5400) / 1e6, 1e-12);
+  EXPECT_NEAR(worst_case_load(buses, 1), 0.377, 0.001);
+}
+
+TEST(Buses, ASensorHasANodeOfItsOwnAndThereIsOneOfEach) {
+  const Json good = good_table("buses", "embedded_payload");
+  const auto parse = [](const std::string& text) { parse_buses(text, "given.json"); };
+  expect_refused(good, {"/buses/1/wrist_sensor", 5, "buses[2].wrist_sensor", "already on bus can1"}, parse);
+  expect_refused(good, {"/buses/1/adapter", 32, "buses[2].adapter", "already on bus can1"}, parse);
+  expect_refused(good, {"/buses/1/adapter", 127, "buses[2].adapter", "1 to 126"}, parse);
+  expect_refused(good, {"/buses/0/adapter", 50, "buses", "one wrist_sensor and one adapter"}, parse);
+}
+
 TEST(Buses, PeriodIsWhatObject60C2Holds) {
   const auto expect = [](std::int32_t period_us, int value, int exponent) {
     const InterpolationPeriod period = interpolation_period(period_us);

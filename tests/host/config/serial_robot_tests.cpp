@@ -122,6 +122,53 @@ TEST(SerialRobot, ABaseIsALockedArmThatSaysHowItGivesWay) {
   for (const Spoiled& spoiled : cases) expect_refused(good, spoiled, parse);
 }
 
+// req:B17 req:B20
+TEST(SerialRobot, TorqueDrivesHaveMassesGainsAndBounds) {
+  const BusesConfig buses = parse_buses(good_table("buses", "embedded_payload").dump(), "b");
+  const SerialRobotConfig robot = parse_serial_robot(good_table("robot", "macro_micro").dump(), "r", buses);
+  const serial::TorqueTable& torque = robot.table.torque;
+  EXPECT_TRUE(gives_torque(robot));
+  EXPECT_FALSE(gives_torque(micro()));
+  EXPECT_EQ(torque.masses.link[6].mass_kg, robot.masses.link[6].mass_kg);
+  EXPECT_EQ(torque.most_force_N, 60.0);
+  EXPECT_EQ(torque.most_joint_Nm, 100.0);
+  EXPECT_EQ(robot.push_gains[serial::kAxialDamping], 3200.0);
+  EXPECT_EQ(torque.gain_low[serial::kAxialDamping], 800.0);
+  EXPECT_EQ(torque.gain_high[serial::kAxialDamping], 8000.0);
+}
+
+TEST(SerialRobot, TorqueDrivesAreRefusedByFieldWhereSomethingIsMissingOrOutOfRange) {
+  const Json good = good_table("robot", "macro_micro");
+  const auto parse = [](const std::string& text) { parse_serial_robot(text, "given.json"); };
+  const std::vector<Spoiled> cases = {
+      {"/drives/mode", "speed", "drives.mode", "torque"},
+      {"/drives/mode", nullptr, "force_control", "drives.mode"},
+      {"/drives/position_gain_per_s", nullptr, "drives.position_gain_per_s", "add the field"},
+      {"/force_control", nullptr, "force_control", "add the field"},
+      {"/force_control/most_joint_Nm", 151, "force_control.most_joint_Nm", "1 to 150"},
+      {"/force_control/gains/mass_kg", Json{500, 600, 5000}, "force_control.gains.mass_kg[1]", "600 to 5000"},
+      {"/force_control/gains/mass_kg", Json{500, 50}, "force_control.gains.mass_kg", "least and the most"},
+      {"/force_control/gains/wobble", Json{1, 1, 1}, "force_control.gains.wobble", "no such field"}};
+  for (const Spoiled& spoiled : cases) expect_refused(good, spoiled, parse);
+}
+
+TEST(SerialRobot, ItsDrivesFollowWhatTheTypesOfItsBusesFollow) {
+  const auto on = [](const char* robot, const char* buses) {
+    try {
+      parse_serial_robot(good_table("robot", robot).dump(), "r", parse_buses(good_table("buses", buses).dump(), "b"));
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(on("micro", "embedded_micro"), "accepted");
+  EXPECT_EQ(on("macro_micro", "embedded_payload"), "accepted");
+  EXPECT_EQ(on("macro_micro", "embedded_macro_micro"), "accepted");
+  EXPECT_NE(on("macro_micro", "embedded_micro").find("node 1 of bus table embedded_micro is a cia402_csp"),
+            std::string::npos);
+  EXPECT_NE(on("micro", "embedded_payload").find("use buses whose drives follow positions"), std::string::npos);
+}
+
 TEST(SerialRobot, CountsThatNoDriveCanHoldAreRefused) {
   Json table = good_table("robot", "micro");
   table["drives"]["counts_per_turn"] = 16777216;

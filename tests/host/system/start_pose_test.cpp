@@ -61,6 +61,7 @@ TEST(Buses, AreTheUsersElseTheRobotsOwnElseMadeForItsDrives) {
   EXPECT_EQ(name("three_segment_lab", ""), "embedded_three_segment_lab");
   EXPECT_EQ(name("tdcr_benchmark", ""), "bench_6");
   EXPECT_EQ(name("micro", ""), "embedded_micro");
+  EXPECT_EQ(name("macro_micro", ""), "embedded_macro_micro");
 }
 
 }  // namespace

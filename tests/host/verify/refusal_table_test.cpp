@@ -15,8 +15,8 @@ namespace {
 TEST(RefusalTable, EveryCodeHasARowInTheOrderOfTheNumbers) {
   std::vector<int> codes;
   for (const RefusalRow& row : refusal_table()) codes.push_back(static_cast<int>(row.code));
-  EXPECT_EQ(codes, (std::vector<int>{101, 102, 103, 104, 105, 106, 107, 108, 109, 201, 202,
-                                     203, 204, 205, 206, 207, 208, 209, 210, 211, 212, 213}));
+  EXPECT_EQ(codes, (std::vector<int>{101, 102, 103, 104, 105, 106, 107, 108, 109, 201, 202, 203,
+                                     204, 205, 206, 207, 208, 209, 210, 211, 212, 213, 214}));
 }
 
 TEST(RefusalTable, NamesAreWordsAndNoTwoAreTheSame) {

@@ -21,6 +21,9 @@ serial::RobotTable uneven_table() {
   serial::RobotTable table = serial::micro::table();
   table.joint[2].low_rad = -0.2;
   table.joint[2].high_rad = 1.0;
+  table.torque.most_travel_m = 0.2;
+  table.torque.most_aside_m = 0.03;
+  table.torque.most_force_N = 60.0;
   return table;
 }
 const serial::RobotTable kTable = uneven_table();
@@ -59,7 +62,23 @@ struct Row {
 
 const double kRate = kTable.joint[4].rate_rad_s, kWay = kTargetSpeedMargin * kRate * kTable.tick_s;
 
+// Changes a tick to one of a push.
+Change pushing(const std::function<void(serial::PushReport&)>& change) {
+  return [change](serial::Outputs& outputs) {
+    outputs.push.phase = serial::PushPhase::kPressing;
+    change(outputs.push);
+  };
+}
+
 const Row kRows[] = {
+    {"214: a push farther along its axis than the table has it, and a millimetre to stop in",
+     pushing([](serial::PushReport& p) { p.travel_m = -0.2011; }),
+     pushing([](serial::PushReport& p) { p.travel_m = 0.2009; }), Refusal::kPushTube,
+     "way of the push along its axis = "},
+    {"214: beside it", pushing([](serial::PushReport& p) { p.aside_m = 0.0311; }),
+     pushing([](serial::PushReport& p) { p.aside_m = 0.0309; }), Refusal::kPushTube, "beside its axis"},
+    {"214: with more force", pushing([](serial::PushReport& p) { p.set_N = 60.0 * kOver; }),
+     pushing([](serial::PushReport& p) { p.set_N = 60.0; }), Refusal::kPushTube, "set force of the push = 60"},
     {"107: a joint told to go further in one tick than its rate allows would be refused by the gate",
      [](serial::Outputs& o) { o.joint_command_rad[4] = kWay * kOver; },
      [](serial::Outputs& o) { o.joint_command_rad[4] = kWay; }, Refusal::kJointTravel, "travel per tick of joint 5 = "},

@@ -47,7 +47,7 @@ template <class Arm>
 class ArmWithoutBuses {
  public:
   ArmWithoutBuses(const typename Arm::Table& table, const DriveFeedbacks& drives)
-      : table_(table), link(table_), core_(table_, link), drives_(table_, drives) {
+      : table_(table), link(table_), core_(table_, link), drives_(table_, inputs_with(drives)) {
     report_.boot = control::BootPhase::kDone;
     link.report.publish(report_);
     link.report.refresh();
@@ -79,6 +79,12 @@ class ArmWithoutBuses {
   }
 
  private:
+  static Inputs<Arm> inputs_with(const DriveFeedbacks& drives) {
+    Inputs<Arm> inputs;
+    inputs.drive = drives;
+    return inputs;
+  }
+
   typename Arm::Table table_;
 
  public:

@@ -1,0 +1,76 @@
+#include "host/arbiter/serial_arbiter.hpp"
+
+#include "host/api/request_error.hpp"
+
+namespace liana::arbiter {
+
+void SerialArbiter::require_torque(const Now& now) const {
+  require_free(now);
+  if (!gives_torque_)
+    throw api::RequestError("refused",
+                            "the drives of this robot follow positions: force control needs a robot whose "
+                            "drives follow torques (drives.mode = \"torque\", as macro_micro)");
+  if (now.at_rest == 0) throw api::RequestError("busy", "it starts from rest: wait for it or send hold");
+}
+
+void SerialArbiter::push(const Now& now, const serial::Push& push) {
+  require_torque(now);
+  Base::hold();
+  asked_.emplace();
+  asked_->kind = CommandKind::kPush;
+  asked_->push = push;
+  asked_->push.number = now.push.number + 1;
+}
+
+void SerialArbiter::follow(const Now& now) {
+  require_torque(now);
+  Base::hold();
+  asked_.emplace();
+  asked_->kind = CommandKind::kFollow;
+}
+
+void SerialArbiter::move_joints(const Now& now, const serial::JointVector& goal_rad, double rate_rad_s) {
+  Base::move_joints(now, goal_rad, rate_rad_s);
+  asked_.reset();
+}
+
+void SerialArbiter::move_line(const Now& now, const Pose& goal) {
+  Base::move_line(now, goal);
+  asked_.reset();
+}
+
+void SerialArbiter::servo_tip(const Now& now, const Pose& goal) {
+  Base::servo_tip(now, goal);
+  asked_.reset();
+}
+
+void SerialArbiter::move_path(const Now& now, const PathRequest<serial::SerialArm>& request) {
+  Base::move_path(now, request);
+  asked_.reset();
+}
+
+void SerialArbiter::retract(const Now& now, std::uint64_t until_tick) {
+  Base::retract(now, until_tick);
+  asked_.reset();
+}
+
+void SerialArbiter::hold(const std::string& why) {
+  asked_.reset();
+  Base::hold(why);
+}
+
+// With a fault the Controller lets nothing but a retreat move: what was asked for here has ended.
+std::optional<SerialArbiter::Setpoint> SerialArbiter::next_setpoint(std::uint64_t tick, const Now& now) {
+  const bool ready = begin_interval(tick, now);
+  if (!ready || now.faults.count > 0) asked_.reset();
+  if (!ready) return std::nullopt;
+  if (asked_) return asked_;
+  return ask(now);
+}
+
+void SerialArbiter::refused(const std::string& why) {
+  if (asked_) return asked_.reset();
+  Base::refused(why);
+}
+
+}  // namespace liana::arbiter

@@ -1,0 +1,47 @@
+// What a serial arm can be asked for besides plain motion: a push by force control, and giving way
+// (docs/force-control.md). Either is asked for again every interval until something else is.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "host/arbiter/arbiter.hpp"
+#include "host/arbiter/serial_kind.hpp"
+
+namespace liana::arbiter {
+
+class SerialArbiter : public Arbiter<serial::SerialArm> {
+ public:
+  using Base = Arbiter<serial::SerialArm>;
+
+  explicit SerialArbiter(const Table& table, const SpeedZone& zone = {},
+                         SearchResult taken = SearchResult::kInItsInterval)
+      : Base(table, zone, taken), gives_torque_(table.torque.gives_torque != 0) {}
+
+  // Begins a push from rest; its number is given here. Throws RequestError: not_enabled, fault, busy; refused when the
+  // arm's drives follow positions.
+  void push(const Now& now, const serial::Push& push);
+  // From now on the joints give way to what pushes them; throws as push.
+  void follow(const Now& now);
+
+  // As those of plain motion; each ends what was asked for here.
+  void move_joints(const Now& now, const serial::JointVector& goal_rad, double rate_rad_s);
+  void move_line(const Now& now, const Pose& goal);
+  void servo_tip(const Now& now, const Pose& goal);
+  void move_path(const Now& now, const PathRequest<serial::SerialArm>& request);
+  void retract(const Now& now, std::uint64_t until_tick);
+  void hold(const std::string& why = "held");
+  std::optional<Setpoint> next_setpoint(std::uint64_t tick, const Now& now);
+  void refused(const std::string& why = "");
+
+  // A push or giving way is asked for.
+  bool is_forcing() const { return asked_.has_value(); }
+
+ private:
+  void require_torque(const Now& now) const;
+
+  bool gives_torque_;
+  std::optional<Setpoint> asked_;
+};
+
+}  // namespace liana::arbiter
