@@ -44,6 +44,11 @@ void SerialArbiter::servo_tip(const Now& now, const Pose& goal) {
   asked_.reset();
 }
 
+void SerialArbiter::servo_target(const Now& now, const servo::ServoRequest& request) {
+  Base::servo_target(now, request);
+  asked_.reset();
+}
+
 void SerialArbiter::move_path(const Now& now, const PathRequest<serial::SerialArm>& request) {
   Base::move_path(now, request);
   asked_.reset();

@@ -28,6 +28,7 @@ class SerialArbiter : public Arbiter<serial::SerialArm> {
   void move_joints(const Now& now, const serial::JointVector& goal_rad, double rate_rad_s);
   void move_line(const Now& now, const Pose& goal);
   void servo_tip(const Now& now, const Pose& goal);
+  void servo_target(const Now& now, const servo::ServoRequest& request);
   void move_path(const Now& now, const PathRequest<serial::SerialArm>& request);
   void retract(const Now& now, std::uint64_t until_tick);
   void hold(const std::string& why = "held");
